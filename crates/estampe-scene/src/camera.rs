@@ -1,0 +1,39 @@
+//! Where the picture is taken from.
+
+use glam::Vec3;
+
+/// A camera in world space; it looks from `eye` to `target`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Position of the eye.
+    pub eye_world: Vec3,
+    /// The point that is seen in the middle of the picture.
+    pub target_world: Vec3,
+    /// The direction that points up in the picture; need not be unit or perpendicular.
+    pub up_world: Vec3,
+    /// How depth becomes size.
+    pub projection: Projection,
+}
+
+/// How view space is mapped to the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Projection {
+    /// Far things are smaller.
+    Perspective {
+        /// Vertical opening angle, in (0, π).
+        fov_y_rad: f32,
+        /// Distance of the near plane, > 0.
+        near: f32,
+        /// Distance of the far plane, > near.
+        far: f32,
+    },
+    /// Size does not depend on distance.
+    Orthographic {
+        /// Half of the height that is seen, in world units.
+        half_height: f32,
+        /// Distance of the near plane; may be negative (behind the eye).
+        near: f32,
+        /// Distance of the far plane, > near.
+        far: f32,
+    },
+}

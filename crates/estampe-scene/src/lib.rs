@@ -1,0 +1,33 @@
+#![forbid(unsafe_code)]
+//! The plain data of a scene: meshes, materials, images, lights and cameras.
+//!
+//! Readers (`estampe-assets`) and built-in shapes fill these values, the renderer draws them; nothing
+//! here knows files or rendering. Spaces are named in the fields: `object` is the file's own space,
+//! `world` the scene's (right-handed, Y up).
+
+mod bounds;
+mod camera;
+mod image;
+mod light;
+mod material;
+mod mesh;
+
+pub use bounds::Bounds;
+pub use camera::{Camera, Projection};
+pub use image::Image;
+pub use light::Light;
+pub use material::{AlphaMode, Material};
+pub use mesh::{LineSegment, Mesh, Surface, Triangle, UpAxis};
+
+/// Everything that one file describes.
+#[derive(Debug, Clone, Default)]
+pub struct Scene {
+    /// The meshes, in file order. All are in the same space.
+    pub meshes: Vec<Mesh>,
+    /// The materials that surfaces refer to by index.
+    pub materials: Vec<Material>,
+    /// The images that materials refer to by index; straight alpha, row 0 at the top (v = 0).
+    pub images: Vec<Image>,
+    /// The axis that points up in the file's space.
+    pub up: UpAxis,
+}

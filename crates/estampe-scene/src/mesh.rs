@@ -1,0 +1,65 @@
+//! Vertices, what connects them, and their attributes (row M1).
+
+use crate::Bounds;
+use glam::{Vec2, Vec3};
+
+/// One mesh: parallel vertex arrays and primitives that index them.
+///
+/// `normals`, `uvs` and `colors` are either empty or as long as `positions`.
+#[derive(Debug, Clone, Default)]
+pub struct Mesh {
+    /// Name of the object or group; may be empty.
+    pub name: String,
+    /// Vertex positions in the file's space. May hold non-finite values when the file did.
+    pub positions: Vec<Vec3>,
+    /// Unit vertex normals, or empty. A zero normal means "this vertex has none".
+    pub normals: Vec<Vec3>,
+    /// Texture coordinates with v = 0 at the image's top row, or empty.
+    pub uvs: Vec<Vec2>,
+    /// Linear RGB vertex colours and alpha, or empty.
+    pub colors: Vec<[f32; 4]>,
+    /// Triangles, each three vertex indices below `positions.len()`.
+    pub triangles: Vec<Triangle>,
+    /// Line segments, each two vertex indices.
+    pub lines: Vec<LineSegment>,
+    /// Points, each a vertex index.
+    pub points: Vec<u32>,
+    /// Runs of triangles with one material, in order, covering `triangles` without gaps; may be
+    /// empty, which means the default material throughout.
+    pub surfaces: Vec<Surface>,
+}
+
+/// Three vertex indices, counter-clockwise as seen from the front.
+pub type Triangle = [u32; 3];
+/// Two vertex indices.
+pub type LineSegment = [u32; 2];
+
+/// A run of triangles that share a material.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Surface {
+    /// Index into `Scene::materials`; `None` is the default material.
+    pub material: Option<usize>,
+    /// Range of triangle indices, half-open.
+    pub triangles: std::ops::Range<usize>,
+}
+
+/// The axis that points up in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum UpAxis {
+    /// Most formats.
+    #[default]
+    Y,
+    /// STL, by the habit of machine drawing.
+    Z,
+}
+
+impl Mesh {
+    /// The box around all finite positions that a primitive uses.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        let corners = self.triangles.iter().flatten();
+        let ends = self.lines.iter().flatten();
+        let used = corners.chain(ends).chain(&self.points);
+        Bounds::of(used.map(|&index| self.positions[index as usize]))
+    }
+}

@@ -1,0 +1,83 @@
+//! Bytes that a draw reads.
+
+use std::sync::Arc;
+
+/// Immutable bytes, shared by reference; kept as little-endian 32-bit words so that lanes gather them.
+#[derive(Clone)]
+pub struct Buffer {
+    words: Arc<[u32]>,
+    len_bytes: usize,
+}
+
+impl Buffer {
+    /// A buffer of these bytes.
+    #[must_use]
+    pub fn from_bytes(bytes: &[u8]) -> Self {
+        let word = |chunk: &[u8]| {
+            let mut word = [0; 4];
+            word[..chunk.len()].copy_from_slice(chunk);
+            u32::from_le_bytes(word)
+        };
+        Self {
+            words: bytes.chunks(4).map(word).collect(),
+            len_bytes: bytes.len(),
+        }
+    }
+
+    /// A buffer of 32-bit words.
+    #[must_use]
+    pub fn from_words(words: impl Into<Arc<[u32]>>) -> Self {
+        let words = words.into();
+        Self {
+            len_bytes: words.len() * 4,
+            words,
+        }
+    }
+
+    /// A buffer of 32-bit floats.
+    #[must_use]
+    pub fn from_f32s(values: &[f32]) -> Self {
+        Self::from_words(
+            values
+                .iter()
+                .map(|value| value.to_bits())
+                .collect::<Arc<[u32]>>(),
+        )
+    }
+
+    /// Its length.
+    #[must_use]
+    pub fn len_bytes(&self) -> usize {
+        self.len_bytes
+    }
+
+    /// The contents as little-endian words; the last one is padded with zeros.
+    #[must_use]
+    pub fn words(&self) -> &[u32] {
+        &self.words
+    }
+
+    /// The byte at an offset; beyond the end zero.
+    #[inline]
+    #[must_use]
+    pub fn byte(&self, offset: usize) -> u8 {
+        let word = self.words.get(offset / 4).copied().unwrap_or_default();
+        word.to_le_bytes()[offset % 4]
+    }
+
+    /// Four bytes at any offset as a little-endian word; what lies beyond the end is zero.
+    #[inline]
+    #[must_use]
+    pub fn word_at(&self, offset: usize) -> u32 {
+        if offset.is_multiple_of(4) {
+            return self.words.get(offset / 4).copied().unwrap_or_default();
+        }
+        u32::from_le_bytes([0, 1, 2, 3].map(|k| self.byte(offset.saturating_add(k))))
+    }
+}
+
+impl std::fmt::Debug for Buffer {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Buffer({} bytes)", self.len_bytes)
+    }
+}

@@ -1,0 +1,45 @@
+#![forbid(unsafe_code)]
+//! The contract of the pipeline: plain data and traits that every other room of the house shares.
+//!
+//! * [`state`]: what a pipeline is made of, in WebGPU's words: topology, culling, depth, blending,
+//!   write masks, multisampling, vertex layouts, each a value with stated defaults;
+//! * [`format`]: formats of vertices, indices and textures; [`Limits`];
+//! * [`buffer`], [`texture`], [`bindings`]: data that shaders read, and how a shader finds it;
+//! * [`shader`]: how a shader is written in Rust, and the one interface ([`Program`]) that Rust
+//!   shaders and compiled text shaders share;
+//! * [`Real`] and the small vectors [`Vec2`], [`Vec3`], [`Vec4`], [`Mat4`]: arithmetic that is written
+//!   once and runs on one fragment, on a 2×2 quad, or on sixteen lanes.
+//!
+//! The conventions (spaces, rounding, order of operations) are in `docs/NUMERICS.md`.
+
+pub mod bindings;
+pub mod buffer;
+pub mod format;
+mod limits;
+pub mod maths;
+mod matrix;
+mod quad;
+mod real;
+pub mod shader;
+pub mod srgb;
+pub mod state;
+pub mod texture;
+mod vector;
+mod wide;
+
+pub use bindings::{BindGroup, Binding, Bindings};
+pub use buffer::Buffer;
+pub use format::{IndexFormat, TextureFormat, VertexFormat};
+pub use limits::Limits;
+pub use matrix::Mat4;
+pub use quad::Quad;
+pub use real::{Int, Real};
+pub use shader::{
+    Attributes, Flat, FragmentBatch, FragmentIn, FragmentOut, Interface, Interpolation,
+    NoPerspective, Program, Shader, ShaderProgram, Varyings, VertexBatch, VertexIn,
+};
+pub use texture::{AddressMode, FilterMode, MipLevel, SamplerDescriptor, Texture};
+pub use vector::{Vec2, Vec3, Vec4};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,38 @@
+//! How large things may be.
+
+/// The largest sizes that creation accepts. Beyond one, creation is an error that names it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Limits {
+    /// Width and height of a render target or texture, in pixels. Default and maximum 16384: the
+    /// fixed-point raster's guard band is made for it.
+    pub max_texture_dimension_2d: u32,
+    /// Bytes of one buffer. Default 2³⁰.
+    pub max_buffer_size: u64,
+    /// Vertex attributes of a pipeline. Default 16.
+    pub max_vertex_attributes: u32,
+    /// Vertex buffers of a pipeline. Default 8.
+    pub max_vertex_buffers: u32,
+    /// Bytes from one element of a vertex buffer to the next. Default 2048.
+    pub max_vertex_buffer_array_stride: u32,
+    /// Scalars that a vertex hands to the fragments. Default 64: 16 variables of 4 components.
+    pub max_inter_stage_scalars: u32,
+    /// Colour targets of a pipeline. Default 8.
+    pub max_color_attachments: u32,
+    /// Bind groups of a draw. Default 4.
+    pub max_bind_groups: u32,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            max_texture_dimension_2d: 16_384,
+            max_buffer_size: 1 << 30,
+            max_vertex_attributes: 16,
+            max_vertex_buffers: 8,
+            max_vertex_buffer_array_stride: 2048,
+            max_inter_stage_scalars: 64,
+            max_color_attachments: 8,
+            max_bind_groups: 4,
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Attributes and varyings as types: numbers, vectors and tuples, taken apart into scalars.
+
+use crate::{Interpolation, Real, Vec2, Vec3, Vec4};
+
+/// Where scalars come from, in order.
+pub trait Source<R> {
+    /// The next scalar.
+    fn take(&mut self) -> R;
+}
+
+/// Where scalars go, in order.
+pub trait Sink<R> {
+    /// Accepts the next scalar.
+    fn put(&mut self, value: R);
+}
+
+/// What a vertex shader reads: one location per element.
+pub trait Attributes<R: Real>: Sized {
+    /// How many numbers each location has.
+    fn components(out: &mut Vec<usize>);
+    /// Puts the value together.
+    fn load(from: &mut impl Source<R>) -> Self;
+}
+
+/// What a vertex shader hands to the fragments.
+pub trait Varyings<R: Real>: Sized {
+    /// How each scalar is interpolated.
+    fn modes(out: &mut Vec<Interpolation>);
+    /// Puts the value together.
+    fn load(from: &mut impl Source<R>) -> Self;
+    /// Takes the value apart.
+    fn store(self, to: &mut impl Sink<R>);
+}
+
+/// A varying that takes the provoking vertex's value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Flat<T>(pub T);
+
+/// A varying that is linear in window space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoPerspective<T>(pub T);
+
+macro_rules! element {
+    ($type:ty; $n:literal; $($field:tt)+) => {
+        impl<R: Real> Attributes<R> for $type {
+            fn components(out: &mut Vec<usize>) {
+                out.push($n);
+            }
+            #[inline(always)]
+            fn load(from: &mut impl Source<R>) -> Self {
+                <Self as Varyings<R>>::load(from)
+            }
+        }
+
+        impl<R: Real> Varyings<R> for $type {
+            fn modes(out: &mut Vec<Interpolation>) {
+                out.extend([Interpolation::Smooth; $n]);
+            }
+            #[inline(always)]
+            fn load(from: &mut impl Source<R>) -> Self {
+                Self { $($field: from.take()),+ }
+            }
+            #[inline(always)]
+            fn store(self, to: &mut impl Sink<R>) {
+                $(to.put(self.$field);)+
+            }
+        }
+    };
+}
+element! { Vec2<R>; 2; x y }
+element! { Vec3<R>; 3; x y z }
+element! { Vec4<R>; 4; x y z w }
+
+/// A single number; a wrapper because a type parameter cannot be told from a vector here.
+impl<R: Real> Attributes<R> for [R; 1] {
+    fn components(out: &mut Vec<usize>) {
+        out.push(1);
+    }
+    #[inline(always)]
+    fn load(from: &mut impl Source<R>) -> Self {
+        [from.take()]
+    }
+}
+
+impl<R: Real> Varyings<R> for [R; 1] {
+    fn modes(out: &mut Vec<Interpolation>) {
+        out.push(Interpolation::Smooth);
+    }
+    #[inline(always)]
+    fn load(from: &mut impl Source<R>) -> Self {
+        [from.take()]
+    }
+    #[inline(always)]
+    fn store(self, to: &mut impl Sink<R>) {
+        to.put(self[0]);
+    }
+}
+
+macro_rules! mode {
+    ($wrapper:ident) => {
+        impl<R: Real, T: Varyings<R>> Varyings<R> for $wrapper<T> {
+            fn modes(out: &mut Vec<Interpolation>) {
+                let first = out.len();
+                T::modes(out);
+                out[first..].fill(Interpolation::$wrapper);
+            }
+            #[inline(always)]
+            fn load(from: &mut impl Source<R>) -> Self {
+                Self(T::load(from))
+            }
+            #[inline(always)]
+            fn store(self, to: &mut impl Sink<R>) {
+                self.0.store(to);
+            }
+        }
+    };
+}
+mode!(Flat);
+mode!(NoPerspective);
+
+macro_rules! tuple {
+    ($($name:ident $index:tt),*) => {
+        impl<R: Real, $($name: Attributes<R>),*> Attributes<R> for ($($name,)*) {
+            fn components(out: &mut Vec<usize>) {
+                let _ = &out;
+                $($name::components(out);)*
+            }
+            #[inline(always)]
+            fn load(from: &mut impl Source<R>) -> Self {
+                let _ = &from;
+                ($($name::load(from),)*)
+            }
+        }
+
+        impl<R: Real, $($name: Varyings<R>),*> Varyings<R> for ($($name,)*) {
+            fn modes(out: &mut Vec<Interpolation>) {
+                let _ = &out;
+                $($name::modes(out);)*
+            }
+            #[inline(always)]
+            fn load(from: &mut impl Source<R>) -> Self {
+                let _ = &from;
+                ($($name::load(from),)*)
+            }
+            #[inline(always)]
+            fn store(self, to: &mut impl Sink<R>) {
+                let _ = &to;
+                $(self.$index.store(to);)*
+            }
+        }
+    };
+}
+tuple!();
+tuple!(A 0);
+tuple!(A 0, B 1);
+tuple!(A 0, B 1, C 2);
+tuple!(A 0, B 1, C 2, D 3);
+tuple!(A 0, B 1, C 2, D 3, E 4);
+tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
