@@ -1,2 +1,42 @@
 #![forbid(unsafe_code)]
-//! Placeholder.
+//! Textures: making them, and reading them at (u, v).
+//!
+//! * [`create_texture`], [`create_texture_with_levels`]: bytes become a [`Texture`], with mip levels
+//!   made from the level above or given; [`TextureError`] names the rule that was broken;
+//! * [`Sampled`]: a texture with a sampler, as a shader holds it. One text samples one fragment
+//!   (`f32`), a 2×2 quad ([`Quad`](estampe_types::Quad)) or a packet of sixteen, with the same bits.
+//!
+//! ```text
+//!  derivatives ─▶ lod ─▶ levels and their mixture ─▶ wrap ─▶ filter ─▶ texel (load, unpack)
+//! ```
+//!
+//! # How a packet is sampled
+//!
+//! Nearly always all sixteen lanes want the same mip level: 4×4 neighbouring pixels. So a level is
+//! sampled with its size and place the same in every lane, and where a packet does straddle levels,
+//! the whole is done once for each of them and the lanes are picked together. That is never more
+//! than four times for a packet of quads, and spares sizes and offsets per lane.
+//!
+//! Unorm8 channels become numbers without a conversion: a byte put into the mantissa of 2²³ is
+//! 2²³ + c, and the difference of two of those is the exact c₁ − c₀ that linear filtering begins
+//! with. The second and fourth byte stay where they are, as 256·c, and the factor 1/255 at the end
+//! makes up for it. All of this is exact, so the bits are those of `docs/NUMERICS.md`.
+
+mod create;
+mod error;
+mod filter;
+mod lod;
+mod mips;
+mod sampled;
+mod texel;
+mod wrap;
+
+pub use create::{MipGeneration, create_texture, create_texture_with_levels};
+pub use error::TextureError;
+pub use estampe_types::{
+    AddressMode, FilterMode, Limits, MipLevel, SamplerDescriptor, Texture, TextureFormat,
+};
+pub use sampled::Sampled;
+
+#[cfg(test)]
+mod tests;

@@ -179,6 +179,14 @@ impl Real for Quad {
         Self([c - a, d - b, c - a, d - b])
     }
     #[inline(always)]
+    fn ddx_coarse(self) -> Self {
+        Self([self.0[1] - self.0[0]; 4])
+    }
+    #[inline(always)]
+    fn ddy_coarse(self) -> Self {
+        Self([self.0[2] - self.0[0]; 4])
+    }
+    #[inline(always)]
     fn lane(self, index: usize) -> f32 {
         self.0[index]
     }
@@ -316,6 +324,14 @@ impl Real for f32 {
     }
     #[inline(always)]
     fn ddy(self) -> Self {
+        0.0
+    }
+    #[inline(always)]
+    fn ddx_coarse(self) -> Self {
+        0.0
+    }
+    #[inline(always)]
+    fn ddy_coarse(self) -> Self {
         0.0
     }
     #[inline(always)]

@@ -108,6 +108,21 @@ pub trait Real:
     #[must_use]
     fn ddy(self) -> Self;
 
+    /// Coarse partial derivative in x: that of the first row, for the whole quad.
+    /// One lone fragment (`f32`) has no neighbours: 0.
+    #[must_use]
+    fn ddx_coarse(self) -> Self;
+    /// Coarse partial derivative in y: that of the first column, for the whole quad.
+    /// One lone fragment (`f32`) has no neighbours: 0.
+    #[must_use]
+    fn ddy_coarse(self) -> Self;
+
+    /// Calls `work` in a function of its own that is compiled for this kind of number. For long code
+    /// that many shaders share: they call it instead of each containing it.
+    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
+        work()
+    }
+
     /// One lane's value; `index` is below [`Real::LANES`].
     fn lane(self, index: usize) -> f32;
     /// The same kind of number with each lane's value from a function of its index.
@@ -180,6 +195,13 @@ pub trait Int:
     /// table.
     #[must_use]
     fn gather(self, table: &[u32]) -> Self;
+    /// `table[self]` and `table[self + 1]`, each read as [`Int::gather`] reads; of indices that are
+    /// not below the end less one, either may be any element of the table.
+    #[inline(always)]
+    #[must_use]
+    fn gather_pair(self, table: &[u32]) -> [Self; 2] {
+        [self.gather(table), (self + self.splat(1)).gather(table)]
+    }
     /// One lane's value; `index` is below the number of lanes.
     fn lane(self, index: usize) -> i32;
 }

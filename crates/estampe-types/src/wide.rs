@@ -93,6 +93,22 @@ impl<S: Lanes> Real for f32x16<S> {
         lower - upper
     }
     #[inline(always)]
+    fn ddx_coarse(self) -> Self {
+        let left = self.swizzle_dyn_within_blocks(quad_bytes(token(self), [0; 4]));
+        let right = self.swizzle_dyn_within_blocks(quad_bytes(token(self), [1; 4]));
+        right - left
+    }
+    #[inline(always)]
+    fn ddy_coarse(self) -> Self {
+        let upper = self.swizzle_dyn_within_blocks(quad_bytes(token(self), [0; 4]));
+        let lower = self.swizzle_dyn_within_blocks(quad_bytes(token(self), [2; 4]));
+        lower - upper
+    }
+    #[inline(never)]
+    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
+        token(self).vectorize(work)
+    }
+    #[inline(always)]
     fn lane(self, index: usize) -> f32 {
         self.as_slice()[index]
     }
@@ -146,6 +162,30 @@ impl<S: Lanes> Int for i32x16<S> {
     fn gather(self, table: &[u32]) -> Self {
         let index: u32x16<S> = Bytes::bitcast(self);
         Bytes::bitcast(estampe_simd::ExtractToken::token(&self).gather(table, index))
+    }
+    #[inline(always)]
+    fn gather_pair(self, table: &[u32]) -> [Self; 2] {
+        let (Some(last), Some((_, first))) = (table.len().checked_sub(2), table.split_last())
+        else {
+            return [self.gather(table); 2];
+        };
+        let simd = estampe_simd::ExtractToken::token(&self);
+        let last = <u32x16<S> as SimdBase<S>>::splat(simd, u32::try_from(last).unwrap_or(u32::MAX));
+        let index: u32x16<S> = Bytes::bitcast(self);
+        let at = index.min(last).to_array();
+        let mut words = [[0_u64; 8]; 2];
+        let mut lane = 0;
+        while lane < LANES {
+            let at = at[lane] as usize;
+            words[lane / 8][lane % 8] = u64::from(first[at]) | u64::from(table[at + 1]) << 32;
+            lane += 1;
+        }
+        let (mut low, mut high) = (simd.splat_u64x8(0), simd.splat_u64x8(0));
+        low.as_mut_slice().copy_from_slice(&words[0]);
+        high.as_mut_slice().copy_from_slice(&words[1]);
+        let (low, high) = (Bytes::bitcast(low), Bytes::bitcast(high));
+        let (even, odd) = simd.deinterleave_u32x16(low, high);
+        [Bytes::bitcast(even), Bytes::bitcast(odd)]
     }
     #[inline(always)]
     fn lane(self, index: usize) -> i32 {

@@ -1,0 +1,150 @@
+//! What can go wrong with a file: the kind, what, where, and what to do about it.
+
+use std::fmt;
+
+/// Why a file could not be read or written.
+///
+/// The variant says whose fault it is, the [`Fault`] what happened, where, and what to do.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AssetError {
+    /// The system refused: no such file, no permission, a failed read or write.
+    #[error("{0}")]
+    Io(Fault),
+    /// The bytes break the rules of their format.
+    #[error("{0}")]
+    Malformed(Fault),
+    /// The bytes may be right, but use something that is not read here.
+    #[error("{0}")]
+    Unsupported(Fault),
+    /// The file asks for more than [`Limits`](crate::Limits) allow.
+    #[error("{0}")]
+    LimitExceeded(Fault),
+}
+
+/// What happened, where, and what to do.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// Name of the file; empty while it is not known (the caller adds it).
+    pub file: String,
+    /// Where in the file.
+    pub location: Option<Location>,
+    /// What is wrong.
+    pub what: String,
+    /// What the user can do.
+    pub advice: String,
+}
+
+/// A place in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Location {
+    /// A line of a text file, counted from 1.
+    Line(u64),
+    /// A byte of a binary file, counted from 0.
+    Byte(u64),
+}
+
+impl AssetError {
+    /// The system refused; `what` names the operation and the system's reason.
+    pub fn io(what: impl Into<String>, advice: impl Into<String>) -> Self {
+        Self::Io(Fault::new(what, advice))
+    }
+
+    /// The bytes break their format's rules.
+    pub fn malformed(what: impl Into<String>, advice: impl Into<String>) -> Self {
+        Self::Malformed(Fault::new(what, advice))
+    }
+
+    /// Something that is not read here.
+    pub fn unsupported(what: impl Into<String>, advice: impl Into<String>) -> Self {
+        Self::Unsupported(Fault::new(what, advice))
+    }
+
+    /// More than the limits allow.
+    pub fn limit_exceeded(what: impl Into<String>, advice: impl Into<String>) -> Self {
+        Self::LimitExceeded(Fault::new(what, advice))
+    }
+
+    /// The same error at a place in the file.
+    #[must_use]
+    pub fn at(mut self, location: Location) -> Self {
+        self.fault_mut().location = Some(location);
+        self
+    }
+
+    /// The same error with the file's name, unless it already has one.
+    #[must_use]
+    pub fn in_file(mut self, file: &str) -> Self {
+        let fault = self.fault_mut();
+        if fault.file.is_empty() {
+            file.clone_into(&mut fault.file);
+        }
+        self
+    }
+
+    /// What happened, where, and what to do.
+    #[must_use]
+    pub fn fault(&self) -> &Fault {
+        match self {
+            Self::Io(fault)
+            | Self::Malformed(fault)
+            | Self::Unsupported(fault)
+            | Self::LimitExceeded(fault) => fault,
+        }
+    }
+
+    fn fault_mut(&mut self) -> &mut Fault {
+        match self {
+            Self::Io(fault)
+            | Self::Malformed(fault)
+            | Self::Unsupported(fault)
+            | Self::LimitExceeded(fault) => fault,
+        }
+    }
+}
+
+impl Fault {
+    fn new(what: impl Into<String>, advice: impl Into<String>) -> Self {
+        Self {
+            file: String::new(),
+            location: None,
+            what: what.into(),
+            advice: advice.into(),
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write_place(f, &self.file, self.location)?;
+        write!(f, "{}", self.what)?;
+        if self.advice.is_empty() {
+            Ok(())
+        } else {
+            write!(f, "; {}", self.advice)
+        }
+    }
+}
+
+impl fmt::Display for Location {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, "line {line}"),
+            Self::Byte(offset) => write!(f, "byte {offset}"),
+        }
+    }
+}
+
+/// Writes `file, line 3: `, or as much of it as is known.
+pub(crate) fn write_place(
+    f: &mut fmt::Formatter<'_>,
+    file: &str,
+    location: Option<Location>,
+) -> fmt::Result {
+    match (file.is_empty(), location) {
+        (true, None) => Ok(()),
+        (true, Some(location)) => write!(f, "{location}: "),
+        (false, None) => write!(f, "{file}: "),
+        (false, Some(location)) => write!(f, "{file}, {location}: "),
+    }
+}

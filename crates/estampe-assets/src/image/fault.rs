@@ -1,0 +1,76 @@
+//! Errors in the words of pictures, and the checks that come before memory is taken.
+
+use estampe_scene::Image;
+
+use crate::error::Location;
+use crate::{AssetError, Limits};
+
+/// The picture's bytes break their format's rules at byte `offset`.
+pub(super) fn malformed(offset: usize, what: impl Into<String>) -> AssetError {
+    AssetError::malformed(
+        what,
+        "the picture is damaged, save it again from its source",
+    )
+    .at(Location::Byte(offset as u64))
+}
+
+/// The picture uses `what`, which is not read here.
+pub(super) fn unsupported(what: impl Into<String>) -> AssetError {
+    AssetError::unsupported(
+        format!("{} cannot be read", what.into()),
+        "save it as an 8-bit PNG",
+    )
+}
+
+/// Checks the size that a picture announces.
+pub(super) fn check_size(width: u32, height: u32, limits: &Limits) -> Result<(), AssetError> {
+    Limits::check(
+        "pixels",
+        u64::from(width) * u64::from(height),
+        limits.max_image_pixels,
+    )
+}
+
+/// Room for `texels` RGBA texels, or an error where the system has none.
+pub(super) fn allocate_texels(texels: usize) -> Result<Vec<u8>, AssetError> {
+    let mut rgba = Vec::new();
+    match texels
+        .checked_mul(4)
+        .map(|bytes| rgba.try_reserve_exact(bytes))
+    {
+        Some(Ok(())) => Ok(rgba),
+        _ => Err(AssetError::limit_exceeded(
+            format!("there is no memory for a picture of {texels} pixels"),
+            "make the picture smaller",
+        )),
+    }
+}
+
+/// Checks that a picture to be written has texels, and as many bytes as its size says.
+pub(super) fn check_texels(image: &Image) -> Result<(), AssetError> {
+    let expected = (image.width as u128) * (image.height as u128) * 4;
+    if expected == 0 {
+        return Err(AssetError::malformed(
+            format!("{image:?} has no pixels to write"),
+            "give both sides at least one pixel",
+        ));
+    }
+    if expected != image.rgba.len() as u128 {
+        return Err(AssetError::malformed(
+            format!(
+                "{image:?} comes with {} bytes instead of {expected}",
+                image.rgba.len()
+            ),
+            "give four bytes to every pixel",
+        ));
+    }
+    Ok(())
+}
+
+/// A picture to be written has a side over the format's `max_side`.
+pub(super) fn too_large(image: &Image, format: &str, max_side: u32) -> AssetError {
+    AssetError::limit_exceeded(
+        format!("{image:?} has a side over the {max_side} pixels that {format} can hold"),
+        "write a PNG, or a smaller picture",
+    )
+}

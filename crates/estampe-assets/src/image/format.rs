@@ -1,0 +1,249 @@
+//! Which format a picture is in, and the way to its reader or writer.
+
+use std::path::Path;
+
+use estampe_scene::Image;
+
+use super::fault::{malformed, unsupported};
+use super::{jpeg, png, tga};
+use crate::{AssetError, Limits};
+
+/// A format that pictures are written in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ImageFormat {
+    /// Portable Network Graphics: lossless, with alpha.
+    Png,
+    /// JPEG: small, lossy, without alpha.
+    Jpeg,
+    /// Truevision TGA: lossless and simple, with alpha.
+    Tga,
+}
+
+impl ImageFormat {
+    /// The format that a file name's extension names, in any case: `png`, `jpg`, `jpeg`, `jpe`, `jfif`,
+    /// `tga`, `icb`, `vda`, `vst`.
+    #[must_use]
+    pub fn from_path(path: &Path) -> Option<Self> {
+        Self::from_extension(path.extension()?.to_str()?)
+    }
+
+    /// The format that an extension (without its dot) names.
+    #[must_use]
+    pub fn from_extension(extension: &str) -> Option<Self> {
+        match extension.to_ascii_lowercase().as_str() {
+            "png" => Some(Self::Png),
+            "jpg" | "jpeg" | "jpe" | "jfif" => Some(Self::Jpeg),
+            "tga" | "icb" | "vda" | "vst" => Some(Self::Tga),
+            _ => None,
+        }
+    }
+
+    /// Whether the format keeps alpha. Without it, [`encode`] takes every pixel as opaque: composite
+    /// over a background first.
+    #[must_use]
+    pub fn has_alpha(self) -> bool {
+        match self {
+            Self::Png | Self::Tga => true,
+            Self::Jpeg => false,
+        }
+    }
+}
+
+/// Whether a writer stores alpha.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum AlphaChannel {
+    /// When a pixel is not opaque.
+    #[default]
+    WhenNeeded,
+    /// Even when every pixel is opaque.
+    Always,
+    /// Not at all: every pixel is taken as opaque.
+    Never,
+}
+
+impl AlphaChannel {
+    /// Whether a file of `image` has alpha.
+    pub(super) fn is_written_for(self, image: &Image) -> bool {
+        match self {
+            Self::WhenNeeded => image
+                .rgba
+                .as_chunks::<4>()
+                .0
+                .iter()
+                .any(|texel| texel[3] != 255),
+            Self::Always => true,
+            Self::Never => false,
+        }
+    }
+}
+
+/// Reads a picture: PNG and JPEG by their signatures, else TGA by its footer or a plausible header.
+///
+/// # Errors
+/// `LimitExceeded` when the file is larger or announces more pixels than `limits` allow, before memory is
+/// taken for them; `Malformed` with a byte offset when the bytes break the format's rules;
+/// `Unsupported` for other formats.
+pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
+    Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)?;
+    if bytes.is_empty() {
+        return Err(malformed(0, "the picture file is empty"));
+    }
+    if bytes.starts_with(png::SIGNATURE) {
+        return png::decode(bytes, limits);
+    }
+    if bytes.starts_with(jpeg::START_OF_IMAGE) {
+        return jpeg::decode(bytes, limits);
+    }
+    match foreign_format(bytes) {
+        Some(name) => Err(unsupported(format!("the {name} format"))),
+        None if tga::looks_like_tga(bytes) => tga::decode(bytes, limits),
+        None => Err(unsupported("a picture that is neither PNG, JPEG nor TGA")),
+    }
+}
+
+/// Writes a picture with the format's default settings: PNG and TGA keep alpha where a pixel needs it,
+/// JPEG has quality 90 and takes every pixel as opaque.
+///
+/// # Errors
+/// `LimitExceeded` when the format cannot hold the picture's size, `Malformed` when the image has no
+/// pixels or its bytes are not its size's.
+pub fn encode(image: &Image, format: ImageFormat) -> Result<Vec<u8>, AssetError> {
+    match format {
+        ImageFormat::Png => png::encode_png(image, AlphaChannel::WhenNeeded),
+        ImageFormat::Jpeg => jpeg::encode_jpeg(image, jpeg::DEFAULT_QUALITY),
+        ImageFormat::Tga => tga::encode(image, tga::TgaOptions::default()),
+    }
+}
+
+/// The name of a well-known format that is not read here, so that the error can say it.
+fn foreign_format(bytes: &[u8]) -> Option<&'static str> {
+    const SIGNATURES: [(&[u8], &str); 9] = [
+        (b"GIF8", "GIF"),
+        (b"BM", "BMP"),
+        (b"II*\0", "TIFF"),
+        (b"MM\0*", "TIFF"),
+        (b"DDS ", "DDS"),
+        (b"\xabKTX", "KTX"),
+        (b"v/1\x01", "OpenEXR"),
+        (b"#?", "Radiance HDR"),
+        (b"8BPS", "Photoshop"),
+    ];
+    if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
+        return Some("WebP");
+    }
+    SIGNATURES
+        .iter()
+        .find(|(signature, _)| bytes.starts_with(signature))
+        .map(|&(_, name)| name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::samples;
+
+    #[test]
+    fn extensions_name_formats_in_any_case() {
+        for (name, format) in [
+            ("a.png", Some(ImageFormat::Png)),
+            ("b/c.JPEG", Some(ImageFormat::Jpeg)),
+            ("d.e.Jpg", Some(ImageFormat::Jpeg)),
+            ("f.TGA", Some(ImageFormat::Tga)),
+            ("png", None),
+            ("g.gif", None),
+            ("h.", None),
+        ] {
+            assert_eq!(ImageFormat::from_path(Path::new(name)), format, "{name}");
+        }
+    }
+
+    #[test]
+    fn each_format_is_recognised_by_its_content() {
+        let image = samples::noise(7, 5, 1);
+        for format in [ImageFormat::Png, ImageFormat::Tga] {
+            let bytes = encode(&image, format).expect("a valid image");
+            assert_eq!(
+                decode(&bytes, &Limits::default()),
+                Ok(image.clone()),
+                "{format:?}"
+            );
+        }
+        let jpeg = encode(&image, ImageFormat::Jpeg).expect("a valid image");
+        let decoded = decode(&jpeg, &Limits::default()).expect("our own JPEG");
+        assert_eq!((decoded.width, decoded.height), (7, 5));
+        assert!(!ImageFormat::Jpeg.has_alpha() && ImageFormat::Png.has_alpha());
+    }
+
+    #[test]
+    fn what_is_no_picture_is_named() {
+        let limits = Limits::default();
+        let message = |bytes: &[u8]| decode(bytes, &limits).expect_err("no picture").to_string();
+        assert!(message(b"").contains("byte 0: the picture file is empty"));
+        assert!(message(b"GIF89a......................").contains("GIF"));
+        assert!(message(b"RIFF\x10\0\0\0WEBPVP8 ").contains("WebP"));
+        assert!(message(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").contains("neither PNG"));
+        assert!(matches!(
+            decode(&[0xff; 64], &limits),
+            Err(AssetError::Unsupported(_))
+        ));
+    }
+
+    #[test]
+    fn limits_hold_for_every_format() {
+        let image = samples::noise(9, 8, 1);
+        let few_pixels = Limits {
+            max_image_pixels: 71,
+            ..Limits::default()
+        };
+        let enough = Limits {
+            max_image_pixels: 72,
+            ..Limits::default()
+        };
+        let few_bytes = Limits {
+            max_file_bytes: 20,
+            ..Limits::default()
+        };
+        for format in [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Tga] {
+            let bytes = encode(&image, format).expect("a valid image");
+            for limits in [&few_pixels, &few_bytes] {
+                let error = decode(&bytes, limits).expect_err("over the limit");
+                assert!(
+                    matches!(error, AssetError::LimitExceeded(_)),
+                    "{format:?}: {error}"
+                );
+            }
+            assert!(decode(&bytes, &enough).is_ok(), "{format:?}");
+        }
+    }
+
+    #[test]
+    fn images_that_contradict_themselves_are_not_written() {
+        let missing = Image {
+            width: 2,
+            height: 2,
+            rgba: vec![0; 15],
+        };
+        let empty = Image {
+            width: 0,
+            height: 3,
+            rgba: Vec::new(),
+        };
+        let wide = Image {
+            width: 65_536,
+            height: 1,
+            rgba: vec![9; 65_536 * 4],
+        };
+        for format in [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Tga] {
+            for image in [&missing, &empty] {
+                let error = encode(image, format).expect_err("contradictory");
+                assert!(
+                    matches!(error, AssetError::Malformed(_)),
+                    "{format:?}: {error}"
+                );
+            }
+            let refused = matches!(encode(&wide, format), Err(AssetError::LimitExceeded(_)));
+            assert_eq!(refused, format != ImageFormat::Png, "{format:?}");
+        }
+    }
+}

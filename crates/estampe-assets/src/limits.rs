@@ -1,0 +1,63 @@
+//! How much a file may ask for.
+
+use crate::AssetError;
+
+/// Upper bounds on everything that a file can announce, checked before memory is taken for it.
+///
+/// The defaults are generous: what exceeds them is far more likely an accident or an attack than a model.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Limits {
+    /// Bytes of one file (1 GiB).
+    pub max_file_bytes: u64,
+    /// Vertices of one model (50 million).
+    pub max_vertices: u64,
+    /// Triangles of one model after polygons are split; also its lines, and its points (100 million).
+    pub max_triangles: u64,
+    /// Corners of one polygon (16384). A polygon above it is left out with a warning.
+    pub max_polygon_corners: u64,
+    /// Objects of one model (65536). What follows joins the last one.
+    pub max_meshes: u64,
+    /// Materials of one model (65536).
+    pub max_materials: u64,
+    /// Side files (material libraries, textures) that one model may look for (1024).
+    pub max_side_files: u64,
+    /// Pixels of one image (16384²).
+    pub max_image_pixels: u64,
+    /// Pixels of all images of one model together (2 · 16384²).
+    pub max_total_image_pixels: u64,
+    /// Warnings that are kept in words; the others are only counted (100).
+    pub max_warnings: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            max_file_bytes: 1 << 30,
+            max_vertices: 50_000_000,
+            max_triangles: 100_000_000,
+            max_polygon_corners: 16_384,
+            max_meshes: 65_536,
+            max_materials: 65_536,
+            max_side_files: 1024,
+            max_image_pixels: 16_384 * 16_384,
+            max_total_image_pixels: 2 * 16_384 * 16_384,
+            max_warnings: 100,
+        }
+    }
+}
+
+impl Limits {
+    /// Checks that `count` of `what` stays within `limit`.
+    ///
+    /// # Errors
+    /// `LimitExceeded` naming both numbers.
+    pub(crate) fn check(what: &str, count: u64, limit: u64) -> Result<(), AssetError> {
+        if count <= limit {
+            return Ok(());
+        }
+        Err(AssetError::limit_exceeded(
+            format!("{count} {what} are more than the limit of {limit}"),
+            "split the file, or raise the limit if you trust it",
+        ))
+    }
+}

@@ -1,0 +1,92 @@
+//! Which format a model is in.
+
+use std::path::Path;
+
+/// The formats of models that are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ModelFormat {
+    /// Wavefront OBJ, with its MTL material libraries.
+    Obj,
+    /// Stereolithography, binary or ASCII.
+    Stl,
+    /// The Stanford polygon format, ASCII or binary.
+    Ply,
+}
+
+impl ModelFormat {
+    /// The format that the path's extension names, in upper or lower case.
+    #[must_use]
+    pub fn from_extension(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?;
+        [(Self::Obj, "obj"), (Self::Stl, "stl"), (Self::Ply, "ply")]
+            .into_iter()
+            .find(|(_, name)| extension.eq_ignore_ascii_case(name))
+            .map(|(format, _)| format)
+    }
+
+    /// The format that the bytes look like, for input without a name.
+    ///
+    /// PLY has a magic word, binary STL a length that must fit its own count; ASCII STL and OBJ are told
+    /// by their first statements.
+    #[must_use]
+    pub fn from_content(bytes: &[u8]) -> Option<Self> {
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        if is_ply(bytes) {
+            return Some(Self::Ply);
+        }
+        if binary_stl_length(bytes) == Some(bytes.len() as u64) {
+            return Some(Self::Stl);
+        }
+        first_statements(bytes)
+    }
+
+    /// The usual name, as the user knows it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Obj => "OBJ",
+            Self::Stl => "STL",
+            Self::Ply => "PLY",
+        }
+    }
+}
+
+/// Whether the bytes open with PLY's magic word on a line of its own.
+pub(super) fn is_ply(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"ply")
+        && bytes
+            .get(3)
+            .is_none_or(|&byte| matches!(byte, b'\n' | b'\r' | b' ' | b'\t'))
+}
+
+/// The length that a binary STL with this head must have: 84 + 50 n.
+pub(super) fn binary_stl_length(bytes: &[u8]) -> Option<u64> {
+    let count = u32::from_le_bytes(*bytes.get(80..)?.first_chunk()?);
+    Some(84 + 50 * u64::from(count))
+}
+
+/// The format of the first line whose keyword is known.
+fn first_statements(bytes: &[u8]) -> Option<ModelFormat> {
+    const EXAMINED_BYTES: usize = 64 * 1024;
+    let head = &bytes[..bytes.len().min(EXAMINED_BYTES)];
+    let lines = head.split(|&byte| byte == b'\n' || byte == b'\r');
+    for line in lines {
+        let mut words = line
+            .split(u8::is_ascii_whitespace)
+            .filter(|word| !word.is_empty());
+        let Some(keyword) = words.next() else {
+            continue;
+        };
+        match keyword {
+            b"v" | b"vt" | b"vn" | b"vp" | b"f" | b"o" | b"g" | b"s" | b"mtllib" | b"usemtl" => {
+                return Some(ModelFormat::Obj);
+            }
+            word if word.eq_ignore_ascii_case(b"solid") || word.eq_ignore_ascii_case(b"facet") => {
+                return Some(ModelFormat::Stl);
+            }
+            _ => {}
+        }
+    }
+    None
+}

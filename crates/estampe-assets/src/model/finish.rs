@@ -1,0 +1,129 @@
+//! What all formats share at the end: non-finite corners dropped, missing normals made.
+
+use super::load::{Context, Parsed};
+use super::normals::{self, NormalMode};
+use estampe_scene::{Material, Mesh, Scene, Surface};
+use glam::{Vec2, Vec3};
+
+/// Makes the scene fit to draw.
+pub(super) fn finish(mut parsed: Parsed, context: &mut Context<'_>) -> Parsed {
+    for (index, mesh) in parsed.scene.meshes.iter_mut().enumerate() {
+        let groups = parsed.smoothing_groups.get_mut(index);
+        let dropped = drop_non_finite(mesh, groups);
+        if dropped > 0 {
+            context.warnings.add(context.name, None, || {
+                format!("{dropped} elements with a coordinate that is not finite are left out")
+            });
+        }
+        drop_useless_normals(mesh);
+        for uv in mesh.uvs.iter_mut().filter(|uv| !uv.is_finite()) {
+            *uv = Vec2::ZERO;
+        }
+    }
+    whiten_colored(&mut parsed.scene);
+    let is_grouped = parsed
+        .smoothing_groups
+        .iter()
+        .flatten()
+        .any(|&group| group != 0);
+    let mode = if is_grouped {
+        NormalMode::SmoothingGroups(&parsed.smoothing_groups)
+    } else {
+        NormalMode::default()
+    };
+    normals::fill_missing(&mut parsed.scene.meshes, mode);
+    let is_empty =
+        |mesh: &Mesh| mesh.triangles.is_empty() && mesh.lines.is_empty() && mesh.points.is_empty();
+    if parsed.scene.meshes.iter().all(is_empty) {
+        context.warnings.add(context.name, None, || {
+            "there is nothing to draw in it".to_owned()
+        });
+    }
+    parsed
+}
+
+/// Removes the elements that use a vertex that is not finite; how many they were.
+fn drop_non_finite(mesh: &mut Mesh, groups: Option<&mut Vec<u32>>) -> usize {
+    if mesh.positions.iter().all(|position| position.is_finite()) {
+        return 0;
+    }
+    let count = |mesh: &Mesh| mesh.triangles.len() + mesh.lines.len() + mesh.points.len();
+    let before = count(mesh);
+    let positions = &mesh.positions;
+    let is_kept = |vertices: &[u32]| {
+        vertices
+            .iter()
+            .all(|&vertex| positions[vertex as usize].is_finite())
+    };
+    mesh.lines.retain(|segment| is_kept(segment));
+    mesh.points.retain(|&point| is_kept(&[point]));
+    if let Some(groups) = groups {
+        let mut triangles = mesh.triangles.iter();
+        groups.retain(|_| triangles.next().is_none_or(|triangle| is_kept(triangle)));
+    }
+    // Surfaces shrink by what is removed inside them.
+    let mut kept = Vec::with_capacity(mesh.triangles.len());
+    let mut surfaces = std::mem::take(&mut mesh.surfaces);
+    if surfaces.is_empty() {
+        kept.extend(
+            mesh.triangles
+                .iter()
+                .filter(|triangle| is_kept(&triangle[..])),
+        );
+    }
+    for Surface {
+        triangles: range, ..
+    } in &mut surfaces
+    {
+        let first = kept.len();
+        let triangles = &mesh.triangles[range.clone()];
+        kept.extend(triangles.iter().filter(|triangle| is_kept(&triangle[..])));
+        *range = first..kept.len();
+    }
+    surfaces.retain(|surface| !surface.triangles.is_empty());
+    mesh.surfaces = surfaces;
+    mesh.triangles = kept;
+    before - count(mesh)
+}
+
+/// Normals that are all zero say nothing.
+fn drop_useless_normals(mesh: &mut Mesh) {
+    if mesh.normals.iter().all(|normal| *normal == Vec3::ZERO) {
+        mesh.normals = Vec::new();
+    }
+}
+
+/// Gives meshes with vertex colours, where they have no material, a white one: the colours are then what
+/// is seen, not their product with the default grey.
+fn whiten_colored(scene: &mut Scene) {
+    let white = scene.materials.len();
+    let mut is_used = false;
+    for mesh in scene
+        .meshes
+        .iter_mut()
+        .filter(|mesh| !mesh.colors.is_empty())
+    {
+        if mesh.surfaces.is_empty() && !mesh.triangles.is_empty() {
+            mesh.surfaces = vec![Surface {
+                material: None,
+                triangles: 0..mesh.triangles.len(),
+            }];
+        }
+        for surface in mesh
+            .surfaces
+            .iter_mut()
+            .filter(|surface| surface.material.is_none())
+        {
+            surface.material = Some(white);
+            is_used = true;
+        }
+    }
+    if is_used {
+        let name = "vertex colours".to_owned();
+        scene.materials.push(Material {
+            name,
+            base_color: Vec3::ONE,
+            ..Material::default()
+        });
+    }
+}

@@ -1,0 +1,152 @@
+//! The two entrances: a path, or bytes that are already here.
+
+use super::resources::{Folder, ResourceError, Resources};
+use super::{ModelFormat, finish, obj, ply, stl};
+use crate::warning::{Warning, Warnings};
+use crate::{AssetError, Limits};
+use estampe_scene::Scene;
+use glam::Vec3;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// A model that was read, and what was odd about it.
+#[derive(Debug, Clone)]
+pub struct Loaded {
+    /// What the file describes. Every mesh with triangles has normals.
+    pub scene: Scene,
+    /// The format that was read.
+    pub format: ModelFormat,
+    /// The first warnings, at most `Limits::max_warnings`.
+    pub warnings: Vec<Warning>,
+    /// How many warnings there were in all.
+    pub warning_count: u64,
+    /// OBJ's `vp` statements: points in the parameter space of free-form curves, which are kept but
+    /// not drawn.
+    pub parameter_points: Vec<Vec3>,
+}
+
+/// What a format's reader gives, before the finish that all share.
+#[derive(Debug, Default)]
+pub(super) struct Parsed {
+    pub(super) scene: Scene,
+    /// Smoothing group of each triangle of each mesh; empty when the file has none.
+    pub(super) smoothing_groups: Vec<Vec<u32>>,
+    pub(super) parameter_points: Vec<Vec3>,
+}
+
+/// What every reader works with.
+pub(super) struct Context<'a> {
+    /// Name of the model, for messages.
+    pub(super) name: &'a str,
+    pub(super) resources: &'a dyn Resources,
+    pub(super) limits: &'a Limits,
+    pub(super) warnings: Warnings,
+    /// How many more side files may be looked for.
+    side_files_left: u64,
+}
+
+impl Context<'_> {
+    /// Finds the side file `name`: one name per file, however it is spelled.
+    pub(super) fn find_side_file(&mut self, name: &str) -> Result<String, ResourceError> {
+        let Some(left) = self.side_files_left.checked_sub(1) else {
+            let limit = self.limits.max_side_files;
+            return Err(ResourceError::Io(format!(
+                "more than {limit} side files are asked for"
+            )));
+        };
+        self.side_files_left = left;
+        self.resources.resolve(name)
+    }
+
+    /// The bytes of a side file that was found.
+    pub(super) fn read_side_file(&self, resolved: &str) -> Result<Vec<u8>, ResourceError> {
+        self.resources.read(resolved, self.limits.max_file_bytes)
+    }
+}
+
+/// Reads the model at `path`, and the side files that it names from its own folder.
+///
+/// Without a `format`, the extension decides, and the content where the extension says nothing.
+///
+/// # Errors
+/// `Io` when the file cannot be read, else as [`parse_model`].
+pub fn load_model(
+    path: &Path,
+    format: Option<ModelFormat>,
+    limits: &Limits,
+) -> Result<Loaded, AssetError> {
+    let name = path.display().to_string();
+    let bytes = read_file(path, limits).map_err(|error| error.in_file(&name))?;
+    let named = format.or_else(|| ModelFormat::from_extension(path));
+    let format = named
+        .or_else(|| ModelFormat::from_content(&bytes))
+        .ok_or_else(|| {
+            AssetError::unsupported(
+                "neither the extension nor the content is that of a model",
+                "OBJ, STL and PLY are read; name the format if it is one of them",
+            )
+            .in_file(&name)
+        })?;
+    parse_model(&bytes, format, &name, &Folder::of_model(path), limits)
+}
+
+/// Reads a model from `bytes`; `name` stands for it in messages.
+///
+/// # Errors
+/// `Malformed` when nothing sensible is left of the file, `Unsupported` for what is not read here, and
+/// `LimitExceeded` for more than `limits` allow. A side file that is missing, forbidden or broken is a
+/// warning.
+pub fn parse_model(
+    bytes: &[u8],
+    format: ModelFormat,
+    name: &str,
+    resources: &dyn Resources,
+    limits: &Limits,
+) -> Result<Loaded, AssetError> {
+    let mut context = Context {
+        name,
+        resources,
+        limits,
+        warnings: Warnings::new(limits.max_warnings),
+        side_files_left: limits.max_side_files,
+    };
+    let parsed = Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)
+        .and_then(|()| match format {
+            ModelFormat::Obj => obj::parse(bytes, &mut context),
+            ModelFormat::Stl => stl::parse(bytes, &mut context),
+            ModelFormat::Ply => ply::parse(bytes, &mut context),
+        })
+        .map_err(|error| error.in_file(name))?;
+    let parsed = finish::finish(parsed, &mut context);
+    let (warnings, warning_count) = context.warnings.finish();
+    Ok(Loaded {
+        scene: parsed.scene,
+        format,
+        warnings,
+        warning_count,
+        parameter_points: parsed.parameter_points,
+    })
+}
+
+/// The bytes of the model itself. The user named it, so it may be a pipe; it is never read past the limit.
+fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, AssetError> {
+    let advice = "check the path and its permissions";
+    let failed = |error: std::io::Error| AssetError::io(error.to_string(), advice);
+    let metadata = std::fs::metadata(path).map_err(failed)?;
+    if metadata.is_dir() {
+        return Err(AssetError::io(
+            "this is a folder",
+            "name a model file in it",
+        ));
+    }
+    Limits::check("bytes", metadata.len(), limits.max_file_bytes)?;
+    let capacity = usize::try_from(metadata.len()).unwrap_or(0);
+    let mut bytes = Vec::with_capacity(capacity.saturating_add(1));
+    let bounded = File::open(path)
+        .map_err(failed)?
+        .take(limits.max_file_bytes.saturating_add(1));
+    { bounded }.read_to_end(&mut bytes).map_err(failed)?;
+    Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)?;
+    Ok(bytes)
+}

@@ -1,0 +1,37 @@
+//! Readers of models: OBJ with MTL, STL and PLY.
+//!
+//! ```text
+//! bytes -> obj | stl | ply  (one folder each: lines or records -> meshes)
+//!       -> finish           (faces with non-finite corners dropped, limits)
+//!       -> normals          (what the file leaves out)
+//!       -> Scene
+//! ```
+//!
+//! The readers work on bytes, so no encoding is assumed; names become text by UTF-8 or, where that
+//! fails, Latin-1. Side files (material libraries, textures) come through [`Resources`], which decides
+//! what a model may make us open.
+
+mod detect;
+mod finish;
+mod load;
+mod mtl;
+pub mod normals;
+mod number;
+mod obj;
+mod ply;
+mod polygons;
+mod resources;
+mod srgb;
+mod statements;
+mod stl;
+mod textures;
+mod vertex_copies;
+mod weld;
+
+#[cfg(test)]
+mod tests;
+
+pub use detect::ModelFormat;
+pub use load::{Loaded, load_model, parse_model};
+pub use normals::NormalMode;
+pub use resources::{Folder, NoResources, ResourceError, Resources};

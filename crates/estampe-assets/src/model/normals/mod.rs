@@ -1,0 +1,209 @@
+//! Normals for meshes that lack them.
+//!
+//! ```text
+//! meshes -> points   (positions equal to the bit are one point, across all meshes)
+//!        -> faces    (unit normal and area of every triangle)
+//!        -> sums     (area-weighted, per point: all that a smooth surface needs)
+//!        -> creases  (points whose faces do not all go together: a normal per corner)
+//!        -> split    (a vertex with several normals becomes several vertices)
+//! ```
+//!
+//! The normal of a corner is the sum of the area-weighted normals of those faces around its point that
+//! make no more than the crease angle with the corner's own face. (Rejected: growing groups over shared
+//! edges. It rounds a cone's tip away and needs to know edges, which soups of triangles lack.)
+//!
+//! A point is smooth, and needs one sum only, when each face's normal lies within half the crease angle of
+//! the sum: any two of them are then within the whole of it. Only the other points pay for looking at pairs.
+//! With more than [`creases::MAX_PAIRED`] faces around a point, faces are first gathered into cells of
+//! similar direction, and pairs are made of cells; so the time stays linear in the number of triangles,
+//! even when all of them share one vertex.
+
+mod creases;
+mod faces;
+
+use super::vertex_copies::VertexCopies;
+use super::weld::Welder;
+use creases::{CornerNormals, Grouping};
+use estampe_scene::Mesh;
+use glam::Vec3;
+use std::borrow::Cow;
+
+/// Which faces a normal is shared by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NormalMode<'a> {
+    /// Faces around a point that are within an angle of each other.
+    CreaseAngle {
+        /// The largest angle between the normals of two faces that look like one surface, in degrees.
+        degrees: f32,
+    },
+    /// None: each triangle has its own normal.
+    Flat,
+    /// Faces around a point that have the same smoothing group, whatever their angle: one list for each mesh,
+    /// one number for each triangle. Group 0, and triangles beyond a list, are flat.
+    SmoothingGroups(&'a [Vec<u32>]),
+}
+
+impl Default for NormalMode<'_> {
+    /// A crease angle of 40°.
+    fn default() -> Self {
+        Self::CreaseAngle { degrees: 40.0 }
+    }
+}
+
+/// Gives a normal to every corner of a triangle that has none.
+///
+/// Vertices that have a normal keep it. A vertex whose corners need different normals is split: copies of
+/// it, with all attributes, are appended. Smoothing goes across the borders of meshes where they share
+/// positions. Triangles without area get their neighbours' normal, or (0, 0, 0).
+pub fn fill_missing(meshes: &mut [Mesh], mode: NormalMode<'_>) {
+    let lacks = |mesh: &Mesh| {
+        !mesh.triangles.is_empty()
+            && (mesh.normals.is_empty() || mesh.normals.contains(&Vec3::ZERO))
+    };
+    if !meshes.iter().any(lacks) {
+        return;
+    }
+    // Sound indices are the invariant of `Mesh`; a broken one would be a fault of ours.
+    let corner_total: usize = meshes.iter().map(|mesh| mesh.triangles.len() * 3).sum();
+    assert!(
+        u32::try_from(corner_total).is_ok(),
+        "limits keep corners below 2^32"
+    );
+    let is_missing: Vec<Vec<bool>> = meshes.iter().map(missing_normals).collect();
+    let corners = corner_normals(meshes, mode);
+    let mut first_triangle = 0;
+    let mut first_vertex = 0;
+    for (mesh, is_missing) in meshes.iter_mut().zip(&is_missing) {
+        let (triangles, vertices) = (mesh.triangles.len(), mesh.positions.len());
+        if triangles > 0 {
+            apply(
+                mesh,
+                is_missing,
+                &corners.of_mesh(first_triangle, first_vertex),
+            );
+        }
+        first_triangle += triangles;
+        first_vertex += vertices;
+    }
+}
+
+/// Replaces all normals.
+///
+/// As [`fill_missing`] on meshes whose normals were taken away; vertices that were split before stay split.
+pub fn replace(meshes: &mut [Mesh], mode: NormalMode<'_>) {
+    for mesh in &mut *meshes {
+        mesh.normals = Vec::new();
+    }
+    fill_missing(meshes, mode);
+}
+
+/// The unit vector in the direction of `vector`, or zero where there is none (zero or not finite).
+///
+/// In f64, where neither the square of the largest f32 overflows nor that of the smallest underflows.
+#[must_use]
+pub fn unit_or_zero(vector: Vec3) -> Vec3 {
+    let wide = vector.as_dvec3();
+    let squared = wide.length_squared();
+    if squared > 0.0 && squared.is_finite() {
+        (wide * (1.0 / squared.sqrt())).as_vec3()
+    } else {
+        Vec3::ZERO
+    }
+}
+
+/// Empty when all are missing.
+fn missing_normals(mesh: &Mesh) -> Vec<bool> {
+    mesh.normals
+        .iter()
+        .map(|&normal| normal == Vec3::ZERO)
+        .collect()
+}
+
+/// The point of each vertex, over all meshes, and the number of points.
+fn weld(meshes: &[Mesh]) -> (Vec<u32>, usize) {
+    let vertex_count = meshes.iter().map(|mesh| mesh.positions.len()).sum();
+    let mut welder = Welder::with_room(vertex_count);
+    let positions = meshes.iter().flat_map(|mesh| &mesh.positions);
+    let mut points = Vec::with_capacity(vertex_count);
+    points.extend(positions.map(|&position| welder.number(position, 0)));
+    (points, welder.len())
+}
+
+fn corner_normals(meshes: &[Mesh], mode: NormalMode<'_>) -> CornerNormals {
+    let faces = faces::all(meshes);
+    let grouping = match mode {
+        NormalMode::Flat => return CornerNormals::flat(&faces),
+        NormalMode::CreaseAngle { degrees } => Grouping::by_angle(degrees),
+        NormalMode::SmoothingGroups(groups) => Grouping::by_group(meshes, groups),
+    };
+    let (point_of_vertex, point_count) = weld(meshes);
+    let triangles = match meshes {
+        // All vertices are points of their own: the usual mesh without texture coordinates.
+        [mesh] if point_count == mesh.positions.len() => Cow::Borrowed(mesh.triangles.as_slice()),
+        _ => Cow::Owned(point_triangles(meshes, &point_of_vertex)),
+    };
+    CornerNormals::smooth(&triangles, point_of_vertex, point_count, &faces, &grouping)
+}
+
+/// The triangles of all meshes as triples of points.
+fn point_triangles(meshes: &[Mesh], point_of_vertex: &[u32]) -> Vec<[u32; 3]> {
+    let mut triangles = Vec::with_capacity(meshes.iter().map(|mesh| mesh.triangles.len()).sum());
+    let mut first_vertex = 0;
+    for mesh in meshes {
+        let points = &point_of_vertex[first_vertex..first_vertex + mesh.positions.len()];
+        let of_vertices = |vertices: &[u32; 3]| vertices.map(|vertex| points[vertex as usize]);
+        triangles.extend(mesh.triangles.iter().map(of_vertices));
+        first_vertex += mesh.positions.len();
+    }
+    triangles
+}
+
+/// Writes the normals into a mesh, splitting vertices where need be.
+fn apply(mesh: &mut Mesh, is_missing: &[bool], corners: &creases::MeshNormals<'_>) {
+    let vertex_count = mesh.positions.len();
+    let is_missing = |vertex: u32| is_missing.get(vertex as usize).copied().unwrap_or(true);
+    mesh.normals.resize(vertex_count, Vec3::ZERO);
+    // Smooth points first: no triangle need be looked at for them.
+    if let Some(points) = corners.points(vertex_count) {
+        for (vertex, normal) in (0..).zip(&mut mesh.normals) {
+            if is_missing(vertex) {
+                *normal = corners.normal_of_point(points[vertex as usize]);
+            }
+        }
+    }
+    if corners.creased(mesh.triangles.len()).next().is_none() {
+        return;
+    }
+    let count = u32::try_from(vertex_count).expect("limits keep vertices below 2^32");
+    let mut copies = VertexCopies::identity(count);
+    // The first normal that a vertex gets needs no copy.
+    let mut is_taken = vec![false; vertex_count];
+    for (triangle, corner, normal) in corners.creased(mesh.triangles.len()) {
+        let vertex = mesh.triangles[triangle][corner];
+        if !is_missing(vertex) {
+            continue;
+        }
+        if !std::mem::replace(&mut is_taken[vertex as usize], true) {
+            mesh.normals[vertex as usize] = normal;
+            continue;
+        }
+        let normals = &mesh.normals;
+        let is_same = |copy: usize| normals[copy] == normal;
+        let (copy, is_new) = copies.find_or_add(vertex, is_same);
+        if is_new {
+            append_copy(mesh, vertex as usize, normal);
+        }
+        mesh.triangles[triangle][corner] = copy;
+    }
+}
+
+fn append_copy(mesh: &mut Mesh, vertex: usize, normal: Vec3) {
+    mesh.positions.push(mesh.positions[vertex]);
+    mesh.normals.push(normal);
+    if let Some(&uv) = mesh.uvs.get(vertex) {
+        mesh.uvs.push(uv);
+    }
+    if let Some(&color) = mesh.colors.get(vertex) {
+        mesh.colors.push(color);
+    }
+}

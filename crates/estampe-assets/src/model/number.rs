@@ -1,0 +1,173 @@
+//! Decimal numbers from bytes, correctly rounded and fast.
+//!
+//! A decimal is w · 10^e with an integer w of up to 19 digits. The idea is Clinger's (1990): compute
+//! d = w · 10^e in f64 and round that to f32. Here w, 10^e and the product are each rounded once, so d
+//! is off by less than 2 units in its last place. Rounding d to f32 gives the right answer unless a
+//! point midway between two f32 lies within that error: the 29 bits of d that f32 drops are then near
+//! 1000…0. Those cases (one in ten million), and results outside f32's normal range, go to the
+//! standard library, which is exact and slow.
+
+/// Powers of ten, each the f64 nearest to it.
+const POWERS_OF_TEN: [f64; 39] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18, 1e19, 1e20, 1e21, 1e22, 1e23, 1e24, 1e25, 1e26, 1e27, 1e28, 1e29, 1e30, 1e31, 1e32,
+    1e33, 1e34, 1e35, 1e36, 1e37, 1e38,
+];
+
+/// As many decimal digits as always fit u64.
+const MAX_DIGITS: usize = 19;
+
+/// Reads the number that `text` starts with; also how many bytes it takes.
+///
+/// `None` when no number starts there. A sign, a leading point and an exponent may be present; values
+/// beyond f32 become ±∞. `nan` and `inf` in any case, and what old C libraries print for them
+/// (`-nan(ind)`, `1.#QNAN`), are numbers too.
+#[inline]
+pub(super) fn parse_f32(text: &[u8]) -> Option<(f32, usize)> {
+    let negative = text.first() == Some(&b'-');
+    let start = usize::from(negative || text.first() == Some(&b'+'));
+    let mut at = start;
+    let mut mantissa = 0_u64;
+    let mut digits = take_digits(text, &mut at, &mut mantissa);
+    let mut exponent = 0_i64;
+    if text.get(at) == Some(&b'.') {
+        at += 1;
+        let before = at;
+        digits += take_digits(text, &mut at, &mut mantissa);
+        exponent = before as i64 - at as i64;
+        if text.get(at) == Some(&b'#') {
+            return parse_named(text, start);
+        }
+    }
+    if digits == 0 {
+        return parse_named(text, start);
+    }
+    if let Some(b'e' | b'E') = text.get(at) {
+        exponent += take_exponent(text, &mut at);
+    }
+    if digits > MAX_DIGITS {
+        // Leading zeros count as digits, so this is not always a long number; the rest is rare.
+        return Some((exact(&text[..at]), at));
+    }
+    let value = rounded(mantissa, exponent).unwrap_or_else(|| exact(&text[start..at]));
+    Some((if negative { -value } else { value }, at))
+}
+
+/// Appends the digits at `*at` to `mantissa`; how many there were. Wraps after 19.
+#[inline]
+fn take_digits(text: &[u8], at: &mut usize, mantissa: &mut u64) -> usize {
+    let start = *at;
+    while let Some(digit) = text
+        .get(*at)
+        .map(|byte| byte.wrapping_sub(b'0'))
+        .filter(|&d| d < 10)
+    {
+        *mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(digit));
+        *at += 1;
+    }
+    *at - start
+}
+
+/// The exponent whose `e` is at `*at`; 0, with `*at` unmoved, when no digits follow.
+#[cold]
+fn take_exponent(text: &[u8], at: &mut usize) -> i64 {
+    /// Beyond every float even with a million digits before the point; the sum cannot overflow.
+    const LARGEST: i64 = 1 << 40;
+    let sign = text.get(*at + 1);
+    let first = *at + 1 + usize::from(matches!(sign, Some(b'-' | b'+')));
+    let digits = text[first.min(text.len())..]
+        .iter()
+        .take_while(|byte| byte.is_ascii_digit());
+    let mut value = 0_i64;
+    let mut count = 0;
+    for digit in digits {
+        value = (value * 10 + i64::from(digit - b'0')).min(LARGEST);
+        count += 1;
+    }
+    if count == 0 {
+        return 0;
+    }
+    *at = first + count;
+    if sign == Some(&b'-') { -value } else { value }
+}
+
+/// w · 10^e rounded to f32, when that can be told from the f64 product.
+#[inline]
+fn rounded(mantissa: u64, exponent: i64) -> Option<f32> {
+    const DROPPED_BITS: u64 = (1 << 29) - 1;
+    const MIDPOINT: u64 = 1 << 28;
+    const ERROR_ULPS: u64 = 4;
+    if mantissa == 0 {
+        return Some(0.0);
+    }
+    let power = *POWERS_OF_TEN.get(usize::try_from(exponent.unsigned_abs()).ok()?)?;
+    let wide = mantissa as f64;
+    let wide = if exponent < 0 {
+        wide / power
+    } else {
+        wide * power
+    };
+    let is_normal = wide >= f64::from(f32::MIN_POSITIVE) && wide < f64::from(f32::MAX);
+    let from_midpoint = (wide.to_bits() & DROPPED_BITS).abs_diff(MIDPOINT);
+    #[expect(clippy::cast_possible_truncation, reason = "the rounding is the point")]
+    (is_normal && from_midpoint > ERROR_ULPS).then_some(wide as f32)
+}
+
+/// The standard library's answer.
+#[cold]
+fn exact(text: &[u8]) -> f32 {
+    std::str::from_utf8(text)
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .unwrap_or(f32::NAN)
+}
+
+/// The values that have names instead of digits.
+#[cold]
+fn parse_named(text: &[u8], start: usize) -> Option<(f32, usize)> {
+    let is_end = |byte: &u8| byte.is_ascii_whitespace() || *byte == b'/';
+    let length = text[start..]
+        .iter()
+        .position(is_end)
+        .unwrap_or(text.len() - start);
+    let word = &text[start..start + length];
+    let end = start + length;
+    let begins = |name: &[u8]| {
+        word.get(..name.len())
+            .is_some_and(|head| head.eq_ignore_ascii_case(name))
+    };
+    if begins(b"nan") || word.contains(&b'#') && !begins(b"1.#inf") {
+        // `#` alone would be a comment; only a number before it makes it one of these names.
+        return (begins(b"nan") || begins(b"1.#") || begins(b"-1.#")).then_some((f32::NAN, end));
+    }
+    if begins(b"inf") || begins(b"1.#inf") {
+        let is_negative = start == 1 && text[0] == b'-';
+        return Some((
+            if is_negative {
+                f32::NEG_INFINITY
+            } else {
+                f32::INFINITY
+            },
+            end,
+        ));
+    }
+    None
+}
+
+/// Reads the integer that `text` starts with; also how many bytes it takes. Saturates.
+#[inline]
+pub(super) fn parse_i64(text: &[u8]) -> Option<(i64, usize)> {
+    let negative = text.first() == Some(&b'-');
+    let start = usize::from(negative || text.first() == Some(&b'+'));
+    let mut at = start;
+    let mut value = 0_i64;
+    while let Some(digit) = text
+        .get(at)
+        .map(|byte| byte.wrapping_sub(b'0'))
+        .filter(|&d| d < 10)
+    {
+        value = value.saturating_mul(10).saturating_add(i64::from(digit));
+        at += 1;
+    }
+    (at > start).then_some((if negative { -value } else { value }, at))
+}

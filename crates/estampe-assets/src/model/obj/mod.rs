@@ -1,0 +1,37 @@
+//! Wavefront OBJ.
+//!
+//! ```text
+//! lines -> reader    (statements; vertices, texture coordinates, normals in file order)
+//!       -> elements  (faces, lines, points: indices resolved, polygons split into triangles)
+//!       -> parts     (which object, group and material each run of triangles belongs to)
+//!       -> assemble  (one mesh per object; vertices split by texture coordinate and normal)
+//! ```
+//!
+//! A mesh is an object (`o`); in files without objects, a group (`g`). Inside a mesh, the triangles
+//! are sorted by material, so that each material is one surface however often `usemtl` alternates.
+//!
+//! Tolerance: a face that refers to a vertex that is not there is left out, a texture coordinate or
+//! normal that is not there is ignored, each with a warning that names the line. Indices may refer to
+//! vertices further down, though the format's description does not allow it.
+//!
+//! Source: "Object Files (.obj)", appendix B1 of the Advanced Visualizer manual, Wavefront 1995.
+
+mod assemble;
+mod elements;
+mod parts;
+mod reader;
+
+use super::load::{Context, Parsed};
+use crate::AssetError;
+
+/// Reads an OBJ file and its material libraries.
+pub(super) fn parse(bytes: &[u8], context: &mut Context<'_>) -> Result<Parsed, AssetError> {
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return Err(AssetError::unsupported(
+            "the text is UTF-16",
+            "save it as UTF-8 or plain ASCII",
+        ));
+    }
+    let contents = reader::read(bytes, context)?;
+    Ok(assemble::assemble(contents, context))
+}

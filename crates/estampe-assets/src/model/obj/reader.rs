@@ -1,0 +1,328 @@
+//! The statements of an OBJ file, one after the other.
+
+use super::elements::{Counts, Elements, Kind, Membership};
+use super::parts::Parts;
+use crate::model::load::Context;
+use crate::model::statements::Statements;
+use crate::{AssetError, Limits, Location};
+use glam::{Vec2, Vec3};
+use std::collections::HashSet;
+
+/// Everything that an OBJ file says, in file order.
+#[derive(Debug)]
+pub(super) struct Contents<'a> {
+    pub(super) positions: Vec<Vec3>,
+    /// sRGB vertex colours as written; empty, or as long as `positions`.
+    pub(super) colors: Vec<Vec3>,
+    /// Texture coordinates with v up, as written.
+    pub(super) uvs: Vec<Vec2>,
+    /// Normals as written, of any length.
+    pub(super) normals: Vec<Vec3>,
+    pub(super) parameter_points: Vec<Vec3>,
+    pub(super) elements: Elements,
+    pub(super) parts: Parts<'a>,
+    /// The names that follow `mtllib`.
+    pub(super) libraries: Vec<(&'a [u8], Location)>,
+    /// Where each material name was first used; parallel to `parts.materials`.
+    pub(super) material_uses: Vec<Location>,
+}
+
+struct Reader<'a, 'c, 'r> {
+    statements: Statements<'a>,
+    contents: Contents<'a>,
+    context: &'c mut Context<'r>,
+    smoothing_group: u32,
+    /// Keywords that were warned about.
+    reported: HashSet<&'a [u8]>,
+    knows_a_statement: bool,
+}
+
+/// Reads all statements of `bytes`.
+pub(super) fn read<'a>(
+    bytes: &'a [u8],
+    context: &mut Context<'_>,
+) -> Result<Contents<'a>, AssetError> {
+    let (max_meshes, max_materials) = (context.limits.max_meshes, context.limits.max_materials);
+    let contents = Contents {
+        positions: Vec::new(),
+        colors: Vec::new(),
+        uvs: Vec::new(),
+        normals: Vec::new(),
+        parameter_points: Vec::new(),
+        elements: Elements::default(),
+        parts: Parts::new(max_meshes, max_materials),
+        libraries: Vec::new(),
+        material_uses: vec![Location::Line(0)],
+    };
+    let mut reader = Reader {
+        statements: Statements::new(bytes),
+        contents,
+        context,
+        smoothing_group: 0,
+        reported: HashSet::new(),
+        knows_a_statement: false,
+    };
+    reader.read_all()?;
+    Ok(reader.contents)
+}
+
+impl<'a> Reader<'a, '_, '_> {
+    fn read_all(&mut self) -> Result<(), AssetError> {
+        while let Some(keyword) = self.statements.next_keyword() {
+            if !self.read_statement(keyword)? {
+                self.report_keyword(keyword);
+                self.statements.skip_statement();
+                continue;
+            }
+            self.knows_a_statement = true;
+            if !self.statements.is_at_end() {
+                self.warn(|| "the rest of the line is ignored".to_owned());
+            }
+            self.statements.skip_statement();
+        }
+        if !self.knows_a_statement {
+            return Err(AssetError::malformed(
+                "no statement of an OBJ file is in it",
+                "check that it is one, and that it is not empty",
+            ));
+        }
+        let counts = self.counts();
+        let Contents {
+            elements,
+            positions,
+            ..
+        } = &mut self.contents;
+        elements.end_of_file(positions, counts, self.context)
+    }
+
+    /// Reads the statement after `keyword`; `false` when the keyword is not known.
+    #[inline]
+    fn read_statement(&mut self, keyword: &'a [u8]) -> Result<bool, AssetError> {
+        match keyword {
+            b"v" => self.read_position()?,
+            b"vt" => self.read_uv()?,
+            b"vn" => {
+                let normal = self.read_vec3();
+                self.contents.normals.push(normal);
+                self.check_vertices("normals", self.contents.normals.len())?;
+            }
+            b"vp" => {
+                let [u, v, w] = self.read_numbers([0.0, 0.0, 1.0]);
+                self.contents.parameter_points.push(Vec3::new(u, v, w));
+                self.check_vertices("points", self.contents.parameter_points.len())?;
+            }
+            b"f" | b"fo" => self.read_element(Kind::Face)?,
+            b"l" => self.read_element(Kind::Line)?,
+            b"p" => self.read_element(Kind::Points)?,
+            b"o" => {
+                let name = self.statements.rest();
+                self.contents
+                    .parts
+                    .enter_object(if name.is_empty() { b"object" } else { name });
+            }
+            b"g" => {
+                let name = self.statements.rest();
+                self.contents
+                    .parts
+                    .enter_group(if name.is_empty() { b"default" } else { name });
+            }
+            b"s" => self.read_smoothing_group(),
+            b"usemtl" => {
+                let location = self.statements.location();
+                let name = self.statements.rest();
+                if self.contents.parts.use_material(name) {
+                    self.contents.material_uses.push(location);
+                }
+            }
+            b"mtllib" => {
+                let location = self.statements.location();
+                let names = self.statements.rest();
+                self.contents.libraries.push((names, location));
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// `v x y z [w] [r g b]`: w is a weight of rational curves, which meshes do not use.
+    #[inline]
+    fn read_position(&mut self) -> Result<(), AssetError> {
+        let mut numbers = [f32::NAN; 7];
+        let mut count = 0;
+        let mut is_sound = true;
+        while count < numbers.len()
+            && let Some(number) = self.statements.number()
+        {
+            is_sound &= number.is_some();
+            numbers[count] = number.unwrap_or(f32::NAN);
+            count += 1;
+        }
+        let position = Vec3::new(numbers[0], numbers[1], numbers[2]);
+        if !is_sound || !position.is_finite() {
+            self.warn(|| {
+                "the vertex has not three finite coordinates; what uses it is left out".to_owned()
+            });
+        }
+        let before = self.contents.positions.len();
+        self.contents.positions.push(position);
+        if count >= 6 || !self.contents.colors.is_empty() {
+            let color = match count {
+                6 => Vec3::new(numbers[3], numbers[4], numbers[5]),
+                7 => Vec3::new(numbers[4], numbers[5], numbers[6]),
+                _ => Vec3::ONE,
+            };
+            self.contents.colors.resize(before, Vec3::ONE);
+            self.contents.colors.push(color);
+        }
+        self.check_vertices("vertices", before + 1)
+    }
+
+    /// `vt u [v [w]]`: w is for solid textures.
+    #[inline]
+    fn read_uv(&mut self) -> Result<(), AssetError> {
+        let [u, v, _] = self.read_numbers([0.0; 3]);
+        self.contents.uvs.push(Vec2::new(u, v));
+        self.check_vertices("texture coordinates", self.contents.uvs.len())
+    }
+
+    #[inline]
+    fn read_vec3(&mut self) -> Vec3 {
+        Vec3::from_array(self.read_numbers([0.0; 3]))
+    }
+
+    /// Up to three numbers; those that are missing, or are none, keep their default.
+    #[inline]
+    fn read_numbers(&mut self, mut numbers: [f32; 3]) -> [f32; 3] {
+        for slot in &mut numbers {
+            match self.statements.number() {
+                None => break,
+                Some(Some(number)) => *slot = number,
+                Some(None) => {
+                    self.warn(|| "a number was expected; its default is taken".to_owned());
+                }
+            }
+        }
+        numbers
+    }
+
+    #[inline]
+    fn read_element(&mut self, kind: Kind) -> Result<(), AssetError> {
+        let location = self.statements.location();
+        let counts = self.counts();
+        let max_corners = self.context.limits.max_polygon_corners;
+        self.contents.elements.begin();
+        while !self.statements.is_at_end() {
+            let text = self.statements.remaining();
+            let Some(length) = self.contents.elements.add_corner(text, counts) else {
+                self.statements.skip_statement();
+                return self.leave_out(location, "a corner is none of v, v/vt, v//vn, v/vt/vn");
+            };
+            self.statements.advance(length);
+            let count = self.contents.elements.corner_count() as u64;
+            if kind == Kind::Face && count > max_corners {
+                self.statements.skip_statement();
+                return self.leave_out(location, "the polygon has more corners than the limit");
+            }
+        }
+        let (fewest, fault) = match kind {
+            Kind::Face => (3, "a face needs three corners"),
+            Kind::Line => (2, "a line needs two vertices"),
+            Kind::Points => (1, "a point needs a vertex"),
+        };
+        if self.contents.elements.corner_count() < fewest {
+            return self.leave_out(location, fault);
+        }
+        let membership = Membership {
+            part: self.contents.parts.current_number(),
+            smoothing_group: self.smoothing_group,
+            location,
+        };
+        let Contents {
+            elements,
+            positions,
+            ..
+        } = &mut self.contents;
+        elements.end(kind, membership, positions, counts, self.context)
+    }
+
+    #[cold]
+    fn leave_out(&mut self, location: Location, fault: &str) -> Result<(), AssetError> {
+        let message = || format!("{fault}; the element is left out");
+        self.context
+            .warnings
+            .add(self.context.name, location, message);
+        Ok(())
+    }
+
+    /// `s off` and `s 0` end smoothing.
+    fn read_smoothing_group(&mut self) {
+        let word = self.statements.word().unwrap_or(b"off");
+        let number = crate::model::number::parse_i64(word).map(|(number, _)| number);
+        // Exporters also write `on`; a group's number means nothing but itself.
+        self.smoothing_group = match number {
+            Some(number) => u32::try_from(number).unwrap_or(u32::MAX),
+            None => u32::from(word.eq_ignore_ascii_case(b"on")),
+        };
+    }
+
+    fn counts(&self) -> Counts {
+        [
+            self.contents.positions.len(),
+            self.contents.uvs.len(),
+            self.contents.normals.len(),
+        ]
+    }
+
+    #[inline]
+    fn check_vertices(&self, what: &str, count: usize) -> Result<(), AssetError> {
+        Limits::check(what, count as u64, self.context.limits.max_vertices)
+            .map_err(|error| error.at(self.statements.location()))
+    }
+
+    #[cold]
+    fn warn(&mut self, message: impl FnOnce() -> String) {
+        self.context
+            .warnings
+            .add(self.context.name, self.statements.location(), message);
+    }
+
+    /// One warning per keyword that is not read, for the first thousand keywords.
+    #[cold]
+    fn report_keyword(&mut self, keyword: &'a [u8]) {
+        const MAX_REPORTED: usize = 1000;
+        // Attributes that change nothing in a picture made of triangles.
+        const SILENT: [&[u8]; 10] = [
+            b"bevel",
+            b"c_interp",
+            b"d_interp",
+            b"lod",
+            b"shadow_obj",
+            b"trace_obj",
+            b"mg",
+            b"end",
+            b"vw",
+            b"maplib",
+        ];
+        const FREE_FORM: [&[u8]; 13] = [
+            b"cstype", b"deg", b"bmat", b"step", b"curv", b"curv2", b"surf", b"parm", b"trim",
+            b"hole", b"scrv", b"sp", b"con",
+        ];
+        let is_free_form = FREE_FORM.contains(&keyword);
+        if is_free_form || SILENT.contains(&keyword) {
+            self.knows_a_statement = true;
+        }
+        if SILENT.contains(&keyword) || self.reported.len() >= MAX_REPORTED {
+            return;
+        }
+        if self.reported.insert(keyword) {
+            let shown = String::from_utf8_lossy(&keyword[..keyword.len().min(32)]).into_owned();
+            self.warn(|| {
+                if is_free_form {
+                    format!("`{shown}`: free-form curves and surfaces are not drawn")
+                } else {
+                    format!("`{shown}` is not an OBJ statement; such lines are skipped")
+                }
+            });
+        }
+    }
+}

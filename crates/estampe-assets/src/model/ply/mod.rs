@@ -1,0 +1,122 @@
+//! PLY, the Stanford polygon format: ASCII, and binary in both byte orders.
+//!
+//! ```text
+//! header   (elements: name, count, properties)
+//! values   (the body as a stream of scalars, in the announced encoding)
+//!       -> vertices -> faces, triangle strips, edges -> split -> mesh
+//! ```
+//!
+//! Known: `vertex` (`x y z`, `nx ny nz`, `s t | u v | texture_u texture_v`, `red green blue alpha`),
+//! `face` (`vertex_indices | vertex_index`, `texcoord`, `texnumber`, colours), `tristrips`, `edge`, and
+//! `comment TextureFile`. Other elements and properties are read over. A file of vertices only is a
+//! cloud of points.
+//!
+//! Damage: a vertex that is cut off is an error, since faces would mean nothing; faces that are cut off
+//! leave those before, with a warning. Faces whose indices do not exist are left out with a warning.
+//!
+//! Source: G. Turk, "The PLY Polygon File Format", 1994; the elements' names as MeshLab and Blender write them.
+
+mod elements;
+mod header;
+mod split;
+mod values;
+mod vertices;
+
+use super::load::{Context, Parsed};
+use super::textures::{TextureName, Textures};
+use crate::{AssetError, Limits};
+use elements::Elements;
+use estampe_scene::{Material, Mesh, Scene, UpAxis};
+use glam::Vec3;
+use header::{Encoding, Header};
+use values::{Ascii, Binary, Values};
+
+/// Reads a PLY file.
+pub(super) fn parse(bytes: &[u8], context: &mut Context<'_>) -> Result<Parsed, AssetError> {
+    let header = Header::read(bytes, context)?;
+    let mesh = match header.encoding {
+        Encoding::Ascii => read_body(&mut Ascii::new(bytes, &header), &header, context),
+        Encoding::Little => read_body(&mut Binary::<false>::new(bytes, &header), &header, context),
+        Encoding::Big => read_body(&mut Binary::<true>::new(bytes, &header), &header, context),
+    }?;
+    let mut scene = Scene {
+        up: UpAxis::Y,
+        ..Scene::default()
+    };
+    load_textures(&header, &mut scene, context);
+    scene.meshes.push(mesh);
+    Ok(Parsed {
+        scene,
+        ..Parsed::default()
+    })
+}
+
+/// Reads the elements in file order.
+fn read_body<V: Values>(
+    values: &mut V,
+    header: &Header,
+    context: &mut Context<'_>,
+) -> Result<Mesh, AssetError> {
+    let mut mesh = Mesh::default();
+    let mut has_vertices = false;
+    let mut elements = Elements::new(header);
+    for element in &header.elements {
+        let is_whole = match element.name.as_str() {
+            "vertex" if !has_vertices => {
+                has_vertices = true;
+                Limits::check("vertices", element.count, context.limits.max_vertices)?;
+                vertices::read(values, element, &mut mesh)?;
+                true
+            }
+            "face" | "faces" => elements.read_faces(values, element, &mesh.positions, context)?,
+            "tristrips" => elements.read_strips(values, element, &mesh.positions, context)?,
+            "edge" => elements.read_edges(values, element, &mesh.positions, context)?,
+            _ => values.skip_element(element)?,
+        };
+        if !is_whole {
+            context.warnings.add(context.name, values.location(), || {
+                format!(
+                    "the file ends within its `{}` elements; what is whole is kept",
+                    element.name
+                )
+            });
+            break;
+        }
+    }
+    if !has_vertices {
+        return Err(AssetError::malformed(
+            "it has no `vertex` element",
+            "check that the file holds a mesh or a cloud of points",
+        ));
+    }
+    elements.into_mesh(&mut mesh);
+    if mesh.triangles.is_empty() && mesh.lines.is_empty() {
+        // Limits keep the number of vertices below 2^32.
+        mesh.points = (0..u32::try_from(mesh.positions.len()).unwrap_or(u32::MAX)).collect();
+    }
+    Ok(mesh)
+}
+
+/// One material for each `comment TextureFile`.
+fn load_textures(header: &Header, scene: &mut Scene, context: &mut Context<'_>) {
+    let mut textures = Textures::new(context.limits);
+    for (name, location) in &header.texture_files {
+        let name = TextureName {
+            name: name.clone(),
+            folder: String::new(),
+            named_in: context.name.to_owned(),
+            location: *location,
+        };
+        let mut material = Material {
+            name: name.name.clone(),
+            base_color: Vec3::ONE,
+            ..Material::default()
+        };
+        if let Some((image, alpha_mode)) = textures.load(Some(&name), None, context) {
+            material.base_color_texture = Some(image);
+            material.alpha_mode = alpha_mode;
+        }
+        scene.materials.push(material);
+    }
+    scene.images = textures.images;
+}

@@ -1,0 +1,145 @@
+//! Binary STL.
+
+use super::Joined;
+use crate::model::detect::binary_stl_length;
+use crate::model::load::Context;
+use crate::model::srgb::linear_from_srgb;
+use crate::model::textures::text_of_name;
+use crate::{AssetError, Limits, Location};
+use estampe_scene::Mesh;
+use glam::Vec3;
+
+const HEADER_BYTES: usize = 84;
+const TRIANGLE_BYTES: usize = 50;
+type Record = [u8; TRIANGLE_BYTES];
+
+/// Reads the triangles that are there, be they more or fewer than announced.
+pub(super) fn read(bytes: &[u8], context: &mut Context<'_>) -> Result<Mesh, AssetError> {
+    let Some(announced_bytes) = binary_stl_length(bytes) else {
+        return Err(AssetError::malformed(
+            "it neither starts with `solid` nor is long enough to be a binary STL file",
+            "check that it is an STL file and that it is whole",
+        )
+        .at(Location::Byte(bytes.len() as u64)));
+    };
+    let (header, body) = bytes.split_at(HEADER_BYTES);
+    let records = body.as_chunks::<TRIANGLE_BYTES>().0;
+    let announced = (announced_bytes - HEADER_BYTES as u64) / TRIANGLE_BYTES as u64;
+    if records.is_empty() && announced > 0 {
+        return Err(AssetError::malformed(
+            format!("{announced} triangles are announced and none is there"),
+            "check that the file is an STL file and that it is whole",
+        )
+        .at(Location::Byte(bytes.len() as u64)));
+    }
+    let count = records
+        .len()
+        .min(usize::try_from(announced).unwrap_or(usize::MAX));
+    let records = &records[..count];
+    Limits::check("triangles", count as u64, context.limits.max_triangles)?;
+    Limits::check("triangles' corners", 3 * count as u64, u64::from(u32::MAX))?;
+    if (count as u64) < announced {
+        context
+            .warnings
+            .add(context.name, Location::Byte(bytes.len() as u64), || {
+                format!("{announced} triangles are announced, the file ends after {count}")
+            });
+    } else if announced_bytes < bytes.len() as u64 {
+        let extra = bytes.len() as u64 - announced_bytes;
+        context
+            .warnings
+            .add(context.name, Location::Byte(announced_bytes), || {
+                format!("{extra} bytes follow the announced triangles; they are ignored")
+            });
+    }
+
+    let colors = Colors::of(header, records);
+    let mut joined = Joined::new(name(header));
+    joined.mesh.triangles.reserve_exact(count);
+    for record in records {
+        let tag = if colors.is_some() {
+            attribute(record)
+        } else {
+            0
+        };
+        joined.push(
+            [corner(record, 12), corner(record, 24), corner(record, 36)],
+            tag,
+        );
+    }
+    if let Some(colors) = colors {
+        joined.mesh.colors = joined.tags.iter().map(|&tag| colors.linear(tag)).collect();
+    }
+    Ok(joined.mesh)
+}
+
+/// The header's text up to the first control character.
+fn name(header: &[u8]) -> String {
+    let text = header[..80]
+        .split(|&byte| byte < b' ')
+        .next()
+        .unwrap_or(&[])
+        .trim_ascii();
+    text_of_name(text)
+}
+
+#[inline]
+fn corner(record: &Record, at: usize) -> Vec3 {
+    let component = |at: usize| {
+        f32::from_le_bytes([record[at], record[at + 1], record[at + 2], record[at + 3]])
+    };
+    Vec3::new(component(at), component(at + 4), component(at + 8))
+}
+
+#[inline]
+fn attribute(record: &Record) -> u16 {
+    u16::from_le_bytes([record[48], record[49]])
+}
+
+/// How attributes mean colours.
+#[derive(Debug, Clone, Copy)]
+enum Colors {
+    VisCam,
+    Magics { default: [u8; 4] },
+}
+
+impl Colors {
+    const VALID: u16 = 1 << 15;
+
+    /// `None` when the attributes hold no colours.
+    fn of(header: &[u8], records: &[Record]) -> Option<Self> {
+        let marked = header[..80]
+            .windows(10)
+            .find(|window| window.starts_with(b"COLOR="));
+        if let Some(&[.., r, g, b, a]) = marked {
+            return Some(Self::Magics {
+                default: [r, g, b, a],
+            });
+        }
+        // Without a mark the attributes could be anything; colours have bit 15, what has none is 0.
+        let mut attributes = records.iter().map(attribute);
+        let is_plausible = attributes.all(|value| value == 0 || value & Self::VALID != 0);
+        let first = records.first().map(attribute)?;
+        let is_constant = records.iter().all(|record| attribute(record) == first);
+        (is_plausible && !(is_constant && (first == 0 || first == u16::MAX)))
+            .then_some(Self::VisCam)
+    }
+
+    fn linear(self, attribute: u16) -> [f32; 4] {
+        let five_bits = |shift: u16| f32::from(attribute >> shift & 31) / 31.0;
+        let is_bit_set = attribute & Self::VALID != 0;
+        let (rgb, alpha) = match self {
+            Self::VisCam if is_bit_set => ([five_bits(10), five_bits(5), five_bits(0)], 1.0),
+            Self::VisCam => ([1.0; 3], 1.0),
+            Self::Magics {
+                default: [r, g, b, a],
+            } if is_bit_set => (
+                [r, g, b].map(|value| f32::from(value) / 255.0),
+                f32::from(a) / 255.0,
+            ),
+            Self::Magics { .. } => ([five_bits(0), five_bits(5), five_bits(10)], 1.0),
+        };
+        let [r, g, b] = rgb.map(linear_from_srgb);
+        [r, g, b, alpha]
+    }
+}

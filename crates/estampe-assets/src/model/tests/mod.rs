@@ -1,0 +1,5 @@
+//! Tests of the parts that the readers share.
+
+mod normals;
+mod numbers;
+mod resources;

@@ -1,0 +1,189 @@
+//! Loads the textures of materials, each file once.
+
+use super::load::Context;
+use super::resources::ResourceError;
+use crate::{AssetError, Limits, Location};
+use estampe_scene::{AlphaMode, Image};
+use std::collections::HashMap;
+
+/// A texture as a material names it.
+#[derive(Debug, Clone)]
+pub(super) struct TextureName {
+    /// The file's name, relative to `folder` or to the model.
+    pub(super) name: String,
+    /// Folder of the file that names it, relative to the model, with its last separator; may be empty.
+    pub(super) folder: String,
+    /// The file that names it, for messages.
+    pub(super) named_in: String,
+    pub(super) location: Location,
+}
+
+/// A loaded texture: an index into [`Textures::images`], and what its alpha means.
+pub(super) type Loaded = (usize, AlphaMode);
+
+/// The images loaded so far.
+#[derive(Debug)]
+pub(super) struct Textures {
+    pub(super) images: Vec<Image>,
+    /// By the resolved names of base colour and opacity; `None` is a file that failed before.
+    known: HashMap<[Option<String>; 2], Option<Loaded>>,
+    pixels_left: u64,
+}
+
+/// The text of a name in a file: UTF-8, or else Latin-1, in which every byte is a character.
+pub(super) fn text_of_name(name: &[u8]) -> String {
+    match std::str::from_utf8(name) {
+        Ok(text) => text.to_owned(),
+        Err(_) => name.iter().map(|&byte| char::from(byte)).collect(),
+    }
+}
+
+impl Textures {
+    pub(super) fn new(limits: &Limits) -> Self {
+        let pixels_left = limits.max_total_image_pixels;
+        Self {
+            images: Vec::new(),
+            known: HashMap::new(),
+            pixels_left,
+        }
+    }
+
+    /// Loads the texture of a base colour whose alpha, if `opacity` is given, is another file's brightness.
+    /// Without a base colour it is white. Failures are warnings.
+    pub(super) fn load(
+        &mut self,
+        base: Option<&TextureName>,
+        opacity: Option<&TextureName>,
+        context: &mut Context<'_>,
+    ) -> Option<Loaded> {
+        let resolved = [base, opacity].map(|name| find(name?, context));
+        let resolved = match resolved {
+            // One file for both means that its own alpha counts.
+            [Some(base), Some(opacity)] if base == opacity => [Some(base), None],
+            other => other,
+        };
+        if resolved == [None, None] {
+            return None;
+        }
+        if let Some(&known) = self.known.get(&resolved) {
+            return known;
+        }
+        let mut decode = |resolved: &Option<String>, name: Option<&TextureName>| {
+            self.decode(resolved.as_deref()?, name?, context)
+        };
+        let color = decode(&resolved[0], base);
+        let mask = decode(&resolved[1], opacity);
+        let image = match (color, mask) {
+            (color, None) => color,
+            (Some(color), Some(mask)) => Some(with_opacity(color, &mask)),
+            (None, Some(mask)) => Some(with_opacity(
+                Image::filled(mask.width, mask.height, [255; 4]),
+                &mask,
+            )),
+        };
+        let loaded = image.map(|mut image| {
+            let mode = judge_alpha(&mut image);
+            self.images.push(image);
+            (self.images.len() - 1, mode)
+        });
+        self.known.insert(resolved, loaded);
+        loaded
+    }
+
+    fn decode(
+        &mut self,
+        resolved: &str,
+        name: &TextureName,
+        context: &mut Context<'_>,
+    ) -> Option<Image> {
+        let limits = Limits {
+            max_image_pixels: context.limits.max_image_pixels.min(self.pixels_left),
+            ..context.limits.clone()
+        };
+        let unreadable = |error: ResourceError| AssetError::io(error.to_string(), "");
+        let decoded = context
+            .read_side_file(resolved)
+            .map_err(unreadable)
+            .and_then(|bytes| crate::image::decode(&bytes, &limits));
+        match decoded {
+            Ok(image) => {
+                self.pixels_left -= u64::from(image.width) * u64::from(image.height);
+                Some(image)
+            }
+            Err(error) => {
+                warn(name, &error.to_string(), context);
+                None
+            }
+        }
+    }
+}
+
+fn find(name: &TextureName, context: &mut Context<'_>) -> Option<String> {
+    let beside = format!("{}{}", name.folder, name.name);
+    let found = match context.find_side_file(&beside) {
+        Err(ResourceError::NotFound) if !name.folder.is_empty() => {
+            context.find_side_file(&name.name)
+        }
+        found => found,
+    };
+    found
+        .map_err(|error| warn(name, &error.to_string(), context))
+        .ok()
+}
+
+fn warn(name: &TextureName, reason: &str, context: &mut Context<'_>) {
+    context.warnings.add(&name.named_in, name.location, || {
+        format!("the texture `{}` is left out: {reason}", name.name)
+    });
+}
+
+/// `color` with the brightness of `mask` (its alpha, if it has any) as alpha; the nearest texel where
+/// the sizes differ.
+fn with_opacity(mut color: Image, mask: &Image) -> Image {
+    let has_alpha = mask
+        .rgba
+        .as_chunks::<4>()
+        .0
+        .iter()
+        .any(|texel| texel[3] != 255);
+    let nearest = |at: u32, size: u32, of: u32| {
+        let scaled = (u64::from(at) * 2 + 1) * u64::from(of) / (u64::from(size) * 2);
+        u32::try_from(scaled).expect("it is below `of`")
+    };
+    for y in 0..color.height {
+        let mask_y = nearest(y, color.height, mask.height);
+        for x in 0..color.width {
+            let [r, g, b, a] = mask.texel(nearest(x, color.width, mask.width), mask_y);
+            let at = (y as usize * color.width as usize + x as usize) * 4;
+            color.rgba[at + 3] = if has_alpha { a } else { brightness([r, g, b]) };
+        }
+    }
+    color
+}
+
+/// The mean of the three, rounded.
+fn brightness(rgb: [u8; 3]) -> u8 {
+    let sum: u16 = rgb.iter().map(|&value| u16::from(value)).sum();
+    u8::try_from((sum + 1) / 3).expect("a mean of bytes is a byte")
+}
+
+/// What the alpha means: all 255 is opaque, 0 and 255 a mask, anything else blends. All 0 is what some
+/// programs write into a channel that they do not use: it becomes opaque.
+fn judge_alpha(image: &mut Image) -> AlphaMode {
+    let texels = image.rgba.as_chunks_mut::<4>().0;
+    if texels.iter().all(|texel| texel[3] == 255) {
+        return AlphaMode::Opaque;
+    }
+    if texels.iter().all(|texel| texel[3] == 0) {
+        for texel in texels {
+            texel[3] = 255;
+        }
+        return AlphaMode::Opaque;
+    }
+    let is_binary = texels.iter().all(|texel| texel[3] == 0 || texel[3] == 255);
+    if is_binary {
+        AlphaMode::Mask
+    } else {
+        AlphaMode::Blend
+    }
+}

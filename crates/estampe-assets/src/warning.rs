@@ -1,0 +1,64 @@
+//! What was tolerated while reading: said, located, and bounded in number.
+
+use crate::{Location, error::write_place};
+use std::fmt;
+
+/// Something odd in a file that did not stop its reading.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    /// Name of the file, which may be a side file (a material library, a texture).
+    pub file: String,
+    /// Where in it.
+    pub location: Option<Location>,
+    /// What is odd and what was done about it.
+    pub message: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write_place(f, &self.file, self.location)?;
+        write!(f, "{}", self.message)
+    }
+}
+
+/// Collects warnings; the first ones are kept in words, all are counted.
+///
+/// A hostile file can cause one per byte, so the words are only made for those that are kept.
+#[derive(Debug)]
+pub(crate) struct Warnings {
+    kept: Vec<Warning>,
+    count: u64,
+    max_kept: usize,
+}
+
+impl Warnings {
+    pub(crate) fn new(max_kept: usize) -> Self {
+        Self {
+            kept: Vec::new(),
+            count: 0,
+            max_kept,
+        }
+    }
+
+    pub(crate) fn add(
+        &mut self,
+        file: &str,
+        location: impl Into<Option<Location>>,
+        message: impl FnOnce() -> String,
+    ) {
+        self.count += 1;
+        if self.kept.len() < self.max_kept {
+            let warning = Warning {
+                file: file.to_owned(),
+                location: location.into(),
+                message: message(),
+            };
+            self.kept.push(warning);
+        }
+    }
+
+    /// The kept warnings, and how many there were in all.
+    pub(crate) fn finish(self) -> (Vec<Warning>, u64) {
+        (self.kept, self.count)
+    }
+}

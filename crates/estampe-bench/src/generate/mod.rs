@@ -1,0 +1,32 @@
+//! The data of the scenes, made from nothing: meshes, textures and matrices that every renderer under
+//! comparison gets bit for bit.
+//!
+//! The numbers follow `peerbench`'s definition, in code of our own; [`Fingerprint`] proves that they agree:
+//!
+//! * real arithmetic is binary64 with `+ − × ÷ √` alone, in a fixed order, and is rounded to binary32
+//!   once, when a number is stored ([`LittleEndian::reals`]);
+//! * sine and cosine are a series of our own ([`sin_cos_turns`]), because libraries differ;
+//! * texels are integers, but for normals, which follow the first rule; each mip level is the rounded
+//!   mean of 2×2 texels of the one before.
+//!
+//! So the order of operations in these files is part of the definition: do not tidy it.
+
+mod bytes;
+mod fingerprint;
+mod hash;
+mod mesh;
+mod noise;
+mod texture;
+mod transform;
+mod turns;
+
+pub use bytes::LittleEndian;
+pub use fingerprint::Fingerprint;
+pub use hash::{hash32, unit_hash};
+pub use mesh::{IndexedMesh, QUAD_CORNERS, quad_indices, torus, uv_sphere};
+pub use texture::{MipChain, diffuse_texture, normal_texture};
+pub use transform::{Matrix, Vector, dot, look_at, normalize, perspective};
+pub use turns::sin_cos_turns;
+
+#[cfg(test)]
+mod tests;

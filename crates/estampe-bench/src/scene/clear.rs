@@ -1,0 +1,14 @@
+//! `clear`: colour and depth are cleared and stored, nothing is drawn: the fixed cost of a frame.
+
+use super::{Detail, Scene};
+
+pub(super) fn scene(_detail: Detail) -> Scene {
+    Scene {
+        name: "clear",
+        buffers: Vec::new(),
+        textures: Vec::new(),
+        samples: 1,
+        pipelines: Vec::new(),
+        draws: Vec::new(),
+    }
+}

@@ -1,0 +1,130 @@
+//! `mid_tris`: a torus of 69,696 triangles, Blinn-Phong per fragment with a diffuse and a tangent-space
+//! normal map, trilinear; back faces culled.
+//!
+//! The uniforms are two matrices (clip and world from object), the eye's position and the direction
+//! towards the light, in world space, four floats each.
+
+use super::{ASPECT, Detail, Scene, uniforms, upload, vertex_layout};
+use crate::generate::{
+    LittleEndian, Matrix, diffuse_texture, look_at, normal_texture, normalize, perspective, torus,
+};
+use estampe::state::{CullMode, PrimitiveState};
+use estampe::texture::Sampled;
+use estampe::{
+    FragmentIn, FragmentOut, Mat4, RenderPipelineDescriptor, Vec2, Vec3, Vec4, VertexFormat,
+    VertexIn, VertexOut, maths,
+};
+
+/// Where the camera is; it looks at the origin.
+const EYE: [f64; 3] = [0.0, 2.0, 2.3];
+/// Seeds both textures, so that bumps and colours agree.
+const NOISE_SEED: u32 = 11;
+
+/// Blinn-Phong (Blinn 1977) with a normal map.
+struct NormalMapped {
+    clip_from_object: Mat4,
+    world_from_object: Mat4,
+    eye_world: [f32; 3],
+    towards_light: [f32; 3],
+    diffuse_map: Sampled,
+    normal_map: Sampled,
+}
+
+estampe::shader! {
+    impl Shader for NormalMapped {
+        // Position, normal, tangent with handedness, texture coordinate.
+        type Attributes<R: Real> = (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>);
+        // The same in world space.
+        type Varyings<R: Real> = (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>);
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, normal, tangent, uv): (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>),
+        ) -> VertexOut<R, (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>)> {
+            let position_world = self.world_from_object.transform_point(position).xyz();
+            let normal_world = self.world_from_object.transform_vector(normal);
+            let tangent_world = self.world_from_object.transform_vector(tangent.xyz());
+            VertexOut::new(
+                self.clip_from_object.transform_point(position),
+                (position_world, normal_world, tangent_world.extend(tangent.w), uv),
+            )
+        }
+
+        fn fragment<R: Real>(
+            &self,
+            input: FragmentIn<'_, R>,
+            (position, normal, tangent, uv): (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>),
+        ) -> FragmentOut<R> {
+            let albedo = self.diffuse_map.sample(uv).xyz();
+            let mapped = self.normal_map.sample(uv).xyz();
+            let (one, two) = (Vec3::repeat(input.real(1.0)), input.real(2.0));
+            let bump = mapped * two - one;
+
+            // Turn the mapped normal from tangent space to world space.
+            let n = normal.normalize();
+            let t = tangent.xyz().normalize();
+            let b = n.cross(t) * tangent.w;
+            let n = (t * bump.x + b * bump.y + n * bump.z).normalize();
+
+            // Light it.
+            let towards_light = Vec3::uniform(input.zero, self.towards_light);
+            let towards_eye = (Vec3::uniform(input.zero, self.eye_world) - position).normalize();
+            let half = (towards_light + towards_eye).normalize();
+            let diffuse = n.dot(towards_light).max(input.zero) * 0.85 + 0.15;
+            let specular = maths::powi(n.dot(half).max(input.zero), 32) * 0.5;
+            FragmentOut::color((albedo * diffuse + Vec3::repeat(specular)).point())
+        }
+    }
+}
+
+pub(super) fn scene(detail: Detail) -> Scene {
+    let (ring_cells, tube_cells) = detail.of((264, 132), (33, 16));
+    let texture_size = detail.of(1024, 256);
+    let mesh = torus(ring_cells, tube_cells);
+    let uniform_bytes = uniform_bytes();
+    let diffuse = diffuse_texture(texture_size, NOISE_SEED);
+    let normals = normal_texture(texture_size, NOISE_SEED);
+    let shader = NormalMapped {
+        clip_from_object: uniforms::matrix(&uniform_bytes, 0),
+        world_from_object: uniforms::matrix(&uniform_bytes, 64),
+        eye_world: uniforms::vector(&uniform_bytes, 128),
+        towards_light: uniforms::vector(&uniform_bytes, 144),
+        diffuse_map: upload::trilinear(&diffuse),
+        normal_map: upload::trilinear(&normals),
+    };
+    let pipeline = RenderPipelineDescriptor {
+        vertex_buffers: vec![vertex_layout(
+            48,
+            &[
+                (VertexFormat::Float32x3, 0),
+                (VertexFormat::Float32x3, 12),
+                (VertexFormat::Float32x4, 24),
+                (VertexFormat::Float32x2, 40),
+            ],
+        )],
+        primitive: PrimitiveState {
+            cull_mode: CullMode::Back,
+            ..PrimitiveState::default()
+        },
+        ..RenderPipelineDescriptor::new(shader)
+    };
+    let buffers = vec![mesh.vertices, mesh.indices, uniform_bytes];
+    Scene::of_one_draw("mid_tris", buffers, vec![diffuse, normals], pipeline)
+}
+
+fn uniform_bytes() -> Vec<u8> {
+    let clip_from_view = perspective(0.125, ASPECT, 0.1, 10.0);
+    let view_from_world = look_at(EYE, [0.0; 3], [0.0, 1.0, 0.0]);
+    let clip_from_world = clip_from_view.times(&view_from_world);
+    let world_from_object = Matrix::rotation_x(0.06).times(&Matrix::rotation_y(0.1));
+    let towards_light = normalize([0.5, 1.0, 0.3]);
+    let mut bytes = LittleEndian::default();
+    bytes.matrix(&clip_from_world.times(&world_from_object));
+    bytes.matrix(&world_from_object);
+    bytes.reals(&EYE);
+    bytes.reals(&[1.0]);
+    bytes.reals(&towards_light);
+    bytes.reals(&[0.0]);
+    bytes.into_bytes()
+}

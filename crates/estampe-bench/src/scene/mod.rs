@@ -1,0 +1,190 @@
+//! The scenes of `peerbench`, drawn natively: data from [`generate`](crate::generate), and shaders in
+//! Rust that compute what the scenes' WGSL computes.
+//!
+//! | scene | work | triangles |
+//! |---|---|---:|
+//! | clear | colour and depth cleared | 0 |
+//! | fill | 32 full-screen opaque quads, back to front | 64 |
+//! | fill_front | the same front to back: one visible, 31 rejected | 64 |
+//! | blend | 32 full-screen alpha-blended Gouraud quads | 64 |
+//! | small_tris | bumpy sphere, Gouraud, back faces culled | 998,000 |
+//! | mid_tris | torus, Blinn-Phong, diffuse and normal map, trilinear | 69,696 |
+//! | textured | 16 tilted quads over each other, trilinear | 32 |
+//!
+//! Targets are RGBA8 and 32-bit depth, cleared to [`CLEAR_COLOR`] and 1.
+
+mod blend;
+mod clear;
+mod fill;
+mod mid_tris;
+mod small_tris;
+mod textured;
+mod uniforms;
+mod upload;
+
+use crate::generate::{Fingerprint, MipChain};
+use estampe::state::{VertexAttribute, VertexBufferLayout};
+use estampe::{RenderPipelineDescriptor, VertexFormat};
+
+/// What every frame is cleared to: whole steps of 1/255, so that no renderer meets a tie.
+pub const CLEAR_COLOR: [f32; 4] = [26.0 / 255.0, 51.0 / 255.0, 77.0 / 255.0, 1.0];
+
+/// Width over height for which the scenes' cameras are made, whatever the frame's size.
+const ASPECT: f64 = 16.0 / 9.0;
+
+/// How much geometry and texture a scene has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Detail {
+    /// As the definition says: only this can be compared with other renderers.
+    Full,
+    /// A hundredth of the triangles and texels: for tests of small frames.
+    Reduced,
+}
+
+impl Detail {
+    /// One of two sizes.
+    fn of<T>(self, full: T, reduced: T) -> T {
+        match self {
+            Self::Full => full,
+            Self::Reduced => reduced,
+        }
+    }
+}
+
+/// A frame's worth of data, pipelines and draws.
+#[derive(Debug)]
+pub struct Scene {
+    /// Its name, as on the command line.
+    pub name: &'static str,
+    /// Vertex, index and uniform data, in the order in which they were made.
+    pub buffers: Vec<Vec<u8>>,
+    /// Textures, in the order in which they were made.
+    pub textures: Vec<MipChain>,
+    /// Samples per pixel.
+    pub samples: u32,
+    /// What the draws choose from.
+    pub pipelines: Vec<RenderPipelineDescriptor>,
+    /// What a frame draws, in order.
+    pub draws: Vec<SceneDraw>,
+}
+
+/// One indexed draw: positions in the scene's lists.
+#[derive(Debug, Clone, Copy)]
+pub struct SceneDraw {
+    /// Which pipeline.
+    pub pipeline: usize,
+    /// Which buffer holds the vertices.
+    pub vertices: usize,
+    /// Which buffer holds the indices, 32 bits each.
+    pub indices: usize,
+    /// How many instances.
+    pub instances: u32,
+}
+
+impl Scene {
+    /// A scene of one draw: the buffers are vertices, indices and, in some, uniforms.
+    pub(crate) fn of_one_draw(
+        name: &'static str,
+        buffers: Vec<Vec<u8>>,
+        textures: Vec<MipChain>,
+        pipeline: RenderPipelineDescriptor,
+    ) -> Self {
+        Self {
+            name,
+            buffers,
+            textures,
+            samples: pipeline.samples,
+            pipelines: vec![pipeline],
+            draws: vec![SceneDraw {
+                pipeline: 0,
+                vertices: 0,
+                indices: 1,
+                instances: 1,
+            }],
+        }
+    }
+
+    /// How many triangles a frame submits, if they are in lists.
+    #[must_use]
+    pub fn triangles(&self) -> u64 {
+        let triangles =
+            |draw: &SceneDraw| u64::from(self.index_count(draw)) / 3 * u64::from(draw.instances);
+        self.draws.iter().map(triangles).sum()
+    }
+
+    /// How many indices a draw has.
+    #[must_use]
+    pub fn index_count(&self, draw: &SceneDraw) -> u32 {
+        let words = self.buffers[draw.indices].len() / 4;
+        u32::try_from(words).expect("the generators count indices in 32 bits")
+    }
+
+    /// FNV-1a of all buffers' bytes, then of all textures' levels: equal to `peerbench`'s when the data
+    /// are.
+    #[must_use]
+    pub fn fingerprint(&self) -> u64 {
+        let mut fingerprint = Fingerprint::default();
+        for buffer in &self.buffers {
+            fingerprint.update(buffer);
+        }
+        for level in self.textures.iter().flat_map(|texture| &texture.levels) {
+            fingerprint.update(level);
+        }
+        fingerprint.value()
+    }
+}
+
+/// A scene's name and what makes it.
+#[derive(Debug, Clone, Copy)]
+pub struct SceneEntry {
+    /// Its name, as on the command line.
+    pub name: &'static str,
+    make: fn(Detail) -> Scene,
+}
+
+impl SceneEntry {
+    /// Generates the scene's data.
+    #[must_use]
+    pub fn make(&self, detail: Detail) -> Scene {
+        (self.make)(detail)
+    }
+
+    /// The scene of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Self> {
+        ALL.iter().find(|entry| entry.name == name)
+    }
+}
+
+/// Every scene, in the order of reports.
+pub const ALL: &[SceneEntry] = &[
+    entry("clear", clear::scene),
+    entry("fill", fill::back_to_front),
+    entry("fill_front", fill::front_to_back),
+    entry("blend", blend::scene),
+    entry("small_tris", small_tris::scene),
+    entry("mid_tris", mid_tris::scene),
+    entry("textured", textured::scene),
+];
+
+const fn entry(name: &'static str, make: fn(Detail) -> Scene) -> SceneEntry {
+    SceneEntry { name, make }
+}
+
+/// A vertex buffer's layout: (format, byte offset) of locations 0, 1, ….
+pub(crate) fn vertex_layout(
+    stride_bytes: u32,
+    attributes: &[(VertexFormat, u32)],
+) -> VertexBufferLayout {
+    let attributes = (0..).zip(attributes);
+    let attributes = attributes.map(|(shader_location, &(format, offset))| VertexAttribute {
+        format,
+        offset,
+        shader_location,
+    });
+    VertexBufferLayout {
+        array_stride: stride_bytes,
+        attributes: attributes.collect(),
+        ..VertexBufferLayout::default()
+    }
+}

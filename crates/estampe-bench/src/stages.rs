@@ -1,0 +1,407 @@
+//! Loads that stress one stage each, through the public API: the cost of a vertex, of a triangle by its
+//! size, and of a fragment by what happens to it.
+//!
+//! Triangles come as grids of square cells, two triangles each, that fill the frame; cells of a third of a
+//! pixel mostly vanish before binning, cells of 64 pixels are all raster. The statistics of a pass separate
+//! the geometry side from the tile side.
+
+use crate::BenchError;
+use crate::frame::{FrameSize, PreparedScene};
+use crate::generate::{LittleEndian, hash32};
+use crate::measure::{Effort, Timing, measure};
+use crate::scene::{Scene, vertex_layout};
+use estampe::state::{
+    BlendState, ColorTargetState, CullMode, DepthState, PrimitiveState, PrimitiveTopology,
+};
+use estampe::{
+    Device, Flat, FragmentIn, FragmentOut, Int, RenderPipelineDescriptor, TextureFormat, Vec2,
+    Vec3, Vec4, VertexFormat, VertexIn, VertexOut,
+};
+
+/// The frame that the loads are made for.
+pub const SIZE: FrameSize = FrameSize {
+    width: 1280,
+    height: 720,
+};
+
+/// Layers over each other: instance i lies at z = first + i·step.
+#[derive(Debug, Clone, Copy)]
+struct Layers {
+    count: u32,
+    first: f32,
+    step: f32,
+}
+
+impl Layers {
+    const ONE: Self = Self {
+        count: 1,
+        first: 0.5,
+        step: 0.0,
+    };
+    /// Every fragment passes *less*.
+    const BACK_TO_FRONT: Self = Self {
+        count: 32,
+        first: 0.97,
+        step: -0.03,
+    };
+    /// Only the first layer's fragments pass *less*.
+    const FRONT_TO_BACK: Self = Self {
+        count: 32,
+        first: 0.03,
+        step: 0.03,
+    };
+}
+
+/// A colour that the primitive has as a whole.
+struct FlatLayers(Layers);
+/// A colour that is interpolated.
+struct SmoothLayers(Layers);
+
+/// The position in clip space of an instance's vertex.
+macro_rules! layer_position {
+    ($input:ident, $layers:expr, $position:ident) => {{
+        let z = $input.instance_index.to_real() * $layers.step + $layers.first;
+        Vec4::new($position.x, $position.y, z, $input.real(1.0))
+    }};
+}
+
+estampe::shader! {
+    impl Shader for FlatLayers {
+        type Attributes<R: Real> = (Vec2<R>, Vec4<R>); // NDC position, colour
+        type Varyings<R: Real> = Flat<Vec3<R>>;        // colour
+
+        fn vertex<R: Real>(
+            &self,
+            input: VertexIn<'_, R>,
+            (position, color): (Vec2<R>, Vec4<R>),
+        ) -> VertexOut<R, Flat<Vec3<R>>> {
+            VertexOut::new(layer_position!(input, self.0, position), Flat(color.xyz()))
+        }
+
+        fn fragment<R: Real>(
+            &self,
+            _input: FragmentIn<'_, R>,
+            Flat(color): Flat<Vec3<R>>,
+        ) -> FragmentOut<R> {
+            FragmentOut::color(color.point())
+        }
+    }
+}
+
+estampe::shader! {
+    impl Shader for SmoothLayers {
+        type Attributes<R: Real> = (Vec2<R>, Vec4<R>); // NDC position, colour
+        type Varyings<R: Real> = Vec4<R>;              // colour
+
+        fn vertex<R: Real>(
+            &self,
+            input: VertexIn<'_, R>,
+            (position, color): (Vec2<R>, Vec4<R>),
+        ) -> VertexOut<R, Vec4<R>> {
+            VertexOut::new(layer_position!(input, self.0, position), color)
+        }
+
+        fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, color: Vec4<R>) -> FragmentOut<R> {
+            FragmentOut::color(color)
+        }
+    }
+}
+
+/// One load and what it stresses.
+#[derive(Debug)]
+pub struct Load {
+    /// What it stresses.
+    pub purpose: &'static str,
+    scene: Scene,
+}
+
+impl Load {
+    /// Measures the load.
+    ///
+    /// # Errors
+    /// [`BenchError`] when the device refuses the frame's size.
+    pub fn measure(&self, device: &Device, effort: Effort) -> Result<Timing, BenchError> {
+        let mut prepared = PreparedScene::new(device, &self.scene, SIZE)?;
+        Ok(measure(&mut prepared, effort))
+    }
+}
+
+/// The loads, from the first stage to the last. They are made one by one: some are large.
+pub fn loads() -> impl Iterator<Item = Load> {
+    let grids = [
+        ("triangles of 0.06 px", 1.0 / 3.0),
+        ("triangles of 0.5 px", 1.0),
+        ("triangles of 2 px", 2.0),
+        ("triangles of 8 px", 4.0),
+        ("triangles of 32 px", 8.0),
+        ("triangles of 128 px", 16.0),
+        ("triangles of 2048 px", 64.0),
+    ];
+    let geometry = [vertices as fn() -> Load, facing_away];
+    let quads = [
+        flat_passing as fn() -> Load,
+        flat_hidden,
+        smooth_passing,
+        smooth_blended,
+    ];
+    geometry
+        .into_iter()
+        .map(|make| make())
+        .chain(
+            grids
+                .into_iter()
+                .map(|(purpose, cell_px)| load(purpose, Grid::of(cell_px), Layers::ONE, smooth)),
+        )
+        .chain(quads.into_iter().map(|make| make()))
+}
+
+/// Points outside the view volume: fetched, shaded, dropped.
+fn vertices() -> Load {
+    let grid = Grid {
+        origin_px: -4.0 * f64::from(SIZE.width),
+        ..Grid::of(1.0)
+    };
+    load("vertices alone", grid, Layers::ONE, |layers| {
+        RenderPipelineDescriptor {
+            primitive: PrimitiveState {
+                topology: PrimitiveTopology::PointList,
+                ..PrimitiveState::default()
+            },
+            ..smooth(layers)
+        }
+    })
+}
+
+fn facing_away() -> Load {
+    load(
+        "triangles facing away",
+        Grid::of(1.0),
+        Layers::ONE,
+        |layers| RenderPipelineDescriptor {
+            primitive: PrimitiveState {
+                cull_mode: CullMode::Front,
+                ..PrimitiveState::default()
+            },
+            ..smooth(layers)
+        },
+    )
+}
+
+fn flat_passing() -> Load {
+    load(
+        "quads, flat, all pass",
+        Grid::whole(),
+        Layers::BACK_TO_FRONT,
+        flat,
+    )
+}
+
+fn flat_hidden() -> Load {
+    load(
+        "quads, flat, 1 of 32 passes",
+        Grid::whole(),
+        Layers::FRONT_TO_BACK,
+        flat,
+    )
+}
+
+fn smooth_passing() -> Load {
+    load(
+        "quads, smooth, all pass",
+        Grid::whole(),
+        Layers::BACK_TO_FRONT,
+        smooth,
+    )
+}
+
+fn smooth_blended() -> Load {
+    load(
+        "quads, smooth, blended",
+        Grid::whole(),
+        Layers::BACK_TO_FRONT,
+        |layers| RenderPipelineDescriptor {
+            depth: Some(DepthState::LESS_READ),
+            targets: vec![ColorTargetState {
+                blend: Some(BlendState::ALPHA_BLENDING),
+                ..TextureFormat::Rgba8Unorm.into()
+            }],
+            ..smooth(layers)
+        },
+    )
+}
+
+fn flat(layers: Layers) -> RenderPipelineDescriptor {
+    RenderPipelineDescriptor::new(FlatLayers(layers))
+}
+
+fn smooth(layers: Layers) -> RenderPipelineDescriptor {
+    RenderPipelineDescriptor::new(SmoothLayers(layers))
+}
+
+fn load(
+    purpose: &'static str,
+    grid: Grid,
+    layers: Layers,
+    pipeline: impl Fn(Layers) -> RenderPipelineDescriptor,
+) -> Load {
+    let pipeline = RenderPipelineDescriptor {
+        vertex_buffers: vec![vertex_layout(
+            12,
+            &[(VertexFormat::Float32x2, 0), (VertexFormat::Unorm8x4, 8)],
+        )],
+        ..pipeline(layers)
+    };
+    let is_points = pipeline.primitive.topology == PrimitiveTopology::PointList;
+    let indices = if is_points {
+        grid.points()
+    } else {
+        grid.triangles()
+    };
+    let mut scene = Scene::of_one_draw(
+        purpose,
+        vec![grid.vertices(), indices],
+        Vec::new(),
+        pipeline,
+    );
+    scene.draws[0].instances = layers.count;
+    Load { purpose, scene }
+}
+
+/// Square cells in the window, of two triangles each, their inner corners moved at random.
+#[derive(Debug, Clone, Copy)]
+struct Grid {
+    columns: u32,
+    rows: u32,
+    cell_px: [f64; 2],
+    /// Where the first column begins.
+    origin_px: f64,
+}
+
+impl Grid {
+    /// The most cells of a row: a square grid of them has a million triangles.
+    const MAX_CELLS: f64 = 708.0;
+
+    /// As many cells of a size as the frame takes, a million triangles at most.
+    fn of(cell_px: f64) -> Self {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "1 to 708"
+        )]
+        let cells = |length_px: u32| (f64::from(length_px) / cell_px).min(Self::MAX_CELLS) as u32;
+        Self {
+            columns: cells(SIZE.width),
+            rows: cells(SIZE.height),
+            cell_px: [cell_px; 2],
+            origin_px: 0.0,
+        }
+    }
+
+    /// One cell as large as the frame.
+    fn whole() -> Self {
+        Self {
+            columns: 1,
+            rows: 1,
+            cell_px: [f64::from(SIZE.width), f64::from(SIZE.height)],
+            origin_px: 0.0,
+        }
+    }
+
+    fn vertices(&self) -> Vec<u8> {
+        let mut vertices = LittleEndian::default();
+        for row in 0..=self.rows {
+            for column in 0..=self.columns {
+                let hash = hash32(row * 65_536 + column);
+                let [red, green, blue, alpha] = hash.to_le_bytes();
+                // Corners on the border stay, so that the grid fills its rectangle.
+                let is_inner = |at: u32, count: u32| f64::from(u8::from(at > 0 && at < count));
+                let moved = |bits: u8| (f64::from(bits) / 255.0 - 0.5) * 0.5;
+                let x = f64::from(column) + moved(red) * is_inner(column, self.columns);
+                let y = f64::from(row) + moved(green) * is_inner(row, self.rows);
+                let x_px = x * self.cell_px[0] + self.origin_px;
+                let y_px = y * self.cell_px[1];
+                vertices.reals(&[
+                    x_px / f64::from(SIZE.width) * 2.0 - 1.0,
+                    1.0 - y_px / f64::from(SIZE.height) * 2.0,
+                ]);
+                vertices.raw(&[red, green, blue, alpha]);
+            }
+        }
+        vertices.into_bytes()
+    }
+
+    /// Two counter-clockwise triangles a cell.
+    fn triangles(&self) -> Vec<u8> {
+        let width = self.columns + 1;
+        let mut indices = LittleEndian::default();
+        for row in 0..self.rows {
+            for upper_left in (0..self.columns).map(|column| row * width + column) {
+                let lower_left = upper_left + width;
+                indices.words(&[upper_left, lower_left, lower_left + 1]);
+                indices.words(&[upper_left, lower_left + 1, upper_left + 1]);
+            }
+        }
+        indices.into_bytes()
+    }
+
+    /// Each vertex once.
+    fn points(&self) -> Vec<u8> {
+        let mut indices = LittleEndian::default();
+        for index in 0..(self.columns + 1) * (self.rows + 1) {
+            indices.words(&[index]);
+        }
+        indices.into_bytes()
+    }
+}
+
+/// The heads of the table's columns. Times are wall time, nanoseconds for one vertex, primitive or fragment.
+pub const HEADER: &str = "load                           primitives    binned   fragments     ms  \
+                          geometry   raster  geo/vertex  geo/prim  ras/prim  ras/fragment";
+
+/// A load's line of the table.
+#[must_use]
+pub fn line(purpose: &str, timing: &Timing) -> String {
+    let counts = timing.statistics;
+    let each_ns = |ms: f64, count: u64| ms * 1e6 / count.max(1) as f64;
+    format!(
+        "{purpose:<30}{:>11}{:>10}{:>12}{:>7.2}{:>10.3}{:>9.3}{:>12.2}{:>10.2}{:>10.2}{:>14.3}",
+        counts.primitives_in,
+        counts.primitives_binned,
+        counts.fragments_shaded,
+        timing.median_ms,
+        timing.geometry_ms,
+        timing.raster_ms,
+        each_ns(timing.geometry_ms, counts.vertices_shaded),
+        each_ns(timing.geometry_ms, counts.primitives_in),
+        each_ns(timing.raster_ms, counts.primitives_in),
+        each_ns(timing.raster_ms, counts.fragments_shaded),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn loads_have_at_most_a_million_triangles() {
+        for load in loads() {
+            let triangles = load.scene.triangles();
+            assert!(
+                (1..=1_010_000).contains(&triangles),
+                "{}: {triangles}",
+                load.purpose
+            );
+        }
+    }
+
+    #[test]
+    fn a_grid_of_whole_pixels_fills_the_frame() {
+        let grid = Grid::of(16.0);
+        assert_eq!((grid.columns, grid.rows), (80, 45));
+        let vertices = grid.vertices();
+        let float = |at: usize| f32::from_le_bytes(vertices[at..at + 4].try_into().unwrap());
+        let last = vertices.len() - 12;
+        assert_eq!([float(0), float(4)], [-1.0, 1.0]);
+        assert_eq!([float(last), float(last + 4)], [1.0, -1.0]);
+    }
+}

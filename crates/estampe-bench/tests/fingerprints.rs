@@ -1,0 +1,28 @@
+//! The generated data are `peerbench`'s, byte for byte.
+
+use estampe_bench::scene::{Detail, SceneEntry};
+
+/// Scene, triangles and fingerprint, as `peerbench` prints them.
+const PEERBENCH: &[(&str, u64, u64)] = &[
+    ("clear", 0, 0xcbf2_9ce4_8422_2325),
+    ("fill", 64, 0x0252_fe24_63db_7e25),
+    ("fill_front", 64, 0xdccc_736e_8875_b8a5),
+    ("blend", 64, 0x3618_fd3a_0431_1e4e),
+    ("small_tris", 998_000, 0xf719_cfc8_43a1_db9e),
+    ("mid_tris", 69_696, 0x5d8f_b7d2_93ba_0559),
+    ("textured", 32, 0x392a_b9bc_6e9e_47aa),
+];
+
+#[test]
+fn the_data_are_those_of_peerbench() {
+    for &(name, triangles, fingerprint) in PEERBENCH {
+        let scene = SceneEntry::named(name).expect(name).make(Detail::Full);
+        assert_eq!(scene.triangles(), triangles, "{name}");
+        assert_eq!(
+            scene.fingerprint(),
+            fingerprint,
+            "{name}: {:016x}, not {fingerprint:016x}",
+            scene.fingerprint()
+        );
+    }
+}

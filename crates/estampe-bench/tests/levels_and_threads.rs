@@ -1,0 +1,89 @@
+//! The bytes of a frame depend neither on the SIMD level nor on the number of threads.
+
+use estampe::{Device, DeviceDescriptor, Level};
+use estampe_bench::frame::{FrameSize, PreparedScene};
+use estampe_bench::scene::{ALL, CLEAR_COLOR, Detail, Scene};
+
+/// Neither side is a multiple of a tile's.
+const SIZE: FrameSize = FrameSize {
+    width: 160,
+    height: 90,
+};
+
+#[test]
+fn every_level_and_thread_count_gives_the_same_bytes() {
+    let scenes: Vec<Scene> = ALL
+        .iter()
+        .map(|entry| entry.make(Detail::Reduced))
+        .collect();
+    let mut expected: Vec<(Vec<u8>, Vec<u32>)> = Vec::new();
+    for level in Level::all_available() {
+        for threads in [1, 2] {
+            let device = Device::new(&DeviceDescriptor {
+                threads,
+                level,
+                ..DeviceDescriptor::default()
+            })
+            .unwrap();
+            for (index, scene) in scenes.iter().enumerate() {
+                let frame = draw(&device, scene);
+                if expected.len() == index {
+                    expected.push(frame);
+                    continue;
+                }
+                let place = format!("{} at {} on {threads}", scene.name, level.name());
+                assert!(frame.0 == expected[index].0, "colours of {place}");
+                assert!(frame.1 == expected[index].1, "depths of {place}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_scene_is_seen() {
+    let device = Device::new(&DeviceDescriptor::default()).unwrap();
+    let background = CLEAR_COLOR.map(|channel| (channel * 255.0).round().to_bits());
+    for entry in ALL {
+        let (colors, _) = draw(&device, &entry.make(Detail::Reduced));
+        let pixels = colors.as_chunks::<4>().0;
+        let is_background =
+            |pixel: &&[u8; 4]| pixel.map(|channel| f32::from(channel).to_bits()) == background;
+        let seen = pixels.iter().filter(|pixel| !is_background(pixel)).count();
+        // How much of the frame each scene covers: full-screen quads, a sphere, a torus, a heap.
+        let expected = match entry.name {
+            "clear" => 0..=0,
+            "fill" | "fill_front" | "blend" => pixels.len()..=pixels.len(),
+            _ => pixels.len() / 4..=pixels.len(),
+        };
+        assert!(
+            expected.contains(&seen),
+            "{}: {seen} of {}",
+            entry.name,
+            pixels.len()
+        );
+    }
+}
+
+#[test]
+fn a_frame_owes_nothing_to_the_one_before() {
+    let device = Device::new(&DeviceDescriptor::default()).unwrap();
+    for entry in ALL {
+        let scene = entry.make(Detail::Reduced);
+        let mut prepared = PreparedScene::new(&device, &scene, SIZE).unwrap();
+        prepared.draw();
+        let first = prepared.read_color();
+        prepared.draw();
+        assert!(prepared.read_color() == first, "{}", entry.name);
+    }
+}
+
+fn draw(device: &Device, scene: &Scene) -> (Vec<u8>, Vec<u32>) {
+    let mut prepared = PreparedScene::new(device, scene, SIZE).unwrap();
+    prepared.draw();
+    let depths = prepared
+        .read_depth()
+        .iter()
+        .map(|depth| depth.to_bits())
+        .collect();
+    (prepared.read_color(), depths)
+}

@@ -1,0 +1,62 @@
+//! Why a command failed, by whose fault it is: that decides the exit code.
+
+use estampe_assets::AssetError;
+use estampe_renderer::RenderError;
+use std::fmt;
+
+/// The command did what was asked.
+pub(crate) const DONE: u8 = 0;
+
+/// A failure: one sentence that says what, where, and what to do.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Failure {
+    /// The input is at fault: missing, malformed, or without anything to draw. Exit code 1.
+    Input(String),
+    /// The command line asks for what does not exist. Exit code 2.
+    Usage(String),
+    /// The output cannot be written, or the system refuses. Exit code 3.
+    Output(String),
+}
+
+impl Failure {
+    /// The process's exit code.
+    pub(crate) fn exit_code(&self) -> u8 {
+        match self {
+            Self::Input(_) => 1,
+            Self::Usage(_) => 2,
+            Self::Output(_) => 3,
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input(message) | Self::Usage(message) | Self::Output(message) => {
+                f.write_str(message)
+            }
+        }
+    }
+}
+
+/// What a file that is read is at fault of.
+impl From<AssetError> for Failure {
+    fn from(error: AssetError) -> Self {
+        Self::Input(error.to_string())
+    }
+}
+
+impl From<RenderError> for Failure {
+    fn from(error: RenderError) -> Self {
+        match error {
+            RenderError::Size { .. } => Self::Usage(format!("{error}; choose another --size")),
+            RenderError::TooManyElements { .. } | RenderError::Texture(_) => {
+                Self::Input(error.to_string())
+            }
+            RenderError::Target(_) => {
+                Self::Output(format!("{error}; try a smaller --size or --samples 1"))
+            }
+            _ => Self::Output(error.to_string()),
+        }
+    }
+}

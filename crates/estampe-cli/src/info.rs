@@ -1,0 +1,195 @@
+//! `estampe info`: what is in a model.
+
+use crate::failure::Failure;
+use crate::input::Model;
+use crate::render::counts;
+use crate::values::{FormatName, Source};
+use clap::Args;
+use estampe_scene::{AlphaMode, Bounds, Material, Mesh, Scene, UpAxis};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+/// Tells what is in a model: counts, bounds, attributes, materials, and what the reader found odd.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "\
+Examples:
+  estampe info bunny.obj
+  estampe info part.stl --json | jq .counts.triangles
+
+Bounds are in the file's own space. Vertices are counted as they are drawn: corners of faces that differ in a \
+normal or texture coordinate are vertices of their own. Normals that a file lacks are made while reading.
+
+Exit codes: 0 done, 1 the model is at fault (or missing), 2 wrong usage, 3 the report cannot be written.
+
+With --json one object is written: model, format, up, counts {meshes, vertices, triangles, lines, points, \
+materials, textures}, bounds {min, max, size} or null, meshes [{name, vertices, triangles, lines, points, \
+attributes, materials}], materials [{name, base_color, opacity, specular, shininess, emissive, texture, \
+alpha}], textures [{width, height}], warnings [text], warning_count. A failure gives {error, exit_code}.")]
+pub(crate) struct InfoArgs {
+    /// The model: a file, builtin:NAME, or - for standard input
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: Source,
+
+    /// The model's format: obj, stl or ply [default: by extension, else by content]
+    #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
+    pub(crate) format: Option<FormatName>,
+
+    /// Write one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
+    let model = Model::read(&args.model, args.format, |_| {})?;
+    let report = if args.json { format!("{:#}\n", json(&model)) } else { text(&model) };
+    let mut out = io::stdout().lock();
+    out.write_all(report.as_bytes()).and_then(|()| out.flush()).map_err(|error| {
+        Failure::Output(format!("the report: {error}; check what reads standard output"))
+    })
+}
+
+fn bounds(scene: &Scene) -> Option<Bounds> {
+    let union = scene.meshes.iter().fold(Bounds::EMPTY, |all, mesh| all.union(&mesh.bounds()));
+    (!union.is_empty()).then_some(union)
+}
+
+/// The attributes that a mesh has, besides positions.
+fn attributes(mesh: &Mesh) -> Vec<&'static str> {
+    let has = [
+        ("normals", !mesh.normals.is_empty()),
+        ("uvs", !mesh.uvs.is_empty()),
+        ("colors", !mesh.colors.is_empty()),
+    ];
+    has.into_iter().filter(|(_, has)| *has).map(|(name, _)| name).collect()
+}
+
+/// The materials that a mesh's surfaces name, each once, in order.
+fn materials_of(mesh: &Mesh) -> Vec<usize> {
+    let mut named: Vec<usize> = mesh.surfaces.iter().filter_map(|surface| surface.material).collect();
+    named.sort_unstable();
+    named.dedup();
+    named
+}
+
+fn up_name(up: UpAxis) -> &'static str {
+    match up {
+        UpAxis::Y => "y",
+        UpAxis::Z => "z",
+    }
+}
+
+fn alpha_name(mode: AlphaMode) -> &'static str {
+    match mode {
+        AlphaMode::Opaque => "opaque",
+        AlphaMode::Mask => "mask",
+        AlphaMode::Blend => "blend",
+    }
+}
+
+fn json(model: &Model) -> Value {
+    let scene = &model.scene;
+    let meshes = scene.meshes.iter().map(|mesh| {
+        json!({
+            "name": mesh.name,
+            "vertices": mesh.positions.len(),
+            "triangles": mesh.triangles.len(),
+            "lines": mesh.lines.len(),
+            "points": mesh.points.len(),
+            "attributes": attributes(mesh),
+            "materials": materials_of(mesh),
+        })
+    });
+    let materials = scene.materials.iter().map(|material: &Material| {
+        json!({
+            "name": material.name,
+            "base_color": material.base_color.to_array(),
+            "opacity": material.opacity,
+            "specular": material.specular.to_array(),
+            "shininess": material.shininess,
+            "emissive": material.emissive.to_array(),
+            "texture": material.base_color_texture,
+            "alpha": alpha_name(material.alpha_mode),
+        })
+    });
+    let images = scene.images.iter();
+    let textures = images.map(|image| json!({ "width": image.width, "height": image.height }));
+    json!({
+        "model": model.name,
+        "format": model.format.map(|format| format.name()),
+        "up": up_name(scene.up),
+        "counts": counts(model),
+        "bounds": bounds(scene).map(|bounds| json!({
+            "min": bounds.min.to_array(),
+            "max": bounds.max.to_array(),
+            "size": (bounds.max - bounds.min).to_array(),
+        })),
+        "meshes": meshes.collect::<Vec<_>>(),
+        "materials": materials.collect::<Vec<_>>(),
+        "textures": textures.collect::<Vec<_>>(),
+        "warnings": model.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "warning_count": model.warning_count,
+    })
+}
+
+/// The report for people. Writing into a `String` cannot fail.
+fn text(model: &Model) -> String {
+    const LISTED: usize = 20;
+    let scene = &model.scene;
+    let mut out = String::new();
+    let format = model.format.map_or("built-in", |format| format.name());
+    let _ = writeln!(out, "{}: {format}, {} up", model.name, up_name(scene.up).to_uppercase());
+    if let Value::Object(counts) = counts(model) {
+        let counts = counts.iter().filter(|(_, count)| **count != json!(0));
+        let counts: Vec<String> = counts.map(|(name, count)| format!("{count} {name}")).collect();
+        let _ = writeln!(out, "  {}", counts.join(", "));
+    }
+    if let Some(bounds) = bounds(scene) {
+        let [a, b, size] = [bounds.min, bounds.max, bounds.max - bounds.min];
+        let _ = writeln!(out, "  bounds {a} to {b}, size {size}");
+    } else {
+        let _ = writeln!(out, "  bounds: none, nothing to draw");
+    }
+    for mesh in scene.meshes.iter().take(LISTED) {
+        let name = if mesh.name.is_empty() { "(no name)" } else { &mesh.name };
+        let kinds = [
+            (mesh.triangles.len(), "triangles"),
+            (mesh.lines.len(), "lines"),
+            (mesh.points.len(), "points"),
+        ];
+        let kinds: Vec<String> =
+            kinds.iter().filter(|(n, _)| *n > 0).map(|(n, kind)| format!("{n} {kind}")).collect();
+        let with = attributes(mesh).join(", ");
+        let with = if with.is_empty() { String::new() } else { format!(", with {with}") };
+        let _ = writeln!(out, "  mesh {name}: {}{with}", kinds.join(", "));
+    }
+    list_rest(&mut out, scene.meshes.len(), LISTED, "meshes");
+    for material in scene.materials.iter().take(LISTED) {
+        let texture = if material.base_color_texture.is_some() { ", textured" } else { "" };
+        let opacity = match material.alpha_mode {
+            AlphaMode::Blend => format!(", opacity {}", material.opacity),
+            AlphaMode::Mask => ", cut out by alpha".to_owned(),
+            AlphaMode::Opaque => String::new(),
+        };
+        let _ = writeln!(out, "  material {}: colour {}{opacity}{texture}", material.name, material.base_color);
+    }
+    list_rest(&mut out, scene.materials.len(), LISTED, "materials");
+    for image in &scene.images {
+        let _ = writeln!(out, "  texture {}x{}", image.width, image.height);
+    }
+    for warning in &model.warnings {
+        let _ = writeln!(out, "  warning: {warning}");
+    }
+    let listed = model.warnings.len() as u64;
+    if model.warning_count > listed {
+        let _ = writeln!(out, "  warning: {} more", model.warning_count - listed);
+    }
+    out
+}
+
+fn list_rest(out: &mut String, count: usize, listed: usize, what: &str) {
+    if count > listed {
+        let _ = writeln!(out, "  and {} more {what}", count - listed);
+    }
+}

@@ -1,0 +1,183 @@
+//! Models from files, from standard input, or by built-in name.
+
+use crate::failure::Failure;
+use crate::values::{FormatName, Source, shown};
+use estampe_assets::model::{Folder, NoResources};
+use estampe_assets::{AssetError, Limits, Loaded, ModelFormat, Warning, parse_model};
+use estampe_scene::{Mesh, Scene};
+use estampe_shapes::BuiltinShape;
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// A model that was read.
+#[derive(Debug)]
+pub(crate) struct Model {
+    pub(crate) scene: Scene,
+    /// How people know it: the path, `standard input`, or the built-in name.
+    pub(crate) name: String,
+    /// `None` for built-in models.
+    pub(crate) format: Option<ModelFormat>,
+    /// The first warnings of the reader.
+    pub(crate) warnings: Vec<Warning>,
+    /// How many there were.
+    pub(crate) warning_count: u64,
+    /// How long the bytes took.
+    pub(crate) read: Duration,
+    /// How long it took to make a scene of them, normals included.
+    pub(crate) parse: Duration,
+}
+
+impl Model {
+    /// Reads a model.
+    ///
+    /// `on_stage` is told what comes next.
+    pub(crate) fn read(
+        source: &Source,
+        format: Option<FormatName>,
+        on_stage: impl Fn(&'static str),
+    ) -> Result<Self, Failure> {
+        let limits = Limits::default();
+        let format = format.map(ModelFormat::from);
+        on_stage("reading");
+        let start = Instant::now();
+        match source {
+            Source::Builtin(name) => Self::builtin(name),
+            Source::StandardInput => {
+                let name = "standard input";
+                let Some(format) = format else {
+                    return Err(Failure::Usage(
+                        "standard input has no name to tell the format by; add --format obj, stl or \
+                         ply"
+                        .to_owned(),
+                    ));
+                };
+                let bytes = read_all(io::stdin().lock(), 0, &limits)
+                    .map_err(|error| unreadable(name, &error, "check what feeds it"))?;
+                let read = start.elapsed();
+                on_stage("parsing");
+                Self::parsed(read, name, || {
+                    parse_model(&bytes, format, name, &NoResources, &limits)
+                })
+            }
+            Source::File(path) => {
+                let name = shown(path);
+                let bytes = read_file(path, &limits)?;
+                let read = start.elapsed();
+                let format = format
+                    .or_else(|| ModelFormat::from_extension(path))
+                    .or_else(|| ModelFormat::from_content(&bytes))
+                    .ok_or_else(|| {
+                        Failure::Input(format!(
+                            "{name}: neither its extension nor its content is that of a model; OBJ, \
+                             STL and PLY are read, name the format by --format if it is one of them"
+                        ))
+                    })?;
+                on_stage("parsing");
+                Self::parsed(read, &name, || {
+                    parse_model(&bytes, format, &name, &Folder::of_model(path), &limits)
+                })
+            }
+        }
+    }
+
+    fn builtin(name: &str) -> Result<Self, Failure> {
+        let start = Instant::now();
+        let shape: BuiltinShape =
+            name.parse().map_err(|error: estampe_shapes::UnknownShape| Failure::Input(error.to_string()))?;
+        let built = shape.build();
+        let mesh = Mesh {
+            name: built.name,
+            positions: built.positions,
+            normals: built.normals,
+            uvs: built.uvs,
+            triangles: built.triangles,
+            ..Mesh::default()
+        };
+        Ok(Self {
+            scene: Scene { meshes: vec![mesh], ..Scene::default() },
+            name: format!("builtin:{shape}"),
+            format: None,
+            warnings: Vec::new(),
+            warning_count: 0,
+            read: Duration::ZERO,
+            parse: start.elapsed(),
+        })
+    }
+
+    fn parsed(
+        read: Duration,
+        name: &str,
+        parse: impl FnOnce() -> Result<Loaded, AssetError>,
+    ) -> Result<Self, Failure> {
+        let start = Instant::now();
+        let loaded = parse()?;
+        Ok(Self {
+            scene: loaded.scene,
+            name: name.to_owned(),
+            format: Some(loaded.format),
+            warnings: loaded.warnings,
+            warning_count: loaded.warning_count,
+            read,
+            parse: start.elapsed(),
+        })
+    }
+
+    /// Writes the first warnings to standard error.
+    pub(crate) fn print_warnings(&self) {
+        const SHOWN: usize = 5;
+        let mut err = io::stderr().lock();
+        // Where standard error is closed there is nobody to warn.
+        for warning in self.warnings.iter().take(SHOWN) {
+            let _ = writeln!(err, "warning: {warning}");
+        }
+        let shown = self.warnings.len().min(SHOWN) as u64;
+        if self.warning_count > shown {
+            let more = self.warning_count - shown;
+            let _ = writeln!(err, "warning: {more} more; `estampe info` lists them");
+        }
+    }
+}
+
+/// The bytes of a file that the user named, which may be a pipe; never more than the limit.
+pub(crate) fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, Failure> {
+    let name = shown(path);
+    let advice = "check the path and its permissions";
+    let failed = |error: io::Error| unreadable(&name, &error, advice);
+    let metadata = std::fs::metadata(path).map_err(failed)?;
+    if metadata.is_dir() {
+        return Err(Failure::Input(format!("{name}: this is a folder; name a file in it")));
+    }
+    if metadata.len() > limits.max_file_bytes {
+        return Err(too_large(&name, limits));
+    }
+    let file = File::open(path).map_err(failed)?;
+    read_all(file, metadata.len(), limits).map_err(|error| match error.kind() {
+        io::ErrorKind::FileTooLarge => too_large(&name, limits),
+        _ => failed(error),
+    })
+}
+
+fn read_all(from: impl Read, expected_bytes: u64, limits: &Limits) -> io::Result<Vec<u8>> {
+    let capacity = usize::try_from(expected_bytes).unwrap_or(0);
+    let mut bytes = Vec::with_capacity(capacity.saturating_add(1));
+    from.take(limits.max_file_bytes.saturating_add(1)).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > limits.max_file_bytes {
+        return Err(io::ErrorKind::FileTooLarge.into());
+    }
+    Ok(bytes)
+}
+
+fn unreadable(name: &str, error: &io::Error, advice: &str) -> Failure {
+    let reason = match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        _ => error.to_string(),
+    };
+    Failure::Input(format!("{name}: {reason}; {advice}"))
+}
+
+fn too_large(name: &str, limits: &Limits) -> Failure {
+    let limit = limits.max_file_bytes;
+    Failure::Input(format!("{name}: larger than the limit of {limit} bytes; split the file"))
+}

@@ -1,0 +1,90 @@
+#![forbid(unsafe_code)]
+//! The `estampe` command.
+//!
+//! * [`render`]: a model becomes a picture;
+//! * [`info`]: what is in a model;
+//! * [`diff`]: how far two pictures are apart.
+//!
+//! [`input`] reads models from files, standard input or by built-in name, [`output`] writes files whole or
+//! not at all, [`values`] reads the options' values, and [`failure`] holds the exit codes.
+
+mod diff;
+mod failure;
+mod info;
+mod input;
+mod output;
+mod progress;
+mod render;
+mod values;
+
+use std::io::{self, BufWriter, Write};
+use std::process::ExitCode;
+use std::sync::LazyLock;
+
+use clap::{Parser, Subcommand};
+use failure::Failure;
+
+/// Turns 3D models into pictures, on any machine: no GPU, no display, no system libraries. The same
+/// command gives the same bytes everywhere.
+#[derive(Debug, Parser)]
+#[command(name = "estampe", version = version(), arg_required_else_help = true)]
+#[command(after_help = "\
+Examples:
+  estampe render model.obj -o model.png
+  estampe render builtin:teapot -o teapot.png --view iso --shading toon
+  estampe info model.stl
+  estampe diff expected.png actual.png
+
+`estampe help COMMAND` tells everything about a command.")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    // Boxed: it has many options.
+    Render(Box<render::RenderArgs>),
+    Info(info::InfoArgs),
+    Diff(diff::DiffArgs),
+}
+
+/// The version of the program, and of its pictures.
+fn version() -> &'static str {
+    static VERSION: LazyLock<String> = LazyLock::new(|| {
+        let pictures = estampe_renderer::PICTURE_VERSION;
+        format!("{} (picture version {pictures})", env!("CARGO_PKG_VERSION"))
+    });
+    &VERSION
+}
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let code = match &cli.command {
+        Command::Render(args) => report("render", args.json.then_some(args.output.is_standard_output()), render::run(args)),
+        Command::Info(args) => report("info", args.json.then_some(false), info::run(args)),
+        Command::Diff(args) => {
+            let (mut out, mut err) = (BufWriter::new(io::stdout().lock()), io::stderr().lock());
+            diff::run(args, &mut out, &mut err)
+        }
+    };
+    ExitCode::from(code)
+}
+
+/// Tells why a command failed, if it did, and gives its exit code. `json` is whether an object is wanted
+/// too, and whether it goes to standard error.
+fn report(command: &str, json: Option<bool>, result: Result<(), Failure>) -> u8 {
+    let Err(failure) = result else { return failure::DONE };
+    let code = failure.exit_code();
+    // Where these streams are closed there is nobody to tell; the exit code remains.
+    if let Some(to_standard_error) = json {
+        let object = serde_json::json!({ "error": failure.to_string(), "exit_code": code });
+        let _ = if to_standard_error {
+            writeln!(io::stderr(), "{object}")
+        } else {
+            writeln!(io::stdout(), "{object}")
+        };
+    }
+    let _ = writeln!(io::stderr(), "estampe {command}: {failure}");
+    code
+}

@@ -1,0 +1,81 @@
+//! Files written whole or not at all.
+
+use crate::failure::Failure;
+use crate::values::{Destination, shown};
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Refuses, before any work is done, a destination that cannot be written.
+pub(crate) fn check(destination: &Destination) -> Result<(), Failure> {
+    let Destination::File(path) = destination else { return Ok(()) };
+    if path.is_dir() {
+        let name = shown(path);
+        return Err(Failure::Output(format!("{name}: this is a folder; name a file in it")));
+    }
+    let folder = folder_of(path);
+    if folder.is_dir() {
+        return Ok(());
+    }
+    let (name, folder) = (shown(path), shown(folder));
+    Err(Failure::Output(format!("{name}: there is no folder {folder}; make it first")))
+}
+
+/// Writes the bytes.
+pub(crate) fn write(destination: &Destination, bytes: &[u8]) -> Result<(), Failure> {
+    match destination {
+        Destination::StandardOutput => {
+            let mut out = io::stdout().lock();
+            out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| {
+                Failure::Output(format!("standard output: {error}; check what reads it"))
+            })
+        }
+        Destination::File(path) => write_whole(path, bytes).map_err(|error| {
+            let name = shown(path);
+            Failure::Output(format!("{name}: {error}; check the folder, its permissions and space"))
+        }),
+    }
+}
+
+/// Writes a file beside its place, then renames it: whoever looks sees the old file or the new one. A
+/// link is followed; a device or pipe is written in place, for it must not be replaced.
+fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file()) {
+        return OpenOptions::new().write(true).open(&path)?.write_all(bytes);
+    }
+    let (part, file) = create_part(&path)?;
+    let written = { file }.write_all(bytes).and_then(|()| fs::rename(&part, &path));
+    if written.is_err() {
+        // The first error is the one to report, whether or not a part is left to remove.
+        let _ = fs::remove_file(&part);
+    }
+    written
+}
+
+/// Creates the file that is written first: hidden, in the same folder, and new, so that nothing that
+/// lies there, not even a link, is written to.
+fn create_part(path: &Path) -> io::Result<(PathBuf, File)> {
+    const MOST_TRIES: u32 = 100;
+    let mut tries = 0;
+    loop {
+        let mut name = std::ffi::OsString::from(".");
+        name.push(path.file_name().unwrap_or_default());
+        name.push(format!(".{}.{tries}.part", std::process::id()));
+        let part = path.with_file_name(name);
+        match OpenOptions::new().write(true).create_new(true).open(&part) {
+            Ok(file) => return Ok((part, file)),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && tries < MOST_TRIES => {
+                tries += 1;
+            }
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}

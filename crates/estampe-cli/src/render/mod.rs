@@ -1,0 +1,14 @@
+//! `estampe render`: a model becomes a picture.
+//!
+//! ```text
+//! arguments -> input (read, parse) -> renderer (prepare, geometry, raster, read back)
+//!           -> encode -> output (whole or not at all), report
+//! ```
+
+mod arguments;
+mod command;
+mod report;
+
+pub(crate) use arguments::RenderArgs;
+pub(crate) use command::run;
+pub(crate) use report::counts;

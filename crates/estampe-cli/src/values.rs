@@ -1,0 +1,357 @@
+//! The values of options: how they are written and what they mean.
+
+use estampe::Level;
+use estampe_assets::ModelFormat;
+use estampe_assets::image::ImageFormat;
+use estampe_renderer::{CullMode, Shading, Up, ViewDirection};
+use estampe_scene::UpAxis;
+use glam::DVec3;
+use std::path::{Path, PathBuf};
+
+/// The greatest width and height of a picture.
+pub(crate) const MAX_SIDE: u32 = 16_384;
+
+/// `WxH` in pixels.
+pub(crate) fn size(text: &str) -> Result<(u32, u32), String> {
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
+    let sides = text.split_once(['x', 'X', '×']);
+    let sides = sides.and_then(|(width, height)| Some((side(width)?, side(height)?)));
+    sides.ok_or_else(|| format!("write WIDTHxHEIGHT, each 1 to {MAX_SIDE} pixels, as in 1024x768"))
+}
+
+/// A finite number.
+fn number(text: &str) -> Option<f64> {
+    text.trim().parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+fn number_between(text: &str, low: f64, high: f64) -> Result<f64, String> {
+    let in_range = number(text).filter(|number| (low..=high).contains(number));
+    in_range.ok_or_else(|| format!("write a number from {low} to {high}"))
+}
+
+/// Degrees around the up axis.
+pub(crate) fn azimuth(text: &str) -> Result<f64, String> {
+    number_between(text, -36_000.0, 36_000.0)
+}
+
+/// Degrees above the level.
+pub(crate) fn elevation(text: &str) -> Result<f64, String> {
+    number_between(text, -90.0, 90.0)
+}
+
+/// Degrees of the vertical opening angle.
+pub(crate) fn fov(text: &str) -> Result<f64, String> {
+    number_between(text, 0.1, 175.0)
+}
+
+/// A fraction of the shorter side.
+pub(crate) fn margin(text: &str) -> Result<f64, String> {
+    number_between(text, 0.0, 0.49)
+}
+
+/// Ambient light.
+pub(crate) fn ambient(text: &str) -> Result<f32, String> {
+    let ambient = number_between(text, 0.0, 10.0)?;
+    Ok(DVec3::splat(ambient).as_vec3().x)
+}
+
+/// `x,y,z`.
+pub(crate) fn vector(text: &str) -> Result<DVec3, String> {
+    let parts: Vec<Option<f64>> = text.split(',').map(number).collect();
+    match parts[..] {
+        [Some(x), Some(y), Some(z)] => Ok(DVec3::new(x, y, z)),
+        _ => Err("write three numbers with commas between, as in 1,0.5,-2".to_owned()),
+    }
+}
+
+/// `x,y,z`, not all zero.
+pub(crate) fn direction(text: &str) -> Result<DVec3, String> {
+    match vector(text)? {
+        DVec3::ZERO => Err("0,0,0 is no direction".to_owned()),
+        direction => Ok(direction),
+    }
+}
+
+/// `y`, `z`, `auto` or a direction.
+pub(crate) fn up(text: &str) -> Result<Up, String> {
+    match text {
+        "auto" => Ok(Up::FromScene),
+        "y" | "Y" => Ok(Up::Axis(UpAxis::Y)),
+        "z" | "Z" => Ok(Up::Axis(UpAxis::Z)),
+        _ if text.contains(',') => direction(text).map(Up::Direction),
+        _ => Err("write y, z, auto, or a direction as in 0,0,1".to_owned()),
+    }
+}
+
+/// `none` or `#rrggbb`, the mark optional because shells take it for a comment.
+pub(crate) fn background(text: &str) -> Result<Background, String> {
+    if text.eq_ignore_ascii_case("none") {
+        return Ok(Background(None));
+    }
+    let digits = text.strip_prefix('#').unwrap_or(text);
+    let is_hex = digits.len() == 6 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let code = is_hex.then(|| u32::from_str_radix(digits, 16).ok()).flatten();
+    let [_, r, g, b] = code
+        .ok_or("write none, or a colour as six hexadecimal digits, as in '#f2f2f2'")?
+        .to_be_bytes();
+    Ok(Background(Some([r, g, b])))
+}
+
+/// A background colour, or none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Background(pub(crate) Option<[u8; 3]>);
+
+/// The name of a SIMD level.
+pub(crate) fn simd(text: &str) -> Result<Level, String> {
+    Level::named(text).map_err(|error| error.to_string())
+}
+
+/// Where a model comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// A file.
+    File(PathBuf),
+    /// One of the built-in models, by name.
+    Builtin(String),
+    /// Standard input.
+    StandardInput,
+}
+
+impl From<std::ffi::OsString> for Source {
+    fn from(text: std::ffi::OsString) -> Self {
+        match text.to_str() {
+            Some("-") => Self::StandardInput,
+            Some(name) if name.starts_with("builtin:") => {
+                Self::Builtin(name["builtin:".len()..].to_owned())
+            }
+            _ => Self::File(text.into()),
+        }
+    }
+}
+
+/// Where a picture goes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Destination {
+    /// A file.
+    File(PathBuf),
+    /// Standard output.
+    StandardOutput,
+}
+
+impl Destination {
+    /// Whether it is standard output.
+    pub(crate) fn is_standard_output(&self) -> bool {
+        matches!(self, Self::StandardOutput)
+    }
+
+    /// The format that the name asks for.
+    pub(crate) fn image_format(&self) -> Option<ImageFormat> {
+        match self {
+            Self::File(path) => ImageFormat::from_path(path),
+            Self::StandardOutput => Some(ImageFormat::Png),
+        }
+    }
+}
+
+impl From<std::ffi::OsString> for Destination {
+    fn from(text: std::ffi::OsString) -> Self {
+        if text == "-" { Self::StandardOutput } else { Self::File(text.into()) }
+    }
+}
+
+/// The path as people write it.
+pub(crate) fn shown(path: &Path) -> String {
+    path.display().to_string()
+}
+
+/// Formats of models.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum FormatName {
+    /// Wavefront OBJ
+    Obj,
+    /// Stereolithography, binary or ASCII
+    Stl,
+    /// Stanford PLY, ASCII or binary
+    Ply,
+}
+
+impl From<FormatName> for ModelFormat {
+    fn from(name: FormatName) -> Self {
+        match name {
+            FormatName::Obj => Self::Obj,
+            FormatName::Stl => Self::Stl,
+            FormatName::Ply => Self::Ply,
+        }
+    }
+}
+
+/// Formats of pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum ImageFormatName {
+    /// Lossless, with alpha
+    Png,
+    /// Lossy, without alpha
+    #[value(alias = "jpg")]
+    Jpeg,
+    /// Lossless, with alpha, simple
+    Tga,
+}
+
+impl From<ImageFormatName> for ImageFormat {
+    fn from(name: ImageFormatName) -> Self {
+        match name {
+            ImageFormatName::Png => Self::Png,
+            ImageFormatName::Jpeg => Self::Jpeg,
+            ImageFormatName::Tga => Self::Tga,
+        }
+    }
+}
+
+/// Named views.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum ViewName {
+    /// Azimuth 45, elevation 35.264: isometric with --ortho
+    Iso,
+    /// From +z
+    Front,
+    /// From -z
+    Back,
+    /// From -x
+    Left,
+    /// From +x
+    Right,
+    /// From +y
+    Top,
+    /// From -y
+    Bottom,
+}
+
+impl From<ViewName> for ViewDirection {
+    fn from(name: ViewName) -> Self {
+        match name {
+            ViewName::Iso => Self::ISO,
+            ViewName::Front => Self::FRONT,
+            ViewName::Back => Self::BACK,
+            ViewName::Left => Self::LEFT,
+            ViewName::Right => Self::RIGHT,
+            ViewName::Top => Self::TOP,
+            ViewName::Bottom => Self::BOTTOM,
+        }
+    }
+}
+
+/// Looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum ShadingName {
+    /// One light for each face
+    Flat,
+    /// Light at the vertices, interpolated
+    Gouraud,
+    /// Light at every pixel
+    Phong,
+    /// Light in four steps, like a drawing
+    Toon,
+    /// Colours and textures as they are
+    Unlit,
+    /// Edges; faces hide what lies behind them
+    Wireframe,
+    /// Normals as colours: red right, green up, blue towards the eye
+    Normals,
+    /// White near, black far
+    Depth,
+    /// Texture coordinates: u red, v green
+    Uv,
+}
+
+impl From<ShadingName> for Shading {
+    fn from(name: ShadingName) -> Self {
+        match name {
+            ShadingName::Flat => Self::Flat,
+            ShadingName::Gouraud => Self::Gouraud,
+            ShadingName::Phong => Self::Phong,
+            ShadingName::Toon => Self::Toon,
+            ShadingName::Unlit => Self::Unlit,
+            ShadingName::Wireframe => Self::Wireframe,
+            ShadingName::Normals => Self::Normals,
+            ShadingName::Depth => Self::Depth,
+            ShadingName::Uv => Self::Uv,
+        }
+    }
+}
+
+/// Which faces are left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum CullName {
+    /// None: both sides of every face are drawn
+    None,
+    /// Those that turn away
+    Back,
+    /// Those that face the viewer
+    Front,
+}
+
+impl From<CullName> for CullMode {
+    fn from(name: CullName) -> Self {
+        match name {
+            CullName::None => Self::None,
+            CullName::Back => Self::Back,
+            CullName::Front => Self::Front,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_two_numbers_in_range() {
+        assert_eq!(size("1024x768"), Ok((1024, 768)));
+        assert_eq!(size("1X16384"), Ok((1, 16_384)));
+        for wrong in ["", "x", "1024", "0x5", "5x0", "16385x5", "1024x768x3", "-1x5", "1.5x2", "a×b"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn vectors_are_three_finite_numbers() {
+        assert_eq!(vector("1, -2.5,3e2"), Ok(DVec3::new(1.0, -2.5, 300.0)));
+        for wrong in ["", "1,2", "1,2,3,4", "1,,3", "nan,0,0", "inf,0,0", "a,b,c"] {
+            assert!(vector(wrong).is_err(), "{wrong}");
+        }
+        assert!(direction("0,0,0").is_err() && direction("0,0,-0.0").is_err());
+        assert_eq!(up("0,0,1"), Ok(Up::Direction(DVec3::Z)));
+        assert_eq!(up("z"), Ok(Up::Axis(UpAxis::Z)));
+        assert!(up("x").is_err() && up("0,0,0").is_err());
+    }
+
+    #[test]
+    fn backgrounds_are_colours_or_none() {
+        assert_eq!(background("none"), Ok(Background(None)));
+        assert_eq!(background("#F2f200"), Ok(Background(Some([0xf2, 0xf2, 0]))));
+        assert_eq!(background("0a0b0c"), Ok(Background(Some([10, 11, 12]))));
+        for wrong in ["", "#", "#fff", "red", "#+12345", "#f2f2f2f2", "#é1234"] {
+            assert!(background(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn ranges_hold() {
+        assert!(fov("35").is_ok() && fov("0").is_err() && fov("180").is_err() && fov("nan").is_err());
+        assert!(margin("0").is_ok() && margin("0.5").is_err() && margin("-0.1").is_err());
+        assert!(elevation("-90").is_ok() && elevation("90.1").is_err());
+        assert_eq!(ambient("0.5"), Ok(0.5));
+        assert!(simd("avx1024").is_err_and(|message| message.contains("scalar")));
+    }
+
+    #[test]
+    fn sources_and_destinations_are_told_apart() {
+        assert_eq!(Source::from(std::ffi::OsString::from("-")), Source::StandardInput);
+        let builtin = Source::Builtin("teapot".to_owned());
+        assert_eq!(Source::from(std::ffi::OsString::from("builtin:teapot")), builtin);
+        assert_eq!(Source::from(std::ffi::OsString::from("./-")), Source::File("./-".into()));
+        assert!(Destination::from(std::ffi::OsString::from("-")).is_standard_output());
+        let file = Destination::from(std::ffi::OsString::from("a.TGA"));
+        assert_eq!(file.image_format(), Some(ImageFormat::Tga));
+    }
+}

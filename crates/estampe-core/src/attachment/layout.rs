@@ -1,0 +1,119 @@
+//! Which pixel is stored where.
+
+/// Side of a storage block, in pixels.
+pub(crate) const BLOCK: u32 = 64;
+
+/// How a target is cut into the tiles of a pass.
+///
+/// A tile is 64×64 pixels for one sample and 32×32 for four, so that RGBA8 and depth fill 32 KiB.
+/// Tiles are numbered in storage order: tile `n` is the `n`-th slice of `tile_pixels() * samples`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct TileGrid {
+    /// Blocks in a row of the target.
+    blocks_x: u32,
+    /// Blocks in a column of the target.
+    blocks_y: u32,
+    /// log₂ of a tile's side: 6 or 5.
+    tile_log2: u32,
+}
+
+impl TileGrid {
+    pub(crate) fn new(width: u32, height: u32, samples: u32) -> Self {
+        Self {
+            blocks_x: width.div_ceil(BLOCK),
+            blocks_y: height.div_ceil(BLOCK),
+            tile_log2: if samples == 1 { 6 } else { 5 },
+        }
+    }
+
+    /// log₂ of a tile's side.
+    pub(crate) fn tile_log2(self) -> u32 {
+        self.tile_log2
+    }
+
+    /// Pixels of a tile.
+    pub(crate) fn tile_pixels(self) -> usize {
+        1 << (2 * self.tile_log2)
+    }
+
+    /// Pixels of the target with its padding to whole blocks.
+    pub(crate) fn stored_pixels(self) -> usize {
+        self.blocks_x as usize * self.blocks_y as usize * (BLOCK * BLOCK) as usize
+    }
+
+    /// Number of tiles.
+    pub(crate) fn tiles(self) -> usize {
+        self.stored_pixels() / self.tile_pixels()
+    }
+
+    /// The number of the tile at a column and row of tiles.
+    #[inline(always)]
+    pub(crate) fn tile_at(self, column: u32, row: u32) -> u32 {
+        let shift = 6 - self.tile_log2;
+        let block = (row >> shift) * self.blocks_x + (column >> shift);
+        let inside = (column & shift) | ((row & shift) << 1);
+        (block << (2 * shift)) | inside
+    }
+
+    /// Left column and top row of a tile, in pixels.
+    pub(crate) fn tile_origin(self, tile: u32) -> (u32, u32) {
+        let shift = 6 - self.tile_log2;
+        let block = tile >> (2 * shift);
+        let (inside_x, inside_y) = (tile & shift, (tile >> 1) & shift);
+        let x = (block % self.blocks_x) * BLOCK + (inside_x << self.tile_log2);
+        let y = (block / self.blocks_x) * BLOCK + (inside_y << self.tile_log2);
+        (x, y)
+    }
+
+    /// Where the packet that holds a pixel is stored, counted in packets.
+    #[inline]
+    pub(crate) fn packet_of(self, x: u32, y: u32) -> usize {
+        let block = (y / BLOCK) * self.blocks_x + x / BLOCK;
+        let (px, py) = (x % BLOCK / 4, y % BLOCK / 4);
+        block as usize * 256 + morton(px, py) as usize
+    }
+}
+
+/// Interleaves the low four bits of x and y: bit 0 of x is bit 0, bit 0 of y is bit 1.
+#[inline(always)]
+pub(crate) const fn morton(x: u32, y: u32) -> u32 {
+    spread(x) | (spread(y) << 1)
+}
+
+/// Moves bit `i` of a four-bit number to bit `2i`.
+#[inline(always)]
+const fn spread(v: u32) -> u32 {
+    let v = (v | (v << 2)) & 0x33;
+    (v | (v << 1)) & 0x55
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_are_numbered_in_storage_order() {
+        for samples in [1, 4] {
+            let grid = TileGrid::new(200, 130, samples);
+            let side = 1 << grid.tile_log2();
+            let mut seen = vec![false; grid.tiles()];
+            for y in (0..192).step_by(side) {
+                for x in (0..256).step_by(side) {
+                    let (x, y) = (x as u32, y as u32);
+                    let tile = grid.tile_at(x / side as u32, y / side as u32);
+                    assert_eq!(grid.tile_origin(tile), (x, y));
+                    assert!(!std::mem::replace(&mut seen[tile as usize], true));
+                    let first = grid.packet_of(x, y) * 16;
+                    assert_eq!(first, tile as usize * grid.tile_pixels());
+                }
+            }
+            assert!(seen.into_iter().all(|seen| seen));
+        }
+    }
+
+    #[test]
+    fn morton_interleaves() {
+        assert_eq!(morton(0b1111, 0), 0b0101_0101);
+        assert_eq!(morton(0, 0b1010), 0b1000_1000);
+    }
+}

@@ -1,0 +1,205 @@
+//! A render target: colour attachments and a depth attachment of one size.
+
+use super::TileGrid;
+use estampe_types::{Limits, TextureFormat};
+
+/// What a render target is made of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RenderTargetDescriptor {
+    /// Width in pixels, from 1 on.
+    pub width: u32,
+    /// Height in pixels, from 1 on.
+    pub height: u32,
+    /// Samples per pixel, 1 or 4. Default 1.
+    pub samples: u32,
+    /// Formats of the colour attachments. Default one `Rgba8Unorm`.
+    pub color_formats: Vec<TextureFormat>,
+    /// Whether there is a 32-bit float depth attachment. Default true.
+    pub depth: bool,
+}
+
+impl RenderTargetDescriptor {
+    /// The defaults, of a size in pixels.
+    #[must_use]
+    pub fn new(width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            samples: 1,
+            color_formats: vec![TextureFormat::Rgba8Unorm],
+            depth: true,
+        }
+    }
+}
+
+/// Why a target was refused.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TargetError {
+    /// A side is zero or too long.
+    #[error(
+        "a render target of {width}x{height} pixels: each side must be from 1 to \
+         max_texture_dimension_2d, which is {limit}"
+    )]
+    Size {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+        /// The longest side.
+        limit: u32,
+    },
+    /// The sample count is not offered.
+    #[error("a render target has 1 or 4 samples per pixel, not {0}")]
+    SampleCount(u32),
+    /// Too many colour attachments.
+    #[error("{count} colour attachments; the limit max_color_attachments is {limit}")]
+    TooManyColors {
+        /// How many there are.
+        count: usize,
+        /// How many there may be.
+        limit: u32,
+    },
+    /// Several samples and several attachments.
+    #[error("with 4 samples a render target has at most one colour attachment, not {0}")]
+    MultisampledColors(usize),
+    /// A colour attachment with a depth format.
+    #[error("colour attachment {index} has the format {format:?}, which does not hold colour")]
+    NotColor {
+        /// Which attachment.
+        index: usize,
+        /// Its format.
+        format: TextureFormat,
+    },
+    /// The system has not enough memory.
+    #[error("no memory for a render target of {bytes} bytes: make it smaller or use fewer samples")]
+    OutOfMemory {
+        /// How much it would take.
+        bytes: u64,
+    },
+}
+
+/// Colour and depth attachments of one size, cleared to zeros when made.
+#[derive(Debug, Clone)]
+pub struct RenderTarget {
+    pub(super) descriptor: RenderTargetDescriptor,
+    pub(super) grid: TileGrid,
+    /// One element per sample, in storage order; RGBA8 with R in the low byte.
+    pub(crate) colors: Vec<Vec<u32>>,
+    /// One element per sample, in storage order; empty without depth.
+    pub(crate) depth: Vec<f32>,
+}
+
+impl RenderTarget {
+    /// Makes a target.
+    ///
+    /// # Errors
+    /// [`TargetError`] names the rule that the descriptor breaks, or that memory is short.
+    pub fn new(descriptor: &RenderTargetDescriptor, limits: &Limits) -> Result<Self, TargetError> {
+        check(descriptor, limits)?;
+        let RenderTargetDescriptor {
+            width,
+            height,
+            samples,
+            ..
+        } = *descriptor;
+        let grid = TileGrid::new(width, height, samples);
+        let elements = grid.stored_pixels() * samples as usize;
+        let attachments = descriptor.color_formats.len() + usize::from(descriptor.depth);
+        let error = TargetError::OutOfMemory {
+            bytes: elements as u64 * 4 * attachments as u64,
+        };
+        let colors = descriptor.color_formats.iter().map(|_| zeros(elements));
+        let colors: Option<Vec<Vec<u32>>> = colors.collect();
+        let colors = colors.ok_or_else(|| error.clone())?;
+        let depth = zeros(if descriptor.depth { elements } else { 0 }).ok_or(error)?;
+        Ok(Self {
+            descriptor: descriptor.clone(),
+            grid,
+            colors,
+            depth,
+        })
+    }
+
+    /// Width in pixels.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.descriptor.width
+    }
+
+    /// Height in pixels.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.descriptor.height
+    }
+
+    /// Samples per pixel.
+    #[must_use]
+    pub fn samples(&self) -> u32 {
+        self.descriptor.samples
+    }
+
+    /// Formats of the colour attachments.
+    #[must_use]
+    pub fn color_formats(&self) -> &[TextureFormat] {
+        &self.descriptor.color_formats
+    }
+
+    /// Whether there is a depth attachment.
+    #[must_use]
+    pub fn has_depth(&self) -> bool {
+        self.descriptor.depth
+    }
+
+    pub(crate) fn grid(&self) -> TileGrid {
+        self.grid
+    }
+}
+
+fn check(descriptor: &RenderTargetDescriptor, limits: &Limits) -> Result<(), TargetError> {
+    let RenderTargetDescriptor {
+        width,
+        height,
+        samples,
+        ..
+    } = *descriptor;
+    // The fixed-point raster is made for 16384, whatever a caller's limits say.
+    let limit = limits.max_texture_dimension_2d.min(16_384);
+    if width == 0 || height == 0 || width > limit || height > limit {
+        return Err(TargetError::Size {
+            width,
+            height,
+            limit,
+        });
+    }
+    if !matches!(samples, 1 | 4) {
+        return Err(TargetError::SampleCount(samples));
+    }
+    let count = descriptor.color_formats.len();
+    if count > limits.max_color_attachments as usize {
+        return Err(TargetError::TooManyColors {
+            count,
+            limit: limits.max_color_attachments,
+        });
+    }
+    if samples > 1 && count > 1 {
+        return Err(TargetError::MultisampledColors(count));
+    }
+    for (index, format) in descriptor.color_formats.iter().enumerate() {
+        if !format.is_color() {
+            return Err(TargetError::NotColor {
+                index,
+                format: *format,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Zeros, or `None` when memory is short.
+fn zeros<T: Clone + Default>(len: usize) -> Option<Vec<T>> {
+    let mut values = Vec::new();
+    values.try_reserve_exact(len).ok()?;
+    values.resize(len, T::default());
+    Some(values)
+}

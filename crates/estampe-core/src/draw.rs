@@ -1,0 +1,372 @@
+//! The page on which the pipeline reads: what a draw is, and the order in which its stages run.
+
+use crate::attachment::RenderTarget;
+use crate::geometry::assembly::ElementSource;
+use crate::geometry::chunk::{ChunkScratch, ChunkWork, process};
+use crate::geometry::cull::CullState;
+use crate::geometry::setup::BinState;
+use crate::geometry::shading::{ShadedVertices, ShadingScratch, VertexSource, shade};
+use crate::per_sample::codes::pack_one;
+use crate::pipeline::RenderPipeline;
+use crate::schedule::{Executor, ThreadError};
+use crate::statistics::Statistics;
+use crate::tile_pass::{self, MAX_TARGETS, TileJob, TilePass, TileScratch};
+use crate::tiles::Chunk;
+use crate::wave::{Item, Waves};
+use estampe_simd::Level;
+use estampe_types::state::{ScissorRect, Viewport};
+use estampe_types::{Bindings, Buffer, IndexFormat, TextureFormat};
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+/// One draw: a pipeline, the data that it reads, and how much of it.
+#[derive(Debug, Clone)]
+pub struct Draw<'a> {
+    /// The validated state.
+    pub pipeline: &'a RenderPipeline,
+    /// The vertex buffers, as the pipeline's layouts name them; a missing or short one reads zeros.
+    pub vertex_buffers: &'a [Buffer],
+    /// The index buffer and the width of its indices, if vertices are to be found by index.
+    pub indices: Option<(&'a Buffer, IndexFormat)>,
+    /// Which indices are drawn, or which vertices without an index buffer. Indices beyond the
+    /// buffer's end read zero.
+    pub elements: Range<u32>,
+    /// Which instances are drawn. Default one.
+    pub instances: Range<u32>,
+    /// Added to every index. Default 0.
+    pub base_vertex: i32,
+    /// The resources that shaders find by number.
+    pub bindings: Option<&'a Bindings>,
+    /// Where NDC lands. Default the whole target, depth 0..1.
+    pub viewport: Option<Viewport>,
+    /// What pixels may change. Default all.
+    pub scissor: Option<ScissorRect>,
+    /// The constant of blending. Default zeros.
+    pub blend_constant: [f32; 4],
+}
+
+impl<'a> Draw<'a> {
+    /// A draw of one instance without buffers, over the whole target.
+    #[must_use]
+    pub fn new(pipeline: &'a RenderPipeline, elements: Range<u32>) -> Self {
+        Self {
+            pipeline,
+            vertex_buffers: &[],
+            indices: None,
+            elements,
+            instances: 0..1,
+            base_vertex: 0,
+            bindings: None,
+            viewport: None,
+            scissor: None,
+            blend_constant: [0.0; 4],
+        }
+    }
+}
+
+/// Draws into one target, with what becomes of its old contents.
+#[derive(Debug, Clone)]
+pub struct RenderPass<'a> {
+    /// The linear colours that attachments are cleared to, or `None` to keep what is there;
+    /// attachments beyond the list's end are cleared to zeros.
+    pub clear_colors: Option<Vec<[f32; 4]>>,
+    /// The depth that is cleared to, or `None` to keep what is there.
+    pub clear_depth: Option<f32>,
+    /// The draws, in order.
+    pub draws: &'a [Draw<'a>],
+}
+
+impl Default for RenderPass<'_> {
+    /// Clears colour to zeros and depth to 1; draws nothing.
+    fn default() -> Self {
+        Self {
+            clear_colors: Some(Vec::new()),
+            clear_depth: Some(1.0),
+            draws: &[],
+        }
+    }
+}
+
+/// What draws need besides their data: threads, a SIMD level, and memory that is used again.
+#[derive(Debug)]
+pub struct Context {
+    level: Level,
+    executor: Executor,
+    memory: Mutex<Memory>,
+}
+
+/// Memory of a pass, kept for the next one.
+#[derive(Debug, Default)]
+struct Memory {
+    vertices: ShadedVertices,
+    chunks: Vec<Chunk>,
+    shading: Vec<Mutex<ShadingScratch>>,
+    chunk_scratch: Vec<Mutex<ChunkScratch>>,
+    tiles_1: Vec<Mutex<TileScratch<1>>>,
+    tiles_4: Vec<Mutex<TileScratch<4>>>,
+}
+
+impl Context {
+    /// A context of `threads` threads (0: one for each processor) at a SIMD level.
+    ///
+    /// # Errors
+    /// [`ThreadError`] when the system gives no threads.
+    pub fn new(threads: usize, level: Level) -> Result<Self, ThreadError> {
+        let executor = Executor::new(threads)?;
+        let mut memory = Memory::default();
+        let workers = executor.threads();
+        memory.shading.resize_with(workers, Mutex::default);
+        memory.chunk_scratch.resize_with(workers, Mutex::default);
+        memory.tiles_1.resize_with(workers, Mutex::default);
+        memory.tiles_4.resize_with(workers, Mutex::default);
+        Ok(Self {
+            level,
+            executor,
+            memory: Mutex::new(memory),
+        })
+    }
+
+    /// The SIMD level that kernels run at.
+    #[must_use]
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
+    /// How many threads draw.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        self.executor.threads()
+    }
+
+    /// Draws a pass. It cannot fail: what a draw lacks reads as zeros, and a draw whose pipeline does
+    /// not fit the target (samples, formats, depth), or whose viewport is not finite, draws nothing.
+    pub fn render(&self, target: &mut RenderTarget, pass: &RenderPass<'_>) -> Statistics {
+        let mut memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
+        let memory = &mut *memory;
+        self.executor.enter(|| {
+            let mut statistics = Statistics::default();
+            let mut waves = Waves::new(pass.draws, target);
+            let mut items = Vec::new();
+            let mut clear = Clear::new(target, pass);
+            loop {
+                let more = waves.next_wave(&mut items);
+                if !more && clear.is_done() {
+                    return statistics;
+                }
+                let start = Instant::now();
+                self.shade_vertices(&items, memory);
+                self.build_chunks(target, &items, memory);
+                statistics.geometry += start.elapsed();
+                let start = Instant::now();
+                statistics += self.draw_tiles(target, &items, &clear, memory);
+                statistics.raster += start.elapsed();
+                let shaded = items.iter().map(Item::total_vertices).sum::<u64>();
+                statistics.vertices_shaded += shaded;
+                clear = Clear::default();
+            }
+        })
+    }
+
+    /// Geometry, first half: every vertex of the wave is shaded once.
+    fn shade_vertices(&self, items: &[Item<'_>], memory: &mut Memory) {
+        memory.vertices.resize_for(items);
+        let mut jobs = memory.vertices.split(items, VERTEX_CHUNK);
+        self.executor
+            .for_each(&mut jobs, &memory.shading, |job, scratch| {
+                let item = &items[job.item];
+                let source = VertexSource {
+                    buffers: item.draw.vertex_buffers,
+                    bindings: item.bindings,
+                    first_vertex: item.first_vertex,
+                    count: item.vertices,
+                    first_instance: item.first_instance,
+                    sparse: item.sparse.as_deref(),
+                };
+                let pipeline = item.draw.pipeline;
+                let out = (&mut job.out, scratch);
+                shade(
+                    self.level,
+                    pipeline,
+                    &source,
+                    &item.transform,
+                    job.first,
+                    out,
+                );
+            });
+    }
+
+    /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in chunks
+    /// whose borders do not depend on the number of threads.
+    fn build_chunks(&self, target: &RenderTarget, items: &[Item<'_>], memory: &mut Memory) {
+        let mut ranges = Vec::new();
+        for (number, item) in items.iter().enumerate() {
+            let total = u32::try_from(item.total_primitives()).unwrap_or(u32::MAX);
+            let starts = (0..total).step_by(PRIMITIVE_CHUNK as usize);
+            ranges.extend(starts.map(|from| {
+                (
+                    number,
+                    [from, from.saturating_add(PRIMITIVE_CHUNK).min(total)],
+                )
+            }));
+        }
+        memory.chunks.resize_with(ranges.len(), Chunk::default);
+        let sample_range = if target.samples() == 1 {
+            [128, 128]
+        } else {
+            [32, 224]
+        };
+        let (grid, vertices) = (target.grid(), &memory.vertices);
+        let mut jobs: Vec<_> = memory.chunks.iter_mut().zip(&ranges).collect();
+        self.executor.for_each(
+            &mut jobs,
+            &memory.chunk_scratch,
+            |(chunk, range), scratch| {
+                let (number, primitives) = **range;
+                let item = &items[number];
+                let state = &item.draw.pipeline.descriptor().primitive;
+                let indices = item.draw.indices.filter(|_| item.sparse.is_none());
+                let work = ChunkWork {
+                    elements: ElementSource {
+                        topology: state.topology,
+                        elements: item.elements[1],
+                        indices,
+                        first_element: item.elements[0],
+                        first_vertex: item.first_vertex,
+                        base_vertex: item.draw.base_vertex,
+                    },
+                    vertices: vertices.of_item(item),
+                    transform: &item.transform,
+                    cull: CullState {
+                        rect: item.rect,
+                        facing: item.facing,
+                        sample_range,
+                    },
+                    bins: BinState {
+                        grid,
+                        rect: item.rect,
+                        sample_range,
+                    },
+                    polygon_mode: state.polygon_mode,
+                    instance_vertices: item.vertices,
+                    instance_primitives: item.primitives,
+                    primitives,
+                };
+                chunk.reset(number);
+                process(self.level, &work, chunk, scratch);
+            },
+        );
+    }
+
+    /// The tile side: every tile consumes the chunks in order.
+    fn draw_tiles(
+        &self,
+        target: &mut RenderTarget,
+        items: &[Item<'_>],
+        clear: &Clear,
+        memory: &mut Memory,
+    ) -> Statistics {
+        let tile_items: Vec<_> = items
+            .iter()
+            .map(|item| memory.vertices.tile_item(item))
+            .collect();
+        let pass = TilePass {
+            level: self.level,
+            grid: target.grid(),
+            items: &tile_items,
+            chunks: &memory.chunks,
+            clear_colors: clear.colors,
+            clear_depth: clear.depth,
+        };
+        let samples = target.samples();
+        let mut jobs = tile_jobs(target);
+        let mut statistics = Statistics::default();
+        if samples == 1 {
+            self.executor
+                .for_each(&mut jobs, &memory.tiles_1, |job, scratch| {
+                    tile_pass::draw(&pass, job, scratch);
+                });
+            take_statistics(&mut memory.tiles_1, &mut statistics);
+        } else {
+            self.executor
+                .for_each(&mut jobs, &memory.tiles_4, |job, scratch| {
+                    tile_pass::draw(&pass, job, scratch);
+                });
+            take_statistics(&mut memory.tiles_4, &mut statistics);
+        }
+        for chunk in &memory.chunks {
+            statistics += chunk.statistics;
+        }
+        statistics
+    }
+}
+
+/// Vertices that one worker shades at a time.
+const VERTEX_CHUNK: usize = 4096;
+
+/// Primitives of a chunk.
+const PRIMITIVE_CHUNK: u32 = 4096;
+
+/// What a pass still has to clear, as codes.
+#[derive(Debug, Default)]
+struct Clear {
+    colors: Option<[u32; MAX_TARGETS]>,
+    depth: Option<f32>,
+}
+
+impl Clear {
+    fn new(target: &RenderTarget, pass: &RenderPass<'_>) -> Self {
+        let code = |(index, format): (usize, &TextureFormat)| {
+            let colors = pass.clear_colors.as_deref().unwrap_or_default();
+            let rgba = colors.get(index).copied().unwrap_or_default();
+            pack_one(rgba, format.is_srgb())
+        };
+        let mut codes = [0; MAX_TARGETS];
+        let formats = target.color_formats().iter().enumerate().map(code);
+        codes
+            .iter_mut()
+            .zip(formats)
+            .for_each(|(slot, code)| *slot = code);
+        // Depths are kept in 0..=1, NaN as 0: hierarchical depth relies on their order.
+        let depth = pass
+            .clear_depth
+            .map(|depth| if depth > 0.0 { depth.min(1.0) } else { 0.0 });
+        Self {
+            colors: pass.clear_colors.is_some().then_some(codes),
+            depth,
+        }
+    }
+
+    fn is_done(&self) -> bool {
+        self.colors.is_none() && self.depth.is_none()
+    }
+}
+
+/// Cuts a target into its tiles' slices.
+fn tile_jobs(target: &mut RenderTarget) -> Vec<TileJob<'_>> {
+    let grid = target.grid();
+    let elements = grid.tile_pixels() * target.samples() as usize;
+    let mut jobs: Vec<TileJob<'_>> = (0u32..)
+        .take(grid.tiles())
+        .map(|tile| TileJob {
+            tile,
+            ..TileJob::default()
+        })
+        .collect();
+    for (index, colors) in target.colors.iter_mut().enumerate() {
+        for (job, slice) in jobs.iter_mut().zip(colors.chunks_exact_mut(elements)) {
+            job.colors[index] = slice;
+        }
+    }
+    for (job, slice) in jobs.iter_mut().zip(target.depth.chunks_exact_mut(elements)) {
+        job.depth = slice;
+    }
+    jobs
+}
+
+fn take_statistics<const N: usize>(scratch: &mut [Mutex<TileScratch<N>>], total: &mut Statistics) {
+    for worker in scratch {
+        let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
+        *total += std::mem::take(&mut worker.statistics);
+    }
+}

@@ -1,0 +1,328 @@
+//! From vertices to fragments: depth and varyings of triangles, lines and points at sixteen pixels.
+//!
+//! Each kind of primitive is a [`Surface`]: a value that knows its depth at any sample and its varyings at
+//! any pixel. Planes are evaluated anew at each pixel, from the first sorted vertex:
+//! `p₀ + ((X − x₀)·∂p/∂x + (Y − y₀)·∂p/∂y)`.
+
+use crate::raster::line::LineAxis;
+use crate::tiles::{LinePrimitive, Plane, PointPrimitive, TrianglePacket, VertexRef};
+use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x16, i32x16};
+use estampe_types::Interpolation;
+
+/// The most scalars that fragments read.
+pub(crate) const MAX_SCALARS: usize = 64;
+
+/// The varyings of a draw's vertices.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct VaryingSource<'a> {
+    /// Of the item's vertices.
+    pub(crate) shaded: &'a [f32],
+    /// Of the chunk's own, made by clipping.
+    pub(crate) clipped: &'a [f32],
+    /// How each scalar is interpolated.
+    pub(crate) modes: &'a [Interpolation],
+}
+
+impl<'a> VaryingSource<'a> {
+    #[inline(always)]
+    fn of(&self, vertex: VertexRef) -> &'a [f32] {
+        let n = self.modes.len();
+        let (from, number) = if vertex.0 & VertexRef::CLIPPED == 0 {
+            (self.shaded, vertex.0)
+        } else {
+            (self.clipped, vertex.0 & !VertexRef::CLIPPED)
+        };
+        &from[number as usize * n..][..n]
+    }
+}
+
+/// A primitive that fragments are made of.
+pub(crate) trait Surface<S: Lanes> {
+    /// Depth at a sample offset (in pixels) of the packet's sixteen pixels, not yet clamped.
+    fn depth(&self, s: S, pixel: [i32; 2], sample: [f32; 2]) -> f32x16<S>;
+    /// 1/w at the pixels' centres.
+    fn inverse_w(&self, s: S, pixel: [i32; 2]) -> f32x16<S>;
+    /// The varyings at the pixels' centres, as many packets as there are scalars.
+    fn varyings(&self, s: S, pixel: [i32; 2], out: &mut [Packet<f32>]);
+}
+
+/// The window coordinates of a packet's pixels: an integer plus the lane's column or row plus an offset.
+#[inline(always)]
+fn coordinate<S: Lanes>(s: S, pixel: i32, lanes: &[u8; LANES], offset: f32) -> f32x16<S> {
+    let mut position = [0.0; LANES];
+    let mut lane = 0;
+    while lane < LANES {
+        position[lane] = lanes[lane] as f32 + offset;
+        lane += 1;
+    }
+    // Both addends have few bits: the sum is exact.
+    f32x16::load_array(s, position) + <f32x16<S> as SimdBase<S>>::splat(s, pixel as f32)
+}
+
+/// The origin of a triangle's planes: its first sorted vertex, in pixels.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlaneOrigin {
+    pub(crate) x: f32,
+    pub(crate) y: f32,
+}
+
+impl PlaneOrigin {
+    #[inline(always)]
+    pub(crate) fn new(packet: &TrianglePacket, lane: usize) -> Self {
+        Self {
+            x: pixels(packet.x[0][lane]),
+            y: pixels(packet.y[0][lane]),
+        }
+    }
+
+    /// Distances of the packet's pixels (at an offset in each) from the origin.
+    #[inline(always)]
+    pub(crate) fn distances<S: Lanes>(
+        &self,
+        s: S,
+        [x, y]: [i32; 2],
+        [sx, sy]: [f32; 2],
+    ) -> [f32x16<S>; 2] {
+        let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+        [
+            coordinate(s, x, &LANE_X, sx) - splat(self.x),
+            coordinate(s, y, &LANE_Y, sy) - splat(self.y),
+        ]
+    }
+}
+
+/// 1/256 pixel to pixels: exact below 2²⁴.
+#[inline(always)]
+fn pixels(subpixels: i32) -> f32 {
+    subpixels as f32 * (1.0 / 256.0)
+}
+
+/// A plane's value at sixteen pixels.
+#[inline(always)]
+pub(crate) fn evaluate<S: Lanes>(s: S, plane: &Plane, [dx, dy]: [f32x16<S>; 2]) -> f32x16<S> {
+    let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+    splat(plane.origin) + (dx * splat(plane.dx) + dy * splat(plane.dy))
+}
+
+/// Planes of all varyings of one triangle.
+#[derive(Debug, Clone)]
+pub(crate) struct VaryingPlanes {
+    origin: [f32; MAX_SCALARS],
+    dx: [f32; MAX_SCALARS],
+    dy: [f32; MAX_SCALARS],
+}
+
+impl Default for VaryingPlanes {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
+impl VaryingPlanes {
+    pub(crate) const ZERO: Self = Self {
+        origin: [0.0; MAX_SCALARS],
+        dx: [0.0; MAX_SCALARS],
+        dy: [0.0; MAX_SCALARS],
+    };
+
+    /// Sets the planes of a lane's triangle.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, packet: &TrianglePacket, lane: usize, source: &VaryingSource<'_>) {
+        let vertex = |corner: usize| source.of(packet.vertex[corner][lane]);
+        let (a0, a1, a2) = (vertex(0), vertex(1), vertex(2));
+        let n = source.modes.len().min(MAX_SCALARS);
+        let iw = [
+            packet.iw_at[0][lane],
+            packet.iw_at[1][lane],
+            packet.iw_at[2][lane],
+        ];
+        let perspective = packet.equal_w >> lane & 1 == 0;
+        let difference =
+            |of: &[[i32; LANES]; 3], corner: usize| pixels(of[corner][lane] - of[0][lane]);
+        let (dx1, dy1) = (difference(&packet.x, 1), difference(&packet.y, 1));
+        let (dx2, dy2) = (difference(&packet.x, 2), difference(&packet.y, 2));
+        let r = packet.r[lane];
+        for k in 0..n {
+            // The factor of modes without perspective is 1, and a product with 1 changes nothing.
+            let by_w = perspective && source.modes[k] == Interpolation::Smooth;
+            let w = if by_w { iw } else { [1.0; 3] };
+            let (p0, p1, p2) = (a0[k] * w[0], a1[k] * w[1], a2[k] * w[2]);
+            let (e1, e2) = (p1 - p0, p2 - p0);
+            self.origin[k] = p0;
+            self.dx[k] = (e1 * dy2 - e2 * dy1) * r;
+            self.dy[k] = (e2 * dx1 - e1 * dx2) * r;
+        }
+        if source.modes.contains(&Interpolation::Flat) {
+            let provoking = source.of(packet.provoking[lane]);
+            for k in 0..n {
+                if source.modes[k] == Interpolation::Flat {
+                    (self.origin[k], self.dx[k], self.dy[k]) = (provoking[k], 0.0, 0.0);
+                }
+            }
+        }
+    }
+}
+
+/// A triangle.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TriangleSurface<'a> {
+    pub(crate) origin: PlaneOrigin,
+    pub(crate) z: Plane,
+    pub(crate) iw: Plane,
+    /// Whether the three 1/w are equal in bits.
+    pub(crate) equal_w: bool,
+    pub(crate) planes: &'a VaryingPlanes,
+    pub(crate) modes: &'a [Interpolation],
+    /// Whether every varying is smooth, which needs no look at the modes.
+    pub(crate) all_smooth: bool,
+}
+
+impl<S: Lanes> Surface<S> for TriangleSurface<'_> {
+    #[inline(always)]
+    fn depth(&self, s: S, pixel: [i32; 2], sample: [f32; 2]) -> f32x16<S> {
+        evaluate(s, &self.z, self.origin.distances(s, pixel, sample))
+    }
+
+    #[inline(always)]
+    fn inverse_w(&self, s: S, pixel: [i32; 2]) -> f32x16<S> {
+        if self.equal_w {
+            return SimdBase::splat(s, self.iw.origin);
+        }
+        evaluate(s, &self.iw, self.origin.distances(s, pixel, [0.5; 2]))
+    }
+
+    #[inline(always)]
+    fn varyings(&self, s: S, pixel: [i32; 2], out: &mut [Packet<f32>]) {
+        let distances = self.origin.distances(s, pixel, [0.5; 2]);
+        let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
+        let n = out.len().min(MAX_SCALARS);
+        let planes = self.planes;
+        let (origin, dx, dy) = (&planes.origin[..n], &planes.dx[..n], &planes.dy[..n]);
+        let plane = |k: usize| Plane {
+            origin: origin[k],
+            dx: dx[k],
+            dy: dy[k],
+        };
+        if self.equal_w {
+            for (k, packet) in out.iter_mut().enumerate().take(n) {
+                evaluate(s, &plane(k), distances).store_array(&mut packet.0);
+            }
+            return;
+        }
+        let w = one / evaluate(s, &self.iw, distances);
+        for (k, packet) in out.iter_mut().enumerate().take(n) {
+            let mut value = evaluate(s, &plane(k), distances);
+            if self.all_smooth || self.modes[k] == Interpolation::Smooth {
+                value = value * w;
+            }
+            value.store_array(&mut packet.0);
+        }
+    }
+}
+
+/// A line.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LineSurface<'a> {
+    line: &'a LinePrimitive,
+    axis: LineAxis,
+    source: VaryingSource<'a>,
+}
+
+impl<'a> LineSurface<'a> {
+    pub(crate) fn new(line: &'a LinePrimitive, source: VaryingSource<'a>) -> Self {
+        Self {
+            line,
+            axis: LineAxis::new(line),
+            source,
+        }
+    }
+
+    /// The fraction of the way to the end, at the pixels' centres along the major axis.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "coordinates are below 2²⁴")]
+    fn fraction<S: Lanes>(&self, s: S, [x, y]: [i32; 2]) -> f32x16<S> {
+        let (pixel, lanes) = if self.axis.x_major {
+            (x, &LANE_X)
+        } else {
+            (y, &LANE_Y)
+        };
+        let mut steps = [0; LANES];
+        for (step, lane) in steps.iter_mut().zip(lanes) {
+            *step = i32::from(*lane) * 256;
+        }
+        let first = pixel * 256 + 128 - self.axis.start[0] as i32;
+        let along = i32x16::load_array(s, steps) + <i32x16<S> as SimdBase<S>>::splat(s, first);
+        let delta = <f32x16<S> as SimdBase<S>>::splat(s, self.axis.delta[0] as f32);
+        f32x16::float_from(along) / delta
+    }
+}
+
+/// `a + (b − a)·t`.
+#[inline(always)]
+fn mix<S: Lanes>(s: S, a: f32, b: f32, t: f32x16<S>) -> f32x16<S> {
+    let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+    splat(a) + splat(b - a) * t
+}
+
+impl<S: Lanes> Surface<S> for LineSurface<'_> {
+    #[inline(always)]
+    fn depth(&self, s: S, pixel: [i32; 2], _sample: [f32; 2]) -> f32x16<S> {
+        let [a, b] = &self.line.ends;
+        mix(s, a.z, b.z, self.fraction(s, pixel))
+    }
+
+    #[inline(always)]
+    fn inverse_w(&self, s: S, pixel: [i32; 2]) -> f32x16<S> {
+        let [a, b] = &self.line.ends;
+        if a.iw.to_bits() == b.iw.to_bits() {
+            return SimdBase::splat(s, a.iw);
+        }
+        mix(s, a.iw, b.iw, self.fraction(s, pixel))
+    }
+
+    #[inline(always)]
+    fn varyings(&self, s: S, pixel: [i32; 2], out: &mut [Packet<f32>]) {
+        let [a, b] = &self.line.ends;
+        let (from, to) = (self.source.of(a.vertex), self.source.of(b.vertex));
+        let provoking = self.source.of(self.line.provoking);
+        let t = self.fraction(s, pixel);
+        let perspective = a.iw.to_bits() != b.iw.to_bits();
+        let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
+        let w = one / mix(s, a.iw, b.iw, t);
+        for (k, packet) in out.iter_mut().enumerate() {
+            let value = match self.source.modes[k] {
+                Interpolation::Flat => SimdBase::splat(s, provoking[k]),
+                Interpolation::Smooth if perspective => mix(s, from[k] * a.iw, to[k] * b.iw, t) * w,
+                _ => mix(s, from[k], to[k], t),
+            };
+            value.store_array(&mut packet.0);
+        }
+    }
+}
+
+/// A point: everything is its vertex's.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PointSurface<'a> {
+    pub(crate) point: &'a PointPrimitive,
+    pub(crate) source: VaryingSource<'a>,
+}
+
+impl<S: Lanes> Surface<S> for PointSurface<'_> {
+    #[inline(always)]
+    fn depth(&self, s: S, _pixel: [i32; 2], _sample: [f32; 2]) -> f32x16<S> {
+        SimdBase::splat(s, self.point.center.z)
+    }
+
+    #[inline(always)]
+    fn inverse_w(&self, s: S, _pixel: [i32; 2]) -> f32x16<S> {
+        SimdBase::splat(s, self.point.center.iw)
+    }
+
+    #[inline(always)]
+    fn varyings(&self, s: S, _pixel: [i32; 2], out: &mut [Packet<f32>]) {
+        let values = self.source.of(self.point.center.vertex);
+        for (packet, value) in out.iter_mut().zip(values) {
+            <f32x16<S> as SimdBase<S>>::splat(s, *value).store_array(&mut packet.0);
+        }
+    }
+}

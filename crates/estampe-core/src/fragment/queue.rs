@@ -1,0 +1,220 @@
+//! Packets of fragments that wait to be shaded together.
+
+use super::interpolate::Surface;
+use crate::pipeline::RenderPipeline;
+use crate::raster::Covered;
+use estampe_simd::{Lanes, Level, Packet, SimdBase, f32x16};
+use estampe_types::shader::DepthOutput;
+use estampe_types::{Bindings, FragmentBatch};
+
+/// Packets that are shaded in one call.
+pub(crate) const CAPACITY: usize = 16;
+
+/// Where a queued packet came from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Queued<const N: usize> {
+    /// Packet of the tile, and its samples that are covered.
+    pub(crate) covered: Covered<N>,
+}
+
+/// Shader inputs and outputs of up to [`CAPACITY`] packets, structure of arrays.
+#[derive(Debug)]
+pub(crate) struct FragmentQueue<const N: usize> {
+    len: usize,
+    scalars: usize,
+    targets: usize,
+    queued: [Queued<N>; CAPACITY],
+    varyings: Vec<Packet<f32>>,
+    positions: [[Packet<f32>; 4]; CAPACITY],
+    front_facing: [u16; CAPACITY],
+    coverage: [u16; CAPACITY],
+    /// Depths of each sample, where depth is tested after shading.
+    depths: [[Packet<f32>; N]; CAPACITY],
+    colors: Vec<Packet<f32>>,
+    depth_out: [Packet<f32>; CAPACITY],
+}
+
+impl<const N: usize> Default for FragmentQueue<N> {
+    fn default() -> Self {
+        let covered = Covered {
+            packet: 0,
+            masks: [0; N],
+        };
+        Self {
+            len: 0,
+            scalars: 0,
+            targets: 0,
+            queued: [Queued { covered }; CAPACITY],
+            varyings: Vec::new(),
+            positions: [[Packet::default(); 4]; CAPACITY],
+            front_facing: [0; CAPACITY],
+            coverage: [0; CAPACITY],
+            depths: [[Packet::default(); N]; CAPACITY],
+            colors: Vec::new(),
+            depth_out: [Packet::default(); CAPACITY],
+        }
+    }
+}
+
+/// A shaded packet.
+#[derive(Debug)]
+pub(crate) struct Shaded<'a, const N: usize> {
+    /// Packet of the tile, and its samples that are covered and not discarded.
+    pub(crate) covered: Covered<N>,
+    /// R, G, B, A of each target.
+    pub(crate) colors: &'a [Packet<f32>],
+    /// Depth of each sample, where depth is tested after shading.
+    pub(crate) depths: &'a [Packet<f32>; N],
+    /// The shader's depth, where it gives one.
+    pub(crate) depth_out: Option<&'a Packet<f32>>,
+}
+
+impl<const N: usize> FragmentQueue<N> {
+    /// Gets ready for a pipeline's packets. The queue must be empty.
+    pub(crate) fn configure(&mut self, pipeline: &RenderPipeline) {
+        let interface = pipeline.interface();
+        debug_assert_eq!(self.len, 0, "packets of another pipeline are still queued");
+        self.scalars = interface.varyings.len();
+        self.targets = interface.color_targets;
+        self.varyings
+            .resize(self.scalars * CAPACITY, Packet::default());
+        self.colors
+            .resize(self.targets * 4 * CAPACITY, Packet::default());
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_full(&self) -> bool {
+        self.len >= CAPACITY
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Queues a packet of a primitive at the target's pixel (x, y).
+    #[inline(always)]
+    pub(crate) fn push<S: Lanes>(
+        &mut self,
+        s: S,
+        surface: &impl Surface<S>,
+        (covered, pixel): (Covered<N>, [i32; 2]),
+        front: bool,
+        needs: Needs,
+        depth_range: [f32; 2],
+    ) {
+        let slot = self.len % CAPACITY;
+        self.queued[slot] = Queued { covered };
+        self.coverage[slot] = covered.any();
+        self.front_facing[slot] = if front { u16::MAX } else { 0 };
+        let out = &mut self.varyings[slot * self.scalars..][..self.scalars];
+        if !out.is_empty() {
+            surface.varyings(s, pixel, out);
+        }
+        if needs.position {
+            let [x, y, z, w] = &mut self.positions[slot];
+            let lanes = |base: i32, lanes: &[u8; 16]| {
+                let mut centers = [0.0; 16];
+                for (center, lane) in centers.iter_mut().zip(lanes) {
+                    *center = (base + i32::from(*lane)) as f32 + 0.5;
+                }
+                centers
+            };
+            x.0 = lanes(pixel[0], &estampe_simd::LANE_X);
+            y.0 = lanes(pixel[1], &estampe_simd::LANE_Y);
+            let depth = clamp_depth(s, surface.depth(s, pixel, [0.5; 2]), depth_range);
+            depth.store_array(&mut z.0);
+            surface.inverse_w(s, pixel).store_array(&mut w.0);
+        }
+        if needs.depth {
+            for (depth, [sx, sy]) in self.depths[slot].iter_mut().zip(sample_offsets::<N>()) {
+                let value = surface.depth(s, pixel, [sx, sy]);
+                clamp_depth(s, value, depth_range).store_array(&mut depth.0);
+            }
+        }
+        self.len += 1;
+    }
+
+    /// Runs the program over what is queued, and says how many fragments that were.
+    pub(crate) fn shade(
+        &mut self,
+        level: Level,
+        pipeline: &RenderPipeline,
+        bindings: &Bindings,
+    ) -> u64 {
+        let len = self.len.min(CAPACITY);
+        let interface = pipeline.interface();
+        let fragments = self.coverage[..len]
+            .iter()
+            .map(|mask| u64::from(mask.count_ones()))
+            .sum();
+        let positions = if interface.reads_position { len * 4 } else { 0 };
+        let depths = if interface.depth_output == DepthOutput::None {
+            0
+        } else {
+            len
+        };
+        pipeline.program().run_fragments(
+            level,
+            bindings,
+            FragmentBatch {
+                varyings: &self.varyings[..len * self.scalars],
+                positions: &self.positions.as_flattened()[..positions],
+                front_facing: &self.front_facing[..len],
+                coverage: &mut self.coverage[..len],
+                colors: &mut self.colors[..len * self.targets * 4],
+                depths: &mut self.depth_out[..depths],
+            },
+        );
+        fragments
+    }
+
+    /// The shaded packets in order; the queue is empty afterwards.
+    #[inline(always)]
+    pub(crate) fn drain(&mut self, has_depth_out: bool) -> impl Iterator<Item = Shaded<'_, N>> {
+        let len = std::mem::take(&mut self.len).min(CAPACITY);
+        let this = &*self;
+        (0..len).map(move |slot| {
+            let mut covered = this.queued[slot].covered;
+            covered
+                .masks
+                .iter_mut()
+                .for_each(|mask| *mask &= this.coverage[slot]);
+            Shaded {
+                covered,
+                colors: &this.colors[slot * this.targets * 4..][..this.targets * 4],
+                depths: &this.depths[slot],
+                depth_out: has_depth_out.then_some(&this.depth_out[slot]),
+            }
+        })
+    }
+}
+
+/// What a queued packet must bring besides varyings.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Needs {
+    /// The window position.
+    pub(crate) position: bool,
+    /// The depth of each sample.
+    pub(crate) depth: bool,
+}
+
+/// The samples' offsets in their pixel, in pixels.
+#[inline(always)]
+pub(crate) fn sample_offsets<const N: usize>() -> [[f32; 2]; N] {
+    let mut offsets = [[0.5; 2]; N];
+    for (offset, [x, y]) in offsets
+        .iter_mut()
+        .zip(crate::raster::sample_positions::<N>())
+    {
+        *offset = [x as f32 * (1.0 / 256.0), y as f32 * (1.0 / 256.0)];
+    }
+    offsets
+}
+
+/// Depth confined to the viewport's range; NaN becomes its lower end.
+#[inline(always)]
+pub(crate) fn clamp_depth<S: Lanes>(s: S, depth: f32x16<S>, [low, high]: [f32; 2]) -> f32x16<S> {
+    let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+    s.min_f32(s.max_f32(depth, splat(low)), splat(high))
+}

@@ -1,0 +1,195 @@
+//! Primitive assembly (A1): which elements make primitive `p`.
+//!
+//! *In* a topology and a count of elements · *Out* element numbers, the provoking one first ·
+//! *Spec* WebGPU §Primitive assembly; Vulkan §Primitive Topologies for fans.
+
+use estampe_simd::LANES;
+use estampe_types::state::PrimitiveTopology;
+use estampe_types::{Buffer, IndexFormat};
+
+/// What kind of primitives a topology makes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PrimitiveKind {
+    Points,
+    Lines,
+    Triangles,
+}
+
+pub(crate) fn kind_of(topology: PrimitiveTopology) -> PrimitiveKind {
+    use PrimitiveTopology as T;
+    match topology {
+        T::PointList => PrimitiveKind::Points,
+        T::LineList | T::LineStrip | T::LineLoop => PrimitiveKind::Lines,
+        T::TriangleList | T::TriangleStrip | T::TriangleFan => PrimitiveKind::Triangles,
+    }
+}
+
+/// How many primitives `elements` elements make; an incomplete last one is dropped.
+pub(crate) fn primitive_count(topology: PrimitiveTopology, elements: u32) -> u32 {
+    use PrimitiveTopology as T;
+    match topology {
+        T::PointList => elements,
+        T::LineList => elements / 2,
+        T::LineStrip => elements.saturating_sub(1),
+        T::LineLoop => {
+            if elements < 2 {
+                0
+            } else {
+                elements
+            }
+        }
+        T::TriangleList => elements / 3,
+        T::TriangleStrip | T::TriangleFan => elements.saturating_sub(2),
+    }
+}
+
+/// The elements of primitive `p`: the first is the provoking one. Unused places repeat it.
+#[inline(always)]
+pub(crate) fn elements_of(topology: PrimitiveTopology, p: u32, elements: u32) -> [u32; 3] {
+    use PrimitiveTopology as T;
+    match topology {
+        T::PointList => [p; 3],
+        T::LineList => [p * 2, p * 2 + 1, p * 2],
+        T::LineStrip => [p, p + 1, p],
+        T::LineLoop => [p, if p + 1 == elements { 0 } else { p + 1 }, p],
+        T::TriangleList => [p * 3, p * 3 + 1, p * 3 + 2],
+        // Every other triangle is turned, so that all face the same way.
+        T::TriangleStrip => [p, p + 1 + (p & 1), p + 2 - (p & 1)],
+        T::TriangleFan => [p + 1, p + 2, 0],
+    }
+}
+
+/// How elements become vertices of an item.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ElementSource<'a> {
+    pub(crate) topology: PrimitiveTopology,
+    /// Elements of one instance.
+    pub(crate) elements: u32,
+    /// The index buffer; without one, or where indices are sparse, element `i` is vertex `i`.
+    pub(crate) indices: Option<(&'a Buffer, IndexFormat)>,
+    /// The first element in the index buffer.
+    pub(crate) first_element: u32,
+    /// Taken from an index (after the base vertex was added) to give the item's vertex.
+    pub(crate) first_vertex: u32,
+    pub(crate) base_vertex: i32,
+}
+
+impl ElementSource<'_> {
+    /// The item's vertices of up to sixteen primitives from `first` on.
+    #[inline(always)]
+    pub(crate) fn assemble(&self, first: u32, count: usize, out: &mut [[u32; LANES]; 3]) {
+        if let (PrimitiveTopology::TriangleList, Some((buffer, IndexFormat::Uint32))) =
+            (self.topology, self.indices)
+        {
+            let at = (self.first_element as usize).saturating_add(first as usize * 3);
+            if let Some(words) = buffer.words().get(at..at + count * 3) {
+                let offset = self
+                    .first_vertex
+                    .wrapping_sub(self.base_vertex.cast_unsigned());
+                for (lane, corner) in words.chunks_exact(3).enumerate().take(LANES) {
+                    out[0][lane] = corner[0].wrapping_sub(offset);
+                    out[1][lane] = corner[1].wrapping_sub(offset);
+                    out[2][lane] = corner[2].wrapping_sub(offset);
+                }
+                return;
+            }
+        }
+        for lane in 0..count {
+            // `lane` is below 16.
+            let p = first + lane as u32;
+            let corners = elements_of(self.topology, p, self.elements);
+            for (corner, element) in corners.into_iter().enumerate() {
+                out[corner][lane] = self.vertex_of(element);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn vertex_of(&self, element: u32) -> u32 {
+        match self.indices {
+            None => element,
+            Some((buffer, format)) => {
+                let at = self.first_element as usize + element as usize;
+                vertex_index(buffer, format, at, self.base_vertex).wrapping_sub(self.first_vertex)
+            }
+        }
+    }
+}
+
+/// The vertex that an index names, beyond the buffer's end index 0.
+#[inline(always)]
+pub(crate) fn vertex_index(
+    buffer: &Buffer,
+    format: IndexFormat,
+    at: usize,
+    base_vertex: i32,
+) -> u32 {
+    let words = buffer.words();
+    let in_bounds = |bytes: usize| {
+        at.checked_add(1)
+            .and_then(|end| end.checked_mul(bytes))
+            .is_some_and(|end| end <= buffer.len_bytes())
+    };
+    let index = match format {
+        IndexFormat::Uint32 => words
+            .get(at)
+            .copied()
+            .filter(|_| in_bounds(4))
+            .unwrap_or_default(),
+        IndexFormat::Uint16 => {
+            let word = words
+                .get(at / 2)
+                .copied()
+                .filter(|_| in_bounds(2))
+                .unwrap_or_default();
+            word >> (at % 2 * 16) & 0xFFFF
+        }
+        IndexFormat::Uint8 => u32::from(if in_bounds(1) { buffer.byte(at) } else { 0 }),
+    };
+    index.wrapping_add_signed(base_vertex)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use PrimitiveTopology as T;
+
+    #[test]
+    fn incomplete_primitives_are_dropped() {
+        let counts = |topology| [0, 1, 2, 3, 4, 5].map(|n| primitive_count(topology, n));
+        assert_eq!(counts(T::LineList), [0, 0, 1, 1, 2, 2]);
+        assert_eq!(counts(T::LineStrip), [0, 0, 1, 2, 3, 4]);
+        assert_eq!(counts(T::LineLoop), [0, 0, 2, 3, 4, 5]);
+        assert_eq!(counts(T::TriangleList), [0, 0, 0, 1, 1, 1]);
+        assert_eq!(counts(T::TriangleStrip), [0, 0, 0, 1, 2, 3]);
+        assert_eq!(counts(T::TriangleFan), [0, 0, 0, 1, 2, 3]);
+    }
+
+    #[test]
+    fn strips_and_fans_keep_their_winding() {
+        assert_eq!(elements_of(T::TriangleStrip, 0, 9), [0, 1, 2]);
+        assert_eq!(elements_of(T::TriangleStrip, 1, 9), [1, 3, 2]);
+        assert_eq!(elements_of(T::TriangleStrip, 2, 9), [2, 3, 4]);
+        assert_eq!(elements_of(T::TriangleFan, 3, 9), [4, 5, 0]);
+        assert_eq!(elements_of(T::LineLoop, 8, 9)[..2], [8, 0]);
+    }
+
+    #[test]
+    fn indices_of_every_width_read_zero_beyond_the_end() {
+        let buffer = Buffer::from_bytes(&[1, 0, 2, 0, 3, 0]);
+        let read = |format, at| vertex_index(&buffer, format, at, 0);
+        assert_eq!(
+            [0, 1, 2, 3].map(|at| read(IndexFormat::Uint16, at)),
+            [1, 2, 3, 0]
+        );
+        assert_eq!(
+            [4, 5, 6, usize::MAX].map(|at| read(IndexFormat::Uint8, at)),
+            [3, 0, 0, 0]
+        );
+        assert_eq!(
+            [0, 1, 2].map(|at| read(IndexFormat::Uint32, at)),
+            [0x0002_0001, 0, 0]
+        );
+        assert_eq!(vertex_index(&buffer, IndexFormat::Uint16, 0, -2), u32::MAX);
+    }
+}

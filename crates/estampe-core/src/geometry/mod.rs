@@ -1,0 +1,25 @@
+//! The geometry side: from a draw's vertices to set-up primitives in bins.
+//!
+//! The stages, in order: [`fetch`] reads attributes, [`shading`] runs the vertex shader and projects
+//! its vertices, [`assembly`] joins vertices into primitives, [`cull`] drops most of the
+//! triangles sixteen at a time, [`clip`] cuts the few that need it, [`viewport`] is the way from clip
+//! space to the window, [`setup`] sorts vertices, makes planes and bins.
+//!
+//! Each vertex is shaded once: an item's dense index range is shaded as a whole before its primitives
+//! are assembled.
+
+pub(crate) mod viewport;
+
+pub(crate) mod fetch;
+
+pub(crate) mod shading;
+
+pub(crate) mod assembly;
+
+pub(crate) mod cull;
+
+pub(crate) mod clip;
+
+pub(crate) mod setup;
+
+pub(crate) mod chunk;

@@ -1,0 +1,207 @@
+//! From clip space to the window (A4, X5).
+//!
+//! *In* clip-space vertices · *Out* snapped window positions, depth and 1/w · *Precision* f32, then
+//! 1/256 pixel · *Spec* Vulkan §Coordinate Transformations; `docs/NUMERICS.md`.
+
+use estampe_simd::{Lanes, Select, SimdBase, f32x16, i32x16, mask32x16};
+use estampe_types::state::{ScissorRect, Viewport};
+
+/// The least window coordinate that needs no clipping, in pixels.
+pub(crate) const GUARD_MIN: f32 = -8192.0;
+/// The greatest: the guard band is 2¹⁵ pixels in all, so differences of positions in 1/256 pixel fit
+/// 24 bits and products of two of them 48.
+pub(crate) const GUARD_MAX: f32 = 24_575.0;
+
+/// The viewport's constants, as `docs/NUMERICS.md` rounds them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ViewportTransform {
+    pub(crate) scale: [f32; 3],
+    pub(crate) offset: [f32; 3],
+    /// The range that depth is clamped to.
+    pub(crate) depth_range: [f32; 2],
+}
+
+/// A vertex in the window, before it is snapped.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Projected {
+    pub(crate) x: f32,
+    pub(crate) y: f32,
+    pub(crate) z: f32,
+    pub(crate) iw: f32,
+}
+
+impl ViewportTransform {
+    pub(crate) fn new(viewport: &Viewport) -> Self {
+        let (sx, sy) = (viewport.width * 0.5, viewport.height * -0.5);
+        let (near, far) = (viewport.min_depth, viewport.max_depth);
+        Self {
+            scale: [sx, sy, far - near],
+            offset: [viewport.x + sx, viewport.y + viewport.height * 0.5, near],
+            depth_range: if near < far { [near, far] } else { [far, near] },
+        }
+    }
+
+    /// One vertex; meaningless unless w > 0.
+    pub(crate) fn project(&self, [x, y, z, w]: [f32; 4]) -> Projected {
+        let iw = 1.0 / w;
+        Projected {
+            x: (x * iw) * self.scale[0] + self.offset[0],
+            y: (y * iw) * self.scale[1] + self.offset[1],
+            z: (z * iw) * self.scale[2] + self.offset[2],
+            iw,
+        }
+    }
+
+    /// Sixteen vertices: x and y snapped, z, 1/w, and which of them need no clipping.
+    #[inline(always)]
+    pub(crate) fn project_lanes<S: Lanes>(
+        &self,
+        s: S,
+        [x, y, z, w]: [f32x16<S>; 4],
+    ) -> (i32x16<S>, i32x16<S>, f32x16<S>, f32x16<S>, mask32x16<S>) {
+        let splat = |value: f32| <f32x16<S> as SimdBase<S>>::splat(s, value);
+        let iw = splat(1.0) / w;
+        let xw = (x * iw) * splat(self.scale[0]) + splat(self.offset[0]);
+        let yw = (y * iw) * splat(self.scale[1]) + splat(self.offset[1]);
+        let zw = (z * iw) * splat(self.scale[2]) + splat(self.offset[2]);
+        let zero = splat(0.0);
+        let (low, high) = (splat(GUARD_MIN), splat(GUARD_MAX));
+        let inside = z.simd_ge(zero)
+            & z.simd_le(w)
+            & w.simd_gt(zero)
+            & iw.simd_lt(splat(f32::INFINITY))
+            & xw.simd_ge(low)
+            & xw.simd_le(high)
+            & yw.simd_ge(low)
+            & yw.simd_le(high);
+        (snap_lanes(s, xw), snap_lanes(s, yw), zw, iw, inside)
+    }
+}
+
+/// Whether a window position lies within the guard band; false for NaN.
+pub(crate) fn is_within_guard_band(x: f32, y: f32) -> bool {
+    (GUARD_MIN..=GUARD_MAX).contains(&x) && (GUARD_MIN..=GUARD_MAX).contains(&y)
+}
+
+/// A window coordinate in 1/256 pixel, half to even. Clipped vertices lie up to a pixel outside the guard
+/// band; the clamp stands for those that rounding put further.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the clamp keeps it below 2²³"
+)]
+pub(crate) fn snap(coordinate: f32) -> i32 {
+    (coordinate.clamp(GUARD_MIN - 2.0, GUARD_MAX + 2.0) * 256.0).round_ties_even() as i32
+}
+
+/// The same for sixteen coordinates within the guard band; others give anything.
+///
+/// `round_to_i32` is exact up to 2²² = 16384 pixels; greater values are multiples of ½, so 2²² comes
+/// off without rounding and goes back on as an integer.
+#[inline(always)]
+fn snap_lanes<S: Lanes>(s: S, coordinate: f32x16<S>) -> i32x16<S> {
+    let scaled = coordinate * 256.0;
+    let base = <f32x16<S> as SimdBase<S>>::splat(s, 4_194_304.0);
+    let high = scaled.simd_ge(base);
+    let rounded = s.round_to_i32(high.select(scaled - base, scaled));
+    let back = <i32x16<S> as SimdBase<S>>::splat(s, 1 << 22);
+    high.select(rounded + back, rounded)
+}
+
+/// A half-open rectangle of pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct PixelRect {
+    pub(crate) x0: i32,
+    pub(crate) y0: i32,
+    pub(crate) x1: i32,
+    pub(crate) y1: i32,
+}
+
+impl PixelRect {
+    /// Viewport ∩ scissor ∩ target. The viewport's pixels are those whose centres it contains.
+    pub(crate) fn new(
+        viewport: &Viewport,
+        scissor: Option<ScissorRect>,
+        width: u32,
+        height: u32,
+    ) -> Self {
+        let size = |pixels: u32| i32::try_from(pixels).unwrap_or(i32::MAX);
+        let mut rect = Self {
+            x0: first_center(viewport.x).max(0),
+            y0: first_center(viewport.y).max(0),
+            x1: first_center(viewport.x + viewport.width).min(size(width)),
+            y1: first_center(viewport.y + viewport.height).min(size(height)),
+        };
+        if let Some(scissor) = scissor {
+            rect.x0 = rect.x0.max(size(scissor.x));
+            rect.y0 = rect.y0.max(size(scissor.y));
+            rect.x1 = rect.x1.min(size(scissor.x.saturating_add(scissor.width)));
+            rect.y1 = rect.y1.min(size(scissor.y.saturating_add(scissor.height)));
+        }
+        rect
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.x0 >= self.x1 || self.y0 >= self.y1
+    }
+}
+
+/// ⌈edge − ½⌉: the first pixel whose centre is at or beyond an edge.
+#[expect(clippy::cast_possible_truncation, reason = "`as` saturates")]
+fn first_center(edge: f32) -> i32 {
+    (edge - 0.5).ceil() as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use estampe_simd::{LANES, Level, dispatch};
+
+    #[inline(always)]
+    fn snapped<S: Lanes>(s: S, values: [f32; LANES]) -> [i32; LANES] {
+        snap_lanes(s, f32x16::load_array(s, values)).to_array()
+    }
+
+    #[test]
+    fn sixteen_snap_like_one() {
+        let mut value = GUARD_MIN;
+        while value < GUARD_MAX {
+            let values: [f32; LANES] =
+                std::array::from_fn(|i| (value + i as f32 * 7.001_953).min(GUARD_MAX));
+            for level in Level::all_available() {
+                let got = dispatch!(level, s => snapped(s, values));
+                assert_eq!(got, values.map(snap), "{level:?} {values:?}");
+            }
+            value += 13.37;
+        }
+        let ties: [f32; LANES] = std::array::from_fn(|i| 16_383.0 + (i as f32 * 0.5 + 0.5) / 256.0);
+        for level in Level::all_available() {
+            assert_eq!(
+                dispatch!(level, s => snapped(s, ties)),
+                ties.map(snap),
+                "{level:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_viewport_has_the_pixels_whose_centers_it_contains() {
+        let viewport = Viewport {
+            x: 0.5,
+            y: -3.0,
+            width: 2.0,
+            height: 5.0,
+            min_depth: 0.0,
+            max_depth: 1.0,
+        };
+        let rect = PixelRect::new(&viewport, None, 10, 10);
+        assert_eq!(
+            rect,
+            PixelRect {
+                x0: 0,
+                y0: 0,
+                x1: 2,
+                y1: 2
+            }
+        );
+    }
+}

@@ -1,0 +1,13 @@
+//! Per-sample operations (O), in the order of the specifications: depth test, blending, sRGB encoding,
+//! write mask.
+//!
+//! *In* coverage, depths, colours · *Out* values in attachments · *Precision* f32 in the order of
+//! `docs/NUMERICS.md`; stores round once.
+
+pub(crate) mod depth;
+
+pub(crate) mod depth_bounds;
+
+pub(crate) mod color;
+
+pub(crate) mod codes;

@@ -1,0 +1,363 @@
+//! The state of a draw: an untrusted descriptor, validated once into an immutable pipeline.
+
+use estampe_types::shader::DepthOutput;
+use estampe_types::state::{
+    ColorTargetState, CompareFunction, DepthState, PrimitiveState, VertexBufferLayout,
+};
+use estampe_types::{
+    Interface, Interpolation, Limits, Program, Shader, ShaderProgram, TextureFormat,
+};
+use std::sync::Arc;
+
+/// What a pipeline is made of.
+#[derive(Debug, Clone)]
+pub struct RenderPipelineDescriptor {
+    /// The vertex and fragment shader.
+    pub program: Arc<dyn Program>,
+    /// How each vertex buffer of a draw lies. Default none.
+    pub vertex_buffers: Vec<VertexBufferLayout>,
+    /// Topology, facing, culling. Default a triangle list, nothing culled.
+    pub primitive: PrimitiveState,
+    /// The depth test, or none. Default less, written.
+    pub depth: Option<DepthState>,
+    /// Samples per pixel, 1 or 4. Default 1.
+    pub samples: u32,
+    /// The colour targets. Default one `Rgba8Unorm`, replaced.
+    pub targets: Vec<ColorTargetState>,
+}
+
+impl RenderPipelineDescriptor {
+    /// The defaults, for a Rust shader.
+    pub fn new(shader: impl Shader) -> Self {
+        Self::with_program(Arc::new(ShaderProgram::new(shader)))
+    }
+
+    /// The defaults, for any program.
+    #[must_use]
+    pub fn with_program(program: Arc<dyn Program>) -> Self {
+        Self {
+            program,
+            vertex_buffers: Vec::new(),
+            primitive: PrimitiveState::default(),
+            depth: Some(DepthState::LESS_WRITE),
+            samples: 1,
+            targets: vec![TextureFormat::Rgba8Unorm.into()],
+        }
+    }
+}
+
+/// Why a pipeline was refused: the rule that its descriptor breaks.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PipelineError {
+    /// The sample count is not offered.
+    #[error("a pipeline has 1 or 4 samples per pixel, not {0}")]
+    SampleCount(u32),
+    /// Too many colour targets.
+    #[error("the pipeline has {count} colour targets; the limit max_color_attachments is {limit}")]
+    TooManyTargets {
+        /// How many there are.
+        count: usize,
+        /// How many there may be.
+        limit: u32,
+    },
+    /// The shader writes another number of targets than there are.
+    #[error(
+        "the shader writes {shader} colour targets, the pipeline has {pipeline}: they must agree"
+    )]
+    TargetCount {
+        /// What the shader writes.
+        shader: usize,
+        /// What the pipeline has.
+        pipeline: usize,
+    },
+    /// A colour target has a depth format.
+    #[error("colour target {index} has the format {format:?}, which does not hold colour")]
+    NotColor {
+        /// Which target.
+        index: usize,
+        /// Its format.
+        format: TextureFormat,
+    },
+    /// A pipeline with several samples has several targets.
+    #[error("with 4 samples a pipeline has at most one colour target, this one has {0}")]
+    MultisampledTargets(usize),
+    /// Too many vertex buffers.
+    #[error("the pipeline has {count} vertex buffers; the limit max_vertex_buffers is {limit}")]
+    TooManyVertexBuffers {
+        /// How many there are.
+        count: usize,
+        /// How many there may be.
+        limit: u32,
+    },
+    /// A stride is too large.
+    #[error(
+        "vertex buffer {buffer} has a stride of {stride} bytes; the limit \
+         max_vertex_buffer_array_stride is {limit}"
+    )]
+    StrideTooLarge {
+        /// Which buffer.
+        buffer: usize,
+        /// Its stride.
+        stride: u32,
+        /// How large it may be.
+        limit: u32,
+    },
+    /// An attribute reaches beyond its element.
+    #[error(
+        "attribute at location {location} ends at byte {end} of an element of vertex buffer {buffer}, \
+         beyond its stride of {stride}"
+    )]
+    AttributeBeyondStride {
+        /// Which buffer.
+        buffer: usize,
+        /// The shader location that it feeds.
+        location: u32,
+        /// Where the attribute ends.
+        end: u64,
+        /// The element's length.
+        stride: u32,
+    },
+    /// A shader location is fed twice.
+    #[error("shader location {0} is fed by two attributes")]
+    LocationTwice(u32),
+    /// A shader location is fed by nothing.
+    #[error("the shader reads location {0}, which no vertex buffer feeds")]
+    LocationMissing(usize),
+    /// A location that the shader does not read, or beyond the limit.
+    #[error("location {location} is fed, but the shader reads only {count} locations")]
+    LocationUnknown {
+        /// The location.
+        location: u32,
+        /// How many the shader has.
+        count: usize,
+    },
+    /// Too many attributes.
+    #[error("the shader reads {count} attributes; the limit max_vertex_attributes is {limit}")]
+    TooManyAttributes {
+        /// How many it reads.
+        count: usize,
+        /// How many it may read.
+        limit: u32,
+    },
+    /// Too many varyings.
+    #[error(
+        "the shader has {count} scalars of varyings; the limit max_inter_stage_scalars is {limit}"
+    )]
+    TooManyVaryings {
+        /// How many it has.
+        count: usize,
+        /// How many it may have.
+        limit: u32,
+    },
+}
+
+/// Where one attribute of the shader comes from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct AttributeSource {
+    /// Index into the draw's vertex buffers.
+    pub(crate) buffer: usize,
+    pub(crate) attribute: estampe_types::state::VertexAttribute,
+    pub(crate) stride: u32,
+    pub(crate) per_instance: bool,
+}
+
+/// What selects code, reduced: nothing in it changes from fragment to fragment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct StageKey {
+    /// The fragments' colour depends on the primitive alone, so it is shaded once for each.
+    pub(crate) uniform_over_primitive: bool,
+    /// Depth is tested, and perhaps written, before the shader runs.
+    pub(crate) early_depth: bool,
+    /// Depth is written, and by which comparison, if at all.
+    pub(crate) depth: Option<DepthState>,
+}
+
+/// A validated, immutable pipeline; cheap to clone.
+#[derive(Debug, Clone)]
+pub struct RenderPipeline {
+    inner: Arc<Inner>,
+}
+
+#[derive(Debug)]
+struct Inner {
+    descriptor: RenderPipelineDescriptor,
+    attributes: Vec<AttributeSource>,
+    key: StageKey,
+}
+
+impl RenderPipeline {
+    /// Validates a descriptor.
+    ///
+    /// # Errors
+    /// [`PipelineError`] names the first rule that it breaks.
+    pub fn new(
+        descriptor: &RenderPipelineDescriptor,
+        limits: &Limits,
+    ) -> Result<Self, PipelineError> {
+        let interface = descriptor.program.interface();
+        check_targets(descriptor, interface, limits)?;
+        check_interface(interface, limits)?;
+        let attributes = attribute_sources(descriptor, interface, limits)?;
+        let key = stage_key(descriptor, interface);
+        Ok(Self {
+            inner: Arc::new(Inner {
+                descriptor: descriptor.clone(),
+                attributes,
+                key,
+            }),
+        })
+    }
+
+    /// What it was made of.
+    #[must_use]
+    pub fn descriptor(&self) -> &RenderPipelineDescriptor {
+        &self.inner.descriptor
+    }
+
+    pub(crate) fn program(&self) -> &dyn Program {
+        &*self.inner.descriptor.program
+    }
+
+    pub(crate) fn interface(&self) -> &Interface {
+        self.program().interface()
+    }
+
+    pub(crate) fn attributes(&self) -> &[AttributeSource] {
+        &self.inner.attributes
+    }
+
+    pub(crate) fn key(&self) -> StageKey {
+        self.inner.key
+    }
+}
+
+fn check_targets(
+    descriptor: &RenderPipelineDescriptor,
+    interface: &Interface,
+    limits: &Limits,
+) -> Result<(), PipelineError> {
+    if !matches!(descriptor.samples, 1 | 4) {
+        return Err(PipelineError::SampleCount(descriptor.samples));
+    }
+    let count = descriptor.targets.len();
+    if count > limits.max_color_attachments as usize {
+        return Err(PipelineError::TooManyTargets {
+            count,
+            limit: limits.max_color_attachments,
+        });
+    }
+    if descriptor.samples > 1 && count > 1 {
+        return Err(PipelineError::MultisampledTargets(count));
+    }
+    if interface.color_targets != count {
+        return Err(PipelineError::TargetCount {
+            shader: interface.color_targets,
+            pipeline: count,
+        });
+    }
+    for (index, target) in descriptor.targets.iter().enumerate() {
+        if !target.format.is_color() {
+            return Err(PipelineError::NotColor {
+                index,
+                format: target.format,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_interface(interface: &Interface, limits: &Limits) -> Result<(), PipelineError> {
+    let count = interface.attributes.len();
+    if count > limits.max_vertex_attributes as usize {
+        return Err(PipelineError::TooManyAttributes {
+            count,
+            limit: limits.max_vertex_attributes,
+        });
+    }
+    let count = interface.varyings.len();
+    if count > limits.max_inter_stage_scalars as usize {
+        return Err(PipelineError::TooManyVaryings {
+            count,
+            limit: limits.max_inter_stage_scalars,
+        });
+    }
+    Ok(())
+}
+
+fn attribute_sources(
+    descriptor: &RenderPipelineDescriptor,
+    interface: &Interface,
+    limits: &Limits,
+) -> Result<Vec<AttributeSource>, PipelineError> {
+    let count = descriptor.vertex_buffers.len();
+    if count > limits.max_vertex_buffers as usize {
+        return Err(PipelineError::TooManyVertexBuffers {
+            count,
+            limit: limits.max_vertex_buffers,
+        });
+    }
+    let mut sources = vec![None; interface.attributes.len()];
+    for (buffer, layout) in descriptor.vertex_buffers.iter().enumerate() {
+        let stride = layout.array_stride;
+        let limit = limits.max_vertex_buffer_array_stride;
+        if stride > limit {
+            return Err(PipelineError::StrideTooLarge {
+                buffer,
+                stride,
+                limit,
+            });
+        }
+        for attribute in &layout.attributes {
+            let location = attribute.shader_location;
+            let end = u64::from(attribute.offset) + attribute.format.size_bytes() as u64;
+            let element = if stride == 0 { limit } else { stride };
+            if end > u64::from(element) {
+                let stride = element;
+                return Err(PipelineError::AttributeBeyondStride {
+                    buffer,
+                    location,
+                    end,
+                    stride,
+                });
+            }
+            let count = sources.len();
+            let source = sources
+                .get_mut(location as usize)
+                .ok_or(PipelineError::LocationUnknown { location, count })?;
+            if source.is_some() {
+                return Err(PipelineError::LocationTwice(location));
+            }
+            let per_instance = layout.step_mode == estampe_types::state::VertexStepMode::Instance;
+            *source = Some(AttributeSource {
+                buffer,
+                attribute: *attribute,
+                stride,
+                per_instance,
+            });
+        }
+    }
+    let found = |(location, source): (usize, Option<AttributeSource>)| {
+        source.ok_or(PipelineError::LocationMissing(location))
+    };
+    sources.into_iter().enumerate().map(found).collect()
+}
+
+fn stage_key(descriptor: &RenderPipelineDescriptor, interface: &Interface) -> StageKey {
+    let flat = interface
+        .varyings
+        .iter()
+        .all(|mode| *mode == Interpolation::Flat);
+    // A test that always passes and writes nothing is no test.
+    let depth = descriptor
+        .depth
+        .filter(|depth| depth.write_enabled || depth.compare != CompareFunction::Always);
+    StageKey {
+        uniform_over_primitive: flat
+            && !interface.reads_position
+            && !interface.discards
+            && interface.depth_output == DepthOutput::None,
+        early_depth: !interface.discards && interface.depth_output == DepthOutput::None,
+        depth,
+    }
+}

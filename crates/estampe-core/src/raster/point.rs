@@ -1,0 +1,47 @@
+//! Square points (R4).
+
+use super::{CoverageList, TileShape, rect_mask, sample_positions};
+use crate::geometry::viewport::PixelRect;
+use crate::tiles::PointPrimitive;
+
+/// Lists the packets of which a point covers samples; `rect` is in the tile's own pixels.
+pub(crate) fn cover<const N: usize>(
+    point: &PointPrimitive,
+    tile: TileShape,
+    rect: &PixelRect,
+    out: &mut CoverageList<N>,
+) {
+    let (x, y, half) = (point.center.x, point.center.y, point.half);
+    // For each sample the pixels with low ≤ 256·i + offset < high.
+    let first = |low: i32, offset: i32| (low - offset + 255) >> 8;
+    let by_sample = sample_positions::<N>().map(|[sx, sy]| PixelRect {
+        x0: (first(x - half, sx) - tile.x).max(rect.x0),
+        y0: (first(y - half, sy) - tile.y).max(rect.y0),
+        x1: (first(x + half, sx) - tile.x).min(rect.x1),
+        y1: (first(y + half, sy) - tile.y).min(rect.y1),
+    });
+    let all = by_sample.iter().fold(by_sample[0], |all, one| PixelRect {
+        x0: all.x0.min(one.x0),
+        y0: all.y0.min(one.y0),
+        x1: all.x1.max(one.x1),
+        y1: all.y1.max(one.y1),
+    });
+    if all.is_empty() {
+        return;
+    }
+    for row in all.y0 >> 2..=(all.y1 - 1) >> 2 {
+        for column in all.x0 >> 2..=(all.x1 - 1) >> 2 {
+            let masks = by_sample.map(|rect| {
+                if rect.is_empty() {
+                    0
+                } else {
+                    rect_mask(&rect, column * 4, row * 4)
+                }
+            });
+            if masks != [0; N] {
+                let packet = crate::attachment::morton(column.cast_unsigned(), row.cast_unsigned());
+                out.push(packet, masks);
+            }
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! What a pass did: counts of each stage and the time they took.
+
+use std::time::Duration;
+
+/// Counts and times of one render pass. Counts do not depend on threads or SIMD level; times do.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Statistics {
+    /// Vertices that went through the vertex shader.
+    pub vertices_shaded: u64,
+    /// Primitives that the draws name.
+    pub primitives_in: u64,
+    /// Primitives that were cut, or dropped whole, by the view volume's planes.
+    pub primitives_clipped: u64,
+    /// Triangles dropped for facing away, having no area or covering no sample.
+    pub primitives_culled: u64,
+    /// Primitives that were set up and binned, clipping's pieces counted one by one.
+    pub primitives_binned: u64,
+    /// Fragments that went through the fragment shader, helper lanes not counted.
+    pub fragments_shaded: u64,
+    /// Time of the geometry side.
+    pub geometry: Duration,
+    /// Time of the tile side.
+    pub raster: Duration,
+}
+
+impl std::ops::AddAssign for Statistics {
+    fn add_assign(&mut self, other: Self) {
+        self.vertices_shaded += other.vertices_shaded;
+        self.primitives_in += other.primitives_in;
+        self.primitives_clipped += other.primitives_clipped;
+        self.primitives_culled += other.primitives_culled;
+        self.primitives_binned += other.primitives_binned;
+        self.fragments_shaded += other.fragments_shaded;
+        self.geometry += other.geometry;
+        self.raster += other.raster;
+    }
+}

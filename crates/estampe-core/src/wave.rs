@@ -1,0 +1,447 @@
+//! Waves: runs of draws that are processed together, and the items they are made of.
+//!
+//! A draw (or a part of one, where it is large) is an [`Item`]: a dense range of vertices that is shaded
+//! once, and the primitives between them. A wave holds items up to a budget of vertices and primitives,
+//! so that memory is bounded whatever is drawn; most passes are one wave.
+
+use crate::attachment::RenderTarget;
+use crate::draw::Draw;
+use crate::geometry::assembly::{primitive_count, vertex_index};
+use crate::geometry::chunk::ItemVertices;
+use crate::geometry::cull::Facing;
+use crate::geometry::shading::{ShadedSlice, ShadedVertices};
+use crate::geometry::viewport::{PixelRect, ViewportTransform};
+use crate::per_sample::color::ColorTarget;
+use crate::tile_pass::{MAX_TARGETS, TileItem};
+use estampe_types::state::{PrimitiveTopology, Viewport};
+use estampe_types::{Bindings, Interpolation};
+use std::ops::Range;
+
+/// Vertices or primitives that a wave holds before it is drawn.
+const WAVE_BUDGET: u64 = 2_000_000;
+
+/// Primitives of one item at most: a larger draw becomes several items.
+const ITEM_PRIMITIVES: u32 = 1_000_000;
+
+/// How much larger than its number of elements a draw's range of indices may be; beyond, vertices are
+/// shaded once for each element.
+const SPARSE_FACTOR: u64 = 4;
+
+/// Bindings of draws that have none.
+static NO_BINDINGS: Bindings = Bindings { groups: Vec::new() };
+
+/// A draw, or part of one: what is the same for all of its primitives.
+#[derive(Debug, Clone)]
+pub(crate) struct Item<'a> {
+    pub(crate) draw: &'a Draw<'a>,
+    pub(crate) bindings: &'a Bindings,
+    pub(crate) transform: ViewportTransform,
+    pub(crate) rect: PixelRect,
+    pub(crate) facing: Facing,
+    pub(crate) targets: [Option<ColorTarget>; MAX_TARGETS],
+    /// Elements of one instance: first, and how many.
+    pub(crate) elements: [u32; 2],
+    pub(crate) first_instance: u32,
+    pub(crate) instances: u32,
+    /// Vertices of one instance: first index, and how many.
+    pub(crate) first_vertex: u32,
+    pub(crate) vertices: u32,
+    /// The vertex index of each element, where the range of indices is sparse.
+    pub(crate) sparse: Option<Vec<u32>>,
+    /// Primitives of one instance.
+    pub(crate) primitives: u32,
+    /// Where its vertices begin in the wave's.
+    pub(crate) vertex_base: usize,
+    /// Where its varyings begin in the wave's.
+    pub(crate) varying_base: usize,
+}
+
+impl Item<'_> {
+    pub(crate) fn total_vertices(&self) -> u64 {
+        u64::from(self.vertices) * u64::from(self.instances)
+    }
+
+    pub(crate) fn total_primitives(&self) -> u64 {
+        u64::from(self.primitives) * u64::from(self.instances)
+    }
+}
+
+/// Cuts draws into waves of items.
+#[derive(Debug)]
+pub(crate) struct Waves<'a> {
+    draws: std::slice::Iter<'a, Draw<'a>>,
+    /// The draw being cut, and which of its primitives and instances are left.
+    current: Option<Remainder<'a>>,
+    target: TargetShape,
+}
+
+/// What waves must know of the target.
+#[derive(Debug, Clone)]
+struct TargetShape {
+    width: u32,
+    height: u32,
+    samples: u32,
+    formats: Vec<estampe_types::TextureFormat>,
+    has_depth: bool,
+}
+
+#[derive(Debug)]
+struct Remainder<'a> {
+    draw: &'a Draw<'a>,
+    rect: PixelRect,
+    viewport: Viewport,
+    primitives: Range<u32>,
+    instances: Range<u32>,
+}
+
+impl<'a> Waves<'a> {
+    pub(crate) fn new(draws: &'a [Draw<'a>], target: &RenderTarget) -> Self {
+        let target = TargetShape {
+            width: target.width(),
+            height: target.height(),
+            samples: target.samples(),
+            formats: target.color_formats().to_vec(),
+            has_depth: target.has_depth(),
+        };
+        Self {
+            draws: draws.iter(),
+            current: None,
+            target,
+        }
+    }
+
+    /// The next wave's items, into `items`; false when there are no more.
+    pub(crate) fn next_wave(&mut self, items: &mut Vec<Item<'a>>) -> bool {
+        items.clear();
+        let (mut vertices, mut primitives) = (0, 0);
+        while vertices < WAVE_BUDGET && primitives < WAVE_BUDGET {
+            let Some(mut remainder) = self.current.take().or_else(|| self.next_draw()) else {
+                break;
+            };
+            let mut item = remainder.take_item();
+            item.vertex_base = usize::try_from(vertices).unwrap_or(usize::MAX);
+            item.varying_base = items.last().map_or(0, |last: &Item<'_>| {
+                let scalars = last.draw.pipeline.interface().varyings.len();
+                last.varying_base + last.total_vertices() as usize * scalars
+            });
+            vertices += item.total_vertices();
+            primitives += item.total_primitives();
+            if item.total_primitives() > 0 {
+                items.push(item);
+            }
+            if !remainder.is_done() {
+                self.current = Some(remainder);
+            }
+        }
+        !items.is_empty()
+    }
+
+    /// The next draw that can show anything.
+    fn next_draw(&mut self) -> Option<Remainder<'a>> {
+        loop {
+            let draw = self.draws.next()?;
+            if !self.target.fits(draw) {
+                continue;
+            }
+            let (width, height) = (self.target.width, self.target.height);
+            let viewport = draw.viewport.unwrap_or(Viewport {
+                x: 0.0,
+                y: 0.0,
+                width: width as f32,
+                height: height as f32,
+                min_depth: 0.0,
+                max_depth: 1.0,
+            });
+            if !is_valid(&viewport) {
+                continue;
+            }
+            let rect = PixelRect::new(&viewport, draw.scissor, width, height);
+            let elements = draw.elements.end.saturating_sub(draw.elements.start);
+            let topology = draw.pipeline.descriptor().primitive.topology;
+            let primitives = 0..primitive_count(topology, elements);
+            if rect.is_empty() || primitives.is_empty() || draw.instances.is_empty() {
+                continue;
+            }
+            let instances = draw.instances.clone();
+            return Some(Remainder {
+                draw,
+                rect,
+                viewport,
+                primitives,
+                instances,
+            });
+        }
+    }
+}
+
+impl TargetShape {
+    fn fits(&self, draw: &Draw<'_>) -> bool {
+        let descriptor = draw.pipeline.descriptor();
+        let formats = descriptor.targets.iter().map(|target| target.format);
+        let depth_fits = self.has_depth || draw.pipeline.key().depth.is_none();
+        descriptor.samples == self.samples && formats.eq(self.formats.iter().copied()) && depth_fits
+    }
+}
+
+/// A viewport that the arithmetic can stand: finite, with area, its depths in 0..=1.
+fn is_valid(viewport: &Viewport) -> bool {
+    let Viewport {
+        x,
+        y,
+        width,
+        height,
+        min_depth,
+        max_depth,
+    } = *viewport;
+    let range = -32_768.0..=32_767.0;
+    range.contains(&x)
+        && range.contains(&y)
+        && width > 0.0
+        && height > 0.0
+        && width <= 32_768.0
+        && height <= 32_768.0
+        && (0.0..=1.0).contains(&min_depth)
+        && (0.0..=1.0).contains(&max_depth)
+}
+
+impl<'a> Remainder<'a> {
+    fn is_done(&self) -> bool {
+        self.instances.is_empty()
+    }
+
+    /// Takes the next item off: many instances of a small draw, or part of one instance of a large one.
+    fn take_item(&mut self) -> Item<'a> {
+        let draw = self.draw;
+        let descriptor = draw.pipeline.descriptor();
+        let topology = descriptor.primitive.topology;
+        let whole = draw.elements.end - draw.elements.start;
+        let all = primitive_count(topology, whole);
+        let splittable = is_splittable(topology);
+        let (elements, instances);
+        if all > ITEM_PRIMITIVES && splittable {
+            let count = (self.primitives.end - self.primitives.start).min(ITEM_PRIMITIVES);
+            let first = self.primitives.start;
+            elements = part_of(topology, first, count, whole);
+            instances = 1;
+            self.primitives.start += count;
+            if self.primitives.is_empty() {
+                self.primitives.start = 0;
+            } else {
+                return self.item(elements, instances);
+            }
+        } else {
+            elements = [0, whole];
+            let left = self.instances.end - self.instances.start;
+            instances = (ITEM_PRIMITIVES / all.max(1)).clamp(1, left);
+        }
+        let item = self.item(elements, instances);
+        self.instances.start += instances;
+        item
+    }
+
+    fn item(&self, [first, count]: [u32; 2], instances: u32) -> Item<'a> {
+        let draw = self.draw;
+        let first_element = draw.elements.start.saturating_add(first);
+        let (first_vertex, vertices, sparse) = vertex_range(draw, first_element, count);
+        let descriptor = draw.pipeline.descriptor();
+        let mut targets = [None; MAX_TARGETS];
+        for (target, state) in targets.iter_mut().zip(&descriptor.targets) {
+            *target = Some(ColorTarget::new(state, draw.blend_constant));
+        }
+        Item {
+            draw,
+            bindings: draw.bindings.unwrap_or(&NO_BINDINGS),
+            transform: ViewportTransform::new(&self.viewport),
+            rect: self.rect,
+            facing: Facing::new(&descriptor.primitive),
+            targets,
+            elements: [first_element, count],
+            first_instance: self.instances.start,
+            instances,
+            first_vertex,
+            vertices,
+            sparse,
+            primitives: primitive_count(descriptor.primitive.topology, count),
+            vertex_base: 0,
+            varying_base: 0,
+        }
+    }
+}
+
+/// Whether a run of a topology's primitives is a run of elements of the same topology.
+fn is_splittable(topology: PrimitiveTopology) -> bool {
+    !matches!(
+        topology,
+        PrimitiveTopology::TriangleFan | PrimitiveTopology::LineLoop
+    )
+}
+
+/// The elements (first, count) of `count` primitives from `first` on. `ITEM_PRIMITIVES` is even, so a
+/// strip's parts begin on triangles that are not turned.
+fn part_of(topology: PrimitiveTopology, first: u32, count: u32, whole: u32) -> [u32; 2] {
+    use PrimitiveTopology as T;
+    let [each, more] = match topology {
+        T::PointList => [1, 0],
+        T::LineList => [2, 0],
+        T::LineStrip => [1, 1],
+        T::TriangleList => [3, 0],
+        T::TriangleStrip => [1, 2],
+        T::LineLoop | T::TriangleFan => return [0, whole],
+    };
+    [first * each, count * each + more]
+}
+
+/// The range of vertices that elements name (first, count), or a list of them if the range is sparse.
+fn vertex_range(draw: &Draw<'_>, first: u32, count: u32) -> (u32, u32, Option<Vec<u32>>) {
+    let Some((buffer, format)) = draw.indices else {
+        return (first.wrapping_add_signed(draw.base_vertex), count, None);
+    };
+    let index = |element: u32| {
+        vertex_index(
+            buffer,
+            format,
+            first as usize + element as usize,
+            draw.base_vertex,
+        )
+    };
+    let (mut least, mut greatest) = (u32::MAX, 0);
+    let words = buffer.words();
+    let (from, to) = (first as usize, first as usize + count as usize);
+    match words.get(from..to) {
+        // The common case in a form that becomes SIMD code.
+        Some(words) if format == estampe_types::IndexFormat::Uint32 && draw.base_vertex == 0 => {
+            for &word in words {
+                least = least.min(word);
+                greatest = greatest.max(word);
+            }
+        }
+        _ => {
+            for index in (0..count).map(index) {
+                least = least.min(index);
+                greatest = greatest.max(index);
+            }
+        }
+    }
+    if count == 0 {
+        return (0, 0, None);
+    }
+    let span = u64::from(greatest - least) + 1;
+    if span <= u64::from(count) * SPARSE_FACTOR {
+        return (least, u32::try_from(span).unwrap_or(u32::MAX), None);
+    }
+    (0, count, Some((0..count).map(index).collect()))
+}
+
+/// A run of an item's vertices for one worker.
+#[derive(Debug)]
+pub(crate) struct VertexJob<'a> {
+    pub(crate) item: usize,
+    /// The first of them, counted in the item.
+    pub(crate) first: u32,
+    pub(crate) out: ShadedSlice<'a>,
+}
+
+impl ShadedVertices {
+    /// Makes room for the vertices of a wave.
+    pub(crate) fn resize_for(&mut self, items: &[Item<'_>]) {
+        let vertices: usize = items
+            .iter()
+            .map(|item| item.total_vertices() as usize)
+            .sum();
+        let scalars = |item: &Item<'_>| item.draw.pipeline.interface().varyings.len();
+        let varyings = items
+            .iter()
+            .map(|item| item.total_vertices() as usize * scalars(item))
+            .sum();
+        let has_sizes = |item: &Item<'_>| item.draw.pipeline.interface().writes_point_size;
+        let sizes = if items.iter().any(has_sizes) {
+            vertices
+        } else {
+            0
+        };
+        self.window.resize(vertices * 2, 0);
+        self.depth.resize(vertices, [0.0; 2]);
+        self.clip.resize(vertices, [0.0; 4]);
+        self.varyings.resize(varyings, 0.0);
+        self.point_size.resize(sizes, 0.0);
+    }
+
+    /// Cuts the wave's vertices into jobs of at most `size`.
+    pub(crate) fn split(&mut self, items: &[Item<'_>], size: usize) -> Vec<VertexJob<'_>> {
+        let mut jobs = Vec::new();
+        let has_sizes = !self.point_size.is_empty();
+        let mut rest = ShadedSlice {
+            window: &mut self.window,
+            depth: &mut self.depth,
+            clip: &mut self.clip,
+            varyings: &mut self.varyings,
+            point_size: &mut self.point_size,
+        };
+        for (number, item) in items.iter().enumerate() {
+            let interface = item.draw.pipeline.interface();
+            let total = item.total_vertices() as usize;
+            for first in (0..total).step_by(size) {
+                let count = size.min(total - first);
+                let sizes = if has_sizes { count } else { 0 };
+                let mut out = ShadedSlice {
+                    window: take(&mut rest.window, count * 2),
+                    depth: take(&mut rest.depth, count),
+                    clip: take(&mut rest.clip, count),
+                    varyings: take(&mut rest.varyings, count * interface.varyings.len()),
+                    point_size: take(&mut rest.point_size, sizes),
+                };
+                if !interface.writes_point_size {
+                    // Another item of the wave has sizes; this one's points are one pixel.
+                    out.point_size.fill(1.0);
+                    out.point_size = &mut [];
+                }
+                let first = u32::try_from(first).unwrap_or(u32::MAX);
+                jobs.push(VertexJob {
+                    item: number,
+                    first,
+                    out,
+                });
+            }
+        }
+        jobs
+    }
+
+    /// The vertices of one item.
+    pub(crate) fn of_item(&self, item: &Item<'_>) -> ItemVertices<'_> {
+        let (from, count) = (item.vertex_base, item.total_vertices() as usize);
+        let scalars = item.draw.pipeline.interface().varyings.len();
+        ItemVertices {
+            window: &self.window[from * 2..][..count * 2],
+            depth: &self.depth[from..][..count],
+            clip: &self.clip[from..][..count],
+            varyings: &self.varyings[item.varying_base..][..count * scalars],
+            varying_scalars: scalars,
+            point_size: if self.point_size.is_empty() {
+                &[]
+            } else {
+                &self.point_size[from..][..count]
+            },
+        }
+    }
+
+    /// An item as its fragments need it.
+    pub(crate) fn tile_item<'a>(&'a self, item: &'a Item<'_>) -> TileItem<'a> {
+        let modes = &item.draw.pipeline.interface().varyings;
+        TileItem {
+            pipeline: item.draw.pipeline,
+            bindings: item.bindings,
+            varyings: self.of_item(item).varyings,
+            rect: item.rect,
+            depth_range: item.transform.depth_range,
+            targets: item.targets,
+            all_smooth: modes.iter().all(|mode| *mode == Interpolation::Smooth),
+        }
+    }
+}
+
+/// Takes the first `count` elements off a slice.
+fn take<'a, T>(rest: &mut &'a mut [T], count: usize) -> &'a mut [T] {
+    let (first, others) = std::mem::take(rest).split_at_mut(count);
+    *rest = others;
+    first
+}

@@ -1,0 +1,53 @@
+//! Primitive assembly: which vertices make which point, line or triangle.
+//!
+//! In · Out: a topology and a number of vertices · primitives as positions in the vertex stream.
+//! Spec: PIPELINE.md row A1; the order within strips and fans is Vulkan's, so that the provoking
+//! vertex always stands first:
+//!
+//! ```text
+//! strip   0───2───4        triangle 0 = (0, 1, 2)     triangle 1 = (1, 3, 2): turned
+//!          ╲ ╱ ╲ ╱         triangle 2 = (2, 3, 4)
+//!           1───3
+//!
+//! fan     2───3            triangle 0 = (1, 2, 0)     triangle 1 = (2, 3, 0)
+//!         │ ╲ │
+//!         1───0
+//! ```
+
+use estampe_types::state::PrimitiveTopology;
+
+/// A primitive whose corners are positions in the vertex stream; the first is the provoking one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Primitive {
+    /// One vertex.
+    Point(u32),
+    /// From the first to the second.
+    Line([u32; 2]),
+    /// In this winding.
+    Triangle([u32; 3]),
+}
+
+/// The primitives of `count` vertices, in order. Vertices left over make none; a loop needs two.
+pub fn primitives(topology: PrimitiveTopology, count: u32) -> impl Iterator<Item = Primitive> {
+    use PrimitiveTopology as T;
+    let number = match topology {
+        T::PointList => count,
+        T::LineList => count / 2,
+        T::LineStrip => count.saturating_sub(1),
+        T::LineLoop if count < 2 => 0,
+        T::LineLoop => count,
+        T::TriangleList => count / 3,
+        T::TriangleStrip | T::TriangleFan => count.saturating_sub(2),
+    };
+    (0..number).map(move |i| match topology {
+        T::PointList => Primitive::Point(i),
+        T::LineList => Primitive::Line([2 * i, 2 * i + 1]),
+        T::LineStrip => Primitive::Line([i, i + 1]),
+        T::LineLoop if i == count - 1 => Primitive::Line([i, 0]),
+        T::LineLoop => Primitive::Line([i, i + 1]),
+        T::TriangleList => Primitive::Triangle([3 * i, 3 * i + 1, 3 * i + 2]),
+        T::TriangleStrip if i % 2 == 1 => Primitive::Triangle([i, i + 2, i + 1]),
+        T::TriangleStrip => Primitive::Triangle([i, i + 1, i + 2]),
+        T::TriangleFan => Primitive::Triangle([i + 1, i + 2, 0]),
+    })
+}

@@ -1,0 +1,252 @@
+//! Clipping in clip space, before the division (Sutherland and Hodgman 1974).
+//!
+//! In · Out: clip vertices · clip vertices, none of which needs a division by zero. Precision: f32 in
+//! the order of NUMERICS.md; a crossing is always computed from the inside vertex towards the outside
+//! one, so that two triangles that share an edge get the same bits.
+//!
+//! ```text
+//!  inside │ outside        d_in ≥ 0 > d_out
+//!    a●───┼──────●b        t = d_in ÷ (d_in − d_out)
+//!   d_in  │    d_out       crossing = a + (b − a)·t, its coordinate then set onto the plane
+//! ```
+
+use crate::ClipVertex;
+use crate::viewport::{GUARD_BAND_MAX, GUARD_BAND_MIN, ViewportTransform};
+
+/// One side of the view volume.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Plane {
+    /// z ≥ 0.
+    Near,
+    /// z ≤ w.
+    Far,
+    /// x ≥ −w.
+    Left,
+    /// x ≤ w.
+    Right,
+    /// y ≥ −w.
+    Bottom,
+    /// y ≤ w.
+    Top,
+}
+
+impl Plane {
+    /// All planes, in the order in which they clip.
+    pub const ALL: [Self; 6] = [
+        Self::Near,
+        Self::Far,
+        Self::Left,
+        Self::Right,
+        Self::Bottom,
+        Self::Top,
+    ];
+
+    /// The planes that clip always; the other four clip only beyond the guard band.
+    const DEPTH: [Self; 2] = [Self::Near, Self::Far];
+    const SIDES: [Self; 4] = [Self::Left, Self::Right, Self::Bottom, Self::Top];
+
+    /// How far inside a position is; negative outside.
+    #[must_use]
+    pub fn distance(self, [x, y, z, w]: [f32; 4]) -> f32 {
+        match self {
+            Self::Near => z,
+            Self::Far => w - z,
+            Self::Left => x + w,
+            Self::Right => w - x,
+            Self::Bottom => y + w,
+            Self::Top => w - y,
+        }
+    }
+
+    /// Sets the coordinate that this plane bounds exactly onto it.
+    fn set(self, position: &mut [f32; 4]) {
+        let w = position[3];
+        match self {
+            Self::Near => position[2] = 0.0,
+            Self::Far => position[2] = w,
+            Self::Left => position[0] = -w,
+            Self::Right => position[0] = w,
+            Self::Bottom => position[1] = -w,
+            Self::Top => position[1] = w,
+        }
+    }
+
+    fn keeps(self, vertex: &ClipVertex) -> bool {
+        self.distance(vertex.position) >= 0.0
+    }
+
+    /// Where the edge from an inside to an outside vertex crosses the plane.
+    #[must_use]
+    pub fn crossing(self, inside: &ClipVertex, outside: &ClipVertex) -> ClipVertex {
+        let d_in = self.distance(inside.position);
+        let d_out = self.distance(outside.position);
+        let t = d_in / (d_in - d_out);
+        let mix = |a: f32, b: f32| a + (b - a) * t;
+        let mut position: [f32; 4] =
+            std::array::from_fn(|axis| mix(inside.position[axis], outside.position[axis]));
+        self.set(&mut position);
+        let varyings = inside.varyings.iter().zip(&outside.varyings);
+        ClipVertex {
+            position,
+            varyings: varyings.map(|(&a, &b)| mix(a, b)).collect(),
+            point_size: inside.point_size,
+        }
+    }
+}
+
+/// Whether a position can be divided and lies between the near and the far plane.
+#[must_use]
+pub fn is_inside([_, _, z, w]: [f32; 4]) -> bool {
+    0.0 <= z && z <= w && w > 0.0 && (1.0 / w).is_finite()
+}
+
+/// Whether it is inside and its window coordinates fit the rasterizer's fixed point.
+#[must_use]
+pub fn is_within_guard_band(position: [f32; 4], viewport: &ViewportTransform) -> bool {
+    let window = viewport.window(position);
+    let band = GUARD_BAND_MIN..=GUARD_BAND_MAX;
+    is_inside(position) && band.contains(&window.x) && band.contains(&window.y)
+}
+
+/// What the clip test says of a primitive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ClipTest {
+    /// All of it is drawn as it is.
+    Accept,
+    /// Nothing of it is seen, or it is not made of numbers.
+    Drop,
+    /// It must be clipped.
+    Clip,
+}
+
+/// The clip test of a line or triangle.
+#[must_use]
+pub fn test(vertices: &[ClipVertex], viewport: &ViewportTransform) -> ClipTest {
+    let positions = || vertices.iter().map(|vertex| vertex.position);
+    if positions().any(|p| p.iter().any(|component| !component.is_finite())) {
+        return ClipTest::Drop;
+    }
+    if positions().all(|p| is_within_guard_band(p, viewport)) {
+        return ClipTest::Accept;
+    }
+    let all_outside = |plane: Plane| positions().all(|p| plane.distance(p) < 0.0);
+    if Plane::ALL.into_iter().any(all_outside) {
+        return ClipTest::Drop;
+    }
+    ClipTest::Clip
+}
+
+/// Clips a triangle: the fan that is left of it; none, itself, or up to seven triangles.
+#[must_use]
+pub fn clip_triangle(
+    vertices: &[ClipVertex; 3],
+    viewport: &ViewportTransform,
+) -> Vec<[ClipVertex; 3]> {
+    match test(vertices, viewport) {
+        ClipTest::Accept => vec![vertices.clone()],
+        ClipTest::Drop => Vec::new(),
+        ClipTest::Clip => fan(&clip_polygon(vertices, viewport)),
+    }
+}
+
+/// Clips a polygon by near and far, then, if it leaves the guard band, by the four sides.
+#[must_use]
+pub fn clip_polygon(vertices: &[ClipVertex], viewport: &ViewportTransform) -> Vec<ClipVertex> {
+    let mut polygon = vertices.to_vec();
+    for plane in Plane::DEPTH {
+        polygon = clip_polygon_by(plane, &polygon);
+    }
+    if needs_sides(&polygon, viewport) {
+        for plane in Plane::SIDES {
+            polygon = clip_polygon_by(plane, &polygon);
+        }
+    }
+    polygon
+}
+
+/// One pass of Sutherland and Hodgman's loop.
+#[must_use]
+pub fn clip_polygon_by(plane: Plane, polygon: &[ClipVertex]) -> Vec<ClipVertex> {
+    let mut kept = Vec::new();
+    for (i, vertex) in polygon.iter().enumerate() {
+        let next = &polygon[(i + 1) % polygon.len()];
+        if plane.keeps(vertex) {
+            kept.push(vertex.clone());
+        }
+        match (plane.keeps(vertex), plane.keeps(next)) {
+            (true, false) => kept.push(plane.crossing(vertex, next)),
+            (false, true) => kept.push(plane.crossing(next, vertex)),
+            _ => {}
+        }
+    }
+    kept
+}
+
+/// Clips a line: the part that is left of it, in the same direction.
+#[must_use]
+pub fn clip_line(line: &[ClipVertex; 2], viewport: &ViewportTransform) -> Option<[ClipVertex; 2]> {
+    match test(line, viewport) {
+        ClipTest::Accept => return Some(line.clone()),
+        ClipTest::Drop => return None,
+        ClipTest::Clip => {}
+    }
+    let mut line = line.clone();
+    for plane in Plane::DEPTH {
+        line = clip_line_by(plane, line)?;
+    }
+    if needs_sides(&line, viewport) {
+        for plane in Plane::SIDES {
+            line = clip_line_by(plane, line)?;
+        }
+    }
+    line.iter().all(is_divisible).then_some(line)
+}
+
+/// The part of a line on the inside of a plane.
+#[must_use]
+pub fn clip_line_by(plane: Plane, [start, end]: [ClipVertex; 2]) -> Option<[ClipVertex; 2]> {
+    match (plane.keeps(&start), plane.keeps(&end)) {
+        (true, true) => Some([start, end]),
+        (true, false) => {
+            let end = plane.crossing(&start, &end);
+            Some([start, end])
+        }
+        (false, true) => {
+            let start = plane.crossing(&end, &start);
+            Some([start, end])
+        }
+        (false, false) => None,
+    }
+}
+
+/// Whether a point is drawn: its centre must lie in the view volume.
+#[must_use]
+pub fn keeps_point(vertex: &ClipVertex) -> bool {
+    let [x, y, _, w] = vertex.position;
+    vertex
+        .position
+        .iter()
+        .all(|component| component.is_finite())
+        && is_inside(vertex.position)
+        && (-w..=w).contains(&x)
+        && (-w..=w).contains(&y)
+}
+
+fn needs_sides(vertices: &[ClipVertex], viewport: &ViewportTransform) -> bool {
+    let leaves = |vertex: &ClipVertex| !is_within_guard_band(vertex.position, viewport);
+    vertices.iter().any(leaves)
+}
+
+/// Cuts a polygon into (0, 1, 2), (0, 2, 3), …; triangles that cannot be divided by w are dropped.
+fn fan(polygon: &[ClipVertex]) -> Vec<[ClipVertex; 3]> {
+    let triangle = |k: usize| [&polygon[0], &polygon[k], &polygon[k + 1]].map(Clone::clone);
+    (1..polygon.len().saturating_sub(1))
+        .map(triangle)
+        .filter(|corners: &[ClipVertex; 3]| corners.iter().all(is_divisible))
+        .collect()
+}
+
+fn is_divisible(vertex: &ClipVertex) -> bool {
+    let w = vertex.position[3];
+    w > 0.0 && (1.0 / w).is_finite()
+}

@@ -1,0 +1,153 @@
+//! Pipeline lines: one pixel wide, by Vulkan's Bresenham rule.
+//!
+//! In · Out: two window vertices · pixels, and a surface. Precision: coverage exact, the rest f32 in
+//! the order of NUMERICS.md, *Lines and points*.
+//!
+//! ```text
+//!   x-major:  for every column whose centre lies between the ends, the pixel in whose row the
+//!             line is at that centre; the start is included, the end is not, so that the lines
+//!             of a strip share no pixel
+//! ```
+//!
+//! Integer lines, whose both ends are drawn, are in [`bresenham`](crate::bresenham).
+
+use crate::WindowVertex;
+use crate::arithmetic::floor_div;
+use crate::fragment::Surface;
+use crate::viewport::PixelBounds;
+use estampe_types::shader::Interpolation;
+use std::ops::Range;
+
+/// Centre of pixel 0, in 1/256 pixel.
+const HALF_PIXEL: i64 = 128;
+
+/// Where a line runs, and along which axis it is longer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LinePath {
+    start: [i64; 2],
+    end: [i64; 2],
+    /// 0 where the line is x-major (|Δx| ≥ |Δy|), 1 where it is y-major.
+    major: usize,
+}
+
+impl LinePath {
+    /// The line between two snapped positions.
+    #[must_use]
+    pub fn new(start: [i32; 2], end: [i32; 2]) -> Self {
+        let (start, end) = (start.map(i64::from), end.map(i64::from));
+        let [width, height] = [0, 1].map(|axis| (end[axis] - start[axis]).abs());
+        Self {
+            start,
+            end,
+            major: usize::from(width < height),
+        }
+    }
+
+    /// Δ along an axis.
+    fn delta(&self, axis: usize) -> i64 {
+        self.end[axis] - self.start[axis]
+    }
+
+    /// Columns (of a y-major line: rows) whose centre c lies in the half-open range:
+    /// `start ≤ c < end` where the line runs forward, `end < c ≤ start` where it runs back.
+    fn columns(&self) -> Range<i64> {
+        let (start, end) = (self.start[self.major], self.end[self.major]);
+        // The first column whose centre is at or after a place.
+        let at_or_after = |place: i64| (place - HALF_PIXEL + 255).div_euclid(256);
+        if start < end {
+            at_or_after(start)..at_or_after(end)
+        } else {
+            at_or_after(end + 1)..at_or_after(start + 1)
+        }
+    }
+
+    /// The pixel of a column: where the line is at its centre, exactly.
+    fn pixel(&self, column: i64) -> [i64; 2] {
+        let minor = 1 - self.major;
+        let along = 256 * column + HALF_PIXEL - self.start[self.major];
+        // minor(c) = start + along·Δminor/Δmajor, and its pixel is ⌊minor(c)/256⌋.
+        let delta_major = i128::from(self.delta(self.major));
+        let numerator = i128::from(self.start[minor]) * delta_major
+            + i128::from(along) * i128::from(self.delta(minor));
+        let row = floor_div(numerator, 256 * delta_major);
+        let row = i64::try_from(row).expect("a place between the line's ends");
+        if self.major == 0 {
+            [column, row]
+        } else {
+            [row, column]
+        }
+    }
+
+    /// The pixels inside `bounds`, from the start on.
+    #[must_use]
+    pub fn pixels(&self, bounds: &PixelBounds) -> Vec<[u32; 2]> {
+        let limits = [&bounds.x, &bounds.y][self.major];
+        let columns = self.columns();
+        let columns =
+            columns.start.max(i64::from(limits.start))..columns.end.min(i64::from(limits.end));
+        let inside = columns
+            .map(|column| self.pixel(column))
+            .filter(|&pixel| bounds.contains(pixel));
+        let narrow = |at: i64| u32::try_from(at).expect("bounds begin at 0 or later");
+        let mut pixels: Vec<_> = inside.map(|pixel| pixel.map(narrow)).collect();
+        if self.delta(self.major) < 0 {
+            pixels.reverse();
+        }
+        pixels
+    }
+
+    /// How far along the line a pixel's centre is, on the major axis: 0 at the start, 1 at the end.
+    #[must_use]
+    pub fn fraction(&self, pixel: [u32; 2]) -> f32 {
+        let along = 256 * i64::from(pixel[self.major]) + HALF_PIXEL - self.start[self.major];
+        along as f32 / self.delta(self.major) as f32
+    }
+}
+
+/// What varies along a line.
+#[derive(Debug, Clone, Copy)]
+pub struct LineSurface<'a> {
+    /// Where it runs.
+    pub path: LinePath,
+    /// Its start and end.
+    pub ends: [&'a WindowVertex; 2],
+    /// How each scalar of the varyings is interpolated.
+    pub modes: &'a [Interpolation],
+    /// The provoking vertex's varyings.
+    pub flat: &'a [f32],
+}
+
+impl Surface for LineSurface<'_> {
+    /// The depth at the pixel's centre, for every sample.
+    fn depth(&self, pixel: [u32; 2], _sample: [u8; 2]) -> f32 {
+        let [a, b] = self.ends;
+        mix(a.z, b.z, self.path.fraction(pixel))
+    }
+
+    fn inverse_w(&self, pixel: [u32; 2]) -> f32 {
+        let [a, b] = self.ends;
+        mix(a.inverse_w, b.inverse_w, self.path.fraction(pixel))
+    }
+
+    fn varyings(&self, pixel: [u32; 2]) -> Vec<f32> {
+        let [a, b] = self.ends;
+        let t = self.path.fraction(pixel);
+        let w_is_constant = a.inverse_w.to_bits() == b.inverse_w.to_bits();
+        let w = 1.0 / mix(a.inverse_w, b.inverse_w, t);
+        let value = |(k, mode): (usize, &Interpolation)| match mode {
+            Interpolation::Flat => self.flat[k],
+            Interpolation::Smooth if !w_is_constant => {
+                let over_w = [a, b].map(|end| end.varyings[k] * end.inverse_w);
+                mix(over_w[0], over_w[1], t) * w
+            }
+            Interpolation::Smooth | Interpolation::NoPerspective => {
+                mix(a.varyings[k], b.varyings[k], t)
+            }
+        };
+        self.modes.iter().enumerate().map(value).collect()
+    }
+}
+
+fn mix(a: f32, b: f32, t: f32) -> f32 {
+    a + (b - a) * t
+}

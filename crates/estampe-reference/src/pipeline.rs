@@ -1,0 +1,311 @@
+//! A draw: the stages, one after the other, on one primitive at a time.
+
+use crate::assembly::{Primitive, primitives};
+use crate::clip::{clip_line, clip_triangle, keeps_point};
+use crate::cull::{Face, face, is_culled};
+use crate::fragment::{Surface, TriangleSurface, shade_quad};
+use crate::line::{LinePath, LineSurface};
+use crate::point::{self, PointSurface};
+use crate::raster::{self, QuadCoverage, sample_positions};
+use crate::setup::SortedTriangle;
+use crate::shading::shade_vertex;
+use crate::viewport::{PixelBounds, ViewportTransform};
+use crate::{ClipVertex, Target, WindowVertex, fetch, per_sample};
+use estampe_types::shader::{Interpolation, Shader, Varyings};
+use estampe_types::state::{
+    BlendState, ColorWrites, DepthState, PolygonMode, PrimitiveState, ScissorRect,
+    VertexBufferLayout, Viewport,
+};
+use estampe_types::{Bindings, Buffer, IndexFormat};
+use std::ops::Range;
+
+/// The fixed-function state of a draw.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// Topology, facing, culling, polygon mode.
+    pub primitive: PrimitiveState,
+    /// The depth test; `None` neither tests nor writes.
+    pub depth: Option<DepthState>,
+    /// Blending; `None` replaces.
+    pub blend: Option<BlendState>,
+    /// The constant of [`BlendFactor::Constant`](estampe_types::state::BlendFactor::Constant).
+    pub blend_constant: [f32; 4],
+    /// Which channels change.
+    pub write_mask: ColorWrites,
+    /// Where NDC lands.
+    pub viewport: Viewport,
+    /// Outside this nothing is drawn.
+    pub scissor: ScissorRect,
+}
+
+impl State {
+    /// Filled triangles over a whole target: no culling, no depth test, no blending.
+    #[must_use]
+    pub fn new(width: u32, height: u32) -> Self {
+        Self {
+            primitive: PrimitiveState::default(),
+            depth: None,
+            blend: None,
+            blend_constant: [0.0; 4],
+            write_mask: ColorWrites::ALL,
+            viewport: Viewport {
+                x: 0.0,
+                y: 0.0,
+                width: width as f32,
+                height: height as f32,
+                min_depth: 0.0,
+                max_depth: 1.0,
+            },
+            scissor: ScissorRect {
+                x: 0,
+                y: 0,
+                width,
+                height,
+            },
+        }
+    }
+}
+
+/// What is drawn.
+#[derive(Debug, Clone)]
+pub struct Draw<'a> {
+    /// Vertex buffers and how they lie.
+    pub buffers: &'a [(VertexBufferLayout, Buffer)],
+    /// The index buffer, if the draw has one.
+    pub indices: Option<(IndexFormat, &'a Buffer)>,
+    /// Which vertices, or which elements of the index buffer.
+    pub vertices: Range<u32>,
+    /// Which instances, drawn one after the other.
+    pub instances: Range<u32>,
+    /// Added to each index; without an index buffer it is not used.
+    pub base_vertex: i32,
+    /// What shaders read besides.
+    pub bindings: &'a Bindings,
+}
+
+impl Draw<'_> {
+    /// The index of the vertex at a position of the range, counted from its start.
+    #[must_use]
+    pub fn vertex_index(&self, position: u32) -> u32 {
+        let element = self.vertices.start.wrapping_add(position);
+        match self.indices {
+            Some((format, buffer)) => fetch::index(format, buffer, element, self.base_vertex),
+            None => element,
+        }
+    }
+}
+
+/// How much of everything a draw was.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Primitives put together.
+    pub primitives: u64,
+    /// Points, lines and triangles that reached the rasterizer: after clipping and culling; in
+    /// polygon modes line and point, the lines and points.
+    pub rasterized: u64,
+    /// Pixels shaded: fragments, helper lanes not counted.
+    pub fragments: u64,
+    /// Samples covered.
+    pub samples_covered: u64,
+    /// Samples that passed every test.
+    pub samples_passed: u64,
+}
+
+/// Draws into a target.
+///
+/// It cannot fail: indices out of range and short buffers read zeros, and what is not a number is
+/// dropped or stored as NUMERICS.md says. A draw takes as long as its ranges ask for.
+pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Draw<'_>) -> Counts {
+    let mut modes = Vec::new();
+    S::Varyings::<f32>::modes(&mut modes);
+    let size = [target.width, target.height];
+    let mut pass = Pass {
+        target,
+        shader,
+        state,
+        bindings: draw.bindings,
+        viewport: ViewportTransform::new(&state.viewport),
+        bounds: PixelBounds::new(&state.viewport, &state.scissor, size),
+        modes,
+        counts: Counts::default(),
+    };
+    let count = draw.vertices.end.saturating_sub(draw.vertices.start);
+    for instance in draw.instances.clone() {
+        let shade = |position: u32| shade_vertex(shader, draw, position, instance);
+        for primitive in primitives(state.primitive.topology, count) {
+            pass.counts.primitives += 1;
+            match primitive {
+                Primitive::Point(at) => pass.point(&shade(at), None),
+                Primitive::Line(at) => pass.line(&at.map(shade), None),
+                Primitive::Triangle(at) => pass.triangle(&at.map(shade)),
+            }
+        }
+    }
+    pass.counts
+}
+
+/// What every primitive of a draw needs.
+struct Pass<'a, S> {
+    target: &'a mut Target,
+    shader: &'a S,
+    state: &'a State,
+    bindings: &'a Bindings,
+    viewport: ViewportTransform,
+    bounds: PixelBounds,
+    modes: Vec<Interpolation>,
+    counts: Counts,
+}
+
+/// The triangle that a line or point is part of, in polygon modes line and point.
+#[derive(Clone, Copy)]
+struct Parent<'a> {
+    face: Face,
+    flat: &'a [f32],
+}
+
+impl<S: Shader> Pass<'_, S> {
+    fn triangle(&mut self, vertices: &[ClipVertex; 3]) {
+        let flat = vertices[0].varyings.clone();
+        let mode = self.state.primitive.polygon_mode;
+        for piece in clip_triangle(vertices, &self.viewport) {
+            let placed = piece.each_ref().map(|vertex| self.viewport.place(vertex));
+            let corners = placed.each_ref().map(|vertex| vertex.snapped);
+            let Some(face) = face(corners, self.state.primitive.front_face) else {
+                continue;
+            };
+            let is_culled = is_culled(face, self.state.primitive.cull_mode);
+            match mode {
+                PolygonMode::Fill if is_culled => {}
+                PolygonMode::Fill => self.filled(placed, face, &flat),
+                // The first piece with an area stands for the facing of the whole triangle, whose
+                // edges and vertices are then clipped on their own.
+                PolygonMode::Line | PolygonMode::Point => {
+                    if !is_culled {
+                        self.outline(vertices, Parent { face, flat: &flat });
+                    }
+                    return;
+                }
+            }
+        }
+    }
+
+    /// Draws one piece of a clipped triangle.
+    fn filled(&mut self, vertices: [WindowVertex; 3], face: Face, flat: &[f32]) {
+        let Some(sorted) = SortedTriangle::new(vertices) else {
+            return;
+        };
+        self.counts.rasterized += 1;
+        let surface = TriangleSurface::new(&sorted, &self.modes, flat);
+        let quads = raster::triangle(sorted.corners(), &self.bounds, self.target.samples);
+        self.fragments(&quads, &surface, face == Face::Front);
+    }
+
+    /// Draws the edges or the vertices of a triangle.
+    fn outline(&mut self, vertices: &[ClipVertex; 3], parent: Parent<'_>) {
+        let [a, b, c] = vertices;
+        if self.state.primitive.polygon_mode == PolygonMode::Point {
+            for vertex in vertices {
+                self.point(vertex, Some(parent));
+            }
+        } else {
+            for [start, end] in [[a, b], [b, c], [c, a]] {
+                self.line(&[start.clone(), end.clone()], Some(parent));
+            }
+        }
+    }
+
+    fn line(&mut self, ends: &[ClipVertex; 2], parent: Option<Parent<'_>>) {
+        let Some(kept) = clip_line(ends, &self.viewport) else {
+            return;
+        };
+        let [start, end] = kept.each_ref().map(|vertex| self.viewport.place(vertex));
+        let path = LinePath::new(start.snapped, end.snapped);
+        self.counts.rasterized += 1;
+        // A line covers all samples of its pixels.
+        let all_samples = if self.target.samples == 4 { 0b1111 } else { 1 };
+        let quads: Vec<_> = path
+            .pixels(&self.bounds)
+            .into_iter()
+            .map(|[x, y]| {
+                let mut samples = [0; 4];
+                samples[(x % 2 + 2 * (y % 2)) as usize] = all_samples;
+                QuadCoverage {
+                    origin: [x - x % 2, y - y % 2],
+                    samples,
+                }
+            })
+            .collect();
+        let modes = self.modes.clone();
+        let surface = LineSurface {
+            path,
+            ends: [&start, &end],
+            modes: &modes,
+            flat: parent.map_or(&ends[0].varyings, |parent| parent.flat),
+        };
+        self.fragments(&quads, &surface, is_front(parent));
+    }
+
+    fn point(&mut self, vertex: &ClipVertex, parent: Option<Parent<'_>>) {
+        if !keeps_point(vertex) {
+            return;
+        }
+        self.counts.rasterized += 1;
+        let placed = self.viewport.place(vertex);
+        let samples = self.target.samples;
+        let quads = point::cover(placed.snapped, vertex.point_size, &self.bounds, samples);
+        let modes = self.modes.clone();
+        let surface = PointSurface {
+            vertex: &placed,
+            flat: parent.map_or(&vertex.varyings, |parent| parent.flat),
+            modes: &modes,
+        };
+        self.fragments(&quads, &surface, is_front(parent));
+    }
+
+    /// Shades quads and hands their samples to the per-sample operations.
+    fn fragments(&mut self, quads: &[QuadCoverage], surface: &impl Surface, front_facing: bool) {
+        let viewport = self.viewport;
+        for quad in quads {
+            let clamp_depth = |depth| viewport.clamp_depth(depth);
+            let (shader, bindings) = (self.shader, self.bindings);
+            let shaded = shade_quad(
+                shader,
+                bindings,
+                surface,
+                quad.origin,
+                front_facing,
+                clamp_depth,
+            );
+            for (lane, fragment) in shaded.iter().enumerate() {
+                let covered = quad.samples[lane];
+                self.counts.fragments += u64::from(covered != 0);
+                let pixel = QuadCoverage::pixel(quad.origin, lane);
+                for (s, &sample) in (0u32..).zip(sample_positions(self.target.samples)) {
+                    if covered >> s & 1 == 0 {
+                        continue;
+                    }
+                    self.counts.samples_covered += 1;
+                    if fragment.is_discarded {
+                        continue;
+                    }
+                    let interpolated = || clamp_depth(surface.depth(pixel, sample));
+                    let depth = fragment.depth.unwrap_or_else(interpolated);
+                    let index = self.target.index(pixel, s);
+                    let passed = per_sample::store_sample(
+                        self.target,
+                        index,
+                        self.state,
+                        depth,
+                        fragment.color,
+                    );
+                    self.counts.samples_passed += u64::from(passed);
+                }
+            }
+        }
+    }
+}
+
+/// Lines and points are front-facing, unless they outline a triangle that is not.
+fn is_front(parent: Option<Parent<'_>>) -> bool {
+    parent.is_none_or(|parent| parent.face == Face::Front)
+}

@@ -1,0 +1,59 @@
+//! Points: squares around a snapped position.
+//!
+//! In · Out: one window vertex and a size · quads of covered samples, and a surface. Precision:
+//! coverage exact. Spec: NUMERICS.md, *Lines and points*.
+
+use crate::WindowVertex;
+use crate::arithmetic::{clamp, round_half_even};
+use crate::fragment::Surface;
+use crate::raster::{self, QuadCoverage};
+use crate::viewport::PixelBounds;
+
+/// Least and greatest width of a point, in pixels.
+const SIZES: [f32; 2] = [1.0, 1024.0];
+
+/// Half a point's width, in 1/256 pixel. NaN counts as the least size.
+#[must_use]
+pub fn half_width_subpixel(size: f32) -> i32 {
+    round_half_even(clamp(size, SIZES[0], SIZES[1]) * 128.0)
+}
+
+/// The quads that a point covers anything of: samples in the half-open square.
+#[must_use]
+pub fn cover(center: [i32; 2], size: f32, bounds: &PixelBounds, samples: u32) -> Vec<QuadCoverage> {
+    let half = i64::from(half_width_subpixel(size));
+    let square = center.map(i64::from).map(|at| [at - half, at + half]);
+    raster::cover(square, bounds, samples, |point| {
+        let within = |axis: usize| square[axis][0] <= point[axis] && point[axis] < square[axis][1];
+        within(0) && within(1)
+    })
+}
+
+/// A point's surface: everywhere the vertex.
+#[derive(Debug, Clone, Copy)]
+pub struct PointSurface<'a> {
+    /// The vertex.
+    pub vertex: &'a WindowVertex,
+    /// The provoking vertex's varyings.
+    pub flat: &'a [f32],
+    /// How each scalar of the varyings is interpolated.
+    pub modes: &'a [estampe_types::Interpolation],
+}
+
+impl Surface for PointSurface<'_> {
+    fn depth(&self, _pixel: [u32; 2], _sample: [u8; 2]) -> f32 {
+        self.vertex.z
+    }
+
+    fn inverse_w(&self, _pixel: [u32; 2]) -> f32 {
+        self.vertex.inverse_w
+    }
+
+    fn varyings(&self, _pixel: [u32; 2]) -> Vec<f32> {
+        let value = |(k, mode): (usize, &estampe_types::Interpolation)| match mode {
+            estampe_types::Interpolation::Flat => self.flat[k],
+            _ => self.vertex.varyings[k],
+        };
+        self.modes.iter().enumerate().map(value).collect()
+    }
+}

@@ -1,0 +1,74 @@
+//! Vertex shading: the shader's vertex function on one vertex at a time, with `R = f32`.
+//!
+//! In · Out: vertex and instance index · a vertex in clip space.
+
+use crate::{Draw, fetch};
+use estampe_types::shader::{Attributes, Shader, Sink, Source, Varyings, VertexIn};
+
+/// A vertex after its shader.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClipVertex {
+    /// x, y, z, w in clip space.
+    pub position: [f32; 4],
+    /// The scalars of the varyings, in order.
+    pub varyings: Vec<f32>,
+    /// Width of a point, in pixels.
+    pub point_size: f32,
+}
+
+/// Fetches and shades the vertex at `position` of the draw's range: counted from its start.
+pub fn shade_vertex<S: Shader>(
+    shader: &S,
+    draw: &Draw<'_>,
+    position: u32,
+    instance_index: u32,
+) -> ClipVertex {
+    let vertex_index = draw.vertex_index(position);
+
+    let mut components = Vec::new();
+    S::Attributes::<f32>::components(&mut components);
+    let mut scalars = Vec::new();
+    for (location, &count) in (0u32..).zip(&components) {
+        let value = fetch::attribute(draw.buffers, location, vertex_index, instance_index);
+        scalars.extend(&value[..count.min(4)]);
+    }
+    let attributes = S::Attributes::load(&mut Scalars(scalars.into_iter()));
+
+    let input = VertexIn {
+        vertex_index: vertex_index.cast_signed(),
+        instance_index: instance_index.cast_signed(),
+        bindings: draw.bindings,
+        zero: 0.0_f32,
+    };
+    let output = shader.vertex(input, attributes);
+
+    let mut varyings = Collected(Vec::new());
+    output.varyings.store(&mut varyings);
+    let p = output.position;
+    ClipVertex {
+        position: [p.x, p.y, p.z, p.w],
+        varyings: varyings.0,
+        point_size: match output.point_size {
+            Some(pixels) if S::WRITES_POINT_SIZE => pixels,
+            _ => 1.0,
+        },
+    }
+}
+
+/// Numbers handed to a shader one after the other; zeros once they are spent.
+struct Scalars(std::vec::IntoIter<f32>);
+
+impl Source<f32> for Scalars {
+    fn take(&mut self) -> f32 {
+        self.0.next().unwrap_or_default()
+    }
+}
+
+/// Numbers that a shader gave.
+struct Collected(Vec<f32>);
+
+impl Sink<f32> for Collected {
+    fn put(&mut self, value: f32) {
+        self.0.push(value);
+    }
+}

@@ -1,0 +1,257 @@
+//! Clipping: inside, area, shared crossings, what is dropped, culling and facing.
+
+use super::*;
+use crate::clip::{Plane, clip_line, clip_polygon, clip_polygon_by, clip_triangle, keeps_point};
+use crate::cull::{clip_space_determinant, doubled_area};
+use crate::viewport::{PixelBounds, ViewportTransform};
+
+fn viewport() -> Viewport {
+    State::new(64, 64).viewport
+}
+
+fn transform() -> ViewportTransform {
+    ViewportTransform::new(&viewport())
+}
+
+fn random_vertex(random: &mut Random, reach: f32) -> ClipVertex {
+    let w = random.range(0.25, 4.0);
+    let mut across = || random.range(-reach, reach);
+    clip_vertex(
+        [across(), across(), across(), w],
+        &[random.unit(), random.unit()],
+    )
+}
+
+/// Sutherland and Hodgman again, in f64, on positions alone.
+fn clip_f64(mut polygon: Vec<[f64; 4]>) -> Vec<[f64; 4]> {
+    let normals = [
+        [0.0, 0.0, 1.0, 0.0],
+        [0.0, 0.0, -1.0, 1.0],
+        [1.0, 0.0, 0.0, 1.0],
+        [-1.0, 0.0, 0.0, 1.0],
+        [0.0, 1.0, 0.0, 1.0],
+        [0.0, -1.0, 0.0, 1.0],
+    ];
+    for normal in normals {
+        let distance = |p: &[f64; 4]| (0..4).map(|k| p[k] * normal[k]).sum::<f64>();
+        let mut kept = Vec::new();
+        for (i, a) in polygon.iter().enumerate() {
+            let b = &polygon[(i + 1) % polygon.len()];
+            let (da, db) = (distance(a), distance(b));
+            if da >= 0.0 {
+                kept.push(*a);
+            }
+            if (da >= 0.0) != (db >= 0.0) {
+                let t = da / (da - db);
+                kept.push(std::array::from_fn(|k| a[k] + (b[k] - a[k]) * t));
+            }
+        }
+        polygon = kept;
+    }
+    polygon
+}
+
+fn ndc_area(polygon: &[[f64; 4]]) -> f64 {
+    let ndc: Vec<_> = polygon.iter().map(|p| [p[0] / p[3], p[1] / p[3]]).collect();
+    (0..ndc.len())
+        .map(|i| {
+            let (a, b) = (ndc[i], ndc[(i + 1) % ndc.len()]);
+            (a[0] * b[1] - b[0] * a[1]) / 2.0
+        })
+        .sum()
+}
+
+#[test]
+fn clipped_polygons_lie_inside_and_keep_their_area() {
+    const ULP: f32 = f32::EPSILON;
+    let mut random = Random(11);
+    let mut clipped = 0;
+    for _ in 0..2000 {
+        let triangle: Vec<_> = (0..3).map(|_| random_vertex(&mut random, 3.0)).collect();
+        let mut polygon = triangle.clone();
+        for plane in Plane::ALL {
+            polygon = clip_polygon_by(plane, &polygon);
+        }
+        clipped += usize::from(polygon.len() > 3);
+
+        // Inside to 4 ulp of the largest coordinate (4).
+        for vertex in &polygon {
+            for plane in Plane::ALL {
+                assert!(plane.distance(vertex.position) >= -4.0 * 4.0 * ULP);
+            }
+        }
+
+        // The same area as in f64, to 4 ulp of each vertex's largest clip coordinate, which the
+        // division by w ≥ ¼ may enlarge fourfold, along a perimeter of at most 8.
+        let exact = clip_f64(triangle.iter().map(|v| v.position.map(f64::from)).collect());
+        let mine: Vec<_> = polygon.iter().map(|v| v.position.map(f64::from)).collect();
+        let bound = 8.0 * 4.0 * 4.0 * f64::from(4.0 * ULP);
+        let difference = (ndc_area(&mine) - ndc_area(&exact)).abs();
+        assert!(difference <= bound, "{difference:e} > {bound:e}");
+    }
+    assert!(clipped > 500, "only {clipped} triangles had to be clipped");
+}
+
+#[test]
+fn neighbours_share_their_clipped_vertices_to_the_bit() {
+    let mut random = Random(12);
+    let mut shared = 0;
+    for _ in 0..2000 {
+        let [a, b, c, d]: [ClipVertex; 4] =
+            std::array::from_fn(|_| random_vertex(&mut random, 3.0));
+        // The crossings of edge ab: vertices of both clipped triangles that no other edge makes are
+        // found as the intersection, which must hold what clipping the edge as a line gives.
+        let left = clip_polygon(&[a.clone(), b.clone(), c], &transform());
+        let right = clip_polygon(&[d, b.clone(), a.clone()], &transform());
+        let edge = [[a.clone(), b.clone()], [b, a]].map(|ends| clip_line(&ends, &transform()));
+        let Some([[start, end], [back_end, back_start]]) =
+            edge[0].clone().zip(edge[1].clone()).map(|(x, y)| [x, y])
+        else {
+            continue;
+        };
+        assert_eq!(start, back_start);
+        assert_eq!(end, back_end);
+        for vertex in [&start, &end] {
+            assert!(left.contains(vertex), "{vertex:?} is not in {left:?}");
+            assert!(right.contains(vertex), "{vertex:?} is not in {right:?}");
+        }
+        shared += 1;
+    }
+    assert!(shared > 500);
+}
+
+#[test]
+fn what_is_not_a_number_or_not_in_sight_is_dropped() {
+    let seen = [
+        [0.0, 0.0, 0.5, 1.0],
+        [0.5, 0.0, 0.5, 1.0],
+        [0.0, 0.5, 0.5, 1.0],
+    ];
+    let with = |corner: usize, axis: usize, value: f32| {
+        let mut positions = seen;
+        positions[corner][axis] = value;
+        clip_triangle(&positions.map(|p| clip_vertex(p, &[])), &transform())
+    };
+    assert_eq!(with(0, 0, 0.0).len(), 1);
+    for axis in 0..4 {
+        for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            assert!(with(1, axis, value).is_empty(), "{value} on axis {axis}");
+        }
+    }
+    // Behind the eye, and w = 0 where the division would fail.
+    let behind = seen.map(|[x, y, _, _]| clip_vertex([x, y, -1.0, -1.0], &[]));
+    assert!(clip_triangle(&behind, &transform()).is_empty());
+    let zeros = [[0.0; 4]; 3].map(|p| clip_vertex(p, &[]));
+    assert!(clip_triangle(&zeros, &transform()).is_empty());
+    // All beyond the left plane, and beyond the guard band.
+    let left = seen.map(|[x, y, z, w]| clip_vertex([x - 3000.0, y, z, w], &[]));
+    assert!(clip_triangle(&left, &transform()).is_empty());
+}
+
+#[test]
+fn a_triangle_inside_the_guard_band_is_kept_whole() {
+    let wide = [
+        [-30.0, 0.0, 0.5, 1.0],
+        [30.0, 0.0, 0.5, 1.0],
+        [0.0, 30.0, 0.5, 1.0],
+    ];
+    let kept = clip_triangle(&wide.map(|p| clip_vertex(p, &[])), &transform());
+    assert_eq!(kept.len(), 1);
+    // Beyond the guard band it is cut to the view volume: NDC ±1.
+    let wider = wide.map(|[x, y, z, w]| clip_vertex([x * 1000.0, y * 1000.0, z, w], &[]));
+    let kept = clip_triangle(&wider, &transform());
+    assert_eq!(kept.len(), 2, "the upper half of the square");
+    for vertex in kept.iter().flatten() {
+        let [x, y, _, w] = vertex.position;
+        assert!(x.abs() <= w && y.abs() <= w);
+    }
+}
+
+#[test]
+fn near_crossings_are_where_hand_computation_puts_them() {
+    // z from 0.75 to −0.25: the crossing is at three quarters.
+    let a = clip_vertex([0.0, 0.0, 0.75, 1.0], &[0.0]);
+    let b = clip_vertex([1.0, 0.0, -0.25, 1.0], &[8.0]);
+    let [start, end] = clip_line(&[a.clone(), b.clone()], &transform()).expect("half is seen");
+    assert_eq!(start, a);
+    assert_eq!(end.position, [0.75, 0.0, 0.0, 1.0]);
+    assert_eq!(end.varyings, [6.0]);
+    let [start, end] = clip_line(&[b, a.clone()], &transform()).expect("half is seen");
+    assert_eq!((start.position[0], end), (0.75, a));
+}
+
+#[test]
+fn points_are_clipped_by_their_centre() {
+    let point = |position| keeps_point(&clip_vertex(position, &[]));
+    assert!(point([1.0, -1.0, 0.0, 1.0]));
+    assert!(!point([1.001, 0.0, 0.5, 1.0]));
+    assert!(!point([0.0, 0.0, -0.001, 1.0]));
+    assert!(!point([0.0, 0.0, 0.0, 0.0]));
+    assert!(!point([0.0, 0.0, 0.5, f32::INFINITY]));
+}
+
+#[test]
+fn counter_clockwise_as_seen_is_negative_in_the_window_and_positive_in_clip_space() {
+    let ccw = [
+        [-0.5, -0.5, 0.5, 1.0],
+        [0.5, -0.5, 0.5, 1.0],
+        [0.0, 0.5, 0.5, 1.0],
+    ];
+    let snapped = ccw.map(|p| transform().place(&clip_vertex(p, &[])).snapped);
+    assert!(doubled_area(snapped) < 0);
+    assert!(clip_space_determinant(ccw).0 > 0.0);
+    assert_eq!(cull::face(snapped, FrontFace::Ccw), Some(cull::Face::Front));
+    assert_eq!(cull::face(snapped, FrontFace::Cw), Some(cull::Face::Back));
+    assert!(cull::is_culled(cull::Face::Back, CullMode::Back));
+    assert!(!cull::is_culled(cull::Face::Back, CullMode::Front));
+}
+
+#[test]
+fn the_clip_space_test_agrees_with_the_snapped_one_beyond_snapping() {
+    let mut random = Random(13);
+    let (mut agreed, mut behind) = (0, 0);
+    for _ in 0..3000 {
+        // Vertices before and behind the eye, near plane at w = ¼ (z = w − ¼ scaled).
+        let triangle: [ClipVertex; 3] = std::array::from_fn(|_| {
+            let w = random.range(-1.0, 3.0);
+            let mut across = || random.range(-1.0, 1.0);
+            clip_vertex([across(), across(), (w - 0.25) * 0.5, w], &[])
+        });
+        let (determinant, bound) =
+            clip_space_determinant(triangle.each_ref().map(|vertex| vertex.position));
+        assert!(bound < 1e-13);
+        for piece in clip_triangle(&triangle, &transform()) {
+            let area = doubled_area(piece.each_ref().map(|v| transform().place(v).snapped));
+            // Pieces of a few subpixels may turn over when they are snapped.
+            if area.abs() > 20_000 {
+                assert_eq!(area < 0, determinant > 0.0);
+                agreed += 1;
+                behind += usize::from(triangle.iter().any(|v| v.position[3] < 0.0));
+            }
+        }
+    }
+    assert!(agreed > 1000 && behind > 300, "{agreed}, {behind}");
+}
+
+#[test]
+fn bounds_are_the_pixels_whose_centres_lie_inside() {
+    let viewport = Viewport {
+        x: 0.5,
+        y: -3.0,
+        width: 2.0,
+        height: 4.6,
+        min_depth: 0.0,
+        max_depth: 1.0,
+    };
+    let scissor = |x, y, width, height| ScissorRect {
+        x,
+        y,
+        width,
+        height,
+    };
+    let whole = PixelBounds::new(&viewport, &scissor(0, 0, u32::MAX, u32::MAX), [100, 100]);
+    assert_eq!((whole.x, whole.y), (0..2, 0..2));
+    let cut = PixelBounds::new(&viewport, &scissor(1, 5, 7, 7), [100, 100]);
+    assert_eq!(cut.x, 1..2);
+    assert!(cut.y.is_empty());
+}

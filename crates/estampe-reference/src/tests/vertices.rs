@@ -1,0 +1,177 @@
+//! Vertex fetch and primitive assembly.
+
+use super::*;
+use crate::assembly::{Primitive, primitives};
+
+fn layout(format: VertexFormat, stride: u32, offset: u32, location: u32) -> VertexBufferLayout {
+    VertexBufferLayout {
+        array_stride: stride,
+        step_mode: VertexStepMode::Vertex,
+        attributes: vec![VertexAttribute {
+            format,
+            offset,
+            shader_location: location,
+        }],
+    }
+}
+
+#[test]
+fn formats_are_filled_up_with_0_0_0_1() {
+    let floats = Buffer::from_f32s(&[1.5, -2.0, 3.0, 4.0]);
+    let decode = |format, buffer: &Buffer| fetch::decode(format, buffer, 0);
+    assert_eq!(decode(VertexFormat::Float32, &floats), [1.5, 0.0, 0.0, 1.0]);
+    assert_eq!(
+        decode(VertexFormat::Float32x2, &floats),
+        [1.5, -2.0, 0.0, 1.0]
+    );
+    assert_eq!(
+        decode(VertexFormat::Float32x3, &floats),
+        [1.5, -2.0, 3.0, 1.0]
+    );
+    assert_eq!(
+        decode(VertexFormat::Float32x4, &floats),
+        [1.5, -2.0, 3.0, 4.0]
+    );
+    let bytes = Buffer::from_bytes(&[255, 51, 0, 128, 255, 255, 0, 0]);
+    let [second, fourth] = [51.0, 128.0].map(|code| code * (1.0 / 255.0));
+    assert_eq!(
+        decode(VertexFormat::Unorm8x2, &bytes),
+        [1.0, second, 0.0, 1.0]
+    );
+    assert_eq!(
+        decode(VertexFormat::Unorm8x4, &bytes),
+        [1.0, second, 0.0, fourth]
+    );
+    let wide = f32::from(51_u16 * 256 + 255) * (1.0 / 65_535.0);
+    assert_eq!(decode(VertexFormat::Unorm16x2, &bytes)[0], wide);
+    assert_eq!(decode(VertexFormat::Unorm16x4, &bytes)[2..], [1.0, 0.0]);
+}
+
+#[test]
+fn what_is_not_there_reads_zeros() {
+    let buffers = [(
+        layout(VertexFormat::Float32x4, 16, 8, 3),
+        Buffer::from_f32s(&[1.0; 7]),
+    )];
+    let fetch = |location, vertex| fetch::attribute(&buffers, location, vertex, 0);
+    assert_eq!(fetch(3, 0), [1.0; 4]);
+    assert_eq!(
+        fetch(3, 1),
+        [1.0, 0.0, 0.0, 0.0],
+        "the buffer ends after one number"
+    );
+    assert_eq!(fetch(3, u32::MAX), [0.0; 4]);
+    assert_eq!(fetch(0, 0), [0.0; 4], "no such location");
+    let short = [(
+        layout(VertexFormat::Float32x2, 8, 0, 0),
+        Buffer::from_f32s(&[]),
+    )];
+    assert_eq!(fetch::attribute(&short, 0, 0, 0), [0.0, 0.0, 0.0, 1.0]);
+}
+
+#[test]
+fn indices_of_every_width_and_the_base_vertex() {
+    let bytes = Buffer::from_bytes(&[1, 2, 3, 4, 5]);
+    let index = |format, position, base| fetch::index(format, &bytes, position, base);
+    assert_eq!(index(IndexFormat::Uint8, 4, 0), 5);
+    assert_eq!(index(IndexFormat::Uint8, 4, -2), 3);
+    assert_eq!(index(IndexFormat::Uint16, 1, 0), 0x0403);
+    assert_eq!(index(IndexFormat::Uint32, 0, 0), 0x0403_0201);
+    assert_eq!(index(IndexFormat::Uint32, 1, 0), 5, "the rest is zeros");
+    assert_eq!(
+        index(IndexFormat::Uint32, u32::MAX, 7),
+        7,
+        "beyond the end is 0, plus the base"
+    );
+    assert_eq!(index(IndexFormat::Uint8, 0, -2), u32::MAX, "modulo 2³²");
+}
+
+#[test]
+fn assembly_keeps_winding_and_puts_the_provoking_vertex_first() {
+    use PrimitiveTopology as T;
+    let of = |topology, count| primitives(topology, count).collect::<Vec<_>>();
+    let triangles = |list: &[[u32; 3]]| {
+        list.iter()
+            .copied()
+            .map(Primitive::Triangle)
+            .collect::<Vec<_>>()
+    };
+    let lines = |list: &[[u32; 2]]| {
+        list.iter()
+            .copied()
+            .map(Primitive::Line)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(of(T::TriangleList, 7), triangles(&[[0, 1, 2], [3, 4, 5]]));
+    assert_eq!(
+        of(T::TriangleStrip, 5),
+        triangles(&[[0, 1, 2], [1, 3, 2], [2, 3, 4]])
+    );
+    assert_eq!(
+        of(T::TriangleFan, 5),
+        triangles(&[[1, 2, 0], [2, 3, 0], [3, 4, 0]])
+    );
+    assert_eq!(of(T::LineList, 5), lines(&[[0, 1], [2, 3]]));
+    assert_eq!(of(T::LineStrip, 3), lines(&[[0, 1], [1, 2]]));
+    assert_eq!(of(T::LineLoop, 3), lines(&[[0, 1], [1, 2], [2, 0]]));
+    assert_eq!(of(T::LineLoop, 1), []);
+    assert_eq!(
+        of(T::PointList, 2),
+        [Primitive::Point(0), Primitive::Point(1)]
+    );
+    for topology in [T::TriangleStrip, T::TriangleFan, T::LineStrip, T::LineList] {
+        assert_eq!(of(topology, 0), []);
+        assert_eq!(of(topology, 1), []);
+    }
+}
+
+#[test]
+fn instances_advance_instance_buffers_and_are_drawn_in_order() {
+    // A quad of one pixel as an indexed strip, moved and coloured by instance.
+    let mut per_instance = layout(VertexFormat::Float32x3, 28, 16, 1);
+    per_instance.step_mode = VertexStepMode::Instance;
+    let colors: Vec<f32> = [[0.0, 0.2, 0.2], [0.0, 0.4, 0.4], [0.0, 0.6, 0.6]]
+        .iter()
+        .flat_map(|color| [0.0; 4].iter().chain(color).copied().collect::<Vec<_>>())
+        .collect();
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]];
+    let positions: Vec<f32> = corners
+        .iter()
+        .flat_map(|[x, y]| [*x, *y, 0.0, 1.0])
+        .collect();
+    let buffers = [
+        (
+            layout(VertexFormat::Float32x4, 16, 0, 0),
+            Buffer::from_f32s(&positions),
+        ),
+        (per_instance, Buffer::from_f32s(&colors)),
+    ];
+    let indices = Buffer::from_bytes(&[9, 3, 4, 5, 6]);
+    let bindings = Bindings::default();
+    let mut target = unorm(2, 2, 1);
+    let state = State {
+        primitive: PrimitiveState {
+            topology: PrimitiveTopology::TriangleStrip,
+            cull_mode: CullMode::Back,
+            ..PrimitiveState::default()
+        },
+        ..State::new(2, 2)
+    };
+    let command = Draw {
+        buffers: &buffers,
+        indices: Some((IndexFormat::Uint8, &indices)),
+        vertices: 1..5,
+        instances: 0..2,
+        base_vertex: -3,
+        bindings: &bindings,
+    };
+    let counts = draw(&mut target, &Plain, &state, &command);
+    assert_eq!(
+        (counts.primitives, counts.rasterized, counts.fragments),
+        (4, 4, 8)
+    );
+    assert!(
+        target.color.iter().all(|&code| code == [0, 102, 102, 255]),
+        "instance 1 is on top"
+    );
+}

@@ -1,0 +1,157 @@
+//! Perspective division and viewport: from clip space to the window, snapped to 1/256 pixel.
+//!
+//! In · Out: clip vertices · window vertices. Space: y up to y down. Spec: NUMERICS.md, *From clip
+//! space to the window*.
+
+use crate::ClipVertex;
+use crate::arithmetic::{clamp, max, min, round_half_even};
+use estampe_types::state::{ScissorRect, Viewport};
+use std::ops::Range;
+
+/// Least window coordinate that is not clipped, in pixels.
+pub const GUARD_BAND_MIN: f32 = -8192.0;
+/// Greatest window coordinate that is not clipped, in pixels.
+pub const GUARD_BAND_MAX: f32 = 24_575.0;
+
+/// The viewport as scale and offset of NDC x, y, z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ViewportTransform {
+    /// `sx`, `sy`, `sz`.
+    pub scale: [f32; 3],
+    /// `ox`, `oy`, `oz`.
+    pub offset: [f32; 3],
+    /// The lesser and the greater end of the depth range.
+    pub depth_range: [f32; 2],
+}
+
+/// A position in the window: pixels, y down; depth; and 1/w.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WindowPosition {
+    /// In pixels from the left.
+    pub x: f32,
+    /// In pixels from the top.
+    pub y: f32,
+    /// Depth.
+    pub z: f32,
+    /// 1 ÷ w of clip space.
+    pub inverse_w: f32,
+}
+
+/// A vertex in the window.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WindowVertex {
+    /// x and y in 1/256 pixel.
+    pub snapped: [i32; 2],
+    /// Depth, not yet clamped.
+    pub z: f32,
+    /// 1 ÷ w of clip space.
+    pub inverse_w: f32,
+    /// The scalars of the varyings, in order, as the shader gave them.
+    pub varyings: Vec<f32>,
+}
+
+impl ViewportTransform {
+    /// The constants of a viewport, each rounded once or as written.
+    #[must_use]
+    pub fn new(viewport: &Viewport) -> Self {
+        let v = viewport;
+        let scale_x = v.width * 0.5;
+        Self {
+            scale: [scale_x, v.height * -0.5, v.max_depth - v.min_depth],
+            offset: [v.x + scale_x, v.y + v.height * 0.5, v.min_depth],
+            depth_range: [min(v.min_depth, v.max_depth), max(v.min_depth, v.max_depth)],
+        }
+    }
+
+    /// Divides by w and maps NDC to the window.
+    #[must_use]
+    pub fn window(&self, [x, y, z, w]: [f32; 4]) -> WindowPosition {
+        let inverse_w = 1.0 / w;
+        let map =
+            |value: f32, axis: usize| (value * inverse_w) * self.scale[axis] + self.offset[axis];
+        WindowPosition {
+            x: map(x, 0),
+            y: map(y, 1),
+            z: map(z, 2),
+            inverse_w,
+        }
+    }
+
+    /// Places a vertex that came through clipping: window position, confined to the guard band
+    /// (which changes only clipped vertices), snapped.
+    #[must_use]
+    pub fn place(&self, vertex: &ClipVertex) -> WindowVertex {
+        let position = self.window(vertex.position);
+        let confine = |pixels| clamp(pixels, GUARD_BAND_MIN, GUARD_BAND_MAX);
+        WindowVertex {
+            snapped: [snap(confine(position.x)), snap(confine(position.y))],
+            z: position.z,
+            inverse_w: position.inverse_w,
+            varyings: vertex.varyings.clone(),
+        }
+    }
+
+    /// Confines a depth to the viewport's range.
+    #[must_use]
+    pub fn clamp_depth(&self, depth: f32) -> f32 {
+        clamp(depth, self.depth_range[0], self.depth_range[1])
+    }
+}
+
+/// The nearest multiple of 1/256 pixel, ties to even, as an integer.
+#[must_use]
+pub fn snap(pixels: f32) -> i32 {
+    round_half_even(pixels * 256.0)
+}
+
+/// A rectangle of pixels.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PixelBounds {
+    /// Columns.
+    pub x: Range<u32>,
+    /// Rows.
+    pub y: Range<u32>,
+}
+
+impl PixelBounds {
+    /// Viewport ∩ scissor ∩ target: what a draw may touch.
+    #[must_use]
+    pub fn new(viewport: &Viewport, scissor: &ScissorRect, [width, height]: [u32; 2]) -> Self {
+        let axis = |start: f32, extent: f32, first: u32, count: u32, size: u32| {
+            let (start, extent) = (f64::from(start), f64::from(extent));
+            let low = pixel_at_or_after(start).max(first);
+            let high = pixel_at_or_after(start + extent)
+                .min(first.saturating_add(count))
+                .min(size);
+            low..high.max(low)
+        };
+        Self {
+            x: axis(viewport.x, viewport.width, scissor.x, scissor.width, width),
+            y: axis(
+                viewport.y,
+                viewport.height,
+                scissor.y,
+                scissor.height,
+                height,
+            ),
+        }
+    }
+
+    /// Whether a pixel lies inside.
+    #[must_use]
+    pub fn contains(&self, [x, y]: [i64; 2]) -> bool {
+        let within =
+            |range: &Range<u32>, at: i64| i64::from(range.start) <= at && at < i64::from(range.end);
+        within(&self.x, x) && within(&self.y, y)
+    }
+}
+
+/// The first pixel whose centre is at or after an edge: ⌈edge − ½⌉, at least 0.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "`as` saturates: beyond every target"
+)]
+fn pixel_at_or_after(edge: f64) -> u32 {
+    (edge - 0.5).ceil() as u32
+}

@@ -1,0 +1,133 @@
+//! The nearest eye that sees every point inside the frame less its margin.
+//!
+//! In view-aligned coordinates (x right, y up, z towards the eye) a point p is seen from the eye e at
+//! ((pₓ − eₓ)/(e_z − p_z), …). It lies inside the frame when |pₓ − eₓ| ≤ kₓ·(e_z − p_z), where kₓ is the
+//! tangent of half the opening angle, less the margin: two constraints that are *linear* in e:
+//!
+//! ```text
+//!   eₓ + kₓ·e_z ≥ A = max(pₓ + kₓ·p_z)         e_z ≥ (A + B) / 2kₓ, reached by eₓ = (A − B) / 2
+//!  −eₓ + kₓ·e_z ≥ B = max(−pₓ + kₓ·p_z)
+//! ```
+//!
+//! and the same in y. So the nearest eye is exact, by one pass over the points; the axis that has room
+//! left is then centred by equal projected margins on both sides. Rejected: a bounding sphere, which
+//! leaves a flat model a third of the frame.
+
+use glam::DVec3;
+
+/// Tangents of half the opening angles, less the margin; for orthographic views the half extents that
+/// a half height of 1 gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrameTangents {
+    /// Horizontally; > 0.
+    pub x: f64,
+    /// Vertically; > 0.
+    pub y: f64,
+}
+
+impl FrameTangents {
+    /// A frame of `width` × `height` pixels whose half height has the tangent `half_height_tangent`
+    /// (1 for orthographic views), less `margin` of the shorter side on every side.
+    #[must_use]
+    pub fn new(width: f64, height: f64, half_height_tangent: f64, margin: f64) -> Self {
+        let margin_px = margin * width.min(height);
+        let per_px = half_height_tangent / (height / 2.0);
+        Self {
+            x: (width / 2.0 - margin_px) * per_px,
+            y: (height / 2.0 - margin_px) * per_px,
+        }
+    }
+}
+
+/// Nearer than this a point is not brought, in units of the normalised model (about 1 in radius).
+const CLOSEST: f64 = 1e-3;
+
+/// The nearest eye of a perspective camera that looks down −z. With `through`, the eye stays on the
+/// line through that point, which is then seen in the middle.
+///
+/// Of no points, the eye is that of the unit box.
+#[must_use]
+pub fn perspective_eye(points: &[DVec3], k: FrameTangents, through: Option<DVec3>) -> DVec3 {
+    let Some(front) = points.iter().map(|p| p.z).reduce(f64::max) else {
+        let corners = box_corners();
+        return perspective_eye(&corners, k, through);
+    };
+    let (mut a, mut b) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+    let (mut c, mut d) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+    for p in points {
+        let (reach_x, reach_y) = (k.x * p.z, k.y * p.z);
+        a = a.max(p.x + reach_x);
+        b = b.max(reach_x - p.x);
+        c = c.max(p.y + reach_y);
+        d = d.max(reach_y - p.y);
+    }
+    if let Some(t) = through {
+        let nearest = |a: f64, b: f64, at: f64, k: f64| ((a - at) / k).max((b + at) / k);
+        let z = nearest(a, b, t.x, k.x).max(nearest(c, d, t.y, k.y)).max(front + CLOSEST);
+        return DVec3::new(t.x, t.y, at_least_a_step(z, front, points));
+    }
+    let z = ((a + b) / (2.0 * k.x)).max((c + d) / (2.0 * k.y)).max(front + CLOSEST);
+    let z = at_least_a_step(z, front, points);
+    let x = centred(points, z, (a - b) / 2.0, |p| p.x);
+    let y = centred(points, z, (c - d) / 2.0, |p| p.y);
+    DVec3::new(x, y, z)
+}
+
+/// A model without size (one point, or points behind one another) is seen from a distance of 2.
+fn at_least_a_step(z: f64, front: f64, points: &[DVec3]) -> f64 {
+    let first = points[0];
+    let has_no_size = |p: &DVec3| (p.x - first.x).abs() + (p.y - first.y).abs() < CLOSEST;
+    if z - front < 2.0 * CLOSEST && points.iter().all(has_no_size) { front + 2.0 } else { z }
+}
+
+/// The coordinate of the eye at which the points reach as far to one side as to the other:
+/// max (p − e)/(z − p_z) = max (e − p)/(z − p_z), by Newton's method on its linear pieces.
+fn centred(points: &[DVec3], eye_z: f64, start: f64, coordinate: impl Fn(&DVec3) -> f64) -> f64 {
+    const MOST_STEPS: usize = 16;
+    let mut eye = start;
+    for _ in 0..MOST_STEPS {
+        let mut furthest = [(f64::NEG_INFINITY, 0.0, 1.0); 2];
+        for p in points {
+            let (at, depth) = (coordinate(p), eye_z - p.z);
+            let reach = (at - eye) / depth;
+            if reach > furthest[0].0 {
+                furthest[0] = (reach, at, depth);
+            }
+            if -reach > furthest[1].0 {
+                furthest[1] = (-reach, at, depth);
+            }
+        }
+        let [(right, p, depth_p), (left, q, depth_q)] = furthest;
+        if (right - left).abs() <= 1e-12 * (1.0 + right.abs()) {
+            break;
+        }
+        eye = (p * depth_q + q * depth_p) / (depth_p + depth_q);
+    }
+    eye
+}
+
+/// The middle (z: the nearest point's) and the half height of the smallest orthographic view that
+/// holds every point; with `through`, the middle stays there.
+#[must_use]
+pub fn orthographic_view(
+    points: &[DVec3],
+    k: FrameTangents,
+    through: Option<DVec3>,
+) -> (DVec3, f64) {
+    let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for p in points {
+        (least, most) = (least.min(*p), most.max(*p));
+    }
+    if points.is_empty() {
+        (least, most) = (-DVec3::ONE, DVec3::ONE);
+    }
+    let middle = through.unwrap_or((least + most) / 2.0).with_z(most.z);
+    let reach = (most - middle).max(middle - least);
+    let half_height = (reach.x / k.x).max(reach.y / k.y);
+    (middle, if half_height > CLOSEST * CLOSEST { half_height } else { 1.0 })
+}
+
+fn box_corners() -> Vec<DVec3> {
+    let sign = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
+    (0..8).map(|i| DVec3::new(sign(i & 1), sign(i & 2), sign(i & 4))).collect()
+}

@@ -1,0 +1,222 @@
+//! A camera from what the caller asked for.
+
+use super::direction::ViewDirection;
+use super::fit::{self, FrameTangents};
+use crate::transforms::projection::{self, DepthConvention, Frustum};
+use crate::transforms::view::CameraFrame;
+use crate::transforms::{affine, transform_vector};
+use glam::{DMat4, DVec3};
+
+/// What a picture asks of its camera. Positions are in the model's world space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CameraOptions {
+    /// Where the eye is. Default: the default view direction, fitted.
+    pub eye: Eye,
+    /// The point in the middle of the picture. `None` (default): what fits best, or the middle of the
+    /// bounds when the eye is given.
+    pub target_world: Option<DVec3>,
+    /// How depth becomes size. Default: perspective, 35° high.
+    pub projection: ProjectionKind,
+    /// Free border on each side, as a fraction of the picture's shorter side; in 0..0.5. Default 0.05.
+    pub margin: f64,
+}
+
+impl Default for CameraOptions {
+    fn default() -> Self {
+        Self {
+            eye: Eye::Fitted(ViewDirection::default()),
+            target_world: None,
+            projection: ProjectionKind::default(),
+            margin: 0.05,
+        }
+    }
+}
+
+/// Where the eye is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Eye {
+    /// In this direction, as near as the fit allows.
+    Fitted(ViewDirection),
+    /// Here.
+    At(DVec3),
+}
+
+/// How depth becomes size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ProjectionKind {
+    /// Far things are smaller.
+    Perspective {
+        /// Vertical opening angle in degrees, in 0..180, both excluded.
+        fov_y_deg: f64,
+    },
+    /// Size does not depend on distance.
+    Orthographic,
+}
+
+impl Default for ProjectionKind {
+    fn default() -> Self {
+        Self::Perspective { fov_y_deg: 35.0 }
+    }
+}
+
+/// A camera in some space, ready to draw with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlacedCamera {
+    /// Position and axes.
+    pub frame: CameraFrame,
+    /// The point in the middle of the picture.
+    pub target: DVec3,
+    /// What is seen.
+    pub lens: Lens,
+    /// Distance of the near plane along the view direction.
+    pub near: f64,
+    /// Distance of the far plane.
+    pub far: f64,
+    /// Distances of the nearest and the furthest point of the model.
+    pub depth_range: (f64, f64),
+}
+
+/// How wide a camera sees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Lens {
+    /// Vertical opening angle, in radians.
+    Perspective(f64),
+    /// Half of the height that is seen.
+    Orthographic(f64),
+}
+
+impl PlacedCamera {
+    /// Places a camera for `points`, the model's vertices, and a picture of `size_px`.
+    ///
+    /// The options' positions and the points are in the same space, in which the model is about 1 in
+    /// radius. `up` is the direction that points up.
+    #[must_use]
+    pub fn new(options: &CameraOptions, up: DVec3, points: &[DVec3], size_px: (u32, u32)) -> Self {
+        let (width, height) = (f64::from(size_px.0), f64::from(size_px.1));
+        let lens = match options.projection {
+            ProjectionKind::Perspective { fov_y_deg } => Lens::Perspective(fov_y_deg.to_radians()),
+            ProjectionKind::Orthographic => Lens::Orthographic(1.0),
+        };
+        let tangent = match lens {
+            Lens::Perspective(fov) => libm::tan(fov / 2.0),
+            Lens::Orthographic(_) => 1.0,
+        };
+        let k = FrameTangents::new(width, height, tangent, options.margin);
+        match options.eye {
+            Eye::Fitted(direction) => Self::fitted(direction, options.target_world, up, points, lens, k),
+            Eye::At(eye) => Self::standing(eye, options.target_world, up, points, lens, k),
+        }
+    }
+
+    /// The camera in a direction, as near as the model allows.
+    fn fitted(
+        direction: ViewDirection,
+        target: Option<DVec3>,
+        up: DVec3,
+        points: &[DVec3],
+        lens: Lens,
+        k: FrameTangents,
+    ) -> Self {
+        let upright = affine::rotation_between(DVec3::Y, up);
+        let [right, up, back] = direction.axes().map(|axis| transform_vector(&upright, axis));
+        let origin = CameraFrame { right_world: right, up_world: up, back_world: back, eye_world: DVec3::ZERO };
+        let aligned = align(points, &origin);
+        let through = target.map(|t| align_one(t, &origin));
+        let (eye, lens) = match lens {
+            Lens::Perspective(_) => (fit::perspective_eye(&aligned, k, through), lens),
+            Lens::Orthographic(_) => {
+                let (middle, half_height) = fit::orthographic_view(&aligned, k, through);
+                (middle + DVec3::Z * half_height.max(1.0), Lens::Orthographic(half_height))
+            }
+        };
+        let eye_world = right * eye.x + up * eye.y + back * eye.z;
+        let (nearest, furthest) = depths(&aligned, eye.z);
+        let target = target.unwrap_or(eye_world - back * ((nearest + furthest) / 2.0));
+        let frame = CameraFrame { eye_world, ..origin };
+        Self::with_planes(frame, target, lens, (nearest, furthest))
+    }
+
+    /// The camera whose eye is given.
+    fn standing(
+        eye: DVec3,
+        target: Option<DVec3>,
+        up: DVec3,
+        points: &[DVec3],
+        lens: Lens,
+        k: FrameTangents,
+    ) -> Self {
+        // The model is centred at the origin of its normalised space.
+        let target = target.unwrap_or(DVec3::ZERO);
+        let frame = CameraFrame::look_at(eye, target, up);
+        let origin = CameraFrame { eye_world: DVec3::ZERO, ..frame };
+        let aligned = align(points, &origin);
+        let eye_aligned = align_one(eye, &origin);
+        let lens = match lens {
+            Lens::Perspective(_) => lens,
+            Lens::Orthographic(_) => {
+                let (_, half_height) = fit::orthographic_view(&aligned, k, Some(eye_aligned));
+                Lens::Orthographic(half_height)
+            }
+        };
+        Self::with_planes(frame, target, lens, depths(&aligned, eye_aligned.z))
+    }
+
+    /// Near and far planes a little outside the model's depths.
+    fn with_planes(frame: CameraFrame, target: DVec3, lens: Lens, depth_range: (f64, f64)) -> Self {
+        /// Of the model's depth, on both sides.
+        const SLACK: f64 = 0.01;
+        /// The near plane's least part of the far plane's distance: f32 depth tells apart enough.
+        const LEAST_NEAR: f64 = 1e-4;
+        let (nearest, furthest) = depth_range;
+        let slack = (furthest - nearest).max(1e-3) * SLACK;
+        let (near, far) = match lens {
+            Lens::Perspective(_) => {
+                let far = (furthest + slack).max(1e-3);
+                ((nearest - slack).max(far * LEAST_NEAR), far)
+            }
+            Lens::Orthographic(_) => (nearest - slack, furthest + slack),
+        };
+        Self { frame, target, lens, near, far, depth_range }
+    }
+
+    /// The projection for a picture of `aspect` = width ÷ height.
+    #[must_use]
+    pub fn clip_from_view(&self, aspect: f64) -> DMat4 {
+        let convention = DepthConvention::ZeroToOne;
+        match self.lens {
+            Lens::Perspective(fov) => {
+                projection::perspective(fov, aspect, self.near, self.far, convention)
+            }
+            Lens::Orthographic(half_height) => {
+                let half_width = half_height * aspect;
+                let f = Frustum {
+                    left: -half_width,
+                    right: half_width,
+                    bottom: -half_height,
+                    top: half_height,
+                    near: self.near,
+                    far: self.far,
+                };
+                projection::orthographic(&f, convention)
+            }
+        }
+    }
+}
+
+fn align_one(p: DVec3, frame: &CameraFrame) -> DVec3 {
+    DVec3::new(p.dot(frame.right_world), p.dot(frame.up_world), p.dot(frame.back_world))
+}
+
+fn align(points: &[DVec3], frame: &CameraFrame) -> Vec<DVec3> {
+    points.iter().map(|&p| align_one(p, frame)).collect()
+}
+
+/// Distances of the nearest and the furthest point along the view direction; of no points, those of the
+/// unit box's middle.
+fn depths(aligned: &[DVec3], eye_z: f64) -> (f64, f64) {
+    if aligned.is_empty() {
+        return (eye_z - 1.0, eye_z + 1.0);
+    }
+    let depths = aligned.iter().map(|p| eye_z - p.z);
+    depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)))
+}

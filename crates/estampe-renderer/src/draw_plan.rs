@@ -1,0 +1,285 @@
+//! What is drawn, and in which order: opaque surfaces, lines and points as the scene has them, then
+//! transparent triangles back to front.
+
+use crate::alpha::{Encoding, decode};
+use crate::frame::RenderError;
+use crate::geometry::faces::unshared_streams;
+use crate::geometry::order::{DistantTriangle, back_to_front};
+use crate::geometry::vertex_data::{MeshStreams, StreamData, VertexStream};
+use crate::materials::Materials;
+use crate::options::{RenderOptions, Shading};
+use crate::scene_view::SceneView;
+use crate::shading::marks::Marks;
+use crate::surface_pipelines::{FrameStyle, StreamPipeline, Transparency};
+use estampe::state::PrimitiveTopology;
+use estampe::{Buffer, Device, Draw, IndexFormat, TextureFormat};
+use estampe_scene::{Mesh, Scene, Surface};
+use glam::{DVec3, Vec3};
+use std::collections::HashMap;
+use std::ops::Range;
+
+/// Everything that the draws of a frame refer to.
+#[derive(Debug, Default)]
+pub(crate) struct DrawPlan {
+    pipelines: Vec<StreamPipeline>,
+    draws: Vec<PlannedDraw>,
+}
+
+#[derive(Debug)]
+struct PlannedDraw {
+    pipeline: usize,
+    vertex_buffers: Vec<Buffer>,
+    indices: Option<Buffer>,
+    elements: Range<u32>,
+}
+
+impl DrawPlan {
+    /// The draws, in order.
+    pub(crate) fn draws(&self) -> Vec<Draw<'_>> {
+        let draw = |planned: &'_ PlannedDraw| {
+            let pipeline = &self.pipelines[planned.pipeline].pipeline;
+            (pipeline, planned.elements.clone())
+        };
+        let draws = self.draws.iter().map(|planned| {
+            let (pipeline, elements) = draw(planned);
+            Draw {
+                vertex_buffers: &planned.vertex_buffers,
+                indices: planned.indices.as_ref().map(|buffer| (buffer, IndexFormat::Uint32)),
+                ..Draw::new(pipeline, elements)
+            }
+        });
+        draws.collect()
+    }
+}
+
+/// What makes two surfaces share a pipeline: their material, and which streams are constant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+struct PipelineKey {
+    material: Option<usize>,
+    is_unshared: bool,
+    has_normals: bool,
+    has_uvs: bool,
+    has_colors: bool,
+}
+
+/// Puts a plan together.
+pub(crate) struct Planner<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) options: &'a RenderOptions,
+    pub(crate) view: &'a SceneView,
+    pub(crate) style: &'a FrameStyle,
+    pub(crate) device: &'a Device,
+}
+
+/// The plan while it grows.
+#[derive(Default)]
+struct Growing {
+    plan: DrawPlan,
+    pipeline_of_key: HashMap<PipelineKey, usize>,
+    transparent: Vec<DistantTriangle>,
+    /// Of each transparent surface: its pipeline and vertex buffers.
+    transparent_surfaces: Vec<(usize, Vec<Buffer>)>,
+}
+
+impl Planner<'_> {
+    /// The plan of the whole scene.
+    pub(crate) fn plan(&self) -> Result<DrawPlan, RenderError> {
+        let mut materials = Materials::new(self.scene, self.options, self.device);
+        let mut growing = Growing::default();
+        for mesh in &self.scene.meshes {
+            self.plan_mesh(mesh, &mut materials, &mut growing)?;
+        }
+        for run in back_to_front(std::mem::take(&mut growing.transparent)) {
+            let (pipeline, vertex_buffers) =
+                growing.transparent_surfaces[run.surface as usize].clone();
+            let elements = 0..element_count(run.indices.len())?;
+            let indices = Some(Buffer::from_words(run.indices));
+            growing.plan.draws.push(PlannedDraw { pipeline, vertex_buffers, indices, elements });
+        }
+        Ok(growing.plan)
+    }
+
+    fn plan_mesh(
+        &self,
+        mesh: &Mesh,
+        materials: &mut Materials<'_>,
+        growing: &mut Growing,
+    ) -> Result<(), RenderError> {
+        let is_unshared = self.style.needs_unshared_vertices() || mesh.normals.is_empty();
+        let has_marks = !mesh.lines.is_empty() || !mesh.points.is_empty();
+        let shared = (!is_unshared && !mesh.triangles.is_empty() || has_marks)
+            .then(|| MeshStreams::shared(mesh, &self.view.space));
+        if !mesh.triangles.is_empty() {
+            let unshared;
+            let streams = match &shared {
+                Some(shared) if !is_unshared => shared,
+                _ => {
+                    unshared = unshared_streams(mesh, &self.view.space);
+                    &unshared
+                }
+            };
+            self.plan_triangles(mesh, streams, is_unshared, materials, growing)?;
+        }
+        if let Some(shared) = &shared {
+            self.plan_marks(mesh, shared, growing)?;
+        }
+        Ok(())
+    }
+
+    fn plan_triangles(
+        &self,
+        mesh: &Mesh,
+        streams: &MeshStreams,
+        is_unshared: bool,
+        materials: &mut Materials<'_>,
+        growing: &mut Growing,
+    ) -> Result<(), RenderError> {
+        element_count(mesh.triangles.len().saturating_mul(3))?;
+        let indices =
+            (!is_unshared).then(|| Buffer::from_words(mesh.triangles.as_flattened()));
+        let whole = [Surface { material: None, triangles: 0..mesh.triangles.len() }];
+        let surfaces = if mesh.surfaces.is_empty() { &whole[..] } else { &mesh.surfaces };
+        for surface in surfaces {
+            let end = surface.triangles.end.min(mesh.triangles.len());
+            let triangles = surface.triangles.start.min(end)..end;
+            let style = materials.style(surface.material, mesh)?;
+            if triangles.is_empty() || style.transparency == Transparency::Blended && style.base[3] <= 0.0 {
+                continue;
+            }
+            let key = PipelineKey {
+                material: surface.material,
+                is_unshared,
+                has_normals: !mesh.normals.is_empty(),
+                has_uvs: !mesh.uvs.is_empty(),
+                has_colors: !mesh.colors.is_empty(),
+            };
+            let pipeline = match growing.pipeline_of_key.get(&key) {
+                Some(&pipeline) => pipeline,
+                None => {
+                    let pipeline = self.style.surface(self.device, &style, streams)?;
+                    growing.plan.pipelines.push(pipeline);
+                    let last = growing.plan.pipelines.len() - 1;
+                    growing.pipeline_of_key.insert(key, last);
+                    last
+                }
+            };
+            let vertex_buffers = buffers_of(&growing.plan.pipelines[pipeline], streams);
+            if style.transparency == Transparency::Blended && self.style.shows_transparency() {
+                self.collect_transparent(mesh, triangles, is_unshared, growing);
+                growing.transparent_surfaces.push((pipeline, vertex_buffers));
+                continue;
+            }
+            let elements = element_count(triangles.start * 3)?..element_count(triangles.end * 3)?;
+            let indices = indices.clone();
+            growing.plan.draws.push(PlannedDraw { pipeline, vertex_buffers, indices, elements });
+        }
+        Ok(())
+    }
+
+    /// Adds the triangles of the transparent surface that is pushed next.
+    fn collect_transparent(
+        &self,
+        mesh: &Mesh,
+        triangles: Range<usize>,
+        is_unshared: bool,
+        growing: &mut Growing,
+    ) {
+        let surface = u32::try_from(growing.transparent_surfaces.len()).unwrap_or(u32::MAX);
+        let position = |index: u32| {
+            let position = mesh.positions.get(index as usize).copied().unwrap_or(Vec3::NAN);
+            self.view.space.unit_from_object(position).as_dvec3()
+        };
+        for number in triangles {
+            let triangle = mesh.triangles[number];
+            let middle = triangle.map(position).into_iter().sum::<DVec3>() / 3.0;
+            let distance = DVec3::splat(self.view.distance(middle)).as_vec3().x;
+            // The triangles' corners were counted: they fit u32.
+            let first = u32::try_from(number * 3).unwrap_or(u32::MAX);
+            let corners = if is_unshared {
+                [first, first.saturating_add(1), first.saturating_add(2)]
+            } else {
+                triangle
+            };
+            growing.transparent.push(DistantTriangle { distance, surface, corners });
+        }
+    }
+
+    fn plan_marks(
+        &self,
+        mesh: &Mesh,
+        shared: &MeshStreams,
+        growing: &mut Growing,
+    ) -> Result<(), RenderError> {
+        let lines = (mesh.lines.as_flattened(), PrimitiveTopology::LineList);
+        let points = (&mesh.points[..], PrimitiveTopology::PointList);
+        for (indices, topology) in [lines, points] {
+            if indices.is_empty() {
+                continue;
+            }
+            let elements = 0..element_count(indices.len())?;
+            let shows_colors = !mesh.colors.is_empty() && !self.style.shading.holds_numbers();
+            let mut streams = shared.clone();
+            if !shows_colors {
+                streams.colors = StreamData::constant(&[1.0; 4]);
+            }
+            let marks = self.marks(shows_colors, mesh.points.len());
+            let pipeline = self.style.marks(self.device, marks, topology, &streams)?;
+            let vertex_buffers = buffers_of(&pipeline, &streams);
+            growing.plan.pipelines.push(pipeline);
+            let pipeline = growing.plan.pipelines.len() - 1;
+            let indices = Some(Buffer::from_words(indices));
+            growing.plan.draws.push(PlannedDraw { pipeline, vertex_buffers, indices, elements });
+        }
+        Ok(())
+    }
+
+    /// The look of points and lines: their own colours, or a tone that stands out from the background.
+    fn marks(&self, shows_colors: bool, point_count: usize) -> Marks {
+        let encoding = match self.style.format {
+            TextureFormat::Rgba8UnormSrgb => Encoding::Srgb,
+            _ => Encoding::Linear,
+        };
+        let background = self.options.background.unwrap_or(RenderOptions::DEFAULT_BACKGROUND);
+        let tone = if is_dark(background) { [0xd8, 0xdc, 0xe2] } else { [0x2c, 0x3a, 0x4a] };
+        let is_depth = self.style.shading == Shading::Depth;
+        let (color, haze, fading) = if is_depth {
+            ([1.0; 3], [0.0; 3], 1.0)
+        } else {
+            let own = if shows_colors { [1.0; 3] } else { tone.map(|code| decode(code, encoding)) };
+            let fading = if self.style.shading.holds_numbers() || shows_colors { 0.0 } else { 0.55 };
+            (own, background.map(|code| decode(code, encoding)), fading)
+        };
+        Marks {
+            transforms: self.style.transforms,
+            color,
+            haze,
+            fading,
+            depth_range: self.style.depth_range,
+            point_size_px: point_size_px(self.options, point_count),
+        }
+    }
+}
+
+/// Whether light marks stand out better from a background than dark ones.
+pub(crate) fn is_dark([r, g, b]: [u8; 3]) -> bool {
+    let luma = u32::from(r) * 2126 + u32::from(g) * 7152 + u32::from(b) * 722;
+    luma < 110 * 10_000
+}
+
+/// Width of points so that a cloud looks like a surface: its share of half the picture's area, but
+/// visible, and no blot.
+fn point_size_px(options: &RenderOptions, count: usize) -> f32 {
+    let (width, height) = (f64::from(options.width), f64::from(options.height));
+    let shorter = width.min(height);
+    let count = f64::from(u32::try_from(count).unwrap_or(u32::MAX).max(1));
+    let share = libm::sqrt(width * height / count) * 0.6;
+    DVec3::splat(share.clamp((shorter / 400.0).max(1.0), (shorter / 90.0).max(1.0))).as_vec3().x
+}
+
+fn buffers_of(pipeline: &StreamPipeline, streams: &MeshStreams) -> Vec<Buffer> {
+    pipeline.streams.iter().map(|&stream: &VertexStream| streams.get(stream).buffer()).collect()
+}
+
+fn element_count(elements: usize) -> Result<u32, RenderError> {
+    u32::try_from(elements).map_err(|_| RenderError::TooManyElements { elements })
+}

@@ -1,0 +1,175 @@
+//! From a scene to a frame: the whole way on one page.
+
+use crate::alpha::{Encoding, decode, straighten};
+use crate::draw_plan::{Planner, is_dark};
+use crate::options::RenderOptions;
+use crate::scene_view::SceneView;
+use crate::shading::VertexTransforms;
+use crate::shading::wireframe::Wireframe;
+use crate::surface_pipelines::FrameStyle;
+use estampe::texture::TextureError;
+use estampe::{
+    Device, PipelineError, RenderPass, RenderTargetDescriptor, Statistics, TargetError,
+    TextureFormat,
+};
+use estampe_scene::{Camera, Image, Scene};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// A picture, and how it came about.
+#[derive(Debug, Clone)]
+pub struct Frame {
+    /// The picture: straight alpha; sRGB, or numbers for the shadings that hold those.
+    pub image: Image,
+    /// What the pipeline counted.
+    pub statistics: Statistics,
+    /// How long each stage took.
+    pub timings: FrameTimings,
+    /// The camera it was taken with, in world space.
+    pub camera: Camera,
+}
+
+/// How long the stages of a frame took.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct FrameTimings {
+    /// Camera, vertex buffers, textures, pipelines and the target.
+    pub prepare: Duration,
+    /// Vertices and primitives.
+    pub geometry: Duration,
+    /// Tiles: coverage, fragments and per-sample operations.
+    pub raster: Duration,
+    /// From the target to rows of pixels, resolved, alpha made straight.
+    pub read_back: Duration,
+}
+
+/// Why there is no picture.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// The size is zero or too large.
+    #[error("a picture of {width}x{height} pixels is not possible: each side is 1 to {limit}")]
+    Size {
+        /// The width asked for.
+        width: u32,
+        /// The height asked for.
+        height: u32,
+        /// The greatest side.
+        limit: u32,
+    },
+    /// One mesh has more corners than can be counted in 32 bits.
+    #[error("a mesh of {elements} triangle corners is too large: 4294967295 are possible; split it")]
+    TooManyElements {
+        /// How many corners, line ends or points.
+        elements: usize,
+    },
+    /// The pipeline refused a state; names the rule.
+    #[error(transparent)]
+    Pipeline(#[from] PipelineError),
+    /// The target is not possible.
+    #[error(transparent)]
+    Target(#[from] TargetError),
+    /// A texture is not possible.
+    #[error(transparent)]
+    Texture(#[from] TextureError),
+}
+
+/// Draws a scene.
+///
+/// # Errors
+/// [`RenderError`] when the picture or a texture is larger than the device's limits, or memory is
+/// short. A scene itself cannot be at fault: what is broken in it is left out.
+pub fn render(
+    scene: &Scene,
+    options: &RenderOptions,
+    device: &Device,
+) -> Result<Frame, RenderError> {
+    let start = Instant::now();
+    check_size(options, device)?;
+    let view = SceneView::new(scene, options);
+    let style = frame_style(&view, options);
+    let plan = Planner { scene, options, view: &view, style: &style, device }.plan()?;
+    let mut target = device.create_render_target(&RenderTargetDescriptor {
+        width: options.width,
+        height: options.height,
+        samples: options.samples,
+        color_formats: vec![style.format],
+        depth: true,
+    })?;
+    let prepare = start.elapsed();
+
+    let clear = clear_color(options);
+    let draws = plan.draws();
+    let pass = RenderPass { clear_colors: Some(vec![clear]), clear_depth: Some(1.0), draws: &draws };
+    let statistics = device.render(&mut target, &pass);
+
+    let start = Instant::now();
+    let mut rgba = target.read_color(0);
+    if options.background.is_none() {
+        straighten(&mut rgba, encoding(options));
+    }
+    let image = Image { width: options.width, height: options.height, rgba };
+    let timings = FrameTimings {
+        prepare,
+        geometry: statistics.geometry,
+        raster: statistics.raster,
+        read_back: start.elapsed(),
+    };
+    Ok(Frame { image, statistics, timings, camera: view.camera_world() })
+}
+
+fn check_size(options: &RenderOptions, device: &Device) -> Result<(), RenderError> {
+    let (width, height) = (options.width, options.height);
+    let limit = device.limits().max_texture_dimension_2d;
+    let possible = 1..=limit;
+    if possible.contains(&width) && possible.contains(&height) {
+        return Ok(());
+    }
+    Err(RenderError::Size { width, height, limit })
+}
+
+fn encoding(options: &RenderOptions) -> Encoding {
+    if options.shading.holds_numbers() { Encoding::Linear } else { Encoding::Srgb }
+}
+
+/// The background as the target's clear colour.
+fn clear_color(options: &RenderOptions) -> [f32; 4] {
+    match options.background {
+        Some(codes) => {
+            let [r, g, b] = codes.map(|code| decode(code, encoding(options)));
+            [r, g, b, 1.0]
+        }
+        None => [0.0; 4],
+    }
+}
+
+fn frame_style(view: &SceneView, options: &RenderOptions) -> FrameStyle {
+    let transforms = view.transforms();
+    FrameStyle {
+        shading: options.shading,
+        transforms,
+        rig: Arc::new(view.rig(options)),
+        wireframe: wireframe(transforms, options),
+        depth_range: view.depth_range(),
+        cull: options.cull,
+        samples: options.samples,
+        format: match encoding(options) {
+            Encoding::Srgb => TextureFormat::Rgba8UnormSrgb,
+            Encoding::Linear => TextureFormat::Rgba8Unorm,
+        },
+    }
+}
+
+/// Edges that stand out from the background, as wide as suits the picture.
+fn wireframe(transforms: VertexTransforms, options: &RenderOptions) -> Wireframe {
+    let background = options.background.unwrap_or(RenderOptions::DEFAULT_BACKGROUND);
+    let tone = if is_dark(background) { [0xe4, 0xe8, 0xee] } else { [0x1e, 0x2a, 0x38] };
+    let [r, g, b] = tone.map(|code| decode(code, Encoding::Srgb));
+    let shorter_px = options.width.min(options.height);
+    let sixteenths = u16::try_from((shorter_px / 64).clamp(8, 64)).unwrap_or(64);
+    Wireframe {
+        transforms,
+        line: [r, g, b, 1.0],
+        face: clear_color(options),
+        half_width_px: f32::from(sixteenths) / 16.0,
+    }
+}

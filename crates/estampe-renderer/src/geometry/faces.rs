@@ -1,0 +1,46 @@
+//! Triangles that share no vertices: each corner can then carry what belongs to its face alone.
+
+use super::unit_space::UnitSpace;
+use super::vertex_data::{MeshStreams, StreamData};
+use estampe_scene::Mesh;
+use glam::Vec3;
+
+/// The streams of a mesh with three vertices of its own for each triangle, in the triangles' order, and
+/// with the faces' normals in place of the vertices'.
+pub(crate) fn unshared_streams(mesh: &Mesh, space: &UnitSpace) -> MeshStreams {
+    let position = |index: u32| at(&mesh.positions, index).unwrap_or(Vec3::NAN);
+    let corners = || mesh.triangles.iter().flatten().copied();
+    let positions = corners().map(|index| space.unit_from_object(position(index)).to_array());
+    let normals = mesh.triangles.iter().flat_map(|triangle| {
+        let normal = face_normal(triangle.map(position)).to_array();
+        [normal, normal, normal]
+    });
+    let indicators = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    MeshStreams {
+        positions: StreamData::per_vertex(positions),
+        normals: StreamData::per_vertex(normals),
+        uvs: if mesh.uvs.is_empty() {
+            StreamData::constant(&[0.0; 2])
+        } else {
+            let uv = |index| at(&mesh.uvs, index).unwrap_or_default().to_array();
+            StreamData::per_vertex(corners().map(uv))
+        },
+        colors: if mesh.colors.is_empty() {
+            StreamData::constant(&[1.0; 4])
+        } else {
+            StreamData::per_vertex(corners().map(|i| at(&mesh.colors, i).unwrap_or([1.0; 4])))
+        },
+        corners: StreamData::per_vertex(mesh.triangles.iter().flat_map(|_| indicators)),
+    }
+}
+
+/// The unit normal of a counter-clockwise triangle, in f64; zero when it has no area.
+pub(crate) fn face_normal(corners: [Vec3; 3]) -> Vec3 {
+    // The fourth power of any f32 stays inside f64, so nothing here overflows or vanishes.
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    (b - a).cross(c - a).normalize_or_zero().as_vec3()
+}
+
+fn at<T: Copy>(values: &[T], index: u32) -> Option<T> {
+    values.get(index as usize).copied()
+}

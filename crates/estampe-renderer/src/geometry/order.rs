@@ -1,0 +1,50 @@
+//! The order of transparent triangles: back to front, over all surfaces at once.
+
+/// A triangle of a surface, and how far away it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct DistantTriangle {
+    /// Distance of its middle along the view direction.
+    pub(crate) distance: f32,
+    /// Which surface it is of.
+    pub(crate) surface: u32,
+    /// Its corners.
+    pub(crate) corners: [u32; 3],
+}
+
+/// A run of triangles of one surface: indices, in drawing order.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Run {
+    /// Which surface.
+    pub(crate) surface: u32,
+    /// The corners, three for each triangle.
+    pub(crate) indices: Vec<u32>,
+}
+
+/// More runs than this cost more than they are worth: surfaces are then drawn whole.
+const MOST_RUNS: usize = 4096;
+
+/// Sorts triangles back to front (equal ones stay in order) and gathers neighbours of one surface.
+///
+/// Where the surfaces interleave so much that there would be thousands of draws, whole surfaces are
+/// ordered by their furthest triangle instead, each sorted inside.
+pub(crate) fn back_to_front(mut triangles: Vec<DistantTriangle>) -> Vec<Run> {
+    triangles.sort_by(|a, b| b.distance.total_cmp(&a.distance));
+    let changes = triangles.windows(2).filter(|pair| pair[0].surface != pair[1].surface).count();
+    if changes >= MOST_RUNS {
+        let surfaces = triangles.iter().map(|t| t.surface as usize + 1).max().unwrap_or(0);
+        let mut rank_of_surface = vec![usize::MAX; surfaces];
+        for (rank, triangle) in triangles.iter().enumerate() {
+            let first = &mut rank_of_surface[triangle.surface as usize];
+            *first = rank.min(*first);
+        }
+        triangles.sort_by_key(|triangle| rank_of_surface[triangle.surface as usize]);
+    }
+    let mut runs: Vec<Run> = Vec::new();
+    for triangle in triangles {
+        match runs.last_mut() {
+            Some(run) if run.surface == triangle.surface => run.indices.extend(triangle.corners),
+            _ => runs.push(Run { surface: triangle.surface, indices: triangle.corners.to_vec() }),
+        }
+    }
+    runs
+}

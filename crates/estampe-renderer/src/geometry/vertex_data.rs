@@ -1,0 +1,123 @@
+//! Vertex buffers straight from a mesh's arrays.
+
+use super::unit_space::UnitSpace;
+use estampe::Buffer;
+use estampe::VertexFormat;
+use estampe::state::{VertexAttribute, VertexBufferLayout, VertexStepMode};
+use estampe_scene::Mesh;
+
+/// The attributes that surface shaders may read, in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum VertexStream {
+    /// Three floats, unit space.
+    Position,
+    /// Three floats, object space.
+    Normal,
+    /// Two floats.
+    Uv,
+    /// Four floats, linear.
+    Color,
+    /// Three floats: 1 at one corner of a triangle, 0 at the others.
+    Corner,
+}
+
+impl VertexStream {
+    const fn format(self) -> VertexFormat {
+        match self {
+            Self::Position | Self::Normal | Self::Corner => VertexFormat::Float32x3,
+            Self::Uv => VertexFormat::Float32x2,
+            Self::Color => VertexFormat::Float32x4,
+        }
+    }
+}
+
+/// One stream of a mesh: an element for each vertex, or one for all.
+#[derive(Debug, Clone)]
+pub(crate) struct StreamData {
+    buffer: Buffer,
+    is_constant: bool,
+}
+
+impl StreamData {
+    /// An element for each vertex; elements have the stream's number of floats.
+    pub(crate) fn per_vertex<const N: usize>(elements: impl Iterator<Item = [f32; N]>) -> Self {
+        let mut words = Vec::with_capacity(elements.size_hint().0.saturating_mul(N));
+        for element in elements {
+            words.extend(element.map(f32::to_bits));
+        }
+        Self { buffer: Buffer::from_words(words), is_constant: false }
+    }
+
+    /// The same element for all vertices.
+    pub(crate) fn constant(element: &[f32]) -> Self {
+        Self { buffer: Buffer::from_f32s(element), is_constant: true }
+    }
+
+    /// The buffer; cloning shares it.
+    pub(crate) fn buffer(&self) -> Buffer {
+        self.buffer.clone()
+    }
+
+    /// How the buffer lies, when it feeds `location`.
+    pub(crate) fn layout(&self, stream: VertexStream, location: usize) -> VertexBufferLayout {
+        let format = stream.format();
+        let element_bytes =
+            u32::try_from(format.size_bytes()).expect("formats are at most 16 bytes");
+        VertexBufferLayout {
+            array_stride: if self.is_constant { 0 } else { element_bytes },
+            step_mode: VertexStepMode::Vertex,
+            attributes: vec![VertexAttribute {
+                format,
+                offset: 0,
+                shader_location: u32::try_from(location).expect("a handful of streams"),
+            }],
+        }
+    }
+}
+
+/// The streams of one mesh whose vertices are shared as in the scene.
+#[derive(Debug, Clone)]
+pub(crate) struct MeshStreams {
+    pub(crate) positions: StreamData,
+    pub(crate) normals: StreamData,
+    pub(crate) uvs: StreamData,
+    pub(crate) colors: StreamData,
+    pub(crate) corners: StreamData,
+}
+
+impl MeshStreams {
+    /// The streams of a mesh. What it lacks is the same for all vertices: no normal, uv (0, 0), white.
+    pub(crate) fn shared(mesh: &Mesh, space: &UnitSpace) -> Self {
+        let positions = mesh.positions.iter().map(|&p| space.unit_from_object(p).to_array());
+        Self {
+            positions: StreamData::per_vertex(positions),
+            normals: if mesh.normals.is_empty() {
+                StreamData::constant(&[0.0; 3])
+            } else {
+                StreamData::per_vertex(mesh.normals.iter().map(glam::Vec3::to_array))
+            },
+            uvs: if mesh.uvs.is_empty() {
+                StreamData::constant(&[0.0; 2])
+            } else {
+                StreamData::per_vertex(mesh.uvs.iter().map(glam::Vec2::to_array))
+            },
+            colors: if mesh.colors.is_empty() {
+                StreamData::constant(&[1.0; 4])
+            } else {
+                StreamData::per_vertex(mesh.colors.iter().copied())
+            },
+            corners: StreamData::constant(&[0.0; 3]),
+        }
+    }
+
+    /// The stream that a shader names.
+    pub(crate) fn get(&self, stream: VertexStream) -> &StreamData {
+        match stream {
+            VertexStream::Position => &self.positions,
+            VertexStream::Normal => &self.normals,
+            VertexStream::Uv => &self.uvs,
+            VertexStream::Color => &self.colors,
+            VertexStream::Corner => &self.corners,
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! A scene's materials, ready for shaders; textures are made when a surface first needs them.
+
+use crate::frame::RenderError;
+use crate::options::{RenderOptions, Shading};
+use crate::shading::lighting::Gloss;
+use crate::surface_pipelines::{SurfaceStyle, Transparency};
+use estampe::texture::{MipGeneration, Sampled, create_texture};
+use estampe::{Device, SamplerDescriptor, TextureFormat};
+use estampe_scene::{AlphaMode, Image, Material, Mesh, Scene};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Makes styles of materials.
+pub(crate) struct Materials<'a> {
+    scene: &'a Scene,
+    options: &'a RenderOptions,
+    device: &'a Device,
+    /// By index into the scene's images; `None` is the options' own.
+    textures: HashMap<Option<usize>, Sampled>,
+}
+
+impl<'a> Materials<'a> {
+    pub(crate) fn new(scene: &'a Scene, options: &'a RenderOptions, device: &'a Device) -> Self {
+        Self { scene, options, device, textures: HashMap::new() }
+    }
+
+    /// The style of a surface of `mesh` with this material.
+    pub(crate) fn style(
+        &mut self,
+        material: Option<usize>,
+        mesh: &Mesh,
+    ) -> Result<SurfaceStyle, RenderError> {
+        let own = material.and_then(|index| self.scene.materials.get(index));
+        let default = Material::default();
+        let material = own.unwrap_or(&default);
+        let has_vertex_colors = !mesh.colors.is_empty();
+        let is_overridden = self.options.texture.is_some() && !mesh.uvs.is_empty();
+        // What paints the surface takes the place of the default grey.
+        let is_painted = is_overridden || own.is_none() && has_vertex_colors;
+        let color = if is_painted { glam::Vec3::ONE } else { material.base_color };
+        let transparency = match material.alpha_mode {
+            _ if is_overridden => Transparency::Opaque,
+            AlphaMode::Opaque => Transparency::Opaque,
+            AlphaMode::Mask => Transparency::Masked,
+            AlphaMode::Blend => Transparency::Blended,
+        };
+        let texture = if self.reads_textures() { self.texture(material, mesh)? } else { None };
+        Ok(SurfaceStyle {
+            gloss: Gloss {
+                specular: material.specular.to_array(),
+                shininess: whole_exponent(material.shininess),
+                emissive: material.emissive.to_array(),
+            },
+            base: [color.x, color.y, color.z, material.opacity],
+            texture,
+            has_vertex_colors,
+            transparency,
+        })
+    }
+
+    fn reads_textures(&self) -> bool {
+        !self.options.shading.holds_numbers() && self.options.shading != Shading::Wireframe
+    }
+
+    /// The texture of a surface: the options' own, or else the material's.
+    fn texture(
+        &mut self,
+        material: &Material,
+        mesh: &Mesh,
+    ) -> Result<Option<Sampled>, RenderError> {
+        if mesh.uvs.is_empty() {
+            return Ok(None);
+        }
+        let scene = self.scene;
+        let (key, image) = match (&self.options.texture, material.base_color_texture) {
+            (Some(image), _) => (None, image),
+            (None, Some(index)) => match scene.images.get(index) {
+                Some(image) => (Some(index), image),
+                None => return Ok(None),
+            },
+            (None, None) => return Ok(None),
+        };
+        if let Some(texture) = self.textures.get(&key) {
+            return Ok(Some(texture.clone()));
+        }
+        let texture = self.create(image)?;
+        self.textures.insert(key, texture.clone());
+        Ok(Some(texture))
+    }
+
+    fn create(&self, image: &Image) -> Result<Sampled, RenderError> {
+        let texture = create_texture(
+            image.width,
+            image.height,
+            TextureFormat::Rgba8UnormSrgb,
+            &image.rgba,
+            MipGeneration::Full,
+            self.device.limits(),
+        )?;
+        Ok(Sampled { texture: Arc::new(texture), sampler: SamplerDescriptor::trilinear_repeat() })
+    }
+}
+
+/// The nearest whole exponent from 1 on; readers keep them below 10,000.
+fn whole_exponent(shininess: f32) -> u32 {
+    const MOST: u16 = 10_000;
+    let nearest = |exponent: &u16| f32::from(*exponent) + 0.5 > shininess;
+    u32::from((1..MOST).find(nearest).unwrap_or(MOST))
+}

@@ -1,0 +1,103 @@
+//! Normals, depth and uv as colours: what the stages handed over, made visible (row I3).
+//!
+//! These are numbers, not light: the target stores them as they are, without the sRGB curve.
+
+use super::{VertexTransforms, shading_normal};
+use estampe::{FragmentIn, FragmentOut, Real, Vec2, Vec3, VertexIn, VertexOut};
+
+/// Unit shading normals in view space, (n + 1)/2: red to the right, green up, blue towards the eye.
+#[derive(Debug, Clone)]
+pub(crate) struct Normals {
+    pub(crate) transforms: VertexTransforms,
+}
+
+estampe::shader! {
+    impl Shader for Normals {
+        type Attributes<R: Real> = (Vec3<R>, Vec3<R>); // position, normal
+        type Varyings<R: Real> = (Vec3<R>, Vec3<R>);
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, normal): (Vec3<R>, Vec3<R>),
+        ) -> VertexOut<R, (Vec3<R>, Vec3<R>)> {
+            let view = self.transforms.view(position);
+            VertexOut::new(self.transforms.clip(position), (view, self.transforms.normal(normal)))
+        }
+
+        fn fragment<R: Real>(
+            &self,
+            input: FragmentIn<'_, R>,
+            (view, normal): (Vec3<R>, Vec3<R>),
+        ) -> FragmentOut<R> {
+            let to_eye = self.transforms.eye_direction(view);
+            let normal = shading_normal(normal, to_eye, input.front_facing);
+            let half = Vec3::uniform(input.zero, [0.5; 3]);
+            FragmentOut::color((normal * half + half).point())
+        }
+    }
+}
+
+/// Distance along the view direction: white at the model's nearest point, black at its furthest.
+#[derive(Debug, Clone)]
+pub(crate) struct DepthGrey {
+    pub(crate) transforms: VertexTransforms,
+    /// Distance of the nearest point.
+    pub(crate) nearest: f32,
+    /// Distance of the furthest point.
+    pub(crate) furthest: f32,
+}
+
+estampe::shader! {
+    impl Shader for DepthGrey {
+        type Attributes<R: Real> = (Vec3<R>,); // position
+        type Varyings<R: Real> = [R; 1];
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position,): (Vec3<R>,),
+        ) -> VertexOut<R, [R; 1]> {
+            let distance = -self.transforms.view(position).z;
+            let grey = (-distance + self.furthest) / (self.furthest - self.nearest);
+            VertexOut::new(self.transforms.clip(position), [grey])
+        }
+
+        fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, [grey]: [R; 1]) -> FragmentOut<R> {
+            FragmentOut::color(Vec3::repeat(grey.saturate()).point())
+        }
+    }
+}
+
+/// Texture coordinates: u is red, v is green; beyond 0..1 they begin again.
+#[derive(Debug, Clone)]
+pub(crate) struct UvColors {
+    pub(crate) transforms: VertexTransforms,
+}
+
+estampe::shader! {
+    impl Shader for UvColors {
+        type Attributes<R: Real> = (Vec3<R>, Vec2<R>); // position, uv
+        type Varyings<R: Real> = Vec2<R>;
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, uv): (Vec3<R>, Vec2<R>),
+        ) -> VertexOut<R, Vec2<R>> {
+            VertexOut::new(self.transforms.clip(position), uv)
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, uv: Vec2<R>) -> FragmentOut<R> {
+            let color = Vec3::new(wrapped(uv.x), wrapped(uv.y), input.zero);
+            FragmentOut::color(color.point())
+        }
+    }
+}
+
+/// A coordinate in 0..=1: itself where it is inside, else what follows its whole part.
+#[inline(always)]
+fn wrapped<R: Real>(coordinate: R) -> R {
+    let is_inside = coordinate.ge(coordinate.splat(0.0)) & coordinate.le(coordinate.splat(1.0));
+    R::select(is_inside, coordinate, coordinate.fract())
+}

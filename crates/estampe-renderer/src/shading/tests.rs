@@ -1,0 +1,1 @@
+//! Shaders on lone fragments.

@@ -1,0 +1,60 @@
+//! Edges over faces that hide what lies behind them.
+//!
+//! Each triangle has vertices of its own that carry a 1 at one corner: interpolated, the three numbers
+//! are the fragment's distances from the edges, in parts of the triangle's heights. Divided by their
+//! rate of change they are pixels, so edges have the same width everywhere, smooth borders, and lie
+//! exactly on the faces. (Rejected: pipeline lines over filled faces, which fight in the depth buffer
+//! and are not anti-aliased.)
+
+use super::VertexTransforms;
+use estampe::{FragmentIn, FragmentOut, Real, Vec3, Vec4, VertexIn, VertexOut};
+
+/// The shader of hidden-line drawings.
+#[derive(Debug, Clone)]
+pub(crate) struct Wireframe {
+    pub(crate) transforms: VertexTransforms,
+    /// Linear colour and alpha of the edges.
+    pub(crate) line: [f32; 4],
+    /// Linear premultiplied colour and alpha of the faces: the background's.
+    pub(crate) face: [f32; 4],
+    /// Half of an edge's width, in pixels; the two triangles at an edge draw a half each.
+    pub(crate) half_width_px: f32,
+}
+
+estampe::shader! {
+    impl Shader for Wireframe {
+        type Attributes<R: Real> = (Vec3<R>, Vec3<R>); // position, corner
+        type Varyings<R: Real> = Vec3<R>;
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, corner): (Vec3<R>, Vec3<R>),
+        ) -> VertexOut<R, Vec3<R>> {
+            VertexOut::new(self.transforms.clip(position), corner)
+        }
+
+        fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, corner: Vec3<R>) -> FragmentOut<R> {
+            let one = corner.x.splat(1.0);
+            let rates = Vec3::new(gradient(corner.x), gradient(corner.y), gradient(corner.z));
+            // The nearest edge, in pixels; the triangle's smallest height is 1 ÷ the greatest rate.
+            let distances = corner / rates;
+            let distance = distances.x.min(distances.y).min(distances.z);
+            let coverage = (one * (self.half_width_px + 0.5) - distance).saturate();
+            // Where triangles are a few pixels small, edges would fill everything: they fade, so that
+            // a dense mesh is a grey tone instead of a black blot.
+            let height_px = one / rates.x.max(rates.y).max(rates.z);
+            let strength = (height_px * (1.0 / 10.0) + 0.12).saturate();
+            let alpha = coverage * strength * self.line[3];
+            let line = Vec4::uniform(one, [self.line[0], self.line[1], self.line[2], 1.0]);
+            FragmentOut::color(Vec4::uniform(one, self.face).mix(line, alpha))
+        }
+    }
+}
+
+/// How much a value changes from pixel to pixel, at most: the length of its gradient.
+#[inline(always)]
+fn gradient<R: Real>(value: R) -> R {
+    let (dx, dy) = (value.ddx(), value.ddy());
+    (dx * dx + dy * dy).sqrt().max(value.splat(1e-6))
+}

@@ -1,0 +1,27 @@
+//! Parametric surfaces S(s, t) on a grid.
+//!
+//! A rectangle of parameters is cut into cells; s runs along the image's u, to the right as seen
+//! from outside, and t along its v, downwards. The outside is therefore the side of ∂S/∂t × ∂S/∂s:
+//!
+//! ```text
+//!   (s₀,t₀)───────▶ s, u        a─────d
+//!      │  ┌──┬──┬──┐            │ ╲   │     each cell: a b c, a c d,
+//!      │  ├──┼──┼──┤            │   ╲ │     counter-clockwise from outside
+//!      ▼  └──┴──┴──┘            b─────c
+//!    t, v
+//! ```
+//!
+//! Where a row of the grid is drawn together into one point, as at a sphere's poles, its cells are
+//! triangles, each with a pole vertex of its own whose u is that of the cell's middle.
+
+mod circle;
+mod grid;
+mod solids;
+
+pub use circle::cos_sin_turns;
+pub(crate) use grid::append_grid;
+pub use grid::{MAX_CELLS, SurfacePoint, surface};
+pub use solids::{plane, sphere, torus};
+
+#[cfg(test)]
+mod tests;

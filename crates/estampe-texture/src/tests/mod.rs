@@ -1,0 +1,70 @@
+//! Textures are made by their rules, and sampled as docs/NUMERICS.md says, to the bit, by every kind of
+//! number at every SIMD level.
+
+mod bits;
+mod create;
+mod naive;
+mod values;
+
+use crate::{MipGeneration, Sampled, SamplerDescriptor, Texture, TextureFormat, create_texture};
+use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
+use estampe_types::{Limits, Vec2, Vec4};
+
+/// A small generator of random numbers (Numerical Recipes' linear congruence).
+struct Random(u32);
+
+impl Random {
+    fn bits(&mut self) -> u32 {
+        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        self.0 >> 8
+    }
+
+    /// In 0..1.
+    fn unit(&mut self) -> f32 {
+        self.bits() as f32 / 16_777_216.0
+    }
+
+    fn bytes(&mut self, count: usize) -> Vec<u8> {
+        (0..count).map(|_| self.bits().to_le_bytes()[1]).collect()
+    }
+}
+
+fn noise(width: u32, height: u32, format: TextureFormat) -> Texture {
+    let rgba = Random(width * 31 + height).bytes((width * height * 4) as usize);
+    let limits = Limits::default();
+    create_texture(width, height, format, &rgba, MipGeneration::Full, &limits).expect("valid")
+}
+
+/// How the level of detail is found.
+#[derive(Clone, Copy, Debug)]
+enum Lod {
+    FromQuad,
+    Given([f32; LANES]),
+}
+
+type Colors = [[f32; 4]; LANES];
+
+/// One packet, sampled at a SIMD level.
+fn sample_packet(level: Level, sampled: &Sampled, uv: [[f32; LANES]; 2], lod: Lod) -> Colors {
+    #[inline(always)]
+    fn wide<S: Lanes>(simd: S, sampled: &Sampled, uv: [[f32; LANES]; 2], lod: Lod) -> Colors {
+        let [u, v] = uv;
+        let uv = Vec2::new(f32x16::load_array(simd, u), f32x16::load_array(simd, v));
+        let color = match lod {
+            Lod::FromQuad => sampled.sample(uv),
+            Lod::Given(lod) => sampled.sample_level(uv, f32x16::load_array(simd, lod)),
+        };
+        let Vec4 { x, y, z, w } = color;
+        let channels = [x.to_array(), y.to_array(), z.to_array(), w.to_array()];
+        std::array::from_fn(|lane| channels.map(|channel| channel[lane]))
+    }
+    dispatch!(level, s => wide(s, sampled, uv, lod))
+}
+
+fn array(color: Vec4<f32>) -> [f32; 4] {
+    [color.x, color.y, color.z, color.w]
+}
+
+fn sampled(texture: Texture, sampler: SamplerDescriptor) -> Sampled {
+    Sampled::new(texture, sampler)
+}

@@ -1,0 +1,64 @@
+//! One axis of a coordinate: from u to the texels that it lies between.
+
+use estampe_types::{AddressMode, FilterMode, Int, Real};
+
+/// Brings u into the first tile, the same for all levels. [`AddressMode::ClampToEdge`] leaves it as it is.
+#[inline(always)]
+pub(crate) fn wrap<R: Real>(u: R, mode: AddressMode) -> R {
+    match mode {
+        // max() turns NaN, which infinities give too, into 0.
+        AddressMode::Repeat => u.fract().max(u.splat(0.0)),
+        AddressMode::MirrorRepeat => {
+            let tile = (u * 0.5).floor() * 2.0;
+            u.splat(1.0) - (u - tile - 1.0).abs()
+        }
+        AddressMode::ClampToEdge => u,
+    }
+}
+
+/// Where a sample lies along one axis of one level.
+pub(crate) struct Place<R: Real> {
+    /// The texel at or before it: −1..size with repeat, where −1 is the last one; else 0..size.
+    pub(crate) texel: R::Int,
+    /// How far it is from that texel's centre to the next one's, 0..1. With mirror and clamp it is 0 at
+    /// the last texel, so the next one, which does not exist, never counts.
+    pub(crate) fraction: R,
+}
+
+/// The place of a wrapped coordinate in a level of `size` texels.
+#[inline(always)]
+pub(crate) fn place<R: Real>(
+    wrapped: R,
+    size: i32,
+    mode: AddressMode,
+    filter: FilterMode,
+) -> Place<R> {
+    let length = size as f32;
+    let mut at = wrapped * length;
+    if filter == FilterMode::Linear {
+        at = at - 0.5;
+    }
+    if mode != AddressMode::Repeat {
+        at = at.clamp(0.0, length - 1.0);
+    }
+    let whole = at.floor();
+    Place {
+        texel: small_int(whole),
+        fraction: at - whole,
+    }
+}
+
+/// A whole number within ±2²² as an integer, without [`Real::to_int`]'s care for all others: added to
+/// 1.5·2²³ it lies in the low bits of the mantissa.
+#[inline(always)]
+pub(crate) fn small_int<R: Real>(whole: R) -> R::Int {
+    let bits = (whole + 12_582_912.0).to_bits();
+    bits - bits.splat(0x4B40_0000)
+}
+
+/// The texel −1 is the last one and texel `size` is the first.
+#[inline(always)]
+pub(crate) fn tile<I: Int>(texel: I, size: i32) -> I {
+    let below = I::select(texel.lt(texel.splat(0)), texel.splat(size - 1), texel);
+    I::select(below.eq(below.splat(size)), below.splat(0), below)
+}

@@ -1,0 +1,49 @@
+#![forbid(unsafe_code)]
+//! The repository's chores: checks that people would otherwise have to remember.
+//!
+//! ```text
+//! cargo run -p xtask -- check     every check of the sources and documents
+//! cargo run -p xtask -- asm       the check of the hot functions' machine code
+//! ```
+//!
+//! Each check is a function from the [`Repository`] to [`Finding`]s. A finding that is an error fails
+//! the command and the test of the same name in `tests/repository.rs`, so `cargo test` runs them
+//! all. What a check enforces is a table at the head of its module: to change a rule, change its row
+//! and say why in the commit.
+
+mod assembly;
+mod documents;
+mod edges;
+mod elf;
+mod finding;
+mod manifests;
+mod markdown;
+mod outside;
+mod repository;
+mod rooms;
+mod rust_source;
+mod stages;
+mod words;
+
+pub use assembly::{AssemblyError, AssemblyReport, check_binary};
+pub use documents::check_documents;
+pub use edges::check_edges;
+pub use finding::{Finding, Severity};
+pub use outside::check_outside;
+pub use repository::{Repository, RepositoryError};
+pub use rooms::check_rooms;
+pub use stages::check_stages;
+pub use words::check_words;
+
+/// The name of a check and the function that makes it.
+pub type Check = (&'static str, fn(&Repository) -> Vec<Finding>);
+
+/// Every check that reads sources and documents, in the order in which they are printed.
+pub const CHECKS: &[Check] = &[
+    ("crate edges", check_edges),
+    ("outside packages", check_outside),
+    ("stage order", check_stages),
+    ("rooms", check_rooms),
+    ("words", check_words),
+    ("documents", check_documents),
+];

@@ -1,0 +1,43 @@
+//! The checks of `cargo run -p xtask -- check` as ordinary tests, one each.
+
+use xtask::{Finding, Repository};
+
+fn passes(check: fn(&Repository) -> Vec<Finding>) {
+    let repository = Repository::of_this_build().expect("the repository can be read");
+    let errors: Vec<String> = check(&repository)
+        .iter()
+        .filter(|f| f.is_error())
+        .map(ToString::to_string)
+        .collect();
+    assert!(errors.is_empty(), "\n{}", errors.join("\n"));
+}
+
+#[test]
+fn crate_edges_are_those_of_the_architecture() {
+    passes(xtask::check_edges);
+}
+
+#[test]
+fn outside_packages_are_pure_rust_from_crates_io() {
+    passes(xtask::check_outside);
+}
+
+#[test]
+fn no_stage_names_a_later_one() {
+    passes(xtask::check_stages);
+}
+
+#[test]
+fn rooms_are_tidy() {
+    passes(xtask::check_rooms);
+}
+
+#[test]
+fn words_are_those_of_the_glossary() {
+    passes(xtask::check_words);
+}
+
+#[test]
+fn documents_point_at_what_exists() {
+    passes(xtask::check_documents);
+}
