@@ -146,8 +146,10 @@ const OUTSIDE: &[(&str, Homes)] = &[
     ),
     ("earcut", Homes::Only(&["estampe-shapes"])),
     // File formats: everyone else sees decoded images.
-    ("png", Homes::Only(&["estampe-assets"])),
+    ("png", Homes::Only(&["estampe-assets", "estampe-bench"])),
     ("image", Homes::Only(&["estampe-assets"])),
+    // CPU time of the process.
+    ("rustix", Homes::Only(&["estampe-bench"])),
     // The command line.
     ("clap", Homes::Only(&["estampe-cli", "estampe-bench"])),
     ("indicatif", Homes::Only(&["estampe-cli", "estampe-bench"])),

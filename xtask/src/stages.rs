@@ -37,22 +37,23 @@ struct Order {
 
 const CORE: Order = Order {
     sources: "crates/estampe-core/src",
-    foundations: &["limits", "statistics"],
+    // `tiles` is the one boundary between the two sides: both import it.
+    foundations: &["layout", "pipeline", "statistics", "tiles"],
     stages: &[
+        "geometry::viewport",
         "geometry::fetch",
         "geometry::shading",
         "geometry::assembly",
         "geometry::cull",
         "geometry::clip",
-        "geometry::viewport",
         "geometry::setup",
-        "tiles",
+        "geometry::chunk",
         "raster",
         "fragment",
         "per_sample",
         "attachment",
     ],
-    conductors: &["draw", "pass", "schedule"],
+    conductors: &["draw", "schedule", "tile_pass", "wave"],
 };
 
 /// The one module of the core that may name rayon.

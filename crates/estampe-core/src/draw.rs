@@ -161,8 +161,8 @@ impl Context {
                 let start = Instant::now();
                 statistics += self.draw_tiles(target, &items, &clear, memory);
                 statistics.raster += start.elapsed();
-                let shaded = items.iter().map(Item::total_vertices).sum::<u64>();
-                statistics.vertices_shaded += shaded;
+                let shaded = items.iter().map(Item::total_vertices).sum::<usize>();
+                statistics.vertices_shaded += shaded as u64;
                 clear = Clear::default();
             }
         })

@@ -17,10 +17,11 @@
 //! depend on the number of threads. The conventions and the order of every operation are in
 //! `docs/NUMERICS.md`.
 //!
-//! The modules, in pipeline order: [`pipeline`] (state), `geometry`, `tiles`, `raster`, `fragment`,
+//! The modules, in pipeline order: `layout` (which pixel is stored where), [`pipeline`] (state), `geometry`, `tiles`, `raster`, `fragment`,
 //! `per_sample`, [`attachment`]; `tile_pass` and [`draw`] are the two pages that call them in order,
 //! `wave` cuts draws into items, `schedule` runs them on threads.
 
+mod layout;
 pub mod pipeline;
 
 mod geometry;

@@ -4,12 +4,12 @@
 //! chunks in submission order, so an image does not depend on who draws which tile. For every primitive
 //! the stages are called in order: raster, depth bounds and early depth test, fragment, per-sample.
 
-use crate::attachment::TileGrid;
 use crate::fragment::interpolate::{
     LineSurface, PlaneOrigin, PointSurface, Surface, TriangleSurface, VaryingPlanes, VaryingSource,
 };
 use crate::fragment::queue::{FragmentQueue, Needs, clamp_depth};
 use crate::geometry::viewport::PixelRect;
+use crate::layout::TileGrid;
 use crate::per_sample::color::{ColorTarget, write_code};
 use crate::per_sample::depth::{DepthTest, line_mut, test_early, test_late};
 use crate::per_sample::depth_bounds::DepthBounds;
@@ -18,7 +18,7 @@ use crate::raster::triangle::TileTriangle;
 use crate::raster::{CoverageList, TileShape, line, packet_origin, point};
 use crate::statistics::Statistics;
 use crate::tiles::{BinEntry, Chunk, LinePrimitive, PointPrimitive, TrianglePacket};
-use estampe_simd::{LANES, Lanes, Level, Packet, SimdBase, dispatch, f32x16};
+use estampe_simd::{Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_types::Bindings;
 use estampe_types::shader::DepthOutput;
 
@@ -140,6 +140,7 @@ fn draw_chunk<S: Lanes, const N: usize>(
         needs: Needs {
             position: interface.reads_position,
             depth: !key.early_depth,
+            depth_range: item.depth_range,
         },
         uniform: key.uniform_over_primitive
             && item.targets.iter().flatten().all(ColorTarget::replaces),
@@ -287,10 +288,9 @@ impl<const N: usize> Drawing<'_, '_, '_, N> {
             let covered = self.scratch.list.items()[at];
             let (x, y) = packet_origin(u32::from(covered.packet));
             let pixel = [self.shape.x + x, self.shape.y + y];
-            let range = self.item.depth_range;
             self.scratch
                 .queue
-                .push(s, surface, (covered, pixel), front, self.needs, range);
+                .push(s, surface, (covered, pixel), front, self.needs);
         }
         if self.uniform {
             self.flush_uniform();

@@ -122,6 +122,8 @@ pub(crate) struct LinePrimitive {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PointPrimitive {
     pub(crate) center: WindowVertex,
+    /// The vertex that flat varyings come from: another one where the point is a triangle's corner.
+    pub(crate) provoking: VertexRef,
     /// Half its side in 1/256 pixel.
     pub(crate) half: i32,
     pub(crate) front: bool,

@@ -18,10 +18,13 @@ use estampe_types::{Bindings, Interpolation};
 use std::ops::Range;
 
 /// Vertices or primitives that a wave holds before it is drawn.
-const WAVE_BUDGET: u64 = 2_000_000;
+const WAVE_BUDGET: usize = 2_000_000;
 
 /// Primitives of one item at most: a larger draw becomes several items.
 const ITEM_PRIMITIVES: u32 = 1_000_000;
+
+/// Elements of a fan or loop at most: what is beyond is not drawn. Memory for a draw is bounded by it.
+const MAX_WHOLE_ELEMENTS: u32 = 1 << 24;
 
 /// How much larger than its number of elements a draw's range of indices may be; beyond, vertices are
 /// shaded once for each element.
@@ -57,12 +60,12 @@ pub(crate) struct Item<'a> {
 }
 
 impl Item<'_> {
-    pub(crate) fn total_vertices(&self) -> u64 {
-        u64::from(self.vertices) * u64::from(self.instances)
+    pub(crate) fn total_vertices(&self) -> usize {
+        (self.vertices as usize).saturating_mul(self.instances as usize)
     }
 
-    pub(crate) fn total_primitives(&self) -> u64 {
-        u64::from(self.primitives) * u64::from(self.instances)
+    pub(crate) fn total_primitives(&self) -> usize {
+        (self.primitives as usize).saturating_mul(self.instances as usize)
     }
 }
 
@@ -119,10 +122,10 @@ impl<'a> Waves<'a> {
                 break;
             };
             let mut item = remainder.take_item();
-            item.vertex_base = usize::try_from(vertices).unwrap_or(usize::MAX);
+            item.vertex_base = vertices;
             item.varying_base = items.last().map_or(0, |last: &Item<'_>| {
                 let scalars = last.draw.pipeline.interface().varyings.len();
-                last.varying_base + last.total_vertices() as usize * scalars
+                last.varying_base + last.total_vertices() * scalars
             });
             vertices += item.total_vertices();
             primitives += item.total_primitives();
@@ -156,8 +159,8 @@ impl<'a> Waves<'a> {
                 continue;
             }
             let rect = PixelRect::new(&viewport, draw.scissor, width, height);
-            let elements = draw.elements.end.saturating_sub(draw.elements.start);
             let topology = draw.pipeline.descriptor().primitive.topology;
+            let elements = element_count(draw);
             let primitives = 0..primitive_count(topology, elements);
             if rect.is_empty() || primitives.is_empty() || draw.instances.is_empty() {
                 continue;
@@ -214,7 +217,7 @@ impl<'a> Remainder<'a> {
         let draw = self.draw;
         let descriptor = draw.pipeline.descriptor();
         let topology = descriptor.primitive.topology;
-        let whole = draw.elements.end - draw.elements.start;
+        let whole = element_count(draw);
         let all = primitive_count(topology, whole);
         let splittable = is_splittable(topology);
         let (elements, instances);
@@ -268,6 +271,18 @@ impl<'a> Remainder<'a> {
     }
 }
 
+/// How many elements a draw has. Fans and loops cannot be cut into items, so that they end at
+/// [`MAX_WHOLE_ELEMENTS`].
+fn element_count(draw: &Draw<'_>) -> u32 {
+    let count = draw.elements.end.saturating_sub(draw.elements.start);
+    let splittable = is_splittable(draw.pipeline.descriptor().primitive.topology);
+    if splittable {
+        count
+    } else {
+        count.min(MAX_WHOLE_ELEMENTS)
+    }
+}
+
 /// Whether a run of a topology's primitives is a run of elements of the same topology.
 fn is_splittable(topology: PrimitiveTopology) -> bool {
     !matches!(
@@ -294,7 +309,7 @@ fn part_of(topology: PrimitiveTopology, first: u32, count: u32, whole: u32) -> [
 /// The range of vertices that elements name (first, count), or a list of them if the range is sparse.
 fn vertex_range(draw: &Draw<'_>, first: u32, count: u32) -> (u32, u32, Option<Vec<u32>>) {
     let Some((buffer, format)) = draw.indices else {
-        return (first.wrapping_add_signed(draw.base_vertex), count, None);
+        return (first, count, None);
     };
     let index = |element: u32| {
         vertex_index(
@@ -344,14 +359,11 @@ pub(crate) struct VertexJob<'a> {
 impl ShadedVertices {
     /// Makes room for the vertices of a wave.
     pub(crate) fn resize_for(&mut self, items: &[Item<'_>]) {
-        let vertices: usize = items
-            .iter()
-            .map(|item| item.total_vertices() as usize)
-            .sum();
+        let vertices: usize = items.iter().map(|item| item.total_vertices()).sum();
         let scalars = |item: &Item<'_>| item.draw.pipeline.interface().varyings.len();
         let varyings = items
             .iter()
-            .map(|item| item.total_vertices() as usize * scalars(item))
+            .map(|item| item.total_vertices() * scalars(item))
             .sum();
         let has_sizes = |item: &Item<'_>| item.draw.pipeline.interface().writes_point_size;
         let sizes = if items.iter().any(has_sizes) {
@@ -379,7 +391,7 @@ impl ShadedVertices {
         };
         for (number, item) in items.iter().enumerate() {
             let interface = item.draw.pipeline.interface();
-            let total = item.total_vertices() as usize;
+            let total = item.total_vertices();
             for first in (0..total).step_by(size) {
                 let count = size.min(total - first);
                 let sizes = if has_sizes { count } else { 0 };
@@ -408,7 +420,7 @@ impl ShadedVertices {
 
     /// The vertices of one item.
     pub(crate) fn of_item(&self, item: &Item<'_>) -> ItemVertices<'_> {
-        let (from, count) = (item.vertex_base, item.total_vertices() as usize);
+        let (from, count) = (item.vertex_base, item.total_vertices());
         let scalars = item.draw.pipeline.interface().varyings.len();
         ItemVertices {
             window: &self.window[from * 2..][..count * 2],

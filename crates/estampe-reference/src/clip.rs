@@ -7,67 +7,84 @@
 //! ```text
 //!  inside │ outside        d_in ≥ 0 > d_out
 //!    a●───┼──────●b        t = d_in ÷ (d_in − d_out)
-//!   d_in  │    d_out       crossing = a + (b − a)·t, its coordinate then set onto the plane
+//!   d_in  │    d_out       crossing = a + (b − a)·t, near and far then set z onto the plane
 //! ```
 
 use crate::ClipVertex;
 use crate::viewport::{GUARD_BAND_MAX, GUARD_BAND_MIN, ViewportTransform};
 
-/// One side of the view volume.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// A plane that clips.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Plane {
     /// z ≥ 0.
     Near,
     /// z ≤ w.
     Far,
-    /// x ≥ −w.
-    Left,
-    /// x ≤ w.
-    Right,
-    /// y ≥ −w.
-    Bottom,
-    /// y ≤ w.
-    Top,
+    /// A window coordinate is at least `SIDE_MIN`: `coordinate·scale + reach·w ≥ 0`.
+    Least {
+        /// 0 for x, 1 for y.
+        axis: usize,
+        /// `sx` or `sy`.
+        scale: f32,
+        /// `ox + 8193` or `oy + 8193`.
+        reach: f32,
+    },
+    /// A window coordinate is at most `SIDE_MAX`: `reach·w − coordinate·scale ≥ 0`.
+    Greatest {
+        /// 0 for x, 1 for y.
+        axis: usize,
+        /// `sx` or `sy`.
+        scale: f32,
+        /// `24576 − ox` or `24576 − oy`.
+        reach: f32,
+    },
 }
 
+/// Where the sides clip, in pixels: one outside the guard band. An edge whose ends are both within the
+/// band is then never cut, so two triangles that share it agree, whichever of them leaves the band.
+pub const SIDE_MIN: f32 = GUARD_BAND_MIN - 1.0;
+/// The same on the right and at the bottom.
+pub const SIDE_MAX: f32 = GUARD_BAND_MAX + 1.0;
+
 impl Plane {
-    /// All planes, in the order in which they clip.
-    pub const ALL: [Self; 6] = [
-        Self::Near,
-        Self::Far,
-        Self::Left,
-        Self::Right,
-        Self::Bottom,
-        Self::Top,
-    ];
+    /// The planes that clip always; the sides clip only beyond the guard band.
+    pub const DEPTH: [Self; 2] = [Self::Near, Self::Far];
 
-    /// The planes that clip always; the other four clip only beyond the guard band.
-    const DEPTH: [Self; 2] = [Self::Near, Self::Far];
-    const SIDES: [Self; 4] = [Self::Left, Self::Right, Self::Bottom, Self::Top];
-
-    /// How far inside a position is; negative outside.
+    /// Left, right, top and bottom, in the order in which they clip.
     #[must_use]
-    pub fn distance(self, [x, y, z, w]: [f32; 4]) -> f32 {
+    pub fn sides(viewport: &ViewportTransform) -> [Self; 4] {
+        let (scale, offset) = (viewport.scale, viewport.offset);
+        let least = |axis: usize| Self::Least {
+            axis,
+            scale: scale[axis],
+            reach: offset[axis] - SIDE_MIN,
+        };
+        let greatest = |axis: usize| Self::Greatest {
+            axis,
+            scale: scale[axis],
+            reach: SIDE_MAX - offset[axis],
+        };
+        [least(0), greatest(0), least(1), greatest(1)]
+    }
+
+    /// How far inside a position is, times w or more; negative outside.
+    #[must_use]
+    pub fn distance(self, position: [f32; 4]) -> f32 {
+        let [_, _, z, w] = position;
         match self {
             Self::Near => z,
             Self::Far => w - z,
-            Self::Left => x + w,
-            Self::Right => w - x,
-            Self::Bottom => y + w,
-            Self::Top => w - y,
+            Self::Least { axis, scale, reach } => position[axis] * scale + reach * w,
+            Self::Greatest { axis, scale, reach } => reach * w - position[axis] * scale,
         }
     }
 
-    /// Sets the coordinate that this plane bounds exactly onto it.
+    /// Sets the coordinate that this plane bounds exactly onto it; the sides bound no single one.
     fn set(self, position: &mut [f32; 4]) {
-        let w = position[3];
         match self {
             Self::Near => position[2] = 0.0,
-            Self::Far => position[2] = w,
-            Self::Left => position[0] = -w,
-            Self::Right => position[0] = w,
-            Self::Bottom => position[1] = -w,
-            Self::Top => position[1] = w,
+            Self::Far => position[2] = position[3],
+            Self::Least { .. } | Self::Greatest { .. } => {}
         }
     }
 
@@ -92,6 +109,12 @@ impl Plane {
             point_size: inside.point_size,
         }
     }
+}
+
+/// How far a position is inside each of the six sides of the view volume.
+#[must_use]
+pub fn view_volume_distances([x, y, z, w]: [f32; 4]) -> [f32; 6] {
+    [x + w, w - x, y + w, w - y, z, w - z]
 }
 
 /// Whether a position can be divided and lies between the near and the far plane.
@@ -129,14 +152,14 @@ pub fn test(vertices: &[ClipVertex], viewport: &ViewportTransform) -> ClipTest {
     if positions().all(|p| is_within_guard_band(p, viewport)) {
         return ClipTest::Accept;
     }
-    let all_outside = |plane: Plane| positions().all(|p| plane.distance(p) < 0.0);
-    if Plane::ALL.into_iter().any(all_outside) {
+    let all_outside = |side: usize| positions().all(|p| view_volume_distances(p)[side] < 0.0);
+    if (0..6).any(all_outside) {
         return ClipTest::Drop;
     }
     ClipTest::Clip
 }
 
-/// Clips a triangle: the fan that is left of it; none, itself, or up to seven triangles.
+/// Clips a triangle: the fan that is left of it; none, itself, or up to seven.
 #[must_use]
 pub fn clip_triangle(
     vertices: &[ClipVertex; 3],
@@ -149,7 +172,7 @@ pub fn clip_triangle(
     }
 }
 
-/// Clips a polygon by near and far, then, if it leaves the guard band, by the four sides.
+/// Clips a polygon by near and far, then, if it leaves the guard band, by the sides around it.
 #[must_use]
 pub fn clip_polygon(vertices: &[ClipVertex], viewport: &ViewportTransform) -> Vec<ClipVertex> {
     let mut polygon = vertices.to_vec();
@@ -157,7 +180,7 @@ pub fn clip_polygon(vertices: &[ClipVertex], viewport: &ViewportTransform) -> Ve
         polygon = clip_polygon_by(plane, &polygon);
     }
     if needs_sides(&polygon, viewport) {
-        for plane in Plane::SIDES {
+        for plane in Plane::sides(viewport) {
             polygon = clip_polygon_by(plane, &polygon);
         }
     }
@@ -195,7 +218,7 @@ pub fn clip_line(line: &[ClipVertex; 2], viewport: &ViewportTransform) -> Option
         line = clip_line_by(plane, line)?;
     }
     if needs_sides(&line, viewport) {
-        for plane in Plane::SIDES {
+        for plane in Plane::sides(viewport) {
             line = clip_line_by(plane, line)?;
         }
     }

@@ -13,6 +13,11 @@ pub const GUARD_BAND_MIN: f32 = -8192.0;
 /// Greatest window coordinate that is not clipped, in pixels.
 pub const GUARD_BAND_MAX: f32 = 24_575.0;
 
+/// Where window coordinates are clamped before they are snapped. Clipped vertices lie up to a pixel
+/// outside the guard band, give or take their rounding.
+const SNAPPED_MIN: f32 = GUARD_BAND_MIN - 2.0;
+const SNAPPED_MAX: f32 = GUARD_BAND_MAX + 2.0;
+
 /// The viewport as scale and offset of NDC x, y, z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViewportTransform {
@@ -77,12 +82,12 @@ impl ViewportTransform {
         }
     }
 
-    /// Places a vertex that came through clipping: window position, confined to the guard band
-    /// (which changes only clipped vertices), snapped.
+    /// Places a vertex that came through clipping: window position, confined to two pixels around
+    /// the guard band (which changes no vertex within it), snapped.
     #[must_use]
     pub fn place(&self, vertex: &ClipVertex) -> WindowVertex {
         let position = self.window(vertex.position);
-        let confine = |pixels| clamp(pixels, GUARD_BAND_MIN, GUARD_BAND_MAX);
+        let confine = |pixels| clamp(pixels, SNAPPED_MIN, SNAPPED_MAX);
         WindowVertex {
             snapped: [snap(confine(position.x)), snap(confine(position.y))],
             z: position.z,

@@ -246,7 +246,7 @@ impl Planner<'_> {
             ([1.0; 3], [0.0; 3], 1.0)
         } else {
             let own = if shows_colors { [1.0; 3] } else { tone.map(|code| decode(code, encoding)) };
-            let fading = if self.style.shading.holds_numbers() || shows_colors { 0.0 } else { 0.55 };
+            let fading = if self.style.shading.holds_numbers() || shows_colors { 0.0 } else { 0.4 };
             (own, background.map(|code| decode(code, encoding)), fading)
         };
         Marks {
@@ -273,7 +273,7 @@ fn point_size_px(options: &RenderOptions, count: usize) -> f32 {
     let shorter = width.min(height);
     let count = f64::from(u32::try_from(count).unwrap_or(u32::MAX).max(1));
     let share = libm::sqrt(width * height / count) * 0.6;
-    DVec3::splat(share.clamp((shorter / 400.0).max(1.0), (shorter / 90.0).max(1.0))).as_vec3().x
+    DVec3::splat(share.clamp((shorter / 400.0).max(1.0), (shorter / 50.0).max(1.0))).as_vec3().x
 }
 
 fn buffers_of(pipeline: &StreamPipeline, streams: &MeshStreams) -> Vec<Buffer> {

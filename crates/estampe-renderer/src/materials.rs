@@ -37,7 +37,7 @@ impl<'a> Materials<'a> {
         let is_overridden = self.options.texture.is_some() && !mesh.uvs.is_empty();
         // What paints the surface takes the place of the default grey.
         let is_painted = is_overridden || own.is_none() && has_vertex_colors;
-        let color = if is_painted { glam::Vec3::ONE } else { material.base_color };
+        let color = if is_painted { glam::Vec3::ONE } else { self.visible(material.base_color) };
         let transparency = match material.alpha_mode {
             _ if is_overridden => Transparency::Opaque,
             AlphaMode::Opaque => Transparency::Opaque,
@@ -56,6 +56,16 @@ impl<'a> Materials<'a> {
             has_vertex_colors,
             transparency,
         })
+    }
+
+    /// The colour, but no blacker than soot: a surface that answers no light has no form, and
+    /// exporters often write black for "nothing said".
+    fn visible(&self, color: glam::Vec3) -> glam::Vec3 {
+        const DARKEST: f32 = 0.03;
+        match self.options.shading {
+            Shading::Unlit => color,
+            _ => color.max(glam::Vec3::splat(DARKEST)),
+        }
     }
 
     fn reads_textures(&self) -> bool {
@@ -102,8 +112,7 @@ impl<'a> Materials<'a> {
 }
 
 /// The nearest whole exponent from 1 on; readers keep them below 10,000.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to 1..=10,000")]
 fn whole_exponent(shininess: f32) -> u32 {
-    const MOST: u16 = 10_000;
-    let nearest = |exponent: &u16| f32::from(*exponent) + 0.5 > shininess;
-    u32::from((1..MOST).find(nearest).unwrap_or(MOST))
+    libm::roundf(shininess.clamp(1.0, 10_000.0)) as u32
 }

@@ -22,7 +22,7 @@ pub struct RenderOptions {
     pub shading: Shading,
     /// Lights in world space, in place of those that go with the camera. Default none.
     pub lights: Vec<Light>,
-    /// Ambient light, times the base colour. `None` (default) is 0.22.
+    /// Ambient light, times the base colour. `None` (default) is 0.18.
     pub ambient: Option<f32>,
     /// A base-colour texture, sRGB, in place of the materials' own colours and textures.
     pub texture: Option<Image>,

@@ -4,22 +4,22 @@
 use crate::geometry::vertex_data::{MeshStreams, VertexStream};
 use crate::options::Shading;
 use crate::shading::VertexTransforms;
-use crate::shading::base_color::{BaseColor, OneColor, Painted};
 use crate::shading::inspection::{DepthGrey, Normals, UvColors};
 use crate::shading::lighting::{Gloss, LightRig};
 use crate::shading::marks::Marks;
-use crate::shading::phong::{Phong, Tone};
-use crate::shading::unlit::Unlit;
-use crate::shading::vertex_lit::{FlatFaces, Gouraud, VertexLighting};
+use crate::shading::phong::{PhongLight, Tone};
+use crate::shading::surfaces::{Alpha, Painted, PlainPhong, PlainVertexLit, SurfaceLight};
+use crate::shading::vertex_lit::{VertexLight, VertexTone};
 use crate::shading::wireframe::Wireframe;
 use estampe::state::{
     BlendState, ColorTargetState, ColorWrites, CullMode, DepthState, PrimitiveState,
     PrimitiveTopology,
 };
 use estampe::texture::Sampled;
+use estampe::shader::{FragmentBatch, Interface, VertexBatch};
 use estampe::{
-    Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor, Shader,
-    ShaderProgram, TextureFormat,
+    Bindings, Device, Level, PipelineError, Program, RenderPipeline,
+    RenderPipelineDescriptor, Shader, ShaderProgram, TextureFormat,
 };
 use std::sync::Arc;
 
@@ -59,6 +59,9 @@ pub(crate) enum Transparency {
     Blended,
 }
 
+/// Steps of light in toon shading (row F3).
+const TOON_LEVELS: u16 = 4;
+
 /// A program, and the streams that it reads, by location.
 struct Look {
     program: Arc<dyn Program>,
@@ -66,8 +69,39 @@ struct Look {
 }
 
 impl Look {
-    fn new(shader: impl Shader, own: &[VertexStream], base: &[VertexStream]) -> Self {
-        Self { program: Arc::new(ShaderProgram::new(shader)), streams: [own, base].concat() }
+    fn new(shader: impl Shader, streams: &[VertexStream]) -> Self {
+        Self { program: Arc::new(ShaderProgram::new(shader)), streams: streams.to_vec() }
+    }
+}
+
+impl Look {
+    /// The same for a shader that discards nothing with these uniforms, so that depth can be tested
+    /// before it runs.
+    fn without_discarding(self) -> Self {
+        let interface = Interface { discards: false, ..self.program.interface().clone() };
+        let program = Arc::new(NotDiscarding { program: self.program, interface });
+        Self { program, ..self }
+    }
+}
+
+/// A program that keeps every fragment, whatever its type says.
+#[derive(Debug)]
+struct NotDiscarding {
+    program: Arc<dyn Program>,
+    interface: Interface,
+}
+
+impl Program for NotDiscarding {
+    fn interface(&self) -> &Interface {
+        &self.interface
+    }
+
+    fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>) {
+        self.program.run_vertices(level, bindings, batch);
+    }
+
+    fn run_fragments(&self, level: Level, bindings: &Bindings, batch: FragmentBatch<'_>) {
+        self.program.run_fragments(level, bindings, batch);
     }
 }
 
@@ -105,7 +139,7 @@ impl FrameStyle {
         topology: PrimitiveTopology,
         mesh: &MeshStreams,
     ) -> Result<StreamPipeline, PipelineError> {
-        let look = Look::new(marks, &[VertexStream::Position, VertexStream::Color], &[]);
+        let look = Look::new(marks, &[VertexStream::Position, VertexStream::Color]);
         let primitive = PrimitiveState { topology, ..PrimitiveState::default() };
         let state = PipelineState { primitive, depth: DepthState::LESS_WRITE, blend: None };
         self.pipeline(device, look, mesh, state)
@@ -122,53 +156,64 @@ impl FrameStyle {
     }
 
     fn look(&self, surface: &SurfaceStyle) -> Look {
-        let (factor, texture) = (surface.base, surface.texture.clone());
-        let is_opaque = surface.transparency == Transparency::Opaque;
-        match surface.transparency {
-            Transparency::Masked => {
-                let base = Painted::<true> { factor, texture, is_opaque: false };
-                self.look_over(surface.gloss, base)
+        use VertexStream::{Corner, Normal, Position, Uv};
+        let transforms = self.transforms;
+        match self.shading {
+            Shading::Phong => self.painted_or_plain(surface, self.phong(surface, Tone::Smooth)),
+            Shading::Toon => {
+                self.painted_or_plain(surface, self.phong(surface, Tone::Toon(TOON_LEVELS)))
             }
-            _ if texture.is_some() || surface.has_vertex_colors => {
-                self.look_over(surface.gloss, Painted::<false> { factor, texture, is_opaque })
+            Shading::Gouraud => {
+                self.painted_or_plain(surface, self.vertex_lit(surface, VertexTone::Gouraud))
             }
-            _ => {
-                let alpha = if is_opaque { 1.0 } else { factor[3] };
-                let [r, g, b, _] = factor;
-                self.look_over(surface.gloss, OneColor([r, g, b, alpha]))
+            Shading::Flat => {
+                self.painted_or_plain(surface, self.vertex_lit(surface, VertexTone::Flat))
             }
+            Shading::Unlit => {
+                self.painted_or_plain(surface, self.vertex_lit(surface, VertexTone::Unlit))
+            }
+            Shading::Wireframe => Look::new(self.wireframe.clone(), &[Position, Corner]),
+            Shading::Normals => Look::new(Normals { transforms }, &[Position, Normal]),
+            Shading::Depth => {
+                let (nearest, furthest) = self.depth_range;
+                Look::new(DepthGrey { transforms, nearest, furthest }, &[Position])
+            }
+            Shading::Uv => Look::new(UvColors { transforms }, &[Position, Uv]),
         }
     }
 
-    fn look_over<B: BaseColor>(&self, gloss: Gloss, base: B) -> Look {
-        use VertexStream::{Corner, Normal, Position, Uv};
-        let transforms = self.transforms;
-        let rig = Arc::clone(&self.rig);
-        let lighting = || VertexLighting { transforms, rig: Arc::clone(&self.rig), gloss };
-        let lit = &[Position, Normal];
-        match self.shading {
-            Shading::Phong => {
-                let tone = Tone::Smooth;
-                Look::new(Phong { transforms, rig, gloss, tone, base }, lit, B::STREAMS)
+    fn phong(&self, surface: &SurfaceStyle, tone: Tone) -> SurfaceLight {
+        let (transforms, gloss) = (self.transforms, surface.gloss);
+        SurfaceLight::Fragments(PhongLight { transforms, rig: Arc::clone(&self.rig), gloss, tone })
+    }
+
+    fn vertex_lit(&self, surface: &SurfaceStyle, tone: VertexTone) -> SurfaceLight {
+        let (transforms, gloss) = (self.transforms, surface.gloss);
+        SurfaceLight::Vertices(VertexLight { transforms, rig: Arc::clone(&self.rig), gloss, tone })
+    }
+
+    fn painted_or_plain(&self, surface: &SurfaceStyle, light: SurfaceLight) -> Look {
+        use VertexStream::{Color, Normal, Position, Uv};
+        let (factor, texture) = (surface.base, surface.texture.clone());
+        let alpha = match surface.transparency {
+            Transparency::Opaque => Alpha::Ignored,
+            Transparency::Masked => Alpha::CutsOut,
+            Transparency::Blended => Alpha::Kept,
+        };
+        if texture.is_some() || surface.has_vertex_colors || alpha == Alpha::CutsOut {
+            let shader = Painted { light, factor, texture, alpha };
+            let look = Look::new(shader, &[Position, Normal, Uv, Color]);
+            return if alpha == Alpha::CutsOut { look } else { look.without_discarding() };
+        }
+        let [r, g, b, opacity] = factor;
+        let color = [r, g, b, if alpha == Alpha::Ignored { 1.0 } else { opacity }];
+        match light {
+            SurfaceLight::Fragments(light) => {
+                Look::new(PlainPhong { light, color }, &[Position, Normal])
             }
-            Shading::Toon => {
-                const LEVELS: u16 = 4;
-                let tone = Tone::Toon(LEVELS);
-                Look::new(Phong { transforms, rig, gloss, tone, base }, lit, B::STREAMS)
+            SurfaceLight::Vertices(light) => {
+                Look::new(PlainVertexLit { light, color }, &[Position, Normal])
             }
-            Shading::Gouraud => Look::new(Gouraud { lighting: lighting(), base }, lit, B::STREAMS),
-            Shading::Flat => Look::new(FlatFaces { lighting: lighting(), base }, lit, B::STREAMS),
-            Shading::Unlit => {
-                let emissive = gloss.emissive;
-                Look::new(Unlit { transforms, emissive, base }, &[Position], B::STREAMS)
-            }
-            Shading::Wireframe => Look::new(self.wireframe.clone(), &[Position, Corner], &[]),
-            Shading::Normals => Look::new(Normals { transforms }, lit, &[]),
-            Shading::Depth => {
-                let (nearest, furthest) = self.depth_range;
-                Look::new(DepthGrey { transforms, nearest, furthest }, &[Position], &[])
-            }
-            Shading::Uv => Look::new(UvColors { transforms }, &[Position, Uv], &[]),
         }
     }
 

@@ -175,6 +175,24 @@ macro_rules! dispatch {
             _ => ::core::unreachable!("a SIMD level that this macro does not know"),
         }
     };
+    // Every level but the scalar one, for code that has a scalar form of its own.
+    (@wide $level:expr, $simd:ident => $op:expr, scalar => $scalar:expr) => {
+        match $level {
+            $crate::Level::Scalar(_) => $scalar,
+            #[cfg(target_arch = "x86_64")]
+            $crate::Level::Sse2(token) => $crate::dispatch!(@enter token, $simd => $op),
+            #[cfg(target_arch = "x86_64")]
+            $crate::Level::Avx2(token) => $crate::dispatch!(@enter token, $simd => $op),
+            #[cfg(target_arch = "x86_64")]
+            $crate::Level::Avx512(token) => $crate::dispatch!(@enter token, $simd => $op),
+            #[cfg(target_arch = "aarch64")]
+            $crate::Level::Neon(token) => $crate::dispatch!(@enter token, $simd => $op),
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            $crate::Level::Simd128(token) => $crate::dispatch!(@enter token, $simd => $op),
+            #[allow(unreachable_patterns, reason = "reached only by a level of a newer version")]
+            _ => ::core::unreachable!("a SIMD level that this macro does not know"),
+        }
+    };
     (@enter $token:ident, $simd:ident => $op:expr) => {{
         let $simd = $token;
         $crate::token::Simd::vectorize($simd, #[inline(always)] || $op)

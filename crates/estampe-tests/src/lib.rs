@@ -1,2 +1,29 @@
 #![forbid(unsafe_code)]
-//! Placeholder.
+//! Whole-pipeline tests: the fast path (`estampe`) against the oracle (`estampe-reference`), bit for bit.
+//!
+//! A [`Case`] is what is drawn into one target: random, from a seed. [`check`] draws cases with the
+//! oracle and with the fast path at every SIMD level and at 1, 2 and 7 threads, and compares the bytes of
+//! the colours and the bits of the depths; of a case that fails it makes a smaller one and prints it.
+//!
+//! ```text
+//!   seed ─▶ random ─▶ geometry ─▶ case ─┬▶ oracle ────┐
+//!                       shaders ────────┘             ├▶ compare ─▶ equal, or a smaller case in words
+//!                                       └▶ fast_path ─┘
+//! ```
+//!
+//! The topics are the files of `tests`. Two environment variables change a run: `ESTAMPE_TEST_FACTOR=20`
+//! draws twenty times as many cases, each on every level at every number of threads;
+//! `ESTAMPE_TEST_SEED=7` draws only the case of that seed.
+
+pub mod case;
+pub mod compare;
+pub mod fast_path;
+pub mod geometry;
+pub mod oracle;
+pub mod random;
+pub mod shaders;
+
+pub use case::{Case, CaseDraw};
+pub use compare::{check, check_one};
+pub use random::Random;
+pub use shaders::TestShader;

@@ -17,6 +17,10 @@
 //! the whole is done once for each of them and the lanes are picked together. That is never more
 //! than four times for a packet of quads, and spares sizes and offsets per lane.
 //!
+//! Where registers hold four lanes or fewer ([`Real::NARROW`](estampe_types::Real::NARROW)), the lanes are
+//! sampled one after the other by the same text on `f32`: sixteen lanes at once took minutes to compile
+//! for the scalar level.
+//!
 //! Unorm8 channels become numbers without a conversion: a byte put into the mantissa of 2²³ is
 //! 2²³ + c, and the difference of two of those is the exact c₁ − c₀ that linear filtering begins
 //! with. The second and fourth byte stay where they are, as 256·c, and the factor 1/255 at the end

@@ -4,6 +4,7 @@ use crate::filter::{Level, mix_colors, sample_level, sample_one_inside, sample_t
 use crate::lod::level_of_detail;
 use crate::texel::{finish, unpack};
 use crate::wrap::{small_int, wrap};
+use estampe_simd::LANES;
 use estampe_types::shader::Sample2d;
 use estampe_types::{
     AddressMode, FilterMode, Int, Real, SamplerDescriptor, Texture, TextureFormat, Vec2, Vec4,
@@ -27,6 +28,13 @@ impl Sample2d for Sampled {
     fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
         Self::sample(self, uv)
     }
+}
+
+/// One lane of those that are sampled one by one.
+#[derive(Clone, Copy, Default)]
+struct Lane {
+    uv: [f32; 2],
+    lod: f32,
 }
 
 /// What a sample reads, once its level of detail is known.
@@ -55,6 +63,9 @@ impl Sampled {
     /// fragment (`f32`) has none: it reads the finest level.
     #[inline(always)]
     pub fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
+        if R::NARROW {
+            return self.sample_narrow(uv, None);
+        }
         uv.x.outlined(
             #[inline(always)]
             || {
@@ -74,6 +85,9 @@ impl Sampled {
     /// The colour at (u, v) at a level of detail: 0 is the base level, each further one half as large.
     #[inline(always)]
     pub fn sample_level<R: Real>(&self, uv: Vec2<R>, lod: R) -> Vec4<R> {
+        if R::NARROW {
+            return self.sample_narrow(uv, Some(lod));
+        }
         uv.x.outlined(
             #[inline(always)]
             || self.sample_at(uv, lod),
@@ -95,6 +109,43 @@ impl Sampled {
     fn level_of_detail<R: Real>(&self, dx: Vec2<R>, dy: Vec2<R>) -> R {
         let base = Level::of(&self.texture, 0);
         level_of_detail(dx, dy, [base.width as f32, base.height as f32])
+    }
+
+    /// [`Self::sample`], or [`Self::sample_level`] where a level of detail is given, lane by lane.
+    #[inline(always)]
+    fn sample_narrow<R: Real>(&self, uv: Vec2<R>, lod: Option<R>) -> Vec4<R> {
+        let mut lanes = [Lane::default(); LANES];
+        for (index, lane) in lanes.iter_mut().enumerate().take(R::LANES) {
+            lane.uv = [uv.x.lane(index), uv.y.lane(index)];
+            lane.lod = lod.map_or(0.0, |lod| lod.lane(index));
+        }
+        let mut colors = [[0.0; 4]; LANES];
+        self.sample_lanes(&lanes[..R::LANES], lod.is_none(), &mut colors);
+        let like = uv.x;
+        Vec4::new(
+            like.with_lanes(|lane| colors[lane][0]),
+            like.with_lanes(|lane| colors[lane][1]),
+            like.with_lanes(|lane| colors[lane][2]),
+            like.with_lanes(|lane| colors[lane][3]),
+        )
+    }
+
+    /// Samples lanes one after the other; they are whole quads where their levels of detail are to be
+    /// found.
+    #[inline(never)]
+    fn sample_lanes(&self, lanes: &[Lane], is_implicit: bool, colors: &mut [[f32; 4]]) {
+        let mut lod = 0.0;
+        for (index, (lane, color)) in lanes.iter().zip(colors).enumerate() {
+            if !is_implicit {
+                lod = lane.lod;
+            } else if let (0, [a, b, c, ..]) = (index % 4, &lanes[index..]) {
+                let [dx, dy] =
+                    [b, c].map(|other| Vec2::new(other.uv[0] - a.uv[0], other.uv[1] - a.uv[1]));
+                lod = self.level_of_detail(dx, dy);
+            }
+            let Vec4 { x, y, z, w } = self.sample_at(Vec2::from(lane.uv), lod);
+            *color = [x, y, z, w];
+        }
     }
 
     #[inline(always)]

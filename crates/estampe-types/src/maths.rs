@@ -12,11 +12,11 @@ pub fn exp2<R: Real>(x: R) -> R {
     let clamped = x.clamp(-127.0, 129.0);
     let whole = (clamped + 0.5).floor();
     let f = clamped - whole;
-    let mut sum = f * 1.525_273_4e-5 + 1.540_353_e-4;
+    let mut sum = f * 1.525_273_4e-5 + 1.540_353e-4;
     sum = sum * f + 1.333_355_8e-3;
     sum = sum * f + 9.618_129e-3;
-    sum = sum * f + 5.550_410_9e-2;
-    sum = sum * f + 2.402_265_1e-1;
+    sum = sum * f + 5.550_411e-2;
+    sum = sum * f + 2.402_265e-1;
     sum = sum * f + 6.931_472e-1;
     sum = sum * f + 1.0;
     let i = whole.to_int();
@@ -75,7 +75,7 @@ pub fn powi<R: Real>(x: R, n: u32) -> R {
     let (mut result, mut base, mut left) = (x.splat(1.0), x, n);
     while left != 0 {
         if left & 1 == 1 {
-            result = result * base;
+            result *= base;
         }
         base = base * base;
         left >>= 1;

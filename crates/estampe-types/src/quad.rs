@@ -99,6 +99,7 @@ impl Real for Quad {
     type Mask = Quad<bool>;
     type Int = Quad<i32>;
     const LANES: usize = 4;
+    const NARROW: bool = true;
 
     #[inline(always)]
     fn splat(self, value: f32) -> Self {
@@ -126,11 +127,11 @@ impl Real for Quad {
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        self.zip(other, |a, b| Real::min(a, b))
+        self.zip(other, Real::min)
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b| Real::max(a, b))
+        self.zip(other, Real::max)
     }
     #[inline(always)]
     fn lt(self, other: Self) -> Quad<bool> {
@@ -166,7 +167,7 @@ impl Real for Quad {
     }
     #[inline(always)]
     fn to_bits(self) -> Quad<i32> {
-        self.each(|a| Real::to_bits(a))
+        self.each(Real::to_bits)
     }
     #[inline(always)]
     fn ddx(self) -> Self {
@@ -249,6 +250,7 @@ impl Real for f32 {
     type Mask = bool;
     type Int = i32;
     const LANES: usize = 1;
+    const NARROW: bool = false;
 
     #[inline(always)]
     fn splat(self, value: f32) -> Self {
@@ -271,8 +273,19 @@ impl Real for f32 {
         Self::abs(self)
     }
     #[inline(always)]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "within ±2²³ it drops the fraction alone"
+    )]
     fn floor(self) -> Self {
-        Self::floor(self)
+        // Where the processor has no instruction for it, `f32::floor` is a slow call.
+        if Self::abs(self) < 8_388_608.0 {
+            let towards_zero = self as i32 as Self;
+            let step = if towards_zero > self { 1.0 } else { 0.0 };
+            (towards_zero - step).copysign(self)
+        } else {
+            self
+        }
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
@@ -340,7 +353,7 @@ impl Real for f32 {
         self
     }
     #[inline(always)]
-    fn with_lanes(self, mut value: impl FnMut(usize) -> f32) -> Self {
+    fn with_lanes(self, mut value: impl FnMut(usize) -> Self) -> Self {
         value(0)
     }
 }

@@ -42,6 +42,9 @@ pub trait Real:
 
     /// How many lanes there are: 1, 4 or 16.
     const LANES: usize;
+    /// Whether long code with many table look-ups had better be run lane by lane with `f32`: the
+    /// processor's registers hold a quarter of the lanes or less.
+    const NARROW: bool;
 
     /// `value` in every lane.
     #[must_use]

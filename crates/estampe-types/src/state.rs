@@ -322,6 +322,26 @@ pub struct VertexBufferLayout {
     pub attributes: Vec<VertexAttribute>,
 }
 
+impl VertexBufferLayout {
+    /// Attributes one after the other without gaps, feeding locations 0, 1, … by vertex.
+    #[must_use]
+    pub fn packed(formats: &[VertexFormat]) -> Self {
+        let mut layout = Self::default();
+        for (shader_location, &format) in (0u32..).zip(formats) {
+            let offset = layout.array_stride;
+            layout.attributes.push(VertexAttribute {
+                format,
+                offset,
+                shader_location,
+            });
+            // A format has at most 16 bytes.
+            layout.array_stride =
+                offset.saturating_add(u32::try_from(format.size_bytes()).unwrap_or(16));
+        }
+        layout
+    }
+}
+
 /// Where NDC lands in the target: a rectangle in window space and a range of depths.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Viewport {

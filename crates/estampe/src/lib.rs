@@ -8,6 +8,11 @@
 
 mod device;
 
+/// The README's snippet, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
+
 pub use device::{Device, DeviceDescriptor, DeviceError};
 pub use estampe_core::{
     Draw, PipelineError, RenderPass, RenderPipeline, RenderPipelineDescriptor, RenderTarget,

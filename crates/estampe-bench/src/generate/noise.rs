@@ -34,7 +34,7 @@ impl Lattice {
             self.corner(column, row) * (self.cell_size - right)
                 + self.corner(column + 1, row) * right
         };
-        // Divided in the middle too: the two products together would need more than 32 bits at 8192².
+        // The division between the two directions rounds: it is part of the definition.
         let (upper, lower) = (along(row) / self.cell_size, along(row + 1) / self.cell_size);
         (upper * (self.cell_size - down) + lower * down) / self.cell_size
     }

@@ -117,7 +117,7 @@ pub(crate) struct RenderArgs {
     #[arg(help_heading = "Look")]
     pub(crate) light: Vec<DVec3>,
 
-    /// Light from everywhere, 0 to 10, times the base colour [default: 0.22]
+    /// Light from everywhere, 0 to 10, times the base colour [default: 0.18]
     #[arg(long, value_name = "AMOUNT", value_parser = values::ambient, help_heading = "Look")]
     pub(crate) ambient: Option<f32>,
 

@@ -14,9 +14,7 @@
 //! is one contiguous slice, and safe `&mut` slices go to the workers. Row order was measured three
 //! times slower for filling (every packet touches four lines); it is made once, on read-back.
 
-mod layout;
 mod readback;
 mod target;
 
-pub(crate) use layout::{TileGrid, morton};
 pub use target::{RenderTarget, RenderTargetDescriptor, TargetError};

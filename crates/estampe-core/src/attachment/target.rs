@@ -1,6 +1,6 @@
 //! A render target: colour attachments and a depth attachment of one size.
 
-use super::TileGrid;
+use crate::layout::TileGrid;
 use estampe_types::{Limits, TextureFormat};
 
 /// What a render target is made of.

@@ -154,9 +154,9 @@ impl VaryingPlanes {
         }
         if source.modes.contains(&Interpolation::Flat) {
             let provoking = source.of(packet.provoking[lane]);
-            for k in 0..n {
+            for (k, &value) in provoking.iter().enumerate().take(n) {
                 if source.modes[k] == Interpolation::Flat {
-                    (self.origin[k], self.dx[k], self.dy[k]) = (provoking[k], 0.0, 0.0);
+                    (self.origin[k], self.dx[k], self.dy[k]) = (value, 0.0, 0.0);
                 }
             }
         }
@@ -203,17 +203,27 @@ impl<S: Lanes> Surface<S> for TriangleSurface<'_> {
             dx: dx[k],
             dy: dy[k],
         };
+        // Not from the plane, whose sum would turn −0 into 0.
+        let is_flat = |k: usize| !self.all_smooth && self.modes[k] == Interpolation::Flat;
         if self.equal_w {
             for (k, packet) in out.iter_mut().enumerate().take(n) {
+                if is_flat(k) {
+                    packet.0 = [origin[k]; LANES];
+                    continue;
+                }
                 evaluate(s, &plane(k), distances).store_array(&mut packet.0);
             }
             return;
         }
         let w = one / evaluate(s, &self.iw, distances);
         for (k, packet) in out.iter_mut().enumerate().take(n) {
+            if is_flat(k) {
+                packet.0 = [origin[k]; LANES];
+                continue;
+            }
             let mut value = evaluate(s, &plane(k), distances);
             if self.all_smooth || self.modes[k] == Interpolation::Smooth {
-                value = value * w;
+                value *= w;
             }
             value.store_array(&mut packet.0);
         }
@@ -320,9 +330,14 @@ impl<S: Lanes> Surface<S> for PointSurface<'_> {
 
     #[inline(always)]
     fn varyings(&self, s: S, _pixel: [i32; 2], out: &mut [Packet<f32>]) {
-        let values = self.source.of(self.point.center.vertex);
-        for (packet, value) in out.iter_mut().zip(values) {
-            <f32x16<S> as SimdBase<S>>::splat(s, *value).store_array(&mut packet.0);
+        let own = self.source.of(self.point.center.vertex);
+        let provoking = self.source.of(self.point.provoking);
+        for (k, packet) in out.iter_mut().enumerate() {
+            let value = match self.source.modes[k] {
+                Interpolation::Flat => provoking[k],
+                Interpolation::Smooth | Interpolation::NoPerspective => own[k],
+            };
+            <f32x16<S> as SimdBase<S>>::splat(s, value).store_array(&mut packet.0);
         }
     }
 }

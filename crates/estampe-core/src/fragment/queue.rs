@@ -101,8 +101,8 @@ impl<const N: usize> FragmentQueue<N> {
         (covered, pixel): (Covered<N>, [i32; 2]),
         front: bool,
         needs: Needs,
-        depth_range: [f32; 2],
     ) {
+        let depth_range = needs.depth_range;
         let slot = self.len % CAPACITY;
         self.queued[slot] = Queued { covered };
         self.coverage[slot] = covered.any();
@@ -197,6 +197,8 @@ pub(crate) struct Needs {
     pub(crate) position: bool,
     /// The depth of each sample.
     pub(crate) depth: bool,
+    /// The range that depth is clamped to.
+    pub(crate) depth_range: [f32; 2],
 }
 
 /// The samples' offsets in their pixel, in pixels.

@@ -94,13 +94,11 @@ impl ElementSource<'_> {
                 return;
             }
         }
-        for lane in 0..count {
-            // `lane` is below 16.
-            let p = first + lane as u32;
+        let [a, b, c] = out;
+        let lanes = a.iter_mut().zip(b).zip(c).take(count);
+        for (p, ((a, b), c)) in (first..).zip(lanes) {
             let corners = elements_of(self.topology, p, self.elements);
-            for (corner, element) in corners.into_iter().enumerate() {
-                out[corner][lane] = self.vertex_of(element);
-            }
+            [*a, *b, *c] = corners.map(|element| self.vertex_of(element));
         }
     }
 
@@ -116,7 +114,8 @@ impl ElementSource<'_> {
     }
 }
 
-/// The vertex that an index names, beyond the buffer's end index 0.
+/// The vertex that an index names. Bytes beyond the buffer's end are zero, also those that an index there
+/// lacks: the last of a buffer's words is filled up with zeros.
 #[inline(always)]
 pub(crate) fn vertex_index(
     buffer: &Buffer,
@@ -124,27 +123,11 @@ pub(crate) fn vertex_index(
     at: usize,
     base_vertex: i32,
 ) -> u32 {
-    let words = buffer.words();
-    let in_bounds = |bytes: usize| {
-        at.checked_add(1)
-            .and_then(|end| end.checked_mul(bytes))
-            .is_some_and(|end| end <= buffer.len_bytes())
-    };
+    let word = |at: usize| buffer.words().get(at).copied().unwrap_or_default();
     let index = match format {
-        IndexFormat::Uint32 => words
-            .get(at)
-            .copied()
-            .filter(|_| in_bounds(4))
-            .unwrap_or_default(),
-        IndexFormat::Uint16 => {
-            let word = words
-                .get(at / 2)
-                .copied()
-                .filter(|_| in_bounds(2))
-                .unwrap_or_default();
-            word >> (at % 2 * 16) & 0xFFFF
-        }
-        IndexFormat::Uint8 => u32::from(if in_bounds(1) { buffer.byte(at) } else { 0 }),
+        IndexFormat::Uint32 => word(at),
+        IndexFormat::Uint16 => word(at / 2) >> (at % 2 * 16) & 0xFFFF,
+        IndexFormat::Uint8 => u32::from(buffer.byte(at)),
     };
     index.wrapping_add_signed(base_vertex)
 }
@@ -175,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn indices_of_every_width_read_zero_beyond_the_end() {
+    fn indices_of_every_width_read_zero_bytes_beyond_the_end() {
         let buffer = Buffer::from_bytes(&[1, 0, 2, 0, 3, 0]);
         let read = |format, at| vertex_index(&buffer, format, at, 0);
         assert_eq!(
@@ -188,7 +171,7 @@ mod tests {
         );
         assert_eq!(
             [0, 1, 2].map(|at| read(IndexFormat::Uint32, at)),
-            [0x0002_0001, 0, 0]
+            [0x0002_0001, 3, 0]
         );
         assert_eq!(vertex_index(&buffer, IndexFormat::Uint16, 0, -2), u32::MAX);
     }

@@ -289,11 +289,12 @@ impl Worker<'_, '_> {
 
     fn points(&mut self, count: usize, scratch: &ChunkScratch) {
         for lane in 0..count {
-            self.point(scratch.corners[0][lane], true);
+            let vertex = scratch.corners[0][lane];
+            self.point(vertex, VertexRef(vertex), true);
         }
     }
 
-    fn point(&mut self, vertex: u32, front: bool) {
+    fn point(&mut self, vertex: u32, provoking: VertexRef, front: bool) {
         let vertices = &self.work.vertices;
         if !is_point_visible(vertices.clip[vertex as usize]) {
             self.setup.chunk().statistics.primitives_clipped += 1;
@@ -309,6 +310,7 @@ impl Worker<'_, '_> {
             .unwrap_or(1.0);
         self.setup.push_point(PointPrimitive {
             center,
+            provoking,
             half: half_size(size),
             front,
         });
@@ -332,7 +334,7 @@ impl Worker<'_, '_> {
             } else {
                 corners
                     .into_iter()
-                    .for_each(|corner| self.point(corner, front));
+                    .for_each(|corner| self.point(corner, VertexRef(a), front));
             }
         }
     }
@@ -355,7 +357,9 @@ impl Worker<'_, '_> {
             ]
         };
         (2..scratch.clipped.len())
-            .map(|last| doubled_area(&fan(last)))
+            .map(fan)
+            .filter(|fan| fan.iter().all(|vertex| vertex.vertex != DROPPED))
+            .map(|fan| doubled_area(&fan))
             .find(|area| *area != 0)
             .unwrap_or(0)
     }

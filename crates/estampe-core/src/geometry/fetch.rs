@@ -1,12 +1,11 @@
 //! Vertex fetch (V2): attributes from buffers, sixteen vertices at a time.
 //!
 //! *In* vertex and instance indices · *Out* attribute scalars, structure of arrays · *Spec* WebGPU
-//! §Vertex formats. An attribute that does not lie wholly inside its buffer reads zeros; what a format
-//! lacks is (0, 0, 0, 1).
+//! §Vertex formats. Bytes beyond a buffer's end read as zeros; what a format lacks is (0, 0, 0, 1).
 
 use crate::pipeline::AttributeSource;
 use estampe_simd::{
-    Bytes, LANES, Lanes, Packet, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16,
+    Bytes, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16,
 };
 use estampe_types::{Buffer, VertexFormat};
 
@@ -28,18 +27,12 @@ pub(crate) fn fetch<S: Lanes>(
             vertex
         };
         let index = u32x16::load_array_ref(s, &index.0);
-        let element = Element::new(source, buffers.get(source.buffer));
+        let mut element = Element::new(source, buffers.get(source.buffer));
         let inside = index.simd_lt(<u32x16<S> as SimdBase<S>>::splat(s, element.count));
+        element.is_inside = s.bits_of_mask(inside) == u16::MAX;
         for component in 0..wanted {
             let value = if component < source.attribute.format.components() {
-                let value = element.component(s, index, component);
-                let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
-                // A buffer without even one whole element has nothing to select.
-                if element.count == 0 {
-                    zero
-                } else {
-                    inside.select(value, zero)
-                }
+                element.component(s, index, component)
             } else {
                 SimdBase::splat(s, if component == 3 { 1.0 } else { 0.0 })
             };
@@ -58,6 +51,8 @@ struct Element<'a> {
     offset: u32,
     /// How many elements hold the attribute whole.
     count: u32,
+    /// Whether all sixteen elements that are wanted are among those.
+    is_inside: bool,
 }
 
 impl<'a> Element<'a> {
@@ -77,11 +72,16 @@ impl<'a> Element<'a> {
             stride,
             offset,
             count,
+            is_inside: false,
         }
     }
 
-    /// One component of sixteen elements; anything where the index is out of range.
+    /// One component of sixteen elements.
     #[inline(always)]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a component is 0, 1, 2 or 3"
+    )]
     fn component<S: Lanes>(&self, s: S, index: u32x16<S>, component: usize) -> f32x16<S> {
         match self.format {
             VertexFormat::Float32
@@ -103,15 +103,14 @@ impl<'a> Element<'a> {
         }
     }
 
-    /// The word at a byte of sixteen elements.
+    /// The word at a byte of sixteen elements, what lies beyond the buffer's end zero.
     #[inline(always)]
     fn word<S: Lanes>(&self, s: S, index: u32x16<S>, byte: usize) -> u32x16<S> {
         let Some(buffer) = self.buffer else {
             return SimdBase::splat(s, 0);
         };
         let start = self.offset as usize + byte;
-        if self.stride.is_multiple_of(4) && start.is_multiple_of(4) {
-            // Wraps only where the index is out of range, and there the gather clamps it.
+        if self.is_inside && self.stride.is_multiple_of(4) && start.is_multiple_of(4) {
             let stride = <u32x16<S> as SimdBase<S>>::splat(s, self.stride / 4);
             let first = u32::try_from(start / 4).unwrap_or(u32::MAX);
             return s.gather(
@@ -121,7 +120,8 @@ impl<'a> Element<'a> {
         }
         let mut words = [0; LANES];
         for (word, &index) in words.iter_mut().zip(index.as_slice()) {
-            *word = buffer.word_at(start.saturating_add(index as usize * self.stride as usize));
+            let element = (index as usize).saturating_mul(self.stride as usize);
+            *word = buffer.word_at(start.saturating_add(element));
         }
         u32x16::load_array(s, words)
     }

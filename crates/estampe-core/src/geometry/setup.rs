@@ -8,7 +8,7 @@
 //! independent of the order in which a triangle's vertices were given.
 
 use super::viewport::PixelRect;
-use crate::attachment::TileGrid;
+use crate::layout::TileGrid;
 use crate::tiles::{
     BinEntry, Chunk, LinePrimitive, PlanePacket, PointPrimitive, TrianglePacket, VertexRef,
     WindowVertex,
@@ -120,8 +120,9 @@ impl<'a> Setup<'a> {
         let bins = &mut self.chunk.bins;
         bins.end_run();
         let len = usize::from(self.packet.len);
-        for lane in 0..len {
-            let [x0, y0, x1, y1] = [0, 1, 2, 3].map(|side| ranges[side][lane]);
+        let [left, top, right, bottom] = ranges;
+        let sides = left.iter().zip(top).zip(right.iter().zip(bottom)).take(len);
+        for (lane, ((&x0, &y0), (&x1, &y1))) in sides.enumerate() {
             let range = TileRange {
                 x0,
                 y0,

@@ -169,12 +169,12 @@ fn store_batch<S: Lanes>(
         let [x, y, z, w] = &scratch.positions[packet];
         let load = |packet: &Packet<f32>| f32x16::load_array_ref(s, &packet.0);
         let clip = [load(x), load(y), load(z), load(w)];
-        let (window_x, window_y, depth, iw, inside) = transform.project_lanes(s, clip);
-        let inside = s.bits_of_mask(inside);
+        let projected = transform.project_lanes(s, clip);
+        let inside = s.bits_of_mask(projected.inside);
         let first = done + packet * LANES;
         let count = (out.depth.len() - first).min(LANES);
-        let (window_x, window_y) = (window_x.to_array(), window_y.to_array());
-        let (depth, iw) = (depth.to_array(), iw.to_array());
+        let (window_x, window_y) = (projected.x.to_array(), projected.y.to_array());
+        let (depth, iw) = (projected.z.to_array(), projected.iw.to_array());
         for (lane, to) in out.window[first * 2..][..count * 2]
             .chunks_exact_mut(2)
             .enumerate()

@@ -30,6 +30,15 @@ pub(crate) struct Projected {
     pub(crate) iw: f32,
 }
 
+/// Sixteen vertices in the window, snapped; those that are not inside need clipping.
+pub(crate) struct ProjectedLanes<S: Lanes> {
+    pub(crate) x: i32x16<S>,
+    pub(crate) y: i32x16<S>,
+    pub(crate) z: f32x16<S>,
+    pub(crate) iw: f32x16<S>,
+    pub(crate) inside: mask32x16<S>,
+}
+
 impl ViewportTransform {
     pub(crate) fn new(viewport: &Viewport) -> Self {
         let (sx, sy) = (viewport.width * 0.5, viewport.height * -0.5);
@@ -58,7 +67,7 @@ impl ViewportTransform {
         &self,
         s: S,
         [x, y, z, w]: [f32x16<S>; 4],
-    ) -> (i32x16<S>, i32x16<S>, f32x16<S>, f32x16<S>, mask32x16<S>) {
+    ) -> ProjectedLanes<S> {
         let splat = |value: f32| <f32x16<S> as SimdBase<S>>::splat(s, value);
         let iw = splat(1.0) / w;
         let xw = (x * iw) * splat(self.scale[0]) + splat(self.offset[0]);
@@ -66,15 +75,25 @@ impl ViewportTransform {
         let zw = (z * iw) * splat(self.scale[2]) + splat(self.offset[2]);
         let zero = splat(0.0);
         let (low, high) = (splat(GUARD_MIN), splat(GUARD_MAX));
+        // An infinite w has a finite inverse, but the vertex is not finite.
+        let infinity = splat(f32::INFINITY);
         let inside = z.simd_ge(zero)
             & z.simd_le(w)
             & w.simd_gt(zero)
-            & iw.simd_lt(splat(f32::INFINITY))
+            & w.simd_lt(infinity)
+            & iw.simd_lt(infinity)
             & xw.simd_ge(low)
             & xw.simd_le(high)
             & yw.simd_ge(low)
             & yw.simd_le(high);
-        (snap_lanes(s, xw), snap_lanes(s, yw), zw, iw, inside)
+        let (x, y) = (snap_lanes(s, xw), snap_lanes(s, yw));
+        ProjectedLanes {
+            x,
+            y,
+            z: zw,
+            iw,
+            inside,
+        }
     }
 }
 
@@ -84,13 +103,15 @@ pub(crate) fn is_within_guard_band(x: f32, y: f32) -> bool {
 }
 
 /// A window coordinate in 1/256 pixel, half to even. Clipped vertices lie up to a pixel outside the guard
-/// band; the clamp stands for those that rounding put further.
+/// band; the clamp stands for those that rounding put further, or that overflowed: NaN gives the least.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the clamp keeps it below 2²³"
 )]
 pub(crate) fn snap(coordinate: f32) -> i32 {
-    (coordinate.clamp(GUARD_MIN - 2.0, GUARD_MAX + 2.0) * 256.0).round_ties_even() as i32
+    let (low, high) = (GUARD_MIN - 2.0, GUARD_MAX + 2.0);
+    let at_least = if coordinate > low { coordinate } else { low };
+    (at_least.min(high) * 256.0).round_ties_even() as i32
 }
 
 /// The same for sixteen coordinates within the guard band; others give anything.
@@ -125,11 +146,14 @@ impl PixelRect {
         height: u32,
     ) -> Self {
         let size = |pixels: u32| i32::try_from(pixels).unwrap_or(i32::MAX);
+        // In f64 the sums are exact: an edge just before a centre stays there.
+        let [x, y, across, down] =
+            [viewport.x, viewport.y, viewport.width, viewport.height].map(f64::from);
         let mut rect = Self {
-            x0: first_center(viewport.x).max(0),
-            y0: first_center(viewport.y).max(0),
-            x1: first_center(viewport.x + viewport.width).min(size(width)),
-            y1: first_center(viewport.y + viewport.height).min(size(height)),
+            x0: first_center(x).max(0),
+            y0: first_center(y).max(0),
+            x1: first_center(x + across).min(size(width)),
+            y1: first_center(y + down).min(size(height)),
         };
         if let Some(scissor) = scissor {
             rect.x0 = rect.x0.max(size(scissor.x));
@@ -147,7 +171,7 @@ impl PixelRect {
 
 /// ⌈edge − ½⌉: the first pixel whose centre is at or beyond an edge.
 #[expect(clippy::cast_possible_truncation, reason = "`as` saturates")]
-fn first_center(edge: f32) -> i32 {
+fn first_center(edge: f64) -> i32 {
     (edge - 0.5).ceil() as i32
 }
 

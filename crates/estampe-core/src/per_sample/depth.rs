@@ -58,11 +58,11 @@ pub(crate) fn test_early<S: Lanes, const N: usize>(
             let packet = usize::from(item.packet);
             let (x, y) = packet_origin(u32::from(item.packet));
             let pixel = [test.origin[0] + x, test.origin[1] + y];
-            for sample in 0..N {
+            for (sample, &offset) in offsets.iter().enumerate() {
                 let Some(line) = line_mut(stored, packet * N + sample) else {
                     return;
                 };
-                let new = clamp_depth(s, surface.depth(s, pixel, offsets[sample]), test.range);
+                let new = clamp_depth(s, surface.depth(s, pixel, offset), test.range);
                 let old = f32x16::load_array_ref(s, line);
                 let passes =
                     compare(s, test.state.compare, new, old) & s.mask_from_bits(item.masks[sample]);

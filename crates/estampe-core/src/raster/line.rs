@@ -117,6 +117,6 @@ pub(crate) fn cover<const N: usize>(
 )]
 fn lane_of(x: i64, y: i64) -> (u32, u16) {
     let (x, y) = (x as u32, y as u32);
-    let packet = crate::attachment::morton(x / 4, y / 4);
-    (packet, 1 << crate::attachment::morton(x % 4, y % 4))
+    let packet = crate::layout::morton(x / 4, y / 4);
+    (packet, 1 << crate::layout::morton(x % 4, y % 4))
 }

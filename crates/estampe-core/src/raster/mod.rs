@@ -207,7 +207,7 @@ impl TileShape {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::attachment::TileGrid;
+    use crate::layout::TileGrid;
 
     #[test]
     fn packets_are_numbered_as_they_are_stored() {

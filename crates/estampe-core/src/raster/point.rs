@@ -39,7 +39,7 @@ pub(crate) fn cover<const N: usize>(
                 }
             });
             if masks != [0; N] {
-                let packet = crate::attachment::morton(column.cast_unsigned(), row.cast_unsigned());
+                let packet = crate::layout::morton(column.cast_unsigned(), row.cast_unsigned());
                 out.push(packet, masks);
             }
         }

@@ -96,8 +96,7 @@ impl<const N: usize> TileTriangle<N> {
         if self.packets() <= DIRECT_PACKETS {
             for row in self.rows[0]..self.rows[1] {
                 for column in self.columns[0]..self.columns[1] {
-                    let packet =
-                        crate::attachment::morton(column.cast_unsigned(), row.cast_unsigned());
+                    let packet = crate::layout::morton(column.cast_unsigned(), row.cast_unsigned());
                     if skip >> (packet >> 4) & 1 == 0 {
                         self.cover_packet(s, &lanes, packet, [column * 4, row * 4], out);
                     }
@@ -114,7 +113,7 @@ impl<const N: usize> TileTriangle<N> {
             live &= live - 1;
             let origin = origin_of(block, 16);
             if all >> block & 1 == 1 {
-                for packet in 0..LANES as u32 {
+                for packet in 0..16 {
                     out.push(block * 16 + packet, [u16::MAX; N]);
                 }
                 continue;
@@ -259,8 +258,8 @@ impl<S: Lanes> EdgeLanes<S> {
             let best = most + base + (a.max(&0) + b.max(&0)) * (size - 1);
             let worst = least + base + (a.min(&0) + b.min(&0)) * (size - 1);
             let units = self.pixel[edge] << shift;
-            outside = outside | (units + <i32x16<S> as SimdBase<S>>::splat(s, best));
-            partial = partial | (units + <i32x16<S> as SimdBase<S>>::splat(s, worst));
+            outside |= units + <i32x16<S> as SimdBase<S>>::splat(s, best);
+            partial |= units + <i32x16<S> as SimdBase<S>>::splat(s, worst);
         }
         (!s.sign_bits(outside), !s.sign_bits(partial))
     }

@@ -1,7 +1,9 @@
 //! Clipping: inside, area, shared crossings, what is dropped, culling and facing.
 
 use super::*;
-use crate::clip::{Plane, clip_line, clip_polygon, clip_polygon_by, clip_triangle, keeps_point};
+use crate::clip::{
+    Plane, SIDE_MAX, SIDE_MIN, clip_line, clip_polygon, clip_polygon_by, clip_triangle, keeps_point,
+};
 use crate::cull::{clip_space_determinant, doubled_area};
 use crate::viewport::{PixelBounds, ViewportTransform};
 
@@ -13,24 +15,29 @@ fn transform() -> ViewportTransform {
     ViewportTransform::new(&viewport())
 }
 
+/// A vertex with x and y within `reach`, z within 3.
 fn random_vertex(random: &mut Random, reach: f32) -> ClipVertex {
     let w = random.range(0.25, 4.0);
-    let mut across = || random.range(-reach, reach);
-    clip_vertex(
-        [across(), across(), across(), w],
-        &[random.unit(), random.unit()],
-    )
+    let [x, y, z] = [reach, reach, 3.0].map(|reach| random.range(-reach, reach));
+    clip_vertex([x, y, z, w], &[random.unit(), random.unit()])
 }
 
-/// Sutherland and Hodgman again, in f64, on positions alone.
+/// Every plane that clips under [`viewport`], in order.
+fn planes() -> Vec<Plane> {
+    [&Plane::DEPTH[..], &Plane::sides(&transform())].concat()
+}
+
+/// Sutherland and Hodgman again, in f64, on positions alone. Window coordinates of the 64 pixels are
+/// 32·x/w + 32 and 32 − 32·y/w.
 fn clip_f64(mut polygon: Vec<[f64; 4]>) -> Vec<[f64; 4]> {
+    let (low, high) = (f64::from(SIDE_MIN), f64::from(SIDE_MAX));
     let normals = [
         [0.0, 0.0, 1.0, 0.0],
         [0.0, 0.0, -1.0, 1.0],
-        [1.0, 0.0, 0.0, 1.0],
-        [-1.0, 0.0, 0.0, 1.0],
-        [0.0, 1.0, 0.0, 1.0],
-        [0.0, -1.0, 0.0, 1.0],
+        [32.0, 0.0, 0.0, 32.0 - low],
+        [-32.0, 0.0, 0.0, high - 32.0],
+        [0.0, -32.0, 0.0, 32.0 - low],
+        [0.0, 32.0, 0.0, high - 32.0],
     ];
     for normal in normals {
         let distance = |p: &[f64; 4]| (0..4).map(|k| p[k] * normal[k]).sum::<f64>();
@@ -65,40 +72,49 @@ fn ndc_area(polygon: &[[f64; 4]]) -> f64 {
 fn clipped_polygons_lie_inside_and_keep_their_area() {
     const ULP: f32 = f32::EPSILON;
     let mut random = Random(11);
-    let mut clipped = 0;
-    for _ in 0..2000 {
-        let triangle: Vec<_> = (0..3).map(|_| random_vertex(&mut random, 3.0)).collect();
+    let (mut clipped, mut by_sides) = (0, 0);
+    for round in 0..4000 {
+        // NDC −257..767 lies within the guard band: the second reach meets all of its sides.
+        let reach = [3.0, 3000.0][round % 2];
+        let triangle: Vec<_> = (0..3).map(|_| random_vertex(&mut random, reach)).collect();
         let mut polygon = triangle.clone();
-        for plane in Plane::ALL {
+        for (number, plane) in planes().into_iter().enumerate() {
+            by_sides += usize::from(
+                number >= 2 && polygon.iter().any(|v| plane.distance(v.position) < 0.0),
+            );
             polygon = clip_polygon_by(plane, &polygon);
         }
         clipped += usize::from(polygon.len() > 3);
 
-        // Inside to 4 ulp of the largest coordinate (4).
+        // Inside to 4 ulp of the largest terms of the distances: reach·w or x·scale, 24544·4 at most.
         for vertex in &polygon {
-            for plane in Plane::ALL {
-                assert!(plane.distance(vertex.position) >= -4.0 * 4.0 * ULP);
+            for plane in planes() {
+                let size = if reach > 3.0 { 24_544.0 * 4.0 } else { 4.0 };
+                assert!(plane.distance(vertex.position) >= -4.0 * size * ULP);
             }
         }
 
         // The same area as in f64, to 4 ulp of each vertex's largest clip coordinate, which the
-        // division by w ≥ ¼ may enlarge fourfold, along a perimeter of at most 8.
+        // division by w ≥ ¼ may enlarge fourfold, along the perimeter.
         let exact = clip_f64(triangle.iter().map(|v| v.position.map(f64::from)).collect());
         let mine: Vec<_> = polygon.iter().map(|v| v.position.map(f64::from)).collect();
-        let bound = 8.0 * 4.0 * 4.0 * f64::from(4.0 * ULP);
+        let across = if reach > 3.0 { 2.0 * 1024.0 } else { 8.0 * 4.0 };
+        let bound = across * 4.0 * f64::from(reach.max(4.0)) * f64::from(4.0 * ULP);
         let difference = (ndc_area(&mine) - ndc_area(&exact)).abs();
         assert!(difference <= bound, "{difference:e} > {bound:e}");
     }
-    assert!(clipped > 500, "only {clipped} triangles had to be clipped");
+    assert!(clipped > 1000, "only {clipped} triangles had to be clipped");
+    assert!(by_sides > 1000, "only {by_sides} cuts were by the sides");
 }
 
 #[test]
 fn neighbours_share_their_clipped_vertices_to_the_bit() {
     let mut random = Random(12);
     let mut shared = 0;
-    for _ in 0..2000 {
+    for round in 0..4000 {
+        let reach = [3.0, 1500.0][round % 2];
         let [a, b, c, d]: [ClipVertex; 4] =
-            std::array::from_fn(|_| random_vertex(&mut random, 3.0));
+            std::array::from_fn(|_| random_vertex(&mut random, reach));
         // The crossings of edge ab: vertices of both clipped triangles that no other edge makes are
         // found as the intersection, which must hold what clipping the edge as a line gives.
         let left = clip_polygon(&[a.clone(), b.clone(), c], &transform());
@@ -157,13 +173,65 @@ fn a_triangle_inside_the_guard_band_is_kept_whole() {
     ];
     let kept = clip_triangle(&wide.map(|p| clip_vertex(p, &[])), &transform());
     assert_eq!(kept.len(), 1);
-    // Beyond the guard band it is cut to the view volume: NDC ±1.
+    // Beyond the guard band it is cut to one pixel around it.
     let wider = wide.map(|[x, y, z, w]| clip_vertex([x * 1000.0, y * 1000.0, z, w], &[]));
     let kept = clip_triangle(&wider, &transform());
     assert_eq!(kept.len(), 2, "the upper half of the square");
     for vertex in kept.iter().flatten() {
-        let [x, y, _, w] = vertex.position;
-        assert!(x.abs() <= w && y.abs() <= w);
+        let window = transform().window(vertex.position);
+        let reached = (SIDE_MIN - 0.01)..=(SIDE_MAX + 0.01);
+        assert!(reached.contains(&window.x) && reached.contains(&window.y));
+        assert!(
+            [SIDE_MIN, SIDE_MAX]
+                .iter()
+                .any(|side| (window.x - side).abs() < 0.01)
+        );
+    }
+}
+
+#[test]
+fn an_edge_within_the_guard_band_has_no_crack_where_one_of_its_triangles_leaves_it() {
+    let mut random = Random(77);
+    let bounds = PixelBounds { x: 0..64, y: 0..64 };
+    for round in 0..300 {
+        // Edge ab crosses the view, c lies far above the band, d below the view but within the band;
+        // all edges but ab pass outside the view.
+        let a = [random.range(-3.0, -1.1), random.range(-1.0, 1.0)];
+        let b = [random.range(1.1, 3.0), random.range(-1.0, 1.0)];
+        let (c, d) = ([random.range(-9.0, 9.0), 3000.0], [0.0, -60.0]);
+        let w = [1.0, 1.0, 1.0, 1.0].map(|w: f32| {
+            if round % 2 == 0 {
+                w
+            } else {
+                random.range(0.5, 2.0)
+            }
+        });
+        let vertex = |p: [f32; 2], w: f32| clip_vertex([p[0] * w, p[1] * w, 0.5 * w, w], &[]);
+        let [a, b, c, d] = [
+            vertex(a, w[0]),
+            vertex(b, w[1]),
+            vertex(c, w[2]),
+            vertex(d, w[3]),
+        ];
+        let mut hits = [0; 64 * 64 * 4];
+        for triangle in [[a.clone(), b.clone(), c], [a, b, d]] {
+            for piece in clip_triangle(&triangle, &transform()) {
+                let corners = piece
+                    .each_ref()
+                    .map(|vertex| transform().place(vertex).snapped);
+                for quad in raster::triangle(corners, &bounds, 4) {
+                    for lane in 0..4 {
+                        let [x, y] = raster::QuadCoverage::pixel(quad.origin, lane);
+                        for sample in 0..4 {
+                            let is_hit = quad.samples[lane] >> sample & 1;
+                            hits[((y * 64 + x) * 4 + sample) as usize] += is_hit;
+                        }
+                    }
+                }
+            }
+        }
+        let wrong = hits.iter().filter(|&&count| count != 1).count();
+        assert_eq!(wrong, 0, "samples missed or hit twice in mesh {round}");
     }
 }
 

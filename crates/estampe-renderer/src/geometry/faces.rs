@@ -41,6 +41,23 @@ pub(crate) fn face_normal(corners: [Vec3; 3]) -> Vec3 {
     (b - a).cross(c - a).normalize_or_zero().as_vec3()
 }
 
+/// Whether a mesh's normals point to the back of most of its triangles: some exporters write the one and
+/// turn the other. Two-sided shading goes by the winding, and would light such a model from behind.
+///
+/// It looks at a few thousand triangles at most, evenly spread.
+pub(crate) fn normals_oppose_winding(mesh: &Mesh) -> bool {
+    const EXAMINED: usize = 2048;
+    let stride = mesh.triangles.len().div_ceil(EXAMINED).max(1);
+    let mut votes = 0_i32;
+    for triangle in mesh.triangles.iter().step_by(stride) {
+        let corners = triangle.map(|index| at(&mesh.positions, index).unwrap_or(Vec3::NAN));
+        let normals = triangle.map(|index| at(&mesh.normals, index).unwrap_or_default());
+        let agreement = face_normal(corners).dot(normals[0] + normals[1] + normals[2]);
+        votes += i32::from(agreement > 0.0) - i32::from(agreement < 0.0);
+    }
+    votes < 0
+}
+
 fn at<T: Copy>(values: &[T], index: u32) -> Option<T> {
     values.get(index as usize).copied()
 }

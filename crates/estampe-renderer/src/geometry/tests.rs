@@ -1,6 +1,6 @@
 //! The unit space holds models of any size; orders and faces are right.
 
-use super::faces::face_normal;
+use super::faces::{face_normal, normals_oppose_winding};
 use super::order::{DistantTriangle, back_to_front};
 use super::unit_space::{UnitSpace, used, used_vertices};
 use estampe_scene::{Mesh, Scene};
@@ -90,4 +90,21 @@ fn transparent_triangles_go_back_to_front_in_runs() {
     assert_eq!(runs.len(), 2);
     assert_eq!((runs[0].surface, runs[0].indices[0]), (1, 19_999));
     assert_eq!(runs[1].indices.len(), 30_000);
+}
+
+#[test]
+fn normals_that_contradict_the_winding_are_noticed() {
+    let mut mesh = Mesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE],
+        normals: vec![Vec3::Z; 4],
+        triangles: vec![[0, 1, 2], [1, 3, 2], [0, 0, 0]],
+        ..Mesh::default()
+    };
+    assert!(!normals_oppose_winding(&mesh));
+    for triangle in &mut mesh.triangles {
+        triangle.swap(0, 1);
+    }
+    assert!(normals_oppose_winding(&mesh));
+    mesh.normals.clear();
+    assert!(!normals_oppose_winding(&mesh));
 }

@@ -1,5 +1,6 @@
 //! Vertex buffers straight from a mesh's arrays.
 
+use super::faces::normals_oppose_winding;
 use super::unit_space::UnitSpace;
 use estampe::Buffer;
 use estampe::VertexFormat;
@@ -94,7 +95,8 @@ impl MeshStreams {
             normals: if mesh.normals.is_empty() {
                 StreamData::constant(&[0.0; 3])
             } else {
-                StreamData::per_vertex(mesh.normals.iter().map(glam::Vec3::to_array))
+                let sign = if normals_oppose_winding(mesh) { -1.0 } else { 1.0 };
+                StreamData::per_vertex(mesh.normals.iter().map(|&n| (n * sign).to_array()))
             },
             uvs: if mesh.uvs.is_empty() {
                 StreamData::constant(&[0.0; 2])

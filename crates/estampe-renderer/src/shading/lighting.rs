@@ -28,7 +28,7 @@ pub(crate) struct LightRig {
 }
 
 /// Ambient light where nothing else is asked for.
-pub(crate) const DEFAULT_AMBIENT: f32 = 0.22;
+pub(crate) const DEFAULT_AMBIENT: f32 = 0.18;
 
 impl LightRig {
     /// The rig that goes with the camera: a key light from above on the left, a fill light from the
@@ -41,9 +41,9 @@ impl LightRig {
         };
         Self {
             lights: vec![
-                light([-0.55, 0.75, 0.70], 0.86, [1.0, 0.985, 0.95], 1.0),
-                light([0.85, 0.10, 0.55], 0.26, [0.90, 0.95, 1.0], 0.25),
-                light([0.35, 0.45, -0.75], 0.22, [1.0, 1.0, 1.0], 0.0),
+                light([-0.55, 0.80, 0.62], 1.08, [1.0, 0.985, 0.955], 1.0),
+                light([0.85, 0.10, 0.55], 0.20, [0.90, 0.95, 1.0], 0.25),
+                light([0.35, 0.45, -0.75], 0.25, [1.0, 1.0, 1.0], 0.0),
             ],
             sky: [ambient * 1.15, ambient * 1.17, ambient * 1.2],
             ground: [ambient * 0.72, ambient * 0.7, ambient * 0.68],

@@ -1,25 +1,22 @@
 //! The looks: shaders written once for one fragment and for sixteen.
 //!
-//! A surface shader is a *look* (how light becomes colour) over a *base colour* (what colour there is):
-//!
-//! | look | what |
+//! | module | what |
 //! |---|---|
+//! | [`lighting`] | the lights and the Phong model |
 //! | [`phong`] | light at every fragment, smooth or in toon's steps |
-//! | [`vertex_lit`] | light at the vertices (Gouraud) or the faces (flat) |
-//! | [`unlit`] | the base colour itself |
+//! | [`vertex_lit`] | light at the vertices (Gouraud) or the faces (flat), or none (unlit) |
+//! | [`surfaces`] | the shaders of plain and of painted surfaces, in either light |
 //! | [`wireframe`] | edges over faces that hide what lies behind |
 //! | [`inspection`] | normals, depth and uv as colours |
 //! | [`marks`] | points and lines |
 //!
-//! [`base_color`] is one colour, or texture and vertex colours; [`lighting`] is the lights and
-//! the Phong model. All light is computed in view space, linear.
+//! All light is computed in view space, linear.
 
-pub(crate) mod base_color;
 pub(crate) mod inspection;
 pub(crate) mod lighting;
 pub(crate) mod marks;
 pub(crate) mod phong;
-pub(crate) mod unlit;
+pub(crate) mod surfaces;
 pub(crate) mod vertex_lit;
 pub(crate) mod wireframe;
 

@@ -1,9 +1,8 @@
 //! Light at every fragment: Phong's smooth shading, and toon's steps.
 
-use super::base_color::BaseColor;
 use super::lighting::{Gloss, LightRig};
 use super::{VertexTransforms, shading_normal};
-use estampe::{FragmentIn, FragmentOut, Real, Vec3, VertexIn, VertexOut};
+use estampe::{Real, Vec3};
 use std::sync::Arc;
 
 /// How light becomes colour.
@@ -15,54 +14,37 @@ pub(crate) enum Tone {
     Toon(u16),
 }
 
-/// The shader of surfaces lit at every fragment.
+/// Light at every fragment.
 #[derive(Debug, Clone)]
-pub(crate) struct Phong<B> {
+pub(crate) struct PhongLight {
     pub(crate) transforms: VertexTransforms,
     pub(crate) rig: Arc<LightRig>,
     pub(crate) gloss: Gloss,
     pub(crate) tone: Tone,
-    pub(crate) base: B,
 }
 
-estampe::shader! {
-    impl<B: BaseColor> Shader for Phong<B> {
-        type Attributes<R: Real> = (Vec3<R>, Vec3<R>, B::Attributes<R>); // position, normal
-        type Varyings<R: Real> = (Vec3<R>, Vec3<R>, B::Varyings<R>); // view position, normal
-        const DISCARDS: bool = B::MASKS;
-
-        fn vertex<R: Real>(
-            &self,
-            _input: VertexIn<'_, R>,
-            (position, normal, base): (Vec3<R>, Vec3<R>, B::Attributes<R>),
-        ) -> VertexOut<R, (Vec3<R>, Vec3<R>, B::Varyings<R>)> {
-            let view = self.transforms.view(position);
-            let normal = self.transforms.normal(normal);
-            VertexOut::new(self.transforms.clip(position), (view, normal, self.base.vertex(base)))
-        }
-
-        fn fragment<R: Real>(
-            &self,
-            input: FragmentIn<'_, R>,
-            (view, normal, base): (Vec3<R>, Vec3<R>, B::Varyings<R>),
-        ) -> FragmentOut<R> {
-            let to_eye = self.transforms.eye_direction(view);
-            let normal = shading_normal(normal, to_eye, input.front_facing);
-            let base = self.base.fragment(base, input.zero);
-            let color = match self.tone {
-                Tone::Smooth => {
-                    let light = self.rig.illuminate(&self.gloss, normal, to_eye);
-                    base.xyz() * light.diffuse + light.added
-                }
-                Tone::Toon(levels) => self.toon(base.xyz(), normal, levels),
-            };
-            let out = FragmentOut::color(color.extend(base.w));
-            if B::MASKS { out.keep_where(base.w.ge(input.real(0.5))) } else { out }
+impl PhongLight {
+    /// The colour of a fragment of this base colour, at a point of view space, with its interpolated
+    /// normal.
+    #[inline(always)]
+    pub(crate) fn color<R: Real>(
+        &self,
+        base: Vec3<R>,
+        view: Vec3<R>,
+        normal: Vec3<R>,
+        front_facing: R::Mask,
+    ) -> Vec3<R> {
+        let to_eye = self.transforms.eye_direction(view);
+        let normal = shading_normal(normal, to_eye, front_facing);
+        match self.tone {
+            Tone::Smooth => {
+                let light = self.rig.illuminate(&self.gloss, normal, to_eye);
+                base * light.diffuse + light.added
+            }
+            Tone::Toon(levels) => self.toon(base, normal, levels),
         }
     }
-}
 
-impl<B> Phong<B> {
     /// The base colour in steps of light: min(⌊I·N⌋, N − 1)/(N − 1) of the way from shade to full light
     /// (row F3).
     #[inline(always)]

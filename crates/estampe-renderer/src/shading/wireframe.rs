@@ -37,14 +37,16 @@ estampe::shader! {
         fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, corner: Vec3<R>) -> FragmentOut<R> {
             let one = corner.x.splat(1.0);
             let rates = Vec3::new(gradient(corner.x), gradient(corner.y), gradient(corner.z));
-            // The nearest edge, in pixels; the triangle's smallest height is 1 ÷ the greatest rate.
+            // The nearest edge, in pixels.
             let distances = corner / rates;
             let distance = distances.x.min(distances.y).min(distances.z);
             let coverage = (one * (self.half_width_px + 0.5) - distance).saturate();
             // Where triangles are a few pixels small, edges would fill everything: they fade, so that
-            // a dense mesh is a grey tone instead of a black blot.
-            let height_px = one / rates.x.max(rates.y).max(rates.z);
-            let strength = (height_px * (1.0 / 10.0) + 0.12).saturate();
+            // a dense mesh is a grey tone instead of a black blot. |∇a × ∇b| = 1 ÷ 2·area.
+            let (a, b) = (corner.x, corner.y);
+            let cross = (a.ddx() * b.ddy() - a.ddy() * b.ddx()).abs().max(one * 1e-9);
+            let side_px = (one / cross).sqrt();
+            let strength = (side_px * (1.0 / 11.0) + 0.1).saturate();
             let alpha = coverage * strength * self.line[3];
             let line = Vec4::uniform(one, [self.line[0], self.line[1], self.line[2], 1.0]);
             FragmentOut::color(Vec4::uniform(one, self.face).mix(line, alpha))

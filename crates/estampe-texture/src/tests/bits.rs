@@ -55,11 +55,11 @@ fn packet(random: &mut Random, with_odd: bool) -> [[f32; LANES]; 2] {
     let mut uv = [[0.0; LANES]; 2];
     let spread = [0.0, 0.002, 0.02, 0.2, 2.0][random.bits() as usize % 5];
     let origin = [random.unit() * 4.0 - 2.0, random.unit() * 4.0 - 2.0];
-    for lane in 0..LANES {
-        for axis in 0..2 {
-            let at = origin[axis] + (random.unit() - 0.5) * spread;
-            let is_odd = with_odd && random.bits() % 8 == 0;
-            uv[axis][lane] = if is_odd {
+    for (values, origin) in uv.iter_mut().zip(origin) {
+        for value in values {
+            let at = origin + (random.unit() - 0.5) * spread;
+            let is_odd = with_odd && random.bits().is_multiple_of(8);
+            *value = if is_odd {
                 ODD[random.bits() as usize % ODD.len()]
             } else {
                 at
@@ -97,10 +97,10 @@ fn packets_quads_and_fragments_give_the_bits_of_the_naive_text() {
 
 fn check_packet(sampled: &Sampled, [u, v]: [[f32; LANES]; 2]) {
     let mut lods = [0.0; LANES];
-    for lane in 0..LANES {
+    for (lane, lod) in lods.iter_mut().enumerate() {
         let quad = lane & !3;
         let first = |values: &[f32; LANES]| [values[quad], values[quad + 1], values[quad + 2]];
-        lods[lane] = naive::lod_of_quad(sampled, first(&u), first(&v));
+        *lod = naive::lod_of_quad(sampled, first(&u), first(&v));
     }
     let expected: Colors = std::array::from_fn(|i| naive::sample(sampled, u[i], v[i], lods[i]));
     let what = |kind: &str, lane: usize| {

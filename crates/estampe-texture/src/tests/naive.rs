@@ -1,6 +1,11 @@
 //! Sampling as docs/NUMERICS.md words it, one fragment and one texel at a time, sharing no code with the
 //! crate; and the same in f64 from the textbook, to bound its error.
 
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "texels and levels are whole numbers within range; NaN does not reach a cast"
+)]
+
 use crate::{AddressMode, FilterMode, MipLevel, Sampled};
 use estampe_types::srgb::LINEAR_FROM_SRGB;
 

@@ -126,11 +126,10 @@ fn a_pixel_of_two_texels_reads_level_one() {
         (2.0 * std::f32::consts::SQRT_2, 75.0, 0.01),
     ] {
         let step = texels / 8.0;
-        let mut uv = [[0.0; LANES]; 2];
-        for lane in 0..LANES {
-            uv[0][lane] = 0.3 + f32::from(estampe_simd::LANE_X[lane]) * step;
-            uv[1][lane] = 0.7 - f32::from(estampe_simd::LANE_Y[lane]) * step;
-        }
+        let uv = [
+            estampe_simd::LANE_X.map(|x| 0.3 + f32::from(x) * step),
+            estampe_simd::LANE_Y.map(|y| 0.7 - f32::from(y) * step),
+        ];
         for level in Level::all_available() {
             for color in sample_packet(level, &sampled, uv, Lod::FromQuad) {
                 let error = (color[0] * 255.0 - expected).abs();

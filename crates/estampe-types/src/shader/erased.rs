@@ -1,7 +1,7 @@
 //! A Rust shader behind the [`Program`] interface.
 
 use super::fragment::MAX_COLORS;
-use super::{Attributes, Sink, Source, Varyings};
+use super::{Attributes, Sink, Source, Varyings, scalar};
 use crate::{
     Bindings, FragmentBatch, FragmentIn, Interface, Program, Real, Shader, Vec4, VertexBatch,
     VertexIn,
@@ -53,11 +53,13 @@ impl<T: Shader> Program for ShaderProgram<T> {
     }
 
     fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>) {
-        dispatch!(level, s => self.vertices(s, bindings, batch));
+        dispatch!(@wide level, s => self.vertices(s, bindings, batch),
+            scalar => scalar::vertices(&self.shader, &self.interface, bindings, batch));
     }
 
     fn run_fragments(&self, level: Level, bindings: &Bindings, batch: FragmentBatch<'_>) {
-        dispatch!(level, s => self.fragments(s, bindings, batch));
+        dispatch!(@wide level, s => self.fragments(s, bindings, batch),
+            scalar => scalar::fragments(&self.shader, &self.interface, bindings, batch));
     }
 }
 

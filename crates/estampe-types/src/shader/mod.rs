@@ -8,6 +8,7 @@
 mod erased;
 mod fragment;
 mod interface;
+mod scalar;
 mod varyings;
 mod vertex;
 

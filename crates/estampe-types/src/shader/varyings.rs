@@ -126,6 +126,7 @@ macro_rules! tuple {
                 $($name::components(out);)*
             }
             #[inline(always)]
+            #[allow(clippy::unused_unit, reason = "the empty tuple is one of the cases")]
             fn load(from: &mut impl Source<R>) -> Self {
                 let _ = &from;
                 ($($name::load(from),)*)
@@ -138,6 +139,7 @@ macro_rules! tuple {
                 $($name::modes(out);)*
             }
             #[inline(always)]
+            #[allow(clippy::unused_unit, reason = "the empty tuple is one of the cases")]
             fn load(from: &mut impl Source<R>) -> Self {
                 let _ = &from;
                 ($($name::load(from),)*)

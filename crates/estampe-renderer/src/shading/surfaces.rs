@@ -1,0 +1,168 @@
+//! The shaders of surfaces: what colour there is, in what light.
+//!
+//! Three of them: plain surfaces lit at their fragments or their vertices, and painted ones (texture,
+//! vertex colours) with either light in one shader. A shader for each would be clearer by a little, but
+//! each that samples a texture costs the compiler all SIMD levels of the sampler again, a minute.
+
+use super::phong::PhongLight;
+use super::vertex_lit::{self, BothSides, VertexLight};
+use estampe::texture::Sampled;
+use estampe::{FragmentIn, FragmentOut, Vec2, Vec3, Vec4, VertexIn, VertexOut};
+
+/// A surface of one colour, lit at every fragment.
+#[derive(Debug, Clone)]
+pub(crate) struct PlainPhong {
+    pub(crate) light: PhongLight,
+    /// Linear RGBA.
+    pub(crate) color: [f32; 4],
+}
+
+estampe::shader! {
+    impl Shader for PlainPhong {
+        type Attributes<R: Real> = (Vec3<R>, Vec3<R>); // position, normal
+        type Varyings<R: Real> = (Vec3<R>, Vec3<R>); // view position, normal
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, normal): (Vec3<R>, Vec3<R>),
+        ) -> VertexOut<R, (Vec3<R>, Vec3<R>)> {
+            let transforms = &self.light.transforms;
+            let varyings = (transforms.view(position), transforms.normal(normal));
+            VertexOut::new(transforms.clip(position), varyings)
+        }
+
+        fn fragment<R: Real>(
+            &self,
+            input: FragmentIn<'_, R>,
+            (view, normal): (Vec3<R>, Vec3<R>),
+        ) -> FragmentOut<R> {
+            let base = Vec4::uniform(input.zero, self.color);
+            let color = self.light.color(base.xyz(), view, normal, input.front_facing);
+            FragmentOut::color(color.extend(base.w))
+        }
+    }
+}
+
+/// A surface of one colour, lit at its vertices.
+#[derive(Debug, Clone)]
+pub(crate) struct PlainVertexLit {
+    pub(crate) light: VertexLight,
+    /// Linear RGBA.
+    pub(crate) color: [f32; 4],
+}
+
+estampe::shader! {
+    impl Shader for PlainVertexLit {
+        type Attributes<R: Real> = (Vec3<R>, Vec3<R>); // position, normal
+        type Varyings<R: Real> = BothSides<R>;
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, normal): (Vec3<R>, Vec3<R>),
+        ) -> VertexOut<R, BothSides<R>> {
+            let sides = self.light.both_sides(position, normal);
+            VertexOut::new(self.light.transforms.clip(position), sides)
+        }
+
+        fn fragment<R: Real>(
+            &self,
+            input: FragmentIn<'_, R>,
+            sides: BothSides<R>,
+        ) -> FragmentOut<R> {
+            let base = Vec4::uniform(input.zero, self.color);
+            let color = vertex_lit::color(base.xyz(), sides, input.front_facing);
+            FragmentOut::color(color.extend(base.w))
+        }
+    }
+}
+
+/// A surface with a texture or vertex colours.
+#[derive(Debug, Clone)]
+pub(crate) struct Painted {
+    pub(crate) light: SurfaceLight,
+    /// Linear RGBA, times the texture and the vertex colour.
+    pub(crate) factor: [f32; 4],
+    /// The base-colour texture.
+    pub(crate) texture: Option<Sampled>,
+    /// What alpha does.
+    pub(crate) alpha: Alpha,
+}
+
+/// Where a surface is lit.
+#[derive(Debug, Clone)]
+pub(crate) enum SurfaceLight {
+    /// At every fragment.
+    Fragments(PhongLight),
+    /// At the vertices.
+    Vertices(VertexLight),
+}
+
+/// What the alpha of texture and vertices does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Alpha {
+    /// Nothing: it is 1.
+    Ignored,
+    /// Fragments below ½ are discarded.
+    CutsOut,
+    /// It is the colour's.
+    Kept,
+}
+
+estampe::shader! {
+    impl Shader for Painted {
+        type Attributes<R: Real> = (Vec3<R>, Vec3<R>, Vec2<R>, Vec4<R>); // position, normal, uv, color
+        // Light at the vertices takes all four; light at the fragments needs two of them, for the view
+        // position and the normal.
+        type Varyings<R: Real> = (BothSides<R>, Vec2<R>, Vec4<R>);
+        const DISCARDS: bool = true;
+
+        fn vertex<R: Real>(
+            &self,
+            input: VertexIn<'_, R>,
+            (position, normal, uv, color): (Vec3<R>, Vec3<R>, Vec2<R>, Vec4<R>),
+        ) -> VertexOut<R, (BothSides<R>, Vec2<R>, Vec4<R>)> {
+            let (transforms, lit) = match &self.light {
+                SurfaceLight::Fragments(light) => {
+                    let transforms = &light.transforms;
+                    let none = Vec3::repeat(input.zero);
+                    let (view, normal) = (transforms.view(position), transforms.normal(normal));
+                    (transforms, (view, normal, none, none))
+                }
+                SurfaceLight::Vertices(light) => {
+                    (&light.transforms, light.both_sides(position, normal))
+                }
+            };
+            VertexOut::new(transforms.clip(position), (lit, uv, color))
+        }
+
+        fn fragment<R: Real>(
+            &self,
+            input: FragmentIn<'_, R>,
+            (lit, uv, color): (BothSides<R>, Vec2<R>, Vec4<R>),
+        ) -> FragmentOut<R> {
+            let mut base = color * Vec4::uniform(input.zero, self.factor);
+            if let Some(texture) = &self.texture {
+                base = base * texture.sample(uv);
+            }
+            if self.alpha == Alpha::Ignored {
+                base.w = input.real(1.0);
+            }
+            let color = match &self.light {
+                SurfaceLight::Fragments(light) => {
+                    light.color(base.xyz(), lit.0, lit.1, input.front_facing)
+                }
+                SurfaceLight::Vertices(_) => {
+                    vertex_lit::color(base.xyz(), lit, input.front_facing)
+                }
+            };
+            let out = FragmentOut::color(color.extend(base.w));
+            if self.alpha == Alpha::CutsOut {
+                out.keep_where(base.w.ge(input.real(0.5)))
+            } else {
+                out
+            }
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Draws cases on both sides, and makes a small one of what fails.
+
+use crate::Random;
+use crate::case::Case;
+use crate::fast_path::{self, all_devices, some_devices};
+use crate::oracle::{self, Image};
+use estampe::Device;
+use estampe_types::state::PrimitiveTopology;
+
+/// How often a failing case is made smaller, at most.
+const SHRINK_STEPS: usize = 400;
+
+/// Draws `count` random cases of a topic on both sides.
+///
+/// # Panics
+/// Where an image differs; the message names the seed and describes a smaller case that differs too.
+pub fn check(topic: &str, count: u64, make: impl Fn(&mut Random) -> Case) {
+    let number = |name: &str| std::env::var(name).ok()?.parse::<u64>().ok();
+    let factor = number("ESTAMPE_TEST_FACTOR");
+    let seeds = match number("ESTAMPE_TEST_SEED") {
+        Some(seed) => seed..seed + 1,
+        None => 0..count * factor.unwrap_or(1),
+    };
+    for seed in seeds {
+        let case = make(&mut Random::new(topic, seed));
+        let devices = match factor {
+            Some(_) => all_devices(),
+            None => some_devices(seed),
+        };
+        if let Some(first) = mismatch(&case, &devices) {
+            let (small, difference) = shrunk(case, &devices, first);
+            let words = small.describe();
+            panic!("{topic}, seed {seed}: {difference}\n{words}");
+        }
+    }
+}
+
+/// Draws one case on both sides, at every level and number of threads, and gives the image.
+///
+/// # Panics
+/// Where an image differs.
+pub fn check_one(topic: &str, case: &Case) -> Image {
+    if let Some(difference) = mismatch(case, &all_devices()) {
+        panic!("{topic}: {difference}\n{}", case.describe());
+    }
+    oracle::draw(case)
+}
+
+/// How the first of some devices whose image is not the oracle's differs from it.
+fn mismatch(case: &Case, devices: &[&Device]) -> Option<String> {
+    let wanted = oracle::draw(case);
+    devices.iter().find_map(|device| {
+        let got = fast_path::draw(device, case);
+        (got != wanted).then(|| difference(case, device, &got, &wanted))
+    })
+}
+
+fn difference(case: &Case, device: &Device, got: &Image, wanted: &Image) -> String {
+    let pixels = case.size[0] as usize * case.size[1] as usize;
+    let color = |image: &Image, at: usize| image.color.get(at * 4..at * 4 + 4).map(<[u8]>::to_vec);
+    let differs = |at: &usize| {
+        color(got, *at) != color(wanted, *at) || got.depth.get(*at) != wanted.depth.get(*at)
+    };
+    let all: Vec<_> = (0..pixels).filter(differs).collect();
+    let device = fast_path::name(device);
+    let Some(&at) = all.first() else {
+        return format!("{device}: the images' sizes differ");
+    };
+    let depth = |image: &Image| image.depth.get(at).map(|&bits| f32::from_bits(bits));
+    format!(
+        "{device}: {} pixels differ, first ({}, {}): fast path {:?} depth {:?}, oracle {:?} depth {:?}",
+        all.len(),
+        at % case.size[0] as usize,
+        at / case.size[0] as usize,
+        color(got, at),
+        depth(got),
+        color(wanted, at),
+        depth(wanted),
+    )
+}
+
+/// The case without whatever can go while it still fails, and how it fails.
+fn shrunk(mut case: Case, devices: &[&Device], mut how: String) -> (Case, String) {
+    let mut steps = 0;
+    'again: loop {
+        for smaller in smaller_cases(&case) {
+            steps += 1;
+            if steps > SHRINK_STEPS {
+                return (case, how);
+            }
+            if let Some(difference) = mismatch(&smaller, devices) {
+                (case, how) = (smaller, difference);
+                continue 'again;
+            }
+        }
+        return (case, how);
+    }
+}
+
+/// Cases that are one step simpler.
+fn smaller_cases(case: &Case) -> Vec<Case> {
+    let mut cases = Vec::new();
+    for removed in 0..case.draws.len() {
+        let mut smaller = case.clone();
+        smaller.draws.remove(removed);
+        smaller.second_pass = match case.second_pass {
+            usize::MAX => usize::MAX,
+            at => at - usize::from(removed < at),
+        };
+        cases.push(smaller);
+    }
+    for (number, draw) in case.draws.iter().enumerate() {
+        use PrimitiveTopology as T;
+        let step = match draw.primitive.topology {
+            T::TriangleList => 3,
+            T::LineList => 2,
+            // Of a strip's triangles every other one is turned.
+            T::TriangleStrip => 2,
+            _ => 1,
+        };
+        let count = (draw.elements.end - draw.elements.start) / step;
+        let mut with_elements = |elements| {
+            let mut smaller = case.clone();
+            smaller.draws[number].elements = elements;
+            cases.push(smaller);
+        };
+        for part in [count / 2, count / 4, 1] {
+            if part > 0 && part < count {
+                with_elements(draw.elements.start..draw.elements.end - part * step);
+                with_elements(draw.elements.start + part * step..draw.elements.end);
+            }
+        }
+        if draw.instances.len() > 1 {
+            let mut smaller = case.clone();
+            smaller.draws[number].instances.end -= 1;
+            cases.push(smaller);
+        }
+    }
+    if case.samples > 1 {
+        cases.push(Case {
+            samples: 1,
+            ..case.clone()
+        });
+    }
+    cases
+}

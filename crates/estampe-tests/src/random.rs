@@ -1,0 +1,81 @@
+//! Pseudo-random numbers that repeat from a seed.
+
+/// PCG-XSH-RR (O'Neill 2014).
+#[derive(Debug, Clone)]
+pub struct Random(u64);
+
+impl Random {
+    /// The stream of a topic and a seed.
+    #[must_use]
+    pub fn new(topic: &str, seed: u64) -> Self {
+        // FNV-1a, so that two topics do not draw the same cases.
+        let hash = topic.bytes().fold(0xCBF2_9CE4_8422_2325, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01B3)
+        });
+        let mut random = Self(hash ^ seed.wrapping_mul(0x9E37_79B9_7F4A_7C15));
+        random.bits();
+        random
+    }
+
+    /// 32 bits.
+    pub fn bits(&mut self) -> u32 {
+        let old = self.0;
+        self.0 = old
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        let low = |bits: u64| u32::try_from(bits & 0xFFFF_FFFF).expect("32 bits");
+        low(((old >> 18) ^ old) >> 27).rotate_right(low(old >> 59))
+    }
+
+    /// In 0..1.
+    pub fn unit(&mut self) -> f32 {
+        (self.bits() >> 8) as f32 / 16_777_216.0
+    }
+
+    /// In low..high.
+    pub fn range(&mut self, low: f32, high: f32) -> f32 {
+        low + (high - low) * self.unit()
+    }
+
+    /// An integer below `n`.
+    pub fn below(&mut self, n: u32) -> u32 {
+        self.bits() % n
+    }
+
+    /// True once in `n` times.
+    pub fn once_in(&mut self, n: u32) -> bool {
+        self.below(n) == 0
+    }
+
+    /// One of some values.
+    pub fn pick<T: Clone>(&mut self, from: &[T]) -> T {
+        from[self.bits() as usize % from.len()].clone()
+    }
+
+    /// Four numbers in low..high.
+    pub fn four(&mut self, low: f32, high: f32) -> [f32; 4] {
+        std::array::from_fn(|_| self.range(low, high))
+    }
+
+    /// Numbers that programs stumble over.
+    pub fn odd_number(&mut self) -> f32 {
+        self.pick(&[
+            f32::NAN,
+            f32::INFINITY,
+            f32::NEG_INFINITY,
+            f32::MAX,
+            -1e30,
+            1e20,
+            1e-45,
+            -1e-40,
+            3e-39,
+            0.0,
+            -0.0,
+            0.5,
+            1.0,
+            -1.0,
+            2.0,
+            300.0,
+        ])
+    }
+}

@@ -1,0 +1,106 @@
+//! The shaders of the tests: each shows something that both sides must compute alike.
+
+mod colored;
+mod depths;
+mod probe;
+mod textured;
+mod vertex_input;
+
+pub use colored::{Colored, FlatColored, Sized, Uniform};
+pub use depths::{Cutout, CutoutDepth, DepthGiven, DepthOnly, GivenDepth};
+pub use probe::{Probe, Scalar};
+pub use textured::{TexelSource, Textured};
+pub use vertex_input::{Formats, Indexed};
+
+use estampe_reference::{Counts, Draw, ReferenceTexture, State, Target};
+use estampe_texture::Sampled;
+use estampe_types::{Int, Program, Real, SamplerDescriptor, ShaderProgram, Texture, Vec4};
+use std::sync::Arc;
+
+/// The 32 bits of a number as the four bytes of a colour, so that a unorm target shows the last bit. A
+/// NaN, whose payload processors choose, shows as 0.
+#[inline(always)]
+pub fn bytes_of<R: Real>(value: R) -> Vec4<R> {
+    bytes_of_int::<R>(R::select(value.eq(value), value, value.splat(0.0)).to_bits())
+}
+
+/// The same of an integer.
+#[inline(always)]
+pub fn bytes_of_int<R: Real>(bits: R::Int) -> Vec4<R> {
+    let byte = |shift: u32| ((bits >> shift) & bits.splat(0xFF)).to_real() * (1.0 / 255.0);
+    Vec4::new(byte(0), byte(8), byte(16), byte(24))
+}
+
+/// A texture, sampled by each side's own code.
+#[derive(Debug, Clone)]
+pub struct TexturedShader {
+    /// The texels.
+    pub texture: Arc<Texture>,
+    /// How they are sampled.
+    pub sampler: SamplerDescriptor,
+    /// Which channel shows its bits; `None` shows the colour.
+    pub channel: Option<usize>,
+}
+
+macro_rules! test_shaders {
+    ($($name:ident),+) => {
+        /// Any of the shaders.
+        #[derive(Debug, Clone)]
+        pub enum TestShader {
+            $(#[doc = concat!("[`", stringify!($name), "`].")] $name($name),)+
+            /// [`Textured`].
+            Textured(TexturedShader),
+        }
+
+        $(impl From<$name> for TestShader {
+            fn from(shader: $name) -> Self {
+                Self::$name(shader)
+            }
+        })+
+
+        impl TestShader {
+            /// The shader as the fast path wants it.
+            #[must_use]
+            pub fn program(&self) -> Arc<dyn Program> {
+                match self {
+                    $(Self::$name(shader) => Arc::new(ShaderProgram::new(*shader)),)+
+                    Self::Textured(TexturedShader { texture, sampler, channel }) => {
+                        let texels = Sampled::new(texture.clone(), *sampler);
+                        Arc::new(ShaderProgram::new(Textured { texels, channel: *channel }))
+                    }
+                }
+            }
+
+            /// Draws with the oracle.
+            pub fn draw_oracle(&self, target: &mut Target, state: &State, draw: &Draw<'_>) -> Counts {
+                match self {
+                    $(Self::$name(shader) => estampe_reference::draw(target, shader, state, draw),)+
+                    Self::Textured(TexturedShader { texture, sampler, channel }) => {
+                        let texels = ReferenceTexture::new(texture.clone(), *sampler);
+                        let shader = Textured { texels, channel: *channel };
+                        estampe_reference::draw(target, &shader, state, draw)
+                    }
+                }
+            }
+        }
+    };
+}
+test_shaders!(
+    Colored,
+    FlatColored,
+    Uniform,
+    Sized,
+    Probe,
+    Cutout,
+    DepthGiven,
+    CutoutDepth,
+    DepthOnly,
+    Indexed,
+    Formats
+);
+
+impl From<TexturedShader> for TestShader {
+    fn from(shader: TexturedShader) -> Self {
+        Self::Textured(shader)
+    }
+}

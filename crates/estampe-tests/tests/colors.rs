@@ -1,0 +1,159 @@
+//! Blending, write masks, sRGB, clearing and loading.
+
+use estampe_tests::geometry::{Style, triangles};
+use estampe_tests::shaders::{Colored, FlatColored, Probe, Sized};
+use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
+use estampe_types::TextureFormat;
+use estampe_types::state::{
+    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorWrites, PrimitiveTopology,
+};
+
+const FACTORS: [BlendFactor; 13] = [
+    BlendFactor::Zero,
+    BlendFactor::One,
+    BlendFactor::Src,
+    BlendFactor::OneMinusSrc,
+    BlendFactor::SrcAlpha,
+    BlendFactor::OneMinusSrcAlpha,
+    BlendFactor::Dst,
+    BlendFactor::OneMinusDst,
+    BlendFactor::DstAlpha,
+    BlendFactor::OneMinusDstAlpha,
+    BlendFactor::SrcAlphaSaturated,
+    BlendFactor::Constant,
+    BlendFactor::OneMinusConstant,
+];
+
+const OPERATIONS: [BlendOperation; 5] = [
+    BlendOperation::Add,
+    BlendOperation::Subtract,
+    BlendOperation::ReverseSubtract,
+    BlendOperation::Min,
+    BlendOperation::Max,
+];
+
+fn component(random: &mut Random) -> BlendComponent {
+    BlendComponent {
+        operation: random.pick(&OPERATIONS),
+        src_factor: random.pick(&FACTORS),
+        dst_factor: random.pick(&FACTORS),
+    }
+}
+
+fn blend_state(random: &mut Random) -> Option<BlendState> {
+    match random.below(6) {
+        0 => None,
+        1 => Some(BlendState::ALPHA_BLENDING),
+        2 => Some(BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+        3 => Some(BlendState::ADDITIVE),
+        _ => Some(BlendState {
+            color: component(random),
+            alpha: component(random),
+        }),
+    }
+}
+
+fn shader(random: &mut Random) -> TestShader {
+    match random.below(4) {
+        0 => FlatColored.into(),
+        1 => Probe::random(random).into(),
+        _ => Colored.into(),
+    }
+}
+
+fn layers(random: &mut Random, format: TextureFormat) -> Case {
+    let mut case = Case::random_target(random);
+    case.format = Some(format);
+    case.clear_color = random.four(-0.2, 1.2);
+    if random.once_in(6) {
+        case.clear_color[random.below(4) as usize] = random.odd_number();
+    }
+    for _ in 0..3 {
+        let style = random.pick(&[Style::Large, Style::Large, Style::Small]);
+        let mut vertices = triangles(random, style, case.size, 3);
+        if random.once_in(5) {
+            for vertex in &mut vertices {
+                vertex.values[random.below(4) as usize] = random.odd_number();
+            }
+        }
+        let mut draw = CaseDraw::new(shader(random), &vertices);
+        draw.depth = None;
+        draw.blend = blend_state(random);
+        draw.blend_constant = random.four(-0.3, 1.3);
+        draw.write_mask = match random.below(3) {
+            0 => ColorWrites((random.below(16)) as u8),
+            _ => ColorWrites::ALL,
+        };
+        case.draws.push(draw);
+    }
+    if random.once_in(2) {
+        case.second_pass = random.below(4) as usize;
+    }
+    case
+}
+
+#[test]
+fn unorm_targets() {
+    check("colors/unorm", 80, |random| {
+        layers(random, TextureFormat::Rgba8Unorm)
+    });
+}
+
+#[test]
+fn srgb_targets() {
+    check("colors/srgb", 60, |random| {
+        layers(random, TextureFormat::Rgba8UnormSrgb)
+    });
+}
+
+#[test]
+fn overlapping_primitives_blend_in_order() {
+    // More packets than one call shades, of many primitives in the same place.
+    check("colors/order", 10, |random| {
+        let mut case = Case::new([40, 36], random.pick(&[1, 4]));
+        let vertices = triangles(random, Style::Small, case.size, 60);
+        let shader: TestShader = if random.once_in(2) {
+            Sized(Some(9.0)).into()
+        } else {
+            Colored.into()
+        };
+        let mut draw = CaseDraw::new(shader, &vertices);
+        draw.depth = None;
+        draw.blend = Some(BlendState::ALPHA_BLENDING);
+        draw.primitive.topology = random.pick(&[
+            PrimitiveTopology::TriangleList,
+            PrimitiveTopology::TriangleStrip,
+            PrimitiveTopology::LineLoop,
+            PrimitiveTopology::PointList,
+        ]);
+        case.draws.push(draw);
+        case
+    });
+}
+
+#[test]
+fn every_code_survives_blending_with_nothing() {
+    // s·0 + d·1 gives back each stored code, in both formats.
+    for format in [TextureFormat::Rgba8Unorm, TextureFormat::Rgba8UnormSrgb] {
+        let keep = BlendComponent {
+            operation: BlendOperation::Add,
+            src_factor: BlendFactor::Zero,
+            dst_factor: BlendFactor::One,
+        };
+        let mut random = Random::new("colors/keep", 1);
+        let mut case = Case::new([64, 64], 1);
+        case.format = Some(format);
+        let vertices = triangles(&mut random, Style::Large, case.size, 8);
+        let mut draw = CaseDraw::new(Colored, &vertices);
+        draw.depth = None;
+        case.draws.push(draw.clone());
+        let before = estampe_tests::check_one("colors/keep", &case);
+        draw.blend = Some(BlendState {
+            color: keep,
+            alpha: keep,
+        });
+        case.draws.push(draw);
+        let after = estampe_tests::check_one("colors/keep", &case);
+        assert_eq!(before, after);
+    }
+}

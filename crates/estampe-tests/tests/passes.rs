@@ -1,0 +1,128 @@
+//! Several draws with different pipelines in one pass, and passes that load what was there.
+
+use estampe_tests::geometry::{Style, triangles};
+use estampe_tests::shaders::{
+    Colored, Cutout, DepthGiven, FlatColored, GivenDepth, Probe, Scalar, Sized, Uniform,
+};
+use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
+use estampe_types::state::{
+    BlendState, CompareFunction, CullMode, DepthState, PolygonMode, PrimitiveTopology, ScissorRect,
+};
+use estampe_types::{BindGroup, Binding, Bindings, Buffer, TextureFormat};
+use std::sync::Arc;
+
+fn shader(random: &mut Random) -> TestShader {
+    match random.below(8) {
+        0 => Colored.into(),
+        1 => FlatColored.into(),
+        2 => Uniform.into(),
+        3 => Cutout.into(),
+        4 => DepthGiven(GivenDepth::Moved).into(),
+        5 => Sized(Some(6.0)).into(),
+        _ => Probe::random(random).into(),
+    }
+}
+
+fn colors(random: &mut Random) -> Bindings {
+    let buffer = Buffer::from_f32s(&[random.four(0.0, 1.0), random.four(0.0, 1.0)].concat());
+    let entry = Binding::Buffer {
+        buffer,
+        offset: random.pick(&[0, 0, 4, 40]),
+        has_dynamic_offset: random.once_in(2),
+    };
+    let group = BindGroup {
+        entries: vec![(0, entry)],
+    };
+    Bindings {
+        groups: vec![(Arc::new(group), random.pick(&[0, 8]))],
+    }
+}
+
+fn any_draw(random: &mut Random, size: [u32; 2], count: u32) -> CaseDraw {
+    let style = random.pick(&Style::ALL);
+    let vertices = triangles(random, style, size, count);
+    let mut draw = CaseDraw::new(shader(random), &vertices);
+    draw.primitive.topology = random.pick(&[
+        PrimitiveTopology::TriangleList,
+        PrimitiveTopology::TriangleList,
+        PrimitiveTopology::TriangleStrip,
+        PrimitiveTopology::LineStrip,
+        PrimitiveTopology::PointList,
+    ]);
+    draw.primitive.polygon_mode =
+        random.pick(&[PolygonMode::Fill, PolygonMode::Fill, PolygonMode::Line]);
+    draw.primitive.cull_mode = random.pick(&[CullMode::None, CullMode::None, CullMode::Front]);
+    draw.depth = random.pick(&[
+        None,
+        Some(DepthState::LESS_WRITE),
+        Some(DepthState::LESS_READ),
+        Some(DepthState {
+            write_enabled: true,
+            compare: CompareFunction::GreaterEqual,
+        }),
+    ]);
+    draw.blend = random.pick(&[None, None, Some(BlendState::ALPHA_BLENDING)]);
+    draw.bindings = colors(random);
+    if random.once_in(4) {
+        draw.scissor = Some(ScissorRect {
+            x: random.below(size[0]),
+            y: random.below(size[1]),
+            width: 20,
+            height: 30,
+        });
+    }
+    draw
+}
+
+#[test]
+fn many_pipelines_in_one_pass_and_in_two() {
+    check("passes/pipelines", 40, |random| {
+        let mut case = Case::random_target(random);
+        case.format =
+            Some(random.pick(&[TextureFormat::Rgba8Unorm, TextureFormat::Rgba8UnormSrgb]));
+        for _ in 0..5 {
+            let draw = any_draw(random, case.size, 4);
+            case.draws.push(draw);
+        }
+        case.second_pass = random.pick(&[usize::MAX, 0, 2, 5]);
+        case
+    });
+}
+
+#[test]
+fn more_primitives_than_a_chunk_holds() {
+    // Several chunks of 4096 primitives, which workers make and tiles read in order.
+    check("passes/chunks", 2, |random| {
+        let mut case = Case::new([70, 66], random.pick(&[1, 4]));
+        let vertices = triangles(random, Style::Tiny, case.size, 3000);
+        for topology in [
+            PrimitiveTopology::TriangleList,
+            PrimitiveTopology::TriangleStrip,
+            PrimitiveTopology::PointList,
+        ] {
+            let mut draw = CaseDraw::new(Probe(Scalar::Smooth), &vertices);
+            draw.primitive.topology = topology;
+            draw.depth = None;
+            draw.blend = Some(BlendState::ALPHA_BLENDING);
+            if topology == PrimitiveTopology::TriangleStrip {
+                // Neighbours of a strip of strangers are large.
+                draw.elements = 0..60;
+                draw.instances = 0..20;
+            }
+            case.draws.push(draw);
+        }
+        case
+    });
+}
+
+#[test]
+fn a_pass_without_draws_clears() {
+    check("passes/clear", 6, |random| {
+        let mut case = Case::random_target(random);
+        case.clear_color = random.four(-0.5, 1.5);
+        case.clear_depth = random.unit();
+        case.format =
+            Some(random.pick(&[TextureFormat::Rgba8Unorm, TextureFormat::Rgba8UnormSrgb]));
+        case
+    });
+}

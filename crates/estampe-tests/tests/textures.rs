@@ -1,0 +1,112 @@
+//! Sampling inside the pipeline: derivatives of real quads, helper lanes, every filter and mode.
+
+use estampe_tests::geometry::{Style, triangles};
+use estampe_tests::shaders::TexturedShader;
+use estampe_tests::{Case, CaseDraw, Random, check};
+use estampe_texture::{MipGeneration, create_texture};
+use estampe_types::state::{PolygonMode, PrimitiveTopology};
+use estampe_types::{AddressMode, FilterMode, Limits, SamplerDescriptor, Texture, TextureFormat};
+use std::sync::Arc;
+
+fn texture(random: &mut Random) -> Arc<Texture> {
+    let sides = [1, 2, 3, 8, 17, 32];
+    let (width, height) = (random.pick(&sides), random.pick(&sides));
+    let texels: Vec<u8> = (0..width * height * 4)
+        .map(|_| (random.bits() >> 24) as u8)
+        .collect();
+    let format = random.pick(&[TextureFormat::Rgba8Unorm, TextureFormat::Rgba8UnormSrgb]);
+    let mips = random.pick(&[
+        MipGeneration::None,
+        MipGeneration::Full,
+        MipGeneration::Full,
+    ]);
+    let limits = Limits::default();
+    let made = create_texture(width, height, format, &texels, mips, &limits);
+    Arc::new(made.expect("a valid texture"))
+}
+
+fn sampler(random: &mut Random) -> SamplerDescriptor {
+    let modes = [
+        AddressMode::ClampToEdge,
+        AddressMode::Repeat,
+        AddressMode::MirrorRepeat,
+    ];
+    let filters = [FilterMode::Nearest, FilterMode::Linear];
+    SamplerDescriptor {
+        address_mode_u: random.pick(&modes),
+        address_mode_v: random.pick(&modes),
+        mag_filter: random.pick(&filters),
+        min_filter: random.pick(&filters),
+        mipmap_filter: random.pick(&filters),
+        lod_min_clamp: random.pick(&[0.0, 0.0, 0.5, 2.0]),
+        lod_max_clamp: random.pick(&[32.0, 32.0, 1.3]),
+    }
+}
+
+fn textured_case(random: &mut Random, style: Style, scales: &[f32]) -> Case {
+    let mut case = Case::random_target(random);
+    let mut vertices = triangles(random, style, case.size, 5);
+    let scale = random.pick(scales);
+    for vertex in &mut vertices {
+        for value in &mut vertex.values[..2] {
+            *value = (*value - 0.3) * scale;
+        }
+    }
+    let shader = TexturedShader {
+        texture: texture(random),
+        sampler: sampler(random),
+        channel: random.pick(&[None, Some(0), Some(1), Some(2), Some(3)]),
+    };
+    case.draws.push(CaseDraw::new(shader, &vertices));
+    case
+}
+
+#[test]
+fn magnified_and_minified() {
+    check("textures/scales", 70, |random| {
+        textured_case(random, Style::Large, &[0.3, 1.0, 4.0, 30.0, 1000.0])
+    });
+}
+
+#[test]
+fn small_triangles_across_quads() {
+    check("textures/small", 30, |random| {
+        textured_case(random, Style::Small, &[0.3, 1.0, 4.0, 30.0])
+    });
+}
+
+#[test]
+fn perspective_towards_the_horizon() {
+    check("textures/perspective", 30, |random| {
+        textured_case(random, Style::AroundEye, &[1.0, 4.0, 60.0])
+    });
+}
+
+#[test]
+fn coordinates_that_are_hardly_numbers() {
+    check("textures/odd", 30, |random| {
+        let mut case = textured_case(random, Style::Large, &[1.0, 1e6, 1e20, 1e38]);
+        let mut vertices = triangles(random, Style::Large, case.size, 5);
+        for vertex in &mut vertices {
+            if random.once_in(2) {
+                vertex.values[random.below(2) as usize] = random.odd_number();
+            }
+        }
+        case.draws[0].buffers[0].1 = estampe_tests::geometry::vertex_buffer(&vertices);
+        case
+    });
+}
+
+#[test]
+fn on_lines_and_points() {
+    check("textures/lines", 24, |random| {
+        let mut case = textured_case(random, Style::Large, &[1.0, 4.0, 30.0]);
+        case.draws[0].primitive.topology = random.pick(&[
+            PrimitiveTopology::LineList,
+            PrimitiveTopology::PointList,
+            PrimitiveTopology::TriangleList,
+        ]);
+        case.draws[0].primitive.polygon_mode = PolygonMode::Line;
+        case
+    });
+}

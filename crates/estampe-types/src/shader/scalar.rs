@@ -1,0 +1,158 @@
+//! The scalar level of a Rust shader: a packet as four quads of plain scalars.
+//!
+//! Sixteen lanes made of scalars would give the same bits, but one sampled texture took the compiler three
+//! minutes that way and takes it two seconds this way.
+
+use super::{Attributes, DepthOutput, Sink, Source, Varyings};
+use crate::{
+    Bindings, FragmentBatch, FragmentIn, Interface, Quad, Shader, Vec4, VertexBatch, VertexIn,
+};
+use estampe_simd::Packet;
+
+/// Lanes of a quad.
+const QUAD: usize = 4;
+
+/// Shades packets of vertices.
+pub(super) fn vertices<T: Shader>(
+    shader: &T,
+    interface: &Interface,
+    bindings: &Bindings,
+    batch: VertexBatch<'_>,
+) {
+    let attributes = interface.attribute_scalars();
+    let varyings = interface.varyings.len();
+    for packet in 0..batch.vertex_index.len() {
+        let from = &batch.attributes[packet * attributes..][..attributes];
+        let positions = &mut batch.positions[packet * 4..][..4];
+        let to = &mut batch.varyings[packet * varyings..][..varyings];
+        for lane in (0..16).step_by(QUAD) {
+            let input = VertexIn {
+                vertex_index: ints(&batch.vertex_index[packet], lane),
+                instance_index: ints(&batch.instance_index[packet], lane),
+                bindings,
+                zero: Quad([0.0; QUAD]),
+            };
+            let loaded = T::Attributes::load(&mut QuadSource { left: from, lane });
+            let out = shader.vertex(input, loaded);
+            store_vec4(out.position, positions, lane);
+            out.varyings.store(&mut QuadSink {
+                left: to,
+                next: 0,
+                lane,
+            });
+            if T::WRITES_POINT_SIZE {
+                let size = out.point_size.unwrap_or(Quad([1.0; QUAD]));
+                store(size, &mut batch.point_sizes[packet], lane);
+            }
+        }
+    }
+}
+
+/// Shades packets of fragments.
+pub(super) fn fragments<T: Shader>(
+    shader: &T,
+    interface: &Interface,
+    bindings: &Bindings,
+    batch: FragmentBatch<'_>,
+) {
+    let varyings = interface.varyings.len();
+    let targets = interface.color_targets;
+    let zero = Quad([0.0; QUAD]);
+    let black = Vec4::new(zero, zero, zero, zero);
+    for packet in 0..batch.coverage.len() {
+        let from = &batch.varyings[packet * varyings..][..varyings];
+        let colors = &mut batch.colors[packet * targets * 4..][..targets * 4];
+        for lane in (0..16).step_by(QUAD) {
+            let position = if T::READS_POSITION {
+                let p = &batch.positions[packet * 4..][..4];
+                let [x, y, z, w] = [0, 1, 2, 3].map(|k| load(&p[k], lane));
+                Vec4::new(x, y, z, w)
+            } else {
+                black
+            };
+            let front = batch.front_facing[packet] >> lane;
+            let front_facing = Quad([0, 1, 2, 3].map(|k| front >> k & 1 == 1));
+            let input = FragmentIn {
+                position,
+                front_facing,
+                bindings,
+                zero,
+            };
+            let loaded = T::Varyings::load(&mut QuadSource { left: from, lane });
+            let out = shader.fragment(input, loaded);
+            for (color, to) in out.colors.iter().zip(colors.chunks_exact_mut(4)) {
+                store_vec4(color.unwrap_or(black), to, lane);
+            }
+            if T::DISCARDS
+                && let Some(Quad(keep)) = out.keep
+            {
+                for (k, keep) in keep.into_iter().enumerate() {
+                    batch.coverage[packet] &= !(u16::from(!keep) << (lane + k));
+                }
+            }
+            if T::DEPTH_OUTPUT != DepthOutput::None {
+                store(
+                    out.depth.unwrap_or(position.z),
+                    &mut batch.depths[packet],
+                    lane,
+                );
+            }
+        }
+    }
+}
+
+fn load(packet: &Packet<f32>, lane: usize) -> Quad {
+    Quad([
+        packet.0[lane],
+        packet.0[lane + 1],
+        packet.0[lane + 2],
+        packet.0[lane + 3],
+    ])
+}
+
+fn ints(packet: &Packet<u32>, lane: usize) -> Quad<i32> {
+    Quad([0, 1, 2, 3].map(|k| packet.0[lane + k].cast_signed()))
+}
+
+fn store(value: Quad, packet: &mut Packet<f32>, lane: usize) {
+    packet.0[lane..lane + QUAD].copy_from_slice(&value.0);
+}
+
+fn store_vec4(value: Vec4<Quad>, to: &mut [Packet<f32>], lane: usize) {
+    for (component, packet) in [value.x, value.y, value.z, value.w].into_iter().zip(to) {
+        store(component, packet, lane);
+    }
+}
+
+/// Scalars of one quad, read in order.
+struct QuadSource<'a> {
+    left: &'a [Packet<f32>],
+    lane: usize,
+}
+
+impl Source<Quad> for QuadSource<'_> {
+    fn take(&mut self) -> Quad {
+        // The slice has as many packets as the type has scalars.
+        let Some((first, rest)) = self.left.split_first() else {
+            return Quad([0.0; QUAD]);
+        };
+        self.left = rest;
+        load(first, self.lane)
+    }
+}
+
+/// Scalars of one quad, written in order.
+struct QuadSink<'a> {
+    left: &'a mut [Packet<f32>],
+    next: usize,
+    lane: usize,
+}
+
+impl Sink<Quad> for QuadSink<'_> {
+    fn put(&mut self, value: Quad) {
+        if let Some(packet) = self.left.get_mut(self.next) {
+            store(value, packet, self.lane);
+        }
+        self.next += 1;
+    }
+}
