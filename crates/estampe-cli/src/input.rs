@@ -84,8 +84,9 @@ impl Model {
 
     fn builtin(name: &str) -> Result<Self, Failure> {
         let start = Instant::now();
-        let shape: BuiltinShape =
-            name.parse().map_err(|error: estampe_shapes::UnknownShape| Failure::Input(error.to_string()))?;
+        let shape: BuiltinShape = name
+            .parse()
+            .map_err(|error: estampe_shapes::UnknownShape| Failure::Input(error.to_string()))?;
         let built = shape.build();
         let mesh = Mesh {
             name: built.name,
@@ -96,7 +97,10 @@ impl Model {
             ..Mesh::default()
         };
         Ok(Self {
-            scene: Scene { meshes: vec![mesh], ..Scene::default() },
+            scene: Scene {
+                meshes: vec![mesh],
+                ..Scene::default()
+            },
             name: format!("builtin:{shape}"),
             format: None,
             warnings: Vec::new(),
@@ -147,7 +151,9 @@ pub(crate) fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, Failure
     let failed = |error: io::Error| unreadable(&name, &error, advice);
     let metadata = std::fs::metadata(path).map_err(failed)?;
     if metadata.is_dir() {
-        return Err(Failure::Input(format!("{name}: this is a folder; name a file in it")));
+        return Err(Failure::Input(format!(
+            "{name}: this is a folder; name a file in it"
+        )));
     }
     if metadata.len() > limits.max_file_bytes {
         return Err(too_large(&name, limits));
@@ -162,7 +168,8 @@ pub(crate) fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, Failure
 fn read_all(from: impl Read, expected_bytes: u64, limits: &Limits) -> io::Result<Vec<u8>> {
     let capacity = usize::try_from(expected_bytes).unwrap_or(0);
     let mut bytes = Vec::with_capacity(capacity.saturating_add(1));
-    from.take(limits.max_file_bytes.saturating_add(1)).read_to_end(&mut bytes)?;
+    from.take(limits.max_file_bytes.saturating_add(1))
+        .read_to_end(&mut bytes)?;
     if bytes.len() as u64 > limits.max_file_bytes {
         return Err(io::ErrorKind::FileTooLarge.into());
     }
@@ -179,5 +186,7 @@ fn unreadable(name: &str, error: &io::Error, advice: &str) -> Failure {
 
 fn too_large(name: &str, limits: &Limits) -> Failure {
     let limit = limits.max_file_bytes;
-    Failure::Input(format!("{name}: larger than the limit of {limit} bytes; split the file"))
+    Failure::Input(format!(
+        "{name}: larger than the limit of {limit} bytes; split the file"
+    ))
 }

@@ -2,15 +2,15 @@
 //! The `estampe` command.
 //!
 //! * [`render`]: a model becomes a picture;
-//! * [`info`]: what is in a model;
+//! * [`describe`]: what is in a model;
 //! * [`diff`]: how far two pictures are apart.
 //!
 //! [`input`] reads models from files, standard input or by built-in name, [`output`] writes files whole or
 //! not at all, [`values`] reads the options' values, and [`failure`] holds the exit codes.
 
+mod describe;
 mod diff;
 mod failure;
-mod info;
 mod input;
 mod output;
 mod progress;
@@ -45,7 +45,7 @@ struct Cli {
 enum Command {
     // Boxed: it has many options.
     Render(Box<render::RenderArgs>),
-    Info(info::InfoArgs),
+    Info(describe::InfoArgs),
     Diff(diff::DiffArgs),
 }
 
@@ -61,8 +61,12 @@ fn version() -> &'static str {
 fn main() -> ExitCode {
     let cli = Cli::parse();
     let code = match &cli.command {
-        Command::Render(args) => report("render", args.json.then_some(args.output.is_standard_output()), render::run(args)),
-        Command::Info(args) => report("info", args.json.then_some(false), info::run(args)),
+        Command::Render(args) => report(
+            "render",
+            args.json.then_some(args.output.is_standard_output()),
+            render::run(args),
+        ),
+        Command::Info(args) => report("info", args.json.then_some(false), describe::run(args)),
         Command::Diff(args) => {
             let (mut out, mut err) = (BufWriter::new(io::stdout().lock()), io::stderr().lock());
             diff::run(args, &mut out, &mut err)
@@ -74,7 +78,9 @@ fn main() -> ExitCode {
 /// Tells why a command failed, if it did, and gives its exit code. `json` is whether an object is wanted
 /// too, and whether it goes to standard error.
 fn report(command: &str, json: Option<bool>, result: Result<(), Failure>) -> u8 {
-    let Err(failure) = result else { return failure::DONE };
+    let Err(failure) = result else {
+        return failure::DONE;
+    };
     let code = failure.exit_code();
     // Where these streams are closed there is nobody to tell; the exit code remains.
     if let Some(to_standard_error) = json {

@@ -8,17 +8,23 @@ use std::path::{Path, PathBuf};
 
 /// Refuses, before any work is done, a destination that cannot be written.
 pub(crate) fn check(destination: &Destination) -> Result<(), Failure> {
-    let Destination::File(path) = destination else { return Ok(()) };
+    let Destination::File(path) = destination else {
+        return Ok(());
+    };
     if path.is_dir() {
         let name = shown(path);
-        return Err(Failure::Output(format!("{name}: this is a folder; name a file in it")));
+        return Err(Failure::Output(format!(
+            "{name}: this is a folder; name a file in it"
+        )));
     }
     let folder = folder_of(path);
     if folder.is_dir() {
         return Ok(());
     }
     let (name, folder) = (shown(path), shown(folder));
-    Err(Failure::Output(format!("{name}: there is no folder {folder}; make it first")))
+    Err(Failure::Output(format!(
+        "{name}: there is no folder {folder}; make it first"
+    )))
 }
 
 /// Writes the bytes.
@@ -26,13 +32,17 @@ pub(crate) fn write(destination: &Destination, bytes: &[u8]) -> Result<(), Failu
     match destination {
         Destination::StandardOutput => {
             let mut out = io::stdout().lock();
-            out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| {
-                Failure::Output(format!("standard output: {error}; check what reads it"))
-            })
+            out.write_all(bytes)
+                .and_then(|()| out.flush())
+                .map_err(|error| {
+                    Failure::Output(format!("standard output: {error}; check what reads it"))
+                })
         }
         Destination::File(path) => write_whole(path, bytes).map_err(|error| {
             let name = shown(path);
-            Failure::Output(format!("{name}: {error}; check the folder, its permissions and space"))
+            Failure::Output(format!(
+                "{name}: {error}; check the folder, its permissions and space"
+            ))
         }),
     }
 }
@@ -45,7 +55,9 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
         return OpenOptions::new().write(true).open(&path)?.write_all(bytes);
     }
     let (part, file) = create_part(&path)?;
-    let written = { file }.write_all(bytes).and_then(|()| fs::rename(&part, &path));
+    let written = { file }
+        .write_all(bytes)
+        .and_then(|()| fs::rename(&part, &path));
     if written.is_err() {
         // The first error is the one to report, whether or not a part is left to remove.
         let _ = fs::remove_file(&part);

@@ -13,7 +13,11 @@ pub(crate) const MAX_SIDE: u32 = 16_384;
 
 /// `WxH` in pixels.
 pub(crate) fn size(text: &str) -> Result<(u32, u32), String> {
-    let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
+    let side = |text: &str| {
+        text.parse()
+            .ok()
+            .filter(|side| (1..=MAX_SIDE).contains(side))
+    };
     let sides = text.split_once(['x', 'X', '×']);
     let sides = sides.and_then(|(width, height)| Some((side(width)?, side(height)?)));
     sides.ok_or_else(|| format!("write WIDTHxHEIGHT, each 1 to {MAX_SIDE} pixels, as in 1024x768"))
@@ -21,7 +25,10 @@ pub(crate) fn size(text: &str) -> Result<(u32, u32), String> {
 
 /// A finite number.
 fn number(text: &str) -> Option<f64> {
-    text.trim().parse().ok().filter(|number: &f64| number.is_finite())
+    text.trim()
+        .parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite())
 }
 
 fn number_between(text: &str, low: f64, high: f64) -> Result<f64, String> {
@@ -90,7 +97,9 @@ pub(crate) fn background(text: &str) -> Result<Background, String> {
     }
     let digits = text.strip_prefix('#').unwrap_or(text);
     let is_hex = digits.len() == 6 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
-    let code = is_hex.then(|| u32::from_str_radix(digits, 16).ok()).flatten();
+    let code = is_hex
+        .then(|| u32::from_str_radix(digits, 16).ok())
+        .flatten();
     let [_, r, g, b] = code
         .ok_or("write none, or a colour as six hexadecimal digits, as in '#f2f2f2'")?
         .to_be_bytes();
@@ -155,7 +164,11 @@ impl Destination {
 
 impl From<std::ffi::OsString> for Destination {
     fn from(text: std::ffi::OsString) -> Self {
-        if text == "-" { Self::StandardOutput } else { Self::File(text.into()) }
+        if text == "-" {
+            Self::StandardOutput
+        } else {
+            Self::File(text.into())
+        }
     }
 }
 
@@ -308,7 +321,18 @@ mod tests {
     fn sizes_are_two_numbers_in_range() {
         assert_eq!(size("1024x768"), Ok((1024, 768)));
         assert_eq!(size("1X16384"), Ok((1, 16_384)));
-        for wrong in ["", "x", "1024", "0x5", "5x0", "16385x5", "1024x768x3", "-1x5", "1.5x2", "a×b"] {
+        for wrong in [
+            "",
+            "x",
+            "1024",
+            "0x5",
+            "5x0",
+            "16385x5",
+            "1024x768x3",
+            "-1x5",
+            "1.5x2",
+            "a×b",
+        ] {
             assert!(size(wrong).is_err(), "{wrong}");
         }
     }
@@ -337,7 +361,9 @@ mod tests {
 
     #[test]
     fn ranges_hold() {
-        assert!(fov("35").is_ok() && fov("0").is_err() && fov("180").is_err() && fov("nan").is_err());
+        assert!(
+            fov("35").is_ok() && fov("0").is_err() && fov("180").is_err() && fov("nan").is_err()
+        );
         assert!(margin("0").is_ok() && margin("0.5").is_err() && margin("-0.1").is_err());
         assert!(elevation("-90").is_ok() && elevation("90.1").is_err());
         assert_eq!(ambient("0.5"), Ok(0.5));
@@ -346,10 +372,19 @@ mod tests {
 
     #[test]
     fn sources_and_destinations_are_told_apart() {
-        assert_eq!(Source::from(std::ffi::OsString::from("-")), Source::StandardInput);
+        assert_eq!(
+            Source::from(std::ffi::OsString::from("-")),
+            Source::StandardInput
+        );
         let builtin = Source::Builtin("teapot".to_owned());
-        assert_eq!(Source::from(std::ffi::OsString::from("builtin:teapot")), builtin);
-        assert_eq!(Source::from(std::ffi::OsString::from("./-")), Source::File("./-".into()));
+        assert_eq!(
+            Source::from(std::ffi::OsString::from("builtin:teapot")),
+            builtin
+        );
+        assert_eq!(
+            Source::from(std::ffi::OsString::from("./-")),
+            Source::File("./-".into())
+        );
         assert!(Destination::from(std::ffi::OsString::from("-")).is_standard_output());
         let file = Destination::from(std::ffi::OsString::from("a.TGA"));
         assert_eq!(file.image_format(), Some(ImageFormat::Tga));

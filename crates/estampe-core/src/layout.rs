@@ -95,12 +95,11 @@ mod tests {
     fn tiles_are_numbered_in_storage_order() {
         for samples in [1, 4] {
             let grid = TileGrid::new(200, 130, samples);
-            let side = 1 << grid.tile_log2();
+            let side = 1u32 << grid.tile_log2();
             let mut seen = vec![false; grid.tiles()];
-            for y in (0..192).step_by(side) {
-                for x in (0..256).step_by(side) {
-                    let (x, y) = (x as u32, y as u32);
-                    let tile = grid.tile_at(x / side as u32, y / side as u32);
+            for y in (0..192u32).step_by(side as usize) {
+                for x in (0..256u32).step_by(side as usize) {
+                    let tile = grid.tile_at(x / side, y / side);
                     assert_eq!(grid.tile_origin(tile), (x, y));
                     assert!(!std::mem::replace(&mut seen[tile as usize], true));
                     let first = grid.packet_of(x, y) * 16;

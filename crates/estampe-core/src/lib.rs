@@ -45,4 +45,5 @@ mod wave;
 pub use attachment::{RenderTarget, RenderTargetDescriptor, TargetError};
 pub use draw::{Context, Draw, RenderPass};
 pub use pipeline::{PipelineError, RenderPipeline, RenderPipelineDescriptor};
+pub use schedule::ThreadError;
 pub use statistics::Statistics;

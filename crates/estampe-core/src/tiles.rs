@@ -260,8 +260,8 @@ mod tests {
     #[test]
     fn entries_come_back_by_tile_in_order() {
         let mut bins = Bins::default();
-        for (index, tile) in [7, 3, 7, 9, 3, 7].into_iter().enumerate() {
-            bins.push(tile, BinEntry::Line(index as u32));
+        for (index, tile) in (0..).zip([7, 3, 7, 9, 3, 7]) {
+            bins.push(tile, BinEntry::Line(index));
         }
         bins.sort();
         let lines = |tile| -> Vec<u32> {

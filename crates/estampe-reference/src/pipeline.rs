@@ -9,7 +9,7 @@ use crate::point::{self, PointSurface};
 use crate::raster::{self, QuadCoverage, sample_positions};
 use crate::setup::SortedTriangle;
 use crate::shading::shade_vertex;
-use crate::viewport::{PixelBounds, ViewportTransform};
+use crate::viewport::{PixelBounds, ViewportTransform, is_drawable};
 use crate::{ClipVertex, Target, WindowVertex, fetch, per_sample};
 use estampe_types::shader::{Interpolation, Shader, Varyings};
 use estampe_types::state::{
@@ -116,6 +116,9 @@ pub struct Counts {
 /// It cannot fail: indices out of range and short buffers read zeros, and what is not a number is
 /// dropped or stored as NUMERICS.md says. A draw takes as long as its ranges ask for.
 pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Draw<'_>) -> Counts {
+    if !is_drawable(&state.viewport) {
+        return Counts::default();
+    }
     let mut modes = Vec::new();
     S::Varyings::<f32>::modes(&mut modes);
     let size = [target.width, target.height];

@@ -1,5 +1,6 @@
 //! What is drawn into: one colour and one depth attachment.
 
+use crate::arithmetic::clamp;
 use crate::color;
 use estampe_types::TextureFormat;
 
@@ -42,10 +43,11 @@ impl Target {
         }
     }
 
-    /// Sets every sample to a colour (linear RGBA, converted as a store is) and a depth.
+    /// Sets every sample to a colour (linear RGBA, converted as a store is) and a depth (confined to
+    /// 0..=1).
     pub fn clear(&mut self, color: [f32; 4], depth: f32) {
         self.color.fill(color::encode(self.color_format, color));
-        self.depth.fill(depth);
+        self.depth.fill(clamp(depth, 0.0, 1.0));
     }
 
     /// Where sample `sample` of pixel (x, y) stands in [`Target::color`] and [`Target::depth`].

@@ -29,6 +29,16 @@ pub struct ViewportTransform {
     pub depth_range: [f32; 2],
 }
 
+/// Whether a viewport draws at all: its numbers are ones that the arithmetic was made for.
+#[must_use]
+pub fn is_drawable(viewport: &Viewport) -> bool {
+    let v = viewport;
+    let are_places = [v.x, v.y].map(|edge| (-32_768.0..=32_767.0).contains(&edge));
+    let are_sizes = [v.width, v.height].map(|size| 0.0 < size && size <= 32_768.0);
+    let are_depths = [v.min_depth, v.max_depth].map(|depth| (0.0..=1.0).contains(&depth));
+    [are_places, are_sizes, are_depths] == [[true; 2]; 3]
+}
+
 /// A position in the window: pixels, y down; depth; and 1/w.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WindowPosition {

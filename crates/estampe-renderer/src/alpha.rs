@@ -36,14 +36,20 @@ pub fn composite_over(image: &Image, background: [u8; 3]) -> Image {
         let coverage = f32::from(pixel[3]) / 255.0;
         if pixel[3] < 255 {
             for (code, behind) in pixel.iter_mut().zip(background) {
-                let (own, behind) =
-                    (decode(*code, Encoding::Srgb), decode(behind, Encoding::Srgb));
+                let (own, behind) = (
+                    decode(*code, Encoding::Srgb),
+                    decode(behind, Encoding::Srgb),
+                );
                 *code = encode(own * coverage + behind * (1.0 - coverage), Encoding::Srgb);
             }
         }
         pixel[3] = 255;
     }
-    Image { width: image.width, height: image.height, rgba }
+    Image {
+        width: image.width,
+        height: image.height,
+        rgba,
+    }
 }
 
 pub(crate) fn decode(code: u8, encoding: Encoding) -> f32 {
@@ -53,7 +59,11 @@ pub(crate) fn decode(code: u8, encoding: Encoding) -> f32 {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to 0..=255")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to 0..=255"
+)]
 fn encode(value: f32, encoding: Encoding) -> u8 {
     match encoding {
         Encoding::Linear => (value.clamp(0.0, 1.0) * 255.0 + 0.5).floor() as u8,
@@ -73,7 +83,11 @@ mod tests {
         straighten(&mut rgba, Encoding::Srgb);
         assert_eq!(&rgba[..4], [255, 255, 255, 128]);
         assert_eq!(&rgba[4..], [0, 0, 0, 0, 10, 20, 30, 255]);
-        let image = Image { width: 3, height: 1, rgba };
+        let image = Image {
+            width: 3,
+            height: 1,
+            rgba,
+        };
         let over = composite_over(&image, [0, 0, 0]);
         assert_eq!(over.texel(0, 0), [half, half, half, 255]);
         let over = composite_over(&image, [0xf2; 3]);

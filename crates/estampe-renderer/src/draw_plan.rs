@@ -44,7 +44,10 @@ impl DrawPlan {
             let (pipeline, elements) = draw(planned);
             Draw {
                 vertex_buffers: &planned.vertex_buffers,
-                indices: planned.indices.as_ref().map(|buffer| (buffer, IndexFormat::Uint32)),
+                indices: planned
+                    .indices
+                    .as_ref()
+                    .map(|buffer| (buffer, IndexFormat::Uint32)),
                 ..Draw::new(pipeline, elements)
             }
         });
@@ -94,7 +97,12 @@ impl Planner<'_> {
                 growing.transparent_surfaces[run.surface as usize].clone();
             let elements = 0..element_count(run.indices.len())?;
             let indices = Some(Buffer::from_words(run.indices));
-            growing.plan.draws.push(PlannedDraw { pipeline, vertex_buffers, indices, elements });
+            growing.plan.draws.push(PlannedDraw {
+                pipeline,
+                vertex_buffers,
+                indices,
+                elements,
+            });
         }
         Ok(growing.plan)
     }
@@ -135,15 +143,23 @@ impl Planner<'_> {
         growing: &mut Growing,
     ) -> Result<(), RenderError> {
         element_count(mesh.triangles.len().saturating_mul(3))?;
-        let indices =
-            (!is_unshared).then(|| Buffer::from_words(mesh.triangles.as_flattened()));
-        let whole = [Surface { material: None, triangles: 0..mesh.triangles.len() }];
-        let surfaces = if mesh.surfaces.is_empty() { &whole[..] } else { &mesh.surfaces };
+        let indices = (!is_unshared).then(|| Buffer::from_words(mesh.triangles.as_flattened()));
+        let whole = [Surface {
+            material: None,
+            triangles: 0..mesh.triangles.len(),
+        }];
+        let surfaces = if mesh.surfaces.is_empty() {
+            &whole[..]
+        } else {
+            &mesh.surfaces
+        };
         for surface in surfaces {
             let end = surface.triangles.end.min(mesh.triangles.len());
             let triangles = surface.triangles.start.min(end)..end;
             let style = materials.style(surface.material, mesh)?;
-            if triangles.is_empty() || style.transparency == Transparency::Blended && style.base[3] <= 0.0 {
+            if triangles.is_empty()
+                || style.transparency == Transparency::Blended && style.base[3] <= 0.0
+            {
                 continue;
             }
             let key = PipelineKey {
@@ -166,12 +182,19 @@ impl Planner<'_> {
             let vertex_buffers = buffers_of(&growing.plan.pipelines[pipeline], streams);
             if style.transparency == Transparency::Blended && self.style.shows_transparency() {
                 self.collect_transparent(mesh, triangles, is_unshared, growing);
-                growing.transparent_surfaces.push((pipeline, vertex_buffers));
+                growing
+                    .transparent_surfaces
+                    .push((pipeline, vertex_buffers));
                 continue;
             }
             let elements = element_count(triangles.start * 3)?..element_count(triangles.end * 3)?;
             let indices = indices.clone();
-            growing.plan.draws.push(PlannedDraw { pipeline, vertex_buffers, indices, elements });
+            growing.plan.draws.push(PlannedDraw {
+                pipeline,
+                vertex_buffers,
+                indices,
+                elements,
+            });
         }
         Ok(())
     }
@@ -186,7 +209,11 @@ impl Planner<'_> {
     ) {
         let surface = u32::try_from(growing.transparent_surfaces.len()).unwrap_or(u32::MAX);
         let position = |index: u32| {
-            let position = mesh.positions.get(index as usize).copied().unwrap_or(Vec3::NAN);
+            let position = mesh
+                .positions
+                .get(index as usize)
+                .copied()
+                .unwrap_or(Vec3::NAN);
             self.view.space.unit_from_object(position).as_dvec3()
         };
         for number in triangles {
@@ -200,7 +227,11 @@ impl Planner<'_> {
             } else {
                 triangle
             };
-            growing.transparent.push(DistantTriangle { distance, surface, corners });
+            growing.transparent.push(DistantTriangle {
+                distance,
+                surface,
+                corners,
+            });
         }
     }
 
@@ -228,7 +259,12 @@ impl Planner<'_> {
             growing.plan.pipelines.push(pipeline);
             let pipeline = growing.plan.pipelines.len() - 1;
             let indices = Some(Buffer::from_words(indices));
-            growing.plan.draws.push(PlannedDraw { pipeline, vertex_buffers, indices, elements });
+            growing.plan.draws.push(PlannedDraw {
+                pipeline,
+                vertex_buffers,
+                indices,
+                elements,
+            });
         }
         Ok(())
     }
@@ -239,14 +275,29 @@ impl Planner<'_> {
             TextureFormat::Rgba8UnormSrgb => Encoding::Srgb,
             _ => Encoding::Linear,
         };
-        let background = self.options.background.unwrap_or(RenderOptions::DEFAULT_BACKGROUND);
-        let tone = if is_dark(background) { [0xd8, 0xdc, 0xe2] } else { [0x2c, 0x3a, 0x4a] };
+        let background = self
+            .options
+            .background
+            .unwrap_or(RenderOptions::DEFAULT_BACKGROUND);
+        let tone = if is_dark(background) {
+            [0xd8, 0xdc, 0xe2]
+        } else {
+            [0x2c, 0x3a, 0x4a]
+        };
         let is_depth = self.style.shading == Shading::Depth;
         let (color, haze, fading) = if is_depth {
             ([1.0; 3], [0.0; 3], 1.0)
         } else {
-            let own = if shows_colors { [1.0; 3] } else { tone.map(|code| decode(code, encoding)) };
-            let fading = if self.style.shading.holds_numbers() || shows_colors { 0.0 } else { 0.4 };
+            let own = if shows_colors {
+                [1.0; 3]
+            } else {
+                tone.map(|code| decode(code, encoding))
+            };
+            let fading = if self.style.shading.holds_numbers() || shows_colors {
+                0.0
+            } else {
+                0.4
+            };
             (own, background.map(|code| decode(code, encoding)), fading)
         };
         Marks {
@@ -273,11 +324,17 @@ fn point_size_px(options: &RenderOptions, count: usize) -> f32 {
     let shorter = width.min(height);
     let count = f64::from(u32::try_from(count).unwrap_or(u32::MAX).max(1));
     let share = libm::sqrt(width * height / count) * 0.6;
-    DVec3::splat(share.clamp((shorter / 400.0).max(1.0), (shorter / 50.0).max(1.0))).as_vec3().x
+    DVec3::splat(share.clamp((shorter / 400.0).max(1.0), (shorter / 50.0).max(1.0)))
+        .as_vec3()
+        .x
 }
 
 fn buffers_of(pipeline: &StreamPipeline, streams: &MeshStreams) -> Vec<Buffer> {
-    pipeline.streams.iter().map(|&stream: &VertexStream| streams.get(stream).buffer()).collect()
+    pipeline
+        .streams
+        .iter()
+        .map(|&stream: &VertexStream| streams.get(stream).buffer())
+        .collect()
 }
 
 fn element_count(elements: usize) -> Result<u32, RenderError> {

@@ -57,7 +57,9 @@ pub enum RenderError {
         limit: u32,
     },
     /// One mesh has more corners than can be counted in 32 bits.
-    #[error("a mesh of {elements} triangle corners is too large: 4294967295 are possible; split it")]
+    #[error(
+        "a mesh of {elements} triangle corners is too large: 4294967295 are possible; split it"
+    )]
     TooManyElements {
         /// How many corners, line ends or points.
         elements: usize,
@@ -87,7 +89,14 @@ pub fn render(
     check_size(options, device)?;
     let view = SceneView::new(scene, options);
     let style = frame_style(&view, options);
-    let plan = Planner { scene, options, view: &view, style: &style, device }.plan()?;
+    let plan = Planner {
+        scene,
+        options,
+        view: &view,
+        style: &style,
+        device,
+    }
+    .plan()?;
     let mut target = device.create_render_target(&RenderTargetDescriptor {
         width: options.width,
         height: options.height,
@@ -99,7 +108,11 @@ pub fn render(
 
     let clear = clear_color(options);
     let draws = plan.draws();
-    let pass = RenderPass { clear_colors: Some(vec![clear]), clear_depth: Some(1.0), draws: &draws };
+    let pass = RenderPass {
+        clear_colors: Some(vec![clear]),
+        clear_depth: Some(1.0),
+        draws: &draws,
+    };
     let statistics = device.render(&mut target, &pass);
 
     let start = Instant::now();
@@ -107,14 +120,23 @@ pub fn render(
     if options.background.is_none() {
         straighten(&mut rgba, encoding(options));
     }
-    let image = Image { width: options.width, height: options.height, rgba };
+    let image = Image {
+        width: options.width,
+        height: options.height,
+        rgba,
+    };
     let timings = FrameTimings {
         prepare,
         geometry: statistics.geometry,
         raster: statistics.raster,
         read_back: start.elapsed(),
     };
-    Ok(Frame { image, statistics, timings, camera: view.camera_world() })
+    Ok(Frame {
+        image,
+        statistics,
+        timings,
+        camera: view.camera_world(),
+    })
 }
 
 fn check_size(options: &RenderOptions, device: &Device) -> Result<(), RenderError> {
@@ -124,11 +146,19 @@ fn check_size(options: &RenderOptions, device: &Device) -> Result<(), RenderErro
     if possible.contains(&width) && possible.contains(&height) {
         return Ok(());
     }
-    Err(RenderError::Size { width, height, limit })
+    Err(RenderError::Size {
+        width,
+        height,
+        limit,
+    })
 }
 
 fn encoding(options: &RenderOptions) -> Encoding {
-    if options.shading.holds_numbers() { Encoding::Linear } else { Encoding::Srgb }
+    if options.shading.holds_numbers() {
+        Encoding::Linear
+    } else {
+        Encoding::Srgb
+    }
 }
 
 /// The background as the target's clear colour.
@@ -161,8 +191,14 @@ fn frame_style(view: &SceneView, options: &RenderOptions) -> FrameStyle {
 
 /// Edges that stand out from the background, as wide as suits the picture.
 fn wireframe(transforms: VertexTransforms, options: &RenderOptions) -> Wireframe {
-    let background = options.background.unwrap_or(RenderOptions::DEFAULT_BACKGROUND);
-    let tone = if is_dark(background) { [0xe4, 0xe8, 0xee] } else { [0x1e, 0x2a, 0x38] };
+    let background = options
+        .background
+        .unwrap_or(RenderOptions::DEFAULT_BACKGROUND);
+    let tone = if is_dark(background) {
+        [0xe4, 0xe8, 0xee]
+    } else {
+        [0x1e, 0x2a, 0x38]
+    };
     let [r, g, b] = tone.map(|code| decode(code, Encoding::Srgb));
     let shorter_px = options.width.min(options.height);
     let sixteenths = u16::try_from((shorter_px / 64).clamp(8, 64)).unwrap_or(64);

@@ -21,7 +21,12 @@ pub(crate) struct Materials<'a> {
 
 impl<'a> Materials<'a> {
     pub(crate) fn new(scene: &'a Scene, options: &'a RenderOptions, device: &'a Device) -> Self {
-        Self { scene, options, device, textures: HashMap::new() }
+        Self {
+            scene,
+            options,
+            device,
+            textures: HashMap::new(),
+        }
     }
 
     /// The style of a surface of `mesh` with this material.
@@ -37,14 +42,22 @@ impl<'a> Materials<'a> {
         let is_overridden = self.options.texture.is_some() && !mesh.uvs.is_empty();
         // What paints the surface takes the place of the default grey.
         let is_painted = is_overridden || own.is_none() && has_vertex_colors;
-        let color = if is_painted { glam::Vec3::ONE } else { self.visible(material.base_color) };
+        let color = if is_painted {
+            glam::Vec3::ONE
+        } else {
+            self.visible(material.base_color)
+        };
         let transparency = match material.alpha_mode {
             _ if is_overridden => Transparency::Opaque,
             AlphaMode::Opaque => Transparency::Opaque,
             AlphaMode::Mask => Transparency::Masked,
             AlphaMode::Blend => Transparency::Blended,
         };
-        let texture = if self.reads_textures() { self.texture(material, mesh)? } else { None };
+        let texture = if self.reads_textures() {
+            self.texture(material, mesh)?
+        } else {
+            None
+        };
         Ok(SurfaceStyle {
             gloss: Gloss {
                 specular: material.specular.to_array(),
@@ -107,12 +120,19 @@ impl<'a> Materials<'a> {
             MipGeneration::Full,
             self.device.limits(),
         )?;
-        Ok(Sampled { texture: Arc::new(texture), sampler: SamplerDescriptor::trilinear_repeat() })
+        Ok(Sampled {
+            texture: Arc::new(texture),
+            sampler: SamplerDescriptor::trilinear_repeat(),
+        })
     }
 }
 
 /// The nearest whole exponent from 1 on; readers keep them below 10,000.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to 1..=10,000")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to 1..=10,000"
+)]
 fn whole_exponent(shininess: f32) -> u32 {
     libm::roundf(shininess.clamp(1.0, 10_000.0)) as u32
 }

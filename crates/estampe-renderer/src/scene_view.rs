@@ -68,8 +68,14 @@ impl SceneView {
         let view_from_world = self.camera.frame.view_from_world();
         let lights = options.lights.iter().map(|light| {
             let towards = light.towards_light_world.as_dvec3().normalize_or_zero();
-            let towards = transform_vector(&view_from_world, towards).as_vec3().to_array();
-            ViewLight { towards, color: light.color.to_array(), highlight: 1.0 }
+            let towards = transform_vector(&view_from_world, towards)
+                .as_vec3()
+                .to_array();
+            ViewLight {
+                towards,
+                color: light.color.to_array(),
+                highlight: 1.0,
+            }
         });
         LightRig::given(lights.collect(), ambient)
     }
@@ -95,16 +101,23 @@ impl SceneView {
         let length = |unit: f64| f32_of(unit * self.space.world_per_unit());
         let (near, far) = (length(self.camera.near), length(self.camera.far));
         Camera {
-            eye_world: self.space.world_from_unit(self.camera.frame.eye_world).as_vec3(),
+            eye_world: self
+                .space
+                .world_from_unit(self.camera.frame.eye_world)
+                .as_vec3(),
             target_world: self.space.world_from_unit(self.camera.target).as_vec3(),
             up_world: self.camera.frame.up_world.as_vec3(),
             projection: match self.camera.lens {
-                Lens::Perspective(fov) => {
-                    Projection::Perspective { fov_y_rad: f32_of(fov), near, far }
-                }
-                Lens::Orthographic(half_height) => {
-                    Projection::Orthographic { half_height: length(half_height), near, far }
-                }
+                Lens::Perspective(fov) => Projection::Perspective {
+                    fov_y_rad: f32_of(fov),
+                    near,
+                    far,
+                },
+                Lens::Orthographic(half_height) => Projection::Orthographic {
+                    half_height: length(half_height),
+                    near,
+                    far,
+                },
             },
         }
     }

@@ -11,15 +11,15 @@ use crate::shading::phong::{PhongLight, Tone};
 use crate::shading::surfaces::{Alpha, Painted, PlainPhong, PlainVertexLit, SurfaceLight};
 use crate::shading::vertex_lit::{VertexLight, VertexTone};
 use crate::shading::wireframe::Wireframe;
+use estampe::shader::{FragmentBatch, Interface, VertexBatch};
 use estampe::state::{
     BlendState, ColorTargetState, ColorWrites, CullMode, DepthState, PrimitiveState,
     PrimitiveTopology,
 };
 use estampe::texture::Sampled;
-use estampe::shader::{FragmentBatch, Interface, VertexBatch};
 use estampe::{
-    Bindings, Device, Level, PipelineError, Program, RenderPipeline,
-    RenderPipelineDescriptor, Shader, ShaderProgram, TextureFormat,
+    Bindings, Device, Level, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor,
+    Shader, ShaderProgram, TextureFormat,
 };
 use std::sync::Arc;
 
@@ -70,7 +70,10 @@ struct Look {
 
 impl Look {
     fn new(shader: impl Shader, streams: &[VertexStream]) -> Self {
-        Self { program: Arc::new(ShaderProgram::new(shader)), streams: streams.to_vec() }
+        Self {
+            program: Arc::new(ShaderProgram::new(shader)),
+            streams: streams.to_vec(),
+        }
     }
 }
 
@@ -78,8 +81,14 @@ impl Look {
     /// The same for a shader that discards nothing with these uniforms, so that depth can be tested
     /// before it runs.
     fn without_discarding(self) -> Self {
-        let interface = Interface { discards: false, ..self.program.interface().clone() };
-        let program = Arc::new(NotDiscarding { program: self.program, interface });
+        let interface = Interface {
+            discards: false,
+            ..self.program.interface().clone()
+        };
+        let program = Arc::new(NotDiscarding {
+            program: self.program,
+            interface,
+        });
         Self { program, ..self }
     }
 }
@@ -122,13 +131,25 @@ impl FrameStyle {
     ) -> Result<StreamPipeline, PipelineError> {
         let look = self.look(surface);
         let is_blended = surface.transparency == Transparency::Blended && self.shows_transparency();
-        let primitive = PrimitiveState { cull_mode: self.cull, ..PrimitiveState::default() };
+        let primitive = PrimitiveState {
+            cull_mode: self.cull,
+            ..PrimitiveState::default()
+        };
         let (depth, blend) = if is_blended {
             (DepthState::LESS_READ, Some(BlendState::ALPHA_BLENDING))
         } else {
             (DepthState::LESS_WRITE, None)
         };
-        self.pipeline(device, look, mesh, PipelineState { primitive, depth, blend })
+        self.pipeline(
+            device,
+            look,
+            mesh,
+            PipelineState {
+                primitive,
+                depth,
+                blend,
+            },
+        )
     }
 
     /// The pipeline of points or lines.
@@ -140,8 +161,15 @@ impl FrameStyle {
         mesh: &MeshStreams,
     ) -> Result<StreamPipeline, PipelineError> {
         let look = Look::new(marks, &[VertexStream::Position, VertexStream::Color]);
-        let primitive = PrimitiveState { topology, ..PrimitiveState::default() };
-        let state = PipelineState { primitive, depth: DepthState::LESS_WRITE, blend: None };
+        let primitive = PrimitiveState {
+            topology,
+            ..PrimitiveState::default()
+        };
+        let state = PipelineState {
+            primitive,
+            depth: DepthState::LESS_WRITE,
+            blend: None,
+        };
         self.pipeline(device, look, mesh, state)
     }
 
@@ -176,7 +204,14 @@ impl FrameStyle {
             Shading::Normals => Look::new(Normals { transforms }, &[Position, Normal]),
             Shading::Depth => {
                 let (nearest, furthest) = self.depth_range;
-                Look::new(DepthGrey { transforms, nearest, furthest }, &[Position])
+                Look::new(
+                    DepthGrey {
+                        transforms,
+                        nearest,
+                        furthest,
+                    },
+                    &[Position],
+                )
             }
             Shading::Uv => Look::new(UvColors { transforms }, &[Position, Uv]),
         }
@@ -184,12 +219,22 @@ impl FrameStyle {
 
     fn phong(&self, surface: &SurfaceStyle, tone: Tone) -> SurfaceLight {
         let (transforms, gloss) = (self.transforms, surface.gloss);
-        SurfaceLight::Fragments(PhongLight { transforms, rig: Arc::clone(&self.rig), gloss, tone })
+        SurfaceLight::Fragments(PhongLight {
+            transforms,
+            rig: Arc::clone(&self.rig),
+            gloss,
+            tone,
+        })
     }
 
     fn vertex_lit(&self, surface: &SurfaceStyle, tone: VertexTone) -> SurfaceLight {
         let (transforms, gloss) = (self.transforms, surface.gloss);
-        SurfaceLight::Vertices(VertexLight { transforms, rig: Arc::clone(&self.rig), gloss, tone })
+        SurfaceLight::Vertices(VertexLight {
+            transforms,
+            rig: Arc::clone(&self.rig),
+            gloss,
+            tone,
+        })
     }
 
     fn painted_or_plain(&self, surface: &SurfaceStyle, light: SurfaceLight) -> Look {
@@ -201,12 +246,30 @@ impl FrameStyle {
             Transparency::Blended => Alpha::Kept,
         };
         if texture.is_some() || surface.has_vertex_colors || alpha == Alpha::CutsOut {
-            let shader = Painted { light, factor, texture, alpha };
+            let shader = Painted {
+                light,
+                factor,
+                texture,
+                alpha,
+            };
             let look = Look::new(shader, &[Position, Normal, Uv, Color]);
-            return if alpha == Alpha::CutsOut { look } else { look.without_discarding() };
+            return if alpha == Alpha::CutsOut {
+                look
+            } else {
+                look.without_discarding()
+            };
         }
         let [r, g, b, opacity] = factor;
-        let color = [r, g, b, if alpha == Alpha::Ignored { 1.0 } else { opacity }];
+        let color = [
+            r,
+            g,
+            b,
+            if alpha == Alpha::Ignored {
+                1.0
+            } else {
+                opacity
+            },
+        ];
         match light {
             SurfaceLight::Fragments(light) => {
                 Look::new(PlainPhong { light, color }, &[Position, Normal])
@@ -240,7 +303,10 @@ impl FrameStyle {
             targets: vec![target],
         };
         let pipeline = device.create_render_pipeline(&descriptor)?;
-        Ok(StreamPipeline { pipeline, streams: look.streams })
+        Ok(StreamPipeline {
+            pipeline,
+            streams: look.streams,
+        })
     }
 }
 

@@ -13,7 +13,10 @@ pub struct Bounds {
 
 impl Bounds {
     /// The box that holds nothing.
-    pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+    pub const EMPTY: Self = Self {
+        min: Vec3::INFINITY,
+        max: Vec3::NEG_INFINITY,
+    };
 
     /// The smallest box around all finite points; points with a NaN or infinite coordinate are left out.
     pub fn of(points: impl IntoIterator<Item = Vec3>) -> Self {
@@ -36,18 +39,29 @@ impl Bounds {
     /// The smallest box around both.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
-        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
     }
 
     /// The middle of the box; the origin when empty. Halves first, so it cannot overflow.
     #[must_use]
     pub fn center(&self) -> Vec3 {
-        if self.is_empty() { Vec3::ZERO } else { self.min * 0.5 + self.max * 0.5 }
+        if self.is_empty() {
+            Vec3::ZERO
+        } else {
+            self.min * 0.5 + self.max * 0.5
+        }
     }
 
     /// Length of the diagonal; 0 when empty.
     #[must_use]
     pub fn diagonal(&self) -> f32 {
-        if self.is_empty() { 0.0 } else { (self.max - self.min).length() }
+        if self.is_empty() {
+            0.0
+        } else {
+            (self.max - self.min).length()
+        }
     }
 }

@@ -28,7 +28,11 @@ impl Image {
         while bytes.len() < texels {
             bytes.extend_from_slice(&rgba);
         }
-        Self { width, height, rgba: bytes }
+        Self {
+            width,
+            height,
+            rgba: bytes,
+        }
     }
 
     /// The texel at column `x`, row `y` from the top.
@@ -37,9 +41,17 @@ impl Image {
     /// When the texel lies outside the image.
     #[must_use]
     pub fn texel(&self, x: u32, y: u32) -> [u8; 4] {
-        assert!(x < self.width && y < self.height, "texel ({x}, {y}) outside {self:?}");
+        assert!(
+            x < self.width && y < self.height,
+            "texel ({x}, {y}) outside {self:?}"
+        );
         let at = (y as usize * self.width as usize + x as usize) * 4;
-        [self.rgba[at], self.rgba[at + 1], self.rgba[at + 2], self.rgba[at + 3]]
+        [
+            self.rgba[at],
+            self.rgba[at + 1],
+            self.rgba[at + 2],
+            self.rgba[at + 3],
+        ]
     }
 }
 

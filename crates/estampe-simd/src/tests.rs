@@ -1,5 +1,7 @@
 //! Every operation of [`Lanes`], at every level, against scalar code.
 
+#![expect(clippy::cast_possible_truncation, reason = "tests know their numbers")]
+
 use super::*;
 
 const ODD: [f32; 20] = [

@@ -15,6 +15,7 @@ const SHRINK_STEPS: usize = 400;
 /// # Panics
 /// Where an image differs; the message names the seed and describes a smaller case that differs too.
 pub fn check(topic: &str, count: u64, make: impl Fn(&mut Random) -> Case) {
+    let (mut cases, mut empty) = (0, 0);
     let number = |name: &str| std::env::var(name).ok()?.parse::<u64>().ok();
     let factor = number("ESTAMPE_TEST_FACTOR");
     let seeds = match number("ESTAMPE_TEST_SEED") {
@@ -27,11 +28,42 @@ pub fn check(topic: &str, count: u64, make: impl Fn(&mut Random) -> Case) {
             Some(_) => all_devices(),
             None => some_devices(seed),
         };
-        if let Some(first) = mismatch(&case, &devices) {
-            let (small, difference) = shrunk(case, &devices, first);
-            let words = small.describe();
-            panic!("{topic}, seed {seed}: {difference}\n{words}");
-        }
+        let image = match compare(&case, &devices) {
+            Ok(image) => image,
+            Err(first) => {
+                let (small, difference) = shrunk(case, &devices, first);
+                let words = small.describe();
+                panic!("{topic}, seed {seed}: {difference}\n{words}");
+            }
+        };
+        cases += 1;
+        empty += u64::from(is_of_one_piece(&image));
+    }
+    // Two empty images are equal too: a topic must draw something.
+    assert!(
+        cases < FEW || empty * 4 < cases * 3,
+        "{topic}: {empty} of {cases} cases show nothing"
+    );
+}
+
+/// So few cases may all be empty.
+const FEW: u64 = 8;
+
+/// Whether all pixels are alike, in an image of more than one.
+fn is_of_one_piece(image: &Image) -> bool {
+    let is_same_depth = image.depth.iter().all(|&depth| depth == image.depth[0]);
+    let mut pixels = image.color.chunks(4);
+    let first = pixels.next();
+    image.depth.len() > 1 && is_same_depth && pixels.all(|pixel| Some(pixel) == first)
+}
+
+/// Draws one large case on both sides, at every level.
+///
+/// # Panics
+/// Where an image differs.
+pub fn check_some(topic: &str, case: &Case) {
+    if let Err(difference) = compare(case, &some_devices(1)) {
+        panic!("{topic}: {difference}\n{}", case.describe());
     }
 }
 
@@ -40,26 +72,31 @@ pub fn check(topic: &str, count: u64, make: impl Fn(&mut Random) -> Case) {
 /// # Panics
 /// Where an image differs.
 pub fn check_one(topic: &str, case: &Case) -> Image {
-    if let Some(difference) = mismatch(case, &all_devices()) {
-        panic!("{topic}: {difference}\n{}", case.describe());
+    match compare(case, &all_devices()) {
+        Ok(image) => image,
+        Err(difference) => panic!("{topic}: {difference}\n{}", case.describe()),
     }
-    oracle::draw(case)
 }
 
-/// How the first of some devices whose image is not the oracle's differs from it.
-fn mismatch(case: &Case, devices: &[&Device]) -> Option<String> {
-    let wanted = oracle::draw(case);
-    devices.iter().find_map(|device| {
-        let got = fast_path::draw(device, case);
-        (got != wanted).then(|| difference(case, device, &got, &wanted))
-    })
+/// The image, or how that of the first device whose image is not the oracle's differs from it.
+fn compare(case: &Case, devices: &[&Device]) -> Result<Image, String> {
+    let (wanted, depths) = oracle::draw(case);
+    for device in devices {
+        let got = fast_path::draw(device, case, &depths);
+        if got != wanted {
+            return Err(difference(case, device, &got, &wanted));
+        }
+    }
+    Ok(wanted)
 }
 
 fn difference(case: &Case, device: &Device, got: &Image, wanted: &Image) -> String {
     let pixels = case.size[0] as usize * case.size[1] as usize;
     let color = |image: &Image, at: usize| image.color.get(at * 4..at * 4 + 4).map(<[u8]>::to_vec);
     let differs = |at: &usize| {
-        color(got, *at) != color(wanted, *at) || got.depth.get(*at) != wanted.depth.get(*at)
+        color(got, *at) != color(wanted, *at)
+            || got.depth.get(*at) != wanted.depth.get(*at)
+            || got.matches.get(*at) != wanted.matches.get(*at)
     };
     let all: Vec<_> = (0..pixels).filter(differs).collect();
     let device = fast_path::name(device);
@@ -68,7 +105,8 @@ fn difference(case: &Case, device: &Device, got: &Image, wanted: &Image) -> Stri
     };
     let depth = |image: &Image| image.depth.get(at).map(|&bits| f32::from_bits(bits));
     format!(
-        "{device}: {} pixels differ, first ({}, {}): fast path {:?} depth {:?}, oracle {:?} depth {:?}",
+        "{device}: {} pixels differ, first ({}, {}): fast path {:?} depth {:?}, oracle {:?} depth {:?}; \
+         samples of the oracle's depths {:?} for {:?}",
         all.len(),
         at % case.size[0] as usize,
         at / case.size[0] as usize,
@@ -76,6 +114,8 @@ fn difference(case: &Case, device: &Device, got: &Image, wanted: &Image) -> Stri
         depth(got),
         color(wanted, at),
         depth(wanted),
+        got.matches.get(at),
+        wanted.matches.get(at),
     )
 }
 
@@ -88,7 +128,7 @@ fn shrunk(mut case: Case, devices: &[&Device], mut how: String) -> (Case, String
             if steps > SHRINK_STEPS {
                 return (case, how);
             }
-            if let Some(difference) = mismatch(&smaller, devices) {
+            if let Err(difference) = compare(&smaller, devices) {
                 (case, how) = (smaller, difference);
                 continue 'again;
             }

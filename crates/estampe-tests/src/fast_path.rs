@@ -1,12 +1,16 @@
 //! The image that the fast path draws of a case, on one of the test's devices.
 
 use crate::case::{Case, CaseDraw};
-use crate::oracle::Image;
+use crate::geometry::{Vertex, clip_at};
+use crate::oracle::{Image, SampleDepths};
+use crate::shaders::Colored;
 use estampe::{
     Device, DeviceDescriptor, Draw, Level, Limits, RenderPass, RenderPipeline,
-    RenderPipelineDescriptor, RenderTargetDescriptor,
+    RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor,
 };
-use estampe_types::state::ColorTargetState;
+use estampe_types::state::{
+    BlendState, ColorTargetState, CompareFunction, DepthState, PrimitiveTopology,
+};
 use std::sync::LazyLock;
 
 /// The numbers of threads: one, an even division, and more than this machine may have.
@@ -38,7 +42,7 @@ pub fn all_devices() -> Vec<&'static Device> {
 #[must_use]
 pub fn some_devices(turn: u64) -> Vec<&'static Device> {
     let levels = DEVICES.chunks(THREADS.len());
-    let turns = (turn % THREADS.len() as u64) as usize..;
+    let turns = usize::try_from(turn % THREADS.len() as u64).unwrap_or_default()..;
     levels
         .zip(turns)
         .map(|(of_level, turn)| &of_level[turn % THREADS.len()])
@@ -51,9 +55,10 @@ pub fn name(device: &Device) -> String {
     format!("{} × {} threads", device.level().name(), device.threads())
 }
 
-/// Draws a case. A state that the API refuses is a fault of the test.
+/// Draws a case, and compares the depths of all samples with the oracle's. A state that the API refuses
+/// is a fault of the test.
 #[must_use]
-pub fn draw(device: &Device, case: &Case) -> Image {
+pub fn draw(device: &Device, case: &Case, depths: &SampleDepths) -> Image {
     let [width, height] = case.size;
     let mut target = device
         .create_render_target(&RenderTargetDescriptor {
@@ -63,42 +68,111 @@ pub fn draw(device: &Device, case: &Case) -> Image {
         })
         .expect("a valid target");
     for (number, draws) in case.passes().into_iter().enumerate() {
-        let pipelines: Vec<_> = draws
-            .iter()
-            .map(|draw| pipeline(device, case, draw))
-            .collect();
-        let buffers: Vec<Vec<_>> = draws
-            .iter()
-            .map(|draw| draw.buffers.iter().map(|(_, b)| b.clone()).collect())
-            .collect();
-        let commands: Vec<_> = draws
-            .iter()
-            .zip(pipelines.iter().zip(&buffers))
-            .map(|(draw, (pipeline, buffers))| Draw {
-                pipeline,
-                vertex_buffers: buffers,
-                indices: draw.indices.as_ref().map(|(format, b)| (b, *format)),
-                elements: draw.elements.clone(),
-                instances: draw.instances.clone(),
-                base_vertex: draw.base_vertex,
-                bindings: Some(&draw.bindings),
-                viewport: draw.viewport,
-                scissor: draw.scissor,
-                blend_constant: draw.blend_constant,
-            })
-            .collect();
         let is_first = number == 0;
-        let pass = RenderPass {
+        let clear = RenderPass {
             clear_colors: is_first.then(|| vec![case.clear_color]),
             clear_depth: is_first.then_some(case.clear_depth),
-            draws: &commands,
+            draws: &[],
         };
-        device.render(&mut target, &pass);
+        draw_pass(device, &mut target, case, draws, clear);
     }
+    let color = target.read_color(0);
+    let depth = target.read_depth().iter().map(|z| z.to_bits()).collect();
+    let matches = match depths {
+        Some(depths) => matches(device, &mut target, case, depths),
+        None => Vec::new(),
+    };
     Image {
-        color: target.read_color(0),
-        depth: target.read_depth().iter().map(|z| z.to_bits()).collect(),
+        color,
+        depth,
+        matches,
     }
+}
+
+fn draw_pass(
+    device: &Device,
+    target: &mut RenderTarget,
+    case: &Case,
+    draws: &[CaseDraw],
+    clear: RenderPass<'_>,
+) {
+    let pipelines: Vec<_> = draws
+        .iter()
+        .map(|draw| pipeline(device, case, draw))
+        .collect();
+    let buffers: Vec<Vec<_>> = draws
+        .iter()
+        .map(|draw| draw.buffers.iter().map(|(_, b)| b.clone()).collect())
+        .collect();
+    let commands: Vec<_> = draws
+        .iter()
+        .zip(pipelines.iter().zip(&buffers))
+        .map(|(draw, (pipeline, buffers))| Draw {
+            pipeline,
+            vertex_buffers: buffers,
+            indices: draw.indices.as_ref().map(|(format, b)| (b, *format)),
+            elements: draw.elements.clone(),
+            instances: draw.instances.clone(),
+            base_vertex: draw.base_vertex,
+            bindings: Some(&draw.bindings),
+            viewport: draw.viewport,
+            scissor: draw.scissor,
+            blend_constant: draw.blend_constant,
+        })
+        .collect();
+    let pass = RenderPass {
+        draws: &commands,
+        ..clear
+    };
+    device.render(target, &pass);
+}
+
+/// How many of a pixel's samples hold each of the oracle's four depths: for each of those a point of one
+/// pixel, at that depth and in a channel of its own, is added where depths are equal.
+fn matches(
+    device: &Device,
+    target: &mut RenderTarget,
+    case: &Case,
+    depths: &[[f32; 4]],
+) -> Vec<[u8; 4]> {
+    let points: Vec<_> = (0..case.size[0] * case.size[1])
+        .zip(depths)
+        .flat_map(|(pixel, depths)| {
+            let (x, y) = (pixel % case.size[0], pixel / case.size[0]);
+            let center = [x as f32 + 0.5, y as f32 + 0.5];
+            [0, 1, 2, 3].map(|sample: usize| Vertex {
+                position: clip_at(case.size, center, depths[sample], 1.0),
+                values: std::array::from_fn(|k| f32::from(u8::from(k == sample))),
+            })
+        })
+        .collect();
+    let mut draw = CaseDraw::new(Colored, &points);
+    draw.primitive.topology = PrimitiveTopology::PointList;
+    draw.blend = Some(BlendState::ADDITIVE);
+    draw.depth = Some(DepthState {
+        write_enabled: false,
+        compare: CompareFunction::Equal,
+    });
+    let clear = RenderPass {
+        clear_colors: Some(Vec::new()),
+        clear_depth: None,
+        draws: &[],
+    };
+    draw_pass(device, target, case, &[draw], clear);
+    let mut codes = target.read_color(0).as_chunks::<4>().0.to_vec();
+    if case.format.is_some_and(|format| format.is_srgb()) {
+        // Means of linear values 0 and 1; alpha is as it is.
+        let linear = |code: u8| match code {
+            137 => 64,
+            188 => 128,
+            225 => 191,
+            ends => ends,
+        };
+        for [r, g, b, _] in &mut codes {
+            (*r, *g, *b) = (linear(*r), linear(*g), linear(*b));
+        }
+    }
+    codes
 }
 
 fn pipeline(device: &Device, case: &Case, draw: &CaseDraw) -> RenderPipeline {

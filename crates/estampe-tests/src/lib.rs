@@ -24,6 +24,6 @@ pub mod random;
 pub mod shaders;
 
 pub use case::{Case, CaseDraw};
-pub use compare::{check, check_one};
+pub use compare::{check, check_one, check_some};
 pub use random::Random;
 pub use shaders::TestShader;

@@ -11,11 +11,20 @@ pub struct Image {
     pub color: Vec<u8>,
     /// The bits of the first sample's depths, rows from the top.
     pub depth: Vec<u32>,
+    /// Of each pixel of four samples, how many samples hold the oracle's depth of sample 0, 1, 2 and 3, as
+    /// codes of a resolved target; empty where that is not asked. So the depths of all samples are compared.
+    pub matches: Vec<[u8; 4]>,
 }
+
+/// The largest target, in pixels, of which the depths of all samples are compared.
+const MATCHED_PIXELS: u32 = 700;
+
+/// The depths of all samples of every pixel, if they are to be compared one by one.
+pub type SampleDepths = Option<Vec<[f32; 4]>>;
 
 /// Draws a case.
 #[must_use]
-pub fn draw(case: &Case) -> Image {
+pub fn draw(case: &Case) -> (Image, SampleDepths) {
     let [width, height] = case.size;
     let format = case.format.unwrap_or(TextureFormat::Rgba8Unorm);
     let mut target = Target::new(width, height, case.samples, format);
@@ -28,10 +37,22 @@ pub fn draw(case: &Case) -> Image {
         None => Vec::new(),
     };
     let first_samples = target.depth.iter().step_by(case.samples as usize);
-    Image {
+    let is_matched = case.samples == 4 && case.format.is_some() && width * height <= MATCHED_PIXELS;
+    let depths = is_matched.then(|| target.depth.as_chunks::<4>().0.to_vec());
+    let image = Image {
         color,
         depth: first_samples.map(|depth| depth.to_bits()).collect(),
-    }
+        matches: depths.iter().flatten().map(matches).collect(),
+    };
+    (image, depths)
+}
+
+/// How many of four depths equal each of them, as the mean of four codes 0 or 255.
+fn matches(depths: &[f32; 4]) -> [u8; 4] {
+    depths.map(|wanted| {
+        let equal = depths.iter().filter(|&&depth| depth == wanted).count();
+        [0, 64, 128, 191, 255][equal]
+    })
 }
 
 fn draw_one(target: &mut Target, draw: &CaseDraw) {

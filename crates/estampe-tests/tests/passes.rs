@@ -4,11 +4,11 @@ use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::{
     Colored, Cutout, DepthGiven, FlatColored, GivenDepth, Probe, Scalar, Sized, Uniform,
 };
-use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
+use estampe_tests::{Case, CaseDraw, Random, TestShader, check, check_some};
 use estampe_types::state::{
     BlendState, CompareFunction, CullMode, DepthState, PolygonMode, PrimitiveTopology, ScissorRect,
 };
-use estampe_types::{BindGroup, Binding, Bindings, Buffer, TextureFormat};
+use estampe_types::{BindGroup, Binding, Bindings, Buffer, IndexFormat, TextureFormat};
 use std::sync::Arc;
 
 fn shader(random: &mut Random) -> TestShader {
@@ -116,11 +116,44 @@ fn more_primitives_than_a_chunk_holds() {
 }
 
 #[test]
+fn more_primitives_than_an_item_or_a_wave_holds() {
+    // A million primitives make an item, two million a wave; cut strips keep their winding. The whole
+    // takes half a minute, so only longer runs do it.
+    if std::env::var_os("ESTAMPE_TEST_FACTOR").is_none() {
+        return;
+    }
+    for topology in [
+        PrimitiveTopology::TriangleStrip,
+        PrimitiveTopology::TriangleFan,
+        PrimitiveTopology::LineList,
+    ] {
+        let mut random = Random::new("passes/items", 1);
+        let mut case = Case::new([2, 1], 1);
+        let vertices = triangles(&mut random, Style::Small, case.size, 7);
+        let count = 2_200_001;
+        let indices: Vec<u8> = (0..count).map(|_| (random.bits() % 20) as u8).collect();
+        let mut draw = CaseDraw::new(FlatColored, &vertices);
+        draw.indices = Some((IndexFormat::Uint8, Buffer::from_bytes(&indices)));
+        draw.elements = 0..count;
+        draw.primitive.topology = topology;
+        draw.primitive.cull_mode = CullMode::Back;
+        draw.depth = None;
+        draw.blend = Some(BlendState::ALPHA_BLENDING);
+        case.draws.push(draw.clone());
+        // The second draw begins in the wave that the first one ends in.
+        draw.elements = 0..30;
+        draw.instances = 0..50_000;
+        case.draws.push(draw);
+        check_some("passes/items", &case);
+    }
+}
+
+#[test]
 fn a_pass_without_draws_clears() {
     check("passes/clear", 6, |random| {
         let mut case = Case::random_target(random);
         case.clear_color = random.four(-0.5, 1.5);
-        case.clear_depth = random.unit();
+        case.clear_depth = random.pick(&[0.3, 1.0, -0.5, 7.0, f32::NAN, f32::INFINITY]);
         case.format =
             Some(random.pick(&[TextureFormat::Rgba8Unorm, TextureFormat::Rgba8UnormSrgb]));
         case

@@ -2,7 +2,7 @@
 
 use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::{Colored, Probe, Sized};
-use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
+use estampe_tests::{Case, CaseDraw, Random, TestShader, check, check_one};
 use estampe_types::state::{PolygonMode, PrimitiveTopology, ScissorRect, Viewport};
 
 fn style(random: &mut Random) -> Style {
@@ -92,6 +92,38 @@ fn viewports() {
         case.draws.push(draw);
         case
     });
+}
+
+#[test]
+fn viewports_beyond_their_limits_draw_nothing() {
+    // Few enough that all may be empty: a valid number may come out, too.
+    for seed in 0..40 {
+        let random = &mut Random::new("window/invalid", seed);
+        let mut case = Case::new([20, 20], 1);
+        let mut draw = draw_somewhere(random, &case);
+        let mut numbers = [0.0, 0.0, 20.0, 20.0, 0.0, 1.0];
+        let odd = [
+            32_767.0,
+            32_768.0,
+            32_769.0,
+            -32_769.0,
+            -0.0,
+            1.5,
+            random.odd_number(),
+        ];
+        numbers[random.below(6) as usize] = random.pick(&odd);
+        let [x, y, width, height, min_depth, max_depth] = numbers;
+        draw.viewport = Some(Viewport {
+            x,
+            y,
+            width,
+            height,
+            min_depth,
+            max_depth,
+        });
+        case.draws.push(draw);
+        check_one("window/invalid", &case);
+    }
 }
 
 #[test]

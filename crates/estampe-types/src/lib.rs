@@ -3,9 +3,9 @@
 //!
 //! * [`state`]: what a pipeline is made of, in WebGPU's words: topology, culling, depth, blending,
 //!   write masks, multisampling, vertex layouts, each a value with stated defaults;
-//! * [`format`]: formats of vertices, indices and textures; [`Limits`];
+//! * [`mod@format`]: formats of vertices, indices and textures; [`Limits`];
 //! * [`buffer`], [`texture`], [`bindings`]: data that shaders read, and how a shader finds it;
-//! * [`shader`]: how a shader is written in Rust, and the one interface ([`Program`]) that Rust
+//! * [`mod@shader`]: how a shader is written in Rust, and the one interface ([`Program`]) that Rust
 //!   shaders and compiled text shaders share;
 //! * [`Real`] and the small vectors [`Vec2`], [`Vec3`], [`Vec4`], [`Mat4`]: arithmetic that is written
 //!   once and runs on one fragment, on a 2×2 quad, or on sixteen lanes.

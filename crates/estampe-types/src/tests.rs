@@ -1,5 +1,7 @@
 //! The three kinds of [`Real`] agree to the bit; the functions are as exact as they say.
 
+#![expect(clippy::cast_possible_truncation, reason = "tests know their numbers")]
+
 use super::*;
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 

@@ -1,7 +1,8 @@
 //! The options of `estampe render`, and the help that teaches them.
 
 use crate::values::{
-    self, Background, CullName, Destination, FormatName, ImageFormatName, ShadingName, Source, ViewName,
+    self, Background, CullName, Destination, FormatName, ImageFormatName, ShadingName, Source,
+    ViewName,
 };
 use clap::Args;
 use estampe::Level;
@@ -34,8 +35,8 @@ With --json one object is written to standard output, or to standard error with 
 {path, format, width, height, samples, bytes}, shading, threads, simd, camera, counts {meshes, vertices, \
 triangles, lines, points, materials, textures}, pipeline {vertices_shaded, primitives_in, \
 primitives_clipped, primitives_culled, primitives_binned, fragments_shaded}, timings_ms {read, parse, \
-prepare, geometry, raster, read_back, encode, write, total}, warnings [text], warning_count. A failure gives \
-{error, exit_code}.")]
+texture, device, prepare, geometry, raster, read_back, encode, write, total}, warnings [text], \
+warning_count. Making missing normals is part of parse. A failure gives {error, exit_code}.")]
 pub(crate) struct RenderArgs {
     /// The model: a file, builtin:NAME, or - for standard input
     #[arg(value_name = "MODEL")]
@@ -108,7 +109,13 @@ pub(crate) struct RenderArgs {
     /// in four steps; unlit: colours and textures as they are; wireframe: edges, hidden by faces; normals: red
     /// right, green up, blue towards the eye; depth: white near, black far; uv: u red, v green. The last three
     /// store numbers as they are, without the sRGB curve.
-    #[arg(long, value_name = "STYLE", value_enum, default_value = "phong", hide_possible_values = true)]
+    #[arg(
+        long,
+        value_name = "STYLE",
+        value_enum,
+        default_value = "phong",
+        hide_possible_values = true
+    )]
     #[arg(help_heading = "Look")]
     pub(crate) shading: ShadingName,
 
@@ -131,7 +138,13 @@ pub(crate) struct RenderArgs {
     pub(crate) background: Background,
 
     /// Which faces are left out: none, back (those that turn away) or front
-    #[arg(long, value_name = "FACES", value_enum, default_value = "none", hide_possible_values = true)]
+    #[arg(
+        long,
+        value_name = "FACES",
+        value_enum,
+        default_value = "none",
+        hide_possible_values = true
+    )]
     #[arg(help_heading = "Look")]
     pub(crate) cull: CullName,
 

@@ -29,7 +29,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
 
     let model = Model::read(&args.model, args.format, |stage| progress.stage(stage))?;
     check_drawable(&model)?;
-    let texture = args.texture.as_deref().map(|path| read_texture(path, &model)).transpose()?;
+    let texture_start = Instant::now();
+    let texture = args
+        .texture
+        .as_deref()
+        .map(|path| read_texture(path, &model))
+        .transpose()?;
+    let texture_time = texture_start.elapsed();
 
     progress.stage("drawing");
     let device_start = Instant::now();
@@ -50,12 +56,19 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let written = Encoded {
         format,
         bytes: bytes.len(),
+        texture: texture_time,
         device: device_time,
         encode: encode_time,
         write: write_start.elapsed(),
         total: start.elapsed(),
     };
-    let report = Report { args, model: &model, frame: &frame, device: &device, written };
+    let report = Report {
+        args,
+        model: &model,
+        frame: &frame,
+        device: &device,
+        written,
+    };
     if !args.quiet {
         model.print_warnings();
     }
@@ -91,7 +104,9 @@ fn check_drawable(model: &Model) -> Result<(), Failure> {
     }
     let name = &model.name;
     let advice = "check that it was exported whole";
-    Err(Failure::Input(format!("{name}: there is nothing to draw, no triangle, line or point; {advice}")))
+    Err(Failure::Input(format!(
+        "{name}: there is nothing to draw, no triangle, line or point; {advice}"
+    )))
 }
 
 fn read_texture(path: &std::path::Path, model: &Model) -> Result<Image, Failure> {
@@ -141,7 +156,9 @@ fn options(args: &RenderArgs, texture: Option<Image>) -> RenderOptions {
             projection: if args.ortho {
                 ProjectionKind::Orthographic
             } else {
-                ProjectionKind::Perspective { fov_y_deg: args.fov }
+                ProjectionKind::Perspective {
+                    fov_y_deg: args.fov,
+                }
             },
             margin: args.margin,
         },

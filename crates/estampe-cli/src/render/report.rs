@@ -19,6 +19,7 @@ use std::time::Duration;
 pub(super) struct Encoded {
     pub(super) format: ImageFormat,
     pub(super) bytes: usize,
+    pub(super) texture: Duration,
     pub(super) device: Duration,
     pub(super) encode: Duration,
     pub(super) write: Duration,
@@ -38,7 +39,13 @@ impl Report<'_> {
     /// One line, to standard error.
     pub(super) fn write_summary(&self) {
         let (width, height) = self.args.size;
-        let triangles: usize = self.model.scene.meshes.iter().map(|m| m.triangles.len()).sum();
+        let triangles: usize = self
+            .model
+            .scene
+            .meshes
+            .iter()
+            .map(|m| m.triangles.len())
+            .sum();
         let total = milliseconds(self.written.total);
         let output = self.output_name();
         // Where standard error is closed there is nobody to tell.
@@ -58,7 +65,9 @@ impl Report<'_> {
             writeln!(out, "{object:#}").and_then(|()| out.flush())
         };
         written.map_err(|error| {
-            Failure::Output(format!("the report: {error}; check what reads standard output"))
+            Failure::Output(format!(
+                "the report: {error}; check what reads standard output"
+            ))
         })
     }
 
@@ -97,12 +106,22 @@ impl Report<'_> {
     fn camera(&self) -> Value {
         let camera = &self.frame.camera;
         let (kind, key, value, near, far) = match camera.projection {
-            Projection::Perspective { fov_y_rad, near, far } => {
-                ("perspective", "fov_y_deg", fov_y_rad.to_degrees(), near, far)
-            }
-            Projection::Orthographic { half_height, near, far } => {
-                ("orthographic", "half_height", half_height, near, far)
-            }
+            Projection::Perspective {
+                fov_y_rad,
+                near,
+                far,
+            } => (
+                "perspective",
+                "fov_y_deg",
+                fov_y_rad.to_degrees(),
+                near,
+                far,
+            ),
+            Projection::Orthographic {
+                half_height,
+                near,
+                far,
+            } => ("orthographic", "half_height", half_height, near, far),
         };
         json!({
             "eye": camera.eye_world.to_array(),
@@ -132,6 +151,7 @@ impl Report<'_> {
         let stages = [
             ("read", self.model.read),
             ("parse", self.model.parse),
+            ("texture", written.texture),
             ("device", written.device),
             ("prepare", timings.prepare),
             ("geometry", timings.geometry),
@@ -142,14 +162,19 @@ impl Report<'_> {
             ("total", written.total),
         ];
         let rounded = |time: Duration| (milliseconds(time) * 1e3).round() / 1e3;
-        stages.into_iter().map(|(stage, time)| (stage.to_owned(), json!(rounded(time)))).collect()
+        stages
+            .into_iter()
+            .map(|(stage, time)| (stage.to_owned(), json!(rounded(time))))
+            .collect()
     }
 }
 
 /// What is in a model, in numbers.
 pub(crate) fn counts(model: &Model) -> Value {
     let scene = &model.scene;
-    let sum = |count: fn(&estampe_scene::Mesh) -> usize| -> usize { scene.meshes.iter().map(count).sum() };
+    let sum = |count: fn(&estampe_scene::Mesh) -> usize| -> usize {
+        scene.meshes.iter().map(count).sum()
+    };
     json!({
         "meshes": scene.meshes.len(),
         "vertices": sum(|mesh| mesh.positions.len()),

@@ -4,9 +4,7 @@
 //! §Vertex formats. Bytes beyond a buffer's end read as zeros; what a format lacks is (0, 0, 0, 1).
 
 use crate::pipeline::AttributeSource;
-use estampe_simd::{
-    Bytes, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16,
-};
+use estampe_simd::{Bytes, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
 use estampe_types::{Buffer, VertexFormat};
 
 /// Fills `out` with the scalars of every attribute; `wanted` says how many each location has.

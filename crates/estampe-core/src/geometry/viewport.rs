@@ -46,7 +46,11 @@ impl ViewportTransform {
         Self {
             scale: [sx, sy, far - near],
             offset: [viewport.x + sx, viewport.y + viewport.height * 0.5, near],
-            depth_range: if near < far { [near, far] } else { [far, near] },
+            // Two tests, so that ±0 comes out as min and max of NUMERICS.md give it.
+            depth_range: [
+                if near < far { near } else { far },
+                if near > far { near } else { far },
+            ],
         }
     }
 

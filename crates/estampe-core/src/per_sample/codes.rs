@@ -178,7 +178,10 @@ mod tests {
     fn codes_survive_the_round_trip() {
         for is_srgb in [false, true] {
             for first in (0..256u32).step_by(LANES) {
-                let codes: [u32; LANES] = std::array::from_fn(|i| (first + i as u32) * 0x0101_0101);
+                let mut codes = [0u32; LANES];
+                for (code, lane) in codes.iter_mut().zip(first..) {
+                    *code = lane * 0x0101_0101;
+                }
                 for level in Level::all_available() {
                     let channels = dispatch!(level, s => unpacked(s, codes, is_srgb));
                     for (lane, code) in codes.into_iter().enumerate() {

@@ -40,7 +40,10 @@ impl ViewDirection {
     /// The direction of these angles, in degrees.
     #[must_use]
     pub const fn new(azimuth_deg: f64, elevation_deg: f64) -> Self {
-        Self { azimuth_deg, elevation_deg }
+        Self {
+            azimuth_deg,
+            elevation_deg,
+        }
     }
 
     /// The camera's axes, for Y up: right, up and back (towards the eye).

@@ -63,10 +63,14 @@ pub fn perspective_eye(points: &[DVec3], k: FrameTangents, through: Option<DVec3
     }
     if let Some(t) = through {
         let nearest = |a: f64, b: f64, at: f64, k: f64| ((a - at) / k).max((b + at) / k);
-        let z = nearest(a, b, t.x, k.x).max(nearest(c, d, t.y, k.y)).max(front + CLOSEST);
+        let z = nearest(a, b, t.x, k.x)
+            .max(nearest(c, d, t.y, k.y))
+            .max(front + CLOSEST);
         return DVec3::new(t.x, t.y, at_least_a_step(z, front, points));
     }
-    let z = ((a + b) / (2.0 * k.x)).max((c + d) / (2.0 * k.y)).max(front + CLOSEST);
+    let z = ((a + b) / (2.0 * k.x))
+        .max((c + d) / (2.0 * k.y))
+        .max(front + CLOSEST);
     let z = at_least_a_step(z, front, points);
     let x = centred(points, z, (a - b) / 2.0, |p| p.x);
     let y = centred(points, z, (c - d) / 2.0, |p| p.y);
@@ -77,7 +81,11 @@ pub fn perspective_eye(points: &[DVec3], k: FrameTangents, through: Option<DVec3
 fn at_least_a_step(z: f64, front: f64, points: &[DVec3]) -> f64 {
     let first = points[0];
     let has_no_size = |p: &DVec3| (p.x - first.x).abs() + (p.y - first.y).abs() < CLOSEST;
-    if z - front < 2.0 * CLOSEST && points.iter().all(has_no_size) { front + 2.0 } else { z }
+    if z - front < 2.0 * CLOSEST && points.iter().all(has_no_size) {
+        front + 2.0
+    } else {
+        z
+    }
 }
 
 /// The coordinate of the eye at which the points reach as far to one side as to the other:
@@ -124,10 +132,19 @@ pub fn orthographic_view(
     let middle = through.unwrap_or((least + most) / 2.0).with_z(most.z);
     let reach = (most - middle).max(middle - least);
     let half_height = (reach.x / k.x).max(reach.y / k.y);
-    (middle, if half_height > CLOSEST * CLOSEST { half_height } else { 1.0 })
+    (
+        middle,
+        if half_height > CLOSEST * CLOSEST {
+            half_height
+        } else {
+            1.0
+        },
+    )
 }
 
 fn box_corners() -> Vec<DVec3> {
     let sign = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
-    (0..8).map(|i| DVec3::new(sign(i & 1), sign(i & 2), sign(i & 4))).collect()
+    (0..8)
+        .map(|i| DVec3::new(sign(i & 1), sign(i & 2), sign(i & 4)))
+        .collect()
 }

@@ -103,7 +103,9 @@ impl PlacedCamera {
         };
         let k = FrameTangents::new(width, height, tangent, options.margin);
         match options.eye {
-            Eye::Fitted(direction) => Self::fitted(direction, options.target_world, up, points, lens, k),
+            Eye::Fitted(direction) => {
+                Self::fitted(direction, options.target_world, up, points, lens, k)
+            }
             Eye::At(eye) => Self::standing(eye, options.target_world, up, points, lens, k),
         }
     }
@@ -118,21 +120,34 @@ impl PlacedCamera {
         k: FrameTangents,
     ) -> Self {
         let upright = affine::rotation_between(DVec3::Y, up);
-        let [right, up, back] = direction.axes().map(|axis| transform_vector(&upright, axis));
-        let origin = CameraFrame { right_world: right, up_world: up, back_world: back, eye_world: DVec3::ZERO };
+        let [right, up, back] = direction
+            .axes()
+            .map(|axis| transform_vector(&upright, axis));
+        let origin = CameraFrame {
+            right_world: right,
+            up_world: up,
+            back_world: back,
+            eye_world: DVec3::ZERO,
+        };
         let aligned = align(points, &origin);
         let through = target.map(|t| align_one(t, &origin));
         let (eye, lens) = match lens {
             Lens::Perspective(_) => (fit::perspective_eye(&aligned, k, through), lens),
             Lens::Orthographic(_) => {
                 let (middle, half_height) = fit::orthographic_view(&aligned, k, through);
-                (middle + DVec3::Z * half_height.max(1.0), Lens::Orthographic(half_height))
+                (
+                    middle + DVec3::Z * half_height.max(1.0),
+                    Lens::Orthographic(half_height),
+                )
             }
         };
         let eye_world = right * eye.x + up * eye.y + back * eye.z;
         let (nearest, furthest) = depths(&aligned, eye.z);
         let target = target.unwrap_or(eye_world - back * ((nearest + furthest) / 2.0));
-        let frame = CameraFrame { eye_world, ..origin };
+        let frame = CameraFrame {
+            eye_world,
+            ..origin
+        };
         Self::with_planes(frame, target, lens, (nearest, furthest))
     }
 
@@ -148,7 +163,10 @@ impl PlacedCamera {
         // The model is centred at the origin of its normalised space.
         let target = target.unwrap_or(DVec3::ZERO);
         let frame = CameraFrame::look_at(eye, target, up);
-        let origin = CameraFrame { eye_world: DVec3::ZERO, ..frame };
+        let origin = CameraFrame {
+            eye_world: DVec3::ZERO,
+            ..frame
+        };
         let aligned = align(points, &origin);
         let eye_aligned = align_one(eye, &origin);
         let lens = match lens {
@@ -176,7 +194,14 @@ impl PlacedCamera {
             }
             Lens::Orthographic(_) => (nearest - slack, furthest + slack),
         };
-        Self { frame, target, lens, near, far, depth_range }
+        Self {
+            frame,
+            target,
+            lens,
+            near,
+            far,
+            depth_range,
+        }
     }
 
     /// The projection for a picture of `aspect` = width ÷ height.
@@ -204,7 +229,11 @@ impl PlacedCamera {
 }
 
 fn align_one(p: DVec3, frame: &CameraFrame) -> DVec3 {
-    DVec3::new(p.dot(frame.right_world), p.dot(frame.up_world), p.dot(frame.back_world))
+    DVec3::new(
+        p.dot(frame.right_world),
+        p.dot(frame.up_world),
+        p.dot(frame.back_world),
+    )
 }
 
 fn align(points: &[DVec3], frame: &CameraFrame) -> Vec<DVec3> {
@@ -218,5 +247,7 @@ fn depths(aligned: &[DVec3], eye_z: f64) -> (f64, f64) {
         return (eye_z - 1.0, eye_z + 1.0);
     }
     let depths = aligned.iter().map(|p| eye_z - p.z);
-    depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)))
+    depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| {
+        (a.min(d), b.max(d))
+    })
 }

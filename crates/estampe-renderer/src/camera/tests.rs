@@ -14,7 +14,11 @@ fn named_views_are_exact() {
     assert_eq!(back(ViewDirection::LEFT), -DVec3::X);
     assert_eq!(back(ViewDirection::TOP), DVec3::Y);
     assert_eq!(back(ViewDirection::BOTTOM), -DVec3::Y);
-    assert_eq!(ViewDirection::TOP.axes()[1], -DVec3::Z, "the front is at the bottom");
+    assert_eq!(
+        ViewDirection::TOP.axes()[1],
+        -DVec3::Z,
+        "the front is at the bottom"
+    );
     assert_eq!(ViewDirection::BOTTOM.axes()[1], DVec3::Z);
     let d = back(ViewDirection::default());
     let (a, e) = (30f64.to_radians(), 20f64.to_radians());
@@ -49,19 +53,31 @@ fn cloud(seed: u64, count: usize, extents: DVec3) -> Vec<DVec3> {
         state ^= state << 17;
         (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     };
-    (0..count).map(|_| DVec3::new(next(), next(), next()) * extents).collect()
+    (0..count)
+        .map(|_| DVec3::new(next(), next(), next()) * extents)
+        .collect()
 }
 
 /// Least and greatest window coordinates, in pixels, of the points under a placed camera.
 fn window_extent(camera: &PlacedCamera, points: &[DVec3], size: (u32, u32)) -> [f64; 4] {
     let (width, height) = (f64::from(size.0), f64::from(size.1));
     let clip_from_world = camera.clip_from_view(width / height) * camera.frame.view_from_world();
-    let mut extent = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+    let mut extent = [
+        f64::INFINITY,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::NEG_INFINITY,
+    ];
     for &p in points {
         let ndc = transform_point(&clip_from_world, p);
         assert!((0.0..=1.0).contains(&ndc.z), "clipped in depth: {ndc}");
         let (x, y) = ((ndc.x * 0.5 + 0.5) * width, (0.5 - ndc.y * 0.5) * height);
-        extent = [extent[0].min(x), extent[1].min(y), extent[2].max(x), extent[3].max(y)];
+        extent = [
+            extent[0].min(x),
+            extent[1].min(y),
+            extent[2].max(x),
+            extent[3].max(y),
+        ];
     }
     extent
 }
@@ -75,15 +91,24 @@ fn fits_are_inside_tight_and_centred() {
         ProjectionKind::Orthographic,
     ];
     for seed in 0..40u32 {
-        for extents in [DVec3::ONE, DVec3::new(1.0, 0.05, 0.4), DVec3::new(0.1, 1.0, 0.0)] {
+        for extents in [
+            DVec3::ONE,
+            DVec3::new(1.0, 0.05, 0.4),
+            DVec3::new(0.1, 1.0, 0.0),
+        ] {
             let points = cloud(seed.into(), 3 + seed as usize * 7, extents);
             for size in [(512, 512), (1024, 300), (200, 900)] {
                 for projection in projections {
                     let margin = 0.02 + 0.01 * f64::from(seed % 9);
-                    let direction = ViewDirection::new(f64::from(seed) * 37.0, f64::from(seed) * 4.0 - 80.0);
+                    let direction =
+                        ViewDirection::new(f64::from(seed) * 37.0, f64::from(seed) * 4.0 - 80.0);
                     let eye = Eye::Fitted(direction);
-                    let options =
-                        CameraOptions { eye, projection, margin, ..CameraOptions::default() };
+                    let options = CameraOptions {
+                        eye,
+                        projection,
+                        margin,
+                        ..CameraOptions::default()
+                    };
                     let camera = PlacedCamera::new(&options, DVec3::Y, &points, size);
                     let [left, top, right, bottom] = window_extent(&camera, &points, size);
                     let border = margin * f64::from(size.0.min(size.1));
@@ -99,8 +124,14 @@ fn fits_are_inside_tight_and_centred() {
                     // A wide view may be stopped by the point that is next to the eye instead.
                     let is_close = camera.depth_range.0 < 2e-3;
                     assert!(tight < 1e-5 || is_close, "not tight: {context}");
-                    assert!((free[0] - free[2]).abs() < 1e-3, "not centred in x: {context}");
-                    assert!((free[1] - free[3]).abs() < 1e-3, "not centred in y: {context}");
+                    assert!(
+                        (free[0] - free[2]).abs() < 1e-3,
+                        "not centred in x: {context}"
+                    );
+                    assert!(
+                        (free[1] - free[3]).abs() < 1e-3,
+                        "not centred in y: {context}"
+                    );
                 }
             }
         }
@@ -112,8 +143,11 @@ fn a_given_target_stays_in_the_middle() {
     let points = cloud(5, 50, DVec3::ONE);
     let target = DVec3::new(0.5, 0.2, -0.3);
     for projection in [ProjectionKind::default(), ProjectionKind::Orthographic] {
-        let options =
-            CameraOptions { target_world: Some(target), projection, ..CameraOptions::default() };
+        let options = CameraOptions {
+            target_world: Some(target),
+            projection,
+            ..CameraOptions::default()
+        };
         let camera = PlacedCamera::new(&options, DVec3::Y, &points, (400, 300));
         let middle = window_extent(&camera, &[target], (400, 300));
         assert!((middle[0] - 200.0).abs() < 1e-9 && (middle[1] - 150.0).abs() < 1e-9);
@@ -127,13 +161,19 @@ fn a_given_target_stays_in_the_middle() {
 fn a_given_eye_is_where_the_picture_is_taken() {
     let points = cloud(9, 50, DVec3::splat(0.5));
     let eye = DVec3::new(2.0, 1.0, 3.0);
-    let options = CameraOptions { eye: Eye::At(eye), ..CameraOptions::default() };
+    let options = CameraOptions {
+        eye: Eye::At(eye),
+        ..CameraOptions::default()
+    };
     let camera = PlacedCamera::new(&options, DVec3::Y, &points, (400, 300));
     assert_eq!(camera.frame.eye_world, eye);
     window_extent(&camera, &points, (400, 300));
     // From inside the model, and from the target itself, there is still a valid camera.
     for eye in [DVec3::splat(0.01), DVec3::ZERO, DVec3::Y * 3.0] {
-        let options = CameraOptions { eye: Eye::At(eye), ..options };
+        let options = CameraOptions {
+            eye: Eye::At(eye),
+            ..options
+        };
         let camera = PlacedCamera::new(&options, DVec3::Y, &points, (400, 300));
         assert!(camera.near > 0.0 && camera.far > camera.near);
         assert!(camera.clip_from_view(1.0).is_finite());
@@ -143,7 +183,10 @@ fn a_given_eye_is_where_the_picture_is_taken() {
 #[test]
 fn up_may_point_anywhere() {
     let points = cloud(3, 30, DVec3::ONE);
-    let options = CameraOptions { eye: Eye::Fitted(ViewDirection::FRONT), ..CameraOptions::default() };
+    let options = CameraOptions {
+        eye: Eye::Fitted(ViewDirection::FRONT),
+        ..CameraOptions::default()
+    };
     let camera = PlacedCamera::new(&options, DVec3::Z * 4.0, &points, (100, 100));
     assert_eq!(camera.frame.back_world, -DVec3::Y, "Z up: the front is −y");
     assert_eq!(camera.frame.up_world, DVec3::Z);
@@ -154,15 +197,27 @@ fn up_may_point_anywhere() {
 #[test]
 fn nothing_and_next_to_nothing_can_be_looked_at() {
     let lines_of_sight = [DVec3::ZERO, DVec3::Z * 0.5];
-    for points in [&[][..], &[DVec3::ZERO], &[DVec3::splat(0.3)], &lines_of_sight] {
+    for points in [
+        &[][..],
+        &[DVec3::ZERO],
+        &[DVec3::splat(0.3)],
+        &lines_of_sight,
+    ] {
         for projection in [ProjectionKind::default(), ProjectionKind::Orthographic] {
             let eye = Eye::Fitted(ViewDirection::FRONT);
-            let options = CameraOptions { eye, projection, ..CameraOptions::default() };
+            let options = CameraOptions {
+                eye,
+                projection,
+                ..CameraOptions::default()
+            };
             let camera = PlacedCamera::new(&options, DVec3::Y, points, (640, 480));
             assert!(camera.clip_from_view(4.0 / 3.0).is_finite());
             assert!(camera.far > camera.near);
             let extent = window_extent(&camera, points, (640, 480));
-            assert!(points.is_empty() || (extent[0] - 320.0).abs() < 1e-6, "{extent:?}");
+            assert!(
+                points.is_empty() || (extent[0] - 320.0).abs() < 1e-6,
+                "{extent:?}"
+            );
         }
     }
     let k = FrameTangents::new(100.0, 100.0, 1.0, 0.0);

@@ -29,9 +29,16 @@ const MOST_RUNS: usize = 4096;
 /// ordered by their furthest triangle instead, each sorted inside.
 pub(crate) fn back_to_front(mut triangles: Vec<DistantTriangle>) -> Vec<Run> {
     triangles.sort_by(|a, b| b.distance.total_cmp(&a.distance));
-    let changes = triangles.windows(2).filter(|pair| pair[0].surface != pair[1].surface).count();
+    let changes = triangles
+        .windows(2)
+        .filter(|pair| pair[0].surface != pair[1].surface)
+        .count();
     if changes >= MOST_RUNS {
-        let surfaces = triangles.iter().map(|t| t.surface as usize + 1).max().unwrap_or(0);
+        let surfaces = triangles
+            .iter()
+            .map(|t| t.surface as usize + 1)
+            .max()
+            .unwrap_or(0);
         let mut rank_of_surface = vec![usize::MAX; surfaces];
         for (rank, triangle) in triangles.iter().enumerate() {
             let first = &mut rank_of_surface[triangle.surface as usize];
@@ -43,7 +50,10 @@ pub(crate) fn back_to_front(mut triangles: Vec<DistantTriangle>) -> Vec<Run> {
     for triangle in triangles {
         match runs.last_mut() {
             Some(run) if run.surface == triangle.surface => run.indices.extend(triangle.corners),
-            _ => runs.push(Run { surface: triangle.surface, indices: triangle.corners.to_vec() }),
+            _ => runs.push(Run {
+                surface: triangle.surface,
+                indices: triangle.corners.to_vec(),
+            }),
         }
     }
     runs

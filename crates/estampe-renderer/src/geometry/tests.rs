@@ -7,8 +7,15 @@ use estampe_scene::{Mesh, Scene};
 use glam::{DMat3, DVec3, Vec3};
 
 fn scene_of(positions: &[Vec3], points: &[u32]) -> Scene {
-    let mesh = Mesh { positions: positions.to_vec(), points: points.to_vec(), ..Mesh::default() };
-    Scene { meshes: vec![mesh], ..Scene::default() }
+    let mesh = Mesh {
+        positions: positions.to_vec(),
+        points: points.to_vec(),
+        ..Mesh::default()
+    };
+    Scene {
+        meshes: vec![mesh],
+        ..Scene::default()
+    }
 }
 
 fn space_of(scene: &Scene) -> UnitSpace {
@@ -19,15 +26,27 @@ fn space_of(scene: &Scene) -> UnitSpace {
 #[test]
 fn models_of_any_size_fill_the_cube() {
     for size in [1.0, 1e30, 1e-30, 3.4e38, 1e-44] {
-        let corners = [Vec3::new(-size, 0.0, 0.0), Vec3::new(size, size, size * 0.5)];
+        let corners = [
+            Vec3::new(-size, 0.0, 0.0),
+            Vec3::new(size, size, size * 0.5),
+        ];
         let scene = scene_of(&corners, &[0, 1]);
         let space = space_of(&scene);
         let a = space.unit_from_object(corners[0]);
         let b = space.unit_from_object(corners[1]);
-        assert!((a - Vec3::new(-1.0, -0.5, -0.25)).length() < 0.3, "{size:e}: {a}");
-        assert!((a.x + 1.0).abs() < 1e-6 && (b.x - 1.0).abs() < 1e-6, "{size:e}: {a} {b}");
+        assert!(
+            (a - Vec3::new(-1.0, -0.5, -0.25)).length() < 0.3,
+            "{size:e}: {a}"
+        );
+        assert!(
+            (a.x + 1.0).abs() < 1e-6 && (b.x - 1.0).abs() < 1e-6,
+            "{size:e}: {a} {b}"
+        );
         let back = space.world_from_unit(b.as_dvec3());
-        assert!((back.x / f64::from(size) - 1.0).abs() < 1e-6, "{size:e}: {back}");
+        assert!(
+            (back.x / f64::from(size) - 1.0).abs() < 1e-6,
+            "{size:e}: {back}"
+        );
     }
 }
 
@@ -82,8 +101,17 @@ fn transparent_triangles_go_back_to_front_in_runs() {
         triangle(3.0, 0, 4),
         triangle(f32::NAN, 1, 5),
     ]);
-    let order: Vec<_> = runs.iter().map(|run| (run.surface, run.indices.clone())).collect();
-    assert_eq!(order, [(1, vec![5, 5, 5, 2, 2, 2, 3, 3, 3]), (0, vec![4, 4, 4, 1, 1, 1])]);
+    let order: Vec<_> = runs
+        .iter()
+        .map(|run| (run.surface, run.indices.clone()))
+        .collect();
+    assert_eq!(
+        order,
+        [
+            (1, vec![5, 5, 5, 2, 2, 2, 3, 3, 3]),
+            (0, vec![4, 4, 4, 1, 1, 1])
+        ]
+    );
     // Two surfaces that alternate ten thousand times are drawn one after the other.
     let many = (0..20_000u16).map(|i| triangle(f32::from(i), u32::from(i % 2), u32::from(i)));
     let runs = back_to_front(many.collect());

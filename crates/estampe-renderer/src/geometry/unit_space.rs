@@ -30,12 +30,17 @@ impl UnitSpace {
         }
         let half_side = (most - least).max_element() / 2.0;
         let half_side = if half_side > 0.0 { half_side } else { 1.0 };
-        Self { world_from_object, center_world: (least + most) / 2.0, half_side }
+        Self {
+            world_from_object,
+            center_world: (least + most) / 2.0,
+            half_side,
+        }
     }
 
     /// A vertex.
     pub(crate) fn unit_from_object(&self, position: Vec3) -> Vec3 {
-        self.unit_from_world(self.world_from_object * position.as_dvec3()).as_vec3()
+        self.unit_from_world(self.world_from_object * position.as_dvec3())
+            .as_vec3()
     }
 
     /// A point of the world.
@@ -56,8 +61,14 @@ impl UnitSpace {
 
 /// The finite vertices that a primitive names.
 pub(crate) fn used<'a>(mesh: &'a Mesh, is_used: &'a [bool]) -> impl Iterator<Item = Vec3> + 'a {
-    let named = mesh.positions.iter().zip(is_used).filter(|(_, is_used)| **is_used);
-    named.map(|(&position, _)| position).filter(|position| position.is_finite())
+    let named = mesh
+        .positions
+        .iter()
+        .zip(is_used)
+        .filter(|(_, is_used)| **is_used);
+    named
+        .map(|(&position, _)| position)
+        .filter(|position| position.is_finite())
 }
 
 /// Which vertices of a mesh a triangle, line or point names.

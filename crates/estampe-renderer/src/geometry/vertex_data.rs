@@ -46,12 +46,18 @@ impl StreamData {
         for element in elements {
             words.extend(element.map(f32::to_bits));
         }
-        Self { buffer: Buffer::from_words(words), is_constant: false }
+        Self {
+            buffer: Buffer::from_words(words),
+            is_constant: false,
+        }
     }
 
     /// The same element for all vertices.
     pub(crate) fn constant(element: &[f32]) -> Self {
-        Self { buffer: Buffer::from_f32s(element), is_constant: true }
+        Self {
+            buffer: Buffer::from_f32s(element),
+            is_constant: true,
+        }
     }
 
     /// The buffer; cloning shares it.
@@ -89,13 +95,20 @@ pub(crate) struct MeshStreams {
 impl MeshStreams {
     /// The streams of a mesh. What it lacks is the same for all vertices: no normal, uv (0, 0), white.
     pub(crate) fn shared(mesh: &Mesh, space: &UnitSpace) -> Self {
-        let positions = mesh.positions.iter().map(|&p| space.unit_from_object(p).to_array());
+        let positions = mesh
+            .positions
+            .iter()
+            .map(|&p| space.unit_from_object(p).to_array());
         Self {
             positions: StreamData::per_vertex(positions),
             normals: if mesh.normals.is_empty() {
                 StreamData::constant(&[0.0; 3])
             } else {
-                let sign = if normals_oppose_winding(mesh) { -1.0 } else { 1.0 };
+                let sign = if normals_oppose_winding(mesh) {
+                    -1.0
+                } else {
+                    1.0
+                };
                 StreamData::per_vertex(mesh.normals.iter().map(|&n| (n * sign).to_array()))
             },
             uvs: if mesh.uvs.is_empty() {

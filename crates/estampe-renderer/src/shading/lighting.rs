@@ -37,7 +37,11 @@ impl LightRig {
         let light = |towards: [f64; 3], intensity: f32, tint: [f32; 3], highlight: f32| {
             let unit = glam::DVec3::from(towards).normalize().as_vec3();
             let color = tint.map(|c| c * intensity);
-            ViewLight { towards: unit.to_array(), color, highlight }
+            ViewLight {
+                towards: unit.to_array(),
+                color,
+                highlight,
+            }
         };
         Self {
             lights: vec![
@@ -52,7 +56,11 @@ impl LightRig {
 
     /// Lights of the caller's, and ambient light that is the same from everywhere.
     pub(crate) fn given(lights: Vec<ViewLight>, ambient: f32) -> Self {
-        Self { lights, sky: [ambient; 3], ground: [ambient; 3] }
+        Self {
+            lights,
+            sky: [ambient; 3],
+            ground: [ambient; 3],
+        }
     }
 }
 
@@ -99,7 +107,8 @@ impl LightRig {
                 let r_dot_v = reflected_eye.dot(towards).saturate();
                 let power = maths::powi(r_dot_v, gloss.shininess) * light.highlight;
                 let lit = R::select(n_dot_l.gt(zero), power, zero);
-                added = added + Vec3::uniform(zero, light.color) * Vec3::uniform(zero, gloss.specular) * lit;
+                added = added
+                    + Vec3::uniform(zero, light.color) * Vec3::uniform(zero, gloss.specular) * lit;
             }
         }
         Illumination { diffuse, added }

@@ -37,7 +37,9 @@ impl VertexLight {
     #[inline(always)]
     pub(crate) fn both_sides<R: Real>(&self, position: Vec3<R>, normal: Vec3<R>) -> BothSides<R> {
         let to_eye = match self.tone {
-            VertexTone::Gouraud => self.transforms.eye_direction(self.transforms.view(position)),
+            VertexTone::Gouraud => self
+                .transforms
+                .eye_direction(self.transforms.view(position)),
             VertexTone::Flat => Vec3::uniform(position.x, [0.0, 0.0, 1.0]),
             VertexTone::Unlit => {
                 let one = Vec3::uniform(position.x, [1.0; 3]);
@@ -55,11 +57,7 @@ impl VertexLight {
 
 /// The light of the side that is seen, on the base colour.
 #[inline(always)]
-pub(crate) fn color<R: Real>(
-    base: Vec3<R>,
-    sides: BothSides<R>,
-    front_facing: R::Mask,
-) -> Vec3<R> {
+pub(crate) fn color<R: Real>(base: Vec3<R>, sides: BothSides<R>, front_facing: R::Mask) -> Vec3<R> {
     let (front, front_added, back, back_added) = sides;
     let light = Vec3::select(front_facing, front, back);
     base * light + Vec3::select(front_facing, front_added, back_added)

@@ -46,7 +46,7 @@ estampe::shader! {
             let (a, b) = (corner.x, corner.y);
             let cross = (a.ddx() * b.ddy() - a.ddy() * b.ddx()).abs().max(one * 1e-9);
             let side_px = (one / cross).sqrt();
-            let strength = (side_px * (1.0 / 11.0) + 0.1).saturate();
+            let strength = (side_px * (1.0 / 11.0) + 0.18).saturate();
             let alpha = coverage * strength * self.line[3];
             let line = Vec4::uniform(one, [self.line[0], self.line[1], self.line[2], 1.0]);
             FragmentOut::color(Vec4::uniform(one, self.face).mix(line, alpha))

@@ -27,13 +27,18 @@ pub fn translation(offset: DVec3) -> DMat4 {
 #[must_use]
 pub fn shear(along: DVec3, normal: DVec3) -> DMat4 {
     let column = |axis: DVec3| (axis + along * normal.dot(axis)).extend(0.0);
-    DMat4::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z), DVec4::W)
+    DMat4::from_cols(
+        column(DVec3::X),
+        column(DVec3::Y),
+        column(DVec3::Z),
+        DVec4::W,
+    )
 }
 
 /// Turns by `angle_rad` about the axis `direction` through the origin, counter-clockwise as seen from
 /// where the axis points.
 ///
-/// Rodrigues: R = (1 − c)·d·dᵀ + c·I + s·[d]×, ‖d‖ = 1. A zero direction gives the identity.
+/// Rodrigues: R = (1 − c)·d·dᵀ + c·I + s·`[d]`×, ‖d‖ = 1. A zero direction gives the identity.
 #[must_use]
 pub fn rotation(direction: DVec3, angle_rad: f64) -> DMat4 {
     let d = direction.normalize_or_zero();
@@ -41,8 +46,14 @@ pub fn rotation(direction: DVec3, angle_rad: f64) -> DMat4 {
         return DMat4::IDENTITY;
     }
     let (s, c) = libm::sincos(angle_rad);
-    let column = |axis: DVec3| (d * ((1.0 - c) * d.dot(axis)) + axis * c + d.cross(axis) * s).extend(0.0);
-    DMat4::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z), DVec4::W)
+    let column =
+        |axis: DVec3| (d * ((1.0 - c) * d.dot(axis)) + axis * c + d.cross(axis) * s).extend(0.0);
+    DMat4::from_cols(
+        column(DVec3::X),
+        column(DVec3::Y),
+        column(DVec3::Z),
+        DVec4::W,
+    )
 }
 
 /// Turns about an axis through `point`: T(point) · R · T(−point).
@@ -66,15 +77,23 @@ pub fn rotation_between(from: DVec3, to: DVec3) -> DMat4 {
         let perpendicular = (axis - a * a.dot(axis)).normalize();
         // Half a turn: R = 2·d·dᵀ − I.
         let column = |e: DVec3| (perpendicular * (2.0 * perpendicular.dot(e)) - e).extend(0.0);
-        let half_turn =
-            DMat4::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z), DVec4::W);
+        let half_turn = DMat4::from_cols(
+            column(DVec3::X),
+            column(DVec3::Y),
+            column(DVec3::Z),
+            DVec4::W,
+        );
         return rotation_between(-a, b) * half_turn;
     }
     // Rodrigues with s·d = a × b and c = a · b; 1/(1 + c) = (1 − c)/s².
-    let column = |e: DVec3| {
-        (axis * (axis.dot(e) / (1.0 + cosine)) + e * cosine + axis.cross(e)).extend(0.0)
-    };
-    DMat4::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z), DVec4::W)
+    let column =
+        |e: DVec3| (axis * (axis.dot(e) / (1.0 + cosine)) + e * cosine + axis.cross(e)).extend(0.0);
+    DMat4::from_cols(
+        column(DVec3::X),
+        column(DVec3::Y),
+        column(DVec3::Z),
+        DVec4::W,
+    )
 }
 
 /// T · R · S: scale, then rotate, then move.
@@ -98,14 +117,17 @@ pub fn translation_2d(offset: DVec2) -> DMat3 {
 /// In the plane: x' = x + by.x·y, y' = y + by.y·x.
 #[must_use]
 pub fn shear_2d(by: DVec2) -> DMat3 {
-    DMat3::from_cols(DVec3::new(1.0, by.y, 0.0), DVec3::new(by.x, 1.0, 0.0), DVec3::Z)
+    DMat3::from_cols(
+        DVec3::new(1.0, by.y, 0.0),
+        DVec3::new(by.x, 1.0, 0.0),
+        DVec3::Z,
+    )
 }
 
 /// In the plane: counter-clockwise rotation (x right, y up) about `point`.
 #[must_use]
 pub fn rotation_2d(point: DVec2, angle_rad: f64) -> DMat3 {
     let (s, c) = libm::sincos(angle_rad);
-    let about_origin =
-        DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z);
+    let about_origin = DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z);
     translation_2d(point) * about_origin * translation_2d(-point)
 }

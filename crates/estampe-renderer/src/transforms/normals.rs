@@ -12,7 +12,11 @@ pub fn normal_matrix(world_from_object: &DMat4) -> DMat3 {
     let m = DMat3::from_mat4(*world_from_object);
     let (a, b, c) = (m.x_axis, m.y_axis, m.z_axis);
     let cofactors = DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b));
-    if a.dot(b.cross(c)) < 0.0 { cofactors * -1.0 } else { cofactors }
+    if a.dot(b.cross(c)) < 0.0 {
+        cofactors * -1.0
+    } else {
+        cofactors
+    }
 }
 
 /// The unit normal after a transform; zero when it cannot be told.

@@ -64,7 +64,12 @@ pub fn frustum(f: &Frustum, convention: DepthConvention) -> DMat4 {
     DMat4::from_cols(
         DVec4::new(2.0 * f.near / width, 0.0, 0.0, 0.0),
         DVec4::new(0.0, 2.0 * f.near / height, 0.0, 0.0),
-        DVec4::new((f.right + f.left) / width, (f.top + f.bottom) / height, a, -1.0),
+        DVec4::new(
+            (f.right + f.left) / width,
+            (f.top + f.bottom) / height,
+            a,
+            -1.0,
+        ),
         DVec4::new(0.0, 0.0, b, 0.0),
     )
 }
@@ -81,7 +86,17 @@ pub fn perspective(
 ) -> DMat4 {
     let top = near * libm::tan(fov_y_rad / 2.0);
     let right = top * aspect;
-    frustum(&Frustum { left: -right, right, bottom: -top, top, near, far }, convention)
+    frustum(
+        &Frustum {
+            left: -right,
+            right,
+            bottom: -top,
+            top,
+            near,
+            far,
+        },
+        convention,
+    )
 }
 
 /// The centred perspective with a horizontal opening angle.
@@ -95,7 +110,17 @@ pub fn perspective_horizontal(
 ) -> DMat4 {
     let right = near * libm::tan(fov_x_rad / 2.0);
     let top = right / aspect;
-    frustum(&Frustum { left: -right, right, bottom: -top, top, near, far }, convention)
+    frustum(
+        &Frustum {
+            left: -right,
+            right,
+            bottom: -top,
+            top,
+            near,
+            far,
+        },
+        convention,
+    )
 }
 
 /// The orthographic projection; near and far are distances along −z and may be negative.
@@ -120,7 +145,12 @@ pub fn orthographic(f: &Frustum, convention: DepthConvention) -> DMat4 {
 /// whose eye stands at z = `d`: z is kept, w = 1 − z/d. An infinite `d` is a parallel projection.
 #[must_use]
 pub fn central_teaching(d: f64) -> DMat4 {
-    DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::new(0.0, 0.0, 1.0, -d.recip()), DVec4::W)
+    DMat4::from_cols(
+        DVec4::X,
+        DVec4::Y,
+        DVec4::new(0.0, 0.0, 1.0, -d.recip()),
+        DVec4::W,
+    )
 }
 
 /// The central projection for the pipeline, with planes at z_far < z_near < d:

@@ -39,11 +39,20 @@ impl CameraFrame {
             let right = up.normalize_or_zero().cross(back);
             (right.length_squared() > 1e-20).then(|| right.normalize())
         };
-        let least = if back.y.abs() < 0.8 { DVec3::Y } else { DVec3::Z };
+        let least = if back.y.abs() < 0.8 {
+            DVec3::Y
+        } else {
+            DVec3::Z
+        };
         let right = usable(up_world)
             .or_else(|| usable(least))
             .expect("of Y and Z, the one that is less parallel to `back` makes an angle with it");
-        Self { right_world: right, up_world: back.cross(right), back_world: back, eye_world }
+        Self {
+            right_world: right,
+            up_world: back.cross(right),
+            back_world: back,
+            eye_world,
+        }
     }
 
     /// The camera matrix: columns right, up, back, eye.

@@ -23,7 +23,7 @@ use estampe_simd::Level;
 
 /// A vertex and a fragment shader in Rust.
 ///
-/// Write the implementation inside [`shader!`](crate::shader!): it marks the functions
+/// Write the implementation inside [`shader!`](macro@crate::shader): it marks the functions
 /// `#[inline(always)]`, without which the sixteen-lane form is compiled without SIMD.
 ///
 /// ```

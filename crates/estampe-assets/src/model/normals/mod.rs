@@ -14,7 +14,7 @@
 //!
 //! A point is smooth, and needs one sum only, when each face's normal lies within half the crease angle of
 //! the sum: any two of them are then within the whole of it. Only the other points pay for looking at pairs.
-//! With more than [`creases::MAX_PAIRED`] faces around a point, faces are first gathered into cells of
+//! With more than `creases::MAX_PAIRED` faces around a point, faces are first gathered into cells of
 //! similar direction, and pairs are made of cells; so the time stays linear in the number of triangles,
 //! even when all of them share one vertex.
 

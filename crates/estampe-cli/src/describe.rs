@@ -43,15 +43,26 @@ pub(crate) struct InfoArgs {
 /// Runs the command.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     let model = Model::read(&args.model, args.format, |_| {})?;
-    let report = if args.json { format!("{:#}\n", json(&model)) } else { text(&model) };
+    let report = if args.json {
+        format!("{:#}\n", json(&model))
+    } else {
+        text(&model)
+    };
     let mut out = io::stdout().lock();
-    out.write_all(report.as_bytes()).and_then(|()| out.flush()).map_err(|error| {
-        Failure::Output(format!("the report: {error}; check what reads standard output"))
-    })
+    out.write_all(report.as_bytes())
+        .and_then(|()| out.flush())
+        .map_err(|error| {
+            Failure::Output(format!(
+                "the report: {error}; check what reads standard output"
+            ))
+        })
 }
 
 fn bounds(scene: &Scene) -> Option<Bounds> {
-    let union = scene.meshes.iter().fold(Bounds::EMPTY, |all, mesh| all.union(&mesh.bounds()));
+    let union = scene
+        .meshes
+        .iter()
+        .fold(Bounds::EMPTY, |all, mesh| all.union(&mesh.bounds()));
     (!union.is_empty()).then_some(union)
 }
 
@@ -62,12 +73,19 @@ fn attributes(mesh: &Mesh) -> Vec<&'static str> {
         ("uvs", !mesh.uvs.is_empty()),
         ("colors", !mesh.colors.is_empty()),
     ];
-    has.into_iter().filter(|(_, has)| *has).map(|(name, _)| name).collect()
+    has.into_iter()
+        .filter(|(_, has)| *has)
+        .map(|(name, _)| name)
+        .collect()
 }
 
 /// The materials that a mesh's surfaces name, each once, in order.
 fn materials_of(mesh: &Mesh) -> Vec<usize> {
-    let mut named: Vec<usize> = mesh.surfaces.iter().filter_map(|surface| surface.material).collect();
+    let mut named: Vec<usize> = mesh
+        .surfaces
+        .iter()
+        .filter_map(|surface| surface.material)
+        .collect();
     named.sort_unstable();
     named.dedup();
     named
@@ -139,10 +157,17 @@ fn text(model: &Model) -> String {
     let scene = &model.scene;
     let mut out = String::new();
     let format = model.format.map_or("built-in", |format| format.name());
-    let _ = writeln!(out, "{}: {format}, {} up", model.name, up_name(scene.up).to_uppercase());
+    let _ = writeln!(
+        out,
+        "{}: {format}, {} up",
+        model.name,
+        up_name(scene.up).to_uppercase()
+    );
     if let Value::Object(counts) = counts(model) {
         let counts = counts.iter().filter(|(_, count)| **count != json!(0));
-        let counts: Vec<String> = counts.map(|(name, count)| format!("{count} {name}")).collect();
+        let counts: Vec<String> = counts
+            .map(|(name, count)| format!("{count} {name}"))
+            .collect();
         let _ = writeln!(out, "  {}", counts.join(", "));
     }
     if let Some(bounds) = bounds(scene) {
@@ -152,27 +177,46 @@ fn text(model: &Model) -> String {
         let _ = writeln!(out, "  bounds: none, nothing to draw");
     }
     for mesh in scene.meshes.iter().take(LISTED) {
-        let name = if mesh.name.is_empty() { "(no name)" } else { &mesh.name };
+        let name = if mesh.name.is_empty() {
+            "(no name)"
+        } else {
+            &mesh.name
+        };
         let kinds = [
             (mesh.triangles.len(), "triangles"),
             (mesh.lines.len(), "lines"),
             (mesh.points.len(), "points"),
         ];
-        let kinds: Vec<String> =
-            kinds.iter().filter(|(n, _)| *n > 0).map(|(n, kind)| format!("{n} {kind}")).collect();
+        let kinds: Vec<String> = kinds
+            .iter()
+            .filter(|(n, _)| *n > 0)
+            .map(|(n, kind)| format!("{n} {kind}"))
+            .collect();
         let with = attributes(mesh).join(", ");
-        let with = if with.is_empty() { String::new() } else { format!(", with {with}") };
+        let with = if with.is_empty() {
+            String::new()
+        } else {
+            format!(", with {with}")
+        };
         let _ = writeln!(out, "  mesh {name}: {}{with}", kinds.join(", "));
     }
     list_rest(&mut out, scene.meshes.len(), LISTED, "meshes");
     for material in scene.materials.iter().take(LISTED) {
-        let texture = if material.base_color_texture.is_some() { ", textured" } else { "" };
+        let texture = if material.base_color_texture.is_some() {
+            ", textured"
+        } else {
+            ""
+        };
         let opacity = match material.alpha_mode {
             AlphaMode::Blend => format!(", opacity {}", material.opacity),
             AlphaMode::Mask => ", cut out by alpha".to_owned(),
             AlphaMode::Opaque => String::new(),
         };
-        let _ = writeln!(out, "  material {}: colour {}{opacity}{texture}", material.name, material.base_color);
+        let _ = writeln!(
+            out,
+            "  material {}: colour {}{opacity}{texture}",
+            material.name, material.base_color
+        );
     }
     list_rest(&mut out, scene.materials.len(), LISTED, "materials");
     for image in &scene.images {
