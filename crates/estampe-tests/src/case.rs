@@ -79,7 +79,7 @@ impl Case {
     /// A target of a random, usually small size and a random number of samples.
     #[must_use]
     pub fn random_target(random: &mut Random) -> Self {
-        let sizes = [[64, 64], [33, 20], [17, 40], [63, 65], [1, 1], [70, 5]];
+        let sizes = [[64, 64], [33, 20], [19, 21], [63, 65], [1, 1], [70, 5]];
         let size = random.pick(&sizes);
         Self::new(size, random.pick(&[1, 4]))
     }

@@ -17,7 +17,7 @@ pub struct Image {
 }
 
 /// The largest target, in pixels, of which the depths of all samples are compared.
-const MATCHED_PIXELS: u32 = 700;
+const MATCHED_PIXELS: u32 = 400;
 
 /// The depths of all samples of every pixel, if they are to be compared one by one.
 pub type SampleDepths = Option<Vec<[f32; 4]>>;

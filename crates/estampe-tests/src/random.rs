@@ -42,6 +42,16 @@ impl Random {
         self.bits() % n
     }
 
+    /// An index below `n`.
+    pub fn index(&mut self, n: usize) -> usize {
+        self.bits() as usize % n
+    }
+
+    /// A byte.
+    pub fn byte(&mut self) -> u8 {
+        self.bits().to_be_bytes()[0]
+    }
+
     /// True once in `n` times.
     pub fn once_in(&mut self, n: u32) -> bool {
         self.below(n) == 0
@@ -49,7 +59,7 @@ impl Random {
 
     /// One of some values.
     pub fn pick<T: Clone>(&mut self, from: &[T]) -> T {
-        from[self.bits() as usize % from.len()].clone()
+        from[self.index(from.len())].clone()
     }
 
     /// Four numbers in low..high.

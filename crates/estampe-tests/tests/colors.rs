@@ -81,7 +81,7 @@ fn layers(random: &mut Random, format: TextureFormat) -> Case {
         draw.blend = blend_state(random);
         draw.blend_constant = random.four(-0.3, 1.3);
         draw.write_mask = match random.below(3) {
-            0 => ColorWrites((random.below(16)) as u8),
+            0 => ColorWrites(random.byte() & 0xF),
             _ => ColorWrites::ALL,
         };
         case.draws.push(draw);

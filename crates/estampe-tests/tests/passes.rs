@@ -131,7 +131,7 @@ fn more_primitives_than_an_item_or_a_wave_holds() {
         let mut case = Case::new([2, 1], 1);
         let vertices = triangles(&mut random, Style::Small, case.size, 7);
         let count = 2_200_001;
-        let indices: Vec<u8> = (0..count).map(|_| (random.bits() % 20) as u8).collect();
+        let indices: Vec<u8> = (0..count).map(|_| random.byte() % 20).collect();
         let mut draw = CaseDraw::new(FlatColored, &vertices);
         draw.indices = Some((IndexFormat::Uint8, Buffer::from_bytes(&indices)));
         draw.elements = 0..count;

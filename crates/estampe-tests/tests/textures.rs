@@ -11,9 +11,7 @@ use std::sync::Arc;
 fn texture(random: &mut Random) -> Arc<Texture> {
     let sides = [1, 2, 3, 8, 17, 32];
     let (width, height) = (random.pick(&sides), random.pick(&sides));
-    let texels: Vec<u8> = (0..width * height * 4)
-        .map(|_| (random.bits() >> 24) as u8)
-        .collect();
+    let texels: Vec<u8> = (0..width * height * 4).map(|_| random.byte()).collect();
     let format = random.pick(&[TextureFormat::Rgba8Unorm, TextureFormat::Rgba8UnormSrgb]);
     let mips = random.pick(&[
         MipGeneration::None,

@@ -121,7 +121,7 @@ fn indices_of_every_width() {
         let mut bytes = index_bytes(format, &indices);
         // The buffer ends before the draw does, at times within an index.
         if random.once_in(3) {
-            bytes.truncate(random.below(bytes.len() as u32) as usize);
+            bytes.truncate(random.index(bytes.len()));
         }
         draw.indices = Some((format, Buffer::from_bytes(&bytes)));
         draw.elements = random.pick(&[0..18, 3..18, 0..7, 5..30, 17..17]);
@@ -157,7 +157,7 @@ fn vertex_buffers_that_end_too_soon() {
             .flat_map(|word| word.to_le_bytes())
             .collect();
         // At any byte: within a vertex, an attribute, a number.
-        let kept = random.below(whole.len() as u32 + 1) as usize;
+        let kept = random.index(whole.len() + 1);
         let mut draw = CaseDraw::new(Probe::random(random), &vertices);
         draw.buffers = vec![(vertex_layout(), Buffer::from_bytes(&whole[..kept]))];
         case.draws.push(draw);
@@ -192,7 +192,8 @@ fn formats_strides_and_offsets() {
                 offset,
                 shader_location,
             });
-            offset += format.size_bytes() as u32 + random.pick(&[0, 0, 4, 1, 2]);
+            let size = u32::try_from(format.size_bytes()).expect("at most 16");
+            offset += size + random.pick(&[0, 0, 4, 1, 2]);
         }
         let stride = match random.below(4) {
             0 => 0,
@@ -205,7 +206,7 @@ fn formats_strides_and_offsets() {
             attributes,
         };
         let needed = stride.max(1) * random.pick(&[24, 24, 20, 2]) + offset;
-        let bytes: Vec<u8> = (0..needed).map(|_| (random.bits() >> 24) as u8).collect();
+        let bytes: Vec<u8> = (0..needed).map(|_| random.byte()).collect();
         draw.buffers.push((layout, Buffer::from_bytes(&bytes)));
         draw.instances = random.pick(&[0..1, 0..2, 7..8]);
         draw.depth = None;
