@@ -39,7 +39,7 @@ fn a_later_stage_may_not() {
         1
     );
     assert_eq!(
-        messages_of("geometry/mod", "use crate::tiles::Tiles;").len(),
+        messages_of("geometry/mod", "use crate::raster::Tiles;").len(),
         1
     );
     assert_eq!(
@@ -66,7 +66,7 @@ fn conductors_name_all_and_are_named_by_none() {
     let source = "use crate::{geometry::fetch, raster, attachment::Attachment, Limits};";
     assert_eq!(messages_of("draw", source), [""; 0]);
     assert_eq!(messages_of("raster", "use crate::draw::Draw;").len(), 1);
-    assert_eq!(messages_of("limits", "use crate::raster::Edge;").len(), 1);
+    assert_eq!(messages_of("statistics", "use crate::raster::Edge;").len(), 1);
 }
 
 #[test]
