@@ -41,12 +41,12 @@ pub fn check(topic: &str, count: u64, make: impl Fn(&mut Random) -> Case) {
     }
     // Two empty images are equal too: a topic must draw something.
     assert!(
-        cases < FEW || empty * 4 < cases * 3,
+        count < FEW || empty * 4 < cases * 3,
         "{topic}: {empty} of {cases} cases show nothing"
     );
 }
 
-/// So few cases may all be empty.
+/// A topic of so few cases may show nothing.
 const FEW: u64 = 8;
 
 /// Whether all pixels are alike, in an image of more than one.

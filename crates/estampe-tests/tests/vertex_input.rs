@@ -4,7 +4,7 @@ use estampe_tests::geometry::{
     Style, Vertex, clip_at, triangles, values, vertex_buffer, vertex_layout,
 };
 use estampe_tests::shaders::{Colored, Formats, Indexed, Probe};
-use estampe_tests::{Case, CaseDraw, Random, check};
+use estampe_tests::{Case, CaseDraw, Random, check, check_some};
 use estampe_types::state::{
     PrimitiveTopology, VertexAttribute, VertexBufferLayout, VertexStepMode,
 };
@@ -80,6 +80,21 @@ fn instances() {
         case.draws.push(draw);
         case
     });
+}
+
+#[test]
+fn many_instances_of_a_draw_that_fills_no_group() {
+    // Lanes that a group of sixteen does not use once gathered the instances' first vertices until they
+    // overflowed.
+    let random = &mut Random::new("vertex_input/many", 1);
+    let mut case = Case::new([2, 2], 1);
+    let mut draw = indexed_draw(random, &case);
+    draw.indices = Some((IndexFormat::Uint8, Buffer::from_bytes(&[0, 5, 11])));
+    draw.elements = 0..3;
+    draw.instances = 0..30_000;
+    draw.primitive.topology = PrimitiveTopology::TriangleList;
+    case.draws.push(draw);
+    check_some("vertex_input/many", &case);
 }
 
 #[test]

@@ -96,11 +96,9 @@ pub(crate) fn process(
         work.elements.assemble(local, count, &mut scratch.corners);
         if turn > 0 {
             let base = turn * work.instance_vertices;
-            scratch
-                .corners
-                .iter_mut()
-                .flatten()
-                .for_each(|vertex| *vertex += base);
+            // Only the lanes in use: the others hold what is left of earlier groups.
+            let used = scratch.corners.iter_mut().flat_map(|c| &mut c[..count]);
+            used.for_each(|vertex| *vertex += base);
         }
         match (kind, work.polygon_mode) {
             (PrimitiveKind::Triangles, PolygonMode::Fill) => worker.triangles(count, scratch),
