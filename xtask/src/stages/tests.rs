@@ -66,7 +66,10 @@ fn conductors_name_all_and_are_named_by_none() {
     let source = "use crate::{geometry::fetch, raster, attachment::Attachment, Limits};";
     assert_eq!(messages_of("draw", source), [""; 0]);
     assert_eq!(messages_of("raster", "use crate::draw::Draw;").len(), 1);
-    assert_eq!(messages_of("statistics", "use crate::raster::Edge;").len(), 1);
+    assert_eq!(
+        messages_of("statistics", "use crate::raster::Edge;").len(),
+        1
+    );
 }
 
 #[test]
