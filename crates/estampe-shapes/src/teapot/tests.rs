@@ -250,7 +250,10 @@ fn images_are_not_mirrored_and_stay_in_range() {
 /// A second source: the common OBJ of the teapot is the same surface in steps of a tenth.
 #[test]
 fn agrees_with_the_common_obj() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/models/teapot.obj");
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../../shared/data/models/teapot.obj"
+    );
     let Ok(text) = std::fs::read_to_string(path) else {
         eprintln!("skipped: {path} is not there");
         return;
