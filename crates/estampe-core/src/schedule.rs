@@ -1,8 +1,8 @@
 //! Who does the work: this thread alone, or a pool.
 //!
-//! Work is a slice of independent items; each worker brings its own scratch. The pool is rayon's with
-//! the caller inside (`use_current_thread` is not used, so that a [`Executor`] can be shared and moved;
-//! `install` moves the caller's work into the pool).
+//! Work is a slice of independent items; each worker brings its own scratch. The pool is
+//! rayon's own threads; `install` moves the caller's work into it for a whole pass, so that it is woken
+//! once. (The caller as a member of the pool would save that wake-up, but binds the pool to one thread.)
 
 use std::sync::{Mutex, PoisonError};
 

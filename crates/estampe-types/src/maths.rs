@@ -33,7 +33,7 @@ fn power_of_two<R: Real>(i: R::Int) -> R {
     ((i + i.splat(127)) << 23).to_real_bits()
 }
 
-/// log₂ x, within 3 ulp (absolute error below 2⁻²² near 1) for positive normal x. Zero and
+/// log₂ x, within 3.6·10⁻⁷ times max(|log₂ x|, 1) for positive normal x. Zero and
 /// subnormals give −∞, negative numbers and NaN give NaN, infinity gives infinity.
 ///
 /// x = 2^e·m with m in √½..√2; log₂ m = 2/ln 2 · artanh(s), s = (m − 1)/(m + 1), by its series in s².

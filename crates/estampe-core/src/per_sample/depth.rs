@@ -18,8 +18,8 @@ pub(crate) struct DepthTest {
 
 /// The lanes in which `new OP stored` holds.
 ///
-/// The choice is made anew for every packet, which a branch predictor gets for nothing; a copy of the
-/// loops for each comparison was eight times the code for the same time.
+/// The choice is made anew for every packet, where a branch predictor finds it; a copy of the loops for
+/// each of the eight comparisons, at every level, took the compiler minutes.
 #[inline(always)]
 fn compare<S: Lanes>(
     s: S,

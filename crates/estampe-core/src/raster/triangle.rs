@@ -7,8 +7,8 @@
 //! 126·2²³ in magnitude and fit 32 bits; an edge that does not cross the tile is decided there and then.
 //!
 //! **Two paths.** A triangle whose box lies in few packets goes straight to pixels; others descend
-//! blocks, packets, pixels. Measured on 998 k triangles of about a pixel, the hierarchy would double
-//! their time.
+//! blocks, packets, pixels. With the hierarchy for all, a frame of 998 k triangles of about a pixel took
+//! 63 ms on one core in place of 48 (`estampe-bench --scenes small_tris --threads 1`).
 
 use super::{CoverageList, TileShape, sample_positions};
 use crate::geometry::viewport::PixelRect;

@@ -43,6 +43,20 @@ pub struct Frustum {
     pub far: f64,
 }
 
+impl Frustum {
+    /// The frustum around the −z axis whose window reaches `right` and `top` on the near plane.
+    fn centered(right: f64, top: f64, near: f64, far: f64) -> Self {
+        Self {
+            left: -right,
+            right,
+            bottom: -top,
+            top,
+            near,
+            far,
+        }
+    }
+}
+
 /// The off-centre perspective.
 ///
 /// Clip z = A·z + B and w = −z, with A and B such that z = −n and z = −f land on the convention's
@@ -86,17 +100,7 @@ pub fn perspective(
 ) -> DMat4 {
     let top = near * libm::tan(fov_y_rad / 2.0);
     let right = top * aspect;
-    frustum(
-        &Frustum {
-            left: -right,
-            right,
-            bottom: -top,
-            top,
-            near,
-            far,
-        },
-        convention,
-    )
+    frustum(&Frustum::centered(right, top, near, far), convention)
 }
 
 /// The centred perspective with a horizontal opening angle.
@@ -110,17 +114,7 @@ pub fn perspective_horizontal(
 ) -> DMat4 {
     let right = near * libm::tan(fov_x_rad / 2.0);
     let top = right / aspect;
-    frustum(
-        &Frustum {
-            left: -right,
-            right,
-            bottom: -top,
-            top,
-            near,
-            far,
-        },
-        convention,
-    )
+    frustum(&Frustum::centered(right, top, near, far), convention)
 }
 
 /// The orthographic projection; near and far are distances along −z and may be negative.

@@ -11,7 +11,8 @@ pub(crate) const MAX_COLORS: usize = 8;
 pub struct FragmentIn<'a, R: Real> {
     /// Window-space x, y (pixel centres at ½), z and 1/w, if the shader says that it reads it.
     pub position: Vec4<R>,
-    /// Whether the triangle faces the viewer; true for lines and points.
+    /// Whether the triangle faces the viewer, also where only its edges or vertices are drawn; true for
+    /// primitives that were lines or points from the start.
     pub front_facing: R::Mask,
     /// What the draw binds.
     pub bindings: &'a Bindings,
