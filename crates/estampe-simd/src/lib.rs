@@ -26,7 +26,7 @@ mod level;
 
 pub use fearless_simd::{
     Bytes, ExtractToken, Select, Simd, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, SimdInt,
-    SimdInto, SimdMask, f32x16, i32x16, mask32x16, u32x16,
+    SimdInto, SimdMask, f32x4, f32x16, i32x16, mask32x16, u32x16,
 };
 pub use lanes::Lanes;
 pub use level::{Level, LevelError};

@@ -15,6 +15,7 @@
 //! times slower for filling (every packet touches four lines); it is made once, on read-back.
 
 mod readback;
+mod storage;
 mod target;
 
 pub use target::{RenderTarget, RenderTargetDescriptor, TargetError};

@@ -1,5 +1,6 @@
 //! A render target: colour attachments and a depth attachment of one size.
 
+use super::storage::Lines;
 use crate::layout::TileGrid;
 use estampe_types::{Limits, TextureFormat};
 
@@ -85,9 +86,9 @@ pub struct RenderTarget {
     pub(super) descriptor: RenderTargetDescriptor,
     pub(super) grid: TileGrid,
     /// One element per sample, in storage order; RGBA8 with R in the low byte.
-    pub(crate) colors: Vec<Vec<u32>>,
+    pub(crate) colors: Vec<Lines<u32>>,
     /// One element per sample, in storage order; empty without depth.
-    pub(crate) depth: Vec<f32>,
+    pub(crate) depth: Lines<f32>,
 }
 
 impl RenderTarget {
@@ -109,10 +110,13 @@ impl RenderTarget {
         let error = TargetError::OutOfMemory {
             bytes: elements as u64 * 4 * attachments as u64,
         };
-        let colors = descriptor.color_formats.iter().map(|_| zeros(elements));
-        let colors: Option<Vec<Vec<u32>>> = colors.collect();
+        let colors = descriptor
+            .color_formats
+            .iter()
+            .map(|_| Lines::zeros(elements));
+        let colors: Option<Vec<_>> = colors.collect();
         let colors = colors.ok_or_else(|| error.clone())?;
-        let depth = zeros(if descriptor.depth { elements } else { 0 }).ok_or(error)?;
+        let depth = Lines::zeros(if descriptor.depth { elements } else { 0 }).ok_or(error)?;
         Ok(Self {
             descriptor: descriptor.clone(),
             grid,
@@ -194,12 +198,4 @@ fn check(descriptor: &RenderTargetDescriptor, limits: &Limits) -> Result<(), Tar
         }
     }
     Ok(())
-}
-
-/// Zeros, or `None` when memory is short.
-fn zeros<T: Clone + Default>(len: usize) -> Option<Vec<T>> {
-    let mut values = Vec::new();
-    values.try_reserve_exact(len).ok()?;
-    values.resize(len, T::default());
-    Some(values)
 }

@@ -9,9 +9,6 @@ use crate::tiles::{LinePrimitive, Plane, PointPrimitive, TrianglePacket, VertexR
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x16, i32x16};
 use estampe_types::Interpolation;
 
-/// The most scalars that fragments read.
-pub(crate) const MAX_SCALARS: usize = 64;
-
 /// The varyings of a draw's vertices.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct VaryingSource<'a> {
@@ -46,17 +43,16 @@ pub(crate) trait Surface<S: Lanes> {
     fn varyings(&self, s: S, pixel: [i32; 2], out: &mut [Packet<f32>]);
 }
 
-/// The window coordinates of a packet's pixels: an integer plus the lane's column or row plus an offset.
+/// Columns (or rows) of a packet's lanes.
 #[inline(always)]
-fn coordinate<S: Lanes>(s: S, pixel: i32, lanes: &[u8; LANES], offset: f32) -> f32x16<S> {
-    let mut position = [0.0; LANES];
+fn lane_steps<S: Lanes>(s: S, lanes: &[u8; LANES]) -> f32x16<S> {
+    let mut steps = [0.0; LANES];
     let mut lane = 0;
     while lane < LANES {
-        position[lane] = lanes[lane] as f32 + offset;
+        steps[lane] = lanes[lane] as f32;
         lane += 1;
     }
-    // Both addends have few bits: the sum is exact.
-    f32x16::load_array(s, position) + <f32x16<S> as SimdBase<S>>::splat(s, pixel as f32)
+    f32x16::load_array(s, steps)
 }
 
 /// The origin of a triangle's planes: its first sorted vertex, in pixels.
@@ -76,6 +72,9 @@ impl PlaneOrigin {
     }
 
     /// Distances of the packet's pixels (at an offset in each) from the origin.
+    ///
+    /// Positions and offsets are multiples of 1/256 and distances below 2¹⁶, so every sum here is exact, in
+    /// whatever order it is taken.
     #[inline(always)]
     pub(crate) fn distances<S: Lanes>(
         &self,
@@ -83,11 +82,38 @@ impl PlaneOrigin {
         [x, y]: [i32; 2],
         [sx, sy]: [f32; 2],
     ) -> [f32x16<S>; 2] {
-        let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
-        [
-            coordinate(s, x, &LANE_X, sx) - splat(self.x),
-            coordinate(s, y, &LANE_Y, sy) - splat(self.y),
-        ]
+        [self.columns_from(s, x, sx), self.rows_from(s, y, sy)]
+    }
+
+    /// [`PlaneOrigin::distances`] of the columns alone.
+    #[inline(always)]
+    pub(crate) fn columns_from<S: Lanes>(&self, s: S, x: i32, offset: f32) -> f32x16<S> {
+        let first = x as f32 + offset - self.x;
+        lane_steps(s, &LANE_X) + <f32x16<S> as SimdBase<S>>::splat(s, first)
+    }
+
+    /// [`PlaneOrigin::distances`] of the rows alone.
+    #[inline(always)]
+    pub(crate) fn rows_from<S: Lanes>(&self, s: S, y: i32, offset: f32) -> f32x16<S> {
+        let first = y as f32 + offset - self.y;
+        lane_steps(s, &LANE_Y) + <f32x16<S> as SimdBase<S>>::splat(s, first)
+    }
+}
+
+/// The depth of a triangle, over the window.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DepthPlane {
+    pub(crate) origin: PlaneOrigin,
+    pub(crate) z: Plane,
+}
+
+impl DepthPlane {
+    #[inline(always)]
+    pub(crate) fn new(packet: &TrianglePacket, lane: usize) -> Self {
+        Self {
+            origin: PlaneOrigin::new(packet, lane),
+            z: packet.z.lane(lane),
+        }
     }
 }
 
@@ -104,60 +130,90 @@ pub(crate) fn evaluate<S: Lanes>(s: S, plane: &Plane, [dx, dy]: [f32x16<S>; 2]) 
     splat(plane.origin) + (dx * splat(plane.dx) + dy * splat(plane.dy))
 }
 
-/// Planes of all varyings of one triangle.
-#[derive(Debug, Clone)]
-pub(crate) struct VaryingPlanes {
-    origin: [f32; MAX_SCALARS],
-    dx: [f32; MAX_SCALARS],
-    dy: [f32; MAX_SCALARS],
+/// Planes of a triangle's varyings: scalar `k` is `origin[k]`, `dx[k]`, `dy[k]`.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct VaryingPlanes<'a> {
+    origin: &'a [f32],
+    dx: &'a [f32],
+    dy: &'a [f32],
 }
 
-impl Default for VaryingPlanes {
-    fn default() -> Self {
-        Self::ZERO
+impl<'a> VaryingPlanes<'a> {
+    /// Numbers that the planes of `scalars` varyings take.
+    #[inline(always)]
+    pub(crate) fn size(scalars: usize) -> usize {
+        scalars * 3
+    }
+
+    /// What [`set_planes`] wrote.
+    #[inline(always)]
+    pub(crate) fn new(numbers: &'a [f32]) -> Self {
+        let n = numbers.len() / 3;
+        let (origin, rest) = numbers.split_at(n);
+        let (dx, rest) = rest.split_at(n);
+        Self {
+            origin,
+            dx,
+            dy: &rest[..n],
+        }
+    }
+
+    /// How many there are.
+    #[inline(always)]
+    pub(super) fn len(&self) -> usize {
+        self.origin.len()
+    }
+
+    /// The plane of scalar `k`.
+    #[inline(always)]
+    pub(super) fn of(&self, k: usize) -> Plane {
+        Plane {
+            origin: self.origin[k],
+            dx: self.dx[k],
+            dy: self.dy[k],
+        }
     }
 }
 
-impl VaryingPlanes {
-    pub(crate) const ZERO: Self = Self {
-        origin: [0.0; MAX_SCALARS],
-        dx: [0.0; MAX_SCALARS],
-        dy: [0.0; MAX_SCALARS],
-    };
-
-    /// Sets the planes of a lane's triangle.
-    #[inline(always)]
-    pub(crate) fn set(&mut self, packet: &TrianglePacket, lane: usize, source: &VaryingSource<'_>) {
-        let vertex = |corner: usize| source.of(packet.vertex[corner][lane]);
-        let (a0, a1, a2) = (vertex(0), vertex(1), vertex(2));
-        let n = source.modes.len().min(MAX_SCALARS);
-        let iw = [
-            packet.iw_at[0][lane],
-            packet.iw_at[1][lane],
-            packet.iw_at[2][lane],
-        ];
-        let perspective = packet.equal_w >> lane & 1 == 0;
-        let difference =
-            |of: &[[i32; LANES]; 3], corner: usize| pixels(of[corner][lane] - of[0][lane]);
-        let (dx1, dy1) = (difference(&packet.x, 1), difference(&packet.y, 1));
-        let (dx2, dy2) = (difference(&packet.x, 2), difference(&packet.y, 2));
-        let r = packet.r[lane];
-        for k in 0..n {
-            // The factor of modes without perspective is 1, and a product with 1 changes nothing.
-            let by_w = perspective && source.modes[k] == Interpolation::Smooth;
-            let w = if by_w { iw } else { [1.0; 3] };
-            let (p0, p1, p2) = (a0[k] * w[0], a1[k] * w[1], a2[k] * w[2]);
-            let (e1, e2) = (p1 - p0, p2 - p0);
-            self.origin[k] = p0;
-            self.dx[k] = (e1 * dy2 - e2 * dy1) * r;
-            self.dy[k] = (e2 * dx1 - e1 * dx2) * r;
-        }
-        if source.modes.contains(&Interpolation::Flat) {
-            let provoking = source.of(packet.provoking[lane]);
-            for (k, &value) in provoking.iter().enumerate().take(n) {
-                if source.modes[k] == Interpolation::Flat {
-                    (self.origin[k], self.dx[k], self.dy[k]) = (value, 0.0, 0.0);
-                }
+/// Writes the planes of a lane's triangle to [`VaryingPlanes::size`] numbers.
+#[inline(always)]
+pub(crate) fn set_planes(
+    out: &mut [f32],
+    packet: &TrianglePacket,
+    lane: usize,
+    source: &VaryingSource<'_>,
+) {
+    let vertex = |corner: usize| source.of(packet.vertex[corner][lane]);
+    let (a0, a1, a2) = (vertex(0), vertex(1), vertex(2));
+    let n = source.modes.len();
+    let (origin, rest) = out.split_at_mut(n);
+    let (dx, dy) = rest.split_at_mut(n);
+    let dy = &mut dy[..n];
+    let iw = [
+        packet.iw_at[0][lane],
+        packet.iw_at[1][lane],
+        packet.iw_at[2][lane],
+    ];
+    let perspective = packet.equal_w >> lane & 1 == 0;
+    let difference = |of: &[[i32; LANES]; 3], corner: usize| pixels(of[corner][lane] - of[0][lane]);
+    let (dx1, dy1) = (difference(&packet.x, 1), difference(&packet.y, 1));
+    let (dx2, dy2) = (difference(&packet.x, 2), difference(&packet.y, 2));
+    let r = packet.r[lane];
+    for k in 0..n {
+        // The factor of modes without perspective is 1, and a product with 1 changes nothing.
+        let by_w = perspective && source.modes[k] == Interpolation::Smooth;
+        let w = if by_w { iw } else { [1.0; 3] };
+        let (p0, p1, p2) = (a0[k] * w[0], a1[k] * w[1], a2[k] * w[2]);
+        let (e1, e2) = (p1 - p0, p2 - p0);
+        origin[k] = p0;
+        dx[k] = (e1 * dy2 - e2 * dy1) * r;
+        dy[k] = (e2 * dx1 - e1 * dx2) * r;
+    }
+    if source.modes.contains(&Interpolation::Flat) {
+        let provoking = source.of(packet.provoking[lane]);
+        for (k, &value) in provoking.iter().enumerate().take(n) {
+            if source.modes[k] == Interpolation::Flat {
+                (origin[k], dx[k], dy[k]) = (value, 0.0, 0.0);
             }
         }
     }
@@ -171,7 +227,7 @@ pub(crate) struct TriangleSurface<'a> {
     pub(crate) iw: Plane,
     /// Whether the three 1/w are equal in bits.
     pub(crate) equal_w: bool,
-    pub(crate) planes: &'a VaryingPlanes,
+    pub(crate) planes: VaryingPlanes<'a>,
     pub(crate) modes: &'a [Interpolation],
     /// Whether every varying is smooth, which needs no look at the modes.
     pub(crate) all_smooth: bool,
@@ -195,33 +251,27 @@ impl<S: Lanes> Surface<S> for TriangleSurface<'_> {
     fn varyings(&self, s: S, pixel: [i32; 2], out: &mut [Packet<f32>]) {
         let distances = self.origin.distances(s, pixel, [0.5; 2]);
         let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
-        let n = out.len().min(MAX_SCALARS);
+        let n = out.len().min(self.planes.len());
         let planes = self.planes;
-        let (origin, dx, dy) = (&planes.origin[..n], &planes.dx[..n], &planes.dy[..n]);
-        let plane = |k: usize| Plane {
-            origin: origin[k],
-            dx: dx[k],
-            dy: dy[k],
-        };
         // Not from the plane, whose sum would turn −0 into 0.
         let is_flat = |k: usize| !self.all_smooth && self.modes[k] == Interpolation::Flat;
         if self.equal_w {
             for (k, packet) in out.iter_mut().enumerate().take(n) {
                 if is_flat(k) {
-                    packet.0 = [origin[k]; LANES];
+                    packet.0 = [planes.origin[k]; LANES];
                     continue;
                 }
-                evaluate(s, &plane(k), distances).store_array(&mut packet.0);
+                evaluate(s, &planes.of(k), distances).store_array(&mut packet.0);
             }
             return;
         }
         let w = one / evaluate(s, &self.iw, distances);
         for (k, packet) in out.iter_mut().enumerate().take(n) {
             if is_flat(k) {
-                packet.0 = [origin[k]; LANES];
+                packet.0 = [planes.origin[k]; LANES];
                 continue;
             }
-            let mut value = evaluate(s, &plane(k), distances);
+            let mut value = evaluate(s, &planes.of(k), distances);
             if self.all_smooth || self.modes[k] == Interpolation::Smooth {
                 value *= w;
             }

@@ -8,4 +8,6 @@
 
 pub(crate) mod interpolate;
 
+pub(crate) mod quad;
+
 pub(crate) mod queue;

@@ -1,20 +1,26 @@
 //! Packets of fragments that wait to be shaded together.
 
-use super::interpolate::Surface;
+use super::interpolate::{Surface, TriangleSurface};
+use super::quad::QUAD;
 use crate::pipeline::RenderPipeline;
 use crate::raster::Covered;
-use estampe_simd::{Lanes, Level, Packet, SimdBase, f32x16};
+use estampe_simd::{LANES, Lanes, Level, Packet, SimdBase, f32x16};
 use estampe_types::shader::DepthOutput;
 use estampe_types::{Bindings, FragmentBatch};
 
 /// Packets that are shaded in one call.
 pub(crate) const CAPACITY: usize = 16;
 
+/// Quads of a packet.
+const QUADS: usize = LANES / QUAD;
+
 /// Where a queued packet came from.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Queued<const N: usize> {
-    /// Packet of the tile, and its samples that are covered.
-    pub(crate) covered: Covered<N>,
+struct Queued<const N: usize> {
+    /// Packet of the tile, and by lane the samples that are covered.
+    covered: Covered<N>,
+    /// Where its four quads belong (packet·4 + quad), if they do not belong to one packet.
+    places: Option<[u16; QUADS]>,
 }
 
 /// Shader inputs and outputs of up to [`CAPACITY`] packets, structure of arrays.
@@ -24,6 +30,8 @@ pub(crate) struct FragmentQueue<const N: usize> {
     scalars: usize,
     targets: usize,
     queued: [Queued<N>; CAPACITY],
+    /// The packet that is being filled with quads, and how many it has.
+    open: Option<(usize, usize)>,
     varyings: Vec<Packet<f32>>,
     positions: [[Packet<f32>; 4]; CAPACITY],
     front_facing: [u16; CAPACITY],
@@ -44,7 +52,11 @@ impl<const N: usize> Default for FragmentQueue<N> {
             len: 0,
             scalars: 0,
             targets: 0,
-            queued: [Queued { covered }; CAPACITY],
+            queued: [Queued {
+                covered,
+                places: None,
+            }; CAPACITY],
+            open: None,
             varyings: Vec::new(),
             positions: [[Packet::default(); 4]; CAPACITY],
             front_facing: [0; CAPACITY],
@@ -61,6 +73,8 @@ impl<const N: usize> Default for FragmentQueue<N> {
 pub(crate) struct Shaded<'a, const N: usize> {
     /// Packet of the tile, and its samples that are covered and not discarded.
     pub(crate) covered: Covered<N>,
+    /// Where its quads belong (packet·4 + quad), if they are of several packets.
+    pub(crate) places: Option<[u16; QUADS]>,
     /// R, G, B, A of each target.
     pub(crate) colors: &'a [Packet<f32>],
     /// Depth of each sample, where depth is tested after shading.
@@ -87,6 +101,12 @@ impl<const N: usize> FragmentQueue<N> {
         self.len >= CAPACITY
     }
 
+    /// Whether another quad finds no place.
+    #[inline(always)]
+    pub(crate) fn is_full_of_quads(&self) -> bool {
+        self.is_full() && self.open.is_none_or(|(_, quads)| quads >= QUADS)
+    }
+
     #[inline(always)]
     pub(crate) fn is_empty(&self) -> bool {
         self.len == 0
@@ -104,7 +124,10 @@ impl<const N: usize> FragmentQueue<N> {
     ) {
         let depth_range = needs.depth_range;
         let slot = self.len % CAPACITY;
-        self.queued[slot] = Queued { covered };
+        self.queued[slot] = Queued {
+            covered,
+            places: None,
+        };
         self.coverage[slot] = covered.any();
         self.front_facing[slot] = if front { u16::MAX } else { 0 };
         let out = &mut self.varyings[slot * self.scalars..][..self.scalars];
@@ -133,6 +156,57 @@ impl<const N: usize> FragmentQueue<N> {
             }
         }
         self.len += 1;
+    }
+
+    /// Queues quad `place` (packet·4 + quad) of a triangle, its first pixel being the target's (x, y); of each
+    /// sample's mask the quad's own four bits count.
+    #[inline(always)]
+    pub(crate) fn push_quad<S: Lanes>(
+        &mut self,
+        s: S,
+        surface: &TriangleSurface<'_>,
+        (place, masks, pixel): (u16, [u16; N], [i32; 2]),
+        front: bool,
+        needs: Needs,
+    ) {
+        let (slot, quad) = match self.open {
+            Some((slot, quad)) if quad < QUADS => (slot % CAPACITY, quad),
+            _ => {
+                let slot = self.len % CAPACITY;
+                self.len += 1;
+                self.queued[slot] = Queued {
+                    covered: Covered {
+                        packet: 0,
+                        masks: [0; N],
+                    },
+                    places: Some([place; QUADS]),
+                };
+                (self.coverage[slot], self.front_facing[slot]) = (0, 0);
+                (slot, 0)
+            }
+        };
+        self.open = Some((slot, quad + 1));
+        let shift = quad * QUAD;
+        let queued = &mut self.queued[slot];
+        if let Some(places) = &mut queued.places {
+            places[quad] = place;
+        }
+        let mut any = 0;
+        for (to, mask) in queued.covered.masks.iter_mut().zip(masks) {
+            let lanes = (mask & 0xF) << shift;
+            *to |= lanes;
+            any |= lanes;
+        }
+        self.coverage[slot] |= any;
+        if front {
+            self.front_facing[slot] |= 0xF << shift;
+        }
+        let out = &mut self.varyings[slot * self.scalars..][..self.scalars];
+        surface.quad_varyings(s, pixel, quad, out);
+        if needs.position {
+            let out = &mut self.positions[slot];
+            surface.quad_position(s, pixel, quad, needs.depth_range, out);
+        }
     }
 
     /// Runs the program over what is queued, and says how many fragments that were.
@@ -173,6 +247,7 @@ impl<const N: usize> FragmentQueue<N> {
     #[inline(always)]
     pub(crate) fn drain(&mut self, has_depth_out: bool) -> impl Iterator<Item = Shaded<'_, N>> {
         let len = std::mem::take(&mut self.len).min(CAPACITY);
+        self.open = None;
         let this = &*self;
         (0..len).map(move |slot| {
             let mut covered = this.queued[slot].covered;
@@ -182,6 +257,7 @@ impl<const N: usize> FragmentQueue<N> {
                 .for_each(|mask| *mask &= this.coverage[slot]);
             Shaded {
                 covered,
+                places: this.queued[slot].places,
                 colors: &this.colors[slot * this.targets * 4..][..this.targets * 4],
                 depths: &this.depths[slot],
                 depth_out: has_depth_out.then_some(&this.depth_out[slot]),

@@ -44,6 +44,12 @@ impl ColorTarget {
         self.blend.is_none() && self.writable == u32::MAX
     }
 
+    /// Whether R, G, B are stored by the sRGB curve.
+    #[inline(always)]
+    pub(crate) fn is_srgb(&self) -> bool {
+        self.is_srgb
+    }
+
     /// The code of one colour, where it replaces.
     pub(crate) fn code(&self, rgba: [f32; 4]) -> u32 {
         pack_one(rgba, self.is_srgb)

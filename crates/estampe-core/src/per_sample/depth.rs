@@ -21,7 +21,7 @@ pub(crate) struct DepthTest {
 /// The choice is made anew for every packet, where a branch predictor finds it; a copy of the loops for
 /// each of the eight comparisons, at every level, took the compiler minutes.
 #[inline(always)]
-fn compare<S: Lanes>(
+pub(crate) fn compare<S: Lanes>(
     s: S,
     function: CompareFunction,
     new: f32x16<S>,

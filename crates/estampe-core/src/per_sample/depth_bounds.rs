@@ -6,7 +6,7 @@
 //! the next large triangle asks.
 
 use super::depth::{DepthTest, line_mut};
-use crate::fragment::interpolate::{PlaneOrigin, TriangleSurface, evaluate};
+use crate::fragment::interpolate::{DepthPlane, PlaneOrigin, evaluate};
 use crate::fragment::queue::clamp_depth;
 use crate::tiles::Plane;
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, SimdBase, dispatch, f32x16};
@@ -51,7 +51,7 @@ impl DepthBounds {
         &mut self,
         level: Level,
         test: &DepthTest,
-        triangle: &TriangleSurface<'_>,
+        triangle: &DepthPlane,
         stored: &mut [f32],
     ) -> u16 {
         let nearer_is_less = match test.state.compare {
@@ -70,7 +70,7 @@ impl DepthBounds {
         &mut self,
         s: S,
         test: &DepthTest,
-        triangle: &TriangleSurface<'_>,
+        triangle: &DepthPlane,
         nearer_is_less: bool,
         stored: &mut [f32],
     ) -> u16 {
@@ -126,7 +126,7 @@ impl DepthBounds {
 fn extreme<S: Lanes, const N: usize>(
     s: S,
     test: &DepthTest,
-    triangle: &TriangleSurface<'_>,
+    triangle: &DepthPlane,
     least: bool,
 ) -> f32x16<S> {
     let Plane { dx, dy, .. } = triangle.z;

@@ -83,15 +83,17 @@ impl<const N: usize> TileTriangle<N> {
         (self.columns[1] - self.columns[0]) * (self.rows[1] - self.rows[0])
     }
 
-    /// Lists the packets that the triangle covers, leaving out the blocks of `skip`.
+    /// Lists the packets that the triangle covers, leaving out the blocks of `skip`. Blocks that are
+    /// covered whole are returned, one bit each, and not listed, unless `lists_all`.
     #[inline(always)]
     pub(crate) fn cover<S: Lanes>(
         &self,
         s: S,
         tile: TileShape,
         skip: u16,
+        lists_all: bool,
         out: &mut CoverageList<N>,
-    ) {
+    ) -> u16 {
         let lanes = EdgeLanes::new(s, self);
         if self.packets() <= DIRECT_PACKETS {
             for row in self.rows[0]..self.rows[1] {
@@ -102,12 +104,17 @@ impl<const N: usize> TileTriangle<N> {
                     }
                 }
             }
-            return;
+            return 0;
         }
         // A tile of 32×32 has four blocks: the first four lanes.
         let blocks = if tile.log2 == 6 { u16::MAX } else { 0xF };
         let (some, all) = lanes.judge(s, self, [0, 0], 16);
         let mut live = some & blocks & !skip;
+        let mut whole = 0;
+        if !lists_all {
+            whole = live & all;
+            live &= !all;
+        }
         while live != 0 {
             let block = live.trailing_zeros();
             live &= live - 1;
@@ -132,6 +139,7 @@ impl<const N: usize> TileTriangle<N> {
                 }
             }
         }
+        whole
     }
 
     /// Lists one packet, sample by sample.

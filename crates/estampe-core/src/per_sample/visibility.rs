@@ -1,0 +1,310 @@
+//! Visibility: which triangle each sample of a tile shows (Burns and Hunt, The Visibility Buffer, 2013).
+//!
+//! *In* coverage and depth of triangles · *Out* their numbers at the samples that they won · *Space* window.
+//!
+//! Where a shader neither discards nor writes depth and colours replace what was there, only the last
+//! triangle that passes the depth test at a sample matters. So depth is tested first, for all
+//! triangles of a run, and each writes its number where it passes; then every sample is shaded once.
+//! The numbers lie in the first colour attachment, whose samples they stand for: a tile's working set stays
+//! two lines a packet.
+//!
+//! The order of triangles decides only between equal depths, so where the comparison orders depths they may
+//! be seen in any order, numbers breaking ties: large triangles front to back.
+
+use super::depth::{DepthTest, compare, line_mut};
+use crate::fragment::interpolate::{DepthPlane, evaluate};
+use crate::fragment::queue::{clamp_depth, sample_offsets};
+use crate::raster::{CoverageList, MAX_PACKETS, TileShape, packet_origin};
+use crate::tiles::BinEntry;
+use estampe_simd::{LANE_X, LANE_Y, Lanes, Select, SimdBase, f32x16, mask32x16, u32x16};
+use estampe_types::state::CompareFunction;
+
+/// The comparison that most draws use, in the order given: a copy of the loops of its own.
+pub(crate) const LESS: u8 = 0;
+/// Any comparison, in the order given.
+pub(crate) const ANY: u8 = 1;
+/// A comparison that orders depths, in any order.
+pub(crate) const SORTED: u8 = 2;
+
+/// Where a triangle of a run lies.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Slot {
+    /// Number of the chunk in the pass.
+    pub(crate) chunk: u32,
+    /// Number of the packet in the chunk.
+    pub(crate) packet: u32,
+    pub(crate) lane: u8,
+}
+
+/// A run of triangles whose shading is put off, in one tile. A triangle's number is that of its slot.
+#[derive(Debug)]
+pub(crate) struct Visibility<const N: usize> {
+    pub(crate) slots: Vec<Slot>,
+    /// By packet and sample: the lanes that hold a number in place of a colour.
+    pub(crate) pending: Box<[[u16; N]; MAX_PACKETS]>,
+}
+
+impl<const N: usize> Default for Visibility<N> {
+    fn default() -> Self {
+        Self {
+            slots: Vec::new(),
+            pending: Box::new([[0; N]; MAX_PACKETS]),
+        }
+    }
+}
+
+impl<const N: usize> Visibility<N> {
+    /// Numbers a chunk's triangles, in the order of submission; gives the first number.
+    pub(crate) fn add(&mut self, chunk: u32, entries: &[BinEntry]) -> u32 {
+        // A run has at most as many triangles as a wave and clipping's pieces: far below 2³².
+        let first = u32::try_from(self.slots.len()).unwrap_or(u32::MAX);
+        for entry in entries {
+            if let BinEntry::Triangles { packet, lanes } = *entry {
+                let lanes = (0..16u8).filter(|lane| lanes >> lane & 1 == 1);
+                self.slots.extend(lanes.map(|lane| Slot {
+                    chunk,
+                    packet,
+                    lane,
+                }));
+            }
+        }
+        first
+    }
+}
+
+/// A triangle's depth, and its number.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SeenTriangle {
+    pub(crate) plane: DepthPlane,
+    pub(crate) number: u32,
+}
+
+impl SeenTriangle {
+    /// Whether no depth in the tile needs clamping: the plane is monotone in x and in y, rounding
+    /// included, so its extremes are at corners. A depth at an end of the range counts as outside, because
+    /// of −0.
+    #[inline(always)]
+    fn is_within(&self, tile: TileShape, [low, high]: [f32; 2]) -> bool {
+        let DepthPlane { origin, z } = self.plane;
+        let side = tile.side() as f32;
+        let (x, y) = (tile.x as f32 - origin.x, tile.y as f32 - origin.y);
+        // Samples lie between the pixel's edges, which are corners of a somewhat larger square.
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+        corners.iter().all(|[right, lower]| {
+            let (x, y) = (x + right * side, y + lower * side);
+            let depth = z.origin + (x * z.dx + y * z.dy);
+            depth > low && depth < high
+        })
+    }
+}
+
+/// A tile's attachments while triangles are seen.
+pub(crate) struct Sight<'a, const N: usize> {
+    pub(crate) test: Option<DepthTest>,
+    /// Empty where there is none.
+    pub(crate) depth: &'a mut [f32],
+    /// The first colour attachment; empty where there is none.
+    pub(crate) numbers: &'a mut [u32],
+    pub(crate) pending: &'a mut [[u16; N]; MAX_PACKETS],
+    pub(crate) tile: TileShape,
+}
+
+impl<const N: usize> Sight<'_, N> {
+    /// Sees a triangle in whole blocks of 16×16 pixels and in a list of packets.
+    #[inline(always)]
+    pub(crate) fn triangle<S: Lanes, const MODE: u8>(
+        &mut self,
+        s: S,
+        triangle: &SeenTriangle,
+        mut blocks: u16,
+        list: &CoverageList<N>,
+    ) {
+        let range = self.range();
+        let plane = &triangle.plane;
+        if blocks != 0 {
+            let clamps = !triangle.is_within(self.tile, range);
+            while blocks != 0 {
+                let block = blocks.trailing_zeros();
+                blocks &= blocks - 1;
+                self.block::<S, MODE>(s, triangle, block, clamps);
+            }
+        }
+        let offsets = sample_offsets::<N>();
+        for item in list.items() {
+            let (x, y) = packet_origin(u32::from(item.packet));
+            let pixel = [self.tile.x + x, self.tile.y + y];
+            for (sample, &offset) in offsets.iter().enumerate() {
+                let [dx, dy] = plane.origin.distances(s, pixel, offset);
+                let z = clamp_depth(s, evaluate(s, &plane.z, [dx, dy]), range);
+                let mask = s.mask_from_bits(item.masks[sample]);
+                let at = [usize::from(item.packet), sample];
+                self.packet::<S, MODE>(s, at, z, mask, triangle.number);
+            }
+        }
+    }
+
+    /// The range that depth is clamped to.
+    fn range(&self) -> [f32; 2] {
+        self.test.as_ref().map_or([0.0, 1.0], |test| test.range)
+    }
+
+    /// A block that is covered whole: columns and rows of packets share their products.
+    #[inline(always)]
+    fn block<S: Lanes, const MODE: u8>(
+        &mut self,
+        s: S,
+        triangle: &SeenTriangle,
+        block: u32,
+        clamps: bool,
+    ) {
+        let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+        let (range, DepthPlane { origin, z: plane }) = (self.range(), triangle.plane);
+        let (x, y) = packet_origin(block * 16);
+        let (x, y) = (self.tile.x + x, self.tile.y + y);
+        let all = s.mask_from_bits(u16::MAX);
+        for (sample, &[sx, sy]) in sample_offsets::<N>().iter().enumerate() {
+            let (mut by_x, mut by_y) = ([splat(0.0); 4], [splat(0.0); 4]);
+            let mut step = 0;
+            while step < 4 {
+                let at = step as i32 * 4;
+                by_x[step] = origin.columns_from(s, x + at, sx) * plane.dx;
+                by_y[step] = origin.rows_from(s, y + at, sy) * plane.dy;
+                step += 1;
+            }
+            for packet in 0..16 {
+                let (column, row) = (LANE_X[packet] as usize, LANE_Y[packet] as usize);
+                let mut z = splat(plane.origin) + (by_x[column] + by_y[row]);
+                if clamps {
+                    z = clamp_depth(s, z, range);
+                }
+                let at = [block as usize * 16 + packet, sample];
+                self.packet::<S, MODE>(s, at, z, all, triangle.number);
+            }
+        }
+    }
+
+    /// Tests sixteen samples and notes who is seen there.
+    #[inline(always)]
+    fn packet<S: Lanes, const MODE: u8>(
+        &mut self,
+        s: S,
+        [packet, sample]: [usize; 2],
+        new: f32x16<S>,
+        mask: mask32x16<S>,
+        number: u32,
+    ) {
+        let at = packet * N + sample;
+        let pending = &mut self.pending[packet % MAX_PACKETS][sample];
+        let mut passes = mask;
+        if let (Some(test), Some(line)) = (&self.test, line_mut(self.depth, at)) {
+            let old = f32x16::load_array_ref(s, line);
+            passes = passes
+                & match MODE {
+                    LESS => new.simd_lt(old),
+                    ANY => compare(s, test.state.compare, new, old),
+                    _ => {
+                        let line = line_mut(self.numbers, at);
+                        let seen = line.map_or([0; 16], |line| *line);
+                        let seen = (u32x16::load_array(s, seen), *pending);
+                        nearer_or_first(s, test.state.compare, [new, old], seen, number)
+                    }
+                };
+            if MODE == LESS || test.state.write_enabled {
+                passes.select(new, old).store_array(line);
+            }
+        }
+        if let Some(line) = line_mut(self.numbers, at) {
+            let old = u32x16::load_array_ref(s, line);
+            let new = <u32x16<S> as SimdBase<S>>::splat(s, number);
+            passes.select(new, old).store_array(line);
+            *pending |= s.bits_of_mask(passes);
+        }
+    }
+
+    /// Tests one sample of a tile with one sample a pixel.
+    #[inline(always)]
+    pub(crate) fn pixel(&mut self, at: usize, depth: f32, number: u32) {
+        if let Some(test) = &self.test
+            && let Some(stored) = self.depth.get_mut(at)
+        {
+            let [low, high] = test.range;
+            let new = if depth > low { depth } else { low };
+            let new = if new < high { new } else { high };
+            if !passes(test.state.compare, new, *stored) {
+                return;
+            }
+            if test.state.write_enabled {
+                *stored = new;
+            }
+        }
+        if let Some(seen) = self.numbers.get_mut(at) {
+            *seen = number;
+            self.pending[at / 16 % MAX_PACKETS][0] |= 1 << (at % 16);
+        }
+    }
+
+    /// Blocks of a list and of whole ones, one bit each.
+    #[inline(always)]
+    pub(crate) fn blocks_of(blocks: u16, list: &CoverageList<N>) -> u16 {
+        let of_list = list.items().iter();
+        of_list.fold(blocks, |all, item| all | 1 << ((item.packet >> 4) & 15))
+    }
+}
+
+/// Whether `new OP stored` holds.
+#[inline(always)]
+fn passes(function: CompareFunction, new: f32, stored: f32) -> bool {
+    match function {
+        CompareFunction::Never => false,
+        CompareFunction::Less => new < stored,
+        CompareFunction::Equal => new == stored,
+        CompareFunction::LessEqual => new <= stored,
+        CompareFunction::Greater => new > stored,
+        CompareFunction::NotEqual => new != stored,
+        CompareFunction::GreaterEqual => new >= stored,
+        CompareFunction::Always => true,
+    }
+}
+
+/// Whether a comparison orders depths, so that order of drawing decides between equal ones alone.
+#[inline(always)]
+pub(crate) fn orders(function: CompareFunction) -> bool {
+    matches!(
+        function,
+        CompareFunction::Less
+            | CompareFunction::LessEqual
+            | CompareFunction::Greater
+            | CompareFunction::GreaterEqual
+    )
+}
+
+/// Whether smaller depths win.
+#[inline(always)]
+pub(crate) fn prefers_less(function: CompareFunction) -> bool {
+    matches!(function, CompareFunction::Less | CompareFunction::LessEqual)
+}
+
+/// The lanes in which a triangle wins, whenever it is its turn: nearer, or as near and
+/// submitted at the right time. With *less* the first of equal ones wins, with *less or equal* the last; what
+/// no triangle of the run was seen in is older than all of them.
+#[inline(always)]
+fn nearer_or_first<S: Lanes>(
+    s: S,
+    function: CompareFunction,
+    [new, old]: [f32x16<S>; 2],
+    (seen, pending): (u32x16<S>, u16),
+    number: u32,
+) -> mask32x16<S> {
+    let nearer = if prefers_less(function) {
+        new.simd_lt(old)
+    } else {
+        new.simd_gt(old)
+    };
+    let pending = s.mask_from_bits(pending);
+    let mine = <u32x16<S> as SimdBase<S>>::splat(s, number);
+    let wins_tie = match function {
+        CompareFunction::Less | CompareFunction::Greater => pending & mine.simd_lt(seen),
+        _ => !pending | mine.simd_gt(seen),
+    };
+    nearer | (new.simd_eq(old) & wins_tie)
+}

@@ -1,0 +1,407 @@
+//! Shading a run: every sample once, by the triangle that it shows.
+//!
+//! A packet that shows one triangle is shaded whole; of others each triangle's quads are shaded in packets
+//! that they share with those of other triangles and places. Where a triangle has one colour it is
+//! shaded once.
+
+use super::super::{TileItem, TileJob, TilePass, TileScratch};
+use super::Deferred;
+use crate::fragment::interpolate::{
+    PlaneOrigin, TriangleSurface, VaryingPlanes, VaryingSource, set_planes,
+};
+use crate::fragment::quad::QUAD;
+use crate::fragment::queue::{Needs, Shaded};
+use crate::per_sample::codes::pack;
+use crate::per_sample::color::write_code;
+use crate::per_sample::depth::line_mut;
+use crate::raster::{Covered, MAX_PACKETS, packet_origin};
+use crate::tiles::Plane;
+use estampe_simd::{LANES, Lanes, Select, SimdBase, dispatch, f32x16, u32x16};
+
+/// A triangle that is seen: what its fragments are made of.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shown {
+    origin: PlaneOrigin,
+    z: Plane,
+    iw: Plane,
+    equal_w: bool,
+    front: bool,
+}
+
+/// No place in `shown` yet.
+const NONE: u32 = u32::MAX;
+
+/// Shades the run, if there is one, and ends it.
+pub(in crate::tile_pass) fn shade_run<const N: usize>(
+    pass: &TilePass<'_>,
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    let Some(number) = scratch.deferred.item.take() else {
+        scratch.deferred.visibility.slots.clear();
+        return;
+    };
+    let item = &pass.items[number];
+    let deferred = &mut scratch.deferred;
+    deferred.shown.clear();
+    deferred.planes.clear();
+    deferred.codes.clear();
+    deferred.shown_of.clear();
+    deferred
+        .shown_of
+        .resize(deferred.visibility.slots.len(), NONE);
+    scratch.queue.configure(item.pipeline);
+    let interface = item.pipeline.interface();
+    let (x, y) = pass.grid.tile_origin(job.tile);
+    let mut shading = Shading {
+        pass,
+        item,
+        origin: [x.cast_signed(), y.cast_signed()],
+        needs: Needs {
+            position: interface.reads_position,
+            depth: false,
+            depth_range: item.depth_range,
+        },
+        scalars: interface.varyings.len(),
+        job,
+        scratch,
+    };
+    if item.pipeline.key().uniform_over_primitive {
+        dispatch!(pass.level, s => shading.uniform(s));
+        shading.flush_uniform();
+        dispatch!(pass.level, s => shading.write_codes(s));
+    } else {
+        dispatch!(pass.level, s => shading.packets(s));
+        shading.flush();
+    }
+    let visibility = &mut scratch.deferred.visibility;
+    visibility.slots.clear();
+    visibility.pending.fill([0; N]);
+}
+
+struct Shading<'a, 'j, 't, const N: usize> {
+    pass: &'a TilePass<'a>,
+    item: &'a TileItem<'a>,
+    /// The tile's first pixel.
+    origin: [i32; 2],
+    needs: Needs,
+    scalars: usize,
+    job: &'j mut TileJob<'t>,
+    scratch: &'j mut TileScratch<N>,
+}
+
+impl<const N: usize> Shading<'_, '_, '_, N> {
+    /// Queues everything that is seen.
+    #[inline(always)]
+    fn packets<S: Lanes>(&mut self, s: S) {
+        for packet in 0..MAX_PACKETS {
+            let mut pending = self.scratch.deferred.visibility.pending[packet];
+            while pending != [0; N] {
+                let (number, masks) = self.next_seen(s, packet, &mut pending);
+                let covered = Covered {
+                    packet: packet as u16,
+                    masks,
+                };
+                self.queue(s, number, covered);
+            }
+        }
+    }
+
+    /// The first triangle that is seen in a packet's pending samples, and where; they are taken out.
+    #[inline(always)]
+    fn next_seen<S: Lanes>(&self, s: S, packet: usize, pending: &mut [u16; N]) -> (u32, [u16; N]) {
+        let line = |sample: usize| -> &[u32; LANES] {
+            let from = (packet * N + sample) * LANES;
+            let line = self.job.colors[0].get(from..from + LANES);
+            // Pending samples lie in the attachment, so there always is a line.
+            line.and_then(|line| line.try_into().ok())
+                .unwrap_or(&[0; LANES])
+        };
+        let mut number = 0;
+        for (sample, pending) in pending.iter().enumerate().rev() {
+            if *pending != 0 {
+                number = line(sample)[pending.trailing_zeros() as usize % LANES];
+            }
+        }
+        let mut masks = [0; N];
+        for (sample, (mask, pending)) in masks.iter_mut().zip(pending).enumerate() {
+            if *pending == 0 {
+                continue;
+            }
+            let numbers = u32x16::load_array_ref(s, line(sample));
+            let same = numbers.simd_eq(<u32x16<S> as SimdBase<S>>::splat(s, number));
+            *mask = s.bits_of_mask(same) & *pending;
+            *pending &= !*mask;
+        }
+        (number, masks)
+    }
+
+    /// Queues a triangle's part of a packet: whole, or by quads where some quads are empty.
+    #[inline(always)]
+    fn queue<S: Lanes>(&mut self, s: S, number: u32, covered: Covered<N>) {
+        let shown = self.shown(number) as usize;
+        let any = covered.any();
+        let mut quads = (any | any >> 1 | any >> 2 | any >> 3) & 0x1111;
+        let (x, y) = packet_origin(u32::from(covered.packet));
+        let pixel = [self.origin[0] + x, self.origin[1] + y];
+        if quads == 0x1111 {
+            if self.scratch.queue.is_full() {
+                self.flush();
+            }
+            let TileScratch {
+                queue, deferred, ..
+            } = &mut *self.scratch;
+            let (surface, front) = surface_of(deferred, self.item, self.scalars, shown);
+            queue.push(s, &surface, (covered, pixel), front, self.needs);
+            return;
+        }
+        while quads != 0 {
+            let quad = quads.trailing_zeros() as usize / QUAD;
+            quads &= quads - 1;
+            if self.scratch.queue.is_full_of_quads() {
+                self.flush();
+            }
+            let TileScratch {
+                queue, deferred, ..
+            } = &mut *self.scratch;
+            let (surface, front) = surface_of(deferred, self.item, self.scalars, shown);
+            let first = [
+                pixel[0] + (quad & 1) as i32 * 2,
+                pixel[1] + (quad >> 1) as i32 * 2,
+            ];
+            let mut masks = covered.masks;
+            masks.iter_mut().for_each(|mask| *mask >>= quad * QUAD);
+            let place = covered.packet * 4 + quad as u16;
+            queue.push_quad(s, &surface, (place, masks, first), front, self.needs);
+        }
+    }
+
+    /// Where a triangle is in `shown`; its planes are made when it is first met.
+    #[inline(always)]
+    fn shown(&mut self, number: u32) -> u32 {
+        let deferred = &mut self.scratch.deferred;
+        // Numbers are those of slots.
+        let at = number as usize % deferred.shown_of.len().max(1);
+        if deferred.shown_of[at] != NONE {
+            return deferred.shown_of[at];
+        }
+        let slot = deferred.visibility.slots[at];
+        let chunk = &self.pass.chunks[slot.chunk as usize];
+        let (packet, lane) = (
+            &chunk.triangles[slot.packet as usize],
+            usize::from(slot.lane),
+        );
+        let place = deferred.shown.len() as u32;
+        deferred.shown_of[at] = place;
+        deferred.shown.push(Shown {
+            origin: PlaneOrigin::new(packet, lane),
+            z: packet.z.lane(lane),
+            iw: packet.iw.lane(lane),
+            equal_w: packet.equal_w >> lane & 1 == 1,
+            front: packet.front >> lane & 1 == 1,
+        });
+        let from = deferred.planes.len();
+        let size = VaryingPlanes::size(self.scalars);
+        deferred.planes.resize(from + size, 0.0);
+        let source = VaryingSource {
+            shaded: self.item.varyings,
+            clipped: &chunk.clipped_varyings,
+            modes: &self.item.pipeline.interface().varyings,
+        };
+        set_planes(&mut deferred.planes[from..], packet, lane, &source);
+        place
+    }
+
+    /// Shades what is queued and writes it.
+    fn flush(&mut self) {
+        let queue = &mut self.scratch.queue;
+        if queue.is_empty() {
+            return;
+        }
+        let fragments = queue.shade(self.pass.level, self.item.pipeline, self.item.bindings);
+        self.scratch.statistics.fragments_shaded += fragments;
+        dispatch!(self.pass.level, s => self.store(s));
+    }
+
+    #[inline(always)]
+    fn store<S: Lanes>(&mut self, s: S) {
+        for shaded in self.scratch.queue.drain(false) {
+            let targets = self.item.targets.iter().flatten().zip(&mut self.job.colors);
+            for ((target, stored), colors) in targets.zip(shaded.colors.chunks_exact(4)) {
+                let [r, g, b, a] = colors else { continue };
+                let load =
+                    |channel: &estampe_simd::Packet<f32>| f32x16::load_array_ref(s, &channel.0);
+                let codes = pack(s, [load(r), load(g), load(b), load(a)], target.is_srgb());
+                match shaded.places {
+                    None => write_packet(s, codes, &shaded, stored),
+                    Some(places) => write_quads(&codes.to_array(), places, &shaded, stored),
+                }
+            }
+        }
+    }
+
+    /// Shades one packet of every triangle that is seen.
+    #[inline(always)]
+    fn uniform<S: Lanes>(&mut self, s: S) {
+        for packet in 0..MAX_PACKETS {
+            let mut pending = self.scratch.deferred.visibility.pending[packet];
+            while pending != [0; N] {
+                let (number, masks) = self.next_seen(s, packet, &mut pending);
+                let known = self.scratch.deferred.shown.len() as u32;
+                let shown = self.shown(number);
+                if shown < known {
+                    continue;
+                }
+                if self.scratch.queue.is_full() {
+                    self.flush_uniform();
+                }
+                let covered = Covered {
+                    packet: packet as u16,
+                    masks,
+                };
+                let (x, y) = packet_origin(packet as u32);
+                let pixel = [self.origin[0] + x, self.origin[1] + y];
+                let TileScratch {
+                    queue, deferred, ..
+                } = &mut *self.scratch;
+                let (surface, front) =
+                    surface_of(deferred, self.item, self.scalars, shown as usize);
+                queue.push(s, &surface, (covered, pixel), front, self.needs);
+            }
+        }
+    }
+
+    /// Shades what is queued; the first lane's colours are the triangles', in the order of `shown`.
+    fn flush_uniform(&mut self) {
+        let queue = &mut self.scratch.queue;
+        if queue.is_empty() {
+            return;
+        }
+        queue.shade(self.pass.level, self.item.pipeline, self.item.bindings);
+        let codes = &mut self.scratch.deferred.codes;
+        for shaded in queue.drain(false) {
+            let targets = self.item.targets.iter().flatten();
+            for (target, colors) in targets.zip(shaded.colors.chunks_exact(4)) {
+                codes.push(target.code([0, 1, 2, 3].map(|channel| colors[channel].0[0])));
+            }
+        }
+    }
+
+    /// Puts triangles' colours in the place of their numbers.
+    #[inline(always)]
+    fn write_codes<S: Lanes>(&mut self, s: S) {
+        let Deferred {
+            visibility,
+            shown_of,
+            shown,
+            codes,
+            ..
+        } = &mut self.scratch.deferred;
+        let targets = codes.len() / shown.len().max(1);
+        let mut fragments = 0;
+        for packet in 0..MAX_PACKETS {
+            let pending = visibility.pending[packet];
+            let any = pending.iter().fold(0, |any, mask| any | mask);
+            if any == 0 {
+                continue;
+            }
+            fragments += u64::from(any.count_ones());
+            for (sample, mask) in pending.into_iter().enumerate() {
+                let at = packet * N + sample;
+                let Some(line) = line_mut(self.job.colors[0], at) else {
+                    continue;
+                };
+                let numbers = *line;
+                let first = numbers[mask.trailing_zeros() as usize % LANES];
+                let same = u32x16::load_array(s, numbers)
+                    .simd_eq(<u32x16<S> as SimdBase<S>>::splat(s, first));
+                let is_one = s.bits_of_mask(same) & mask == mask;
+                for (target, stored) in (0..targets).zip(&mut self.job.colors) {
+                    let Some(line) = line_mut(stored, at) else {
+                        continue;
+                    };
+                    let code = |number: u32| {
+                        let shown = shown_of.get(number as usize).copied().unwrap_or(0) as usize;
+                        codes.get(shown * targets + target).copied().unwrap_or(0)
+                    };
+                    if is_one {
+                        write_code(s, code(first), mask, line);
+                        continue;
+                    }
+                    let mut lanes = mask;
+                    while lanes != 0 {
+                        let lane = lanes.trailing_zeros() as usize % LANES;
+                        lanes &= lanes - 1;
+                        line[lane] = code(numbers[lane]);
+                    }
+                }
+            }
+        }
+        self.scratch.statistics.fragments_shaded += fragments;
+    }
+}
+
+/// A triangle's surface, and whether it faces the viewer.
+#[inline(always)]
+fn surface_of<'a, const N: usize>(
+    deferred: &'a Deferred<N>,
+    item: &'a TileItem<'_>,
+    scalars: usize,
+    place: usize,
+) -> (TriangleSurface<'a>, bool) {
+    let shown = &deferred.shown[place];
+    let size = VaryingPlanes::size(scalars);
+    let surface = TriangleSurface {
+        origin: shown.origin,
+        z: shown.z,
+        iw: shown.iw,
+        equal_w: shown.equal_w,
+        planes: VaryingPlanes::new(&deferred.planes[place * size..][..size]),
+        modes: &item.pipeline.interface().varyings,
+        all_smooth: item.all_smooth,
+    };
+    (surface, shown.front)
+}
+
+/// Writes the covered samples of one packet.
+#[inline(always)]
+fn write_packet<S: Lanes, const N: usize>(
+    s: S,
+    codes: u32x16<S>,
+    shaded: &Shaded<'_, N>,
+    stored: &mut [u32],
+) {
+    for (sample, &mask) in shaded.covered.masks.iter().enumerate() {
+        if mask != 0
+            && let Some(line) = line_mut(stored, usize::from(shaded.covered.packet) * N + sample)
+        {
+            let old = u32x16::load_array_ref(s, line);
+            s.mask_from_bits(mask).select(codes, old).store_array(line);
+        }
+    }
+}
+
+/// Writes the covered samples of four quads, each to its place.
+#[inline(always)]
+fn write_quads<const N: usize>(
+    codes: &[u32; LANES],
+    places: [u16; LANES / QUAD],
+    shaded: &Shaded<'_, N>,
+    stored: &mut [u32],
+) {
+    for (quad, place) in places.into_iter().enumerate() {
+        let (packet, inside) = (usize::from(place) / 4, usize::from(place) % 4);
+        let codes = &codes[quad * QUAD..][..QUAD];
+        for (sample, &mask) in shaded.covered.masks.iter().enumerate() {
+            let from = (packet * N + sample) * LANES + inside * QUAD;
+            let Some(line) = stored.get_mut(from..from + QUAD) else {
+                continue;
+            };
+            for (lane, (to, code)) in line.iter_mut().zip(codes).enumerate() {
+                if mask >> (quad * QUAD + lane) & 1 == 1 {
+                    *to = *code;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! Drawing in submission order: blending, shaders that discard or write depth, lines and points.
+//!
+//! For every primitive the stages are called in order: raster, depth bounds and early depth test, fragment,
+//! per-sample. What many primitives queue is shaded together, and written in the order of the queue.
+
+use super::{BOUNDED_PACKETS, ChunkInTile, TileJob, TileScratch};
+use crate::fragment::interpolate::{
+    DepthPlane, LineSurface, PlaneOrigin, PointSurface, Surface, TriangleSurface, VaryingPlanes,
+    VaryingSource, set_planes,
+};
+use crate::fragment::queue::{Needs, clamp_depth};
+use crate::per_sample::depth::{DepthTest, line_mut, test_early, test_late};
+use crate::pipeline::StageKey;
+use crate::raster::triangle::TileTriangle;
+use crate::raster::{line, packet_origin, point};
+use crate::tiles::{BinEntry, LinePrimitive, PointPrimitive, TrianglePacket};
+use estampe_simd::{Lanes, SimdBase, dispatch, f32x16};
+use estampe_types::shader::DepthOutput;
+
+/// Draws the tile's primitives of one chunk.
+#[inline(always)]
+pub(super) fn draw_chunk<S: Lanes, const N: usize>(
+    s: S,
+    work: &ChunkInTile<'_>,
+    entries: &[BinEntry],
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    let pipeline = work.item.pipeline;
+    scratch.queue.configure(pipeline);
+    let interface = pipeline.interface();
+    let StageKey { early_depth, .. } = pipeline.key();
+    let mut drawing = Drawing {
+        work,
+        source: work.varyings(work.chunk),
+        test: work.test,
+        early: early_depth,
+        depth_output: interface.depth_output != DepthOutput::None,
+        needs: Needs {
+            position: interface.reads_position,
+            depth: !early_depth,
+            depth_range: work.item.depth_range,
+        },
+        planes: std::mem::take(&mut scratch.planes),
+        job,
+        scratch,
+    };
+    let planes = VaryingPlanes::size(interface.varyings.len());
+    drawing.planes.resize(planes, 0.0);
+    for entry in entries {
+        match *entry {
+            BinEntry::Triangles { packet, lanes } => {
+                let packet = &work.chunk.triangles[packet as usize];
+                let mut lanes = lanes;
+                while lanes != 0 {
+                    let lane = lanes.trailing_zeros() as usize;
+                    lanes &= lanes - 1;
+                    drawing.triangle(s, packet, lane);
+                }
+            }
+            BinEntry::Line(number) => drawing.line(&work.chunk.lines[number as usize]),
+            BinEntry::Point(number) => drawing.point(&work.chunk.points[number as usize]),
+        }
+    }
+    drawing.flush();
+    let planes = std::mem::take(&mut drawing.planes);
+    scratch.planes = planes;
+}
+
+/// A chunk being drawn into a tile.
+struct Drawing<'a, 'j, 't, const N: usize> {
+    work: &'a ChunkInTile<'a>,
+    source: VaryingSource<'a>,
+    test: Option<DepthTest>,
+    /// Whether depth is tested, and written, before shading.
+    early: bool,
+    depth_output: bool,
+    needs: Needs,
+    /// Planes of the triangle at hand.
+    planes: Vec<f32>,
+    job: &'j mut TileJob<'t>,
+    scratch: &'j mut TileScratch<N>,
+}
+
+impl<const N: usize> Drawing<'_, '_, '_, N> {
+    #[inline(always)]
+    fn triangle<S: Lanes>(&mut self, s: S, packet: &TrianglePacket, lane: usize) {
+        let ChunkInTile {
+            shape,
+            rect,
+            is_whole,
+            level,
+            ..
+        } = *self.work;
+        let Some(triangle) = TileTriangle::<N>::new(packet, lane, shape, &rect) else {
+            return;
+        };
+        let plane = DepthPlane::new(packet, lane);
+        // Leave out the blocks where everything is nearer already.
+        let mut hidden = 0;
+        if !self.depth_output
+            && triangle.packets() > BOUNDED_PACKETS
+            && let Some(test) = &self.test
+        {
+            hidden = self
+                .scratch
+                .bounds
+                .hidden::<N>(level, test, &plane, self.job.depth);
+            if hidden == u16::MAX {
+                return;
+            }
+        }
+        self.scratch.list.clear();
+        triangle.cover(s, shape, hidden, true, &mut self.scratch.list);
+        if !is_whole {
+            self.scratch.list.confine(&rect);
+        }
+        let mut surface = TriangleSurface {
+            origin: PlaneOrigin::new(packet, lane),
+            z: plane.z,
+            iw: packet.iw.lane(lane),
+            equal_w: packet.equal_w >> lane & 1 == 1,
+            planes: VaryingPlanes::default(),
+            modes: self.source.modes,
+            all_smooth: self.work.item.all_smooth,
+        };
+        if !self.tested(s, &surface) {
+            return;
+        }
+        // Moved out for the call, because the surface borrows them.
+        let mut planes = std::mem::take(&mut self.planes);
+        set_planes(&mut planes, packet, lane, &self.source);
+        surface.planes = VaryingPlanes::new(&planes);
+        self.shaded(s, &surface, packet.front >> lane & 1 == 1);
+        self.planes = planes;
+    }
+
+    /// Lines and points enter the level one by one: they are few, and their code is kept out of the
+    /// triangles' way.
+    fn line(&mut self, line: &LinePrimitive) {
+        let ChunkInTile { shape, rect, .. } = self.work;
+        self.scratch.list.clear();
+        line::cover(line, *shape, rect, &mut self.scratch.list);
+        let surface = LineSurface::new(line, self.source);
+        dispatch!(self.work.level, s => self.covered(s, &surface, line.front));
+    }
+
+    fn point(&mut self, point: &PointPrimitive) {
+        let ChunkInTile { shape, rect, .. } = self.work;
+        self.scratch.list.clear();
+        point::cover(point, *shape, rect, &mut self.scratch.list);
+        let surface = PointSurface {
+            point,
+            source: self.source,
+        };
+        dispatch!(self.work.level, s => self.covered(s, &surface, point.front));
+    }
+
+    /// A line's or point's list: test, then shade.
+    #[inline(always)]
+    fn covered<S: Lanes>(&mut self, s: S, surface: &impl Surface<S>, front: bool) {
+        if self.tested(s, surface) {
+            self.shaded(s, surface, front);
+        }
+    }
+
+    /// The early depth test; false when nothing is left.
+    #[inline(always)]
+    fn tested<S: Lanes>(&mut self, s: S, surface: &impl Surface<S>) -> bool {
+        let list = &mut self.scratch.list;
+        // Without a depth output depth is known before shading; it is written then only if nothing is
+        // discarded.
+        if let (false, Some(test)) = (self.depth_output, &self.test) {
+            let writes = self.early && test.state.write_enabled;
+            let written = test_early(s, test, writes, surface, self.job.depth, list);
+            self.scratch.bounds.invalidate(written);
+        }
+        !list.items().is_empty()
+    }
+
+    /// Queues what is left of the list, shading whenever the queue is full.
+    #[inline(always)]
+    fn shaded<S: Lanes>(&mut self, s: S, surface: &impl Surface<S>, front: bool) {
+        for at in 0..self.scratch.list.items().len() {
+            if self.scratch.queue.is_full() {
+                self.flush();
+            }
+            let covered = self.scratch.list.items()[at];
+            let (x, y) = packet_origin(u32::from(covered.packet));
+            let pixel = [self.work.shape.x + x, self.work.shape.y + y];
+            self.scratch
+                .queue
+                .push(s, surface, (covered, pixel), front, self.needs);
+        }
+    }
+
+    /// Shades what is queued and hands it to the attachments, in order.
+    fn flush(&mut self) {
+        if self.scratch.queue.is_empty() {
+            return;
+        }
+        let queue = &mut self.scratch.queue;
+        let fragments = queue.shade(
+            self.work.level,
+            self.work.item.pipeline,
+            self.work.item.bindings,
+        );
+        self.scratch.statistics.fragments_shaded += fragments;
+        dispatch!(self.work.level, s => self.store(s));
+    }
+
+    #[inline(always)]
+    fn store<S: Lanes>(&mut self, s: S) {
+        let (range, level) = (self.work.item.depth_range, self.work.level);
+        let mut written = 0;
+        for shaded in self.scratch.queue.drain(self.depth_output) {
+            let packet = usize::from(shaded.covered.packet);
+            let mut masks = shaded.covered.masks;
+            if let (false, Some(test)) = (self.early, &self.test) {
+                for (sample, mask) in masks.iter_mut().enumerate() {
+                    let depth = shaded.depth_out.unwrap_or(&shaded.depths[sample]);
+                    let new = clamp_depth(s, f32x16::load_array_ref(s, &depth.0), range);
+                    if let Some(line) = line_mut(self.job.depth, packet * N + sample) {
+                        *mask = test_late(s, test.state, new, *mask, line);
+                    }
+                }
+                written |= 1u16 << ((packet >> 4) & 15);
+            }
+            let targets = self
+                .work
+                .item
+                .targets
+                .iter()
+                .flatten()
+                .zip(&mut self.job.colors);
+            for ((target, stored), colors) in targets.zip(shaded.colors.chunks_exact(4)) {
+                for (sample, &mask) in masks.iter().enumerate() {
+                    if mask != 0
+                        && let Some(line) = line_mut(stored, packet * N + sample)
+                    {
+                        target.write(s, level, colors, mask, line);
+                    }
+                }
+            }
+        }
+        self.scratch.bounds.invalidate(written);
+    }
+}

@@ -1,0 +1,162 @@
+//! The page of the tile side: one tile, from its bins to its attachments.
+//!
+//! A worker owns the tile's slices of the attachments, clears them if the pass says so, and consumes the
+//! chunks in submission order, so an image does not depend on who draws which tile. Most triangles are first
+//! [seen and then shaded](deferred); what depends on order is drawn [in order](immediate).
+
+mod deferred;
+mod immediate;
+
+use crate::fragment::interpolate::VaryingSource;
+use crate::fragment::queue::FragmentQueue;
+use crate::geometry::viewport::PixelRect;
+use crate::layout::TileGrid;
+use crate::per_sample::color::ColorTarget;
+use crate::per_sample::depth::DepthTest;
+use crate::per_sample::depth_bounds::DepthBounds;
+use crate::pipeline::RenderPipeline;
+use crate::raster::{CoverageList, TileShape};
+use crate::statistics::Statistics;
+use crate::tiles::Chunk;
+use estampe_simd::{Level, dispatch};
+use estampe_types::Bindings;
+
+/// The most colour targets of a pass.
+pub(crate) const MAX_TARGETS: usize = 8;
+
+/// Boxes of fewer packets than this are not worth asking the depth bounds for.
+const BOUNDED_PACKETS: i32 = 16;
+
+/// An item of a wave as its fragments need it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TileItem<'a> {
+    pub(crate) pipeline: &'a RenderPipeline,
+    pub(crate) bindings: &'a Bindings,
+    pub(crate) varyings: &'a [f32],
+    pub(crate) rect: PixelRect,
+    pub(crate) depth_range: [f32; 2],
+    pub(crate) targets: [Option<ColorTarget>; MAX_TARGETS],
+    pub(crate) all_smooth: bool,
+}
+
+/// What every tile of a pass shares.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TilePass<'a> {
+    pub(crate) level: Level,
+    pub(crate) grid: TileGrid,
+    pub(crate) items: &'a [TileItem<'a>],
+    pub(crate) chunks: &'a [Chunk],
+    /// Codes to clear the colour attachments to.
+    pub(crate) clear_colors: Option<[u32; MAX_TARGETS]>,
+    pub(crate) clear_depth: Option<f32>,
+}
+
+/// One tile's share of the attachments.
+#[derive(Debug, Default)]
+pub(crate) struct TileJob<'a> {
+    pub(crate) tile: u32,
+    pub(crate) colors: [&'a mut [u32]; MAX_TARGETS],
+    pub(crate) depth: &'a mut [f32],
+}
+
+/// Memory of one worker, for `N` samples.
+#[derive(Debug, Default)]
+pub(crate) struct TileScratch<const N: usize> {
+    list: CoverageList<N>,
+    /// Planes of one triangle's varyings.
+    planes: Vec<f32>,
+    queue: FragmentQueue<N>,
+    bounds: DepthBounds,
+    deferred: deferred::Deferred<N>,
+    pub(crate) statistics: Statistics,
+}
+
+/// Draws a tile.
+pub(crate) fn draw<const N: usize>(
+    pass: &TilePass<'_>,
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    if let Some(codes) = &pass.clear_colors {
+        for (colors, code) in job.colors.iter_mut().zip(codes) {
+            colors.fill(*code);
+        }
+    }
+    if let Some(depth) = pass.clear_depth {
+        job.depth.fill(depth);
+    }
+    scratch.bounds.begin(pass.clear_depth);
+    for (number, chunk) in (0..).zip(pass.chunks) {
+        let entries = chunk.bins.of_tile(job.tile);
+        if entries.is_empty() {
+            continue;
+        }
+        let work = ChunkInTile::new(pass, number, job);
+        if deferred::is_deferred(&work) {
+            deferred::see_chunk(pass, (&work, entries), job, scratch);
+        } else {
+            deferred::shade_run(pass, job, scratch);
+            dispatch!(pass.level, s => immediate::draw_chunk(s, &work, entries, job, scratch));
+        }
+    }
+    deferred::shade_run(pass, job, scratch);
+}
+
+/// A chunk in the tile at hand.
+#[derive(Debug, Clone, Copy)]
+struct ChunkInTile<'a> {
+    level: Level,
+    chunk: &'a Chunk,
+    /// The chunk's number in the pass.
+    number: u32,
+    item: &'a TileItem<'a>,
+    shape: TileShape,
+    /// Where pixels may change, in the tile's own pixels.
+    rect: PixelRect,
+    /// Whether that is all of the tile.
+    is_whole: bool,
+    test: Option<DepthTest>,
+}
+
+impl<'a> ChunkInTile<'a> {
+    fn new(pass: &TilePass<'a>, number: u32, job: &TileJob<'_>) -> Self {
+        let chunk = &pass.chunks[number as usize];
+        let item = &pass.items[chunk.item];
+        let (x, y) = pass.grid.tile_origin(job.tile);
+        let shape = TileShape {
+            x: x.cast_signed(),
+            y: y.cast_signed(),
+            log2: pass.grid.tile_log2(),
+        };
+        let rect = shape.local(&item.rect);
+        let depth = item.pipeline.key().depth;
+        Self {
+            level: pass.level,
+            chunk,
+            number,
+            item,
+            shape,
+            rect,
+            is_whole: shape.is_whole(&rect),
+            test: depth
+                .filter(|_| !job.depth.is_empty())
+                .map(|state| DepthTest {
+                    state,
+                    range: item.depth_range,
+                    origin: [shape.x, shape.y],
+                }),
+        }
+    }
+
+    /// The varyings of the item's vertices, and of those that a chunk made by clipping.
+    fn varyings<'c>(&self, chunk: &'c Chunk) -> VaryingSource<'c>
+    where
+        'a: 'c,
+    {
+        VaryingSource {
+            shaded: self.item.varyings,
+            clipped: &chunk.clipped_varyings,
+            modes: &self.item.pipeline.interface().varyings,
+        }
+    }
+}
