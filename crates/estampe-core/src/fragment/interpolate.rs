@@ -22,7 +22,7 @@ pub(crate) struct VaryingSource<'a> {
 
 impl<'a> VaryingSource<'a> {
     #[inline(always)]
-    fn of(&self, vertex: VertexRef) -> &'a [f32] {
+    pub(super) fn of(&self, vertex: VertexRef) -> &'a [f32] {
         let n = self.modes.len();
         let (from, number) = if vertex.0 & VertexRef::CLIPPED == 0 {
             (self.shaded, vertex.0)
@@ -166,7 +166,7 @@ impl<'a> VaryingPlanes<'a> {
 
     /// The plane of scalar `k`.
     #[inline(always)]
-    pub(super) fn of(&self, k: usize) -> Plane {
+    pub(crate) fn of(&self, k: usize) -> Plane {
         Plane {
             origin: self.origin[k],
             dx: self.dx[k],

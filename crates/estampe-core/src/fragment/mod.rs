@@ -10,4 +10,6 @@ pub(crate) mod interpolate;
 
 pub(crate) mod quad;
 
+pub(crate) mod rows;
+
 pub(crate) mod queue;

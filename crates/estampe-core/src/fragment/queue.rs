@@ -29,6 +29,8 @@ pub(crate) struct FragmentQueue<const N: usize> {
     len: usize,
     scalars: usize,
     targets: usize,
+    /// Whether colours are the varyings' first four scalars.
+    passes_color: bool,
     queued: [Queued<N>; CAPACITY],
     /// The packet that is being filled with quads, and how many it has.
     open: Option<(usize, usize)>,
@@ -52,6 +54,7 @@ impl<const N: usize> Default for FragmentQueue<N> {
             len: 0,
             scalars: 0,
             targets: 0,
+            passes_color: false,
             queued: [Queued {
                 covered,
                 places: None,
@@ -90,6 +93,7 @@ impl<const N: usize> FragmentQueue<N> {
         debug_assert_eq!(self.len, 0, "packets of another pipeline are still queued");
         self.scalars = interface.varyings.len();
         self.targets = interface.color_targets;
+        self.passes_color = interface.passes_color;
         self.varyings
             .resize(self.scalars * CAPACITY, Packet::default());
         self.colors
@@ -209,6 +213,23 @@ impl<const N: usize> FragmentQueue<N> {
         }
     }
 
+    /// Queues a packet whose lanes are fragments of several triangles; gives where its varyings go.
+    #[inline(always)]
+    pub(crate) fn push_row(&mut self, lanes: u16, front: u16) -> &mut [Packet<f32>] {
+        let slot = self.len % CAPACITY;
+        self.len += 1;
+        let covered = Covered {
+            packet: 0,
+            masks: [lanes; N],
+        };
+        self.queued[slot] = Queued {
+            covered,
+            places: None,
+        };
+        (self.coverage[slot], self.front_facing[slot]) = (lanes, front);
+        &mut self.varyings[slot * self.scalars..][..self.scalars]
+    }
+
     /// Runs the program over what is queued, and says how many fragments that were.
     pub(crate) fn shade(
         &mut self,
@@ -222,6 +243,9 @@ impl<const N: usize> FragmentQueue<N> {
             .iter()
             .map(|mask| u64::from(mask.count_ones()))
             .sum();
+        if self.passes_color {
+            return fragments;
+        }
         let positions = if interface.reads_position { len * 4 } else { 0 };
         let depths = if interface.depth_output == DepthOutput::None {
             0
@@ -258,7 +282,11 @@ impl<const N: usize> FragmentQueue<N> {
             Shaded {
                 covered,
                 places: this.queued[slot].places,
-                colors: &this.colors[slot * this.targets * 4..][..this.targets * 4],
+                colors: if this.passes_color {
+                    &this.varyings[slot * this.scalars..][..4]
+                } else {
+                    &this.colors[slot * this.targets * 4..][..this.targets * 4]
+                },
                 depths: &this.depths[slot],
                 depth_out: has_depth_out.then_some(&this.depth_out[slot]),
             }

@@ -78,6 +78,16 @@ pub(crate) fn pack<S: Lanes>(s: S, [r, g, b, a]: [f32x16<S>; 4], is_srgb: bool) 
     r | (g << 8) | (b << 16) | alpha
 }
 
+/// [`pack`] of unorm channels that are at least 0, and above 1 by less than 1/512.
+#[inline(always)]
+pub(crate) fn pack_unclamped<S: Lanes>(_s: S, [r, g, b, a]: [f32x16<S>; 4]) -> u32x16<S> {
+    let (low, high) = (
+        unorm_code(r) | (unorm_code(g) << 8),
+        (unorm_code(b) << 16) | (unorm_code(a) << 24),
+    );
+    low | high
+}
+
 /// Takes four channels apart.
 #[inline(always)]
 pub(crate) fn unpack<S: Lanes>(s: S, packed: u32x16<S>, is_srgb: bool) -> [f32x16<S>; 4] {

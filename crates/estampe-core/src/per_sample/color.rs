@@ -44,6 +44,12 @@ impl ColorTarget {
         self.blend.is_none() && self.writable == u32::MAX
     }
 
+    /// Whether colours are blended *over* unorm8, all channels written.
+    #[inline(always)]
+    pub(crate) fn is_source_over(&self) -> bool {
+        self.blend == Some(BlendState::ALPHA_BLENDING) && !self.is_srgb && self.writable == u32::MAX
+    }
+
     /// Whether R, G, B are stored by the sRGB curve.
     #[inline(always)]
     pub(crate) fn is_srgb(&self) -> bool {

@@ -10,7 +10,7 @@ use crate::fragment::interpolate::{DepthPlane, PlaneOrigin, evaluate};
 use crate::fragment::queue::clamp_depth;
 use crate::tiles::Plane;
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, SimdBase, dispatch, f32x16};
-use estampe_types::state::CompareFunction;
+use estampe_types::state::{CompareFunction, DepthState};
 
 /// Bounds of the stored depths of a tile's blocks.
 #[derive(Debug, Clone)]
@@ -19,6 +19,30 @@ pub(crate) struct DepthBounds {
     greatest: [f32; LANES],
     /// Blocks whose bounds are out of date.
     stale: u16,
+}
+
+/// What becomes of a triangle in each block, one bit or value each.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Judgement {
+    /// No sample can pass.
+    pub(crate) hidden: u16,
+    /// Every covered sample passes.
+    pub(crate) certain: u16,
+    /// The triangle's least and greatest depth, were it to cover the block.
+    least: [f32; LANES],
+    greatest: [f32; LANES],
+}
+
+impl Judgement {
+    /// The same for all blocks, nothing being known of depths.
+    pub(crate) fn of_all(hidden: u16, certain: u16) -> Self {
+        Self {
+            hidden,
+            certain,
+            least: [0.0; LANES],
+            greatest: [1.0; LANES],
+        }
+    }
 }
 
 impl Default for DepthBounds {
@@ -46,47 +70,83 @@ impl DepthBounds {
         self.stale |= blocks;
     }
 
-    /// The blocks in which no sample of a triangle can pass, one bit each.
-    pub(crate) fn hidden<const N: usize>(
+    /// What becomes of a triangle in each block. Where equal depths are not decided by order, `or_equal` says
+    /// that they may pass whatever the comparison.
+    pub(crate) fn judge<const N: usize>(
         &mut self,
         level: Level,
         test: &DepthTest,
         triangle: &DepthPlane,
+        or_equal: bool,
         stored: &mut [f32],
-    ) -> u16 {
-        let nearer_is_less = match test.state.compare {
-            CompareFunction::Less | CompareFunction::LessEqual => true,
-            CompareFunction::Greater | CompareFunction::GreaterEqual => false,
-            CompareFunction::Never => return u16::MAX,
+    ) -> Judgement {
+        let compare = match test.state.compare {
+            CompareFunction::Less if or_equal => CompareFunction::LessEqual,
+            CompareFunction::Greater if or_equal => CompareFunction::GreaterEqual,
+            CompareFunction::Never => return Judgement::of_all(u16::MAX, 0),
             CompareFunction::Equal | CompareFunction::NotEqual | CompareFunction::Always => {
-                return 0;
+                return Judgement::of_all(0, 0);
             }
+            other => other,
         };
-        dispatch!(level, s => self.hidden_lanes::<_, N>(s, test, triangle, nearer_is_less, stored))
+        let state = DepthState {
+            compare,
+            ..test.state
+        };
+        let test = &DepthTest { state, ..*test };
+        dispatch!(level, s => self.judge_lanes::<_, N>(s, test, triangle, stored))
     }
 
     #[inline(always)]
-    fn hidden_lanes<S: Lanes, const N: usize>(
+    fn judge_lanes<S: Lanes, const N: usize>(
         &mut self,
         s: S,
         test: &DepthTest,
         triangle: &DepthPlane,
-        nearer_is_less: bool,
         stored: &mut [f32],
-    ) -> u16 {
+    ) -> Judgement {
         self.refresh::<S, N>(s, stored);
-        let z = clamp_depth(
-            s,
-            extreme::<S, N>(s, test, triangle, nearer_is_less),
-            test.range,
-        );
-        let hidden = match test.state.compare {
-            CompareFunction::Less => z.simd_ge(f32x16::load_array_ref(s, &self.greatest)),
-            CompareFunction::LessEqual => z.simd_gt(f32x16::load_array_ref(s, &self.greatest)),
-            CompareFunction::Greater => z.simd_le(f32x16::load_array_ref(s, &self.least)),
-            _ => z.simd_lt(f32x16::load_array_ref(s, &self.least)),
+        let least = clamp_depth(s, extreme::<S, N>(s, test, triangle, true), test.range);
+        let greatest = clamp_depth(s, extreme::<S, N>(s, test, triangle, false), test.range);
+        let stored_least = f32x16::load_array_ref(s, &self.least);
+        let stored_greatest = f32x16::load_array_ref(s, &self.greatest);
+        let (hidden, certain) = match test.state.compare {
+            CompareFunction::Less => (
+                least.simd_ge(stored_greatest),
+                greatest.simd_lt(stored_least),
+            ),
+            CompareFunction::LessEqual => (
+                least.simd_gt(stored_greatest),
+                greatest.simd_le(stored_least),
+            ),
+            CompareFunction::Greater => (
+                greatest.simd_le(stored_least),
+                least.simd_gt(stored_greatest),
+            ),
+            _ => (
+                greatest.simd_lt(stored_least),
+                least.simd_ge(stored_greatest),
+            ),
         };
-        s.bits_of_mask(hidden)
+        Judgement {
+            hidden: s.bits_of_mask(hidden),
+            certain: s.bits_of_mask(certain),
+            least: least.to_array(),
+            greatest: greatest.to_array(),
+        }
+    }
+
+    /// Notes that blocks hold nothing but a judged triangle's depths now.
+    #[inline(always)]
+    pub(crate) fn replace(&mut self, blocks: u16, judgement: &Judgement) {
+        self.stale &= !blocks;
+        let mut left = blocks;
+        while left != 0 {
+            let block = left.trailing_zeros() as usize % LANES;
+            left &= left - 1;
+            self.least[block] = judgement.least[block];
+            self.greatest[block] = judgement.greatest[block];
+        }
     }
 
     /// Scans the blocks that are out of date.

@@ -12,4 +12,6 @@ pub(crate) mod visibility;
 
 pub(crate) mod color;
 
+pub(crate) mod source_over;
+
 pub(crate) mod codes;

@@ -14,17 +14,31 @@
 use super::depth::{DepthTest, compare, line_mut};
 use crate::fragment::interpolate::{DepthPlane, evaluate};
 use crate::fragment::queue::{clamp_depth, sample_offsets};
-use crate::raster::{CoverageList, MAX_PACKETS, TileShape, packet_origin};
+use crate::raster::{CoverageList, Covered, MAX_PACKETS, TileShape, packet_origin};
 use crate::tiles::BinEntry;
-use estampe_simd::{LANE_X, LANE_Y, Lanes, Select, SimdBase, f32x16, mask32x16, u32x16};
+use estampe_simd::{
+    Bytes, LANE_X, LANE_Y, Lanes, Level, Select, SimdBase, dispatch, f32x16, i32x16, mask32x16,
+    u32x16,
+};
 use estampe_types::state::CompareFunction;
 
-/// The comparison that most draws use, in the order given: a copy of the loops of its own.
-pub(crate) const LESS: u8 = 0;
-/// Any comparison, in the order given.
-pub(crate) const ANY: u8 = 1;
-/// A comparison that orders depths, in any order.
-pub(crate) const SORTED: u8 = 2;
+/// Why there is no scalar form: sixteen scalar lanes of these kernels took the compiler many minutes. At the
+/// scalar level everything is drawn in order, which gives the same bits.
+pub(crate) const ONLY_WIDE: &str = "shading is put off at SIMD levels only";
+
+/// How a triangle's samples are decided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Decision {
+    /// By the depth test, in the order of submission.
+    InOrder,
+    /// By the depth test, in any order: numbers break ties.
+    Sorted,
+    /// Every sample is known to pass.
+    Certain,
+}
+
+/// The bit of numbers that are not a triangle's but a shaded fragment's.
+pub(crate) const SHADED: u32 = 1 << 31;
 
 /// Where a triangle of a run lies.
 #[derive(Debug, Clone, Copy)]
@@ -55,17 +69,21 @@ impl<const N: usize> Default for Visibility<N> {
 
 impl<const N: usize> Visibility<N> {
     /// Numbers a chunk's triangles, in the order of submission; gives the first number.
+    #[expect(clippy::cast_possible_truncation, reason = "a lane is below 16")]
     pub(crate) fn add(&mut self, chunk: u32, entries: &[BinEntry]) -> u32 {
         // A run has at most as many triangles as a wave and clipping's pieces: far below 2³².
         let first = u32::try_from(self.slots.len()).unwrap_or(u32::MAX);
         for entry in entries {
-            if let BinEntry::Triangles { packet, lanes } = *entry {
-                let lanes = (0..16u8).filter(|lane| lanes >> lane & 1 == 1);
-                self.slots.extend(lanes.map(|lane| Slot {
-                    chunk,
-                    packet,
-                    lane,
-                }));
+            if let BinEntry::Triangles { packet, mut lanes } = *entry {
+                while lanes != 0 {
+                    let lane = lanes.trailing_zeros() as u8;
+                    lanes &= lanes - 1;
+                    self.slots.push(Slot {
+                        chunk,
+                        packet,
+                        lane,
+                    });
+                }
             }
         }
         first
@@ -107,30 +125,45 @@ pub(crate) struct Sight<'a, const N: usize> {
     pub(crate) numbers: &'a mut [u32],
     pub(crate) pending: &'a mut [[u16; N]; MAX_PACKETS],
     pub(crate) tile: TileShape,
+    pub(crate) decision: Decision,
 }
 
 impl<const N: usize> Sight<'_, N> {
     /// Sees a triangle in whole blocks of 16×16 pixels and in a list of packets.
+    ///
+    /// *Less* in order with writes, which most draws use, has a copy of the loops of its own.
+    pub(crate) fn triangle(
+        &mut self,
+        level: Level,
+        triangle: &SeenTriangle,
+        blocks: u16,
+        list: &[Covered<N>],
+    ) {
+        let is_less = |test: &DepthTest| {
+            test.state.write_enabled && test.state.compare == CompareFunction::Less
+        };
+        if self.decision == Decision::InOrder && self.test.as_ref().is_some_and(is_less) {
+            dispatch!(@wide level, s => self.lanes::<_, true>(s, triangle, blocks, list),
+                scalar => unreachable!("{ONLY_WIDE}"));
+        } else {
+            dispatch!(@wide level, s => self.lanes::<_, false>(s, triangle, blocks, list),
+                scalar => unreachable!("{ONLY_WIDE}"));
+        }
+    }
+
     #[inline(always)]
-    pub(crate) fn triangle<S: Lanes, const MODE: u8>(
+    fn lanes<S: Lanes, const LESS: bool>(
         &mut self,
         s: S,
         triangle: &SeenTriangle,
-        mut blocks: u16,
-        list: &CoverageList<N>,
+        blocks: u16,
+        list: &[Covered<N>],
     ) {
+        self.blocks::<S, LESS>(s, triangle, blocks);
         let range = self.range();
         let plane = &triangle.plane;
-        if blocks != 0 {
-            let clamps = !triangle.is_within(self.tile, range);
-            while blocks != 0 {
-                let block = blocks.trailing_zeros();
-                blocks &= blocks - 1;
-                self.block::<S, MODE>(s, triangle, block, clamps);
-            }
-        }
         let offsets = sample_offsets::<N>();
-        for item in list.items() {
+        for item in list {
             let (x, y) = packet_origin(u32::from(item.packet));
             let pixel = [self.tile.x + x, self.tile.y + y];
             for (sample, &offset) in offsets.iter().enumerate() {
@@ -138,8 +171,27 @@ impl<const N: usize> Sight<'_, N> {
                 let z = clamp_depth(s, evaluate(s, &plane.z, [dx, dy]), range);
                 let mask = s.mask_from_bits(item.masks[sample]);
                 let at = [usize::from(item.packet), sample];
-                self.packet::<S, MODE>(s, at, z, mask, triangle.number);
+                self.packet::<S, LESS>(s, at, z, mask, triangle.number);
             }
+        }
+    }
+
+    /// Sees a triangle in blocks that it covers whole.
+    #[inline(always)]
+    fn blocks<S: Lanes, const LESS: bool>(
+        &mut self,
+        s: S,
+        triangle: &SeenTriangle,
+        mut blocks: u16,
+    ) {
+        if blocks == 0 {
+            return;
+        }
+        let clamps = !triangle.is_within(self.tile, self.range());
+        while blocks != 0 {
+            let block = blocks.trailing_zeros();
+            blocks &= blocks - 1;
+            self.block::<S, LESS>(s, triangle, block, clamps);
         }
     }
 
@@ -150,7 +202,7 @@ impl<const N: usize> Sight<'_, N> {
 
     /// A block that is covered whole: columns and rows of packets share their products.
     #[inline(always)]
-    fn block<S: Lanes, const MODE: u8>(
+    fn block<S: Lanes, const LESS: bool>(
         &mut self,
         s: S,
         triangle: &SeenTriangle,
@@ -178,14 +230,14 @@ impl<const N: usize> Sight<'_, N> {
                     z = clamp_depth(s, z, range);
                 }
                 let at = [block as usize * 16 + packet, sample];
-                self.packet::<S, MODE>(s, at, z, all, triangle.number);
+                self.packet::<S, LESS>(s, at, z, all, triangle.number);
             }
         }
     }
 
     /// Tests sixteen samples and notes who is seen there.
     #[inline(always)]
-    fn packet<S: Lanes, const MODE: u8>(
+    fn packet<S: Lanes, const LESS: bool>(
         &mut self,
         s: S,
         [packet, sample]: [usize; 2],
@@ -199,17 +251,18 @@ impl<const N: usize> Sight<'_, N> {
         if let (Some(test), Some(line)) = (&self.test, line_mut(self.depth, at)) {
             let old = f32x16::load_array_ref(s, line);
             passes = passes
-                & match MODE {
-                    LESS => new.simd_lt(old),
-                    ANY => compare(s, test.state.compare, new, old),
-                    _ => {
+                & match self.decision {
+                    _ if LESS => new.simd_lt(old),
+                    Decision::InOrder => compare(s, test.state.compare, new, old),
+                    Decision::Certain => mask,
+                    Decision::Sorted => {
                         let line = line_mut(self.numbers, at);
                         let seen = line.map_or([0; 16], |line| *line);
                         let seen = (u32x16::load_array(s, seen), *pending);
                         nearer_or_first(s, test.state.compare, [new, old], seen, number)
                     }
                 };
-            if MODE == LESS || test.state.write_enabled {
+            if LESS || test.state.write_enabled {
                 passes.select(new, old).store_array(line);
             }
         }
@@ -221,9 +274,9 @@ impl<const N: usize> Sight<'_, N> {
         }
     }
 
-    /// Tests one sample of a tile with one sample a pixel.
+    /// Tests one sample of a tile with one sample a pixel, and says whether it passed.
     #[inline(always)]
-    pub(crate) fn pixel(&mut self, at: usize, depth: f32, number: u32) {
+    pub(crate) fn pixel(&mut self, at: usize, depth: f32, number: u32) -> bool {
         if let Some(test) = &self.test
             && let Some(stored) = self.depth.get_mut(at)
         {
@@ -231,7 +284,7 @@ impl<const N: usize> Sight<'_, N> {
             let new = if depth > low { depth } else { low };
             let new = if new < high { new } else { high };
             if !passes(test.state.compare, new, *stored) {
-                return;
+                return false;
             }
             if test.state.write_enabled {
                 *stored = new;
@@ -241,6 +294,7 @@ impl<const N: usize> Sight<'_, N> {
             *seen = number;
             self.pending[at / 16 % MAX_PACKETS][0] |= 1 << (at % 16);
         }
+        true
     }
 
     /// Blocks of a list and of whole ones, one bit each.
@@ -301,7 +355,11 @@ fn nearer_or_first<S: Lanes>(
         new.simd_gt(old)
     };
     let pending = s.mask_from_bits(pending);
-    let mine = <u32x16<S> as SimdBase<S>>::splat(s, number);
+    // Signed, so that shaded fragments, which are of earlier chunks, count as older.
+    let (mine, seen) = (
+        <i32x16<S> as SimdBase<S>>::splat(s, number.cast_signed()),
+        seen.bitcast::<i32x16<S>>(),
+    );
     let wins_tie = match function {
         CompareFunction::Less | CompareFunction::Greater => pending & mine.simd_lt(seen),
         _ => !pending | mine.simd_gt(seen),

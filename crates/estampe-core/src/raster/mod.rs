@@ -213,6 +213,17 @@ impl TileShape {
         }
     }
 
+    /// The blocks of 16×16 pixels that lie in a rectangle of the tile's own pixels, one bit each.
+    pub(crate) fn blocks_inside(self, local: &PixelRect) -> u16 {
+        let blocks = 1u32 << (2 * (self.log2 - 4));
+        (0..blocks).fold(0, |inside, block| {
+            let (x, y) = packet_origin(block * 16);
+            let is_inside =
+                local.x0 <= x && local.y0 <= y && x + 16 <= local.x1 && y + 16 <= local.y1;
+            inside | u16::from(is_inside) << block
+        })
+    }
+
     /// Whether a rectangle in the tile's own pixels is all of it.
     #[inline(always)]
     pub(crate) fn is_whole(self, local: &PixelRect) -> bool {

@@ -31,6 +31,9 @@ pub(crate) struct SmallTriangles {
     /// By lane: the first pixel of its box, in the tile's own pixels.
     pub(crate) x: [i32; LANES],
     pub(crate) y: [i32; LANES],
+    /// By lane: the distance of that pixel's centre from the planes' origin.
+    pub(crate) from_x: [f32; LANES],
+    pub(crate) from_y: [f32; LANES],
 }
 
 impl Default for SmallTriangles {
@@ -40,6 +43,8 @@ impl Default for SmallTriangles {
             covered: [0; LANES],
             x: [0; LANES],
             y: [0; LANES],
+            from_x: [0.0; LANES],
+            from_y: [0.0; LANES],
         }
     }
 }
@@ -111,6 +116,8 @@ impl SmallTriangles {
             }
         }
         covered.store_array(&mut self.covered);
+        from_x.store_array(&mut self.from_x);
+        from_y.store_array(&mut self.from_y);
         (x_first - tile.x).store_array(&mut self.x);
         (y_first - tile.y).store_array(&mut self.y);
         small

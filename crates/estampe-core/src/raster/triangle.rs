@@ -83,15 +83,15 @@ impl<const N: usize> TileTriangle<N> {
         (self.columns[1] - self.columns[0]) * (self.rows[1] - self.rows[0])
     }
 
-    /// Lists the packets that the triangle covers, leaving out the blocks of `skip`. Blocks that are
-    /// covered whole are returned, one bit each, and not listed, unless `lists_all`.
+    /// Lists the packets that the triangle covers, leaving out the blocks of `skip`. Of the
+    /// blocks `whole`, those that are covered whole are returned, one bit each, and not listed.
     #[inline(always)]
     pub(crate) fn cover<S: Lanes>(
         &self,
         s: S,
         tile: TileShape,
         skip: u16,
-        lists_all: bool,
+        whole: u16,
         out: &mut CoverageList<N>,
     ) -> u16 {
         let lanes = EdgeLanes::new(s, self);
@@ -110,11 +110,8 @@ impl<const N: usize> TileTriangle<N> {
         let blocks = if tile.log2 == 6 { u16::MAX } else { 0xF };
         let (some, all) = lanes.judge(s, self, [0, 0], 16);
         let mut live = some & blocks & !skip;
-        let mut whole = 0;
-        if !lists_all {
-            whole = live & all;
-            live &= !all;
-        }
+        let whole = live & all & whole;
+        live &= !whole;
         while live != 0 {
             let block = live.trailing_zeros();
             live &= live - 1;

@@ -3,20 +3,22 @@
 //! For draws that neither blend nor discard nor write depth in the shader, and for depth alone. A run is a
 //! sequence of chunks of one item; it is shaded when another item or the tile's end comes.
 
-use super::{BOUNDED_PACKETS, ChunkInTile, TileJob, TilePass, TileScratch};
+use super::{BOUNDED_PACKETS, ChunkInTile, TileItem, TileJob, TilePass, TileScratch};
 use crate::fragment::interpolate::DepthPlane;
+use crate::fragment::queue::FragmentQueue;
+use crate::fragment::rows::PlaneRows;
+use crate::per_sample::codes::pack;
 use crate::per_sample::color::ColorTarget;
-use crate::per_sample::depth::DepthTest;
+use crate::per_sample::depth_bounds::Judgement;
 use crate::per_sample::visibility::{
-    ANY, LESS, SORTED, SeenTriangle, Sight, Visibility, orders, prefers_less,
+    Decision, ONLY_WIDE, SHADED, SeenTriangle, Sight, Visibility, orders, prefers_less,
 };
 use crate::raster::small::SmallTriangles;
 use crate::raster::triangle::TileTriangle;
 use crate::raster::{CoverageList, pixel_index};
 use crate::tiles::{BinEntry, TrianglePacket};
-use estampe_simd::{Lanes, dispatch};
+use estampe_simd::{Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_types::shader::DepthOutput;
-use estampe_types::state::CompareFunction;
 
 mod shade;
 
@@ -42,6 +44,11 @@ pub(super) struct Deferred<const N: usize> {
     shown_of: Vec<u32>,
     shown: Vec<Shown>,
     planes: Vec<f32>,
+    rows: PlaneRows,
+    /// How many rows of fragments are shaded or queued.
+    row_count: u32,
+    /// Colours of rows' fragments, sixteen a row.
+    row_codes: Vec<u32>,
     /// Colours of triangles that have one: of each target, by place in `shown`.
     codes: Vec<u32>,
 }
@@ -56,6 +63,9 @@ impl<const N: usize> Default for Deferred<N> {
             shown_of: Vec::new(),
             shown: Vec::new(),
             planes: Vec::new(),
+            rows: PlaneRows::default(),
+            row_count: 0,
+            row_codes: Vec::new(),
             codes: Vec::new(),
         }
     }
@@ -65,7 +75,8 @@ impl<const N: usize> Default for Deferred<N> {
 pub(super) fn is_deferred(work: &ChunkInTile<'_>) -> bool {
     let key = work.item.pipeline.key();
     let mut targets = work.item.targets.iter().flatten();
-    work.chunk.lines.is_empty()
+    !matches!(work.level, Level::Scalar(_))
+        && work.chunk.lines.is_empty()
         && work.chunk.points.is_empty()
         && key.early_depth
         && targets.all(ColorTarget::replaces)
@@ -86,12 +97,16 @@ pub(super) fn see_chunk<const N: usize>(
     scratch: &mut TileScratch<N>,
 ) {
     let deferred = &scratch.deferred;
-    if deferred.item != Some(work.chunk.item) || deferred.visibility.slots.len() > MAX_RUN {
+    if deferred.item != Some(work.chunk.item)
+        || deferred.visibility.slots.len() > MAX_RUN
+        || deferred.row_codes.len() > MAX_RUN
+    {
         shade_run(pass, job, scratch);
     }
+    scratch.queue.configure(work.item.pipeline);
     scratch.deferred.item = has_colors(work).then_some(work.chunk.item);
     let is_sorted = sort(work, entries, &mut scratch.deferred.order);
-    dispatch!(work.level, s => see_lanes(s, work, (entries, is_sorted), job, scratch));
+    see_entries(work, (entries, is_sorted), job, scratch);
 }
 
 /// Sorts entries by the depth of their triangles at the tile's middle, nearest first, if that is allowed
@@ -141,9 +156,7 @@ fn is_large(packet: &TrianglePacket, lane: usize) -> bool {
     high - low > BLOCK && packet.y[2][lane] - packet.y[0][lane] > BLOCK
 }
 
-#[inline(always)]
-fn see_lanes<S: Lanes, const N: usize>(
-    s: S,
+fn see_entries<const N: usize>(
     work: &ChunkInTile<'_>,
     (entries, is_sorted): (&[BinEntry], bool),
     job: &mut TileJob<'_>,
@@ -153,16 +166,9 @@ fn see_lanes<S: Lanes, const N: usize>(
     let mut next = scratch.deferred.visibility.add(work.number, entries);
     let mut seeing = Seeing {
         work,
-        mode: match &work.test {
-            Some(_) if is_sorted => SORTED,
-            Some(DepthTest { state, .. })
-                if state.write_enabled && state.compare == CompareFunction::Less =>
-            {
-                LESS
-            }
-            _ => ANY,
-        },
+        is_sorted: is_sorted && work.test.is_some(),
         has_colors: has_colors(work),
+        shades_rows: shades_rows(work),
         job,
         scratch,
     };
@@ -170,50 +176,119 @@ fn see_lanes<S: Lanes, const N: usize>(
         // Each entry is one triangle. Numbers follow the order of submission, whatever that of seeing.
         for &(_, at) in &order {
             if let BinEntry::Triangles { packet, lanes } = entries[at as usize] {
-                seeing.entry(s, packet, lanes, next + at);
+                seeing.entry(packet, lanes, next + at);
             }
         }
     } else {
         for entry in entries {
             if let BinEntry::Triangles { packet, lanes } = *entry {
-                seeing.entry(s, packet, lanes, next);
+                seeing.entry(packet, lanes, next);
                 next += lanes.count_ones();
             }
         }
     }
+    seeing.flush_rows();
     scratch.deferred.order = order;
+}
+
+/// Whether small triangles' fragments are shaded as they are seen, a fragment of each of sixteen triangles
+/// at once.
+fn shades_rows(work: &ChunkInTile<'_>) -> bool {
+    let interface = work.item.pipeline.interface();
+    has_colors(work)
+        && interface.independent_fragments
+        && !interface.reads_position
+        && interface.color_targets == 1
+}
+
+/// Appends sixteen codes for each shaded row.
+#[inline(always)]
+fn keep_codes<S: Lanes, const N: usize>(
+    s: S,
+    item: &TileItem<'_>,
+    queue: &mut FragmentQueue<N>,
+    codes: &mut Vec<u32>,
+) {
+    let is_srgb = item.targets[0].as_ref().is_some_and(ColorTarget::is_srgb);
+    for shaded in queue.drain(false) {
+        if let [r, g, b, a] = shaded.colors {
+            let color = [
+                f32x16::load_array_ref(s, &r.0),
+                f32x16::load_array_ref(s, &g.0),
+                f32x16::load_array_ref(s, &b.0),
+                f32x16::load_array_ref(s, &a.0),
+            ];
+            codes.extend_from_slice(&pack(s, color, is_srgb).to_array());
+        }
+    }
+}
+
+/// Fragments of one packet's small triangles: a row for each pixel of their boxes that some cover.
+#[derive(Debug, Default)]
+struct Rows {
+    /// The pixel of each row.
+    pixels: [u8; 16],
+    count: u32,
+    /// By pixel: one more than its row, or 0.
+    of_pixel: [u8; 16],
+    /// By pixel: the lanes that passed the depth test.
+    passed: [u16; 16],
+    /// All of them.
+    lanes: u16,
+}
+
+impl Rows {
+    /// The row of a pixel of the box.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "there are 16 of each")]
+    fn row_of(&mut self, pixel: usize) -> u32 {
+        if self.of_pixel[pixel] == 0 {
+            self.pixels[self.count as usize % 16] = pixel as u8;
+            self.count += 1;
+            self.of_pixel[pixel] = self.count as u8;
+        }
+        u32::from(self.of_pixel[pixel]) - 1
+    }
 }
 
 /// A chunk being seen in a tile.
 struct Seeing<'a, 'j, 't, const N: usize> {
     work: &'a ChunkInTile<'a>,
-    mode: u8,
+    is_sorted: bool,
     has_colors: bool,
+    shades_rows: bool,
     job: &'j mut TileJob<'t>,
     scratch: &'j mut TileScratch<N>,
 }
 
 impl<const N: usize> Seeing<'_, '_, '_, N> {
     /// Triangles of one packet; `number` is the first one's.
-    #[inline(always)]
-    fn entry<S: Lanes>(&mut self, s: S, packet: u32, lanes: u16, mut number: u32) {
+    fn entry(&mut self, packet: u32, lanes: u16, mut number: u32) {
         let packet = &self.work.chunk.triangles[packet as usize];
         let mut small = 0;
         if N == 1 {
             let (tile, rect) = (self.work.shape, &self.work.rect);
             let cover = &mut self.scratch.deferred.small;
-            small = cover.cover(s, packet, lanes, tile, rect);
+            small = dispatch!(@wide self.work.level, s => cover.cover(s, packet, lanes, tile, rect),
+                scalar => unreachable!("{ONLY_WIDE}"));
         }
-        let mut lanes = lanes;
-        while lanes != 0 {
-            let lane = lanes.trailing_zeros() as usize;
-            lanes &= lanes - 1;
-            if small >> lane & 1 == 1 {
-                self.small(lane, number);
+        let mut rows = Rows::default();
+        let mut left = lanes;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            left &= left - 1;
+            if small >> lane & 1 == 0 {
+                self.large(packet, lane, number);
+            } else if self.shades_rows {
+                self.small_row(lane, &mut rows);
             } else {
-                self.large(s, packet, lane, number);
+                self.small(lane, number);
             }
             number += 1;
+        }
+        if rows.count != 0 {
+            dispatch!(@wide self.work.level, s => self.shade_rows(s, packet, &rows),
+                scalar => unreachable!("{ONLY_WIDE}"));
         }
     }
 
@@ -234,13 +309,86 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
         self.scratch.bounds.invalidate(blocks);
     }
 
-    /// A triangle of any size, by blocks and packets.
+    /// The same where fragments are shaded by rows: a sample's number is that of its fragment.
     #[inline(always)]
-    fn large<S: Lanes>(&mut self, s: S, packet: &TrianglePacket, lane: usize, number: u32) {
+    fn small_row(&mut self, lane: usize, rows: &mut Rows) {
+        let next = self.scratch.deferred.row_count;
+        let (mut sight, _, small) = self.parts();
+        let (x, y) = (small.x[lane], small.y[lane]);
+        let mut covered = small.covered[lane];
+        let mut blocks = 0;
+        while covered != 0 {
+            let pixel = covered.trailing_zeros() as usize % 16;
+            covered &= covered - 1;
+            let at = pixel_index(x + (pixel & 3) as i32, y + (pixel >> 2) as i32);
+            let row = next + rows.row_of(pixel);
+            if sight.pixel(
+                at,
+                small.depth[pixel][lane],
+                SHADED | (row * 16 + lane as u32),
+            ) {
+                rows.passed[pixel] |= 1 << lane;
+                rows.lanes |= 1 << lane;
+            }
+            blocks |= 1u16 << (at >> 8);
+        }
+        self.scratch.bounds.invalidate(blocks);
+    }
+
+    /// Queues the rows' fragments.
+    #[inline(always)]
+    fn shade_rows<S: Lanes>(&mut self, s: S, packet: &TrianglePacket, rows: &Rows) {
+        let source = self.work.varyings(self.work.chunk);
+        let planes = &mut self.scratch.deferred.rows;
+        planes.set(s, packet, rows.lanes, &source);
+        for &pixel in rows.pixels.iter().take(rows.count as usize) {
+            if self.scratch.queue.is_full() {
+                self.flush_rows();
+            }
+            let TileScratch {
+                queue, deferred, ..
+            } = &mut *self.scratch;
+            let Deferred {
+                small,
+                rows: planes,
+                ..
+            } = deferred;
+            let column = <f32x16<S> as SimdBase<S>>::splat(s, f32::from(pixel & 3));
+            let row = <f32x16<S> as SimdBase<S>>::splat(s, f32::from(pixel >> 2));
+            // Exact, as in the coverage.
+            let x = f32x16::load_array_ref(s, &small.from_x) + column;
+            let y = f32x16::load_array_ref(s, &small.from_y) + row;
+            let passed = rows.passed[usize::from(pixel) % 16];
+            let out = queue.push_row(passed, packet.front);
+            planes.varyings(s, packet, source.modes, [x, y], out);
+        }
+        self.scratch.deferred.row_count += rows.count;
+    }
+
+    /// Shades the queued rows and keeps their colours.
+    fn flush_rows(&mut self) {
+        let TileScratch {
+            queue,
+            deferred,
+            statistics,
+            ..
+        } = &mut *self.scratch;
+        if queue.is_empty() {
+            return;
+        }
+        let (level, item) = (self.work.level, self.work.item);
+        statistics.fragments_shaded += queue.shade(level, item.pipeline, item.bindings);
+        dispatch!(@wide level, s => keep_codes(s, item, queue, &mut deferred.row_codes),
+            scalar => unreachable!("{ONLY_WIDE}"));
+    }
+
+    /// A triangle of any size, by blocks and packets.
+    fn large(&mut self, packet: &TrianglePacket, lane: usize, number: u32) {
         let ChunkInTile {
             shape,
             rect,
             is_whole,
+            blocks,
             level,
             test,
             ..
@@ -250,41 +398,50 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
         };
         let plane = DepthPlane::new(packet, lane);
         // Leave out the blocks where everything is nearer already.
-        let mut hidden = 0;
+        let mut judged = Judgement::of_all(0, 0);
         if triangle.packets() > BOUNDED_PACKETS
-            && let Some(mut test) = test
+            && let Some(test) = &test
         {
-            if self.mode == SORTED {
-                // An equal depth may still win: by its number.
-                test.state.compare = match test.state.compare {
-                    CompareFunction::Less => CompareFunction::LessEqual,
-                    CompareFunction::Greater => CompareFunction::GreaterEqual,
-                    other => other,
-                };
-            }
-            let depth = &mut *self.job.depth;
-            hidden = self.scratch.bounds.hidden::<N>(level, &test, &plane, depth);
-            if hidden == u16::MAX {
+            // An equal depth that is not seen in order may win by its number.
+            let or_equal = self.is_sorted;
+            let (bounds, depth) = (&mut self.scratch.bounds, &mut *self.job.depth);
+            judged = bounds.judge::<N>(level, test, &plane, or_equal, depth);
+            if judged.hidden == u16::MAX {
                 return;
             }
         }
         self.scratch.list.clear();
         let list = &mut self.scratch.list;
-        let whole = triangle.cover(s, shape, hidden, !is_whole, list);
+        let hidden = judged.hidden;
+        let whole = dispatch!(@wide level, s => triangle.cover(s, shape, hidden, blocks, list),
+            scalar => unreachable!("{ONLY_WIDE}"));
         if !is_whole {
             list.confine(&rect);
         }
-        let mode = self.mode;
+        let certain = if self.is_sorted {
+            0
+        } else {
+            judged.certain & whole
+        };
+        let is_sorted = self.is_sorted;
         let (mut sight, list, _) = self.parts();
         let seen = SeenTriangle { plane, number };
-        match mode {
-            LESS => sight.triangle::<S, LESS>(s, &seen, whole, list),
-            SORTED => sight.triangle::<S, SORTED>(s, &seen, whole, list),
-            _ => sight.triangle::<S, ANY>(s, &seen, whole, list),
+        if certain != 0 {
+            sight.decision = Decision::Certain;
+            sight.triangle(level, &seen, certain, &[]);
+        }
+        sight.decision = if is_sorted {
+            Decision::Sorted
+        } else {
+            Decision::InOrder
+        };
+        if whole != certain || !list.items().is_empty() {
+            sight.triangle(level, &seen, whole & !certain, list.items());
         }
         if test.is_some_and(|test| test.state.write_enabled) {
             let written = Sight::blocks_of(whole, list);
-            self.scratch.bounds.invalidate(written);
+            self.scratch.bounds.invalidate(written & !certain);
+            self.scratch.bounds.replace(certain, &judged);
         }
     }
 
@@ -303,6 +460,7 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
             numbers,
             pending: &mut deferred.visibility.pending,
             tile: self.work.shape,
+            decision: Decision::InOrder,
         };
         (sight, &self.scratch.list, &deferred.small)
     }

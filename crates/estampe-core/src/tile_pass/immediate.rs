@@ -9,12 +9,17 @@ use crate::fragment::interpolate::{
     VaryingSource, set_planes,
 };
 use crate::fragment::queue::{Needs, clamp_depth};
+use crate::per_sample::color::ColorTarget;
 use crate::per_sample::depth::{DepthTest, line_mut, test_early, test_late};
+use crate::per_sample::depth_bounds::Judgement;
+use crate::per_sample::source_over::{ColorPlanes, blend_block, test_block};
+use crate::per_sample::visibility::ONLY_WIDE;
 use crate::pipeline::StageKey;
 use crate::raster::triangle::TileTriangle;
 use crate::raster::{line, packet_origin, point};
 use crate::tiles::{BinEntry, LinePrimitive, PointPrimitive, TrianglePacket};
-use estampe_simd::{Lanes, SimdBase, dispatch, f32x16};
+use estampe_simd::{Lanes, Level, SimdBase, dispatch, f32x16};
+use estampe_types::Interpolation;
 use estampe_types::shader::DepthOutput;
 
 /// Draws the tile's primitives of one chunk.
@@ -36,6 +41,13 @@ pub(super) fn draw_chunk<S: Lanes, const N: usize>(
         test: work.test,
         early: early_depth,
         depth_output: interface.depth_output != DepthOutput::None,
+        blends_blocks: N == 1
+            && !matches!(work.level, Level::Scalar(_))
+            && interface.passes_color
+            && interface.varyings[..4] == [Interpolation::Smooth; 4]
+            && work.item.targets[0]
+                .as_ref()
+                .is_some_and(ColorTarget::is_source_over),
         needs: Needs {
             position: interface.reads_position,
             depth: !early_depth,
@@ -75,6 +87,8 @@ struct Drawing<'a, 'j, 't, const N: usize> {
     /// Whether depth is tested, and written, before shading.
     early: bool,
     depth_output: bool,
+    /// Whether whole blocks of triangles without perspective are blended from their planes.
+    blends_blocks: bool,
     needs: Needs,
     /// Planes of the triangle at hand.
     planes: Vec<f32>,
@@ -89,6 +103,7 @@ impl<const N: usize> Drawing<'_, '_, '_, N> {
             shape,
             rect,
             is_whole,
+            blocks,
             level,
             ..
         } = *self.work;
@@ -97,21 +112,22 @@ impl<const N: usize> Drawing<'_, '_, '_, N> {
         };
         let plane = DepthPlane::new(packet, lane);
         // Leave out the blocks where everything is nearer already.
-        let mut hidden = 0;
+        let mut judged = Judgement::of_all(0, 0);
         if !self.depth_output
             && triangle.packets() > BOUNDED_PACKETS
             && let Some(test) = &self.test
         {
-            hidden = self
-                .scratch
-                .bounds
-                .hidden::<N>(level, test, &plane, self.job.depth);
-            if hidden == u16::MAX {
+            let bounds = &mut self.scratch.bounds;
+            judged = bounds.judge::<N>(level, test, &plane, false, self.job.depth);
+            if judged.hidden == u16::MAX {
                 return;
             }
         }
         self.scratch.list.clear();
-        triangle.cover(s, shape, hidden, true, &mut self.scratch.list);
+        let blends_blocks = self.blends_blocks && packet.equal_w >> lane & 1 == 1;
+        let blocks = if blends_blocks { blocks } else { 0 };
+        let list = &mut self.scratch.list;
+        let whole = triangle.cover(s, shape, judged.hidden, blocks, list);
         if !is_whole {
             self.scratch.list.confine(&rect);
         }
@@ -124,15 +140,55 @@ impl<const N: usize> Drawing<'_, '_, '_, N> {
             modes: self.source.modes,
             all_smooth: self.work.item.all_smooth,
         };
-        if !self.tested(s, &surface) {
+        let is_seen = self.tested(s, &surface);
+        if !is_seen && whole == 0 {
             return;
         }
         // Moved out for the call, because the surface borrows them.
         let mut planes = std::mem::take(&mut self.planes);
         set_planes(&mut planes, packet, lane, &self.source);
         surface.planes = VaryingPlanes::new(&planes);
+        if whole != 0 {
+            // What is queued lies below.
+            self.flush();
+            let colors = ColorPlanes::new(surface.origin, &surface.planes, shape);
+            let certain = judged.certain;
+            dispatch!(@wide level, s => self.blend_blocks(s, &plane, &colors, [whole, certain]),
+                scalar => unreachable!("{ONLY_WIDE}"));
+        }
         self.shaded(s, &surface, packet.front >> lane & 1 == 1);
         self.planes = planes;
+    }
+
+    /// Blends a triangle over blocks that it covers whole.
+    #[inline(always)]
+    fn blend_blocks<S: Lanes>(
+        &mut self,
+        s: S,
+        plane: &DepthPlane,
+        colors: &ColorPlanes,
+        [mut blocks, certain]: [u16; 2],
+    ) {
+        let writes = |test: &DepthTest| test.state.write_enabled;
+        let writes = self.test.as_ref().is_some_and(writes);
+        if writes {
+            self.scratch.bounds.invalidate(blocks);
+        }
+        while blocks != 0 {
+            let block = blocks.trailing_zeros() as usize;
+            blocks &= blocks - 1;
+            let (mut masks, mut fragments) = ([u16::MAX; 16], 256);
+            if let Some(test) = &self.test
+                && (writes || certain >> block & 1 == 0)
+            {
+                masks = test_block(s, test, plane, block, self.job.depth);
+                let counts = masks.iter().map(|mask| u64::from(mask.count_ones()));
+                fragments = counts.sum();
+            }
+            self.scratch.statistics.fragments_shaded += fragments;
+            let at = (self.work.shape, block);
+            blend_block(s, colors, at, &masks, self.job.colors[0]);
+        }
     }
 
     /// Lines and points enter the level one by one: they are few, and their code is kept out of the

@@ -115,6 +115,8 @@ struct ChunkInTile<'a> {
     rect: PixelRect,
     /// Whether that is all of the tile.
     is_whole: bool,
+    /// The blocks of 16×16 pixels that lie in it, one bit each.
+    blocks: u16,
     test: Option<DepthTest>,
 }
 
@@ -138,6 +140,7 @@ impl<'a> ChunkInTile<'a> {
             shape,
             rect,
             is_whole: shape.is_whole(&rect),
+            blocks: shape.blocks_inside(&rect),
             test: depth
                 .filter(|_| !job.depth.is_empty())
                 .map(|state| DepthTest {

@@ -1,6 +1,7 @@
 //! A Rust shader behind the [`Program`] interface.
 
 use super::fragment::MAX_COLORS;
+use super::pass_through::passes_color;
 use super::{Attributes, Sink, Source, Varyings, scalar};
 use crate::{
     Bindings, FragmentBatch, FragmentIn, Interface, Program, Real, Shader, Vec4, VertexBatch,
@@ -24,10 +25,12 @@ impl<T: Shader> ShaderProgram<T> {
             depth_output: T::DEPTH_OUTPUT,
             reads_position: T::READS_POSITION,
             writes_point_size: T::WRITES_POINT_SIZE,
+            independent_fragments: T::INDEPENDENT_FRAGMENTS,
             ..Interface::default()
         };
         T::Attributes::<f32>::components(&mut interface.attributes);
         T::Varyings::<f32>::modes(&mut interface.varyings);
+        interface.passes_color = passes_color(&shader, &interface);
         Self { shader, interface }
     }
 

@@ -37,6 +37,11 @@ pub struct Interface {
     pub depth_output: DepthOutput,
     /// Whether fragments read their position.
     pub reads_position: bool,
+    /// Whether the fragments' one colour is the varyings' first four scalars as they are.
+    pub passes_color: bool,
+    /// Whether a fragment's colours depend on its own inputs alone: no derivatives, and so no textures whose
+    /// level of detail comes from them.
+    pub independent_fragments: bool,
     /// Whether vertices set a point size.
     pub writes_point_size: bool,
 }

@@ -8,6 +8,7 @@
 mod erased;
 mod fragment;
 mod interface;
+mod pass_through;
 mod scalar;
 mod varyings;
 mod vertex;
@@ -66,6 +67,14 @@ pub trait Shader: Send + Sync + 'static {
     const DEPTH_OUTPUT: DepthOutput = DepthOutput::None;
     /// Whether the fragment reads [`FragmentIn::position`]; where not, it is zero.
     const READS_POSITION: bool = false;
+    /// Whether the fragment's colour is the first four scalars of its varyings as they are, and nothing
+    /// else: a pass-through shader, which the pipeline need not call. It is tried when the program is made;
+    /// one that does otherwise is called.
+    const PASSES_COLOR: bool = false;
+    /// Whether a fragment depends on its own inputs alone: the shader takes no derivatives, and samples no
+    /// texture whose level of detail comes from them. Fragments of small triangles are then shaded without
+    /// their quads. A shader that says so and takes derivatives gets those of strangers.
+    const INDEPENDENT_FRAGMENTS: bool = Self::PASSES_COLOR;
     /// Whether the vertex sets a point size; where not, points are one pixel.
     const WRITES_POINT_SIZE: bool = false;
 

@@ -14,9 +14,11 @@ use crate::fragment::queue::{Needs, Shaded};
 use crate::per_sample::codes::pack;
 use crate::per_sample::color::write_code;
 use crate::per_sample::depth::line_mut;
+use crate::per_sample::visibility::{ONLY_WIDE, SHADED};
 use crate::raster::{Covered, MAX_PACKETS, packet_origin};
 use crate::tiles::Plane;
-use estampe_simd::{LANES, Lanes, Select, SimdBase, dispatch, f32x16, u32x16};
+use estampe_simd::{Bytes, LANES, Lanes, Select, SimdBase, dispatch, f32x16, i32x16, u32x16};
+use estampe_types::Interpolation;
 
 /// A triangle that is seen: what its fragments are made of.
 #[derive(Debug, Clone, Copy)]
@@ -39,6 +41,8 @@ pub(in crate::tile_pass) fn shade_run<const N: usize>(
 ) {
     let Some(number) = scratch.deferred.item.take() else {
         scratch.deferred.visibility.slots.clear();
+        scratch.deferred.row_codes.clear();
+        scratch.deferred.row_count = 0;
         return;
     };
     let item = &pass.items[number];
@@ -62,19 +66,29 @@ pub(in crate::tile_pass) fn shade_run<const N: usize>(
             depth: false,
             depth_range: item.depth_range,
         },
-        scalars: interface.varyings.len(),
+        modes: &interface.varyings,
         job,
         scratch,
     };
+    if !shading.scratch.deferred.row_codes.is_empty() {
+        dispatch!(@wide pass.level, s => shading.write_rows(s),
+            scalar => unreachable!("{ONLY_WIDE}"));
+    }
     if item.pipeline.key().uniform_over_primitive {
-        dispatch!(pass.level, s => shading.uniform(s));
+        dispatch!(@wide pass.level, s => shading.uniform(s),
+            scalar => unreachable!("{ONLY_WIDE}"));
         shading.flush_uniform();
-        dispatch!(pass.level, s => shading.write_codes(s));
+        dispatch!(@wide pass.level, s => shading.write_codes(s),
+            scalar => unreachable!("{ONLY_WIDE}"));
     } else {
-        dispatch!(pass.level, s => shading.packets(s));
+        dispatch!(@wide pass.level, s => shading.packets(s),
+            scalar => unreachable!("{ONLY_WIDE}"));
         shading.flush();
     }
-    let visibility = &mut scratch.deferred.visibility;
+    let deferred = &mut scratch.deferred;
+    deferred.row_codes.clear();
+    deferred.row_count = 0;
+    let visibility = &mut deferred.visibility;
     visibility.slots.clear();
     visibility.pending.fill([0; N]);
 }
@@ -85,12 +99,42 @@ struct Shading<'a, 'j, 't, const N: usize> {
     /// The tile's first pixel.
     origin: [i32; 2],
     needs: Needs,
-    scalars: usize,
+    /// How each scalar of the varyings is interpolated.
+    modes: &'a [Interpolation],
     job: &'j mut TileJob<'t>,
     scratch: &'j mut TileScratch<N>,
 }
 
 impl<const N: usize> Shading<'_, '_, '_, N> {
+    /// Puts the colours of fragments that are shaded already in the place of their numbers.
+    #[inline(always)]
+    fn write_rows<S: Lanes>(&mut self, s: S) {
+        let Deferred {
+            visibility,
+            row_codes,
+            ..
+        } = &mut self.scratch.deferred;
+        let codes = &row_codes[..];
+        for (packet, pending) in visibility.pending.iter_mut().enumerate() {
+            // Rows are for one sample a pixel.
+            if pending[0] == 0 {
+                continue;
+            }
+            let Some(line) = line_mut(self.job.colors[0], packet * N) else {
+                continue;
+            };
+            let numbers = u32x16::load_array_ref(s, line);
+            let signed: i32x16<S> = numbers.bitcast();
+            let mask = s.sign_bits(signed) & pending[0];
+            pending[0] &= !mask;
+            let within = numbers & <u32x16<S> as SimdBase<S>>::splat(s, !SHADED);
+            let colors = s.gather(codes, within);
+            s.mask_from_bits(mask)
+                .select(colors, numbers)
+                .store_array(line);
+        }
+    }
+
     /// Queues everything that is seen.
     #[inline(always)]
     fn packets<S: Lanes>(&mut self, s: S) {
@@ -110,30 +154,33 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
     /// The first triangle that is seen in a packet's pending samples, and where; they are taken out.
     #[inline(always)]
     fn next_seen<S: Lanes>(&self, s: S, packet: usize, pending: &mut [u16; N]) -> (u32, [u16; N]) {
-        let line = |sample: usize| -> &[u32; LANES] {
-            let from = (packet * N + sample) * LANES;
-            let line = self.job.colors[0].get(from..from + LANES);
-            // Pending samples lie in the attachment, so there always is a line.
-            line.and_then(|line| line.try_into().ok())
-                .unwrap_or(&[0; LANES])
-        };
         let mut number = 0;
         for (sample, pending) in pending.iter().enumerate().rev() {
             if *pending != 0 {
-                number = line(sample)[pending.trailing_zeros() as usize % LANES];
+                let at = (packet * N + sample) * LANES + pending.trailing_zeros() as usize;
+                // Pending samples lie in the attachment, so there always is one.
+                number = self.job.colors[0].get(at).copied().unwrap_or_default();
             }
         }
         let mut masks = [0; N];
         for (sample, (mask, pending)) in masks.iter_mut().zip(pending).enumerate() {
-            if *pending == 0 {
-                continue;
+            if *pending != 0 {
+                *mask = self.lanes_of(s, packet * N + sample, number) & *pending;
+                *pending &= !*mask;
             }
-            let numbers = u32x16::load_array_ref(s, line(sample));
-            let same = numbers.simd_eq(<u32x16<S> as SimdBase<S>>::splat(s, number));
-            *mask = s.bits_of_mask(same) & *pending;
-            *pending &= !*mask;
         }
         (number, masks)
+    }
+
+    /// The lanes of a line of the first attachment that hold a number.
+    #[inline(always)]
+    fn lanes_of<S: Lanes>(&self, s: S, line: usize, number: u32) -> u16 {
+        let line = self.job.colors[0].get(line * LANES..(line + 1) * LANES);
+        let Some(line) = line.and_then(|line| <&[u32; LANES]>::try_from(line).ok()) else {
+            return u16::MAX;
+        };
+        let numbers = u32x16::load_array_ref(s, line);
+        s.bits_of_mask(numbers.simd_eq(<u32x16<S> as SimdBase<S>>::splat(s, number)))
     }
 
     /// Queues a triangle's part of a packet: whole, or by quads where some quads are empty.
@@ -151,7 +198,7 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
             let TileScratch {
                 queue, deferred, ..
             } = &mut *self.scratch;
-            let (surface, front) = surface_of(deferred, self.item, self.scalars, shown);
+            let (surface, front) = surface_of(deferred, (self.modes, self.item.all_smooth), shown);
             queue.push(s, &surface, (covered, pixel), front, self.needs);
             return;
         }
@@ -164,7 +211,7 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
             let TileScratch {
                 queue, deferred, ..
             } = &mut *self.scratch;
-            let (surface, front) = surface_of(deferred, self.item, self.scalars, shown);
+            let (surface, front) = surface_of(deferred, (self.modes, self.item.all_smooth), shown);
             let first = [
                 pixel[0] + (quad & 1) as i32 * 2,
                 pixel[1] + (quad >> 1) as i32 * 2,
@@ -201,12 +248,12 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
             front: packet.front >> lane & 1 == 1,
         });
         let from = deferred.planes.len();
-        let size = VaryingPlanes::size(self.scalars);
+        let size = VaryingPlanes::size(self.modes.len());
         deferred.planes.resize(from + size, 0.0);
         let source = VaryingSource {
             shaded: self.item.varyings,
             clipped: &chunk.clipped_varyings,
-            modes: &self.item.pipeline.interface().varyings,
+            modes: self.modes,
         };
         set_planes(&mut deferred.planes[from..], packet, lane, &source);
         place
@@ -220,7 +267,8 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
         }
         let fragments = queue.shade(self.pass.level, self.item.pipeline, self.item.bindings);
         self.scratch.statistics.fragments_shaded += fragments;
-        dispatch!(self.pass.level, s => self.store(s));
+        dispatch!(@wide self.pass.level, s => self.store(s),
+            scalar => unreachable!("{ONLY_WIDE}"));
     }
 
     #[inline(always)]
@@ -243,10 +291,18 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
     /// Shades one packet of every triangle that is seen.
     #[inline(always)]
     fn uniform<S: Lanes>(&mut self, s: S) {
+        let mut last = NONE;
         for packet in 0..MAX_PACKETS {
             let mut pending = self.scratch.deferred.visibility.pending[packet];
+            // Large triangles: most packets show the one before.
+            for (sample, pending) in pending.iter_mut().enumerate() {
+                if *pending != 0 {
+                    *pending &= !self.lanes_of(s, packet * N + sample, last);
+                }
+            }
             while pending != [0; N] {
                 let (number, masks) = self.next_seen(s, packet, &mut pending);
+                last = number;
                 let known = self.scratch.deferred.shown.len() as u32;
                 let shown = self.shown(number);
                 if shown < known {
@@ -265,7 +321,7 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
                     queue, deferred, ..
                 } = &mut *self.scratch;
                 let (surface, front) =
-                    surface_of(deferred, self.item, self.scalars, shown as usize);
+                    surface_of(deferred, (self.modes, self.item.all_smooth), shown as usize);
                 queue.push(s, &surface, (covered, pixel), front, self.needs);
             }
         }
@@ -345,20 +401,19 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
 #[inline(always)]
 fn surface_of<'a, const N: usize>(
     deferred: &'a Deferred<N>,
-    item: &'a TileItem<'_>,
-    scalars: usize,
+    (modes, all_smooth): (&'a [Interpolation], bool),
     place: usize,
 ) -> (TriangleSurface<'a>, bool) {
     let shown = &deferred.shown[place];
-    let size = VaryingPlanes::size(scalars);
+    let size = VaryingPlanes::size(modes.len());
     let surface = TriangleSurface {
         origin: shown.origin,
         z: shown.z,
         iw: shown.iw,
         equal_w: shown.equal_w,
         planes: VaryingPlanes::new(&deferred.planes[place * size..][..size]),
-        modes: &item.pipeline.interface().varyings,
-        all_smooth: item.all_smooth,
+        modes,
+        all_smooth,
     };
     (surface, shown.front)
 }

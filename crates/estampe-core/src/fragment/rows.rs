@@ -1,0 +1,133 @@
+//! Varyings of sixteen small triangles, one fragment of each at a time.
+//!
+//! Where fragments need no neighbours, a packet need not be 4×4 pixels of one triangle: in a *row* lane `i` is
+//! a pixel of triangle `i`, and interpolation takes no more than it does for one triangle.
+
+use super::interpolate::VaryingSource;
+use crate::tiles::TrianglePacket;
+use estampe_simd::{LANES, Lanes, Packet, Select, SimdBase, SimdCvtFloat, f32x16, i32x16};
+use estampe_types::Interpolation;
+
+/// Planes of all varyings of sixteen triangles: by scalar, then by lane.
+#[derive(Debug, Default)]
+pub(crate) struct PlaneRows {
+    /// Values at the three vertices; their first is the planes' origin once [`PlaneRows::set`] is done.
+    corners: [Vec<Packet<f32>>; 3],
+    dx: Vec<Packet<f32>>,
+    dy: Vec<Packet<f32>>,
+}
+
+impl PlaneRows {
+    /// Sets the planes of the packet's triangles in `lanes`, as `set_planes` does for one.
+    #[inline(always)]
+    pub(crate) fn set<S: Lanes>(
+        &mut self,
+        s: S,
+        packet: &TrianglePacket,
+        lanes: u16,
+        source: &VaryingSource<'_>,
+    ) {
+        let n = source.modes.len();
+        for rows in self.corners.iter_mut().chain([&mut self.dx, &mut self.dy]) {
+            rows.resize(n, Packet::default());
+        }
+        self.fetch(packet, lanes, source);
+        let [dx1, dx2] = differences(s, &packet.x);
+        let [dy1, dy2] = differences(s, &packet.y);
+        let r = f32x16::load_array_ref(s, &packet.r);
+        let equal_w = s.mask_from_bits(packet.equal_w);
+        let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
+        let mut iw = [one; 3];
+        for corner in 0..3 {
+            let value = f32x16::load_array_ref(s, &packet.iw_at[corner]);
+            // A product with 1 changes nothing.
+            iw[corner] = equal_w.select(one, value);
+        }
+        let [first, second, third] = &mut self.corners;
+        let rows = first.iter_mut().zip(second).zip(third);
+        let rows = rows.zip(self.dx.iter_mut().zip(&mut self.dy));
+        for (mode, (((p0, p1), p2), (dx, dy))) in source.modes.iter().zip(rows) {
+            if *mode == Interpolation::Flat {
+                continue;
+            }
+            let mut p = [
+                f32x16::load_array_ref(s, &p0.0),
+                f32x16::load_array_ref(s, &p1.0),
+                f32x16::load_array_ref(s, &p2.0),
+            ];
+            if *mode == Interpolation::Smooth {
+                p = [p[0] * iw[0], p[1] * iw[1], p[2] * iw[2]];
+                p[0].store_array(&mut p0.0);
+            }
+            let (e1, e2) = (p[1] - p[0], p[2] - p[0]);
+            ((e1 * dy2 - e2 * dy1) * r).store_array(&mut dx.0);
+            ((e2 * dx1 - e1 * dx2) * r).store_array(&mut dy.0);
+        }
+    }
+
+    /// Transposes the varyings of the lanes' vertices into rows; flat ones are the provoking vertex's.
+    #[inline(always)]
+    fn fetch(&mut self, packet: &TrianglePacket, lanes: u16, source: &VaryingSource<'_>) {
+        let has_flat = source.modes.contains(&Interpolation::Flat);
+        let mut left = lanes;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize % LANES;
+            left &= left - 1;
+            for (rows, vertex) in self.corners.iter_mut().zip(&packet.vertex) {
+                let values = source.of(vertex[lane]);
+                for (row, value) in rows.iter_mut().zip(values) {
+                    row.0[lane] = *value;
+                }
+            }
+            if has_flat {
+                let values = source.of(packet.provoking[lane]);
+                let rows = self.corners[0].iter_mut().zip(values);
+                for ((row, value), mode) in rows.zip(source.modes) {
+                    if *mode == Interpolation::Flat {
+                        row.0[lane] = *value;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The varyings at one pixel of each triangle, given by its centre's distance from the planes' origin.
+    #[inline(always)]
+    pub(crate) fn varyings<S: Lanes>(
+        &self,
+        s: S,
+        packet: &TrianglePacket,
+        modes: &[Interpolation],
+        [x, y]: [f32x16<S>; 2],
+        out: &mut [Packet<f32>],
+    ) {
+        let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
+        let iw = f32x16::load_array_ref(s, &packet.iw.origin)
+            + (x * f32x16::load_array_ref(s, &packet.iw.dx)
+                + y * f32x16::load_array_ref(s, &packet.iw.dy));
+        let w = s.mask_from_bits(packet.equal_w).select(one, one / iw);
+        let planes = self.corners[0].iter().zip(self.dx.iter().zip(&self.dy));
+        for ((mode, out), (origin, (dx, dy))) in modes.iter().zip(out).zip(planes) {
+            if *mode == Interpolation::Flat {
+                *out = *origin;
+                continue;
+            }
+            let mut value = f32x16::load_array_ref(s, &origin.0)
+                + (x * f32x16::load_array_ref(s, &dx.0) + y * f32x16::load_array_ref(s, &dy.0));
+            if *mode == Interpolation::Smooth {
+                value *= w;
+            }
+            value.store_array(&mut out.0);
+        }
+    }
+}
+
+/// Differences of the second and the third vertex from the first, in pixels: exact.
+#[inline(always)]
+fn differences<S: Lanes>(s: S, of: &[[i32; LANES]; 3]) -> [f32x16<S>; 2] {
+    let first = i32x16::load_array_ref(s, &of[0]);
+    [
+        f32x16::float_from(i32x16::load_array_ref(s, &of[1]) - first) * (1.0 / 256.0),
+        f32x16::float_from(i32x16::load_array_ref(s, &of[2]) - first) * (1.0 / 256.0),
+    ]
+}

@@ -1,0 +1,71 @@
+//! Whether a fragment shader does what it says: pass its colour on.
+
+use super::scalar;
+use crate::{Bindings, FragmentBatch, Interface, Shader};
+use estampe_simd::{LANES, Packet};
+
+/// Whether the shader says that it passes its colour on, and does so for sixteen colours. One that says so and
+/// does otherwise is run like any other.
+pub(super) fn passes_color<T: Shader>(shader: &T, interface: &Interface) -> bool {
+    let scalars = interface.varyings.len();
+    if !T::PASSES_COLOR
+        || T::DISCARDS
+        || T::READS_POSITION
+        || interface.depth_output != super::DepthOutput::None
+        || interface.color_targets != 1
+        || scalars < 4
+    {
+        return false;
+    }
+    // Different values in every lane and scalar, beyond 0..=1 too.
+    let mut varyings = vec![Packet([0.0; LANES]); scalars];
+    let all = varyings.iter_mut().flat_map(|packet| &mut packet.0);
+    all.zip(1u8..)
+        .for_each(|(value, number)| *value = f32::from(number) * 0.037 - 0.5);
+    let mut colors = [Packet([f32::NAN; LANES]); 4];
+    let batch = FragmentBatch {
+        varyings: &varyings,
+        positions: &[],
+        front_facing: &[u16::MAX],
+        coverage: &mut [u16::MAX],
+        colors: &mut colors,
+        depths: &mut [],
+    };
+    scalar::fragments(shader, interface, &Bindings::default(), batch);
+    colors == varyings[..4]
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
+    use crate::{Program, Real, ShaderProgram, Vec4};
+
+    struct Colored {
+        is_honest: bool,
+    }
+
+    crate::shader! {
+        impl Shader for Colored {
+            type Attributes<R: Real> = Vec4<R>;
+            type Varyings<R: Real> = Vec4<R>;
+            const PASSES_COLOR: bool = true;
+
+            fn vertex<R: Real>(&self, _input: VertexIn<'_, R>, color: Vec4<R>) -> VertexOut<R, Vec4<R>> {
+                VertexOut::new(color, color)
+            }
+
+            fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, color: Vec4<R>) -> FragmentOut<R> {
+                let x = if self.is_honest { color.x } else { color.x * 0.5 };
+                FragmentOut::color(Vec4::new(x, color.y, color.z, color.w))
+            }
+        }
+    }
+
+    #[test]
+    fn a_shader_that_says_so_and_does_not_is_run() {
+        for is_honest in [true, false] {
+            let program = ShaderProgram::new(Colored { is_honest });
+            assert_eq!(program.interface().passes_color, is_honest);
+        }
+    }
+}
