@@ -4,6 +4,7 @@
 //! ```text
 //! cargo run -p xtask -- check     every check of the sources and documents
 //! cargo run -p xtask -- asm       the check of the hot functions' machine code
+//! cargo run -p xtask -- models F  the models on which `estampe render` is measured, into folder F
 //! ```
 //!
 //! Each check is a function from the [`Repository`] to [`Finding`]s. A finding that is an error fails
@@ -18,6 +19,7 @@ mod elf;
 mod finding;
 mod manifests;
 mod markdown;
+mod models;
 mod outside;
 mod repository;
 mod rooms;
@@ -29,6 +31,7 @@ pub use assembly::{AssemblyError, AssemblyReport, check_binary};
 pub use documents::check_documents;
 pub use edges::check_edges;
 pub use finding::{Finding, Severity};
+pub use models::write_models;
 pub use outside::check_outside;
 pub use repository::{Repository, RepositoryError};
 pub use rooms::check_rooms;

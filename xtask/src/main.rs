@@ -4,13 +4,14 @@
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
-use xtask::{CHECKS, Repository, check_binary};
+use xtask::{CHECKS, Repository, check_binary, write_models};
 
 /// The packages whose programs the check of the assembly builds.
 const HOT_PROGRAMS: &[&str] = &["estampe-bench", "estampe-cli"];
 
 const USAGE: &str = "\
 usage: cargo run -p xtask -- check          check sources and documents
+       cargo run -p xtask -- models FOLDER  write the models on which the whole process is measured
        cargo run -p xtask -- asm [BINARY]…  check that hot code is inlined into its SIMD level;
                                             without BINARY, builds the programs and checks them";
 
@@ -19,6 +20,9 @@ fn main() -> ExitCode {
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = match arguments.as_slice() {
         ["check"] => check(),
+        ["models", folder] => write_models(folder.as_ref())
+            .map(|()| true)
+            .map_err(|error| format!("{folder}: {error}")),
         ["asm", binaries @ ..] => asm(binaries),
         _ => {
             eprintln!("{USAGE}");
