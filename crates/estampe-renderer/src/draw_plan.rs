@@ -13,7 +13,7 @@ use crate::shading::marks::Marks;
 use crate::surface_pipelines::{FrameStyle, StreamPipeline, Transparency};
 use estampe::state::PrimitiveTopology;
 use estampe::{Buffer, Device, Draw, IndexFormat, TextureFormat};
-use estampe_scene::{Mesh, Scene, Surface};
+use estampe_scene::{Mesh, Scene, Surface, Workers};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -72,6 +72,8 @@ pub(crate) struct Planner<'a> {
     pub(crate) view: &'a SceneView,
     pub(crate) style: &'a FrameStyle,
     pub(crate) device: &'a Device,
+    /// Threads to make buffers with.
+    pub(crate) workers: Workers,
 }
 
 /// The plan while it grows.
@@ -116,7 +118,7 @@ impl Planner<'_> {
         let is_unshared = self.style.needs_unshared_vertices() || mesh.normals.is_empty();
         let has_marks = !mesh.lines.is_empty() || !mesh.points.is_empty();
         let shared = (!is_unshared && !mesh.triangles.is_empty() || has_marks)
-            .then(|| MeshStreams::shared(mesh, &self.view.space));
+            .then(|| MeshStreams::shared(mesh, &self.view.space, self.workers));
         if !mesh.triangles.is_empty() {
             let unshared;
             let streams = match &shared {
@@ -143,7 +145,7 @@ impl Planner<'_> {
         growing: &mut Growing,
     ) -> Result<(), RenderError> {
         element_count(mesh.triangles.len().saturating_mul(3))?;
-        let indices = (!is_unshared).then(|| Buffer::from_words(mesh.triangles.as_flattened()));
+        let indices = (!is_unshared).then(|| self.index_buffer(mesh));
         let whole = [Surface {
             material: None,
             triangles: 0..mesh.triangles.len(),
@@ -197,6 +199,18 @@ impl Planner<'_> {
             });
         }
         Ok(())
+    }
+
+    /// The triangles' corners as they are.
+    fn index_buffer(&self, mesh: &Mesh) -> Buffer {
+        /// Some hundred microseconds of work: new memory costs more than copying.
+        const PIECE: usize = 1 << 16;
+        let corners = mesh.triangles.as_flattened();
+        let mut words = vec![0; corners.len()];
+        let parts = words.chunks_mut(PIECE).zip(corners.chunks(PIECE));
+        self.workers
+            .map(parts, |(to, from)| to.copy_from_slice(from));
+        Buffer::from_words(words)
     }
 
     /// Adds the triangles of the transparent surface that is pushed next.

@@ -12,7 +12,7 @@ use estampe::{
     Device, PipelineError, RenderPass, RenderTargetDescriptor, Statistics, TargetError,
     TextureFormat,
 };
-use estampe_scene::{Camera, Image, Scene};
+use estampe_scene::{Camera, Image, Scene, Workers};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -87,7 +87,8 @@ pub fn render(
 ) -> Result<Frame, RenderError> {
     let start = Instant::now();
     check_size(options, device)?;
-    let view = SceneView::new(scene, options);
+    let workers = Workers::new(device.threads());
+    let view = SceneView::new(scene, options, workers);
     let style = frame_style(&view, options);
     let plan = Planner {
         scene,
@@ -95,6 +96,7 @@ pub fn render(
         view: &view,
         style: &style,
         device,
+        workers,
     }
     .plan()?;
     let mut target = device.create_render_target(&RenderTargetDescriptor {

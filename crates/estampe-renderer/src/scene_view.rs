@@ -1,13 +1,13 @@
 //! How a scene is seen: its unit space, the camera in it, and the transforms that follow.
 
 use crate::camera::placement::Lens;
-use crate::camera::{CameraOptions, Eye, PlacedCamera};
-use crate::geometry::unit_space::{UnitSpace, used, used_vertices};
+use crate::camera::{CameraOptions, Cloud, Eye, PlacedCamera};
+use crate::geometry::unit_space::{UnitSpace, UsedVertices, used_vertices};
 use crate::options::{RenderOptions, Up};
 use crate::shading::VertexTransforms;
 use crate::shading::lighting::{DEFAULT_AMBIENT, LightRig, ViewLight};
 use crate::transforms::{to_f32, transform_vector};
-use estampe_scene::{Camera, Projection, Scene, UpAxis};
+use estampe_scene::{Camera, Projection, Scene, UpAxis, Workers};
 use glam::{DMat3, DMat4, DVec3};
 
 /// A scene's space and the camera that looks at it.
@@ -20,15 +20,18 @@ pub(crate) struct SceneView {
 }
 
 impl SceneView {
-    pub(crate) fn new(scene: &Scene, options: &RenderOptions) -> Self {
+    pub(crate) fn new(scene: &Scene, options: &RenderOptions, workers: Workers) -> Self {
         let (world_from_object, up) = orientation(options.up, scene.up);
-        let is_used: Vec<Vec<bool>> = scene.meshes.iter().map(used_vertices).collect();
-        let space = UnitSpace::new(scene, &is_used, world_from_object);
-        let meshes = scene.meshes.iter().zip(&is_used);
-        let points: Vec<DVec3> = meshes
-            .flat_map(|(mesh, is_used)| used(mesh, is_used))
-            .map(|position| space.unit_from_object(position).as_dvec3())
-            .collect();
+        let meshes = scene.meshes.iter();
+        let is_used: Vec<Vec<bool>> = meshes.map(|mesh| used_vertices(mesh, workers)).collect();
+        let used = UsedVertices::of_scene(scene, &is_used);
+        let space = UnitSpace::new(&used, world_from_object, workers);
+        let unit = |position| space.unit_from_object(position).as_dvec3();
+        let points = Cloud::new(
+            &used,
+            |piece| piece.positions().map(unit).collect(),
+            workers,
+        );
         let in_unit = |p: DVec3| space.unit_from_world(p);
         let camera = CameraOptions {
             eye: match options.camera.eye {
@@ -41,7 +44,7 @@ impl SceneView {
         let size_px = (options.width, options.height);
         Self {
             space,
-            camera: PlacedCamera::new(&camera, up, &points, size_px),
+            camera: PlacedCamera::new(&camera, up, points, size_px),
             aspect: f64::from(options.width) / f64::from(options.height),
         }
     }

@@ -3,7 +3,7 @@
 //!
 //! Readers (`estampe-assets`) and built-in shapes fill these values, the renderer draws them; nothing
 //! here knows files or rendering. Spaces are named in the fields: `object` is the file's own space,
-//! `world` the scene's (right-handed, Y up).
+//! `world` the scene's (right-handed, Y up). [`Workers`] are threads for work on such data.
 
 mod bounds;
 mod camera;
@@ -11,6 +11,7 @@ mod image;
 mod light;
 mod material;
 mod mesh;
+mod workers;
 
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
@@ -18,6 +19,7 @@ pub use image::Image;
 pub use light::Light;
 pub use material::{AlphaMode, Material};
 pub use mesh::{LineSegment, Mesh, Surface, Triangle, UpAxis};
+pub use workers::{Workers, pieces};
 
 /// Everything that one file describes.
 #[derive(Debug, Clone, Default)]

@@ -5,7 +5,8 @@ use std::sync::Arc;
 /// Immutable bytes, shared by reference; kept as little-endian 32-bit words so that lanes gather them.
 #[derive(Clone)]
 pub struct Buffer {
-    words: Arc<[u32]>,
+    // A vector, not `Arc<[u32]>`: what was filled by several threads need not be copied.
+    words: Arc<Vec<u32>>,
     len_bytes: usize,
 }
 
@@ -19,18 +20,18 @@ impl Buffer {
             u32::from_le_bytes(word)
         };
         Self {
-            words: bytes.chunks(4).map(word).collect(),
+            words: Arc::new(bytes.chunks(4).map(word).collect()),
             len_bytes: bytes.len(),
         }
     }
 
     /// A buffer of 32-bit words.
     #[must_use]
-    pub fn from_words(words: impl Into<Arc<[u32]>>) -> Self {
-        let words = words.into();
+    pub fn from_words(words: impl Into<Vec<u32>>) -> Self {
+        let words: Vec<u32> = words.into();
         Self {
             len_bytes: words.len() * 4,
-            words,
+            words: Arc::new(words),
         }
     }
 
@@ -41,7 +42,7 @@ impl Buffer {
             values
                 .iter()
                 .map(|value| value.to_bits())
-                .collect::<Arc<[u32]>>(),
+                .collect::<Vec<_>>(),
         )
     }
 

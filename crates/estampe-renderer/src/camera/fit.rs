@@ -13,6 +13,7 @@
 //! left is then centred by equal projected margins on both sides. Rejected: a bounding sphere, which
 //! leaves a flat model a third of the frame.
 
+use super::Cloud;
 use glam::DVec3;
 
 /// Tangents of half the opening angles, less the margin; for orthographic views the half extents that
@@ -47,20 +48,12 @@ const CLOSEST: f64 = 1e-3;
 ///
 /// Of no points, the eye is that of the unit box.
 #[must_use]
-pub fn perspective_eye(points: &[DVec3], k: FrameTangents, through: Option<DVec3>) -> DVec3 {
-    let Some(front) = points.iter().map(|p| p.z).reduce(f64::max) else {
-        let corners = box_corners();
-        return perspective_eye(&corners, k, through);
+pub fn perspective_eye(points: &Cloud, k: FrameTangents, through: Option<DVec3>) -> DVec3 {
+    let Some(reach) = points.reach(k) else {
+        return perspective_eye(&box_corners(), k, through);
     };
-    let (mut a, mut b) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-    let (mut c, mut d) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-    for p in points {
-        let (reach_x, reach_y) = (k.x * p.z, k.y * p.z);
-        a = a.max(p.x + reach_x);
-        b = b.max(reach_x - p.x);
-        c = c.max(p.y + reach_y);
-        d = d.max(reach_y - p.y);
-    }
+    let front = reach.most.z;
+    let (a, b, c, d) = (reach.right, reach.left, reach.top, reach.bottom);
     if let Some(t) = through {
         let nearest = |a: f64, b: f64, at: f64, k: f64| ((a - at) / k).max((b + at) / k);
         let z = nearest(a, b, t.x, k.x)
@@ -72,14 +65,16 @@ pub fn perspective_eye(points: &[DVec3], k: FrameTangents, through: Option<DVec3
         .max((c + d) / (2.0 * k.y))
         .max(front + CLOSEST);
     let z = at_least_a_step(z, front, points);
-    let x = centred(points, z, (a - b) / 2.0, |p| p.x);
-    let y = centred(points, z, (c - d) / 2.0, |p| p.y);
+    let (x, y) = points.workers().join(
+        || centred(points, z, (a - b) / 2.0, |p| p.x),
+        || centred(points, z, (c - d) / 2.0, |p| p.y),
+    );
     DVec3::new(x, y, z)
 }
 
 /// A model without size (one point, or points behind one another) is seen from a distance of 2.
-fn at_least_a_step(z: f64, front: f64, points: &[DVec3]) -> f64 {
-    let first = points[0];
+fn at_least_a_step(z: f64, front: f64, points: &Cloud) -> f64 {
+    let first = points.iter().next().copied().unwrap_or_default();
     let has_no_size = |p: &DVec3| (p.x - first.x).abs() + (p.y - first.y).abs() < CLOSEST;
     if z - front < 2.0 * CLOSEST && points.iter().all(has_no_size) {
         front + 2.0
@@ -90,12 +85,12 @@ fn at_least_a_step(z: f64, front: f64, points: &[DVec3]) -> f64 {
 
 /// The coordinate of the eye at which the points reach as far to one side as to the other:
 /// max (p − e)/(z − p_z) = max (e − p)/(z − p_z), by Newton's method on its linear pieces.
-fn centred(points: &[DVec3], eye_z: f64, start: f64, coordinate: impl Fn(&DVec3) -> f64) -> f64 {
+fn centred(points: &Cloud, eye_z: f64, start: f64, coordinate: impl Fn(&DVec3) -> f64) -> f64 {
     const MOST_STEPS: usize = 16;
     let mut eye = start;
     for _ in 0..MOST_STEPS {
         let mut furthest = [(f64::NEG_INFINITY, 0.0, 1.0); 2];
-        for p in points {
+        for p in points.iter() {
             let (at, depth) = (coordinate(p), eye_z - p.z);
             let reach = (at - eye) / depth;
             if reach > furthest[0].0 {
@@ -117,18 +112,10 @@ fn centred(points: &[DVec3], eye_z: f64, start: f64, coordinate: impl Fn(&DVec3)
 /// The middle (z: the nearest point's) and the half height of the smallest orthographic view that
 /// holds every point; with `through`, the middle stays there.
 #[must_use]
-pub fn orthographic_view(
-    points: &[DVec3],
-    k: FrameTangents,
-    through: Option<DVec3>,
-) -> (DVec3, f64) {
-    let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for p in points {
-        (least, most) = (least.min(*p), most.max(*p));
-    }
-    if points.is_empty() {
-        (least, most) = (-DVec3::ONE, DVec3::ONE);
-    }
+pub fn orthographic_view(points: &Cloud, k: FrameTangents, through: Option<DVec3>) -> (DVec3, f64) {
+    let (least, most) = points
+        .reach(k)
+        .map_or((-DVec3::ONE, DVec3::ONE), |reach| (reach.least, reach.most));
     let middle = through.unwrap_or((least + most) / 2.0).with_z(most.z);
     let reach = (most - middle).max(middle - least);
     let half_height = (reach.x / k.x).max(reach.y / k.y);
@@ -142,9 +129,11 @@ pub fn orthographic_view(
     )
 }
 
-fn box_corners() -> Vec<DVec3> {
+fn box_corners() -> Cloud {
     let sign = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
-    (0..8)
-        .map(|i| DVec3::new(sign(i & 1), sign(i & 2), sign(i & 4)))
-        .collect()
+    let corners = [0, 1, 2, 3, 4, 5, 6, 7];
+    corners
+        .map(|i: usize| DVec3::new(sign(i & 1), sign(i & 2), sign(i & 4)))
+        .as_slice()
+        .into()
 }

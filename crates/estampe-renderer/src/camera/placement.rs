@@ -1,5 +1,6 @@
 //! A camera from what the caller asked for.
 
+use super::Cloud;
 use super::direction::ViewDirection;
 use super::fit::{self, FrameTangents};
 use crate::transforms::projection::{self, DepthConvention, Frustum};
@@ -91,7 +92,13 @@ impl PlacedCamera {
     /// The options' positions and the points are in the same space, in which the model is about 1 in
     /// radius. `up` is the direction that points up.
     #[must_use]
-    pub fn new(options: &CameraOptions, up: DVec3, points: &[DVec3], size_px: (u32, u32)) -> Self {
+    pub fn new(
+        options: &CameraOptions,
+        up: DVec3,
+        points: impl Into<Cloud>,
+        size_px: (u32, u32),
+    ) -> Self {
+        let points = points.into();
         let (width, height) = (f64::from(size_px.0), f64::from(size_px.1));
         let lens = match options.projection {
             ProjectionKind::Perspective { fov_y_deg } => Lens::Perspective(fov_y_deg.to_radians()),
@@ -115,7 +122,7 @@ impl PlacedCamera {
         direction: ViewDirection,
         target: Option<DVec3>,
         up: DVec3,
-        points: &[DVec3],
+        points: Cloud,
         lens: Lens,
         k: FrameTangents,
     ) -> Self {
@@ -129,7 +136,8 @@ impl PlacedCamera {
             back_world: back,
             eye_world: DVec3::ZERO,
         };
-        let aligned = align(points, &origin);
+        let mut aligned = points;
+        aligned.transform(|point| align_one(point, &origin));
         let through = target.map(|t| align_one(t, &origin));
         let (eye, lens) = match lens {
             Lens::Perspective(_) => (fit::perspective_eye(&aligned, k, through), lens),
@@ -142,7 +150,7 @@ impl PlacedCamera {
             }
         };
         let eye_world = right * eye.x + up * eye.y + back * eye.z;
-        let (nearest, furthest) = depths(&aligned, eye.z);
+        let (nearest, furthest) = depths(&aligned, k, eye.z);
         let target = target.unwrap_or(eye_world - back * ((nearest + furthest) / 2.0));
         let frame = CameraFrame {
             eye_world,
@@ -156,7 +164,7 @@ impl PlacedCamera {
         eye: DVec3,
         target: Option<DVec3>,
         up: DVec3,
-        points: &[DVec3],
+        points: Cloud,
         lens: Lens,
         k: FrameTangents,
     ) -> Self {
@@ -167,7 +175,8 @@ impl PlacedCamera {
             eye_world: DVec3::ZERO,
             ..frame
         };
-        let aligned = align(points, &origin);
+        let mut aligned = points;
+        aligned.transform(|point| align_one(point, &origin));
         let eye_aligned = align_one(eye, &origin);
         let lens = match lens {
             Lens::Perspective(_) => lens,
@@ -176,7 +185,7 @@ impl PlacedCamera {
                 Lens::Orthographic(half_height)
             }
         };
-        Self::with_planes(frame, target, lens, depths(&aligned, eye_aligned.z))
+        Self::with_planes(frame, target, lens, depths(&aligned, k, eye_aligned.z))
     }
 
     /// Near and far planes a little outside the model's depths.
@@ -236,18 +245,13 @@ fn align_one(p: DVec3, frame: &CameraFrame) -> DVec3 {
     )
 }
 
-fn align(points: &[DVec3], frame: &CameraFrame) -> Vec<DVec3> {
-    points.iter().map(|&p| align_one(p, frame)).collect()
-}
-
 /// Distances of the nearest and the furthest point along the view direction; of no points, those of the
 /// unit box's middle.
-fn depths(aligned: &[DVec3], eye_z: f64) -> (f64, f64) {
-    if aligned.is_empty() {
-        return (eye_z - 1.0, eye_z + 1.0);
-    }
-    let depths = aligned.iter().map(|p| eye_z - p.z);
-    depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| {
-        (a.min(d), b.max(d))
-    })
+fn depths(aligned: &Cloud, k: FrameTangents, eye_z: f64) -> (f64, f64) {
+    // Rounding keeps order, so the extremes' distances are the extreme distances.
+    aligned
+        .reach(k)
+        .map_or((eye_z - 1.0, eye_z + 1.0), |reach| {
+            (eye_z - reach.most.z, eye_z - reach.least.z)
+        })
 }

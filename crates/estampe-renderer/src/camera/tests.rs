@@ -1,5 +1,6 @@
 //! View directions are the documented ones; fits are tight, inside and centred.
 
+use super::Cloud;
 use super::fit::{FrameTangents, orthographic_view, perspective_eye};
 use super::*;
 use crate::transforms::transform_point;
@@ -221,6 +222,6 @@ fn nothing_and_next_to_nothing_can_be_looked_at() {
         }
     }
     let k = FrameTangents::new(100.0, 100.0, 1.0, 0.0);
-    assert!(perspective_eye(&[], k, None).z > 1.0);
-    assert_eq!(orthographic_view(&[], k, None).1, 1.0);
+    assert!(perspective_eye(&Cloud::default(), k, None).z > 1.0);
+    assert_eq!(orthographic_view(&Cloud::default(), k, None).1, 1.0);
 }

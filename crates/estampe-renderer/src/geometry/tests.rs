@@ -2,8 +2,8 @@
 
 use super::faces::{face_normal, normals_oppose_winding};
 use super::order::{DistantTriangle, back_to_front};
-use super::unit_space::{UnitSpace, used, used_vertices};
-use estampe_scene::{Mesh, Scene};
+use super::unit_space::{UnitSpace, UsedVertices, used_vertices};
+use estampe_scene::{Mesh, Scene, Workers};
 use glam::{DMat3, DVec3, Vec3};
 
 fn scene_of(positions: &[Vec3], points: &[u32]) -> Scene {
@@ -19,8 +19,11 @@ fn scene_of(positions: &[Vec3], points: &[u32]) -> Scene {
 }
 
 fn space_of(scene: &Scene) -> UnitSpace {
-    let is_used: Vec<_> = scene.meshes.iter().map(used_vertices).collect();
-    UnitSpace::new(scene, &is_used, DMat3::IDENTITY)
+    let workers = Workers::new(2);
+    let meshes = scene.meshes.iter();
+    let is_used: Vec<_> = meshes.map(|mesh| used_vertices(mesh, workers)).collect();
+    let used = UsedVertices::of_scene(scene, &is_used);
+    UnitSpace::new(&used, DMat3::IDENTITY, workers)
 }
 
 #[test]
@@ -68,9 +71,10 @@ fn unused_and_broken_vertices_do_not_count() {
         Vec3::new(f32::INFINITY, 0.0, 0.0),
     ];
     let scene = scene_of(&positions, &[0, 1, 3, 4, 99]);
-    let is_used = used_vertices(&scene.meshes[0]);
-    assert_eq!(is_used, [true, true, false, true, true]);
-    assert_eq!(used(&scene.meshes[0], &is_used).count(), 2);
+    let is_used = [used_vertices(&scene.meshes[0], Workers::ONE)];
+    assert_eq!(is_used[0], [true, true, false, true, true]);
+    let used = UsedVertices::of_scene(&scene, &is_used);
+    assert_eq!(used[0].positions().count(), 2);
     let space = space_of(&scene);
     assert_eq!(space.unit_from_world(DVec3::ONE), DVec3::ONE);
     let empty = space_of(&Scene::default());

@@ -5,7 +5,7 @@ use super::unit_space::UnitSpace;
 use estampe::Buffer;
 use estampe::VertexFormat;
 use estampe::state::{VertexAttribute, VertexBufferLayout, VertexStepMode};
-use estampe_scene::Mesh;
+use estampe_scene::{Mesh, Workers};
 
 /// The attributes that surface shaders may read, in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,6 +46,27 @@ impl StreamData {
         for element in elements {
             words.extend(element.map(f32::to_bits));
         }
+        Self {
+            buffer: Buffer::from_words(words),
+            is_constant: false,
+        }
+    }
+
+    /// An element for each value, made by several threads.
+    fn of_each<T: Copy + Sync, const N: usize>(
+        values: &[T],
+        element: impl Fn(T) -> [f32; N] + Sync,
+        workers: Workers,
+    ) -> Self {
+        /// Some hundred microseconds of work: new memory costs more than what is written to it.
+        const PIECE: usize = 1 << 14;
+        let mut words = vec![0; values.len() * N];
+        let parts = words.chunks_mut(PIECE * N).zip(values.chunks(PIECE));
+        workers.map(parts, |(words, values)| {
+            for (words, &value) in words.as_chunks_mut::<N>().0.iter_mut().zip(values) {
+                *words = element(value).map(f32::to_bits);
+            }
+        });
         Self {
             buffer: Buffer::from_words(words),
             is_constant: false,
@@ -94,13 +115,10 @@ pub(crate) struct MeshStreams {
 
 impl MeshStreams {
     /// The streams of a mesh. What it lacks is the same for all vertices: no normal, uv (0, 0), white.
-    pub(crate) fn shared(mesh: &Mesh, space: &UnitSpace) -> Self {
-        let positions = mesh
-            .positions
-            .iter()
-            .map(|&p| space.unit_from_object(p).to_array());
+    pub(crate) fn shared(mesh: &Mesh, space: &UnitSpace, workers: Workers) -> Self {
+        let position = |p| space.unit_from_object(p).to_array();
         Self {
-            positions: StreamData::per_vertex(positions),
+            positions: StreamData::of_each(&mesh.positions, position, workers),
             normals: if mesh.normals.is_empty() {
                 StreamData::constant(&[0.0; 3])
             } else {
@@ -109,17 +127,17 @@ impl MeshStreams {
                 } else {
                     1.0
                 };
-                StreamData::per_vertex(mesh.normals.iter().map(|&n| (n * sign).to_array()))
+                StreamData::of_each(&mesh.normals, |n| (n * sign).to_array(), workers)
             },
             uvs: if mesh.uvs.is_empty() {
                 StreamData::constant(&[0.0; 2])
             } else {
-                StreamData::per_vertex(mesh.uvs.iter().map(glam::Vec2::to_array))
+                StreamData::of_each(&mesh.uvs, |uv| uv.to_array(), workers)
             },
             colors: if mesh.colors.is_empty() {
                 StreamData::constant(&[1.0; 4])
             } else {
-                StreamData::per_vertex(mesh.colors.iter().copied())
+                StreamData::of_each(&mesh.colors, |color| color, workers)
             },
             corners: StreamData::constant(&[0.0; 3]),
         }

@@ -1,0 +1,127 @@
+//! The points that a camera is fitted to.
+
+use super::fit::FrameTangents;
+use estampe_scene::{Workers, pieces};
+use glam::DVec3;
+
+/// Points, in pieces that threads share. What is computed of them are greatest values, so it depends
+/// neither on the pieces nor on the number of threads.
+#[derive(Debug, Clone, Default)]
+pub struct Cloud {
+    pieces: Vec<Vec<DVec3>>,
+    workers: Workers,
+}
+
+impl Cloud {
+    /// The points of so many items, `of_item` giving those of a range.
+    pub(crate) fn new<T: Send>(
+        items: impl IntoIterator<Item = T>,
+        of_item: impl Fn(T) -> Vec<DVec3> + Sync,
+        workers: Workers,
+    ) -> Self {
+        Self {
+            pieces: workers.map(items, of_item),
+            workers,
+        }
+    }
+
+    /// All points, in order.
+    pub fn iter(&self) -> impl Iterator<Item = &DVec3> {
+        self.pieces.iter().flatten()
+    }
+
+    /// The threads that may work on them.
+    pub(super) fn workers(&self) -> Workers {
+        self.workers
+    }
+
+    /// Replaces each point.
+    pub(super) fn transform(&mut self, to: impl Fn(DVec3) -> DVec3 + Sync) {
+        self.workers.map(&mut self.pieces, |piece| {
+            for point in piece {
+                *point = to(*point);
+            }
+        });
+    }
+
+    /// How far they reach; `None` when there are none.
+    pub(super) fn reach(&self, k: FrameTangents) -> Option<Reach> {
+        let of_pieces = self.workers.map(&self.pieces, |piece| {
+            piece.iter().fold(Reach::NONE, |reach, p| reach.with(p, k))
+        });
+        self.iter().next()?;
+        of_pieces.into_iter().reduce(Reach::union)
+    }
+}
+
+impl From<&[DVec3]> for Cloud {
+    fn from(points: &[DVec3]) -> Self {
+        /// Some hundred microseconds of work.
+        const PIECE: usize = 1 << 15;
+        Self {
+            pieces: pieces(points.len(), PIECE)
+                .map(|range| points[range].to_vec())
+                .collect(),
+            workers: Workers::default(),
+        }
+    }
+}
+
+impl From<&Vec<DVec3>> for Cloud {
+    fn from(points: &Vec<DVec3>) -> Self {
+        points.as_slice().into()
+    }
+}
+
+/// Greatest values over points p in view-aligned coordinates, for tangents k; see the module `fit`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reach {
+    /// Of p.
+    pub(super) most: DVec3,
+    /// The least coordinates.
+    pub(super) least: DVec3,
+    /// Of pₓ + kₓ·p_z.
+    pub(super) right: f64,
+    /// Of −pₓ + kₓ·p_z.
+    pub(super) left: f64,
+    /// Of p_y + k_y·p_z.
+    pub(super) top: f64,
+    /// Of −p_y + k_y·p_z.
+    pub(super) bottom: f64,
+}
+
+impl Reach {
+    const NONE: Self = Self {
+        most: DVec3::NEG_INFINITY,
+        least: DVec3::INFINITY,
+        right: f64::NEG_INFINITY,
+        left: f64::NEG_INFINITY,
+        top: f64::NEG_INFINITY,
+        bottom: f64::NEG_INFINITY,
+    };
+
+    #[inline]
+    fn with(self, p: &DVec3, k: FrameTangents) -> Self {
+        let (x, y) = (k.x * p.z, k.y * p.z);
+        self.union(Self {
+            most: *p,
+            least: *p,
+            right: p.x + x,
+            left: x - p.x,
+            top: p.y + y,
+            bottom: y - p.y,
+        })
+    }
+
+    #[inline]
+    fn union(self, other: Self) -> Self {
+        Self {
+            most: self.most.max(other.most),
+            least: self.least.min(other.least),
+            right: self.right.max(other.right),
+            left: self.left.max(other.left),
+            top: self.top.max(other.top),
+            bottom: self.bottom.max(other.bottom),
+        }
+    }
+}
