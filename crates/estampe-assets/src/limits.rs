@@ -27,6 +27,9 @@ pub struct Limits {
     pub max_total_image_pixels: u64,
     /// Warnings that are kept in words; the others are only counted (100).
     pub max_warnings: usize,
+    /// Threads that read one file; 0, the default, is one for each processor. What is read does not depend
+    /// on it.
+    pub threads: usize,
 }
 
 impl Default for Limits {
@@ -42,6 +45,7 @@ impl Default for Limits {
             max_image_pixels: 16_384 * 16_384,
             max_total_image_pixels: 2 * 16_384 * 16_384,
             max_warnings: 100,
+            threads: 0,
         }
     }
 }

@@ -31,7 +31,7 @@ pub(super) fn finish(mut parsed: Parsed, context: &mut Context<'_>) -> Parsed {
     } else {
         NormalMode::default()
     };
-    normals::fill_missing(&mut parsed.scene.meshes, mode);
+    normals::fill_missing_by(&mut parsed.scene.meshes, mode, context.workers);
     let is_empty =
         |mesh: &Mesh| mesh.triangles.is_empty() && mesh.lines.is_empty() && mesh.points.is_empty();
     if parsed.scene.meshes.iter().all(is_empty) {

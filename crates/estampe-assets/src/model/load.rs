@@ -4,7 +4,7 @@ use super::resources::{Folder, ResourceError, Resources};
 use super::{ModelFormat, finish, obj, ply, stl};
 use crate::warning::{Warning, Warnings};
 use crate::{AssetError, Limits};
-use estampe_scene::Scene;
+use estampe_scene::{Scene, Workers};
 use glam::Vec3;
 use std::fs::File;
 use std::io::Read;
@@ -42,6 +42,7 @@ pub(super) struct Context<'a> {
     pub(super) resources: &'a dyn Resources,
     pub(super) limits: &'a Limits,
     pub(super) warnings: Warnings,
+    pub(super) workers: Workers,
     /// How many more side files may be looked for.
     side_files_left: u64,
 }
@@ -109,6 +110,7 @@ pub fn parse_model(
         resources,
         limits,
         warnings: Warnings::new(limits.max_warnings),
+        workers: Workers::new(limits.threads),
         side_files_left: limits.max_side_files,
     };
     let parsed = Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)

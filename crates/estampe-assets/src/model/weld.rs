@@ -1,106 +1,146 @@
 //! Finds positions that are equal to the bit.
+//!
+//! Keys are dealt out by three bits of their hash, in order, to eight small tables, which threads fill at
+//! once. Which key is the first of its equals depends on neither the tables nor the threads.
 
+use estampe_scene::{Workers, pieces};
 use glam::Vec3;
+use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Numbers different positions; `-0.0` equals `0.0`, and a NaN equals a NaN of the same bits.
+/// What is compared: the bits of a position, and a tag that keeps apart what must not be one.
+pub(super) type Key = [u32; 4];
+
+/// The key of a position; `-0.0` equals `0.0`, and a NaN equals a NaN of the same bits.
+#[inline]
+pub(super) fn key(position: Vec3, tag: u32) -> Key {
+    // Adding zero turns -0.0 into 0.0 and changes nothing else.
+    [
+        (position.x + 0.0).to_bits(),
+        (position.y + 0.0).to_bits(),
+        (position.z + 0.0).to_bits(),
+        tag,
+    ]
+}
+
+/// For each of `count` keys the number of the first that equals it; about `expected` are different.
+pub(super) fn first_equals(
+    count: usize,
+    expected: usize,
+    key: impl Fn(usize) -> Key + Sync,
+    workers: Workers,
+) -> Vec<u32> {
+    const TABLES: usize = 8;
+    /// Some hundred microseconds of work.
+    const PIECE: usize = 1 << 15;
+    let number = |index: usize| u32::try_from(index).expect("limits keep corners below 2^32");
+    let tables = if count <= PIECE { 1 } else { TABLES };
+    let dealt = workers.map(pieces(count, PIECE), |range| {
+        let mut lists = vec![Vec::with_capacity(range.len() * 5 / (4 * tables)); tables];
+        for index in range {
+            // The low bits choose the table, the high ones the place in it.
+            let table = usize::try_from(hash(key(index)) % 8).unwrap_or(0) % tables;
+            lists[table].push(number(index));
+        }
+        lists
+    });
+    let firsts: Vec<AtomicU32> = (0..number(count)).map(AtomicU32::new).collect();
+    workers.map(0..tables, |table| {
+        let mut firsts_here = Table::with_room(expected / tables, &key);
+        for &index in dealt.iter().flat_map(|lists| &lists[table]) {
+            let first = firsts_here.first(index);
+            if first != index {
+                firsts[index as usize].store(first, Ordering::Relaxed);
+            }
+        }
+    });
+    firsts.into_iter().map(AtomicU32::into_inner).collect()
+}
+
+/// The first of each set of equal keys.
 ///
 /// A hash table with open addressing that never looks further than [`Self::MAX_PROBES`] places: positions
 /// chosen to collide are then simply not found to be equal, and the time stays linear without a secret
 /// seed, so the result is the same in every run.
-#[derive(Debug)]
-pub(super) struct Welder {
-    /// Number of a position plus one; 0 is free. At most half full.
-    table: Vec<u32>,
+struct Table<'a, K> {
+    /// Number of a key plus one; 0 is free. At most half full.
+    slots: Vec<u32>,
     /// 64 less the bits of a place.
     shift: u32,
-    keys: Vec<[u32; 4]>,
+    /// How many different keys there are.
+    len: usize,
+    key: &'a K,
 }
 
-impl Default for Welder {
-    fn default() -> Self {
-        Self::with_room(0)
-    }
-}
-
-impl Welder {
+impl<'a, K: Fn(usize) -> Key> Table<'a, K> {
     const MAX_PROBES: usize = 128;
-    const LEAST_BITS: u32 = 10;
+    const LEAST_BITS: u32 = 6;
 
-    /// No positions yet, and room for `count` different ones.
-    pub(super) fn with_room(count: usize) -> Self {
+    /// Nothing yet, and room for `count` different keys.
+    fn with_room(count: usize, key: &'a K) -> Self {
         let bits = (count.saturating_mul(2) | 1).ilog2() + 1;
         let bits = bits.clamp(Self::LEAST_BITS, 32);
         Self {
-            table: vec![0; 1 << bits],
+            slots: vec![0; 1 << bits],
             shift: 64 - bits,
-            keys: Vec::with_capacity(count),
+            len: 0,
+            key,
         }
     }
 
-    /// How many different positions there are.
-    pub(super) fn len(&self) -> usize {
-        self.keys.len()
-    }
-
-    /// The number of `position`; `tag` keeps apart what must not be one. New numbers count up from 0.
+    /// The first key that equals the one of this number, which is itself if there is none yet.
     #[inline]
-    pub(super) fn number(&mut self, position: Vec3, tag: u32) -> u32 {
-        // Adding zero turns -0.0 into 0.0 and changes nothing else.
-        let key = [
-            (position.x + 0.0).to_bits(),
-            (position.y + 0.0).to_bits(),
-            (position.z + 0.0).to_bits(),
-            tag,
-        ];
-        if self.keys.len() * 2 >= self.table.len() {
+    fn first(&mut self, number: u32) -> u32 {
+        if self.len * 2 >= self.slots.len() {
             self.grow();
         }
-        let mask = self.table.len() - 1;
-        let mut place = self.place(key);
-        let next = u32::try_from(self.keys.len()).expect("limits keep vertices below 2^32");
+        let own = (self.key)(number as usize);
+        let mask = self.slots.len() - 1;
+        let mut place = self.place(own);
         for _ in 0..Self::MAX_PROBES {
-            match self.table[place] {
+            match self.slots[place] {
                 0 => {
-                    self.table[place] = next + 1;
+                    self.slots[place] = number + 1;
+                    self.len += 1;
                     break;
                 }
-                occupant if self.keys[occupant as usize - 1] == key => return occupant - 1,
+                occupant if (self.key)(occupant as usize - 1) == own => return occupant - 1,
                 _ => place = (place + 1) & mask,
             }
         }
-        self.keys.push(key);
-        next
+        number
     }
 
     /// Four times the table: growing is then a third of the work at most.
     #[cold]
     fn grow(&mut self) {
         self.shift -= 2;
-        let size = self.table.len() * 4;
-        self.table.clear();
-        self.table.resize(size, 0);
-        let mask = size - 1;
-        for (number, &key) in (1..).zip(&self.keys) {
-            let mut place = self.place(key);
+        let size = self.slots.len() * 4;
+        let occupants = std::mem::replace(&mut self.slots, vec![0; size]);
+        for occupant in occupants.into_iter().filter(|&occupant| occupant != 0) {
+            let mut place = self.place((self.key)(occupant as usize - 1));
             for _ in 0..Self::MAX_PROBES {
-                if self.table[place] == 0 {
-                    self.table[place] = number;
+                if self.slots[place] == 0 {
+                    self.slots[place] = occupant;
                     break;
                 }
-                place = (place + 1) & mask;
+                place = (place + 1) & (size - 1);
             }
         }
     }
 
-    /// Two multiplications, each folded onto itself, as in the family of wyhash.
     #[inline]
-    fn place(&self, key: [u32; 4]) -> usize {
-        let low = u64::from(key[0]) | u64::from(key[1]) << 32;
-        let high = u64::from(key[2]) | u64::from(key[3]) << 32;
-        let mixed = fold(low ^ 0x9e37_79b9_7f4a_7c15, high ^ 0xe703_7ed1_a0b4_28db);
-        let hash = fold(mixed, 0x8ebc_6af0_9c88_c6e3);
-        usize::try_from(hash >> self.shift).expect("a place is below the table's length")
+    fn place(&self, key: Key) -> usize {
+        usize::try_from(hash(key) >> self.shift).expect("a place is below the table's length")
     }
+}
+
+/// Two multiplications, each folded onto itself, as in the family of wyhash.
+#[inline]
+fn hash(key: Key) -> u64 {
+    let low = u64::from(key[0]) | u64::from(key[1]) << 32;
+    let high = u64::from(key[2]) | u64::from(key[3]) << 32;
+    let mixed = fold(low ^ 0x9e37_79b9_7f4a_7c15, high ^ 0xe703_7ed1_a0b4_28db);
+    fold(mixed, 0x8ebc_6af0_9c88_c6e3)
 }
 
 /// Both halves of the product, xored.

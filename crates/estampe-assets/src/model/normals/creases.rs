@@ -1,8 +1,8 @@
 //! The normal of every corner.
 
-use super::faces::Face;
+use super::faces::{Faces, PIECE};
 use super::unit_or_zero;
-use estampe_scene::Mesh;
+use estampe_scene::{Mesh, Workers, pieces};
 use glam::Vec3;
 
 /// Points with more faces than this gather them into cells before pairing.
@@ -102,11 +102,23 @@ impl CornerNormals {
         }
     }
 
+    /// The normal of each vertex's point, where there is one mesh; empty when no point is smooth.
+    pub(super) fn take_vertex_normals(&mut self) -> Vec<Vec3> {
+        let mut normals = std::mem::take(&mut self.normals);
+        for (vertex, &point) in self.point_of_vertex.iter().enumerate() {
+            // A point is the first of its vertices, which has the sum.
+            normals[vertex] = normals[point as usize];
+        }
+        normals
+    }
+
     /// Each corner has its face's normal.
-    pub(super) fn flat(faces: &[Face]) -> Self {
-        let creased = (0..).zip(faces).flat_map(|(triangle, face): (u32, _)| {
-            [0, 1, 2].map(|corner| (triangle * 3 + corner, face.normal))
-        });
+    pub(super) fn flat(faces: &Faces) -> Self {
+        let creased = (0..)
+            .zip(faces.iter())
+            .flat_map(|(triangle, face): (u32, _)| {
+                [0, 1, 2].map(|corner| (triangle * 3 + corner, face.normal()))
+            });
         Self {
             point_of_vertex: Vec::new(),
             normals: Vec::new(),
@@ -118,22 +130,12 @@ impl CornerNormals {
     pub(super) fn smooth(
         triangles: &[[u32; 3]],
         point_of_vertex: Vec<u32>,
-        point_count: usize,
-        faces: &[Face],
+        faces: &Faces,
         grouping: &Grouping,
+        workers: Workers,
     ) -> Self {
-        let mut sums = vec![Vec3::ZERO; point_count];
-        for (triangle, face) in triangles.iter().zip(faces) {
-            let weighted = face.weighted();
-            for &point in triangle {
-                sums[point as usize] += weighted;
-            }
-        }
-        let mut normals = sums;
-        for normal in &mut normals {
-            *normal = unit_or_zero(*normal);
-        }
-        let is_creased = find_creased_points(triangles, &normals, faces, grouping);
+        let normals = smooth_normals(triangles, point_of_vertex.len(), faces, workers);
+        let is_creased = find_creased_points(triangles, &normals, faces, grouping, workers);
         let around = CornersAround::new(triangles, &is_creased);
         let mut creased = Vec::with_capacity(around.corners.len());
         let mut fan = Fan::default();
@@ -150,24 +152,67 @@ impl CornerNormals {
     }
 }
 
+/// The unit sum of the weighted normals around each point.
+///
+/// Each thread has a range of points, for which it looks at all triangles: so the sums are in the
+/// triangles' order, whatever the threads.
+fn smooth_normals(
+    triangles: &[[u32; 3]],
+    point_count: usize,
+    faces: &Faces,
+    workers: Workers,
+) -> Vec<Vec3> {
+    let ranges = if triangles.len() <= PIECE {
+        1
+    } else {
+        workers.count()
+    };
+    let range = point_count.div_ceil(ranges).max(1);
+    let mut sums = vec![[0.0; 3]; point_count];
+    workers.map(sums.chunks_mut(range).enumerate(), |(index, sums)| {
+        let first = index * range;
+        for (triangle, face) in triangles.iter().zip(faces.iter()) {
+            for &point in triangle {
+                // A point before the first wraps around to one beyond the last.
+                if let Some(sum) = sums.get_mut((point as usize).wrapping_sub(first)) {
+                    *sum = (Vec3::from_array(*sum) + face.weighted()).to_array();
+                }
+            }
+        }
+        for sum in sums {
+            *sum = unit_or_zero(Vec3::from_array(*sum)).to_array();
+        }
+    });
+    sums.into_iter().map(Vec3::from_array).collect()
+}
+
 /// Which points have faces that do not all go together.
 fn find_creased_points(
     triangles: &[[u32; 3]],
     normals: &[Vec3],
-    faces: &[Face],
+    faces: &Faces,
     grouping: &Grouping,
+    workers: Workers,
 ) -> Vec<bool> {
     let mut is_creased = vec![false; normals.len()];
     match grouping {
         &Grouping::ByAngle { cos_half, .. } => {
-            for (triangle, face) in triangles.iter().zip(faces) {
-                for &point in triangle {
-                    let is_near = face.normal.dot(normals[point as usize]) >= cos_half;
-                    // A face without area goes with any.
-                    if !is_near && face.area > 0.0 {
-                        is_creased[point as usize] = true;
+            let creased = workers.map(pieces(triangles.len(), PIECE), |range| {
+                let faces = faces.starting_at(range.start);
+                let mut creased = Vec::new();
+                for (triangle, face) in triangles[range].iter().zip(faces) {
+                    for &point in triangle {
+                        let is_near = face.normal().dot(normals[point as usize]) >= cos_half;
+                        // A face without area goes with any.
+                        if !is_near && face.area() > 0.0 {
+                            creased.push(point);
+                        }
                     }
                 }
+                creased
+            });
+            for point in creased.into_iter().flatten() {
+                is_creased[point as usize] = true;
             }
         }
         Grouping::ByGroup(groups) => {
@@ -255,7 +300,7 @@ impl Fan {
     fn normals(
         &mut self,
         corners: &[u32],
-        faces: &[Face],
+        faces: &Faces,
         grouping: &Grouping,
         out: &mut Vec<(u32, Vec3)>,
     ) {
@@ -263,9 +308,9 @@ impl Fan {
             &Grouping::ByAngle { cos_whole, .. } if corners.len() <= MAX_PAIRED => {
                 self.bundles.clear();
                 self.bundles.extend(corners.iter().map(|&corner| {
-                    let face = faces[corner as usize / 3];
+                    let face = faces.of_corner(corner);
                     Bundle {
-                        normal: face.normal,
+                        normal: face.normal(),
                         weighted: face.weighted(),
                     }
                 }));
@@ -297,15 +342,15 @@ impl Fan {
     fn by_cells(
         &mut self,
         corners: &[u32],
-        faces: &[Face],
+        faces: &Faces,
         cos_whole: f32,
         out: &mut Vec<(u32, Vec3)>,
     ) {
         self.cells.clear();
         self.cells.resize(CELL_COUNT, Vec3::ZERO);
         for &corner in corners {
-            let face = faces[corner as usize / 3];
-            self.cells[cell(face.normal)] += face.weighted();
+            let face = faces.of_corner(corner);
+            self.cells[cell(face.normal())] += face.weighted();
         }
         self.bundles.clear();
         let bundles = self.cells.iter();
@@ -324,7 +369,7 @@ impl Fan {
             self.cells[used] = normal;
         }
         out.extend(corners.iter().map(|&corner| {
-            let own = faces[corner as usize / 3].normal;
+            let own = faces.of_corner(corner).normal();
             let shared = self.cells[cell(own)];
             (
                 corner,
@@ -341,7 +386,7 @@ impl Fan {
     fn by_groups(
         &mut self,
         corners: &[u32],
-        faces: &[Face],
+        faces: &Faces,
         groups: &[u32],
         out: &mut Vec<(u32, Vec3)>,
     ) {
@@ -351,12 +396,12 @@ impl Fan {
             .extend(corners.iter().map(|&corner| (group(corner), corner)));
         self.by_group.sort_unstable();
         for run in self.by_group.chunk_by(|a, b| a.0 == b.0) {
-            let faces = run.iter().map(|&(_, corner)| faces[corner as usize / 3]);
+            let faces = run.iter().map(|&(_, corner)| faces.of_corner(corner));
             if run[0].0 == 0 {
                 out.extend(
                     run.iter()
                         .zip(faces)
-                        .map(|(&(_, corner), face)| (corner, face.normal)),
+                        .map(|(&(_, corner), face)| (corner, face.normal())),
                 );
                 continue;
             }

@@ -1,25 +1,58 @@
 //! The unit normal and the area of every triangle.
 
-use estampe_scene::{Bounds, Mesh};
+use estampe_scene::{Bounds, Mesh, Workers};
 use glam::{DVec3, Vec3};
 
-/// What a triangle contributes to the normals around it.
+/// What a triangle contributes to the normals around it: a unit normal, zero for a triangle without area;
+/// and its area in units of the square of the mesh's size, more than 0 unless the normal is zero.
+///
+/// Plain numbers, because a vector of them starts as zeroed memory that each thread is first to touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Face {
-    /// Unit normal; zero for a triangle without area.
-    pub(super) normal: Vec3,
-    /// Area in units of the square of the mesh's size; more than 0 unless the normal is zero.
-    pub(super) area: f32,
-}
+pub(super) struct Face<'a>(&'a [f32; 4]);
 
-impl Face {
-    pub(super) fn weighted(&self) -> Vec3 {
-        self.normal * self.area
+impl Face<'_> {
+    #[inline]
+    pub(super) fn normal(self) -> Vec3 {
+        let &[x, y, z, _] = self.0;
+        Vec3::new(x, y, z)
+    }
+
+    #[inline]
+    pub(super) fn area(self) -> f32 {
+        self.0[3]
+    }
+
+    #[inline]
+    pub(super) fn weighted(self) -> Vec3 {
+        self.normal() * self.area()
     }
 }
 
+/// The faces of all triangles.
+#[derive(Debug)]
+pub(super) struct Faces(Vec<[f32; 4]>);
+
+impl Faces {
+    #[inline]
+    pub(super) fn of_corner(&self, corner: u32) -> Face<'_> {
+        Face(&self.0[corner as usize / 3])
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = Face<'_>> {
+        self.0.iter().map(Face)
+    }
+
+    /// The faces from one triangle on.
+    pub(super) fn starting_at(&self, triangle: usize) -> impl Iterator<Item = Face<'_>> {
+        self.0[triangle..].iter().map(Face)
+    }
+}
+
+/// Triangles in a piece of some hundred microseconds of work.
+pub(super) const PIECE: usize = 1 << 14;
+
 /// The faces of all meshes, one after the other.
-pub(super) fn all(meshes: &[Mesh]) -> Vec<Face> {
+pub(super) fn all(meshes: &[Mesh], workers: Workers) -> Faces {
     let bounds = meshes.iter().fold(Bounds::EMPTY, |all, mesh| {
         all.union(&Bounds::of(mesh.positions.iter().copied()))
     });
@@ -29,27 +62,33 @@ pub(super) fn all(meshes: &[Mesh]) -> Vec<Face> {
         .max(f64::from(bounds.max.z) - f64::from(bounds.min.z));
     let exponent = if size > 0.0 { libm::frexp(size).1 } else { 0 };
     let scale = libm::ldexp(1.0, -2 * exponent);
-    let mut faces = Vec::with_capacity(meshes.iter().map(|mesh| mesh.triangles.len()).sum());
+    let count = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
+    let mut faces = vec![[0.0; 4]; count];
+    let mut rest = faces.as_mut_slice();
+    let mut parts = Vec::new();
     for mesh in meshes {
+        let (own, others) = rest.split_at_mut(mesh.triangles.len());
+        rest = others;
         let positions = mesh.positions.as_slice();
-        faces.extend(mesh.triangles.iter().map(|triangle| {
-            let [a, b, c] = triangle.map(|vertex| positions[vertex as usize].as_dvec3());
-            face(a, b, c, scale)
-        }));
+        let own = own.chunks_mut(PIECE).zip(mesh.triangles.chunks(PIECE));
+        parts.extend(own.map(|(faces, triangles)| (faces, triangles, positions)));
     }
-    faces
+    workers.map(parts, |(faces, triangles, positions)| {
+        for (out, triangle) in faces.iter_mut().zip(triangles) {
+            let [a, b, c] = triangle.map(|vertex| positions[vertex as usize].as_dvec3());
+            *out = face(a, b, c, scale);
+        }
+    });
+    Faces(faces)
 }
 
 /// In f64: the fourth powers of f32 neither overflow nor underflow there.
 #[inline]
-fn face(a: DVec3, b: DVec3, c: DVec3, scale: f64) -> Face {
+fn face(a: DVec3, b: DVec3, c: DVec3, scale: f64) -> [f32; 4] {
     let cross = (b - a).cross(c - a);
     let squared = cross.length_squared();
     if !(squared > 0.0 && squared.is_finite()) {
-        return Face {
-            normal: Vec3::ZERO,
-            area: 0.0,
-        };
+        return [0.0; 4];
     }
     let doubled_area = squared.sqrt();
     #[expect(
@@ -59,8 +98,6 @@ fn face(a: DVec3, b: DVec3, c: DVec3, scale: f64) -> Face {
     let area = (doubled_area * scale) as f32;
     // The smallest slivers weigh a little, so that they still have a normal when alone.
     const LEAST: f32 = 1e-30;
-    Face {
-        normal: (cross * (1.0 / doubled_area)).as_vec3(),
-        area: area.max(LEAST),
-    }
+    let normal = (cross * (1.0 / doubled_area)).as_vec3();
+    [normal.x, normal.y, normal.z, area.max(LEAST)]
 }

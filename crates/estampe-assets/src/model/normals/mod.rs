@@ -22,9 +22,9 @@ mod creases;
 mod faces;
 
 use super::vertex_copies::VertexCopies;
-use super::weld::Welder;
+use super::weld;
 use creases::{CornerNormals, Grouping};
-use estampe_scene::Mesh;
+use estampe_scene::{Mesh, Workers};
 use glam::Vec3;
 use std::borrow::Cow;
 
@@ -56,6 +56,11 @@ impl Default for NormalMode<'_> {
 /// it, with all attributes, are appended. Smoothing goes across the borders of meshes where they share
 /// positions. Triangles without area get their neighbours' normal, or (0, 0, 0).
 pub fn fill_missing(meshes: &mut [Mesh], mode: NormalMode<'_>) {
+    fill_missing_by(meshes, mode, Workers::default());
+}
+
+/// [`fill_missing`] by these threads.
+pub(super) fn fill_missing_by(meshes: &mut [Mesh], mode: NormalMode<'_>, workers: Workers) {
     let lacks = |mesh: &Mesh| {
         !mesh.triangles.is_empty()
             && (mesh.normals.is_empty() || mesh.normals.contains(&Vec3::ZERO))
@@ -70,7 +75,15 @@ pub fn fill_missing(meshes: &mut [Mesh], mode: NormalMode<'_>) {
         "limits keep corners below 2^32"
     );
     let is_missing: Vec<Vec<bool>> = meshes.iter().map(missing_normals).collect();
-    let corners = corner_normals(meshes, mode);
+    let mut corners = corner_normals(meshes, mode, workers);
+    if let [mesh] = &mut *meshes
+        && mesh.normals.is_empty()
+    {
+        // The points' normals are in the order of the vertices already.
+        mesh.normals = corners.take_vertex_normals();
+        split_creased(mesh, |_| true, &corners.of_mesh(0, 0));
+        return;
+    }
     let mut first_triangle = 0;
     let mut first_vertex = 0;
     for (mesh, is_missing) in meshes.iter_mut().zip(&is_missing) {
@@ -119,30 +132,44 @@ fn missing_normals(mesh: &Mesh) -> Vec<bool> {
         .collect()
 }
 
-/// The point of each vertex, over all meshes, and the number of points.
-fn weld(meshes: &[Mesh]) -> (Vec<u32>, usize) {
-    let vertex_count = meshes.iter().map(|mesh| mesh.positions.len()).sum();
-    let mut welder = Welder::with_room(vertex_count);
-    let positions = meshes.iter().flat_map(|mesh| &mesh.positions);
-    let mut points = Vec::with_capacity(vertex_count);
-    points.extend(positions.map(|&position| welder.number(position, 0)));
-    (points, welder.len())
+/// The point of each vertex, over all meshes: the first vertex that is there.
+fn weld(meshes: &[Mesh], workers: Workers) -> Vec<u32> {
+    let owned: Vec<Vec3>;
+    let positions = match meshes {
+        [mesh] => mesh.positions.as_slice(),
+        _ => {
+            owned = meshes
+                .iter()
+                .flat_map(|mesh| &mesh.positions)
+                .copied()
+                .collect();
+            &owned
+        }
+    };
+    let key = |vertex: usize| weld::key(positions[vertex], 0);
+    weld::first_equals(positions.len(), positions.len(), key, workers)
 }
 
-fn corner_normals(meshes: &[Mesh], mode: NormalMode<'_>) -> CornerNormals {
-    let faces = faces::all(meshes);
+fn corner_normals(meshes: &[Mesh], mode: NormalMode<'_>, workers: Workers) -> CornerNormals {
+    let faces = faces::all(meshes, workers);
     let grouping = match mode {
         NormalMode::Flat => return CornerNormals::flat(&faces),
         NormalMode::CreaseAngle { degrees } => Grouping::by_angle(degrees),
         NormalMode::SmoothingGroups(groups) => Grouping::by_group(meshes, groups),
     };
-    let (point_of_vertex, point_count) = weld(meshes);
+    let point_of_vertex = weld(meshes, workers);
     let triangles = match meshes {
         // All vertices are points of their own: the usual mesh without texture coordinates.
-        [mesh] if point_count == mesh.positions.len() => Cow::Borrowed(mesh.triangles.as_slice()),
+        [mesh]
+            if (0..)
+                .zip(&point_of_vertex)
+                .all(|(vertex, &point)| point == vertex) =>
+        {
+            Cow::Borrowed(mesh.triangles.as_slice())
+        }
         _ => Cow::Owned(point_triangles(meshes, &point_of_vertex)),
     };
-    CornerNormals::smooth(&triangles, point_of_vertex, point_count, &faces, &grouping)
+    CornerNormals::smooth(&triangles, point_of_vertex, &faces, &grouping, workers)
 }
 
 /// The triangles of all meshes as triples of points.
@@ -171,9 +198,20 @@ fn apply(mesh: &mut Mesh, is_missing: &[bool], corners: &creases::MeshNormals<'_
             }
         }
     }
+    split_creased(mesh, is_missing, corners);
+}
+
+/// Gives the corners of points that are not smooth their normals.
+fn split_creased(
+    mesh: &mut Mesh,
+    is_missing: impl Fn(u32) -> bool,
+    corners: &creases::MeshNormals<'_>,
+) {
     if corners.creased(mesh.triangles.len()).next().is_none() {
         return;
     }
+    let vertex_count = mesh.positions.len();
+    mesh.normals.resize(vertex_count, Vec3::ZERO);
     let count = u32::try_from(vertex_count).expect("limits keep vertices below 2^32");
     let mut copies = VertexCopies::identity(count);
     // The first normal that a vertex gets needs no copy.

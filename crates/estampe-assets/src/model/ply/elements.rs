@@ -1,9 +1,9 @@
 //! Faces, triangle strips and edges.
 
 use super::header::{Element, Header, Kind, Scalar};
-use super::split;
 use super::values::{Fault, NO_VERTEX, Values, vertex_index};
 use super::vertices::{color, narrow};
+use super::{split, triangle_rows};
 use crate::model::load::Context;
 use crate::model::polygons::{Polygons, SPENT};
 use crate::{AssetError, Limits};
@@ -84,9 +84,18 @@ impl Elements {
         let has_textures = has(Role::Texture) && self.texture_count > 1;
         let color_type = color_type(&steps);
         Limits::check("faces", element.count, context.limits.max_triangles)?;
-        self.triangles
-            .reserve_exact(values.plausible_count(element));
-        for _ in 0..element.count {
+        if self.triangles.is_empty()
+            && triangle_rows::can_be_rows(element)
+            && context.limits.max_polygon_corners >= 3
+        {
+            self.triangles = values.take_triangles(element.count, positions.len(), context.workers);
+        }
+        let read = self.triangles.len() as u64;
+        if read < element.count {
+            self.triangles
+                .reserve_exact(values.plausible_count(element));
+        }
+        for _ in read..element.count {
             let before = self.triangles.len();
             match self
                 .face

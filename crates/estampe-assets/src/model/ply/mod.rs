@@ -19,6 +19,7 @@
 mod elements;
 mod header;
 mod split;
+mod triangle_rows;
 mod values;
 mod vertices;
 
@@ -65,7 +66,7 @@ fn read_body<V: Values>(
             "vertex" if !has_vertices => {
                 has_vertices = true;
                 Limits::check("vertices", element.count, context.limits.max_vertices)?;
-                vertices::read(values, element, &mut mesh)?;
+                vertices::read(values, element, &mut mesh, context.workers)?;
                 true
             }
             "face" | "faces" => elements.read_faces(values, element, &mesh.positions, context)?,

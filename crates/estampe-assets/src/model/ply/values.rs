@@ -1,9 +1,11 @@
 //! The body as a stream of scalars.
 
 use super::header::{Element, Encoding, Header, Kind, Scalar};
+use super::triangle_rows;
 use crate::model::number::{parse_f32, parse_i64};
 use crate::model::statements::Statements;
 use crate::{AssetError, Location};
+use estampe_scene::Workers;
 
 /// Why a value could not be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,7 +31,7 @@ pub(super) fn vertex_index(index: f64, count: usize) -> Option<u32> {
 }
 
 /// Reads values one after the other. All types fit f64 exactly.
-pub(super) trait Values {
+pub(super) trait Values: Sized + Send {
     /// The next value.
     fn next(&mut self, scalar: Scalar) -> Result<f64, Fault>;
 
@@ -50,6 +52,29 @@ pub(super) trait Values {
             out.push(vertex_index(index, vertex_count).unwrap_or(NO_VERTEX));
         }
         Ok(())
+    }
+
+    /// Readers of the next `count` rows of `row_bytes`, which are moved over, with `rows_each` rows for each
+    /// reader but the last; `None`, with nothing moved, where the encoding has no rows of one length, or
+    /// not all of them are there.
+    fn take_rows(
+        &mut self,
+        _count: u64,
+        _row_bytes: usize,
+        _rows_each: usize,
+    ) -> Option<Vec<Self>> {
+        None
+    }
+
+    /// Reads and moves over the faces up to the first that is no plain triangle, as far as the encoding
+    /// knows their rows' length; the element must be one that [`triangle_rows::can_be_rows`].
+    fn take_triangles(
+        &mut self,
+        _count: u64,
+        _vertex_count: usize,
+        _workers: Workers,
+    ) -> Vec<[u32; 3]> {
+        Vec::new()
     }
 
     /// Called after each element: in ASCII, each has a line of its own.
@@ -278,6 +303,31 @@ impl<const BIG: bool> Values for Binary<'_, BIG> {
             }
         }));
         Ok(())
+    }
+
+    fn take_rows(&mut self, count: u64, row_bytes: usize, rows_each: usize) -> Option<Vec<Self>> {
+        let bytes = usize::try_from(count).ok()?.checked_mul(row_bytes)?;
+        let rows = self.bytes.get(self.at..)?.get(..bytes)?;
+        self.at += bytes;
+        let parts = rows.chunks(row_bytes.checked_mul(rows_each)?.max(1));
+        Some(parts.map(|bytes| Self { bytes, at: 0 }).collect())
+    }
+
+    fn take_triangles(
+        &mut self,
+        count: u64,
+        vertex_count: usize,
+        workers: Workers,
+    ) -> Vec<[u32; 3]> {
+        let index = if BIG {
+            u32::from_be_bytes
+        } else {
+            u32::from_le_bytes
+        };
+        let rest = self.bytes.get(self.at..).unwrap_or(&[]);
+        let triangles = triangle_rows::read(rest, count, vertex_count, index, workers);
+        self.at += triangles.len() * triangle_rows::ROW_BYTES;
+        triangles
     }
 
     fn skip(&mut self, count: u64, scalar: Scalar) -> Result<(), Fault> {

@@ -13,7 +13,7 @@
 //! Keywords may be in upper case, lines may be joined, `endsolid` may be missing; several solids are
 //! several meshes.
 
-use super::Joined;
+use super::joined;
 use crate::model::load::Context;
 use crate::model::polygons::{Polygons, SPENT};
 use crate::model::statements::Statements;
@@ -26,11 +26,26 @@ struct Reader<'a, 'c, 'r> {
     statements: Statements<'a>,
     context: &'c mut Context<'r>,
     done: Vec<Mesh>,
-    current: Option<Joined>,
+    current: Option<Solid>,
     /// Corners of the facet that is open.
     corners: Vec<Vec3>,
     polygons: Polygons,
     triangle_count: u64,
+}
+
+/// A solid that is being read.
+struct Solid {
+    name: String,
+    triangles: Vec<[Vec3; 3]>,
+}
+
+impl Solid {
+    fn new(name: String) -> Self {
+        Self {
+            name,
+            triangles: Vec::new(),
+        }
+    }
 }
 
 /// Reads all solids.
@@ -85,7 +100,7 @@ impl<'a> Reader<'a, '_, '_> {
                 self.end_facet()?;
                 self.end_solid();
                 let name = text_of_name(self.statements.rest());
-                self.current = Some(Joined::new(name));
+                self.current = Some(Solid::new(name));
             }
             b"endsolid" => {
                 self.end_facet()?;
@@ -130,17 +145,19 @@ impl<'a> Reader<'a, '_, '_> {
             [a, b, c] => {
                 self.triangle_count += 1;
                 self.current
-                    .get_or_insert_with(|| Joined::new(String::new()))
-                    .push([a, b, c], 0);
+                    .get_or_insert_with(|| Solid::new(String::new()))
+                    .triangles
+                    .push([a, b, c]);
             }
             _ => {
                 let (triangles, is_spent) = self.polygons.split(&self.corners);
                 self.triangle_count += triangles.len() as u64;
                 let solid = self
                     .current
-                    .get_or_insert_with(|| Joined::new(String::new()));
+                    .get_or_insert_with(|| Solid::new(String::new()));
                 for triangle in triangles {
-                    solid.push(triangle.map(|corner| self.corners[corner as usize]), 0);
+                    let corners = triangle.map(|corner| self.corners[corner as usize]);
+                    solid.triangles.push(corners);
                 }
                 if is_spent {
                     self.warn(SPENT);
@@ -161,7 +178,10 @@ impl<'a> Reader<'a, '_, '_> {
         let Some(solid) = self.current.take() else {
             return;
         };
-        let mut mesh = solid.mesh;
+        let corners = solid.triangles.as_flattened();
+        let corner = |index: usize| (corners[index], 0);
+        let count = solid.triangles.len();
+        let (mut mesh, _) = joined(solid.name, count, corner, self.context.workers);
         if (self.done.len() as u64) < self.context.limits.max_meshes.max(1) {
             self.done.push(mesh);
         } else if let Some(last) = self.done.last_mut() {

@@ -1,6 +1,6 @@
 //! Binary STL.
 
-use super::Joined;
+use super::joined;
 use crate::model::detect::binary_stl_length;
 use crate::model::load::Context;
 use crate::model::srgb::linear_from_srgb;
@@ -54,23 +54,16 @@ pub(super) fn read(bytes: &[u8], context: &mut Context<'_>) -> Result<Mesh, Asse
     }
 
     let colors = Colors::of(header, records);
-    let mut joined = Joined::new(name(header));
-    joined.mesh.triangles.reserve_exact(count);
-    for record in records {
-        let tag = if colors.is_some() {
-            attribute(record)
-        } else {
-            0
-        };
-        joined.push(
-            [corner(record, 12), corner(record, 24), corner(record, 36)],
-            tag,
-        );
-    }
+    let corner = |index: usize| {
+        let record = &records[index / 3];
+        let tag = colors.map_or(0, |_| attribute(record));
+        (corner(record, 12 + index % 3 * 12), tag)
+    };
+    let (mut mesh, tags) = joined(name(header), count, corner, context.workers);
     if let Some(colors) = colors {
-        joined.mesh.colors = joined.tags.iter().map(|&tag| colors.linear(tag)).collect();
+        mesh.colors = tags.iter().map(|&tag| colors.linear(tag)).collect();
     }
-    Ok(joined.mesh)
+    Ok(mesh)
 }
 
 /// The header's text up to the first control character.

@@ -30,9 +30,9 @@ mod binary;
 
 use super::detect::binary_stl_length;
 use super::load::{Context, Parsed};
-use super::weld::Welder;
+use super::weld;
 use crate::AssetError;
-use estampe_scene::{Mesh, Scene, UpAxis};
+use estampe_scene::{Mesh, Scene, UpAxis, Workers};
 use glam::Vec3;
 
 /// Reads an STL file.
@@ -69,36 +69,42 @@ fn starts_as_ascii(bytes: &[u8]) -> bool {
 }
 
 /// Joins equal corners of a soup of triangles; corners with different tags stay apart.
-struct Joined {
-    welder: Welder,
-    mesh: Mesh,
-    /// The tag of each vertex.
-    tags: Vec<u16>,
-}
-
-impl Joined {
-    fn new(name: String) -> Self {
-        let mesh = Mesh {
-            name,
-            ..Mesh::default()
+///
+/// `corner` gives the position and the tag of one of `3 * triangle_count` corners. Vertices are in the order
+/// in which they first appear; the second result is the tag of each.
+fn joined(
+    name: String,
+    triangle_count: usize,
+    corner: impl Fn(usize) -> (Vec3, u16) + Sync,
+    workers: Workers,
+) -> (Mesh, Vec<u16>) {
+    let corner_count = triangle_count * 3;
+    let key = |index: usize| {
+        let (position, tag) = corner(index);
+        weld::key(position, u32::from(tag))
+    };
+    // In a closed mesh six triangles meet at a vertex.
+    let mut vertices = weld::first_equals(corner_count, corner_count / 6, key, workers);
+    let mut mesh = Mesh {
+        name,
+        ..Mesh::default()
+    };
+    let is_first = |&(index, &first): &(usize, &u32)| first as usize == index;
+    let vertex_count = vertices.iter().enumerate().filter(is_first).count();
+    mesh.positions.reserve_exact(vertex_count);
+    let mut tags = Vec::with_capacity(vertex_count);
+    for index in 0..corner_count {
+        let first = vertices[index] as usize;
+        vertices[index] = if first == index {
+            let (position, tag) = corner(index);
+            mesh.positions.push(position);
+            tags.push(tag);
+            u32::try_from(tags.len() - 1).expect("limits keep corners below 2^32")
+        } else {
+            // That of an earlier corner is the vertex's number already.
+            vertices[first]
         };
-        Self {
-            welder: Welder::default(),
-            mesh,
-            tags: Vec::new(),
-        }
     }
-
-    #[inline]
-    fn push(&mut self, corners: [Vec3; 3], tag: u16) {
-        let mut triangle = [0; 3];
-        for (vertex, corner) in triangle.iter_mut().zip(corners) {
-            *vertex = self.welder.number(corner, u32::from(tag));
-            if *vertex as usize == self.mesh.positions.len() {
-                self.mesh.positions.push(corner);
-                self.tags.push(tag);
-            }
-        }
-        self.mesh.triangles.push(triangle);
-    }
+    mesh.triangles = vertices.as_chunks::<3>().0.to_vec();
+    (mesh, tags)
 }

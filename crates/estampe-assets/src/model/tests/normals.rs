@@ -1,8 +1,8 @@
 //! Normals that files leave out.
 
 use crate::model::normals::{self, NormalMode};
-use crate::model::weld::Welder;
-use estampe_scene::Mesh;
+use crate::model::weld::{first_equals, key};
+use estampe_scene::{Mesh, Workers};
 use glam::Vec3;
 
 fn cube() -> Mesh {
@@ -260,17 +260,27 @@ fn a_vertex_shared_by_all_triangles_takes_no_quadratic_time() {
 
 #[test]
 fn welding_tells_positions_apart() {
-    let mut welder = Welder::default();
-    let zero = welder.number(Vec3::ZERO, 0);
-    assert_eq!(welder.number(Vec3::new(-0.0, 0.0, -0.0), 0), zero);
-    assert_ne!(welder.number(Vec3::ZERO, 1), zero, "tags keep apart");
-    let nan = welder.number(Vec3::splat(f32::NAN), 0);
-    assert_eq!(welder.number(Vec3::splat(f32::NAN), 0), nan);
-    let numbers: Vec<u32> = (0..50_000_u16)
-        .map(|i| welder.number(Vec3::new(f32::from(i), 1.0, 2.0), 0))
-        .collect();
-    assert!(numbers.is_sorted() && welder.len() == 50_003);
-    for (i, &number) in (0..50_000_u16).zip(&numbers) {
-        assert_eq!(welder.number(Vec3::new(f32::from(i), 1.0, 2.0), 0), number);
+    let zero = Vec3::ZERO;
+    let mut keys = vec![
+        key(zero, 0),
+        key(Vec3::new(-0.0, 0.0, -0.0), 0),
+        key(zero, 1),
+        key(Vec3::splat(f32::NAN), 0),
+        key(Vec3::splat(f32::NAN), 0),
+        key(zero, 1),
+    ];
+    let special = [0, 0, 2, 3, 3, 2];
+    // Different ones, then the same again.
+    let count = 50_000_u16;
+    for _ in 0..2 {
+        keys.extend((0..count).map(|i| key(Vec3::new(f32::from(i), 1.0, 2.0), 0)));
+    }
+    for (threads, expected) in [(1, keys.len()), (2, 0), (7, 1000)] {
+        let firsts = first_equals(keys.len(), expected, |i| keys[i], Workers::new(threads));
+        let (start, runs) = firsts.split_at(special.len());
+        assert_eq!(start, special, "{threads} threads");
+        for run in runs.chunks(usize::from(count)) {
+            assert!((6..).zip(run).all(|(own, &first)| own == first));
+        }
     }
 }
