@@ -118,7 +118,7 @@ pub fn render(
     let statistics = device.render(&mut target, &pass);
 
     let start = Instant::now();
-    let mut rgba = target.read_color(0);
+    let mut rgba = target.read_color_by(0, workers.count());
     if options.background.is_none() {
         straighten(&mut rgba, encoding(options));
     }
