@@ -9,12 +9,14 @@
 //! [`Limits`] bound the rest. What can be tolerated is tolerated, with a located [`Warning`].
 
 mod error;
+mod file;
 pub mod image;
 mod limits;
 pub mod model;
 mod warning;
 
 pub use error::{AssetError, Fault, Location};
+pub use file::{read_bytes, read_stream};
 pub use limits::Limits;
 pub use model::{Loaded, ModelFormat, load_model, parse_model};
 pub use warning::Warning;

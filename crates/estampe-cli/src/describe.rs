@@ -5,6 +5,7 @@ use crate::input::Model;
 use crate::render::counts;
 use crate::values::{FormatName, Source};
 use clap::Args;
+use estampe_assets::Limits;
 use estampe_scene::{AlphaMode, Bounds, Material, Mesh, Scene, UpAxis};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -42,7 +43,7 @@ pub(crate) struct InfoArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
-    let model = Model::read(&args.model, args.format, |_| {})?;
+    let model = Model::read(&args.model, args.format, &Limits::default(), |_| {})?;
     let report = if args.json {
         format!("{:#}\n", json(&model))
     } else {

@@ -3,11 +3,12 @@
 use crate::failure::Failure;
 use crate::values::{FormatName, Source, shown};
 use estampe_assets::model::{Folder, NoResources};
-use estampe_assets::{AssetError, Limits, Loaded, ModelFormat, Warning, parse_model};
+use estampe_assets::{AssetError, Limits, Loaded, ModelFormat, Warning};
+use estampe_assets::{parse_model, read_bytes, read_stream};
 use estampe_scene::{Mesh, Scene};
 use estampe_shapes::BuiltinShape;
 use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -36,9 +37,9 @@ impl Model {
     pub(crate) fn read(
         source: &Source,
         format: Option<FormatName>,
+        limits: &Limits,
         on_stage: impl Fn(&'static str),
     ) -> Result<Self, Failure> {
-        let limits = Limits::default();
         let format = format.map(ModelFormat::from);
         on_stage("reading");
         let start = Instant::now();
@@ -53,17 +54,17 @@ impl Model {
                         .to_owned(),
                     ));
                 };
-                let bytes = read_all(io::stdin().lock(), 0, &limits)
+                let bytes = read_stream(io::stdin().lock(), limits)
                     .map_err(|error| unreadable(name, &error, "check what feeds it"))?;
                 let read = start.elapsed();
                 on_stage("parsing");
                 Self::parsed(read, name, || {
-                    parse_model(&bytes, format, name, &NoResources, &limits)
+                    parse_model(&bytes, format, name, &NoResources, limits)
                 })
             }
             Source::File(path) => {
                 let name = shown(path);
-                let bytes = read_file(path, &limits)?;
+                let bytes = read_file(path, limits)?;
                 let read = start.elapsed();
                 let format = format
                     .or_else(|| ModelFormat::from_extension(path))
@@ -76,7 +77,7 @@ impl Model {
                     })?;
                 on_stage("parsing");
                 Self::parsed(read, &name, || {
-                    parse_model(&bytes, format, &name, &Folder::of_model(path), &limits)
+                    parse_model(&bytes, format, &name, &Folder::of_model(path), limits)
                 })
             }
         }
@@ -159,21 +160,10 @@ pub(crate) fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, Failure
         return Err(too_large(&name, limits));
     }
     let file = File::open(path).map_err(failed)?;
-    read_all(file, metadata.len(), limits).map_err(|error| match error.kind() {
+    read_bytes(file, metadata.len(), limits).map_err(|error| match error.kind() {
         io::ErrorKind::FileTooLarge => too_large(&name, limits),
         _ => failed(error),
     })
-}
-
-fn read_all(from: impl Read, expected_bytes: u64, limits: &Limits) -> io::Result<Vec<u8>> {
-    let capacity = usize::try_from(expected_bytes).unwrap_or(0);
-    let mut bytes = Vec::with_capacity(capacity.saturating_add(1));
-    from.take(limits.max_file_bytes.saturating_add(1))
-        .read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > limits.max_file_bytes {
-        return Err(io::ErrorKind::FileTooLarge.into());
-    }
-    Ok(bytes)
 }
 
 fn unreadable(name: &str, error: &io::Error, advice: &str) -> Failure {

@@ -3,11 +3,10 @@
 use super::resources::{Folder, ResourceError, Resources};
 use super::{ModelFormat, finish, obj, ply, stl};
 use crate::warning::{Warning, Warnings};
-use crate::{AssetError, Limits};
+use crate::{AssetError, Limits, read_bytes};
 use estampe_scene::{Scene, Workers};
 use glam::Vec3;
 use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 /// A model that was read, and what was odd about it.
@@ -143,12 +142,15 @@ fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, AssetError> {
         ));
     }
     Limits::check("bytes", metadata.len(), limits.max_file_bytes)?;
-    let capacity = usize::try_from(metadata.len()).unwrap_or(0);
-    let mut bytes = Vec::with_capacity(capacity.saturating_add(1));
-    let bounded = File::open(path)
-        .map_err(failed)?
-        .take(limits.max_file_bytes.saturating_add(1));
-    { bounded }.read_to_end(&mut bytes).map_err(failed)?;
-    Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)?;
-    Ok(bytes)
+    let file = File::open(path).map_err(failed)?;
+    read_bytes(file, metadata.len(), limits).map_err(|error| match error.kind() {
+        std::io::ErrorKind::FileTooLarge => {
+            let more = limits.max_file_bytes.saturating_add(1);
+            match Limits::check("bytes", more, limits.max_file_bytes) {
+                Err(too_large) => too_large,
+                Ok(()) => failed(error),
+            }
+        }
+        _ => failed(error),
+    })
 }

@@ -27,7 +27,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     output::check(&args.output)?;
     let progress = Progress::new(STAGES, args.quiet);
 
-    let model = Model::read(&args.model, args.format, |stage| progress.stage(stage))?;
+    let limits = Limits {
+        threads: args.threads.map_or(0, usize::from),
+        ..Limits::default()
+    };
+    let model = Model::read(&args.model, args.format, &limits, |stage| {
+        progress.stage(stage);
+    })?;
     check_drawable(&model)?;
     let texture_start = Instant::now();
     let texture = args
