@@ -21,9 +21,7 @@ impl<T: Copy + Default> Lines<T> {
     /// Zeros, or `None` when memory is short.
     pub(crate) fn zeros(len: usize) -> Option<Self> {
         let spare = LINE / size_of::<T>();
-        let mut memory = Vec::new();
-        memory.try_reserve_exact(len.checked_add(spare)?).ok()?;
-        memory.resize(len + spare, T::default());
+        let memory = zeros(len.checked_add(spare)?)?;
         // Where this cannot be told (it may be so in constant evaluation) alignment is given up.
         let start = memory.as_ptr().align_offset(LINE).min(spare);
         Some(Self { memory, start, len })
@@ -51,6 +49,26 @@ impl<T> DerefMut for Lines<T> {
     fn deref_mut(&mut self) -> &mut [T] {
         &mut self.memory[self.start..self.start + self.len]
     }
+}
+
+/// Zeros, or `None` when memory is short.
+///
+/// The system's fresh memory is zero already, and is then first touched by the threads that draw; writing
+/// zeros here took a thread 16 ms for 1280×720 with four samples.
+fn zeros<T: Clone + Default>(len: usize) -> Option<Vec<T>> {
+    /// An allocator may keep smaller blocks that are given back, and would have to clear them.
+    const LEAST_ROOM: usize = 64 << 20;
+    // `vec!` asks for zeroed memory but cannot fail softly: whether there is room is asked before.
+    let mut room: Vec<u8> = Vec::new();
+    let bytes = len.checked_mul(size_of::<T>())?;
+    if room.try_reserve_exact(bytes.max(LEAST_ROOM)).is_ok() {
+        drop(std::hint::black_box(room));
+        return Some(vec![T::default(); len]);
+    }
+    let mut values = Vec::new();
+    values.try_reserve_exact(len).ok()?;
+    values.resize(len, T::default());
+    Some(values)
 }
 
 #[cfg(test)]
