@@ -371,11 +371,11 @@ impl ShadedVertices {
         } else {
             0
         };
-        self.window.resize(vertices * 2, 0);
-        self.depth.resize(vertices, [0.0; 2]);
-        self.clip.resize(vertices, [0.0; 4]);
-        self.varyings.resize(varyings, 0.0);
-        self.point_size.resize(sizes, 0.0);
+        resize(&mut self.window, vertices * 2, 0);
+        resize(&mut self.depth, vertices, [0.0; 2]);
+        resize(&mut self.clip, vertices, [0.0; 4]);
+        resize(&mut self.varyings, varyings, 0.0);
+        resize(&mut self.point_size, sizes, 0.0);
     }
 
     /// Cuts the wave's vertices into jobs of at most `size`.
@@ -448,6 +448,17 @@ impl ShadedVertices {
             targets: item.targets,
             all_smooth: modes.iter().all(|mode| *mode == Interpolation::Smooth),
         }
+    }
+}
+
+/// Makes a list so long; what it held is overwritten. Fresh memory is asked for as zeros, which the system
+/// has: the threads that shade are then the first to touch it, not this one.
+fn resize<T: Clone>(list: &mut Vec<T>, len: usize, zero: T) {
+    if list.capacity() < len {
+        *list = Vec::new();
+        *list = vec![zero; len];
+    } else {
+        list.resize(len, zero);
     }
 }
 
