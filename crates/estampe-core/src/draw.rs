@@ -1,6 +1,7 @@
 //! The page on which the pipeline reads: what a draw is, and the order in which its stages run.
 
 use crate::attachment::RenderTarget;
+use crate::attachment::resolve::ResolveJob;
 use crate::geometry::assembly::ElementSource;
 use crate::geometry::chunk::{ChunkScratch, ChunkWork, process};
 use crate::geometry::cull::CullState;
@@ -166,6 +167,15 @@ impl Context {
                 clear = Clear::default();
             }
         })
+    }
+
+    /// Writes the mean of each pixel's samples to a target of one sample, of the same size and with the
+    /// same colour format. Targets that do not fit together are left alone.
+    pub fn resolve(&self, from: &RenderTarget, into: &mut RenderTarget) {
+        let mut jobs = ResolveJob::all(from, into);
+        let memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
+        self.executor
+            .for_each(&mut jobs, &memory.chunk_scratch, |job, _| job.run());
     }
 
     /// Geometry, first half: every vertex of the wave is shaded once.

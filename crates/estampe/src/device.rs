@@ -93,6 +93,12 @@ impl Device {
         )
     }
 
+    /// Resolves: writes the mean of each pixel's samples to a target of one sample. The targets have the
+    /// same size and colour format; others are left alone. Depth is not resolved.
+    pub fn resolve(&self, from: &RenderTarget, into: &mut RenderTarget) {
+        self.context.resolve(from, into);
+    }
+
     /// The SIMD level of the kernels.
     #[must_use]
     pub fn level(&self) -> Level {

@@ -15,6 +15,7 @@
 //! times slower for filling (every packet touches four lines); it is made once, on read-back.
 
 mod readback;
+pub(crate) mod resolve;
 mod storage;
 mod target;
 

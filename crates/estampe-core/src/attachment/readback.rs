@@ -1,8 +1,8 @@
 //! From storage order to rows: the only place where the layout becomes visible as an image.
 
 use super::RenderTarget;
+use super::resolve::{mean_srgb, mean_unorm};
 use estampe_simd::{LANE_X, LANE_Y, LANES};
-use estampe_types::srgb::{LINEAR_FROM_SRGB, srgb_from_linear};
 
 /// Lanes of each row of a packet, from left to right.
 const LANES_OF_ROW: [[usize; 4]; 4] = {
@@ -40,9 +40,9 @@ impl RenderTarget {
             });
         }
         let resolve = if format.is_srgb() {
-            resolve_srgb
+            mean_srgb
         } else {
-            resolve_unorm
+            mean_unorm
         };
         self.bytes_of(threads, |packet| {
             let samples = &stored[packet * LANES * 4..][..LANES * 4];
@@ -119,27 +119,4 @@ impl RenderTarget {
             }
         }
     }
-}
-
-/// The mean of four unorm pixels, rounded to the nearest code.
-fn resolve_unorm(samples: [u32; 4]) -> u32 {
-    let channel = |shift: u32| {
-        let sum: u32 = samples.iter().map(|sample| sample >> shift & 0xFF).sum();
-        // floor(sum/4 + ½) in integers.
-        ((sum + 2) >> 2) << shift
-    };
-    channel(0) | channel(8) | channel(16) | channel(24)
-}
-
-/// The mean of four sRGB pixels: linear for colour, alpha as it is.
-fn resolve_srgb(samples: [u32; 4]) -> u32 {
-    if samples[1..] == [samples[0]; 3] {
-        return samples[0];
-    }
-    let table = &*LINEAR_FROM_SRGB;
-    let channel = |shift: u32| {
-        let [a, b, c, d] = samples.map(|sample| table[(sample >> shift & 0xFF) as usize]);
-        u32::from(srgb_from_linear((a + b + c + d) * 0.25)) << shift
-    };
-    channel(0) | channel(8) | channel(16) | resolve_unorm(samples) & 0xFF00_0000
 }

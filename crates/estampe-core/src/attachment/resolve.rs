@@ -1,0 +1,117 @@
+//! Resolving: the samples of each pixel become their mean, in storage order.
+//!
+//! Both targets are made of the same packets in the same order: packet i of the image is the mean of the
+//! four lines of packet i of the samples. So the work is one pass over memory, cut anywhere.
+
+use super::RenderTarget;
+use estampe_simd::LANES;
+use estampe_types::srgb::{LINEAR_FROM_SRGB, srgb_from_linear};
+
+/// Samples of a multisampled pixel.
+const SAMPLES: usize = 4;
+
+/// Packets of one job: a 64×64 block.
+const JOB_PACKETS: usize = 256;
+
+/// A run of packets for one worker.
+#[derive(Debug)]
+pub(crate) struct ResolveJob<'a> {
+    samples: &'a [u32],
+    pixels: &'a mut [u32],
+    is_srgb: bool,
+}
+
+impl<'a> ResolveJob<'a> {
+    /// Cuts the resolving of a target's colour into jobs; none where the targets do not fit together.
+    pub(crate) fn all(from: &'a RenderTarget, into: &'a mut RenderTarget) -> Vec<Self> {
+        let (from_size, into_size) = ((from.width(), from.height()), (into.width(), into.height()));
+        let format = from.color_formats().first();
+        let fits = from_size == into_size
+            && from.samples() as usize == SAMPLES
+            && into.samples() == 1
+            && format == into.color_formats().first();
+        let (Some(format), Some(samples), Some(pixels), true) =
+            (format, from.colors.first(), into.colors.first_mut(), fits)
+        else {
+            return Vec::new();
+        };
+        let is_srgb = format.is_srgb();
+        samples
+            .chunks(JOB_PACKETS * LANES * SAMPLES)
+            .zip(pixels.chunks_mut(JOB_PACKETS * LANES))
+            .map(|(samples, pixels)| Self {
+                samples,
+                pixels,
+                is_srgb,
+            })
+            .collect()
+    }
+
+    /// Resolves the job's packets.
+    pub(crate) fn run(&mut self) {
+        let samples = self.samples.as_chunks::<{ LANES * SAMPLES }>().0;
+        let pixels = self.pixels.as_chunks_mut::<LANES>().0;
+        for (samples, pixels) in samples.iter().zip(pixels) {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|sample| &samples[sample * LANES..][..LANES]);
+            for (lane, pixel) in pixels.iter_mut().enumerate() {
+                let of_pixel = [a[lane], b[lane], c[lane], d[lane]];
+                *pixel = if self.is_srgb {
+                    mean_srgb(of_pixel)
+                } else {
+                    mean_unorm(of_pixel)
+                };
+            }
+        }
+    }
+}
+
+/// The mean of four unorm pixels, rounded to the nearest code: floor(sum/4 + ½) in integers, two channels
+/// at a time in halves of 16 bits.
+#[inline(always)]
+pub(super) fn mean_unorm([a, b, c, d]: [u32; 4]) -> u32 {
+    const HALVES: u32 = 0x00FF_00FF;
+    const ROUNDING: u32 = 0x0002_0002;
+    let even = (a & HALVES) + (b & HALVES) + (c & HALVES) + (d & HALVES) + ROUNDING;
+    let odd = (a >> 8 & HALVES) + (b >> 8 & HALVES) + (c >> 8 & HALVES) + (d >> 8 & HALVES);
+    (even >> 2 & HALVES) | (((odd + ROUNDING) >> 2 & HALVES) << 8)
+}
+
+/// The mean of four sRGB pixels: linear for colour, alpha as it is.
+pub(super) fn mean_srgb(samples: [u32; 4]) -> u32 {
+    if samples[1..] == [samples[0]; 3] {
+        return samples[0];
+    }
+    let table = &*LINEAR_FROM_SRGB;
+    let channel = |shift: u32| {
+        let [a, b, c, d] = samples.map(|sample| table[(sample >> shift & 0xFF) as usize]);
+        u32::from(srgb_from_linear((a + b + c + d) * 0.25)) << shift
+    };
+    channel(0) | channel(8) | channel(16) | mean_unorm(samples) & 0xFF00_0000
+}
+
+#[cfg(test)]
+mod tests {
+    use super::mean_unorm;
+
+    #[test]
+    fn each_channel_is_rounded_alone() {
+        let samples = [0xFF00_01FE, 0xFF01_02FF, 0xFF00_02FF, 0xFF00_02FD];
+        // Sums 1020, 1, 7, 1017: over four, with halves up, 255, 0, 2, 254.
+        assert_eq!(mean_unorm(samples), 0xFF00_02FE);
+        let mut state = 1_u32;
+        for _ in 0..10_000 {
+            let samples = [0; 4].map(|_: u32| {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                state ^ state >> 16
+            });
+            let mean = mean_unorm(samples).to_le_bytes();
+            for (channel, mean) in mean.into_iter().enumerate() {
+                let sum: u32 = samples
+                    .iter()
+                    .map(|sample| u32::from(sample.to_le_bytes()[channel]))
+                    .sum();
+                assert_eq!(u32::from(mean), (sum + 2) / 4);
+            }
+        }
+    }
+}
