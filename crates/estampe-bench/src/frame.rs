@@ -1,11 +1,12 @@
-//! One frame of a scene: record the draws, render, and colour and depth lie in memory.
+//! One frame of a scene: record the draws, render, resolve, and colour and depth lie in memory.
 
 use crate::BenchError;
 use crate::scene::{CLEAR_COLOR, Scene, SceneDraw};
 use estampe::{
-    Buffer, Device, Draw, IndexFormat, RenderPass, RenderPipeline, RenderTarget,
-    RenderTargetDescriptor, Statistics, TextureFormat,
+    BindGroup, Binding, Bindings, Buffer, Device, Draw, IndexFormat, RenderPass, RenderPipeline,
+    RenderTarget, RenderTargetDescriptor, Statistics,
 };
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// A frame's size in pixels.
@@ -44,8 +45,12 @@ pub struct PreparedScene<'d> {
     device: &'d Device,
     pipelines: Vec<RenderPipeline>,
     buffers: Vec<Buffer>,
+    /// Group 0 of the draws that have uniforms.
+    bind_group: Option<Arc<BindGroup>>,
     draws: Vec<PreparedDraw>,
     target: RenderTarget,
+    /// What the samples are resolved to, if there are several.
+    resolved: Option<RenderTarget>,
 }
 
 #[derive(Debug)]
@@ -70,41 +75,54 @@ impl<'d> PreparedScene<'d> {
     /// [`BenchError`] when the size is beyond the device's limits.
     pub fn new(device: &'d Device, scene: &Scene, size: FrameSize) -> Result<Self, BenchError> {
         let pipelines = scene.pipelines.iter();
+        let buffers = scene.buffers.iter();
+        let buffers: Vec<Buffer> = buffers.map(|bytes| Buffer::from_bytes(bytes)).collect();
+        let bind_group = scene.uniforms.map(|index| uniform_group(&buffers[index]));
         let draws = scene.draws.iter().map(|draw| PreparedDraw {
             draw: *draw,
             index_count: scene.index_count(draw),
         });
+        let image = RenderTargetDescriptor::new(size.width, size.height);
+        let resolved = RenderTargetDescriptor {
+            depth: false,
+            ..image.clone()
+        };
         Ok(Self {
             device,
             pipelines: pipelines
                 .map(|descriptor| device.create_render_pipeline(descriptor))
                 .collect::<Result<_, _>>()?,
-            buffers: scene
-                .buffers
-                .iter()
-                .map(|bytes| Buffer::from_bytes(bytes))
-                .collect(),
+            buffers,
+            bind_group,
             draws: draws.collect(),
             target: device.create_render_target(&RenderTargetDescriptor {
-                width: size.width,
-                height: size.height,
                 samples: scene.samples,
-                color_formats: vec![TextureFormat::Rgba8Unorm],
-                depth: true,
+                ..image
             })?,
+            resolved: if scene.samples > 1 {
+                Some(device.create_render_target(&resolved)?)
+            } else {
+                None
+            },
         })
     }
 
     /// Draws a frame anew: nothing of the one before is used.
     pub fn draw(&mut self) -> FrameTimes {
         let start = Instant::now();
-        let recorded: Vec<Draw<'_>> = self
-            .draws
-            .iter()
-            .map(|PreparedDraw { draw, index_count }| Draw {
+        let bindings = self.draws.iter().map(|PreparedDraw { draw, .. }| Bindings {
+            groups: (self.bind_group.iter())
+                .map(|group| (Arc::clone(group), draw.dynamic_offset))
+                .collect(),
+        });
+        let bindings: Vec<Bindings> = bindings.collect();
+        let draws = self.draws.iter().zip(&bindings);
+        let recorded: Vec<Draw<'_>> = draws
+            .map(|(PreparedDraw { draw, index_count }, bindings)| Draw {
                 vertex_buffers: std::slice::from_ref(&self.buffers[draw.vertices]),
                 indices: Some((&self.buffers[draw.indices], IndexFormat::Uint32)),
                 instances: 0..draw.instances,
+                bindings: Some(bindings),
                 ..Draw::new(&self.pipelines[draw.pipeline], 0..*index_count)
             })
             .collect();
@@ -115,6 +133,9 @@ impl<'d> PreparedScene<'d> {
         };
         let recording = start.elapsed();
         let statistics = self.device.render(&mut self.target, &pass);
+        if let Some(resolved) = &mut self.resolved {
+            self.device.resolve(&self.target, resolved);
+        }
         FrameTimes {
             recording,
             statistics,
@@ -124,7 +145,7 @@ impl<'d> PreparedScene<'d> {
     /// The last frame's colours: RGBA8, row by row from the top.
     #[must_use]
     pub fn read_color(&self) -> Vec<u8> {
-        self.target.read_color(0)
+        self.resolved.as_ref().unwrap_or(&self.target).read_color(0)
     }
 
     /// The last frame's depths, row by row from the top.
@@ -132,6 +153,18 @@ impl<'d> PreparedScene<'d> {
     pub fn read_depth(&self) -> Vec<f32> {
         self.target.read_depth()
     }
+}
+
+/// The group of one uniform buffer that draws bind at their dynamic offset.
+fn uniform_group(buffer: &Buffer) -> Arc<BindGroup> {
+    let uniforms = Binding::Buffer {
+        buffer: buffer.clone(),
+        offset: 0,
+        has_dynamic_offset: true,
+    };
+    Arc::new(BindGroup {
+        entries: vec![(0, uniforms)],
+    })
 }
 
 #[cfg(test)]

@@ -11,6 +11,8 @@ const PEERBENCH: &[(&str, u64, u64)] = &[
     ("small_tris", 998_000, 0xf719_cfc8_43a1_db9e),
     ("mid_tris", 69_696, 0x5d8f_b7d2_93ba_0559),
     ("textured", 32, 0x392a_b9bc_6e9e_47aa),
+    ("msaa4", 69_696, 0x5d8f_b7d2_93ba_0559),
+    ("instances", 1_000_000, 0x34e0_1eb1_75a5_2260),
 ];
 
 #[test]

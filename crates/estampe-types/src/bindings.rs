@@ -41,6 +41,7 @@ pub struct Bindings {
 
 impl Bindings {
     /// The resource at a group and binding number.
+    #[inline]
     #[must_use]
     pub fn get(&self, group: u32, binding: u32) -> Option<&Binding> {
         let (group, _) = self.groups.get(group as usize)?;
@@ -53,6 +54,7 @@ impl Bindings {
 
     /// `N` consecutive 32-bit floats of a bound buffer from a byte offset on; zeros where there is
     /// no such buffer or it ends.
+    #[inline]
     #[must_use]
     pub fn f32s<const N: usize>(&self, group: u32, binding: u32, offset_bytes: u32) -> [f32; N] {
         let Some(Binding::Buffer {
@@ -69,6 +71,13 @@ impl Bindings {
             0
         };
         let start = *offset as usize + dynamic as usize + offset_bytes as usize;
+        // The common case, at one look: programs read their uniforms once a packet.
+        if let Some(words) = buffer.words().get(start / 4..)
+            && let Some(words) = words.first_chunk::<N>()
+            && start.is_multiple_of(4)
+        {
+            return words.map(f32::from_bits);
+        }
         let mut values = [0.0; N];
         for (index, value) in values.iter_mut().enumerate() {
             *value = f32::from_bits(buffer.word_at(start + index * 4));
@@ -77,6 +86,7 @@ impl Bindings {
     }
 
     /// A 4×4 matrix of a bound buffer, by columns.
+    #[inline]
     #[must_use]
     pub fn mat4(&self, group: u32, binding: u32, offset_bytes: u32) -> crate::Mat4 {
         let v: [f32; 16] = self.f32s(group, binding, offset_bytes);

@@ -175,5 +175,8 @@ fn bindings_read_zeros_where_nothing_is() {
     let bindings = Bindings {
         groups: vec![(std::sync::Arc::new(group), 4)],
     };
+    assert_eq!(bindings.f32s::<1>(0, 3, 0), [3.0]);
     assert_eq!(bindings.f32s::<2>(0, 3, 0), [3.0, 0.0]);
+    // The upper half of 3.0 = 0x4040_0000, between words.
+    assert_eq!(bindings.f32s::<1>(0, 3, 2), [f32::from_bits(0x4040)]);
 }

@@ -43,6 +43,11 @@ impl LittleEndian {
         }
     }
 
+    /// Appends zeros up to a length; the bytes are no longer than that.
+    pub fn pad_to(&mut self, len_bytes: u32) {
+        self.bytes.resize(len_bytes as usize, 0);
+    }
+
     /// Appends bytes as they are.
     pub fn raw(&mut self, values: &[u8]) {
         self.bytes.extend(values);

@@ -49,6 +49,16 @@ impl Matrix {
         matrix
     }
 
+    /// Makes everything `factor` times as large.
+    #[must_use]
+    pub fn scaling(factor: f64) -> Self {
+        let mut matrix = Self::IDENTITY;
+        for axis in 0..3 {
+            matrix.columns[axis][axis] = factor;
+        }
+        matrix
+    }
+
     /// Turns about the x axis, y towards z.
     #[must_use]
     pub fn rotation_x(turns: f64) -> Self {

@@ -9,6 +9,7 @@ pub(super) fn scene(_detail: Detail) -> Scene {
         textures: Vec::new(),
         samples: 1,
         pipelines: Vec::new(),
+        uniforms: None,
         draws: Vec::new(),
     }
 }

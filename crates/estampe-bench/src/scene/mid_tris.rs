@@ -78,7 +78,15 @@ estampe::shader! {
     }
 }
 
-pub(super) fn scene(detail: Detail) -> Scene {
+pub(super) fn single_sampled(detail: Detail) -> Scene {
+    scene("mid_tris", detail, 1)
+}
+
+pub(super) fn multisampled(detail: Detail) -> Scene {
+    scene("msaa4", detail, 4)
+}
+
+fn scene(name: &'static str, detail: Detail, samples: u32) -> Scene {
     let (ring_cells, tube_cells) = detail.of((264, 132), (33, 16));
     let texture_size = detail.of(1024, 256);
     let mesh = torus(ring_cells, tube_cells);
@@ -107,10 +115,11 @@ pub(super) fn scene(detail: Detail) -> Scene {
             cull_mode: CullMode::Back,
             ..PrimitiveState::default()
         },
+        samples,
         ..RenderPipelineDescriptor::new(shader)
     };
     let buffers = vec![mesh.vertices, mesh.indices, uniform_bytes];
-    Scene::of_one_draw("mid_tris", buffers, vec![diffuse, normals], pipeline)
+    Scene::of_one_draw(name, buffers, vec![diffuse, normals], pipeline)
 }
 
 fn uniform_bytes() -> Vec<u8> {

@@ -10,12 +10,15 @@
 //! | small_tris | bumpy sphere, Gouraud, back faces culled | 998,000 |
 //! | mid_tris | torus, Blinn-Phong, diffuse and normal map, trilinear | 69,696 |
 //! | textured | 16 tilted quads over each other, trilinear | 32 |
+//! | msaa4 | mid_tris with 4 samples, resolved | 69,696 |
+//! | instances | 2,000 draws, a dynamic uniform offset each | 1,000,000 |
 //!
 //! Targets are RGBA8 and 32-bit depth, cleared to [`CLEAR_COLOR`] and 1.
 
 mod blend;
 mod clear;
 mod fill;
+mod instances;
 mod mid_tris;
 mod small_tris;
 mod textured;
@@ -64,6 +67,8 @@ pub struct Scene {
     pub samples: u32,
     /// What the draws choose from.
     pub pipelines: Vec<RenderPipelineDescriptor>,
+    /// The buffer that draws bind as binding 0 of group 0, at their dynamic offset.
+    pub uniforms: Option<usize>,
     /// What a frame draws, in order.
     pub draws: Vec<SceneDraw>,
 }
@@ -79,6 +84,21 @@ pub struct SceneDraw {
     pub indices: usize,
     /// How many instances.
     pub instances: u32,
+    /// Where its uniforms begin, in bytes.
+    pub dynamic_offset: u32,
+}
+
+impl SceneDraw {
+    /// One instance, uniforms from the start of their buffer.
+    pub(crate) const fn new(pipeline: usize, vertices: usize, indices: usize) -> Self {
+        Self {
+            pipeline,
+            vertices,
+            indices,
+            instances: 1,
+            dynamic_offset: 0,
+        }
+    }
 }
 
 impl Scene {
@@ -95,12 +115,8 @@ impl Scene {
             textures,
             samples: pipeline.samples,
             pipelines: vec![pipeline],
-            draws: vec![SceneDraw {
-                pipeline: 0,
-                vertices: 0,
-                indices: 1,
-                instances: 1,
-            }],
+            uniforms: None,
+            draws: vec![SceneDraw::new(0, 0, 1)],
         }
     }
 
@@ -163,8 +179,10 @@ pub const ALL: &[SceneEntry] = &[
     entry("fill_front", fill::front_to_back),
     entry("blend", blend::scene),
     entry("small_tris", small_tris::scene),
-    entry("mid_tris", mid_tris::scene),
+    entry("mid_tris", mid_tris::single_sampled),
     entry("textured", textured::scene),
+    entry("msaa4", mid_tris::multisampled),
+    entry("instances", instances::scene),
 ];
 
 const fn entry(name: &'static str, make: fn(Detail) -> Scene) -> SceneEntry {
