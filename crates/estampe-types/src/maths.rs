@@ -82,3 +82,54 @@ pub fn powi<R: Real>(x: R, n: u32) -> R {
     }
     result
 }
+
+/// 1.5·2²³: a number within ±2²² plus this is rounded to the nearest integer, ties to even, which then
+/// stands in the low bits of the sum.
+const ROUNDING: f32 = 12_582_912.0;
+
+/// sin x of an angle in radians, within 1.5·10⁻⁷ for |x| ≤ 8192. Beyond, the error grows as the distance
+/// between neighbouring numbers does; any finite x gives a number in −1..=1, the others NaN.
+///
+/// x = k·π + r with k the nearest integer to x/π, |r| ≤ π/2; sin x = (−1)^k·sin r. π is subtracted in three
+/// parts (Cody and Waite 1980), of which the first two have so few bits that k times them is exact for
+/// |x| ≤ 8192. sin r = r + r³·p(r²), p the minimax polynomial of degree 3 (error 5·10⁻⁹).
+#[inline(always)]
+pub fn sin<R: Real>(x: R) -> R {
+    const PI_PARTS: [f32; 3] = [3.140_625, 9.675_026e-4, 1.509_958e-7];
+    let rounded = x * std::f32::consts::FRAC_1_PI + ROUNDING;
+    let k = rounded - ROUNDING;
+    let r = x - k * PI_PARTS[0] - k * PI_PARTS[1] - k * PI_PARTS[2];
+    // Only where x is too large to have a remainder; in this order of operands NaN stays NaN.
+    let r = r.splat(-2.0).max(r.splat(2.0).min(r));
+    let r2 = r * r;
+    let mut sum = r2 * 2.599_903_4e-6 - 1.980_654_8e-4;
+    sum = sum * r2 + 8.333_016e-3;
+    sum = sum * r2 - 1.666_665_7e-1;
+    let sine = sum * r2 * r + r;
+    // The lowest bit of k turns the sign.
+    (sine.to_bits() ^ (rounded.to_bits() << 31)).to_real_bits()
+}
+
+/// eˣ, within 1.5·10⁻⁷ times its value where that is a normal number; below 2⁻¹⁵⁰ it gives 0, beyond
+/// f32's range infinity, NaN for NaN.
+///
+/// x = k·ln 2 + r with k the nearest integer to x/ln 2, |r| ≤ ½·ln 2; ln 2 is subtracted in two parts, of
+/// which the first has so few bits that k times it is exact. eʳ = 1 + r + r²·p(r), p the minimax polynomial of
+/// degree 4 (error 3·10⁻⁹); 2^k by the exponent bits, in two factors.
+#[inline(always)]
+pub fn exp<R: Real>(x: R) -> R {
+    const LN_2_PARTS: [f32; 2] = [0.693_359_4, -2.121_944_4e-4];
+    // In this order of operands NaN stays NaN.
+    let x = x.splat(-104.0).max(x.splat(89.0).min(x));
+    let rounded = x * std::f32::consts::LOG2_E + ROUNDING;
+    let k = rounded - ROUNDING;
+    let r = x - k * LN_2_PARTS[0] - k * LN_2_PARTS[1];
+    let mut sum = r * 1.381_446_7e-3 + 8.368_781e-3;
+    sum = sum * r + 4.166_839_3e-2;
+    sum = sum * r + 1.666_652e-1;
+    sum = sum * r + 4.999_999_4e-1;
+    let power = sum * (r * r) + r + 1.0;
+    let k = rounded.to_bits() - rounded.splat_int(0x4B40_0000);
+    let half = k >> 1;
+    power * power_of_two::<R>(half) * power_of_two::<R>(k - half)
+}

@@ -206,6 +206,14 @@ impl Int for Quad<i32> {
         Self([value; 4])
     }
     #[inline(always)]
+    fn wrapping_mul(self, other: Self) -> Self {
+        self * other
+    }
+    #[inline(always)]
+    fn shr_unsigned(self, by: u32) -> Self {
+        self.each(|a| Int::shr_unsigned(a, by))
+    }
+    #[inline(always)]
     fn to_real(self) -> Quad {
         self.each(|a| a as f32)
     }
@@ -365,6 +373,14 @@ impl Int for i32 {
     #[inline(always)]
     fn splat(self, value: i32) -> Self {
         value
+    }
+    #[inline(always)]
+    fn wrapping_mul(self, other: Self) -> Self {
+        Self::wrapping_mul(self, other)
+    }
+    #[inline(always)]
+    fn shr_unsigned(self, by: u32) -> Self {
+        (self.cast_unsigned() >> by).cast_signed()
     }
     #[inline(always)]
     fn to_real(self) -> f32 {

@@ -177,6 +177,12 @@ pub trait Int:
     /// `value` in every lane.
     #[must_use]
     fn splat(self, value: i32) -> Self;
+    /// The product modulo 2³², for hashes.
+    #[must_use]
+    fn wrapping_mul(self, other: Self) -> Self;
+    /// Shifts zeros in from the left, as of unsigned numbers; `by` is below 32.
+    #[must_use]
+    fn shr_unsigned(self, by: u32) -> Self;
     /// The nearest real number, ties to even.
     fn to_real(self) -> Self::Real;
     /// The real number that has these bits.

@@ -67,6 +67,12 @@ fn one_four_and_sixteen_lanes_agree() {
     agrees!("exp2", x => maths::exp2(x));
     agrees!("log2", x => maths::log2(x));
     agrees!("pow", x => maths::pow(x, x.splat(5.5)));
+    agrees!("sin", x => maths::sin(x));
+    agrees!("exp", x => maths::exp(x));
+    agrees!("hashes", x => {
+        let bits = x.to_bits().wrapping_mul(x.splat_int(0x7FEB_352D));
+        (bits ^ bits.shr_unsigned(15)).shr_unsigned(8).to_real()
+    });
     agrees!("powi", x => maths::powi(x, 33));
     agrees!("select", x => R::select(x.lt(x * x), x.fract(), -x));
 }
@@ -112,6 +118,61 @@ fn exp2_and_log2_are_as_exact_as_they_say() {
     assert_eq!(maths::log2(8.0), 3.0);
     assert_eq!(maths::pow(0.0, 2.0), 0.0);
     assert!(maths::log2(-1.0).is_nan());
+}
+
+/// Numbers of every size and sign, and what lies between them.
+fn every_size() -> impl Iterator<Item = f32> {
+    (0..=u32::MAX).step_by(65_521).map(f32::from_bits)
+}
+
+#[test]
+fn sin_is_as_exact_as_it_says() {
+    let error = |x: f32| (f64::from(maths::sin(x)) - libm::sin(f64::from(x))).abs();
+    let dense = (-820_000..=820_000).map(|step| step as f32 * 0.01);
+    let small = every_size().filter(|x| x.abs() <= 8192.0);
+    for x in dense.chain(small).filter(|x| x.abs() <= 8192.0) {
+        assert!(error(x) < 1.5e-7, "sin({x}): error {:e}", error(x));
+    }
+    // Where the remainder is near 0, it is exact in relation to the sine.
+    for k in -2600..=2600 {
+        let x = (f64::from(k) * std::f64::consts::PI) as f32;
+        let exact = libm::sin(f64::from(x));
+        assert!(error(x) <= 1e-3 * exact.abs(), "sin({x}): {:e}", error(x));
+    }
+    for x in every_size() {
+        let sine = maths::sin(x);
+        if x.is_finite() {
+            assert!((-1.0..=1.0).contains(&sine), "sin({x}) = {sine}");
+        } else {
+            assert!(sine.is_nan(), "sin({x}) = {sine}");
+        }
+    }
+    assert_eq!(maths::sin(0.0), 0.0);
+    assert!(maths::sin(f32::INFINITY).is_nan() && maths::sin(f32::NEG_INFINITY).is_nan());
+}
+
+#[test]
+fn exp_is_as_exact_as_it_says() {
+    for step in -110_000..=95_000 {
+        let x = step as f32 * 0.001;
+        let (got, exact) = (f64::from(maths::exp(x)), libm::exp(f64::from(x)));
+        let least = f64::from(f32::MIN_POSITIVE);
+        if exact >= f64::from(f32::MAX) {
+            assert_eq!(got, f64::INFINITY, "exp({x})");
+        } else if exact >= least {
+            assert!((got - exact).abs() < 1.5e-7 * exact, "exp({x}): {got:e}");
+        } else {
+            // One step of the subnormal numbers.
+            assert!((got - exact).abs() < 1.5e-45, "exp({x}): {got:e}");
+        }
+    }
+    for x in every_size() {
+        let power = maths::exp(x);
+        assert!(power >= 0.0 || x.is_nan() && power.is_nan(), "exp({x})");
+    }
+    assert_eq!(maths::exp(0.0), 1.0);
+    assert_eq!(maths::exp(f32::INFINITY), f32::INFINITY);
+    assert_eq!(maths::exp(f32::NEG_INFINITY), 0.0);
 }
 
 /// 2^x in f64, independent of the system: halvings of the exponent and a long series.

@@ -132,6 +132,15 @@ impl<S: Lanes> Int for i32x16<S> {
         <Self as SimdBase<S>>::splat(estampe_simd::ExtractToken::token(&self), value)
     }
     #[inline(always)]
+    fn wrapping_mul(self, other: Self) -> Self {
+        self * other
+    }
+    #[inline(always)]
+    fn shr_unsigned(self, by: u32) -> Self {
+        let bits: u32x16<S> = Bytes::bitcast(self);
+        Bytes::bitcast(bits >> by)
+    }
+    #[inline(always)]
     fn to_real(self) -> f32x16<S> {
         f32x16::float_from(self)
     }
