@@ -125,8 +125,8 @@ pub fn run(arguments: &Arguments, out: &mut impl Write) -> Result<Outcome, Bench
     print(out, &report::header())?;
     let mut comparisons = Vec::new();
     for entry in scenes {
-        let scene = entry.make(Detail::Full);
         for &size in &arguments.sizes {
+            let scene = entry.make(Detail::Full, size);
             let (mut row, picture) = run_scene(&device, &scene, size, arguments.effort())?;
             print(out, &row.line())?;
             let file_name = format!("{}_{size}.png", scene.name);

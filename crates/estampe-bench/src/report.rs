@@ -198,11 +198,11 @@ mod tests {
     #[test]
     fn the_json_is_valid_and_has_one_row_a_line() {
         let scene = crate::scene::SceneEntry::named("fill").unwrap();
-        let scene = scene.make(crate::scene::Detail::Full);
         let size = FrameSize {
             width: 64,
             height: 48,
         };
+        let scene = scene.make(crate::scene::Detail::Full, size);
         let timing = Timing {
             median_ms: 1.234_56,
             min_ms: 1.0,

@@ -1,8 +1,9 @@
 //! The generated data are `peerbench`'s, byte for byte.
 
+use estampe_bench::frame::FrameSize;
 use estampe_bench::scene::{Detail, SceneEntry};
 
-/// Scene, triangles and fingerprint, as `peerbench` prints them.
+/// Scene, triangles and fingerprint, as `peerbench` prints them at 1280×720.
 const PEERBENCH: &[(&str, u64, u64)] = &[
     ("clear", 0, 0xcbf2_9ce4_8422_2325),
     ("fill", 64, 0x0252_fe24_63db_7e25),
@@ -11,14 +12,21 @@ const PEERBENCH: &[(&str, u64, u64)] = &[
     ("small_tris", 998_000, 0xf719_cfc8_43a1_db9e),
     ("mid_tris", 69_696, 0x5d8f_b7d2_93ba_0559),
     ("textured", 32, 0x392a_b9bc_6e9e_47aa),
+    ("heavy_fs", 2, 0x0ff2_2474_dcca_6243),
     ("msaa4", 69_696, 0x5d8f_b7d2_93ba_0559),
     ("instances", 1_000_000, 0x34e0_1eb1_75a5_2260),
 ];
 
 #[test]
 fn the_data_are_those_of_peerbench() {
+    let size = FrameSize {
+        width: 1280,
+        height: 720,
+    };
     for &(name, triangles, fingerprint) in PEERBENCH {
-        let scene = SceneEntry::named(name).expect(name).make(Detail::Full);
+        let scene = SceneEntry::named(name)
+            .expect(name)
+            .make(Detail::Full, size);
         assert_eq!(scene.triangles(), triangles, "{name}");
         assert_eq!(
             scene.fingerprint(),

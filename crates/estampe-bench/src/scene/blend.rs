@@ -4,7 +4,7 @@
 //! Corner k of quad i has the hash of 2000 + 4·i + k as its colour, interpolated; the quad's alpha byte is
 //! 32 plus six bits of the hash of 3000 + i. A vertex is its position (3 floats) and colour (4 bytes).
 
-use super::{Detail, Scene, vertex_layout};
+use super::{Scene, vertex_layout};
 use crate::generate::{LittleEndian, QUAD_CORNERS, hash32, quad_indices};
 use estampe::state::{BlendState, ColorTargetState, DepthState};
 use estampe::{
@@ -37,7 +37,7 @@ estampe::shader! {
     }
 }
 
-pub(super) fn scene(_detail: Detail) -> Scene {
+pub(super) fn scene() -> Scene {
     let mut vertices = LittleEndian::default();
     for quad in 0..QUADS {
         let [alpha_bits, ..] = hash32(3000 + quad).to_le_bytes();

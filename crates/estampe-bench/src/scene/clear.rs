@@ -1,8 +1,8 @@
 //! `clear`: colour and depth are cleared and stored, nothing is drawn: the fixed cost of a frame.
 
-use super::{Detail, Scene};
+use super::Scene;
 
-pub(super) fn scene(_detail: Detail) -> Scene {
+pub(super) fn scene() -> Scene {
     Scene {
         name: "clear",
         buffers: Vec::new(),

@@ -5,7 +5,7 @@
 //! fragment passes; drawn from the nearest, only the first quad's do. A vertex is its position (3 floats)
 //! and colour (4 bytes).
 
-use super::{Detail, Scene, vertex_layout};
+use super::{Scene, vertex_layout};
 use crate::generate::{LittleEndian, QUAD_CORNERS, hash32, quad_indices};
 use estampe::{
     Flat, FragmentIn, FragmentOut, RenderPipelineDescriptor, Vec3, Vec4, VertexFormat, VertexIn,
@@ -40,11 +40,11 @@ estampe::shader! {
     }
 }
 
-pub(super) fn back_to_front(_detail: Detail) -> Scene {
+pub(super) fn back_to_front() -> Scene {
     scene("fill", (0..QUADS).rev())
 }
 
-pub(super) fn front_to_back(_detail: Detail) -> Scene {
+pub(super) fn front_to_back() -> Scene {
     scene("fill_front", 0..QUADS)
 }
 

@@ -10,6 +10,7 @@
 //! | small_tris | bumpy sphere, Gouraud, back faces culled | 998,000 |
 //! | mid_tris | torus, Blinn-Phong, diffuse and normal map, trilinear | 69,696 |
 //! | textured | 16 tilted quads over each other, trilinear | 32 |
+//! | heavy_fs | full-screen sphere tracing, divergent exit, value noise | 2 |
 //! | msaa4 | mid_tris with 4 samples, resolved | 69,696 |
 //! | instances | 2,000 draws, a dynamic uniform offset each | 1,000,000 |
 //!
@@ -18,6 +19,7 @@
 mod blend;
 mod clear;
 mod fill;
+mod heavy_fs;
 mod instances;
 mod mid_tris;
 mod small_tris;
@@ -25,6 +27,7 @@ mod textured;
 mod uniforms;
 mod upload;
 
+use crate::frame::FrameSize;
 use crate::generate::{Fingerprint, MipChain};
 use estampe::state::{VertexAttribute, VertexBufferLayout};
 use estampe::{RenderPipelineDescriptor, VertexFormat};
@@ -155,14 +158,14 @@ impl Scene {
 pub struct SceneEntry {
     /// Its name, as on the command line.
     pub name: &'static str,
-    make: fn(Detail) -> Scene,
+    make: fn(Detail, FrameSize) -> Scene,
 }
 
 impl SceneEntry {
-    /// Generates the scene's data.
+    /// Generates the scene's data for frames of a size.
     #[must_use]
-    pub fn make(&self, detail: Detail) -> Scene {
-        (self.make)(detail)
+    pub fn make(&self, detail: Detail, size: FrameSize) -> Scene {
+        (self.make)(detail, size)
     }
 
     /// The scene of that name.
@@ -174,18 +177,19 @@ impl SceneEntry {
 
 /// Every scene, in the order of reports.
 pub const ALL: &[SceneEntry] = &[
-    entry("clear", clear::scene),
-    entry("fill", fill::back_to_front),
-    entry("fill_front", fill::front_to_back),
-    entry("blend", blend::scene),
-    entry("small_tris", small_tris::scene),
-    entry("mid_tris", mid_tris::single_sampled),
-    entry("textured", textured::scene),
-    entry("msaa4", mid_tris::multisampled),
-    entry("instances", instances::scene),
+    entry("clear", |_, _| clear::scene()),
+    entry("fill", |_, _| fill::back_to_front()),
+    entry("fill_front", |_, _| fill::front_to_back()),
+    entry("blend", |_, _| blend::scene()),
+    entry("small_tris", |detail, _| small_tris::scene(detail)),
+    entry("mid_tris", |detail, _| mid_tris::single_sampled(detail)),
+    entry("textured", |detail, _| textured::scene(detail)),
+    entry("heavy_fs", |_, size| heavy_fs::scene(size)),
+    entry("msaa4", |detail, _| mid_tris::multisampled(detail)),
+    entry("instances", |detail, _| instances::scene(detail)),
 ];
 
-const fn entry(name: &'static str, make: fn(Detail) -> Scene) -> SceneEntry {
+const fn entry(name: &'static str, make: fn(Detail, FrameSize) -> Scene) -> SceneEntry {
     SceneEntry { name, make }
 }
 
