@@ -14,6 +14,18 @@ fn last_index(table: &[u32]) -> Option<u32> {
     Some(u32::try_from(last).map_or(i32::MAX as u32, |last| last.min(i32::MAX as u32)))
 }
 
+/// The bits of floats, to gather from.
+#[must_use]
+#[expect(
+    unsafe_code,
+    reason = "the crate's only unsafe file; safe transmutation is not stable"
+)]
+pub fn bits_of(table: &[f32]) -> &[u32] {
+    // SAFETY: f32 and u32 have the same size and alignment, every bit pattern of either is valid, and the
+    // result borrows what the argument borrows.
+    unsafe { std::slice::from_raw_parts(table.as_ptr().cast(), table.len()) }
+}
+
 /// One load per lane, for levels without a gather instruction.
 #[inline(always)]
 pub(crate) fn by_lane<S: Simd>(simd: S, table: &[u32], index: u32x16<S>) -> u32x16<S> {

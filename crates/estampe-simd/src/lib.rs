@@ -28,6 +28,7 @@ pub use fearless_simd::{
     Bytes, ExtractToken, Select, Simd, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, SimdInt,
     SimdInto, SimdMask, f32x4, f32x16, i32x16, mask32x16, u32x16,
 };
+pub use gather::bits_of;
 pub use lanes::Lanes;
 pub use level::{Level, LevelError};
 

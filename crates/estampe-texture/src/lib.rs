@@ -5,6 +5,7 @@
 //!   made from the level above or given; [`TextureError`] names the rule that was broken;
 //! * [`Sampled`]: a texture with a sampler, as a shader holds it. One text samples one fragment
 //!   (`f32`), a 2×2 quad ([`Quad`](estampe_types::Quad)) or a packet of sixteen, with the same bits.
+//! * [`sample_compare_level`], [`sample_compare_sum`]: a depth image compared with a reference.
 //!
 //! ```text
 //!  derivatives ─▶ lod ─▶ levels and their mixture ─▶ wrap ─▶ filter ─▶ texel (load, unpack)
@@ -26,6 +27,7 @@
 //! with. The second and fourth byte stay where they are, as 256·c, and the factor 1/255 at the end
 //! makes up for it. All of this is exact, so the bits are those of `docs/NUMERICS.md`.
 
+mod compare;
 mod create;
 mod error;
 mod filter;
@@ -35,10 +37,12 @@ mod sampled;
 mod texel;
 mod wrap;
 
+pub use compare::{sample_compare_level, sample_compare_sum};
 pub use create::{MipGeneration, create_texture, create_texture_with_levels};
 pub use error::TextureError;
 pub use estampe_types::{
-    AddressMode, FilterMode, Limits, MipLevel, SamplerDescriptor, Texture, TextureFormat,
+    AddressMode, DepthTexture, FilterMode, Limits, MipLevel, SamplerDescriptor, Texture,
+    TextureFormat,
 };
 pub use sampled::Sampled;
 

@@ -4,7 +4,7 @@
 //! resources this way; a Rust shader may own its uniforms instead, and use bindings for what changes
 //! from draw to draw. What is not bound reads as zeros.
 
-use crate::{Buffer, SamplerDescriptor, Texture};
+use crate::{Buffer, DepthTexture, SamplerDescriptor, Texture};
 use std::sync::Arc;
 
 /// One resource.
@@ -21,6 +21,8 @@ pub enum Binding {
     },
     /// A texture.
     Texture(Arc<Texture>),
+    /// A depth image.
+    DepthTexture(DepthTexture),
     /// How a texture is sampled.
     Sampler(SamplerDescriptor),
 }
@@ -99,6 +101,16 @@ impl Bindings {
     pub fn texture(&self, group: u32, binding: u32) -> Option<&Arc<Texture>> {
         match self.get(group, binding)? {
             Binding::Texture(texture) => Some(texture),
+            _ => None,
+        }
+    }
+
+    /// The depth image at a group and binding number.
+    #[inline]
+    #[must_use]
+    pub fn depth_texture(&self, group: u32, binding: u32) -> Option<&DepthTexture> {
+        match self.get(group, binding)? {
+            Binding::DepthTexture(texture) => Some(texture),
             _ => None,
         }
     }

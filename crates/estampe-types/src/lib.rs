@@ -38,7 +38,7 @@ pub use shader::{
     Attributes, Flat, FragmentBatch, FragmentIn, FragmentOut, Interface, Interpolation,
     NoPerspective, Program, Shader, ShaderProgram, Varyings, VertexBatch, VertexIn,
 };
-pub use texture::{AddressMode, FilterMode, MipLevel, SamplerDescriptor, Texture};
+pub use texture::{AddressMode, DepthTexture, FilterMode, MipLevel, SamplerDescriptor, Texture};
 pub use vector::{Vec2, Vec3, Vec4};
 
 #[cfg(test)]

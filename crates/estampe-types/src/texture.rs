@@ -25,6 +25,186 @@ pub struct MipLevel {
     pub offset: u32,
 }
 
+/// Side of a block of a [`DepthTexture`], in texels.
+const BLOCK: usize = 64;
+
+/// A depth image that shaders compare with, such as a shadow map: what a depth attachment held when it
+/// was taken. Cheap to clone.
+///
+/// It is stored as attachments are: blocks of 64×64 texels in row order, inside a block Morton order
+/// (bit i of x is bit 2i, bit i of y is bit 2i + 1), so that an attachment is sampled where it lies. Beside
+/// it lie the bounds of each 4×4 texels, row by row: most samples of a shadow map are decided by them.
+#[derive(Debug, Clone, Default)]
+pub struct DepthTexture {
+    width: u32,
+    height: u32,
+    depths: Arc<Vec<f32>>,
+    bounds: Arc<Vec<u32>>,
+}
+
+impl DepthTexture {
+    /// What depths are multiplied by before they become the halves of [`DepthTexture::bounds`].
+    pub const BOUND_SCALE: f32 = 32_768.0;
+
+    /// The longest side.
+    pub const MAX_SIDE: u32 = 16_384;
+
+    /// An image from depths row by row from the top. They are confined to 0..=1, NaN becomes 0. Where their
+    /// number is not width times height, or a side is longer than [`DepthTexture::MAX_SIDE`], it is empty.
+    #[must_use]
+    pub fn from_rows(width: u32, height: u32, rows: &[f32]) -> Self {
+        if rows.len() as u64 != u64::from(width) * u64::from(height)
+            || rows.is_empty()
+            || width.max(height) > Self::MAX_SIDE
+        {
+            return Self::default();
+        }
+        let blocks = [width, height].map(|side| (side as usize).div_ceil(BLOCK));
+        let mut depths = vec![0.0; blocks[0] * blocks[1] * BLOCK * BLOCK];
+        for (y, row) in rows.chunks(width.max(1) as usize).enumerate() {
+            for (x, depth) in row.iter().enumerate() {
+                let block = (y / BLOCK) * blocks[0] + x / BLOCK;
+                let inside = spread(x % BLOCK) | spread(y % BLOCK) << 1;
+                let clamped = if *depth > 0.0 { depth.min(1.0) } else { 0.0 };
+                depths[block * BLOCK * BLOCK + inside] = clamped;
+            }
+        }
+        let mut bounds = vec![0; Self::bounds_len(width, height)];
+        let stride = Self::bounds_stride(width);
+        for (row, depths) in depths.chunks(blocks[0] * BLOCK * BLOCK).enumerate() {
+            let first = row * stride * (BLOCK / 4);
+            Self::bound(depths, &mut bounds[first..][..stride * (BLOCK / 4)]);
+        }
+        Self::from_storage((width, height), Arc::new(depths), Arc::new(bounds))
+    }
+
+    /// An image from depths in storage order, all in 0..=1, and their bounds. Where these are not of the
+    /// size's lengths, the image is empty.
+    #[must_use]
+    pub fn from_storage(
+        (width, height): (u32, u32),
+        depths: Arc<Vec<f32>>,
+        bounds: Arc<Vec<u32>>,
+    ) -> Self {
+        let stored =
+            Self::bounds_stride(width) * 16 * (height as usize).next_multiple_of(BLOCK) / 4;
+        let len = Self::bounds_len(width, height);
+        if width == 0
+            || height == 0
+            || width.max(height) > Self::MAX_SIDE
+            || depths.len() != stored
+            || bounds.len() != len
+        {
+            return Self::default();
+        }
+        Self {
+            width,
+            height,
+            depths,
+            bounds,
+        }
+    }
+
+    /// Width in texels; 0 of an empty image.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height in texels; 0 of an empty image.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// The depth of a texel; 0 beyond the image.
+    #[must_use]
+    pub fn texel(&self, x: u32, y: u32) -> f32 {
+        if x >= self.width || y >= self.height {
+            return 0.0;
+        }
+        let (x, y) = (x as usize, y as usize);
+        let block = y / BLOCK * (self.width as usize).div_ceil(BLOCK) + x / BLOCK;
+        let inside = spread(x % BLOCK) | spread(y % BLOCK) << 1;
+        let depth = self.depths.get(block * BLOCK * BLOCK + inside);
+        depth.copied().unwrap_or_default()
+    }
+
+    /// The depths in storage order, all in 0..=1.
+    #[must_use]
+    pub fn depths(&self) -> &[f32] {
+        &self.depths
+    }
+
+    /// Least and greatest depth of each 4×4 texels, row by row, [`DepthTexture::bounds_stride`] to a row:
+    /// in units of 1/[`DepthTexture::BOUND_SCALE`], the least rounded down in the low half of a word, the
+    /// greatest rounded up in the high half. One word more stands at the end, so that pairs can be read.
+    #[must_use]
+    pub fn bounds(&self) -> &[u32] {
+        &self.bounds
+    }
+
+    /// Words in a row of the bounds of an image of a width in texels.
+    #[must_use]
+    pub fn bounds_stride(width: u32) -> usize {
+        (width as usize).next_multiple_of(BLOCK) / 4
+    }
+
+    /// Words of the bounds of an image of a size in texels.
+    #[must_use]
+    pub fn bounds_len(width: u32, height: u32) -> usize {
+        Self::bounds_stride(width) * ((height as usize).next_multiple_of(BLOCK) / 4) + 1
+    }
+
+    /// The bounds of a row of blocks, in storage order: sixteen rows of words.
+    pub fn bound(depths: &[f32], bounds: &mut [u32]) {
+        const SIDE: usize = BLOCK / 4;
+        let blocks = depths.as_chunks::<16>().0.chunks_exact(SIDE * SIDE);
+        let stride = bounds.len() / SIDE;
+        for (number, packets) in blocks.enumerate() {
+            for y in 0..SIDE {
+                let row = &mut bounds[y * stride + number * SIDE..][..SIDE];
+                for (x, word) in row.iter_mut().enumerate() {
+                    *word = bounds_of(&packets[spread(x) | spread(y) << 1]);
+                }
+            }
+        }
+    }
+}
+
+/// Moves bit i of a six-bit number to bit 2i.
+const fn spread(v: usize) -> usize {
+    let v = (v | (v << 4)) & 0x30F;
+    let v = (v | (v << 2)) & 0x333;
+    (v | (v << 1)) & 0x555
+}
+
+/// Least and greatest of sixteen depths in a word.
+#[inline(always)]
+fn bounds_of(depths: &[f32; 16]) -> u32 {
+    let (mut least, mut greatest) = (*depths, *depths);
+    let mut half = 8;
+    while half > 0 {
+        for lane in 0..half {
+            let (a, b) = (least[lane], least[lane + half]);
+            least[lane] = if a < b { a } else { b };
+            let (a, b) = (greatest[lane], greatest[lane + half]);
+            greatest[lane] = if a > b { a } else { b };
+        }
+        half /= 2;
+    }
+    let scaled = [least[0], greatest[0]].map(|depth| depth * DepthTexture::BOUND_SCALE);
+    // In 0..=32768, so that the conversion rounds down and loses nothing else.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "depths are in 0..=1"
+    )]
+    let [low, high] = scaled.map(|depth| depth as u32);
+    let high = high + u32::from((high as f32) < scaled[1]);
+    low | high << 16
+}
+
 /// How a coordinate outside 0..1 finds a texel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum AddressMode {
