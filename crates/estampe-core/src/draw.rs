@@ -16,9 +16,9 @@ use crate::tiles::Chunk;
 use crate::wave::{Item, Waves};
 use estampe_simd::Level;
 use estampe_types::state::{ScissorRect, Viewport};
-use estampe_types::{Bindings, Buffer, IndexFormat, TextureFormat};
+use estampe_types::{Bindings, Buffer, DepthTexture, IndexFormat, TextureFormat};
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 /// One draw: a pipeline, the data that it reads, and how much of it.
@@ -176,6 +176,15 @@ impl Context {
         let memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
         self.executor
             .for_each(&mut jobs, &memory.chunk_scratch, |job, _| job.run());
+    }
+
+    /// The target's depth as a texture, without a copy; `None` without depth or with several samples.
+    pub fn depth_texture(&self, target: &mut RenderTarget) -> Option<DepthTexture> {
+        let memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
+        target.depth_texture(|jobs| {
+            self.executor
+                .for_each(jobs, &memory.chunk_scratch, |job, _| job.run());
+        })
     }
 
     /// Geometry, first half: every vertex of the wave is shaded once.
@@ -368,7 +377,8 @@ fn tile_jobs(target: &mut RenderTarget) -> Vec<TileJob<'_>> {
             job.colors[index] = slice;
         }
     }
-    for (job, slice) in jobs.iter_mut().zip(target.depth.chunks_exact_mut(elements)) {
+    let depth = Arc::make_mut(&mut target.depth);
+    for (job, slice) in jobs.iter_mut().zip(depth.chunks_exact_mut(elements)) {
         job.depth = slice;
     }
     jobs

@@ -1,5 +1,6 @@
 //! Textures as plain data, and how they are to be sampled. Sampling itself is `estampe-texture`'s.
 
+use crate::Lines;
 use crate::format::TextureFormat;
 use std::sync::Arc;
 
@@ -38,7 +39,7 @@ const BLOCK: usize = 64;
 pub struct DepthTexture {
     width: u32,
     height: u32,
-    depths: Arc<Vec<f32>>,
+    depths: Arc<Lines<f32>>,
     bounds: Arc<Vec<u32>>,
 }
 
@@ -75,7 +76,11 @@ impl DepthTexture {
             let first = row * stride * (BLOCK / 4);
             Self::bound(depths, &mut bounds[first..][..stride * (BLOCK / 4)]);
         }
-        Self::from_storage((width, height), Arc::new(depths), Arc::new(bounds))
+        Self::from_storage(
+            (width, height),
+            Arc::new(Lines::from(depths)),
+            Arc::new(bounds),
+        )
     }
 
     /// An image from depths in storage order, all in 0..=1, and their bounds. Where these are not of the
@@ -83,7 +88,7 @@ impl DepthTexture {
     #[must_use]
     pub fn from_storage(
         (width, height): (u32, u32),
-        depths: Arc<Vec<f32>>,
+        depths: Arc<Lines<f32>>,
         bounds: Arc<Vec<u32>>,
     ) -> Self {
         let stored =

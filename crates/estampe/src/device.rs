@@ -1,8 +1,8 @@
 //! The device: threads, a SIMD level and limits; it makes and draws everything.
 
 use crate::{
-    Draw, Level, Limits, PipelineError, RenderPass, RenderPipeline, RenderPipelineDescriptor,
-    RenderTarget, RenderTargetDescriptor, Statistics, TargetError,
+    DepthTexture, Draw, Level, Limits, PipelineError, RenderPass, RenderPipeline,
+    RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, Statistics, TargetError,
 };
 use estampe_core::Context;
 
@@ -97,6 +97,14 @@ impl Device {
     /// same size and colour format; others are left alone. Depth is not resolved.
     pub fn resolve(&self, from: &RenderTarget, into: &mut RenderTarget) {
         self.context.resolve(from, into);
+    }
+
+    /// The target's depth as a texture that shaders compare with, such as a shadow map; `None` without
+    /// depth or with several samples. It shares the target's memory: drop it, and bind groups that hold it,
+    /// before the target is drawn again, or that will draw into a copy.
+    #[must_use]
+    pub fn depth_texture(&self, target: &mut RenderTarget) -> Option<DepthTexture> {
+        self.context.depth_texture(target)
     }
 
     /// The SIMD level of the kernels.

@@ -22,8 +22,8 @@ pub use estampe_simd::{Level, LevelError};
 pub use estampe_texture as texture;
 pub use estampe_types::shader::{DepthOutput, Interpolation, Sample2d, VertexOut};
 pub use estampe_types::{
-    AddressMode, Attributes, BindGroup, Binding, Bindings, Buffer, FilterMode, Flat, FragmentIn,
-    FragmentOut, IndexFormat, Int, Limits, Mat4, MipLevel, NoPerspective, Program, Quad, Real,
-    SamplerDescriptor, Shader, ShaderProgram, Texture, TextureFormat, Varyings, Vec2, Vec3, Vec4,
-    VertexFormat, VertexIn, maths, shader, srgb, state,
+    AddressMode, Attributes, BindGroup, Binding, Bindings, Buffer, DepthTexture, FilterMode, Flat,
+    FragmentIn, FragmentOut, IndexFormat, Int, Limits, Mat4, MipLevel, NoPerspective, Program,
+    Quad, Real, SamplerDescriptor, Shader, ShaderProgram, Texture, TextureFormat, Varyings, Vec2,
+    Vec3, Vec4, VertexFormat, VertexIn, maths, shader, srgb, state,
 };

@@ -14,9 +14,9 @@
 //! is one contiguous slice, and safe `&mut` slices go to the workers. Row order was measured three
 //! times slower for filling (every packet touches four lines); it is made once, on read-back.
 
+mod depth_texture;
 mod readback;
 pub(crate) mod resolve;
-mod storage;
 mod target;
 
 pub use target::{RenderTarget, RenderTargetDescriptor, TargetError};

@@ -1,8 +1,8 @@
 //! A render target: colour attachments and a depth attachment of one size.
 
-use super::storage::Lines;
 use crate::layout::TileGrid;
-use estampe_types::{Limits, TextureFormat};
+use estampe_types::{Limits, Lines, TextureFormat};
+use std::sync::Arc;
 
 /// What a render target is made of.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -87,8 +87,11 @@ pub struct RenderTarget {
     pub(super) grid: TileGrid,
     /// One element per sample, in storage order; RGBA8 with R in the low byte.
     pub(crate) colors: Vec<Lines<u32>>,
-    /// One element per sample, in storage order; empty without depth.
-    pub(crate) depth: Lines<f32>,
+    /// One element per sample, in storage order; empty without depth. Shared with the depth textures that
+    /// were taken of it; drawing while one lives draws into a copy.
+    pub(crate) depth: Arc<Lines<f32>>,
+    /// Memory of the last depth texture's bounds, used again when that is gone.
+    pub(super) depth_bounds: Arc<Vec<u32>>,
 }
 
 impl RenderTarget {
@@ -121,7 +124,8 @@ impl RenderTarget {
             descriptor: descriptor.clone(),
             grid,
             colors,
-            depth,
+            depth: Arc::new(depth),
+            depth_bounds: Arc::default(),
         })
     }
 

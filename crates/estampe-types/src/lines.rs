@@ -1,4 +1,4 @@
-//! Memory of attachments: elements that begin at a cache line.
+//! Memory of images: elements that begin at a cache line.
 
 use std::ops::{Deref, DerefMut};
 
@@ -10,7 +10,7 @@ const LINE: usize = 64;
 /// An allocation of this size begins 16 bytes behind a page's start, and then every packet's load and store
 /// touches two lines.
 #[derive(Debug, Default)]
-pub(crate) struct Lines<T> {
+pub struct Lines<T> {
     /// The elements, and before them up to a line of unused ones.
     memory: Vec<T>,
     start: usize,
@@ -19,12 +19,25 @@ pub(crate) struct Lines<T> {
 
 impl<T: Copy + Default> Lines<T> {
     /// Zeros, or `None` when memory is short.
-    pub(crate) fn zeros(len: usize) -> Option<Self> {
+    #[must_use]
+    pub fn zeros(len: usize) -> Option<Self> {
         let spare = LINE / size_of::<T>();
-        let memory = zeros(len.checked_add(spare)?)?;
+        let memory: Vec<T> = zeros(len.checked_add(spare)?)?;
         // Where this cannot be told (it may be so in constant evaluation) alignment is given up.
         let start = memory.as_ptr().align_offset(LINE).min(spare);
         Some(Self { memory, start, len })
+    }
+}
+
+impl<T> From<Vec<T>> for Lines<T> {
+    /// The same elements where they are, at a line's begin or not.
+    fn from(memory: Vec<T>) -> Self {
+        let len = memory.len();
+        Self {
+            memory,
+            start: 0,
+            len,
+        }
     }
 }
 
