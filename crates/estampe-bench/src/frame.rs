@@ -1,10 +1,10 @@
-//! One frame of a scene: record the draws, render, resolve, and colour and depth lie in memory.
+//! One frame of a scene: record the passes, render, resolve, and colour and depth lie in memory.
 
 use crate::BenchError;
-use crate::scene::{CLEAR_COLOR, Scene, SceneDraw};
+use crate::scene::{CLEAR_COLOR, Scene, SceneDraw, shadow};
 use estampe::{
-    BindGroup, Binding, Bindings, Buffer, Device, Draw, IndexFormat, RenderPass, RenderPipeline,
-    RenderTarget, RenderTargetDescriptor, Statistics,
+    BindGroup, Binding, Bindings, Buffer, DepthTexture, Device, Draw, IndexFormat, RenderPass,
+    RenderPipeline, RenderTarget, RenderTargetDescriptor, Statistics,
 };
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -43,14 +43,24 @@ impl std::str::FromStr for FrameSize {
 #[derive(Debug)]
 pub struct PreparedScene<'d> {
     device: &'d Device,
-    pipelines: Vec<RenderPipeline>,
-    buffers: Vec<Buffer>,
-    /// Group 0 of the draws that have uniforms.
-    bind_group: Option<Arc<BindGroup>>,
+    resources: Resources,
+    /// The pass before the frame's, if there is one.
+    depth_map: Option<(RenderTarget, Vec<PreparedDraw>)>,
     draws: Vec<PreparedDraw>,
     target: RenderTarget,
     /// What the samples are resolved to, if there are several.
     resolved: Option<RenderTarget>,
+}
+
+/// What draws refer to.
+#[derive(Debug)]
+struct Resources {
+    pipelines: Vec<RenderPipeline>,
+    buffers: Vec<Buffer>,
+    /// Which buffer is bound at each draw's dynamic offset.
+    uniforms: Option<usize>,
+    /// Group 0, where it is the same in every frame.
+    bind_group: Arc<BindGroup>,
 }
 
 #[derive(Debug)]
@@ -64,37 +74,43 @@ struct PreparedDraw {
 pub struct FrameTimes {
     /// Recording the draws.
     pub recording: Duration,
-    /// What the pass did.
+    /// What the passes did.
     pub statistics: Statistics,
 }
 
 impl<'d> PreparedScene<'d> {
-    /// Makes the scene's pipelines, buffers and a target of that size.
+    /// Makes the scene's pipelines, buffers and targets, of that size.
     ///
     /// # Errors
     /// [`BenchError`] when the size is beyond the device's limits.
     pub fn new(device: &'d Device, scene: &Scene, size: FrameSize) -> Result<Self, BenchError> {
-        let pipelines = scene.pipelines.iter();
-        let buffers = scene.buffers.iter();
-        let buffers: Vec<Buffer> = buffers.map(|bytes| Buffer::from_bytes(bytes)).collect();
-        let bind_group = scene.uniforms.map(|index| uniform_group(&buffers[index]));
-        let draws = scene.draws.iter().map(|draw| PreparedDraw {
-            draw: *draw,
-            index_count: scene.index_count(draw),
-        });
+        let prepared = |draws: &[SceneDraw]| -> Vec<PreparedDraw> {
+            let draws = draws.iter().map(|draw| PreparedDraw {
+                draw: *draw,
+                index_count: scene.index_count(draw),
+            });
+            draws.collect()
+        };
         let image = RenderTargetDescriptor::new(size.width, size.height);
         let resolved = RenderTargetDescriptor {
             depth: false,
             ..image.clone()
         };
+        let depth_map = match &scene.depth_map {
+            Some(map) => {
+                let target = device.create_render_target(&RenderTargetDescriptor {
+                    color_formats: Vec::new(),
+                    ..RenderTargetDescriptor::new(map.size, map.size)
+                })?;
+                Some((target, prepared(&map.draws)))
+            }
+            None => None,
+        };
         Ok(Self {
             device,
-            pipelines: pipelines
-                .map(|descriptor| device.create_render_pipeline(descriptor))
-                .collect::<Result<_, _>>()?,
-            buffers,
-            bind_group,
-            draws: draws.collect(),
+            resources: Resources::new(device, scene)?,
+            depth_map,
+            draws: prepared(&scene.draws),
             target: device.create_render_target(&RenderTargetDescriptor {
                 samples: scene.samples,
                 ..image
@@ -109,37 +125,37 @@ impl<'d> PreparedScene<'d> {
 
     /// Draws a frame anew: nothing of the one before is used.
     pub fn draw(&mut self) -> FrameTimes {
-        let start = Instant::now();
-        let bindings = self.draws.iter().map(|PreparedDraw { draw, .. }| Bindings {
-            groups: (self.bind_group.iter())
-                .map(|group| (Arc::clone(group), draw.dynamic_offset))
-                .collect(),
-        });
-        let bindings: Vec<Bindings> = bindings.collect();
-        let draws = self.draws.iter().zip(&bindings);
-        let recorded: Vec<Draw<'_>> = draws
-            .map(|(PreparedDraw { draw, index_count }, bindings)| Draw {
-                vertex_buffers: std::slice::from_ref(&self.buffers[draw.vertices]),
-                indices: Some((&self.buffers[draw.indices], IndexFormat::Uint32)),
-                instances: 0..draw.instances,
-                bindings: Some(bindings),
-                ..Draw::new(&self.pipelines[draw.pipeline], 0..*index_count)
-            })
-            .collect();
-        let pass = RenderPass {
-            clear_colors: Some(vec![CLEAR_COLOR]),
-            clear_depth: Some(1.0),
-            draws: &recorded,
+        let (device, resources) = (self.device, &self.resources);
+        let mut times = FrameTimes {
+            recording: Duration::ZERO,
+            statistics: Statistics::default(),
         };
-        let recording = start.elapsed();
-        let statistics = self.device.render(&mut self.target, &pass);
+        let mut map_group = None;
+        if let Some((target, draws)) = &mut self.depth_map {
+            render(
+                device,
+                resources,
+                &resources.bind_group,
+                draws,
+                target,
+                &mut times,
+            );
+            let texture = device.depth_texture(target);
+            map_group = texture.map(|texture| resources.group(Some(texture)));
+        }
+        let group = map_group.as_ref().unwrap_or(&resources.bind_group);
+        render(
+            device,
+            resources,
+            group,
+            &self.draws,
+            &mut self.target,
+            &mut times,
+        );
         if let Some(resolved) = &mut self.resolved {
-            self.device.resolve(&self.target, resolved);
+            device.resolve(&self.target, resolved);
         }
-        FrameTimes {
-            recording,
-            statistics,
-        }
+        times
     }
 
     /// The last frame's colours: RGBA8, row by row from the top.
@@ -155,16 +171,67 @@ impl<'d> PreparedScene<'d> {
     }
 }
 
-/// The group of one uniform buffer that draws bind at their dynamic offset.
-fn uniform_group(buffer: &Buffer) -> Arc<BindGroup> {
-    let uniforms = Binding::Buffer {
-        buffer: buffer.clone(),
-        offset: 0,
-        has_dynamic_offset: true,
+impl Resources {
+    fn new(device: &Device, scene: &Scene) -> Result<Self, BenchError> {
+        let pipelines = scene.pipelines.iter();
+        let buffers = scene.buffers.iter();
+        let mut resources = Self {
+            pipelines: pipelines
+                .map(|descriptor| device.create_render_pipeline(descriptor))
+                .collect::<Result<_, _>>()?,
+            buffers: buffers.map(|bytes| Buffer::from_bytes(bytes)).collect(),
+            uniforms: scene.uniforms,
+            bind_group: Arc::default(),
+        };
+        resources.bind_group = resources.group(None);
+        Ok(resources)
+    }
+
+    /// Group 0: the uniforms, and the depth map where there is one.
+    fn group(&self, depth_map: Option<DepthTexture>) -> Arc<BindGroup> {
+        let uniforms = self.uniforms.map(|index| Binding::Buffer {
+            buffer: self.buffers[index].clone(),
+            offset: 0,
+            has_dynamic_offset: true,
+        });
+        let uniforms = uniforms.map(|binding| (0, binding));
+        let depth_map = depth_map.map(|map| (shadow::DEPTH_MAP, Binding::DepthTexture(map)));
+        Arc::new(BindGroup {
+            entries: uniforms.into_iter().chain(depth_map).collect(),
+        })
+    }
+}
+
+/// Records a pass that clears its target, and draws it.
+fn render(
+    device: &Device,
+    resources: &Resources,
+    group: &Arc<BindGroup>,
+    draws: &[PreparedDraw],
+    target: &mut RenderTarget,
+    times: &mut FrameTimes,
+) {
+    let start = Instant::now();
+    let bindings = draws.iter().map(|PreparedDraw { draw, .. }| Bindings {
+        groups: vec![(Arc::clone(group), draw.dynamic_offset)],
+    });
+    let bindings: Vec<Bindings> = bindings.collect();
+    let recorded: Vec<Draw<'_>> = (draws.iter().zip(&bindings))
+        .map(|(PreparedDraw { draw, index_count }, bindings)| Draw {
+            vertex_buffers: std::slice::from_ref(&resources.buffers[draw.vertices]),
+            indices: Some((&resources.buffers[draw.indices], IndexFormat::Uint32)),
+            instances: 0..draw.instances,
+            bindings: Some(bindings),
+            ..Draw::new(&resources.pipelines[draw.pipeline], 0..*index_count)
+        })
+        .collect();
+    let pass = RenderPass {
+        clear_colors: Some(vec![CLEAR_COLOR]),
+        clear_depth: Some(1.0),
+        draws: &recorded,
     };
-    Arc::new(BindGroup {
-        entries: vec![(0, uniforms)],
-    })
+    times.recording += start.elapsed();
+    times.statistics += device.render(target, &pass);
 }
 
 #[cfg(test)]

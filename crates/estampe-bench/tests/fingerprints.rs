@@ -13,6 +13,7 @@ const PEERBENCH: &[(&str, u64, u64)] = &[
     ("mid_tris", 69_696, 0x5d8f_b7d2_93ba_0559),
     ("textured", 32, 0x392a_b9bc_6e9e_47aa),
     ("heavy_fs", 2, 0x0ff2_2474_dcca_6243),
+    ("shadow", 139_394, 0xf1e6_0395_f911_3e8e),
     ("msaa4", 69_696, 0x5d8f_b7d2_93ba_0559),
     ("instances", 1_000_000, 0x34e0_1eb1_75a5_2260),
 ];

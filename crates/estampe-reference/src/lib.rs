@@ -28,7 +28,7 @@
 //! | [`fragment`] | planes at a quad | colours, depth |
 //! | [`per_sample`] | a fragment | the [`Target`] |
 //!
-//! Beside them: [`texture`] (sampling), [`color`] (codes and numbers), [`line`](mod@line) and
+//! Beside them: [`texture`] and [`depth_map`] (sampling), [`color`] (codes and numbers), [`line`](mod@line) and
 //! [`point`] (the other primitives), [`bresenham`] (integer lines of the classic scan conversion),
 //! and [`exact`], the same formulas in f64 with bounds for the error of the f32 ones.
 
@@ -38,6 +38,7 @@ pub mod bresenham;
 pub mod clip;
 pub mod color;
 pub mod cull;
+pub mod depth_map;
 pub mod exact;
 pub mod fetch;
 pub mod fragment;

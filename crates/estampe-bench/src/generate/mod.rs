@@ -25,7 +25,7 @@ pub use fingerprint::Fingerprint;
 pub use hash::{hash32, unit_hash};
 pub use mesh::{IndexedMesh, QUAD_CORNERS, quad_indices, torus, uv_sphere};
 pub use texture::{MipChain, diffuse_texture, normal_texture};
-pub use transform::{Matrix, Vector, dot, look_at, normalize, perspective};
+pub use transform::{Matrix, Vector, dot, look_at, normalize, orthographic, perspective};
 pub use turns::sin_cos_turns;
 
 #[cfg(test)]

@@ -122,3 +122,18 @@ pub fn perspective(view_turns: f64, aspect: f64, near: f64, far: f64) -> Matrix 
         ],
     }
 }
+
+/// Clip from view without perspective: x and y from −`half_side` to `half_side`, z from 0 at `near` to 1 at
+/// `far`.
+#[must_use]
+pub fn orthographic(half_side: f64, near: f64, far: f64) -> Matrix {
+    let depth = near - far;
+    Matrix {
+        columns: [
+            [1.0 / half_side, 0.0, 0.0, 0.0],
+            [0.0, 1.0 / half_side, 0.0, 0.0],
+            [0.0, 0.0, 1.0 / depth, 0.0],
+            [0.0, 0.0, near / depth, 1.0],
+        ],
+    }
+}

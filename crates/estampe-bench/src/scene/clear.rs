@@ -10,6 +10,7 @@ pub(super) fn scene() -> Scene {
         samples: 1,
         pipelines: Vec::new(),
         uniforms: None,
+        depth_map: None,
         draws: Vec::new(),
     }
 }

@@ -6,7 +6,8 @@
 
 use super::{ASPECT, Detail, Scene, uniforms, upload, vertex_layout};
 use crate::generate::{
-    LittleEndian, Matrix, diffuse_texture, look_at, normal_texture, normalize, perspective, torus,
+    LittleEndian, Matrix, Vector, diffuse_texture, look_at, normal_texture, normalize, perspective,
+    torus,
 };
 use estampe::state::{CullMode, PrimitiveState};
 use estampe::texture::Sampled;
@@ -18,7 +19,7 @@ use estampe::{
 /// Where the camera is; it looks at the origin.
 const EYE: [f64; 3] = [0.0, 2.0, 2.3];
 /// Seeds both textures, so that bumps and colours agree.
-const NOISE_SEED: u32 = 11;
+pub(super) const NOISE_SEED: u32 = 11;
 
 /// Blinn-Phong (Blinn 1977) with a normal map.
 struct NormalMapped {
@@ -90,7 +91,10 @@ fn scene(name: &'static str, detail: Detail, samples: u32) -> Scene {
     let (ring_cells, tube_cells) = detail.of((264, 132), (33, 16));
     let texture_size = detail.of(1024, 256);
     let mesh = torus(ring_cells, tube_cells);
-    let uniform_bytes = uniform_bytes();
+    let mut uniform_bytes = LittleEndian::default();
+    append_matrices(&mut uniform_bytes, &world_from_object());
+    append_lighting(&mut uniform_bytes);
+    let uniform_bytes = uniform_bytes.into_bytes();
     let diffuse = diffuse_texture(texture_size, NOISE_SEED);
     let normals = normal_texture(texture_size, NOISE_SEED);
     let shader = NormalMapped {
@@ -122,18 +126,29 @@ fn scene(name: &'static str, detail: Detail, samples: u32) -> Scene {
     Scene::of_one_draw(name, buffers, vec![diffuse, normals], pipeline)
 }
 
-fn uniform_bytes() -> Vec<u8> {
+/// How the torus stands.
+pub(super) fn world_from_object() -> Matrix {
+    Matrix::rotation_x(0.06).times(&Matrix::rotation_y(0.1))
+}
+
+/// Where the light comes from.
+pub(super) fn towards_light() -> Vector {
+    normalize([0.5, 1.0, 0.3])
+}
+
+/// Clip from object, world from object: 128 bytes.
+pub(super) fn append_matrices(bytes: &mut LittleEndian, world_from_object: &Matrix) {
     let clip_from_view = perspective(0.125, ASPECT, 0.1, 10.0);
     let view_from_world = look_at(EYE, [0.0; 3], [0.0, 1.0, 0.0]);
     let clip_from_world = clip_from_view.times(&view_from_world);
-    let world_from_object = Matrix::rotation_x(0.06).times(&Matrix::rotation_y(0.1));
-    let towards_light = normalize([0.5, 1.0, 0.3]);
-    let mut bytes = LittleEndian::default();
-    bytes.matrix(&clip_from_world.times(&world_from_object));
-    bytes.matrix(&world_from_object);
+    bytes.matrix(&clip_from_world.times(world_from_object));
+    bytes.matrix(world_from_object);
+}
+
+/// Eye and light: 32 bytes.
+pub(super) fn append_lighting(bytes: &mut LittleEndian) {
     bytes.reals(&EYE);
     bytes.reals(&[1.0]);
-    bytes.reals(&towards_light);
+    bytes.reals(&towards_light());
     bytes.reals(&[0.0]);
-    bytes.into_bytes()
 }

@@ -11,6 +11,7 @@
 //! | mid_tris | torus, Blinn-Phong, diffuse and normal map, trilinear | 69,696 |
 //! | textured | 16 tilted quads over each other, trilinear | 32 |
 //! | heavy_fs | full-screen sphere tracing, divergent exit, value noise | 2 |
+//! | shadow | depth map of the torus, then torus and ground, 3×3 comparisons | 139,394 |
 //! | msaa4 | mid_tris with 4 samples, resolved | 69,696 |
 //! | instances | 2,000 draws, a dynamic uniform offset each | 1,000,000 |
 //!
@@ -22,6 +23,7 @@ mod fill;
 mod heavy_fs;
 mod instances;
 mod mid_tris;
+pub(crate) mod shadow;
 mod small_tris;
 mod textured;
 mod uniforms;
@@ -72,7 +74,18 @@ pub struct Scene {
     pub pipelines: Vec<RenderPipelineDescriptor>,
     /// The buffer that draws bind as binding 0 of group 0, at their dynamic offset.
     pub uniforms: Option<usize>,
+    /// What is drawn first, and bound beside the uniforms.
+    pub depth_map: Option<DepthMap>,
     /// What a frame draws, in order.
+    pub draws: Vec<SceneDraw>,
+}
+
+/// A pass before the frame's, into a square image of depth alone.
+#[derive(Debug, Clone)]
+pub struct DepthMap {
+    /// Its side in pixels.
+    pub size: u32,
+    /// What it draws, in order.
     pub draws: Vec<SceneDraw>,
 }
 
@@ -119,6 +132,7 @@ impl Scene {
             samples: pipeline.samples,
             pipelines: vec![pipeline],
             uniforms: None,
+            depth_map: None,
             draws: vec![SceneDraw::new(0, 0, 1)],
         }
     }
@@ -128,7 +142,8 @@ impl Scene {
     pub fn triangles(&self) -> u64 {
         let triangles =
             |draw: &SceneDraw| u64::from(self.index_count(draw)) / 3 * u64::from(draw.instances);
-        self.draws.iter().map(triangles).sum()
+        let depth_map = self.depth_map.iter().flat_map(|map| &map.draws);
+        self.draws.iter().chain(depth_map).map(triangles).sum()
     }
 
     /// How many indices a draw has.
@@ -185,6 +200,7 @@ pub const ALL: &[SceneEntry] = &[
     entry("mid_tris", |detail, _| mid_tris::single_sampled(detail)),
     entry("textured", |detail, _| textured::scene(detail)),
     entry("heavy_fs", |_, size| heavy_fs::scene(size)),
+    entry("shadow", |detail, _| shadow::scene(detail)),
     entry("msaa4", |detail, _| mid_tris::multisampled(detail)),
     entry("instances", |detail, _| instances::scene(detail)),
 ];
