@@ -3,9 +3,9 @@
 use crate::attachment::RenderTarget;
 use crate::attachment::resolve::ResolveJob;
 use crate::geometry::assembly::ElementSource;
+use crate::geometry::binning::BinState;
 use crate::geometry::chunk::{ChunkScratch, ChunkWork, process};
 use crate::geometry::cull::CullState;
-use crate::geometry::setup::BinState;
 use crate::geometry::shading::{ShadedVertices, ShadingScratch, VertexSource, shade};
 use crate::per_sample::codes::pack_one;
 use crate::pipeline::RenderPipeline;

@@ -371,11 +371,10 @@ impl ShadedVertices {
         } else {
             0
         };
-        resize(&mut self.window, vertices * 2, 0);
-        resize(&mut self.depth, vertices, [0.0; 2]);
-        resize(&mut self.clip, vertices, [0.0; 4]);
-        resize(&mut self.varyings, varyings, 0.0);
-        resize(&mut self.point_size, sizes, 0.0);
+        grow(&mut self.window, vertices, [0; 4]);
+        grow(&mut self.clip, vertices, [0; 4]);
+        grow(&mut self.varyings, varyings, 0.0);
+        self.point_size.resize(sizes, 0.0);
     }
 
     /// Cuts the wave's vertices into jobs of at most `size`.
@@ -384,7 +383,6 @@ impl ShadedVertices {
         let has_sizes = !self.point_size.is_empty();
         let mut rest = ShadedSlice {
             window: &mut self.window,
-            depth: &mut self.depth,
             clip: &mut self.clip,
             varyings: &mut self.varyings,
             point_size: &mut self.point_size,
@@ -396,8 +394,7 @@ impl ShadedVertices {
                 let count = size.min(total - first);
                 let sizes = if has_sizes { count } else { 0 };
                 let mut out = ShadedSlice {
-                    window: take(&mut rest.window, count * 2),
-                    depth: take(&mut rest.depth, count),
+                    window: take(&mut rest.window, count),
                     clip: take(&mut rest.clip, count),
                     varyings: take(&mut rest.varyings, count * interface.varyings.len()),
                     point_size: take(&mut rest.point_size, sizes),
@@ -423,8 +420,7 @@ impl ShadedVertices {
         let (from, count) = (item.vertex_base, item.total_vertices());
         let scalars = item.draw.pipeline.interface().varyings.len();
         ItemVertices {
-            window: &self.window[from * 2..][..count * 2],
-            depth: &self.depth[from..][..count],
+            window: &self.window[from..][..count],
             clip: &self.clip[from..][..count],
             varyings: &self.varyings[item.varying_base..][..count * scalars],
             varying_scalars: scalars,
@@ -451,13 +447,14 @@ impl ShadedVertices {
     }
 }
 
-/// Makes a list so long; what it held is overwritten. Fresh memory is asked for as zeros, which the system
-/// has: the threads that shade are then the first to touch it, not this one.
-fn resize<T: Clone>(list: &mut Vec<T>, len: usize, zero: T) {
+/// Makes a list at least so long; what it held is overwritten. It never shrinks, because zeroing it anew for
+/// each wave would cost as much as writing it. Fresh memory is asked for as zeros, which the system has: the
+/// threads that shade are then the first to touch it, not this one.
+fn grow<T: Clone>(list: &mut Vec<T>, len: usize, zero: T) {
     if list.capacity() < len {
         *list = Vec::new();
         *list = vec![zero; len];
-    } else {
+    } else if list.len() < len {
         list.resize(len, zero);
     }
 }

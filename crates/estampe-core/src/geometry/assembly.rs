@@ -74,31 +74,53 @@ pub(crate) struct ElementSource<'a> {
     pub(crate) base_vertex: i32,
 }
 
-impl ElementSource<'_> {
-    /// The item's vertices of up to sixteen primitives from `first` on.
+/// The corners of sixteen primitives.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Group<'a> {
+    pub(crate) corners: &'a [[u32; 3]; LANES],
+    /// Added to every corner, modulo 2³², to give the item's vertex.
+    pub(crate) base: u32,
+}
+
+impl Group<'_> {
+    /// The item's vertices of one primitive.
     #[inline(always)]
-    pub(crate) fn assemble(&self, first: u32, count: usize, out: &mut [[u32; LANES]; 3]) {
-        if let (PrimitiveTopology::TriangleList, Some((buffer, IndexFormat::Uint32))) =
-            (self.topology, self.indices)
+    pub(crate) fn vertices(&self, lane: usize) -> [u32; 3] {
+        self.corners[lane].map(|corner| corner.wrapping_add(self.base))
+    }
+}
+
+impl ElementSource<'_> {
+    /// The corners of up to sixteen primitives from `first` on, `base` added to them; lanes beyond repeat
+    /// the first one. The indices of a list of triangles are what they lie in, so that they stay there.
+    #[inline(always)]
+    pub(crate) fn assemble<'s>(
+        &'s self,
+        first: u32,
+        count: usize,
+        base: u32,
+        memory: &'s mut [[u32; 3]; LANES],
+    ) -> Group<'s> {
+        if let (PrimitiveTopology::TriangleList, Some((buffer, IndexFormat::Uint32)), LANES) =
+            (self.topology, self.indices, count)
         {
             let at = (self.first_element as usize).saturating_add(first as usize * 3);
-            if let Some(words) = buffer.words().get(at..at + count * 3) {
-                let offset = self
-                    .first_vertex
-                    .wrapping_sub(self.base_vertex.cast_unsigned());
-                for (lane, corner) in words.chunks_exact(3).enumerate().take(LANES) {
-                    out[0][lane] = corner[0].wrapping_sub(offset);
-                    out[1][lane] = corner[1].wrapping_sub(offset);
-                    out[2][lane] = corner[2].wrapping_sub(offset);
-                }
-                return;
+            let words = buffer.words().get(at..).unwrap_or_default();
+            if let Some(corners) = words.as_chunks().0.first_chunk() {
+                let base = base
+                    .wrapping_add_signed(self.base_vertex)
+                    .wrapping_sub(self.first_vertex);
+                return Group { corners, base };
             }
         }
-        let [a, b, c] = out;
-        let lanes = a.iter_mut().zip(b).zip(c).take(count);
-        for (p, ((a, b), c)) in (first..).zip(lanes) {
-            let corners = elements_of(self.topology, p, self.elements);
-            [*a, *b, *c] = corners.map(|element| self.vertex_of(element));
+        for (p, corners) in (first..).zip(memory.iter_mut().take(count)) {
+            *corners = elements_of(self.topology, p, self.elements).map(|e| self.vertex_of(e));
+        }
+        let first = memory[0];
+        memory[count.min(LANES)..].fill(first);
+        Group {
+            corners: memory,
+            base,
         }
     }
 

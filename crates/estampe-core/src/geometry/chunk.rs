@@ -1,21 +1,21 @@
 //! One worker's share of geometry: primitives of an item, assembled, culled, clipped, set up, binned.
 
-use super::assembly::{ElementSource, PrimitiveKind, kind_of};
+use super::assembly::{ElementSource, Group, PrimitiveKind, kind_of};
+use super::binning::BinState;
 use super::clip::{ClipPolygon, is_point_visible};
-use super::cull::{CullState, Verdict, WindowTriangles, cull};
-use super::setup::{BinState, Setup, SetupTriangle};
-use super::shading::NEEDS_CLIPPING;
+use super::cull::{CullState, WindowTriangles, cull};
+use super::setup::{Setup, SetupLanes};
+use super::shading::{NEEDS_CLIPPING, WindowRow};
 use super::viewport::{ViewportTransform, snap};
 use crate::tiles::{Chunk, LinePrimitive, PointPrimitive, VertexRef, WindowVertex};
-use estampe_simd::{LANES, Level, dispatch};
+use estampe_simd::{LANES, Lanes, Level, SimdBase, SimdCvtFloat, dispatch, f32x16, u32x16};
 use estampe_types::state::PolygonMode;
 
 /// The shaded vertices of one item.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ItemVertices<'a> {
-    pub(crate) window: &'a [u32],
-    pub(crate) depth: &'a [[f32; 2]],
-    pub(crate) clip: &'a [[f32; 4]],
+    pub(crate) window: &'a [WindowRow],
+    pub(crate) clip: &'a [[u32; 4]],
     pub(crate) varyings: &'a [f32],
     pub(crate) varying_scalars: usize,
     /// Empty where the shader sets no size.
@@ -27,17 +27,19 @@ impl ItemVertices<'_> {
         &self.varyings[vertex as usize * self.varying_scalars..][..self.varying_scalars]
     }
 
+    fn clip_position(&self, vertex: u32) -> [f32; 4] {
+        self.clip[vertex as usize].map(f32::from_bits)
+    }
+
     /// A vertex in the window, or `None` when it needs clipping.
     fn window_vertex(&self, vertex: u32) -> Option<WindowVertex> {
-        let at = vertex as usize;
-        let x = self.window[at * 2].cast_signed();
-        let y = self.window[at * 2 + 1].cast_signed();
-        let [z, iw] = self.depth[at];
+        let [x, y, z, iw] = self.window[vertex as usize];
+        let (x, y) = (x.cast_signed(), y.cast_signed());
         (x != NEEDS_CLIPPING).then_some(WindowVertex {
             x,
             y,
-            z,
-            iw,
+            z: f32::from_bits(z),
+            iw: f32::from_bits(iw),
             vertex: VertexRef(vertex),
         })
     }
@@ -62,11 +64,11 @@ pub(crate) struct ChunkWork<'a> {
 /// Memory of one worker.
 #[derive(Debug, Default)]
 pub(crate) struct ChunkScratch {
-    corners: [[u32; LANES]; 3],
-    window: WindowTriangles,
+    corners: [[u32; 3]; LANES],
     polygon: ClipPolygon,
-    /// Clipped vertices in the window.
+    /// Clipped vertices in the window: of the polygon at hand, and all of the chunk's.
     clipped: Vec<WindowVertex>,
+    clipped_rows: Vec<WindowRow>,
 }
 
 /// Processes a chunk.
@@ -78,106 +80,154 @@ pub(crate) fn process(
 ) {
     let [from, to] = work.primitives;
     chunk.statistics.primitives_in += u64::from(to - from);
-    let kind = kind_of(work.elements.topology);
-    let mut worker = Worker {
-        level,
-        work,
-        setup: Setup::new(level, work.bins, chunk),
-    };
-    let mut next = from;
-    while next < to {
-        // A group never spans two instances.
-        let (turn, local) = (
-            next / work.instance_primitives,
-            next % work.instance_primitives,
-        );
-        let left = (to - next).min(work.instance_primitives - local);
-        let count = left.min(16) as usize;
-        work.elements.assemble(local, count, &mut scratch.corners);
-        if turn > 0 {
-            let base = turn * work.instance_vertices;
-            // Only the lanes in use: the others hold what is left of earlier groups.
-            let used = scratch.corners.iter_mut().flat_map(|c| &mut c[..count]);
-            used.for_each(|vertex| *vertex += base);
+    scratch.clipped_rows.clear();
+    let rows = std::mem::take(&mut scratch.clipped_rows);
+    let setup = Setup::new(level, work.bins, work.vertices.window, chunk, rows);
+    let mut worker = Worker { work, setup };
+    match (kind_of(work.elements.topology), work.polygon_mode) {
+        (PrimitiveKind::Triangles, PolygonMode::Fill) => {
+            dispatch!(level, s => worker.fill(s, scratch));
         }
-        match (kind, work.polygon_mode) {
-            (PrimitiveKind::Triangles, PolygonMode::Fill) => worker.triangles(count, scratch),
-            (PrimitiveKind::Triangles, mode) => worker.outlines(count, mode, scratch),
-            (PrimitiveKind::Lines, _) => worker.lines(count, scratch),
-            (PrimitiveKind::Points, _) => worker.points(count, scratch),
+        (kind, mode) => {
+            let mut groups = Groups::new(work);
+            while let Some((group, count)) = groups.next(work, &mut scratch.corners) {
+                let corners: [[u32; 3]; LANES] = std::array::from_fn(|lane| group.vertices(lane));
+                match kind {
+                    PrimitiveKind::Triangles => worker.outlines(&corners[..count], mode, scratch),
+                    PrimitiveKind::Lines => worker.lines(&corners[..count], scratch),
+                    PrimitiveKind::Points => worker.points(&corners[..count]),
+                }
+            }
         }
-        next += u32::try_from(count).unwrap_or(16);
     }
-    worker.setup.finish_packet();
+    scratch.clipped_rows = worker.setup.finish();
     chunk.bins.sort();
 }
 
+/// The primitives of a chunk, sixteen at a time; a group never spans two instances.
+struct Groups {
+    /// The primitive, counted in its instance, and that instance's first vertex.
+    local: u32,
+    base: u32,
+    left: u32,
+}
+
+impl Groups {
+    fn new(work: &ChunkWork<'_>) -> Self {
+        let [from, to] = work.primitives;
+        Self {
+            local: from % work.instance_primitives,
+            base: from / work.instance_primitives * work.instance_vertices,
+            left: to - from,
+        }
+    }
+
+    /// The next group and how many primitives it has.
+    #[inline(always)]
+    fn next<'s>(
+        &mut self,
+        work: &'s ChunkWork<'_>,
+        memory: &'s mut [[u32; 3]; LANES],
+    ) -> Option<(Group<'s>, usize)> {
+        if self.left == 0 {
+            return None;
+        }
+        let count = self.left.min(work.instance_primitives - self.local).min(16);
+        let group = work
+            .elements
+            .assemble(self.local, count as usize, self.base, memory);
+        self.left -= count;
+        self.local += count;
+        if self.local == work.instance_primitives {
+            self.local = 0;
+            self.base = self.base.wrapping_add(work.instance_vertices);
+        }
+        Some((group, count as usize))
+    }
+}
+
 struct Worker<'a, 'c> {
-    level: Level,
     work: &'a ChunkWork<'a>,
     setup: Setup<'c>,
 }
 
 impl Worker<'_, '_> {
-    fn triangles(&mut self, count: usize, scratch: &mut ChunkScratch) {
-        let live = mask_of(count);
-        let (state, window) = (&self.work.cull, self.work.vertices.window);
-        let Verdict { small, large, clip } = dispatch!(self.level, s => cull(
-            s, state, window, &scratch.corners, live, &mut scratch.window
-        ));
-        let mut rest = small | large | clip;
-        self.setup.chunk().statistics.primitives_culled += u64::from((live & !rest).count_ones());
-        while rest != 0 {
-            let lane = rest.trailing_zeros() as usize;
-            rest &= rest - 1;
-            let corners = [0, 1, 2].map(|corner| scratch.corners[corner][lane]);
-            if clip >> lane & 1 == 1 {
-                self.clip_triangle(corners, scratch);
+    /// Filled triangles: culled and put in order sixteen at a time. In a closed mesh most groups end here,
+    /// all facing away.
+    #[inline(always)]
+    fn fill<S: Lanes>(&mut self, s: S, scratch: &mut ChunkScratch) {
+        let (work, facing) = (self.work, self.work.cull.facing);
+        let mut corners = scratch.corners;
+        let mut groups = Groups::new(work);
+        let mut culled = 0;
+        while let Some((group, count)) = groups.next(work, &mut corners) {
+            let live = u16::MAX >> (LANES - count);
+            let triangles = WindowTriangles::load(s, work.vertices.window, &group);
+            let (verdict, area) = cull(s, &work.cull, &triangles, live);
+            let mut kept = verdict.small;
+            let mut area = f32x16::float_from(area);
+            if verdict.large != 0 {
+                let mut areas = area.to_array();
+                let mut rest = verdict.large;
+                while rest != 0 {
+                    let lane = rest.trailing_zeros() as usize;
+                    rest &= rest - 1;
+                    let exact = triangles.doubled_area(lane);
+                    // One rounding.
+                    areas[lane] = exact as f32;
+                    kept |= u16::from(!facing.drops(exact)) << lane;
+                }
+                area = f32x16::load_array(s, areas);
+            }
+            culled += (live & !(kept | verdict.clip)).count_ones();
+            if kept | verdict.clip == 0 {
                 continue;
             }
-            let area = i64::from(scratch.window.doubled_area[lane]);
-            let vertices = [0, 1, 2].map(|corner| {
-                let at = corners[corner] as usize;
-                let [z, iw] = self.work.vertices.depth[at];
-                let (x, y) = (
-                    scratch.window.x[corner][lane],
-                    scratch.window.y[corner][lane],
-                );
-                WindowVertex {
-                    x,
-                    y,
-                    z,
-                    iw,
-                    vertex: VertexRef(corners[corner]),
+            let mut vertices = [<u32x16<S> as SimdBase<S>>::splat(s, 0); 3];
+            let base = <u32x16<S> as SimdBase<S>>::splat(s, group.base);
+            for (corner, vertices) in vertices.iter_mut().enumerate() {
+                let mut lanes = [0; LANES];
+                for (lane, to) in lanes.iter_mut().enumerate() {
+                    *to = group.corners[lane][corner];
                 }
-            });
-            let area = if large >> lane & 1 == 1 {
-                doubled_area(&vertices)
-            } else {
-                area
+                *vertices = u32x16::load_array(s, lanes) + base;
+            }
+            let lanes = SetupLanes {
+                vertices,
+                doubled_area: area,
             };
-            self.push(&vertices, vertices[0].vertex, area);
+            let front = facing.clockwise_is_front;
+            // Those between two that need clipping keep their place in the order.
+            let mut clip = verdict.clip;
+            while clip != 0 {
+                let lane = clip.trailing_zeros() as usize;
+                clip &= clip - 1;
+                let before = kept & ((1 << lane) - 1);
+                kept &= !before;
+                if before != 0 {
+                    self.setup.push_lanes(s, &triangles, &lanes, front, before);
+                }
+                self.clip_triangle(group.vertices(lane), scratch);
+            }
+            if kept != 0 {
+                self.setup.push_lanes(s, &triangles, &lanes, front, kept);
+            }
         }
+        self.setup.chunk().statistics.primitives_culled += u64::from(culled);
     }
 
     /// Sets up a triangle of known area, unless it faces the wrong way.
-    #[inline(always)]
-    fn push(&mut self, vertices: &[WindowVertex; 3], provoking: VertexRef, doubled_area: i64) {
+    fn push(&mut self, vertices: &[WindowVertex; 3], provoking: u32, doubled_area: i64) {
         let facing = self.work.cull.facing;
         if facing.drops(doubled_area) {
             self.setup.chunk().statistics.primitives_culled += 1;
             return;
         }
         let front = facing.is_front(doubled_area);
-        let vertices = *vertices;
-        self.setup.push(&SetupTriangle {
-            vertices,
-            provoking,
-            doubled_area,
-            front,
-        });
+        self.setup.push(vertices, provoking, doubled_area, front);
     }
 
+    #[inline(never)]
     fn clip_triangle(&mut self, corners: [u32; 3], scratch: &mut ChunkScratch) {
         self.setup.chunk().statistics.primitives_clipped += 1;
         if !self.clip(&corners, scratch) {
@@ -190,7 +240,7 @@ impl Worker<'_, '_> {
                 scratch.clipped[last],
             ];
             if fan.iter().all(|vertex| vertex.vertex != DROPPED) && self.is_on_target(&fan) {
-                self.push(&fan, VertexRef(corners[0]), doubled_area(&fan));
+                self.push(&fan, corners[0], doubled_area(&fan));
             }
         }
     }
@@ -215,7 +265,7 @@ impl Worker<'_, '_> {
         for &corner in corners {
             scratch
                 .polygon
-                .push(vertices.clip[corner as usize], vertices.varyings_of(corner));
+                .push(vertices.clip_position(corner), vertices.varyings_of(corner));
         }
         scratch.clipped.clear();
         if !scratch.polygon.clip(self.work.transform) {
@@ -227,30 +277,32 @@ impl Worker<'_, '_> {
                 .transform
                 .project([vertex[0], vertex[1], vertex[2], vertex[3]]);
             let usable = vertex[3] > 0.0 && projected.iw.is_finite();
-            let chunk = self.setup.chunk();
-            // A chunk's clipped vertices are few: 4096 primitives of at most nine.
-            let number = chunk.clipped_varyings.len() / vertices.varying_scalars.max(1);
-            let number = u32::try_from(number).unwrap_or(u32::MAX);
-            chunk.clipped_varyings.extend_from_slice(&vertex[4..]);
+            let (x, y) = (snap(projected.x), snap(projected.y));
+            let (z, iw) = (projected.z, projected.iw);
+            let row = [
+                x.cast_unsigned(),
+                y.cast_unsigned(),
+                z.to_bits(),
+                iw.to_bits(),
+            ];
+            let made = self.setup.push_clipped(row);
+            let varyings = &mut self.setup.chunk().clipped_varyings;
+            varyings.extend_from_slice(&vertex[4..]);
+            let vertex = if usable { made } else { DROPPED };
             scratch.clipped.push(WindowVertex {
-                x: snap(projected.x),
-                y: snap(projected.y),
-                z: projected.z,
-                iw: projected.iw,
-                vertex: if usable {
-                    VertexRef(number | VertexRef::CLIPPED)
-                } else {
-                    DROPPED
-                },
+                x,
+                y,
+                z,
+                iw,
+                vertex,
             });
         }
         true
     }
 
-    fn lines(&mut self, count: usize, scratch: &mut ChunkScratch) {
-        for lane in 0..count {
-            let ends = [scratch.corners[0][lane], scratch.corners[1][lane]];
-            self.line(ends, VertexRef(ends[0]), true, scratch);
+    fn lines(&mut self, lines: &[[u32; 3]], scratch: &mut ChunkScratch) {
+        for &[a, b, _] in lines {
+            self.line([a, b], VertexRef(a), true, scratch);
         }
     }
 
@@ -285,16 +337,15 @@ impl Worker<'_, '_> {
         }
     }
 
-    fn points(&mut self, count: usize, scratch: &ChunkScratch) {
-        for lane in 0..count {
-            let vertex = scratch.corners[0][lane];
+    fn points(&mut self, points: &[[u32; 3]]) {
+        for &[vertex, ..] in points {
             self.point(vertex, VertexRef(vertex), true);
         }
     }
 
     fn point(&mut self, vertex: u32, provoking: VertexRef, front: bool) {
         let vertices = &self.work.vertices;
-        if !is_point_visible(vertices.clip[vertex as usize]) {
+        if !is_point_visible(vertices.clip_position(vertex)) {
             self.setup.chunk().statistics.primitives_clipped += 1;
             return;
         }
@@ -315,9 +366,8 @@ impl Worker<'_, '_> {
     }
 
     /// Triangles as their edges or vertices (A5).
-    fn outlines(&mut self, count: usize, mode: PolygonMode, scratch: &mut ChunkScratch) {
-        for lane in 0..count {
-            let corners = [0, 1, 2].map(|corner| scratch.corners[corner][lane]);
+    fn outlines(&mut self, triangles: &[[u32; 3]], mode: PolygonMode, scratch: &mut ChunkScratch) {
+        for &corners in triangles {
             let area = self.area_of(corners, scratch);
             if self.work.cull.facing.drops(area) {
                 self.setup.chunk().statistics.primitives_culled += 1;
@@ -365,15 +415,6 @@ impl Worker<'_, '_> {
 
 /// A clipped vertex that has no place in the window.
 const DROPPED: VertexRef = VertexRef(u32::MAX);
-
-/// The lowest `count` of sixteen bits.
-fn mask_of(count: usize) -> u16 {
-    if count >= LANES {
-        u16::MAX
-    } else {
-        (1 << count) - 1
-    }
-}
 
 /// Twice the signed area in 1/256 pixel²; positive is clockwise as seen, y pointing down. Exact:
 /// differences are below 2²⁴.

@@ -7,9 +7,10 @@
 //! they are dropped before anything is computed for them alone. Areas are 32-bit products where a
 //! triangle's extent is below 2¹⁵ (128 pixels); larger ones are left to exact 64-bit code.
 
-use super::shading::NEEDS_CLIPPING;
+use super::assembly::Group;
+use super::shading::{NEEDS_CLIPPING, WindowRow};
 use super::viewport::PixelRect;
-use estampe_simd::{Bytes, LANES, Lanes, SimdBase, i32x16, u32x16};
+use estampe_simd::{Bytes, LANES, Lanes, SimdBase, i32x16};
 use estampe_types::state::{CullMode, FrontFace, PrimitiveState};
 
 /// What culling needs besides the triangles.
@@ -63,76 +64,83 @@ impl Facing {
     }
 }
 
-/// Sixteen triangles in the window.
-#[derive(Debug, Clone)]
-#[repr(C, align(64))]
-pub(crate) struct WindowTriangles {
-    pub(crate) x: [[i32; LANES]; 3],
-    pub(crate) y: [[i32; LANES]; 3],
-    /// Doubled signed area in 1/256 pixel², of those that are small.
-    pub(crate) doubled_area: [i32; LANES],
+/// Sixteen triangles in the window: x and y of their three vertices.
+pub(crate) struct WindowTriangles<S: Lanes> {
+    pub(crate) x: [i32x16<S>; 3],
+    pub(crate) y: [i32x16<S>; 3],
 }
 
-impl Default for WindowTriangles {
-    fn default() -> Self {
+impl<S: Lanes> WindowTriangles<S> {
+    /// The triangles of a group. A vertex's x and y are one load of 64 bits: on Zen 4 48 of these take a
+    /// third of the time of six gathers.
+    #[inline(always)]
+    pub(crate) fn load(s: S, window: &[WindowRow], group: &Group<'_>) -> Self {
+        let [x0, y0] = load_corner(s, window, group, 0);
+        let [x1, y1] = load_corner(s, window, group, 1);
+        let [x2, y2] = load_corner(s, window, group, 2);
         Self {
-            x: [[0; LANES]; 3],
-            y: [[0; LANES]; 3],
-            doubled_area: [0; LANES],
+            x: [x0, x1, x2],
+            y: [y0, y1, y2],
         }
     }
+
+    /// The doubled signed area of one triangle in 1/256 pixel², exact.
+    pub(crate) fn doubled_area(&self, lane: usize) -> i64 {
+        let x = |corner: usize| i64::from(self.x[corner].as_slice()[lane]);
+        let y = |corner: usize| i64::from(self.y[corner].as_slice()[lane]);
+        (x(1) - x(0)) * (y(2) - y(0)) - (x(2) - x(0)) * (y(1) - y(0))
+    }
+}
+
+#[inline(always)]
+fn load_corner<S: Lanes>(
+    s: S,
+    window: &[WindowRow],
+    group: &Group<'_>,
+    corner: usize,
+) -> [i32x16<S>; 2] {
+    let mut words = [[0_u64; LANES / 2]; 2];
+    let mut lane = 0;
+    while lane < LANES {
+        // In range: an item's vertices are all that its indices name.
+        let row = &window[group.corners[lane][corner].wrapping_add(group.base) as usize];
+        words[lane / 8][lane % 8] = u64::from(row[0]) | u64::from(row[1]) << 32;
+        lane += 1;
+    }
+    let (mut low, mut high) = (s.splat_u64x8(0), s.splat_u64x8(0));
+    low.as_mut_slice().copy_from_slice(&words[0]);
+    high.as_mut_slice().copy_from_slice(&words[1]);
+    let (x, y) = s.deinterleave_u32x16(low.bitcast(), high.bitcast());
+    [x.bitcast(), y.bitcast()]
 }
 
 /// What becomes of sixteen triangles, as masks of lanes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Verdict {
-    /// To be set up; `doubled_area` is theirs.
+    /// To be set up; their area was computed.
     pub(crate) small: u16,
-    /// To be set up after their area was computed in 64 bits.
+    /// To be set up if their area, computed in 64 bits, has the right sign.
     pub(crate) large: u16,
     /// A vertex needs clipping.
     pub(crate) clip: u16,
 }
 
-/// Judges the triangles of the lanes in `live`.
+/// Judges the triangles of the lanes in `live`; the second value is their doubled area.
 #[inline(always)]
 pub(crate) fn cull<S: Lanes>(
     s: S,
     state: &CullState,
-    window: &[u32],
-    vertices: &[[u32; LANES]; 3],
+    WindowTriangles { x, y }: &WindowTriangles<S>,
     live: u16,
-    out: &mut WindowTriangles,
-) -> Verdict {
+) -> (Verdict, i32x16<S>) {
     let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
-    let mut x = [splat(0); 3];
-    let mut y = [splat(0); 3];
-    for corner in 0..3 {
-        let at = u32x16::load_array_ref(s, &vertices[corner]) << 1;
-        x[corner] = s.gather(window, at).bitcast();
-        y[corner] = s
-            .gather(window, at | <u32x16<S> as SimdBase<S>>::splat(s, 1))
-            .bitcast();
-        x[corner].store_array(&mut out.x[corner]);
-        y[corner].store_array(&mut out.y[corner]);
-    }
-
     // A vertex that needs clipping has the least x there is.
-    let least = splat(NEEDS_CLIPPING);
-    let unclipped = x[0].simd_ne(least) & x[1].simd_ne(least) & x[2].simd_ne(least);
-    let unclipped = s.bits_of_mask(unclipped);
-    let clip = live & !unclipped;
-    if live & unclipped == 0 {
-        return Verdict {
-            small: 0,
-            large: 0,
-            clip,
-        };
-    }
-
-    // The box's sample centres: a column is inside when some sample of it can be.
     let (x_min, x_max) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
     let (y_min, y_max) = (y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2]));
+    let clipped = s.bits_of_mask(x_min.simd_eq(splat(NEEDS_CLIPPING)));
+    let unclipped = live & !clipped;
+
+    // The box's sample centres: a column is inside when some sample of it can be.
     let [first, last] = state.sample_range.map(splat);
     let column = [(x_min - last + 255) >> 8, (x_max - first) >> 8];
     let row = [(y_min - last + 255) >> 8, (y_max - first) >> 8];
@@ -143,7 +151,7 @@ pub(crate) fn cull<S: Lanes>(
         & column[0].simd_lt(splat(rect.x1))
         & row[1].simd_ge(splat(rect.y0))
         & row[0].simd_lt(splat(rect.y1));
-    let seen = s.bits_of_mask(seen) & unclipped & live;
+    let seen = s.bits_of_mask(seen) & unclipped;
 
     let limit = splat(1 << 15);
     let is_small = (x_max - x_min).simd_lt(limit) & (y_max - y_min).simd_lt(limit);
@@ -151,7 +159,6 @@ pub(crate) fn cull<S: Lanes>(
 
     // Below 2¹⁵ each product is below 2³⁰ in magnitude, so the difference fits 32 bits.
     let area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
-    area.store_array(&mut out.doubled_area);
     let clockwise = s.bits_of_mask(area.simd_gt(splat(0)));
     let counter_clockwise = s.sign_bits(area);
     let mut kept = 0;
@@ -161,9 +168,10 @@ pub(crate) fn cull<S: Lanes>(
     if !state.facing.drops_counter_clockwise {
         kept |= counter_clockwise;
     }
-    Verdict {
+    let verdict = Verdict {
         small: seen & is_small & kept,
         large: seen & !is_small,
-        clip,
-    }
+        clip: live & clipped,
+    };
+    (verdict, area)
 }

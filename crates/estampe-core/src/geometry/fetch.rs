@@ -3,9 +3,19 @@
 //! *In* vertex and instance indices · *Out* attribute scalars, structure of arrays · *Spec* WebGPU
 //! §Vertex formats. Bytes beyond a buffer's end read as zeros; what a format lacks is (0, 0, 0, 1).
 
+use super::rows::columns_of;
 use crate::pipeline::AttributeSource;
 use estampe_simd::{Bytes, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
 use estampe_types::{Buffer, VertexFormat};
+
+/// Which vertices a packet holds.
+#[derive(Debug, Default)]
+pub(crate) struct PacketIndex {
+    pub(crate) vertex: Packet<u32>,
+    pub(crate) instance: Packet<u32>,
+    /// The first vertex, where lane `i` is vertex `first + i` of one instance.
+    pub(crate) first: Option<u32>,
+}
 
 /// Fills `out` with the scalars of every attribute; `wanted` says how many each location has.
 #[inline(always)]
@@ -14,114 +24,156 @@ pub(crate) fn fetch<S: Lanes>(
     sources: &[AttributeSource],
     wanted: &[usize],
     buffers: &[Buffer],
-    [vertex, instance]: [&Packet<u32>; 2],
+    index: &PacketIndex,
     out: &mut [Packet<f32>],
 ) {
-    let mut next = out.iter_mut();
+    let mut rest = out;
     for (source, &wanted) in sources.iter().zip(wanted) {
-        let index = if source.per_instance {
-            instance
-        } else {
-            vertex
+        let Some((scalars, others)) = rest.split_at_mut_checked(wanted) else {
+            return;
         };
-        let index = u32x16::load_array_ref(s, &index.0);
-        let mut element = Element::new(source, buffers.get(source.buffer));
-        let inside = index.simd_lt(<u32x16<S> as SimdBase<S>>::splat(s, element.count));
-        element.is_inside = s.bits_of_mask(inside) == u16::MAX;
-        for component in 0..wanted {
-            let value = if component < source.attribute.format.components() {
-                element.component(s, index, component)
+        rest = others;
+        let format = source.attribute.format;
+        let there = wanted.min(format.components());
+        let words = match buffers.get(source.buffer) {
+            Some(buffer) => fetch_words(s, source, buffer, index, words_of(format, there)),
+            None => [<u32x16<S> as SimdBase<S>>::splat(s, 0); 4],
+        };
+        let mut component = 0;
+        while component < wanted {
+            let value = if component < there {
+                decode(s, format, &words, component)
             } else {
                 SimdBase::splat(s, if component == 3 { 1.0 } else { 0.0 })
             };
-            if let Some(packet) = next.next() {
-                value.store_array(&mut packet.0);
-            }
+            value.store_array(&mut scalars[component].0);
+            component += 1;
         }
     }
 }
 
-/// One attribute in its buffer.
-struct Element<'a> {
-    buffer: Option<&'a Buffer>,
+/// The words that an attribute's first components lie in.
+#[inline(always)]
+fn words_of(format: VertexFormat, components: usize) -> usize {
+    match format {
+        VertexFormat::Unorm8x2 | VertexFormat::Unorm8x4 => 1,
+        VertexFormat::Unorm16x2 | VertexFormat::Unorm16x4 => components.div_ceil(2),
+        _ => components,
+    }
+}
+
+/// One component of sixteen elements.
+#[inline(always)]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a component is 0, 1, 2 or 3"
+)]
+fn decode<S: Lanes>(
+    s: S,
     format: VertexFormat,
-    stride: u32,
-    offset: u32,
-    /// How many elements hold the attribute whole.
-    count: u32,
-    /// Whether all sixteen elements that are wanted are among those.
-    is_inside: bool,
+    words: &[u32x16<S>; 4],
+    component: usize,
+) -> f32x16<S> {
+    let _ = s;
+    match format {
+        VertexFormat::Float32
+        | VertexFormat::Float32x2
+        | VertexFormat::Float32x3
+        | VertexFormat::Float32x4 => words[component & 3].bitcast(),
+        VertexFormat::Unorm8x2 | VertexFormat::Unorm8x4 => {
+            let code = (words[0] >> (component as u32 * 8)) & 0xFF;
+            float(code) * (1.0 / 255.0)
+        }
+        VertexFormat::Unorm16x2 | VertexFormat::Unorm16x4 => {
+            let code = (words[component / 2 & 3] >> (component as u32 % 2 * 16)) & 0xFFFF;
+            float(code) * (1.0 / 65_535.0)
+        }
+        // `VertexFormat` grows; a format without a reader cannot pass for zeros unnoticed.
+        other => unreachable!("vertex format {other:?} has no reader"),
+    }
 }
 
-impl<'a> Element<'a> {
-    #[inline(always)]
-    fn new(source: &AttributeSource, buffer: Option<&'a Buffer>) -> Self {
-        let (offset, stride) = (source.attribute.offset, source.stride);
-        let end = offset as usize + source.attribute.format.size_bytes();
-        let spare = buffer.and_then(|buffer| buffer.len_bytes().checked_sub(end));
-        let count = match (spare, stride) {
-            (None, _) => 0,
-            (Some(_), 0) => u32::MAX,
-            (Some(spare), stride) => u32::try_from(spare / stride as usize + 1).unwrap_or(u32::MAX),
-        };
-        Self {
-            buffer,
-            format: source.attribute.format,
-            stride,
-            offset,
-            count,
-            is_inside: false,
+/// The first words of an attribute of sixteen elements, what lies beyond the buffer's end zero; at least
+/// `count` of the four are there.
+///
+/// Vertices that follow one another, as in a dense range, are rows of words at a fixed distance. Elsewhere
+/// words are gathered one by one.
+#[inline(always)]
+fn fetch_words<S: Lanes>(
+    s: S,
+    source: &AttributeSource,
+    buffer: &Buffer,
+    index: &PacketIndex,
+    count: usize,
+) -> [u32x16<S>; 4] {
+    let (stride, offset) = (source.stride as usize, source.attribute.offset as usize);
+    let words = buffer.words();
+    let is_aligned = stride.is_multiple_of(4) && offset.is_multiple_of(4);
+    if let (Some(first), false, true) = (index.first, source.per_instance, is_aligned) {
+        let stride = stride / 4;
+        let start = (first as usize)
+            .saturating_mul(stride)
+            .saturating_add(offset / 4);
+        let end = start.saturating_add((LANES - 1) * stride + if count == 1 { 1 } else { 4 });
+        if let Some(rows) = words.get(start..end) {
+            return strided(s, rows, stride, count == 1);
         }
     }
+    let lanes = if source.per_instance {
+        &index.instance
+    } else {
+        &index.vertex
+    };
+    let mut out = [<u32x16<S> as SimdBase<S>>::splat(s, 0); 4];
+    let lanes = u32x16::load_array_ref(s, &lanes.0);
+    let whole = whole_elements(source, buffer);
+    let inside = lanes.simd_lt(<u32x16<S> as SimdBase<S>>::splat(s, whole));
+    let is_inside = s.bits_of_mask(inside) == u16::MAX;
+    for (word, out) in out.iter_mut().take(count).enumerate() {
+        *out = if is_aligned && is_inside {
+            let stride = <u32x16<S> as SimdBase<S>>::splat(s, source.stride / 4);
+            let first = u32::try_from(offset / 4 + word).unwrap_or(u32::MAX);
+            let at = lanes * stride + <u32x16<S> as SimdBase<S>>::splat(s, first);
+            s.gather(words, at)
+        } else {
+            let mut values = [0; LANES];
+            for (value, &index) in values.iter_mut().zip(lanes.as_slice()) {
+                let element = (index as usize).saturating_mul(stride);
+                *value = buffer.word_at((offset + word * 4).saturating_add(element));
+            }
+            u32x16::load_array(s, values)
+        };
+    }
+    out
+}
 
-    /// One component of sixteen elements.
-    #[inline(always)]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "a component is 0, 1, 2 or 3"
-    )]
-    fn component<S: Lanes>(&self, s: S, index: u32x16<S>, component: usize) -> f32x16<S> {
-        match self.format {
-            VertexFormat::Float32
-            | VertexFormat::Float32x2
-            | VertexFormat::Float32x3
-            | VertexFormat::Float32x4 => self.word(s, index, component * 4).bitcast(),
-            VertexFormat::Unorm8x2 | VertexFormat::Unorm8x4 => {
-                let word = self.word(s, index, 0);
-                let code = (word >> (component as u32 * 8)) & 0xFF;
-                float(code) * (1.0 / 255.0)
-            }
-            VertexFormat::Unorm16x2 | VertexFormat::Unorm16x4 => {
-                let word = self.word(s, index, component / 2 * 4);
-                let code = (word >> (component as u32 % 2 * 16)) & 0xFFFF;
-                float(code) * (1.0 / 65_535.0)
-            }
-            // `VertexFormat` grows; a format without a reader cannot pass for zeros unnoticed.
-            other => unreachable!("vertex format {other:?} has no reader"),
+/// Words of sixteen rows that are `stride` words apart: the first four, or the first one.
+#[inline(always)]
+fn strided<S: Lanes>(s: S, rows: &[u32], stride: usize, is_single: bool) -> [u32x16<S>; 4] {
+    if is_single {
+        let mut values = [0; LANES];
+        for (lane, value) in values.iter_mut().enumerate() {
+            *value = rows[lane * stride];
+        }
+        return [u32x16::load_array(s, values); 4];
+    }
+    let mut quads = [&[0; 4]; LANES];
+    for (lane, quad) in quads.iter_mut().enumerate() {
+        if let Some(row) = rows[lane * stride..].first_chunk() {
+            *quad = row;
         }
     }
+    columns_of(s, &quads)
+}
 
-    /// The word at a byte of sixteen elements, what lies beyond the buffer's end zero.
-    #[inline(always)]
-    fn word<S: Lanes>(&self, s: S, index: u32x16<S>, byte: usize) -> u32x16<S> {
-        let Some(buffer) = self.buffer else {
-            return SimdBase::splat(s, 0);
-        };
-        let start = self.offset as usize + byte;
-        if self.is_inside && self.stride.is_multiple_of(4) && start.is_multiple_of(4) {
-            let stride = <u32x16<S> as SimdBase<S>>::splat(s, self.stride / 4);
-            let first = u32::try_from(start / 4).unwrap_or(u32::MAX);
-            return s.gather(
-                buffer.words(),
-                index * stride + <u32x16<S> as SimdBase<S>>::splat(s, first),
-            );
-        }
-        let mut words = [0; LANES];
-        for (word, &index) in words.iter_mut().zip(index.as_slice()) {
-            let element = (index as usize).saturating_mul(self.stride as usize);
-            *word = buffer.word_at(start.saturating_add(element));
-        }
-        u32x16::load_array(s, words)
+/// How many elements hold an attribute whole.
+#[inline(always)]
+fn whole_elements(source: &AttributeSource, buffer: &Buffer) -> u32 {
+    let end = source.attribute.offset as usize + source.attribute.format.size_bytes();
+    match (buffer.len_bytes().checked_sub(end), source.stride) {
+        (None, _) => 0,
+        (Some(_), 0) => u32::MAX,
+        (Some(spare), stride) => u32::try_from(spare / stride as usize + 1).unwrap_or(u32::MAX),
     }
 }
 

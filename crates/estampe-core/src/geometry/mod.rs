@@ -3,12 +3,15 @@
 //! The stages, in order: [`fetch`] reads attributes, [`shading`] runs the vertex shader and projects
 //! its vertices, [`assembly`] joins vertices into primitives, [`cull`] drops most of the
 //! triangles sixteen at a time, [`clip`] cuts the few that need it, [`viewport`] is the way from clip
-//! space to the window, [`setup`] sorts vertices, makes planes and bins.
+//! space to the window, [`setup`] sorts vertices and makes planes, [`binning`] finds tiles; [`rows`] is how
+//! vertices, one after the other in memory, become lanes.
 //!
 //! Each vertex is shaded once: an item's dense index range is shaded as a whole before its primitives
 //! are assembled.
 
 pub(crate) mod viewport;
+
+pub(crate) mod rows;
 
 pub(crate) mod fetch;
 
@@ -19,6 +22,8 @@ pub(crate) mod assembly;
 pub(crate) mod cull;
 
 pub(crate) mod clip;
+
+pub(crate) mod binning;
 
 pub(crate) mod setup;
 

@@ -1,67 +1,81 @@
-//! Set-up (R1, R5): sorts a triangle's vertices, makes its planes, and bins it.
+//! Set-up (R1, R5): sorts a triangle's vertices and makes its planes.
 //!
-//! *In* window vertices · *Out* [`TrianglePacket`]s, lines and points in [`Bins`](crate::tiles::Bins) ·
-//! *Space* window · *Precision* positions exact, planes f32 in the order of `docs/NUMERICS.md`.
+//! *In* triangles that survive culling · *Out* [`TrianglePacket`]s, binned · *Space* window · *Precision*
+//! positions exact, planes f32 in the order of `docs/NUMERICS.md`.
 //!
-//! Triangles that survive culling are gathered into packets of sixteen, whose planes are computed
-//! together, whoever their neighbours were. Sorting by (y, x) first makes everything that follows
-//! independent of the order in which a triangle's vertices were given.
+//! Triangles wait as vertex numbers until there are sixteen; then positions, depth and 1/w of their
+//! vertices are read and the planes of all computed together, whoever their neighbours were. Sorting by
+//! (y, x) first makes everything that follows independent of the order in which a triangle's vertices were
+//! given.
 
-use super::viewport::PixelRect;
-use crate::layout::TileGrid;
+use super::binning::{BinState, TileRanges};
+use super::cull::WindowTriangles;
+use super::rows::columns_of;
+use super::shading::WindowRow;
 use crate::tiles::{
-    BinEntry, Chunk, LinePrimitive, PlanePacket, PointPrimitive, TrianglePacket, VertexRef,
-    WindowVertex,
+    Chunk, LinePrimitive, PlanePacket, PointPrimitive, TrianglePacket, VertexRef, WindowVertex,
 };
-use estampe_simd::{Bytes, LANES, Lanes, Level, SimdBase, SimdCvtFloat, dispatch, f32x16, i32x16};
+use estampe_simd::{
+    Bytes, LANES, Lanes, Level, Select, SimdBase, SimdCvtFloat, dispatch, f32x16, i32x16, u32x16,
+};
 
-/// One triangle on its way into a packet.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct SetupTriangle {
-    /// In the order given.
-    pub(crate) vertices: [WindowVertex; 3],
-    pub(crate) provoking: VertexRef,
-    /// In the order given, in 1/256 pixel²; not 0.
-    pub(crate) doubled_area: i64,
-    pub(crate) front: bool,
+/// Triangles that wait for their packet to be full: at most fifteen, and sixteen that join them.
+#[derive(Debug)]
+#[repr(C, align(64))]
+struct Waiting {
+    /// The vertices in sorted order, as [`VertexRef`]s.
+    vertex: [[u32; 2 * LANES]; 3],
+    /// The provoking vertex, which is never one made by clipping; with [`FRONT`] if the triangle faces the
+    /// viewer.
+    provoking: [u32; 2 * LANES],
+    /// Doubled area in sorted order, rounded.
+    doubled_area: [f32; 2 * LANES],
+    len: usize,
 }
 
-/// Where primitives are binned.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct BinState {
-    pub(crate) grid: TileGrid,
-    pub(crate) rect: PixelRect,
-    /// The least and the greatest offset of a sample inside its pixel, in 1/256 pixel.
-    pub(crate) sample_range: [i32; 2],
-}
+/// The bit of a provoking vertex that tells triangles that face the viewer.
+const FRONT: u32 = 1 << 31;
 
 /// Fills packets and bins them into a chunk.
 #[derive(Debug)]
 pub(crate) struct Setup<'a> {
     level: Level,
     bins: BinState,
-    packet: Box<TrianglePacket>,
-    z_at: [[f32; LANES]; 3],
+    waiting: Waiting,
+    /// The item's vertices.
+    window: &'a [WindowRow],
+    /// The chunk's own, made by clipping.
+    clipped: Vec<WindowRow>,
     chunk: &'a mut Chunk,
 }
 
-/// A half-open range of tiles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct TileRange {
-    x0: i32,
-    y0: i32,
-    x1: i32,
-    y1: i32,
+/// Sixteen triangles of known area.
+pub(crate) struct SetupLanes<S: Lanes> {
+    /// The item's vertices, in the order given.
+    pub(crate) vertices: [u32x16<S>; 3],
+    /// In the order given, rounded; not 0.
+    pub(crate) doubled_area: f32x16<S>,
 }
 
 impl<'a> Setup<'a> {
-    pub(crate) fn new(level: Level, bins: BinState, chunk: &'a mut Chunk) -> Self {
-        let packet = Box::new(TrianglePacket::EMPTY);
+    pub(crate) fn new(
+        level: Level,
+        bins: BinState,
+        window: &'a [WindowRow],
+        chunk: &'a mut Chunk,
+        clipped: Vec<WindowRow>,
+    ) -> Self {
         Self {
             level,
             bins,
-            packet,
-            z_at: [[0.0; LANES]; 3],
+            waiting: Waiting {
+                vertex: [[0; 2 * LANES]; 3],
+                provoking: [0; 2 * LANES],
+                doubled_area: [1.0; 2 * LANES],
+                len: 0,
+            },
+            window,
+            clipped,
             chunk,
         }
     }
@@ -70,157 +84,269 @@ impl<'a> Setup<'a> {
         self.chunk
     }
 
-    /// Adds a triangle.
+    /// Adds a vertex made by clipping.
+    pub(crate) fn push_clipped(&mut self, row: WindowRow) -> VertexRef {
+        let number = u32::try_from(self.clipped.len()).unwrap_or(u32::MAX);
+        self.clipped.push(row);
+        VertexRef(number | VertexRef::CLIPPED)
+    }
+
+    /// Adds the triangles of the lanes in `kept`.
     #[inline(always)]
-    pub(crate) fn push(&mut self, triangle: &SetupTriangle) {
-        let (order, odd) = sorted(&triangle.vertices);
-        let packet = &mut *self.packet;
-        let lane = packet.len as usize % LANES;
-        for (corner, &from) in order.iter().enumerate() {
-            let vertex = &triangle.vertices[from];
-            packet.x[corner][lane] = vertex.x;
-            packet.y[corner][lane] = vertex.y;
-            packet.vertex[corner][lane] = vertex.vertex;
-            packet.iw_at[corner][lane] = vertex.iw;
-            self.z_at[corner][lane] = vertex.z;
-        }
-        packet.provoking[lane] = triangle.provoking;
-        let area = if odd {
-            -triangle.doubled_area
+    pub(crate) fn push_lanes<S: Lanes>(
+        &mut self,
+        s: S,
+        window: &WindowTriangles<S>,
+        triangles: &SetupLanes<S>,
+        clockwise_is_front: bool,
+        kept: u16,
+    ) {
+        let area = triangles.doubled_area;
+        let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
+        let provoking = triangles.vertices[0];
+        let front = <u32x16<S> as SimdBase<S>>::splat(s, FRONT);
+        let is_front = if clockwise_is_front {
+            area.simd_gt(zero)
         } else {
-            triangle.doubled_area
+            area.simd_lt(zero)
         };
+        let provoking = is_front.select(provoking | front, provoking);
+
+        let mut order = Order {
+            x: window.x,
+            y: window.y,
+            vertex: triangles.vertices,
+        };
+        let first = order.exchange::<0, 1>();
+        let second = order.exchange::<1, 2>();
+        let third = order.exchange::<0, 1>();
+        let odd = first ^ second ^ third;
+        let area = odd.select(-area, area);
+        self.waiting
+            .append(s, order.vertex, provoking, area.bitcast(), kept);
+        if self.waiting.len >= LANES {
+            self.emit();
+        }
+    }
+
+    /// Adds one triangle whose vertices are in the order given and whose area is not 0.
+    pub(crate) fn push(
+        &mut self,
+        vertices: &[WindowVertex; 3],
+        provoking: u32,
+        doubled_area: i64,
+        is_front: bool,
+    ) {
+        let (order, odd) = sorted(vertices);
+        let at = self.waiting.len;
+        for (corner, from) in order.into_iter().enumerate() {
+            self.waiting.vertex[corner][at] = vertices[from].vertex.0;
+        }
+        self.waiting.provoking[at] = provoking | if is_front { FRONT } else { 0 };
+        let area = if odd { -doubled_area } else { doubled_area };
         // One rounding; the division is done for all sixteen.
-        packet.r[lane] = area as f32;
-        packet.clockwise |= u16::from(area > 0) << lane;
-        packet.front |= u16::from(triangle.front) << lane;
-        packet.len += 1;
-        if usize::from(packet.len) == LANES {
-            self.finish_packet();
+        self.waiting.doubled_area[at] = area as f32;
+        self.waiting.len += 1;
+        if self.waiting.len >= LANES {
+            self.emit();
         }
     }
 
-    /// Sets up and bins the packet that is being filled.
-    pub(crate) fn finish_packet(&mut self) {
-        if self.packet.len == 0 {
+    /// Sets up what waits, and gives back the memory of clipped vertices.
+    pub(crate) fn finish(mut self) -> Vec<WindowRow> {
+        if self.waiting.len > 0 {
+            self.emit();
+        }
+        self.clipped
+    }
+
+    /// Sets up and bins the first packet of those that wait.
+    fn emit(&mut self) {
+        let len = self.waiting.len.min(LANES);
+        dispatch!(self.level, s => self.set_up(s, len));
+        self.chunk.statistics.primitives_binned += len as u64;
+        self.waiting.drop_first(len);
+    }
+
+    /// Makes a packet of the first `len` triangles that wait.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "at most sixteen lanes")]
+    fn set_up<S: Lanes>(&mut self, s: S, len: usize) {
+        let waiting = &self.waiting;
+        let [v0, v1, v2] = [0, 1, 2].map(|corner| first_half(&waiting.vertex[corner]));
+        let [x0, y0, z0, w0] = self.read(s, v0);
+        let [x1, y1, z1, w1] = self.read(s, v1);
+        let [x2, y2, z2, w2] = self.read(s, v2);
+
+        self.chunk.triangles.push(TrianglePacket::EMPTY);
+        let Some(packet) = self.chunk.triangles.last_mut() else {
             return;
+        };
+        let live = u16::MAX >> (LANES - len);
+        for (corner, from) in [v0, v1, v2].into_iter().enumerate() {
+            packet.vertex[corner] = from.map(VertexRef);
         }
-        let ranges =
-            dispatch!(self.level, s => finish(s, &mut self.packet, &self.z_at, &self.bins));
-        self.bin_packet(&ranges);
-        self.chunk.statistics.primitives_binned += u64::from(self.packet.len);
-        self.chunk.triangles.push((*self.packet).clone());
-        self.packet.len = 0;
-        self.packet.clockwise = 0;
-        self.packet.front = 0;
+        let provoking = first_half(&waiting.provoking);
+        packet.provoking = provoking.map(|vertex| VertexRef(vertex & !FRONT));
+        let provoking: i32x16<S> = u32x16::load_array_ref(s, provoking).bitcast();
+        packet.front = s.sign_bits(provoking) & live;
+        let area = f32x16::load_array_ref(s, first_half(&waiting.doubled_area));
+        let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
+        packet.clockwise = s.bits_of_mask(area.simd_gt(zero)) & live;
+        packet.len = len as u16;
+
+        let [x0, x1, x2]: [i32x16<S>; 3] = [x0.bitcast(), x1.bitcast(), x2.bitcast()];
+        let [y0, y1, y2]: [i32x16<S>; 3] = [y0.bitcast(), y1.bitcast(), y2.bitcast()];
+        let [z0, z1, z2]: [f32x16<S>; 3] = [z0.bitcast(), z1.bitcast(), z2.bitcast()];
+        x0.store_array(&mut packet.x[0]);
+        x1.store_array(&mut packet.x[1]);
+        x2.store_array(&mut packet.x[2]);
+        y0.store_array(&mut packet.y[0]);
+        y1.store_array(&mut packet.y[1]);
+        y2.store_array(&mut packet.y[2]);
+        let scale = <f32x16<S> as SimdBase<S>>::splat(s, 1.0 / 256.0);
+        let edges = Edges {
+            dx1: f32x16::float_from(x1 - x0) * scale,
+            dy1: f32x16::float_from(y1 - y0) * scale,
+            dx2: f32x16::float_from(x2 - x0) * scale,
+            dy2: f32x16::float_from(y2 - y0) * scale,
+            r: <f32x16<S> as SimdBase<S>>::splat(s, 65_536.0) / area,
+        };
+        edges.r.store_array(&mut packet.r);
+        edges.plane(z0, z1, z2, &mut packet.z);
+        packet.equal_w = s.bits_of_mask(w0.simd_eq(w1) & w0.simd_eq(w2));
+        let [w0, w1, w2]: [f32x16<S>; 3] = [w0.bitcast(), w1.bitcast(), w2.bitcast()];
+        w0.store_array(&mut packet.iw_at[0]);
+        w1.store_array(&mut packet.iw_at[1]);
+        w2.store_array(&mut packet.iw_at[2]);
+        edges.plane(w0, w1, w2, &mut packet.iw);
+
+        let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
+        let [first, last] = self.bins.sample_range.map(splat);
+        let (rect, log2) = (self.bins.rect, self.bins.grid.tile_log2());
+        let (x_min, x_max) = (x0.min(x1).min(x2), x0.max(x1).max(x2));
+        let ranges = TileRanges {
+            x0: ((x_min - last + 255) >> 8).max(splat(rect.x0)) >> log2,
+            y0: ((y0 - last + 255) >> 8).max(splat(rect.y0)) >> log2,
+            x1: ((x_max - first) >> 8).min(splat(rect.x1 - 1)) >> log2,
+            y1: ((y2 - first) >> 8).min(splat(rect.y1 - 1)) >> log2,
+        };
+        self.bins.bin_packet(s, &ranges, self.chunk);
     }
 
-    fn bin_packet(&mut self, ranges: &[[i32; LANES]; 4]) {
-        let packet_index = u32::try_from(self.chunk.triangles.len()).unwrap_or(u32::MAX);
-        let bins = &mut self.chunk.bins;
-        bins.end_run();
-        let len = usize::from(self.packet.len);
-        let [left, top, right, bottom] = ranges;
-        let sides = left.iter().zip(top).zip(right.iter().zip(bottom)).take(len);
-        for (lane, ((&x0, &y0), (&x1, &y1))) in sides.enumerate() {
-            let range = TileRange {
-                x0,
-                y0,
-                x1: x1 + 1,
-                y1: y1 + 1,
+    /// x, y, depth and 1/w of sixteen vertices, as bits.
+    #[inline(always)]
+    fn read<S: Lanes>(&self, s: S, vertices: &[u32; LANES]) -> [u32x16<S>; 4] {
+        // Unused lanes hold what was there before: vertices of this chunk, too.
+        let mut rows = [&[0; 4]; LANES];
+        for (row, &vertex) in rows.iter_mut().zip(vertices) {
+            let found = if vertex & VertexRef::CLIPPED == 0 {
+                self.window.get(vertex as usize)
+            } else {
+                self.clipped.get((vertex & !VertexRef::CLIPPED) as usize)
             };
-            let (columns, rows) = (range.x1 - range.x0, range.y1 - range.y0);
-            if columns == 1 && rows == 1 {
-                let tile = self
-                    .bins
-                    .grid
-                    .tile_at(x0.cast_unsigned(), y0.cast_unsigned());
-                bins.push_lane(tile, packet_index, lane);
-                continue;
-            }
-            // A triangle of many tiles has entries of its own: looking for one to merge with would
-            // take time quadratic in tiles. Small ones before and after it must not merge across it.
-            let many = columns * rows > 4;
-            if many {
-                bins.end_run();
-            }
-            let edges = TileEdges::new(&self.packet, lane, self.bins.sample_range);
-            for y in range.y0..range.y1 {
-                for x in range.x0..range.x1 {
-                    if columns > 1 && rows > 1 && edges.miss(x, y, self.bins.grid.tile_log2()) {
-                        continue;
-                    }
-                    let tile = self.bins.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
-                    if many {
-                        let lanes = 1 << lane;
-                        bins.push(
-                            tile,
-                            BinEntry::Triangles {
-                                packet: packet_index,
-                                lanes,
-                            },
-                        );
-                    } else {
-                        bins.push_lane(tile, packet_index, lane);
-                    }
-                }
-            }
-            if many {
-                bins.end_run();
+            if let Some(found) = found {
+                *row = found;
             }
         }
+        columns_of(s, &rows)
     }
 
     /// Adds a line.
     pub(crate) fn push_line(&mut self, line: LinePrimitive) {
-        let [a, b] = &line.ends;
-        // Pixels whose centres the line's box may touch on either axis.
-        let range = self.tiles_of(
-            [a.x.min(b.x), a.y.min(b.y), a.x.max(b.x), a.y.max(b.y)],
-            256,
-        );
-        let entry = BinEntry::Line(u32::try_from(self.chunk.lines.len()).unwrap_or(u32::MAX));
-        self.chunk.lines.push(line);
-        self.push_range(range, entry);
+        self.bins.push_line(line, self.chunk);
     }
 
     /// Adds a point.
     pub(crate) fn push_point(&mut self, point: PointPrimitive) {
-        let (x, y, half) = (point.center.x, point.center.y, point.half);
-        let range = self.tiles_of([x - half, y - half, x + half, y + half], 0);
-        let entry = BinEntry::Point(u32::try_from(self.chunk.points.len()).unwrap_or(u32::MAX));
-        self.chunk.points.push(point);
-        self.push_range(range, entry);
+        self.bins.push_point(point, self.chunk);
     }
+}
 
-    /// The tiles of a box in 1/256 pixel, grown by a margin, inside the rectangle of pixels.
-    fn tiles_of(&self, [x0, y0, x1, y1]: [i32; 4], margin: i32) -> Option<TileRange> {
-        let (rect, log2) = (self.bins.rect, self.bins.grid.tile_log2());
-        let first = |low: i32, edge: i32| ((low - margin) >> 8).max(edge);
-        let last = |high: i32, edge: i32| ((high + margin) >> 8).min(edge - 1);
-        let (x0, x1) = (first(x0, rect.x0), last(x1, rect.x1));
-        let (y0, y1) = (first(y0, rect.y0), last(y1, rect.y1));
-        let range = TileRange {
-            x0: x0 >> log2,
-            y0: y0 >> log2,
-            x1: (x1 >> log2) + 1,
-            y1: (y1 >> log2) + 1,
-        };
-        (x0 <= x1 && y0 <= y1).then_some(range)
+/// Three vertices of sixteen triangles, to be sorted by (y, x).
+struct Order<S: Lanes> {
+    x: [i32x16<S>; 3],
+    y: [i32x16<S>; 3],
+    vertex: [u32x16<S>; 3],
+}
+
+impl<S: Lanes> Order<S> {
+    /// Puts two vertices in order; true where they changed places. Equal ones keep theirs.
+    #[inline(always)]
+    fn exchange<const A: usize, const B: usize>(&mut self) -> <i32x16<S> as SimdBase<S>>::Mask {
+        let (xa, xb) = (self.x[A], self.x[B]);
+        let (ya, yb) = (self.y[A], self.y[B]);
+        let (va, vb) = (self.vertex[A], self.vertex[B]);
+        let swap = ya.simd_gt(yb) | (ya.simd_eq(yb) & xa.simd_gt(xb));
+        self.x[A] = swap.select(xb, xa);
+        self.x[B] = swap.select(xa, xb);
+        self.y[A] = swap.select(yb, ya);
+        self.y[B] = swap.select(ya, yb);
+        self.vertex[A] = swap.select(vb, va);
+        self.vertex[B] = swap.select(va, vb);
+        swap
     }
+}
 
-    fn push_range(&mut self, range: Option<TileRange>, entry: BinEntry) {
-        let Some(range) = range else {
+impl Waiting {
+    /// Adds the lanes in `kept`, in order.
+    #[inline(always)]
+    fn append<S: Lanes>(
+        &mut self,
+        s: S,
+        [a, b, c]: [u32x16<S>; 3],
+        provoking: u32x16<S>,
+        area: f32x16<S>,
+        kept: u16,
+    ) {
+        let at = self.len;
+        self.len += kept.count_ones() as usize;
+        let [to_a, to_b, to_c] = &mut self.vertex;
+        if <S::u32s as SimdBase<S>>::LEN == LANES {
+            // The whole vector is written; what is beyond the kept lanes is garbage until overwritten.
+            let mask = s.mask_from_bits(kept);
+            a.compress(mask).store_slice(&mut to_a[at..][..LANES]);
+            b.compress(mask).store_slice(&mut to_b[at..][..LANES]);
+            c.compress(mask).store_slice(&mut to_c[at..][..LANES]);
+            provoking
+                .compress(mask)
+                .store_slice(&mut self.provoking[at..][..LANES]);
+            area.compress(mask)
+                .store_slice(&mut self.doubled_area[at..][..LANES]);
             return;
-        };
-        self.chunk.statistics.primitives_binned += 1;
-        for y in range.y0..range.y1 {
-            for x in range.x0..range.x1 {
-                let tile = self.bins.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
-                self.chunk.bins.push(tile, entry);
-            }
+        }
+        let (a, b, c) = (a.to_array(), b.to_array(), c.to_array());
+        let (provoking, area) = (provoking.to_array(), area.to_array());
+        let (mut rest, mut to) = (kept, at);
+        while rest != 0 {
+            let lane = rest.trailing_zeros() as usize;
+            rest &= rest - 1;
+            to_a[to] = a[lane];
+            to_b[to] = b[lane];
+            to_c[to] = c[lane];
+            self.provoking[to] = provoking[lane];
+            self.doubled_area[to] = area[lane];
+            to += 1;
         }
     }
+
+    /// Moves what waits beyond the first packet to its place.
+    fn drop_first(&mut self, len: usize) {
+        self.len -= len;
+        for values in &mut self.vertex {
+            values.copy_within(LANES.., 0);
+        }
+        self.provoking.copy_within(LANES.., 0);
+        self.doubled_area.copy_within(LANES.., 0);
+    }
+}
+
+/// The lanes of the packet that is next.
+#[inline(always)]
+fn first_half<T>(values: &[T; 2 * LANES]) -> &[T; LANES] {
+    values
+        .first_chunk()
+        .unwrap_or_else(|| unreachable!("32 lanes have a first half"))
 }
 
 /// The order of three vertices by (y, x), and whether it is an odd permutation. Equal ones keep theirs.
@@ -240,52 +366,6 @@ fn sorted(vertices: &[WindowVertex; 3]) -> ([usize; 3], bool) {
     (order, odd)
 }
 
-/// Computes the planes of a packet and each lane's range of tiles: first and last column and row.
-#[inline(always)]
-fn finish<S: Lanes>(
-    s: S,
-    packet: &mut TrianglePacket,
-    z_at: &[[f32; LANES]; 3],
-    bins: &BinState,
-) -> [[i32; LANES]; 4] {
-    let load = |values: &[i32; LANES]| i32x16::load_array_ref(s, values);
-    let floats = |values: &[f32; LANES]| f32x16::load_array_ref(s, values);
-    let [x0, x1, x2] = [load(&packet.x[0]), load(&packet.x[1]), load(&packet.x[2])];
-    let [y0, y1, y2] = [load(&packet.y[0]), load(&packet.y[1]), load(&packet.y[2])];
-    let pixels = |subpixels: i32x16<S>| f32x16::float_from(subpixels) * (1.0 / 256.0);
-    let edges = Edges {
-        dx1: pixels(x1 - x0),
-        dy1: pixels(y1 - y0),
-        dx2: pixels(x2 - x0),
-        dy2: pixels(y2 - y0),
-        r: <f32x16<S> as SimdBase<S>>::splat(s, 65_536.0) / floats(&packet.r),
-    };
-    edges.r.store_array(&mut packet.r);
-    let [z0, z1, z2] = [floats(&z_at[0]), floats(&z_at[1]), floats(&z_at[2])];
-    edges.plane(z0, z1, z2, &mut packet.z);
-    let w = &packet.iw_at;
-    let [w0, w1, w2] = [floats(&w[0]), floats(&w[1]), floats(&w[2])];
-    edges.plane(w0, w1, w2, &mut packet.iw);
-    let [b0, b1, b2]: [i32x16<S>; 3] = [w0.bitcast(), w1.bitcast(), w2.bitcast()];
-    packet.equal_w = s.bits_of_mask(b0.simd_eq(b1) & b0.simd_eq(b2));
-
-    let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
-    let [first, last] = bins.sample_range.map(splat);
-    let rect = bins.rect;
-    let log2 = bins.grid.tile_log2();
-    let (x_min, x_max) = (x0.min(x1).min(x2), x0.max(x1).max(x2));
-    let x_first = ((x_min - last + 255) >> 8).max(splat(rect.x0));
-    let y_first = ((y0 - last + 255) >> 8).max(splat(rect.y0));
-    let x_last = ((x_max - first) >> 8).min(splat(rect.x1 - 1));
-    let y_last = ((y2 - first) >> 8).min(splat(rect.y1 - 1));
-    [
-        (x_first >> log2).to_array(),
-        (y_first >> log2).to_array(),
-        (x_last >> log2).to_array(),
-        (y_last >> log2).to_array(),
-    ]
-}
-
 /// Differences of sixteen triangles' positions, in pixels, and 1 ÷ doubled area.
 struct Edges<S: Lanes> {
     dx1: f32x16<S>,
@@ -302,50 +382,6 @@ impl<S: Lanes> Edges<S> {
         p0.store_array(&mut out.origin);
         ((e1 * self.dy2 - e2 * self.dy1) * self.r).store_array(&mut out.dx);
         ((e2 * self.dx1 - e1 * self.dx2) * self.r).store_array(&mut out.dy);
-    }
-}
-
-/// The edges of one triangle, to tell tiles of its box that it misses. Exact in 64 bits.
-struct TileEdges {
-    /// For each edge the values at a point: `a·x + b·y + c`, in 1/256 pixel; inside is ≥ 0.
-    edges: [[i64; 3]; 3],
-    sample_range: [i32; 2],
-}
-
-impl TileEdges {
-    fn new(packet: &TrianglePacket, lane: usize, sample_range: [i32; 2]) -> Self {
-        let at = |corner: usize| {
-            (
-                i64::from(packet.x[corner][lane]),
-                i64::from(packet.y[corner][lane]),
-            )
-        };
-        let clockwise = packet.clockwise >> lane & 1 == 1;
-        let ends = if clockwise {
-            [(0, 1), (1, 2), (2, 0)]
-        } else {
-            [(0, 2), (2, 1), (1, 0)]
-        };
-        let edge = |(from, to)| {
-            let ((ax, ay), (bx, by)) = (at(from), at(to));
-            [ay - by, bx - ax, (by - ay) * ax - (bx - ax) * ay]
-        };
-        Self {
-            edges: ends.map(edge),
-            sample_range,
-        }
-    }
-
-    /// Whether no sample of the tile can be inside.
-    fn miss(&self, column: i32, row: i32, tile_log2: u32) -> bool {
-        let [first, last] = self.sample_range;
-        let low = |tile: i32| i64::from((tile << (tile_log2 + 8)) + first);
-        let high = |tile: i32| i64::from(((tile + 1) << (tile_log2 + 8)) - 256 + last);
-        self.edges.iter().any(|[a, b, c]| {
-            let x = if *a > 0 { high(column) } else { low(column) };
-            let y = if *b > 0 { high(row) } else { low(row) };
-            a * x + b * y + c < 0
-        })
     }
 }
 

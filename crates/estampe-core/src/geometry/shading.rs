@@ -2,27 +2,30 @@
 //!
 //! *In* a dense range of vertices · *Out* [`ShadedVertices`] · *Space* clip, then window.
 
-use super::fetch::fetch;
+use super::fetch::{PacketIndex, fetch};
+use super::rows::{store_rows, store_scalars};
 use super::viewport::ViewportTransform;
 use crate::pipeline::RenderPipeline;
-use estampe_simd::{LANES, Lanes, Level, Packet, SimdBase, dispatch, f32x16};
+use estampe_simd::{
+    Bytes, LANES, Lanes, Level, Packet, Select, SimdBase, dispatch, f32x16, i32x16,
+};
 use estampe_types::{Bindings, Buffer, VertexBatch};
 
 /// Packets that a program shades in one call.
-const BATCH: usize = 4;
+const BATCH: usize = 8;
 
 /// A window x that says "this vertex must be clipped"; no snapped coordinate reaches it.
 pub(crate) const NEEDS_CLIPPING: i32 = i32::MIN;
 
+/// A vertex in the window, as bits: x and y in 1/256 pixel, depth, 1/w.
+pub(crate) type WindowRow = [u32; 4];
+
 /// Vertices after the shader and the viewport, one after the other.
 #[derive(Debug, Default)]
 pub(crate) struct ShadedVertices {
-    /// x, y in 1/256 pixel, as bits, so that lanes gather them.
-    pub(crate) window: Vec<u32>,
-    /// Depth and 1/w.
-    pub(crate) depth: Vec<[f32; 2]>,
-    /// Clip-space positions, for what must be clipped.
-    pub(crate) clip: Vec<[f32; 4]>,
+    pub(crate) window: Vec<WindowRow>,
+    /// Clip-space positions as bits, for what must be clipped.
+    pub(crate) clip: Vec<[u32; 4]>,
     /// The varyings' scalars of each vertex.
     pub(crate) varyings: Vec<f32>,
     /// Point sizes in pixels, where points are drawn.
@@ -32,9 +35,8 @@ pub(crate) struct ShadedVertices {
 /// The part of [`ShadedVertices`] that one worker fills.
 #[derive(Debug)]
 pub(crate) struct ShadedSlice<'a> {
-    pub(crate) window: &'a mut [u32],
-    pub(crate) depth: &'a mut [[f32; 2]],
-    pub(crate) clip: &'a mut [[f32; 4]],
+    pub(crate) window: &'a mut [WindowRow],
+    pub(crate) clip: &'a mut [[u32; 4]],
     pub(crate) varyings: &'a mut [f32],
     pub(crate) point_size: &'a mut [f32],
 }
@@ -56,8 +58,8 @@ pub(crate) struct VertexSource<'a> {
 /// Memory of one worker.
 #[derive(Debug, Default)]
 pub(crate) struct ShadingScratch {
-    index: [Packet<u32>; BATCH],
-    instance: [Packet<u32>; BATCH],
+    vertex_index: [Packet<u32>; BATCH],
+    instance_index: [Packet<u32>; BATCH],
     attributes: Vec<Packet<f32>>,
     positions: [[Packet<f32>; 4]; BATCH],
     varyings: Vec<Packet<f32>>,
@@ -80,13 +82,12 @@ pub(crate) fn shade(
         .attributes
         .resize(attributes * BATCH, Packet::default());
     scratch.varyings.resize(stride * BATCH, Packet::default());
-    let total = out.depth.len();
+    let total = out.window.len();
     let mut done = 0;
     while done < total {
         let count = (total - done).min(BATCH * LANES);
         let packets = count.div_ceil(LANES);
-        number_vertices(source, first, done, total, scratch);
-        dispatch!(level, s => fetch_batch(s, pipeline, source.buffers, packets, scratch));
+        dispatch!(level, s => fetch_batch(s, pipeline, source, (first, done, total), scratch));
         let sizes = if interface.writes_point_size {
             packets
         } else {
@@ -97,8 +98,8 @@ pub(crate) fn shade(
             source.bindings,
             VertexBatch {
                 attributes: &scratch.attributes[..packets * attributes],
-                vertex_index: &scratch.index[..packets],
-                instance_index: &scratch.instance[..packets],
+                vertex_index: &scratch.vertex_index[..packets],
+                instance_index: &scratch.instance_index[..packets],
                 positions: &mut scratch.positions.as_flattened_mut()[..packets * 4],
                 varyings: &mut scratch.varyings[..packets * stride],
                 point_sizes: &mut scratch.point_size[..sizes],
@@ -109,49 +110,70 @@ pub(crate) fn shade(
     }
 }
 
-/// Writes the vertex and instance index of each lane; lanes beyond the end repeat the last vertex.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "an item has fewer than 2³² vertices"
-)]
-fn number_vertices(
-    source: &VertexSource<'_>,
-    first: u32,
-    done: usize,
-    total: usize,
-    scratch: &mut ShadingScratch,
-) {
-    let indices = scratch.index.iter_mut().flat_map(|packet| &mut packet.0);
-    let instances = scratch.instance.iter_mut().flat_map(|packet| &mut packet.0);
-    for (lane, (index, instance)) in indices.zip(instances).enumerate() {
-        let flat = first + (done + lane).min(total - 1) as u32;
-        let (vertex, turn) = if flat < source.count {
-            (flat, 0)
-        } else {
-            (flat % source.count, flat / source.count)
-        };
-        *index = match source.sparse {
-            Some(sparse) => sparse.get(vertex as usize).copied().unwrap_or_default(),
-            None => source.first_vertex.wrapping_add(vertex),
+/// Writes the vertex and instance index of each lane of the packet whose first vertex is the flat vertex
+/// `first`; lanes beyond the end repeat the last vertex.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "a lane is below 16")]
+fn number_vertices(source: &VertexSource<'_>, first: u32, last: u32, index: &mut PacketIndex) {
+    let (start, turn) = (first % source.count, first / source.count);
+    let follows = last - first >= LANES as u32 - 1 && source.count - start >= LANES as u32;
+    let vertex = source.first_vertex.checked_add(start);
+    index.first = match (vertex, source.sparse) {
+        (Some(vertex), None) if follows && vertex <= u32::MAX - LANES as u32 => Some(vertex),
+        _ => None,
+    };
+    if let Some(vertex) = index.first {
+        for (lane, to) in index.vertex.0.iter_mut().enumerate() {
+            *to = vertex + lane as u32;
+        }
+        index.instance.0 = [source.first_instance.wrapping_add(turn); LANES];
+        return;
+    }
+    let lanes = index.vertex.0.iter_mut().zip(&mut index.instance.0);
+    for (lane, (vertex, instance)) in lanes.enumerate() {
+        let flat = first.saturating_add(lane as u32).min(last);
+        let (start, turn) = (flat % source.count, flat / source.count);
+        *vertex = match source.sparse {
+            Some(sparse) => sparse.get(start as usize).copied().unwrap_or_default(),
+            None => source.first_vertex.wrapping_add(start),
         };
         *instance = source.first_instance.wrapping_add(turn);
     }
 }
 
+/// Fetches the attributes of a batch: the vertices from `done` on of `total`, which begin at the flat
+/// vertex `first`.
 #[inline(always)]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "an item has fewer than 2³² vertices"
+)]
 fn fetch_batch<S: Lanes>(
     s: S,
     pipeline: &RenderPipeline,
-    buffers: &[Buffer],
-    packets: usize,
+    source: &VertexSource<'_>,
+    (first, done, total): (u32, usize, usize),
     scratch: &mut ShadingScratch,
 ) {
     let wanted = &pipeline.interface().attributes;
     let scalars: usize = wanted.iter().sum();
+    let packets = (total - done).div_ceil(LANES).min(BATCH);
+    let last = first + (total - 1) as u32;
     for packet in 0..packets {
-        let index = [&scratch.index[packet], &scratch.instance[packet]];
+        let mut index = PacketIndex::default();
+        let start = first + (done + packet * LANES) as u32;
+        number_vertices(source, start, last, &mut index);
+        scratch.vertex_index[packet] = index.vertex;
+        scratch.instance_index[packet] = index.instance;
         let out = &mut scratch.attributes[packet * scalars..][..scalars];
-        fetch(s, pipeline.attributes(), wanted, buffers, index, out);
+        fetch(
+            s,
+            pipeline.attributes(),
+            wanted,
+            source.buffers,
+            &index,
+            out,
+        );
     }
 }
 
@@ -167,41 +189,36 @@ fn store_batch<S: Lanes>(
 ) {
     for packet in 0..packets {
         let [x, y, z, w] = &scratch.positions[packet];
-        let load = |packet: &Packet<f32>| f32x16::load_array_ref(s, &packet.0);
-        let clip = [load(x), load(y), load(z), load(w)];
+        let clip = [
+            f32x16::load_array_ref(s, &x.0),
+            f32x16::load_array_ref(s, &y.0),
+            f32x16::load_array_ref(s, &z.0),
+            f32x16::load_array_ref(s, &w.0),
+        ];
         let projected = transform.project_lanes(s, clip);
-        let inside = s.bits_of_mask(projected.inside);
+        let outside = <i32x16<S> as SimdBase<S>>::splat(s, NEEDS_CLIPPING);
+        let x = projected.inside.select(projected.x, outside);
+        let window = [
+            x.bitcast(),
+            projected.y.bitcast(),
+            projected.z.bitcast(),
+            projected.iw.bitcast(),
+        ];
         let first = done + packet * LANES;
-        let count = (out.depth.len() - first).min(LANES);
-        let (window_x, window_y) = (projected.x.to_array(), projected.y.to_array());
-        let (depth, iw) = (projected.z.to_array(), projected.iw.to_array());
-        for (lane, to) in out.window[first * 2..][..count * 2]
-            .chunks_exact_mut(2)
-            .enumerate()
-        {
-            let x = if inside >> lane & 1 == 1 {
-                window_x[lane]
-            } else {
-                NEEDS_CLIPPING
-            };
-            to[0] = x.cast_unsigned();
-            to[1] = window_y[lane].cast_unsigned();
-        }
-        for (lane, to) in out.depth[first..][..count].iter_mut().enumerate() {
-            *to = [depth[lane], iw[lane]];
-        }
-        for (lane, to) in out.clip[first..][..count].iter_mut().enumerate() {
-            *to = [x.0[lane], y.0[lane], z.0[lane], w.0[lane]];
+        let count = (out.window.len() - first).min(LANES);
+        store_rows(s, window, &mut out.window[first..][..count]);
+        if !out.clip.is_empty() {
+            let clip = [
+                clip[0].bitcast(),
+                clip[1].bitcast(),
+                clip[2].bitcast(),
+                clip[3].bitcast(),
+            ];
+            store_rows(s, clip, &mut out.clip[first..][..count]);
         }
         let varyings = &scratch.varyings[packet * stride..][..stride];
-        if stride > 0 {
-            let to = &mut out.varyings[first * stride..][..count * stride];
-            for (lane, vertex) in to.chunks_exact_mut(stride).enumerate() {
-                for (scalar, value) in vertex.iter_mut().zip(varyings) {
-                    *scalar = value.0[lane];
-                }
-            }
-        }
+        let to = &mut out.varyings[first * stride..][..count * stride];
+        store_scalars(s, varyings, to);
         if !out.point_size.is_empty() {
             let sizes = &scratch.point_size[packet].0[..count];
             out.point_size[first..][..count].copy_from_slice(sizes);

@@ -1,0 +1,114 @@
+//! Between rows and lanes: sixteen rows of four words are four vectors of sixteen lanes.
+//!
+//! Vertices lie in memory one after the other, lanes want them number by number. A row is one load of
+//! 128 bits, and eight shuffles turn sixteen of them, where a gather takes an address per word: on Zen 4 the
+//! four gathers of a position and a colour took longer than the rest of vertex fetch.
+
+use estampe_simd::{Bytes, LANES, Lanes, Packet, SimdBase, f32x16, u32x16};
+
+/// 128 bits of a vector.
+type Row<S> = <u32x16<S> as SimdBase<S>>::Block;
+
+/// Sixteen rows as columns: vector `c` holds word `c` of every row.
+#[inline(always)]
+pub(crate) fn columns_of<S: Lanes>(s: S, rows: &[&[u32; 4]; LANES]) -> [u32x16<S>; 4] {
+    let a = four_rows(s, [rows[0], rows[1], rows[2], rows[3]]);
+    let b = four_rows(s, [rows[4], rows[5], rows[6], rows[7]]);
+    let c = four_rows(s, [rows[8], rows[9], rows[10], rows[11]]);
+    let d = four_rows(s, [rows[12], rows[13], rows[14], rows[15]]);
+    let (xz_low, yw_low) = s.deinterleave_u32x16(a, b);
+    let (xz_high, yw_high) = s.deinterleave_u32x16(c, d);
+    let (x, z) = s.deinterleave_u32x16(xz_low, xz_high);
+    let (y, w) = s.deinterleave_u32x16(yw_low, yw_high);
+    [x, y, z, w]
+}
+
+#[inline(always)]
+fn four_rows<S: Lanes>(s: S, [a, b, c, d]: [&[u32; 4]; 4]) -> u32x16<S> {
+    let (a, b) = (
+        Row::<S>::load_array_ref(s, a),
+        Row::<S>::load_array_ref(s, b),
+    );
+    let (c, d) = (
+        Row::<S>::load_array_ref(s, c),
+        Row::<S>::load_array_ref(s, d),
+    );
+    s.combine_u32x8(s.combine_u32x4(a, b), s.combine_u32x4(c, d))
+}
+
+/// Four columns as sixteen rows, four to a vector.
+#[inline(always)]
+pub(crate) fn rows_of<S: Lanes>(s: S, [x, y, z, w]: [u32x16<S>; 4]) -> [u32x16<S>; 4] {
+    let (xz_low, xz_high) = s.interleave_u32x16(x, z);
+    let (yw_low, yw_high) = s.interleave_u32x16(y, w);
+    let (a, b) = s.interleave_u32x16(xz_low, yw_low);
+    let (c, d) = s.interleave_u32x16(xz_high, yw_high);
+    [a, b, c, d]
+}
+
+/// Writes the first rows of four columns, as many as `out` holds, at most sixteen.
+#[inline(always)]
+pub(crate) fn store_rows<S: Lanes>(s: S, columns: [u32x16<S>; 4], out: &mut [[u32; 4]]) {
+    let rows = rows_of(s, columns);
+    let mut whole = [[0; 4]; LANES];
+    let to = match out.first_chunk_mut::<LANES>() {
+        Some(out) => out,
+        None => &mut whole,
+    };
+    let (parts, _) = to.as_flattened_mut().as_chunks_mut::<LANES>();
+    for (part, row) in parts.iter_mut().zip(rows) {
+        row.store_array(part);
+    }
+    if out.len() < LANES {
+        out.copy_from_slice(&whole[..out.len()]);
+    }
+}
+
+/// Writes columns of any number as rows, one after the other.
+#[inline(always)]
+pub(crate) fn store_scalars<S: Lanes>(s: S, columns: &[Packet<f32>], out: &mut [f32]) {
+    let stride = columns.len();
+    let column = |at: usize| f32x16::load_array_ref(s, &columns[at].0);
+    match stride {
+        0 => {}
+        1 if out.len() == LANES => out.copy_from_slice(&columns[0].0),
+        2 if out.len() == 2 * LANES => {
+            let (low, high) = s.interleave_f32x16(column(0), column(1));
+            low.store_slice(&mut out[..LANES]);
+            high.store_slice(&mut out[LANES..]);
+        }
+        4.. if out.len() == stride * LANES => {
+            let mut first = 0;
+            while first < stride {
+                // The last four columns overlap those before them.
+                let at = first.min(stride - 4);
+                let four = [column(at), column(at + 1), column(at + 2), column(at + 3)];
+                store_four(s, four, stride, &mut out[at..]);
+                first += 4;
+            }
+        }
+        _ => {
+            for (lane, vertex) in out.chunks_exact_mut(stride).enumerate() {
+                for (scalar, value) in vertex.iter_mut().zip(columns) {
+                    *scalar = value.0[lane];
+                }
+            }
+        }
+    }
+}
+
+/// Writes four columns as rows that are `stride` apart.
+#[inline(always)]
+fn store_four<S: Lanes>(s: S, [x, y, z, w]: [f32x16<S>; 4], stride: usize, out: &mut [f32]) {
+    let columns = [x.bitcast(), y.bitcast(), z.bitcast(), w.bitcast()];
+    for (rows, four) in rows_of(s, columns).into_iter().zip(0..) {
+        let rows: f32x16<S> = rows.bitcast();
+        let (low, high) = s.split_f32x16(rows);
+        let ((a, b), (c, d)) = (s.split_f32x8(low), s.split_f32x8(high));
+        let first = four * 4 * stride;
+        a.store_slice(&mut out[first..][..4]);
+        b.store_slice(&mut out[first + stride..][..4]);
+        c.store_slice(&mut out[first + 2 * stride..][..4]);
+        d.store_slice(&mut out[first + 3 * stride..][..4]);
+    }
+}
