@@ -6,7 +6,7 @@ use crate::geometry::assembly::ElementSource;
 use crate::geometry::binning::BinState;
 use crate::geometry::chunk::{ChunkScratch, ChunkWork, process};
 use crate::geometry::cull::CullState;
-use crate::geometry::shading::{ShadedVertices, ShadingScratch, VertexSource, shade};
+use crate::geometry::shading::{ShadedVertices, ShadingScratch, shade};
 use crate::per_sample::codes::pack_one;
 use crate::pipeline::RenderPipeline;
 use crate::schedule::{Executor, ThreadError};
@@ -194,14 +194,7 @@ impl Context {
         self.executor
             .for_each(&mut jobs, &memory.shading, |job, scratch| {
                 let item = &items[job.item];
-                let source = VertexSource {
-                    buffers: item.draw.vertex_buffers,
-                    bindings: item.bindings,
-                    first_vertex: item.first_vertex,
-                    count: item.vertices,
-                    first_instance: item.first_instance,
-                    sparse: item.sparse.as_deref(),
-                };
+                let source = item.vertex_source();
                 let pipeline = item.draw.pipeline;
                 let out = (&mut job.out, scratch);
                 shade(
@@ -255,6 +248,8 @@ impl Context {
                         base_vertex: item.draw.base_vertex,
                     },
                     vertices: vertices.of_item(item),
+                    source: &item.vertex_source(),
+                    pipeline: item.draw.pipeline,
                     transform: &item.transform,
                     cull: CullState {
                         rect: item.rect,

@@ -6,14 +6,14 @@
 
 use crate::attachment::RenderTarget;
 use crate::draw::Draw;
-use crate::geometry::assembly::{primitive_count, vertex_index};
+use crate::geometry::assembly::{PrimitiveKind, kind_of, primitive_count, vertex_index};
 use crate::geometry::chunk::ItemVertices;
 use crate::geometry::cull::Facing;
-use crate::geometry::shading::{ShadedSlice, ShadedVertices};
+use crate::geometry::shading::{ShadedSlice, ShadedVertices, VertexSource};
 use crate::geometry::viewport::{PixelRect, ViewportTransform};
 use crate::per_sample::color::ColorTarget;
 use crate::tile_pass::{MAX_TARGETS, TileItem};
-use estampe_types::state::{PrimitiveTopology, Viewport};
+use estampe_types::state::{PolygonMode, PrimitiveTopology, Viewport};
 use estampe_types::{Bindings, Interpolation};
 use std::ops::Range;
 
@@ -60,6 +60,26 @@ pub(crate) struct Item<'a> {
 }
 
 impl Item<'_> {
+    /// Whether clip-space positions of its vertices are kept: all but filled triangles look at them.
+    fn keeps_positions(&self) -> bool {
+        let state = &self.draw.pipeline.descriptor().primitive;
+        kind_of(state.topology) != PrimitiveKind::Triangles
+            || state.polygon_mode != PolygonMode::Fill
+    }
+
+    /// Where its vertices come from.
+    pub(crate) fn vertex_source(&self) -> VertexSource<'_> {
+        VertexSource {
+            buffers: self.draw.vertex_buffers,
+            bindings: self.bindings,
+            first_vertex: self.first_vertex,
+            count: self.vertices,
+            first_instance: self.first_instance,
+            instances: self.instances,
+            sparse: self.sparse.as_deref(),
+        }
+    }
+
     pub(crate) fn total_vertices(&self) -> usize {
         (self.vertices as usize).saturating_mul(self.instances as usize)
     }
@@ -372,7 +392,9 @@ impl ShadedVertices {
             0
         };
         grow(&mut self.window, vertices, [0; 4]);
-        grow(&mut self.clip, vertices, [0; 4]);
+        if items.iter().any(Item::keeps_positions) {
+            grow(&mut self.clip, vertices, [0; 4]);
+        }
         grow(&mut self.varyings, varyings, 0.0);
         self.point_size.resize(sizes, 0.0);
     }
@@ -381,6 +403,7 @@ impl ShadedVertices {
     pub(crate) fn split(&mut self, items: &[Item<'_>], size: usize) -> Vec<VertexJob<'_>> {
         let mut jobs = Vec::new();
         let has_sizes = !self.point_size.is_empty();
+        let has_positions = items.iter().any(Item::keeps_positions);
         let mut rest = ShadedSlice {
             window: &mut self.window,
             clip: &mut self.clip,
@@ -395,10 +418,13 @@ impl ShadedVertices {
                 let sizes = if has_sizes { count } else { 0 };
                 let mut out = ShadedSlice {
                     window: take(&mut rest.window, count),
-                    clip: take(&mut rest.clip, count),
+                    clip: take(&mut rest.clip, if has_positions { count } else { 0 }),
                     varyings: take(&mut rest.varyings, count * interface.varyings.len()),
                     point_size: take(&mut rest.point_size, sizes),
                 };
+                if !item.keeps_positions() {
+                    out.clip = &mut [];
+                }
                 if !interface.writes_point_size {
                     // Another item of the wave has sizes; this one's points are one pixel.
                     out.point_size.fill(1.0);
@@ -421,7 +447,11 @@ impl ShadedVertices {
         let scalars = item.draw.pipeline.interface().varyings.len();
         ItemVertices {
             window: &self.window[from..][..count],
-            clip: &self.clip[from..][..count],
+            clip: if item.keeps_positions() {
+                &self.clip[from..][..count]
+            } else {
+                &[]
+            },
             varyings: &self.varyings[item.varying_base..][..count * scalars],
             varying_scalars: scalars,
             point_size: if self.point_size.is_empty() {

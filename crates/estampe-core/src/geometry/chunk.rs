@@ -3,10 +3,12 @@
 use super::assembly::{ElementSource, Group, PrimitiveKind, kind_of};
 use super::binning::BinState;
 use super::clip::{ClipPolygon, is_point_visible};
-use super::cull::{CullState, WindowTriangles, cull};
+use super::cull::{CullState, PositionMemory, WindowTriangles, cull};
+use super::positions::PositionCache;
 use super::setup::{Setup, SetupLanes};
-use super::shading::{NEEDS_CLIPPING, WindowRow};
+use super::shading::{NEEDS_CLIPPING, VertexSource, WindowRow};
 use super::viewport::{ViewportTransform, snap};
+use crate::pipeline::RenderPipeline;
 use crate::tiles::{Chunk, LinePrimitive, PointPrimitive, VertexRef, WindowVertex};
 use estampe_simd::{LANES, Lanes, Level, SimdBase, SimdCvtFloat, dispatch, f32x16, u32x16};
 use estampe_types::state::PolygonMode;
@@ -15,6 +17,7 @@ use estampe_types::state::PolygonMode;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ItemVertices<'a> {
     pub(crate) window: &'a [WindowRow],
+    /// Empty where clip-space positions are not kept.
     pub(crate) clip: &'a [[u32; 4]],
     pub(crate) varyings: &'a [f32],
     pub(crate) varying_scalars: usize,
@@ -27,8 +30,10 @@ impl ItemVertices<'_> {
         &self.varyings[vertex as usize * self.varying_scalars..][..self.varying_scalars]
     }
 
-    fn clip_position(&self, vertex: u32) -> [f32; 4] {
-        self.clip[vertex as usize].map(f32::from_bits)
+    /// A vertex's clip-space position, if they are kept.
+    fn clip_position(&self, vertex: u32) -> Option<[f32; 4]> {
+        let position = self.clip.get(vertex as usize)?;
+        Some(position.map(f32::from_bits))
     }
 
     /// A vertex in the window, or `None` when it needs clipping.
@@ -50,6 +55,9 @@ impl ItemVertices<'_> {
 pub(crate) struct ChunkWork<'a> {
     pub(crate) elements: ElementSource<'a>,
     pub(crate) vertices: ItemVertices<'a>,
+    /// Where the vertices came from.
+    pub(crate) source: &'a VertexSource<'a>,
+    pub(crate) pipeline: &'a RenderPipeline,
     pub(crate) transform: &'a ViewportTransform,
     pub(crate) cull: CullState,
     pub(crate) bins: BinState,
@@ -65,10 +73,12 @@ pub(crate) struct ChunkWork<'a> {
 #[derive(Debug, Default)]
 pub(crate) struct ChunkScratch {
     corners: [[u32; 3]; LANES],
+    positions: PositionMemory,
     polygon: ClipPolygon,
     /// Clipped vertices in the window: of the polygon at hand, and all of the chunk's.
     clipped: Vec<WindowVertex>,
     clipped_rows: Vec<WindowRow>,
+    clip_positions: PositionCache,
 }
 
 /// Processes a chunk.
@@ -81,9 +91,10 @@ pub(crate) fn process(
     let [from, to] = work.primitives;
     chunk.statistics.primitives_in += u64::from(to - from);
     scratch.clipped_rows.clear();
+    scratch.clip_positions.clear();
     let rows = std::mem::take(&mut scratch.clipped_rows);
     let setup = Setup::new(level, work.bins, work.vertices.window, chunk, rows);
-    let mut worker = Worker { work, setup };
+    let mut worker = Worker { level, work, setup };
     match (kind_of(work.elements.topology), work.polygon_mode) {
         (PrimitiveKind::Triangles, PolygonMode::Fill) => {
             dispatch!(level, s => worker.fill(s, scratch));
@@ -147,6 +158,7 @@ impl Groups {
 }
 
 struct Worker<'a, 'c> {
+    level: Level,
     work: &'a ChunkWork<'a>,
     setup: Setup<'c>,
 }
@@ -162,7 +174,8 @@ impl Worker<'_, '_> {
         let mut culled = 0;
         while let Some((group, count)) = groups.next(work, &mut corners) {
             let live = u16::MAX >> (LANES - count);
-            let triangles = WindowTriangles::load(s, work.vertices.window, &group);
+            let triangles =
+                WindowTriangles::load(s, work.vertices.window, &group, &mut scratch.positions);
             let (verdict, area) = cull(s, &work.cull, &triangles, live);
             let mut kept = verdict.small;
             let mut area = f32x16::float_from(area);
@@ -263,9 +276,12 @@ impl Worker<'_, '_> {
         let vertices = &self.work.vertices;
         scratch.polygon.begin(vertices.varying_scalars);
         for &corner in corners {
-            scratch
-                .polygon
-                .push(vertices.clip_position(corner), vertices.varyings_of(corner));
+            let position = vertices.clip_position(corner).unwrap_or_else(|| {
+                let (pipeline, source) = (self.work.pipeline, self.work.source);
+                let positions = &mut scratch.clip_positions;
+                positions.position_of(self.level, pipeline, source, corner)
+            });
+            scratch.polygon.push(position, vertices.varyings_of(corner));
         }
         scratch.clipped.clear();
         if !scratch.polygon.clip(self.work.transform) {
@@ -345,7 +361,7 @@ impl Worker<'_, '_> {
 
     fn point(&mut self, vertex: u32, provoking: VertexRef, front: bool) {
         let vertices = &self.work.vertices;
-        if !is_point_visible(vertices.clip_position(vertex)) {
+        if !vertices.clip_position(vertex).is_some_and(is_point_visible) {
             self.setup.chunk().statistics.primitives_clipped += 1;
             return;
         }

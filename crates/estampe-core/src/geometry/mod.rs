@@ -17,6 +17,8 @@ pub(crate) mod fetch;
 
 pub(crate) mod shading;
 
+pub(crate) mod positions;
+
 pub(crate) mod assembly;
 
 pub(crate) mod cull;

@@ -24,7 +24,7 @@ pub(crate) type WindowRow = [u32; 4];
 #[derive(Debug, Default)]
 pub(crate) struct ShadedVertices {
     pub(crate) window: Vec<WindowRow>,
-    /// Clip-space positions as bits, for what must be clipped.
+    /// Clip-space positions as bits: of points, lines and outlines, which all look at them.
     pub(crate) clip: Vec<[u32; 4]>,
     /// The varyings' scalars of each vertex.
     pub(crate) varyings: Vec<f32>,
@@ -51,8 +51,16 @@ pub(crate) struct VertexSource<'a> {
     /// Vertices of one instance.
     pub(crate) count: u32,
     pub(crate) first_instance: u32,
+    pub(crate) instances: u32,
     /// Explicit vertex indices in place of the dense range, where indices are sparse.
     pub(crate) sparse: Option<&'a [u32]>,
+}
+
+impl VertexSource<'_> {
+    /// How many flat vertices there are.
+    fn total(&self) -> u32 {
+        self.count.saturating_mul(self.instances)
+    }
 }
 
 /// Memory of one worker.
@@ -75,39 +83,66 @@ pub(crate) fn shade(
     first: u32,
     (out, scratch): (&mut ShadedSlice<'_>, &mut ShadingScratch),
 ) {
-    let interface = pipeline.interface();
-    let stride = interface.varyings.len();
-    let attributes = interface.attribute_scalars();
-    scratch
-        .attributes
-        .resize(attributes * BATCH, Packet::default());
-    scratch.varyings.resize(stride * BATCH, Packet::default());
+    let stride = pipeline.interface().varyings.len();
     let total = out.window.len();
     let mut done = 0;
     while done < total {
         let count = (total - done).min(BATCH * LANES);
         let packets = count.div_ceil(LANES);
-        dispatch!(level, s => fetch_batch(s, pipeline, source, (first, done, total), scratch));
-        let sizes = if interface.writes_point_size {
-            packets
-        } else {
-            0
-        };
-        pipeline.program().run_vertices(
-            level,
-            source.bindings,
-            VertexBatch {
-                attributes: &scratch.attributes[..packets * attributes],
-                vertex_index: &scratch.vertex_index[..packets],
-                instance_index: &scratch.instance_index[..packets],
-                positions: &mut scratch.positions.as_flattened_mut()[..packets * 4],
-                varyings: &mut scratch.varyings[..packets * stride],
-                point_sizes: &mut scratch.point_size[..sizes],
-            },
-        );
+        run(level, pipeline, source, (first, done, total), scratch);
         dispatch!(level, s => store_batch(s, transform, stride, done, packets, (out, scratch)));
         done += count;
     }
+}
+
+/// The clip-space positions of the packet that begins with the flat vertex `first`.
+pub(crate) fn shade_positions(
+    level: Level,
+    pipeline: &RenderPipeline,
+    source: &VertexSource<'_>,
+    first: u32,
+    scratch: &mut ShadingScratch,
+) -> [Packet<f32>; 4] {
+    let total = source.total().saturating_sub(first).min(LANES as u32);
+    run(level, pipeline, source, (first, 0, total as usize), scratch);
+    scratch.positions[0]
+}
+
+/// Fetches and shades a batch: the vertices from `done` on of `total`, which begin at the flat vertex
+/// `first`.
+fn run(
+    level: Level,
+    pipeline: &RenderPipeline,
+    source: &VertexSource<'_>,
+    (first, done, total): (u32, usize, usize),
+    scratch: &mut ShadingScratch,
+) {
+    let interface = pipeline.interface();
+    let stride = interface.varyings.len();
+    let attributes = interface.attribute_scalars();
+    let packets = (total - done).div_ceil(LANES).min(BATCH);
+    scratch
+        .attributes
+        .resize(attributes * BATCH, Packet::default());
+    scratch.varyings.resize(stride * BATCH, Packet::default());
+    dispatch!(level, s => fetch_batch(s, pipeline, source, (first, done, total), scratch));
+    let sizes = if interface.writes_point_size {
+        packets
+    } else {
+        0
+    };
+    pipeline.program().run_vertices(
+        level,
+        source.bindings,
+        VertexBatch {
+            attributes: &scratch.attributes[..packets * attributes],
+            vertex_index: &scratch.vertex_index[..packets],
+            instance_index: &scratch.instance_index[..packets],
+            positions: &mut scratch.positions.as_flattened_mut()[..packets * 4],
+            varyings: &mut scratch.varyings[..packets * stride],
+            point_sizes: &mut scratch.point_size[..sizes],
+        },
+    );
 }
 
 /// Writes the vertex and instance index of each lane of the packet whose first vertex is the flat vertex
