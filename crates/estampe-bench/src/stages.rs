@@ -9,7 +9,7 @@ use crate::BenchError;
 use crate::frame::{FrameSize, PreparedScene};
 use crate::generate::{LittleEndian, hash32};
 use crate::measure::{Effort, Timing, measure};
-use crate::scene::{Scene, vertex_layout};
+use crate::scene::{Scene, SceneDraw, vertex_layout};
 use estampe::state::{
     BlendState, ColorTargetState, CullMode, DepthState, PrimitiveState, PrimitiveTopology,
 };
@@ -153,12 +153,13 @@ pub fn loads() -> impl Iterator<Item = Load> {
                 .map(|(purpose, cell_px)| load(purpose, Grid::of(cell_px), Layers::ONE, smooth)),
         )
         .chain(quads.into_iter().map(|make| make()))
+        .chain([DRAWS_OF_500, DRAWS_OF_2].into_iter().map(many_draws))
 }
 
 /// Points outside the view volume: fetched, shaded, dropped.
 fn vertices() -> Load {
     let grid = Grid {
-        origin_px: -4.0 * f64::from(SIZE.width),
+        origin_px: [-4.0 * f64::from(SIZE.width), 0.0],
         ..Grid::of(1.0)
     };
     load("vertices alone", grid, Layers::ONE, |layers| {
@@ -230,6 +231,36 @@ fn smooth_blended() -> Load {
     )
 }
 
+/// A purpose, how many draws, and how many cells each draw's patch has on a side.
+type ManyDraws = (&'static str, u32, u32);
+
+const DRAWS_OF_500: ManyDraws = ("1900 draws of 512 triangles", 1900, 16);
+const DRAWS_OF_2: ManyDraws = ("10000 draws of 2 triangles", 10_000, 1);
+
+/// Draws of a small mesh each, their patches beside each other: what a draw costs.
+fn many_draws((purpose, draws, cells): ManyDraws) -> Load {
+    let patch = |number: u32| Grid {
+        columns: cells,
+        rows: cells,
+        cell_px: [1.5; 2],
+        origin_px: [
+            f64::from(number % 50) * 25.0,
+            f64::from(number / 50 % 40) * 17.5,
+        ],
+    };
+    let Load { mut scene, .. } = load(purpose, patch(0), Layers::ONE, smooth);
+    let first = scene.draws[0];
+    scene
+        .buffers
+        .extend((1..draws).map(|number| patch(number).vertices()));
+    scene.draws.extend(
+        (2..)
+            .take(draws as usize - 1)
+            .map(|vertices| SceneDraw { vertices, ..first }),
+    );
+    Load { purpose, scene }
+}
+
 fn flat(layers: Layers) -> RenderPipelineDescriptor {
     RenderPipelineDescriptor::new(FlatLayers(layers))
 }
@@ -273,8 +304,8 @@ struct Grid {
     columns: u32,
     rows: u32,
     cell_px: [f64; 2],
-    /// Where the first column begins.
-    origin_px: f64,
+    /// Where the first column and the first row begin.
+    origin_px: [f64; 2],
 }
 
 impl Grid {
@@ -293,7 +324,7 @@ impl Grid {
             columns: cells(SIZE.width),
             rows: cells(SIZE.height),
             cell_px: [cell_px; 2],
-            origin_px: 0.0,
+            origin_px: [0.0; 2],
         }
     }
 
@@ -303,7 +334,7 @@ impl Grid {
             columns: 1,
             rows: 1,
             cell_px: [f64::from(SIZE.width), f64::from(SIZE.height)],
-            origin_px: 0.0,
+            origin_px: [0.0; 2],
         }
     }
 
@@ -318,8 +349,8 @@ impl Grid {
                 let moved = |bits: u8| (f64::from(bits) / 255.0 - 0.5) * 0.5;
                 let x = f64::from(column) + moved(red) * is_inner(column, self.columns);
                 let y = f64::from(row) + moved(green) * is_inner(row, self.rows);
-                let x_px = x * self.cell_px[0] + self.origin_px;
-                let y_px = y * self.cell_px[1];
+                let x_px = x * self.cell_px[0] + self.origin_px[0];
+                let y_px = y * self.cell_px[1] + self.origin_px[1];
                 vertices.reals(&[
                     x_px / f64::from(SIZE.width) * 2.0 - 1.0,
                     1.0 - y_px / f64::from(SIZE.height) * 2.0,
