@@ -8,7 +8,6 @@ use estampe::texture::{MipGeneration, Sampled, create_texture};
 use estampe::{Device, SamplerDescriptor, TextureFormat};
 use estampe_scene::{AlphaMode, Image, Material, Mesh, Scene};
 use std::collections::HashMap;
-use std::sync::Arc;
 
 /// Makes styles of materials.
 pub(crate) struct Materials<'a> {
@@ -120,10 +119,7 @@ impl<'a> Materials<'a> {
             MipGeneration::Full,
             self.device.limits(),
         )?;
-        Ok(Sampled {
-            texture: Arc::new(texture),
-            sampler: SamplerDescriptor::trilinear_repeat(),
-        })
+        Ok(Sampled::new(texture, SamplerDescriptor::trilinear_repeat()))
     }
 }
 

@@ -7,6 +7,9 @@ use fearless_simd::{
 
 /// A level token for lane code. Every operation gives the same bits at every level.
 pub trait Lanes: Simd {
+    /// Whether lanes are plain scalars, sixteen of which are long code.
+    const IS_SCALAR: bool = false;
+
     /// `a < b ? a : b` lane by lane: `b` where either is NaN, and of two zeros `b`.
     #[inline(always)]
     fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
@@ -38,6 +41,14 @@ pub trait Lanes: Simd {
     /// `table[index]` lane by lane; an index at or beyond the end reads the last element, and an
     /// empty table reads as zeros.
     fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self>;
+
+    /// `table[index]`, `table[index + 1]`, `table[index + stride]`, `table[index + stride + 1]` lane by
+    /// lane: two neighbours of one row and those below them. An index of which one of these is beyond the
+    /// end reads the last square; a table with less than `stride + 2` elements reads as zeros.
+    #[inline(always)]
+    fn gather_square(self, table: &[u32], index: u32x16<Self>, stride: u32) -> [u32x16<Self>; 4] {
+        crate::gather::square_by_lane(self, table, index, stride)
+    }
 
     /// A mask from its low 16 bits: bit `i` is lane `i`.
     #[inline(always)]
@@ -76,6 +87,8 @@ impl<S: Simd> FromBytesOf<S> for i32x16<S> {
 }
 
 impl Lanes for Fallback {
+    const IS_SCALAR: bool = true;
+
     #[inline(always)]
     fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
         crate::gather::by_lane(self, table, index)
@@ -112,6 +125,15 @@ mod x86 {
         fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
             crate::gather::by_lane(self, table, index)
         }
+        #[inline(always)]
+        fn gather_square(
+            self,
+            table: &[u32],
+            index: u32x16<Self>,
+            stride: u32,
+        ) -> [u32x16<Self>; 4] {
+            crate::gather::square_sse2(self, table, index, stride)
+        }
     }
 
     impl Lanes for Avx2 {
@@ -127,6 +149,15 @@ mod x86 {
         fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
             crate::gather::avx2(self, table, index)
         }
+        #[inline(always)]
+        fn gather_square(
+            self,
+            table: &[u32],
+            index: u32x16<Self>,
+            stride: u32,
+        ) -> [u32x16<Self>; 4] {
+            crate::gather::square_avx2(self, table, index, stride)
+        }
     }
 
     impl Lanes for Avx512 {
@@ -141,6 +172,15 @@ mod x86 {
         #[inline(always)]
         fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
             crate::gather::avx512(self, table, index)
+        }
+        #[inline(always)]
+        fn gather_square(
+            self,
+            table: &[u32],
+            index: u32x16<Self>,
+            stride: u32,
+        ) -> [u32x16<Self>; 4] {
+            crate::gather::square_avx512(self, table, index, stride)
         }
     }
 }

@@ -134,6 +134,56 @@ fn gather_clamps_every_index() {
 }
 
 #[inline(always)]
+fn squares<S: Lanes>(s: S, table: &[u32], index: [u32; LANES], stride: u32) -> [[u32; LANES]; 4] {
+    let [a, b, c, d] = s.gather_square(table, u32x16::load_array(s, index), stride);
+    [a.to_array(), b.to_array(), c.to_array(), d.to_array()]
+}
+
+#[test]
+fn squares_stay_inside_the_table() {
+    let index = [
+        0,
+        1,
+        30,
+        31,
+        32,
+        33,
+        1 << 30,
+        1 << 31,
+        u32::MAX,
+        u32::MAX - 7,
+        12,
+        7,
+        29,
+        20,
+        2,
+        3,
+    ];
+    // Exactly as long as allocated, so that a tool that watches memory would see a read beyond the end.
+    for len in [0, 1, 2, 6, 7, 8, 37] {
+        let table: Box<[u32]> = (0..len).map(|i| i * 3 + 1).collect();
+        for stride in [0, 1, 5, 35, 36, u32::MAX] {
+            for level in Level::all_available() {
+                let got = dispatch!(level, s => squares(s, &table, index, stride));
+                let last = u64::from(len).checked_sub(u64::from(stride) + 2);
+                for (lane, at) in index.into_iter().enumerate() {
+                    let expected = match last {
+                        Some(last) => {
+                            let at = u64::from(at).min(last) as usize;
+                            let below = at + stride as usize;
+                            [table[at], table[at + 1], table[below], table[below + 1]]
+                        }
+                        None => [0; 4],
+                    };
+                    let got = got.map(|corner| corner[lane]);
+                    assert_eq!(got, expected, "{level:?} {at} of {len}, stride {stride}");
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
 fn round_trip<S: Lanes>(s: S, bits: u16) -> u16 {
     s.bits_of_mask(s.mask_from_bits(bits))
 }

@@ -1,5 +1,5 @@
 //! What a texture sample costs, in nanoseconds, at every SIMD level of this processor:
-//! `cargo run --release -p estampe-texture --example sample_bench [SIZE] [LEVEL]`.
+//! `cargo run --release -p estampe-texture --example sample_bench [SIZE] [LEVEL] [CASE]`.
 //!
 //! A 1280×720 frame is covered once with a tilted, minified texture (2048×2048), tile by tile and packet
 //! by packet as the pipeline does it. The best of several frames counts.
@@ -23,7 +23,7 @@ fn scale(size: u32, y: f32) -> f32 {
 /// One frame: the sum of all channels of all samples.
 #[inline(always)]
 fn sample_all<S: Lanes>(simd: S, sampled: &Sampled) -> f32 {
-    let size = sampled.texture.levels[0].width;
+    let size = sampled.texture().levels[0].width;
     let (lane_x, lane_y) = (LANE_X.map(f32::from), LANE_Y.map(f32::from));
     let lane_x = f32x16::load_array(simd, lane_x);
     let lane_y = f32x16::load_array(simd, lane_y);
@@ -58,7 +58,8 @@ fn main() {
     let size = arguments
         .next()
         .map_or(2048, |size| size.parse().expect("SIZE is a number"));
-    let only = arguments.next();
+    let only = arguments.next().filter(|level| level != "all");
+    let only_case = arguments.next();
     let mut state = 1_u32;
     let noise: Vec<u8> = (0..size * size * 4)
         .map(|_| {
@@ -91,13 +92,16 @@ fn main() {
         ("trilinear srgb", Sampled::new(srgb, trilinear)),
     ];
     for (name, sampled) in &cases {
+        if only_case.as_ref().is_some_and(|only| only != name) {
+            continue;
+        }
         for level in Level::all_available() {
             if only.as_ref().is_some_and(|only| only != level.name()) {
                 continue;
             }
             let mut best = f64::INFINITY;
             let mut sum = 0.0;
-            for _ in 0..12 {
+            for _ in 0..40 {
                 let start = Instant::now();
                 sum = frame(level, sampled);
                 best = best.min(start.elapsed().as_secs_f64());

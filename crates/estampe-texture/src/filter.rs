@@ -11,31 +11,24 @@ const MAX_OFFSET: u32 = 1 << 30;
 
 /// A mip level as lane code needs it. A texture put together by hand may claim anything; confining its
 /// numbers here keeps the arithmetic in range, and gathers clamp their indices.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Level {
     pub(crate) width: i32,
     pub(crate) height: i32,
+    /// Width and height once more.
+    pub(crate) size: [f32; 2],
     offset: i32,
 }
 
 impl Level {
-    /// Level `index` of the texture, the last one beyond the end.
-    #[inline(always)]
-    pub(crate) fn of(texture: &Texture, index: usize) -> Self {
-        let found = texture.levels.get(index).or(texture.levels.last());
-        let MipLevel {
+    pub(crate) fn new(level: MipLevel) -> Self {
+        let [width, height] =
+            [level.width, level.height].map(|side| side.clamp(1, MAX_SIDE).cast_signed());
+        Self {
             width,
             height,
-            offset,
-        } = found.copied().unwrap_or(MipLevel {
-            width: 1,
-            height: 1,
-            offset: 0,
-        });
-        Self {
-            width: width.clamp(1, MAX_SIDE).cast_signed(),
-            height: height.clamp(1, MAX_SIDE).cast_signed(),
-            offset: offset.min(MAX_OFFSET).cast_signed(),
+            size: [width as f32, height as f32],
+            offset: level.offset.min(MAX_OFFSET).cast_signed(),
         }
     }
 
@@ -58,29 +51,27 @@ impl<R: Real> Footprint<R> {
     fn new(level: Level, wrapped: Vec2<R>, modes: [AddressMode; 2], filter: FilterMode) -> Self {
         Self {
             level,
-            x: place(wrapped.x, level.width, modes[0], filter),
-            y: place(wrapped.y, level.height, modes[1], filter),
+            x: place(wrapped.x, level.size[0], modes[0], filter),
+            y: place(wrapped.y, level.size[1], modes[1], filter),
         }
     }
 
-    /// Negative in the lanes whose four texels are not all inside the level.
+    /// The lanes whose four texels are not all inside the level.
     #[inline(always)]
-    fn outside(&self) -> R::Int {
-        let (left, upper) = (self.x.texel, self.y.texel);
-        let to_right = left.splat(self.level.width - 2) - left;
-        let to_bottom = upper.splat(self.level.height - 2) - upper;
-        (left | upper) | (to_right | to_bottom)
+    fn outside(&self) -> R::Mask {
+        let (x, y) = (self.x.texel, self.y.texel);
+        x.is_outside(self.level.width - 1) | y.is_outside(self.level.height - 1)
     }
 
     /// The four texels where none is outside: left and right are neighbours in memory, and upper and
     /// lower one row apart.
     #[inline(always)]
     fn corners_inside(&self, texels: &[u32]) -> Corners<R::Int> {
-        let upper = self.level.index(self.x.texel, self.y.texel);
-        let lower = upper + upper.splat(self.level.width);
+        let at = self.level.index(self.x.texel, self.y.texel);
+        let [a, b, c, d] = at.gather_square(texels, self.level.width);
         Corners {
-            upper: upper.gather_pair(texels),
-            lower: lower.gather_pair(texels),
+            upper: [a, b],
+            lower: [c, d],
         }
     }
 
@@ -134,7 +125,7 @@ pub(crate) fn sample_level<R: Real>(
 /// operations is so long that one level after the other took a fifth more time.
 #[inline(always)]
 pub(crate) fn sample_two_inside<R: Real>(
-    texture: &Texture,
+    texels: &[u32],
     levels: [Level; 2],
     wrapped: Vec2<R>,
     modes: [AddressMode; 2],
@@ -143,12 +134,11 @@ pub(crate) fn sample_two_inside<R: Real>(
     let [fine, coarse] = levels;
     let fine = Footprint::new(fine, wrapped, modes, FilterMode::Linear);
     let coarse = Footprint::new(coarse, wrapped, modes, FilterMode::Linear);
-    let outside = fine.outside() | coarse.outside();
-    if R::any(outside.lt(outside.splat(0))) {
+    if R::any(fine.outside() | coarse.outside()) {
         return None;
     }
-    let of_fine = fine.corners_inside(&texture.texels);
-    let of_coarse = coarse.corners_inside(&texture.texels);
+    let of_fine = fine.corners_inside(texels);
+    let of_coarse = coarse.corners_inside(texels);
     Some(mix_colors(
         fine.mean(of_fine, false),
         coarse.mean(of_coarse, false),
@@ -159,17 +149,16 @@ pub(crate) fn sample_two_inside<R: Real>(
 /// One linearly filtered unorm8 level, or `None` where a lane's texels lie across a border.
 #[inline(always)]
 pub(crate) fn sample_one_inside<R: Real>(
-    texture: &Texture,
+    texels: &[u32],
     level: Level,
     wrapped: Vec2<R>,
     modes: [AddressMode; 2],
 ) -> Option<Vec4<R>> {
     let at = Footprint::new(level, wrapped, modes, FilterMode::Linear);
-    let outside = at.outside();
-    if R::any(outside.lt(outside.splat(0))) {
+    if R::any(at.outside()) {
         return None;
     }
-    Some(at.mean(at.corners_inside(&texture.texels), false))
+    Some(at.mean(at.corners_inside(texels), false))
 }
 
 /// `a + (b − a)·t` of each channel.

@@ -18,9 +18,12 @@
 //! the whole is done once for each of them and the lanes are picked together. That is never more
 //! than four times for a packet of quads, and spares sizes and offsets per lane.
 //!
-//! Where registers hold four lanes or fewer ([`Real::NARROW`](estampe_types::Real::NARROW)), the lanes are
-//! sampled one after the other by the same text on `f32`: sixteen lanes at once took minutes to compile
-//! for the scalar level.
+//! The level is guessed from the exponent of ρ² in the packet's first lane, so the four texels of each lane
+//! are on their way ([`Int::gather_square`](estampe_types::Int::gather_square)) while λ is still being
+//! computed; λ then says whether the guess was right.
+//!
+//! At the scalar level ([`Real::NARROW`](estampe_types::Real::NARROW)), the lanes are sampled one after the
+//! other by the same text on `f32`: sixteen lanes at once took minutes to compile.
 //!
 //! Unorm8 channels become numbers without a conversion: a byte put into the mantissa of 2²³ is
 //! 2²³ + c, and the difference of two of those is the exact c₁ − c₀ that linear filtering begins

@@ -6,14 +6,35 @@ use estampe_types::{Int, Real, Vec2};
 /// the polynomials that are exact at both ends (iterated weighted least squares).
 const A: [f32; 4] = [1.438_725_7, -0.677_783_9, 0.321_188_8, -0.082_130_6];
 
-/// λ from the derivatives of (u, v) along x and along y, and the size of the base level in texels.
+/// ρ² of each quad, in texels of a base level of this size: of the fragments' differences within it.
+///
+/// The two derivatives stand in the quad's second and third lane until the last step, which is the greatest
+/// part of the work done once instead of twice.
+#[inline(always)]
+pub(crate) fn implicit_rho2<R: Real>(uv: Vec2<R>, size: [f32; 2]) -> R {
+    let from_first = Vec2::new(uv.x - uv.x.quad_lane(0), uv.y - uv.y.quad_lane(0));
+    let squared = squared(from_first, size);
+    greater(squared.quad_lane(1), squared.quad_lane(2))
+}
+
+/// ρ² from the derivatives of (u, v) along x and along y.
+#[inline(always)]
+pub(crate) fn rho2<R: Real>(dx: Vec2<R>, dy: Vec2<R>, size: [f32; 2]) -> R {
+    greater(squared(dx, size), squared(dy, size))
+}
+
+/// NaN counts as 0.
+#[inline(always)]
+fn greater<R: Real>(x: R, y: R) -> R {
+    x.max(y).max(x.splat(0.0))
+}
+
+/// λ from ρ².
 ///
 /// Graphics processors resolve λ to 1/256; this is within 6·10⁻⁵ of ½·log₂ ρ², at half the
-/// price of the exact function and without its division. ρ² = 0 and NaN give −63.5.
+/// price of the exact function and without its division. ρ² = 0 gives −63.5.
 #[inline(always)]
-pub(crate) fn level_of_detail<R: Real>(dx: Vec2<R>, dy: Vec2<R>, size: [f32; 2]) -> R {
-    let zero = dx.x.splat(0.0);
-    let rho2 = squared(dx, size).max(squared(dy, size)).max(zero);
+pub(crate) fn level_of_detail<R: Real>(rho2: R) -> R {
     let bits = rho2.to_bits();
     let exponent = ((bits >> 23) - bits.splat(127)).to_real();
     let mantissa = (bits & bits.splat(0x007F_FFFF)) | bits.splat(0x3F80_0000);

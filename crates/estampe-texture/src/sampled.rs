@@ -1,15 +1,20 @@
 //! A texture with a sampler, as a shader holds it.
 
 use crate::filter::{Level, mix_colors, sample_level, sample_one_inside, sample_two_inside};
-use crate::lod::level_of_detail;
+use crate::lod::{implicit_rho2, level_of_detail, rho2};
 use crate::texel::{finish, unpack};
-use crate::wrap::{small_int, wrap};
+use crate::wrap::wrap;
 use estampe_simd::LANES;
 use estampe_types::shader::Sample2d;
 use estampe_types::{
-    AddressMode, FilterMode, Int, Real, SamplerDescriptor, Texture, TextureFormat, Vec2, Vec4,
+    AddressMode, FilterMode, Int, MipLevel, Real, SamplerDescriptor, Texture, TextureFormat, Vec2,
+    Vec4,
 };
 use std::sync::Arc;
+
+/// The levels of the longest chain, from [`Limits`](estampe_types::Limits)' maximum of 16,384 down to 1, and
+/// one more to make a power of two.
+const MAX_LEVELS: usize = 16;
 
 /// A texture and how it is sampled. Cheap to clone: the texels are shared.
 ///
@@ -17,10 +22,16 @@ use std::sync::Arc;
 /// `docs/NUMERICS.md` says. Colours are linear, alpha is straight, all in 0..=1.
 #[derive(Clone, Debug)]
 pub struct Sampled {
-    /// The texels.
-    pub texture: Arc<Texture>,
-    /// How they are sampled.
-    pub sampler: SamplerDescriptor,
+    texture: Arc<Texture>,
+    sampler: SamplerDescriptor,
+    /// The texture's levels; beyond the end the last one.
+    levels: Arc<[Level; MAX_LEVELS]>,
+    /// The least and greatest level of detail that the sampler and the levels allow.
+    lod_range: [f32; 2],
+    /// The finer level at both.
+    level_range: [i32; 2],
+    /// Whether it is the common case, unorm8 that is filtered linearly near and far.
+    is_linear_unorm: bool,
 }
 
 impl Sample2d for Sampled {
@@ -37,26 +48,45 @@ struct Lane {
     lod: f32,
 }
 
-/// What a sample reads, once its level of detail is known.
-struct Request<R: Real> {
-    /// (u, v) in the first tile.
-    wrapped: Vec2<R>,
-    /// Whether the level of detail is above 0: the minification filter serves.
-    is_minified: R::Mask,
-    /// The finer level.
-    level: R::Int,
-    /// The weight of the next coarser level.
-    fraction: R,
-}
-
 impl Sampled {
     /// A texture with a sampler.
     #[must_use]
     pub fn new(texture: impl Into<Arc<Texture>>, sampler: SamplerDescriptor) -> Self {
+        let texture: Arc<Texture> = texture.into();
+        let last = texture.levels.len().saturating_sub(1).min(MAX_LEVELS - 1);
+        let smallest = MipLevel {
+            width: 1,
+            height: 1,
+            offset: 0,
+        };
+        let levels = std::array::from_fn(|level| {
+            Level::new(*texture.levels.get(level.min(last)).unwrap_or(&smallest))
+        });
+        let lod_range = [f32::NEG_INFINITY, f32::INFINITY].map(|lod| {
+            Real::clamp(lod, sampler.lod_min_clamp, sampler.lod_max_clamp).clamp(0.0, last as f32)
+        });
+        let linear = [FilterMode::Linear; 2];
+        let is_linear = [sampler.mag_filter, sampler.min_filter] == linear;
         Self {
-            texture: texture.into(),
+            levels: Arc::new(levels),
+            lod_range,
+            level_range: lod_range.map(|lod| mixture(lod, sampler.mipmap_filter).0.to_int()),
+            is_linear_unorm: is_linear && texture.format == TextureFormat::Rgba8Unorm,
+            texture,
             sampler,
         }
+    }
+
+    /// The texture.
+    #[must_use]
+    pub fn texture(&self) -> &Arc<Texture> {
+        &self.texture
+    }
+
+    /// How it is sampled.
+    #[must_use]
+    pub fn sampler(&self) -> &SamplerDescriptor {
+        &self.sampler
     }
 
     /// The colour at (u, v), level of detail from the differences of (u, v) within each 2×2 quad. A lone
@@ -69,9 +99,8 @@ impl Sampled {
         uv.x.outlined(
             #[inline(always)]
             || {
-                let dx = Vec2::new(uv.x.ddx_coarse(), uv.y.ddx_coarse());
-                let dy = Vec2::new(uv.x.ddy_coarse(), uv.y.ddy_coarse());
-                self.sample_at(uv, self.level_of_detail(dx, dy))
+                let rho2 = implicit_rho2(uv, self.levels[0].size);
+                self.sample_at(uv, level_of_detail(rho2), self.guess_of_level(rho2))
             },
         )
     }
@@ -79,7 +108,7 @@ impl Sampled {
     /// The colour at (u, v), level of detail from the given derivatives of (u, v) along x and y.
     #[inline(always)]
     pub fn sample_grad<R: Real>(&self, uv: Vec2<R>, dx: Vec2<R>, dy: Vec2<R>) -> Vec4<R> {
-        self.sample_level(uv, self.level_of_detail(dx, dy))
+        self.sample_level(uv, level_of_detail(rho2(dx, dy, self.levels[0].size)))
     }
 
     /// The colour at (u, v) at a level of detail: 0 is the base level, each further one half as large.
@@ -90,14 +119,18 @@ impl Sampled {
         }
         uv.x.outlined(
             #[inline(always)]
-            || self.sample_at(uv, lod),
+            || {
+                let within = lod.clamp(self.lod_range[0], self.lod_range[1]);
+                let (level, _) = mixture(within, self.sampler.mipmap_filter);
+                self.sample_at(uv, lod, level.to_int_within_range().lane(0))
+            },
         )
     }
 
     /// The texel (x, y) of a level, without filtering; what lies outside reads the nearest texel inside.
     #[inline(always)]
     pub fn texel_fetch<R: Real>(&self, x: R::Int, y: R::Int, level: usize) -> Vec4<R> {
-        let level = Level::of(&self.texture, level);
+        let level = self.levels[level.min(MAX_LEVELS - 1)];
         let x = x.max(x.splat(0)).min(x.splat(level.width - 1));
         let y = y.max(y.splat(0)).min(y.splat(level.height - 1));
         let is_srgb = self.texture.format.is_srgb();
@@ -105,10 +138,17 @@ impl Sampled {
         finish(unpack(word, is_srgb), is_srgb)
     }
 
+    /// The finer level of the first lane, most probably: λ without the clamps is e/2 and a little more, with
+    /// e the exponent of ρ². It is known long before λ is, so addresses need not wait for that.
     #[inline(always)]
-    fn level_of_detail<R: Real>(&self, dx: Vec2<R>, dy: Vec2<R>) -> R {
-        let base = Level::of(&self.texture, 0);
-        level_of_detail(dx, dy, [base.width as f32, base.height as f32])
+    fn guess_of_level<R: Real>(&self, rho2: R) -> i32 {
+        let exponent = (rho2.to_bits().lane(0) >> 23) - 127;
+        let twice = match self.sampler.mipmap_filter {
+            FilterMode::Nearest => exponent + 1,
+            FilterMode::Linear => exponent,
+        };
+        let [first, last] = self.level_range;
+        Ord::min(Ord::max(twice >> 1, first), last)
     }
 
     /// [`Self::sample`], or [`Self::sample_level`] where a level of detail is given, lane by lane.
@@ -134,16 +174,20 @@ impl Sampled {
     /// found.
     #[inline(never)]
     fn sample_lanes(&self, lanes: &[Lane], is_implicit: bool, colors: &mut [[f32; 4]]) {
-        let mut lod = 0.0;
+        let (mut lod, mut level) = (0.0, 0);
         for (index, (lane, color)) in lanes.iter().zip(colors).enumerate() {
             if !is_implicit {
                 lod = lane.lod;
             } else if let (0, [a, b, c, ..]) = (index % 4, &lanes[index..]) {
                 let [dx, dy] =
                     [b, c].map(|other| Vec2::new(other.uv[0] - a.uv[0], other.uv[1] - a.uv[1]));
-                lod = self.level_of_detail(dx, dy);
+                lod = level_of_detail(rho2(dx, dy, self.levels[0].size));
             }
-            let Vec4 { x, y, z, w } = self.sample_at(Vec2::from(lane.uv), lod);
+            if !is_implicit || index % 4 == 0 {
+                let within = Real::clamp(lod, self.lod_range[0], self.lod_range[1]);
+                level = mixture(within, self.sampler.mipmap_filter).0.to_int();
+            }
+            let Vec4 { x, y, z, w } = self.sample_at(Vec2::from(lane.uv), lod, level);
             *color = [x, y, z, w];
         }
     }
@@ -153,58 +197,46 @@ impl Sampled {
         [self.sampler.address_mode_u, self.sampler.address_mode_v]
     }
 
+    /// The colour at a level of detail; `guess` is the finer level, most probably.
     #[inline(always)]
-    fn sample_at<R: Real>(&self, uv: Vec2<R>, lod: R) -> Vec4<R> {
-        let sampler = &self.sampler;
-        let lod = lod.clamp(sampler.lod_min_clamp, sampler.lod_max_clamp);
-        let last = self.texture.levels.len().saturating_sub(1) as f32;
-        let within = lod.clamp(0.0, last);
-        let (level, fraction) = match sampler.mipmap_filter {
-            FilterMode::Nearest => ((within + 0.5).floor(), within.splat(0.0)),
-            FilterMode::Linear => (within.floor(), within.fract()),
-        };
-        let request = Request {
-            wrapped: Vec2::new(
-                wrap(uv.x, sampler.address_mode_u),
-                wrap(uv.y, sampler.address_mode_v),
-            ),
-            is_minified: lod.gt(lod.splat(0.0)),
-            level: small_int(level),
-            fraction,
-        };
-        if let Some(color) = self.sample_inside(&request) {
+    fn sample_at<R: Real>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Vec4<R> {
+        if let Some(color) = self.sample_inside(uv, lod, guess) {
             return color;
         }
-        fraction.outlined(
+        lod.outlined(
             #[inline(always)]
-            || self.sample_anywhere(&request),
+            || self.sample_anywhere(uv, lod),
         )
+    }
+
+    /// (u, v) in the first tile.
+    #[inline(always)]
+    fn wrapped<R: Real>(&self, uv: Vec2<R>) -> Vec2<R> {
+        let [mode_u, mode_v] = self.address_modes();
+        Vec2::new(wrap(uv.x, mode_u), wrap(uv.y, mode_v))
     }
 
     /// The common case, and the fast one: linear filtering of unorm8, all lanes of one level and none at a
     /// border. `None` where it is another.
     #[inline(always)]
-    fn sample_inside<R: Real>(&self, request: &Request<R>) -> Option<Vec4<R>> {
-        let linear = [FilterMode::Linear; 2];
-        if [self.sampler.mag_filter, self.sampler.min_filter] != linear
-            || self.texture.format != TextureFormat::Rgba8Unorm
-        {
+    fn sample_inside<R: Real>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Option<Vec4<R>> {
+        if !self.is_linear_unorm {
             return None;
         }
-        let level = request.level.lane(0);
-        if R::any(!request.level.eq(request.level.splat(level))) {
+        let within = lod.clamp(self.lod_range[0], self.lod_range[1]);
+        let (level, fraction) = mixture(within, self.sampler.mipmap_filter);
+        if R::any(!level.eq(level.splat(guess as f32))) {
             return None;
         }
-        let Request {
-            wrapped, fraction, ..
-        } = *request;
-        let (level, modes) = (level as usize, self.address_modes());
-        let fine = Level::of(&self.texture, level);
+        let texels = &self.texture.texels[..];
+        let (wrapped, modes) = (self.wrapped(uv), self.address_modes());
+        let at = guess.cast_unsigned() as usize;
+        let fine = self.levels[at % MAX_LEVELS];
         let color = if R::any(fraction.gt(fraction.splat(0.0))) {
-            let levels = [fine, Level::of(&self.texture, level + 1)];
-            sample_two_inside(&self.texture, levels, wrapped, modes, fraction)?
+            let levels = [fine, self.levels[(at + 1) % MAX_LEVELS]];
+            sample_two_inside(texels, levels, wrapped, modes, fraction)?
         } else {
-            sample_one_inside(&self.texture, fine, wrapped, modes)?
+            sample_one_inside(texels, fine, wrapped, modes)?
         };
         Some(finish(color, false))
     }
@@ -212,13 +244,16 @@ impl Sampled {
     /// Any case: samples the whole packet once for every level among its lanes, and picks the lanes
     /// together.
     #[inline(always)]
-    fn sample_anywhere<R: Real>(&self, request: &Request<R>) -> Vec4<R> {
+    fn sample_anywhere<R: Real>(&self, uv: Vec2<R>, lod: R) -> Vec4<R> {
         let sampler = &self.sampler;
+        let lod = lod.clamp(sampler.lod_min_clamp, sampler.lod_max_clamp);
+        let is_minified = lod.gt(lod.splat(0.0));
+        let within = lod.clamp(self.lod_range[0], self.lod_range[1]);
+        let (level, fraction) = mixture(within, sampler.mipmap_filter);
+        let (level, wrapped) = (level.to_int_within_range(), self.wrapped(uv));
         // What a lane reads: 2·level + 1, or 0 where it is magnified.
-        let level = request.level;
         let minified = (level + level) | level.splat(1);
-        let key = R::Int::select(request.is_minified, minified, level.splat(0));
-        let fraction = request.fraction;
+        let key = R::Int::select(is_minified, minified, level.splat(0));
         let mut color = Vec4::repeat(fraction);
         let mut left = u16::MAX >> (16 - R::LANES);
         while left != 0 {
@@ -232,9 +267,9 @@ impl Sampled {
             // A loop over the two levels, so that their long code exists once.
             let mut of_key = Vec4::repeat(fraction);
             for step in 0..2 {
-                let level = Level::of(&self.texture, (first >> 1) as usize + step);
+                let level = self.levels[((first >> 1) as usize + step) % MAX_LEVELS];
                 let modes = self.address_modes();
-                let next = sample_level(&self.texture, level, request.wrapped, modes, filter);
+                let next = sample_level(&self.texture, level, wrapped, modes, filter);
                 if step == 0 {
                     of_key = next;
                     if sampler.mipmap_filter == FilterMode::Nearest {
@@ -249,5 +284,17 @@ impl Sampled {
             left &= !R::mask_bits(mask);
         }
         finish(color, self.texture.format.is_srgb())
+    }
+}
+
+/// The finer level and the weight of the next one, from a level of detail within the existing levels.
+#[inline(always)]
+fn mixture<R: Real>(lod: R, filter: FilterMode) -> (R, R) {
+    match filter {
+        FilterMode::Nearest => ((lod + 0.5).floor(), lod.splat(0.0)),
+        FilterMode::Linear => {
+            let level = lod.floor();
+            (level, lod - level)
+        }
     }
 }

@@ -25,15 +25,14 @@ pub(crate) struct Place<R: Real> {
     pub(crate) fraction: R,
 }
 
-/// The place of a wrapped coordinate in a level of `size` texels.
+/// The place of a wrapped coordinate in a level of `length` texels.
 #[inline(always)]
 pub(crate) fn place<R: Real>(
     wrapped: R,
-    size: i32,
+    length: f32,
     mode: AddressMode,
     filter: FilterMode,
 ) -> Place<R> {
-    let length = size as f32;
     let mut at = wrapped * length;
     if filter == FilterMode::Linear {
         at = at - 0.5;
@@ -43,17 +42,9 @@ pub(crate) fn place<R: Real>(
     }
     let whole = at.floor();
     Place {
-        texel: small_int(whole),
+        texel: whole.to_int_within_range(),
         fraction: at - whole,
     }
-}
-
-/// A whole number within ±2²² as an integer, without [`Real::to_int`]'s care for all others: added to
-/// 1.5·2²³ it lies in the low bits of the mantissa.
-#[inline(always)]
-pub(crate) fn small_int<R: Real>(whole: R) -> R::Int {
-    let bits = (whole + 12_582_912.0).to_bits();
-    bits - bits.splat(0x4B40_0000)
 }
 
 /// The texel −1 is the last one and texel `size` is the first.

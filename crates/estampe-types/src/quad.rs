@@ -166,6 +166,10 @@ impl Real for Quad {
         self.each(Real::to_int)
     }
     #[inline(always)]
+    fn to_int_within_range(self) -> Quad<i32> {
+        self.each(Real::to_int)
+    }
+    #[inline(always)]
     fn to_bits(self) -> Quad<i32> {
         self.each(Real::to_bits)
     }
@@ -186,6 +190,10 @@ impl Real for Quad {
     #[inline(always)]
     fn ddy_coarse(self) -> Self {
         Self([self.0[2] - self.0[0]; 4])
+    }
+    #[inline(always)]
+    fn quad_lane(self, index: u8) -> Self {
+        Self([self.0[usize::from(index & 3)]; 4])
     }
     #[inline(always)]
     fn lane(self, index: usize) -> f32 {
@@ -236,6 +244,10 @@ impl Int for Quad<i32> {
     #[inline(always)]
     fn eq(self, other: Self) -> Quad<bool> {
         self.zip(other, |a, b| a == b)
+    }
+    #[inline(always)]
+    fn is_outside(self, count: i32) -> Quad<bool> {
+        self.each(|a| Int::is_outside(a, count))
     }
     #[inline(always)]
     fn select(mask: Quad<bool>, yes: Self, no: Self) -> Self {
@@ -336,6 +348,10 @@ impl Real for f32 {
         self as i32
     }
     #[inline(always)]
+    fn to_int_within_range(self) -> i32 {
+        Real::to_int(self)
+    }
+    #[inline(always)]
     fn to_bits(self) -> i32 {
         Self::to_bits(self).cast_signed()
     }
@@ -354,6 +370,10 @@ impl Real for f32 {
     #[inline(always)]
     fn ddy_coarse(self) -> Self {
         0.0
+    }
+    #[inline(always)]
+    fn quad_lane(self, _index: u8) -> Self {
+        self
     }
     #[inline(always)]
     fn lane(self, index: usize) -> f32 {
@@ -405,6 +425,10 @@ impl Int for i32 {
     #[inline(always)]
     fn eq(self, other: Self) -> bool {
         self == other
+    }
+    #[inline(always)]
+    fn is_outside(self, count: i32) -> bool {
+        self.cast_unsigned() >= count.cast_unsigned()
     }
     #[inline(always)]
     fn select(mask: bool, yes: Self, no: Self) -> Self {

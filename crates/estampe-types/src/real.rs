@@ -42,8 +42,8 @@ pub trait Real:
 
     /// How many lanes there are: 1, 4 or 16.
     const LANES: usize;
-    /// Whether long code with many table look-ups had better be run lane by lane with `f32`: the
-    /// processor's registers hold a quarter of the lanes or less.
+    /// Whether long code with many table look-ups had better be run lane by lane with `f32`: the lanes are
+    /// plain scalars anyway.
     const NARROW: bool;
 
     /// `value` in every lane.
@@ -99,6 +99,9 @@ pub trait Real:
 
     /// Rounds towards zero to an integer; NaN gives 0, values beyond the range its ends.
     fn to_int(self) -> Self::Int;
+    /// Rounds towards zero a number within ±2³⁰; of any other, the result is unspecified, and may be another
+    /// at another level. It is one instruction where [`Real::to_int`] takes several.
+    fn to_int_within_range(self) -> Self::Int;
     /// The bits of each lane as an integer.
     fn to_bits(self) -> Self::Int;
 
@@ -119,6 +122,11 @@ pub trait Real:
     /// One lone fragment (`f32`) has no neighbours: 0.
     #[must_use]
     fn ddy_coarse(self) -> Self;
+
+    /// The value of one fragment of each 2×2 quad in all four: 0 left top, 1 right top, 2 left bottom, 3 right
+    /// bottom. A lone fragment (`f32`) is all four.
+    #[must_use]
+    fn quad_lane(self, index: u8) -> Self;
 
     /// Calls `work` in a function of its own that is compiled for this kind of number. For long code
     /// that many shaders share: they call it instead of each containing it.
@@ -197,6 +205,8 @@ pub trait Int:
     fn lt(self, other: Self) -> Self::Mask;
     /// Whether `self == other`.
     fn eq(self, other: Self) -> Self::Mask;
+    /// Whether `self` is not in `0..count`, where `count` is not negative.
+    fn is_outside(self, count: i32) -> Self::Mask;
     /// `yes` in the lanes of the mask, `no` in the others.
     #[must_use]
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
@@ -204,12 +214,19 @@ pub trait Int:
     /// table.
     #[must_use]
     fn gather(self, table: &[u32]) -> Self;
-    /// `table[self]` and `table[self + 1]`, each read as [`Int::gather`] reads; of indices that are
-    /// not below the end less one, either may be any element of the table.
+    /// `table[self]`, `table[self + 1]`, `table[self + stride]`, `table[self + stride + 1]`: two neighbours
+    /// of one row and those below them. Of an index of which one of these is beyond the end, each may be
+    /// any element of the table, or 0.
     #[inline(always)]
     #[must_use]
-    fn gather_pair(self, table: &[u32]) -> [Self; 2] {
-        [self.gather(table), (self + self.splat(1)).gather(table)]
+    fn gather_square(self, table: &[u32], stride: i32) -> [Self; 4] {
+        let (one, below) = (self.splat(1), self + self.splat(stride));
+        [
+            self.gather(table),
+            (self + one).gather(table),
+            below.gather(table),
+            (below + one).gather(table),
+        ]
     }
     /// One lane's value; `index` is below the number of lanes.
     fn lane(self, index: usize) -> i32;

@@ -2,15 +2,15 @@
 
 use crate::{Int, Real};
 use estampe_simd::{
-    Bytes, LANES, Lanes, Select, SimdBase, SimdCvtFloat, SimdFloat, SimdMask, f32x16, i32x16,
-    mask32x16, u32x16,
+    Bytes, LANES, Lanes, Select, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, SimdMask,
+    f32x16, i32x16, mask32x16, u32x16,
 };
 
 impl<S: Lanes> Real for f32x16<S> {
     type Mask = mask32x16<S>;
     type Int = i32x16<S>;
     const LANES: usize = LANES;
-    const NARROW: bool = <S::f32s as SimdBase<S>>::LEN * 4 <= LANES;
+    const NARROW: bool = S::IS_SCALAR;
 
     #[inline(always)]
     fn splat(self, value: f32) -> Self {
@@ -77,6 +77,10 @@ impl<S: Lanes> Real for f32x16<S> {
         self.to_int_precise()
     }
     #[inline(always)]
+    fn to_int_within_range(self) -> i32x16<S> {
+        i32x16::truncate_from(self)
+    }
+    #[inline(always)]
     fn to_bits(self) -> i32x16<S> {
         Bytes::bitcast(self)
     }
@@ -95,15 +99,15 @@ impl<S: Lanes> Real for f32x16<S> {
     }
     #[inline(always)]
     fn ddx_coarse(self) -> Self {
-        let left = self.swizzle_dyn_within_blocks(quad_bytes(token(self), [0; 4]));
-        let right = self.swizzle_dyn_within_blocks(quad_bytes(token(self), [1; 4]));
-        right - left
+        self.quad_lane(1) - self.quad_lane(0)
     }
     #[inline(always)]
     fn ddy_coarse(self) -> Self {
-        let upper = self.swizzle_dyn_within_blocks(quad_bytes(token(self), [0; 4]));
-        let lower = self.swizzle_dyn_within_blocks(quad_bytes(token(self), [2; 4]));
-        lower - upper
+        self.quad_lane(2) - self.quad_lane(0)
+    }
+    #[inline(always)]
+    fn quad_lane(self, index: u8) -> Self {
+        self.swizzle_dyn_within_blocks(quad_bytes(token(self), [index & 3; 4]))
     }
     #[inline(never)]
     fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
@@ -165,6 +169,15 @@ impl<S: Lanes> Int for i32x16<S> {
         self.simd_eq(other)
     }
     #[inline(always)]
+    fn is_outside(self, count: i32) -> mask32x16<S> {
+        // Read as unsigned, a negative number is above all others.
+        let (unsigned, count): (u32x16<S>, u32x16<S>) = (
+            Bytes::bitcast(self),
+            Bytes::bitcast(Int::splat(self, count)),
+        );
+        unsigned.simd_ge(count)
+    }
+    #[inline(always)]
     fn select(mask: mask32x16<S>, yes: Self, no: Self) -> Self {
         Select::select(mask, yes, no)
     }
@@ -174,30 +187,17 @@ impl<S: Lanes> Int for i32x16<S> {
         Bytes::bitcast(estampe_simd::ExtractToken::token(&self).gather(table, index))
     }
     #[inline(always)]
-    fn gather_pair(self, table: &[u32]) -> [Self; 2] {
-        // Sixteen loads of eight bytes, then the two halves apart: a third faster on Zen 4 than two
-        // gathers. Cut to the last but one element, no index is out of range.
-        let (Some(last), Some((_, first))) = (table.len().checked_sub(2), table.split_last())
-        else {
-            return [self.gather(table); 2];
-        };
-        let simd = estampe_simd::ExtractToken::token(&self);
-        let last = <u32x16<S> as SimdBase<S>>::splat(simd, u32::try_from(last).unwrap_or(u32::MAX));
+    fn gather_square(self, table: &[u32], stride: i32) -> [Self; 4] {
         let index: u32x16<S> = Bytes::bitcast(self);
-        let at = index.min(last).to_array();
-        let mut words = [[0_u64; 8]; 2];
-        let mut lane = 0;
-        while lane < LANES {
-            let at = at[lane] as usize;
-            words[lane / 8][lane % 8] = u64::from(first[at]) | u64::from(table[at + 1]) << 32;
-            lane += 1;
-        }
-        let (mut low, mut high) = (simd.splat_u64x8(0), simd.splat_u64x8(0));
-        low.as_mut_slice().copy_from_slice(&words[0]);
-        high.as_mut_slice().copy_from_slice(&words[1]);
-        let (low, high) = (Bytes::bitcast(low), Bytes::bitcast(high));
-        let (even, odd) = simd.deinterleave_u32x16(low, high);
-        [Bytes::bitcast(even), Bytes::bitcast(odd)]
+        let stride = stride.cast_unsigned();
+        let simd = estampe_simd::ExtractToken::token(&self);
+        let [a, b, c, d] = simd.gather_square(table, index, stride);
+        [
+            Bytes::bitcast(a),
+            Bytes::bitcast(b),
+            Bytes::bitcast(c),
+            Bytes::bitcast(d),
+        ]
     }
     #[inline(always)]
     fn lane(self, index: usize) -> i32 {

@@ -26,6 +26,7 @@ estampe::shader! {
     impl Shader for Lambert {
         type Attributes<R: Real> = (Vec3<R>, Vec3<R>); // position, normal
         type Varyings<R: Real> = Vec3<R>;              // normal
+        const INDEPENDENT_FRAGMENTS: bool = true;
 
         fn vertex<R: Real>(
             &self,

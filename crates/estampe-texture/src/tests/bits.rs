@@ -104,7 +104,7 @@ fn check_packet(sampled: &Sampled, [u, v]: [[f32; LANES]; 2]) {
     }
     let expected: Colors = std::array::from_fn(|i| naive::sample(sampled, u[i], v[i], lods[i]));
     let what = |kind: &str, lane: usize| {
-        let level = &sampled.texture.levels[0];
+        let level = sampled.texture().levels[0];
         format!(
             "{kind}, lane {lane}, u {:e}, v {:e}, λ {}, {}×{} {:?}, {:?}",
             u[lane],
@@ -112,8 +112,8 @@ fn check_packet(sampled: &Sampled, [u, v]: [[f32; LANES]; 2]) {
             lods[lane],
             level.width,
             level.height,
-            sampled.texture.format,
-            sampled.sampler
+            sampled.texture().format,
+            sampled.sampler()
         )
     };
     for level in Level::all_available() {

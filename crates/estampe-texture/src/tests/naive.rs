@@ -19,7 +19,7 @@ fn min(a: f32, b: f32) -> f32 {
 
 /// λ of a quad from its first lane's derivatives.
 pub(super) fn lod_of_quad(sampled: &Sampled, u: [f32; 3], v: [f32; 3]) -> f32 {
-    let base = sampled.texture.levels[0];
+    let base = sampled.texture().levels[0];
     let (w, h) = (base.width as f32, base.height as f32);
     let rho2 = |other: usize| {
         let (x, y) = ((u[other] - u[0]) * w, (v[other] - v[0]) * h);
@@ -34,7 +34,7 @@ pub(super) fn lod_of_quad(sampled: &Sampled, u: [f32; 3], v: [f32; 3]) -> f32 {
 
 /// The texel in filtering units: codes, or linear values for sRGB's R, G and B.
 fn texel(sampled: &Sampled, level: MipLevel, x: u32, y: u32) -> [f32; 4] {
-    let texture = &sampled.texture;
+    let texture = sampled.texture();
     let word = texture.texels[(level.offset + y * level.width + x) as usize];
     let [r, g, b, a] = word.to_le_bytes();
     if texture.format.is_srgb() {
@@ -72,8 +72,8 @@ fn axis(u: f32, size: u32, mode: AddressMode, filter: FilterMode) -> ([u32; 2], 
 }
 
 fn sample_one(sampled: &Sampled, level: usize, u: f32, v: f32, filter: FilterMode) -> [f32; 4] {
-    let sampler = &sampled.sampler;
-    let levels = &sampled.texture.levels;
+    let sampler = sampled.sampler();
+    let levels = &sampled.texture().levels;
     let level = levels[level.min(levels.len() - 1)];
     let ([x0, x1], fx) = axis(u, level.width, sampler.address_mode_u, filter);
     let ([y0, y1], fy) = axis(v, level.height, sampler.address_mode_v, filter);
@@ -90,14 +90,14 @@ fn sample_one(sampled: &Sampled, level: usize, u: f32, v: f32, filter: FilterMod
 }
 
 pub(super) fn sample(sampled: &Sampled, u: f32, v: f32, lod: f32) -> [f32; 4] {
-    let sampler = &sampled.sampler;
+    let sampler = sampled.sampler();
     let lod = min(max(lod, sampler.lod_min_clamp), sampler.lod_max_clamp);
     let filter = if lod <= 0.0 {
         sampler.mag_filter
     } else {
         sampler.min_filter
     };
-    let lod = min(max(lod, 0.0), (sampled.texture.levels.len() - 1) as f32);
+    let lod = min(max(lod, 0.0), (sampled.texture().levels.len() - 1) as f32);
     let color = if sampler.mipmap_filter == FilterMode::Nearest {
         sample_one(sampled, (lod + 0.5).floor() as usize, u, v, filter)
     } else {
@@ -106,7 +106,7 @@ pub(super) fn sample(sampled: &Sampled, u: f32, v: f32, lod: f32) -> [f32; 4] {
         let b = sample_one(sampled, level as usize + 1, u, v, filter);
         std::array::from_fn(|i| a[i] + (b[i] - a[i]) * (lod - level))
     };
-    let is_srgb = sampled.texture.format.is_srgb();
+    let is_srgb = sampled.texture().format.is_srgb();
     std::array::from_fn(|i| {
         if is_srgb && i < 3 {
             color[i]
@@ -118,7 +118,7 @@ pub(super) fn sample(sampled: &Sampled, u: f32, v: f32, lod: f32) -> [f32; 4] {
 
 /// The trilinear, tiled sample of textbooks in f64; λ = log₂ of the longer derivative in texels.
 pub(super) fn trilinear_f64(sampled: &Sampled, uv: [f64; 2], rho: f64) -> [f64; 4] {
-    let levels = &sampled.texture.levels;
+    let levels = &sampled.texture().levels;
     let lod = libm::log2(rho).clamp(0.0, (levels.len() - 1) as f64);
     let of_level = |level: usize| {
         let level = levels[level.min(levels.len() - 1)];

@@ -160,9 +160,9 @@ fn fetching_reads_the_texel_and_stays_inside() {
     let texture = noise(5, 3, TextureFormat::Rgba8UnormSrgb);
     let sampled = sampled(texture, SamplerDescriptor::default());
     for (x, y, level) in [(0, 0, 0), (4, 2, 0), (2, 1, 0), (1, 0, 1), (0, 0, 2)] {
-        let place = sampled.texture.levels[level];
+        let place = sampled.texture().levels[level];
         let at = place.offset + y * place.width + x;
-        let [r, g, b, a] = sampled.texture.texels[at as usize].to_le_bytes();
+        let [r, g, b, a] = sampled.texture().texels[at as usize].to_le_bytes();
         let linear = |c: u8| estampe_types::srgb::LINEAR_FROM_SRGB[usize::from(c)];
         let (x, y) = (x.cast_signed(), y.cast_signed());
         let got = array(sampled.texel_fetch::<f32>(x, y, level));
