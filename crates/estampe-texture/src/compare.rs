@@ -116,8 +116,9 @@ impl<'a> Map<'a> {
         let wide = one.lt((x1 - x0).max(y1 - y0));
         let stride = x0.splat(self.stride);
         // The right one of a pair may not be needed; then it can only hold the decision back.
-        let [a, b] = (y0 * stride + x0).gather_pair(self.bounds);
-        let [c, d] = (y1 * stride + x0).gather_pair(self.bounds);
+        let (upper, lower) = (y0 * stride + x0, y1 * stride + x0);
+        let (a, b) = (upper.gather(self.bounds), (upper + one).gather(self.bounds));
+        let (c, d) = (lower.gather(self.bounds), (lower + one).gather(self.bounds));
         let half = x0.splat(0xFFFF);
         let least = (a & half).min(b & half).min((c & half).min(d & half));
         let above = a.shr_unsigned(16).max(b.shr_unsigned(16));
@@ -189,5 +190,5 @@ fn spread<I: Int>(v: I) -> I {
 
 #[inline(always)]
 fn axis<R: Real>(u: R, side: i32) -> crate::wrap::Place<R> {
-    place(u, side, AddressMode::ClampToEdge, FilterMode::Linear)
+    place(u, side as f32, AddressMode::ClampToEdge, FilterMode::Linear)
 }

@@ -17,7 +17,7 @@ use crate::raster::small::SmallTriangles;
 use crate::raster::triangle::TileTriangle;
 use crate::raster::{CoverageList, pixel_index};
 use crate::tiles::{BinEntry, TrianglePacket};
-use estampe_simd::{Lanes, Level, SimdBase, dispatch, f32x16};
+use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_types::shader::DepthOutput;
 
 mod shade;
@@ -45,6 +45,7 @@ pub(super) struct Deferred<const N: usize> {
     shown: Vec<Shown>,
     planes: Vec<f32>,
     rows: PlaneRows,
+    row_fragments: Box<Rows>,
     /// How many rows of fragments are shaded or queued.
     row_count: u32,
     /// Colours of rows' fragments, sixteen a row.
@@ -64,6 +65,7 @@ impl<const N: usize> Default for Deferred<N> {
             shown: Vec::new(),
             planes: Vec::new(),
             rows: PlaneRows::default(),
+            row_fragments: Box::default(),
             row_count: 0,
             row_codes: Vec::new(),
             codes: Vec::new(),
@@ -223,31 +225,25 @@ fn keep_codes<S: Lanes, const N: usize>(
     }
 }
 
-/// Fragments of one packet's small triangles: a row for each pixel of their boxes that some cover.
-#[derive(Debug, Default)]
+/// Fragments of one packet's small triangles: row `r` holds the `r`-th fragment that each lane's triangle
+/// has.
+#[derive(Debug)]
+#[repr(C, align(64))]
 struct Rows {
-    /// The pixel of each row.
-    pixels: [u8; 16],
-    count: u32,
-    /// By pixel: one more than its row, or 0.
-    of_pixel: [u8; 16],
-    /// By pixel: the lanes that passed the depth test.
-    passed: [u16; 16],
-    /// All of them.
-    lanes: u16,
+    /// By row and lane: the fragment's column and row in its triangle's box.
+    x: [[f32; LANES]; 16],
+    y: [[f32; LANES]; 16],
+    /// By row: the lanes that have a fragment.
+    lanes: [u16; 16],
 }
 
-impl Rows {
-    /// The row of a pixel of the box.
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "there are 16 of each")]
-    fn row_of(&mut self, pixel: usize) -> u32 {
-        if self.of_pixel[pixel] == 0 {
-            self.pixels[self.count as usize % 16] = pixel as u8;
-            self.count += 1;
-            self.of_pixel[pixel] = self.count as u8;
+impl Default for Rows {
+    fn default() -> Self {
+        Self {
+            x: [[0.0; LANES]; 16],
+            y: [[0.0; LANES]; 16],
+            lanes: [0; 16],
         }
-        u32::from(self.of_pixel[pixel]) - 1
     }
 }
 
@@ -272,24 +268,27 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
             small = dispatch!(@wide self.work.level, s => cover.cover(s, packet, lanes, tile, rect),
                 scalar => unreachable!("{ONLY_WIDE}"));
         }
-        let mut rows = Rows::default();
+        if small == lanes && self.shades_rows {
+            self.small_rows(packet, lanes);
+            return;
+        }
         let mut left = lanes;
+        let mut of_rows = 0;
         while left != 0 {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
             if small >> lane & 1 == 0 {
+                // Rows lie between large triangles in the order of submission.
+                self.small_rows(packet, std::mem::take(&mut of_rows));
                 self.large(packet, lane, number);
             } else if self.shades_rows {
-                self.small_row(lane, &mut rows);
+                of_rows |= 1 << lane;
             } else {
                 self.small(lane, number);
             }
             number += 1;
         }
-        if rows.count != 0 {
-            dispatch!(@wide self.work.level, s => self.shade_rows(s, packet, &rows),
-                scalar => unreachable!("{ONLY_WIDE}"));
-        }
+        self.small_rows(packet, of_rows);
     }
 
     /// The pixels of a small triangle.
@@ -309,39 +308,74 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
         self.scratch.bounds.invalidate(blocks);
     }
 
-    /// The same where fragments are shaded by rows: a sample's number is that of its fragment.
-    #[inline(always)]
-    fn small_row(&mut self, lane: usize, rows: &mut Rows) {
-        let next = self.scratch.deferred.row_count;
-        let (mut sight, _, small) = self.parts();
-        let (x, y) = (small.x[lane], small.y[lane]);
-        let mut covered = small.covered[lane];
-        let mut blocks = 0;
-        while covered != 0 {
-            let pixel = covered.trailing_zeros() as usize % 16;
-            covered &= covered - 1;
-            let at = pixel_index(x + (pixel & 3) as i32, y + (pixel >> 2) as i32);
-            let row = next + rows.row_of(pixel);
-            if sight.pixel(
-                at,
-                small.depth[pixel][lane],
-                SHADED | (row * 16 + lane as u32),
-            ) {
-                rows.passed[pixel] |= 1 << lane;
-                rows.lanes |= 1 << lane;
+    /// Small triangles whose fragments are shaded by rows: a sample's number is that of its fragment.
+    fn small_rows(&mut self, packet: &TrianglePacket, lanes: u16) {
+        if lanes == 0 {
+            return;
+        }
+        let Deferred {
+            visibility,
+            small,
+            row_fragments: rows,
+            row_count,
+            ..
+        } = &mut self.scratch.deferred;
+        let mut sight = Sight {
+            test: self.work.test,
+            depth: self.job.depth,
+            numbers: self.job.colors[0],
+            pending: &mut visibility.pending,
+            tile: self.work.shape,
+            decision: Decision::InOrder,
+        };
+        let first = *row_count;
+        let (mut count, mut blocks, mut left) = (0, 0, lanes);
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize % LANES;
+            left &= left - 1;
+            let mut covered = small.covered[lane];
+            let mut row = 0;
+            while covered != 0 {
+                let pixel = covered.trailing_zeros() as usize % 16;
+                covered &= covered - 1;
+                let (x, y) = ((pixel & 3) as i32, (pixel >> 2) as i32);
+                let at = pixel_index(small.x[lane] + x, small.y[lane] + y);
+                let number = SHADED | ((first + row) * 16 + lane as u32);
+                if !sight.pixel(at, small.depth[pixel][lane], number) {
+                    continue;
+                }
+                let place = row as usize % 16;
+                if row == count {
+                    rows.lanes[place] = 0;
+                    count += 1;
+                }
+                rows.x[place][lane] = x as f32;
+                rows.y[place][lane] = y as f32;
+                rows.lanes[place] |= 1 << lane;
+                row += 1;
+                blocks |= 1u16 << (at >> 8);
             }
-            blocks |= 1u16 << (at >> 8);
         }
         self.scratch.bounds.invalidate(blocks);
+        if count != 0 {
+            *row_count += count;
+            dispatch!(@wide self.work.level, s => self.shade_rows(s, packet, count as usize),
+                scalar => unreachable!("{ONLY_WIDE}"));
+        }
     }
 
-    /// Queues the rows' fragments.
+    /// Queues rows of fragments.
     #[inline(always)]
-    fn shade_rows<S: Lanes>(&mut self, s: S, packet: &TrianglePacket, rows: &Rows) {
+    fn shade_rows<S: Lanes>(&mut self, s: S, packet: &TrianglePacket, count: usize) {
         let source = self.work.varyings(self.work.chunk);
-        let planes = &mut self.scratch.deferred.rows;
-        planes.set(s, packet, rows.lanes, &source);
-        for &pixel in rows.pixels.iter().take(rows.count as usize) {
+        let Deferred {
+            rows: planes,
+            row_fragments,
+            ..
+        } = &mut self.scratch.deferred;
+        // Every lane that has fragments has one in the first row.
+        planes.set(s, packet, row_fragments.lanes[0], &source);
+        for row in 0..count.min(16) {
             if self.scratch.queue.is_full() {
                 self.flush_rows();
             }
@@ -351,18 +385,17 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
             let Deferred {
                 small,
                 rows: planes,
+                row_fragments: rows,
                 ..
             } = deferred;
-            let column = <f32x16<S> as SimdBase<S>>::splat(s, f32::from(pixel & 3));
-            let row = <f32x16<S> as SimdBase<S>>::splat(s, f32::from(pixel >> 2));
             // Exact, as in the coverage.
-            let x = f32x16::load_array_ref(s, &small.from_x) + column;
-            let y = f32x16::load_array_ref(s, &small.from_y) + row;
-            let passed = rows.passed[usize::from(pixel) % 16];
-            let out = queue.push_row(passed, packet.front);
+            let x =
+                f32x16::load_array_ref(s, &small.from_x) + f32x16::load_array_ref(s, &rows.x[row]);
+            let y =
+                f32x16::load_array_ref(s, &small.from_y) + f32x16::load_array_ref(s, &rows.y[row]);
+            let out = queue.push_row(rows.lanes[row], packet.front);
             planes.varyings(s, packet, source.modes, [x, y], out);
         }
-        self.scratch.deferred.row_count += rows.count;
     }
 
     /// Shades the queued rows and keeps their colours.
