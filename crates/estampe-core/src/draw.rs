@@ -11,9 +11,9 @@ use crate::per_sample::codes::pack_one;
 use crate::pipeline::RenderPipeline;
 use crate::schedule::{Executor, ThreadError};
 use crate::statistics::Statistics;
-use crate::tile_pass::{self, MAX_TARGETS, TileJob, TilePass, TileScratch};
+use crate::tile_pass::{self, MAX_TARGETS, TileItem, TileJob, TilePass, TileScratch};
 use crate::tiles::Chunk;
-use crate::wave::{Item, Waves};
+use crate::wave::{Item, VertexJob, Waves};
 use estampe_simd::Level;
 use estampe_types::state::{ScissorRect, Viewport};
 use estampe_types::{Bindings, Buffer, DepthTexture, IndexFormat, TextureFormat};
@@ -97,15 +97,42 @@ pub struct Context {
     memory: Mutex<Memory>,
 }
 
-/// Memory of a pass, kept for the next one.
+/// Memory of a pass, kept for the next one: a frame like the one before allocates nothing.
 #[derive(Debug, Default)]
 struct Memory {
+    lists: Lists,
     vertices: ShadedVertices,
     chunks: Vec<Chunk>,
     shading: Vec<Mutex<ShadingScratch>>,
     chunk_scratch: Vec<Mutex<ChunkScratch>>,
     tiles_1: Vec<Mutex<TileScratch<1>>>,
     tiles_4: Vec<Mutex<TileScratch<4>>>,
+}
+
+/// Lists whose elements borrow from a pass, empty between passes: see [`recycled`].
+#[derive(Debug, Default)]
+struct Lists {
+    items: Vec<Item<'static>>,
+    vertex_jobs: Vec<VertexJob<'static>>,
+    chunk_jobs: Vec<ChunkJob<'static>>,
+    tile_items: Vec<TileItem<'static>>,
+    tile_jobs: Vec<TileJob<'static>>,
+}
+
+/// An empty list in the memory of another one, whose elements differ in a lifetime alone. (The standard
+/// library collects in place where sizes agree; if it did not, this would only be slower.)
+fn recycled<A, B>(mut list: Vec<A>) -> Vec<B> {
+    list.clear();
+    let none = |_| unreachable!("the list was cleared");
+    list.into_iter().map(none).collect()
+}
+
+/// The primitives of a chunk.
+#[derive(Debug)]
+struct ChunkJob<'a> {
+    chunk: &'a mut Chunk,
+    item: usize,
+    primitives: [u32; 2],
 }
 
 impl Context {
@@ -145,28 +172,28 @@ impl Context {
     pub fn render(&self, target: &mut RenderTarget, pass: &RenderPass<'_>) -> Statistics {
         let mut memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
         let memory = &mut *memory;
-        self.executor.enter(|| {
-            let mut statistics = Statistics::default();
-            let mut waves = Waves::new(pass.draws, target);
-            let mut items = Vec::new();
-            let mut clear = Clear::new(target, pass);
-            loop {
-                let more = waves.next_wave(&mut items);
-                if !more && clear.is_done() {
-                    return statistics;
-                }
-                let start = Instant::now();
-                self.shade_vertices(&items, memory);
-                self.build_chunks(target, &items, memory);
-                statistics.geometry += start.elapsed();
-                let start = Instant::now();
-                statistics += self.draw_tiles(target, &items, &clear, memory);
-                statistics.raster += start.elapsed();
-                let shaded = items.iter().map(Item::total_vertices).sum::<usize>();
-                statistics.vertices_shaded += shaded as u64;
-                clear = Clear::default();
+        let mut statistics = Statistics::default();
+        let mut waves = Waves::new(pass.draws);
+        let mut items = recycled(std::mem::take(&mut memory.lists.items));
+        let mut clear = Clear::new(target, pass);
+        loop {
+            let start = Instant::now();
+            let more = waves.next_wave(&self.executor, target, &mut items);
+            if !more && clear.is_done() {
+                break;
             }
-        })
+            self.shade_vertices(&items, memory);
+            let chunks = self.build_chunks(target, &items, memory);
+            statistics.geometry += start.elapsed();
+            let start = Instant::now();
+            statistics += self.draw_tiles(target, &items, chunks, &clear, memory);
+            statistics.raster += start.elapsed();
+            let shaded = items.iter().map(Item::total_vertices).sum::<usize>();
+            statistics.vertices_shaded += shaded as u64;
+            clear = Clear::default();
+        }
+        memory.lists.items = recycled(items);
+        statistics
     }
 
     /// Writes the mean of each pixel's samples to a target of one sample, of the same size and with the
@@ -190,7 +217,8 @@ impl Context {
     /// Geometry, first half: every vertex of the wave is shaded once.
     fn shade_vertices(&self, items: &[Item<'_>], memory: &mut Memory) {
         memory.vertices.resize_for(items);
-        let mut jobs = memory.vertices.split(items, VERTEX_CHUNK);
+        let mut jobs = recycled(std::mem::take(&mut memory.lists.vertex_jobs));
+        memory.vertices.split(items, VERTEX_CHUNK, &mut jobs);
         self.executor
             .for_each(&mut jobs, &memory.shading, |job, scratch| {
                 let item = &items[job.item];
@@ -206,36 +234,42 @@ impl Context {
                     out,
                 );
             });
+        memory.lists.vertex_jobs = recycled(jobs);
     }
 
     /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in chunks
     /// whose borders do not depend on the number of threads.
-    fn build_chunks(&self, target: &RenderTarget, items: &[Item<'_>], memory: &mut Memory) {
-        let mut ranges = Vec::new();
-        for (number, item) in items.iter().enumerate() {
-            let total = u32::try_from(item.total_primitives()).unwrap_or(u32::MAX);
+    fn build_chunks(
+        &self,
+        target: &RenderTarget,
+        items: &[Item<'_>],
+        memory: &mut Memory,
+    ) -> usize {
+        let total = |item: &Item<'_>| u32::try_from(item.total_primitives()).unwrap_or(u32::MAX);
+        let count = |item: &Item<'_>| total(item).div_ceil(PRIMITIVE_CHUNK) as usize;
+        let used = items.iter().map(count).sum();
+        if memory.chunks.len() < used {
+            memory.chunks.resize_with(used, Chunk::default);
+        }
+        let mut jobs: Vec<ChunkJob<'_>> = recycled(std::mem::take(&mut memory.lists.chunk_jobs));
+        let mut chunks = memory.chunks.iter_mut();
+        for (item, total) in items.iter().map(total).enumerate() {
             let starts = (0..total).step_by(PRIMITIVE_CHUNK as usize);
-            ranges.extend(starts.map(|from| {
-                (
-                    number,
-                    [from, from.saturating_add(PRIMITIVE_CHUNK).min(total)],
-                )
+            jobs.extend(starts.zip(&mut chunks).map(|(from, chunk)| ChunkJob {
+                chunk,
+                item,
+                primitives: [from, from.saturating_add(PRIMITIVE_CHUNK).min(total)],
             }));
         }
-        memory.chunks.resize_with(ranges.len(), Chunk::default);
         let sample_range = if target.samples() == 1 {
             [128, 128]
         } else {
             [32, 224]
         };
         let (grid, vertices) = (target.grid(), &memory.vertices);
-        let mut jobs: Vec<_> = memory.chunks.iter_mut().zip(&ranges).collect();
-        self.executor.for_each(
-            &mut jobs,
-            &memory.chunk_scratch,
-            |(chunk, range), scratch| {
-                let (number, primitives) = **range;
-                let item = &items[number];
+        self.executor
+            .for_each(&mut jobs, &memory.chunk_scratch, |job, scratch| {
+                let item = &items[job.item];
                 let state = &item.draw.pipeline.descriptor().primitive;
                 let indices = item.draw.indices.filter(|_| item.sparse.is_none());
                 let work = ChunkWork {
@@ -264,12 +298,13 @@ impl Context {
                     polygon_mode: state.polygon_mode,
                     instance_vertices: item.vertices,
                     instance_primitives: item.primitives,
-                    primitives,
+                    primitives: job.primitives,
                 };
-                chunk.reset(number);
-                process(self.level, &work, chunk, scratch);
-            },
-        );
+                job.chunk.reset(job.item);
+                process(self.level, &work, job.chunk, scratch);
+            });
+        memory.lists.chunk_jobs = recycled(jobs);
+        used
     }
 
     /// The tile side: every tile consumes the chunks in order.
@@ -277,23 +312,24 @@ impl Context {
         &self,
         target: &mut RenderTarget,
         items: &[Item<'_>],
+        chunks: usize,
         clear: &Clear,
         memory: &mut Memory,
     ) -> Statistics {
-        let tile_items: Vec<_> = items
-            .iter()
-            .map(|item| memory.vertices.tile_item(item))
-            .collect();
+        let chunks = &memory.chunks[..chunks];
+        let mut tile_items = recycled(std::mem::take(&mut memory.lists.tile_items));
+        tile_items.extend(items.iter().map(|item| memory.vertices.tile_item(item)));
         let pass = TilePass {
             level: self.level,
             grid: target.grid(),
             items: &tile_items,
-            chunks: &memory.chunks,
+            chunks,
             clear_colors: clear.colors,
             clear_depth: clear.depth,
         };
         let samples = target.samples();
-        let mut jobs = tile_jobs(target);
+        let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
+        tile_jobs(target, &mut jobs);
         let mut statistics = Statistics::default();
         if samples == 1 {
             self.executor
@@ -308,9 +344,11 @@ impl Context {
                 });
             take_statistics(&mut memory.tiles_4, &mut statistics);
         }
-        for chunk in &memory.chunks {
+        for chunk in chunks {
             statistics += chunk.statistics;
         }
+        memory.lists.tile_jobs = recycled(jobs);
+        memory.lists.tile_items = recycled(tile_items);
         statistics
     }
 }
@@ -357,16 +395,13 @@ impl Clear {
 }
 
 /// Cuts a target into its tiles' slices.
-fn tile_jobs(target: &mut RenderTarget) -> Vec<TileJob<'_>> {
+fn tile_jobs<'a>(target: &'a mut RenderTarget, jobs: &mut Vec<TileJob<'a>>) {
     let grid = target.grid();
     let elements = grid.tile_pixels() * target.samples() as usize;
-    let mut jobs: Vec<TileJob<'_>> = (0u32..)
-        .take(grid.tiles())
-        .map(|tile| TileJob {
-            tile,
-            ..TileJob::default()
-        })
-        .collect();
+    jobs.extend((0u32..).take(grid.tiles()).map(|tile| TileJob {
+        tile,
+        ..TileJob::default()
+    }));
     for (index, colors) in target.colors.iter_mut().enumerate() {
         for (job, slice) in jobs.iter_mut().zip(colors.chunks_exact_mut(elements)) {
             job.colors[index] = slice;
@@ -376,7 +411,6 @@ fn tile_jobs(target: &mut RenderTarget) -> Vec<TileJob<'_>> {
     for (job, slice) in jobs.iter_mut().zip(depth.chunks_exact_mut(elements)) {
         job.depth = slice;
     }
-    jobs
 }
 
 fn take_statistics<const N: usize>(scratch: &mut [Mutex<TileScratch<N>>], total: &mut Statistics) {

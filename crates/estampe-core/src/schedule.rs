@@ -1,18 +1,18 @@
-//! Who does the work: this thread alone, or a pool.
+//! Who does the work: this thread alone, or this thread and helpers.
 //!
-//! Work is a slice of independent items; each worker brings its own scratch. The pool is
-//! rayon's own threads; `install` moves the caller's work into it for a whole pass, so that it is woken
-//! once. (The caller as a member of the pool would save that wake-up, but binds the pool to one thread.)
+//! Work is a slice of independent items; each worker brings its own scratch. The calling thread is one of
+//! the workers: it begins at once, and the helpers, which are rayon's threads, join it when they have woken
+//! up. (The whole pass inside rayon's pool costs a wake-up before the first item and another after the last,
+//! while the caller sleeps.) Workers take items from the front of what is left, many at first and one by one
+//! in the end, so that they finish together.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Runs independent items, serially or on a pool of threads.
+/// Runs independent items on the calling thread and its helpers.
 #[derive(Debug)]
-pub(crate) enum Executor {
-    /// On the calling thread.
-    Serial,
-    /// On a pool.
-    Pool(rayon::ThreadPool),
+pub(crate) struct Executor {
+    helpers: Option<rayon::ThreadPool>,
 }
 
 /// Why there is no executor.
@@ -25,39 +25,34 @@ pub struct ThreadError {
     pub reason: String,
 }
 
+/// How many times each worker takes items, at least, where there are enough: the fewer, the less they wait
+/// for each other, and the later the last one ends.
+const TURNS: usize = 4;
+
 impl Executor {
-    /// An executor of `threads` threads; 0 means one for each processor.
+    /// An executor of `threads` threads, the caller included; 0 means one for each processor.
     pub(crate) fn new(threads: usize) -> Result<Self, ThreadError> {
         let available = || std::thread::available_parallelism().map_or(1, usize::from);
         let threads = if threads == 0 { available() } else { threads };
         if threads == 1 {
-            return Ok(Self::Serial);
+            return Ok(Self { helpers: None });
         }
         let builder = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .thread_name(|index| format!("estampe-{index}"));
+            .num_threads(threads - 1)
+            .thread_name(|index| format!("estampe-{}", index + 1));
         let pool = builder.build().map_err(|error| ThreadError {
             threads,
             reason: error.to_string(),
         })?;
-        Ok(Self::Pool(pool))
+        Ok(Self {
+            helpers: Some(pool),
+        })
     }
 
     /// How many items run at once.
     pub(crate) fn threads(&self) -> usize {
-        match self {
-            Self::Serial => 1,
-            Self::Pool(pool) => pool.current_num_threads(),
-        }
-    }
-
-    /// Runs `work` inside the pool, so that every [`Executor::for_each`] below it starts at once
-    /// instead of waking the pool anew.
-    pub(crate) fn enter<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        match self {
-            Self::Serial => work(),
-            Self::Pool(pool) => pool.install(work),
-        }
+        let helpers = self.helpers.as_ref();
+        1 + helpers.map_or(0, rayon::ThreadPool::current_num_threads)
     }
 
     /// Runs `work` for every item, each with one worker's scratch.
@@ -67,25 +62,105 @@ impl Executor {
         scratch: &[Mutex<C>],
         work: impl Fn(&mut T, &mut C) + Sync,
     ) {
-        use rayon::prelude::*;
-        match self {
-            Self::Serial => {
-                let mut mine = lock(&scratch[0]);
+        self.share(items, |worker, next| {
+            let mut mine = lock(&scratch[worker]);
+            while let Some(items) = next() {
                 items.iter_mut().for_each(|item| work(item, &mut mine));
             }
-            Self::Pool(pool) => pool.install(|| {
-                items.par_iter_mut().with_max_len(1).for_each(|item| {
-                    // A worker's index is below the number of threads, hence of scratches.
-                    let worker = rayon::current_thread_index().unwrap_or(0);
-                    work(item, &mut lock(&scratch[worker]));
-                });
-            }),
-        }
+        });
+    }
+
+    /// Runs `work` for every item.
+    pub(crate) fn for_each_alone<T: Send>(&self, items: &mut [T], work: impl Fn(&mut T) + Sync) {
+        self.share(items, |_, next| {
+            while let Some(items) = next() {
+                items.iter_mut().for_each(&work);
+            }
+        });
+    }
+
+    /// Runs `work` once for each worker, with its number and what gives it items.
+    fn share<'i, T: Send>(
+        &self,
+        items: &'i mut [T],
+        work: impl Fn(usize, &mut dyn FnMut() -> Option<&'i mut [T]>) + Sync,
+    ) {
+        let workers = self.threads().min(items.len());
+        let Some(pool) = self.helpers.as_ref().filter(|_| workers > 1) else {
+            let mut all = Some(items);
+            work(0, &mut || all.take());
+            return;
+        };
+        let left = Mutex::new(items);
+        let running = AtomicUsize::new(workers);
+        let run = |worker: usize| {
+            work(worker, &mut || take_some(&left, workers));
+            running.fetch_sub(1, Ordering::Release);
+        };
+        pool.in_place_scope(|scope| {
+            for worker in 1..workers {
+                let run = &run;
+                scope.spawn(move |_| run(worker));
+            }
+            run(0);
+            wait_a_little(&running);
+        });
     }
 }
 
-/// Locks scratch. A worker's scratch is only ever locked by that worker, so this never waits, and its
-/// contents mean nothing between items, so a panic in one does not spoil it.
+/// Waits for the helpers' last items without going to sleep, because to be woken again takes longer than most
+/// of these. Who is late beyond that, or panicked, is waited for by rayon.
+fn wait_a_little(running: &AtomicUsize) {
+    for _ in 0..ROUNDS {
+        if running.load(Ordering::Acquire) == 0 {
+            break;
+        }
+        (0..PAUSES).for_each(|_| std::hint::spin_loop());
+    }
+    // From a helper's last word to rayon's knowing it.
+    (0..PAUSES).for_each(|_| std::hint::spin_loop());
+}
+
+/// How often a worker that is done looks for the others, and how many pauses lie between: 50 µs in all.
+const ROUNDS: usize = 128;
+const PAUSES: usize = 16;
+
+/// Takes items off the front of what is left.
+fn take_some<'i, T>(left: &Mutex<&'i mut [T]>, workers: usize) -> Option<&'i mut [T]> {
+    let mut left = lock(left);
+    let all = std::mem::take(&mut *left);
+    let count = all.len().div_ceil(workers * TURNS).max(1);
+    let (first, others) = all.split_at_mut_checked(count)?;
+    *left = others;
+    Some(first)
+}
+
+/// Locks what only holds plain data: after a panic elsewhere it is as good as before. A worker's scratch is
+/// only ever locked by that worker, so that it never waits.
 fn lock<C>(scratch: &Mutex<C>) -> std::sync::MutexGuard<'_, C> {
     scratch.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_item_is_worked_on_once() {
+        for threads in [1, 2, 7] {
+            let executor = Executor::new(threads).unwrap();
+            let scratch: Vec<Mutex<u32>> = (0..threads).map(|_| Mutex::default()).collect();
+            for len in [0, 1, 2, 3, 100, 1000] {
+                let mut items = vec![0; len];
+                executor.for_each(&mut items, &scratch, |item, sum| {
+                    *item += 1;
+                    *sum += 1;
+                });
+                executor.for_each_alone(&mut items, |item| *item += 1);
+                assert_eq!(items, vec![2; len]);
+            }
+            let sum: u32 = scratch.iter().map(|sum| *lock(sum)).sum();
+            assert_eq!(sum, 1106);
+        }
+    }
 }

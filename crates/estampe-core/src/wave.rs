@@ -12,6 +12,7 @@ use crate::geometry::cull::Facing;
 use crate::geometry::shading::{ShadedSlice, ShadedVertices, VertexSource};
 use crate::geometry::viewport::{PixelRect, ViewportTransform};
 use crate::per_sample::color::ColorTarget;
+use crate::schedule::Executor;
 use crate::tile_pass::{MAX_TARGETS, TileItem};
 use estampe_types::state::{PolygonMode, PrimitiveTopology, Viewport};
 use estampe_types::{Bindings, Interpolation};
@@ -53,6 +54,8 @@ pub(crate) struct Item<'a> {
     pub(crate) sparse: Option<Vec<u32>>,
     /// Primitives of one instance.
     pub(crate) primitives: u32,
+    /// Scalars of a vertex's varyings.
+    pub(crate) varying_scalars: usize,
     /// Where its vertices begin in the wave's.
     pub(crate) vertex_base: usize,
     /// Where its varyings begin in the wave's.
@@ -95,17 +98,6 @@ pub(crate) struct Waves<'a> {
     draws: std::slice::Iter<'a, Draw<'a>>,
     /// The draw being cut, and which of its primitives and instances are left.
     current: Option<Remainder<'a>>,
-    target: TargetShape,
-}
-
-/// What waves must know of the target.
-#[derive(Debug, Clone)]
-struct TargetShape {
-    width: u32,
-    height: u32,
-    samples: u32,
-    formats: Vec<estampe_types::TextureFormat>,
-    has_depth: bool,
 }
 
 #[derive(Debug)]
@@ -118,38 +110,34 @@ struct Remainder<'a> {
 }
 
 impl<'a> Waves<'a> {
-    pub(crate) fn new(draws: &'a [Draw<'a>], target: &RenderTarget) -> Self {
-        let target = TargetShape {
-            width: target.width(),
-            height: target.height(),
-            samples: target.samples(),
-            formats: target.color_formats().to_vec(),
-            has_depth: target.has_depth(),
-        };
+    pub(crate) fn new(draws: &'a [Draw<'a>]) -> Self {
         Self {
             draws: draws.iter(),
             current: None,
-            target,
         }
     }
 
     /// The next wave's items, into `items`; false when there are no more.
-    pub(crate) fn next_wave(&mut self, items: &mut Vec<Item<'a>>) -> bool {
+    pub(crate) fn next_wave(
+        &mut self,
+        executor: &Executor,
+        target: &RenderTarget,
+        items: &mut Vec<Item<'a>>,
+    ) -> bool {
         items.clear();
-        let (mut vertices, mut primitives) = (0, 0);
+        let (mut vertices, mut primitives, mut varyings) = (0, 0, 0);
         while vertices < WAVE_BUDGET && primitives < WAVE_BUDGET {
-            let Some(mut remainder) = self.current.take().or_else(|| self.next_draw()) else {
+            let Some(mut remainder) = self.current.take().or_else(|| self.next_draw(target)) else {
                 break;
             };
-            let mut item = remainder.take_item();
+            let mut item = remainder.take_item(executor);
             item.vertex_base = vertices;
-            item.varying_base = items.last().map_or(0, |last: &Item<'_>| {
-                let scalars = last.draw.pipeline.interface().varyings.len();
-                last.varying_base + last.total_vertices() * scalars
-            });
-            vertices += item.total_vertices();
-            primitives += item.total_primitives();
-            if item.total_primitives() > 0 {
+            item.varying_base = varyings;
+            let (item_vertices, item_primitives) = (item.total_vertices(), item.total_primitives());
+            if item_primitives > 0 {
+                vertices += item_vertices;
+                primitives += item_primitives;
+                varyings += item_vertices * item.varying_scalars;
                 items.push(item);
             }
             if !remainder.is_done() {
@@ -160,13 +148,13 @@ impl<'a> Waves<'a> {
     }
 
     /// The next draw that can show anything.
-    fn next_draw(&mut self) -> Option<Remainder<'a>> {
+    fn next_draw(&mut self, target: &RenderTarget) -> Option<Remainder<'a>> {
         loop {
             let draw = self.draws.next()?;
-            if !self.target.fits(draw) {
+            if !fits(target, draw) {
                 continue;
             }
-            let (width, height) = (self.target.width, self.target.height);
+            let (width, height) = (target.width(), target.height());
             let viewport = draw.viewport.unwrap_or(Viewport {
                 x: 0.0,
                 y: 0.0,
@@ -197,13 +185,14 @@ impl<'a> Waves<'a> {
     }
 }
 
-impl TargetShape {
-    fn fits(&self, draw: &Draw<'_>) -> bool {
-        let descriptor = draw.pipeline.descriptor();
-        let formats = descriptor.targets.iter().map(|target| target.format);
-        let depth_fits = self.has_depth || draw.pipeline.key().depth.is_none();
-        descriptor.samples == self.samples && formats.eq(self.formats.iter().copied()) && depth_fits
-    }
+/// Whether a draw's pipeline is made for such a target.
+fn fits(target: &RenderTarget, draw: &Draw<'_>) -> bool {
+    let descriptor = draw.pipeline.descriptor();
+    let formats = descriptor.targets.iter().map(|target| target.format);
+    let depth_fits = target.has_depth() || draw.pipeline.key().depth.is_none();
+    descriptor.samples == target.samples()
+        && formats.eq(target.color_formats().iter().copied())
+        && depth_fits
 }
 
 /// A viewport that the arithmetic can stand: finite, with area, its depths in 0..=1.
@@ -233,7 +222,7 @@ impl<'a> Remainder<'a> {
     }
 
     /// Takes the next item off: many instances of a small draw, or part of one instance of a large one.
-    fn take_item(&mut self) -> Item<'a> {
+    fn take_item(&mut self, executor: &Executor) -> Item<'a> {
         let draw = self.draw;
         let descriptor = draw.pipeline.descriptor();
         let topology = descriptor.primitive.topology;
@@ -250,22 +239,22 @@ impl<'a> Remainder<'a> {
             if self.primitives.is_empty() {
                 self.primitives.start = 0;
             } else {
-                return self.item(elements, instances);
+                return self.item(executor, elements, instances);
             }
         } else {
             elements = [0, whole];
             let left = self.instances.end - self.instances.start;
             instances = (ITEM_PRIMITIVES / all.max(1)).clamp(1, left);
         }
-        let item = self.item(elements, instances);
+        let item = self.item(executor, elements, instances);
         self.instances.start += instances;
         item
     }
 
-    fn item(&self, [first, count]: [u32; 2], instances: u32) -> Item<'a> {
+    fn item(&self, executor: &Executor, [first, count]: [u32; 2], instances: u32) -> Item<'a> {
         let draw = self.draw;
         let first_element = draw.elements.start.saturating_add(first);
-        let (first_vertex, vertices, sparse) = vertex_range(draw, first_element, count);
+        let (first_vertex, vertices, sparse) = vertex_range(executor, draw, first_element, count);
         let descriptor = draw.pipeline.descriptor();
         let mut targets = [None; MAX_TARGETS];
         for (target, state) in targets.iter_mut().zip(&descriptor.targets) {
@@ -285,6 +274,7 @@ impl<'a> Remainder<'a> {
             vertices,
             sparse,
             primitives: primitive_count(descriptor.primitive.topology, count),
+            varying_scalars: draw.pipeline.interface().varyings.len(),
             vertex_base: 0,
             varying_base: 0,
         }
@@ -327,36 +317,36 @@ fn part_of(topology: PrimitiveTopology, first: u32, count: u32, whole: u32) -> [
 }
 
 /// The range of vertices that elements name (first, count), or a list of them if the range is sparse.
-fn vertex_range(draw: &Draw<'_>, first: u32, count: u32) -> (u32, u32, Option<Vec<u32>>) {
+fn vertex_range(
+    executor: &Executor,
+    draw: &Draw<'_>,
+    first: u32,
+    count: u32,
+) -> (u32, u32, Option<Vec<u32>>) {
     let Some((buffer, format)) = draw.indices else {
         return (first, count, None);
     };
     let index = |element: u32| {
-        vertex_index(
-            buffer,
-            format,
-            first as usize + element as usize,
-            draw.base_vertex,
-        )
+        let at = first as usize + element as usize;
+        vertex_index(buffer, format, at, draw.base_vertex)
     };
-    let (mut least, mut greatest) = (u32::MAX, 0);
-    let words = buffer.words();
     let (from, to) = (first as usize, first as usize + count as usize);
-    match words.get(from..to) {
-        // The common case in a form that becomes SIMD code.
-        Some(words) if format == estampe_types::IndexFormat::Uint32 && draw.base_vertex == 0 => {
-            for &word in words {
-                least = least.min(word);
-                greatest = greatest.max(word);
-            }
-        }
-        _ => {
-            for index in (0..count).map(index) {
-                least = least.min(index);
-                greatest = greatest.max(index);
-            }
-        }
-    }
+    let words = buffer.words().get(from..to);
+    let words = words.filter(|_| format == estampe_types::IndexFormat::Uint32);
+    // The common case in a form that becomes SIMD code.
+    let of_words = words.and_then(|words| {
+        let (least, greatest) = extremes(executor, words)?;
+        let base = draw.base_vertex;
+        Some((
+            least.checked_add_signed(base)?,
+            greatest.checked_add_signed(base)?,
+        ))
+    });
+    let (least, greatest) = of_words.unwrap_or_else(|| {
+        let wider =
+            |(least, greatest): (u32, u32), index: u32| (least.min(index), greatest.max(index));
+        (0..count).map(index).fold((u32::MAX, 0), wider)
+    });
     if count == 0 {
         return (0, 0, None);
     }
@@ -365,6 +355,38 @@ fn vertex_range(draw: &Draw<'_>, first: u32, count: u32) -> (u32, u32, Option<Ve
         return (least, u32::try_from(span).unwrap_or(u32::MAX), None);
     }
     (0, count, Some((0..count).map(index).collect()))
+}
+
+/// Indices that one worker looks through at a time.
+const INDEX_CHUNK: usize = 1 << 16;
+
+/// The least and the greatest of some indices. A million triangles have 12 MB of them, which one thread
+/// alone reads no faster than memory gives them to it.
+fn extremes(executor: &Executor, words: &[u32]) -> Option<(u32, u32)> {
+    let of_part = |words: &[u32]| {
+        let (mut least, mut greatest) = (u32::MAX, 0);
+        for &word in words {
+            least = least.min(word);
+            greatest = greatest.max(word);
+        }
+        (least, greatest)
+    };
+    if words.is_empty() {
+        return None;
+    }
+    if words.len() <= INDEX_CHUNK {
+        return Some(of_part(words));
+    }
+    let mut parts: [(&[u32], (u32, u32)); 64] = [(&[], (u32::MAX, 0)); 64];
+    let each = words.len().div_ceil(parts.len());
+    let mut used = 0;
+    for (part, words) in parts.iter_mut().zip(words.chunks(each)) {
+        part.0 = words;
+        used += 1;
+    }
+    executor.for_each_alone(&mut parts[..used], |(words, found)| *found = of_part(words));
+    let wider = |a: (u32, u32), b: (u32, u32)| (a.0.min(b.0), a.1.max(b.1));
+    parts.iter().map(|part| part.1).reduce(wider)
 }
 
 /// A run of an item's vertices for one worker.
@@ -380,10 +402,9 @@ impl ShadedVertices {
     /// Makes room for the vertices of a wave.
     pub(crate) fn resize_for(&mut self, items: &[Item<'_>]) {
         let vertices: usize = items.iter().map(|item| item.total_vertices()).sum();
-        let scalars = |item: &Item<'_>| item.draw.pipeline.interface().varyings.len();
         let varyings = items
             .iter()
-            .map(|item| item.total_vertices() * scalars(item))
+            .map(|item| item.total_vertices() * item.varying_scalars)
             .sum();
         let has_sizes = |item: &Item<'_>| item.draw.pipeline.interface().writes_point_size;
         let sizes = if items.iter().any(has_sizes) {
@@ -400,8 +421,12 @@ impl ShadedVertices {
     }
 
     /// Cuts the wave's vertices into jobs of at most `size`.
-    pub(crate) fn split(&mut self, items: &[Item<'_>], size: usize) -> Vec<VertexJob<'_>> {
-        let mut jobs = Vec::new();
+    pub(crate) fn split<'a>(
+        &'a mut self,
+        items: &[Item<'_>],
+        size: usize,
+        jobs: &mut Vec<VertexJob<'a>>,
+    ) {
         let has_sizes = !self.point_size.is_empty();
         let has_positions = items.iter().any(Item::keeps_positions);
         let mut rest = ShadedSlice {
@@ -419,7 +444,7 @@ impl ShadedVertices {
                 let mut out = ShadedSlice {
                     window: take(&mut rest.window, count),
                     clip: take(&mut rest.clip, if has_positions { count } else { 0 }),
-                    varyings: take(&mut rest.varyings, count * interface.varyings.len()),
+                    varyings: take(&mut rest.varyings, count * item.varying_scalars),
                     point_size: take(&mut rest.point_size, sizes),
                 };
                 if !item.keeps_positions() {
@@ -438,13 +463,12 @@ impl ShadedVertices {
                 });
             }
         }
-        jobs
     }
 
     /// The vertices of one item.
     pub(crate) fn of_item(&self, item: &Item<'_>) -> ItemVertices<'_> {
         let (from, count) = (item.vertex_base, item.total_vertices());
-        let scalars = item.draw.pipeline.interface().varyings.len();
+        let scalars = item.varying_scalars;
         ItemVertices {
             window: &self.window[from..][..count],
             clip: if item.keeps_positions() {
