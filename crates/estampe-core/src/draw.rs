@@ -12,7 +12,7 @@ use crate::pipeline::RenderPipeline;
 use crate::schedule::{Executor, ThreadError};
 use crate::statistics::Statistics;
 use crate::tile_pass::{self, MAX_TARGETS, TileItem, TileJob, TilePass, TileScratch};
-use crate::tiles::Chunk;
+use crate::tiles::{Chunk, ChunkIndex};
 use crate::wave::{Item, VertexJob, Waves};
 use estampe_simd::Level;
 use estampe_types::state::{ScissorRect, Viewport};
@@ -103,6 +103,7 @@ struct Memory {
     lists: Lists,
     vertices: ShadedVertices,
     chunks: Vec<Chunk>,
+    chunk_index: ChunkIndex,
     shading: Vec<Mutex<ShadingScratch>>,
     chunk_scratch: Vec<Mutex<ChunkScratch>>,
     tiles_1: Vec<Mutex<TileScratch<1>>>,
@@ -317,6 +318,7 @@ impl Context {
         memory: &mut Memory,
     ) -> Statistics {
         let chunks = &memory.chunks[..chunks];
+        memory.chunk_index.build(target.grid().tiles(), chunks);
         let mut tile_items = recycled(std::mem::take(&mut memory.lists.tile_items));
         tile_items.extend(items.iter().map(|item| memory.vertices.tile_item(item)));
         let pass = TilePass {
@@ -324,6 +326,7 @@ impl Context {
             grid: target.grid(),
             items: &tile_items,
             chunks,
+            chunk_index: &memory.chunk_index,
             clear_colors: clear.colors,
             clear_depth: clear.depth,
         };

@@ -225,6 +225,56 @@ impl Bins {
             _ => &[],
         }
     }
+
+    /// The tiles that have entries.
+    fn tiles(&self) -> impl Iterator<Item = u32> {
+        let starts = self.starts.windows(2);
+        let all = (self.first_tile..).zip(starts);
+        all.filter(|(_, ends)| ends[0] < ends[1])
+            .map(|(tile, _)| tile)
+    }
+}
+
+/// For each tile the chunks that have entries for it, in order. A frame of two thousand draws has as many
+/// chunks, and hardly any of them reaches a given tile: to ask each one took longer than to draw.
+#[derive(Debug, Default)]
+pub(crate) struct ChunkIndex {
+    /// Where each tile's chunks begin; one more than there are tiles.
+    starts: Vec<u32>,
+    chunks: Vec<u32>,
+}
+
+impl ChunkIndex {
+    /// Sorts a wave's chunks by the tiles of a target.
+    pub(crate) fn build(&mut self, tiles: usize, chunks: &[Chunk]) {
+        self.starts.clear();
+        self.starts.resize(tiles + 2, 0);
+        // Counted two places further on, so that after the sums place i + 1 is where tile i is filled next.
+        for tile in chunks.iter().flat_map(|chunk| chunk.bins.tiles()) {
+            self.starts[tile as usize + 2] += 1;
+        }
+        for at in 1..self.starts.len() {
+            self.starts[at] += self.starts[at - 1];
+        }
+        let all = self.starts.last().map_or(0, |all| *all as usize);
+        self.chunks.resize(all, 0);
+        for (number, chunk) in (0..).zip(chunks) {
+            for tile in chunk.bins.tiles() {
+                let next = &mut self.starts[tile as usize + 1];
+                self.chunks[*next as usize] = number;
+                *next += 1;
+            }
+        }
+    }
+
+    /// The numbers of the chunks that have entries for a tile.
+    pub(crate) fn of_tile(&self, tile: u32) -> &[u32] {
+        let at = tile as usize;
+        match (self.starts.get(at), self.starts.get(at + 1)) {
+            (Some(&from), Some(&to)) => &self.chunks[from as usize..to as usize],
+            _ => &[],
+        }
+    }
 }
 
 /// The primitives of a run of one draw, set up and binned.
@@ -276,6 +326,26 @@ mod tests {
         assert_eq!(lines(9), [3]);
         for tile in [0, 2, 4, 8, 10, u32::MAX] {
             assert!(bins.of_tile(tile).is_empty(), "tile {tile}");
+        }
+    }
+
+    #[test]
+    fn an_index_names_each_tiles_chunks_in_order() {
+        let chunk = |tiles: &[u32]| {
+            let mut chunk = Chunk::default();
+            for &tile in tiles {
+                chunk.bins.push(tile, BinEntry::Point(0));
+            }
+            chunk.bins.sort();
+            chunk
+        };
+        let chunks = [chunk(&[3, 1]), chunk(&[]), chunk(&[0, 1, 1]), chunk(&[3])];
+        let mut index = ChunkIndex::default();
+        // Twice, because its memory is used again.
+        for _ in 0..2 {
+            index.build(4, &chunks);
+            let found = [0, 1, 2, 3, 4].map(|tile| index.of_tile(tile).to_vec());
+            assert_eq!(found, [vec![2], vec![0, 2], vec![], vec![0, 3], vec![]]);
         }
     }
 

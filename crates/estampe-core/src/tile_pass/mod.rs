@@ -17,7 +17,7 @@ use crate::per_sample::depth_bounds::DepthBounds;
 use crate::pipeline::RenderPipeline;
 use crate::raster::{CoverageList, TileShape};
 use crate::statistics::Statistics;
-use crate::tiles::Chunk;
+use crate::tiles::{Chunk, ChunkIndex};
 use estampe_simd::{Level, dispatch};
 use estampe_types::Bindings;
 
@@ -46,6 +46,8 @@ pub(crate) struct TilePass<'a> {
     pub(crate) grid: TileGrid,
     pub(crate) items: &'a [TileItem<'a>],
     pub(crate) chunks: &'a [Chunk],
+    /// Which of the chunks reach a tile.
+    pub(crate) chunk_index: &'a ChunkIndex,
     /// Codes to clear the colour attachments to.
     pub(crate) clear_colors: Option<[u32; MAX_TARGETS]>,
     pub(crate) clear_depth: Option<f32>,
@@ -86,11 +88,8 @@ pub(crate) fn draw<const N: usize>(
         job.depth.fill(depth);
     }
     scratch.bounds.begin(pass.clear_depth);
-    for (number, chunk) in (0..).zip(pass.chunks) {
-        let entries = chunk.bins.of_tile(job.tile);
-        if entries.is_empty() {
-            continue;
-        }
+    for &number in pass.chunk_index.of_tile(job.tile) {
+        let entries = pass.chunks[number as usize].bins.of_tile(job.tile);
         let work = ChunkInTile::new(pass, number, job);
         if deferred::is_deferred(&work) {
             deferred::see_chunk(pass, (&work, entries), job, scratch);
