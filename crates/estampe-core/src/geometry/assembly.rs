@@ -74,54 +74,38 @@ pub(crate) struct ElementSource<'a> {
     pub(crate) base_vertex: i32,
 }
 
-/// The corners of sixteen primitives.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Group<'a> {
-    pub(crate) corners: &'a [[u32; 3]; LANES],
-    /// Added to every corner, modulo 2³², to give the item's vertex.
-    pub(crate) base: u32,
-}
-
-impl Group<'_> {
-    /// The item's vertices of one primitive.
-    #[inline(always)]
-    pub(crate) fn vertices(&self, lane: usize) -> [u32; 3] {
-        self.corners[lane].map(|corner| corner.wrapping_add(self.base))
-    }
-}
-
 impl ElementSource<'_> {
-    /// The corners of up to sixteen primitives from `first` on, `base` added to them; lanes beyond repeat
-    /// the first one. The indices of a list of triangles are what they lie in, so that they stay there.
+    /// The item's vertices of up to sixteen primitives from `first` on, `base` added to them; lanes beyond
+    /// repeat the first one.
     #[inline(always)]
-    pub(crate) fn assemble<'s>(
-        &'s self,
+    pub(crate) fn assemble(
+        &self,
         first: u32,
         count: usize,
         base: u32,
-        memory: &'s mut [[u32; 3]; LANES],
-    ) -> Group<'s> {
+        out: &mut [[u32; 3]; LANES],
+    ) {
         if let (PrimitiveTopology::TriangleList, Some((buffer, IndexFormat::Uint32)), LANES) =
             (self.topology, self.indices, count)
         {
             let at = (self.first_element as usize).saturating_add(first as usize * 3);
             let words = buffer.words().get(at..).unwrap_or_default();
-            if let Some(corners) = words.as_chunks().0.first_chunk() {
+            if let Some(corners) = words.first_chunk::<{ 3 * LANES }>() {
                 let base = base
                     .wrapping_add_signed(self.base_vertex)
                     .wrapping_sub(self.first_vertex);
-                return Group { corners, base };
+                for (vertex, corner) in out.as_flattened_mut().iter_mut().zip(corners) {
+                    *vertex = corner.wrapping_add(base);
+                }
+                return;
             }
         }
-        for (p, corners) in (first..).zip(memory.iter_mut().take(count)) {
-            *corners = elements_of(self.topology, p, self.elements).map(|e| self.vertex_of(e));
+        for (p, vertices) in (first..).zip(out.iter_mut().take(count)) {
+            let elements = elements_of(self.topology, p, self.elements);
+            *vertices = elements.map(|element| self.vertex_of(element).wrapping_add(base));
         }
-        let first = memory[0];
-        memory[count.min(LANES)..].fill(first);
-        Group {
-            corners: memory,
-            base,
-        }
+        let first = out[0];
+        out[count.min(LANES)..].fill(first);
     }
 
     #[inline(always)]

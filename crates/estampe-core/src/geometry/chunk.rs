@@ -1,9 +1,9 @@
 //! One worker's share of geometry: primitives of an item, assembled, culled, clipped, set up, binned.
 
-use super::assembly::{ElementSource, Group, PrimitiveKind, kind_of};
+use super::assembly::{ElementSource, PrimitiveKind, kind_of};
 use super::binning::BinState;
 use super::clip::{ClipPolygon, is_point_visible};
-use super::cull::{CullState, PositionMemory, WindowTriangles, cull};
+use super::cull::{CullState, TriangleGroup, WindowTriangles, cull};
 use super::positions::PositionCache;
 use super::setup::{Setup, SetupLanes};
 use super::shading::{NEEDS_CLIPPING, VertexSource, WindowRow};
@@ -72,8 +72,7 @@ pub(crate) struct ChunkWork<'a> {
 /// Memory of one worker.
 #[derive(Debug, Default)]
 pub(crate) struct ChunkScratch {
-    corners: [[u32; 3]; LANES],
-    positions: PositionMemory,
+    groups: [TriangleGroup; 2],
     polygon: ClipPolygon,
     /// Clipped vertices in the window: of the polygon at hand, and all of the chunk's.
     clipped: Vec<WindowVertex>,
@@ -101,12 +100,13 @@ pub(crate) fn process(
         }
         (kind, mode) => {
             let mut groups = Groups::new(work);
-            while let Some((group, count)) = groups.next(work, &mut scratch.corners) {
-                let corners: [[u32; 3]; LANES] = std::array::from_fn(|lane| group.vertices(lane));
+            let mut corners = [[0; 3]; LANES];
+            while let Some(count) = groups.next(work, &mut corners) {
+                let corners = &corners[..count];
                 match kind {
-                    PrimitiveKind::Triangles => worker.outlines(&corners[..count], mode, scratch),
-                    PrimitiveKind::Lines => worker.lines(&corners[..count], scratch),
-                    PrimitiveKind::Points => worker.points(&corners[..count]),
+                    PrimitiveKind::Triangles => worker.outlines(corners, mode, scratch),
+                    PrimitiveKind::Lines => worker.lines(corners, scratch),
+                    PrimitiveKind::Points => worker.points(corners),
                 }
             }
         }
@@ -133,27 +133,22 @@ impl Groups {
         }
     }
 
-    /// The next group and how many primitives it has.
+    /// Assembles the next group, and says how many primitives it has; at the end none.
     #[inline(always)]
-    fn next<'s>(
-        &mut self,
-        work: &'s ChunkWork<'_>,
-        memory: &'s mut [[u32; 3]; LANES],
-    ) -> Option<(Group<'s>, usize)> {
+    fn next(&mut self, work: &ChunkWork<'_>, out: &mut [[u32; 3]; LANES]) -> Option<usize> {
         if self.left == 0 {
             return None;
         }
         let count = self.left.min(work.instance_primitives - self.local).min(16);
-        let group = work
-            .elements
-            .assemble(self.local, count as usize, self.base, memory);
+        work.elements
+            .assemble(self.local, count as usize, self.base, out);
         self.left -= count;
         self.local += count;
         if self.local == work.instance_primitives {
             self.local = 0;
             self.base = self.base.wrapping_add(work.instance_vertices);
         }
-        Some((group, count as usize))
+        Some(count as usize)
     }
 }
 
@@ -169,13 +164,25 @@ impl Worker<'_, '_> {
     #[inline(always)]
     fn fill<S: Lanes>(&mut self, s: S, scratch: &mut ChunkScratch) {
         let (work, facing) = (self.work, self.work.cull.facing);
-        let mut corners = scratch.corners;
         let mut groups = Groups::new(work);
         let mut culled = 0;
-        while let Some((group, count)) = groups.next(work, &mut corners) {
+        let window = work.vertices.window;
+        let mut memory = std::mem::take(&mut scratch.groups);
+        let [mut group, mut ahead] = memory.each_mut();
+        let mut coming = groups.next(work, &mut ahead.vertices);
+        if coming.is_some() {
+            ahead.read_positions(window);
+        }
+        // One group's positions are read before the last one is judged: vectors cannot be loaded from what was
+        // just stored lane by lane, and meanwhile there is something to do.
+        while let Some(count) = coming {
+            std::mem::swap(&mut group, &mut ahead);
+            coming = groups.next(work, &mut ahead.vertices);
+            if coming.is_some() {
+                ahead.read_positions(window);
+            }
             let live = u16::MAX >> (LANES - count);
-            let triangles =
-                WindowTriangles::load(s, work.vertices.window, &group, &mut scratch.positions);
+            let triangles = WindowTriangles::new(s, group);
             let (verdict, area) = cull(s, &work.cull, &triangles, live);
             let mut kept = verdict.small;
             let mut area = f32x16::float_from(area);
@@ -197,13 +204,12 @@ impl Worker<'_, '_> {
                 continue;
             }
             let mut vertices = [<u32x16<S> as SimdBase<S>>::splat(s, 0); 3];
-            let base = <u32x16<S> as SimdBase<S>>::splat(s, group.base);
             for (corner, vertices) in vertices.iter_mut().enumerate() {
                 let mut lanes = [0; LANES];
                 for (lane, to) in lanes.iter_mut().enumerate() {
-                    *to = group.corners[lane][corner];
+                    *to = group.vertices[lane][corner];
                 }
-                *vertices = u32x16::load_array(s, lanes) + base;
+                *vertices = u32x16::load_array(s, lanes);
             }
             let lanes = SetupLanes {
                 vertices,
@@ -220,12 +226,13 @@ impl Worker<'_, '_> {
                 if before != 0 {
                     self.setup.push_lanes(s, &triangles, &lanes, front, before);
                 }
-                self.clip_triangle(group.vertices(lane), scratch);
+                self.clip_triangle(group.vertices[lane], scratch);
             }
             if kept != 0 {
                 self.setup.push_lanes(s, &triangles, &lanes, front, kept);
             }
         }
+        scratch.groups = memory;
         self.setup.chunk().statistics.primitives_culled += u64::from(culled);
     }
 

@@ -7,7 +7,6 @@
 //! they are dropped before anything is computed for them alone. Areas are 32-bit products where a
 //! triangle's extent is below 2¹⁵ (128 pixels); larger ones are left to exact 64-bit code.
 
-use super::assembly::Group;
 use super::shading::{NEEDS_CLIPPING, WindowRow};
 use super::viewport::PixelRect;
 use estampe_simd::{Bytes, LANES, Lanes, SimdBase, i32x16};
@@ -64,6 +63,31 @@ impl Facing {
     }
 }
 
+/// Sixteen triangles on their way to being judged.
+#[derive(Debug, Default)]
+#[repr(C, align(64))]
+pub(crate) struct TriangleGroup {
+    /// The item's vertices of each.
+    pub(crate) vertices: [[u32; 3]; LANES],
+    /// x and y of each, corner by corner.
+    positions: [[u64; LANES]; 3],
+}
+
+impl TriangleGroup {
+    /// Reads where the vertices are. x and y are one load of 64 bits: on Zen 4 48 of these take half of the
+    /// time of six gathers.
+    #[inline(always)]
+    pub(crate) fn read_positions(&mut self, window: &[WindowRow]) {
+        for (lane, vertices) in self.vertices.iter().enumerate() {
+            for (positions, &vertex) in self.positions.iter_mut().zip(vertices) {
+                // In range: an item's vertices are all that its indices name.
+                let row = &window[vertex as usize];
+                positions[lane] = u64::from(row[0]) | u64::from(row[1]) << 32;
+            }
+        }
+    }
+}
+
 /// Sixteen triangles in the window: x and y of their three vertices.
 pub(crate) struct WindowTriangles<S: Lanes> {
     pub(crate) x: [i32x16<S>; 3],
@@ -71,25 +95,11 @@ pub(crate) struct WindowTriangles<S: Lanes> {
 }
 
 impl<S: Lanes> WindowTriangles<S> {
-    /// The triangles of a group. A vertex's x and y are one load of 64 bits: on Zen 4 48 of these take half
-    /// of the time of six gathers. They go through memory because in registers they would be spilled.
     #[inline(always)]
-    pub(crate) fn load(
-        s: S,
-        window: &[WindowRow],
-        group: &Group<'_>,
-        memory: &mut PositionMemory,
-    ) -> Self {
-        for (lane, corners) in group.corners.iter().enumerate() {
-            for (words, corner) in memory.0.iter_mut().zip(corners) {
-                // In range: an item's vertices are all that its indices name.
-                let row = &window[corner.wrapping_add(group.base) as usize];
-                words[lane] = u64::from(row[0]) | u64::from(row[1]) << 32;
-            }
-        }
-        let [x0, y0] = columns(s, &memory.0[0]);
-        let [x1, y1] = columns(s, &memory.0[1]);
-        let [x2, y2] = columns(s, &memory.0[2]);
+    pub(crate) fn new(s: S, group: &TriangleGroup) -> Self {
+        let [x0, y0] = columns(s, &group.positions[0]);
+        let [x1, y1] = columns(s, &group.positions[1]);
+        let [x2, y2] = columns(s, &group.positions[2]);
         Self {
             x: [x0, x1, x2],
             y: [y0, y1, y2],
@@ -103,11 +113,6 @@ impl<S: Lanes> WindowTriangles<S> {
         (x(1) - x(0)) * (y(2) - y(0)) - (x(2) - x(0)) * (y(1) - y(0))
     }
 }
-
-/// Where x and y of a group's corners are put together.
-#[derive(Debug, Default)]
-#[repr(C, align(64))]
-pub(crate) struct PositionMemory([[u64; LANES]; 3]);
 
 #[inline(always)]
 fn columns<S: Lanes>(s: S, words: &[u64; LANES]) -> [i32x16<S>; 2] {
