@@ -11,8 +11,10 @@ use estampe_simd::{
 };
 use estampe_types::{Bindings, Buffer, VertexBatch};
 
-/// Packets that a program shades in one call.
-const BATCH: usize = 8;
+/// Packets that a program shades in one call. Few, because fetching and storing wait for memory while programs
+/// compute: of a million triangles' half a million vertices, with 2, 4, 8 and 16 packets, the geometry side took
+/// 9.6, 9.9, 10.5 and 11.6 ms of CPU time.
+const BATCH: usize = 2;
 
 /// A window x that says "this vertex must be clipped"; no snapped coordinate reaches it.
 pub(crate) const NEEDS_CLIPPING: i32 = i32::MIN;
