@@ -47,11 +47,7 @@ pub fn create_texture(
     for pair in levels.windows(2) {
         mips::append_half(&mut texels, pair[0], pair[1], format);
     }
-    Ok(Texture {
-        format,
-        levels,
-        texels: texels.into(),
-    })
+    Ok(texture(format, levels, texels))
 }
 
 /// A texture with its levels given, the full size (width, height) first, each next one half as wide and
@@ -73,11 +69,16 @@ pub fn create_texture_with_levels(
     for bytes in levels {
         append(&mut texels, bytes);
     }
-    Ok(Texture {
+    Ok(texture(format, layout, texels))
+}
+
+fn texture(format: TextureFormat, levels: Vec<MipLevel>, texels: Vec<u32>) -> Texture {
+    Texture {
         format,
-        levels: layout,
+        levels,
+        is_opaque: texels.iter().all(|texel| texel >> 24 == 255),
         texels: texels.into(),
-    })
+    }
 }
 
 /// How many levels there are from this size down to 1×1.

@@ -1,8 +1,8 @@
 //! Mip levels, sampled: the nearest texel, or the weighted mean of four, of one level or two.
 
-use crate::texel::{Corners, mix, unpack};
+use crate::texel::{Corners, OPAQUE, mix, unpack};
 use crate::wrap::{Place, place, tile};
-use estampe_types::{AddressMode, FilterMode, Int, MipLevel, Real, Texture, Vec2, Vec4};
+use estampe_types::{AddressMode, FilterMode, Int, MipLevel, Real, Texture, Vec2, Vec3, Vec4};
 
 /// The longest side that lane arithmetic is made for, [`Limits`](estampe_types::Limits)' maximum.
 const MAX_SIDE: u32 = 16_384;
@@ -30,6 +30,12 @@ impl Level {
             size: [width as f32, height as f32],
             offset: level.offset.min(MAX_OFFSET).cast_signed(),
         }
+    }
+
+    /// Whether nothing had to be confined.
+    pub(crate) fn is_exact(self, level: &MipLevel) -> bool {
+        [self.width, self.height, self.offset].map(i32::cast_unsigned)
+            == [level.width, level.height, level.offset]
     }
 
     /// Where the texel (x, y) lies in the texture's words.
@@ -95,6 +101,11 @@ impl<R: Real> Footprint<R> {
     }
 
     #[inline(always)]
+    fn mean_of_colors(&self, corners: Corners<R::Int>) -> Vec3<R> {
+        corners.mean_of_colors(self.x.fraction, self.y.fraction)
+    }
+
+    #[inline(always)]
     fn mean(&self, corners: Corners<R::Int>, is_srgb: bool) -> Vec4<R> {
         corners.mean(self.x.fraction, self.y.fraction, is_srgb)
     }
@@ -119,46 +130,72 @@ pub(crate) fn sample_level<R: Real>(
     unpack(level.index(x, y).gather(&texture.texels), is_srgb)
 }
 
-/// The mean of two linearly filtered unorm8 levels, or `None` where a lane's texels lie across a border.
-///
-/// Both levels' texels are under way before the first is used: a packet's chain of dependent
-/// operations is so long that one level after the other took a fifth more time.
-#[inline(always)]
-pub(crate) fn sample_two_inside<R: Real>(
-    texels: &[u32],
-    levels: [Level; 2],
-    wrapped: Vec2<R>,
-    modes: [AddressMode; 2],
+/// Where a linearly filtered sample lies when all texels of all lanes are inside their levels.
+pub(crate) struct Inside<R: Real> {
+    fine: Footprint<R>,
+    /// The next level, where it counts.
+    coarse: Option<Footprint<R>>,
     fraction: R,
-) -> Option<Vec4<R>> {
-    let [fine, coarse] = levels;
-    let fine = Footprint::new(fine, wrapped, modes, FilterMode::Linear);
-    let coarse = Footprint::new(coarse, wrapped, modes, FilterMode::Linear);
-    if R::any(fine.outside() | coarse.outside()) {
-        return None;
-    }
-    let of_fine = fine.corners_inside(texels);
-    let of_coarse = coarse.corners_inside(texels);
-    Some(mix_colors(
-        fine.mean(of_fine, false),
-        coarse.mean(of_coarse, false),
-        fraction,
-    ))
 }
 
-/// One linearly filtered unorm8 level, or `None` where a lane's texels lie across a border.
-#[inline(always)]
-pub(crate) fn sample_one_inside<R: Real>(
-    texels: &[u32],
-    level: Level,
-    wrapped: Vec2<R>,
-    modes: [AddressMode; 2],
-) -> Option<Vec4<R>> {
-    let at = Footprint::new(level, wrapped, modes, FilterMode::Linear);
-    if R::any(at.outside()) {
-        return None;
+impl<R: Real> Inside<R> {
+    /// Of one level or, where the weight of the next one is not 0 in every lane, of two. `None` where a lane's
+    /// texels lie across a border.
+    #[inline(always)]
+    pub(crate) fn new(
+        [fine, coarse]: [Level; 2],
+        wrapped: Vec2<R>,
+        modes: [AddressMode; 2],
+        fraction: R,
+    ) -> Option<Self> {
+        let fine = Footprint::new(fine, wrapped, modes, FilterMode::Linear);
+        let outside = fine.outside();
+        if R::any(fraction.gt(fraction.splat(0.0))) {
+            let coarse = Footprint::new(coarse, wrapped, modes, FilterMode::Linear);
+            if R::any(outside | coarse.outside()) {
+                return None;
+            }
+            return Some(Self {
+                fine,
+                coarse: Some(coarse),
+                fraction,
+            });
+        }
+        if R::any(outside) {
+            return None;
+        }
+        Some(Self {
+            fine,
+            coarse: None,
+            fraction,
+        })
     }
-    Some(at.mean(at.corners_inside(texels), false))
+
+    /// The colour of a unorm8 texture there, in the units of [`texel`](crate::texel). Where alpha is 255
+    /// everywhere, a quarter of the arithmetic is left out.
+    ///
+    /// Both levels' texels are under way before the first is used: a packet's chain of dependent
+    /// operations is so long that one level after the other took a fifth more time.
+    #[inline(always)]
+    pub(crate) fn color(&self, texture: &Texture) -> Vec4<R> {
+        let texels = &texture.texels[..];
+        let of_fine = self.fine.corners_inside(texels);
+        let Some(coarse) = &self.coarse else {
+            return self.fine.mean(of_fine, false);
+        };
+        let of_coarse = coarse.corners_inside(texels);
+        if texture.is_opaque {
+            let fine = self.fine.mean_of_colors(of_fine);
+            let coarse = coarse.mean_of_colors(of_coarse);
+            let alpha = self.fraction.splat(OPAQUE);
+            return fine.mix(coarse, self.fraction).extend(alpha);
+        }
+        mix_colors(
+            self.fine.mean(of_fine, false),
+            coarse.mean(of_coarse, false),
+            self.fraction,
+        )
+    }
 }
 
 /// `a + (b − a)·t` of each channel.

@@ -1,6 +1,6 @@
 //! A texture with a sampler, as a shader holds it.
 
-use crate::filter::{Level, mix_colors, sample_level, sample_one_inside, sample_two_inside};
+use crate::filter::{Inside, Level, mix_colors, sample_level};
 use crate::lod::{implicit_rho2, level_of_detail, rho2};
 use crate::texel::{finish, unpack};
 use crate::wrap::wrap;
@@ -32,6 +32,10 @@ pub struct Sampled {
     level_range: [i32; 2],
     /// Whether it is the common case, unorm8 that is filtered linearly near and far.
     is_linear_unorm: bool,
+    /// Whether the levels are laid out as `create_texture` does it, so that size and number determine them.
+    is_regular: bool,
+    /// The smallest level.
+    last_level: usize,
 }
 
 impl Sample2d for Sampled {
@@ -71,6 +75,8 @@ impl Sampled {
             levels: Arc::new(levels),
             lod_range,
             level_range: lod_range.map(|lod| mixture(lod, sampler.mipmap_filter).0.to_int()),
+            is_regular: is_regular(&texture.levels),
+            last_level: last,
             is_linear_unorm: is_linear && texture.format == TextureFormat::Rgba8Unorm,
             texture,
             sampler,
@@ -101,6 +107,53 @@ impl Sampled {
             || {
                 let rho2 = implicit_rho2(uv, self.levels[0].size);
                 self.sample_at(uv, level_of_detail(rho2), self.guess_of_level(rho2))
+            },
+        )
+    }
+
+    /// The colours of several textures at one place, such as a surface's colour and its normal map: what
+    /// [`Self::sample`] of each gives.
+    ///
+    /// Where the textures have the same size and number of levels and are sampled the same way, the level of
+    /// detail and the texels' places are found once for all.
+    #[inline(always)]
+    pub fn sample_all<R: Real, const N: usize>(textures: [&Self; N], uv: Vec2<R>) -> [Vec4<R>; N] {
+        let mut colors = [Vec4::repeat(uv.x); N];
+        let Some((first, others)) = textures.split_first() else {
+            return colors;
+        };
+        if R::NARROW || !others.iter().all(|other| first.is_like(other)) {
+            let mut index = 0;
+            while index < N {
+                colors[index] = textures[index].sample(uv);
+                index += 1;
+            }
+            return colors;
+        }
+        uv.x.outlined(
+            #[inline(always)]
+            || {
+                let rho2 = implicit_rho2(uv, first.levels[0].size);
+                let lod = level_of_detail(rho2);
+                if let Some(inside) = first.inside(uv, lod, first.guess_of_level(rho2)) {
+                    let mut index = 0;
+                    while index < N {
+                        colors[index] = finish(inside.color(&textures[index].texture), false);
+                        index += 1;
+                    }
+                    return colors;
+                }
+                uv.x.outlined(
+                    #[inline(always)]
+                    || {
+                        let mut index = 0;
+                        while index < N {
+                            colors[index] = textures[index].sample_anywhere(uv, lod);
+                            index += 1;
+                        }
+                        colors
+                    },
+                )
             },
         )
     }
@@ -136,6 +189,20 @@ impl Sampled {
         let is_srgb = self.texture.format.is_srgb();
         let word = level.index(x, y).gather(&self.texture.texels);
         finish(unpack(word, is_srgb), is_srgb)
+    }
+
+    /// Whether samples of both lie at the same place, and are common enough for the fast path.
+    #[inline(always)]
+    fn is_like(&self, other: &Self) -> bool {
+        self.is_linear_unorm
+            && other.is_linear_unorm
+            && self.is_regular
+            && other.is_regular
+            && self.levels[0].size == other.levels[0].size
+            && self.lod_range == other.lod_range
+            && self.last_level == other.last_level
+            && self.sampler.mipmap_filter == other.sampler.mipmap_filter
+            && self.address_modes() == other.address_modes()
     }
 
     /// The finer level of the first lane, most probably: λ without the clamps is e/2 and a little more, with
@@ -200,8 +267,8 @@ impl Sampled {
     /// The colour at a level of detail; `guess` is the finer level, most probably.
     #[inline(always)]
     fn sample_at<R: Real>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Vec4<R> {
-        if let Some(color) = self.sample_inside(uv, lod, guess) {
-            return color;
+        if let Some(inside) = self.inside(uv, lod, guess) {
+            return finish(inside.color(&self.texture), false);
         }
         lod.outlined(
             #[inline(always)]
@@ -216,10 +283,10 @@ impl Sampled {
         Vec2::new(wrap(uv.x, mode_u), wrap(uv.y, mode_v))
     }
 
-    /// The common case, and the fast one: linear filtering of unorm8, all lanes of one level and none at a
-    /// border. `None` where it is another.
+    /// Where the sample lies in the common case, and the fast one: linear filtering of unorm8, all lanes of one
+    /// level and none at a border. `None` where it is another.
     #[inline(always)]
-    fn sample_inside<R: Real>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Option<Vec4<R>> {
+    fn inside<R: Real>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Option<Inside<R>> {
         if !self.is_linear_unorm {
             return None;
         }
@@ -228,17 +295,12 @@ impl Sampled {
         if R::any(!level.eq(level.splat(guess as f32))) {
             return None;
         }
-        let texels = &self.texture.texels[..];
-        let (wrapped, modes) = (self.wrapped(uv), self.address_modes());
         let at = guess.cast_unsigned() as usize;
-        let fine = self.levels[at % MAX_LEVELS];
-        let color = if R::any(fraction.gt(fraction.splat(0.0))) {
-            let levels = [fine, self.levels[(at + 1) % MAX_LEVELS]];
-            sample_two_inside(texels, levels, wrapped, modes, fraction)?
-        } else {
-            sample_one_inside(texels, fine, wrapped, modes)?
-        };
-        Some(finish(color, false))
+        let levels = [
+            self.levels[at % MAX_LEVELS],
+            self.levels[(at + 1) % MAX_LEVELS],
+        ];
+        Inside::new(levels, self.wrapped(uv), self.address_modes(), fraction)
     }
 
     /// Any case: samples the whole packet once for every level among its lanes, and picks the lanes
@@ -285,6 +347,21 @@ impl Sampled {
         }
         finish(color, self.texture.format.is_srgb())
     }
+}
+
+/// Whether each level is half the one before and begins where that one ends.
+fn is_regular(levels: &[MipLevel]) -> bool {
+    levels
+        .first()
+        .is_some_and(|first| first.offset == 0 && Level::new(*first).is_exact(first))
+        && levels.len() <= MAX_LEVELS
+        && levels.windows(2).all(|pair| {
+            let half = |side: u32| (side / 2).max(1);
+            let end =
+                u64::from(pair[0].offset) + u64::from(pair[0].width) * u64::from(pair[0].height);
+            [pair[1].width, pair[1].height] == [half(pair[0].width), half(pair[0].height)]
+                && u64::from(pair[1].offset) == end
+        })
 }
 
 /// The finer level and the weight of the next one, from a level of detail within the existing levels.

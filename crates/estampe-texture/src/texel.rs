@@ -5,7 +5,7 @@
 //! brings all of them to 0..1.
 
 use estampe_types::srgb::LINEAR_BITS_FROM_SRGB;
-use estampe_types::{Int, Real, Vec4};
+use estampe_types::{Int, Real, Vec3, Vec4};
 
 /// 2²³ as f32: the bits below are its mantissa, so `MAGIC | c` is 2²³ + c for c < 2²³.
 const MAGIC: i32 = 0x4B00_0000;
@@ -48,6 +48,16 @@ impl<I: Int> Corners<I> {
             self.mean_of_bytes(0xFF00, fx, fy),
             high.mean_of_bytes(0xFF, fx, fy),
             high.mean_of_bytes(0xFF00, fx, fy),
+        )
+    }
+
+    /// R, G and B of the weighted mean of unorm8, in the units of this module.
+    #[inline(always)]
+    pub(crate) fn mean_of_colors(&self, fx: I::Real, fy: I::Real) -> Vec3<I::Real> {
+        Vec3::new(
+            self.mean_of_bytes(0xFF, fx, fy),
+            self.mean_of_bytes(0xFF00, fx, fy),
+            self.shifted().mean_of_bytes(0xFF, fx, fy),
         )
     }
 
@@ -104,6 +114,9 @@ fn mean_of_bytes<I: Int>([left, right]: [I; 2], mask: i32, f: I::Real) -> I::Rea
 fn decoded<I: Int>(word: I, table: &[u32; 256]) -> I::Real {
     (word & word.splat(0xFF)).gather(table).to_real_bits()
 }
+
+/// Alpha 255 in the units of this module: what any mean of such texels is, for differences of 0 add nothing.
+pub(crate) const OPAQUE: f32 = 65_280.0;
 
 /// One texel in the units of this module.
 #[inline(always)]

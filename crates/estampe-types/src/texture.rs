@@ -13,6 +13,8 @@ pub struct Texture {
     pub levels: Vec<MipLevel>,
     /// The texels of all levels, row by row from the top: R in the low byte of each word.
     pub texels: Arc<[u32]>,
+    /// Whether alpha is 255 in every texel, so that samplers may leave it out; `false` is always right.
+    pub is_opaque: bool,
 }
 
 /// One level of a texture.

@@ -57,8 +57,9 @@ estampe::shader! {
             input: FragmentIn<'_, R>,
             (position, normal, tangent, uv): (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>),
         ) -> FragmentOut<R> {
-            let albedo = self.diffuse_map.sample(uv).xyz();
-            let mapped = self.normal_map.sample(uv).xyz();
+            let maps = [&self.diffuse_map, &self.normal_map];
+            let [albedo, mapped] = Sampled::sample_all(maps, uv);
+            let (albedo, mapped) = (albedo.xyz(), mapped.xyz());
             let (one, two) = (Vec3::repeat(input.real(1.0)), input.real(2.0));
             let bump = mapped * two - one;
 

@@ -28,6 +28,7 @@ fn texture(
             .iter()
             .map(|&red| u32::from_le_bytes([red, 255 - red, 0, 51]))
             .collect(),
+        is_opaque: false,
     };
     ReferenceTexture::new(Arc::new(texture), sampler)
 }

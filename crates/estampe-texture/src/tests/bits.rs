@@ -198,6 +198,7 @@ fn a_texture_put_together_by_hand_cannot_harm() {
             format: TextureFormat::Rgba8Unorm,
             levels,
             texels: texels.into(),
+            is_opaque: false,
         });
         for mut sampler in samplers() {
             sampler.lod_min_clamp = f32::NAN;

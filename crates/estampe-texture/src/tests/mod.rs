@@ -4,6 +4,7 @@
 mod bits;
 mod create;
 mod naive;
+mod several;
 mod values;
 
 use crate::{MipGeneration, Sampled, SamplerDescriptor, Texture, TextureFormat, create_texture};

@@ -1,0 +1,119 @@
+//! What spares work changes nothing: several textures sampled at one place, and those without alpha.
+
+use super::{Colors, Lod, Random, noise, sample_packet};
+use crate::{
+    AddressMode, FilterMode, Limits, MipGeneration, Sampled, SamplerDescriptor, TextureFormat,
+    create_texture,
+};
+use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
+use estampe_types::{Quad, Vec2, Vec4};
+
+fn sample_both(level: Level, textures: [&Sampled; 2], uv: [[f32; LANES]; 2]) -> [Colors; 2] {
+    #[inline(always)]
+    fn wide<S: Lanes>(simd: S, textures: [&Sampled; 2], uv: [[f32; LANES]; 2]) -> [Colors; 2] {
+        let [u, v] = uv;
+        let uv = Vec2::new(f32x16::load_array(simd, u), f32x16::load_array(simd, v));
+        Sampled::sample_all(textures, uv).map(|color| {
+            let Vec4 { x, y, z, w } = color;
+            let channels = [x.to_array(), y.to_array(), z.to_array(), w.to_array()];
+            std::array::from_fn(|lane| channels.map(|channel| channel[lane]))
+        })
+    }
+    dispatch!(level, s => wide(s, textures, uv))
+}
+
+/// Coordinates of 4×4 neighbouring pixels, at any scale, inside the texture or across its borders.
+fn place(random: &mut Random) -> [[f32; LANES]; 2] {
+    let step = random.unit() * random.unit() * 0.1;
+    let start = [random.unit() * 1.2 - 0.1, random.unit() * 1.2 - 0.1];
+    let lane = |offsets: [u8; LANES], start: f32| offsets.map(|k| start + f32::from(k) * step);
+    [
+        lane(estampe_simd::LANE_X, start[0]),
+        lane(estampe_simd::LANE_Y, start[1]),
+    ]
+}
+
+#[test]
+fn several_at_once_are_those_alone() {
+    use TextureFormat::{Rgba8Unorm, Rgba8UnormSrgb};
+    let trilinear = SamplerDescriptor::trilinear_repeat();
+    let clamped = SamplerDescriptor {
+        address_mode_u: AddressMode::ClampToEdge,
+        ..trilinear
+    };
+    let coarse = SamplerDescriptor {
+        lod_min_clamp: 1.5,
+        ..trilinear
+    };
+    let bilinear = SamplerDescriptor {
+        mipmap_filter: FilterMode::Nearest,
+        ..trilinear
+    };
+    let of =
+        |size: [u32; 2], format, sampler| Sampled::new(noise(size[0], size[1], format), sampler);
+    // The same texels in levels that lie elsewhere.
+    let mut moved = noise(64, 32, Rgba8Unorm);
+    for level in &mut moved.levels {
+        level.offset /= 2;
+    }
+    let textures = [
+        of([64, 32], Rgba8Unorm, trilinear),
+        of([64, 32], Rgba8Unorm, trilinear),
+        of([64, 33], Rgba8Unorm, trilinear),
+        of([64, 32], Rgba8Unorm, clamped),
+        of([64, 32], Rgba8Unorm, coarse),
+        of([64, 32], Rgba8Unorm, bilinear),
+        of([64, 32], Rgba8UnormSrgb, trilinear),
+        Sampled::new(moved, trilinear),
+    ];
+    let random = &mut Random(77);
+    for first in &textures {
+        for second in &textures {
+            for level in Level::all_available() {
+                for _ in 0..20 {
+                    let uv = place(random);
+                    let both = sample_both(level, [first, second], uv);
+                    let alone =
+                        [first, second].map(|one| sample_packet(level, one, uv, Lod::FromQuad));
+                    assert_eq!(both, alone, "{level:?} {uv:?} {first:?} {second:?}");
+                }
+            }
+        }
+    }
+    let uv = Vec2::new(Quad([0.1, 0.12, 0.1, 0.12]), Quad([0.3, 0.3, 0.31, 0.31]));
+    let [one, two] = Sampled::sample_all([&textures[0], &textures[3]], uv);
+    assert_eq!([one, two], [textures[0].sample(uv), textures[3].sample(uv)]);
+    assert_eq!(Sampled::sample_all([], uv), []);
+}
+
+#[test]
+fn alpha_that_is_left_out_is_one() {
+    let rgba = |alpha: u8| -> Vec<u8> {
+        let mut bytes = Random(9).bytes(32 * 32 * 4);
+        for texel in bytes.chunks_exact_mut(4) {
+            texel[3] = 255;
+        }
+        bytes[7] = alpha;
+        bytes
+    };
+    let make = |alpha| {
+        let (format, mips) = (TextureFormat::Rgba8Unorm, MipGeneration::Full);
+        create_texture(32, 32, format, &rgba(alpha), mips, &Limits::default()).expect("valid")
+    };
+    assert!(!make(254).is_opaque);
+    let texture = make(255);
+    assert!(texture.is_opaque);
+    let mut plain = texture.clone();
+    plain.is_opaque = false;
+    let trilinear = SamplerDescriptor::trilinear_repeat();
+    let textures = [texture, plain].map(|texture| Sampled::new(texture, trilinear));
+    let random = &mut Random(5);
+    for level in Level::all_available() {
+        for _ in 0..200 {
+            let uv = place(random);
+            let [quick, plain] =
+                [0, 1].map(|k| sample_packet(level, &textures[k], uv, Lod::FromQuad));
+            assert_eq!(quick, plain, "{level:?} {uv:?}");
+        }
+    }
+}
