@@ -4,9 +4,63 @@
 //! a pixel of triangle `i`, and interpolation takes no more than it does for one triangle.
 
 use super::interpolate::VaryingSource;
+use crate::raster::small::PIXELS;
 use crate::tiles::TrianglePacket;
 use estampe_simd::{LANES, Lanes, Packet, Select, SimdBase, SimdCvtFloat, f32x16, i32x16};
 use estampe_types::Interpolation;
+
+/// Fragments of one packet's small triangles: row `r` holds the `r`-th fragment that each lane's triangle
+/// has.
+#[derive(Debug)]
+#[repr(C, align(64))]
+pub(crate) struct Rows {
+    /// By row and lane: the fragment's pixel in its triangle's box, 8·row + column.
+    pixels: [[i32; LANES]; PIXELS],
+    /// By row: the lanes that have a fragment.
+    pub(crate) lanes: [u16; PIXELS],
+    /// How many rows there are.
+    pub(crate) count: usize,
+}
+
+impl Default for Rows {
+    fn default() -> Self {
+        Self {
+            pixels: [[0; LANES]; PIXELS],
+            lanes: [0; PIXELS],
+            count: 0,
+        }
+    }
+}
+
+impl Rows {
+    /// Adds a lane's next fragment, its `row`-th. Lanes begin in order, and rows grow one by one.
+    #[inline(always)]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        reason = "a pixel is below 64"
+    )]
+    pub(crate) fn push(&mut self, lane: usize, row: usize, pixel: usize) {
+        let row = row % PIXELS;
+        if row == self.count {
+            self.lanes[row] = 0;
+            self.count += 1;
+        }
+        self.lanes[row] |= 1 << lane;
+        self.pixels[row][lane % LANES] = pixel as i32;
+    }
+
+    /// The columns and rows of a row's pixels in their boxes.
+    #[inline(always)]
+    pub(crate) fn steps<S: Lanes>(&self, s: S, row: usize) -> [f32x16<S>; 2] {
+        let pixels = i32x16::load_array_ref(s, &self.pixels[row % PIXELS]);
+        let seven = <i32x16<S> as SimdBase<S>>::splat(s, 7);
+        [
+            f32x16::float_from(pixels & seven),
+            f32x16::float_from(pixels >> 3),
+        ]
+    }
+}
 
 /// Planes of all varyings of sixteen triangles: by scalar, then by lane.
 #[derive(Debug, Default)]

@@ -14,11 +14,12 @@
 use super::depth::{DepthTest, compare, line_mut};
 use crate::fragment::interpolate::{DepthPlane, evaluate};
 use crate::fragment::queue::{clamp_depth, sample_offsets};
+use crate::raster::small::{PIXELS, SmallTriangles};
 use crate::raster::{CoverageList, Covered, MAX_PACKETS, TileShape, packet_origin};
 use crate::tiles::BinEntry;
 use estampe_simd::{
-    Bytes, LANE_X, LANE_Y, Lanes, Level, Select, SimdBase, dispatch, f32x16, i32x16, mask32x16,
-    u32x16,
+    Bytes, LANE_X, LANE_Y, LANES, Lanes, Level, Select, SimdBase, dispatch, f32x16, i32x16,
+    mask32x16, u32x16,
 };
 use estampe_types::state::CompareFunction;
 
@@ -113,6 +114,33 @@ impl SeenTriangle {
             let depth = z.origin + (x * z.dx + y * z.dy);
             depth > low && depth < high
         })
+    }
+}
+
+/// What small triangles' samples are numbered by.
+pub(crate) trait Numbering {
+    /// The number of a lane's first sample.
+    fn first_of(&mut self, lane: usize) -> u32;
+    /// Notes that a pixel of the lane's box has the number, and gives the lane's next.
+    fn next(&mut self, lane: usize, pixel: usize, number: u32) -> u32;
+}
+
+/// By triangle: each lane's triangle has a number.
+pub(crate) struct ByTriangle {
+    /// All lanes of the entry, and its first triangle's number.
+    pub(crate) lanes: u16,
+    pub(crate) first: u32,
+}
+
+impl Numbering for ByTriangle {
+    #[inline(always)]
+    fn first_of(&mut self, lane: usize) -> u32 {
+        self.first + (self.lanes & ((1 << lane) - 1)).count_ones()
+    }
+
+    #[inline(always)]
+    fn next(&mut self, _lane: usize, _pixel: usize, number: u32) -> u32 {
+        number
     }
 }
 
@@ -274,27 +302,62 @@ impl<const N: usize> Sight<'_, N> {
         }
     }
 
-    /// Tests one sample of a tile with one sample a pixel, and says whether it passed.
+    /// Sees small triangles of one packet, pixel by pixel in the order of lanes; one sample a pixel. Gives the
+    /// blocks that were touched, one bit each.
+    pub(crate) fn small(
+        &mut self,
+        small: &SmallTriangles,
+        lanes: u16,
+        numbering: &mut impl Numbering,
+    ) -> u16 {
+        let is_less = |test: &DepthTest| {
+            test.state.write_enabled && test.state.compare == CompareFunction::Less
+        };
+        if self.test.as_ref().is_some_and(is_less) && !self.numbers.is_empty() {
+            self.small_pixels::<true>(small, lanes, numbering)
+        } else {
+            self.small_pixels::<false>(small, lanes, numbering)
+        }
+    }
+
     #[inline(always)]
-    pub(crate) fn pixel(&mut self, at: usize, depth: f32, number: u32) -> bool {
-        if let Some(test) = &self.test
-            && let Some(stored) = self.depth.get_mut(at)
-        {
-            let [low, high] = test.range;
-            let new = if depth > low { depth } else { low };
-            let new = if new < high { new } else { high };
-            if !passes(test.state.compare, new, *stored) {
-                return false;
-            }
-            if test.state.write_enabled {
-                *stored = new;
+    fn small_pixels<const LESS: bool>(
+        &mut self,
+        small: &SmallTriangles,
+        lanes: u16,
+        numbering: &mut impl Numbering,
+    ) -> u16 {
+        let (mut blocks, mut lanes) = (0, lanes);
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize % LANES;
+            lanes &= lanes - 1;
+            let mut number = numbering.first_of(lane);
+            let mut pixels = small.pixels_of(lane);
+            while pixels != 0 {
+                let pixel = pixels.trailing_zeros() as usize % PIXELS;
+                pixels &= pixels - 1;
+                let at = small.place_of(pixel, lane);
+                let new = small.depth[pixel][lane];
+                if let Some(stored) = self.depth.get_mut(at)
+                    && let Some(test) = &self.test
+                {
+                    if LESS && new >= *stored || !LESS && !passes(test.state.compare, new, *stored)
+                    {
+                        continue;
+                    }
+                    if LESS || test.state.write_enabled {
+                        *stored = new;
+                    }
+                }
+                blocks |= 1u16 << ((at >> 8) & 15);
+                if let Some(seen) = self.numbers.get_mut(at) {
+                    *seen = number;
+                    self.pending[at / 16 % MAX_PACKETS][0] |= 1 << (at % 16);
+                    number = numbering.next(lane, pixel, number);
+                }
             }
         }
-        if let Some(seen) = self.numbers.get_mut(at) {
-            *seen = number;
-            self.pending[at / 16 % MAX_PACKETS][0] |= 1 << (at % 16);
-        }
-        true
+        blocks
     }
 
     /// Blocks of a list and of whole ones, one bit each.

@@ -134,27 +134,6 @@ pub(crate) fn packet_origin(packet: u32) -> (i32, i32) {
     (gather(packet), gather(packet >> 1))
 }
 
-/// Where a pixel of a 64×64 tile of one sample is stored: bits of x and y interleaved.
-#[inline(always)]
-pub(crate) fn pixel_index(x: i32, y: i32) -> usize {
-    /// Bit `i` moved to bit `2i`, for six bits.
-    const SPREAD: [u16; 64] = {
-        let mut table = [0; 64];
-        let mut value = 0;
-        while value < 64 {
-            let mut bit = 0;
-            while bit < 6 {
-                table[value] |= ((value >> bit & 1) << (2 * bit)) as u16;
-                bit += 1;
-            }
-            value += 1;
-        }
-        table
-    };
-    let spread = |v: i32| SPREAD[(v & 63) as usize];
-    usize::from(spread(x) | spread(y) << 1)
-}
-
 /// The lanes of the packet at (x, y) that lie in a rectangle of the tile's pixels.
 #[inline(always)]
 pub(crate) fn rect_mask(rect: &PixelRect, x: i32, y: i32) -> u16 {
@@ -251,24 +230,6 @@ mod tests {
             assert_eq!(
                 grid.packet_of(x.cast_unsigned(), y.cast_unsigned()),
                 packet as usize
-            );
-        }
-    }
-
-    #[test]
-    fn pixels_are_numbered_as_they_are_stored() {
-        let grid = TileGrid::new(64, 64, 1);
-        for (x, y) in [(0, 0), (1, 0), (2, 1), (3, 3), (17, 5), (40, 63), (63, 63)] {
-            let lane = (0..LANES).find(|&lane| {
-                (x % 4, y % 4)
-                    == (
-                        u32::from(estampe_simd::LANE_X[lane]),
-                        u32::from(estampe_simd::LANE_Y[lane]),
-                    )
-            });
-            assert_eq!(
-                pixel_index(x.cast_signed(), y.cast_signed()),
-                grid.packet_of(x, y) * LANES + lane.unwrap()
             );
         }
     }

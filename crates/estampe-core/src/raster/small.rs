@@ -1,6 +1,6 @@
 //! Coverage of small triangles, sixteen triangles at a time.
 //!
-//! A triangle whose box holds at most 4×4 pixels would leave most of sixteen pixels' lanes idle; here the
+//! A triangle whose box holds at most 8×8 pixels would leave most of sixteen pixels' lanes idle; here the
 //! lanes are the triangles of a packet, and the loop is over the pixels of their boxes. All
 //! differences of positions are below 2¹³, so that 32-bit edges are exact without a tile's constants.
 //!
@@ -12,10 +12,14 @@
 use super::TileShape;
 use crate::geometry::viewport::PixelRect;
 use crate::tiles::TrianglePacket;
-use estampe_simd::{LANES, Lanes, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, mask32x16};
+use estampe_simd::{
+    Bytes, LANES, Lanes, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, mask32x16, u32x16,
+};
 
 /// Columns and rows of pixels that a small triangle's box has at most.
-const SIDE: i32 = 4;
+const SIDE: i32 = 8;
+/// Pixels of the largest box.
+pub(crate) const PIXELS: usize = 64;
 
 /// A small triangle's extent in 1/256 pixel is below this, whatever part of it the tile shows.
 const EXTENT: i32 = 1 << 12;
@@ -24,13 +28,14 @@ const EXTENT: i32 = 1 << 12;
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 pub(crate) struct SmallTriangles {
-    /// By pixel of the box (4·row + column), the planes' depth of each lane, not yet clamped.
-    pub(crate) depth: [[f32; LANES]; 16],
-    /// By lane: bit 4·row + column is that pixel of its box.
-    pub(crate) covered: [i32; LANES],
-    /// By lane: the first pixel of its box, in the tile's own pixels.
-    pub(crate) x: [i32; LANES],
-    pub(crate) y: [i32; LANES],
+    /// By pixel of the box (8·row + column), the depth of each lane, clamped.
+    pub(crate) depth: [[f32; LANES]; PIXELS],
+    /// By lane: bit 8·row + column is that pixel of its box, rows 0 to 3 and 4 to 7.
+    covered: [[i32; LANES]; 2],
+    /// By column and lane: the bits of the pixel's place in the tile that come from x.
+    place_x: [[u32; LANES]; SIDE as usize],
+    /// By row and lane: those that come from y.
+    place_y: [[u32; LANES]; SIDE as usize],
     /// By lane: the distance of that pixel's centre from the planes' origin.
     pub(crate) from_x: [f32; LANES],
     pub(crate) from_y: [f32; LANES],
@@ -39,10 +44,10 @@ pub(crate) struct SmallTriangles {
 impl Default for SmallTriangles {
     fn default() -> Self {
         Self {
-            depth: [[0.0; LANES]; 16],
-            covered: [0; LANES],
-            x: [0; LANES],
-            y: [0; LANES],
+            depth: [[0.0; LANES]; PIXELS],
+            covered: [[0; LANES]; 2],
+            place_x: [[0; LANES]; SIDE as usize],
+            place_y: [[0; LANES]; SIDE as usize],
             from_x: [0.0; LANES],
             from_y: [0.0; LANES],
         }
@@ -50,6 +55,20 @@ impl Default for SmallTriangles {
 }
 
 impl SmallTriangles {
+    /// The pixels of a lane's box that are covered: bit 8·row + column.
+    #[inline(always)]
+    pub(crate) fn pixels_of(&self, lane: usize) -> u64 {
+        let [upper, lower] = [self.covered[0][lane], self.covered[1][lane]];
+        u64::from(upper.cast_unsigned()) | u64::from(lower.cast_unsigned()) << 32
+    }
+
+    /// Where a pixel of a lane's box is stored in its tile, if it is covered.
+    #[inline(always)]
+    pub(crate) fn place_of(&self, pixel: usize, lane: usize) -> usize {
+        let (column, row) = (pixel % SIDE as usize, pixel / SIDE as usize % SIDE as usize);
+        (self.place_x[column][lane] | self.place_y[row][lane]) as usize
+    }
+
     /// Covers those of the packet's triangles in `lanes` that are small; returns which those are.
     #[inline(always)]
     pub(crate) fn cover<S: Lanes>(
@@ -57,8 +76,8 @@ impl SmallTriangles {
         s: S,
         packet: &TrianglePacket,
         lanes: u16,
-        tile: TileShape,
-        rect: &PixelRect,
+        (tile, rect): (TileShape, &PixelRect),
+        [low, high]: [f32; 2],
     ) -> u16 {
         let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
         let (mut x, mut y) = ([splat(0); 3], [splat(0); 3]);
@@ -93,20 +112,24 @@ impl SmallTriangles {
         let from_x = f32x16::float_from((x_first << 8) + 128 - x0) * (1.0 / 256.0);
         let from_y = f32x16::float_from((y_first << 8) + 128 - y0) * (1.0 / 256.0);
 
-        let mut covered = splat(0);
+        let real = |value: f32| <f32x16<S> as SimdBase<S>>::splat(s, value);
+        let mut covered = [splat(0); 2];
         let mut row_edges = [edges[0].value, edges[1].value, edges[2].value];
         for row in 0..rows {
             let by_y = (from_y + row as f32) * dy;
             let mut values = row_edges;
+            let half = (row >> 2) as usize & 1;
             for column in 0..columns {
-                let number = row * 4 + column;
                 // Outside an edge, or beyond the box: the sign bit is set.
                 let beyond = (across - column) | (down - row);
                 let outside = values[0] | values[1] | values[2] | beyond;
                 let inside = outside.simd_ge(splat(0)) & among;
-                covered = inside.select(covered | splat(1 << number), covered);
+                let bit = 1i32 << ((row & 3) * SIDE + column);
+                covered[half] = inside.select(covered[half] | splat(bit), covered[half]);
                 let by_x = (from_x + column as f32) * dx;
-                (origin + (by_x + by_y)).store_array(&mut self.depth[number as usize]);
+                let depth = origin + (by_x + by_y);
+                let depth = s.min_f32(s.max_f32(depth, real(low)), real(high));
+                depth.store_array(&mut self.depth[(row * SIDE + column) as usize % PIXELS]);
                 for (value, edge) in values.iter_mut().zip(&edges) {
                     *value += edge.a;
                 }
@@ -115,13 +138,33 @@ impl SmallTriangles {
                 *value += edge.b;
             }
         }
-        covered.store_array(&mut self.covered);
+        for half in 0..2 {
+            covered[half].store_array(&mut self.covered[half]);
+        }
+        let (x, y) = (x_first - tile.x, y_first - tile.y);
+        for column in 0..columns {
+            let place = spread(s, x + column);
+            place.store_array(&mut self.place_x[column as usize % SIDE as usize]);
+        }
+        for row in 0..rows {
+            let place = spread(s, y + row) << 1;
+            place.store_array(&mut self.place_y[row as usize % SIDE as usize]);
+        }
         from_x.store_array(&mut self.from_x);
         from_y.store_array(&mut self.from_y);
-        (x_first - tile.x).store_array(&mut self.x);
-        (y_first - tile.y).store_array(&mut self.y);
         small
     }
+}
+
+/// Moves bit i of six-bit numbers to bit 2i.
+#[inline(always)]
+fn spread<S: Lanes>(s: S, value: i32x16<S>) -> u32x16<S> {
+    let mask = |bits: u32| <u32x16<S> as SimdBase<S>>::splat(s, bits);
+    let v: u32x16<S> = value.bitcast();
+    let v = v & mask(0x3F);
+    let v = (v | (v << 4)) & mask(0x30F);
+    let v = (v | (v << 2)) & mask(0x333);
+    (v | (v << 1)) & mask(0x555)
 }
 
 /// One edge of sixteen triangles: its value at the box's first pixel, and what a pixel further adds.
@@ -198,11 +241,12 @@ impl<S: Lanes> Winding<S> {
 #[inline(always)]
 fn largest<S: Lanes>(s: S, span: i32x16<S>, among: mask32x16<S>) -> i32 {
     let mut count = 1;
-    let mut at = 1;
-    while at < SIDE {
-        let reached = span.simd_ge(<i32x16<S> as SimdBase<S>>::splat(s, at)) & among;
-        count += i32::from(s.bits_of_mask(reached) != 0);
-        at += 1;
+    while count < SIDE {
+        let reached = span.simd_ge(<i32x16<S> as SimdBase<S>>::splat(s, count)) & among;
+        if s.bits_of_mask(reached) == 0 {
+            break;
+        }
+        count += 1;
     }
     count
 }

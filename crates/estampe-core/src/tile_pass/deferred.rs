@@ -6,18 +6,19 @@
 use super::{BOUNDED_PACKETS, ChunkInTile, TileItem, TileJob, TilePass, TileScratch};
 use crate::fragment::interpolate::DepthPlane;
 use crate::fragment::queue::FragmentQueue;
-use crate::fragment::rows::PlaneRows;
+use crate::fragment::rows::{PlaneRows, Rows};
 use crate::per_sample::codes::pack;
 use crate::per_sample::color::ColorTarget;
 use crate::per_sample::depth_bounds::Judgement;
 use crate::per_sample::visibility::{
-    Decision, ONLY_WIDE, SHADED, SeenTriangle, Sight, Visibility, orders, prefers_less,
+    ByTriangle, Decision, Numbering, ONLY_WIDE, SHADED, SeenTriangle, Sight, Visibility, orders,
+    prefers_less,
 };
-use crate::raster::small::SmallTriangles;
+use crate::raster::CoverageList;
+use crate::raster::small::{PIXELS, SmallTriangles};
 use crate::raster::triangle::TileTriangle;
-use crate::raster::{CoverageList, pixel_index};
 use crate::tiles::{BinEntry, TrianglePacket};
-use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
+use estampe_simd::{Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_types::shader::DepthOutput;
 
 mod shade;
@@ -225,25 +226,25 @@ fn keep_codes<S: Lanes, const N: usize>(
     }
 }
 
-/// Fragments of one packet's small triangles: row `r` holds the `r`-th fragment that each lane's triangle
-/// has.
-#[derive(Debug)]
-#[repr(C, align(64))]
-struct Rows {
-    /// By row and lane: the fragment's column and row in its triangle's box.
-    x: [[f32; LANES]; 16],
-    y: [[f32; LANES]; 16],
-    /// By row: the lanes that have a fragment.
-    lanes: [u16; 16],
+/// Numbers fragments by their places in rows.
+struct ByFragment<'a> {
+    rows: &'a mut Rows,
+    /// The number of the first row's first lane.
+    first: u32,
 }
 
-impl Default for Rows {
-    fn default() -> Self {
-        Self {
-            x: [[0.0; LANES]; 16],
-            y: [[0.0; LANES]; 16],
-            lanes: [0; 16],
-        }
+impl Numbering for ByFragment<'_> {
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "a lane is below 16")]
+    fn first_of(&mut self, lane: usize) -> u32 {
+        self.first + lane as u32
+    }
+
+    #[inline(always)]
+    fn next(&mut self, lane: usize, pixel: usize, number: u32) -> u32 {
+        let row = ((number - self.first) / 16) as usize;
+        self.rows.push(lane, row, pixel);
+        number + 16
     }
 }
 
@@ -264,55 +265,38 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
         let mut small = 0;
         if N == 1 {
             let (tile, rect) = (self.work.shape, &self.work.rect);
+            let range = self.work.item.depth_range;
             let cover = &mut self.scratch.deferred.small;
-            small = dispatch!(@wide self.work.level, s => cover.cover(s, packet, lanes, tile, rect),
+            small = dispatch!(@wide self.work.level, s => cover.cover(s, packet, lanes, (tile, rect), range),
                 scalar => unreachable!("{ONLY_WIDE}"));
         }
-        if small == lanes && self.shades_rows {
-            self.small_rows(packet, lanes);
-            return;
-        }
-        let mut left = lanes;
-        let mut of_rows = 0;
+        // Small triangles between large ones are seen together.
+        let first = number;
+        let (mut left, mut run) = (lanes, 0);
         while left != 0 {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
-            if small >> lane & 1 == 0 {
-                // Rows lie between large triangles in the order of submission.
-                self.small_rows(packet, std::mem::take(&mut of_rows));
-                self.large(packet, lane, number);
-            } else if self.shades_rows {
-                of_rows |= 1 << lane;
+            if small >> lane & 1 == 1 {
+                run |= 1 << lane;
             } else {
-                self.small(lane, number);
+                self.small(packet, std::mem::take(&mut run), (lanes, first));
+                self.large(packet, lane, number);
             }
             number += 1;
         }
-        self.small_rows(packet, of_rows);
+        self.small(packet, run, (lanes, first));
     }
 
-    /// The pixels of a small triangle.
-    #[inline(always)]
-    fn small(&mut self, lane: usize, number: u32) {
-        let (mut sight, _, small) = self.parts();
-        let (x, y) = (small.x[lane], small.y[lane]);
-        let mut covered = small.covered[lane];
-        let mut blocks = 0;
-        while covered != 0 {
-            let pixel = covered.trailing_zeros() as usize % 16;
-            covered &= covered - 1;
-            let at = pixel_index(x + (pixel & 3) as i32, y + (pixel >> 2) as i32);
-            sight.pixel(at, small.depth[pixel][lane], number);
-            blocks |= 1u16 << (at >> 8);
-        }
-        self.scratch.bounds.invalidate(blocks);
-    }
-
-    /// Small triangles whose fragments are shaded by rows: a sample's number is that of its fragment.
-    fn small_rows(&mut self, packet: &TrianglePacket, lanes: u16) {
+    /// Small triangles of a packet; `entry` is all of its lanes and their first number.
+    fn small(&mut self, packet: &TrianglePacket, lanes: u16, entry: (u16, u32)) {
         if lanes == 0 {
             return;
         }
+        let numbers: &mut [u32] = if self.has_colors {
+            self.job.colors[0]
+        } else {
+            &mut []
+        };
         let Deferred {
             visibility,
             small,
@@ -323,59 +307,41 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
         let mut sight = Sight {
             test: self.work.test,
             depth: self.job.depth,
-            numbers: self.job.colors[0],
+            numbers,
             pending: &mut visibility.pending,
             tile: self.work.shape,
             decision: Decision::InOrder,
         };
-        let first = *row_count;
-        let (mut count, mut blocks, mut left) = (0, 0, lanes);
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize % LANES;
-            left &= left - 1;
-            let mut covered = small.covered[lane];
-            let mut row = 0;
-            while covered != 0 {
-                let pixel = covered.trailing_zeros() as usize % 16;
-                covered &= covered - 1;
-                let (x, y) = ((pixel & 3) as i32, (pixel >> 2) as i32);
-                let at = pixel_index(small.x[lane] + x, small.y[lane] + y);
-                let number = SHADED | ((first + row) * 16 + lane as u32);
-                if !sight.pixel(at, small.depth[pixel][lane], number) {
-                    continue;
-                }
-                let place = row as usize % 16;
-                if row == count {
-                    rows.lanes[place] = 0;
-                    count += 1;
-                }
-                rows.x[place][lane] = x as f32;
-                rows.y[place][lane] = y as f32;
-                rows.lanes[place] |= 1 << lane;
-                row += 1;
-                blocks |= 1u16 << (at >> 8);
-            }
-        }
+        let (all, first) = entry;
+        let blocks = if self.shades_rows {
+            rows.count = 0;
+            let first = SHADED | *row_count * 16;
+            sight.small(small, lanes, &mut ByFragment { rows, first })
+        } else {
+            sight.small(small, lanes, &mut ByTriangle { lanes: all, first })
+        };
         self.scratch.bounds.invalidate(blocks);
-        if count != 0 {
-            *row_count += count;
-            dispatch!(@wide self.work.level, s => self.shade_rows(s, packet, count as usize),
+        if self.shades_rows && self.scratch.deferred.row_fragments.count != 0 {
+            dispatch!(@wide self.work.level, s => self.shade_rows(s, packet),
                 scalar => unreachable!("{ONLY_WIDE}"));
         }
     }
 
     /// Queues rows of fragments.
     #[inline(always)]
-    fn shade_rows<S: Lanes>(&mut self, s: S, packet: &TrianglePacket, count: usize) {
+    fn shade_rows<S: Lanes>(&mut self, s: S, packet: &TrianglePacket) {
         let source = self.work.varyings(self.work.chunk);
         let Deferred {
             rows: planes,
             row_fragments,
+            row_count,
             ..
         } = &mut self.scratch.deferred;
         // Every lane that has fragments has one in the first row.
         planes.set(s, packet, row_fragments.lanes[0], &source);
-        for row in 0..count.min(16) {
+        let count = row_fragments.count;
+        *row_count += u32::try_from(count).unwrap_or_default();
+        for row in 0..count {
             if self.scratch.queue.is_full() {
                 self.flush_rows();
             }
@@ -389,11 +355,10 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
                 ..
             } = deferred;
             // Exact, as in the coverage.
-            let x =
-                f32x16::load_array_ref(s, &small.from_x) + f32x16::load_array_ref(s, &rows.x[row]);
-            let y =
-                f32x16::load_array_ref(s, &small.from_y) + f32x16::load_array_ref(s, &rows.y[row]);
-            let out = queue.push_row(rows.lanes[row], packet.front);
+            let [x, y] = rows.steps(s, row);
+            let x = f32x16::load_array_ref(s, &small.from_x) + x;
+            let y = f32x16::load_array_ref(s, &small.from_y) + y;
+            let out = queue.push_row(rows.lanes[row % PIXELS], packet.front);
             planes.varyings(s, packet, source.modes, [x, y], out);
         }
     }
@@ -457,7 +422,7 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
             judged.certain & whole
         };
         let is_sorted = self.is_sorted;
-        let (mut sight, list, _) = self.parts();
+        let (mut sight, list) = self.parts();
         let seen = SeenTriangle { plane, number };
         if certain != 0 {
             sight.decision = Decision::Certain;
@@ -480,7 +445,7 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
 
     /// The attachments, to be written, beside what is read meanwhile.
     #[inline(always)]
-    fn parts(&mut self) -> (Sight<'_, N>, &CoverageList<N>, &SmallTriangles) {
+    fn parts(&mut self) -> (Sight<'_, N>, &CoverageList<N>) {
         let numbers: &mut [u32] = if self.has_colors {
             self.job.colors[0]
         } else {
@@ -495,6 +460,6 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
             tile: self.work.shape,
             decision: Decision::InOrder,
         };
-        (sight, &self.scratch.list, &deferred.small)
+        (sight, &self.scratch.list)
     }
 }
