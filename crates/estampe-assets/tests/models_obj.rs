@@ -528,3 +528,101 @@ fn hostile_sharing_takes_no_quadratic_time() {
     assert_eq!(read(&text).scene.meshes.len(), 65_536);
     assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
 }
+
+/// Plain lines of large files are read ahead, by several threads; a blank before a line keeps it from being
+/// plain and changes nothing else.
+#[test]
+fn plain_lines_mean_the_same_read_ahead() {
+    let rows = 14_000_u32;
+    let mut text = String::from("# large\nmtllib none.mtl\no first\n");
+    for row in 0..rows {
+        let line = |text: &mut String, line: String| {
+            text.push_str(&line);
+            text.push_str(if row % 1500 < 700 { "\n" } else { "\r\n" });
+        };
+        let at = row as f32 * 0.125;
+        for corner in 0..3_u8 {
+            let (x, y) = (f32::from(corner), f32::from(corner % 2));
+            line(&mut text, format!("v {x} {y} {at}"));
+            line(&mut text, format!("vn {at} 1e-3 {x}"));
+        }
+        line(&mut text, format!("vt {at} .5"));
+        let [a, b, c] = [row * 3 + 1, row * 3 + 2, row * 3 + 3];
+        let (d, uv) = (a.saturating_sub(1).max(1), row + 1);
+        line(
+            &mut text,
+            format!("f {a}/{uv}/{a} {b}/{uv}/{b} {c}/{uv}/{c}"),
+        );
+        match row {
+            1000 => line(&mut text, format!("f {a} {b} {c} {d}")),
+            1500 => line(&mut text, "g second\nusemtl red # not here".to_owned()),
+            2000 => line(&mut text, "f -1 -2 -3".to_owned()),
+            2500 => line(&mut text, format!("f 1 2 {}", rows * 3)),
+            3000 => line(&mut text, "s 3".to_owned()),
+            3500 => line(&mut text, "v 1 2 3 1 0 0\nv 1 2 nan\nv 1 2 3 4".to_owned()),
+            3501 => line(
+                &mut text,
+                "f 1//2 2//3 3//4\nf 1/2 2/3 3/4\nf 1 2 3".to_owned(),
+            ),
+            4000 => line(&mut text, "v 1 2 3 \\\n4 5 6\nwhat is this".to_owned()),
+            4500 => line(
+                &mut text,
+                "f 1 2 0\nf 1 2 99999999\nf 1 2 3/ # odd".to_owned(),
+            ),
+            5000 => line(&mut text, "s off\no third\nvp 1 2\nl 1 2 3\np 4".to_owned()),
+            5500 => line(
+                &mut text,
+                "v 1 2 3 5\nf 1 2 3 # triangle\n# comment \\".to_owned(),
+            ),
+            _ => {}
+        }
+    }
+    assert!(text.len() > 2 << 20, "several pieces: {}", text.len());
+    // Comments, and lines that go on, stay as they are.
+    let lines = text.split_inclusive('\n');
+    let odd: String = lines.flat_map(|line| [" ", line]).collect();
+    let parse = |text: &str, limits: &Limits| {
+        parse_model(
+            text.as_bytes(),
+            ModelFormat::Obj,
+            "large",
+            &NoResources,
+            limits,
+        )
+    };
+    for threads in [1, 2, 7] {
+        let limits = Limits {
+            threads,
+            ..Limits::default()
+        };
+        let [ahead, expected] = [&text, &odd].map(|text| parse(text, &limits).unwrap());
+        assert!(ahead.warning_count > 4);
+        assert_eq!(ahead.warnings, expected.warnings);
+        assert_eq!(ahead.warning_count, expected.warning_count);
+        let (ahead, expected) = (ahead.scene.meshes, expected.scene.meshes);
+        assert_eq!((ahead.len(), expected.len()), (2, 2));
+        for (ahead, expected) in ahead.iter().zip(&expected) {
+            assert_eq!(ahead.name, expected.name);
+            // One of them is not a number, which equals nothing.
+            let bits = |mesh: &Mesh| -> Vec<[u32; 3]> {
+                let positions = mesh.positions.iter();
+                positions.map(|p| p.to_array().map(f32::to_bits)).collect()
+            };
+            assert!(bits(ahead) == bits(expected));
+            assert!(ahead.normals == expected.normals);
+            assert!(ahead.uvs == expected.uvs);
+            assert!(ahead.colors == expected.colors);
+            assert!(ahead.triangles == expected.triangles);
+            assert_eq!(ahead.lines, expected.lines);
+            assert_eq!(ahead.points, expected.points);
+            assert_eq!(ahead.surfaces, expected.surfaces);
+        }
+        // Limits hold at the same line.
+        let few = Limits {
+            max_vertices: 20_000,
+            ..limits.clone()
+        };
+        let [ahead, expected] = [&text, &odd].map(|text| parse(text, &few).unwrap_err());
+        assert_eq!(ahead.to_string(), expected.to_string());
+    }
+}

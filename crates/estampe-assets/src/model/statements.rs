@@ -44,6 +44,35 @@ impl<'a> Statements<'a> {
         Location::Line(self.line)
     }
 
+    /// The number of the line that it stands in.
+    #[inline]
+    pub(super) fn line(&self) -> u64 {
+        self.line
+    }
+
+    /// Where it stands.
+    #[inline]
+    pub(super) fn at(&self) -> usize {
+        self.at
+    }
+
+    /// Moves to a later place, over so many line ends.
+    pub(super) fn jump(&mut self, at: usize, line_ends: u64) {
+        self.at = at;
+        self.line += line_ends;
+    }
+
+    /// Moves over a line's end with a line feed, if it stands at one; the number of the line counts it.
+    #[inline]
+    pub(super) fn take_line_feed(&mut self) -> bool {
+        let rest = &self.bytes[self.at..];
+        let is_there = rest.starts_with(b"\n") || rest.starts_with(b"\r\n");
+        if is_there {
+            self.take_line_end();
+        }
+        is_there
+    }
+
     /// The next statement's keyword, after which the cursor stands; `None` at the end of the file.
     #[inline]
     pub(super) fn next_keyword(&mut self) -> Option<&'a [u8]> {

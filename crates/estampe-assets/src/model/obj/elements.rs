@@ -1,5 +1,6 @@
 //! Faces, lines and points: indices resolved, polygons split into triangles.
 
+use super::plain::Run;
 use crate::model::load::Context;
 use crate::model::number::parse_i64;
 use crate::model::polygons::{Polygons, SPENT};
@@ -232,19 +233,38 @@ impl Elements {
         }
         Limits::check("triangles", count as u64, context.limits.max_triangles)
             .map_err(|error| error.at(membership.location))?;
-        if self
-            .runs
-            .last()
-            .is_none_or(|&(_, part)| part != membership.part)
-        {
-            self.runs.push((first, membership.part));
+        self.end_triangles(first, membership.part, membership.smoothing_group);
+        Ok(())
+    }
+
+    /// Keeps a run's triangles, as if each face had been read here.
+    pub(super) fn append(&mut self, run: &Run, part: u32, smoothing_group: u32) {
+        let first = self.triangles.len();
+        self.triangles.extend_from_slice(&run.triangles);
+        let count = self.triangles.len();
+        if count == first {
+            return;
         }
-        let group = membership.smoothing_group;
+        append_attributes(&mut self.triangle_uvs, first, &run.triangle_uvs, count);
+        append_attributes(
+            &mut self.triangle_normals,
+            first,
+            &run.triangle_normals,
+            count,
+        );
+        self.end_triangles(first, part, smoothing_group);
+    }
+
+    /// Notes what the triangles from `first` on belong to.
+    #[inline]
+    fn end_triangles(&mut self, first: usize, part: u32, group: u32) {
+        if self.runs.last().is_none_or(|&(_, last)| last != part) {
+            self.runs.push((first, part));
+        }
         if group != 0 || !self.smoothing_groups.is_empty() {
             self.smoothing_groups.resize(first, 0);
-            self.smoothing_groups.resize(count, group);
+            self.smoothing_groups.resize(self.triangles.len(), group);
         }
-        Ok(())
     }
 
     /// Splits the polygon in `scratch.corners`.
@@ -293,7 +313,7 @@ impl Elements {
 
 /// Appends an attribute of the triangle that follows `before` others, unless it and all before are absent.
 #[inline]
-fn push_attribute(attributes: &mut Vec<[u32; 3]>, before: usize, indices: [u32; 3]) {
+pub(super) fn push_attribute(attributes: &mut Vec<[u32; 3]>, before: usize, indices: [u32; 3]) {
     if attributes.is_empty() {
         if indices == [ABSENT; 3] {
             return;
@@ -301,6 +321,21 @@ fn push_attribute(attributes: &mut Vec<[u32; 3]>, before: usize, indices: [u32; 
         attributes.resize(before, [ABSENT; 3]);
     }
     attributes.push(indices);
+}
+
+/// Appends the attributes of a run of triangles, which are `first..count`; none if all are absent.
+fn append_attributes(
+    attributes: &mut Vec<[u32; 3]>,
+    first: usize,
+    of_run: &[[u32; 3]],
+    count: usize,
+) {
+    if attributes.is_empty() && of_run.is_empty() {
+        return;
+    }
+    attributes.resize(first, [ABSENT; 3]);
+    attributes.extend_from_slice(of_run);
+    attributes.resize(count, [ABSENT; 3]);
 }
 
 /// An index from 0; negative ones count back from the end of the `count` known so far.

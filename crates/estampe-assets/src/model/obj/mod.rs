@@ -10,6 +10,8 @@
 //! A mesh is an object (`o`); in files without objects, a group (`g`). Inside a mesh, the triangles
 //! are sorted by material, so that each material is one surface however often `usemtl` alternates.
 //!
+//! Of large files, plain lines are read ahead by several threads, see `plain`.
+//!
 //! Tolerance: a face that refers to a vertex that is not there is left out, a texture coordinate or
 //! normal that is not there is ignored, each with a warning that names the line. Indices may refer to
 //! vertices further down, though the format's description does not allow it.
@@ -19,6 +21,7 @@
 mod assemble;
 mod elements;
 mod parts;
+mod plain;
 mod reader;
 
 use super::load::{Context, Parsed};

@@ -2,6 +2,7 @@
 
 use super::elements::{Counts, Elements, Kind, Membership};
 use super::parts::Parts;
+use super::plain::{self, Run};
 use crate::model::load::Context;
 use crate::model::statements::Statements;
 use crate::{AssetError, Limits, Location};
@@ -35,6 +36,8 @@ struct Reader<'a, 'c, 'r> {
     /// Keywords that were warned about.
     reported: HashSet<&'a [u8]>,
     knows_a_statement: bool,
+    /// Runs of plain lines further down, the next one last.
+    runs: Vec<Run>,
 }
 
 /// Reads all statements of `bytes`.
@@ -43,7 +46,8 @@ pub(super) fn read<'a>(
     context: &mut Context<'_>,
 ) -> Result<Contents<'a>, AssetError> {
     let (max_meshes, max_materials) = (context.limits.max_meshes, context.limits.max_materials);
-    let contents = Contents {
+    let mut runs = plain::runs(bytes, context.workers);
+    let mut contents = Contents {
         positions: Vec::new(),
         colors: Vec::new(),
         uvs: Vec::new(),
@@ -54,6 +58,8 @@ pub(super) fn read<'a>(
         libraries: Vec::new(),
         material_uses: vec![Location::Line(0)],
     };
+    contents.reserve(&runs);
+    runs.reverse();
     let mut reader = Reader {
         statements: Statements::new(bytes),
         contents,
@@ -61,6 +67,7 @@ pub(super) fn read<'a>(
         smoothing_group: 0,
         reported: HashSet::new(),
         knows_a_statement: false,
+        runs,
     };
     reader.read_all()?;
     Ok(reader.contents)
@@ -68,7 +75,13 @@ pub(super) fn read<'a>(
 
 impl<'a> Reader<'a, '_, '_> {
     fn read_all(&mut self) -> Result<(), AssetError> {
-        while let Some(keyword) = self.statements.next_keyword() {
+        while self.statements.find_word() {
+            if self.take_run() {
+                continue;
+            }
+            let Some(keyword) = self.statements.word() else {
+                continue;
+            };
             if !self.read_statement(keyword)? {
                 self.report_keyword(keyword);
                 self.statements.skip_statement();
@@ -93,6 +106,38 @@ impl<'a> Reader<'a, '_, '_> {
             ..
         } = &mut self.contents;
         elements.end_of_file(positions, counts, self.context)
+    }
+
+    /// Takes the run of plain lines that starts here, if there is one and it can be.
+    #[inline]
+    fn take_run(&mut self) -> bool {
+        let at = self.statements.at();
+        // The start of a run that was passed was no start of a statement, or the run did not fit.
+        while self.runs.last().is_some_and(|run| run.start < at) {
+            self.runs.pop();
+        }
+        match self.runs.pop_if(|run| run.start == at) {
+            Some(run) => self.append_run(&run),
+            None => false,
+        }
+    }
+
+    fn append_run(&mut self, run: &Run) -> bool {
+        let limits = self.context.limits;
+        let most = (limits.max_vertices, limits.max_triangles);
+        let triangles = self.contents.elements.triangles.len();
+        if !run.fits(self.counts(), triangles, most) || limits.max_polygon_corners < 3 {
+            return false;
+        }
+        self.contents.append_vertices(run);
+        if !run.triangles.is_empty() {
+            let part = self.contents.parts.current_number();
+            let group = self.smoothing_group;
+            self.contents.elements.append(run, part, group);
+        }
+        self.statements.jump(run.end, run.line_ends);
+        self.knows_a_statement = true;
+        true
     }
 
     /// Reads the statement after `keyword`; `false` when the keyword is not known.
