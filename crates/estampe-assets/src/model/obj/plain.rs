@@ -127,29 +127,34 @@ impl Run {
         let line = statements.line();
         statements.advance(2);
         let mut corners = [[ABSENT; 3]; 3];
-        for corner in 0..3 {
+        for corner in &mut corners {
             if statements.is_at_end() {
                 return None;
             }
             let (indices, length) = plain_corner(statements.remaining())?;
             statements.advance(length);
-            for (attribute, index) in indices.into_iter().enumerate() {
-                corners[attribute][corner] = index;
-            }
+            *corner = indices;
         }
         if !ends(statements, line) {
             return None;
         }
+        let [positions, uvs, normals] =
+            [0, 1, 2].map(|attribute| corners.map(|corner: [u32; 3]| corner[attribute]));
         let known = [self.positions.len(), self.uvs.len(), self.normals.len()];
-        for ((needed, known), indices) in self.needed.iter_mut().zip(known).zip(&corners) {
-            for &index in indices.iter().filter(|&&index| index != ABSENT) {
+        for ((needed, known), indices) in self
+            .needed
+            .iter_mut()
+            .zip(known)
+            .zip([positions, uvs, normals])
+        {
+            for index in indices.into_iter().filter(|&index| index != ABSENT) {
                 *needed = (*needed).max((index as usize + 1).saturating_sub(known));
             }
         }
         let before = self.triangles.len();
-        self.triangles.push(corners[0]);
-        push_attribute(&mut self.triangle_uvs, before, corners[1]);
-        push_attribute(&mut self.triangle_normals, before, corners[2]);
+        self.triangles.push(positions);
+        push_attribute(&mut self.triangle_uvs, before, uvs);
+        push_attribute(&mut self.triangle_normals, before, normals);
         Some(())
     }
 
