@@ -42,7 +42,7 @@ pub(crate) fn fetch<S: Lanes>(
         let mut component = 0;
         while component < wanted {
             let value = if component < there {
-                decode(s, format, &words, component)
+                decode(format, &words, component)
             } else {
                 SimdBase::splat(s, if component == 3 { 1.0 } else { 0.0 })
             };
@@ -68,13 +68,7 @@ fn words_of(format: VertexFormat, components: usize) -> usize {
     clippy::cast_possible_truncation,
     reason = "a component is 0, 1, 2 or 3"
 )]
-fn decode<S: Lanes>(
-    s: S,
-    format: VertexFormat,
-    words: &[u32x16<S>; 4],
-    component: usize,
-) -> f32x16<S> {
-    let _ = s;
+fn decode<S: Lanes>(format: VertexFormat, words: &[u32x16<S>; 4], component: usize) -> f32x16<S> {
     match format {
         VertexFormat::Float32
         | VertexFormat::Float32x2
@@ -85,7 +79,7 @@ fn decode<S: Lanes>(
             float(code) * (1.0 / 255.0)
         }
         VertexFormat::Unorm16x2 | VertexFormat::Unorm16x4 => {
-            let code = (words[component / 2 & 3] >> (component as u32 % 2 * 16)) & 0xFFFF;
+            let code = (words[(component / 2) & 3] >> (component as u32 % 2 * 16)) & 0xFFFF;
             float(code) * (1.0 / 65_535.0)
         }
         // `VertexFormat` grows; a format without a reader cannot pass for zeros unnoticed.

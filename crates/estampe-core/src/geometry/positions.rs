@@ -7,9 +7,9 @@
 //! A program gives the same bits each time, and packets begin where they did the first time. Neighbouring
 //! triangles share vertices, so that the last packets are kept.
 
-use super::shading::{ShadingScratch, VertexSource, shade_positions};
+use super::shading::{PACKET, ShadingScratch, VertexSource, shade_positions};
 use crate::pipeline::RenderPipeline;
-use estampe_simd::{LANES, Level, Packet};
+use estampe_simd::{Level, Packet};
 
 /// How many packets are kept: two rows of a mesh of a thousand columns.
 const KEPT: usize = 128;
@@ -37,14 +37,14 @@ impl PositionCache {
         source: &VertexSource<'_>,
         vertex: u32,
     ) -> [f32; 4] {
-        let (packet, lane) = (vertex / LANES as u32, vertex as usize % LANES);
+        let (packet, lane) = (vertex / PACKET, (vertex % PACKET) as usize);
         let place = packet as usize % KEPT;
         if self.packets.is_empty() {
             self.packets.resize(KEPT, None);
             self.positions.resize_with(KEPT, Default::default);
         }
         if self.packets[place] != Some(packet) {
-            let first = packet * LANES as u32;
+            let first = packet * PACKET;
             self.positions[place] =
                 shade_positions(level, pipeline, source, first, &mut self.shading);
             self.packets[place] = Some(packet);

@@ -16,6 +16,10 @@ use estampe_types::{Bindings, Buffer, VertexBatch};
 /// 9.6, 9.9, 10.5 and 11.6 ms of CPU time.
 const BATCH: usize = 2;
 
+/// Vertices of a packet.
+#[expect(clippy::cast_possible_truncation, reason = "sixteen")]
+pub(crate) const PACKET: u32 = LANES as u32;
+
 /// A window x that says "this vertex must be clipped"; no snapped coordinate reaches it.
 pub(crate) const NEEDS_CLIPPING: i32 = i32::MIN;
 
@@ -105,7 +109,7 @@ pub(crate) fn shade_positions(
     first: u32,
     scratch: &mut ShadingScratch,
 ) -> [Packet<f32>; 4] {
-    let total = source.total().saturating_sub(first).min(LANES as u32);
+    let total = source.total().saturating_sub(first).min(PACKET);
     run(level, pipeline, source, (first, 0, total as usize), scratch);
     scratch.positions[0]
 }
