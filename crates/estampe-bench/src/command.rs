@@ -5,8 +5,9 @@ use crate::measure::{Effort, measure};
 use crate::picture::{Difference, Picture};
 use crate::report::{self, Report, Row};
 use crate::scene::{self, Detail, Scene, SceneEntry};
+use crate::versus::{self, CompareArguments};
 use crate::{BenchError, stages};
-use clap::Parser;
+use clap::{Parser, Subcommand};
 use estampe::{Device, DeviceDescriptor, Level};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -18,8 +19,15 @@ use std::time::{Duration, Instant};
 /// Exit codes: 0 done, 1 a picture differs too much from the other renderer's, 2 wrong usage, 3 a file
 /// cannot be read or written.
 #[derive(Debug, Parser)]
-#[command(name = "estampe-bench", version)]
+#[command(
+    name = "estampe-bench",
+    version,
+    args_conflicts_with_subcommands = true
+)]
 pub struct Arguments {
+    /// What else to do
+    #[command(subcommand)]
+    pub task: Option<Task>,
     /// Scenes to draw, separated by commas [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAME,…")]
     pub scenes: Vec<String>,
@@ -63,6 +71,13 @@ pub struct Arguments {
     pub stages: bool,
 }
 
+/// What the command does besides timing ourselves.
+#[derive(Debug, Subcommand)]
+pub enum Task {
+    /// Compares estampe with lavapipe, scene by scene
+    Compare(CompareArguments),
+}
+
 /// Whether the pictures were as they should be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
@@ -70,6 +85,16 @@ pub enum Outcome {
     Agreement,
     /// Some do not.
     Difference,
+}
+
+impl Outcome {
+    fn of(all_agree: bool) -> Self {
+        if all_agree {
+            Self::Agreement
+        } else {
+            Self::Difference
+        }
+    }
 }
 
 impl Arguments {
@@ -82,7 +107,11 @@ impl Arguments {
     }
 
     fn scenes(&self) -> Result<Vec<&'static SceneEntry>, BenchError> {
-        if self.scenes.is_empty() {
+        let asked = match &self.task {
+            Some(Task::Compare(compare)) => &compare.scenes,
+            None => &self.scenes,
+        };
+        if asked.is_empty() {
             return Ok(scene::ALL.iter().collect());
         }
         let known = || {
@@ -95,7 +124,7 @@ impl Arguments {
                 known: known(),
             })
         };
-        self.scenes.iter().map(find).collect()
+        asked.iter().map(find).collect()
     }
 }
 
@@ -105,6 +134,10 @@ impl Arguments {
 /// [`BenchError`]: wrong usage, or a file.
 pub fn run(arguments: &Arguments, out: &mut impl Write) -> Result<Outcome, BenchError> {
     let scenes = arguments.scenes()?;
+    if let Some(Task::Compare(compare)) = &arguments.task {
+        let names: Vec<_> = scenes.iter().map(|entry| entry.name).collect();
+        return versus::run(compare, &names, out).map(Outcome::of);
+    }
     let device = Device::new(&DeviceDescriptor {
         threads: arguments.threads,
         level: Level::named(&arguments.simd)?,
@@ -153,11 +186,7 @@ pub fn run(arguments: &Arguments, out: &mut impl Write) -> Result<Outcome, Bench
     let all_agree = comparisons
         .iter()
         .all(|(_, difference)| difference.passes());
-    Ok(if all_agree {
-        Outcome::Agreement
-    } else {
-        Outcome::Difference
-    })
+    Ok(Outcome::of(all_agree))
 }
 
 fn run_scene(
@@ -230,7 +259,11 @@ mod tests {
 
     #[test]
     fn a_wrong_name_is_wrong_usage() {
-        for line in ["bench --scenes fill,teapot", "bench --simd mmx"] {
+        for line in [
+            "bench --scenes fill,teapot",
+            "bench --simd mmx",
+            "bench compare --quick --scenes teapot",
+        ] {
             let error = run(&parsed(line), &mut Vec::new()).unwrap_err();
             assert!(error.is_usage(), "{error}");
         }

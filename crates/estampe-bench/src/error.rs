@@ -35,12 +35,28 @@ pub enum BenchError {
         /// What the system says.
         source: std::io::Error,
     },
-    /// A picture cannot be read.
+    /// A picture or another file does not hold what it should.
     #[error("{path}: {reason}")]
     Picture {
         /// Which file.
         path: PathBuf,
         /// What is wrong with it.
+        reason: String,
+    },
+    /// Something that a comparison needs is not there.
+    #[error("{what}; {remedy}")]
+    Missing {
+        /// What.
+        what: String,
+        /// What to do about it.
+        remedy: String,
+    },
+    /// Another program failed.
+    #[error("{command}: {reason}")]
+    Command {
+        /// Its command line.
+        command: String,
+        /// How it ended, and what it said.
         reason: String,
     },
 }

@@ -11,6 +11,7 @@
 //! * [`frame`] draws a scene once; [`measure`] draws it often and takes the time by the [`clock`];
 //! * [`picture`] writes, reads and compares pictures; [`report`] writes tables and JSON;
 //! * [`stages`] has loads that stress one stage each;
+//! * [`versus`] runs us and lavapipe in turn, and writes the tables of PERFORMANCE.md;
 //! * [`command`] is the command line.
 
 pub mod clock;
@@ -22,6 +23,7 @@ pub mod picture;
 pub mod report;
 pub mod scene;
 pub mod stages;
+pub mod versus;
 
 mod error;
 

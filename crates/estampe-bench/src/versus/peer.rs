@@ -1,0 +1,382 @@
+//! Who is run, and how: ourselves and `peerbench` on lavapipe, on the same cores.
+
+use super::document::Versions;
+use super::limits::Limits;
+use super::results::RunResults;
+use crate::BenchError;
+use crate::frame::FrameSize;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// Where Vulkan's loader finds drivers.
+const DRIVERS: &str = "/usr/share/vulkan/icd.d";
+
+/// How long each run measures.
+#[derive(Debug, Clone, Copy)]
+pub struct Effort {
+    frames: u32,
+    seconds: f64,
+    retries: u32,
+}
+
+impl Effort {
+    /// For tables that are kept.
+    pub const THOROUGH: Self = Self {
+        frames: 15,
+        seconds: 0.5,
+        retries: 2,
+    };
+    /// For a look.
+    pub const QUICK: Self = Self {
+        frames: 3,
+        seconds: 0.1,
+        retries: 0,
+    };
+}
+
+/// Everything that a comparison needs, found.
+#[derive(Debug)]
+pub struct Session {
+    /// The repository.
+    root: PathBuf,
+    peerbench: PathBuf,
+    /// Lavapipe's driver file.
+    lavapipe: PathBuf,
+    /// Where results and pictures go.
+    folder: PathBuf,
+}
+
+impl Session {
+    /// Finds what is needed, and builds `peerbench` where it is not given.
+    ///
+    /// # Errors
+    /// [`BenchError::Missing`] says what to install.
+    pub fn new(peerbench: Option<&Path>) -> Result<Self, BenchError> {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let missing = |what: String, remedy: &str| BenchError::Missing {
+            what,
+            remedy: remedy.to_owned(),
+        };
+        let lavapipe = lavapipe_driver(Path::new(DRIVERS)).ok_or_else(|| {
+            missing(
+                format!("no driver lvp_icd.*.json in {DRIVERS}"),
+                "install Debian's mesa-vulkan-drivers and libvulkan1",
+            )
+        })?;
+        if run(Command::new("taskset").arg("--version")).is_err() {
+            let remedy = "it pins a run to its cores: install Debian's util-linux";
+            return Err(missing("no command taskset".to_owned(), remedy));
+        }
+        let folder = root.join("target/compare");
+        create_folder(&folder)?;
+        let peerbench = match peerbench {
+            Some(path) if path.is_file() => path.to_owned(),
+            Some(path) => {
+                let what = format!("no program {}", path.display());
+                return Err(missing(what, "leave --peerbench out to have it built"));
+            }
+            None => build_peerbench(&root)?,
+        };
+        Ok(Self {
+            root,
+            peerbench,
+            lavapipe,
+            folder,
+        })
+    }
+
+    /// Draws a scene ourselves.
+    ///
+    /// # Errors
+    /// When the run fails.
+    pub fn run_ours(
+        &self,
+        scene: &str,
+        sizes: &[FrameSize],
+        cores: usize,
+        effort: Effort,
+    ) -> Result<RunResults, BenchError> {
+        let program = std::env::current_exe().map_err(|error| BenchError::Command {
+            command: "estampe-bench".to_owned(),
+            reason: error.to_string(),
+        })?;
+        let json = self.folder.join("estampe.json");
+        let mut command = pinned(&program, cores, scene, sizes, effort);
+        command.args(["--threads", &cores.to_string()]);
+        command.arg("--json").arg(&json);
+        command.arg("--images").arg(self.folder.join("estampe"));
+        run(&mut command)?;
+        RunResults::read(&json)
+    }
+
+    /// Has lavapipe draw a scene.
+    ///
+    /// # Errors
+    /// When the run fails.
+    pub fn run_peer(
+        &self,
+        scene: &str,
+        sizes: &[FrameSize],
+        cores: usize,
+        effort: Effort,
+    ) -> Result<RunResults, BenchError> {
+        let mut command = pinned(&self.peerbench, cores, scene, sizes, effort);
+        command.arg("--out").arg(&self.folder);
+        command.args(["--label", "lavapipe"]);
+        command.env("VK_DRIVER_FILES", &self.lavapipe);
+        command.env("VK_ICD_FILENAMES", &self.lavapipe);
+        command.env("LP_NUM_THREADS", cores.to_string());
+        // First frames include compiling, and no layer stands between.
+        command.env("MESA_SHADER_CACHE_DISABLE", "true");
+        command.env("NODEVICE_SELECT", "1");
+        command.env("XDG_RUNTIME_DIR", &self.folder);
+        run(&mut command)?;
+        RunResults::read(&self.folder.join("lavapipe.json"))
+    }
+
+    /// Our picture and lavapipe's of a scene.
+    #[must_use]
+    pub fn pictures(&self, scene: &str, size: FrameSize) -> [PathBuf; 2] {
+        let name = format!("{scene}_{size}.png");
+        ["estampe", "lavapipe"].map(|who| self.folder.join(who).join(&name))
+    }
+
+    /// Measures the limits of the machine.
+    ///
+    /// # Errors
+    /// When the run fails.
+    pub fn limits(&self) -> Result<Limits, BenchError> {
+        let json = self.folder.join("limits.json");
+        let program = self.peerbench.with_file_name("limits");
+        run(Command::new(program).arg("--out").arg(&json))?;
+        Limits::read(&json)
+    }
+
+    /// PERFORMANCE.md of the repository.
+    #[must_use]
+    pub fn default_document(&self) -> PathBuf {
+        self.root.join("PERFORMANCE.md")
+    }
+
+    /// What is compared, on what.
+    #[must_use]
+    pub fn versions(&self) -> Versions {
+        let since = SystemTime::now().duration_since(UNIX_EPOCH);
+        let days = since.map_or(0, |time| time.as_secs() / 86_400);
+        let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+        let mut git = Command::new("git");
+        git.args(["describe", "--always", "--dirty"]);
+        let commit = run(git.current_dir(&self.root));
+        let version = format!("estampe {}", env!("CARGO_PKG_VERSION"));
+        Versions {
+            date: date_of(days),
+            processor: processor(&cpu),
+            estampe: match commit {
+                Ok(commit) => format!("{version}, {}", commit.trim()),
+                Err(_) => version,
+            },
+            rustc: run(Command::new("rustc").arg("-V")).map_or_else(
+                |_| "rustc unknown".to_owned(),
+                |text| text.trim().to_owned(),
+            ),
+        }
+    }
+}
+
+/// The first lavapipe driver file of a folder.
+fn lavapipe_driver(folder: &Path) -> Option<PathBuf> {
+    let files = std::fs::read_dir(folder).ok()?.flatten();
+    let mut drivers: Vec<PathBuf> = files
+        .filter(|file| file.file_name().to_string_lossy().starts_with("lvp_icd."))
+        .map(|file| file.path())
+        .collect();
+    drivers.sort();
+    drivers.into_iter().next()
+}
+
+/// Builds `peerbench` from a copy of its sources: they are read-only, and cargo writes a lock file.
+fn build_peerbench(root: &Path) -> Result<PathBuf, BenchError> {
+    let sources = root.join("../shared/peerbench");
+    if !sources.join("Cargo.toml").is_file() {
+        return Err(BenchError::Missing {
+            what: format!("no sources in {}", sources.display()),
+            remedy: "put peerbench there, or name a built one with --peerbench".to_owned(),
+        });
+    }
+    let (copy, target) = (
+        root.join("target/peerbench/source"),
+        root.join("target/peerbench"),
+    );
+    copy_folder(&sources, &copy)?;
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.args(["build", "--release"]).current_dir(&copy);
+    cargo.env(
+        "CARGO_TARGET_DIR",
+        target.canonicalize().unwrap_or(target.clone()),
+    );
+    cargo.stderr(Stdio::inherit());
+    run(&mut cargo)?;
+    Ok(target.join("release/peerbench"))
+}
+
+fn copy_folder(from: &Path, to: &Path) -> Result<(), BenchError> {
+    create_folder(to)?;
+    let fault = |path: &Path| {
+        let path = path.to_owned();
+        move |source| BenchError::File { path, source }
+    };
+    for entry in std::fs::read_dir(from).map_err(fault(from))?.flatten() {
+        let (path, name) = (entry.path(), entry.file_name());
+        if path.is_dir() {
+            copy_folder(&path, &to.join(name))?;
+        } else {
+            // Not `copy`, which would keep the sources' write protection.
+            let bytes = std::fs::read(&path).map_err(fault(&path))?;
+            std::fs::write(to.join(name), bytes).map_err(fault(to))?;
+        }
+    }
+    Ok(())
+}
+
+fn create_folder(path: &Path) -> Result<(), BenchError> {
+    std::fs::create_dir_all(path).map_err(|source| BenchError::File {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+/// A program on the first so many cores, with the options that both understand.
+fn pinned(
+    program: &Path,
+    cores: usize,
+    scene: &str,
+    sizes: &[FrameSize],
+    effort: Effort,
+) -> Command {
+    let mut command = Command::new("taskset");
+    command.arg("-c").arg(format!("0-{}", cores.max(1) - 1));
+    command.arg(program);
+    let sizes: Vec<String> = sizes.iter().map(ToString::to_string).collect();
+    command.args(["--scenes", scene, "--sizes", &sizes.join(",")]);
+    command.args(["--frames", &effort.frames.to_string()]);
+    command.args(["--seconds", &effort.seconds.to_string()]);
+    command.args(["--retries", &effort.retries.to_string()]);
+    command
+}
+
+/// Runs a command to its end; gives what it printed.
+fn run(command: &mut Command) -> Result<String, BenchError> {
+    let words = std::iter::once(command.get_program()).chain(command.get_args());
+    let words: Vec<_> = words.map(OsStr::to_string_lossy).collect();
+    let line = words.join(" ");
+    let fault = |reason: String| BenchError::Command {
+        command: line.clone(),
+        reason,
+    };
+    let output = command.output().map_err(|error| fault(error.to_string()))?;
+    if !output.status.success() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        return Err(fault(format!("{}: {}", output.status, said.trim())));
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// The first processor's name in `/proc/cpuinfo`, and how many there are.
+fn processor(cpuinfo: &str) -> String {
+    let field = |line: &str| {
+        Some(
+            line.strip_prefix("model name")?
+                .split_once(':')?
+                .1
+                .trim()
+                .to_owned(),
+        )
+    };
+    let names: Vec<String> = cpuinfo.lines().filter_map(field).collect();
+    match names.first() {
+        Some(name) => format!("{name}, {} cores", names.len()),
+        None => "an unknown processor".to_owned(),
+    }
+}
+
+/// The date of a day since 1970-01-01, as 2026-11-21, by the Gregorian calendar.
+fn date_of(days: u64) -> String {
+    let (mut year, mut left) = (1970, days);
+    let is_leap = |year: u64| {
+        year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400))
+    };
+    while left >= 365 + u64::from(is_leap(year)) {
+        left -= 365 + u64::from(is_leap(year));
+        year += 1;
+    }
+    let february = 28 + u64::from(is_leap(year));
+    let mut month = 1;
+    for length in [31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31] {
+        if left < length {
+            break;
+        }
+        left -= length;
+        month += 1;
+    }
+    format!("{year}-{month:02}-{:02}", left + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn days_become_dates() {
+        assert_eq!(date_of(0), "1970-01-01");
+        assert_eq!(date_of(11_016), "2000-02-29");
+        assert_eq!(date_of(20_778), "2026-11-21");
+        assert_eq!(date_of(47_540), "2100-02-28");
+        assert_eq!(date_of(47_541), "2100-03-01");
+    }
+
+    #[test]
+    fn processors_are_named_and_counted() {
+        let text = "processor\t: 0\nmodel name\t: A B\nprocessor\t: 1\nmodel name\t: A B\n";
+        assert_eq!(processor(text), "A B, 2 cores");
+        assert_eq!(processor(""), "an unknown processor");
+    }
+
+    #[test]
+    fn what_fails_says_which_command() {
+        let error = run(Command::new("taskset-of-nowhere").arg("x")).unwrap_err();
+        assert!(error.to_string().starts_with("taskset-of-nowhere x: "));
+        let error = Session::new(Some(Path::new("/no/peerbench"))).unwrap_err();
+        assert!(matches!(error, BenchError::Missing { .. }), "{error}");
+    }
+
+    #[test]
+    fn lavapipe_is_found_by_name() {
+        let folder = std::env::temp_dir().join(format!("estampe-icd-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        assert_eq!(lavapipe_driver(&folder), None);
+        for name in ["lvp_icd.x86_64.json", "intel_icd.x86_64.json"] {
+            std::fs::write(folder.join(name), "{}").unwrap();
+        }
+        assert_eq!(
+            lavapipe_driver(&folder),
+            Some(folder.join("lvp_icd.x86_64.json"))
+        );
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert_eq!(lavapipe_driver(&folder), None);
+    }
+
+    #[test]
+    fn both_run_on_the_same_cores() {
+        let size = FrameSize {
+            width: 64,
+            height: 48,
+        };
+        let command = pinned(Path::new("p"), 2, "fill", &[size, size], Effort::QUICK);
+        let arguments: Vec<_> = command.get_args().map(OsStr::to_string_lossy).collect();
+        let expected =
+            "-c 0-1 p --scenes fill --sizes 64x48,64x48 --frames 3 --seconds 0.1 --retries 0";
+        assert_eq!(arguments.join(" "), expected);
+    }
+}
