@@ -249,7 +249,19 @@ impl<S: Lanes> Surface<S> for TriangleSurface<'_> {
 
     #[inline(always)]
     fn varyings(&self, s: S, pixel: [i32; 2], out: &mut [Packet<f32>]) {
-        let distances = self.origin.distances(s, pixel, [0.5; 2]);
+        self.varyings_at(s, self.origin.distances(s, pixel, [0.5; 2]), out);
+    }
+}
+
+impl TriangleSurface<'_> {
+    /// The varyings at sixteen pixels, given by their centres' distances from the planes' origin.
+    #[inline(always)]
+    pub(crate) fn varyings_at<S: Lanes>(
+        &self,
+        s: S,
+        distances: [f32x16<S>; 2],
+        out: &mut [Packet<f32>],
+    ) {
         let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
         let n = out.len().min(self.planes.len());
         let planes = self.planes;

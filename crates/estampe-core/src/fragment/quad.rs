@@ -1,46 +1,32 @@
 //! Varyings of a 2×2 quad: four lanes of a packet that is shared by quads of several triangles.
 //!
 //! Small triangles cover parts of packets. Their quads, whatever triangle and place they come from, fill
-//! packets together, so that the shader's lanes are busy; a quad is what derivatives need.
+//! packets together, so that the shader's lanes are busy; a quad is what derivatives need. Four quads of one
+//! triangle are interpolated at once.
 
 use super::interpolate::TriangleSurface;
 use crate::tiles::Plane;
-use estampe_simd::{Lanes, Packet, Select, SimdBase, f32x4};
-use estampe_types::Interpolation;
+use estampe_simd::{Lanes, Packet, Select, SimdBase, f32x4, f32x16};
 
 /// Lanes of a quad.
 pub(crate) const QUAD: usize = 4;
 
 impl TriangleSurface<'_> {
-    /// The varyings at a quad whose first pixel is given, into the lanes of quad `place` of `out`: as
-    /// [`Surface::varyings`] gives them, four lanes of sixteen.
+    /// The distances of four quads' pixels' centres from the planes' origin, given their first pixels.
     #[inline(always)]
-    pub(crate) fn quad_varyings<S: Lanes>(
+    pub(crate) fn distances_of_quads<S: Lanes>(
         &self,
         s: S,
-        pixel: [i32; 2],
-        place: usize,
-        out: &mut [Packet<f32>],
-    ) {
-        let splat = |value: f32| <f32x4<S> as SimdBase<S>>::splat(s, value);
-        let [dx, dy] = self.quad_distances(s, pixel);
-        let at = place % QUAD * QUAD;
-        let value =
-            |plane: &Plane| splat(plane.origin) + (dx * splat(plane.dx) + dy * splat(plane.dy));
-        let w = splat(1.0) / value(&self.iw);
-        let n = out.len().min(self.planes.len());
-        for (k, packet) in out.iter_mut().enumerate().take(n) {
-            let lanes = &mut packet.0[at..at + QUAD];
-            if !self.all_smooth && self.modes[k] == Interpolation::Flat {
-                lanes.fill(self.planes.of(k).origin);
-                continue;
-            }
-            let mut value = value(&self.planes.of(k));
-            if !self.equal_w && (self.all_smooth || self.modes[k] == Interpolation::Smooth) {
-                value *= w;
-            }
-            value.store_slice(lanes);
-        }
+        [a, b, c, d]: [[i32; 2]; 4],
+    ) -> [f32x16<S>; 2] {
+        let [ax, ay] = self.quad_distances(s, a);
+        let [bx, by] = self.quad_distances(s, b);
+        let [cx, cy] = self.quad_distances(s, c);
+        let [dx, dy] = self.quad_distances(s, d);
+        [
+            s.combine_f32x8(s.combine_f32x4(ax, bx), s.combine_f32x4(cx, dx)),
+            s.combine_f32x8(s.combine_f32x4(ay, by), s.combine_f32x4(cy, dy)),
+        ]
     }
 
     /// Distances of a quad's pixels' centres from the origin.

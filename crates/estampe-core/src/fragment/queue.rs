@@ -14,6 +14,17 @@ pub(crate) const CAPACITY: usize = 16;
 /// Quads of a packet.
 const QUADS: usize = LANES / QUAD;
 
+/// A quad of a triangle.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct QuadPlace<const N: usize> {
+    /// Packet·4 + quad.
+    pub(crate) place: u16,
+    /// By sample, in the lowest four bits.
+    pub(crate) masks: [u16; N],
+    /// Its first pixel in the target.
+    pub(crate) pixel: [i32; 2],
+}
+
 /// Where a queued packet came from.
 #[derive(Debug, Clone, Copy)]
 struct Queued<const N: usize> {
@@ -35,6 +46,8 @@ pub(crate) struct FragmentQueue<const N: usize> {
     /// The packet that is being filled with quads, and how many it has.
     open: Option<(usize, usize)>,
     varyings: Vec<Packet<f32>>,
+    /// The same of quads that are not queued yet.
+    spare: Vec<Packet<f32>>,
     positions: [[Packet<f32>; 4]; CAPACITY],
     front_facing: [u16; CAPACITY],
     coverage: [u16; CAPACITY],
@@ -61,6 +74,7 @@ impl<const N: usize> Default for FragmentQueue<N> {
             }; CAPACITY],
             open: None,
             varyings: Vec::new(),
+            spare: Vec::new(),
             positions: [[Packet::default(); 4]; CAPACITY],
             front_facing: [0; CAPACITY],
             coverage: [0; CAPACITY],
@@ -96,6 +110,7 @@ impl<const N: usize> FragmentQueue<N> {
         self.passes_color = interface.passes_color;
         self.varyings
             .resize(self.scalars * CAPACITY, Packet::default());
+        self.spare.resize(self.scalars, Packet::default());
         self.colors
             .resize(self.targets * 4 * CAPACITY, Packet::default());
     }
@@ -162,14 +177,58 @@ impl<const N: usize> FragmentQueue<N> {
         self.len += 1;
     }
 
-    /// Queues quad `place` (packet·4 + quad) of a triangle, its first pixel being the target's (x, y); of each
-    /// sample's mask the quad's own four bits count.
+    /// Interpolates up to four quads of a triangle, for [`FragmentQueue::push_quad`] or, if there are four, as
+    /// a packet of their own: then they are queued, and it says so.
+    #[inline(always)]
+    pub(crate) fn push_quads<S: Lanes>(
+        &mut self,
+        s: S,
+        surface: &TriangleSurface<'_>,
+        quads: &[QuadPlace<N>; QUADS],
+        (count, front): (usize, bool),
+        needs: Needs,
+    ) -> bool {
+        let [a, b, c, d] = quads;
+        let pixels = [a.pixel, b.pixel, c.pixel, d.pixel];
+        let distances = surface.distances_of_quads(s, pixels);
+        if count < QUADS {
+            surface.varyings_at(s, distances, &mut self.spare);
+            return false;
+        }
+        let slot = self.len % CAPACITY;
+        self.len += 1;
+        let mut masks = [0; N];
+        for (quad, from) in quads.iter().enumerate() {
+            for (mask, of_quad) in masks.iter_mut().zip(from.masks) {
+                *mask |= of_quad << (quad * QUAD);
+            }
+        }
+        let covered = Covered { packet: 0, masks };
+        self.coverage[slot] = covered.any();
+        self.front_facing[slot] = if front { u16::MAX } else { 0 };
+        self.queued[slot] = Queued {
+            covered,
+            places: Some([a.place, b.place, c.place, d.place]),
+        };
+        let out = &mut self.varyings[slot * self.scalars..][..self.scalars];
+        surface.varyings_at(s, distances, out);
+        if needs.position {
+            let out = &mut self.positions[slot];
+            for (quad, from) in quads.iter().enumerate() {
+                surface.quad_position(s, from.pixel, quad, needs.depth_range, out);
+            }
+        }
+        true
+    }
+
+    /// Queues a quad, the `at`-th of those that were interpolated last, into a packet that it shares with
+    /// others. The queue must not be [full of quads](FragmentQueue::is_full_of_quads).
     #[inline(always)]
     pub(crate) fn push_quad<S: Lanes>(
         &mut self,
         s: S,
         surface: &TriangleSurface<'_>,
-        (place, masks, pixel): (u16, [u16; N], [i32; 2]),
+        (at, from): (usize, &QuadPlace<N>),
         front: bool,
         needs: Needs,
     ) {
@@ -183,7 +242,7 @@ impl<const N: usize> FragmentQueue<N> {
                         packet: 0,
                         masks: [0; N],
                     },
-                    places: Some([place; QUADS]),
+                    places: Some([from.place; QUADS]),
                 };
                 (self.coverage[slot], self.front_facing[slot]) = (0, 0);
                 (slot, 0)
@@ -193,23 +252,25 @@ impl<const N: usize> FragmentQueue<N> {
         let shift = quad * QUAD;
         let queued = &mut self.queued[slot];
         if let Some(places) = &mut queued.places {
-            places[quad] = place;
+            places[quad] = from.place;
         }
         let mut any = 0;
-        for (to, mask) in queued.covered.masks.iter_mut().zip(masks) {
-            let lanes = (mask & 0xF) << shift;
-            *to |= lanes;
-            any |= lanes;
+        for (to, mask) in queued.covered.masks.iter_mut().zip(from.masks) {
+            *to |= mask << shift;
+            any |= mask << shift;
         }
         self.coverage[slot] |= any;
         if front {
             self.front_facing[slot] |= 0xF << shift;
         }
         let out = &mut self.varyings[slot * self.scalars..][..self.scalars];
-        surface.quad_varyings(s, pixel, quad, out);
+        let at = at % QUADS * QUAD;
+        for (to, from) in out.iter_mut().zip(&self.spare) {
+            to.0[shift..shift + QUAD].copy_from_slice(&from.0[at..at + QUAD]);
+        }
         if needs.position {
             let out = &mut self.positions[slot];
-            surface.quad_position(s, pixel, quad, needs.depth_range, out);
+            surface.quad_position(s, from.pixel, quad, needs.depth_range, out);
         }
     }
 

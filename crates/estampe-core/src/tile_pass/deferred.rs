@@ -21,7 +21,9 @@ use crate::tiles::{BinEntry, TrianglePacket};
 use estampe_simd::{Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_types::shader::DepthOutput;
 
+mod quads;
 mod shade;
+mod uniform;
 
 use shade::Shown;
 pub(super) use shade::shade_run;
@@ -45,6 +47,7 @@ pub(super) struct Deferred<const N: usize> {
     shown_of: Vec<u32>,
     shown: Vec<Shown>,
     planes: Vec<f32>,
+    quads: quads::Quads<N>,
     rows: PlaneRows,
     row_fragments: Box<Rows>,
     /// How many rows of fragments are shaded or queued.
@@ -65,6 +68,7 @@ impl<const N: usize> Default for Deferred<N> {
             shown_of: Vec::new(),
             shown: Vec::new(),
             planes: Vec::new(),
+            quads: quads::Quads::default(),
             rows: PlaneRows::default(),
             row_fragments: Box::default(),
             row_count: 0,

@@ -12,7 +12,6 @@ use crate::fragment::interpolate::{
 use crate::fragment::quad::QUAD;
 use crate::fragment::queue::{Needs, Shaded};
 use crate::per_sample::codes::pack;
-use crate::per_sample::color::write_code;
 use crate::per_sample::depth::line_mut;
 use crate::per_sample::visibility::{ONLY_WIDE, SHADED};
 use crate::raster::{Covered, MAX_PACKETS, packet_origin};
@@ -31,7 +30,7 @@ pub(super) struct Shown {
 }
 
 /// No place in `shown` yet.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 /// Shades the run, if there is one, and ends it.
 pub(in crate::tile_pass) fn shade_run<const N: usize>(
@@ -54,6 +53,7 @@ pub(in crate::tile_pass) fn shade_run<const N: usize>(
     deferred
         .shown_of
         .resize(deferred.visibility.slots.len(), NONE);
+    deferred.quads.clear(deferred.visibility.slots.len());
     scratch.queue.configure(item.pipeline);
     let interface = item.pipeline.interface();
     let (x, y) = pass.grid.tile_origin(job.tile);
@@ -75,14 +75,14 @@ pub(in crate::tile_pass) fn shade_run<const N: usize>(
             scalar => unreachable!("{ONLY_WIDE}"));
     }
     if item.pipeline.key().uniform_over_primitive {
-        dispatch!(@wide pass.level, s => shading.uniform(s),
-            scalar => unreachable!("{ONLY_WIDE}"));
-        shading.flush_uniform();
-        dispatch!(@wide pass.level, s => shading.write_codes(s),
-            scalar => unreachable!("{ONLY_WIDE}"));
+        shading.shade_uniform();
     } else {
         dispatch!(@wide pass.level, s => shading.packets(s),
             scalar => unreachable!("{ONLY_WIDE}"));
+        if !shading.scratch.deferred.quads.triangles.is_empty() {
+            dispatch!(@wide pass.level, s => shading.quads(s),
+                scalar => unreachable!("{ONLY_WIDE}"));
+        }
         shading.flush();
     }
     let deferred = &mut scratch.deferred;
@@ -93,16 +93,16 @@ pub(in crate::tile_pass) fn shade_run<const N: usize>(
     visibility.pending.fill([0; N]);
 }
 
-struct Shading<'a, 'j, 't, const N: usize> {
-    pass: &'a TilePass<'a>,
-    item: &'a TileItem<'a>,
+pub(super) struct Shading<'a, 'j, 't, const N: usize> {
+    pub(super) pass: &'a TilePass<'a>,
+    pub(super) item: &'a TileItem<'a>,
     /// The tile's first pixel.
-    origin: [i32; 2],
-    needs: Needs,
+    pub(super) origin: [i32; 2],
+    pub(super) needs: Needs,
     /// How each scalar of the varyings is interpolated.
-    modes: &'a [Interpolation],
-    job: &'j mut TileJob<'t>,
-    scratch: &'j mut TileScratch<N>,
+    pub(super) modes: &'a [Interpolation],
+    pub(super) job: &'j mut TileJob<'t>,
+    pub(super) scratch: &'j mut TileScratch<N>,
 }
 
 impl<const N: usize> Shading<'_, '_, '_, N> {
@@ -153,7 +153,12 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
 
     /// The first triangle that is seen in a packet's pending samples, and where; they are taken out.
     #[inline(always)]
-    fn next_seen<S: Lanes>(&self, s: S, packet: usize, pending: &mut [u16; N]) -> (u32, [u16; N]) {
+    pub(super) fn next_seen<S: Lanes>(
+        &self,
+        s: S,
+        packet: usize,
+        pending: &mut [u16; N],
+    ) -> (u32, [u16; N]) {
         let mut number = 0;
         for (sample, pending) in pending.iter().enumerate().rev() {
             if *pending != 0 {
@@ -174,7 +179,7 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
 
     /// The lanes of a line of the first attachment that hold a number.
     #[inline(always)]
-    fn lanes_of<S: Lanes>(&self, s: S, line: usize, number: u32) -> u16 {
+    pub(super) fn lanes_of<S: Lanes>(&self, s: S, line: usize, number: u32) -> u16 {
         let line = self.job.colors[0].get(line * LANES..(line + 1) * LANES);
         let Some(line) = line.and_then(|line| <&[u32; LANES]>::try_from(line).ok()) else {
             return u16::MAX;
@@ -183,49 +188,66 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
         s.bits_of_mask(numbers.simd_eq(<u32x16<S> as SimdBase<S>>::splat(s, number)))
     }
 
-    /// Queues a triangle's part of a packet: whole, or by quads where some quads are empty.
+    /// Queues a triangle's part of a packet if no quad of it is empty; otherwise notes its quads.
     #[inline(always)]
     fn queue<S: Lanes>(&mut self, s: S, number: u32, covered: Covered<N>) {
-        let shown = self.shown(number) as usize;
         let any = covered.any();
-        let mut quads = (any | any >> 1 | any >> 2 | any >> 3) & 0x1111;
-        let (x, y) = packet_origin(u32::from(covered.packet));
-        let pixel = [self.origin[0] + x, self.origin[1] + y];
-        if quads == 0x1111 {
-            if self.scratch.queue.is_full() {
-                self.flush();
-            }
-            let TileScratch {
-                queue, deferred, ..
-            } = &mut *self.scratch;
-            let (surface, front) = surface_of(deferred, (self.modes, self.item.all_smooth), shown);
-            queue.push(s, &surface, (covered, pixel), front, self.needs);
+        let quads = (any | any >> 1 | any >> 2 | any >> 3) & 0x1111;
+        if quads != 0x1111 {
+            self.scratch.deferred.quads.add(number, covered, quads);
             return;
         }
-        while quads != 0 {
-            let quad = quads.trailing_zeros() as usize / QUAD;
-            quads &= quads - 1;
-            if self.scratch.queue.is_full_of_quads() {
-                self.flush();
+        let shown = self.shown(number) as usize;
+        let (x, y) = packet_origin(u32::from(covered.packet));
+        let pixel = [self.origin[0] + x, self.origin[1] + y];
+        if self.scratch.queue.is_full() {
+            self.flush();
+        }
+        let TileScratch {
+            queue, deferred, ..
+        } = &mut *self.scratch;
+        let (surface, front) = surface_of(deferred, (self.modes, self.item.all_smooth), shown);
+        queue.push(s, &surface, (covered, pixel), front, self.needs);
+    }
+
+    /// Queues the quads that were noted, triangle by triangle.
+    #[inline(always)]
+    fn quads<S: Lanes>(&mut self, s: S) {
+        for at in 0..self.scratch.deferred.quads.triangles.len() {
+            let number = self.scratch.deferred.quads.triangles[at];
+            let shown = self.shown(number) as usize;
+            let mut next = self.scratch.deferred.quads.begin(number);
+            while next != NONE {
+                let (quads, count, rest) = self.scratch.deferred.quads.four(next, self.origin);
+                next = rest;
+                let style = (self.modes, self.item.all_smooth);
+                if self.scratch.queue.is_full() {
+                    self.flush();
+                }
+                let TileScratch {
+                    queue, deferred, ..
+                } = &mut *self.scratch;
+                let (surface, front) = surface_of(deferred, style, shown);
+                if queue.push_quads(s, &surface, &quads, (count, front), self.needs) {
+                    continue;
+                }
+                for (at, quad) in quads.iter().enumerate().take(count) {
+                    if self.scratch.queue.is_full_of_quads() {
+                        self.flush();
+                    }
+                    let TileScratch {
+                        queue, deferred, ..
+                    } = &mut *self.scratch;
+                    let (surface, front) = surface_of(deferred, style, shown);
+                    queue.push_quad(s, &surface, (at, quad), front, self.needs);
+                }
             }
-            let TileScratch {
-                queue, deferred, ..
-            } = &mut *self.scratch;
-            let (surface, front) = surface_of(deferred, (self.modes, self.item.all_smooth), shown);
-            let first = [
-                pixel[0] + (quad & 1) as i32 * 2,
-                pixel[1] + (quad >> 1) as i32 * 2,
-            ];
-            let mut masks = covered.masks;
-            masks.iter_mut().for_each(|mask| *mask >>= quad * QUAD);
-            let place = covered.packet * 4 + quad as u16;
-            queue.push_quad(s, &surface, (place, masks, first), front, self.needs);
         }
     }
 
     /// Where a triangle is in `shown`; its planes are made when it is first met.
     #[inline(always)]
-    fn shown(&mut self, number: u32) -> u32 {
+    pub(super) fn shown(&mut self, number: u32) -> u32 {
         let deferred = &mut self.scratch.deferred;
         // Numbers are those of slots.
         let at = number as usize % deferred.shown_of.len().max(1);
@@ -287,119 +309,11 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
             }
         }
     }
-
-    /// Shades one packet of every triangle that is seen.
-    #[inline(always)]
-    fn uniform<S: Lanes>(&mut self, s: S) {
-        let mut last = NONE;
-        for packet in 0..MAX_PACKETS {
-            let mut pending = self.scratch.deferred.visibility.pending[packet];
-            // Large triangles: most packets show the one before.
-            for (sample, pending) in pending.iter_mut().enumerate() {
-                if *pending != 0 {
-                    *pending &= !self.lanes_of(s, packet * N + sample, last);
-                }
-            }
-            while pending != [0; N] {
-                let (number, masks) = self.next_seen(s, packet, &mut pending);
-                last = number;
-                let known = self.scratch.deferred.shown.len() as u32;
-                let shown = self.shown(number);
-                if shown < known {
-                    continue;
-                }
-                if self.scratch.queue.is_full() {
-                    self.flush_uniform();
-                }
-                let covered = Covered {
-                    packet: packet as u16,
-                    masks,
-                };
-                let (x, y) = packet_origin(packet as u32);
-                let pixel = [self.origin[0] + x, self.origin[1] + y];
-                let TileScratch {
-                    queue, deferred, ..
-                } = &mut *self.scratch;
-                let (surface, front) =
-                    surface_of(deferred, (self.modes, self.item.all_smooth), shown as usize);
-                queue.push(s, &surface, (covered, pixel), front, self.needs);
-            }
-        }
-    }
-
-    /// Shades what is queued; the first lane's colours are the triangles', in the order of `shown`.
-    fn flush_uniform(&mut self) {
-        let queue = &mut self.scratch.queue;
-        if queue.is_empty() {
-            return;
-        }
-        queue.shade(self.pass.level, self.item.pipeline, self.item.bindings);
-        let codes = &mut self.scratch.deferred.codes;
-        for shaded in queue.drain(false) {
-            let targets = self.item.targets.iter().flatten();
-            for (target, colors) in targets.zip(shaded.colors.chunks_exact(4)) {
-                codes.push(target.code([0, 1, 2, 3].map(|channel| colors[channel].0[0])));
-            }
-        }
-    }
-
-    /// Puts triangles' colours in the place of their numbers.
-    #[inline(always)]
-    fn write_codes<S: Lanes>(&mut self, s: S) {
-        let Deferred {
-            visibility,
-            shown_of,
-            shown,
-            codes,
-            ..
-        } = &mut self.scratch.deferred;
-        let targets = codes.len() / shown.len().max(1);
-        let mut fragments = 0;
-        for packet in 0..MAX_PACKETS {
-            let pending = visibility.pending[packet];
-            let any = pending.iter().fold(0, |any, mask| any | mask);
-            if any == 0 {
-                continue;
-            }
-            fragments += u64::from(any.count_ones());
-            for (sample, mask) in pending.into_iter().enumerate() {
-                let at = packet * N + sample;
-                let Some(line) = line_mut(self.job.colors[0], at) else {
-                    continue;
-                };
-                let numbers = *line;
-                let first = numbers[mask.trailing_zeros() as usize % LANES];
-                let same = u32x16::load_array(s, numbers)
-                    .simd_eq(<u32x16<S> as SimdBase<S>>::splat(s, first));
-                let is_one = s.bits_of_mask(same) & mask == mask;
-                for (target, stored) in (0..targets).zip(&mut self.job.colors) {
-                    let Some(line) = line_mut(stored, at) else {
-                        continue;
-                    };
-                    let code = |number: u32| {
-                        let shown = shown_of.get(number as usize).copied().unwrap_or(0) as usize;
-                        codes.get(shown * targets + target).copied().unwrap_or(0)
-                    };
-                    if is_one {
-                        write_code(s, code(first), mask, line);
-                        continue;
-                    }
-                    let mut lanes = mask;
-                    while lanes != 0 {
-                        let lane = lanes.trailing_zeros() as usize % LANES;
-                        lanes &= lanes - 1;
-                        line[lane] = code(numbers[lane]);
-                    }
-                }
-            }
-        }
-        self.scratch.statistics.fragments_shaded += fragments;
-    }
 }
 
 /// A triangle's surface, and whether it faces the viewer.
 #[inline(always)]
-fn surface_of<'a, const N: usize>(
+pub(super) fn surface_of<'a, const N: usize>(
     deferred: &'a Deferred<N>,
     (modes, all_smooth): (&'a [Interpolation], bool),
     place: usize,
@@ -452,11 +366,23 @@ fn write_quads<const N: usize>(
             let Some(line) = stored.get_mut(from..from + QUAD) else {
                 continue;
             };
-            for (lane, (to, code)) in line.iter_mut().zip(codes).enumerate() {
-                if mask >> (quad * QUAD + lane) & 1 == 1 {
-                    *to = *code;
-                }
+            let masks = &QUAD_MASKS[usize::from(mask >> (quad * QUAD)) % 16];
+            for ((to, code), mask) in line.iter_mut().zip(codes).zip(masks) {
+                *to = (*to & !mask) | (code & mask);
             }
         }
     }
 }
+
+/// For each mask of four lanes, all bits of the lanes that it has.
+const QUAD_MASKS: [[u32; QUAD]; 16] = {
+    let mut masks = [[0; QUAD]; 16];
+    let mut at = 0;
+    while at < 16 * QUAD {
+        if (at / QUAD) >> (at % QUAD) & 1 == 1 {
+            masks[at / QUAD][at % QUAD] = u32::MAX;
+        }
+        at += 1;
+    }
+    masks
+};

@@ -1,0 +1,128 @@
+//! Shading a run whose triangles each have one colour: once for each triangle.
+
+use super::super::TileScratch;
+use super::Deferred;
+use super::shade::{NONE, Shading, surface_of};
+use crate::per_sample::color::write_code;
+use crate::per_sample::depth::line_mut;
+use crate::per_sample::visibility::ONLY_WIDE;
+use crate::raster::{Covered, MAX_PACKETS, packet_origin};
+use estampe_simd::{LANES, Lanes, SimdBase, dispatch, u32x16};
+
+impl<const N: usize> Shading<'_, '_, '_, N> {
+    /// Shades the run.
+    pub(super) fn shade_uniform(&mut self) {
+        let level = self.pass.level;
+        dispatch!(@wide level, s => self.uniform(s), scalar => unreachable!("{ONLY_WIDE}"));
+        self.flush_uniform();
+        dispatch!(@wide level, s => self.write_codes(s), scalar => unreachable!("{ONLY_WIDE}"));
+    }
+
+    /// Shades one packet of every triangle that is seen.
+    #[inline(always)]
+    fn uniform<S: Lanes>(&mut self, s: S) {
+        let mut last = NONE;
+        for packet in 0..MAX_PACKETS {
+            let mut pending = self.scratch.deferred.visibility.pending[packet];
+            // Large triangles: most packets show the one before.
+            for (sample, pending) in pending.iter_mut().enumerate() {
+                if *pending != 0 {
+                    *pending &= !self.lanes_of(s, packet * N + sample, last);
+                }
+            }
+            while pending != [0; N] {
+                let (number, masks) = self.next_seen(s, packet, &mut pending);
+                last = number;
+                let known = self.scratch.deferred.shown.len() as u32;
+                let shown = self.shown(number);
+                if shown < known {
+                    continue;
+                }
+                if self.scratch.queue.is_full() {
+                    self.flush_uniform();
+                }
+                let covered = Covered {
+                    packet: packet as u16,
+                    masks,
+                };
+                let (x, y) = packet_origin(packet as u32);
+                let pixel = [self.origin[0] + x, self.origin[1] + y];
+                let TileScratch {
+                    queue, deferred, ..
+                } = &mut *self.scratch;
+                let (surface, front) =
+                    surface_of(deferred, (self.modes, self.item.all_smooth), shown as usize);
+                queue.push(s, &surface, (covered, pixel), front, self.needs);
+            }
+        }
+    }
+
+    /// Shades what is queued; the first lane's colours are the triangles', in the order of `shown`.
+    fn flush_uniform(&mut self) {
+        let queue = &mut self.scratch.queue;
+        if queue.is_empty() {
+            return;
+        }
+        queue.shade(self.pass.level, self.item.pipeline, self.item.bindings);
+        let codes = &mut self.scratch.deferred.codes;
+        for shaded in queue.drain(false) {
+            let targets = self.item.targets.iter().flatten();
+            for (target, colors) in targets.zip(shaded.colors.chunks_exact(4)) {
+                codes.push(target.code([0, 1, 2, 3].map(|channel| colors[channel].0[0])));
+            }
+        }
+    }
+
+    /// Puts triangles' colours in the place of their numbers.
+    #[inline(always)]
+    fn write_codes<S: Lanes>(&mut self, s: S) {
+        let Deferred {
+            visibility,
+            shown_of,
+            shown,
+            codes,
+            ..
+        } = &mut self.scratch.deferred;
+        let targets = codes.len() / shown.len().max(1);
+        let mut fragments = 0;
+        for packet in 0..MAX_PACKETS {
+            let pending = visibility.pending[packet];
+            let any = pending.iter().fold(0, |any, mask| any | mask);
+            if any == 0 {
+                continue;
+            }
+            fragments += u64::from(any.count_ones());
+            for (sample, mask) in pending.into_iter().enumerate() {
+                let at = packet * N + sample;
+                let Some(line) = line_mut(self.job.colors[0], at) else {
+                    continue;
+                };
+                let numbers = *line;
+                let first = numbers[mask.trailing_zeros() as usize % LANES];
+                let same = u32x16::load_array(s, numbers)
+                    .simd_eq(<u32x16<S> as SimdBase<S>>::splat(s, first));
+                let is_one = s.bits_of_mask(same) & mask == mask;
+                for (target, stored) in (0..targets).zip(&mut self.job.colors) {
+                    let Some(line) = line_mut(stored, at) else {
+                        continue;
+                    };
+                    let code = |number: u32| {
+                        let shown = shown_of.get(number as usize).copied().unwrap_or(0) as usize;
+                        codes.get(shown * targets + target).copied().unwrap_or(0)
+                    };
+                    if is_one {
+                        write_code(s, code(first), mask, line);
+                        continue;
+                    }
+                    let mut lanes = mask;
+                    while lanes != 0 {
+                        let lane = lanes.trailing_zeros() as usize % LANES;
+                        lanes &= lanes - 1;
+                        line[lane] = code(numbers[lane]);
+                    }
+                }
+            }
+        }
+        self.scratch.statistics.fragments_shaded += fragments;
+    }
+}
