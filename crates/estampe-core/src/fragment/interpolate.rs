@@ -6,7 +6,9 @@
 
 use crate::raster::line::LineAxis;
 use crate::tiles::{LinePrimitive, Plane, PointPrimitive, TrianglePacket, VertexRef};
-use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x16, i32x16};
+use estampe_simd::{
+    LANE_X, LANE_Y, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x4, f32x16, i32x16,
+};
 use estampe_types::Interpolation;
 
 /// The varyings of a draw's vertices.
@@ -177,11 +179,12 @@ impl<'a> VaryingPlanes<'a> {
 
 /// Writes the planes of a lane's triangle to [`VaryingPlanes::size`] numbers.
 #[inline(always)]
-pub(crate) fn set_planes(
+pub(crate) fn set_planes<S: Lanes>(
+    s: S,
     out: &mut [f32],
-    packet: &TrianglePacket,
-    lane: usize,
+    (packet, lane): (&TrianglePacket, usize),
     source: &VaryingSource<'_>,
+    all_smooth: bool,
 ) {
     let vertex = |corner: usize| source.of(packet.vertex[corner][lane]);
     let (a0, a1, a2) = (vertex(0), vertex(1), vertex(2));
@@ -199,7 +202,29 @@ pub(crate) fn set_planes(
     let (dx1, dy1) = (difference(&packet.x, 1), difference(&packet.y, 1));
     let (dx2, dy2) = (difference(&packet.x, 2), difference(&packet.y, 2));
     let r = packet.r[lane];
-    for k in 0..n {
+    // Four scalars at a time where all are treated alike.
+    let fours = if all_smooth { n - n % 4 } else { 0 };
+    let splat = |value: f32| <f32x4<S> as SimdBase<S>>::splat(s, value);
+    for k in (0..fours).step_by(4) {
+        let four = k..k + 4;
+        let mut p = [
+            f32x4::from_slice(s, &a0[four.clone()]),
+            f32x4::from_slice(s, &a1[four.clone()]),
+            f32x4::from_slice(s, &a2[four.clone()]),
+        ];
+        if perspective {
+            p = [
+                p[0] * splat(iw[0]),
+                p[1] * splat(iw[1]),
+                p[2] * splat(iw[2]),
+            ];
+        }
+        let (e1, e2) = (p[1] - p[0], p[2] - p[0]);
+        p[0].store_slice(&mut origin[four.clone()]);
+        ((e1 * splat(dy2) - e2 * splat(dy1)) * splat(r)).store_slice(&mut dx[four.clone()]);
+        ((e2 * splat(dx1) - e1 * splat(dx2)) * splat(r)).store_slice(&mut dy[four]);
+    }
+    for k in fours..n {
         // The factor of modes without perspective is 1, and a product with 1 changes nothing.
         let by_w = perspective && source.modes[k] == Interpolation::Smooth;
         let w = if by_w { iw } else { [1.0; 3] };
@@ -208,6 +233,9 @@ pub(crate) fn set_planes(
         origin[k] = p0;
         dx[k] = (e1 * dy2 - e2 * dy1) * r;
         dy[k] = (e2 * dx1 - e1 * dx2) * r;
+    }
+    if all_smooth {
+        return;
     }
     if source.modes.contains(&Interpolation::Flat) {
         let provoking = source.of(packet.provoking[lane]);

@@ -146,7 +146,8 @@ impl<const N: usize> Drawing<'_, '_, '_, N> {
         }
         // Moved out for the call, because the surface borrows them.
         let mut planes = std::mem::take(&mut self.planes);
-        set_planes(&mut planes, packet, lane, &self.source);
+        let all_smooth = self.work.item.all_smooth;
+        set_planes(s, &mut planes, (packet, lane), &self.source, all_smooth);
         surface.planes = VaryingPlanes::new(&planes);
         if whole != 0 {
             // What is queued lies below.

@@ -197,7 +197,7 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
             self.scratch.deferred.quads.add(number, covered, quads);
             return;
         }
-        let shown = self.shown(number) as usize;
+        let shown = self.shown(s, number) as usize;
         let (x, y) = packet_origin(u32::from(covered.packet));
         let pixel = [self.origin[0] + x, self.origin[1] + y];
         if self.scratch.queue.is_full() {
@@ -215,7 +215,7 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
     fn quads<S: Lanes>(&mut self, s: S) {
         for at in 0..self.scratch.deferred.quads.triangles.len() {
             let number = self.scratch.deferred.quads.triangles[at];
-            let shown = self.shown(number) as usize;
+            let shown = self.shown(s, number) as usize;
             let mut next = self.scratch.deferred.quads.begin(number);
             while next != NONE {
                 let (quads, count, rest) = self.scratch.deferred.quads.four(next, self.origin);
@@ -247,7 +247,7 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
 
     /// Where a triangle is in `shown`; its planes are made when it is first met.
     #[inline(always)]
-    pub(super) fn shown(&mut self, number: u32) -> u32 {
+    pub(super) fn shown<S: Lanes>(&mut self, s: S, number: u32) -> u32 {
         let deferred = &mut self.scratch.deferred;
         // Numbers are those of slots.
         let at = number as usize % deferred.shown_of.len().max(1);
@@ -277,7 +277,8 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
             clipped: &chunk.clipped_varyings,
             modes: self.modes,
         };
-        set_planes(&mut deferred.planes[from..], packet, lane, &source);
+        let planes = &mut deferred.planes[from..];
+        set_planes(s, planes, (packet, lane), &source, self.item.all_smooth);
         place
     }
 

@@ -34,7 +34,7 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
                 let (number, masks) = self.next_seen(s, packet, &mut pending);
                 last = number;
                 let known = self.scratch.deferred.shown.len() as u32;
-                let shown = self.shown(number);
+                let shown = self.shown(s, number);
                 if shown < known {
                     continue;
                 }
