@@ -78,14 +78,16 @@ pub(crate) fn pack<S: Lanes>(s: S, [r, g, b, a]: [f32x16<S>; 4], is_srgb: bool) 
     r | (g << 8) | (b << 16) | alpha
 }
 
-/// [`pack`] of unorm channels that are at least 0, and above 1 by less than 1/512.
+/// [`pack`] of R, G, B as unorm, each at least 0, and above 1 by less than 1/512.
 #[inline(always)]
-pub(crate) fn pack_unclamped<S: Lanes>(_s: S, [r, g, b, a]: [f32x16<S>; 4]) -> u32x16<S> {
-    let (low, high) = (
-        unorm_code(r) | (unorm_code(g) << 8),
-        (unorm_code(b) << 16) | (unorm_code(a) << 24),
-    );
-    low | high
+pub(crate) fn pack_color_unclamped<S: Lanes>([r, g, b]: [f32x16<S>; 3]) -> u32x16<S> {
+    unorm_code(r) | (unorm_code(g) << 8) | (unorm_code(b) << 16)
+}
+
+/// The same of alpha.
+#[inline(always)]
+pub(crate) fn alpha_code_unclamped<S: Lanes>(alpha: f32x16<S>) -> u32x16<S> {
+    unorm_code(alpha) << 24
 }
 
 /// Takes four channels apart.

@@ -8,12 +8,13 @@
 //! * a source is not clamped where the planes' extremes lie in 0..=1 (planes are monotone in x and in y,
 //!   rounding included, so that the extremes are at corners);
 //! * the blend of values in 0..=1 is not clamped: it is at least 0, and it exceeds 1 by rounding
-//!   alone, which gives the code 255 as well.
+//!   alone, which gives the code 255 as well;
+//! * the alpha of what is opaque already is not computed: it stays 255.
 
 use super::depth::{DepthTest, compare, line_mut};
 use crate::fragment::interpolate::{DepthPlane, PlaneOrigin, VaryingPlanes};
 use crate::fragment::queue::clamp_depth;
-use crate::per_sample::codes::{pack_unclamped, saturate, unpack};
+use crate::per_sample::codes::{alpha_code_unclamped, pack_color_unclamped, saturate, unpack};
 use crate::raster::{TileShape, packet_origin};
 use crate::tiles::Plane;
 use estampe_simd::{LANE_X, LANE_Y, Lanes, Select, SimdBase, f32x16, u32x16};
@@ -141,13 +142,18 @@ fn blend_packets<S: Lanes, const CONFINED: bool, const ONE_ALPHA: bool>(
         let rest = if ONE_ALPHA { first_rest } else { one - alpha };
         let old = u32x16::load_array_ref(s, line);
         let below = unpack(s, old, false);
-        let new = [
+        let color = [
             source[0] * alpha + below[0] * rest,
             source[1] * alpha + below[1] * rest,
             source[2] * alpha + below[2] * rest,
-            alpha + below[3] * rest,
         ];
-        let codes = pack_unclamped(s, new);
+        // What is opaque stays so: a + (1 − a) is 1 but for a rounding, whose code is 255.
+        let opaque = <u32x16<S> as SimdBase<S>>::splat(s, 0xFF00_0000);
+        let codes = if s.bits_of_mask(old.simd_ge(opaque)) == u16::MAX {
+            pack_color_unclamped(color) | opaque
+        } else {
+            pack_color_unclamped(color) | alpha_code_unclamped(alpha + below[3] * rest)
+        };
         if mask == u16::MAX {
             codes.store_array(line);
         } else {
@@ -191,5 +197,20 @@ impl<S: Lanes> Steps<S> {
             LANE_Y[packet & 15] as usize & 3,
         );
         self.origin + (self.by_x[column] + self.by_y[row])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn what_is_opaque_stays_so() {
+        // As `blend_packets` would compute it, for alphas of every exponent and many mantissas.
+        for bits in (0..=1.0f32.to_bits()).step_by(997) {
+            let alpha = f32::from_bits(bits);
+            let below = 255.0 * (1.0 / 255.0f32);
+            let blended = alpha + below * (1.0 - alpha);
+            let code = blended * 255.0 + 0.5;
+            assert!((255.0..256.0).contains(&code), "{alpha}");
+        }
     }
 }
