@@ -12,6 +12,7 @@ estampe_types::shader! {
     impl Shader for Colored {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Vec4<R>;
+        const PASSES_COLOR: bool = true;
 
         fn vertex<R: Real>(
             &self,
@@ -27,6 +28,32 @@ estampe_types::shader! {
     }
 }
 
+/// Half of a smooth varying, of an independent fragment; turned round on back faces.
+#[derive(Debug, Clone, Copy)]
+pub struct Halved;
+
+estampe_types::shader! {
+    impl Shader for Halved {
+        type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
+        type Varyings<R: Real> = Vec4<R>;
+        const INDEPENDENT_FRAGMENTS: bool = true;
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, color): (Vec4<R>, Vec4<R>),
+        ) -> VertexOut<R, Vec4<R>> {
+            VertexOut::new(position, color)
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, color: Vec4<R>) -> FragmentOut<R> {
+            let color = color * input.real(0.5);
+            let turned = Vec4::new(color.w, color.z, color.y, color.x);
+            FragmentOut::color(Vec4::select(input.front_facing, color, turned))
+        }
+    }
+}
+
 /// The colour is the provoking vertex's: the same all over a primitive.
 #[derive(Debug, Clone, Copy)]
 pub struct FlatColored;
@@ -35,6 +62,7 @@ estampe_types::shader! {
     impl Shader for FlatColored {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Flat<Vec4<R>>;
+        const INDEPENDENT_FRAGMENTS: bool = true;
 
         fn vertex<R: Real>(
             &self,

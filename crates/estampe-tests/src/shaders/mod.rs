@@ -6,7 +6,7 @@ mod probe;
 mod textured;
 mod vertex_input;
 
-pub use colored::{Colored, FlatColored, Sized, Uniform};
+pub use colored::{Colored, FlatColored, Halved, Sized, Uniform};
 pub use depths::{Cutout, CutoutDepth, DepthGiven, DepthOnly, GivenDepth};
 pub use probe::{Probe, Scalar};
 pub use textured::{TexelSource, Textured};
@@ -88,6 +88,7 @@ macro_rules! test_shaders {
 test_shaders!(
     Colored,
     FlatColored,
+    Halved,
     Uniform,
     Sized,
     Probe,

@@ -1,0 +1,133 @@
+//! What is seen of many opaque triangles in one place: shading is put off until that is known, large triangles
+//! are seen front to back and small ones sixteen at a time, and ties of depth go by the order of drawing.
+
+use estampe_tests::geometry::{Style, Vertex, triangles};
+use estampe_tests::shaders::{Colored, FlatColored, Halved, Probe};
+use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
+use estampe_types::state::{BlendState, CompareFunction, CullMode, DepthState, ScissorRect};
+
+const ORDERED: [CompareFunction; 4] = [
+    CompareFunction::Less,
+    CompareFunction::LessEqual,
+    CompareFunction::Greater,
+    CompareFunction::GreaterEqual,
+];
+
+fn shader(random: &mut Random) -> TestShader {
+    match random.below(4) {
+        0 => FlatColored.into(),
+        1 => Halved.into(),
+        2 => Probe::random(random).into(),
+        _ => Colored.into(),
+    }
+}
+
+/// Puts whole triangles at one of a few depths, so that many are equal to the bit.
+fn quantize(random: &mut Random, vertices: &mut [Vertex]) {
+    for triangle in vertices.chunks_exact_mut(3) {
+        if random.once_in(4) {
+            continue;
+        }
+        let depth = random.pick(&[0.0, 0.25, 0.5, 0.75, 1.0]);
+        for vertex in triangle {
+            vertex.position[2] = depth * vertex.position[3];
+        }
+    }
+}
+
+/// A draw whose comparison orders depths, or sometimes any.
+fn opaque(random: &mut Random, vertices: &[Vertex]) -> CaseDraw {
+    let mut draw = CaseDraw::new(shader(random), vertices);
+    draw.depth = match random.below(8) {
+        0 => None,
+        1 => Some(DepthState {
+            compare: random.pick(&[CompareFunction::Always, CompareFunction::Equal]),
+            write_enabled: true,
+        }),
+        _ => Some(DepthState {
+            compare: random.pick(&ORDERED),
+            write_enabled: !random.once_in(6),
+        }),
+    };
+    draw.primitive.cull_mode = random.pick(&[CullMode::None, CullMode::None, CullMode::Back]);
+    draw
+}
+
+fn target(random: &mut Random, size: [u32; 2]) -> Case {
+    let mut case = Case::new(size, random.pick(&[1, 1, 4]));
+    case.clear_depth = random.pick(&[1.0, 0.0, 0.5]);
+    case.clear_color = random.four(0.0, 1.0);
+    case
+}
+
+#[test]
+fn large_triangles_over_each_other() {
+    check("visibility/large", 24, |random| {
+        let mut case = target(random, [140, 75]);
+        for _ in 0..=random.below(2) {
+            let count = 2 + random.below(14);
+            let mut vertices = triangles(random, Style::Large, case.size, count);
+            quantize(random, &mut vertices);
+            let mut draw = opaque(random, &vertices);
+            if random.once_in(4) {
+                draw.scissor = Some(ScissorRect {
+                    x: random.below(60),
+                    y: random.below(40),
+                    width: 70,
+                    height: 30,
+                });
+            }
+            case.draws.push(draw);
+        }
+        case
+    });
+}
+
+#[test]
+fn crowds_of_small_triangles() {
+    check("visibility/small", 24, |random| {
+        let mut case = target(random, [40, 36]);
+        for _ in 0..=random.below(2) {
+            let style = random.pick(&[Style::Tiny, Style::Small, Style::OnGrid]);
+            let count = 40 + random.below(60);
+            let mut vertices = triangles(random, style, case.size, count);
+            if random.once_in(2) {
+                vertices.extend(triangles(random, Style::Large, case.size, 2));
+                vertices.extend(triangles(random, style, case.size, 20));
+            }
+            quantize(random, &mut vertices);
+            case.draws.push(opaque(random, &vertices));
+        }
+        case
+    });
+}
+
+#[test]
+fn opaque_and_blended_draws_in_turn() {
+    check("visibility/turns", 24, |random| {
+        let mut case = target(random, [100, 70]);
+        for turn in 0..4 {
+            let style = random.pick(&[Style::Large, Style::Small]);
+            let mut vertices = triangles(random, style, case.size, 5);
+            quantize(random, &mut vertices);
+            if random.once_in(2) {
+                for vertex in &mut vertices {
+                    // One alpha all over, in 0..1 with all the rest.
+                    vertex.values = vertex.values.map(|value| value.clamp(0.0, 1.0));
+                    vertex.values[3] = 0.25;
+                    vertex.position[3] = 1.0;
+                }
+            }
+            let mut draw = opaque(random, &vertices);
+            if turn % 2 == 1 {
+                draw.shader = Colored.into();
+                draw.blend = Some(BlendState::ALPHA_BLENDING);
+            }
+            case.draws.push(draw);
+        }
+        if random.once_in(3) {
+            case.clear_color[3] = 1.0;
+        }
+        case
+    });
+}
