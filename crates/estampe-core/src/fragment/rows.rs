@@ -92,10 +92,9 @@ impl PlaneRows {
         let equal_w = s.mask_from_bits(packet.equal_w);
         let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
         let mut iw = [one; 3];
-        for corner in 0..3 {
-            let value = f32x16::load_array_ref(s, &packet.iw_at[corner]);
+        for (iw, values) in iw.iter_mut().zip(&packet.iw_at) {
             // A product with 1 changes nothing.
-            iw[corner] = equal_w.select(one, value);
+            *iw = equal_w.select(one, f32x16::load_array_ref(s, values));
         }
         let [first, second, third] = &mut self.corners;
         let rows = first.iter_mut().zip(second).zip(third);

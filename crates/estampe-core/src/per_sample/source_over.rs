@@ -17,7 +17,7 @@ use crate::fragment::queue::clamp_depth;
 use crate::per_sample::codes::{alpha_code_unclamped, pack_color_unclamped, saturate, unpack};
 use crate::raster::{TileShape, packet_origin};
 use crate::tiles::Plane;
-use estampe_simd::{LANE_X, LANE_Y, Lanes, Select, SimdBase, f32x16, u32x16};
+use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Select, SimdBase, f32x16, u32x16};
 
 /// Planes of a triangle's colour: R, G, B and straight alpha, linear in the window.
 #[derive(Debug, Clone, Copy)]
@@ -55,6 +55,12 @@ impl ColorPlanes {
     }
 }
 
+/// The first pixel of a block in its tile.
+#[inline(always)]
+fn block_origin(block: usize) -> (i32, i32) {
+    packet_origin(u32::try_from(block % LANES).unwrap_or_default() * 16)
+}
+
 /// The lanes of each packet of a block in which a triangle passes; depth is written if the state says so.
 #[inline(always)]
 pub(crate) fn test_block<S: Lanes>(
@@ -64,7 +70,7 @@ pub(crate) fn test_block<S: Lanes>(
     block: usize,
     stored: &mut [f32],
 ) -> [u16; 16] {
-    let (x, y) = packet_origin((block as u32 & 15) * 16);
+    let (x, y) = block_origin(block);
     let (x, y) = (test.origin[0] + x, test.origin[1] + y);
     let steps = Steps::new(s, &plane.origin, [x, y], &plane.z);
     let mut masks = [u16::MAX; 16];
@@ -91,7 +97,7 @@ pub(crate) fn blend_block<S: Lanes>(
     masks: &[u16; 16],
     stored: &mut [u32],
 ) {
-    let (x, y) = packet_origin((block as u32 & 15) * 16);
+    let (x, y) = block_origin(block);
     let pixel = [tile.x + x, tile.y + y];
     let Some(stored) = stored.get_mut(block * 256..block * 256 + 256) else {
         return;
@@ -175,12 +181,9 @@ impl<S: Lanes> Steps<S> {
     fn new(s: S, origin: &PlaneOrigin, [x, y]: [i32; 2], plane: &Plane) -> Self {
         let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
         let (mut by_x, mut by_y) = ([zero; 4], [zero; 4]);
-        let mut step = 0;
-        while step < 4 {
-            let at = step as i32 * 4;
+        for (step, at) in [0, 4, 8, 12].into_iter().enumerate() {
             by_x[step] = origin.columns_from(s, x + at, 0.5) * plane.dx;
             by_y[step] = origin.rows_from(s, y + at, 0.5) * plane.dy;
-            step += 1;
         }
         Self {
             origin: SimdBase::splat(s, plane.origin),

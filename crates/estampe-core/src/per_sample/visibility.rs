@@ -244,12 +244,9 @@ impl<const N: usize> Sight<'_, N> {
         let all = s.mask_from_bits(u16::MAX);
         for (sample, &[sx, sy]) in sample_offsets::<N>().iter().enumerate() {
             let (mut by_x, mut by_y) = ([splat(0.0); 4], [splat(0.0); 4]);
-            let mut step = 0;
-            while step < 4 {
-                let at = step as i32 * 4;
+            for (step, at) in [0, 4, 8, 12].into_iter().enumerate() {
                 by_x[step] = origin.columns_from(s, x + at, sx) * plane.dx;
                 by_y[step] = origin.rows_from(s, y + at, sy) * plane.dy;
-                step += 1;
             }
             for packet in 0..16 {
                 let (column, row) = (LANE_X[packet] as usize, LANE_Y[packet] as usize);
@@ -278,18 +275,17 @@ impl<const N: usize> Sight<'_, N> {
         let mut passes = mask;
         if let (Some(test), Some(line)) = (&self.test, line_mut(self.depth, at)) {
             let old = f32x16::load_array_ref(s, line);
-            passes = passes
-                & match self.decision {
-                    _ if LESS => new.simd_lt(old),
-                    Decision::InOrder => compare(s, test.state.compare, new, old),
-                    Decision::Certain => mask,
-                    Decision::Sorted => {
-                        let line = line_mut(self.numbers, at);
-                        let seen = line.map_or([0; 16], |line| *line);
-                        let seen = (u32x16::load_array(s, seen), *pending);
-                        nearer_or_first(s, test.state.compare, [new, old], seen, number)
-                    }
-                };
+            passes &= match self.decision {
+                _ if LESS => new.simd_lt(old),
+                Decision::InOrder => compare(s, test.state.compare, new, old),
+                Decision::Certain => mask,
+                Decision::Sorted => {
+                    let line = line_mut(self.numbers, at);
+                    let seen = line.map_or([0; 16], |line| *line);
+                    let seen = (u32x16::load_array(s, seen), *pending);
+                    nearer_or_first(s, test.state.compare, [new, old], seen, number)
+                }
+            };
             if LESS || test.state.write_enabled {
                 passes.select(new, old).store_array(line);
             }

@@ -138,9 +138,9 @@ impl SmallTriangles {
                 *value += edge.b;
             }
         }
-        for half in 0..2 {
-            covered[half].store_array(&mut self.covered[half]);
-        }
+        let [upper, lower] = covered;
+        upper.store_array(&mut self.covered[0]);
+        lower.store_array(&mut self.covered[1]);
         let (x, y) = (x_first - tile.x, y_first - tile.y);
         for column in 0..columns {
             let place = spread(s, x + column);

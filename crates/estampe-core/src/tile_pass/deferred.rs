@@ -319,7 +319,7 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
         let (all, first) = entry;
         let blocks = if self.shades_rows {
             rows.count = 0;
-            let first = SHADED | *row_count * 16;
+            let first = SHADED | (*row_count * 16);
             sight.small(small, lanes, &mut ByFragment { rows, first })
         } else {
             sight.small(small, lanes, &mut ByTriangle { lanes: all, first })

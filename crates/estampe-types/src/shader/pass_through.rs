@@ -38,7 +38,7 @@ pub(super) fn passes_color<T: Shader>(shader: &T, interface: &Interface) -> bool
 #[cfg(test)]
 mod tests {
     use crate::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
-    use crate::{Program, Real, ShaderProgram, Vec4};
+    use crate::{Program, ShaderProgram, Vec4};
 
     struct Colored {
         is_honest: bool,

@@ -138,14 +138,11 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
     /// Queues everything that is seen.
     #[inline(always)]
     fn packets<S: Lanes>(&mut self, s: S) {
-        for packet in 0..MAX_PACKETS {
-            let mut pending = self.scratch.deferred.visibility.pending[packet];
+        for (place, packet) in (0..MAX_PACKETS).zip(0..) {
+            let mut pending = self.scratch.deferred.visibility.pending[place];
             while pending != [0; N] {
-                let (number, masks) = self.next_seen(s, packet, &mut pending);
-                let covered = Covered {
-                    packet: packet as u16,
-                    masks,
-                };
+                let (number, masks) = self.next_seen(s, place, &mut pending);
+                let covered = Covered { packet, masks };
                 self.queue(s, number, covered);
             }
         }
@@ -260,7 +257,8 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
             &chunk.triangles[slot.packet as usize],
             usize::from(slot.lane),
         );
-        let place = deferred.shown.len() as u32;
+        // Fewer than there are slots, whose numbers have 32 bits.
+        let place = u32::try_from(deferred.shown.len()).unwrap_or(NONE);
         deferred.shown_of[at] = place;
         deferred.shown.push(Shown {
             origin: PlaneOrigin::new(packet, lane),

@@ -22,7 +22,7 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
     #[inline(always)]
     fn uniform<S: Lanes>(&mut self, s: S) {
         let mut last = NONE;
-        for packet in 0..MAX_PACKETS {
+        for (packet, number_of_packet) in (0..MAX_PACKETS).zip(0u16..) {
             let mut pending = self.scratch.deferred.visibility.pending[packet];
             // Large triangles: most packets show the one before.
             for (sample, pending) in pending.iter_mut().enumerate() {
@@ -33,19 +33,19 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
             while pending != [0; N] {
                 let (number, masks) = self.next_seen(s, packet, &mut pending);
                 last = number;
-                let known = self.scratch.deferred.shown.len() as u32;
+                let known = self.scratch.deferred.shown.len();
                 let shown = self.shown(s, number);
-                if shown < known {
+                if (shown as usize) < known {
                     continue;
                 }
                 if self.scratch.queue.is_full() {
                     self.flush_uniform();
                 }
                 let covered = Covered {
-                    packet: packet as u16,
+                    packet: number_of_packet,
                     masks,
                 };
-                let (x, y) = packet_origin(packet as u32);
+                let (x, y) = packet_origin(u32::from(number_of_packet));
                 let pixel = [self.origin[0] + x, self.origin[1] + y];
                 let TileScratch {
                     queue, deferred, ..
