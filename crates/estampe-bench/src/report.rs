@@ -60,6 +60,8 @@ pub struct Row {
     pub raster_ms: f64,
     /// Fragments shaded.
     pub fragments: u64,
+    /// Runs of triangles, tile by tile, whose shading was put off until all were seen.
+    pub deferred_runs: u64,
     /// The share of pixels, 0..=1, that differ from the other renderer's by more than the tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beyond: Option<f64>,
@@ -89,6 +91,7 @@ impl Row {
             geometry_ms: rounded(timing.geometry_ms),
             raster_ms: rounded(timing.raster_ms),
             fragments: timing.statistics.fragments_shaded,
+            deferred_runs: timing.statistics.deferred_runs,
             beyond: None,
         }
     }

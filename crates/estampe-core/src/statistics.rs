@@ -2,7 +2,8 @@
 
 use std::time::Duration;
 
-/// Counts and times of one render pass. Counts do not depend on threads or SIMD level; times do.
+/// Counts and times of one render pass. Counts do not depend on threads, and but for those of
+/// fragments and runs not on the SIMD level; times do.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Statistics {
     /// Vertices that went through the vertex shader.
@@ -17,6 +18,9 @@ pub struct Statistics {
     pub primitives_binned: u64,
     /// Fragments that went through the fragment shader, helper lanes not counted.
     pub fragments_shaded: u64,
+    /// Runs of opaque triangles, tile by tile, whose shading was put off until all of them had been seen:
+    /// what later ones hide is not shaded. None at the scalar level.
+    pub deferred_runs: u64,
     /// Time of the geometry side.
     pub geometry: Duration,
     /// Time of the tile side.
@@ -31,6 +35,7 @@ impl std::ops::AddAssign for Statistics {
         self.primitives_culled += other.primitives_culled;
         self.primitives_binned += other.primitives_binned;
         self.fragments_shaded += other.fragments_shaded;
+        self.deferred_runs += other.deferred_runs;
         self.geometry += other.geometry;
         self.raster += other.raster;
     }

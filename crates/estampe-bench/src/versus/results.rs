@@ -41,9 +41,10 @@ pub struct Measured {
     /// Fragments shaded; 0 where the renderer does not count.
     #[serde(default)]
     pub fragments: u64,
-    /// Fragments that were not shaded because later opaque primitives hide them.
+    /// Runs of opaque triangles that were shaded after all of them had been seen, so that what later ones hide
+    /// was not.
     #[serde(default)]
-    pub hidden_fragments: u64,
+    pub deferred_runs: u64,
 }
 
 impl RunResults {

@@ -60,11 +60,7 @@ impl Line {
         } else {
             " (other data!)"
         };
-        let dropped = if ours.hidden_fragments > 0 {
-            "yes"
-        } else {
-            "no"
-        };
+        let dropped = if ours.deferred_runs > 0 { "yes" } else { "no" };
         format!(
             "| {}{data} | {} | {} | {} | {} | {:.2} | {share} | {} | {off}{verdict} | {dropped} |",
             ours.scene,
@@ -159,7 +155,7 @@ pub(super) mod tests {
             other_cores: 0.0,
             readback_ms: 0.25,
             fragments: 0,
-            hidden_fragments: 0,
+            deferred_runs: 0,
         };
         Line {
             ours: measured(ours_ms),
@@ -179,7 +175,7 @@ pub(super) mod tests {
         let expected = "| fill | 20.0 | 40.0 | 4.00 | 8.00 | 5.00 | 50 % | 0.250 | 0.0700 % | no |";
         assert_eq!(line.markdown(), expected);
         line.ours.fingerprint = "1f".to_owned();
-        line.ours.hidden_fragments = 9;
+        line.ours.deferred_runs = 9;
         line.limit = None;
         line.difference.beyond = 51;
         let text = line.markdown();

@@ -44,6 +44,7 @@ pub(in crate::tile_pass) fn shade_run<const N: usize>(
         scratch.deferred.row_count = 0;
         return;
     };
+    scratch.statistics.deferred_runs += 1;
     let item = &pass.items[number];
     let deferred = &mut scratch.deferred;
     deferred.shown.clear();
