@@ -57,23 +57,22 @@ estampe::shader! {
 }
 
 /// How far each lane's ray goes, and whether it hits. A packet goes on until its last lane is done.
+///
+/// A lane that has hit stays where it is, so its step stays near. One that is too far goes on, as nobody asks
+/// any more how far: so that lanes that are done need no mask, for which every step would have to wait.
 #[inline(always)]
 fn trace<R: Real>(eye: Vec3<R>, ray: Vec3<R>) -> (R, R::Mask) {
     let mut distance = eye.x.splat(0.0);
-    let mut active = eye.x.splat_mask(true);
-    let mut hit = eye.x.splat_mask(false);
+    let mut near = eye.x.splat_mask(false);
     for _ in 0..STEPS {
         let step = distance_to_boxes(eye + ray * distance);
-        let near = step.lt(step.splat(HIT_DISTANCE));
-        hit = hit | (active & near);
-        active = active & !near;
-        distance = R::select(active, distance + step, distance);
-        active = active & !distance.gt(step.splat(FAR));
-        if !R::any(active) {
+        near = step.lt(step.splat(HIT_DISTANCE));
+        distance = R::select(near, distance, distance + step);
+        if !R::any(!(near | distance.gt(step.splat(FAR)))) {
             break;
         }
     }
-    (distance, hit)
+    (distance, near & !distance.gt(distance.splat(FAR)))
 }
 
 /// A lower bound of the distance to rounded boxes that repeat every two units.
