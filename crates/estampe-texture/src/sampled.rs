@@ -317,7 +317,7 @@ impl Sampled {
         let minified = (level + level) | level.splat(1);
         let key = R::Int::select(is_minified, minified, level.splat(0));
         let mut color = Vec4::repeat(fraction);
-        let mut left = u16::MAX >> (16 - R::LANES);
+        let mut left = u32::MAX >> (32 - R::LANES);
         while left != 0 {
             let first = key.lane(left.trailing_zeros() as usize);
             let mask = key.eq(key.splat(first));

@@ -19,6 +19,7 @@ mod limits;
 mod lines;
 pub mod maths;
 mod matrix;
+mod pair;
 mod quad;
 mod real;
 pub mod shader;
@@ -34,6 +35,7 @@ pub use format::{IndexFormat, TextureFormat, VertexFormat};
 pub use limits::Limits;
 pub use lines::Lines;
 pub use matrix::Mat4;
+pub use pair::Pair;
 pub use quad::Quad;
 pub use real::{Int, Real};
 pub use shader::{

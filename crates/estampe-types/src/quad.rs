@@ -157,8 +157,8 @@ impl Real for Quad {
         mask.0.contains(&true)
     }
     #[inline(always)]
-    fn mask_bits(mask: Quad<bool>) -> u16 {
-        let [a, b, c, d] = mask.0.map(u16::from);
+    fn mask_bits(mask: Quad<bool>) -> u32 {
+        let [a, b, c, d] = mask.0.map(u32::from);
         a | b << 1 | c << 2 | d << 3
     }
     #[inline(always)]
@@ -336,8 +336,8 @@ impl Real for f32 {
         mask
     }
     #[inline(always)]
-    fn mask_bits(mask: bool) -> u16 {
-        u16::from(mask)
+    fn mask_bits(mask: bool) -> u32 {
+        u32::from(mask)
     }
     #[inline(always)]
     #[expect(

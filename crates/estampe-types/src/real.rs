@@ -6,10 +6,10 @@ use std::ops::{
     SubAssign,
 };
 
-/// A real number in f32 arithmetic: one (`f32`), four of a 2×2 quad ([`Quad`](crate::Quad)), or
-/// sixteen of a packet (`f32x16<S>`).
+/// A real number in f32 arithmetic: one (`f32`), four of a 2×2 quad ([`Quad`](crate::Quad)),
+/// sixteen of a packet (`f32x16<S>`), or thirty-two of a pair of packets ([`Pair`](crate::Pair)).
 ///
-/// Each operation acts on every lane alone and gives the same bits in all three. Constants are made
+/// Each operation acts on every lane alone and gives the same bits in all of them. Constants are made
 /// from a value at hand, because sixteen lanes need their level's token: `x.splat(0.5)`, or simply
 /// an `f32` on the right of an operator: `x * 0.5 + 1.0`.
 pub trait Real:
@@ -40,7 +40,7 @@ pub trait Real:
     /// A 32-bit integer for each lane.
     type Int: Int<Real = Self, Mask = Self::Mask>;
 
-    /// How many lanes there are: 1, 4 or 16.
+    /// How many lanes there are: 1, 4, 16 or 32.
     const LANES: usize;
     /// Whether long code with many table look-ups had better be run lane by lane with `f32`: the lanes are
     /// plain scalars anyway.
@@ -95,7 +95,7 @@ pub trait Real:
     /// Whether any lane is in the mask.
     fn any(mask: Self::Mask) -> bool;
     /// The mask as bits: lane `i` is bit `i`.
-    fn mask_bits(mask: Self::Mask) -> u16;
+    fn mask_bits(mask: Self::Mask) -> u32;
 
     /// Rounds towards zero to an integer; NaN gives 0, values beyond the range its ends.
     fn to_int(self) -> Self::Int;

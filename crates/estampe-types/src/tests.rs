@@ -1,4 +1,4 @@
-//! The three kinds of [`Real`] agree to the bit; the functions are as exact as they say.
+//! All kinds of [`Real`] agree to the bit; the functions are as exact as they say.
 
 #![expect(clippy::cast_possible_truncation, reason = "tests know their numbers")]
 
@@ -26,9 +26,11 @@ fn samples() -> Vec<f32> {
     values
 }
 
+mod pairs;
+
 type Unary = (&'static str, fn(f32) -> f32, fn(Quad) -> Quad);
 
-/// Runs one generic function in all three kinds.
+/// Runs one generic function in all kinds.
 macro_rules! agrees {
     ($name:literal, $x:ident => $body:expr) => {{
         #[inline(always)]
@@ -39,6 +41,7 @@ macro_rules! agrees {
         fn wide<S: Lanes>(s: S, chunk: [f32; LANES]) -> [f32; LANES] {
             generic(f32x16::load_array(s, chunk)).to_array()
         }
+        let pair = |a, b| generic(Pair(Quad([a; 4]), Quad([b; 4])));
         let scalar: Unary = ($name, generic::<f32>, generic::<Quad>);
         for chunk in samples().chunks_exact(LANES) {
             let chunk: [f32; LANES] = chunk.try_into().expect("whole chunks");
@@ -47,7 +50,12 @@ macro_rules! agrees {
                 for (lane, &x) in chunk.iter().enumerate() {
                     let one = scalar.1(x);
                     let four = scalar.2(Quad([x; 4])).0[lane % 4];
-                    for (kind, value) in [("packet", wide[lane]), ("quad", four)] {
+                    for (kind, value) in [
+                        ("packet", wide[lane]),
+                        ("first of a pair", pair(x, 0.5).0.0[lane % 4]),
+                        ("second of a pair", pair(0.5, x).1.0[lane % 4]),
+                        ("quad", four),
+                    ] {
                         let same = value.to_bits() == one.to_bits() || value.is_nan() && one.is_nan();
                         assert!(same, "{}({x:e}) {kind} {level:?}: {value:e} is not {one:e}", scalar.0);
                     }
@@ -58,7 +66,7 @@ macro_rules! agrees {
 }
 
 #[test]
-fn one_four_and_sixteen_lanes_agree() {
+fn all_kinds_agree() {
     agrees!("arithmetic", x => (x * 3.0 + x * x) / (x - 0.25) - x.floor());
     agrees!("clamp", x => x.clamp(-0.5, 0.75));
     agrees!("sqrt", x => x.abs().sqrt());

@@ -69,8 +69,8 @@ impl<S: Lanes> Real for f32x16<S> {
         clippy::cast_possible_truncation,
         reason = "a mask of 16 lanes has 16 bits"
     )]
-    fn mask_bits(mask: mask32x16<S>) -> u16 {
-        mask.to_bitmask() as u16
+    fn mask_bits(mask: mask32x16<S>) -> u32 {
+        mask.to_bitmask() as u32
     }
     #[inline(always)]
     fn to_int(self) -> i32x16<S> {

@@ -1,10 +1,11 @@
 //! A Rust shader behind the [`Program`] interface.
 
 use super::fragment::MAX_COLORS;
+use super::packets::{PacketSink, PacketSource, Packets};
 use super::pass_through::passes_color;
-use super::{Attributes, Sink, Source, Varyings, scalar};
+use super::{Attributes, Varyings, scalar};
 use crate::{
-    Bindings, FragmentBatch, FragmentIn, Interface, Program, Real, Shader, Vec4, VertexBatch,
+    Bindings, FragmentBatch, FragmentIn, Interface, Pair, Program, Real, Shader, Vec4, VertexBatch,
     VertexIn,
 };
 use estampe_simd::{Bytes, Lanes, Level, Packet, SimdBase, dispatch, f32x16, i32x16, u32x16};
@@ -61,7 +62,13 @@ impl<T: Shader> Program for ShaderProgram<T> {
     }
 
     fn run_fragments(&self, level: Level, bindings: &Bindings, batch: FragmentBatch<'_>) {
-        dispatch!(@wide level, s => self.fragments(s, bindings, batch),
+        dispatch!(@wide level, s => {
+            if T::LONG_CHAINS {
+                self.fragments::<_, Pair<f32x16<_>>>(s, bindings, batch);
+            } else {
+                self.fragments::<_, f32x16<_>>(s, bindings, batch);
+            }
+        },
             scalar => scalar::fragments(&self.shader, &self.interface, bindings, batch));
     }
 }
@@ -78,11 +85,10 @@ impl<T: Shader> ShaderProgram<T> {
                 bindings,
                 zero: <f32x16<S> as SimdBase<S>>::splat(simd, 0.0),
             };
-            let from = &batch.attributes[packet * attributes..][..attributes];
-            let loaded = T::Attributes::load(&mut PacketSource { simd, left: from });
+            let left = [&batch.attributes[packet * attributes..][..attributes]; 2];
+            let loaded = T::Attributes::load(&mut PacketSource { simd, left });
             let out = self.shader.vertex(input, loaded);
-            let position = &mut batch.positions[packet * 4..][..4];
-            store_vec4(out.position, position);
+            store_vec4(out.position, [packet * 4; 2], batch.positions);
             let to = &mut batch.varyings[packet * varyings..][..varyings];
             out.varyings.store(&mut PacketSink { left: to });
             if T::WRITES_POINT_SIZE {
@@ -92,53 +98,60 @@ impl<T: Shader> ShaderProgram<T> {
         }
     }
 
+    /// Shades one packet after the other, or two at a time.
     #[inline(always)]
-    fn fragments<S: Lanes>(&self, simd: S, bindings: &Bindings, batch: FragmentBatch<'_>) {
+    fn fragments<S: Lanes, R: Packets<S>>(
+        &self,
+        simd: S,
+        bindings: &Bindings,
+        batch: FragmentBatch<'_>,
+    ) {
         let varyings = self.interface.varyings.len();
         let targets = self.interface.color_targets;
-        for packet in 0..batch.coverage.len() {
-            let zero = <f32x16<S> as SimdBase<S>>::splat(simd, 0.0);
+        let count = batch.coverage.len();
+        for packet in (0..count).step_by(R::COUNT) {
+            // The last one without a partner is its own.
+            let second = (packet + R::COUNT - 1).min(count - 1);
+            let packets = [packet, second];
+            let zero = R::zero(simd);
+            let black = Vec4::new(zero, zero, zero, zero);
             let position = if T::READS_POSITION {
-                let p = &batch.positions[packet * 4..][..4];
-                let [x, y, z, w] = [&p[0], &p[1], &p[2], &p[3]];
-                Vec4::new(load(simd, x), load(simd, y), load(simd, z), load(simd, w))
+                let left = packets.map(|packet| &batch.positions[packet * 4..][..4]);
+                <Vec4<R> as Varyings<R>>::load(&mut PacketSource { simd, left })
             } else {
-                Vec4::new(zero, zero, zero, zero)
+                black
             };
-            let front_facing = simd.mask_from_bits(batch.front_facing[packet]);
             let input = FragmentIn {
                 position,
-                front_facing,
+                front_facing: R::mask_of(simd, packets.map(|packet| batch.front_facing[packet])),
                 bindings,
                 zero,
             };
-            let from = &batch.varyings[packet * varyings..][..varyings];
-            let loaded = T::Varyings::load(&mut PacketSource { simd, left: from });
+            let left = packets.map(|packet| &batch.varyings[packet * varyings..][..varyings]);
+            let loaded = T::Varyings::load(&mut PacketSource { simd, left });
             let out = self.shader.fragment(input, loaded);
-            for (index, to) in batch.colors[packet * targets * 4..][..targets * 4]
-                .chunks_exact_mut(4)
-                .enumerate()
-            {
-                let color = out.colors[index].unwrap_or(Vec4::new(zero, zero, zero, zero));
-                store_vec4(color, to);
+            for index in 0..targets {
+                let at = packets.map(|packet| (packet * targets + index) * 4);
+                store_vec4(out.colors[index].unwrap_or(black), at, batch.colors);
             }
             if T::DISCARDS
                 && let Some(keep) = out.keep
             {
-                batch.coverage[packet] &= simd.bits_of_mask(keep);
+                let keep = R::parts_of_mask(keep);
+                batch.coverage[packet] &= simd.bits_of_mask(keep[0]);
+                if R::COUNT > 1 {
+                    batch.coverage[second] &= simd.bits_of_mask(keep[1]);
+                }
             }
             if !matches!(T::DEPTH_OUTPUT, super::DepthOutput::None) {
-                out.depth
-                    .unwrap_or(position.z)
-                    .store_array(&mut batch.depths[packet].0);
+                let depth = out.depth.unwrap_or(position.z).parts();
+                depth[0].store_array(&mut batch.depths[packet].0);
+                if R::COUNT > 1 {
+                    depth[1].store_array(&mut batch.depths[second].0);
+                }
             }
         }
     }
-}
-
-#[inline(always)]
-fn load<S: Lanes>(simd: S, packet: &Packet<f32>) -> f32x16<S> {
-    f32x16::load_array_ref(simd, &packet.0)
 }
 
 #[inline(always)]
@@ -146,47 +159,23 @@ fn ints<S: Lanes>(simd: S, packet: &Packet<u32>) -> i32x16<S> {
     u32x16::load_array_ref(simd, &packet.0).bitcast()
 }
 
+/// Writes a vector's scalars one after the other; those of each packet begin at its place.
 #[inline(always)]
-fn store_vec4<S: Lanes>(value: Vec4<f32x16<S>>, to: &mut [Packet<f32>]) {
-    if let [x, y, z, w] = to {
-        value.x.store_array(&mut x.0);
-        value.y.store_array(&mut y.0);
-        value.z.store_array(&mut z.0);
-        value.w.store_array(&mut w.0);
+fn store_vec4<S: Lanes, R: Packets<S>>(value: Vec4<R>, at: [usize; 2], to: &mut [Packet<f32>]) {
+    let Vec4 { x, y, z, w } = value;
+    let [x, y, z, w] = [x.parts(), y.parts(), z.parts(), w.parts()];
+    store_part([x[0], y[0], z[0], w[0]], &mut to[at[0]..][..4]);
+    if R::COUNT > 1 {
+        store_part([x[1], y[1], z[1], w[1]], &mut to[at[1]..][..4]);
     }
 }
 
-/// Scalars of one packet, read in order.
-struct PacketSource<'a, S> {
-    simd: S,
-    left: &'a [Packet<f32>],
-}
-
-impl<S: Lanes> Source<f32x16<S>> for PacketSource<'_, S> {
-    #[inline(always)]
-    fn take(&mut self) -> f32x16<S> {
-        match self.left.split_first() {
-            Some((first, rest)) => {
-                self.left = rest;
-                load(self.simd, first)
-            }
-            // Never: the slice has as many packets as the type has scalars.
-            None => SimdBase::splat(self.simd, 0.0),
-        }
-    }
-}
-
-/// Scalars of one packet, written in order.
-struct PacketSink<'a> {
-    left: &'a mut [Packet<f32>],
-}
-
-impl<S: Lanes> Sink<f32x16<S>> for PacketSink<'_> {
-    #[inline(always)]
-    fn put(&mut self, value: f32x16<S>) {
-        if let Some((first, rest)) = std::mem::take(&mut self.left).split_first_mut() {
-            value.store_array(&mut first.0);
-            self.left = rest;
-        }
+#[inline(always)]
+fn store_part<S: Lanes>([x, y, z, w]: [f32x16<S>; 4], to: &mut [Packet<f32>]) {
+    if let [first, second, third, fourth] = to {
+        x.store_array(&mut first.0);
+        y.store_array(&mut second.0);
+        z.store_array(&mut third.0);
+        w.store_array(&mut fourth.0);
     }
 }

@@ -8,6 +8,7 @@
 mod erased;
 mod fragment;
 mod interface;
+mod packets;
 mod pass_through;
 mod scalar;
 mod varyings;
@@ -75,6 +76,11 @@ pub trait Shader: Send + Sync + 'static {
     /// texture whose level of detail comes from them. Fragments of small triangles are then shaded without
     /// their quads. A shader that says so and takes derivatives gets those of strangers.
     const INDEPENDENT_FRAGMENTS: bool = Self::PASSES_COLOR;
+    /// Whether the fragment's time goes by in long chains of operations each of which waits for the one before,
+    /// such as the steps of a ray. Fragments are then shaded two packets at a time ([`Pair`](crate::Pair)), so that
+    /// the two chains overlap. Both packets stay in a loop until the last lane of both is done; and a short
+    /// shader only runs out of registers that way.
+    const LONG_CHAINS: bool = false;
     /// Whether the vertex sets a point size; where not, points are one pixel.
     const WRITES_POINT_SIZE: bool = false;
 

@@ -1,0 +1,194 @@
+//! Two packets as one number.
+
+use crate::{Int, Real};
+use std::ops::{
+    Add, AddAssign, BitAnd, BitOr, BitXor, Div, DivAssign, Mul, MulAssign, Neg, Not, Shl, Shr, Sub,
+    SubAssign,
+};
+
+/// Two numbers (or masks) side by side, with the lanes of the first before those of the second.
+///
+/// Each operation is done on both, and neither waits for the other: that is what it is for. Where each
+/// operation of a long loop needs the one before, a packet alone leaves most of the processor idle; see
+/// [`Shader::LONG_CHAINS`](crate::Shader::LONG_CHAINS).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair<T>(pub T, pub T);
+
+/// Operators of pairs whose halves have them.
+macro_rules! operators {
+    (assign $($trait:ident $method:ident;)*) => {$(
+        impl<T: $trait> $trait for Pair<T> {
+            #[inline(always)]
+            fn $method(&mut self, other: Self) {
+                self.0.$method(other.0);
+                self.1.$method(other.1);
+            }
+        }
+    )*};
+    ($($trait:ident $method:ident;)*) => {$(
+        impl<T: $trait<Output = T>> $trait for Pair<T> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(self.0.$method(other.0), self.1.$method(other.1))
+            }
+        }
+    )*};
+    ($by:ty => $($trait:ident $method:ident;)*) => {$(
+        impl<T: $trait<$by, Output = T>> $trait<$by> for Pair<T> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, by: $by) -> Self {
+                Self(self.0.$method(by), self.1.$method(by))
+            }
+        }
+    )*};
+}
+operators! { Add add; Sub sub; Mul mul; Div div; BitAnd bitand; BitOr bitor; BitXor bitxor; }
+operators! { f32 => Add add; Sub sub; Mul mul; Div div; }
+operators! { u32 => Shl shl; Shr shr; }
+operators! { assign AddAssign add_assign; SubAssign sub_assign; MulAssign mul_assign; DivAssign div_assign; }
+
+impl<T: Neg<Output = T>> Neg for Pair<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0, -self.1)
+    }
+}
+
+impl<T: Not<Output = T>> Not for Pair<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(!self.0, !self.1)
+    }
+}
+
+/// Methods that do the same to both halves.
+macro_rules! both {
+    (with_other $($name:ident -> $out:ty;)*) => {$(
+        #[inline(always)]
+        fn $name(self, other: Self) -> $out {
+            Pair(self.0.$name(other.0), self.1.$name(other.1))
+        }
+    )*};
+    ($($name:ident($($argument:ident: $type:ty),*) -> $out:ty;)*) => {$(
+        #[inline(always)]
+        fn $name(self $(, $argument: $type)*) -> $out {
+            Pair(self.0.$name($($argument),*), self.1.$name($($argument),*))
+        }
+    )*};
+}
+
+impl<R: Real> Real for Pair<R> {
+    type Mask = Pair<R::Mask>;
+    type Int = Pair<R::Int>;
+    const LANES: usize = 2 * R::LANES;
+    // Plain scalars gain nothing by being paired.
+    const NARROW: bool = false;
+
+    both! {
+        splat(value: f32) -> Self;
+        splat_int(value: i32) -> Pair<R::Int>;
+        splat_mask(value: bool) -> Pair<R::Mask>;
+        sqrt() -> Self;
+        abs() -> Self;
+        floor() -> Self;
+        to_int() -> Pair<R::Int>;
+        to_int_within_range() -> Pair<R::Int>;
+        to_bits() -> Pair<R::Int>;
+        ddx() -> Self;
+        ddy() -> Self;
+        ddx_coarse() -> Self;
+        ddy_coarse() -> Self;
+        quad_lane(index: u8) -> Self;
+    }
+    both! { with_other
+        min -> Self;
+        max -> Self;
+        lt -> Pair<R::Mask>;
+        le -> Pair<R::Mask>;
+        eq -> Pair<R::Mask>;
+    }
+    #[inline(always)]
+    fn select(mask: Pair<R::Mask>, yes: Self, no: Self) -> Self {
+        Self(
+            R::select(mask.0, yes.0, no.0),
+            R::select(mask.1, yes.1, no.1),
+        )
+    }
+    #[inline(always)]
+    fn any(mask: Pair<R::Mask>) -> bool {
+        R::any(mask.0 | mask.1)
+    }
+    #[inline(always)]
+    fn mask_bits(mask: Pair<R::Mask>) -> u32 {
+        R::mask_bits(mask.0) | R::mask_bits(mask.1) << R::LANES
+    }
+    #[inline(always)]
+    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
+        self.0.outlined(work)
+    }
+    #[inline(always)]
+    fn lane(self, index: usize) -> f32 {
+        if index < R::LANES {
+            self.0.lane(index)
+        } else {
+            self.1.lane(index - R::LANES)
+        }
+    }
+    #[inline(always)]
+    fn with_lanes(self, mut value: impl FnMut(usize) -> f32) -> Self {
+        Self(
+            self.0.with_lanes(&mut value),
+            self.1.with_lanes(
+                #[inline(always)]
+                |lane| value(R::LANES + lane),
+            ),
+        )
+    }
+}
+
+impl<I: Int> Int for Pair<I> {
+    type Real = Pair<I::Real>;
+    type Mask = Pair<<I::Real as Real>::Mask>;
+
+    both! {
+        splat(value: i32) -> Self;
+        shr_unsigned(by: u32) -> Self;
+        to_real() -> Pair<I::Real>;
+        to_real_bits() -> Pair<I::Real>;
+        is_outside(count: i32) -> Self::Mask;
+        gather(table: &[u32]) -> Self;
+    }
+    both! { with_other
+        wrapping_mul -> Self;
+        min -> Self;
+        max -> Self;
+        lt -> Self::Mask;
+        eq -> Self::Mask;
+    }
+    #[inline(always)]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Self(
+            I::select(mask.0, yes.0, no.0),
+            I::select(mask.1, yes.1, no.1),
+        )
+    }
+    #[inline(always)]
+    fn gather_square(self, table: &[u32], stride: i32) -> [Self; 4] {
+        let [a, b, c, d] = self.0.gather_square(table, stride);
+        let [e, f, g, h] = self.1.gather_square(table, stride);
+        [Self(a, e), Self(b, f), Self(c, g), Self(d, h)]
+    }
+    #[inline(always)]
+    fn lane(self, index: usize) -> i32 {
+        let lanes = <I::Real as Real>::LANES;
+        if index < lanes {
+            self.0.lane(index)
+        } else {
+            self.1.lane(index - lanes)
+        }
+    }
+}

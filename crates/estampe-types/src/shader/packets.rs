@@ -1,0 +1,113 @@
+//! How a batch's packets become the numbers that a shader computes with: one, or two at a time.
+
+use super::{Sink, Source};
+use crate::{Pair, Real};
+use estampe_simd::{Lanes, Packet, SimdBase, f32x16, mask32x16};
+
+/// One packet or a pair of packets.
+pub(super) trait Packets<S: Lanes>: Real {
+    /// How many packets these are.
+    const COUNT: usize;
+
+    fn zero(simd: S) -> Self;
+    /// The next scalar of each packet.
+    fn take(simd: S, left: &mut [&[Packet<f32>]; 2]) -> Self;
+    /// The packets; a single one twice.
+    fn parts(self) -> [f32x16<S>; 2];
+    /// The lanes whose bits are set.
+    fn mask_of(simd: S, bits: [u16; 2]) -> Self::Mask;
+    /// [`Packets::parts`] of a mask.
+    fn parts_of_mask(mask: Self::Mask) -> [mask32x16<S>; 2];
+}
+
+impl<S: Lanes> Packets<S> for f32x16<S> {
+    const COUNT: usize = 1;
+
+    #[inline(always)]
+    fn zero(simd: S) -> Self {
+        SimdBase::splat(simd, 0.0)
+    }
+    #[inline(always)]
+    fn take(simd: S, [left, _]: &mut [&[Packet<f32>]; 2]) -> Self {
+        next(simd, left)
+    }
+    #[inline(always)]
+    fn parts(self) -> [Self; 2] {
+        [self; 2]
+    }
+    #[inline(always)]
+    fn mask_of(simd: S, [bits, _]: [u16; 2]) -> mask32x16<S> {
+        simd.mask_from_bits(bits)
+    }
+    #[inline(always)]
+    fn parts_of_mask(mask: mask32x16<S>) -> [mask32x16<S>; 2] {
+        [mask; 2]
+    }
+}
+
+impl<S: Lanes> Packets<S> for Pair<f32x16<S>> {
+    const COUNT: usize = 2;
+
+    #[inline(always)]
+    fn zero(simd: S) -> Self {
+        let zero = SimdBase::splat(simd, 0.0);
+        Self(zero, zero)
+    }
+    #[inline(always)]
+    fn take(simd: S, [first, second]: &mut [&[Packet<f32>]; 2]) -> Self {
+        Self(next(simd, first), next(simd, second))
+    }
+    #[inline(always)]
+    fn parts(self) -> [f32x16<S>; 2] {
+        [self.0, self.1]
+    }
+    #[inline(always)]
+    fn mask_of(simd: S, [first, second]: [u16; 2]) -> Self::Mask {
+        Pair(simd.mask_from_bits(first), simd.mask_from_bits(second))
+    }
+    #[inline(always)]
+    fn parts_of_mask(mask: Self::Mask) -> [mask32x16<S>; 2] {
+        [mask.0, mask.1]
+    }
+}
+
+/// The next scalar of a packet.
+#[inline(always)]
+fn next<S: Lanes>(simd: S, left: &mut &[Packet<f32>]) -> f32x16<S> {
+    match left.split_first() {
+        Some((first, rest)) => {
+            *left = rest;
+            SimdBase::load_array_ref(simd, &first.0)
+        }
+        // Never: the slice has as many packets as the type has scalars.
+        None => SimdBase::splat(simd, 0.0),
+    }
+}
+
+/// Scalars of one packet, or of each of two, read in order.
+pub(super) struct PacketSource<'a, S> {
+    pub(super) simd: S,
+    pub(super) left: [&'a [Packet<f32>]; 2],
+}
+
+impl<S: Lanes, R: Packets<S>> Source<R> for PacketSource<'_, S> {
+    #[inline(always)]
+    fn take(&mut self) -> R {
+        R::take(self.simd, &mut self.left)
+    }
+}
+
+/// Scalars of one packet, written in order.
+pub(super) struct PacketSink<'a> {
+    pub(super) left: &'a mut [Packet<f32>],
+}
+
+impl<S: Lanes> Sink<f32x16<S>> for PacketSink<'_> {
+    #[inline(always)]
+    fn put(&mut self, value: f32x16<S>) {
+        if let Some((first, rest)) = std::mem::take(&mut self.left).split_first_mut() {
+            value.store_array(&mut first.0);
+            self.left = rest;
+        }
+    }
+}
