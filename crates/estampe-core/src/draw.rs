@@ -9,6 +9,7 @@ use crate::geometry::cull::CullState;
 use crate::geometry::shading::{ShadedVertices, ShadingScratch, shade};
 use crate::per_sample::codes::pack_one;
 use crate::pipeline::RenderPipeline;
+use crate::recording::Phase;
 use crate::schedule::{Executor, ThreadError};
 use crate::statistics::Statistics;
 use crate::tile_pass::{self, MAX_TARGETS, TileItem, TileJob, TilePass, TileScratch};
@@ -142,18 +143,35 @@ impl Context {
     /// # Errors
     /// [`ThreadError`] when the system gives no threads.
     pub fn new(threads: usize, level: Level) -> Result<Self, ThreadError> {
-        let executor = Executor::new(threads)?;
+        Ok(Self::on(Executor::new(threads)?, level))
+    }
+
+    /// A context that draws on the calling thread alone and notes what each job took: see
+    /// [`Context::take_phases`].
+    #[must_use]
+    pub fn recording(level: Level) -> Self {
+        Self::on(Executor::recording(), level)
+    }
+
+    fn on(executor: Executor, level: Level) -> Self {
         let mut memory = Memory::default();
         let workers = executor.threads();
         memory.shading.resize_with(workers, Mutex::default);
         memory.chunk_scratch.resize_with(workers, Mutex::default);
         memory.tiles_1.resize_with(workers, Mutex::default);
         memory.tiles_4.resize_with(workers, Mutex::default);
-        Ok(Self {
+        Self {
             level,
             executor,
             memory: Mutex::new(memory),
-        })
+        }
+    }
+
+    /// What each job took since the last call; nothing unless the context is one that
+    /// [records](Context::recording).
+    #[must_use]
+    pub fn take_phases(&self) -> Vec<Phase> {
+        self.executor.take_phases()
     }
 
     /// The SIMD level that kernels run at.

@@ -19,7 +19,7 @@
 //!
 //! The modules, in pipeline order: `layout` (which pixel is stored where), [`pipeline`] (state), `geometry`, `tiles`, `raster`, `fragment`,
 //! `per_sample`, [`attachment`]; `tile_pass` and [`draw`] are the two pages that call them in order,
-//! `wave` cuts draws into items, `schedule` runs them on threads.
+//! `wave` cuts draws into items, `schedule` runs them on threads, [`recording`] notes what they took.
 
 mod layout;
 pub mod pipeline;
@@ -37,6 +37,7 @@ mod per_sample;
 pub mod attachment;
 
 pub mod draw;
+pub mod recording;
 mod schedule;
 pub mod statistics;
 mod tile_pass;

@@ -6,6 +6,7 @@
 //! while the caller sleeps.) Workers take items from the front of what is left, many at first and one by one
 //! in the end, so that they finish together.
 
+use crate::recording::{Phase, Recorder};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -13,6 +14,8 @@ use std::sync::{Mutex, PoisonError};
 #[derive(Debug)]
 pub(crate) struct Executor {
     helpers: Option<rayon::ThreadPool>,
+    /// What notes each item's time, if anyone asked for that.
+    recorder: Option<Recorder>,
 }
 
 /// Why there is no executor.
@@ -35,7 +38,10 @@ impl Executor {
         let available = || std::thread::available_parallelism().map_or(1, usize::from);
         let threads = if threads == 0 { available() } else { threads };
         if threads == 1 {
-            return Ok(Self { helpers: None });
+            return Ok(Self {
+                helpers: None,
+                recorder: None,
+            });
         }
         let builder = rayon::ThreadPoolBuilder::new()
             .num_threads(threads - 1)
@@ -46,7 +52,22 @@ impl Executor {
         })?;
         Ok(Self {
             helpers: Some(pool),
+            recorder: None,
         })
+    }
+
+    /// An executor of the calling thread alone that notes what each item took.
+    pub(crate) fn recording() -> Self {
+        Self {
+            helpers: None,
+            recorder: Some(Recorder::default()),
+        }
+    }
+
+    /// What was noted since the last call.
+    pub(crate) fn take_phases(&self) -> Vec<Phase> {
+        let recorder = self.recorder.as_ref();
+        recorder.map(Recorder::take).unwrap_or_default()
     }
 
     /// How many items run at once.
@@ -87,6 +108,10 @@ impl Executor {
     ) {
         let workers = self.threads().min(items.len());
         let Some(pool) = self.helpers.as_ref().filter(|_| workers > 1) else {
+            if let Some(recorder) = &self.recorder {
+                recorder.hand_out(items, |next| work(0, next));
+                return;
+            }
             let mut all = Some(items);
             work(0, &mut || all.take());
             return;

@@ -5,6 +5,7 @@ use crate::{
     RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, Statistics, TargetError,
 };
 use estampe_core::Context;
+use estampe_core::recording::Phase;
 
 /// What a device is made of.
 #[derive(Debug, Clone, Default)]
@@ -52,6 +53,22 @@ impl Device {
             context,
             limits: descriptor.limits.clone(),
         })
+    }
+
+    /// A device for those who measure: it draws on the calling thread alone and notes what each job took.
+    #[must_use]
+    pub fn recording(level: Level) -> Self {
+        Self {
+            context: Context::recording(level),
+            limits: Limits::default(),
+        }
+    }
+
+    /// What each job took since the last call; nothing unless the device is one that
+    /// [records](Device::recording).
+    #[must_use]
+    pub fn take_phases(&self) -> Vec<Phase> {
+        self.context.take_phases()
     }
 
     /// Makes a pipeline: checks the descriptor once, so that drawing cannot fail.

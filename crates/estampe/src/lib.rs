@@ -14,6 +14,7 @@ mod device;
 struct Readme;
 
 pub use device::{Device, DeviceDescriptor, DeviceError};
+pub use estampe_core::recording::Phase;
 pub use estampe_core::{
     Draw, PipelineError, RenderPass, RenderPipeline, RenderPipelineDescriptor, RenderTarget,
     RenderTargetDescriptor, Statistics, TargetError,
