@@ -6,7 +6,7 @@ use crate::picture::{Difference, Picture};
 use crate::report::{self, Report, Row};
 use crate::scene::{self, Detail, Scene, SceneEntry};
 use crate::versus::{self, CompareArguments};
-use crate::{BenchError, stages};
+use crate::{BenchError, growth, stages};
 use clap::{Parser, Subcommand};
 use estampe::{Device, DeviceDescriptor, Level};
 use std::io::Write;
@@ -69,6 +69,10 @@ pub struct Arguments {
     /// Measure the stages one by one instead of the scenes
     #[arg(long)]
     pub stages: bool,
+    /// Measure how cost grows with triangles, pixels and cores instead of the scenes, and write
+    /// DIR/GROWTH.md and its plots in DIR/images: two minutes
+    #[arg(long, value_name = "DIR", conflicts_with = "stages")]
+    pub growth: Option<PathBuf>,
 }
 
 /// What the command does besides timing ourselves.
@@ -137,6 +141,11 @@ pub fn run(arguments: &Arguments, out: &mut impl Write) -> Result<Outcome, Bench
     if let Some(Task::Compare(compare)) = &arguments.task {
         let names: Vec<_> = scenes.iter().map(|entry| entry.name).collect();
         return versus::run(compare, &names, out).map(Outcome::of);
+    }
+    if let Some(folder) = &arguments.growth {
+        let section = growth::run(folder, Level::named(&arguments.simd)?)?;
+        print(out, &section)?;
+        return Ok(Outcome::Agreement);
     }
     let device = Device::new(&DeviceDescriptor {
         threads: arguments.threads,

@@ -10,7 +10,8 @@
 //! * [`scene`] has one file per scene: its data, its shader, its pipeline;
 //! * [`frame`] draws a scene once; [`measure`] draws it often and takes the time by the [`clock`];
 //! * [`picture`] writes, reads and compares pictures; [`report`] writes tables and JSON;
-//! * [`stages`] has loads that stress one stage each;
+//! * [`stages`] has loads that stress one stage each; [`growth`] says how cost grows with triangles, pixels and
+//!   cores;
 //! * [`versus`] runs us and lavapipe in turn, and writes the tables of PERFORMANCE.md;
 //! * [`command`] is the command line.
 
@@ -18,6 +19,7 @@ pub mod clock;
 pub mod command;
 pub mod frame;
 pub mod generate;
+pub mod growth;
 pub mod measure;
 pub mod picture;
 pub mod report;

@@ -1,0 +1,300 @@
+//! What each job of a frame costs, and what so many cores would make of it.
+
+use super::simulation::{WakeUp, makespan_ns};
+use crate::BenchError;
+use crate::frame::{FrameSize, PreparedScene};
+use crate::scene::Scene;
+use estampe::{Device, Level};
+use std::time::{Duration, Instant};
+
+/// What the jobs of a phase are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JobKind {
+    /// Shading runs of vertices.
+    Vertices,
+    /// Assembling, culling, setting up and binning runs of primitives.
+    Chunks,
+    /// Drawing tiles.
+    Tiles,
+    /// Anything else: extremes of indices, resolving, bounds of depth maps.
+    Others,
+}
+
+impl JobKind {
+    /// The kinds in the order of a frame.
+    pub const ALL: [Self; 4] = [Self::Vertices, Self::Chunks, Self::Tiles, Self::Others];
+
+    /// What the core's Rust type says.
+    fn of(job_type: &str) -> Self {
+        let name = job_type.split('<').next().unwrap_or_default();
+        match name.rsplit("::").next().unwrap_or_default() {
+            "VertexJob" => Self::Vertices,
+            "ChunkJob" => Self::Chunks,
+            "TileJob" => Self::Tiles,
+            _ => Self::Others,
+        }
+    }
+
+    /// What the jobs are called.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Vertices => "runs of vertices",
+            Self::Chunks => "chunks of primitives",
+            Self::Tiles => "tiles",
+            Self::Others => "other jobs",
+        }
+    }
+
+    /// What one is called that has no other beside it.
+    #[must_use]
+    pub fn name_of_one(self) -> &'static str {
+        match self {
+            Self::Vertices => "one run of vertices",
+            Self::Chunks => "one chunk of primitives",
+            Self::Tiles => "one tile",
+            Self::Others => "one other job",
+        }
+    }
+}
+
+/// A list of independent jobs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PhaseCosts {
+    /// What they are.
+    pub kind: JobKind,
+    /// What each costs on one core.
+    pub jobs_ns: Vec<u64>,
+}
+
+/// What the parts of a frame cost on one core.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FrameCosts {
+    /// What can be shared, in order.
+    pub phases: Vec<PhaseCosts>,
+    /// What cannot: recording, and the parts between the phases.
+    pub serial_ns: u64,
+}
+
+/// What stops a frame from being drawn any faster by so many cores, each a share of its time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limits {
+    /// The serial parts.
+    pub serial: f64,
+    /// Waking helpers.
+    pub wake_up: f64,
+    /// Cores that wait for the last job, by kind.
+    pub waiting: Vec<(JobKind, f64)>,
+}
+
+/// Frames that are recorded: each job's median counts.
+const FRAMES: usize = 9;
+
+impl FrameCosts {
+    /// Records a scene's frames.
+    ///
+    /// # Errors
+    /// [`BenchError`] when the device refuses the frame's size.
+    pub fn record(level: Level, scene: &Scene, size: FrameSize) -> Result<Self, BenchError> {
+        let device = Device::recording(level);
+        let mut prepared = PreparedScene::new(&device, scene, size)?;
+        prepared.draw();
+        prepared.draw();
+        drop(device.take_phases());
+        let frames: Vec<Self> = (0..FRAMES)
+            .map(|_| {
+                let start = Instant::now();
+                prepared.draw();
+                let total = start.elapsed();
+                let phases = device.take_phases();
+                let phases: Vec<_> = phases
+                    .iter()
+                    .map(|phase| PhaseCosts {
+                        kind: JobKind::of(phase.job_type),
+                        jobs_ns: phase.jobs.iter().map(nanoseconds).collect(),
+                    })
+                    .collect();
+                let shared = phases.iter().flat_map(|phase| &phase.jobs_ns).sum();
+                Self {
+                    phases,
+                    serial_ns: nanoseconds(&total).saturating_sub(shared),
+                }
+            })
+            .collect();
+        Ok(Self::median_of(&frames))
+    }
+
+    /// The median of each job and of the serial parts; frames are alike.
+    fn median_of(frames: &[Self]) -> Self {
+        let Some(first) = frames.first() else {
+            return Self {
+                phases: Vec::new(),
+                serial_ns: 0,
+            };
+        };
+        let mut costs = first.clone();
+        for (number, phase) in costs.phases.iter_mut().enumerate() {
+            for (job, cost_ns) in phase.jobs_ns.iter_mut().enumerate() {
+                let of_frame = |frame: &Self| frame.phases.get(number)?.jobs_ns.get(job).copied();
+                *cost_ns = median(frames.iter().filter_map(of_frame).collect());
+            }
+        }
+        costs.serial_ns = median(frames.iter().map(|frame| frame.serial_ns).collect());
+        costs
+    }
+
+    /// What the frame would take so many cores.
+    #[must_use]
+    pub fn on_cores_ns(&self, cores: usize, wake_up: WakeUp) -> u64 {
+        let phases = self.phases.iter();
+        let shared = phases.map(|phase| makespan_ns(&phase.jobs_ns, cores, wake_up));
+        self.serial_ns + shared.sum::<u64>()
+    }
+
+    /// How many times as fast as one core.
+    #[must_use]
+    pub fn speed_up(&self, cores: usize, wake_up: WakeUp) -> f64 {
+        let alone = self.on_cores_ns(1, wake_up) as f64;
+        alone / self.on_cores_ns(cores, wake_up).max(1) as f64
+    }
+
+    /// What stops so many cores.
+    #[must_use]
+    pub fn limits(&self, cores: usize, wake_up: WakeUp) -> Limits {
+        let total = self.on_cores_ns(cores, wake_up).max(1) as f64;
+        let free = self.on_cores_ns(cores, WakeUp::default());
+        let waiting = JobKind::ALL.map(|kind| {
+            let phases = self.phases.iter().filter(|phase| phase.kind == kind);
+            let waits = phases.map(|phase| {
+                let shared = phase.jobs_ns.iter().sum::<u64>() as f64 / cores as f64;
+                makespan_ns(&phase.jobs_ns, cores, WakeUp::default()) as f64 - shared
+            });
+            (kind, waits.sum::<f64>() / total)
+        });
+        Limits {
+            serial: self.serial_ns as f64 / total,
+            wake_up: (total - free as f64) / total,
+            waiting: waiting.to_vec(),
+        }
+    }
+
+    /// How many jobs of a kind there are, and the largest one's share of all their cost.
+    #[must_use]
+    pub fn largest(&self, kind: JobKind) -> (usize, f64) {
+        let phases = self.phases.iter().filter(|phase| phase.kind == kind);
+        let jobs: Vec<u64> = phases.flat_map(|phase| phase.jobs_ns.clone()).collect();
+        let largest = jobs.iter().max().copied().unwrap_or_default();
+        let all = jobs.iter().sum::<u64>().max(1);
+        (jobs.len(), largest as f64 / all as f64)
+    }
+}
+
+impl WakeUp {
+    /// Measures how long this machine takes to call a thread that sleeps: median of many calls.
+    #[must_use]
+    pub fn measure() -> Self {
+        const CALLS: usize = 201;
+        let (to_helper, calls) = std::sync::mpsc::sync_channel::<Instant>(1);
+        let (from_helper, answers) = std::sync::mpsc::sync_channel::<Duration>(1);
+        let helper = std::thread::spawn(move || {
+            // Ends when the caller has hung up.
+            while let Ok(called) = calls.recv() {
+                if from_helper.send(called.elapsed()).is_err() {
+                    break;
+                }
+            }
+        });
+        let (mut call, mut arrival) = (Vec::new(), Vec::new());
+        for _ in 0..CALLS {
+            // Long enough for the helper to fall asleep.
+            std::thread::sleep(Duration::from_micros(200));
+            let start = Instant::now();
+            if to_helper.send(start).is_err() {
+                break;
+            }
+            call.push(nanoseconds(&start.elapsed()));
+            if let Ok(after) = answers.recv() {
+                arrival.push(nanoseconds(&after));
+            }
+        }
+        drop(to_helper);
+        // It has no result, and a panic in it was printed already.
+        let _ = helper.join();
+        Self {
+            call_ns: median(call),
+            arrival_ns: median(arrival),
+        }
+    }
+}
+
+fn nanoseconds(time: &Duration) -> u64 {
+    u64::try_from(time.as_nanos()).unwrap_or(u64::MAX)
+}
+
+/// The upper one of the values in the middle; 0 of nothing.
+fn median(mut values: Vec<u64>) -> u64 {
+    values.sort_unstable();
+    values.get(values.len() / 2).copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Detail, SceneEntry};
+
+    const FREE: WakeUp = WakeUp {
+        call_ns: 0,
+        arrival_ns: 0,
+    };
+
+    fn costs(serial_ns: u64, phases: &[(JobKind, Vec<u64>)]) -> FrameCosts {
+        let phase = |(kind, jobs_ns): &(JobKind, Vec<u64>)| PhaseCosts {
+            kind: *kind,
+            jobs_ns: jobs_ns.clone(),
+        };
+        FrameCosts {
+            phases: phases.iter().map(phase).collect(),
+            serial_ns,
+        }
+    }
+
+    #[test]
+    fn amdahls_law_holds() {
+        let frame = costs(100, &[(JobKind::Tiles, vec![1; 900])]);
+        assert!((frame.speed_up(9, FREE) - 5.0).abs() < 1e-9);
+        let limits = frame.limits(9, FREE);
+        assert!((limits.serial - 0.5).abs() < 1e-9);
+        assert!(limits.waiting.iter().all(|(_, share)| share.abs() < 1e-9));
+    }
+
+    #[test]
+    fn a_large_tile_is_waited_for() {
+        let frame = costs(0, &[(JobKind::Tiles, vec![100, 10, 10, 10, 10])]);
+        let limits = frame.limits(5, FREE);
+        assert_eq!(frame.on_cores_ns(5, FREE), 100);
+        // 140 ns of work by 5 cores are 28 ns of these 100.
+        assert!((limits.waiting[2].1 - 0.72).abs() < 1e-9, "{limits:?}");
+        assert_eq!(frame.largest(JobKind::Tiles), (5, 100.0 / 140.0));
+    }
+
+    #[test]
+    fn a_recorded_frame_has_the_pipelines_phases() {
+        let size = FrameSize {
+            width: 200,
+            height: 100,
+        };
+        let scene = SceneEntry::named("small_tris").unwrap();
+        let scene = scene.make(Detail::Reduced, size);
+        let frame = FrameCosts::record(Level::default(), &scene, size).unwrap();
+        let kinds: Vec<_> = frame.phases.iter().map(|phase| phase.kind).collect();
+        assert_eq!(kinds, [JobKind::Vertices, JobKind::Chunks, JobKind::Tiles]);
+        assert_eq!(frame.largest(JobKind::Tiles).0, 4 * 2);
+        assert!(frame.serial_ns > 0);
+    }
+
+    #[test]
+    fn waking_a_thread_takes_time() {
+        let wake_up = WakeUp::measure();
+        assert!(wake_up.call_ns > 0 && wake_up.arrival_ns > 0);
+    }
+}

@@ -1,0 +1,312 @@
+//! The results as a section in Markdown.
+
+use super::fans::SIDES;
+use super::jobs::{FrameCosts, JobKind};
+use super::memory::Memory;
+use super::meshes::{CLASSES, COUNTS};
+use super::series::{Cost, Series};
+use super::simulation::WakeUp;
+use std::fmt::Write as _;
+use std::ops::RangeBounds;
+
+/// All that was measured.
+#[derive(Debug, Clone)]
+pub struct Results {
+    /// Who drew: SIMD level and processor.
+    pub driver: String,
+    /// Frame time by triangles: for each size class, by one thread and by all.
+    pub triangles: Vec<Series>,
+    /// Frame time by pixels: for each kind of work, by one thread and by all.
+    pub pixels: Vec<Series>,
+    /// Memory, where the system says.
+    pub memory: Option<Memory>,
+    /// Each scene's costs, and its speed-up by all threads as measured.
+    pub scenes: Vec<(&'static str, FrameCosts, f64)>,
+    /// What it takes to wake a thread.
+    pub wake_up: WakeUp,
+    /// How many threads "all" are.
+    pub threads: usize,
+}
+
+/// Pixels whose colours and depths, 8 MiB, fit into most processors' caches.
+const IN_CACHE: f64 = 1024.0 * 1024.0;
+/// Pixels whose colours and depths, 32 MiB, are written to memory by each frame.
+const BEYOND_CACHE: f64 = 2048.0 * 2048.0;
+
+/// The numbers of cores that are simulated.
+const CORES: [usize; 4] = [2, 8, 16, 64];
+
+/// The section.
+#[must_use]
+pub fn section(results: &Results) -> String {
+    let mut out = String::new();
+    let _ = write!(
+        out,
+        "# How cost grows\n\n\
+         Written by `cargo run --release -p estampe-bench -- --growth docs`, which measures all of it anew.\n\
+         {}. A frame is recorded, cleared, drawn and stored to memory; times are medians.\n",
+        results.driver
+    );
+    triangles(results, &mut out);
+    pixels(results, &mut out);
+    memory(results, &mut out);
+    cores(results, &mut out);
+    out
+}
+
+fn triangles(results: &Results, out: &mut String) {
+    out.push_str(
+        "\n## With triangles\n\n\
+         ![Frame time against the number of triangles](images/growth_triangles.svg)\n\n\
+         A mesh of triangles of one mean area, Gouraud-shaded, opaque, with depth, in a frame of 1280×720. Meshes that\n\
+         do not fit into the frame have layers over each other, the farthest first, so that every triangle passes the\n\
+         depth test. A tile first finds out what is visible and then shades it: in one layer each triangle pays for its\n\
+         own shading; in many layers for its vertices, set-up, coverage and depth test, and shading is what one layer's\n\
+         costs, however many there are. So there are two lines *fixed + each · triangles*, of least squares of relative\n\
+         errors; *off* is the largest distance of a measurement from its line.\n\n",
+    );
+    fit_heads("triangle", out);
+    for one in &results.triangles {
+        let class = CLASSES.iter().find(|class| class.name == one.name);
+        let layer = f64::from(class.map_or(0, |class| class.of_one_layer()));
+        fit(one, "one layer", &(..=layer), out);
+        fit(one, "many layers", &(layer..), out);
+    }
+    out.push_str("\nMilliseconds of a frame (wall time):\n\n");
+    let heads = COUNTS.map(|count| superscript(f64::from(count)));
+    costs(&results.triangles, &heads, "triangles", out);
+}
+
+fn pixels(results: &Results, out: &mut String) {
+    out.push_str(
+        "\n## With pixels\n\n\
+         ![Frame time against the number of pixels](images/growth_pixels.svg)\n\n\
+         A fan of sixteen triangles that covers each pixel of a square frame once. Colour and depth of\n\
+         1024² pixels are 8 MiB, which caches hold; those of 2048² are 32 MiB, which go to memory: a line for each.\n\
+         *Clear* is a part of the other two.\n\n",
+    );
+    fit_heads("pixel", out);
+    for one in &results.pixels {
+        fit(one, "to 1024²", &(..=IN_CACHE), out);
+        fit(one, "from 2048²", &(BEYOND_CACHE..), out);
+    }
+    out.push_str("\nMilliseconds of a frame (wall time):\n\n");
+    let heads = SIDES.map(|side| format!("{side}²"));
+    costs(&results.pixels, &heads, "pixels", out);
+}
+
+fn fit_heads(unit: &str, out: &mut String) {
+    let _ = write!(
+        out,
+        "| | threads | | ns per {unit}, CPU | ns per {unit}, wall | fixed, ms | off |\n\
+         |---|---:|---|---:|---:|---:|---:|\n"
+    );
+}
+
+/// Slopes, fixed cost and deviation of the counts in a range.
+fn fit(series: &Series, name: &str, counts: &impl RangeBounds<f64>, out: &mut String) {
+    let cpu = series.fit(counts, |cost: &Cost| cost.cpu_ms);
+    let wall = series.fit(counts, |cost: &Cost| cost.wall_ms);
+    if let (Some((cpu, _)), Some((wall, off))) = (cpu, wall) {
+        let _ = writeln!(
+            out,
+            "| {} | {} | {name} | {} | {} | {} | {:.0} % |",
+            series.name,
+            series.threads,
+            significant(cpu.each * 1e6),
+            significant(wall.each * 1e6),
+            significant(wall.fixed.max(0.0)),
+            off * 100.0
+        );
+    }
+}
+
+/// One row a count, one column a series.
+fn costs(series: &[Series], heads: &[String], unit: &str, out: &mut String) {
+    let _ = write!(out, "| {unit} |");
+    for one in series {
+        let _ = write!(out, " {}, {} |", one.name, threads(one.threads));
+    }
+    let _ = write!(out, "\n|---:|{}\n", "---:|".repeat(series.len()));
+    for (row, head) in heads.iter().enumerate() {
+        let _ = write!(out, "| {head} |");
+        for one in series {
+            let ms = one.costs.get(row).map(|cost| significant(cost.wall_ms));
+            let _ = write!(out, " {} |", ms.unwrap_or_default());
+        }
+        out.push('\n');
+    }
+}
+
+fn memory(results: &Results, out: &mut String) {
+    out.push_str(
+        "\n## Memory\n\n\
+         A triangle takes, from the data structures: 16 bytes of each vertex for its place in the window and 4 for each\n\
+         scalar of its varyings (Gouraud: 16), at half a vertex per triangle of a closed mesh; a sixteenth of a packet\n\
+         of 1,344 bytes, which is 84; and for each packet and tile that it reaches an entry of 12 bytes as binned and 8\n\
+         as sorted, in lists that double when they grow. That is 100 bytes and the entries; what is measured above it is what\n\
+         lists outgrew and the allocator still holds. Waves of two million primitives bound all of it: larger frames\n\
+         reuse the same memory. A pixel takes 4 bytes for each sample of each attachment, in blocks of 64×64.\n",
+    );
+    let Some(memory) = &results.memory else {
+        return;
+    };
+    out.push_str(
+        "\nMeasured (resident memory of the process; the caller's buffers are not counted):\n\n\
+         | | bytes each |\n|---|---:|\n",
+    );
+    for class in &memory.triangles {
+        let _ = writeln!(
+            out,
+            "| triangle of {} | {:.1} |",
+            class.class.name, class.each
+        );
+    }
+    let _ = writeln!(
+        out,
+        "| pixel, RGBA8 and 32-bit depth | {:.2} |\n\n\
+         4 million triangles of 1 px take {:.0} MB, 1 million {:.0} MB.",
+        memory.pixel,
+        memory.four_millions * 1e-6,
+        memory.one_million * 1e-6,
+    );
+}
+
+fn cores(results: &Results, out: &mut String) {
+    let wake_up = results.wake_up;
+    let _ = write!(
+        out,
+        "\n## With cores\n\n\
+         Every job of a frame (runs of vertices, chunks of primitives, tiles) was timed on one core, and the scheduler\n\
+         played with these times: in each phase the caller wakes its helpers, and whoever is free takes jobs from the front\n\
+         of what is left, in batches of a fourth of its share. The parts between phases are serial. Speed-ups are given\n\
+         for helpers that are awake; in brackets for those that sleep before each phase, by this machine's times of\n\
+         {:.1} µs to call one and {:.1} µs until it runs. Memory is taken to be as fast for many cores as for one.\n\n\
+         | scene | ms on 1 | {} measured |",
+        wake_up.call_ns as f64 * 1e-3,
+        wake_up.arrival_ns as f64 * 1e-3,
+        results.threads,
+    );
+    for cores in CORES {
+        let _ = write!(out, " {cores} |");
+    }
+    out.push_str(
+        " what stops 64 (shares of their time) |\n|---|---:|---:|---:|---:|---:|---:|---|\n",
+    );
+    for (name, frame, measured) in &results.scenes {
+        let alone = frame.on_cores_ns(1, wake_up) as f64 * 1e-6;
+        let _ = write!(out, "| {name} | {} | {measured:.2} |", significant(alone));
+        for cores in CORES {
+            let awake = frame.speed_up(cores, WakeUp::default());
+            let asleep = frame.speed_up(cores, wake_up);
+            let _ = write!(out, " {awake:.1} ({asleep:.1}) |");
+        }
+        let _ = writeln!(out, " {} |", obstacles(frame));
+    }
+}
+
+/// What stops 64 cores that are awake: the two largest parts of their time that are not work.
+fn obstacles(frame: &FrameCosts) -> String {
+    let limits = frame.limits(64, WakeUp::default());
+    let mut shares = vec![(limits.serial, "serial parts".to_owned())];
+    for (kind, share) in limits.waiting {
+        let (count, largest) = frame.largest(kind);
+        let what = match kind {
+            JobKind::Tiles => format!(
+                "{count} tiles, the largest {:.1} % of them",
+                largest * 100.0
+            ),
+            _ if count == 1 => kind.name_of_one().to_owned(),
+            _ => format!("{count} {}", kind.name()),
+        };
+        shares.push((share, what));
+    }
+    shares.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let said = shares.iter().take(2).filter(|(share, _)| *share >= 0.05);
+    let said: Vec<String> = said
+        .map(|(share, what)| format!("{what}: {:.0} %", share * 100.0))
+        .collect();
+    if said.is_empty() {
+        "nothing: all but a twentieth is shared".to_owned()
+    } else {
+        said.join("; ")
+    }
+}
+
+fn threads(count: usize) -> String {
+    format!("{count} thread{}", if count == 1 { "" } else { "s" })
+}
+
+/// Three significant digits.
+fn significant(value: f64) -> String {
+    if value >= 100.0 {
+        format!("{value:.0}")
+    } else if value >= 10.0 {
+        format!("{value:.1}")
+    } else if value >= 1.0 {
+        format!("{value:.2}")
+    } else {
+        format!("{value:.3}")
+    }
+}
+
+/// A count as a power of ten, with its factor √10 where it is half a decade.
+#[must_use]
+pub fn superscript(count: f64) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let log = libm::log10(count);
+    let whole = (log + 0.25).floor();
+    let is_half = log - whole > 0.25;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the decade of a count"
+    )]
+    let digit = DIGITS[(whole as usize).min(9)];
+    let factor = if is_half { "3.16·" } else { "" };
+    format!("{factor}10{digit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_powers_of_ten() {
+        let words = [100.0, 316.0, 1e4, 3_162_278.0, 1e7].map(superscript);
+        assert_eq!(words, ["10²", "3.16·10²", "10⁴", "3.16·10⁶", "10⁷"]);
+    }
+
+    #[test]
+    fn a_section_states_the_slope_in_nanoseconds() {
+        let cost = |count: f64| Cost {
+            count,
+            wall_ms: 0.5 + count * 3e-5,
+            cpu_ms: 0.5 + count * 6e-5,
+        };
+        let one = Series {
+            name: "10 px",
+            threads: 2,
+            costs: COUNTS.map(|count| cost(f64::from(count))).to_vec(),
+        };
+        let frame = FrameCosts {
+            phases: Vec::new(),
+            serial_ns: 1000,
+        };
+        let text = section(&Results {
+            driver: "d".to_owned(),
+            triangles: vec![one],
+            pixels: Vec::new(),
+            memory: None,
+            scenes: vec![("clear", frame, 1.0)],
+            wake_up: WakeUp::default(),
+            threads: 2,
+        });
+        for layers in ["one layer", "many layers"] {
+            let line = format!("| 10 px | 2 | {layers} | 60.0 | 30.0 | 0.500 | 0 % |");
+            assert!(text.contains(&line), "{line} in {text}");
+        }
+        assert!(text.contains("| 10⁷ | 300 |"));
+        assert!(text.contains("serial parts: 100 %"));
+    }
+}
