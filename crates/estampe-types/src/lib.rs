@@ -14,6 +14,7 @@
 
 pub mod bindings;
 pub mod buffer;
+mod depth_bounds;
 pub mod format;
 mod limits;
 mod lines;

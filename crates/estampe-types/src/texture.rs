@@ -1,7 +1,7 @@
 //! Textures as plain data, and how they are to be sampled. Sampling itself is `estampe-texture`'s.
 
-use crate::Lines;
 use crate::format::TextureFormat;
+use crate::{Lines, depth_bounds};
 use std::sync::Arc;
 
 /// A two-dimensional texture with its mip levels; immutable and shared by reference.
@@ -29,7 +29,7 @@ pub struct MipLevel {
 }
 
 /// Side of a block of a [`DepthTexture`], in texels.
-const BLOCK: usize = 64;
+pub(crate) const BLOCK: usize = 64;
 
 /// A depth image that shaders compare with, such as a shadow map: what a depth attachment held when it
 /// was taken. Cheap to clone.
@@ -165,51 +165,15 @@ impl DepthTexture {
 
     /// The bounds of a row of blocks, in storage order: sixteen rows of words.
     pub fn bound(depths: &[f32], bounds: &mut [u32]) {
-        const SIDE: usize = BLOCK / 4;
-        let blocks = depths.as_chunks::<16>().0.chunks_exact(SIDE * SIDE);
-        let stride = bounds.len() / SIDE;
-        for (number, packets) in blocks.enumerate() {
-            for y in 0..SIDE {
-                let row = &mut bounds[y * stride + number * SIDE..][..SIDE];
-                for (x, word) in row.iter_mut().enumerate() {
-                    *word = bounds_of(&packets[spread(x) | spread(y) << 1]);
-                }
-            }
-        }
+        depth_bounds::of_blocks(depths, bounds);
     }
 }
 
 /// Moves bit i of a six-bit number to bit 2i.
-const fn spread(v: usize) -> usize {
+pub(crate) const fn spread(v: usize) -> usize {
     let v = (v | (v << 4)) & 0x30F;
     let v = (v | (v << 2)) & 0x333;
     (v | (v << 1)) & 0x555
-}
-
-/// Least and greatest of sixteen depths in a word.
-#[inline(always)]
-fn bounds_of(depths: &[f32; 16]) -> u32 {
-    let (mut least, mut greatest) = (*depths, *depths);
-    let mut half = 8;
-    while half > 0 {
-        for lane in 0..half {
-            let (a, b) = (least[lane], least[lane + half]);
-            least[lane] = if a < b { a } else { b };
-            let (a, b) = (greatest[lane], greatest[lane + half]);
-            greatest[lane] = if a > b { a } else { b };
-        }
-        half /= 2;
-    }
-    let scaled = [least[0], greatest[0]].map(|depth| depth * DepthTexture::BOUND_SCALE);
-    // In 0..=32768, so that the conversion rounds down and loses nothing else.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "depths are in 0..=1"
-    )]
-    let [low, high] = scaled.map(|depth| depth as u32);
-    let high = high + u32::from((high as f32) < scaled[1]);
-    low | high << 16
 }
 
 /// How a coordinate outside 0..1 finds a texel.
