@@ -10,6 +10,9 @@
 //! by two blocks of 4×4 texels that [`sample_compare_sum`] can meet decide the packet with two loads of a
 //! pair a lane, in place of four for each sample. The sum is the same: answers that are all 1 or all 0 stay
 //! so when they are mixed.
+//!
+//! Where that does not decide, samples in rows of three by three one texel apart share their texels: 16 are
+//! compared instead of 36.
 
 use crate::texel::mix;
 use crate::wrap::place;
@@ -86,6 +89,11 @@ impl<'a> Map<'a> {
         {
             return R::select(lit, uv.x.splat(offsets.len() as f32), uv.x.splat(0.0));
         }
+        if let Some(offsets) = square_of_three(offsets)
+            && let Some(sum) = self.sum_of_square(uv, offsets, reference)
+        {
+            return sum;
+        }
         let mut sum = uv.x.splat(0.0);
         for &[x, y] in offsets {
             sum += self.sample(Vec2::new(uv.x + x, uv.y + y), reference);
@@ -132,6 +140,71 @@ impl<'a> Map<'a> {
         Some(lit)
     }
 
+    /// The sum of three by three samples at (u, v) + (x of a column, y of a row), row by row, if in every lane
+    /// each sample's right texel is its right neighbour's left one, and its lower texel the upper one of the
+    /// sample below. A texel's answer is then asked for once; what is done with it is the same.
+    #[inline(always)]
+    fn sum_of_square<R: Real>(
+        &self,
+        uv: Vec2<R>,
+        [columns, rows]: [[f32; 3]; 2],
+        reference: R,
+    ) -> Option<R> {
+        let [x0, x1, x2] = [
+            axis(uv.x + columns[0], self.width),
+            axis(uv.x + columns[1], self.width),
+            axis(uv.x + columns[2], self.width),
+        ];
+        let [y0, y1, y2] = [
+            axis(uv.y + rows[0], self.height),
+            axis(uv.y + rows[1], self.height),
+            axis(uv.y + rows[2], self.height),
+        ];
+        let one = x0.texel.splat(1);
+        let (last_x, last_y) = (one.splat(self.width - 1), one.splat(self.height - 1));
+        let next_x = (x0.texel + one).eq(x1.texel) & (x1.texel + one).eq(x2.texel);
+        let next_y = (y0.texel + one).eq(y1.texel) & (y1.texel + one).eq(y2.texel);
+        if R::any(!(next_x & next_y)) {
+            return None;
+        }
+        let columns = [
+            column(x0.texel),
+            column(x1.texel),
+            column(x2.texel),
+            column((x2.texel + one).min(last_x)),
+        ];
+        let fractions = [x0.fraction, x1.fraction, x2.fraction];
+        let row = [y0.texel, y1.texel, y2.texel, (y2.texel + one).min(last_y)];
+        let first = self.row_of_three(columns, row[0], fractions, reference);
+        let second = self.row_of_three(columns, row[1], fractions, reference);
+        let sum = add_row(uv.x.splat(0.0), first, second, y0.fraction);
+        let third = self.row_of_three(columns, row[2], fractions, reference);
+        let sum = add_row(sum, second, third, y1.fraction);
+        let fourth = self.row_of_three(columns, row[3], fractions, reference);
+        Some(add_row(sum, third, fourth, y2.fraction))
+    }
+
+    /// The answers of four texels of a row, mixed to three.
+    #[inline(always)]
+    fn row_of_three<R: Real>(
+        &self,
+        columns: [R::Int; 4],
+        y: R::Int,
+        fractions: [R; 3],
+        reference: R,
+    ) -> [R; 3] {
+        let row = self.row(y);
+        let a = self.passes(columns[0] + row, reference);
+        let b = self.passes(columns[1] + row, reference);
+        let c = self.passes(columns[2] + row, reference);
+        let d = self.passes(columns[3] + row, reference);
+        [
+            mix(a, b, fractions[0]),
+            mix(b, c, fractions[1]),
+            mix(c, d, fractions[2]),
+        ]
+    }
+
     /// One sample.
     #[inline(always)]
     fn sample<R: Real>(&self, uv: Vec2<R>, reference: R) -> R {
@@ -171,6 +244,26 @@ impl<'a> Map<'a> {
         let blocks = (y >> 6) * y.splat(self.stride / 16);
         (blocks << 12) + (spread(y) << 1)
     }
+}
+
+/// The x of columns and the y of rows, if the offsets are three rows of three.
+#[inline(always)]
+fn square_of_three(offsets: &[[f32; 2]]) -> Option<[[f32; 3]; 2]> {
+    let [a, b, c, d, _, _, g, _, _] = *<&[[f32; 2]; 9]>::try_from(offsets).ok()?;
+    let square = [[a[0], b[0], c[0]], [a[1], d[1], g[1]]];
+    let is_square = offsets.iter().enumerate().all(|(index, offset)| {
+        let expected = [square[0][index % 3], square[1][index / 3]];
+        offset.map(f32::to_bits) == expected.map(f32::to_bits)
+    });
+    is_square.then_some(square)
+}
+
+/// Adds three samples to the sum, from left to right.
+#[inline(always)]
+fn add_row<R: Real>(sum: R, above: [R; 3], below: [R; 3], fraction: R) -> R {
+    sum + mix(above[0], below[0], fraction)
+        + mix(above[1], below[1], fraction)
+        + mix(above[2], below[2], fraction)
 }
 
 /// What a column adds to the index of its texels.
