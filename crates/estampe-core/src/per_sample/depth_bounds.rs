@@ -205,17 +205,25 @@ fn extreme<S: Lanes, const N: usize>(
             15.0 + high as f32 * (1.0 / 256.0)
         }
     };
-    let distance = |lanes: &[u8; LANES], tile: i32, offset: f32, origin: f32| {
-        let mut starts = [0.0; LANES];
-        for (start, lane) in starts.iter_mut().zip(lanes) {
-            *start = (tile + i32::from(*lane) * 16) as f32;
-        }
-        // As in `interpolate::coordinate`: the sum of pixel and offset is exact, then one rounding.
-        let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
-        (f32x16::load_array(s, starts) + splat(offset)) - splat(origin)
-    };
     let [tile_x, tile_y] = test.origin;
-    let x = distance(&LANE_X, tile_x, corner(dx, 0), x0);
-    let y = distance(&LANE_Y, tile_y, corner(dy, 1), y0);
+    let x = distance(s, &LANE_X, (tile_x, corner(dx, 0)), x0);
+    let y = distance(s, &LANE_Y, (tile_y, corner(dy, 1)), y0);
     evaluate(s, &triangle.z, [x, y])
+}
+
+/// The distance of each block's column (or row) at an offset from a plane's origin.
+#[inline(always)]
+fn distance<S: Lanes>(
+    s: S,
+    lanes: &[u8; LANES],
+    (tile, offset): (i32, f32),
+    origin: f32,
+) -> f32x16<S> {
+    let mut starts = [0.0; LANES];
+    for (start, lane) in starts.iter_mut().zip(lanes) {
+        *start = (tile + i32::from(*lane) * 16) as f32;
+    }
+    // Positions are multiples of 1/256 below 2¹⁶: every sum is exact.
+    let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+    (f32x16::load_array(s, starts) + splat(offset)) - splat(origin)
 }

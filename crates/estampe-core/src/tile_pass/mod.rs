@@ -18,7 +18,7 @@ use crate::pipeline::RenderPipeline;
 use crate::raster::{CoverageList, TileShape};
 use crate::statistics::Statistics;
 use crate::tiles::{Chunk, ChunkIndex};
-use estampe_simd::{Level, dispatch};
+use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16, u32x16};
 use estampe_types::Bindings;
 
 /// The most colour targets of a pass.
@@ -79,14 +79,7 @@ pub(crate) fn draw<const N: usize>(
     job: &mut TileJob<'_>,
     scratch: &mut TileScratch<N>,
 ) {
-    if let Some(codes) = &pass.clear_colors {
-        for (colors, code) in job.colors.iter_mut().zip(codes) {
-            colors.fill(*code);
-        }
-    }
-    if let Some(depth) = pass.clear_depth {
-        job.depth.fill(depth);
-    }
+    dispatch!(pass.level, s => clear(s, pass, job));
     scratch.bounds.begin(pass.clear_depth);
     for &number in pass.chunk_index.of_tile(job.tile) {
         let entries = pass.chunks[number as usize].bins.of_tile(job.tile);
@@ -99,6 +92,25 @@ pub(crate) fn draw<const N: usize>(
         }
     }
     deferred::shade_run(pass, job, scratch);
+}
+
+/// Clears the tile's attachments, sixteen elements a store: `fill` is compiled for the least processor.
+#[inline(always)]
+fn clear<S: Lanes>(s: S, pass: &TilePass<'_>, job: &mut TileJob<'_>) {
+    if let Some(codes) = &pass.clear_colors {
+        for (colors, code) in job.colors.iter_mut().zip(codes) {
+            let value = <u32x16<S> as SimdBase<S>>::splat(s, *code);
+            for line in colors.as_chunks_mut::<LANES>().0 {
+                value.store_array(line);
+            }
+        }
+    }
+    if let Some(depth) = pass.clear_depth {
+        let value = <f32x16<S> as SimdBase<S>>::splat(s, depth);
+        for line in job.depth.as_chunks_mut::<LANES>().0 {
+            value.store_array(line);
+        }
+    }
 }
 
 /// A chunk in the tile at hand.

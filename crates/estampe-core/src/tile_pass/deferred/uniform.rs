@@ -84,7 +84,7 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
             ..
         } = &mut self.scratch.deferred;
         let targets = codes.len() / shown.len().max(1);
-        let mut fragments = 0;
+        let (mut fragments, mut last) = (0, (NONE, 0));
         for packet in 0..MAX_PACKETS {
             let pending = visibility.pending[packet];
             let any = pending.iter().fold(0, |any, mask| any | mask);
@@ -97,6 +97,19 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
                 let Some(line) = line_mut(self.job.colors[0], at) else {
                     continue;
                 };
+                if targets == 1 {
+                    // Large triangles: most packets show one, and mostly that of the packet before.
+                    let old = u32x16::load_array_ref(s, line);
+                    if lanes_that_are(s, old, last.0) & mask != mask {
+                        let number = line[mask.trailing_zeros() as usize % LANES];
+                        let shown = shown_of.get(number as usize).copied().unwrap_or(0) as usize;
+                        last = (number, codes.get(shown).copied().unwrap_or(0));
+                    }
+                    if lanes_that_are(s, old, last.0) & mask == mask {
+                        write_code(s, last.1, mask, line);
+                        continue;
+                    }
+                }
                 let numbers = *line;
                 let first = numbers[mask.trailing_zeros() as usize % LANES];
                 let same = u32x16::load_array(s, numbers)
@@ -125,4 +138,10 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
         }
         self.scratch.statistics.fragments_shaded += fragments;
     }
+}
+
+/// The lanes that hold a number.
+#[inline(always)]
+fn lanes_that_are<S: Lanes>(s: S, numbers: u32x16<S>, number: u32) -> u16 {
+    s.bits_of_mask(numbers.simd_eq(<u32x16<S> as SimdBase<S>>::splat(s, number)))
 }
