@@ -4,7 +4,7 @@
 //! * [`series`] measures them, [`fit`] lays a line through them, [`plot`] draws them;
 //! * [`memory`] asks the system what a triangle and a pixel take;
 //! * [`jobs`] records what each job of a scene's frame costs, [`simulation`] gives them to more cores;
-//! * [`section`] writes it all down.
+//! * [`mod@section`] writes it all down.
 
 pub mod fans;
 pub mod fit;
