@@ -90,6 +90,12 @@ pub(crate) fn alpha_code_unclamped<S: Lanes>(alpha: f32x16<S>) -> u32x16<S> {
     unorm_code(alpha) << 24
 }
 
+/// The linear values of sRGB codes.
+#[inline(always)]
+fn linear<S: Lanes>(s: S, code: u32x16<S>) -> f32x16<S> {
+    s.gather(&*LINEAR_BITS_FROM_SRGB, code).bitcast()
+}
+
 /// Takes four channels apart.
 #[inline(always)]
 pub(crate) fn unpack<S: Lanes>(s: S, packed: u32x16<S>, is_srgb: bool) -> [f32x16<S>; 4] {
@@ -101,9 +107,7 @@ pub(crate) fn unpack<S: Lanes>(s: S, packed: u32x16<S>, is_srgb: bool) -> [f32x1
     };
     let alpha = unorm(packed >> 24);
     if is_srgb {
-        let linear =
-            |code: u32x16<S>| -> f32x16<S> { s.gather(&*LINEAR_BITS_FROM_SRGB, code).bitcast() };
-        return [linear(r), linear(g), linear(b), alpha];
+        return [linear(s, r), linear(s, g), linear(s, b), alpha];
     }
     [unorm(r), unorm(g), unorm(b), alpha]
 }
