@@ -169,6 +169,8 @@ pub(crate) struct StageKey {
     pub(crate) uniform_over_primitive: bool,
     /// Depth is tested, and perhaps written, before the shader runs.
     pub(crate) early_depth: bool,
+    /// The fragments' one colour is their first four scalars, so that the program need not be called.
+    pub(crate) passes_color: bool,
     /// Depth is written, and by which comparison, if at all.
     pub(crate) depth: Option<DepthState>,
 }
@@ -352,12 +354,15 @@ fn stage_key(descriptor: &RenderPipelineDescriptor, interface: &Interface) -> St
     let depth = descriptor
         .depth
         .filter(|depth| depth.write_enabled || depth.compare != CompareFunction::Always);
+    let early_depth = !interface.discards && interface.depth_output == DepthOutput::None;
     StageKey {
-        uniform_over_primitive: flat
-            && !interface.reads_position
-            && !interface.discards
-            && interface.depth_output == DepthOutput::None,
-        early_depth: !interface.discards && interface.depth_output == DepthOutput::None,
+        uniform_over_primitive: flat && !interface.reads_position && early_depth,
+        early_depth,
+        // A program of a caller's own may claim more than it has.
+        passes_color: interface.passes_color
+            && early_depth
+            && interface.color_targets == 1
+            && interface.varyings.len() >= 4,
         depth,
     }
 }

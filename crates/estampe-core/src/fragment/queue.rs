@@ -107,7 +107,7 @@ impl<const N: usize> FragmentQueue<N> {
         debug_assert_eq!(self.len, 0, "packets of another pipeline are still queued");
         self.scalars = interface.varyings.len();
         self.targets = interface.color_targets;
-        self.passes_color = interface.passes_color;
+        self.passes_color = pipeline.key().passes_color;
         self.varyings
             .resize(self.scalars * CAPACITY, Packet::default());
         self.spare.resize(self.scalars, Packet::default());

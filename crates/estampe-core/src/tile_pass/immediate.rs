@@ -43,7 +43,7 @@ pub(super) fn draw_chunk<S: Lanes, const N: usize>(
         depth_output: interface.depth_output != DepthOutput::None,
         blends_blocks: N == 1
             && !matches!(work.level, Level::Scalar(_))
-            && interface.passes_color
+            && pipeline.key().passes_color
             && interface.varyings[..4] == [Interpolation::Smooth; 4]
             && work.item.targets[0]
                 .as_ref()
