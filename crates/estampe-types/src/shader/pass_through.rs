@@ -20,7 +20,7 @@ pub(super) fn passes_color<T: Shader>(shader: &T, interface: &Interface) -> bool
     // Different values in every lane and scalar, beyond 0..=1 too.
     let mut varyings = vec![Packet([0.0; LANES]); scalars];
     let all = varyings.iter_mut().flat_map(|packet| &mut packet.0);
-    all.zip(1u8..)
+    all.zip(1u16..)
         .for_each(|(value, number)| *value = f32::from(number) * 0.037 - 0.5);
     let mut colors = [Packet([f32::NAN; LANES]); 4];
     let batch = FragmentBatch {
