@@ -3,8 +3,8 @@
 use crate::BenchError;
 use crate::scene::{CLEAR_COLOR, Scene, SceneDraw, shadow};
 use estampe::{
-    BindGroup, Binding, Bindings, Buffer, DepthTexture, Device, Draw, IndexFormat, RenderPass,
-    RenderPipeline, RenderTarget, RenderTargetDescriptor, Statistics,
+    BindGroup, Binding, Bindings, Buffer, DepthTexture, Device, Draw, IndexFormat, LoadOp,
+    RenderPass, RenderPipeline, RenderTarget, RenderTargetDescriptor, Statistics,
 };
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -93,7 +93,7 @@ impl<'d> PreparedScene<'d> {
         };
         let image = RenderTargetDescriptor::new(size.width, size.height);
         let resolved = RenderTargetDescriptor {
-            depth: false,
+            depth_stencil: None,
             ..image.clone()
         };
         let depth_map = match &scene.depth_map {
@@ -226,9 +226,9 @@ fn render(
         })
         .collect();
     let pass = RenderPass {
-        clear_colors: Some(vec![CLEAR_COLOR]),
-        clear_depth: Some(1.0),
+        load_colors: vec![LoadOp::Clear(CLEAR_COLOR.map(f64::from))],
         draws: &recorded,
+        ..RenderPass::default()
     };
     times.recording += start.elapsed();
     times.statistics += device.render(target, &pass);

@@ -2,13 +2,13 @@
 
 use crate::attachment::RenderTarget;
 use crate::attachment::resolve::ResolveJob;
+use crate::commands::{LoadOp, RenderPass};
 use crate::geometry::assembly::ElementSource;
 use crate::geometry::binning::BinState;
 use crate::geometry::chunk::{ChunkScratch, ChunkWork, process};
 use crate::geometry::cull::CullState;
 use crate::geometry::shading::{ShadedVertices, ShadingScratch, shade};
 use crate::per_sample::codes::pack_one;
-use crate::pipeline::RenderPipeline;
 use crate::recording::Phase;
 use crate::schedule::{Executor, ThreadError};
 use crate::statistics::Statistics;
@@ -16,79 +16,9 @@ use crate::tile_pass::{self, MAX_TARGETS, TileItem, TileJob, TilePass, TileScrat
 use crate::tiles::{Chunk, ChunkIndex};
 use crate::wave::{Item, VertexJob, Waves};
 use estampe_simd::Level;
-use estampe_types::state::{ScissorRect, Viewport};
-use estampe_types::{Bindings, Buffer, DepthTexture, IndexFormat, TextureFormat};
-use std::ops::Range;
+use estampe_types::DepthTexture;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
-
-/// One draw: a pipeline, the data that it reads, and how much of it.
-#[derive(Debug, Clone)]
-pub struct Draw<'a> {
-    /// The validated state.
-    pub pipeline: &'a RenderPipeline,
-    /// The vertex buffers, as the pipeline's layouts name them; a missing or short one reads zeros.
-    pub vertex_buffers: &'a [Buffer],
-    /// The index buffer and the width of its indices, if vertices are to be found by index.
-    pub indices: Option<(&'a Buffer, IndexFormat)>,
-    /// Which indices are drawn, or which vertices without an index buffer. Indices beyond the
-    /// buffer's end read zero.
-    pub elements: Range<u32>,
-    /// Which instances are drawn. Default one.
-    pub instances: Range<u32>,
-    /// Added to every index. Default 0.
-    pub base_vertex: i32,
-    /// The resources that shaders find by number.
-    pub bindings: Option<&'a Bindings>,
-    /// Where NDC lands. Default the whole target, depth 0..1.
-    pub viewport: Option<Viewport>,
-    /// What pixels may change. Default all.
-    pub scissor: Option<ScissorRect>,
-    /// The constant of blending. Default zeros.
-    pub blend_constant: [f32; 4],
-}
-
-impl<'a> Draw<'a> {
-    /// A draw of one instance without buffers, over the whole target.
-    #[must_use]
-    pub fn new(pipeline: &'a RenderPipeline, elements: Range<u32>) -> Self {
-        Self {
-            pipeline,
-            vertex_buffers: &[],
-            indices: None,
-            elements,
-            instances: 0..1,
-            base_vertex: 0,
-            bindings: None,
-            viewport: None,
-            scissor: None,
-            blend_constant: [0.0; 4],
-        }
-    }
-}
-
-/// Draws into one target, with what becomes of its old contents.
-#[derive(Debug, Clone)]
-pub struct RenderPass<'a> {
-    /// The linear colours that attachments are cleared to, or `None` to keep what is there;
-    /// attachments beyond the list's end are cleared to zeros.
-    pub clear_colors: Option<Vec<[f32; 4]>>,
-    /// The depth that is cleared to, or `None` to keep what is there.
-    pub clear_depth: Option<f32>,
-    /// The draws, in order.
-    pub draws: &'a [Draw<'a>],
-}
-
-impl Default for RenderPass<'_> {
-    /// Clears colour to zeros and depth to 1; draws nothing.
-    fn default() -> Self {
-        Self {
-            clear_colors: Some(Vec::new()),
-            clear_depth: Some(1.0),
-            draws: &[],
-        }
-    }
-}
 
 /// What draws need besides their data: threads, a SIMD level, and memory that is used again.
 #[derive(Debug)]
@@ -383,35 +313,32 @@ const PRIMITIVE_CHUNK: u32 = 4096;
 /// What a pass still has to clear, as codes.
 #[derive(Debug, Default)]
 struct Clear {
-    colors: Option<[u32; MAX_TARGETS]>,
+    colors: [Option<u32>; MAX_TARGETS],
     depth: Option<f32>,
 }
 
 impl Clear {
     fn new(target: &RenderTarget, pass: &RenderPass<'_>) -> Self {
-        let code = |(index, format): (usize, &TextureFormat)| {
-            let colors = pass.clear_colors.as_deref().unwrap_or_default();
-            let rgba = colors.get(index).copied().unwrap_or_default();
-            pack_one(rgba, format.is_srgb())
-        };
-        let mut codes = [0; MAX_TARGETS];
-        let formats = target.color_formats().iter().enumerate().map(code);
-        codes
-            .iter_mut()
-            .zip(formats)
-            .for_each(|(slot, code)| *slot = code);
-        // Depths are kept in 0..=1, NaN as 0: hierarchical depth relies on their order.
-        let depth = pass
-            .clear_depth
-            .map(|depth| if depth > 0.0 { depth.min(1.0) } else { 0.0 });
-        Self {
-            colors: pass.clear_colors.is_some().then_some(codes),
-            depth,
+        let mut clear = Self::default();
+        let formats = target.color_formats().iter();
+        for (index, (color, format)) in clear.colors.iter_mut().zip(formats).enumerate() {
+            let load = pass.load_colors.get(index);
+            if let LoadOp::Clear(rgba) = load.copied().unwrap_or(LoadOp::Clear([0.0; 4])) {
+                *color = Some(pack_one(
+                    rgba.map(|channel| channel as f32),
+                    format.is_srgb(),
+                ));
+            }
         }
+        // Depths are kept in 0..=1, NaN as 0: hierarchical depth relies on their order.
+        if let (LoadOp::Clear(depth), true) = (pass.load_depth, target.has_depth()) {
+            clear.depth = Some(if depth > 0.0 { depth.min(1.0) } else { 0.0 });
+        }
+        clear
     }
 
     fn is_done(&self) -> bool {
-        self.colors.is_none() && self.depth.is_none()
+        self.colors.iter().all(Option::is_none) && self.depth.is_none()
     }
 }
 

@@ -36,6 +36,8 @@ mod per_sample;
 
 pub mod attachment;
 
+pub mod commands;
+
 pub mod draw;
 pub mod recording;
 mod schedule;
@@ -44,7 +46,8 @@ mod tile_pass;
 mod wave;
 
 pub use attachment::{RenderTarget, RenderTargetDescriptor, TargetError};
-pub use draw::{Context, Draw, RenderPass};
+pub use commands::{Draw, LoadOp, OcclusionQueries, RenderPass};
+pub use draw::Context;
 pub use pipeline::{PipelineError, RenderPipeline, RenderPipelineDescriptor};
 pub use schedule::ThreadError;
 pub use statistics::Statistics;

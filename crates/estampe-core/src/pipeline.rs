@@ -2,7 +2,8 @@
 
 use estampe_types::shader::DepthOutput;
 use estampe_types::state::{
-    ColorTargetState, CompareFunction, DepthState, PrimitiveState, VertexBufferLayout,
+    ColorTargetState, CompareFunction, DepthBiasState, DepthState, LogicOperation, PrimitiveState,
+    StencilState, VertexBufferLayout,
 };
 use estampe_types::{
     Interface, Interpolation, Limits, Program, Shader, ShaderProgram, TextureFormat,
@@ -20,8 +21,20 @@ pub struct RenderPipelineDescriptor {
     pub primitive: PrimitiveState,
     /// The depth test, or none. Default less, written.
     pub depth: Option<DepthState>,
-    /// Samples per pixel, 1 or 4. Default 1.
+    /// The stencil test, or none. Default none.
+    pub stencil: Option<StencilState>,
+    /// What is added to the depth of triangles. Default nothing.
+    pub depth_bias: DepthBiasState,
+    /// Samples per pixel: 1, 2, 4, 8 or 16. Default 1.
     pub samples: u32,
+    /// The samples that may change, bit by bit. Default all.
+    pub sample_mask: u32,
+    /// Whether the alpha of target 0 says how many of a fragment's samples are kept. Default no.
+    pub alpha_to_coverage: bool,
+    /// Whether fragments are shaded once for each sample, whatever the shader says. Default no.
+    pub sample_shading: bool,
+    /// A logic operation in place of blending, for all targets. Default none.
+    pub logic_operation: Option<LogicOperation>,
     /// The colour targets. Default one `Rgba8Unorm`, replaced.
     pub targets: Vec<ColorTargetState>,
 }
@@ -40,7 +53,13 @@ impl RenderPipelineDescriptor {
             vertex_buffers: Vec::new(),
             primitive: PrimitiveState::default(),
             depth: Some(DepthState::LESS_WRITE),
+            stencil: None,
+            depth_bias: DepthBiasState::default(),
             samples: 1,
+            sample_mask: u32::MAX,
+            alpha_to_coverage: false,
+            sample_shading: false,
+            logic_operation: None,
             targets: vec![TextureFormat::Rgba8Unorm.into()],
         }
     }
@@ -259,7 +278,7 @@ fn check_targets(
         });
     }
     for (index, target) in descriptor.targets.iter().enumerate() {
-        if !target.format.is_color() {
+        if !crate::attachment::is_drawn(target.format) {
             return Err(PipelineError::NotColor {
                 index,
                 format: target.format,

@@ -5,7 +5,7 @@
 //! so that memory is bounded whatever is drawn; most passes are one wave.
 
 use crate::attachment::RenderTarget;
-use crate::draw::Draw;
+use crate::commands::Draw;
 use crate::geometry::assembly::{PrimitiveKind, kind_of, primitive_count, vertex_index};
 use crate::geometry::chunk::ItemVertices;
 use crate::geometry::cull::Facing;
@@ -311,6 +311,10 @@ fn part_of(topology: PrimitiveTopology, first: u32, count: u32, whole: u32) -> [
         T::LineStrip => [1, 1],
         T::TriangleList => [3, 0],
         T::TriangleStrip => [1, 2],
+        T::LineListAdjacency => [4, 0],
+        T::LineStripAdjacency => [1, 3],
+        T::TriangleListAdjacency => [6, 0],
+        T::TriangleStripAdjacency => [2, 4],
         T::LineLoop | T::TriangleFan => return [0, whole],
     };
     [first * each, count * each + more]

@@ -38,6 +38,10 @@ pub fn primitives(topology: PrimitiveTopology, count: u32) -> impl Iterator<Item
         T::LineLoop => count,
         T::TriangleList => count / 3,
         T::TriangleStrip | T::TriangleFan => count.saturating_sub(2),
+        T::LineListAdjacency => count / 4,
+        T::LineStripAdjacency => count.saturating_sub(3),
+        T::TriangleListAdjacency => count / 6,
+        T::TriangleStripAdjacency => (count / 2).saturating_sub(2),
     };
     (0..number).map(move |i| match topology {
         T::PointList => Primitive::Point(i),
@@ -49,5 +53,12 @@ pub fn primitives(topology: PrimitiveTopology, count: u32) -> impl Iterator<Item
         T::TriangleStrip if i % 2 == 1 => Primitive::Triangle([i, i + 2, i + 1]),
         T::TriangleStrip => Primitive::Triangle([i, i + 1, i + 2]),
         T::TriangleFan => Primitive::Triangle([i + 1, i + 2, 0]),
+        T::LineListAdjacency => Primitive::Line([4 * i + 1, 4 * i + 2]),
+        T::LineStripAdjacency => Primitive::Line([i + 1, i + 2]),
+        T::TriangleListAdjacency => Primitive::Triangle([6 * i, 6 * i + 2, 6 * i + 4]),
+        T::TriangleStripAdjacency if i % 2 == 1 => {
+            Primitive::Triangle([2 * i, 2 * i + 4, 2 * i + 2])
+        }
+        T::TriangleStripAdjacency => Primitive::Triangle([2 * i, 2 * i + 2, 2 * i + 4]),
     })
 }

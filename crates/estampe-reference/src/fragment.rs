@@ -134,6 +134,8 @@ pub fn shade_quad<S: Shader>(
     let input = FragmentIn {
         position: Vec4::new(read(0), read(1), read(2), read(3)),
         front_facing: Quad([front_facing; 4]),
+        sample_index: Quad([0; 4]),
+        coverage: Quad([0; 4]),
         bindings,
         zero: Quad([0.0; 4]),
     };
@@ -152,7 +154,8 @@ pub fn shade_quad<S: Shader>(
         }),
         depth: match S::DEPTH_OUTPUT {
             DepthOutput::None => None,
-            DepthOutput::Any => {
+            // `Greater` and `Less` are confined by whoever stores the depth.
+            _ => {
                 let depth = output.depth().unwrap_or(input.position.z);
                 Some(clamp_depth(depth.lane(lane)))
             }

@@ -9,7 +9,7 @@ use crate::shading::wireframe::Wireframe;
 use crate::surface_pipelines::FrameStyle;
 use estampe::texture::TextureError;
 use estampe::{
-    Device, PipelineError, RenderPass, RenderTargetDescriptor, Statistics, TargetError,
+    Device, LoadOp, PipelineError, RenderPass, RenderTargetDescriptor, Statistics, TargetError,
     TextureFormat,
 };
 use estampe_scene::{Camera, Image, Scene, Workers};
@@ -104,16 +104,16 @@ pub fn render(
         height: options.height,
         samples: options.samples,
         color_formats: vec![style.format],
-        depth: true,
+        ..RenderTargetDescriptor::new(options.width, options.height)
     })?;
     let prepare = start.elapsed();
 
     let clear = clear_color(options);
     let draws = plan.draws();
     let pass = RenderPass {
-        clear_colors: Some(vec![clear]),
-        clear_depth: Some(1.0),
+        load_colors: vec![LoadOp::Clear(clear.map(f64::from))],
         draws: &draws,
+        ..RenderPass::default()
     };
     let statistics = device.render(&mut target, &pass);
 

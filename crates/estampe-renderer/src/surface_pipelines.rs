@@ -295,12 +295,12 @@ impl FrameStyle {
             write_mask: ColorWrites::ALL,
         };
         let descriptor = RenderPipelineDescriptor {
-            program: look.program,
             vertex_buffers: layouts.collect(),
             primitive: state.primitive,
             depth: Some(state.depth),
             samples: self.samples,
             targets: vec![target],
+            ..RenderPipelineDescriptor::with_program(look.program)
         };
         let pipeline = device.create_render_pipeline(&descriptor)?;
         Ok(StreamPipeline {

@@ -5,7 +5,7 @@ use crate::geometry::{Vertex, clip_at};
 use crate::oracle::{Image, SampleDepths};
 use crate::shaders::Colored;
 use estampe::{
-    Device, DeviceDescriptor, Draw, Level, Limits, RenderPass, RenderPipeline,
+    Device, DeviceDescriptor, Draw, Level, Limits, LoadOp, RenderPass, RenderPipeline,
     RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor,
 };
 use estampe_types::state::{
@@ -69,11 +69,15 @@ pub fn draw(device: &Device, case: &Case, depths: &SampleDepths) -> Image {
         .expect("a valid target");
     for (number, draws) in case.passes().into_iter().enumerate() {
         let is_first = number == 0;
-        let clear = RenderPass {
-            clear_colors: is_first.then(|| vec![case.clear_color]),
-            clear_depth: is_first.then_some(case.clear_depth),
-            draws: &[],
+        let mut clear = RenderPass {
+            load_colors: vec![LoadOp::Clear(case.clear_color.map(f64::from))],
+            load_depth: LoadOp::Clear(case.clear_depth),
+            ..RenderPass::default()
         };
+        if !is_first {
+            clear.load_colors = vec![LoadOp::Load];
+            clear.load_depth = LoadOp::Load;
+        }
         draw_pass(device, &mut target, case, draws, clear);
     }
     let color = target.read_color(0);
@@ -108,16 +112,15 @@ fn draw_pass(
         .iter()
         .zip(pipelines.iter().zip(&buffers))
         .map(|(draw, (pipeline, buffers))| Draw {
-            pipeline,
             vertex_buffers: buffers,
             indices: draw.indices.as_ref().map(|(format, b)| (b, *format)),
-            elements: draw.elements.clone(),
             instances: draw.instances.clone(),
             base_vertex: draw.base_vertex,
             bindings: Some(&draw.bindings),
             viewport: draw.viewport,
             scissor: draw.scissor,
             blend_constant: draw.blend_constant,
+            ..Draw::new(pipeline, draw.elements.clone())
         })
         .collect();
     let pass = RenderPass {
@@ -154,9 +157,8 @@ fn matches(
         compare: CompareFunction::Equal,
     });
     let clear = RenderPass {
-        clear_colors: Some(Vec::new()),
-        clear_depth: None,
-        draws: &[],
+        load_depth: LoadOp::Load,
+        ..RenderPass::default()
     };
     draw_pass(device, target, case, &[draw], clear);
     let mut codes = target.read_color(0).as_chunks::<4>().0.to_vec();
@@ -183,12 +185,12 @@ fn pipeline(device: &Device, case: &Case, draw: &CaseDraw) -> RenderPipeline {
     };
     device
         .create_render_pipeline(&RenderPipelineDescriptor {
-            program: draw.shader.program(),
             vertex_buffers: draw.buffers.iter().map(|(l, _)| l.clone()).collect(),
             primitive: draw.primitive,
             depth: draw.depth,
             samples: case.samples,
             targets: case.format.into_iter().map(target).collect(),
+            ..RenderPipelineDescriptor::with_program(draw.shader.program())
         })
         .expect("a valid pipeline")
 }

@@ -32,7 +32,7 @@ mod wide;
 
 pub use bindings::{BindGroup, Binding, Bindings};
 pub use buffer::Buffer;
-pub use format::{IndexFormat, TextureFormat, VertexFormat};
+pub use format::{IndexFormat, SampleType, TexelEncoding, TextureFormat, VertexFormat};
 pub use limits::Limits;
 pub use lines::Lines;
 pub use matrix::Mat4;
@@ -40,8 +40,9 @@ pub use pair::Pair;
 pub use quad::Quad;
 pub use real::{Int, Real};
 pub use shader::{
-    Attributes, Flat, FragmentBatch, FragmentIn, FragmentOut, Interface, Interpolation,
-    NoPerspective, Program, Shader, ShaderProgram, Varyings, VertexBatch, VertexIn,
+    Attributes, Centroid, Flat, FragmentBatch, FragmentIn, FragmentOut, Interface, Interpolation,
+    NoPerspective, PerSample, Program, Sampling, Shader, ShaderProgram, Varyings, VertexBatch,
+    VertexIn,
 };
 pub use texture::{AddressMode, DepthTexture, FilterMode, MipLevel, SamplerDescriptor, Texture};
 pub use vector::{Vec2, Vec3, Vec4};

@@ -16,15 +16,16 @@ struct Readme;
 pub use device::{Device, DeviceDescriptor, DeviceError};
 pub use estampe_core::recording::Phase;
 pub use estampe_core::{
-    Draw, PipelineError, RenderPass, RenderPipeline, RenderPipelineDescriptor, RenderTarget,
-    RenderTargetDescriptor, Statistics, TargetError,
+    Draw, LoadOp, OcclusionQueries, PipelineError, RenderPass, RenderPipeline,
+    RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, Statistics, TargetError,
 };
 pub use estampe_simd::{Level, LevelError};
 pub use estampe_texture as texture;
-pub use estampe_types::shader::{DepthOutput, Interpolation, Sample2d, VertexOut};
+pub use estampe_types::shader::{DepthOutput, Interpolation, Sample2d, Sampling, VertexOut};
 pub use estampe_types::{
-    AddressMode, Attributes, BindGroup, Binding, Bindings, Buffer, DepthTexture, FilterMode, Flat,
-    FragmentIn, FragmentOut, IndexFormat, Int, Limits, Mat4, MipLevel, NoPerspective, Program,
-    Quad, Real, SamplerDescriptor, Shader, ShaderProgram, Texture, TextureFormat, Varyings, Vec2,
-    Vec3, Vec4, VertexFormat, VertexIn, maths, shader, srgb, state,
+    AddressMode, Attributes, BindGroup, Binding, Bindings, Buffer, Centroid, DepthTexture,
+    FilterMode, Flat, FragmentIn, FragmentOut, IndexFormat, Int, Limits, Mat4, MipLevel,
+    NoPerspective, PerSample, Program, Quad, Real, SampleType, SamplerDescriptor, Shader,
+    ShaderProgram, TexelEncoding, Texture, TextureFormat, Varyings, Vec2, Vec3, Vec4, VertexFormat,
+    VertexIn, maths, shader, srgb, state,
 };

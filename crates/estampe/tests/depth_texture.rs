@@ -101,7 +101,7 @@ fn there_is_none_without_depth_or_with_samples() {
     let device = Device::new(&DeviceDescriptor::default()).unwrap();
     for descriptor in [
         RenderTargetDescriptor {
-            depth: false,
+            depth_stencil: None,
             ..RenderTargetDescriptor::new(8, 8)
         },
         RenderTargetDescriptor {

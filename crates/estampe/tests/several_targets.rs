@@ -5,7 +5,7 @@ use estampe::state::{
     BlendState, ColorTargetState, ColorWrites, PrimitiveTopology, VertexBufferLayout,
 };
 use estampe::{
-    Buffer, Device, DeviceDescriptor, Draw, Level, PipelineError, RenderPass,
+    Buffer, Device, DeviceDescriptor, Draw, Level, LoadOp, PipelineError, RenderPass,
     RenderPipelineDescriptor, RenderTargetDescriptor, TextureFormat, Vec2, Vec4, VertexFormat,
 };
 
@@ -87,7 +87,7 @@ fn each_target_has_its_own_format_blending_and_mask() {
             }];
             let clear = vec![[0.0; 4], [1.0, 1.0, 1.0, 0.0], [1.0, 0.0, 0.0, 1.0]];
             let pass = RenderPass {
-                clear_colors: Some(clear),
+                load_colors: clear.into_iter().map(LoadOp::Clear).collect(),
                 draws: &draws,
                 ..RenderPass::default()
             };

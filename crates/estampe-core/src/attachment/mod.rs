@@ -19,4 +19,5 @@ mod readback;
 pub(crate) mod resolve;
 mod target;
 
+pub(crate) use target::is_drawn;
 pub use target::{RenderTarget, RenderTargetDescriptor, TargetError};

@@ -11,12 +11,12 @@ pub struct RenderTargetDescriptor {
     pub width: u32,
     /// Height in pixels, from 1 on.
     pub height: u32,
-    /// Samples per pixel, 1 or 4. Default 1.
+    /// Samples per pixel: 1, 2, 4, 8 or 16. Default 1.
     pub samples: u32,
     /// Formats of the colour attachments. Default one `Rgba8Unorm`.
     pub color_formats: Vec<TextureFormat>,
-    /// Whether there is a 32-bit float depth attachment. Default true.
-    pub depth: bool,
+    /// Format of the depth and stencil attachment, if there is one. Default `Depth32Float`.
+    pub depth_stencil: Option<TextureFormat>,
 }
 
 impl RenderTargetDescriptor {
@@ -28,7 +28,7 @@ impl RenderTargetDescriptor {
             height,
             samples: 1,
             color_formats: vec![TextureFormat::Rgba8Unorm],
-            depth: true,
+            depth_stencil: Some(TextureFormat::Depth32Float),
         }
     }
 }
@@ -107,9 +107,13 @@ impl RenderTarget {
             samples,
             ..
         } = *descriptor;
+        let has_depth = descriptor
+            .depth_stencil
+            .is_some_and(TextureFormat::has_depth);
         let grid = TileGrid::new(width, height, samples);
         let elements = grid.stored_pixels() * samples as usize;
-        let attachments = descriptor.color_formats.len() + usize::from(descriptor.depth);
+        let attachments =
+            descriptor.color_formats.len() + usize::from(descriptor.depth_stencil.is_some());
         let error = TargetError::OutOfMemory {
             bytes: elements as u64 * 4 * attachments as u64,
         };
@@ -119,7 +123,7 @@ impl RenderTarget {
             .map(|_| Lines::zeros(elements));
         let colors: Option<Vec<_>> = colors.collect();
         let colors = colors.ok_or_else(|| error.clone())?;
-        let depth = Lines::zeros(if descriptor.depth { elements } else { 0 }).ok_or(error)?;
+        let depth = Lines::zeros(if has_depth { elements } else { 0 }).ok_or(error)?;
         Ok(Self {
             descriptor: descriptor.clone(),
             grid,
@@ -156,7 +160,7 @@ impl RenderTarget {
     /// Whether there is a depth attachment.
     #[must_use]
     pub fn has_depth(&self) -> bool {
-        self.descriptor.depth
+        !self.depth.is_empty()
     }
 
     pub(crate) fn grid(&self) -> TileGrid {
@@ -194,7 +198,7 @@ fn check(descriptor: &RenderTargetDescriptor, limits: &Limits) -> Result<(), Tar
         return Err(TargetError::MultisampledColors(count));
     }
     for (index, format) in descriptor.color_formats.iter().enumerate() {
-        if !format.is_color() {
+        if !is_drawn(*format) {
             return Err(TargetError::NotColor {
                 index,
                 format: *format,
@@ -202,4 +206,12 @@ fn check(descriptor: &RenderTargetDescriptor, limits: &Limits) -> Result<(), Tar
         }
     }
     Ok(())
+}
+
+/// Whether colours can be drawn into a format.
+pub(crate) const fn is_drawn(format: TextureFormat) -> bool {
+    matches!(
+        format,
+        TextureFormat::Rgba8Unorm | TextureFormat::Rgba8UnormSrgb
+    )
 }

@@ -323,6 +323,7 @@ impl<const N: usize> FragmentQueue<N> {
                 coverage: &mut self.coverage[..len],
                 colors: &mut self.colors[..len * self.targets * 4],
                 depths: &mut self.depth_out[..depths],
+                ..FragmentBatch::default()
             },
         );
         fragments

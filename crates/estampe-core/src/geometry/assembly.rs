@@ -19,8 +19,14 @@ pub(crate) fn kind_of(topology: PrimitiveTopology) -> PrimitiveKind {
     use PrimitiveTopology as T;
     match topology {
         T::PointList => PrimitiveKind::Points,
-        T::LineList | T::LineStrip | T::LineLoop => PrimitiveKind::Lines,
-        T::TriangleList | T::TriangleStrip | T::TriangleFan => PrimitiveKind::Triangles,
+        T::LineList | T::LineStrip | T::LineLoop | T::LineListAdjacency | T::LineStripAdjacency => {
+            PrimitiveKind::Lines
+        }
+        T::TriangleList
+        | T::TriangleStrip
+        | T::TriangleFan
+        | T::TriangleListAdjacency
+        | T::TriangleStripAdjacency => PrimitiveKind::Triangles,
     }
 }
 
@@ -40,6 +46,10 @@ pub(crate) fn primitive_count(topology: PrimitiveTopology, elements: u32) -> u32
         }
         T::TriangleList => elements / 3,
         T::TriangleStrip | T::TriangleFan => elements.saturating_sub(2),
+        T::LineListAdjacency => elements / 4,
+        T::LineStripAdjacency => elements.saturating_sub(3),
+        T::TriangleListAdjacency => elements / 6,
+        T::TriangleStripAdjacency => (elements / 2).saturating_sub(2),
     }
 }
 
@@ -56,6 +66,14 @@ pub(crate) fn elements_of(topology: PrimitiveTopology, p: u32, elements: u32) ->
         // Every other triangle is turned, so that all face the same way.
         T::TriangleStrip => [p, p + 1 + (p & 1), p + 2 - (p & 1)],
         T::TriangleFan => [p + 1, p + 2, 0],
+        // Without a geometry shader the neighbours are left out.
+        T::LineListAdjacency => [p * 4 + 1, p * 4 + 2, p * 4 + 1],
+        T::LineStripAdjacency => [p + 1, p + 2, p + 1],
+        T::TriangleListAdjacency => [p * 6, p * 6 + 2, p * 6 + 4],
+        T::TriangleStripAdjacency => {
+            let first = p * 2;
+            [first, first + 2 + 2 * (p & 1), first + 4 - 2 * (p & 1)]
+        }
     }
 }
 

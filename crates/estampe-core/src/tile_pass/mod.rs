@@ -49,7 +49,7 @@ pub(crate) struct TilePass<'a> {
     /// Which of the chunks reach a tile.
     pub(crate) chunk_index: &'a ChunkIndex,
     /// Codes to clear the colour attachments to.
-    pub(crate) clear_colors: Option<[u32; MAX_TARGETS]>,
+    pub(crate) clear_colors: [Option<u32>; MAX_TARGETS],
     pub(crate) clear_depth: Option<f32>,
 }
 
@@ -97,8 +97,8 @@ pub(crate) fn draw<const N: usize>(
 /// Clears the tile's attachments, sixteen elements a store: `fill` is compiled for the least processor.
 #[inline(always)]
 fn clear<S: Lanes>(s: S, pass: &TilePass<'_>, job: &mut TileJob<'_>) {
-    if let Some(codes) = &pass.clear_colors {
-        for (colors, code) in job.colors.iter_mut().zip(codes) {
+    for (colors, code) in job.colors.iter_mut().zip(&pass.clear_colors) {
+        if let Some(code) = code {
             let value = <u32x16<S> as SimdBase<S>>::splat(s, *code);
             for line in colors.as_chunks_mut::<LANES>().0 {
                 value.store_array(line);

@@ -3,7 +3,7 @@
 use super::fragment::MAX_COLORS;
 use super::packets::{PacketSink, PacketSource, Packets};
 use super::pass_through::passes_color;
-use super::{Attributes, Varyings, scalar};
+use super::{Attributes, Sampling, Varyings, scalar};
 use crate::{
     Bindings, FragmentBatch, FragmentIn, Interface, Pair, Program, Real, Shader, Vec4, VertexBatch,
     VertexIn,
@@ -27,10 +27,16 @@ impl<T: Shader> ShaderProgram<T> {
             reads_position: T::READS_POSITION,
             writes_point_size: T::WRITES_POINT_SIZE,
             independent_fragments: T::INDEPENDENT_FRAGMENTS,
+            per_sample: T::PER_SAMPLE,
+            reads_coverage: T::READS_COVERAGE,
+            writes_sample_mask: T::WRITES_SAMPLE_MASK,
+            dual_source: T::DUAL_SOURCE,
             ..Interface::default()
         };
         T::Attributes::<f32>::components(&mut interface.attributes);
         T::Varyings::<f32>::modes(&mut interface.varyings);
+        T::Varyings::<f32>::sampling(&mut interface.sampling);
+        interface.per_sample |= interface.sampling.contains(&Sampling::Sample);
         interface.passes_color = passes_color(&shader, &interface);
         Self { shader, interface }
     }
@@ -108,6 +114,7 @@ impl<T: Shader> ShaderProgram<T> {
     ) {
         let varyings = self.interface.varyings.len();
         let targets = self.interface.color_targets;
+        let outputs = self.interface.colors();
         let count = batch.coverage.len();
         for packet in (0..count).step_by(R::COUNT) {
             // The last one without a partner is its own.
@@ -121,9 +128,21 @@ impl<T: Shader> ShaderProgram<T> {
             } else {
                 black
             };
+            let sample_index = if T::PER_SAMPLE {
+                R::ints_of(simd, packets.map(|p| [batch.sample_index[p]; 16]))
+            } else {
+                zero.splat_int(0)
+            };
+            let samples_covered = if T::READS_COVERAGE {
+                R::ints_of(simd, packets.map(|p| batch.samples_covered[p].0))
+            } else {
+                zero.splat_int(0)
+            };
             let input = FragmentIn {
                 position,
                 front_facing: R::mask_of(simd, packets.map(|packet| batch.front_facing[packet])),
+                sample_index,
+                coverage: samples_covered,
                 bindings,
                 zero,
             };
@@ -131,8 +150,20 @@ impl<T: Shader> ShaderProgram<T> {
             let loaded = T::Varyings::load(&mut PacketSource { simd, left });
             let out = self.shader.fragment(input, loaded);
             for index in 0..targets {
-                let at = packets.map(|packet| (packet * targets + index) * 4);
+                let at = packets.map(|packet| (packet * outputs + index) * 4);
                 store_vec4(out.colors[index].unwrap_or(black), at, batch.colors);
+            }
+            if T::DUAL_SOURCE {
+                let at = packets.map(|packet| (packet * outputs + targets) * 4);
+                store_vec4(out.second.unwrap_or(black), at, batch.colors);
+            }
+            if T::WRITES_SAMPLE_MASK {
+                let kept = out.sample_mask.unwrap_or(zero.splat_int(-1));
+                let kept = R::parts_of_ints(kept);
+                store_ints(kept[0], &mut batch.sample_masks[packet]);
+                if R::COUNT > 1 {
+                    store_ints(kept[1], &mut batch.sample_masks[second]);
+                }
             }
             if T::DISCARDS
                 && let Some(keep) = out.keep
@@ -157,6 +188,12 @@ impl<T: Shader> ShaderProgram<T> {
 #[inline(always)]
 fn ints<S: Lanes>(simd: S, packet: &Packet<u32>) -> i32x16<S> {
     u32x16::load_array_ref(simd, &packet.0).bitcast()
+}
+
+#[inline(always)]
+fn store_ints<S: Lanes>(value: i32x16<S>, to: &mut Packet<u32>) {
+    let bits: u32x16<S> = value.bitcast();
+    bits.store_array(&mut to.0);
 }
 
 /// Writes a vector's scalars one after the other; those of each packet begin at its place.

@@ -12,6 +12,18 @@ pub enum Interpolation {
     Flat,
 }
 
+/// Where in a pixel a varying is interpolated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Sampling {
+    /// At the centre, which may lie outside the primitive when there are several samples.
+    #[default]
+    Center,
+    /// At the centre if every sample is covered, else at the first covered sample: never outside the primitive.
+    Centroid,
+    /// At each sample: the fragment is shaded once for every sample.
+    Sample,
+}
+
 /// Whether a fragment shader writes its depth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum DepthOutput {
@@ -20,6 +32,11 @@ pub enum DepthOutput {
     None,
     /// It may write any depth: tests run after the shader.
     Any,
+    /// It writes depths not below the interpolated one (Vulkan's `DepthGreater`): a fragment that is in front only
+    /// of farther things is tested before the shader, too. A depth below is raised to the interpolated one.
+    Greater,
+    /// It writes depths not above the interpolated one (`DepthLess`); one above is lowered to it.
+    Less,
 }
 
 /// What goes into a program and comes out.
@@ -29,6 +46,8 @@ pub struct Interface {
     pub attributes: Vec<usize>,
     /// How each scalar of the varyings is interpolated.
     pub varyings: Vec<Interpolation>,
+    /// Where each scalar of the varyings is interpolated; those beyond the list's end at the centre.
+    pub sampling: Vec<Sampling>,
     /// How many colour targets the fragments write.
     pub color_targets: usize,
     /// Whether fragments may be discarded.
@@ -42,6 +61,15 @@ pub struct Interface {
     /// Whether a fragment's colours depend on its own inputs alone: no derivatives, and so no textures whose
     /// level of detail comes from them.
     pub independent_fragments: bool,
+    /// Whether fragments are shaded once for each sample: they read the sample's number, or a varying at each
+    /// sample.
+    pub per_sample: bool,
+    /// Whether fragments read which samples are covered.
+    pub reads_coverage: bool,
+    /// Whether fragments write which samples are kept.
+    pub writes_sample_mask: bool,
+    /// Whether fragments give a second colour for blending target 0, the only one.
+    pub dual_source: bool,
     /// Whether vertices set a point size.
     pub writes_point_size: bool,
 }
@@ -51,5 +79,11 @@ impl Interface {
     #[must_use]
     pub fn attribute_scalars(&self) -> usize {
         self.attributes.iter().sum()
+    }
+
+    /// How many colours a fragment gives: one for each target, and the second one of dual-source blending.
+    #[must_use]
+    pub fn colors(&self) -> usize {
+        self.color_targets + usize::from(self.dual_source)
     }
 }

@@ -16,8 +16,8 @@ mod vertex;
 
 pub use erased::ShaderProgram;
 pub use fragment::{FragmentBatch, FragmentIn, FragmentOut};
-pub use interface::{DepthOutput, Interface, Interpolation};
-pub use varyings::{Attributes, Flat, NoPerspective, Sink, Source, Varyings};
+pub use interface::{DepthOutput, Interface, Interpolation, Sampling};
+pub use varyings::{Attributes, Centroid, Flat, NoPerspective, PerSample, Sink, Source, Varyings};
 pub use vertex::{VertexBatch, VertexIn, VertexOut};
 
 use crate::{Bindings, Real, Vec2, Vec4};
@@ -68,6 +68,16 @@ pub trait Shader: Send + Sync + 'static {
     const DEPTH_OUTPUT: DepthOutput = DepthOutput::None;
     /// Whether the fragment reads [`FragmentIn::position`]; where not, it is zero.
     const READS_POSITION: bool = false;
+    /// Whether the fragment is shaded once for each sample, which it finds in [`FragmentIn::sample_index`]. So it is
+    /// in any case if a varying is [`PerSample`].
+    const PER_SAMPLE: bool = false;
+    /// Whether the fragment reads [`FragmentIn::coverage`].
+    const READS_COVERAGE: bool = false;
+    /// Whether the fragment says which samples it keeps: [`FragmentOut::with_sample_mask`].
+    const WRITES_SAMPLE_MASK: bool = false;
+    /// Whether the fragment gives a second colour for blending: [`FragmentOut::with_second_color`]. It then has one
+    /// target.
+    const DUAL_SOURCE: bool = false;
     /// Whether the fragment's colour is the first four scalars of its varyings as they are, and nothing
     /// else: a pass-through shader, which the pipeline need not call. It is tried when the program is made;
     /// one that does otherwise is called.

@@ -2,7 +2,7 @@
 
 use super::{Sink, Source};
 use crate::{Pair, Real};
-use estampe_simd::{Lanes, Packet, SimdBase, f32x16, mask32x16};
+use estampe_simd::{Bytes, LANES, Lanes, Packet, SimdBase, f32x16, i32x16, mask32x16, u32x16};
 
 /// One packet or a pair of packets.
 pub(super) trait Packets<S: Lanes>: Real {
@@ -16,6 +16,10 @@ pub(super) trait Packets<S: Lanes>: Real {
     fn parts(self) -> [f32x16<S>; 2];
     /// The lanes whose bits are set.
     fn mask_of(simd: S, bits: [u16; 2]) -> Self::Mask;
+    /// Integers from each packet's lanes.
+    fn ints_of(simd: S, lanes: [[u32; LANES]; 2]) -> Self::Int;
+    /// [`Packets::parts`] of integers.
+    fn parts_of_ints(ints: Self::Int) -> [i32x16<S>; 2];
     /// [`Packets::parts`] of a mask.
     fn parts_of_mask(mask: Self::Mask) -> [mask32x16<S>; 2];
 }
@@ -38,6 +42,14 @@ impl<S: Lanes> Packets<S> for f32x16<S> {
     #[inline(always)]
     fn mask_of(simd: S, [bits, _]: [u16; 2]) -> mask32x16<S> {
         simd.mask_from_bits(bits)
+    }
+    #[inline(always)]
+    fn ints_of(simd: S, [lanes, _]: [[u32; LANES]; 2]) -> i32x16<S> {
+        ints(simd, lanes)
+    }
+    #[inline(always)]
+    fn parts_of_ints(ints: i32x16<S>) -> [i32x16<S>; 2] {
+        [ints; 2]
     }
     #[inline(always)]
     fn parts_of_mask(mask: mask32x16<S>) -> [mask32x16<S>; 2] {
@@ -66,9 +78,22 @@ impl<S: Lanes> Packets<S> for Pair<f32x16<S>> {
         Pair(simd.mask_from_bits(first), simd.mask_from_bits(second))
     }
     #[inline(always)]
+    fn ints_of(simd: S, [first, second]: [[u32; LANES]; 2]) -> Self::Int {
+        Pair(ints(simd, first), ints(simd, second))
+    }
+    #[inline(always)]
+    fn parts_of_ints(ints: Self::Int) -> [i32x16<S>; 2] {
+        [ints.0, ints.1]
+    }
+    #[inline(always)]
     fn parts_of_mask(mask: Self::Mask) -> [mask32x16<S>; 2] {
         [mask.0, mask.1]
     }
+}
+
+#[inline(always)]
+fn ints<S: Lanes>(simd: S, lanes: [u32; LANES]) -> i32x16<S> {
+    <u32x16<S> as SimdBase<S>>::load_array(simd, lanes).bitcast()
 }
 
 /// The next scalar of a packet.

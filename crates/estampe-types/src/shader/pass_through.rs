@@ -13,6 +13,8 @@ pub(super) fn passes_color<T: Shader>(shader: &T, interface: &Interface) -> bool
         || T::READS_POSITION
         || interface.depth_output != super::DepthOutput::None
         || interface.color_targets != 1
+        || interface.dual_source
+        || interface.writes_sample_mask
         || scalars < 4
     {
         return false;
@@ -25,11 +27,10 @@ pub(super) fn passes_color<T: Shader>(shader: &T, interface: &Interface) -> bool
     let mut colors = [Packet([f32::NAN; LANES]); 4];
     let batch = FragmentBatch {
         varyings: &varyings,
-        positions: &[],
         front_facing: &[u16::MAX],
         coverage: &mut [u16::MAX],
         colors: &mut colors,
-        depths: &mut [],
+        ..FragmentBatch::default()
     };
     scalar::fragments(shader, interface, &Bindings::default(), batch);
     colors == varyings[..4]

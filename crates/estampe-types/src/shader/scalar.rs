@@ -57,11 +57,12 @@ pub(super) fn fragments<T: Shader>(
 ) {
     let varyings = interface.varyings.len();
     let targets = interface.color_targets;
+    let outputs = interface.colors();
     let zero = Quad([0.0; QUAD]);
     let black = Vec4::new(zero, zero, zero, zero);
     for packet in 0..batch.coverage.len() {
         let from = &batch.varyings[packet * varyings..][..varyings];
-        let colors = &mut batch.colors[packet * targets * 4..][..targets * 4];
+        let colors = &mut batch.colors[packet * outputs * 4..][..outputs * 4];
         for lane in (0..16).step_by(QUAD) {
             let position = if T::READS_POSITION {
                 let p = &batch.positions[packet * 4..][..4];
@@ -71,17 +72,32 @@ pub(super) fn fragments<T: Shader>(
                 black
             };
             let front = batch.front_facing[packet] >> lane;
+            let sample_index = batch.sample_index.get(packet).copied().unwrap_or_default();
             let front_facing = Quad([0, 1, 2, 3].map(|k| front >> k & 1 == 1));
             let input = FragmentIn {
                 position,
                 front_facing,
+                sample_index: Quad([sample_index.cast_signed(); QUAD]),
+                coverage: batch
+                    .samples_covered
+                    .get(packet)
+                    .map_or(Quad([0; QUAD]), |covered| ints(covered, lane)),
                 bindings,
                 zero,
             };
             let loaded = T::Varyings::load(&mut QuadSource { left: from, lane });
             let out = shader.fragment(input, loaded);
-            for (color, to) in out.colors.iter().zip(colors.chunks_exact_mut(4)) {
+            let (of_targets, second) = colors.split_at_mut(targets * 4);
+            for (color, to) in out.colors.iter().zip(of_targets.chunks_exact_mut(4)) {
                 store_vec4(color.unwrap_or(black), to, lane);
+            }
+            if T::DUAL_SOURCE {
+                store_vec4(out.second.unwrap_or(black), second, lane);
+            }
+            if T::WRITES_SAMPLE_MASK {
+                let Quad(kept) = out.sample_mask.unwrap_or(Quad([-1; QUAD]));
+                batch.sample_masks[packet].0[lane..lane + QUAD]
+                    .copy_from_slice(&kept.map(i32::cast_unsigned));
             }
             if T::DISCARDS
                 && let Some(Quad(keep)) = out.keep

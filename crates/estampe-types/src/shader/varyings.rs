@@ -1,5 +1,6 @@
 //! Attributes and varyings as types: numbers, vectors and tuples, taken apart into scalars.
 
+use super::Sampling;
 use crate::{Interpolation, Real, Vec2, Vec3, Vec4};
 
 /// Where scalars come from, in order.
@@ -26,6 +27,12 @@ pub trait Attributes<R: Real>: Sized {
 pub trait Varyings<R: Real>: Sized {
     /// How each scalar is interpolated.
     fn modes(out: &mut Vec<Interpolation>);
+    /// Where in the pixel each scalar is interpolated: at the centre.
+    fn sampling(out: &mut Vec<Sampling>) {
+        let mut modes = Vec::new();
+        Self::modes(&mut modes);
+        out.resize(out.len() + modes.len(), Sampling::Center);
+    }
     /// Puts the value together.
     fn load(from: &mut impl Source<R>) -> Self;
     /// Takes the value apart.
@@ -39,6 +46,14 @@ pub struct Flat<T>(pub T);
 /// A varying that is linear in window space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoPerspective<T>(pub T);
+
+/// A varying that is interpolated at a place that the primitive covers: see [`Sampling::Centroid`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Centroid<T>(pub T);
+
+/// A varying that is interpolated at each sample: see [`Sampling::Sample`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PerSample<T>(pub T);
 
 macro_rules! element {
     ($type:ty; $n:literal; $($field:tt)+) => {
@@ -104,6 +119,9 @@ macro_rules! mode {
                 T::modes(out);
                 out[first..].fill(Interpolation::$wrapper);
             }
+            fn sampling(out: &mut Vec<Sampling>) {
+                T::sampling(out);
+            }
             #[inline(always)]
             fn load(from: &mut impl Source<R>) -> Self {
                 Self(T::load(from))
@@ -117,6 +135,31 @@ macro_rules! mode {
 }
 mode!(Flat);
 mode!(NoPerspective);
+
+macro_rules! place {
+    ($wrapper:ident $sampling:ident) => {
+        impl<R: Real, T: Varyings<R>> Varyings<R> for $wrapper<T> {
+            fn modes(out: &mut Vec<Interpolation>) {
+                T::modes(out);
+            }
+            fn sampling(out: &mut Vec<Sampling>) {
+                let first = out.len();
+                T::sampling(out);
+                out[first..].fill(Sampling::$sampling);
+            }
+            #[inline(always)]
+            fn load(from: &mut impl Source<R>) -> Self {
+                Self(T::load(from))
+            }
+            #[inline(always)]
+            fn store(self, to: &mut impl Sink<R>) {
+                self.0.store(to);
+            }
+        }
+    };
+}
+place!(Centroid Centroid);
+place!(PerSample Sample);
 
 macro_rules! tuple {
     ($($name:ident $index:tt),*) => {
@@ -137,6 +180,10 @@ macro_rules! tuple {
             fn modes(out: &mut Vec<Interpolation>) {
                 let _ = &out;
                 $($name::modes(out);)*
+            }
+            fn sampling(out: &mut Vec<Sampling>) {
+                let _ = &out;
+                $($name::sampling(out);)*
             }
             #[inline(always)]
             #[allow(clippy::unused_unit, reason = "the empty tuple is one of the cases")]

@@ -112,6 +112,7 @@ fn shade(program: &dyn Program, level: Level, count: usize) -> (Vec<u16>, Vec<u3
             coverage: &mut coverage,
             colors: &mut colors,
             depths: &mut depths,
+            ..FragmentBatch::default()
         },
     );
     let bits = colors

@@ -1,30 +1,4 @@
-//! Formats of vertices, indices and texels.
-
-/// What a texture or render target holds in each texel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum TextureFormat {
-    /// Four 8-bit unsigned normalised channels.
-    Rgba8Unorm,
-    /// The same with R, G and B encoded as sRGB.
-    Rgba8UnormSrgb,
-    /// 32-bit float depth.
-    Depth32Float,
-}
-
-impl TextureFormat {
-    /// Whether it holds colour.
-    #[must_use]
-    pub const fn is_color(self) -> bool {
-        matches!(self, Self::Rgba8Unorm | Self::Rgba8UnormSrgb)
-    }
-
-    /// Whether its colour is encoded as sRGB.
-    #[must_use]
-    pub const fn is_srgb(self) -> bool {
-        matches!(self, Self::Rgba8UnormSrgb)
-    }
-}
+//! Formats of vertex attributes and indices.
 
 /// How an attribute lies in a vertex buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -1,0 +1,137 @@
+//! What a caller records: draws, and the pass that they belong to.
+
+use crate::pipeline::RenderPipeline;
+use estampe_types::state::{ScissorRect, Viewport};
+use estampe_types::{Bindings, Buffer, IndexFormat};
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// One draw: a pipeline, the data that it reads, and how much of it.
+#[derive(Debug, Clone)]
+pub struct Draw<'a> {
+    /// The validated state.
+    pub pipeline: &'a RenderPipeline,
+    /// The vertex buffers, as the pipeline's layouts name them; a missing or short one reads zeros.
+    pub vertex_buffers: &'a [Buffer],
+    /// The index buffer and the width of its indices, if vertices are to be found by index.
+    pub indices: Option<(&'a Buffer, IndexFormat)>,
+    /// Which indices are drawn, or which vertices without an index buffer. Indices beyond the
+    /// buffer's end read zero.
+    pub elements: Range<u32>,
+    /// Which instances are drawn. Default one.
+    pub instances: Range<u32>,
+    /// Added to every index. Default 0.
+    pub base_vertex: i32,
+    /// The resources that shaders find by number.
+    pub bindings: Option<&'a Bindings>,
+    /// Where NDC lands. Default the whole target, depth 0..1.
+    pub viewport: Option<Viewport>,
+    /// What pixels may change. Default all.
+    pub scissor: Option<ScissorRect>,
+    /// The constant of blending. Default zeros.
+    pub blend_constant: [f32; 4],
+    /// The stencil reference where the front is seen and where the back is. Default zeros.
+    pub stencil_reference: [u8; 2],
+    /// Fragments are drawn only where the *stored* depth lies in this range, both ends included. (Vulkan's depth
+    /// bounds test.) Default none.
+    pub depth_bounds: Option<[f32; 2]>,
+    /// Which of the pass's [`OcclusionQueries`] counts the samples that pass all tests. Default none.
+    pub occlusion_query: Option<u32>,
+}
+
+impl<'a> Draw<'a> {
+    /// A draw of one instance without buffers, over the whole target.
+    #[must_use]
+    pub fn new(pipeline: &'a RenderPipeline, elements: Range<u32>) -> Self {
+        Self {
+            pipeline,
+            vertex_buffers: &[],
+            indices: None,
+            elements,
+            instances: 0..1,
+            base_vertex: 0,
+            bindings: None,
+            viewport: None,
+            scissor: None,
+            blend_constant: [0.0; 4],
+            stencil_reference: [0; 2],
+            depth_bounds: None,
+            occlusion_query: None,
+        }
+    }
+}
+
+/// What becomes of an attachment's old contents when a pass begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoadOp<T> {
+    /// They stay.
+    Load,
+    /// They become this value.
+    Clear(T),
+}
+
+/// Draws into one target, with what becomes of its old contents.
+#[derive(Debug, Clone)]
+pub struct RenderPass<'a> {
+    /// By colour attachment: linear RGBA, which the attachment's format stores as it stores a fragment's colour; of
+    /// integer formats the integers. Attachments beyond the list's end are cleared to zeros.
+    pub load_colors: Vec<LoadOp<[f64; 4]>>,
+    /// Of the depth attachment: a number in 0..=1.
+    pub load_depth: LoadOp<f32>,
+    /// Of the stencil attachment.
+    pub load_stencil: LoadOp<u8>,
+    /// Where draws count the samples that pass. Default nowhere.
+    pub occlusion_queries: Option<&'a OcclusionQueries>,
+    /// The draws, in order.
+    pub draws: &'a [Draw<'a>],
+}
+
+impl Default for RenderPass<'_> {
+    /// Clears colour and stencil to zeros and depth to 1; draws nothing.
+    fn default() -> Self {
+        Self {
+            load_colors: Vec::new(),
+            load_depth: LoadOp::Clear(1.0),
+            load_stencil: LoadOp::Clear(0),
+            occlusion_queries: None,
+            draws: &[],
+        }
+    }
+}
+
+/// Counters of samples that pass all tests (O10); a draw names the one that it adds to. What is counted is exact,
+/// and does not depend on threads or the SIMD level.
+#[derive(Debug, Default)]
+pub struct OcclusionQueries {
+    counters: Vec<AtomicU64>,
+}
+
+impl OcclusionQueries {
+    /// So many counters, at 0.
+    #[must_use]
+    pub fn new(count: usize) -> Self {
+        Self {
+            counters: (0..count).map(|_| AtomicU64::new(0)).collect(),
+        }
+    }
+
+    /// What a counter has counted in the passes drawn so far; 0 beyond the last one.
+    #[must_use]
+    pub fn samples_passed(&self, query: u32) -> u64 {
+        let counter = self.counters.get(query as usize);
+        counter.map_or(0, |counter| counter.load(Ordering::Relaxed))
+    }
+
+    /// Sets every counter to 0.
+    pub fn reset(&mut self) {
+        self.counters.fill_with(AtomicU64::default);
+    }
+
+    /// Adds to a counter, if there is such a one.
+    #[expect(dead_code, reason = "the tile side counts with it next")]
+    pub(crate) fn add(&self, query: u32, samples: u64) {
+        if let Some(counter) = self.counters.get(query as usize) {
+            counter.fetch_add(samples, Ordering::Relaxed);
+        }
+    }
+}

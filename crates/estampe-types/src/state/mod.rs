@@ -1,0 +1,22 @@
+//! The states of a pipeline, in WebGPU's words and, beyond those, Vulkan's. Every value is plain data; every
+//! default is stated.
+
+mod blend;
+mod depth_stencil;
+mod primitive;
+mod vertex;
+mod viewport;
+
+pub use blend::{
+    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTargetState, ColorWrites,
+    LogicOperation,
+};
+pub use depth_stencil::{
+    CompareFunction, DepthBiasState, DepthState, StencilFaceState, StencilOperation, StencilState,
+};
+pub use primitive::{
+    ConservativeMode, CullMode, FrontFace, LineRasterization, LineState, LineStipple, PolygonMode,
+    PrimitiveState, PrimitiveTopology, ProvokingVertex,
+};
+pub use vertex::{VertexAttribute, VertexBufferLayout, VertexStepMode};
+pub use viewport::{ScissorRect, Viewport};
