@@ -128,7 +128,6 @@ impl OcclusionQueries {
     }
 
     /// Adds to a counter, if there is such a one.
-    #[expect(dead_code, reason = "the tile side counts with it next")]
     pub(crate) fn add(&self, query: u32, samples: u64) {
         if let Some(counter) = self.counters.get(query as usize) {
             counter.fetch_add(samples, Ordering::Relaxed);

@@ -1,18 +1,19 @@
 //! The page on which the pipeline reads: what a draw is, and the order in which its stages run.
 
-use crate::attachment::RenderTarget;
 use crate::attachment::resolve::ResolveJob;
-use crate::commands::{LoadOp, RenderPass};
+use crate::attachment::{RenderTarget, texel_words};
+use crate::commands::{LoadOp, OcclusionQueries, RenderPass};
 use crate::geometry::assembly::ElementSource;
 use crate::geometry::binning::BinState;
 use crate::geometry::chunk::{ChunkScratch, ChunkWork, process};
 use crate::geometry::cull::CullState;
 use crate::geometry::shading::{ShadedVertices, ShadingScratch, shade};
-use crate::per_sample::codes::pack_one;
+use crate::per_sample::texel::TexelCodec;
+use crate::raster::general::sample_range;
 use crate::recording::Phase;
 use crate::schedule::{Executor, ThreadError};
 use crate::statistics::Statistics;
-use crate::tile_pass::{self, MAX_TARGETS, TileItem, TileJob, TilePass, TileScratch};
+use crate::tile_pass::{self, AnyTileScratch, Clear, TileItem, TileJob, TilePass, TileScratch};
 use crate::tiles::{Chunk, ChunkIndex};
 use crate::wave::{Item, VertexJob, Waves};
 use estampe_simd::Level;
@@ -39,6 +40,7 @@ struct Memory {
     chunk_scratch: Vec<Mutex<ChunkScratch>>,
     tiles_1: Vec<Mutex<TileScratch<1>>>,
     tiles_4: Vec<Mutex<TileScratch<4>>>,
+    tiles_any: Vec<Mutex<AnyTileScratch>>,
 }
 
 /// Lists whose elements borrow from a pass, empty between passes: see [`recycled`].
@@ -90,6 +92,7 @@ impl Context {
         memory.chunk_scratch.resize_with(workers, Mutex::default);
         memory.tiles_1.resize_with(workers, Mutex::default);
         memory.tiles_4.resize_with(workers, Mutex::default);
+        memory.tiles_any.resize_with(workers, Mutex::default);
         Self {
             level,
             executor,
@@ -135,7 +138,13 @@ impl Context {
             let chunks = self.build_chunks(target, &items, memory);
             statistics.geometry += start.elapsed();
             let start = Instant::now();
-            statistics += self.draw_tiles(target, &items, chunks, &clear, memory);
+            statistics += self.draw_tiles(
+                target,
+                &items,
+                chunks,
+                (&clear, pass.occlusion_queries),
+                memory,
+            );
             statistics.raster += start.elapsed();
             let shaded = items.iter().map(Item::total_vertices).sum::<usize>();
             statistics.vertices_shaded += shaded as u64;
@@ -210,16 +219,13 @@ impl Context {
                 primitives: [from, from.saturating_add(PRIMITIVE_CHUNK).min(total)],
             }));
         }
-        let sample_range = if target.samples() == 1 {
-            [128, 128]
-        } else {
-            [32, 224]
-        };
         let (grid, vertices) = (target.grid(), &memory.vertices);
+        let samples = target.samples() as usize;
         self.executor
             .for_each(&mut jobs, &memory.chunk_scratch, |job, scratch| {
                 let item = &items[job.item];
                 let state = &item.draw.pipeline.descriptor().primitive;
+                let sample_range = sample_range(samples, state.conservative);
                 let indices = item.draw.indices.filter(|_| item.sparse.is_none());
                 let work = ChunkWork {
                     elements: ElementSource {
@@ -262,27 +268,41 @@ impl Context {
         target: &mut RenderTarget,
         items: &[Item<'_>],
         chunks: usize,
-        clear: &Clear,
+        (clear, occlusion_queries): (&Clear, Option<&OcclusionQueries>),
         memory: &mut Memory,
     ) -> Statistics {
         let chunks = &memory.chunks[..chunks];
         memory.chunk_index.build(target.grid().tiles(), chunks);
         let mut tile_items = recycled(std::mem::take(&mut memory.lists.tile_items));
-        tile_items.extend(items.iter().map(|item| memory.vertices.tile_item(item)));
+        tile_items.extend(items.iter().map(|item| {
+            memory
+                .vertices
+                .tile_item(item, target, occlusion_queries.is_some())
+        }));
         let pass = TilePass {
             level: self.level,
             grid: target.grid(),
             items: &tile_items,
             chunks,
             chunk_index: &memory.chunk_index,
-            clear_colors: clear.colors,
-            clear_depth: clear.depth,
+            clear: *clear,
+            samples: target.samples() as usize,
+            occlusion_queries,
         };
         let samples = target.samples();
         let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
         tile_jobs(target, &mut jobs);
         let mut statistics = Statistics::default();
-        if samples == 1 {
+        if !matches!(samples, 1 | 4) {
+            self.executor
+                .for_each(&mut jobs, &memory.tiles_any, |job, scratch| {
+                    tile_pass::draw_any(&pass, job, scratch);
+                });
+            for worker in &mut memory.tiles_any {
+                let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
+                statistics += std::mem::take(&mut worker.statistics);
+            }
+        } else if samples == 1 {
             self.executor
                 .for_each(&mut jobs, &memory.tiles_1, |job, scratch| {
                     tile_pass::draw(&pass, job, scratch);
@@ -310,13 +330,6 @@ const VERTEX_CHUNK: usize = 4096;
 /// Primitives of a chunk.
 const PRIMITIVE_CHUNK: u32 = 4096;
 
-/// What a pass still has to clear, as codes.
-#[derive(Debug, Default)]
-struct Clear {
-    colors: [Option<u32>; MAX_TARGETS],
-    depth: Option<f32>,
-}
-
 impl Clear {
     fn new(target: &RenderTarget, pass: &RenderPass<'_>) -> Self {
         let mut clear = Self::default();
@@ -324,21 +337,23 @@ impl Clear {
         for (index, (color, format)) in clear.colors.iter_mut().zip(formats).enumerate() {
             let load = pass.load_colors.get(index);
             if let LoadOp::Clear(rgba) = load.copied().unwrap_or(LoadOp::Clear([0.0; 4])) {
-                *color = Some(pack_one(
-                    rgba.map(|channel| channel as f32),
-                    format.is_srgb(),
-                ));
+                let codec = TexelCodec::new(*format);
+                *color = Some((codec.clear_words(rgba), codec.words));
             }
         }
         // Depths are kept in 0..=1, NaN as 0: hierarchical depth relies on their order.
         if let (LoadOp::Clear(depth), true) = (pass.load_depth, target.has_depth()) {
-            clear.depth = Some(if depth > 0.0 { depth.min(1.0) } else { 0.0 });
+            let confined = if depth > 0.0 { depth.min(1.0) } else { 0.0 };
+            clear.depth = Some(target.depth_format().stored(confined));
+        }
+        if let (LoadOp::Clear(stencil), true) = (pass.load_stencil, target.has_stencil()) {
+            clear.stencil = Some(stencil);
         }
         clear
     }
 
     fn is_done(&self) -> bool {
-        self.colors.iter().all(Option::is_none) && self.depth.is_none()
+        self.colors.iter().all(Option::is_none) && self.depth.is_none() && self.stencil.is_none()
     }
 }
 
@@ -346,14 +361,22 @@ impl Clear {
 fn tile_jobs<'a>(target: &'a mut RenderTarget, jobs: &mut Vec<TileJob<'a>>) {
     let grid = target.grid();
     let elements = grid.tile_pixels() * target.samples() as usize;
+    let formats = target.descriptor.color_formats.iter();
     jobs.extend((0u32..).take(grid.tiles()).map(|tile| TileJob {
         tile,
         ..TileJob::default()
     }));
-    for (index, colors) in target.colors.iter_mut().enumerate() {
+    for (index, (colors, format)) in target.colors.iter_mut().zip(formats).enumerate() {
+        let elements = elements * texel_words(*format);
         for (job, slice) in jobs.iter_mut().zip(colors.chunks_exact_mut(elements)) {
             job.colors[index] = slice;
         }
+    }
+    for (job, slice) in jobs
+        .iter_mut()
+        .zip(target.stencil.chunks_exact_mut(elements))
+    {
+        job.stencil = slice;
     }
     let depth = Arc::make_mut(&mut target.depth);
     for (job, slice) in jobs.iter_mut().zip(depth.chunks_exact_mut(elements)) {

@@ -1,9 +1,9 @@
 //! The state of a draw: an untrusted descriptor, validated once into an immutable pipeline.
 
-use estampe_types::shader::DepthOutput;
+use estampe_types::shader::{DepthOutput, Sampling};
 use estampe_types::state::{
-    ColorTargetState, CompareFunction, DepthBiasState, DepthState, LogicOperation, PrimitiveState,
-    StencilState, VertexBufferLayout,
+    BlendFactor, BlendState, ColorTargetState, CompareFunction, ConservativeMode, DepthBiasState,
+    DepthState, LogicOperation, PrimitiveState, StencilState, VertexBufferLayout,
 };
 use estampe_types::{
     Interface, Interpolation, Limits, Program, Shader, ShaderProgram, TextureFormat,
@@ -70,7 +70,7 @@ impl RenderPipelineDescriptor {
 #[non_exhaustive]
 pub enum PipelineError {
     /// The sample count is not offered.
-    #[error("a pipeline has 1 or 4 samples per pixel, not {0}")]
+    #[error("a pipeline has 1, 2, 4, 8 or 16 samples per pixel, not {0}")]
     SampleCount(u32),
     /// Too many colour targets.
     #[error("the pipeline has {count} colour targets; the limit max_color_attachments is {limit}")]
@@ -90,17 +90,37 @@ pub enum PipelineError {
         /// What the pipeline has.
         pipeline: usize,
     },
-    /// A colour target has a depth format.
-    #[error("colour target {index} has the format {format:?}, which does not hold colour")]
-    NotColor {
+    /// A colour target has a format that cannot be drawn into.
+    #[error(
+        "colour target {index} has the format {}, into which colours cannot be drawn: depth, stencil and compressed \
+         formats and rgb9e5ufloat are not renderable",
+        format.name()
+    )]
+    NotRenderable {
         /// Which target.
         index: usize,
         /// Its format.
         format: TextureFormat,
     },
-    /// A pipeline with several samples has several targets.
-    #[error("with 4 samples a pipeline has at most one colour target, this one has {0}")]
-    MultisampledTargets(usize),
+    /// Blending of integers.
+    #[error(
+        "colour target {index} blends, but its format {} holds integers, which cannot be blended",
+        format.name()
+    )]
+    NotBlendable {
+        /// Which target.
+        index: usize,
+        /// Its format.
+        format: TextureFormat,
+    },
+    /// A blend factor needs a second colour, which the shader does not give.
+    #[error(
+        "colour target {0} blends with the fragment's second colour, but the shader gives none (DUAL_SOURCE)"
+    )]
+    NoSecondColor(usize),
+    /// Dual-source blending with another number of targets than one.
+    #[error("a shader with a second colour has one colour target, this one has {0}")]
+    DualSourceTargets(usize),
     /// Too many vertex buffers.
     #[error("the pipeline has {count} vertex buffers; the limit max_vertex_buffers is {limit}")]
     TooManyVertexBuffers {
@@ -192,6 +212,8 @@ pub(crate) struct StageKey {
     pub(crate) passes_color: bool,
     /// Depth is written, and by which comparison, if at all.
     pub(crate) depth: Option<DepthState>,
+    /// The state asks for more than the common paths know: everything is drawn by the general one.
+    pub(crate) is_general: bool,
 }
 
 /// A validated, immutable pipeline; cheap to clone.
@@ -258,7 +280,7 @@ fn check_targets(
     interface: &Interface,
     limits: &Limits,
 ) -> Result<(), PipelineError> {
-    if !matches!(descriptor.samples, 1 | 4) {
+    if !matches!(descriptor.samples, 1 | 2 | 4 | 8 | 16) {
         return Err(PipelineError::SampleCount(descriptor.samples));
     }
     let count = descriptor.targets.len();
@@ -268,9 +290,6 @@ fn check_targets(
             limit: limits.max_color_attachments,
         });
     }
-    if descriptor.samples > 1 && count > 1 {
-        return Err(PipelineError::MultisampledTargets(count));
-    }
     if interface.color_targets != count {
         return Err(PipelineError::TargetCount {
             shader: interface.color_targets,
@@ -278,12 +297,22 @@ fn check_targets(
         });
     }
     for (index, target) in descriptor.targets.iter().enumerate() {
-        if !crate::attachment::is_drawn(target.format) {
-            return Err(PipelineError::NotColor {
-                index,
-                format: target.format,
-            });
+        let format = target.format;
+        if !format.is_renderable() {
+            return Err(PipelineError::NotRenderable { index, format });
         }
+        let Some(blend) = &target.blend else {
+            continue;
+        };
+        if !format.is_blendable() {
+            return Err(PipelineError::NotBlendable { index, format });
+        }
+        if uses_second_color(blend) && !interface.dual_source {
+            return Err(PipelineError::NoSecondColor(index));
+        }
+    }
+    if interface.dual_source && count != 1 {
+        return Err(PipelineError::DualSourceTargets(count));
     }
     Ok(())
 }
@@ -383,5 +412,62 @@ fn stage_key(descriptor: &RenderPipelineDescriptor, interface: &Interface) -> St
             && interface.color_targets == 1
             && interface.varyings.len() >= 4,
         depth,
+        is_general: is_general(descriptor, interface),
     }
+}
+
+/// Whether the state asks for more than RGBA8 targets, a depth test and blending by one colour, with one or four
+/// samples that are treated alike.
+fn is_general(descriptor: &RenderPipelineDescriptor, interface: &Interface) -> bool {
+    let is_common = |target: &ColorTargetState| {
+        let is_rgba8 = matches!(
+            target.format,
+            TextureFormat::Rgba8Unorm | TextureFormat::Rgba8UnormSrgb
+        );
+        is_rgba8 && !target.blend.as_ref().is_some_and(has_rare_factor)
+    };
+    let samples = descriptor.samples;
+    let all_samples = u32::MAX >> (32 - samples.clamp(1, 32));
+    !descriptor.targets.iter().all(is_common)
+        || descriptor.targets.len() > 1 && samples > 1
+        || !matches!(samples, 1 | 4)
+        || descriptor.sample_mask & all_samples != all_samples
+        || descriptor.stencil.is_some()
+        || descriptor.logic_operation.is_some()
+        || descriptor.alpha_to_coverage
+        || samples > 1 && (descriptor.sample_shading || interface.per_sample)
+        || samples > 1 && interface.sampling.iter().any(|s| *s != Sampling::Center)
+        || descriptor.primitive.conservative != ConservativeMode::Disabled
+        || interface.per_sample
+        || interface.reads_coverage
+        || interface.writes_sample_mask
+        || interface.dual_source
+        || matches!(
+            interface.depth_output,
+            DepthOutput::Greater | DepthOutput::Less
+        )
+}
+
+fn has_rare_factor(blend: &BlendState) -> bool {
+    factors(blend).iter().any(|factor| {
+        factor.is_dual_source()
+            || matches!(
+                factor,
+                BlendFactor::ConstantAlpha | BlendFactor::OneMinusConstantAlpha
+            )
+    })
+}
+
+fn uses_second_color(blend: &BlendState) -> bool {
+    factors(blend).iter().any(|factor| factor.is_dual_source())
+}
+
+fn factors(blend: &BlendState) -> [BlendFactor; 4] {
+    let BlendState { color, alpha } = blend;
+    [
+        color.src_factor,
+        color.dst_factor,
+        alpha.src_factor,
+        alpha.dst_factor,
+    ]
 }

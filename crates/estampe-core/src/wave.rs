@@ -12,6 +12,7 @@ use crate::geometry::cull::Facing;
 use crate::geometry::shading::{ShadedSlice, ShadedVertices, VertexSource};
 use crate::geometry::viewport::{PixelRect, ViewportTransform};
 use crate::per_sample::color::ColorTarget;
+use crate::per_sample::general::DepthFormat;
 use crate::schedule::Executor;
 use crate::tile_pass::{MAX_TARGETS, TileItem};
 use estampe_types::state::{PolygonMode, PrimitiveTopology, Viewport};
@@ -190,9 +191,11 @@ fn fits(target: &RenderTarget, draw: &Draw<'_>) -> bool {
     let descriptor = draw.pipeline.descriptor();
     let formats = descriptor.targets.iter().map(|target| target.format);
     let depth_fits = target.has_depth() || draw.pipeline.key().depth.is_none();
+    let stencil_fits = target.has_stencil() || descriptor.stencil.is_none();
     descriptor.samples == target.samples()
         && formats.eq(target.color_formats().iter().copied())
         && depth_fits
+        && stencil_fits
 }
 
 /// A viewport that the arithmetic can stand: finite, with area, its depths in 0..=1.
@@ -491,7 +494,19 @@ impl ShadedVertices {
     }
 
     /// An item as its fragments need it.
-    pub(crate) fn tile_item<'a>(&'a self, item: &'a Item<'_>) -> TileItem<'a> {
+    pub(crate) fn tile_item<'a>(
+        &'a self,
+        item: &'a Item<'_>,
+        target: &RenderTarget,
+        has_queries: bool,
+    ) -> TileItem<'a> {
+        let draw = item.draw;
+        let key = draw.pipeline.key();
+        let depth_format = target.depth_format();
+        let is_general = key.is_general
+            || draw.depth_bounds.is_some()
+            || has_queries && draw.occlusion_query.is_some()
+            || key.depth.is_some() && depth_format != DepthFormat::Float;
         let modes = &item.draw.pipeline.interface().varyings;
         TileItem {
             pipeline: item.draw.pipeline,
@@ -500,6 +515,9 @@ impl ShadedVertices {
             rect: item.rect,
             depth_range: item.transform.depth_range,
             targets: item.targets,
+            draw,
+            depth_format,
+            is_general,
             all_smooth: modes.iter().all(|mode| *mode == Interpolation::Smooth),
         }
     }

@@ -130,16 +130,12 @@ fn a_pipeline_names_the_rule_that_it_breaks() {
     );
     assert_eq!(refused(|d| d.samples = 3), PipelineError::SampleCount(3));
     assert_eq!(
-        refused(|d| d.samples = 4),
-        PipelineError::MultisampledTargets(3)
-    );
-    assert_eq!(
         refused(|d| d.vertex_buffers.clear()),
         PipelineError::LocationMissing(0)
     );
     assert_eq!(
         refused(|d| d.targets[1].format = TextureFormat::Depth32Float),
-        PipelineError::NotColor {
+        PipelineError::NotRenderable {
             index: 1,
             format: TextureFormat::Depth32Float
         }

@@ -1,8 +1,10 @@
 //! From storage order to rows: the only place where the layout becomes visible as an image.
 
 use super::RenderTarget;
-use super::resolve::{mean_srgb, mean_unorm};
+use super::resolve::{is_rgba8, mean_srgb, mean_unorm, mean_words};
+use crate::per_sample::texel::{MAX_WORDS, TexelCodec};
 use estampe_simd::{LANE_X, LANE_Y, LANES};
+use estampe_types::TextureFormat;
 
 /// Lanes of each row of a packet, from left to right.
 const LANES_OF_ROW: [[usize; 4]; 4] = {
@@ -16,8 +18,8 @@ const LANES_OF_ROW: [[usize; 4]; 4] = {
 };
 
 impl RenderTarget {
-    /// A colour attachment as RGBA bytes, row by row from the top; several samples are resolved to
-    /// their mean (linear for sRGB). Beyond the last attachment it is empty.
+    /// A colour attachment's texels in the format's own bytes (of RGBA8 R, G, B, A), row by row from the top;
+    /// several samples are resolved to their mean (linear for sRGB). Beyond the last attachment it is empty.
     #[must_use]
     pub fn read_color(&self, index: usize) -> Vec<u8> {
         self.read_color_by(index, 1)
@@ -26,14 +28,27 @@ impl RenderTarget {
     /// [`Self::read_color`] by so many threads, whose number changes nothing but the time.
     #[must_use]
     pub fn read_color_by(&self, index: usize, threads: usize) -> Vec<u8> {
-        let (Some(stored), Some(format)) = (
+        let (Some(stored), Some(&format)) = (
             self.colors.get(index),
             self.descriptor.color_formats.get(index),
         ) else {
             return Vec::new();
         };
         let stored = &stored[..];
-        if self.samples() == 1 {
+        let samples = self.samples() as usize;
+        if !is_rgba8(format) || !matches!(samples, 1 | 4) {
+            let codec = TexelCodec::new(format);
+            let elements = LANES * codec.words * samples;
+            return self.texels_of(format, |packet| {
+                let of_packet = &stored[packet * elements..][..elements];
+                if samples == 1 {
+                    codec.words_of(of_packet)
+                } else {
+                    mean_words(&codec, of_packet, samples)
+                }
+            });
+        }
+        if samples == 1 {
             return self.bytes_of(threads, |packet| {
                 let pixels = stored[packet * LANES..].first_chunk();
                 *pixels.expect("every packet is stored whole")
@@ -50,6 +65,53 @@ impl RenderTarget {
                 resolve([0, 1, 2, 3].map(|sample| samples[sample * LANES + lane]))
             })
         })
+    }
+
+    /// The texels of one sample of a colour attachment in the format's own bytes, row by row from the top. Beyond
+    /// the last attachment or sample it is empty.
+    #[must_use]
+    pub fn read_texels(&self, index: usize, sample: u32) -> Vec<u8> {
+        let (Some(stored), Some(&format), true) = (
+            self.colors.get(index),
+            self.descriptor.color_formats.get(index),
+            sample < self.samples(),
+        ) else {
+            return Vec::new();
+        };
+        let codec = TexelCodec::new(format);
+        let elements = LANES * codec.words;
+        self.texels_of(format, |packet| {
+            let number = packet * self.samples() as usize + sample as usize;
+            codec.words_of(&stored[number * elements..][..elements])
+        })
+    }
+
+    /// Rows of texels from a function of the packet.
+    fn texels_of(
+        &self,
+        format: TextureFormat,
+        packet: impl Fn(usize) -> [[u32; LANES]; MAX_WORDS],
+    ) -> Vec<u8> {
+        let (width, height) = (self.width() as usize, self.height() as usize);
+        let bytes_each = format.block_bytes() as usize;
+        let mut bytes = vec![0; width * height * bytes_each];
+        for y in (0..self.height()).step_by(4) {
+            for x in (0..self.width()).step_by(4) {
+                let words = packet(self.grid.packet_of(x, y));
+                for lane in 0..LANES {
+                    let (x, y) = (x + u32::from(LANE_X[lane]), y + u32::from(LANE_Y[lane]));
+                    let (x, y) = (x as usize, y as usize);
+                    if x >= width || y >= height {
+                        continue;
+                    }
+                    let texel = &mut bytes[(y * width + x) * bytes_each..][..bytes_each];
+                    for (part, word) in texel.chunks_mut(4).zip(&words) {
+                        part.copy_from_slice(&word[lane].to_le_bytes()[..part.len()]);
+                    }
+                }
+            }
+        }
+        bytes
     }
 
     /// Rows of bytes from a function of the packet. A thread makes a run of rows, and is the first to touch
@@ -91,16 +153,35 @@ impl RenderTarget {
         bytes
     }
 
-    /// The depth attachment, row by row from the top; of several samples the first. Without one it is
-    /// empty.
+    /// The depth attachment, row by row from the top; of several samples the first. Depths of fixed-point formats
+    /// are the numbers nearest to their codes. Without depth it is empty.
     #[must_use]
     pub fn read_depth(&self) -> Vec<f32> {
-        if self.depth.is_empty() {
+        self.read_depth_sample(0)
+    }
+
+    /// The depths of one sample. Without depth, or beyond the last sample, it is empty.
+    #[must_use]
+    pub fn read_depth_sample(&self, sample: u32) -> Vec<f32> {
+        self.rows_of_sample(&self.depth, sample)
+    }
+
+    /// The stencil values of one sample, row by row from the top. Without stencil, or beyond the last sample, it
+    /// is empty.
+    #[must_use]
+    pub fn read_stencil(&self, sample: u32) -> Vec<u8> {
+        self.rows_of_sample(&self.stencil, sample)
+    }
+
+    fn rows_of_sample<T: Copy + Default>(&self, stored: &[T], sample: u32) -> Vec<T> {
+        if stored.is_empty() || sample >= self.samples() {
             return Vec::new();
         }
-        let mut rows = vec![0.0; self.width() as usize * self.height() as usize];
-        let stride = LANES * self.samples() as usize;
-        self.rows_of(&mut rows, |packet, lane| self.depth[packet * stride + lane]);
+        let mut rows = vec![T::default(); self.width() as usize * self.height() as usize];
+        let (samples, sample) = (self.samples() as usize, sample as usize);
+        self.rows_of(&mut rows, |packet, lane| {
+            stored[(packet * samples + sample) * LANES + lane]
+        });
         rows
     }
 

@@ -1,13 +1,17 @@
 //! Resolving: the samples of each pixel become their mean, in storage order.
 //!
 //! Both targets are made of the same packets in the same order: packet i of the image is the mean of the
-//! four lines of packet i of the samples. So the work is one pass over memory, cut anywhere.
+//! samples' lines of packet i. So the work is one pass over memory, cut anywhere.
 
 use super::RenderTarget;
+use super::target::texel_words;
+use crate::per_sample::texel::{MAX_WORDS, TexelCodec};
+use crate::raster::general::MAX_SAMPLES;
 use estampe_simd::LANES;
+use estampe_types::TextureFormat;
 use estampe_types::srgb::{LINEAR_FROM_SRGB, srgb_from_linear};
 
-/// Samples of a multisampled pixel.
+/// Samples of the pixels that have a function of their own: four of RGBA8.
 const SAMPLES: usize = 4;
 
 /// Packets of one job: a 64×64 block.
@@ -18,7 +22,9 @@ const JOB_PACKETS: usize = 256;
 pub(crate) struct ResolveJob<'a> {
     samples: &'a [u32],
     pixels: &'a mut [u32],
-    is_srgb: bool,
+    format: TextureFormat,
+    /// Samples of a pixel.
+    count: usize,
 }
 
 impl<'a> ResolveJob<'a> {
@@ -27,7 +33,7 @@ impl<'a> ResolveJob<'a> {
         let (from_size, into_size) = ((from.width(), from.height()), (into.width(), into.height()));
         let format = from.color_formats().first();
         let fits = from_size == into_size
-            && from.samples() as usize == SAMPLES
+            && from.samples() > 1
             && into.samples() == 1
             && format == into.color_formats().first();
         let (Some(format), Some(samples), Some(pixels), true) =
@@ -35,27 +41,34 @@ impl<'a> ResolveJob<'a> {
         else {
             return Vec::new();
         };
-        let is_srgb = format.is_srgb();
+        let count = from.samples() as usize;
+        let elements = JOB_PACKETS * LANES * texel_words(*format);
         samples
-            .chunks(JOB_PACKETS * LANES * SAMPLES)
-            .zip(pixels.chunks_mut(JOB_PACKETS * LANES))
+            .chunks(elements * count)
+            .zip(pixels.chunks_mut(elements))
             .map(|(samples, pixels)| Self {
                 samples,
                 pixels,
-                is_srgb,
+                format: *format,
+                count,
             })
             .collect()
     }
 
     /// Resolves the job's packets.
     pub(crate) fn run(&mut self) {
+        let is_srgb = self.format.is_srgb();
+        if self.count != SAMPLES || !is_rgba8(self.format) {
+            self.run_any();
+            return;
+        }
         let samples = self.samples.as_chunks::<{ LANES * SAMPLES }>().0;
         let pixels = self.pixels.as_chunks_mut::<LANES>().0;
         for (samples, pixels) in samples.iter().zip(pixels) {
             let [a, b, c, d] = [0, 1, 2, 3].map(|sample| &samples[sample * LANES..][..LANES]);
             for (lane, pixel) in pixels.iter_mut().enumerate() {
                 let of_pixel = [a[lane], b[lane], c[lane], d[lane]];
-                *pixel = if self.is_srgb {
+                *pixel = if is_srgb {
                     mean_srgb(of_pixel)
                 } else {
                     mean_unorm(of_pixel)
@@ -63,6 +76,39 @@ impl<'a> ResolveJob<'a> {
             }
         }
     }
+
+    /// Of any format and number of samples.
+    fn run_any(&mut self) {
+        let codec = TexelCodec::new(self.format);
+        let elements = LANES * codec.words;
+        let samples = self.samples.chunks_exact(elements * self.count);
+        for (samples, pixels) in samples.zip(self.pixels.chunks_exact_mut(elements)) {
+            let words = mean_words(&codec, samples, self.count);
+            pixels.copy_from_slice(&words.as_flattened()[..elements]);
+        }
+    }
+}
+
+/// Whether four samples of a format have functions of their own.
+pub(super) fn is_rgba8(format: TextureFormat) -> bool {
+    matches!(
+        format,
+        TextureFormat::Rgba8Unorm | TextureFormat::Rgba8UnormSrgb
+    )
+}
+
+/// The words of a packet's texels: the means of its samples.
+pub(super) fn mean_words(
+    codec: &TexelCodec,
+    samples: &[u32],
+    count: usize,
+) -> [[u32; LANES]; MAX_WORDS] {
+    let mut codes = [[[0; LANES]; 4]; MAX_SAMPLES];
+    let of_samples = samples.chunks_exact(LANES * codec.words);
+    for (codes, texels) in codes.iter_mut().zip(of_samples) {
+        *codes = codec.unpack(&codec.words_of(texels));
+    }
+    codec.pack(&codec.mean(&codes[..count.min(MAX_SAMPLES)]))
 }
 
 /// The mean of four unorm pixels, rounded to the nearest code: floor(sum/4 + ½) in integers, two channels

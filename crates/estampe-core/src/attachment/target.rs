@@ -1,6 +1,7 @@
 //! A render target: colour attachments and a depth attachment of one size.
 
 use crate::layout::TileGrid;
+use crate::per_sample::general::DepthFormat;
 use estampe_types::{Limits, Lines, TextureFormat};
 use std::sync::Arc;
 
@@ -51,7 +52,7 @@ pub enum TargetError {
         limit: u32,
     },
     /// The sample count is not offered.
-    #[error("a render target has 1 or 4 samples per pixel, not {0}")]
+    #[error("a render target has 1, 2, 4, 8 or 16 samples per pixel, not {0}")]
     SampleCount(u32),
     /// Too many colour attachments.
     #[error("{count} colour attachments; the limit max_color_attachments is {limit}")]
@@ -61,17 +62,21 @@ pub enum TargetError {
         /// How many there may be.
         limit: u32,
     },
-    /// Several samples and several attachments.
-    #[error("with 4 samples a render target has at most one colour attachment, not {0}")]
-    MultisampledColors(usize),
-    /// A colour attachment with a depth format.
-    #[error("colour attachment {index} has the format {format:?}, which does not hold colour")]
-    NotColor {
+    /// A colour attachment with a format that cannot be drawn into.
+    #[error(
+        "colour attachment {index} has the format {}, into which colours cannot be drawn: depth, stencil and \
+         compressed formats and rgb9e5ufloat are not renderable",
+        format.name()
+    )]
+    NotRenderable {
         /// Which attachment.
         index: usize,
         /// Its format.
         format: TextureFormat,
     },
+    /// A depth and stencil attachment with a format that holds neither.
+    #[error("the depth attachment has the format {}, which holds neither depth nor stencil", .0.name())]
+    NotDepthStencil(TextureFormat),
     /// The system has not enough memory.
     #[error("no memory for a render target of {bytes} bytes: make it smaller or use fewer samples")]
     OutOfMemory {
@@ -83,13 +88,16 @@ pub enum TargetError {
 /// Colour and depth attachments of one size, cleared to zeros when made.
 #[derive(Debug, Clone)]
 pub struct RenderTarget {
-    pub(super) descriptor: RenderTargetDescriptor,
+    pub(crate) descriptor: RenderTargetDescriptor,
     pub(super) grid: TileGrid,
-    /// One element per sample, in storage order; RGBA8 with R in the low byte.
+    /// In storage order; a texel of each sample is one, two or four [`words`](texel_words) of sixteen lanes. RGBA8 has
+    /// R in the low byte.
     pub(crate) colors: Vec<Lines<u32>>,
     /// One element per sample, in storage order; empty without depth. Shared with the depth textures that
     /// were taken of it; drawing while one lives draws into a copy.
     pub(crate) depth: Arc<Lines<f32>>,
+    /// One byte per sample, in storage order; empty without stencil.
+    pub(crate) stencil: Lines<u8>,
     /// Memory of the last depth texture's bounds, used again when that is gone.
     pub(super) depth_bounds: Arc<Vec<u32>>,
 }
@@ -112,23 +120,27 @@ impl RenderTarget {
             .is_some_and(TextureFormat::has_depth);
         let grid = TileGrid::new(width, height, samples);
         let elements = grid.stored_pixels() * samples as usize;
-        let attachments =
-            descriptor.color_formats.len() + usize::from(descriptor.depth_stencil.is_some());
+        let has_stencil = descriptor
+            .depth_stencil
+            .is_some_and(TextureFormat::has_stencil);
+        let words = descriptor.color_formats.iter().map(|&f| texel_words(f));
+        let words_of_all = words.clone().sum::<usize>() + usize::from(has_depth);
+        let bytes_each = words_of_all as u64 * 4 + u64::from(has_stencil);
         let error = TargetError::OutOfMemory {
-            bytes: elements as u64 * 4 * attachments as u64,
+            bytes: (elements as u64).saturating_mul(bytes_each),
         };
-        let colors = descriptor
-            .color_formats
-            .iter()
-            .map(|_| Lines::zeros(elements));
+        let colors = words.map(|words| Lines::zeros(elements.checked_mul(words)?));
         let colors: Option<Vec<_>> = colors.collect();
         let colors = colors.ok_or_else(|| error.clone())?;
-        let depth = Lines::zeros(if has_depth { elements } else { 0 }).ok_or(error)?;
+        let depth = Lines::zeros(if has_depth { elements } else { 0 });
+        let depth = depth.ok_or_else(|| error.clone())?;
+        let stencil = Lines::zeros(if has_stencil { elements } else { 0 }).ok_or(error)?;
         Ok(Self {
             descriptor: descriptor.clone(),
             grid,
             colors,
             depth: Arc::new(depth),
+            stencil,
             depth_bounds: Arc::default(),
         })
     }
@@ -163,6 +175,16 @@ impl RenderTarget {
         !self.depth.is_empty()
     }
 
+    pub(crate) fn depth_format(&self) -> DepthFormat {
+        DepthFormat::new(self.descriptor.depth_stencil)
+    }
+
+    /// Whether there is a stencil attachment.
+    #[must_use]
+    pub fn has_stencil(&self) -> bool {
+        !self.stencil.is_empty()
+    }
+
     pub(crate) fn grid(&self) -> TileGrid {
         self.grid
     }
@@ -184,7 +206,7 @@ fn check(descriptor: &RenderTargetDescriptor, limits: &Limits) -> Result<(), Tar
             limit,
         });
     }
-    if !matches!(samples, 1 | 4) {
+    if !matches!(samples, 1 | 2 | 4 | 8 | 16) {
         return Err(TargetError::SampleCount(samples));
     }
     let count = descriptor.color_formats.len();
@@ -194,24 +216,23 @@ fn check(descriptor: &RenderTargetDescriptor, limits: &Limits) -> Result<(), Tar
             limit: limits.max_color_attachments,
         });
     }
-    if samples > 1 && count > 1 {
-        return Err(TargetError::MultisampledColors(count));
-    }
     for (index, format) in descriptor.color_formats.iter().enumerate() {
-        if !is_drawn(*format) {
-            return Err(TargetError::NotColor {
+        if !format.is_renderable() {
+            return Err(TargetError::NotRenderable {
                 index,
                 format: *format,
             });
         }
     }
+    if let Some(format) = descriptor.depth_stencil
+        && format.is_color()
+    {
+        return Err(TargetError::NotDepthStencil(format));
+    }
     Ok(())
 }
 
-/// Whether colours can be drawn into a format.
-pub(crate) const fn is_drawn(format: TextureFormat) -> bool {
-    matches!(
-        format,
-        TextureFormat::Rgba8Unorm | TextureFormat::Rgba8UnormSrgb
-    )
+/// Words of 32 bits that a texel of a colour format takes in an attachment: smaller ones take one all the same.
+pub(crate) fn texel_words(format: TextureFormat) -> usize {
+    (format.block_bytes() as usize).div_ceil(4)
 }

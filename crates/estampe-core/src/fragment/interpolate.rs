@@ -43,6 +43,35 @@ pub(crate) trait Surface<S: Lanes> {
     fn inverse_w(&self, s: S, pixel: [i32; 2]) -> f32x16<S>;
     /// The varyings at the pixels' centres, as many packets as there are scalars.
     fn varyings(&self, s: S, pixel: [i32; 2], out: &mut [Packet<f32>]);
+
+    /// 1/w at a place of each pixel; of lines and points at the centres.
+    #[inline(always)]
+    fn inverse_w_at(&self, s: S, pixel: [i32; 2], _places: &Places) -> f32x16<S> {
+        self.inverse_w(s, pixel)
+    }
+
+    /// The varyings at a place of each pixel; of lines and points at the centres.
+    #[inline(always)]
+    fn varyings_in(&self, s: S, pixel: [i32; 2], _places: &Places, out: &mut [Packet<f32>]) {
+        self.varyings(s, pixel, out);
+    }
+}
+
+/// A place in each of sixteen pixels: offsets in x and in y, in pixels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Places {
+    pub(crate) x: [f32; LANES],
+    pub(crate) y: [f32; LANES],
+}
+
+impl Places {
+    /// The same place in every pixel.
+    pub(crate) fn all([x, y]: [f32; 2]) -> Self {
+        Self {
+            x: [x; LANES],
+            y: [y; LANES],
+        }
+    }
 }
 
 /// Columns (or rows) of a packet's lanes.
@@ -85,6 +114,15 @@ impl PlaneOrigin {
         [sx, sy]: [f32; 2],
     ) -> [f32x16<S>; 2] {
         [self.columns_from(s, x, sx), self.rows_from(s, y, sy)]
+    }
+
+    /// [`PlaneOrigin::distances`] of a place in each pixel.
+    #[inline(always)]
+    fn distances_of<S: Lanes>(&self, s: S, [x, y]: [i32; 2], places: &Places) -> [f32x16<S>; 2] {
+        [
+            self.columns_from(s, x, 0.0) + f32x16::load_array_ref(s, &places.x),
+            self.rows_from(s, y, 0.0) + f32x16::load_array_ref(s, &places.y),
+        ]
     }
 
     /// [`PlaneOrigin::distances`] of the columns alone.
@@ -278,6 +316,19 @@ impl<S: Lanes> Surface<S> for TriangleSurface<'_> {
     #[inline(always)]
     fn varyings(&self, s: S, pixel: [i32; 2], out: &mut [Packet<f32>]) {
         self.varyings_at(s, self.origin.distances(s, pixel, [0.5; 2]), out);
+    }
+
+    #[inline(always)]
+    fn inverse_w_at(&self, s: S, pixel: [i32; 2], places: &Places) -> f32x16<S> {
+        if self.equal_w {
+            return SimdBase::splat(s, self.iw.origin);
+        }
+        evaluate(s, &self.iw, self.origin.distances_of(s, pixel, places))
+    }
+
+    #[inline(always)]
+    fn varyings_in(&self, s: S, pixel: [i32; 2], places: &Places, out: &mut [Packet<f32>]) {
+        self.varyings_at(s, self.origin.distances_of(s, pixel, places), out);
     }
 }
 

@@ -15,3 +15,9 @@ pub(crate) mod color;
 pub(crate) mod source_over;
 
 pub(crate) mod codes;
+
+pub(crate) mod texel;
+
+mod small_float;
+
+pub(crate) mod general;

@@ -21,22 +21,57 @@ pub(crate) mod line;
 
 pub(crate) mod point;
 
+pub(crate) mod general;
+
 use crate::geometry::viewport::PixelRect;
 use estampe_simd::LANES;
 
 /// Offsets of the samples inside their pixel, in 1/256 pixel: the standard positions of Vulkan.
-pub(crate) const SAMPLES_1: [[i32; 2]; 1] = [[128, 128]];
-/// The same for four samples.
-pub(crate) const SAMPLES_4: [[i32; 2]; 4] = [[96, 32], [224, 96], [32, 160], [160, 224]];
+const SAMPLES_1: [[i32; 2]; 1] = [[128, 128]];
+const SAMPLES_2: [[i32; 2]; 2] = [[192, 192], [64, 64]];
+const SAMPLES_4: [[i32; 2]; 4] = [[96, 32], [224, 96], [32, 160], [160, 224]];
+const SAMPLES_8: [[i32; 2]; 8] = [
+    [144, 80],
+    [112, 176],
+    [208, 144],
+    [80, 48],
+    [48, 208],
+    [16, 112],
+    [176, 240],
+    [240, 16],
+];
+const SAMPLES_16: [[i32; 2]; 16] = [
+    [144, 144],
+    [112, 80],
+    [80, 160],
+    [192, 112],
+    [48, 96],
+    [160, 208],
+    [208, 176],
+    [176, 48],
+    [96, 224],
+    [128, 16],
+    [64, 32],
+    [32, 192],
+    [0, 128],
+    [240, 64],
+    [224, 240],
+    [16, 0],
+];
 
-/// The sample positions of `N` samples.
+/// The sample positions of `N` samples: 1, 2, 4, 8 or 16.
 #[inline(always)]
 pub(crate) fn sample_positions<const N: usize>() -> [[i32; 2]; N] {
     let mut positions = [[128; 2]; N];
-    if N == 4 {
-        positions.copy_from_slice(&SAMPLES_4[..N]);
-    } else {
-        positions.copy_from_slice(&SAMPLES_1[..N]);
+    let standard: &[[i32; 2]] = match N {
+        2 => &SAMPLES_2,
+        4 => &SAMPLES_4,
+        8 => &SAMPLES_8,
+        16 => &SAMPLES_16,
+        _ => &SAMPLES_1,
+    };
+    for (position, standard) in positions.iter_mut().zip(standard) {
+        *position = *standard;
     }
     positions
 }

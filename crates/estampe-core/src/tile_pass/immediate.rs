@@ -21,6 +21,7 @@ use crate::tiles::{BinEntry, LinePrimitive, PointPrimitive, TrianglePacket};
 use estampe_simd::{Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_types::Interpolation;
 use estampe_types::shader::DepthOutput;
+use estampe_types::state::CompareFunction;
 
 /// Draws the tile's primitives of one chunk.
 #[inline(always)]
@@ -224,15 +225,20 @@ impl<const N: usize> Drawing<'_, '_, '_, N> {
     /// The early depth test; false when nothing is left.
     #[inline(always)]
     fn tested<S: Lanes>(&mut self, s: S, surface: &impl Surface<S>) -> bool {
-        let list = &mut self.scratch.list;
         // Without a depth output depth is known before shading; it is written then only if nothing is
         // discarded.
         if let (false, Some(test)) = (self.depth_output, &self.test) {
+            // What waits in the queue may change the stored depth by then: as other comparisons let it, towards
+            // where fewer pass; with this one, towards anything.
+            if !self.early && test.state.compare == CompareFunction::NotEqual {
+                return !self.scratch.list.items().is_empty();
+            }
+            let list = &mut self.scratch.list;
             let writes = self.early && test.state.write_enabled;
             let written = test_early(s, test, writes, surface, self.job.depth, list);
             self.scratch.bounds.invalidate(written);
         }
-        !list.items().is_empty()
+        !self.scratch.list.items().is_empty()
     }
 
     /// Queues what is left of the list, shading whenever the queue is full.

@@ -5,8 +5,10 @@
 //! [seen and then shaded](deferred); what depends on order is drawn [in order](immediate).
 
 mod deferred;
+mod general;
 mod immediate;
 
+use crate::commands::{Draw, OcclusionQueries};
 use crate::fragment::interpolate::VaryingSource;
 use crate::fragment::queue::FragmentQueue;
 use crate::geometry::viewport::PixelRect;
@@ -14,6 +16,8 @@ use crate::layout::TileGrid;
 use crate::per_sample::color::ColorTarget;
 use crate::per_sample::depth::DepthTest;
 use crate::per_sample::depth_bounds::DepthBounds;
+use crate::per_sample::general::DepthFormat;
+use crate::per_sample::texel::MAX_WORDS;
 use crate::pipeline::RenderPipeline;
 use crate::raster::{CoverageList, TileShape};
 use crate::statistics::Statistics;
@@ -37,6 +41,11 @@ pub(crate) struct TileItem<'a> {
     pub(crate) depth_range: [f32; 2],
     pub(crate) targets: [Option<ColorTarget>; MAX_TARGETS],
     pub(crate) all_smooth: bool,
+    pub(crate) draw: &'a Draw<'a>,
+    /// How the target stores depth.
+    pub(crate) depth_format: DepthFormat,
+    /// Whether its state, or the target's, is beyond the common paths.
+    pub(crate) is_general: bool,
 }
 
 /// What every tile of a pass shares.
@@ -48,9 +57,19 @@ pub(crate) struct TilePass<'a> {
     pub(crate) chunks: &'a [Chunk],
     /// Which of the chunks reach a tile.
     pub(crate) chunk_index: &'a ChunkIndex,
-    /// Codes to clear the colour attachments to.
-    pub(crate) clear_colors: [Option<u32>; MAX_TARGETS],
-    pub(crate) clear_depth: Option<f32>,
+    /// What is cleared first.
+    pub(crate) clear: Clear,
+    pub(crate) samples: usize,
+    pub(crate) occlusion_queries: Option<&'a OcclusionQueries>,
+}
+
+/// What a pass clears in each tile.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Clear {
+    /// The words of a texel, by colour attachment, and how many there are.
+    pub(crate) colors: [Option<([u32; MAX_WORDS], usize)>; MAX_TARGETS],
+    pub(crate) depth: Option<f32>,
+    pub(crate) stencil: Option<u8>,
 }
 
 /// One tile's share of the attachments.
@@ -59,6 +78,7 @@ pub(crate) struct TileJob<'a> {
     pub(crate) tile: u32,
     pub(crate) colors: [&'a mut [u32]; MAX_TARGETS],
     pub(crate) depth: &'a mut [f32],
+    pub(crate) stencil: &'a mut [u8],
 }
 
 /// Memory of one worker, for `N` samples.
@@ -70,6 +90,14 @@ pub(crate) struct TileScratch<const N: usize> {
     queue: FragmentQueue<N>,
     bounds: DepthBounds,
     deferred: deferred::Deferred<N>,
+    general: general::GeneralScratch,
+    pub(crate) statistics: Statistics,
+}
+
+/// Memory of one worker, for any number of samples: such targets have the general path alone.
+#[derive(Debug, Default)]
+pub(crate) struct AnyTileScratch {
+    general: general::GeneralScratch,
     pub(crate) statistics: Statistics,
 }
 
@@ -80,11 +108,17 @@ pub(crate) fn draw<const N: usize>(
     scratch: &mut TileScratch<N>,
 ) {
     dispatch!(pass.level, s => clear(s, pass, job));
-    scratch.bounds.begin(pass.clear_depth);
+    scratch.bounds.begin(pass.clear.depth);
     for &number in pass.chunk_index.of_tile(job.tile) {
         let entries = pass.chunks[number as usize].bins.of_tile(job.tile);
         let work = ChunkInTile::new(pass, number, job);
-        if deferred::is_deferred(&work) {
+        if work.item.is_general {
+            deferred::shade_run(pass, job, scratch);
+            let memory = (&mut scratch.general, &mut scratch.statistics);
+            let samples = (N, pass.occlusion_queries);
+            general::draw_chunk(&work, entries, samples, job, memory);
+            scratch.bounds.invalidate(u16::MAX);
+        } else if deferred::is_deferred(&work) {
             deferred::see_chunk(pass, (&work, entries), job, scratch);
         } else {
             deferred::shade_run(pass, job, scratch);
@@ -94,18 +128,41 @@ pub(crate) fn draw<const N: usize>(
     deferred::shade_run(pass, job, scratch);
 }
 
+/// Draws a tile of any number of samples.
+pub(crate) fn draw_any(pass: &TilePass<'_>, job: &mut TileJob<'_>, scratch: &mut AnyTileScratch) {
+    dispatch!(pass.level, s => clear(s, pass, job));
+    for &number in pass.chunk_index.of_tile(job.tile) {
+        let entries = pass.chunks[number as usize].bins.of_tile(job.tile);
+        let work = ChunkInTile::new(pass, number, job);
+        let memory = (&mut scratch.general, &mut scratch.statistics);
+        let samples = (pass.samples, pass.occlusion_queries);
+        general::draw_chunk(&work, entries, samples, job, memory);
+    }
+}
+
 /// Clears the tile's attachments, sixteen elements a store: `fill` is compiled for the least processor.
 #[inline(always)]
 fn clear<S: Lanes>(s: S, pass: &TilePass<'_>, job: &mut TileJob<'_>) {
-    for (colors, code) in job.colors.iter_mut().zip(&pass.clear_colors) {
-        if let Some(code) = code {
+    for (colors, color) in job.colors.iter_mut().zip(&pass.clear.colors) {
+        let Some((words, count)) = color else {
+            continue;
+        };
+        let lines = colors.as_chunks_mut::<LANES>().0;
+        for (word, code) in words.iter().enumerate().take(*count) {
             let value = <u32x16<S> as SimdBase<S>>::splat(s, *code);
-            for line in colors.as_chunks_mut::<LANES>().0 {
+            if *count == 1 {
+                lines.iter_mut().for_each(|line| value.store_array(line));
+                break;
+            }
+            for line in lines.iter_mut().skip(word).step_by(*count) {
                 value.store_array(line);
             }
         }
     }
-    if let Some(depth) = pass.clear_depth {
+    if let Some(stencil) = pass.clear.stencil {
+        job.stencil.fill(stencil);
+    }
+    if let Some(depth) = pass.clear.depth {
         let value = <f32x16<S> as SimdBase<S>>::splat(s, depth);
         for line in job.depth.as_chunks_mut::<LANES>().0 {
             value.store_array(line);
