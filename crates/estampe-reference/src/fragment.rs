@@ -2,11 +2,15 @@
 //!
 //! In · Out: a primitive's surface and a quad · four colours and depths. Precision: f32 in the order
 //! of NUMERICS.md. The shader runs with `R = Quad`, so that it has true derivatives; lanes that the
-//! primitive does not cover are evaluated all the same.
+//! primitive does not cover are evaluated all the same. Where in its pixel each lane is evaluated:
+//! *Multisampling* of NUMERICS.md.
 
-use crate::raster::QuadCoverage;
+use crate::arithmetic::{max, min};
+use crate::raster::{QuadCoverage, all_samples, sample_positions};
 use crate::setup::{Plane, SortedTriangle};
-use estampe_types::shader::{DepthOutput, FragmentIn, Interpolation, Shader, Source, Varyings};
+use estampe_types::shader::{
+    DepthOutput, FragmentIn, Interpolation, Sampling, Shader, Source, Varyings,
+};
 use estampe_types::{Bindings, Quad, Real, Vec4};
 
 /// What varies over a primitive, at any place of the window.
@@ -17,6 +21,14 @@ pub trait Surface {
     fn inverse_w(&self, pixel: [u32; 2]) -> f32;
     /// The varyings' scalars at the pixel's centre.
     fn varyings(&self, pixel: [u32; 2]) -> Vec<f32>;
+    /// 1/w at a place in the pixel, in 1/16 pixel. Lines and points have one for the pixel.
+    fn inverse_w_at(&self, pixel: [u32; 2], _place: [u8; 2]) -> f32 {
+        self.inverse_w(pixel)
+    }
+    /// The varyings' scalars at a place in the pixel, in 1/16 pixel. Lines and points have one set for the pixel.
+    fn varyings_at(&self, pixel: [u32; 2], _place: [u8; 2]) -> Vec<f32> {
+        self.varyings(pixel)
+    }
 }
 
 /// A pixel's centre, in 1/16 pixel from its corner.
@@ -84,30 +96,84 @@ impl Surface for TriangleSurface {
     }
 
     fn inverse_w(&self, pixel: [u32; 2]) -> f32 {
-        self.inverse_w.at(sample_window(pixel, CENTER))
+        self.inverse_w_at(pixel, CENTER)
     }
 
     fn varyings(&self, pixel: [u32; 2]) -> Vec<f32> {
-        let center = sample_window(pixel, CENTER);
-        let w = 1.0 / self.inverse_w.at(center);
+        self.varyings_at(pixel, CENTER)
+    }
+
+    fn inverse_w_at(&self, pixel: [u32; 2], place: [u8; 2]) -> f32 {
+        self.inverse_w.at(sample_window(pixel, place))
+    }
+
+    fn varyings_at(&self, pixel: [u32; 2], place: [u8; 2]) -> Vec<f32> {
+        let at = sample_window(pixel, place);
+        let w = 1.0 / self.inverse_w.at(at);
         let value = |varying: &Varying| match varying {
-            Varying::OverW(plane) => plane.at(center) * w,
-            Varying::Affine(plane) => plane.at(center),
+            Varying::OverW(plane) => plane.at(at) * w,
+            Varying::Affine(plane) => plane.at(at),
             Varying::Constant(value) => *value,
         };
         self.varyings.iter().map(value).collect()
     }
 }
 
-/// A pixel's fragment after its shader.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A fragment after its shader.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Fragment {
-    /// The colour of target 0, if the shader has targets.
-    pub color: Option<[f32; 4]>,
-    /// The depth in place of the interpolated one, if the shader writes depth.
+    /// A colour for each target that the shader has.
+    pub colors: Vec<[f32; 4]>,
+    /// The second colour of dual-source blending; zeros where the shader gives none.
+    pub second: [f32; 4],
+    /// The depth that the shader writes, confined to the viewport's range, if it does.
     pub depth: Option<f32>,
+    /// The samples that the shader keeps; all where it does not say.
+    pub sample_mask: u16,
     /// Whether it was discarded.
     pub is_discarded: bool,
+}
+
+/// A quad that a shader is run on.
+#[derive(Debug, Clone, Copy)]
+pub struct Invocation {
+    /// The upper left pixel.
+    pub origin: [u32; 2],
+    /// The samples of each lane's pixel that the primitive covers and the sample mask leaves.
+    pub coverage: [u16; 4],
+    /// Samples of a pixel.
+    pub samples: u32,
+    /// The sample that is shaded; `None` where shading is by pixel.
+    pub sample: Option<u32>,
+    /// Whether the primitive faces the viewer.
+    pub front_facing: bool,
+}
+
+impl Invocation {
+    /// The samples of a lane that the shader's answer counts for.
+    #[must_use]
+    pub fn samples_of(&self, lane: usize) -> u16 {
+        match self.sample {
+            Some(sample) => self.coverage[lane] & 1 << sample,
+            None => self.coverage[lane],
+        }
+    }
+
+    /// Where varyings of a sampling are evaluated in a lane's pixel, in 1/16 pixel.
+    fn place(&self, lane: usize, sampling: Sampling) -> [u8; 2] {
+        let positions = sample_positions(self.samples);
+        if let Some(sample) = self.sample {
+            return positions[sample as usize];
+        }
+        let coverage = self.coverage[lane];
+        let is_whole = coverage == all_samples(self.samples);
+        match sampling {
+            Sampling::Centroid if coverage != 0 && !is_whole => {
+                positions[coverage.trailing_zeros() as usize]
+            }
+            _ => CENTER,
+        }
+    }
 }
 
 /// Shades the four fragments of a quad. `clamp_depth` confines a depth to the viewport's range.
@@ -115,53 +181,98 @@ pub fn shade_quad<S: Shader>(
     shader: &S,
     bindings: &Bindings,
     surface: &impl Surface,
-    origin: [u32; 2],
-    front_facing: bool,
+    invocation: &Invocation,
     clamp_depth: impl Fn(f32) -> f32,
 ) -> [Fragment; 4] {
-    let pixels = [0, 1, 2, 3].map(|lane| QuadCoverage::pixel(origin, lane));
+    let lanes = [0, 1, 2, 3];
+    let pixels = lanes.map(|lane| QuadCoverage::pixel(invocation.origin, lane));
 
     // The window position, for shaders that say that they read it.
-    let position = pixels.map(|pixel| {
-        let [x, y] = sample_window(pixel, CENTER);
-        let z = clamp_depth(surface.depth(pixel, CENTER));
-        [x, y, z, surface.inverse_w(pixel)]
+    let position = lanes.map(|lane| {
+        let (pixel, place) = (pixels[lane], invocation.place(lane, Sampling::Center));
+        let [x, y] = sample_window(pixel, place);
+        let z = clamp_depth(surface.depth(pixel, place));
+        [x, y, z, surface.inverse_w_at(pixel, place)]
     });
     let read = |component: usize| {
         let lane = |p: [f32; 4]| if S::READS_POSITION { p[component] } else { 0.0 };
         Quad(position.map(lane))
     };
+    let sample_index = match invocation.sample {
+        Some(sample) if S::PER_SAMPLE => sample,
+        _ => 0,
+    };
+    let covered = |lane: usize| match S::READS_COVERAGE {
+        true => i32::from(invocation.samples_of(lane)),
+        false => 0,
+    };
     let input = FragmentIn {
         position: Vec4::new(read(0), read(1), read(2), read(3)),
-        front_facing: Quad([front_facing; 4]),
-        sample_index: Quad([0; 4]),
-        coverage: Quad([0; 4]),
+        front_facing: Quad([invocation.front_facing; 4]),
+        sample_index: Quad([sample_index.cast_signed(); 4]),
+        coverage: Quad(lanes.map(covered)),
         bindings,
         zero: Quad([0.0; 4]),
     };
 
-    // Interpolate.
+    // Interpolate, each scalar at its own place.
+    let mut samplings = Vec::new();
+    S::Varyings::<f32>::sampling(&mut samplings);
     let mut varyings = QuadScalars {
-        lanes: pixels.map(|pixel| surface.varyings(pixel).into_iter()),
+        lanes: lanes.map(|lane| {
+            let at = |sampling| surface.varyings_at(pixels[lane], invocation.place(lane, sampling));
+            let (center, centroid) = (at(Sampling::Center), at(Sampling::Centroid));
+            let scalar = |(k, sampling): (usize, &Sampling)| match sampling {
+                Sampling::Centroid => centroid[k],
+                // `Sample` makes shading go by sample, where all places are the same.
+                Sampling::Center | Sampling::Sample => center[k],
+            };
+            let scalars: Vec<f32> = samplings.iter().enumerate().map(scalar).collect();
+            scalars.into_iter()
+        }),
     };
     let output = shader.fragment(input, S::Varyings::load(&mut varyings));
 
     // Take the answer apart by lanes.
-    [0, 1, 2, 3].map(|lane: usize| Fragment {
-        color: (S::COLOR_TARGETS > 0).then(|| match output.color_of(0) {
-            Some(c) => [c.x, c.y, c.z, c.w].map(|channel| channel.lane(lane)),
-            None => [0.0; 4],
-        }),
+    let color_at = |color: Option<Vec4<Quad>>, lane: usize| match color {
+        Some(c) => [c.x, c.y, c.z, c.w].map(|channel| channel.lane(lane)),
+        None => [0.0; 4],
+    };
+    lanes.map(|lane| Fragment {
+        colors: (0..S::COLOR_TARGETS)
+            .map(|target| color_at(output.color_of(target), lane))
+            .collect(),
+        second: color_at(output.second_color().filter(|_| S::DUAL_SOURCE), lane),
         depth: match S::DEPTH_OUTPUT {
             DepthOutput::None => None,
-            // `Greater` and `Less` are confined by whoever stores the depth.
             _ => {
                 let depth = output.depth().unwrap_or(input.position.z);
                 Some(clamp_depth(depth.lane(lane)))
             }
         },
+        sample_mask: match output.sample_mask() {
+            Some(mask) if S::WRITES_SAMPLE_MASK => low_bits(mask.0[lane]),
+            _ => u16::MAX,
+        },
         is_discarded: S::DISCARDS && output.kept().is_some_and(|kept| !kept.0[lane]),
     })
+}
+
+/// A fragment's depth at a sample: the interpolated one, or what the shader's makes of it.
+#[must_use]
+pub fn sample_depth(output: DepthOutput, written: Option<f32>, interpolated: f32) -> f32 {
+    match (output, written) {
+        (DepthOutput::None, _) | (_, None) => interpolated,
+        (DepthOutput::Any, Some(depth)) => depth,
+        (DepthOutput::Greater, Some(depth)) => max(depth, interpolated),
+        (DepthOutput::Less, Some(depth)) => min(depth, interpolated),
+    }
+}
+
+/// Samples have 16 bits at most.
+fn low_bits(mask: i32) -> u16 {
+    let [low, high, ..] = mask.to_le_bytes();
+    u16::from_le_bytes([low, high])
 }
 
 /// Scalars of four lanes, handed to a shader together.

@@ -26,34 +26,41 @@
 //! | [`setup`] | window vertices | planes of depth, 1/w and varyings |
 //! | [`raster`] | snapped positions | quads of covered samples |
 //! | [`fragment`] | planes at a quad | colours, depth |
-//! | [`per_sample`] | a fragment | the [`Target`] |
+//! | [`per_sample`] with [`stencil`], [`blending`], [`logic`] | a fragment | the [`Target`] |
 //!
-//! Beside them: [`texture`] and [`depth_map`] (sampling), [`color`] (codes and numbers), [`line`](mod@line) and
-//! [`point`] (the other primitives), [`bresenham`] (integer lines of the classic scan conversion),
+//! Beside them: [`texture`] and [`depth_map`] (sampling), [`color`], [`channel`] and [`small_float`] (codes and
+//! numbers), [`line`](mod@line) and [`point`] (the other primitives), [`conservative`] (triangles by touched pixels),
+//! [`bresenham`] (integer lines of the classic scan conversion),
 //! and [`exact`], the same formulas in f64 with bounds for the error of the f32 ones.
 
 pub mod arithmetic;
 pub mod assembly;
+pub mod blending;
 pub mod bresenham;
+pub mod channel;
 pub mod clip;
 pub mod color;
+pub mod conservative;
 pub mod cull;
 pub mod depth_map;
 pub mod exact;
 pub mod fetch;
 pub mod fragment;
 pub mod line;
+pub mod logic;
 pub mod per_sample;
 mod pipeline;
 pub mod point;
 pub mod raster;
 pub mod setup;
 pub mod shading;
+pub mod small_float;
+pub mod stencil;
 mod target;
 pub mod texture;
 pub mod viewport;
 
-pub use pipeline::{Counts, Draw, State, draw};
+pub use pipeline::{Counts, Draw, State, TargetState, draw};
 pub use shading::ClipVertex;
 pub use target::Target;
 pub use texture::ReferenceTexture;

@@ -1,119 +1,156 @@
-//! Per-sample operations: depth test, blending, encoding and write mask, on one sample at a time.
+//! Per-sample operations on one sample at a time: depth bounds, stencil, depth, then colour.
 //!
-//! In · Out: a fragment · the target's stored values. Precision: f32 in the order of NUMERICS.md,
-//! *Per-sample operations*.
+//! In · Out: a fragment's sample · the target's stored values. Precision: f32 in the order of NUMERICS.md,
+//! *Per-sample operations*, whose steps 5 to 9 these are; [`kept_samples`] is steps 3 and 4.
 
-use crate::arithmetic::{clamp, max, min};
-use crate::{State, Target, color};
+use crate::arithmetic::clamp;
+use crate::blending::{BlendInputs, blend};
+use crate::channel::{Channel, channels};
+use crate::color::{self, Codes};
+use crate::cull::Face;
+use crate::fragment::Fragment;
+use crate::{State, Target, TargetState, logic, stencil};
 use estampe_types::TextureFormat;
-use estampe_types::state::{BlendComponent, BlendFactor, BlendOperation, BlendState, ColorWrites};
+use estampe_types::state::ColorWrites;
+
+/// Which samples of its pixel a fragment keeps, as far as it says so itself: alpha to coverage and its sample mask.
+#[must_use]
+pub fn kept_samples(fragment: &Fragment, state: &State, target: &Target) -> u16 {
+    let mut kept = fragment.sample_mask;
+    if let (true, Some(format)) = (state.alpha_to_coverage, target.color_formats.first())
+        && format.is_blendable()
+    {
+        kept &= alpha_coverage(fragment.colors[0][3], target.samples);
+    }
+    kept
+}
+
+/// The first ⌊alpha·N + ½⌋ of N samples; alpha is confined to 0..=1, NaN counts as 0.
+#[must_use]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "within 0..=16"
+)]
+pub fn alpha_coverage(alpha: f32, samples: u32) -> u16 {
+    let count = (clamp(alpha, 0.0, 1.0) * samples as f32 + 0.5).floor() as u32;
+    (0..count).fold(0, |mask, sample| mask | 1 << sample)
+}
 
 /// Tests and stores one sample of a fragment: whether it passed.
 pub fn store_sample(
     target: &mut Target,
     index: usize,
     state: &State,
+    face: Face,
     depth: f32,
-    color: Option<[f32; 4]>,
+    fragment: &Fragment,
 ) -> bool {
-    if let Some(test) = state.depth {
-        if !test.compare.passes(depth, target.depth[index]) {
+    let has_depth = !target.depth.is_empty();
+    let has_stencil = !target.stencil.is_empty();
+
+    if let (Some([least, greatest]), true) = (state.depth_bounds, has_depth) {
+        let stored = target.depth[index];
+        if !(least <= stored && stored <= greatest) {
             return false;
         }
-        if test.write_enabled {
-            target.depth[index] = depth;
-        }
     }
-    if let Some(source) = color {
-        let stored = target.color[index];
-        let format = target.color_format;
-        let codes = match &state.blend {
-            None => color::encode(format, source),
-            Some(blend) => blend_codes(format, blend, state.blend_constant, source, stored),
-        };
-        target.color[index] = masked(state.write_mask, codes, stored);
+
+    let depth = target.quantised(depth);
+    let depth_passes = match state.depth {
+        Some(test) if has_depth => test.compare.passes(depth, target.depth[index]),
+        _ => true,
+    };
+    let stencil_passes = match &state.stencil {
+        Some(test) if has_stencil => {
+            let (side, reference) = match face {
+                Face::Front => (&test.front, state.stencil_reference[0]),
+                Face::Back => (&test.back, state.stencil_reference[1]),
+            };
+            let stored = target.stencil[index];
+            let passes = stencil::passes(side, reference, stored);
+            target.stencil[index] = stencil::updated(side, reference, stored, passes, depth_passes);
+            passes
+        }
+        _ => true,
+    };
+    if !(stencil_passes && depth_passes) {
+        return false;
+    }
+    if has_depth && state.depth.is_some_and(|test| test.write_enabled) {
+        target.depth[index] = depth;
+    }
+    for attachment in 0..target.color_formats.len() {
+        store_color(target, attachment, index, state, fragment);
     }
     true
 }
 
-/// Decodes the destination, blends and encodes.
-fn blend_codes(
+fn store_color(
+    target: &mut Target,
+    attachment: usize,
+    index: usize,
+    state: &State,
+    fragment: &Fragment,
+) {
+    // Without a colour of the shader's nothing is stored.
+    let Some(&source) = fragment.colors.get(attachment) else {
+        return;
+    };
+    let of_target = state.targets.get(attachment).copied().unwrap_or_default();
+    let format = target.color_formats[attachment];
+    let at = attachment * target.len() + index;
+    let stored = target.color[at];
+    let new = combined(format, state, of_target, fragment, source, stored);
+    target.color[at] = masked(of_target.write_mask, new, stored);
+}
+
+/// The new codes: by a logic operation, by blending, or the source's own.
+fn combined(
     format: TextureFormat,
-    state: &BlendState,
-    constant: [f32; 4],
+    state: &State,
+    of_target: TargetState,
+    fragment: &Fragment,
     source: [f32; 4],
-    stored: [u8; 4],
-) -> [u8; 4] {
-    // Unorm attachments confine what comes in.
-    let confine = |channel| clamp(channel, 0.0, 1.0);
-    let blended = blend(
-        state,
-        constant.map(confine),
-        source.map(confine),
-        color::decode(format, stored),
-    );
-    color::encode(format, blended)
-}
-
-/// Blends linear colours.
-#[must_use]
-pub fn blend(
-    state: &BlendState,
-    constant: [f32; 4],
-    source: [f32; 4],
-    destination: [f32; 4],
-) -> [f32; 4] {
-    std::array::from_fn(|channel| {
-        let component: &BlendComponent = if channel < 3 {
-            &state.color
-        } else {
-            &state.alpha
-        };
-        let (s, d) = (source[channel], destination[channel]);
-        let of = |which| factor(which, channel, constant, source, destination);
-        let s_scaled = s * of(component.src_factor);
-        let d_scaled = d * of(component.dst_factor);
-        match component.operation {
-            BlendOperation::Add => s_scaled + d_scaled,
-            BlendOperation::Subtract => s_scaled - d_scaled,
-            BlendOperation::ReverseSubtract => d_scaled - s_scaled,
-            BlendOperation::Min => min(s, d),
-            BlendOperation::Max => max(s, d),
+    stored: Codes,
+) -> Codes {
+    let channels = channels(format);
+    if let Some(operation) = state.logic_operation {
+        let new = color::encode(format, source);
+        if !logic::concerns(channels[0]) {
+            return new;
         }
-    })
+        return std::array::from_fn(|k| {
+            channels[k].cut(logic::combine(operation, new[k], stored[k]))
+        });
+    }
+    match of_target.blend {
+        Some(blend_state) if format.is_blendable() => {
+            let confined = |color: [f32; 4]| confined(channels, color);
+            let inputs = BlendInputs {
+                source: confined(source),
+                second: confined(fragment.second),
+                constant: confined(state.blend_constant),
+                destination: color::decode(format, stored),
+            };
+            color::encode(format, blend(&blend_state, &inputs))
+        }
+        _ => color::encode(format, source),
+    }
 }
 
-fn factor(
-    which: BlendFactor,
-    channel: usize,
-    constant: [f32; 4],
-    source: [f32; 4],
-    destination: [f32; 4],
-) -> f32 {
-    use BlendFactor as F;
-    match which {
-        F::Zero => 0.0,
-        F::One => 1.0,
-        F::Src => source[channel],
-        F::OneMinusSrc => 1.0 - source[channel],
-        F::SrcAlpha => source[3],
-        F::OneMinusSrcAlpha => 1.0 - source[3],
-        F::Dst => destination[channel],
-        F::OneMinusDst => 1.0 - destination[channel],
-        F::DstAlpha => destination[3],
-        F::OneMinusDstAlpha => 1.0 - destination[3],
-        F::SrcAlphaSaturated if channel == 3 => 1.0,
-        F::SrcAlphaSaturated => min(source[3], 1.0 - destination[3]),
-        F::Constant => constant[channel],
-        F::OneMinusConstant => 1.0 - constant[channel],
-        // A factor that this version does not know changes nothing.
-        _ => 1.0,
-    }
+/// A colour confined as the encoding of the format's channels confines it. A channel that the format lacks is confined
+/// as red is: alpha is a factor in formats without alpha too.
+fn confined(channels: [Channel; 4], color: [f32; 4]) -> [f32; 4] {
+    std::array::from_fn(|k| match channels[k] {
+        Channel::Missing(_) => channels[0].confine(color[k]),
+        channel => channel.confine(color[k]),
+    })
 }
 
 /// The new codes in the channels that may change, the stored ones in the others.
 #[must_use]
-pub fn masked(mask: ColorWrites, new: [u8; 4], stored: [u8; 4]) -> [u8; 4] {
+pub fn masked(mask: ColorWrites, new: Codes, stored: Codes) -> Codes {
     std::array::from_fn(|channel| {
         if mask.0 >> channel & 1 == 1 {
             new[channel]

@@ -2,19 +2,20 @@
 
 use crate::assembly::{Primitive, primitives};
 use crate::clip::{clip_line, clip_triangle, keeps_point};
+use crate::conservative;
 use crate::cull::{Face, face, is_culled};
-use crate::fragment::{Surface, TriangleSurface, shade_quad};
+use crate::fragment::{Invocation, Surface, TriangleSurface, sample_depth, shade_quad};
 use crate::line::{LinePath, LineSurface};
 use crate::point::{self, PointSurface};
-use crate::raster::{self, QuadCoverage, sample_positions};
+use crate::raster::{self, QuadCoverage, all_samples, sample_positions};
 use crate::setup::SortedTriangle;
 use crate::shading::shade_vertex;
 use crate::viewport::{PixelBounds, ViewportTransform, is_drawable};
 use crate::{ClipVertex, Target, WindowVertex, fetch, per_sample};
-use estampe_types::shader::{Interpolation, Shader, Varyings};
+use estampe_types::shader::{Interpolation, Sampling, Shader, Varyings};
 use estampe_types::state::{
-    BlendState, ColorWrites, DepthState, PolygonMode, PrimitiveState, ScissorRect,
-    VertexBufferLayout, Viewport,
+    BlendState, ColorWrites, ConservativeMode, DepthState, LogicOperation, PolygonMode,
+    PrimitiveState, ScissorRect, StencilState, VertexBufferLayout, Viewport,
 };
 use estampe_types::{Bindings, Buffer, IndexFormat};
 use std::ops::Range;
@@ -26,16 +27,37 @@ pub struct State {
     pub primitive: PrimitiveState,
     /// The depth test; `None` neither tests nor writes.
     pub depth: Option<DepthState>,
-    /// Blending; `None` replaces.
-    pub blend: Option<BlendState>,
+    /// The stencil test; `None` neither tests nor writes.
+    pub stencil: Option<StencilState>,
+    /// What front and back are compared with.
+    pub stencil_reference: [u8; 2],
+    /// The least and the greatest stored depth over which something is drawn; `None`: any.
+    pub depth_bounds: Option<[f32; 2]>,
+    /// The samples that may change, bit by bit.
+    pub sample_mask: u32,
+    /// Whether alpha says how many of a fragment's samples are kept.
+    pub alpha_to_coverage: bool,
+    /// Whether fragments are shaded by sample, whatever the shader says.
+    pub sample_shading: bool,
+    /// A logic operation in place of blending.
+    pub logic_operation: Option<LogicOperation>,
+    /// How colours are combined, by target; targets beyond the list are replaced.
+    pub targets: Vec<TargetState>,
     /// The constant of [`BlendFactor::Constant`](estampe_types::state::BlendFactor::Constant).
     pub blend_constant: [f32; 4],
-    /// Which channels change.
-    pub write_mask: ColorWrites,
     /// Where NDC lands.
     pub viewport: Viewport,
     /// Outside this nothing is drawn.
     pub scissor: ScissorRect,
+}
+
+/// How a target's colours are combined. The default replaces all channels.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TargetState {
+    /// Blending; `None` replaces.
+    pub blend: Option<BlendState>,
+    /// Which channels change.
+    pub write_mask: ColorWrites,
 }
 
 impl State {
@@ -45,9 +67,15 @@ impl State {
         Self {
             primitive: PrimitiveState::default(),
             depth: None,
-            blend: None,
+            stencil: None,
+            stencil_reference: [0; 2],
+            depth_bounds: None,
+            sample_mask: u32::MAX,
+            alpha_to_coverage: false,
+            sample_shading: false,
+            logic_operation: None,
+            targets: Vec::new(),
             blend_constant: [0.0; 4],
-            write_mask: ColorWrites::ALL,
             viewport: Viewport {
                 x: 0.0,
                 y: 0.0,
@@ -103,7 +131,7 @@ pub struct Counts {
     /// Points, lines and triangles that reached the rasterizer: after clipping and culling; in
     /// polygon modes line and point, the lines and points.
     pub rasterized: u64,
-    /// Pixels shaded: fragments, helper lanes not counted.
+    /// Fragments shaded, by pixel or by sample; helper lanes not counted.
     pub fragments: u64,
     /// Samples covered.
     pub samples_covered: u64,
@@ -121,6 +149,10 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
     }
     let mut modes = Vec::new();
     S::Varyings::<f32>::modes(&mut modes);
+    let mut sampling = Vec::new();
+    S::Varyings::<f32>::sampling(&mut sampling);
+    let is_by_sample =
+        state.sample_shading || S::PER_SAMPLE || sampling.contains(&Sampling::Sample);
     let size = [target.width, target.height];
     let mut pass = Pass {
         target,
@@ -130,6 +162,7 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
         viewport: ViewportTransform::new(&state.viewport),
         bounds: PixelBounds::new(&state.viewport, &state.scissor, size),
         modes,
+        is_by_sample,
         counts: Counts::default(),
     };
     let count = draw.vertices.end.saturating_sub(draw.vertices.start);
@@ -156,6 +189,7 @@ struct Pass<'a, S> {
     viewport: ViewportTransform,
     bounds: PixelBounds,
     modes: Vec<Interpolation>,
+    is_by_sample: bool,
     counts: Counts,
 }
 
@@ -199,8 +233,12 @@ impl<S: Shader> Pass<'_, S> {
         };
         self.counts.rasterized += 1;
         let surface = TriangleSurface::new(&sorted, &self.modes, flat);
-        let quads = raster::triangle(sorted.corners(), &self.bounds, self.target.samples);
-        self.fragments(&quads, &surface, face == Face::Front);
+        let (corners, samples) = (sorted.corners(), self.target.samples);
+        let quads = match self.state.primitive.conservative {
+            ConservativeMode::Disabled => raster::triangle(corners, &self.bounds, samples),
+            mode => conservative::triangle(corners, mode, &self.bounds, samples),
+        };
+        self.fragments(&quads, &surface, face);
     }
 
     /// Draws the edges or the vertices of a triangle.
@@ -225,7 +263,7 @@ impl<S: Shader> Pass<'_, S> {
         let path = LinePath::new(start.snapped, end.snapped);
         self.counts.rasterized += 1;
         // A line covers all samples of its pixels.
-        let all_samples = if self.target.samples == 4 { 0b1111 } else { 1 };
+        let all_samples = all_samples(self.target.samples);
         let quads: Vec<_> = path
             .pixels(&self.bounds)
             .into_iter()
@@ -245,7 +283,7 @@ impl<S: Shader> Pass<'_, S> {
             modes: &modes,
             flat: parent.map_or(&ends[0].varyings, |parent| parent.flat),
         };
-        self.fragments(&quads, &surface, is_front(parent));
+        self.fragments(&quads, &surface, face_of(parent));
     }
 
     fn point(&mut self, vertex: &ClipVertex, parent: Option<Parent<'_>>) {
@@ -262,53 +300,69 @@ impl<S: Shader> Pass<'_, S> {
             flat: parent.map_or(&vertex.varyings, |parent| parent.flat),
             modes: &modes,
         };
-        self.fragments(&quads, &surface, is_front(parent));
+        self.fragments(&quads, &surface, face_of(parent));
     }
 
     /// Shades quads and hands their samples to the per-sample operations.
-    fn fragments(&mut self, quads: &[QuadCoverage], surface: &impl Surface, front_facing: bool) {
-        let viewport = self.viewport;
+    fn fragments(&mut self, quads: &[QuadCoverage], surface: &impl Surface, face: Face) {
+        let masked = |samples: u16| {
+            let kept = u32::from(samples) & self.state.sample_mask;
+            u16::try_from(kept).expect("a part of 16 bits")
+        };
+        let samples = self.target.samples;
         for quad in quads {
-            let clamp_depth = |depth| viewport.clamp_depth(depth);
-            let (shader, bindings) = (self.shader, self.bindings);
-            let shaded = shade_quad(
-                shader,
-                bindings,
-                surface,
-                quad.origin,
-                front_facing,
-                clamp_depth,
-            );
-            for (lane, fragment) in shaded.iter().enumerate() {
-                let covered = quad.samples[lane];
-                self.counts.fragments += u64::from(covered != 0);
-                let pixel = QuadCoverage::pixel(quad.origin, lane);
-                for (s, &sample) in (0u32..).zip(sample_positions(self.target.samples)) {
-                    if covered >> s & 1 == 0 {
-                        continue;
-                    }
-                    self.counts.samples_covered += 1;
-                    if fragment.is_discarded {
-                        continue;
-                    }
-                    let interpolated = || clamp_depth(surface.depth(pixel, sample));
-                    let depth = fragment.depth.unwrap_or_else(interpolated);
-                    let index = self.target.index(pixel, s);
-                    let passed = per_sample::store_sample(
-                        self.target,
-                        index,
-                        self.state,
-                        depth,
-                        fragment.color,
-                    );
-                    self.counts.samples_passed += u64::from(passed);
+            let whole = Invocation {
+                origin: quad.origin,
+                coverage: quad.samples.map(masked),
+                samples,
+                sample: None,
+                front_facing: face == Face::Front,
+            };
+            if self.is_by_sample {
+                for sample in 0..samples {
+                    let sample = Some(sample);
+                    self.shade(&Invocation { sample, ..whole }, surface, face);
                 }
+            } else {
+                self.shade(&whole, surface, face);
+            }
+        }
+    }
+
+    /// Runs the shader once on a quad, unless there is nothing to shade, and stores what it gives.
+    fn shade(&mut self, invocation: &Invocation, surface: &impl Surface, face: Face) {
+        let kept = [0, 1, 2, 3].map(|lane| invocation.samples_of(lane));
+        if kept == [0; 4] {
+            return;
+        }
+        let viewport = self.viewport;
+        let clamp_depth = |depth| viewport.clamp_depth(depth);
+        let shaded = shade_quad(self.shader, self.bindings, surface, invocation, clamp_depth);
+        for (lane, fragment) in shaded.iter().enumerate() {
+            let covered = kept[lane];
+            self.counts.fragments += u64::from(covered != 0);
+            self.counts.samples_covered += u64::from(covered.count_ones());
+            if fragment.is_discarded {
+                continue;
+            }
+            let stored = covered & per_sample::kept_samples(fragment, self.state, self.target);
+            let pixel = QuadCoverage::pixel(invocation.origin, lane);
+            for (s, &sample) in (0u32..).zip(sample_positions(invocation.samples)) {
+                if stored >> s & 1 == 0 {
+                    continue;
+                }
+                let interpolated = clamp_depth(surface.depth(pixel, sample));
+                let depth = sample_depth(S::DEPTH_OUTPUT, fragment.depth, interpolated);
+                let index = self.target.index(pixel, s);
+                let passed =
+                    per_sample::store_sample(self.target, index, self.state, face, depth, fragment);
+                self.counts.samples_passed += u64::from(passed);
             }
         }
     }
 }
 
-/// Lines and points are front-facing, unless they outline a triangle that is not.
-fn is_front(parent: Option<Parent<'_>>) -> bool {
-    parent.is_none_or(|parent| parent.face == Face::Front)
+/// Lines and points show their front, unless they outline a triangle that does not.
+fn face_of(parent: Option<Parent<'_>>) -> Face {
+    parent.map_or(Face::Front, |parent| parent.face)
 }

@@ -14,16 +14,51 @@
 use crate::cull::doubled_area;
 use crate::viewport::PixelBounds;
 
-/// Where the four samples of a pixel lie, in 1/16 pixel: Vulkan's and Direct3D's standard positions.
-pub const SAMPLES_4: [[u8; 2]; 4] = [[6, 2], [14, 6], [2, 10], [10, 14]];
-
-/// Where a lone sample lies, in 1/16 pixel: the centre.
-pub const SAMPLES_1: [[u8; 2]; 1] = [[8, 8]];
-
-/// The samples of a pixel: four for 4, else one.
+/// Where the samples of a pixel lie, in 1/16 pixel: Vulkan's and Direct3D's standard positions. Of a number of
+/// samples that there is not, as of one: the centre.
 #[must_use]
 pub fn sample_positions(samples: u32) -> &'static [[u8; 2]] {
-    if samples == 4 { &SAMPLES_4 } else { &SAMPLES_1 }
+    match samples {
+        2 => &[[12, 12], [4, 4]],
+        4 => &[[6, 2], [14, 6], [2, 10], [10, 14]],
+        8 => &[
+            [9, 5],
+            [7, 11],
+            [13, 9],
+            [5, 3],
+            [3, 13],
+            [1, 7],
+            [11, 15],
+            [15, 1],
+        ],
+        16 => &[
+            [9, 9],
+            [7, 5],
+            [5, 10],
+            [12, 7],
+            [3, 6],
+            [10, 13],
+            [13, 11],
+            [11, 3],
+            [6, 14],
+            [8, 1],
+            [4, 2],
+            [2, 12],
+            [0, 8],
+            [15, 4],
+            [14, 15],
+            [1, 0],
+        ],
+        _ => &[[8, 8]],
+    }
+}
+
+/// The mask of all samples of a pixel.
+#[must_use]
+pub fn all_samples(samples: u32) -> u16 {
+    sample_positions(samples)
+        .iter()
+        .fold(0, |mask, _| mask << 1 | 1)
 }
 
 /// A sample in 1/256 pixel.
@@ -39,7 +74,7 @@ pub struct QuadCoverage {
     pub origin: [u32; 2],
     /// Bit s of element `lane` says whether sample s of that pixel is covered. Lanes run left top,
     /// right top, left bottom, right bottom.
-    pub samples: [u8; 4],
+    pub samples: [u16; 4],
 }
 
 impl QuadCoverage {
@@ -107,20 +142,25 @@ pub fn edges([a, b, c]: [[i32; 2]; 3]) -> Option<[Edge; 3]> {
     Some([Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)])
 }
 
+/// The box of a triangle: least and greatest x, then y.
+#[must_use]
+pub fn extent(corners: [[i32; 2]; 3]) -> [[i64; 2]; 2] {
+    [0, 1].map(|axis| {
+        let along = corners.map(|corner| i64::from(corner[axis]));
+        [
+            along[0].min(along[1]).min(along[2]),
+            along[0].max(along[1]).max(along[2]),
+        ]
+    })
+}
+
 /// The quads of which a triangle covers anything, row by row.
 #[must_use]
 pub fn triangle(corners: [[i32; 2]; 3], bounds: &PixelBounds, samples: u32) -> Vec<QuadCoverage> {
     let Some(edges) = edges(corners) else {
         return Vec::new();
     };
-    let extent = [0, 1].map(|axis| {
-        let along = corners.map(|corner| i64::from(corner[axis]));
-        [
-            along[0].min(along[1]).min(along[2]),
-            along[0].max(along[1]).max(along[2]),
-        ]
-    });
-    cover(extent, bounds, samples, |point| {
+    cover(extent(corners), bounds, samples, |point| {
         edges.iter().all(|edge| edge.covers(point))
     })
 }
@@ -134,6 +174,22 @@ pub fn cover(
     samples: u32,
     covers: impl Fn([i64; 2]) -> bool,
 ) -> Vec<QuadCoverage> {
+    cover_pixels(extent, bounds, |pixel| {
+        let mut mask = 0;
+        for (s, &sample) in sample_positions(samples).iter().enumerate() {
+            mask |= u16::from(covers(sample_subpixel(pixel, sample))) << s;
+        }
+        mask
+    })
+}
+
+/// The quads of which `mask_of` a pixel is not empty, among the pixels of `bounds` that a box touches.
+#[must_use]
+pub fn cover_pixels(
+    extent: [[i64; 2]; 2],
+    bounds: &PixelBounds,
+    mask_of: impl Fn([i64; 2]) -> u16,
+) -> Vec<QuadCoverage> {
     let quads_along = |axis: usize, range: &std::ops::Range<u32>| {
         let [low, high] = extent[axis].map(|subpixels| subpixels.div_euclid(256));
         let low = low.max(i64::from(range.start));
@@ -144,16 +200,14 @@ pub fn cover(
     for quad_y in quads_along(1, &bounds.y) {
         for quad_x in quads_along(0, &bounds.x) {
             let origin = [quad_x * 2, quad_y * 2];
-            let mut masks = [0_u8; 4];
-            for (mask, [right, below]) in masks.iter_mut().zip([[0, 0], [1, 0], [0, 1], [1, 1]]) {
+            let masks = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[right, below]| {
                 let pixel = [origin[0] + right, origin[1] + below];
-                if !bounds.contains(pixel) {
-                    continue;
+                if bounds.contains(pixel) {
+                    mask_of(pixel)
+                } else {
+                    0
                 }
-                for (s, &sample) in sample_positions(samples).iter().enumerate() {
-                    *mask |= u8::from(covers(sample_subpixel(pixel, sample))) << s;
-                }
-            }
+            });
             if masks != [0; 4] {
                 let within = |at: i64| u32::try_from(at).expect("bounds begin at 0 or later");
                 quads.push(QuadCoverage {

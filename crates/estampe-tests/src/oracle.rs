@@ -1,7 +1,7 @@
 //! The image that the oracle draws of a case.
 
 use crate::case::{Case, CaseDraw};
-use estampe_reference::{Draw, State, Target};
+use estampe_reference::{Draw, State, Target, TargetState, color};
 use estampe_types::TextureFormat;
 
 /// What both sides must agree on.
@@ -33,7 +33,10 @@ pub fn draw(case: &Case) -> (Image, SampleDepths) {
         draw_one(&mut target, draw);
     }
     let color = match case.format {
-        Some(_) => target.resolve().into_flattened(),
+        Some(format) => {
+            let texels = target.resolve(0).into_iter();
+            texels.flat_map(|codes| color::bytes(format, codes)).collect()
+        }
         None => Vec::new(),
     };
     let first_samples = target.depth.iter().step_by(case.samples as usize);
@@ -60,11 +63,14 @@ fn draw_one(target: &mut Target, draw: &CaseDraw) {
     let state = State {
         primitive: draw.primitive,
         depth: draw.depth,
-        blend: draw.blend,
+        targets: vec![TargetState {
+            blend: draw.blend,
+            write_mask: draw.write_mask,
+        }],
         blend_constant: draw.blend_constant,
-        write_mask: draw.write_mask,
         viewport: draw.viewport.unwrap_or(whole.viewport),
         scissor: draw.scissor.unwrap_or(whole.scissor),
+        ..whole
     };
     let indices = draw.indices.as_ref();
     let command = Draw {

@@ -1,18 +1,21 @@
 //! Codes, blending, write masks, resolve.
 
 use super::*;
-use crate::per_sample::{blend, masked};
+use crate::blending::{BlendInputs, blend};
+use crate::channel::{Channel, srgb_code};
+use crate::per_sample::masked;
 
 const UNORM: TextureFormat = TextureFormat::Rgba8Unorm;
 const SRGB: TextureFormat = TextureFormat::Rgba8UnormSrgb;
 
 #[test]
 fn unorm_codes_round_half_up_and_confine() {
-    assert_eq!(color::unorm_code(0.5), 128);
-    assert_eq!(color::unorm_code(f32::NAN), 0);
-    assert_eq!(color::unorm_code(-7.0), 0);
-    assert_eq!(color::unorm_code(f32::INFINITY), 255);
-    for code in 0..=255_u8 {
+    let unorm_code = |value| Channel::Unorm(8).encode(value);
+    assert_eq!(unorm_code(0.5), 128);
+    assert_eq!(unorm_code(f32::NAN), 0);
+    assert_eq!(unorm_code(-7.0), 0);
+    assert_eq!(unorm_code(f32::INFINITY), 255);
+    for code in 0..=255 {
         let decoded = color::decode(UNORM, [code; 4]);
         assert_eq!(color::encode(UNORM, decoded), [code; 4]);
         let decoded = color::decode(SRGB, [code; 4]);
@@ -32,7 +35,7 @@ fn srgb_follows_the_standard() {
     );
     for k in 0..=4000 {
         let linear = k as f32 / 4000.0;
-        assert_eq!(color::srgb_code(linear), srgb::srgb_from_linear(linear));
+        assert_eq!(srgb_code(linear), srgb::srgb_from_linear(linear));
     }
 }
 
@@ -53,6 +56,12 @@ fn blending_agrees_with_f64() {
         F::SrcAlphaSaturated,
         F::Constant,
         F::OneMinusConstant,
+        F::ConstantAlpha,
+        F::OneMinusConstantAlpha,
+        F::Src1,
+        F::OneMinusSrc1,
+        F::Src1Alpha,
+        F::OneMinusSrc1Alpha,
     ];
     let operations = [
         BlendOperation::Add,
@@ -64,21 +73,29 @@ fn blending_agrees_with_f64() {
     let mut random = Random(41);
     for _ in 0..5000 {
         let mut colour = || [0; 4].map(|_: i32| random.unit());
-        let (s, d, k) = (colour(), colour(), colour());
+        let (s, d, k, m) = (colour(), colour(), colour(), colour());
         let mut component = || BlendComponent {
             operation: operations[random.below(5) as usize],
-            src_factor: factors[random.below(13) as usize],
-            dst_factor: factors[random.below(13) as usize],
+            src_factor: factors[random.below(19) as usize],
+            dst_factor: factors[random.below(19) as usize],
         };
         let state = BlendState {
             color: component(),
             alpha: component(),
         };
-        let result = blend(&state, k, s, d);
+        let result = blend(
+            &state,
+            &BlendInputs {
+                source: s,
+                second: m,
+                constant: k,
+                destination: d,
+            },
+        );
         for channel in 0..4 {
             let component = [state.color, state.alpha][usize::from(channel == 3)];
             let factor = |which: F| {
-                let [s, d, k] = [s, d, k].map(|colour| colour.map(f64::from));
+                let [s, d, k, m] = [s, d, k, m].map(|colour| colour.map(f64::from));
                 match which {
                     F::Zero => 0.0,
                     F::One => 1.0,
@@ -93,6 +110,12 @@ fn blending_agrees_with_f64() {
                     F::SrcAlphaSaturated if channel < 3 => s[3].min(1.0 - d[3]),
                     F::Constant => k[channel],
                     F::OneMinusConstant => 1.0 - k[channel],
+                    F::ConstantAlpha => k[3],
+                    F::OneMinusConstantAlpha => 1.0 - k[3],
+                    F::Src1 => m[channel],
+                    F::OneMinusSrc1 => 1.0 - m[channel],
+                    F::Src1Alpha => m[3],
+                    F::OneMinusSrc1Alpha => 1.0 - m[3],
                     _ => 1.0,
                 }
             };
@@ -121,8 +144,10 @@ fn a_draw_blends_masks_and_decodes_srgb() {
     let full = [[-1.0, 1.0], [-1.0, -3.0], [3.0, 1.0]];
     let vertices = |value: f32| full.map(|[x, y]| ([x, y, 0.0, 1.0], [value; 3]));
     let state = State {
-        blend: Some(BlendState::ADDITIVE),
-        write_mask: ColorWrites(0b1011),
+        targets: vec![TargetState {
+            blend: Some(BlendState::ADDITIVE),
+            write_mask: ColorWrites(0b1011),
+        }],
         ..State::new(1, 1)
     };
     let mut target = Target::new(1, 1, 1, SRGB);
@@ -130,20 +155,23 @@ fn a_draw_blends_masks_and_decodes_srgb() {
     let stored = color::decode(SRGB, target.color[0])[0];
     let untouched = target.color[0][2];
     draw_plain(&mut target, &state, &vertices(0.3));
-    let expected = color::srgb_code(0.3 + stored);
+    let expected = u32::from(srgb_code(0.3 + stored));
     assert_eq!(target.color[0], [expected, expected, untouched, 255]);
     assert_eq!(masked(ColorWrites::NONE, [1; 4], [2; 4]), [2; 4]);
 
     // Sources are confined before they are blended: 5 counts as 1, NaN as 0.
     let state = State {
-        blend: Some(BlendState {
-            color: BlendComponent {
-                operation: BlendOperation::ReverseSubtract,
-                src_factor: BlendFactor::One,
-                dst_factor: BlendFactor::One,
-            },
-            alpha: BlendComponent::REPLACE,
-        }),
+        targets: vec![TargetState {
+            blend: Some(BlendState {
+                color: BlendComponent {
+                    operation: BlendOperation::ReverseSubtract,
+                    src_factor: BlendFactor::One,
+                    dst_factor: BlendFactor::One,
+                },
+                alpha: BlendComponent::REPLACE,
+            }),
+            ..TargetState::default()
+        }],
         ..State::new(1, 1)
     };
     for (source, left) in [(5.0, 0), (f32::NAN, 255), (0.2, 204)] {
@@ -169,6 +197,6 @@ fn resolving_takes_the_mean_in_linear_light() {
 
     let mut target = Target::new(1, 1, 4, UNORM);
     target.color.copy_from_slice(&codes);
-    assert_eq!(target.resolve(), [unorm]);
+    assert_eq!(target.resolve(0), [unorm]);
     assert_eq!(color::resolve(SRGB, &[[7, 99, 200, 3]]), [7, 99, 200, 3]);
 }

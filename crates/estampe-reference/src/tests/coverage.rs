@@ -208,7 +208,10 @@ fn a_closed_mesh_shows_each_sample_as_many_fronts_as_backs() {
         let images = [CullMode::Front, CullMode::Back].map(|cull_mode| {
             let mut target = unorm(24, 24, 4);
             let state = State {
-                blend: Some(BlendState::ADDITIVE),
+                targets: vec![TargetState {
+                    blend: Some(BlendState::ADDITIVE),
+                    ..TargetState::default()
+                }],
                 primitive: PrimitiveState {
                     cull_mode,
                     ..PrimitiveState::default()

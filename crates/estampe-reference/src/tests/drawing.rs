@@ -191,7 +191,7 @@ fn multisampling_covers_samples_and_shades_pixels_once() {
         [false, false, true, false, false, false, false, false]
     );
     assert_eq!(counts.samples_covered, 1);
-    assert_eq!(target.resolve()[0], [64; 4]); // 63.75
+    assert_eq!(target.resolve(0)[0], [64; 4]); // 63.75
 }
 
 #[test]

@@ -207,8 +207,8 @@ fn points_are_half_open_squares() {
     let four = cover(2.0, 2.0, 4.0, 1);
     assert_eq!(
         four.iter()
-            .map(|quad| quad.samples.iter().sum::<u8>())
-            .sum::<u8>(),
+            .map(|quad| quad.samples.iter().sum::<u16>())
+            .sum::<u16>(),
         16
     );
     // Half a pixel's shift: samples, not pixels.
