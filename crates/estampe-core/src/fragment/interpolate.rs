@@ -4,6 +4,7 @@
 //! any pixel. Planes are evaluated anew at each pixel, from the first sorted vertex:
 //! `p₀ + ((X − x₀)·∂p/∂x + (Y − y₀)·∂p/∂y)`.
 
+use crate::geometry::rows::columns_of_reals;
 use crate::raster::line::LineAxis;
 use crate::tiles::{LinePrimitive, Plane, PointPrimitive, TrianglePacket, VertexRef};
 use estampe_simd::{
@@ -32,6 +33,41 @@ impl<'a> VaryingSource<'a> {
             (self.clipped, vertex.0 & !VertexRef::CLIPPED)
         };
         &from[number as usize * n..][..n]
+    }
+
+    /// Four scalars of sixteen vertices, from scalar `at` on; of vertices with fewer than four, all of them and
+    /// whatever follows. There must be two at least.
+    #[inline(always)]
+    pub(super) fn four_of<S: Lanes>(
+        &self,
+        s: S,
+        vertices: &[u32; LANES],
+        at: usize,
+    ) -> [f32x16<S>; 4] {
+        let n = self.modes.len();
+        // Only the last vertex of a list may have fewer than four scalars from there on.
+        let (mut end, mut clipped_end) = ([0.0; 4], [0.0; 4]);
+        for (end, list) in [(&mut end, self.shaded), (&mut clipped_end, self.clipped)] {
+            if let Some(last) = list.last_chunk::<2>()
+                && n == 2
+            {
+                end[..2].copy_from_slice(last);
+            } else if let Some(last) = list.last_chunk::<3>() {
+                end[..3].copy_from_slice(last);
+            }
+        }
+        let mut rows = [&end; LANES];
+        for (row, &vertex) in rows.iter_mut().zip(vertices) {
+            let (from, end) = if vertex & VertexRef::CLIPPED == 0 {
+                (self.shaded, &end)
+            } else {
+                (self.clipped, &clipped_end)
+            };
+            let first = (vertex & !VertexRef::CLIPPED) as usize * n + at;
+            let found = from.get(first..).and_then(<[f32]>::first_chunk);
+            *row = found.unwrap_or(end);
+        }
+        columns_of_reals(s, &rows)
     }
 }
 

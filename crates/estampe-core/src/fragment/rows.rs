@@ -6,7 +6,7 @@
 use super::interpolate::VaryingSource;
 use crate::raster::small::PIXELS;
 use crate::tiles::TrianglePacket;
-use estampe_simd::{LANES, Lanes, Packet, Select, SimdBase, SimdCvtFloat, f32x16, i32x16};
+use estampe_simd::{LANES, Lanes, Packet, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
 use estampe_types::Interpolation;
 
 /// Fragments of one packet's small triangles: row `r` holds the `r`-th fragment that each lane's triangle
@@ -85,7 +85,7 @@ impl PlaneRows {
         for rows in self.corners.iter_mut().chain([&mut self.dx, &mut self.dy]) {
             rows.resize(n, Packet::default());
         }
-        self.fetch(packet, lanes, source);
+        self.fetch(s, packet, lanes, source);
         let [dx1, dx2] = differences(s, &packet.x);
         let [dy1, dy2] = differences(s, &packet.y);
         let r = f32x16::load_array_ref(s, &packet.r);
@@ -120,25 +120,59 @@ impl PlaneRows {
 
     /// Transposes the varyings of the lanes' vertices into rows; flat ones are the provoking vertex's.
     #[inline(always)]
-    fn fetch(&mut self, packet: &TrianglePacket, lanes: u16, source: &VaryingSource<'_>) {
-        let has_flat = source.modes.contains(&Interpolation::Flat);
+    fn fetch<S: Lanes>(
+        &mut self,
+        s: S,
+        packet: &TrianglePacket,
+        lanes: u16,
+        source: &VaryingSource<'_>,
+    ) {
+        let n = source.modes.len();
+        if n < 2 {
+            for (rows, vertices) in self.corners.iter_mut().zip(&packet.vertex) {
+                for row in rows {
+                    for (to, vertex) in row.0.iter_mut().zip(vertices) {
+                        *to = source.of(*vertex)[0];
+                    }
+                }
+            }
+        } else {
+            let wanted = s.mask_from_bits(lanes);
+            let lane = lanes.trailing_zeros() as usize % LANES;
+            for (rows, vertices) in self.corners.iter_mut().zip(&packet.vertex) {
+                // Lanes that are not wanted repeat one that is: theirs may be far away.
+                let one = <u32x16<S> as SimdBase<S>>::splat(s, vertices[lane].0);
+                let all = u32x16::load_array(s, vertices.map(|vertex| vertex.0));
+                let vertices = wanted.select(all, one).to_array();
+                let mut first = 0;
+                while first < n {
+                    // The last four columns overlap those before them.
+                    let at = first.min(n.saturating_sub(4));
+                    let columns = source.four_of(s, &vertices, at);
+                    for (row, column) in rows[at..].iter_mut().zip(columns) {
+                        column.store_array(&mut row.0);
+                    }
+                    first += 4;
+                }
+            }
+        }
+        if source.modes.contains(&Interpolation::Flat) {
+            self.fetch_flat(packet, lanes, source);
+        }
+    }
+
+    /// Flat varyings are the provoking vertex's.
+    #[inline(never)]
+    fn fetch_flat(&mut self, packet: &TrianglePacket, lanes: u16, source: &VaryingSource<'_>) {
         let mut left = lanes;
         while left != 0 {
             let lane = left.trailing_zeros() as usize % LANES;
             left &= left - 1;
-            for (rows, vertex) in self.corners.iter_mut().zip(&packet.vertex) {
-                let values = source.of(vertex[lane]);
-                for (row, value) in rows.iter_mut().zip(values) {
+            let values = source.of(packet.provoking[lane]);
+            let rows = self.corners[0].iter_mut().zip(values);
+            for ((row, value), mode) in rows.zip(source.modes) {
+                if *mode == Interpolation::Flat {
                     row.0[lane] = *value;
-                }
-            }
-            if has_flat {
-                let values = source.of(packet.provoking[lane]);
-                let rows = self.corners[0].iter_mut().zip(values);
-                for ((row, value), mode) in rows.zip(source.modes) {
-                    if *mode == Interpolation::Flat {
-                        row.0[lane] = *value;
-                    }
                 }
             }
         }

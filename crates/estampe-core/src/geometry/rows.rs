@@ -23,6 +23,24 @@ pub(crate) fn columns_of<S: Lanes>(s: S, rows: &[&[u32; 4]; LANES]) -> [u32x16<S
     [x, y, z, w]
 }
 
+/// [`columns_of`] for real numbers.
+#[inline(always)]
+pub(crate) fn columns_of_reals<S: Lanes>(s: S, rows: &[&[f32; 4]; LANES]) -> [f32x16<S>; 4] {
+    let four = |first: usize| {
+        let row =
+            |at: usize| <f32x16<S> as SimdBase<S>>::Block::load_array_ref(s, rows[first + at]);
+        s.combine_f32x8(
+            s.combine_f32x4(row(0), row(1)),
+            s.combine_f32x4(row(2), row(3)),
+        )
+    };
+    let (xz_low, yw_low) = s.deinterleave_f32x16(four(0), four(4));
+    let (xz_high, yw_high) = s.deinterleave_f32x16(four(8), four(12));
+    let (x, z) = s.deinterleave_f32x16(xz_low, xz_high);
+    let (y, w) = s.deinterleave_f32x16(yw_low, yw_high);
+    [x, y, z, w]
+}
+
 #[inline(always)]
 fn four_rows<S: Lanes>(s: S, [a, b, c, d]: [&[u32; 4]; 4]) -> u32x16<S> {
     let (a, b) = (
