@@ -6,6 +6,7 @@
 //! the next large triangle asks.
 
 use super::depth::{DepthTest, line_mut};
+use super::visibility::prefers_less;
 use crate::fragment::interpolate::{DepthPlane, PlaneOrigin, evaluate};
 use crate::fragment::queue::clamp_depth;
 use crate::tiles::Plane;
@@ -71,7 +72,7 @@ impl DepthBounds {
     }
 
     /// What becomes of a triangle in each block. Where equal depths are not decided by order, `or_equal` says
-    /// that they may pass whatever the comparison.
+    /// that they may pass, or not, whatever the comparison.
     pub(crate) fn judge<const N: usize>(
         &mut self,
         level: Level,
@@ -94,7 +95,7 @@ impl DepthBounds {
             ..test.state
         };
         let test = &DepthTest { state, ..*test };
-        dispatch!(level, s => self.judge_lanes::<_, N>(s, test, triangle, stored))
+        dispatch!(level, s => self.judge_lanes::<_, N>(s, test, triangle, or_equal, stored))
     }
 
     #[inline(always)]
@@ -103,6 +104,7 @@ impl DepthBounds {
         s: S,
         test: &DepthTest,
         triangle: &DepthPlane,
+        or_equal: bool,
         stored: &mut [f32],
     ) -> Judgement {
         self.refresh::<S, N>(s, stored);
@@ -110,7 +112,7 @@ impl DepthBounds {
         let greatest = clamp_depth(s, extreme::<S, N>(s, test, triangle, false), test.range);
         let stored_least = f32x16::load_array_ref(s, &self.least);
         let stored_greatest = f32x16::load_array_ref(s, &self.greatest);
-        let (hidden, certain) = match test.state.compare {
+        let (hidden, mut certain) = match test.state.compare {
             CompareFunction::Less => (
                 least.simd_ge(stored_greatest),
                 greatest.simd_lt(stored_least),
@@ -128,6 +130,13 @@ impl DepthBounds {
                 least.simd_ge(stored_greatest),
             ),
         };
+        if or_equal {
+            certain = if prefers_less(test.state.compare) {
+                greatest.simd_lt(stored_least)
+            } else {
+                least.simd_gt(stored_greatest)
+            };
+        }
         Judgement {
             hidden: s.bits_of_mask(hidden),
             certain: s.bits_of_mask(certain),

@@ -8,6 +8,8 @@ pub(crate) mod depth;
 
 pub(crate) mod depth_bounds;
 
+pub(crate) mod owners;
+
 pub(crate) mod visibility;
 
 pub(crate) mod color;

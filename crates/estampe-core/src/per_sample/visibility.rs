@@ -12,6 +12,7 @@
 //! be seen in any order, numbers breaking ties: large triangles front to back.
 
 use super::depth::{DepthTest, compare, line_mut};
+use super::owners::Owners;
 use crate::fragment::interpolate::{DepthPlane, evaluate};
 use crate::fragment::queue::{clamp_depth, sample_offsets};
 use crate::raster::small::{PIXELS, SmallTriangles};
@@ -34,8 +35,6 @@ pub(crate) enum Decision {
     InOrder,
     /// By the depth test, in any order: numbers break ties.
     Sorted,
-    /// Every sample is known to pass.
-    Certain,
 }
 
 /// The bit of numbers that are not a triangle's but a shaded fragment's.
@@ -57,6 +56,8 @@ pub(crate) struct Visibility<const N: usize> {
     pub(crate) slots: Vec<Slot>,
     /// By packet and sample: the lanes that hold a number in place of a colour.
     pub(crate) pending: Box<[[u16; N]; MAX_PACKETS]>,
+    /// The blocks that show one triangle, whose numbers are not written.
+    pub(crate) owners: Owners,
 }
 
 impl<const N: usize> Default for Visibility<N> {
@@ -64,6 +65,7 @@ impl<const N: usize> Default for Visibility<N> {
         Self {
             slots: Vec::new(),
             pending: Box::new([[0; N]; MAX_PACKETS]),
+            owners: Owners::default(),
         }
     }
 }
@@ -103,7 +105,7 @@ impl SeenTriangle {
     /// included, so its extremes are at corners. A depth at an end of the range counts as outside, because
     /// of −0.
     #[inline(always)]
-    fn is_within(&self, tile: TileShape, [low, high]: [f32; 2]) -> bool {
+    pub(super) fn is_within(&self, tile: TileShape, [low, high]: [f32; 2]) -> bool {
         let DepthPlane { origin, z } = self.plane;
         let side = tile.side() as f32;
         let (x, y) = (tile.x as f32 - origin.x, tile.y as f32 - origin.y);
@@ -224,7 +226,7 @@ impl<const N: usize> Sight<'_, N> {
     }
 
     /// The range that depth is clamped to.
-    fn range(&self) -> [f32; 2] {
+    pub(super) fn range(&self) -> [f32; 2] {
         self.test.as_ref().map_or([0.0, 1.0], |test| test.range)
     }
 
@@ -278,7 +280,6 @@ impl<const N: usize> Sight<'_, N> {
             passes &= match self.decision {
                 _ if LESS => new.simd_lt(old),
                 Decision::InOrder => compare(s, test.state.compare, new, old),
-                Decision::Certain => mask,
                 Decision::Sorted => {
                     let line = line_mut(self.numbers, at);
                     let seen = line.map_or([0; 16], |line| *line);

@@ -10,6 +10,7 @@ use crate::fragment::rows::{PlaneRows, Rows};
 use crate::per_sample::codes::pack;
 use crate::per_sample::color::ColorTarget;
 use crate::per_sample::depth_bounds::Judgement;
+use crate::per_sample::owners::Owners;
 use crate::per_sample::visibility::{
     ByTriangle, Decision, Numbering, ONLY_WIDE, SHADED, SeenTriangle, Sight, Visibility, orders,
     prefers_less,
@@ -316,6 +317,7 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
             tile: self.work.shape,
             decision: Decision::InOrder,
         };
+        sight.settle(self.work.level, u16::MAX, &mut visibility.owners);
         let (all, first) = entry;
         let blocks = if self.shades_rows {
             rows.count = 0;
@@ -420,36 +422,33 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
         if !is_whole {
             list.confine(&rect);
         }
-        let certain = if self.is_sorted {
-            0
-        } else {
-            judged.certain & whole
-        };
+        // Without a test everything passes.
+        let certain = whole & test.map_or(u16::MAX, |_| judged.certain);
         let is_sorted = self.is_sorted;
-        let (mut sight, list) = self.parts();
+        let (mut sight, owners, list) = self.parts();
         let seen = SeenTriangle { plane, number };
+        let written = Sight::blocks_of(whole, list) & !certain;
         if certain != 0 {
-            sight.decision = Decision::Certain;
-            sight.triangle(level, &seen, certain, &[]);
+            sight.certain(level, &seen, certain, owners);
         }
-        sight.decision = if is_sorted {
-            Decision::Sorted
-        } else {
-            Decision::InOrder
-        };
-        if whole != certain || !list.items().is_empty() {
+        if written != 0 {
+            sight.settle(level, written, owners);
+            sight.decision = if is_sorted {
+                Decision::Sorted
+            } else {
+                Decision::InOrder
+            };
             sight.triangle(level, &seen, whole & !certain, list.items());
         }
         if test.is_some_and(|test| test.state.write_enabled) {
-            let written = Sight::blocks_of(whole, list);
-            self.scratch.bounds.invalidate(written & !certain);
+            self.scratch.bounds.invalidate(written);
             self.scratch.bounds.replace(certain, &judged);
         }
     }
 
-    /// The attachments, to be written, beside what is read meanwhile.
+    /// The attachments and owners, to be written, beside what is read meanwhile.
     #[inline(always)]
-    fn parts(&mut self) -> (Sight<'_, N>, &CoverageList<N>) {
+    fn parts(&mut self) -> (Sight<'_, N>, &mut Owners, &CoverageList<N>) {
         let numbers: &mut [u32] = if self.has_colors {
             self.job.colors[0]
         } else {
@@ -464,6 +463,6 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
             tile: self.work.shape,
             decision: Decision::InOrder,
         };
-        (sight, &self.scratch.list)
+        (sight, &mut deferred.visibility.owners, &self.scratch.list)
     }
 }

@@ -13,6 +13,7 @@ use crate::fragment::quad::QUAD;
 use crate::fragment::queue::{Needs, Shaded};
 use crate::per_sample::codes::pack;
 use crate::per_sample::depth::line_mut;
+use crate::per_sample::owners::Owners;
 use crate::per_sample::visibility::{ONLY_WIDE, SHADED};
 use crate::raster::{Covered, MAX_PACKETS, packet_origin};
 use crate::tiles::Plane;
@@ -42,6 +43,7 @@ pub(in crate::tile_pass) fn shade_run<const N: usize>(
         scratch.deferred.visibility.slots.clear();
         scratch.deferred.row_codes.clear();
         scratch.deferred.row_count = 0;
+        scratch.deferred.visibility.owners = Owners::default();
         return;
     };
     scratch.statistics.deferred_runs += 1;
@@ -92,6 +94,7 @@ pub(in crate::tile_pass) fn shade_run<const N: usize>(
     let visibility = &mut deferred.visibility;
     visibility.slots.clear();
     visibility.pending.fill([0; N]);
+    visibility.owners = Owners::default();
 }
 
 pub(super) struct Shading<'a, 'j, 't, const N: usize> {
@@ -140,9 +143,19 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
     #[inline(always)]
     fn packets<S: Lanes>(&mut self, s: S) {
         for (place, packet) in (0..MAX_PACKETS).zip(0..) {
-            let mut pending = self.scratch.deferred.visibility.pending[place];
+            let visibility = &self.scratch.deferred.visibility;
+            let (mut pending, owner) = (
+                visibility.pending[place],
+                visibility.owners.of_packet(place),
+            );
+            if owner.is_some() {
+                pending = [u16::MAX; N];
+            }
             while pending != [0; N] {
-                let (number, masks) = self.next_seen(s, place, &mut pending);
+                let (number, masks) = match owner {
+                    Some(number) => (number, std::mem::replace(&mut pending, [0; N])),
+                    None => self.next_seen(s, place, &mut pending),
+                };
                 let covered = Covered { packet, masks };
                 self.queue(s, number, covered);
             }

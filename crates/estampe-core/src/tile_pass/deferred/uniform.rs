@@ -23,15 +23,25 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
     fn uniform<S: Lanes>(&mut self, s: S) {
         let mut last = NONE;
         for (packet, number_of_packet) in (0..MAX_PACKETS).zip(0u16..) {
-            let mut pending = self.scratch.deferred.visibility.pending[packet];
+            let visibility = &self.scratch.deferred.visibility;
+            let (mut pending, owner) = (
+                visibility.pending[packet],
+                visibility.owners.of_packet(packet),
+            );
+            if owner.is_some_and(|owner| owner != last) {
+                pending = [u16::MAX; N];
+            }
             // Large triangles: most packets show the one before.
             for (sample, pending) in pending.iter_mut().enumerate() {
-                if *pending != 0 {
+                if *pending != 0 && owner.is_none() {
                     *pending &= !self.lanes_of(s, packet * N + sample, last);
                 }
             }
             while pending != [0; N] {
-                let (number, masks) = self.next_seen(s, packet, &mut pending);
+                let (number, masks) = match owner {
+                    Some(number) => (number, std::mem::replace(&mut pending, [0; N])),
+                    None => self.next_seen(s, packet, &mut pending),
+                };
                 last = number;
                 let known = self.scratch.deferred.shown.len();
                 let shown = self.shown(s, number);
@@ -85,6 +95,22 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
         } = &mut self.scratch.deferred;
         let targets = codes.len() / shown.len().max(1);
         let (mut fragments, mut last) = (0, (NONE, 0));
+        for block in 0..MAX_PACKETS / LANES {
+            // A block that shows one triangle.
+            let Some(number) = visibility.owners.of_packet(block * LANES) else {
+                continue;
+            };
+            fragments += 256;
+            let shown = shown_of.get(number as usize).copied().unwrap_or(0) as usize;
+            for (target, stored) in (0..targets).zip(&mut self.job.colors) {
+                let code = codes.get(shown * targets + target).copied().unwrap_or(0);
+                for line in block * LANES * N..(block + 1) * LANES * N {
+                    if let Some(line) = line_mut(stored, line) {
+                        write_code(s, code, u16::MAX, line);
+                    }
+                }
+            }
+        }
         for packet in 0..MAX_PACKETS {
             let pending = visibility.pending[packet];
             let any = pending.iter().fold(0, |any, mask| any | mask);
