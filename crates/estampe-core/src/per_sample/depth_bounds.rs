@@ -6,7 +6,7 @@
 //! the next large triangle asks.
 
 use super::depth::{DepthTest, line_mut};
-use super::visibility::prefers_less;
+use super::visibility::{orders, prefers_less};
 use crate::fragment::interpolate::{DepthPlane, PlaneOrigin, evaluate};
 use crate::fragment::queue::clamp_depth;
 use crate::tiles::Plane;
@@ -96,6 +96,54 @@ impl DepthBounds {
         };
         let test = &DepthTest { state, ..*test };
         dispatch!(level, s => self.judge_lanes::<_, N>(s, test, triangle, or_equal, stored))
+    }
+
+    /// Whether no sample of a triangle can pass anywhere in the tile. A quick look at the plane's nearest corner,
+    /// for the many that something in front hides; false where bounds are out of date.
+    #[inline]
+    pub(crate) fn hide<const N: usize>(
+        &self,
+        test: &DepthTest,
+        triangle: &DepthPlane,
+        or_equal: bool,
+        side: i32,
+    ) -> bool {
+        let compare = test.state.compare;
+        if self.stale != 0 || !orders(compare) {
+            return false;
+        }
+        let is_less = prefers_less(compare);
+        let DepthPlane { origin, z } = triangle;
+        let positions = crate::raster::sample_positions::<N>();
+        let nearest = |slope: f32, axis: usize, tile: i32, origin: f32| {
+            let sample = if (slope >= 0.0) == is_less {
+                least_offset(&positions, axis)
+            } else {
+                (side - 1) as f32 + greatest_offset(&positions, axis)
+            };
+            (tile as f32 + sample) - origin
+        };
+        let [tile_x, tile_y] = test.origin;
+        let x = nearest(z.dx, 0, tile_x, origin.x);
+        let y = nearest(z.dy, 1, tile_y, origin.y);
+        let [low, high] = test.range;
+        let depth = z.origin + (x * z.dx + y * z.dy);
+        // As lanes are clamped: NaN becomes the lower end.
+        let depth = if depth > low { depth } else { low };
+        let depth = if depth < high { depth } else { high };
+        let strict = or_equal
+            || matches!(
+                compare,
+                CompareFunction::LessEqual | CompareFunction::GreaterEqual
+            );
+        let blocks = (side / 16 * (side / 16)) as usize;
+        if is_less {
+            let mut all = self.greatest.iter().take(blocks);
+            all.all(|&stored| depth > stored || !strict && depth == stored)
+        } else {
+            let mut all = self.least.iter().take(blocks);
+            all.all(|&stored| depth < stored || !strict && depth == stored)
+        }
     }
 
     #[inline(always)]
@@ -203,21 +251,30 @@ fn extreme<S: Lanes, const N: usize>(
     let positions = crate::raster::sample_positions::<N>();
     // The corner at which the plane is least: the first sample where it rises, the last where it falls.
     let corner = |slope: f32, axis: usize| {
-        let offsets = positions.map(|position| position[axis]);
-        let (low, high) = offsets.iter().fold((256, 0), |(low, high), &offset| {
-            (offset.min(low), offset.max(high))
-        });
-        let first = (slope >= 0.0) == least;
-        if first {
-            low as f32 * (1.0 / 256.0)
+        if (slope >= 0.0) == least {
+            least_offset(&positions, axis)
         } else {
-            15.0 + high as f32 * (1.0 / 256.0)
+            15.0 + greatest_offset(&positions, axis)
         }
     };
     let [tile_x, tile_y] = test.origin;
     let x = distance(s, &LANE_X, (tile_x, corner(dx, 0)), x0);
     let y = distance(s, &LANE_Y, (tile_y, corner(dy, 1)), y0);
     evaluate(s, &triangle.z, [x, y])
+}
+
+/// The least offset of a sample in its pixel, on an axis.
+#[inline(always)]
+fn least_offset<const N: usize>(positions: &[[i32; 2]; N], axis: usize) -> f32 {
+    let offsets = positions.iter().map(|position| position[axis]);
+    offsets.fold(256, i32::min) as f32 * (1.0 / 256.0)
+}
+
+/// The greatest offset of a sample in its pixel, on an axis.
+#[inline(always)]
+fn greatest_offset<const N: usize>(positions: &[[i32; 2]; N], axis: usize) -> f32 {
+    let offsets = positions.iter().map(|position| position[axis]);
+    offsets.fold(0, i32::max) as f32 * (1.0 / 256.0)
 }
 
 /// The distance of each block's column (or row) at an offset from a plane's origin.

@@ -113,31 +113,42 @@ pub(super) fn see_chunk<const N: usize>(
     }
     scratch.queue.configure(work.item.pipeline);
     scratch.deferred.item = has_colors(work).then_some(work.chunk.item);
-    let is_sorted = sort(work, entries, &mut scratch.deferred.order);
-    see_entries(work, (entries, is_sorted), job, scratch);
+    let order = sort(work, entries, &mut scratch.deferred.order);
+    see_entries(work, (entries, order), job, scratch);
+}
+
+/// In which order a chunk's entries are seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Order {
+    /// Their own.
+    Given,
+    /// Their own, and each is one large triangle; most of them may be hidden.
+    Large,
+    /// Each is one large triangle; nearest first.
+    Sorted,
 }
 
 /// Sorts entries by the depth of their triangles at the tile's middle, nearest first, if that is allowed
-/// and wanted: all must be large. False where the entries' own order serves.
-fn sort(work: &ChunkInTile<'_>, entries: &[BinEntry], order: &mut Vec<(f32, u32)>) -> bool {
+/// and wanted: all must be large.
+fn sort(work: &ChunkInTile<'_>, entries: &[BinEntry], order: &mut Vec<(f32, u32)>) -> Order {
     let state = match &work.test {
         Some(test) if test.state.write_enabled && orders(test.state.compare) => test.state,
-        _ => return false,
+        _ => return Order::Given,
     };
     if !(2..=MAX_SORTED).contains(&entries.len()) {
-        return false;
+        return Order::Given;
     }
     order.clear();
     let half = work.shape.side() as f32 * 0.5;
     let middle = [work.shape.x as f32 + half, work.shape.y as f32 + half];
     for (number, entry) in (0..).zip(entries) {
         let BinEntry::Triangles { packet, lanes } = *entry else {
-            return false;
+            return Order::Given;
         };
         let packet = &work.chunk.triangles[packet as usize];
         let lane = lanes.trailing_zeros() as usize;
         if !lanes.is_power_of_two() || !is_large(packet, lane) {
-            return false;
+            return Order::Given;
         }
         let DepthPlane { origin, z } = DepthPlane::new(packet, lane);
         let depth = z.origin + ((middle[0] - origin.x) * z.dx + (middle[1] - origin.y) * z.dy);
@@ -149,11 +160,11 @@ fn sort(work: &ChunkInTile<'_>, entries: &[BinEntry], order: &mut Vec<(f32, u32)
         order.push((key, number));
     }
     if order.is_sorted_by(|a, b| a.0 <= b.0) {
-        return false;
+        return Order::Large;
     }
     // A stable sort, so NaN and equal depths change nothing but time.
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    true
+    Order::Sorted
 }
 
 /// Whether a triangle is higher and wider than a block.
@@ -166,23 +177,23 @@ fn is_large(packet: &TrianglePacket, lane: usize) -> bool {
 
 fn see_entries<const N: usize>(
     work: &ChunkInTile<'_>,
-    (entries, is_sorted): (&[BinEntry], bool),
+    (entries, order): (&[BinEntry], Order),
     job: &mut TileJob<'_>,
     scratch: &mut TileScratch<N>,
 ) {
-    let order = std::mem::take(&mut scratch.deferred.order);
+    let by_depth = std::mem::take(&mut scratch.deferred.order);
     let mut next = scratch.deferred.visibility.add(work.number, entries);
     let mut seeing = Seeing {
         work,
-        is_sorted: is_sorted && work.test.is_some(),
+        order,
         has_colors: has_colors(work),
         shades_rows: shades_rows(work),
         job,
         scratch,
     };
-    if is_sorted {
-        // Each entry is one triangle. Numbers follow the order of submission, whatever that of seeing.
-        for &(_, at) in &order {
+    if order == Order::Sorted {
+        // Numbers follow the order of submission, whatever that of seeing.
+        for &(_, at) in &by_depth {
             if let BinEntry::Triangles { packet, lanes } = entries[at as usize] {
                 seeing.entry(packet, lanes, next + at);
             }
@@ -196,7 +207,7 @@ fn see_entries<const N: usize>(
         }
     }
     seeing.flush_rows();
-    scratch.deferred.order = order;
+    scratch.deferred.order = by_depth;
 }
 
 /// Whether small triangles' fragments are shaded as they are seen, a fragment of each of sixteen triangles
@@ -256,7 +267,7 @@ impl Numbering for ByFragment<'_> {
 /// A chunk being seen in a tile.
 struct Seeing<'a, 'j, 't, const N: usize> {
     work: &'a ChunkInTile<'a>,
-    is_sorted: bool,
+    order: Order,
     has_colors: bool,
     shades_rows: bool,
     job: &'j mut TileJob<'t>,
@@ -267,6 +278,13 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
     /// Triangles of one packet; `number` is the first one's.
     fn entry(&mut self, packet: u32, lanes: u16, mut number: u32) {
         let packet = &self.work.chunk.triangles[packet as usize];
+        if self.order != Order::Given {
+            let lane = lanes.trailing_zeros() as usize;
+            if !self.is_hidden(packet, lane) {
+                self.large(packet, lane, number);
+            }
+            return;
+        }
         let mut small = 0;
         if N == 1 {
             let (tile, rect) = (self.work.shape, &self.work.rect);
@@ -386,6 +404,15 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
             scalar => unreachable!("{ONLY_WIDE}"));
     }
 
+    /// Whether a large triangle is seen nowhere in the tile, by a quick look.
+    fn is_hidden(&self, packet: &TrianglePacket, lane: usize) -> bool {
+        let (work, plane) = (self.work, DepthPlane::new(packet, lane));
+        let (or_equal, side) = (self.order == Order::Sorted, work.shape.side());
+        let bounds = &self.scratch.bounds;
+        let test = work.test.as_ref();
+        test.is_some_and(|test| bounds.hide::<N>(test, &plane, or_equal, side))
+    }
+
     /// A triangle of any size, by blocks and packets.
     fn large(&mut self, packet: &TrianglePacket, lane: usize, number: u32) {
         let ChunkInTile {
@@ -407,7 +434,7 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
             && let Some(test) = &test
         {
             // An equal depth that is not seen in order may win by its number.
-            let or_equal = self.is_sorted;
+            let or_equal = self.order == Order::Sorted;
             let (bounds, depth) = (&mut self.scratch.bounds, &mut *self.job.depth);
             judged = bounds.judge::<N>(level, test, &plane, or_equal, depth);
             if judged.hidden == u16::MAX {
@@ -424,7 +451,7 @@ impl<const N: usize> Seeing<'_, '_, '_, N> {
         }
         // Without a test everything passes.
         let certain = whole & test.map_or(u16::MAX, |_| judged.certain);
-        let is_sorted = self.is_sorted;
+        let is_sorted = self.order == Order::Sorted;
         let (mut sight, owners, list) = self.parts();
         let seen = SeenTriangle { plane, number };
         let written = Sight::blocks_of(whole, list) & !certain;

@@ -21,13 +21,15 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
     /// Shades one packet of every triangle that is seen.
     #[inline(always)]
     fn uniform<S: Lanes>(&mut self, s: S) {
-        let mut last = NONE;
-        for (packet, number_of_packet) in (0..MAX_PACKETS).zip(0u16..) {
+        let (mut last, mut next) = (NONE, 0u16);
+        while usize::from(next) < MAX_PACKETS {
+            let (packet, number_of_packet) = (usize::from(next) % MAX_PACKETS, next);
             let visibility = &self.scratch.deferred.visibility;
             let (mut pending, owner) = (
                 visibility.pending[packet],
                 visibility.owners.of_packet(packet),
             );
+            next += if owner.is_some() { 16 } else { 1 };
             if owner.is_some_and(|owner| owner != last) {
                 pending = [u16::MAX; N];
             }
@@ -95,23 +97,25 @@ impl<const N: usize> Shading<'_, '_, '_, N> {
         } = &mut self.scratch.deferred;
         let targets = codes.len() / shown.len().max(1);
         let (mut fragments, mut last) = (0, (NONE, 0));
-        for block in 0..MAX_PACKETS / LANES {
-            // A block that shows one triangle.
-            let Some(number) = visibility.owners.of_packet(block * LANES) else {
-                continue;
-            };
-            fragments += 256;
-            let shown = shown_of.get(number as usize).copied().unwrap_or(0) as usize;
-            for (target, stored) in (0..targets).zip(&mut self.job.colors) {
-                let code = codes.get(shown * targets + target).copied().unwrap_or(0);
-                for line in block * LANES * N..(block + 1) * LANES * N {
-                    if let Some(line) = line_mut(stored, line) {
-                        write_code(s, code, u16::MAX, line);
+        let mut next = 0;
+        while next < MAX_PACKETS {
+            let packet = next % MAX_PACKETS;
+            if let Some(number) = visibility.owners.of_packet(packet) {
+                // A block that shows one triangle.
+                next += LANES;
+                fragments += 256;
+                let shown = shown_of.get(number as usize).copied().unwrap_or(0) as usize;
+                for (target, stored) in (0..targets).zip(&mut self.job.colors) {
+                    let code = codes.get(shown * targets + target).copied().unwrap_or(0);
+                    let code = <u32x16<S> as SimdBase<S>>::splat(s, code);
+                    let lines = stored.get_mut(packet * N * LANES..(packet + LANES) * N * LANES);
+                    for line in lines.unwrap_or_default().as_chunks_mut::<LANES>().0 {
+                        code.store_array(line);
                     }
                 }
+                continue;
             }
-        }
-        for packet in 0..MAX_PACKETS {
+            next += 1;
             let pending = visibility.pending[packet];
             let any = pending.iter().fold(0, |any, mask| any | mask);
             if any == 0 {
