@@ -3,7 +3,8 @@
 use crate::geometry::{Vertex, vertex_buffer, vertex_layout};
 use crate::{Random, TestShader};
 use estampe_types::state::{
-    BlendState, ColorWrites, DepthState, PrimitiveState, ScissorRect, VertexBufferLayout, Viewport,
+    BlendState, ColorWrites, DepthState, LogicOperation, PrimitiveState, ScissorRect, StencilState,
+    VertexBufferLayout, Viewport,
 };
 use estampe_types::{Bindings, Buffer, IndexFormat, TextureFormat};
 use std::fmt::Write;
@@ -14,9 +15,9 @@ use std::ops::Range;
 pub struct Case {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// 1 or 4.
+    /// 1, 2, 4, 8 or 16.
     pub samples: u32,
-    /// The colour attachment's, if there is one.
+    /// The first colour attachment's, if there is one.
     pub format: Option<TextureFormat>,
     /// Linear.
     pub clear_color: [f32; 4],
@@ -26,6 +27,12 @@ pub struct Case {
     pub draws: Vec<CaseDraw>,
     /// The first draw of a second pass, which keeps what the first one drew.
     pub second_pass: usize,
+    /// Those of the colour attachments after the first.
+    pub more_formats: Vec<TextureFormat>,
+    /// Of depth and stencil.
+    pub depth_stencil: Option<TextureFormat>,
+    /// What the stencil is cleared to.
+    pub clear_stencil: u8,
 }
 
 /// One draw.
@@ -59,6 +66,24 @@ pub struct CaseDraw {
     pub scissor: Option<ScissorRect>,
     /// What the shader reads besides.
     pub bindings: Bindings,
+    /// The stencil test.
+    pub stencil: Option<StencilState>,
+    /// What front and back are compared with.
+    pub stencil_reference: [u8; 2],
+    /// The stored depths over which something is drawn.
+    pub depth_bounds: Option<[f32; 2]>,
+    /// The samples that may change.
+    pub sample_mask: u32,
+    /// Whether alpha says how many samples are kept.
+    pub alpha_to_coverage: bool,
+    /// Whether shading is by sample in any case.
+    pub sample_shading: bool,
+    /// In place of blending.
+    pub logic_operation: Option<LogicOperation>,
+    /// Blending and write mask of the colour attachments after the first; by default as of the first.
+    pub more_targets: Vec<(Option<BlendState>, ColorWrites)>,
+    /// Whether the samples that pass are counted.
+    pub is_counted: bool,
 }
 
 impl Case {
@@ -73,7 +98,17 @@ impl Case {
             clear_depth: 1.0,
             draws: Vec::new(),
             second_pass: usize::MAX,
+            more_formats: Vec::new(),
+            depth_stencil: Some(TextureFormat::Depth32Float),
+            clear_stencil: 0,
         }
+    }
+
+    /// The formats of all colour attachments.
+    #[must_use]
+    pub fn formats(&self) -> Vec<TextureFormat> {
+        let more = self.more_formats.iter().copied();
+        self.format.into_iter().chain(more).collect()
     }
 
     /// A target of a random, usually small size and a random number of samples.
@@ -95,12 +130,14 @@ impl Case {
     #[must_use]
     pub fn describe(&self) -> String {
         let mut text = format!(
-            "target {:?}, {} samples, {:?}, cleared to {:?} and {}; second pass from draw {}",
+            "target {:?}, {} samples, {:?}, {:?}, cleared to {:?}, {} and {}; second pass from draw {}",
             self.size,
             self.samples,
-            self.format,
+            self.formats(),
+            self.depth_stencil,
             self.clear_color,
             self.clear_depth,
+            self.clear_stencil,
             self.second_pass
         );
         for draw in &self.draws {
@@ -130,6 +167,25 @@ impl CaseDraw {
             viewport: None,
             scissor: None,
             bindings: Bindings::default(),
+            stencil: None,
+            stencil_reference: [0; 2],
+            depth_bounds: None,
+            sample_mask: u32::MAX,
+            alpha_to_coverage: false,
+            sample_shading: false,
+            logic_operation: None,
+            more_targets: Vec::new(),
+            is_counted: false,
+        }
+    }
+
+    /// Blending and write mask of a colour attachment.
+    #[must_use]
+    pub fn target(&self, attachment: usize) -> (Option<BlendState>, ColorWrites) {
+        let first = (self.blend, self.write_mask);
+        match attachment.checked_sub(1) {
+            Some(after) => self.more_targets.get(after).copied().unwrap_or(first),
+            None => first,
         }
     }
 
@@ -149,6 +205,19 @@ impl CaseDraw {
             self.write_mask,
             self.viewport,
             self.scissor
+        );
+        let _ = write!(
+            text,
+            "\n    {:?} reference {:?} bounds {:?}\n    sample mask {:#x}, alpha to coverage {}, by sample {}, \
+             {:?}, more targets {:?}",
+            self.stencil,
+            self.stencil_reference,
+            self.depth_bounds,
+            self.sample_mask,
+            self.alpha_to_coverage,
+            self.sample_shading,
+            self.logic_operation,
+            self.more_targets
         );
         for (layout, buffer) in &self.buffers {
             let _ = write!(text, "\n    {layout:?}, {} bytes", buffer.len_bytes());

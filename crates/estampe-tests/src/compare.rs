@@ -51,10 +51,14 @@ const FEW: u64 = 8;
 
 /// Whether all pixels are alike, in an image of more than one.
 fn is_of_one_piece(image: &Image) -> bool {
-    let is_same_depth = image.depth.iter().all(|&depth| depth == image.depth[0]);
-    let mut pixels = image.color.chunks(4);
+    let is_all_one = |values: &Vec<u8>| values.iter().all(|value| *value == values[0]);
+    let is_same_stencil = image.stored.stencils.iter().all(is_all_one);
+    let is_same_depth = is_same_stencil && image.depth.iter().all(|&depth| depth == image.depth[0]);
+    let texels = image.stored.texels.first().unwrap_or(&image.color);
+    let count = image.pixels;
+    let mut pixels = texels.chunks((texels.len() / count.max(1)).max(1));
     let first = pixels.next();
-    image.depth.len() > 1 && is_same_depth && pixels.all(|pixel| Some(pixel) == first)
+    count > 1 && is_same_depth && pixels.all(|pixel| Some(pixel) == first)
 }
 
 /// Draws one large case on both sides, at every level.
@@ -101,7 +105,9 @@ fn difference(case: &Case, device: &Device, got: &Image, wanted: &Image) -> Stri
     let all: Vec<_> = (0..pixels).filter(differs).collect();
     let device = fast_path::name(device);
     let Some(&at) = all.first() else {
-        return format!("{device}: the images' sizes differ");
+        let stored = got.stored.difference(&wanted.stored, case);
+        let counts = format!("counts {:?}, oracle {:?}", got.counts, wanted.counts);
+        return format!("{device}: {}", stored.unwrap_or(counts));
     };
     let depth = |image: &Image| image.depth.get(at).map(|&bits| f32::from_bits(bits));
     format!(

@@ -3,11 +3,13 @@
 use crate::case::{Case, CaseDraw};
 use crate::geometry::{Vertex, clip_at};
 use crate::oracle::{Image, SampleDepths};
+use crate::readback;
 use crate::shaders::Colored;
 use estampe::{
-    Device, DeviceDescriptor, Draw, Level, Limits, LoadOp, RenderPass, RenderPipeline,
-    RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor,
+    Device, DeviceDescriptor, Draw, Level, Limits, LoadOp, OcclusionQueries, RenderPass,
+    RenderPipeline, RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor,
 };
+use estampe_types::TextureFormat;
 use estampe_types::state::{
     BlendState, ColorTargetState, CompareFunction, DepthState, PrimitiveTopology,
 };
@@ -63,43 +65,64 @@ pub fn draw(device: &Device, case: &Case, depths: &SampleDepths) -> Image {
     let mut target = device
         .create_render_target(&RenderTargetDescriptor {
             samples: case.samples,
-            color_formats: case.format.into_iter().collect(),
+            color_formats: case.formats(),
+            depth_stencil: case.depth_stencil,
             ..RenderTargetDescriptor::new(width, height)
         })
         .expect("a valid target");
+    let queries = OcclusionQueries::new(case.draws.len());
+    let first_draws = case.passes()[0].len();
     for (number, draws) in case.passes().into_iter().enumerate() {
         let is_first = number == 0;
         let mut clear = RenderPass {
-            load_colors: vec![LoadOp::Clear(case.clear_color.map(f64::from))],
+            load_colors: vec![LoadOp::Clear(case.clear_color.map(f64::from)); case.formats().len()],
             load_depth: LoadOp::Clear(case.clear_depth),
+            load_stencil: LoadOp::Clear(case.clear_stencil),
+            occlusion_queries: Some(&queries),
             ..RenderPass::default()
         };
         if !is_first {
-            clear.load_colors = vec![LoadOp::Load];
+            clear.load_colors = vec![LoadOp::Load; case.formats().len()];
             clear.load_depth = LoadOp::Load;
+            clear.load_stencil = LoadOp::Load;
         }
-        draw_pass(device, &mut target, case, draws, clear);
+        let first_draw = if is_first { 0 } else { first_draws };
+        draw_pass(device, &mut target, case, (draws, first_draw), clear);
     }
-    let color = target.read_color(0);
+    let color = match case.format {
+        Some(format) if readback::is_read_as_color(format) => target.read_color(0),
+        _ => Vec::new(),
+    };
+    let stored = readback::stored(device, &target);
+    let counted = (0u32..).zip(&case.draws);
+    let counts = counted
+        .filter(|(_, draw)| draw.is_counted)
+        .map(|(number, _)| queries.samples_passed(number))
+        .collect();
     let depth = target.read_depth().iter().map(|z| z.to_bits()).collect();
     let matches = match depths {
         Some(depths) => matches(device, &mut target, case, depths),
         None => Vec::new(),
     };
     Image {
+        pixels: width as usize * height as usize,
         color,
         depth,
         matches,
+        stored,
+        counts,
     }
 }
 
+/// Draws some draws, of which the first has a number in the case.
 fn draw_pass(
     device: &Device,
     target: &mut RenderTarget,
     case: &Case,
-    draws: &[CaseDraw],
+    (draws, first_draw): (&[CaseDraw], usize),
     clear: RenderPass<'_>,
 ) {
+    let first_draw = u32::try_from(first_draw).expect("few draws");
     let pipelines: Vec<_> = draws
         .iter()
         .map(|draw| pipeline(device, case, draw))
@@ -111,7 +134,8 @@ fn draw_pass(
     let commands: Vec<_> = draws
         .iter()
         .zip(pipelines.iter().zip(&buffers))
-        .map(|(draw, (pipeline, buffers))| Draw {
+        .zip(first_draw..)
+        .map(|((draw, (pipeline, buffers)), number)| Draw {
             vertex_buffers: buffers,
             indices: draw.indices.as_ref().map(|(format, b)| (b, *format)),
             instances: draw.instances.clone(),
@@ -120,6 +144,9 @@ fn draw_pass(
             viewport: draw.viewport,
             scissor: draw.scissor,
             blend_constant: draw.blend_constant,
+            stencil_reference: draw.stencil_reference,
+            depth_bounds: draw.depth_bounds,
+            occlusion_query: draw.is_counted.then_some(number),
             ..Draw::new(pipeline, draw.elements.clone())
         })
         .collect();
@@ -160,7 +187,7 @@ fn matches(
         load_depth: LoadOp::Load,
         ..RenderPass::default()
     };
-    draw_pass(device, target, case, &[draw], clear);
+    draw_pass(device, target, case, (&[draw], 0), clear);
     let mut codes = target.read_color(0).as_chunks::<4>().0.to_vec();
     if case.format.is_some_and(|format| format.is_srgb()) {
         // Means of linear values 0 and 1; alpha is as it is.
@@ -178,18 +205,26 @@ fn matches(
 }
 
 fn pipeline(device: &Device, case: &Case, draw: &CaseDraw) -> RenderPipeline {
-    let target = |format| ColorTargetState {
-        format,
-        blend: draw.blend,
-        write_mask: draw.write_mask,
+    let target = |(attachment, &format): (usize, &TextureFormat)| {
+        let (blend, write_mask) = draw.target(attachment);
+        ColorTargetState {
+            format,
+            blend,
+            write_mask,
+        }
     };
     device
         .create_render_pipeline(&RenderPipelineDescriptor {
             vertex_buffers: draw.buffers.iter().map(|(l, _)| l.clone()).collect(),
             primitive: draw.primitive,
             depth: draw.depth,
+            stencil: draw.stencil,
             samples: case.samples,
-            targets: case.format.into_iter().map(target).collect(),
+            sample_mask: draw.sample_mask,
+            alpha_to_coverage: draw.alpha_to_coverage,
+            sample_shading: draw.sample_shading,
+            logic_operation: draw.logic_operation,
+            targets: case.formats().iter().enumerate().map(target).collect(),
             ..RenderPipelineDescriptor::with_program(draw.shader.program())
         })
         .expect("a valid pipeline")

@@ -18,9 +18,11 @@
 pub mod case;
 pub mod compare;
 pub mod fast_path;
+pub mod fragment_ops;
 pub mod geometry;
 pub mod oracle;
 pub mod random;
+pub mod readback;
 pub mod shaders;
 
 pub use case::{Case, CaseDraw};

@@ -1,12 +1,14 @@
 //! The image that the oracle draws of a case.
 
 use crate::case::{Case, CaseDraw};
-use estampe_reference::{Draw, State, Target, TargetState, color};
-use estampe_types::TextureFormat;
+use crate::readback::{self, Stored};
+use estampe_reference::{Counts, Draw, State, Target, TargetState, color};
 
 /// What both sides must agree on.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Image {
+    /// How many there are.
+    pub pixels: usize,
     /// RGBA, rows from the top, resolved; empty without a colour attachment.
     pub color: Vec<u8>,
     /// The bits of the first sample's depths, rows from the top.
@@ -14,6 +16,10 @@ pub struct Image {
     /// Of each pixel of four samples, how many samples hold the oracle's depth of sample 0, 1, 2 and 3, as
     /// codes of a resolved target; empty where that is not asked. So the depths of all samples are compared.
     pub matches: Vec<[u8; 4]>,
+    /// What every sample of every attachment holds: see [`readback`](crate::readback).
+    pub stored: Stored,
+    /// Of each draw that counts samples, in order, how many passed.
+    pub counts: Vec<u64>,
 }
 
 /// The largest target, in pixels, of which the depths of all samples are compared.
@@ -26,28 +32,90 @@ pub type SampleDepths = Option<Vec<[f32; 4]>>;
 #[must_use]
 pub fn draw(case: &Case) -> (Image, SampleDepths) {
     let [width, height] = case.size;
-    let format = case.format.unwrap_or(TextureFormat::Rgba8Unorm);
-    let mut target = Target::new(width, height, case.samples, format);
-    target.clear(case.clear_color, case.clear_depth);
-    for draw in &case.draws {
-        draw_one(&mut target, draw);
-    }
+    let (target, counts) = drawn(case);
     let color = match case.format {
-        Some(format) => {
+        Some(format) if readback::is_read_as_color(format) => {
             let texels = target.resolve(0).into_iter();
-            texels.flat_map(|codes| color::bytes(format, codes)).collect()
+            texels
+                .flat_map(|codes| color::bytes(format, codes))
+                .collect()
         }
-        None => Vec::new(),
+        _ => Vec::new(),
     };
     let first_samples = target.depth.iter().step_by(case.samples as usize);
-    let is_matched = case.samples == 4 && case.format.is_some() && width * height <= MATCHED_PIXELS;
+    let is_matched = !readback::READS_SAMPLES
+        && case.samples == 4
+        && case.format.is_some()
+        && width * height <= MATCHED_PIXELS;
     let depths = is_matched.then(|| target.depth.as_chunks::<4>().0.to_vec());
     let image = Image {
+        pixels: width as usize * height as usize,
         color,
         depth: first_samples.map(|depth| depth.to_bits()).collect(),
         matches: depths.iter().flatten().map(matches).collect(),
+        stored: stored(&target),
+        counts,
     };
     (image, depths)
+}
+
+/// The target after a case was drawn.
+#[must_use]
+pub fn target(case: &Case) -> Target {
+    drawn(case).0
+}
+
+/// The target, and the counts of the draws that count.
+fn drawn(case: &Case) -> (Target, Vec<u64>) {
+    let formats = case.formats();
+    let mut target =
+        Target::with_attachments(case.size, case.samples, &formats, case.depth_stencil);
+    target.clear(case.clear_color, case.clear_depth);
+    target.clear_stencil(case.clear_stencil);
+    let mut counts = Vec::new();
+    for draw in &case.draws {
+        let passed = draw_one(&mut target, draw, formats.len()).samples_passed;
+        if draw.is_counted {
+            counts.push(passed);
+        }
+    }
+    (target, counts)
+}
+
+/// Every sample of every attachment.
+fn stored(target: &Target) -> Stored {
+    if !readback::READS_SAMPLES {
+        return Stored::default();
+    }
+    let attachments = 0..target.color_formats.len();
+    let samples = target.samples;
+    let of_sample = |sample: u32| {
+        let stored = target.depth.iter().skip(sample as usize);
+        stored.step_by(samples as usize)
+    };
+    let resolved = |attachment: usize| {
+        let format = target.color_formats[attachment];
+        let codes = target.resolve(attachment).into_iter();
+        codes
+            .flat_map(|codes| color::bytes(format, codes))
+            .collect()
+    };
+    Stored {
+        texels: attachments
+            .clone()
+            .flat_map(|attachment| (0..samples).map(move |s| target.texels(attachment, s)))
+            .collect(),
+        resolved: attachments.filter(|_| samples > 1).map(resolved).collect(),
+        depths: (0..samples)
+            .map(|s| of_sample(s).map(|depth| depth.to_bits()).collect())
+            .collect(),
+        stencils: (0..samples)
+            .map(|s| {
+                let stored = target.stencil.iter().skip(s as usize);
+                stored.step_by(samples as usize).copied().collect()
+            })
+            .collect(),
+    }
 }
 
 /// How many of four depths equal each of them, as the mean of four codes 0 or 255.
@@ -58,19 +126,27 @@ fn matches(depths: &[f32; 4]) -> [u8; 4] {
     })
 }
 
-fn draw_one(target: &mut Target, draw: &CaseDraw) {
+fn draw_one(target: &mut Target, draw: &CaseDraw, attachments: usize) -> Counts {
     let whole = State::new(target.width, target.height);
     let state = State {
         primitive: draw.primitive,
         depth: draw.depth,
-        targets: vec![TargetState {
-            blend: draw.blend,
-            write_mask: draw.write_mask,
-        }],
+        stencil: draw.stencil,
+        stencil_reference: draw.stencil_reference,
+        depth_bounds: draw.depth_bounds,
+        sample_mask: draw.sample_mask,
+        alpha_to_coverage: draw.alpha_to_coverage,
+        sample_shading: draw.sample_shading,
+        logic_operation: draw.logic_operation,
+        targets: (0..attachments)
+            .map(|attachment| {
+                let (blend, write_mask) = draw.target(attachment);
+                TargetState { blend, write_mask }
+            })
+            .collect(),
         blend_constant: draw.blend_constant,
         viewport: draw.viewport.unwrap_or(whole.viewport),
         scissor: draw.scissor.unwrap_or(whole.scissor),
-        ..whole
     };
     let indices = draw.indices.as_ref();
     let command = Draw {
@@ -81,5 +157,5 @@ fn draw_one(target: &mut Target, draw: &CaseDraw) {
         base_vertex: draw.base_vertex,
         bindings: &draw.bindings,
     };
-    draw.shader.draw_oracle(target, &state, &command);
+    draw.shader.draw_oracle(target, &state, &command)
 }

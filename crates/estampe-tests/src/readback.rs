@@ -1,0 +1,148 @@
+//! What every sample of every attachment holds, as both sides give it.
+
+use crate::case::Case;
+use estampe::{Device, RenderTarget, RenderTargetDescriptor};
+use estampe_types::TextureFormat;
+
+/// Whether the fast path gives single samples. Until it does, resolved colours and the depths of first samples are
+/// compared, and the other depths by counting matches.
+pub const READS_SAMPLES: bool = false;
+
+/// Whether `read_color` gives an attachment's bytes.
+#[must_use]
+pub fn is_read_as_color(format: TextureFormat) -> bool {
+    matches!(
+        format,
+        TextureFormat::Rgba8Unorm | TextureFormat::Rgba8UnormSrgb
+    )
+}
+
+/// The contents of a target; all lists are empty where single samples cannot be read.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Stored {
+    /// Rows of texels: of attachment 0 its samples in order, then of attachment 1, and so on.
+    pub texels: Vec<Vec<u8>>,
+    /// Rows of resolved texels by attachment, of targets with several samples.
+    pub resolved: Vec<Vec<u8>>,
+    /// The bits of the depths, by sample.
+    pub depths: Vec<Vec<u32>>,
+    /// The stencil values, by sample.
+    pub stencils: Vec<Vec<u8>>,
+}
+
+impl Stored {
+    /// Where this differs first from what it should be, in words.
+    #[must_use]
+    pub fn difference(&self, wanted: &Self, case: &Case) -> Option<String> {
+        let (samples, pixels) = (case.samples as usize, case.size[0] * case.size[1]);
+        let place = |byte: usize, len: usize| {
+            let texel = byte / (len / pixels as usize).max(1);
+            let width = case.size[0] as usize;
+            (texel % width, texel / width)
+        };
+        for (name, got, wanted) in [
+            ("texels", &self.texels, &wanted.texels),
+            ("resolved texels", &self.resolved, &wanted.resolved),
+            ("stencils", &self.stencils, &wanted.stencils),
+        ] {
+            for (number, (got, wanted)) in got.iter().zip(wanted).enumerate() {
+                let mut bytes = got.iter().zip(wanted);
+                if let Some(at) = bytes.position(|(got, wanted)| got != wanted) {
+                    let size = (wanted.len() / pixels as usize).max(1);
+                    let texel = at - at % size..at - at % size + size;
+                    return Some(format!(
+                        "{name} {number} (attachment and sample: {} and {}): at {:?} fast path {:02x?}, oracle {:02x?}",
+                        number / samples,
+                        number % samples,
+                        place(at, wanted.len()),
+                        got.get(texel.clone()),
+                        wanted.get(texel),
+                    ));
+                }
+                if got.len() != wanted.len() {
+                    return Some(format!(
+                        "{name} {number}: {} bytes, oracle {}",
+                        got.len(),
+                        wanted.len()
+                    ));
+                }
+            }
+            if got.len() != wanted.len() {
+                return Some(format!(
+                    "{name}: {} lists, oracle {}",
+                    got.len(),
+                    wanted.len()
+                ));
+            }
+        }
+        for (sample, (got, wanted)) in self.depths.iter().zip(&wanted.depths).enumerate() {
+            let mut depths = got.iter().zip(wanted);
+            if let Some(at) = depths.position(|(got, wanted)| got != wanted) {
+                return Some(format!(
+                    "depths of sample {sample}: at {:?} fast path {}, oracle {}",
+                    place(at, wanted.len()),
+                    f32::from_bits(got[at]),
+                    f32::from_bits(wanted[at]),
+                ));
+            }
+        }
+        (self != wanted).then(|| "the lists of depths differ in number or length".to_owned())
+    }
+}
+
+/// Reads a target.
+#[must_use]
+pub fn stored(device: &Device, target: &RenderTarget) -> Stored {
+    if !READS_SAMPLES {
+        return Stored::default();
+    }
+    let samples = target.samples();
+    let attachments = 0..target.color_formats().len();
+    let mut resolved = Vec::new();
+    if samples > 1 && !attachments.is_empty() {
+        let mut into = device
+            .create_render_target(&RenderTargetDescriptor {
+                color_formats: target.color_formats().to_vec(),
+                depth_stencil: None,
+                ..RenderTargetDescriptor::new(target.width(), target.height())
+            })
+            .expect("a target like one that there is");
+        device.resolve(target, &mut into);
+        resolved = attachments
+            .clone()
+            .map(|attachment| into.read_texels(attachment, 0))
+            .collect();
+    }
+    Stored {
+        texels: attachments
+            .flat_map(|attachment| (0..samples).map(move |s| target.read_texels(attachment, s)))
+            .collect(),
+        resolved,
+        depths: (0..samples)
+            .map(|s| {
+                let depths = target.read_depth_sample(s);
+                depths.into_iter().map(f32::to_bits).collect()
+            })
+            .collect(),
+        stencils: (0..samples).map(|s| target.read_stencil(s)).collect(),
+    }
+}
+
+/// Stands in for the methods of the same names that targets are to have, which come before it once they do.
+trait SampleReadback {
+    fn read_texels(&self, attachment: usize, sample: u32) -> Vec<u8>;
+    fn read_depth_sample(&self, sample: u32) -> Vec<f32>;
+    fn read_stencil(&self, sample: u32) -> Vec<u8>;
+}
+
+impl SampleReadback for RenderTarget {
+    fn read_texels(&self, _attachment: usize, _sample: u32) -> Vec<u8> {
+        Vec::new()
+    }
+    fn read_depth_sample(&self, _sample: u32) -> Vec<f32> {
+        Vec::new()
+    }
+    fn read_stencil(&self, _sample: u32) -> Vec<u8> {
+        Vec::new()
+    }
+}
