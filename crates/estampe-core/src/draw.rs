@@ -155,7 +155,7 @@ impl Context {
     }
 
     /// Writes the mean of each pixel's samples to a target of one sample, of the same size and with the
-    /// same colour format. Targets that do not fit together are left alone.
+    /// same colour formats. Targets that do not fit together are left alone.
     pub fn resolve(&self, from: &RenderTarget, into: &mut RenderTarget) {
         let mut jobs = ResolveJob::all(from, into);
         let memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);

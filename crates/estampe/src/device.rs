@@ -111,7 +111,7 @@ impl Device {
     }
 
     /// Resolves: writes the mean of each pixel's samples to a target of one sample. The targets have the
-    /// same size and colour format; others are left alone. Depth is not resolved.
+    /// same size and colour formats; others are left alone. Depth is not resolved.
     pub fn resolve(&self, from: &RenderTarget, into: &mut RenderTarget) {
         self.context.resolve(from, into);
     }

@@ -28,31 +28,32 @@ pub(crate) struct ResolveJob<'a> {
 }
 
 impl<'a> ResolveJob<'a> {
-    /// Cuts the resolving of a target's colour into jobs; none where the targets do not fit together.
+    /// Cuts the resolving of a target's colours into jobs; none where the targets do not fit together.
     pub(crate) fn all(from: &'a RenderTarget, into: &'a mut RenderTarget) -> Vec<Self> {
         let (from_size, into_size) = ((from.width(), from.height()), (into.width(), into.height()));
-        let format = from.color_formats().first();
         let fits = from_size == into_size
             && from.samples() > 1
             && into.samples() == 1
-            && format == into.color_formats().first();
-        let (Some(format), Some(samples), Some(pixels), true) =
-            (format, from.colors.first(), into.colors.first_mut(), fits)
-        else {
+            && from.color_formats() == into.color_formats();
+        if !fits {
             return Vec::new();
-        };
+        }
         let count = from.samples() as usize;
-        let elements = JOB_PACKETS * LANES * texel_words(*format);
-        samples
-            .chunks(elements * count)
-            .zip(pixels.chunks_mut(elements))
-            .map(|(samples, pixels)| Self {
-                samples,
-                pixels,
-                format: *format,
-                count,
-            })
-            .collect()
+        let attachments = from.colors.iter().zip(&mut into.colors);
+        let attachments = attachments.zip(from.color_formats());
+        let jobs = attachments.flat_map(|((samples, pixels), format)| {
+            let elements = JOB_PACKETS * LANES * texel_words(*format);
+            let samples = samples.chunks(elements * count);
+            samples
+                .zip(pixels.chunks_mut(elements))
+                .map(move |(samples, pixels)| Self {
+                    samples,
+                    pixels,
+                    format: *format,
+                    count,
+                })
+        });
+        jobs.collect()
     }
 
     /// Resolves the job's packets.
