@@ -59,6 +59,56 @@ impl<'a> Draw<'a> {
             occlusion_query: None,
         }
     }
+
+    /// A draw whose ranges stand in a buffer, at an offset in bytes, as four 32-bit numbers (WebGPU's
+    /// `drawIndirect`): how many vertices, how many instances, the first vertex, the first instance. Numbers
+    /// beyond the buffer's end are zero.
+    ///
+    /// Of more than [`Draw::INDIRECT_LIMIT`] vertices, over all instances, those beyond are not drawn, so
+    /// that no buffer keeps a program busy for hours. Several draws of one buffer are several calls.
+    #[must_use]
+    pub fn indirect(pipeline: &'a RenderPipeline, parameters: &Buffer, offset: usize) -> Self {
+        let [count, instances, first, first_instance, _] = indirect_words(parameters, offset);
+        Self::limited(pipeline, [first, count], [first_instance, instances])
+    }
+
+    /// The same with an index buffer, and five numbers (WebGPU's `drawIndexedIndirect`): how many indices, how many
+    /// instances, the first index, the base vertex, the first instance.
+    #[must_use]
+    pub fn indexed_indirect(
+        pipeline: &'a RenderPipeline,
+        indices: (&'a Buffer, IndexFormat),
+        parameters: &Buffer,
+        offset: usize,
+    ) -> Self {
+        let [count, instances, first, base, first_instance] = indirect_words(parameters, offset);
+        Self {
+            indices: Some(indices),
+            base_vertex: base.cast_signed(),
+            ..Self::limited(pipeline, [first, count], [first_instance, instances])
+        }
+    }
+
+    /// Vertices or indices of an indirect draw, times its instances, at most: 2²⁷.
+    pub const INDIRECT_LIMIT: u32 = 1 << 27;
+
+    fn limited(
+        pipeline: &'a RenderPipeline,
+        [first, count]: [u32; 2],
+        [first_instance, instances]: [u32; 2],
+    ) -> Self {
+        let count = count.min(Self::INDIRECT_LIMIT);
+        let instances = instances.min(Self::INDIRECT_LIMIT / count.max(1));
+        Self {
+            instances: first_instance..first_instance.saturating_add(instances),
+            ..Self::new(pipeline, first..first.saturating_add(count))
+        }
+    }
+}
+
+/// Five words of a buffer; those beyond its end are zero.
+fn indirect_words(parameters: &Buffer, offset: usize) -> [u32; 5] {
+    [0, 4, 8, 12, 16].map(|at| parameters.word_at(offset.saturating_add(at)))
 }
 
 /// What becomes of an attachment's old contents when a pass begins.

@@ -226,10 +226,13 @@ impl Context {
                 let item = &items[job.item];
                 let state = &item.draw.pipeline.descriptor().primitive;
                 let sample_range = sample_range(samples, state.conservative);
-                let indices = item.draw.indices.filter(|_| item.sparse.is_none());
+                let is_listed = item.sparse.is_some() || item.restarted.is_some();
+                let indices = item.draw.indices.filter(|_| !is_listed);
                 let work = ChunkWork {
                     elements: ElementSource {
                         topology: state.topology,
+                        provoking: state.provoking_vertex,
+                        restarted: item.restarted.as_deref(),
                         elements: item.elements[1],
                         indices,
                         first_element: item.elements[0],

@@ -199,6 +199,8 @@ pub(crate) struct AttributeSource {
     pub(crate) attribute: estampe_types::state::VertexAttribute,
     pub(crate) stride: u32,
     pub(crate) per_instance: bool,
+    /// Instances that share an element; 0: all of them.
+    pub(crate) step_rate: u32,
 }
 
 /// What selects code, reduced: nothing in it changes from fragment to fragment.
@@ -384,6 +386,7 @@ fn attribute_sources(
                 attribute: *attribute,
                 stride,
                 per_instance,
+                step_rate: layout.instance_step_rate,
             });
         }
     }

@@ -9,6 +9,7 @@ use crate::commands::Draw;
 use crate::geometry::assembly::{PrimitiveKind, kind_of, primitive_count, vertex_index};
 use crate::geometry::chunk::ItemVertices;
 use crate::geometry::cull::Facing;
+use crate::geometry::restart::{RestartCursor, RestartSource};
 use crate::geometry::shading::{ShadedSlice, ShadedVertices, VertexSource};
 use crate::geometry::viewport::{PixelRect, ViewportTransform};
 use crate::per_sample::color::ColorTarget;
@@ -53,6 +54,8 @@ pub(crate) struct Item<'a> {
     pub(crate) vertices: u32,
     /// The vertex index of each element, where the range of indices is sparse.
     pub(crate) sparse: Option<Vec<u32>>,
+    /// The item's vertices of each primitive of an instance, where indices may restart primitives.
+    pub(crate) restarted: Option<Vec<[u32; 3]>>,
     /// Primitives of one instance.
     pub(crate) primitives: u32,
     /// Scalars of a vertex's varyings.
@@ -79,6 +82,7 @@ impl Item<'_> {
             first_vertex: self.first_vertex,
             count: self.vertices,
             first_instance: self.first_instance,
+            base_instance: self.draw.instances.start,
             instances: self.instances,
             sparse: self.sparse.as_deref(),
         }
@@ -108,6 +112,8 @@ struct Remainder<'a> {
     viewport: Viewport,
     primitives: Range<u32>,
     instances: Range<u32>,
+    /// Where indices may restart primitives: how far these were looked for in the instance at hand.
+    restart: RestartCursor,
 }
 
 impl<'a> Waves<'a> {
@@ -181,6 +187,7 @@ impl<'a> Waves<'a> {
                 viewport,
                 primitives,
                 instances,
+                restart: RestartCursor::default(),
             });
         }
     }
@@ -227,6 +234,9 @@ impl<'a> Remainder<'a> {
     /// Takes the next item off: many instances of a small draw, or part of one instance of a large one.
     fn take_item(&mut self, executor: &Executor) -> Item<'a> {
         let draw = self.draw;
+        if let Some(source) = restart_source(draw) {
+            return self.take_restarted(&source);
+        }
         let descriptor = draw.pipeline.descriptor();
         let topology = descriptor.primitive.topology;
         let whole = element_count(draw);
@@ -254,10 +264,44 @@ impl<'a> Remainder<'a> {
         item
     }
 
+    /// The same where indices may restart primitives.
+    fn take_restarted(&mut self, source: &RestartSource<'_>) -> Item<'a> {
+        let is_first = self.restart.is_at_start();
+        let mut corners = self.restart.take(source, ITEM_PRIMITIVES as usize);
+        let is_done = self.restart.is_done(source);
+        let primitives = u32::try_from(corners.len()).unwrap_or(u32::MAX);
+        let instances = if is_first && is_done {
+            let left = self.instances.end - self.instances.start;
+            (ITEM_PRIMITIVES / primitives.max(1)).clamp(1, left)
+        } else {
+            1
+        };
+        let vertices = list_vertices(&mut corners);
+        let item = Item {
+            primitives,
+            restarted: Some(corners),
+            ..self.item_of([0, 0], instances, vertices)
+        };
+        if is_done {
+            self.restart = RestartCursor::default();
+            self.instances.start += instances;
+        }
+        item
+    }
+
     fn item(&self, executor: &Executor, [first, count]: [u32; 2], instances: u32) -> Item<'a> {
+        let first = self.draw.elements.start.saturating_add(first);
+        let vertices = vertex_range(executor, self.draw, first, count);
+        self.item_of([first, count], instances, vertices)
+    }
+
+    fn item_of(
+        &self,
+        [first_element, count]: [u32; 2],
+        instances: u32,
+        (first_vertex, vertices, sparse): (u32, u32, Option<Vec<u32>>),
+    ) -> Item<'a> {
         let draw = self.draw;
-        let first_element = draw.elements.start.saturating_add(first);
-        let (first_vertex, vertices, sparse) = vertex_range(executor, draw, first_element, count);
         let descriptor = draw.pipeline.descriptor();
         let mut targets = [None; MAX_TARGETS];
         for (target, state) in targets.iter_mut().zip(&descriptor.targets) {
@@ -276,12 +320,49 @@ impl<'a> Remainder<'a> {
             first_vertex,
             vertices,
             sparse,
+            restarted: None,
             primitives: primitive_count(descriptor.primitive.topology, count),
             varying_scalars: draw.pipeline.interface().varyings.len(),
             vertex_base: 0,
             varying_base: 0,
         }
     }
+}
+
+/// A draw's elements, if its indices may restart primitives.
+fn restart_source<'a>(draw: &Draw<'a>) -> Option<RestartSource<'a>> {
+    let state = &draw.pipeline.descriptor().primitive;
+    let (buffer, format) = draw.indices.filter(|_| state.primitive_restart)?;
+    let count = draw.elements.end.saturating_sub(draw.elements.start);
+    Some(RestartSource {
+        topology: state.topology,
+        provoking: state.provoking_vertex,
+        buffer,
+        format,
+        base_vertex: draw.base_vertex,
+        elements: [draw.elements.start, count],
+    })
+}
+
+/// Numbers the vertices of listed primitives: as a range that holds all of them, from its first one on, or one by
+/// one where that range is sparse.
+fn list_vertices(corners: &mut [[u32; 3]]) -> (u32, u32, Option<Vec<u32>>) {
+    let all = corners.as_flattened_mut();
+    let (Some(&least), Some(&greatest)) = (all.iter().min(), all.iter().max()) else {
+        return (0, 0, None);
+    };
+    let count = all.len() as u64;
+    let span = u64::from(greatest - least) + 1;
+    if span <= count * SPARSE_FACTOR {
+        all.iter_mut().for_each(|vertex| *vertex -= least);
+        return (least, u32::try_from(span).unwrap_or(u32::MAX), None);
+    }
+    let sparse: Vec<u32> = all.to_vec();
+    for (number, vertex) in (0..).zip(all) {
+        *vertex = number;
+    }
+    let count = u32::try_from(sparse.len()).unwrap_or(u32::MAX);
+    (0, count, Some(sparse))
 }
 
 /// How many elements a draw has. Fans and loops cannot be cut into items, so that they end at

@@ -1,8 +1,8 @@
 //! Primitive assembly: which vertices make which point, line or triangle.
 //!
 //! In · Out: a topology and a number of vertices · primitives as positions in the vertex stream.
-//! Spec: PIPELINE.md row A1; the order within strips and fans is Vulkan's, so that the provoking
-//! vertex always stands first:
+//! Spec: PIPELINE.md row A1; the order within strips and fans is Vulkan's, so that of a triangle the provoking
+//! vertex stands first, where that is the first one:
 //!
 //! ```text
 //! strip   0───2───4        triangle 0 = (0, 1, 2)     triangle 1 = (1, 3, 2): turned
@@ -13,10 +13,15 @@
 //!         │ ╲ │
 //!         1───0
 //! ```
+//!
+//! Where it is the last one (Vulkan's table of provoking vertices, `VK_EXT_provoking_vertex`), a triangle's corners
+//! are turned, without changing the winding, until it stands first: (2, 0, 1), (3, 2, 1), (4, 2, 3) of the
+//! strip, (2, 0, 1), (3, 0, 2) of the fan. Lines keep their direction.
 
-use estampe_types::state::PrimitiveTopology;
+use estampe_types::state::{PrimitiveTopology, ProvokingVertex};
+use std::ops::Range;
 
-/// A primitive whose corners are positions in the vertex stream; the first is the provoking one.
+/// A primitive whose corners are positions in the vertex stream; of a triangle the first is the provoking one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Primitive {
     /// One vertex.
@@ -61,4 +66,39 @@ pub fn primitives(topology: PrimitiveTopology, count: u32) -> impl Iterator<Item
         }
         T::TriangleStripAdjacency => Primitive::Triangle([2 * i, 2 * i + 2, 2 * i + 4]),
     })
+}
+
+/// The corners of a triangle of a topology, begun with the provoking one; `index` is its number.
+#[must_use]
+pub fn turned(
+    topology: PrimitiveTopology,
+    mode: ProvokingVertex,
+    index: usize,
+    [a, b, c]: [u32; 3],
+) -> [u32; 3] {
+    use PrimitiveTopology as T;
+    if mode == ProvokingVertex::First {
+        return [a, b, c];
+    }
+    match topology {
+        // The fan's own vertex, the first of all, stands last.
+        T::TriangleFan => [b, c, a],
+        T::TriangleStrip | T::TriangleStripAdjacency if index % 2 == 1 => [b, c, a],
+        _ => [c, a, b],
+    }
+}
+
+/// The runs of positions among `count` between which `is_restart` holds.
+#[must_use]
+pub fn runs(count: u32, is_restart: impl Fn(u32) -> bool) -> Vec<Range<u32>> {
+    let mut runs = Vec::new();
+    let mut start = 0;
+    for position in 0..count {
+        if is_restart(position) {
+            runs.push(start..position);
+            start = position + 1;
+        }
+    }
+    runs.push(start..count);
+    runs
 }

@@ -1,6 +1,6 @@
 //! A draw: the stages, one after the other, on one primitive at a time.
 
-use crate::assembly::{Primitive, primitives};
+use crate::assembly::{Primitive, primitives, runs, turned};
 use crate::clip::{clip_line, clip_triangle, keeps_point};
 use crate::conservative;
 use crate::cull::{Face, face, is_culled};
@@ -15,7 +15,7 @@ use crate::{ClipVertex, Target, WindowVertex, fetch, per_sample};
 use estampe_types::shader::{Interpolation, Sampling, Shader, Varyings};
 use estampe_types::state::{
     BlendState, ColorWrites, ConservativeMode, DepthState, LogicOperation, PolygonMode,
-    PrimitiveState, ScissorRect, StencilState, VertexBufferLayout, Viewport,
+    PrimitiveState, ProvokingVertex, ScissorRect, StencilState, VertexBufferLayout, Viewport,
 };
 use estampe_types::{Bindings, Buffer, IndexFormat};
 use std::ops::Range;
@@ -121,6 +121,20 @@ impl Draw<'_> {
             None => element,
         }
     }
+
+    /// Whether the index at a position of the range is the greatest of its format, which restarts primitives.
+    #[must_use]
+    pub fn is_restart(&self, position: u32) -> bool {
+        let element = self.vertices.start.wrapping_add(position);
+        self.indices.is_some_and(|(format, buffer)| {
+            let greatest = match format {
+                IndexFormat::Uint8 => u32::from(u8::MAX),
+                IndexFormat::Uint16 => u32::from(u16::MAX),
+                IndexFormat::Uint32 => u32::MAX,
+            };
+            fetch::raw_index(format, buffer, element) == greatest
+        })
+    }
 }
 
 /// How much of everything a draw was.
@@ -166,15 +180,14 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
         counts: Counts::default(),
     };
     let count = draw.vertices.end.saturating_sub(draw.vertices.start);
+    let runs = match draw.indices {
+        Some(_) if state.primitive.primitive_restart => runs(count, |at| draw.is_restart(at)),
+        _ => std::iter::once(0..count).collect(),
+    };
     for instance in draw.instances.clone() {
-        let shade = |position: u32| shade_vertex(shader, draw, position, instance);
-        for primitive in primitives(state.primitive.topology, count) {
-            pass.counts.primitives += 1;
-            match primitive {
-                Primitive::Point(at) => pass.point(&shade(at), None),
-                Primitive::Line(at) => pass.line(&at.map(shade), None),
-                Primitive::Triangle(at) => pass.triangle(&at.map(shade)),
-            }
+        for run in &runs {
+            let shade = |at: u32| shade_vertex(shader, draw, run.start + at, instance);
+            pass.run(run.end - run.start, shade);
         }
     }
     pass.counts
@@ -201,6 +214,25 @@ struct Parent<'a> {
 }
 
 impl<S: Shader> Pass<'_, S> {
+    /// Draws the primitives of `count` vertices that no restart parts.
+    fn run(&mut self, count: u32, shade: impl Fn(u32) -> ClipVertex) {
+        let PrimitiveState {
+            topology,
+            provoking_vertex: mode,
+            ..
+        } = self.state.primitive;
+        for (index, primitive) in primitives(topology, count).enumerate() {
+            self.counts.primitives += 1;
+            match primitive {
+                Primitive::Point(at) => self.point(&shade(at), None),
+                Primitive::Line(at) => self.line(&at.map(&shade), None),
+                Primitive::Triangle(at) => {
+                    self.triangle(&turned(topology, mode, index, at).map(&shade));
+                }
+            }
+        }
+    }
+
     fn triangle(&mut self, vertices: &[ClipVertex; 3]) {
         let flat = vertices[0].varyings.clone();
         let mode = self.state.primitive.polygon_mode;
@@ -277,11 +309,15 @@ impl<S: Shader> Pass<'_, S> {
             })
             .collect();
         let modes = self.modes.clone();
+        let provoking = match self.state.primitive.provoking_vertex {
+            ProvokingVertex::First => &ends[0],
+            ProvokingVertex::Last => &ends[1],
+        };
         let surface = LineSurface {
             path,
             ends: [&start, &end],
             modes: &modes,
-            flat: parent.map_or(&ends[0].varyings, |parent| parent.flat),
+            flat: parent.map_or(&provoking.varyings, |parent| parent.flat),
         };
         self.fragments(&quads, &surface, face_of(parent));
     }

@@ -29,7 +29,8 @@ pub fn shade_vertex<S: Shader>(
     S::Attributes::<f32>::components(&mut components);
     let mut scalars = Vec::new();
     for (location, &count) in (0u32..).zip(&components) {
-        let value = fetch::attribute(draw.buffers, location, vertex_index, instance_index);
+        let instance = [instance_index, draw.instances.start];
+        let value = fetch::attribute(draw.buffers, location, vertex_index, instance);
         scalars.extend(&value[..count.min(4)]);
     }
     let attributes = S::Attributes::load(&mut Scalars(scalars.into_iter()));

@@ -84,6 +84,7 @@ fn plain_layout() -> VertexBufferLayout {
             attribute(VertexFormat::Float32x4, 0, 0),
             attribute(VertexFormat::Float32x3, 16, 1),
         ],
+        ..VertexBufferLayout::default()
     }
 }
 

@@ -25,6 +25,7 @@ pub fn vertex_layout() -> VertexBufferLayout {
         array_stride: 32,
         step_mode: VertexStepMode::Vertex,
         attributes: vec![attribute(0, 0), attribute(1, 16)],
+        ..VertexBufferLayout::default()
     }
 }
 

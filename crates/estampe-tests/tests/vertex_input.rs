@@ -40,6 +40,7 @@ fn shifts(
             offset: 0,
             shader_location: 2,
         }],
+        instance_step_rate: random.pick(&[1, 1, 0, 2, 3, u32::MAX]),
     };
     let words = (0..count * stride.div_ceil(4).max(2)).map(|_| random.range(-0.7, 0.7).to_bits());
     (layout, Buffer::from_words(words.collect::<Vec<_>>()))
@@ -182,17 +183,7 @@ fn vertex_buffers_that_end_too_soon() {
 
 #[test]
 fn formats_strides_and_offsets() {
-    let formats = [
-        VertexFormat::Float32,
-        VertexFormat::Float32x2,
-        VertexFormat::Float32x3,
-        VertexFormat::Float32x4,
-        VertexFormat::Unorm8x2,
-        VertexFormat::Unorm8x4,
-        VertexFormat::Unorm16x2,
-        VertexFormat::Unorm16x4,
-    ];
-    check("vertex_input/formats", 120, |random| {
+    check("vertex_input/formats", 250, |random| {
         let mut case = Case::new([32, 32], 1);
         let vertices = triangles(random, Style::Small, case.size, 8);
         let mut draw = CaseDraw::new(Formats(random.below(10) as usize), &vertices);
@@ -201,7 +192,7 @@ fn formats_strides_and_offsets() {
         let mut offset = random.pick(&[0, 0, 4, 1, 2, 3]);
         let mut attributes = Vec::new();
         for shader_location in 1..5 {
-            let format = random.pick(&formats);
+            let format = random.pick(VertexFormat::ALL);
             attributes.push(VertexAttribute {
                 format,
                 offset,
@@ -219,6 +210,7 @@ fn formats_strides_and_offsets() {
             array_stride: stride,
             step_mode: random.pick(&[VertexStepMode::Vertex, VertexStepMode::Instance]),
             attributes,
+            instance_step_rate: random.pick(&[1, 1, 2, 0]),
         };
         let needed = stride.max(1) * random.pick(&[24, 24, 20, 2]) + offset;
         let bytes: Vec<u8> = (0..needed).map(|_| random.byte()).collect();

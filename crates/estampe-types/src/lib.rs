@@ -32,7 +32,9 @@ mod wide;
 
 pub use bindings::{BindGroup, Binding, Bindings};
 pub use buffer::Buffer;
-pub use format::{IndexFormat, SampleType, TexelEncoding, TextureFormat, VertexFormat};
+pub use format::{
+    IndexFormat, SampleType, TexelEncoding, TextureFormat, VertexEncoding, VertexFormat,
+};
 pub use limits::Limits;
 pub use lines::Lines;
 pub use matrix::Mat4;

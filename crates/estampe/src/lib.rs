@@ -26,6 +26,6 @@ pub use estampe_types::{
     AddressMode, Attributes, BindGroup, Binding, Bindings, Buffer, Centroid, DepthTexture,
     FilterMode, Flat, FragmentIn, FragmentOut, IndexFormat, Int, Limits, Mat4, MipLevel,
     NoPerspective, PerSample, Program, Quad, Real, SampleType, SamplerDescriptor, Shader,
-    ShaderProgram, TexelEncoding, Texture, TextureFormat, Varyings, Vec2, Vec3, Vec4, VertexFormat,
-    VertexIn, maths, shader, srgb, state,
+    ShaderProgram, TexelEncoding, Texture, TextureFormat, Varyings, Vec2, Vec3, Vec4,
+    VertexEncoding, VertexFormat, VertexIn, maths, shader, srgb, state,
 };

@@ -1,10 +1,10 @@
 //! Primitive assembly (A1): which elements make primitive `p`.
 //!
-//! *In* a topology and a count of elements · *Out* element numbers, the provoking one first ·
-//! *Spec* WebGPU §Primitive assembly; Vulkan §Primitive Topologies for fans.
+//! *In* a topology and a count of elements · *Out* element numbers, of triangles the provoking one first ·
+//! *Spec* WebGPU §Primitive assembly; Vulkan §Primitive Topologies for fans and adjacency.
 
 use estampe_simd::LANES;
-use estampe_types::state::PrimitiveTopology;
+use estampe_types::state::{PrimitiveTopology, ProvokingVertex};
 use estampe_types::{Buffer, IndexFormat};
 
 /// What kind of primitives a topology makes.
@@ -53,7 +53,38 @@ pub(crate) fn primitive_count(topology: PrimitiveTopology, elements: u32) -> u32
     }
 }
 
-/// The elements of primitive `p`: the first is the provoking one. Unused places repeat it.
+/// The elements of primitive `p`. The first of a triangle is the provoking one; the third of a line repeats the
+/// provoking one, and so do unused places of a point.
+#[inline(always)]
+pub(crate) fn corners_of(
+    topology: PrimitiveTopology,
+    provoking: ProvokingVertex,
+    p: u32,
+    elements: u32,
+) -> [u32; 3] {
+    let corners = elements_of(topology, p, elements);
+    match provoking {
+        ProvokingVertex::First => corners,
+        ProvokingVertex::Last => by_last(topology, p, corners),
+    }
+}
+
+/// The same triangle begun with the vertex that comes last in the stream (of a fan: but the first one's), and a
+/// line's last vertex in the third place. (Vulkan §Flat Shading, the table of provoking vertices.)
+#[inline(never)]
+fn by_last(topology: PrimitiveTopology, p: u32, [a, b, c]: [u32; 3]) -> [u32; 3] {
+    use PrimitiveTopology as T;
+    match (kind_of(topology), topology) {
+        (PrimitiveKind::Points, _) => [a, b, c],
+        (PrimitiveKind::Lines, _) => [a, b, b],
+        (_, T::TriangleFan) => [b, c, a],
+        // Turned ones have their last vertex in the middle.
+        (_, T::TriangleStrip | T::TriangleStripAdjacency) if p % 2 == 1 => [b, c, a],
+        _ => [c, a, b],
+    }
+}
+
+/// The same where the first vertex provokes.
 #[inline(always)]
 pub(crate) fn elements_of(topology: PrimitiveTopology, p: u32, elements: u32) -> [u32; 3] {
     use PrimitiveTopology as T;
@@ -81,6 +112,9 @@ pub(crate) fn elements_of(topology: PrimitiveTopology, p: u32, elements: u32) ->
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ElementSource<'a> {
     pub(crate) topology: PrimitiveTopology,
+    pub(crate) provoking: ProvokingVertex,
+    /// The item's vertices of each primitive of an instance, where indices may restart primitives.
+    pub(crate) restarted: Option<&'a [[u32; 3]]>,
     /// Elements of one instance.
     pub(crate) elements: u32,
     /// The index buffer; without one, or where indices are sparse, element `i` is vertex `i`.
@@ -103,8 +137,12 @@ impl ElementSource<'_> {
         base: u32,
         out: &mut [[u32; 3]; LANES],
     ) {
-        if let (PrimitiveTopology::TriangleList, Some((buffer, IndexFormat::Uint32)), LANES) =
-            (self.topology, self.indices, count)
+        if let (
+            PrimitiveTopology::TriangleList,
+            ProvokingVertex::First,
+            Some((buffer, IndexFormat::Uint32)),
+            LANES,
+        ) = (self.topology, self.provoking, self.indices, count)
         {
             let at = (self.first_element as usize).saturating_add(first as usize * 3);
             let words = buffer.words().get(at..).unwrap_or_default();
@@ -118,8 +156,17 @@ impl ElementSource<'_> {
                 return;
             }
         }
+        if let Some(restarted) = self.restarted {
+            let from = restarted.get(first as usize..).unwrap_or_default();
+            for (vertices, from) in out.iter_mut().zip(from) {
+                *vertices = from.map(|vertex| vertex.wrapping_add(base));
+            }
+            let first = out[0];
+            out[count.min(LANES)..].fill(first);
+            return;
+        }
         for (p, vertices) in (first..).zip(out.iter_mut().take(count)) {
-            let elements = elements_of(self.topology, p, self.elements);
+            let elements = corners_of(self.topology, self.provoking, p, self.elements);
             *vertices = elements.map(|element| self.vertex_of(element).wrapping_add(base));
         }
         let first = out[0];
@@ -147,13 +194,18 @@ pub(crate) fn vertex_index(
     at: usize,
     base_vertex: i32,
 ) -> u32 {
+    raw_index(buffer, format, at).wrapping_add_signed(base_vertex)
+}
+
+/// An element of an index buffer.
+#[inline(always)]
+pub(crate) fn raw_index(buffer: &Buffer, format: IndexFormat, at: usize) -> u32 {
     let word = |at: usize| buffer.words().get(at).copied().unwrap_or_default();
-    let index = match format {
+    match format {
         IndexFormat::Uint32 => word(at),
         IndexFormat::Uint16 => word(at / 2) >> (at % 2 * 16) & 0xFFFF,
         IndexFormat::Uint8 => u32::from(buffer.byte(at)),
-    };
-    index.wrapping_add_signed(base_vertex)
+    }
 }
 
 #[cfg(test)]
@@ -179,6 +231,20 @@ mod tests {
         assert_eq!(elements_of(T::TriangleStrip, 2, 9), [2, 3, 4]);
         assert_eq!(elements_of(T::TriangleFan, 3, 9), [4, 5, 0]);
         assert_eq!(elements_of(T::LineLoop, 8, 9)[..2], [8, 0]);
+    }
+
+    #[test]
+    fn the_last_vertex_provokes_without_turning_a_triangle() {
+        let last = |topology, p| corners_of(topology, ProvokingVertex::Last, p, 20);
+        assert_eq!(last(T::TriangleList, 1), [5, 3, 4]);
+        assert_eq!(last(T::TriangleStrip, 2), [4, 2, 3]);
+        assert_eq!(last(T::TriangleStrip, 3), [5, 4, 3]);
+        assert_eq!(last(T::TriangleFan, 3), [5, 0, 4]);
+        assert_eq!(last(T::TriangleListAdjacency, 1), [10, 6, 8]);
+        assert_eq!(last(T::TriangleStripAdjacency, 1), [6, 4, 2]);
+        assert_eq!(last(T::LineStrip, 3), [3, 4, 4]);
+        assert_eq!(last(T::LineLoop, 19), [19, 0, 0]);
+        assert_eq!(last(T::LineListAdjacency, 1), [5, 6, 6]);
     }
 
     #[test]

@@ -324,8 +324,8 @@ impl Worker<'_, '_> {
     }
 
     fn lines(&mut self, lines: &[[u32; 3]], scratch: &mut ChunkScratch) {
-        for &[a, b, _] in lines {
-            self.line([a, b], VertexRef(a), true, scratch);
+        for &[a, b, provoking] in lines {
+            self.line([a, b], VertexRef(provoking), true, scratch);
         }
     }
 

@@ -1,18 +1,23 @@
 //! Vertex fetch (V2): attributes from buffers, sixteen vertices at a time.
 //!
 //! *In* vertex and instance indices · *Out* attribute scalars, structure of arrays · *Spec* WebGPU
-//! §Vertex formats. Bytes beyond a buffer's end read as zeros; what a format lacks is (0, 0, 0, 1).
+//! §Vertex formats. Bytes beyond a buffer's end read as zeros; what a format lacks is (0, 0, 0, 1). Integers
+//! arrive as bits.
 
 use super::rows::columns_of;
 use crate::pipeline::AttributeSource;
-use estampe_simd::{Bytes, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
-use estampe_types::{Buffer, VertexFormat};
+use estampe_simd::{
+    Bytes, LANES, Lanes, Packet, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16,
+};
+use estampe_types::{Buffer, VertexEncoding, VertexFormat};
 
 /// Which vertices a packet holds.
 #[derive(Debug, Default)]
 pub(crate) struct PacketIndex {
     pub(crate) vertex: Packet<u32>,
     pub(crate) instance: Packet<u32>,
+    /// The draw's first instance, from which instances step.
+    pub(crate) base_instance: u32,
     /// The first vertex, where lane `i` is vertex `first + i` of one instance.
     pub(crate) first: Option<u32>,
 }
@@ -42,9 +47,9 @@ pub(crate) fn fetch<S: Lanes>(
         let mut component = 0;
         while component < wanted {
             let value = if component < there {
-                decode(format, &words, component)
+                decode(s, format, &words, component)
             } else {
-                SimdBase::splat(s, if component == 3 { 1.0 } else { 0.0 })
+                SimdBase::splat(s, f32::from_bits(format.missing(component)))
             };
             value.store_array(&mut scalars[component].0);
             component += 1;
@@ -55,36 +60,69 @@ pub(crate) fn fetch<S: Lanes>(
 /// The words that an attribute's first components lie in.
 #[inline(always)]
 fn words_of(format: VertexFormat, components: usize) -> usize {
-    match format {
-        VertexFormat::Unorm8x2 | VertexFormat::Unorm8x4 => 1,
-        VertexFormat::Unorm16x2 | VertexFormat::Unorm16x4 => components.div_ceil(2),
-        _ => components,
-    }
+    (components * format.size_bytes() / format.components()).div_ceil(4)
 }
 
 /// One component of sixteen elements.
 #[inline(always)]
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "a component is 0, 1, 2 or 3"
+    reason = "a component is 0, 1, 2 or 3, and a width at most 32"
 )]
-fn decode<S: Lanes>(format: VertexFormat, words: &[u32x16<S>; 4], component: usize) -> f32x16<S> {
-    match format {
+fn decode<S: Lanes>(
+    s: S,
+    format: VertexFormat,
+    words: &[u32x16<S>; 4],
+    component: usize,
+) -> f32x16<S> {
+    let (component, bits) = match format {
         VertexFormat::Float32
         | VertexFormat::Float32x2
         | VertexFormat::Float32x3
-        | VertexFormat::Float32x4 => words[component & 3].bitcast(),
-        VertexFormat::Unorm8x2 | VertexFormat::Unorm8x4 => {
-            let code = (words[0] >> (component as u32 * 8)) & 0xFF;
-            float(code) * (1.0 / 255.0)
+        | VertexFormat::Float32x4 => return words[component & 3].bitcast(),
+        VertexFormat::Unorm10_10_10_2 => {
+            let code = words[0] >> (component as u32 * 10);
+            return if component == 3 {
+                float(code) * (1.0 / 3.0)
+            } else {
+                float(code & 0x3FF) * (1.0 / 1023.0)
+            };
         }
-        VertexFormat::Unorm16x2 | VertexFormat::Unorm16x4 => {
-            let code = (words[(component / 2) & 3] >> (component as u32 % 2 * 16)) & 0xFFFF;
-            float(code) * (1.0 / 65_535.0)
+        VertexFormat::Unorm8x4Bgra => ([2, 1, 0, 3][component & 3], 8),
+        _ => (component, format.size_bytes() * 8 / format.components()),
+    };
+    let (word, shift) = (component * bits / 32, (component * bits % 32) as u32);
+    // The code in the highest bits; from there it comes down with or without its sign.
+    let down = 32 - bits as u32;
+    let code = words[word & 3] << (down - shift);
+    let signed: i32x16<S> = code.bitcast();
+    let is_byte = bits == 8;
+    match format.encoding() {
+        VertexEncoding::Unorm => {
+            let scale = if is_byte { 1.0 / 255.0 } else { 1.0 / 65_535.0 };
+            float(code >> down) * scale
         }
-        // `VertexFormat` grows; a format without a reader cannot pass for zeros unnoticed.
-        other => unreachable!("vertex format {other:?} has no reader"),
+        VertexEncoding::Snorm => {
+            let scale = if is_byte { 1.0 / 127.0 } else { 1.0 / 32_767.0 };
+            let value = f32x16::float_from(signed >> down) * scale;
+            s.max_f32(value, SimdBase::splat(s, -1.0))
+        }
+        VertexEncoding::Uint => (code >> down).bitcast(),
+        VertexEncoding::Sint => (signed >> down).bitcast(),
+        VertexEncoding::Float => half(code),
     }
+}
+
+/// 16-bit floats in the upper halves of words, exactly.
+#[inline(always)]
+fn half<S: Lanes>(code: u32x16<S>) -> f32x16<S> {
+    let magnitude = (code & 0x7FFF_0000) >> 3;
+    // The exponent is 112 less than it should be; as a product that is right of denormal numbers, too.
+    let as_float: f32x16<S> = magnitude.bitcast();
+    let number: u32x16<S> = (as_float * f32::from_bits(0x7780_0000)).bitcast();
+    let is_number = magnitude.simd_lt(0x0F80_0000);
+    let number = is_number.select(number, magnitude | 0x7F80_0000);
+    (number | (code & 0x8000_0000)).bitcast()
 }
 
 /// The first words of an attribute of sixteen elements, what lies beyond the buffer's end zero; at least
@@ -113,10 +151,14 @@ fn fetch_words<S: Lanes>(
             return strided(s, rows, stride, count == 1);
         }
     }
-    let lanes = if source.per_instance {
-        &index.instance
-    } else {
-        &index.vertex
+    let stepped;
+    let lanes = match source.step_rate {
+        _ if !source.per_instance => &index.vertex,
+        1 => &index.instance,
+        rate => {
+            stepped = step(index, rate);
+            &stepped
+        }
     };
     let mut out = [<u32x16<S> as SimdBase<S>>::splat(s, 0); 4];
     let lanes = u32x16::load_array_ref(s, &lanes.0);
@@ -139,6 +181,17 @@ fn fetch_words<S: Lanes>(
         };
     }
     out
+}
+
+/// The elements of instances that share one between `rate` of them, or all of them.
+#[inline(never)]
+fn step(index: &PacketIndex, rate: u32) -> Packet<u32> {
+    let first = index.base_instance;
+    let of = |instance: u32| {
+        let steps = instance.wrapping_sub(first).checked_div(rate);
+        first.wrapping_add(steps.unwrap_or(0))
+    };
+    Packet(index.instance.0.map(of))
 }
 
 /// Words of sixteen rows that are `stride` words apart: the first four, or the first one.

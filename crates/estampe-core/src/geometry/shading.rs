@@ -57,6 +57,8 @@ pub(crate) struct VertexSource<'a> {
     /// Vertices of one instance.
     pub(crate) count: u32,
     pub(crate) first_instance: u32,
+    /// The draw's first instance, which an item's need not be.
+    pub(crate) base_instance: u32,
     pub(crate) instances: u32,
     /// Explicit vertex indices in place of the dense range, where indices are sparse.
     pub(crate) sparse: Option<&'a [u32]>,
@@ -201,7 +203,10 @@ fn fetch_batch<S: Lanes>(
     let packets = (total - done).div_ceil(LANES).min(BATCH);
     let last = first + (total - 1) as u32;
     for packet in 0..packets {
-        let mut index = PacketIndex::default();
+        let mut index = PacketIndex {
+            base_instance: source.base_instance,
+            ..PacketIndex::default()
+        };
         let start = first + (done + packet * LANES) as u32;
         number_vertices(source, start, last, &mut index);
         scratch.vertex_index[packet] = index.vertex;

@@ -12,6 +12,7 @@ fn layout(format: VertexFormat, stride: u32, offset: u32, location: u32) -> Vert
             offset,
             shader_location: location,
         }],
+        ..VertexBufferLayout::default()
     }
 }
 
@@ -53,7 +54,7 @@ fn what_is_not_there_reads_zeros() {
         layout(VertexFormat::Float32x4, 16, 8, 3),
         Buffer::from_f32s(&[1.0; 7]),
     )];
-    let fetch = |location, vertex| fetch::attribute(&buffers, location, vertex, 0);
+    let fetch = |location, vertex| fetch::attribute(&buffers, location, vertex, [0; 2]);
     assert_eq!(fetch(3, 0), [1.0; 4]);
     assert_eq!(
         fetch(3, 1),
@@ -66,7 +67,7 @@ fn what_is_not_there_reads_zeros() {
         layout(VertexFormat::Float32x2, 8, 0, 0),
         Buffer::from_f32s(&[]),
     )];
-    assert_eq!(fetch::attribute(&short, 0, 0, 0), [0.0, 0.0, 0.0, 1.0]);
+    assert_eq!(fetch::attribute(&short, 0, 0, [0; 2]), [0.0, 0.0, 0.0, 1.0]);
 }
 
 #[test]
@@ -174,4 +175,112 @@ fn instances_advance_instance_buffers_and_are_drawn_in_order() {
         target.color.iter().all(|&code| code == [0, 102, 102, 255]),
         "instance 1 is on top"
     );
+}
+
+#[test]
+fn codes_at_the_ends_of_every_normalised_format_are_one_and_minus_one() {
+    let ones = Buffer::from_bytes(&[0xFF; 16]);
+    let most = Buffer::from_bytes(&[0xFF, 0x7F].repeat(8));
+    let least = Buffer::from_bytes(&[0x00, 0x80].repeat(8));
+    for &format in VertexFormat::ALL {
+        let decode = |buffer| fetch::decode(format, buffer, 0)[0];
+        match (format.encoding(), format.size_bytes() / format.components()) {
+            (VertexEncoding::Unorm, _) => assert_eq!(decode(&ones), 1.0, "{format:?}"),
+            (VertexEncoding::Snorm, 2) => {
+                assert_eq!([&most, &least].map(decode), [1.0, -1.0], "{format:?}");
+            }
+            (VertexEncoding::Snorm, _) => {
+                let codes = [127, 128, 129].map(|code| Buffer::from_bytes(&[code]));
+                assert_eq!(
+                    codes.each_ref().map(decode),
+                    [1.0, -1.0, -1.0],
+                    "{format:?}"
+                );
+            }
+            (VertexEncoding::Uint, 4) | (VertexEncoding::Sint, _) => {
+                assert_eq!(decode(&ones).to_bits(), u32::MAX, "{format:?}");
+            }
+            (VertexEncoding::Uint, bytes) => {
+                assert_eq!(
+                    decode(&ones).to_bits(),
+                    (1 << (8 * bytes)) - 1,
+                    "{format:?}"
+                );
+            }
+            (VertexEncoding::Float, _) => assert!(decode(&ones).is_nan(), "{format:?}"),
+        }
+    }
+}
+
+#[test]
+fn packed_formats_and_halves_are_read_as_webgpu_says() {
+    let word = |word: u32| Buffer::from_words(vec![word]);
+    let packed = word(3 << 30 | 1023 << 20 | 1);
+    let decode = |format, buffer: &Buffer| fetch::decode(format, buffer, 0);
+    let [r, g, b, a] = decode(VertexFormat::Unorm10_10_10_2, &packed);
+    assert_eq!([r, g, b, a], [1.0 / 1023.0, 0.0, 1.0, 1.0]);
+    let bgra = decode(VertexFormat::Unorm8x4Bgra, &word(0xFF00_00FF));
+    assert_eq!(bgra, [0.0, 0.0, 1.0, 1.0]);
+    let halves = [
+        (0x3C00, 1.0),
+        (0xC000, -2.0),
+        (0x7BFF, 65_504.0),
+        (0x0400, 2.0_f32.powi(-14)),
+        (0x0001, 2.0_f32.powi(-24)),
+        (0x83FF, -1023.0 * 2.0_f32.powi(-24)),
+        (0x7C00, f32::INFINITY),
+        (0xFC00, f32::NEG_INFINITY),
+    ];
+    for (code, number) in halves {
+        assert_eq!(fetch::half(code), number, "{code:#x}");
+    }
+    assert!(fetch::half(0x8000).to_bits() == 1 << 31 && fetch::half(0x7E00).is_nan());
+    let integers = decode(VertexFormat::Sint8, &word(0xFE)).map(f32::to_bits);
+    assert_eq!(integers, [u32::MAX - 1, 0, 0, 1]);
+}
+
+#[test]
+fn instances_step_from_the_first_one() {
+    let of = |instance, rate| fetch::instance_element(instance, 10, rate);
+    assert_eq!([10, 11, 12, 13].map(|i| of(i, 2)), [10, 10, 11, 11]);
+    assert_eq!([10, 11, 12, 13].map(|i| of(i, 1)), [10, 11, 12, 13]);
+    assert_eq!([10, 99].map(|i| of(i, 0)), [10, 10]);
+}
+
+#[test]
+fn runs_end_where_an_index_restarts() {
+    use crate::assembly::runs;
+    let at = |restarts: &'static [u32]| runs(5, move |position| restarts.contains(&position));
+    assert_eq!(at(&[5]), vec![0..5; 1]);
+    assert_eq!(at(&[0, 3]), [0..0, 1..3, 4..5]);
+    assert_eq!(at(&[4]), [0..4, 5..5]);
+}
+
+#[test]
+fn the_provoking_vertices_are_those_of_vulkans_table() {
+    use crate::assembly::turned;
+    use estampe_types::state::{PrimitiveTopology as T, ProvokingVertex as P};
+    // (topology, first, last) of primitive i, from the table of §Flat Shading.
+    type Of = fn(u32) -> u32;
+    let table: [(T, Of, Of); 5] = [
+        (T::TriangleList, |i| 3 * i, |i| 3 * i + 2),
+        (T::TriangleStrip, |i| i, |i| i + 2),
+        (T::TriangleFan, |i| i + 1, |i| i + 2),
+        (T::TriangleListAdjacency, |i| 6 * i, |i| 6 * i + 4),
+        (T::TriangleStripAdjacency, |i| 2 * i, |i| 2 * i + 4),
+    ];
+    for (topology, first, last) in table {
+        for (i, primitive) in (0..).zip(primitives(topology, 30)) {
+            let Primitive::Triangle(given) = primitive else {
+                panic!("{topology:?} makes triangles");
+            };
+            let by = |mode| turned(topology, mode, i as usize, given);
+            assert_eq!(by(P::First)[0], first(i), "{topology:?} {i}");
+            assert_eq!(by(P::Last)[0], last(i), "{topology:?} {i}");
+            // The same winding.
+            let mut turning = given;
+            turning.rotate_left(given.iter().position(|&v| v == last(i)).unwrap());
+            assert_eq!(by(P::Last), turning, "{topology:?} {i}");
+        }
+    }
 }

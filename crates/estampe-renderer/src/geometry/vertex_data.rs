@@ -99,6 +99,7 @@ impl StreamData {
                 offset: 0,
                 shader_location: u32::try_from(location).expect("a handful of streams"),
             }],
+            ..VertexBufferLayout::default()
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Shaders that show what the vertex stage was given.
 
-use super::{bytes_of, bytes_of_int};
+use super::bytes_of_int;
 use estampe_types::shader::VertexOut;
 use estampe_types::{Flat, FragmentIn, FragmentOut, Vec2, Vec3, Vec4, VertexIn};
 
@@ -62,7 +62,8 @@ estampe_types::shader! {
             _input: FragmentIn<'_, R>,
             Flat([shown]): Flat<[R; 1]>,
         ) -> FragmentOut<R> {
-            FragmentOut::color(bytes_of(shown))
+            // Integers, too, whatever number their bits would be.
+            FragmentOut::color(bytes_of_int::<R>(shown.to_bits()))
         }
     }
 }

@@ -4,4 +4,4 @@ mod texture;
 mod vertex;
 
 pub use texture::{SampleType, TexelEncoding, TextureFormat};
-pub use vertex::{IndexFormat, VertexFormat};
+pub use vertex::{IndexFormat, VertexEncoding, VertexFormat};

@@ -24,14 +24,29 @@ pub struct VertexAttribute {
 }
 
 /// How the elements of a vertex buffer lie.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct VertexBufferLayout {
-    /// Bytes from one element to the next; 0 gives every vertex the same element.
+    /// Bytes from one element to the next, any number; 0 gives every vertex the same element. Default 0.
     pub array_stride: u32,
-    /// By vertex or by instance.
+    /// By vertex or by instance. Default by vertex.
     pub step_mode: VertexStepMode,
+    /// How many instances share an element, where it is by instance: instance i of a draw whose first one is f
+    /// reads element f + (i − f) / rate, rounded down; 0: all read element f. Default 1. (Vulkan's
+    /// `VK_EXT_vertex_attribute_divisor`.)
+    pub instance_step_rate: u32,
     /// What an element holds.
     pub attributes: Vec<VertexAttribute>,
+}
+
+impl Default for VertexBufferLayout {
+    fn default() -> Self {
+        Self {
+            array_stride: 0,
+            step_mode: VertexStepMode::default(),
+            instance_step_rate: 1,
+            attributes: Vec::new(),
+        }
+    }
 }
 
 impl VertexBufferLayout {
