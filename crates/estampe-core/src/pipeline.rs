@@ -1,6 +1,6 @@
 //! The state of a draw: an untrusted descriptor, validated once into an immutable pipeline.
 
-use estampe_types::shader::{DepthOutput, Sampling};
+use estampe_types::shader::{DepthOutput, MAX_DISTANCES, Sampling};
 use estampe_types::state::{
     BlendFactor, BlendState, ColorTargetState, CompareFunction, ConservativeMode, DepthBiasState,
     DepthState, LogicOperation, PrimitiveState, StencilState, VertexBufferLayout,
@@ -179,6 +179,14 @@ pub enum PipelineError {
         /// How many it may read.
         limit: u32,
     },
+    /// Too many clip or cull distances.
+    #[error("the shader has {count} clip or cull distances; there are at most {limit} of each")]
+    TooManyDistances {
+        /// How many it has.
+        count: usize,
+        /// How many it may have.
+        limit: usize,
+    },
     /// Too many varyings.
     #[error(
         "the shader has {count} scalars of varyings; the limit max_inter_stage_scalars is {limit}"
@@ -326,6 +334,11 @@ fn check_interface(interface: &Interface, limits: &Limits) -> Result<(), Pipelin
             count,
             limit: limits.max_vertex_attributes,
         });
+    }
+    let count = interface.clip_distances.max(interface.cull_distances);
+    if count > MAX_DISTANCES {
+        let limit = MAX_DISTANCES;
+        return Err(PipelineError::TooManyDistances { count, limit });
     }
     let count = interface.varyings.len();
     if count > limits.max_inter_stage_scalars as usize {

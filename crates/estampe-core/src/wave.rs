@@ -310,7 +310,7 @@ impl<'a> Remainder<'a> {
         Item {
             draw,
             bindings: draw.bindings.unwrap_or(&NO_BINDINGS),
-            transform: ViewportTransform::new(&self.viewport),
+            transform: ViewportTransform::new(&self.viewport, descriptor.primitive.unclipped_depth),
             rect: self.rect,
             facing: Facing::new(&descriptor.primitive),
             targets,

@@ -11,7 +11,7 @@
 //! ```
 
 use crate::ClipVertex;
-use crate::viewport::{GUARD_BAND_MAX, GUARD_BAND_MIN, ViewportTransform};
+use crate::viewport::{GUARD_BAND_MAX, GUARD_BAND_MIN, LEAST_W, ViewportTransform};
 
 /// A plane that clips.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +20,10 @@ pub enum Plane {
     Near,
     /// z ≤ w.
     Far,
+    /// w ≥ [`LEAST_W`], where depth is not clipped.
+    Eye,
+    /// Clip distance k is not negative.
+    Distance(usize),
     /// A window coordinate is at least `SIDE_MIN`: `coordinate·scale + reach·w ≥ 0`.
     Least {
         /// 0 for x, 1 for y.
@@ -47,8 +51,20 @@ pub const SIDE_MIN: f32 = GUARD_BAND_MIN - 1.0;
 pub const SIDE_MAX: f32 = GUARD_BAND_MAX + 1.0;
 
 impl Plane {
-    /// The planes that clip always; the sides clip only beyond the guard band.
+    /// The planes that clip depth.
     pub const DEPTH: [Self; 2] = [Self::Near, Self::Far];
+
+    /// The planes that clip always, in order; the sides clip only beyond the guard band.
+    #[must_use]
+    pub fn always(viewport: &ViewportTransform, clip_distances: usize) -> Vec<Self> {
+        let depth: &[Self] = if viewport.unclipped_depth {
+            &[Self::Eye]
+        } else {
+            &Self::DEPTH
+        };
+        let distances = (0..clip_distances).map(Self::Distance);
+        depth.iter().copied().chain(distances).collect()
+    }
 
     /// Left, right, top and bottom, in the order in which they clip.
     #[must_use]
@@ -67,47 +83,53 @@ impl Plane {
         [least(0), greatest(0), least(1), greatest(1)]
     }
 
-    /// How far inside a position is, times w or more; negative outside.
+    /// How far inside a vertex is, times w or more; negative outside.
     #[must_use]
-    pub fn distance(self, position: [f32; 4]) -> f32 {
+    pub fn distance(self, vertex: &ClipVertex) -> f32 {
+        let position = vertex.position;
         let [_, _, z, w] = position;
         match self {
             Self::Near => z,
             Self::Far => w - z,
+            Self::Eye => w - LEAST_W,
+            Self::Distance(k) => vertex.clip_distances[k],
             Self::Least { axis, scale, reach } => position[axis] * scale + reach * w,
             Self::Greatest { axis, scale, reach } => reach * w - position[axis] * scale,
         }
     }
 
     /// Sets the coordinate that this plane bounds exactly onto it; the sides bound no single one.
-    fn set(self, position: &mut [f32; 4]) {
+    fn set(self, vertex: &mut ClipVertex) {
+        let position = &mut vertex.position;
         match self {
             Self::Near => position[2] = 0.0,
             Self::Far => position[2] = position[3],
+            Self::Eye => position[3] = LEAST_W,
+            Self::Distance(k) => vertex.clip_distances[k] = 0.0,
             Self::Least { .. } | Self::Greatest { .. } => {}
         }
     }
 
     fn keeps(self, vertex: &ClipVertex) -> bool {
-        self.distance(vertex.position) >= 0.0
+        self.distance(vertex) >= 0.0
     }
 
     /// Where the edge from an inside to an outside vertex crosses the plane.
     #[must_use]
     pub fn crossing(self, inside: &ClipVertex, outside: &ClipVertex) -> ClipVertex {
-        let d_in = self.distance(inside.position);
-        let d_out = self.distance(outside.position);
+        let d_in = self.distance(inside);
+        let d_out = self.distance(outside);
         let t = d_in / (d_in - d_out);
         let mix = |a: f32, b: f32| a + (b - a) * t;
-        let mut position: [f32; 4] =
-            std::array::from_fn(|axis| mix(inside.position[axis], outside.position[axis]));
-        self.set(&mut position);
-        let varyings = inside.varyings.iter().zip(&outside.varyings);
-        ClipVertex {
-            position,
-            varyings: varyings.map(|(&a, &b)| mix(a, b)).collect(),
-            point_size: inside.point_size,
-        }
+        let mix_all = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(&a, &b)| mix(a, b)).collect();
+        let mut crossing = ClipVertex {
+            position: [0, 1, 2, 3].map(|k: usize| mix(inside.position[k], outside.position[k])),
+            varyings: mix_all(&inside.varyings, &outside.varyings),
+            clip_distances: mix_all(&inside.clip_distances, &outside.clip_distances),
+            ..inside.clone()
+        };
+        self.set(&mut crossing);
+        crossing
     }
 }
 
@@ -117,10 +139,25 @@ pub fn view_volume_distances([x, y, z, w]: [f32; 4]) -> [f32; 6] {
     [x + w, w - x, y + w, w - y, z, w - z]
 }
 
-/// Whether a position can be divided and lies between the near and the far plane.
+/// Whether a position can be divided and lies between the near and the far plane, or where depth is not clipped has
+/// enough w.
 #[must_use]
-pub fn is_inside([_, _, z, w]: [f32; 4]) -> bool {
-    0.0 <= z && z <= w && w > 0.0 && (1.0 / w).is_finite()
+pub fn is_inside([_, _, z, w]: [f32; 4], viewport: &ViewportTransform) -> bool {
+    let is_in_depth = if viewport.unclipped_depth {
+        w >= LEAST_W
+    } else {
+        0.0 <= z && z <= w
+    };
+    is_in_depth && w > 0.0 && (1.0 / w).is_finite()
+}
+
+/// Whether a primitive is dropped because all of its vertices are negative in one cull distance.
+#[must_use]
+pub fn is_distant(vertices: &[ClipVertex]) -> bool {
+    let distances = vertices
+        .first()
+        .map_or(0, |vertex| vertex.cull_distances.len());
+    (0..distances).any(|k| vertices.iter().all(|vertex| vertex.cull_distances[k] < 0.0))
 }
 
 /// Whether it is inside and its window coordinates fit the rasterizer's fixed point.
@@ -128,7 +165,7 @@ pub fn is_inside([_, _, z, w]: [f32; 4]) -> bool {
 pub fn is_within_guard_band(position: [f32; 4], viewport: &ViewportTransform) -> bool {
     let window = viewport.window(position);
     let band = GUARD_BAND_MIN..=GUARD_BAND_MAX;
-    is_inside(position) && band.contains(&window.x) && band.contains(&window.y)
+    is_inside(position, viewport) && band.contains(&window.x) && band.contains(&window.y)
 }
 
 /// What the clip test says of a primitive.
@@ -146,14 +183,20 @@ pub enum ClipTest {
 #[must_use]
 pub fn test(vertices: &[ClipVertex], viewport: &ViewportTransform) -> ClipTest {
     let positions = || vertices.iter().map(|vertex| vertex.position);
-    if positions().any(|p| p.iter().any(|component| !component.is_finite())) {
+    let distances = || vertices.iter().flat_map(|vertex| &vertex.clip_distances);
+    if positions().any(|p| p.iter().any(|component| !component.is_finite()))
+        || distances().any(|distance| !distance.is_finite())
+    {
         return ClipTest::Drop;
     }
-    if positions().all(|p| is_within_guard_band(p, viewport)) {
+    if positions().all(|p| is_within_guard_band(p, viewport))
+        && distances().all(|&distance| distance >= 0.0)
+    {
         return ClipTest::Accept;
     }
     let all_outside = |side: usize| positions().all(|p| view_volume_distances(p)[side] < 0.0);
-    if (0..6).any(all_outside) {
+    let sides = if viewport.unclipped_depth { 4 } else { 6 };
+    if (0..sides).any(all_outside) {
         return ClipTest::Drop;
     }
     ClipTest::Clip
@@ -172,11 +215,11 @@ pub fn clip_triangle(
     }
 }
 
-/// Clips a polygon by near and far, then, if it leaves the guard band, by the sides around it.
+/// Clips a polygon by near and far and the clip distances, then, if it leaves the guard band, by the sides around it.
 #[must_use]
 pub fn clip_polygon(vertices: &[ClipVertex], viewport: &ViewportTransform) -> Vec<ClipVertex> {
     let mut polygon = vertices.to_vec();
-    for plane in Plane::DEPTH {
+    for plane in Plane::always(viewport, vertices[0].clip_distances.len()) {
         polygon = clip_polygon_by(plane, &polygon);
     }
     if needs_sides(&polygon, viewport) {
@@ -214,7 +257,7 @@ pub fn clip_line(line: &[ClipVertex; 2], viewport: &ViewportTransform) -> Option
         ClipTest::Clip => {}
     }
     let mut line = line.clone();
-    for plane in Plane::DEPTH {
+    for plane in Plane::always(viewport, line[0].clip_distances.len()) {
         line = clip_line_by(plane, line)?;
     }
     if needs_sides(&line, viewport) {
@@ -242,15 +285,19 @@ pub fn clip_line_by(plane: Plane, [start, end]: [ClipVertex; 2]) -> Option<[Clip
     }
 }
 
-/// Whether a point is drawn: its centre must lie in the view volume.
+/// Whether a point is drawn: its centre must lie in the view volume, and no clip distance be negative.
 #[must_use]
-pub fn keeps_point(vertex: &ClipVertex) -> bool {
+pub fn keeps_point(vertex: &ClipVertex, viewport: &ViewportTransform) -> bool {
     let [x, y, _, w] = vertex.position;
     vertex
         .position
         .iter()
         .all(|component| component.is_finite())
-        && is_inside(vertex.position)
+        && is_inside(vertex.position, viewport)
+        && vertex
+            .clip_distances
+            .iter()
+            .all(|&distance| distance.is_finite() && distance >= 0.0)
         && (-w..=w).contains(&x)
         && (-w..=w).contains(&y)
 }

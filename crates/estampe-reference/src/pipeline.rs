@@ -1,7 +1,7 @@
 //! A draw: the stages, one after the other, on one primitive at a time.
 
 use crate::assembly::{Primitive, primitives, runs, turned};
-use crate::clip::{clip_line, clip_triangle, keeps_point};
+use crate::clip::{clip_line, clip_triangle, is_distant, keeps_point};
 use crate::conservative;
 use crate::cull::{Face, face, is_culled};
 use crate::fragment::{Invocation, Surface, TriangleSurface, sample_depth, shade_quad};
@@ -173,7 +173,8 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
         shader,
         state,
         bindings: draw.bindings,
-        viewport: ViewportTransform::new(&state.viewport),
+        viewport: ViewportTransform::new(&state.viewport)
+            .with_unclipped_depth(state.primitive.unclipped_depth),
         bounds: PixelBounds::new(&state.viewport, &state.scissor, size),
         modes,
         is_by_sample,
@@ -224,10 +225,23 @@ impl<S: Shader> Pass<'_, S> {
         for (index, primitive) in primitives(topology, count).enumerate() {
             self.counts.primitives += 1;
             match primitive {
-                Primitive::Point(at) => self.point(&shade(at), None),
-                Primitive::Line(at) => self.line(&at.map(&shade), None),
+                Primitive::Point(at) => {
+                    let vertex = shade(at);
+                    if !is_distant(std::slice::from_ref(&vertex)) {
+                        self.point(&vertex, None);
+                    }
+                }
+                Primitive::Line(at) => {
+                    let ends = at.map(&shade);
+                    if !is_distant(&ends) {
+                        self.line(&ends, None);
+                    }
+                }
                 Primitive::Triangle(at) => {
-                    self.triangle(&turned(topology, mode, index, at).map(&shade));
+                    let corners = turned(topology, mode, index, at).map(&shade);
+                    if !is_distant(&corners) {
+                        self.triangle(&corners);
+                    }
                 }
             }
         }
@@ -323,7 +337,7 @@ impl<S: Shader> Pass<'_, S> {
     }
 
     fn point(&mut self, vertex: &ClipVertex, parent: Option<Parent<'_>>) {
-        if !keeps_point(vertex) {
+        if !keeps_point(vertex, &self.viewport) {
             return;
         }
         self.counts.rasterized += 1;

@@ -14,6 +14,10 @@ pub struct ClipVertex {
     pub varyings: Vec<f32>,
     /// Width of a point, in pixels.
     pub point_size: f32,
+    /// How far inside the shader's own planes it is.
+    pub clip_distances: Vec<f32>,
+    /// Negative at all vertices of a primitive, one of these drops it.
+    pub cull_distances: Vec<f32>,
 }
 
 /// Fetches and shades the vertex at `position` of the draw's range: counted from its start.
@@ -53,7 +57,17 @@ pub fn shade_vertex<S: Shader>(
             Some(pixels) if S::WRITES_POINT_SIZE => pixels,
             _ => 1.0,
         },
+        clip_distances: given(&output.clip_distances[..S::CLIP_DISTANCES]),
+        cull_distances: given(&output.cull_distances[..S::CULL_DISTANCES]),
     }
+}
+
+/// Distances; those that the shader did not give are 0.
+fn given(distances: &[Option<f32>]) -> Vec<f32> {
+    distances
+        .iter()
+        .map(|distance| distance.unwrap_or(0.0))
+        .collect()
 }
 
 /// Numbers handed to a shader one after the other; zeros once they are spent.

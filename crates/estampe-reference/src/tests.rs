@@ -130,5 +130,7 @@ fn clip_vertex(position: [f32; 4], varyings: &[f32]) -> ClipVertex {
         position,
         varyings: varyings.to_vec(),
         point_size: 1.0,
+        clip_distances: Vec::new(),
+        cull_distances: Vec::new(),
     }
 }

@@ -27,7 +27,15 @@ pub struct ViewportTransform {
     pub offset: [f32; 3],
     /// The lesser and the greater end of the depth range.
     pub depth_range: [f32; 2],
+    /// Whether depth is not clipped.
+    pub unclipped_depth: bool,
 }
+
+/// The least w that is not clipped where depth is not: 2⁻²⁰.
+pub const LEAST_W: f32 = 1.0 / 1_048_576.0;
+
+/// Where depth is not clipped, that of a vertex is confined to so much on either side of 0: 2²⁴.
+pub const FARTHEST: f32 = 16_777_216.0;
 
 /// Whether a viewport draws at all: its numbers are ones that the arithmetic was made for.
 #[must_use]
@@ -75,6 +83,16 @@ impl ViewportTransform {
             scale: [scale_x, v.height * -0.5, v.max_depth - v.min_depth],
             offset: [v.x + scale_x, v.y + v.height * 0.5, v.min_depth],
             depth_range: [min(v.min_depth, v.max_depth), max(v.min_depth, v.max_depth)],
+            unclipped_depth: false,
+        }
+    }
+
+    /// The same, clipping depth or not.
+    #[must_use]
+    pub fn with_unclipped_depth(self, unclipped_depth: bool) -> Self {
+        Self {
+            unclipped_depth,
+            ..self
         }
     }
 
@@ -84,10 +102,15 @@ impl ViewportTransform {
         let inverse_w = 1.0 / w;
         let map =
             |value: f32, axis: usize| (value * inverse_w) * self.scale[axis] + self.offset[axis];
+        let z = map(z, 2);
         WindowPosition {
             x: map(x, 0),
             y: map(y, 1),
-            z: map(z, 2),
+            z: if self.unclipped_depth {
+                clamp(z, -FARTHEST, FARTHEST)
+            } else {
+                z
+            },
             inverse_w,
         }
     }

@@ -11,6 +11,7 @@ use super::viewport::{ViewportTransform, snap};
 use crate::pipeline::RenderPipeline;
 use crate::tiles::{Chunk, LinePrimitive, PointPrimitive, VertexRef, WindowVertex};
 use estampe_simd::{LANES, Lanes, Level, SimdBase, SimdCvtFloat, dispatch, f32x16, u32x16};
+use estampe_types::shader::MAX_DISTANCES;
 use estampe_types::state::PolygonMode;
 
 /// The shaded vertices of one item.
@@ -106,7 +107,7 @@ pub(crate) fn process(
                 match kind {
                     PrimitiveKind::Triangles => worker.outlines(corners, mode, scratch),
                     PrimitiveKind::Lines => worker.lines(corners, scratch),
-                    PrimitiveKind::Points => worker.points(corners),
+                    PrimitiveKind::Points => worker.points(corners, scratch),
                 }
             }
         }
@@ -250,7 +251,7 @@ impl Worker<'_, '_> {
     #[inline(never)]
     fn clip_triangle(&mut self, corners: [u32; 3], scratch: &mut ChunkScratch) {
         self.setup.chunk().statistics.primitives_clipped += 1;
-        if !self.clip(&corners, scratch) {
+        if self.is_distant(&corners, scratch) || !self.clip(&corners, scratch) {
             return;
         }
         for last in 2..scratch.clipped.len() {
@@ -278,17 +279,55 @@ impl Worker<'_, '_> {
         span(|v| v.x, rect.x0, rect.x1) && span(|v| v.y, rect.y0, rect.y1)
     }
 
+    /// Whether all of some vertices are negative in one cull distance.
+    fn is_distant(&self, corners: &[u32], scratch: &mut ChunkScratch) -> bool {
+        let interface = self.work.pipeline.interface();
+        let first = interface.clip_distances;
+        // A bit for each; a pipeline has at most eight.
+        let mut negative = (1u32 << interface.cull_distances.min(MAX_DISTANCES)) - 1;
+        for &corner in corners {
+            if negative == 0 {
+                break;
+            }
+            self.position_of(corner, scratch);
+            let distances = scratch
+                .clip_positions
+                .distances_of(self.work.pipeline, corner);
+            let mut of_corner = 0;
+            for (bit, distance) in distances.skip(first).enumerate() {
+                of_corner |= u32::from(distance < 0.0) << bit;
+            }
+            negative &= of_corner;
+        }
+        negative != 0
+    }
+
+    /// A vertex's clip-space position, computed again; its distances are then at hand, too.
+    fn position_of(&self, vertex: u32, scratch: &mut ChunkScratch) -> [f32; 4] {
+        let (pipeline, source) = (self.work.pipeline, self.work.source);
+        let positions = &mut scratch.clip_positions;
+        positions.position_of(self.level, pipeline, source, vertex)
+    }
+
     /// Clips a polygon or line into `scratch.clipped`; false when nothing is left.
     fn clip(&mut self, corners: &[u32], scratch: &mut ChunkScratch) -> bool {
         let vertices = &self.work.vertices;
-        scratch.polygon.begin(vertices.varying_scalars);
+        let pipeline = self.work.pipeline;
+        let distances = pipeline.interface().clip_distances;
+        let varying_scalars = vertices.varying_scalars;
+        scratch.polygon.begin(varying_scalars, distances);
         for &corner in corners {
-            let position = vertices.clip_position(corner).unwrap_or_else(|| {
-                let (pipeline, source) = (self.work.pipeline, self.work.source);
-                let positions = &mut scratch.clip_positions;
-                positions.position_of(self.level, pipeline, source, corner)
-            });
-            scratch.polygon.push(position, vertices.varyings_of(corner));
+            let position = match vertices.clip_position(corner) {
+                Some(position) if distances == 0 => position,
+                _ => self.position_of(corner, scratch),
+            };
+            let distances = scratch
+                .clip_positions
+                .distances_of(pipeline, corner)
+                .take(distances);
+            scratch
+                .polygon
+                .push(position, vertices.varyings_of(corner), distances);
         }
         scratch.clipped.clear();
         if !scratch.polygon.clip(self.work.transform) {
@@ -310,7 +349,7 @@ impl Worker<'_, '_> {
             ];
             let made = self.setup.push_clipped(row);
             let varyings = &mut self.setup.chunk().clipped_varyings;
-            varyings.extend_from_slice(&vertex[4..]);
+            varyings.extend_from_slice(&vertex[4..4 + varying_scalars]);
             let vertex = if usable { made } else { DROPPED };
             scratch.clipped.push(WindowVertex {
                 x,
@@ -325,7 +364,9 @@ impl Worker<'_, '_> {
 
     fn lines(&mut self, lines: &[[u32; 3]], scratch: &mut ChunkScratch) {
         for &[a, b, provoking] in lines {
-            self.line([a, b], VertexRef(provoking), true, scratch);
+            if !self.is_distant(&[a, b], scratch) {
+                self.line([a, b], VertexRef(provoking), true, scratch);
+            }
         }
     }
 
@@ -360,19 +401,29 @@ impl Worker<'_, '_> {
         }
     }
 
-    fn points(&mut self, points: &[[u32; 3]]) {
+    fn points(&mut self, points: &[[u32; 3]], scratch: &mut ChunkScratch) {
         for &[vertex, ..] in points {
-            self.point(vertex, VertexRef(vertex), true);
+            if !self.is_distant(&[vertex], scratch) {
+                self.point(vertex, VertexRef(vertex), true, scratch);
+            }
         }
     }
 
-    fn point(&mut self, vertex: u32, provoking: VertexRef, front: bool) {
+    fn point(
+        &mut self,
+        vertex: u32,
+        provoking: VertexRef,
+        front: bool,
+        scratch: &mut ChunkScratch,
+    ) {
         let vertices = &self.work.vertices;
-        if !vertices.clip_position(vertex).is_some_and(is_point_visible) {
+        let is_visible = |position| is_point_visible(self.work.transform, position);
+        if !vertices.clip_position(vertex).is_some_and(is_visible) {
             self.setup.chunk().statistics.primitives_clipped += 1;
             return;
         }
-        let Some(center) = vertices.window_vertex(vertex) else {
+        let center = vertices.window_vertex(vertex);
+        let Some(center) = center.or_else(|| self.undistant_center(vertex, scratch)) else {
             return;
         };
         let size = vertices
@@ -386,6 +437,30 @@ impl Worker<'_, '_> {
             half: half_size(size),
             front,
         });
+    }
+
+    /// A visible point's place where a cull distance, which concerns the triangle that it is a corner of, is
+    /// negative; none where a clip distance is.
+    fn undistant_center(&self, vertex: u32, scratch: &mut ChunkScratch) -> Option<WindowVertex> {
+        let interface = self.work.pipeline.interface();
+        if interface.cull_distances == 0 {
+            return None;
+        }
+        let position = self.position_of(vertex, scratch);
+        let distances = scratch
+            .clip_positions
+            .distances_of(self.work.pipeline, vertex);
+        let mut clip = distances.take(interface.clip_distances);
+        let is_inside = clip.all(|distance| (0.0..f32::INFINITY).contains(&distance))
+            && position.iter().all(|component| component.is_finite());
+        let at = self.work.transform.project(position);
+        (is_inside && at.iw.is_finite()).then_some(WindowVertex {
+            x: snap(at.x),
+            y: snap(at.y),
+            z: at.z,
+            iw: at.iw,
+            vertex: VertexRef(vertex),
+        })
     }
 
     /// Triangles as their edges or vertices (A5).
@@ -403,9 +478,9 @@ impl Worker<'_, '_> {
                     self.line(edge, VertexRef(a), front, scratch);
                 }
             } else {
-                corners
-                    .into_iter()
-                    .for_each(|corner| self.point(corner, VertexRef(a), front));
+                for corner in corners {
+                    self.point(corner, VertexRef(a), front, scratch);
+                }
             }
         }
     }
@@ -417,7 +492,7 @@ impl Worker<'_, '_> {
         if let [Some(a), Some(b), Some(c)] = whole {
             return doubled_area(&[a, b, c]);
         }
-        if !self.clip(&corners, scratch) {
+        if self.is_distant(&corners, scratch) || !self.clip(&corners, scratch) {
             return 0;
         }
         let fan = |last| {

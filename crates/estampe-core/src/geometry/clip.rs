@@ -10,13 +10,17 @@
 //!
 //! A vertex is its position and varyings in one run of floats, so that one loop interpolates both.
 
-use super::viewport::{GUARD_MAX, GUARD_MIN, ViewportTransform, is_within_guard_band};
+use super::viewport::{GUARD_MAX, GUARD_MIN, LEAST_W, ViewportTransform, is_within_guard_band};
 
 /// A plane that cuts: the distance of a position, and the coordinate to be set at a crossing.
 #[derive(Debug, Clone, Copy)]
 enum Plane {
     Near,
     Far,
+    /// The least w, where depth is not clipped.
+    Eye,
+    /// A clip distance: the number of that place.
+    Distance(usize),
     /// A side of the guard band: `coordinate·scale` against `bound·w`.
     AtLeast {
         axis: usize,
@@ -36,6 +40,7 @@ const SIDE_MAX: f32 = GUARD_MAX + 1.0;
 
 impl Plane {
     const DEPTH: [Self; 2] = [Self::Near, Self::Far];
+    const UNCLIPPED_DEPTH: [Self; 1] = [Self::Eye];
 
     /// Left, right, top and bottom of the guard band under a viewport. They lie at the band rather than
     /// at ±w, so that an edge with both ends inside the band stays whole in both of its triangles.
@@ -64,6 +69,8 @@ impl Plane {
         match self {
             Self::Near => z,
             Self::Far => w - z,
+            Self::Eye => w - LEAST_W,
+            Self::Distance(at) => p[at],
             Self::AtLeast { axis, scale, bound } => p[axis] * scale + bound * w,
             Self::AtMost { axis, scale, bound } => bound * w - p[axis] * scale,
         }
@@ -74,22 +81,29 @@ impl Plane {
         match self {
             Self::Near => p[2] = 0.0,
             Self::Far => p[2] = p[3],
+            Self::Eye => p[3] = LEAST_W,
+            Self::Distance(at) => p[at] = 0.0,
             Self::AtLeast { .. } | Self::AtMost { .. } => {}
         }
     }
 }
 
-/// Whether all of some vertices lie outside one side of the view volume.
-fn are_outside<'a>(vertices: impl Iterator<Item = &'a [f32]> + Clone) -> bool {
+/// Whether all of some vertices lie outside one side of the view volume, near and far left out where depth is not
+/// clipped.
+fn are_outside<'a>(
+    transform: &ViewportTransform,
+    vertices: impl Iterator<Item = &'a [f32]> + Clone,
+) -> bool {
     let distances: [fn(&[f32]) -> f32; 6] = [
-        |p| p[2],
-        |p| p[3] - p[2],
         |p| p[0] + p[3],
         |p| p[3] - p[0],
         |p| p[1] + p[3],
         |p| p[3] - p[1],
+        |p| p[2],
+        |p| p[3] - p[2],
     ];
-    distances
+    let sides = if transform.unclipped_depth { 4 } else { 6 };
+    distances[..sides]
         .iter()
         .any(|distance| vertices.clone().all(|vertex| distance(vertex) < 0.0))
 }
@@ -97,37 +111,58 @@ fn are_outside<'a>(vertices: impl Iterator<Item = &'a [f32]> + Clone) -> bool {
 /// A polygon (or, of two vertices, a line) that is being clipped; reused from one to the next.
 #[derive(Debug, Default)]
 pub(crate) struct ClipPolygon {
-    /// Floats of a vertex: x, y, z, w and the varyings.
+    /// Floats of a vertex: x, y, z, w, the varyings and the clip distances.
     stride: usize,
+    /// How many of them are clip distances.
+    distances: usize,
     vertices: Vec<f32>,
     next: Vec<f32>,
 }
 
 impl ClipPolygon {
-    /// Begins anew with vertices of so many varyings.
-    pub(crate) fn begin(&mut self, varyings: usize) {
-        self.stride = 4 + varyings;
+    /// Begins anew with vertices of so many varyings and clip distances.
+    pub(crate) fn begin(&mut self, varyings: usize, distances: usize) {
+        self.stride = 4 + varyings + distances;
+        self.distances = distances;
         self.vertices.clear();
     }
 
-    pub(crate) fn push(&mut self, position: [f32; 4], varyings: &[f32]) {
+    pub(crate) fn push(
+        &mut self,
+        position: [f32; 4],
+        varyings: &[f32],
+        distances: impl Iterator<Item = f32>,
+    ) {
         self.vertices.extend_from_slice(&position);
         self.vertices.extend_from_slice(varyings);
+        self.vertices.extend(distances);
     }
 
-    /// The vertices: position and varyings in one slice.
+    /// The vertices: position, varyings and clip distances in one slice.
     pub(crate) fn vertices(&self) -> impl ExactSizeIterator<Item = &[f32]> + Clone {
         self.vertices.chunks_exact(self.stride)
     }
 
-    /// Clips. False when nothing is left, or a position is not finite.
+    /// Clips. False when nothing is left, or a position or a clip distance is not finite.
     pub(crate) fn clip(&mut self, transform: &ViewportTransform) -> bool {
-        let is_finite = |vertex: &[f32]| vertex[..4].iter().all(|value| value.is_finite());
-        if !self.vertices().all(is_finite) || are_outside(self.vertices()) {
+        let first_distance = self.stride - self.distances;
+        let is_finite = |vertex: &[f32]| {
+            let numbers = vertex[..4].iter().chain(&vertex[first_distance..]);
+            numbers.copied().all(f32::is_finite)
+        };
+        if !self.vertices().all(is_finite) || are_outside(transform, self.vertices()) {
             return false;
         }
-        for plane in Plane::DEPTH {
+        let depth: &[Plane] = if transform.unclipped_depth {
+            &Plane::UNCLIPPED_DEPTH
+        } else {
+            &Plane::DEPTH
+        };
+        for &plane in depth {
             self.clip_by(plane);
+        }
+        for distance in first_distance..self.stride {
+            self.clip_by(Plane::Distance(distance));
         }
         if self
             .vertices()
@@ -176,8 +211,9 @@ fn is_in_guard_band(transform: &ViewportTransform, vertex: &[f32]) -> bool {
 }
 
 /// Whether a point is drawn: its centre lies inside the view volume.
-pub(crate) fn is_point_visible([x, y, z, w]: [f32; 4]) -> bool {
-    (-w..=w).contains(&x) && (-w..=w).contains(&y) && (0.0..=w).contains(&z) && w > 0.0
+pub(crate) fn is_point_visible(transform: &ViewportTransform, position: [f32; 4]) -> bool {
+    let [x, y, _, w] = position;
+    (-w..=w).contains(&x) && (-w..=w).contains(&y) && transform.is_in_depth(position)
 }
 
 #[cfg(test)]
@@ -195,14 +231,14 @@ mod tests {
             min_depth: 0.0,
             max_depth: 1.0,
         };
-        ViewportTransform::new(&viewport)
+        ViewportTransform::new(&viewport, false)
     }
 
     fn clipped(corners: &[[f32; 4]]) -> Vec<Vec<f32>> {
         let mut polygon = ClipPolygon::default();
-        polygon.begin(1);
+        polygon.begin(1, 0);
         for (index, corner) in corners.iter().enumerate() {
-            polygon.push(*corner, &[index as f32]);
+            polygon.push(*corner, &[index as f32], std::iter::empty());
         }
         if !polygon.clip(&transform()) {
             return Vec::new();

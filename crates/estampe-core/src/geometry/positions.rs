@@ -1,6 +1,7 @@
-//! Clip-space positions of the few vertices that are clipped, computed again when they are asked for.
+//! Clip-space positions, clip and cull distances of the few vertices that are clipped, computed again when they are
+//! asked for.
 //!
-//! *In* an item's vertex numbers · *Out* their positions · *Space* clip.
+//! *In* an item's vertex numbers · *Out* their positions and distances · *Space* clip.
 //!
 //! Filled triangles need clip-space positions only where they leave the view volume. To keep them for all
 //! vertices took a tenth of the geometry side of a scene that clips nothing: 16 bytes written for each vertex.
@@ -20,6 +21,8 @@ pub(crate) struct PositionCache {
     /// Which packet is in each place; empty until one is asked for.
     packets: Vec<Option<u32>>,
     positions: Vec<[Packet<f32>; 4]>,
+    /// The clip distances, then the cull distances, of each place; empty where the program has none.
+    distances: Vec<Packet<f32>>,
     shading: ShadingScratch,
 }
 
@@ -27,6 +30,19 @@ impl PositionCache {
     /// Forgets what belongs to another item.
     pub(crate) fn clear(&mut self) {
         self.packets.clear();
+    }
+
+    /// The clip distances of the vertex whose position was asked for last, then its cull distances.
+    pub(crate) fn distances_of(
+        &self,
+        pipeline: &RenderPipeline,
+        vertex: u32,
+    ) -> impl Iterator<Item = f32> {
+        let (packet, lane) = (vertex / PACKET, (vertex % PACKET) as usize);
+        let count = pipeline.interface().distances();
+        let place = packet as usize % KEPT;
+        let all = self.distances.get(place * count..).unwrap_or_default();
+        all.iter().take(count).map(move |distance| distance.0[lane])
     }
 
     /// The position of one of an item's vertices.
@@ -42,11 +58,16 @@ impl PositionCache {
         if self.packets.is_empty() {
             self.packets.resize(KEPT, None);
             self.positions.resize_with(KEPT, Default::default);
+            let distances = pipeline.interface().distances();
+            self.distances.resize(KEPT * distances, Packet::default());
         }
         if self.packets[place] != Some(packet) {
             let first = packet * PACKET;
             self.positions[place] =
                 shade_positions(level, pipeline, source, first, &mut self.shading);
+            let distances = self.shading.distances_of_first(pipeline);
+            let to = &mut self.distances[place * distances.len()..];
+            to[..distances.len()].copy_from_slice(distances);
             self.packets[place] = Some(packet);
         }
         self.positions[place]

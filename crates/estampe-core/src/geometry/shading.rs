@@ -9,7 +9,7 @@ use crate::pipeline::RenderPipeline;
 use estampe_simd::{
     Bytes, LANES, Lanes, Level, Packet, Select, SimdBase, dispatch, f32x16, i32x16,
 };
-use estampe_types::{Bindings, Buffer, VertexBatch};
+use estampe_types::{Bindings, Buffer, Interface, VertexBatch};
 
 /// Packets that a program shades in one call. Few, because fetching and storing wait for memory while programs
 /// compute: of a million triangles' half a million vertices, with 2, 4, 8 and 16 packets, the geometry side took
@@ -80,6 +80,15 @@ pub(crate) struct ShadingScratch {
     positions: [[Packet<f32>; 4]; BATCH],
     varyings: Vec<Packet<f32>>,
     point_size: [Packet<f32>; BATCH],
+    /// Clip distances, then cull distances, by packet.
+    distances: Vec<Packet<f32>>,
+}
+
+impl ShadingScratch {
+    /// The distances of the first packet that was shaded last.
+    pub(crate) fn distances_of_first(&self, pipeline: &RenderPipeline) -> &[Packet<f32>] {
+        &self.distances[..pipeline.interface().distances()]
+    }
 }
 
 /// Shades the flat vertices from `first` on, as many as `out` holds.
@@ -91,7 +100,8 @@ pub(crate) fn shade(
     first: u32,
     (out, scratch): (&mut ShadedSlice<'_>, &mut ShadingScratch),
 ) {
-    let stride = pipeline.interface().varyings.len();
+    let interface = pipeline.interface();
+    let (stride, distances) = (interface.varyings.len(), interface.distances());
     let total = out.window.len();
     let mut done = 0;
     while done < total {
@@ -99,6 +109,9 @@ pub(crate) fn shade(
         let packets = count.div_ceil(LANES);
         run(level, pipeline, source, (first, done, total), scratch);
         dispatch!(level, s => store_batch(s, transform, stride, done, packets, (out, scratch)));
+        if distances > 0 {
+            mark_distant(interface, &scratch.distances, &mut out.window[done..]);
+        }
         done += count;
     }
 }
@@ -133,6 +146,10 @@ fn run(
         .attributes
         .resize(attributes * BATCH, Packet::default());
     scratch.varyings.resize(stride * BATCH, Packet::default());
+    let distances = interface.distances();
+    scratch
+        .distances
+        .resize(distances * BATCH, Packet::default());
     dispatch!(level, s => fetch_batch(s, pipeline, source, (first, done, total), scratch));
     let sizes = if interface.writes_point_size {
         packets
@@ -149,6 +166,7 @@ fn run(
             positions: &mut scratch.positions.as_flattened_mut()[..packets * 4],
             varyings: &mut scratch.varyings[..packets * stride],
             point_sizes: &mut scratch.point_size[..sizes],
+            distances: &mut scratch.distances[..packets * distances],
         },
     );
 }
@@ -220,6 +238,22 @@ fn fetch_batch<S: Lanes>(
             &index,
             out,
         );
+    }
+}
+
+/// Marks the vertices of a batch that a clip or cull distance keeps from being drawn as they are. So primitives
+/// that no distance touches take the way of all others.
+#[inline(never)]
+fn mark_distant(interface: &Interface, distances: &[Packet<f32>], window: &mut [WindowRow]) {
+    let of_packets = distances.chunks_exact(interface.distances());
+    for (of_packet, rows) in of_packets.zip(window.chunks_mut(LANES)) {
+        let (clip, cull) = of_packet.split_at(interface.clip_distances);
+        for (lane, row) in rows.iter_mut().enumerate() {
+            let is_kept = |distance: &Packet<f32>| (0.0..f32::INFINITY).contains(&distance.0[lane]);
+            if !clip.iter().all(is_kept) || cull.iter().any(|distance| distance.0[lane] < 0.0) {
+                row[0] = NEEDS_CLIPPING.cast_unsigned();
+            }
+        }
     }
 }
 

@@ -12,6 +12,12 @@ pub(crate) const GUARD_MIN: f32 = -8192.0;
 /// 24 bits and products of two of them 48.
 pub(crate) const GUARD_MAX: f32 = 24_575.0;
 
+/// The least w that is not clipped where depth is not.
+pub(crate) const LEAST_W: f32 = 1.0 / 1_048_576.0;
+
+/// Where depth is not clipped, that of a vertex is confined to so much, on either side of 0.
+const FARTHEST: f32 = 16_777_216.0;
+
 /// The viewport's constants, as `docs/NUMERICS.md` rounds them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ViewportTransform {
@@ -19,6 +25,8 @@ pub(crate) struct ViewportTransform {
     pub(crate) offset: [f32; 3],
     /// The range that depth is clamped to.
     pub(crate) depth_range: [f32; 2],
+    /// Whether depth is not clipped.
+    pub(crate) unclipped_depth: bool,
 }
 
 /// A vertex in the window, before it is snapped.
@@ -40,7 +48,7 @@ pub(crate) struct ProjectedLanes<S: Lanes> {
 }
 
 impl ViewportTransform {
-    pub(crate) fn new(viewport: &Viewport) -> Self {
+    pub(crate) fn new(viewport: &Viewport, unclipped_depth: bool) -> Self {
         let (sx, sy) = (viewport.width * 0.5, viewport.height * -0.5);
         let (near, far) = (viewport.min_depth, viewport.max_depth);
         Self {
@@ -51,17 +59,36 @@ impl ViewportTransform {
                 if near < far { near } else { far },
                 if near > far { near } else { far },
             ],
+            unclipped_depth,
         }
     }
 
     /// One vertex; meaningless unless w > 0.
     pub(crate) fn project(&self, [x, y, z, w]: [f32; 4]) -> Projected {
         let iw = 1.0 / w;
+        let mut z = (z * iw) * self.scale[2] + self.offset[2];
+        if self.unclipped_depth {
+            // NaN becomes the least, as in the lanes.
+            z = if z > -FARTHEST {
+                z.min(FARTHEST)
+            } else {
+                -FARTHEST
+            };
+        }
         Projected {
             x: (x * iw) * self.scale[0] + self.offset[0],
             y: (y * iw) * self.scale[1] + self.offset[1],
-            z: (z * iw) * self.scale[2] + self.offset[2],
+            z,
             iw,
+        }
+    }
+
+    /// Whether a position lies between the planes that bound depth, or w where depth is not clipped.
+    pub(crate) fn is_in_depth(&self, [_, _, z, w]: [f32; 4]) -> bool {
+        if self.unclipped_depth {
+            w >= LEAST_W
+        } else {
+            (0.0..=w).contains(&z) && w > 0.0
         }
     }
 
@@ -76,14 +103,19 @@ impl ViewportTransform {
         let iw = splat(1.0) / w;
         let xw = (x * iw) * splat(self.scale[0]) + splat(self.offset[0]);
         let yw = (y * iw) * splat(self.scale[1]) + splat(self.offset[1]);
-        let zw = (z * iw) * splat(self.scale[2]) + splat(self.offset[2]);
+        let mut zw = (z * iw) * splat(self.scale[2]) + splat(self.offset[2]);
         let zero = splat(0.0);
         let (low, high) = (splat(GUARD_MIN), splat(GUARD_MAX));
         // An infinite w has a finite inverse, but the vertex is not finite.
         let infinity = splat(f32::INFINITY);
-        let inside = z.simd_ge(zero)
-            & z.simd_le(w)
-            & w.simd_gt(zero)
+        let in_depth = if self.unclipped_depth {
+            zw = s.min_f32(s.max_f32(zw, splat(-FARTHEST)), splat(FARTHEST));
+            let magnitude = s.max_f32(z, -z);
+            w.simd_ge(splat(LEAST_W)) & magnitude.simd_lt(infinity)
+        } else {
+            z.simd_ge(zero) & z.simd_le(w) & w.simd_gt(zero)
+        };
+        let inside = in_depth
             & w.simd_lt(infinity)
             & iw.simd_lt(infinity)
             & xw.simd_ge(low)

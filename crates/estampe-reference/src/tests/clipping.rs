@@ -40,20 +40,7 @@ fn clip_f64(mut polygon: Vec<[f64; 4]>) -> Vec<[f64; 4]> {
         [0.0, 32.0, 0.0, high - 32.0],
     ];
     for normal in normals {
-        let distance = |p: &[f64; 4]| (0..4).map(|k| p[k] * normal[k]).sum::<f64>();
-        let mut kept = Vec::new();
-        for (i, a) in polygon.iter().enumerate() {
-            let b = &polygon[(i + 1) % polygon.len()];
-            let (da, db) = (distance(a), distance(b));
-            if da >= 0.0 {
-                kept.push(*a);
-            }
-            if (da >= 0.0) != (db >= 0.0) {
-                let t = da / (da - db);
-                kept.push(std::array::from_fn(|k| a[k] + (b[k] - a[k]) * t));
-            }
-        }
-        polygon = kept;
+        polygon = clip_f64_by(normal, &polygon);
     }
     polygon
 }
@@ -79,9 +66,7 @@ fn clipped_polygons_lie_inside_and_keep_their_area() {
         let triangle: Vec<_> = (0..3).map(|_| random_vertex(&mut random, reach)).collect();
         let mut polygon = triangle.clone();
         for (number, plane) in planes().into_iter().enumerate() {
-            by_sides += usize::from(
-                number >= 2 && polygon.iter().any(|v| plane.distance(v.position) < 0.0),
-            );
+            by_sides += usize::from(number >= 2 && polygon.iter().any(|v| plane.distance(v) < 0.0));
             polygon = clip_polygon_by(plane, &polygon);
         }
         clipped += usize::from(polygon.len() > 3);
@@ -90,7 +75,7 @@ fn clipped_polygons_lie_inside_and_keep_their_area() {
         for vertex in &polygon {
             for plane in planes() {
                 let size = if reach > 3.0 { 24_544.0 * 4.0 } else { 4.0 };
-                assert!(plane.distance(vertex.position) >= -4.0 * size * ULP);
+                assert!(plane.distance(vertex) >= -4.0 * size * ULP);
             }
         }
 
@@ -250,7 +235,7 @@ fn near_crossings_are_where_hand_computation_puts_them() {
 
 #[test]
 fn points_are_clipped_by_their_centre() {
-    let point = |position| keeps_point(&clip_vertex(position, &[]));
+    let point = |position| keeps_point(&clip_vertex(position, &[]), &transform());
     assert!(point([1.0, -1.0, 0.0, 1.0]));
     assert!(!point([1.001, 0.0, 0.5, 1.0]));
     assert!(!point([0.0, 0.0, -0.001, 1.0]));
@@ -322,4 +307,136 @@ fn bounds_are_the_pixels_whose_centres_lie_inside() {
     let cut = PixelBounds::new(&viewport, &scissor(1, 5, 7, 7), [100, 100]);
     assert_eq!(cut.x, 1..2);
     assert!(cut.y.is_empty());
+}
+
+/// How far inside a plane through the view volume a position is: what a shader computes.
+fn plane_distance(normal: [f32; 4], p: [f32; 4]) -> f32 {
+    p[0] * normal[0] + p[1] * normal[1] + p[2] * normal[2] + p[3] * normal[3]
+}
+
+#[test]
+fn what_clip_distances_leave_lies_inside_and_keeps_its_area() {
+    let random = &mut Random(29);
+    let mut clipped = 0;
+    for _ in 0..3000 {
+        let normals: Vec<[f32; 4]> = (0..3)
+            .map(|_| [0, 1, 2, 3].map(|_| random.range(-1.0, 1.0)))
+            .collect();
+        let triangle = [0, 1, 2].map(|_| {
+            let vertex = random_vertex(random, 1.0);
+            ClipVertex {
+                clip_distances: normals
+                    .iter()
+                    .map(|&normal| plane_distance(normal, vertex.position))
+                    .collect(),
+                ..vertex
+            }
+        });
+        let mut polygon = triangle.to_vec();
+        let mut exact: Vec<_> = triangle.iter().map(|v| v.position.map(f64::from)).collect();
+        for (k, normal) in normals.iter().enumerate() {
+            polygon = clip_polygon_by(Plane::Distance(k), &polygon);
+            exact = clip_f64_by(normal.map(f64::from), &exact);
+        }
+        clipped += usize::from(!polygon.is_empty() && polygon.len() != 3);
+        // Coordinates are at most 4 and four terms of a distance at most 4 each: to 4 ulp of their sum.
+        let bound = 4.0 * 16.0 * f32::EPSILON;
+        for vertex in &polygon {
+            for (k, &normal) in normals.iter().enumerate() {
+                assert!(vertex.clip_distances[k] >= -bound);
+                let distance = plane_distance(normal, vertex.position);
+                assert!(distance >= -bound, "{distance:e} outside plane {k}");
+            }
+        }
+        let mine: Vec<_> = polygon.iter().map(|v| v.position.map(f64::from)).collect();
+        // A plane that a corner touches may cut it off in one arithmetic alone, and what is left of a sliver
+        // has no area: only polygons of the same shape are compared, and all but a few are.
+        if mine.len() == exact.len() && !mine.is_empty() {
+            let difference = (ndc_area(&mine) - ndc_area(&exact)).abs();
+            // Divided by w ≥ ¼, and moved along cuts at an angle that may be small.
+            assert!(
+                difference <= 64.0 * 4.0 * f64::from(bound),
+                "{difference:e}"
+            );
+        }
+    }
+    assert!(clipped > 400, "only {clipped} triangles had to be clipped");
+}
+
+/// One pass of the loop in f64.
+fn clip_f64_by(normal: [f64; 4], polygon: &[[f64; 4]]) -> Vec<[f64; 4]> {
+    let distance = |p: &[f64; 4]| (0..4).map(|k| p[k] * normal[k]).sum::<f64>();
+    let mut kept = Vec::new();
+    for (i, a) in polygon.iter().enumerate() {
+        let b = &polygon[(i + 1) % polygon.len()];
+        let (da, db) = (distance(a), distance(b));
+        if da >= 0.0 {
+            kept.push(*a);
+        }
+        if (da >= 0.0) != (db >= 0.0) {
+            let t = da / (da - db);
+            kept.push(std::array::from_fn(|k| a[k] + (b[k] - a[k]) * t));
+        }
+    }
+    kept
+}
+
+#[test]
+fn neighbours_share_the_crossings_of_clip_distances() {
+    let random = &mut Random(31);
+    for _ in 0..500 {
+        let [mut a, mut b] = [0, 1].map(|_| random_vertex(random, 2.0));
+        a.clip_distances = vec![random.range(0.0, 3.0)];
+        b.clip_distances = vec![random.range(-3.0, -0.001)];
+        let crossing = Plane::Distance(0).crossing(&a, &b);
+        for edge in [[a.clone(), b.clone()], [b.clone(), a.clone()]] {
+            let kept = clip_polygon_by(
+                Plane::Distance(0),
+                &[edge[0].clone(), edge[1].clone(), b.clone()],
+            );
+            assert!(kept.contains(&crossing));
+        }
+        assert_eq!(crossing.clip_distances, [0.0]);
+    }
+}
+
+#[test]
+fn cull_distances_drop_what_is_wholly_outside_one() {
+    let vertex = |distances: &[f32]| ClipVertex {
+        cull_distances: distances.to_vec(),
+        ..clip_vertex([0.0, 0.0, 0.5, 1.0], &[])
+    };
+    let is_distant = |vertices: &[ClipVertex]| crate::clip::is_distant(vertices);
+    assert!(is_distant(&[vertex(&[1.0, -1.0]), vertex(&[-1.0, -0.1])]));
+    assert!(!is_distant(&[vertex(&[1.0, -1.0]), vertex(&[-1.0, 0.0])]));
+    assert!(!is_distant(&[vertex(&[f32::NAN]), vertex(&[-1.0])]));
+    assert!(!is_distant(&[vertex(&[])]));
+}
+
+#[test]
+fn without_depth_clipping_w_is_clipped_instead() {
+    let open = transform().with_unclipped_depth(true);
+    // Far beyond near and far: whole.
+    let far = [
+        [0.0, 0.0, -9.0, 1.0],
+        [1.0, 0.0, 70.0, 1.0],
+        [0.0, 1.0, 0.5, 1.0],
+    ]
+    .map(|p| clip_vertex(p, &[]));
+    assert_eq!(clip_triangle(&far, &open), [far.clone()]);
+    // Through the eye: cut at the least w, which is set.
+    let eye = [
+        [0.0, 0.0, 0.5, 1.0],
+        [0.1, 0.0, 0.5, -1.0],
+        [0.0, 0.1, 0.5, 1.0],
+    ]
+    .map(|p| clip_vertex(p, &[]));
+    let pieces = clip_triangle(&eye, &open);
+    assert!(!pieces.is_empty());
+    let least = crate::viewport::LEAST_W;
+    assert!(pieces.iter().flatten().all(|v| v.position[3] >= least));
+    assert!(keeps_point(&far[1], &open) && !keeps_point(&far[1], &transform()));
+    // Depths beyond all bounds stay numbers.
+    let z = open.window([0.0, 0.0, f32::MAX, least]).z;
+    assert_eq!(z, crate::viewport::FARTHEST);
 }

@@ -2,12 +2,14 @@
 
 mod colored;
 mod depths;
+mod distances;
 mod probe;
 mod textured;
 mod vertex_input;
 
 pub use colored::{Colored, FlatColored, Halved, Sized, Uniform};
 pub use depths::{Cutout, CutoutDepth, DepthGiven, DepthOnly, GivenDepth};
+pub use distances::{Distant, ManyDistances};
 pub use probe::{Probe, Scalar};
 pub use textured::{TexelSource, Textured};
 pub use vertex_input::{Formats, Indexed};
@@ -97,7 +99,9 @@ test_shaders!(
     CutoutDepth,
     DepthOnly,
     Indexed,
-    Formats
+    Formats,
+    Distant,
+    ManyDistances
 );
 
 impl From<TexturedShader> for TestShader {

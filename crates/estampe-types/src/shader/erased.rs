@@ -26,6 +26,8 @@ impl<T: Shader> ShaderProgram<T> {
             depth_output: T::DEPTH_OUTPUT,
             reads_position: T::READS_POSITION,
             writes_point_size: T::WRITES_POINT_SIZE,
+            clip_distances: T::CLIP_DISTANCES,
+            cull_distances: T::CULL_DISTANCES,
             independent_fragments: T::INDEPENDENT_FRAGMENTS,
             per_sample: T::PER_SAMPLE,
             reads_coverage: T::READS_COVERAGE,
@@ -100,6 +102,14 @@ impl<T: Shader> ShaderProgram<T> {
             if T::WRITES_POINT_SIZE {
                 let size = out.point_size.unwrap_or(input.zero.splat(1.0));
                 size.store_array(&mut batch.point_sizes[packet].0);
+            }
+            if T::CLIP_DISTANCES + T::CULL_DISTANCES > 0 {
+                let clip = out.clip_distances.iter().take(T::CLIP_DISTANCES);
+                let cull = out.cull_distances.iter().take(T::CULL_DISTANCES);
+                let first = packet * (T::CLIP_DISTANCES + T::CULL_DISTANCES);
+                for (distance, to) in clip.chain(cull).zip(&mut batch.distances[first..]) {
+                    distance.unwrap_or(input.zero).store_array(&mut to.0);
+                }
             }
         }
     }

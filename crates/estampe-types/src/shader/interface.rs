@@ -72,6 +72,10 @@ pub struct Interface {
     pub dual_source: bool,
     /// Whether vertices set a point size.
     pub writes_point_size: bool,
+    /// How many clip distances vertices give, at most 8.
+    pub clip_distances: usize,
+    /// How many cull distances vertices give, at most 8.
+    pub cull_distances: usize,
 }
 
 impl Interface {
@@ -79,6 +83,12 @@ impl Interface {
     #[must_use]
     pub fn attribute_scalars(&self) -> usize {
         self.attributes.iter().sum()
+    }
+
+    /// Clip and cull distances of a vertex.
+    #[must_use]
+    pub fn distances(&self) -> usize {
+        self.clip_distances + self.cull_distances
     }
 
     /// How many colours a fragment gives: one for each target, and the second one of dual-source blending.

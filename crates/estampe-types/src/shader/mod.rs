@@ -18,7 +18,7 @@ pub use erased::ShaderProgram;
 pub use fragment::{FragmentBatch, FragmentIn, FragmentOut};
 pub use interface::{DepthOutput, Interface, Interpolation, Sampling};
 pub use varyings::{Attributes, Centroid, Flat, NoPerspective, PerSample, Sink, Source, Varyings};
-pub use vertex::{VertexBatch, VertexIn, VertexOut};
+pub use vertex::{MAX_DISTANCES, VertexBatch, VertexIn, VertexOut};
 
 use crate::{Bindings, Real, Vec2, Vec4};
 use estampe_simd::Level;
@@ -93,6 +93,13 @@ pub trait Shader: Send + Sync + 'static {
     const LONG_CHAINS: bool = false;
     /// Whether the vertex sets a point size; where not, points are one pixel.
     const WRITES_POINT_SIZE: bool = false;
+
+    /// How many clip distances the vertex gives ([`VertexOut::with_clip_distance`]), at most 8: primitives are cut
+    /// where one of them, interpolated, is negative.
+    const CLIP_DISTANCES: usize = 0;
+    /// How many cull distances it gives ([`VertexOut::with_cull_distance`]), at most 8: a primitive is dropped
+    /// if one of them is negative at all of its vertices.
+    const CULL_DISTANCES: usize = 0;
 
     /// One vertex: its clip-space position and varyings.
     fn vertex<R: Real>(

@@ -44,6 +44,12 @@ pub(super) fn vertices<T: Shader>(
                 let size = out.point_size.unwrap_or(Quad([1.0; QUAD]));
                 store(size, &mut batch.point_sizes[packet], lane);
             }
+            let clip = out.clip_distances.iter().take(T::CLIP_DISTANCES);
+            let cull = out.cull_distances.iter().take(T::CULL_DISTANCES);
+            let first = packet * (T::CLIP_DISTANCES + T::CULL_DISTANCES);
+            for (distance, to) in clip.chain(cull).zip(&mut batch.distances[first..]) {
+                store(distance.unwrap_or(input.zero), to, lane);
+            }
         }
     }
 }

@@ -33,7 +33,14 @@ pub struct VertexOut<R, V> {
     pub varyings: V,
     /// Width of a point in pixels, if the shader sets it.
     pub point_size: Option<R>,
+    /// How far inside each clip distance's plane the vertex is; 0 where the shader does not say.
+    pub clip_distances: [Option<R>; MAX_DISTANCES],
+    /// The same of cull distances.
+    pub cull_distances: [Option<R>; MAX_DISTANCES],
 }
+
+/// How many clip distances, and how many cull distances, a vertex may have.
+pub const MAX_DISTANCES: usize = 8;
 
 impl<R, V> VertexOut<R, V> {
     /// A vertex with a clip-space position and varyings.
@@ -43,6 +50,8 @@ impl<R, V> VertexOut<R, V> {
             position,
             varyings,
             point_size: None,
+            clip_distances: [const { None }; MAX_DISTANCES],
+            cull_distances: [const { None }; MAX_DISTANCES],
         }
     }
 
@@ -54,6 +63,28 @@ impl<R, V> VertexOut<R, V> {
             point_size: Some(pixels),
             ..self
         }
+    }
+
+    /// The same with clip distance `index`, of as many as the shader says in `CLIP_DISTANCES`: primitives are cut
+    /// where it, interpolated, is negative.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_clip_distance(mut self, index: usize, distance: R) -> Self {
+        if let Some(place) = self.clip_distances.get_mut(index) {
+            *place = Some(distance);
+        }
+        self
+    }
+
+    /// The same with cull distance `index`, of as many as the shader says in `CULL_DISTANCES`: a primitive is
+    /// dropped if one of them is negative at all of its vertices.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_cull_distance(mut self, index: usize, distance: R) -> Self {
+        if let Some(place) = self.cull_distances.get_mut(index) {
+            *place = Some(distance);
+        }
+        self
     }
 }
 
@@ -72,4 +103,6 @@ pub struct VertexBatch<'a> {
     pub varyings: &'a mut [Packet<f32>],
     /// Out: point size by packet; empty unless the interface says that it is written.
     pub point_sizes: &'a mut [Packet<f32>],
+    /// Out: the clip distances that the interface names, then the cull distances; empty if it names none.
+    pub distances: &'a mut [Packet<f32>],
 }

@@ -144,8 +144,9 @@ pub struct PrimitiveState {
     pub cull_mode: CullMode,
     /// Filled, edges or vertices.
     pub polygon_mode: PolygonMode,
-    /// Whether nothing is clipped at the depth range's ends; depth is clamped to the viewport's in any case.
-    /// (WebGPU's `unclippedDepth`, Vulkan's `depthClampEnable`.)
+    /// Whether nothing is clipped at the depth range's ends; depth is clamped to the viewport's in any case. What
+    /// has w below 2⁻²⁰, such as all that lies behind the eye, is clipped. (WebGPU's `unclippedDepth`, Vulkan's
+    /// `depthClampEnable`.)
     pub unclipped_depth: bool,
     /// What of a pixel a triangle must touch to cover it.
     pub conservative: ConservativeMode,
