@@ -32,6 +32,12 @@ impl Level {
         }
     }
 
+    /// Where it begins in the texture's words.
+    #[inline(always)]
+    pub(crate) fn offset(&self) -> i32 {
+        self.offset
+    }
+
     /// Whether nothing had to be confined.
     pub(crate) fn is_exact(self, level: &MipLevel) -> bool {
         [self.width, self.height, self.offset].map(i32::cast_unsigned)

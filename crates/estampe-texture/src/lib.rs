@@ -36,6 +36,7 @@ mod error;
 mod filter;
 mod lod;
 mod mips;
+mod mixed;
 mod sampled;
 mod texel;
 mod wrap;

@@ -2,6 +2,7 @@
 
 use crate::filter::{Inside, Level, mix_colors, sample_level};
 use crate::lod::{implicit_rho2, level_of_detail, rho2};
+use crate::mixed::Mixed;
 use crate::texel::{finish, unpack};
 use crate::wrap::wrap;
 use estampe_simd::LANES;
@@ -147,8 +148,12 @@ impl Sampled {
                     #[inline(always)]
                     || {
                         let mut index = 0;
+                        let mixed = first.mixed(uv, lod);
                         while index < N {
-                            colors[index] = textures[index].sample_anywhere(uv, lod);
+                            colors[index] = match &mixed {
+                                Some(mixed) => finish(mixed.color(&textures[index].texture), false),
+                                None => textures[index].sample_anywhere(uv, lod),
+                            };
                             index += 1;
                         }
                         colors
@@ -272,7 +277,10 @@ impl Sampled {
         }
         lod.outlined(
             #[inline(always)]
-            || self.sample_anywhere(uv, lod),
+            || match self.mixed(uv, lod) {
+                Some(mixed) => finish(mixed.color(&self.texture), false),
+                None => self.sample_anywhere(uv, lod),
+            },
         )
     }
 
@@ -301,6 +309,33 @@ impl Sampled {
             self.levels[(at + 1) % MAX_LEVELS],
         ];
         Inside::new(levels, self.wrapped(uv), self.address_modes(), fraction)
+    }
+
+    /// Where the sample lies in the next common case: lanes of two neighbouring levels, repeated.
+    #[inline(always)]
+    fn mixed<R: Real>(&self, uv: Vec2<R>, lod: R) -> Option<Mixed<R>> {
+        if R::LANES == 1
+            || !self.is_linear_unorm
+            || self.address_modes() != [AddressMode::Repeat; 2]
+        {
+            return None;
+        }
+        let within = lod.clamp(self.lod_range[0], self.lod_range[1]);
+        let (level, fraction) = mixture(within, self.sampler.mipmap_filter);
+        let one = level.to_int_within_range().lane(0);
+        let one_level = level.splat(one as f32);
+        if !R::any(!level.eq(one_level)) {
+            // It is borders that are in the way.
+            return None;
+        }
+        let is_below = R::any(level.lt(one_level));
+        let first = one - i32::from(is_below);
+        let second = level.eq(level.splat((first + 1) as f32));
+        if R::any(!(second | level.eq(level.splat(first as f32)))) {
+            return None;
+        }
+        let at = |step: usize| &self.levels[(first.cast_unsigned() as usize + step) % MAX_LEVELS];
+        Mixed::new([at(0), at(1), at(2)], second, self.wrapped(uv), fraction)
     }
 
     /// Any case: samples the whole packet once for every level among its lanes, and picks the lanes
