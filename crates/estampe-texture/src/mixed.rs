@@ -1,4 +1,4 @@
-//! Samples whose lanes lie on two neighbouring mip levels.
+//! Samples whose lanes lie on two neighbouring mip levels, or across a border of the texture.
 //!
 //! Quads of several triangles share packets, and then their levels of detail differ by a little. Each lane
 //! brings its level's size along: that is a few selections, where sampling the whole packet once for every level
@@ -6,6 +6,7 @@
 
 use crate::filter::{Level, mix_colors};
 use crate::texel::{Corners, OPAQUE};
+use crate::wrap::tile_lanes as tile;
 use estampe_types::{Int, Real, Texture, Vec2, Vec3, Vec4};
 
 /// Where linearly filtered samples lie, in two levels for each lane.
@@ -17,22 +18,15 @@ pub(crate) struct Mixed<R: Real> {
 
 impl<R: Real> Mixed<R> {
     /// The lanes in `second` lie between the second and the third level, others between the first and the
-    /// second. Coordinates are wrapped by repetition. `None` where a lane's texels lie across a border.
+    /// second. Coordinates are wrapped by repetition.
     #[inline(always)]
-    pub(crate) fn new(
-        levels: [&Level; 3],
-        second: R::Mask,
-        wrapped: Vec2<R>,
-        fraction: R,
-    ) -> Option<Self> {
+    pub(crate) fn new(levels: [&Level; 3], second: R::Mask, wrapped: Vec2<R>, fraction: R) -> Self {
         let [first, middle, last] = levels;
-        let (fine, outside) = Lanes::new([first, middle], second, wrapped);
-        let (coarse, outside_coarse) = Lanes::new([middle, last], second, wrapped);
-        (!R::any(outside | outside_coarse)).then_some(Self {
-            fine,
-            coarse,
+        Self {
+            fine: Lanes::new([first, middle], second, wrapped),
+            coarse: Lanes::new([middle, last], second, wrapped),
             fraction,
-        })
+        }
     }
 
     /// The colour of a unorm8 texture there, in the units of [`texel`](crate::texel).
@@ -56,18 +50,16 @@ impl<R: Real> Mixed<R> {
 
 /// The place of a sample, each lane in a level of its own.
 struct Lanes<R: Real> {
-    /// The index of the first texel, and how many there are in a row.
-    first: R::Int,
-    width: R::Int,
-    /// How far the sample is from that texel's centre to the next one's.
+    /// The indices of the texels around the sample.
+    around: Corners<R::Int>,
+    /// How far it is from the first one's centre to the next one's.
     x: R,
     y: R,
 }
 
 impl<R: Real> Lanes<R> {
-    /// Besides, the lanes whose four texels are not all inside their level.
     #[inline(always)]
-    fn new([a, b]: [&Level; 2], in_b: R::Mask, wrapped: Vec2<R>) -> (Self, R::Mask) {
+    fn new([a, b]: [&Level; 2], in_b: R::Mask, wrapped: Vec2<R>) -> Self {
         let like = wrapped.x;
         let real = |a: f32, b: f32| R::select(in_b, like.splat(b), like.splat(a));
         let int = |a: i32, b: i32| R::Int::select(in_b, like.splat_int(b), like.splat_int(a));
@@ -76,21 +68,25 @@ impl<R: Real> Lanes<R> {
         let (column, row) = (x.floor(), y.floor());
         let (x, y) = (x - column, y - row);
         let (column, row) = (column.to_int_within_range(), row.to_int_within_range());
-        let width = int(a.width, b.width);
-        let (zero, one) = (like.splat_int(0), like.splat_int(1));
-        let inside_x = column.lt(width - one) & !column.lt(zero);
-        let inside_y = row.lt(int(a.height - 1, b.height - 1)) & !row.lt(zero);
-        let first = row * width + column + int(a.offset(), b.offset());
-        let lanes = Self { first, width, x, y };
-        (lanes, !(inside_x & inside_y))
+        let (width, height) = (int(a.width, b.width), int(a.height, b.height));
+        let one = like.splat_int(1);
+        let (left, right) = (tile(column, width), tile(column + one, width));
+        let (upper, lower) = (tile(row, height), tile(row + one, height));
+        let offset = int(a.offset(), b.offset());
+        let (upper, lower) = (upper * width + offset, lower * width + offset);
+        let around = Corners {
+            upper: [upper + left, upper + right],
+            lower: [lower + left, lower + right],
+        };
+        Self { around, x, y }
     }
 
     #[inline(always)]
     fn corners(&self, texels: &[u32]) -> Corners<R::Int> {
-        let (one, below) = (self.first.splat(1), self.first + self.width);
+        let Corners { upper, lower } = &self.around;
         Corners {
-            upper: [self.first.gather(texels), (self.first + one).gather(texels)],
-            lower: [below.gather(texels), (below + one).gather(texels)],
+            upper: [upper[0].gather(texels), upper[1].gather(texels)],
+            lower: [lower[0].gather(texels), lower[1].gather(texels)],
         }
     }
 

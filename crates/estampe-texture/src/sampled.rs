@@ -311,7 +311,7 @@ impl Sampled {
         Inside::new(levels, self.wrapped(uv), self.address_modes(), fraction)
     }
 
-    /// Where the sample lies in the next common case: lanes of two neighbouring levels, repeated.
+    /// Where the sample lies in the next common case: lanes of one level or of two neighbouring ones, repeated.
     #[inline(always)]
     fn mixed<R: Real>(&self, uv: Vec2<R>, lod: R) -> Option<Mixed<R>> {
         if R::LANES == 1
@@ -323,19 +323,15 @@ impl Sampled {
         let within = lod.clamp(self.lod_range[0], self.lod_range[1]);
         let (level, fraction) = mixture(within, self.sampler.mipmap_filter);
         let one = level.to_int_within_range().lane(0);
-        let one_level = level.splat(one as f32);
-        if !R::any(!level.eq(one_level)) {
-            // It is borders that are in the way.
-            return None;
-        }
-        let is_below = R::any(level.lt(one_level));
+        let is_below = R::any(level.lt(level.splat(one as f32)));
         let first = one - i32::from(is_below);
         let second = level.eq(level.splat((first + 1) as f32));
         if R::any(!(second | level.eq(level.splat(first as f32)))) {
             return None;
         }
         let at = |step: usize| &self.levels[(first.cast_unsigned() as usize + step) % MAX_LEVELS];
-        Mixed::new([at(0), at(1), at(2)], second, self.wrapped(uv), fraction)
+        let levels = [at(0), at(1), at(2)];
+        Some(Mixed::new(levels, second, self.wrapped(uv), fraction))
     }
 
     /// Any case: samples the whole packet once for every level among its lanes, and picks the lanes

@@ -50,6 +50,12 @@ pub(crate) fn place<R: Real>(
 /// The texel −1 is the last one and texel `size` is the first.
 #[inline(always)]
 pub(crate) fn tile<I: Int>(texel: I, size: i32) -> I {
-    let below = I::select(texel.lt(texel.splat(0)), texel.splat(size - 1), texel);
-    I::select(below.eq(below.splat(size)), below.splat(0), below)
+    tile_lanes(texel, texel.splat(size))
+}
+
+/// [`tile`] where each lane has a size of its own.
+#[inline(always)]
+pub(crate) fn tile_lanes<I: Int>(texel: I, size: I) -> I {
+    let below = I::select(texel.lt(texel.splat(0)), size - texel.splat(1), texel);
+    I::select(below.eq(size), below.splat(0), below)
 }
