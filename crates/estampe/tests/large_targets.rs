@@ -1,0 +1,137 @@
+//! Targets of the greatest sizes: pixels at their corners are drawn, and nothing beside them.
+
+use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
+use estampe::state::{PrimitiveTopology, ScissorRect, VertexBufferLayout};
+use estampe::{
+    Buffer, Device, DeviceDescriptor, Draw, RenderPass, RenderPipelineDescriptor,
+    RenderTargetDescriptor, TargetError, TextureFormat, Vec2, Vec4, VertexFormat,
+};
+
+/// White, at depth ½.
+struct White;
+
+estampe::shader! {
+    impl Shader for White {
+        type Attributes<R: Real> = Vec2<R>;
+        type Varyings<R: Real> = ();
+
+        fn vertex<R: Real>(&self, input: VertexIn<'_, R>, at: Vec2<R>) -> VertexOut<R, ()> {
+            let (depth, w) = (input.real(0.5), input.real(1.0));
+            VertexOut::new(Vec4::new(at.x, at.y, depth, w), ())
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, _nothing: ()) -> FragmentOut<R> {
+            let one = input.real(1.0);
+            FragmentOut::color(Vec4::new(one, one, one, one))
+        }
+    }
+}
+
+/// Draws points at pixels' centres and, with a scissor, a rectangle over everything into the pixel beside the last
+/// corner; says which pixels are white, and how deep they are.
+fn drawn(width: u32, height: u32) -> Result<Vec<([u32; 2], f32)>, TargetError> {
+    let device = Device::new(&DeviceDescriptor::default()).expect("threads can be had");
+    let (right, bottom) = (width - 1, height - 1);
+    let corners = [[0, 0], [right, 0], [0, bottom], [right, bottom]];
+    let ndc = |pixel: u32, side: u32| (f64::from(pixel) + 0.5) / f64::from(side) * 2.0 - 1.0;
+    let points: Vec<f32> = corners
+        .iter()
+        .flat_map(|&[x, y]| [ndc(x, width) as f32, -ndc(y, height) as f32])
+        .collect();
+    let mut descriptor = RenderPipelineDescriptor::new(White);
+    descriptor.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x2])];
+    descriptor.targets = vec![TextureFormat::R8Unorm.into()];
+    descriptor.primitive.topology = PrimitiveTopology::PointList;
+    let dots = device
+        .create_render_pipeline(&descriptor)
+        .expect("a valid pipeline");
+    descriptor.primitive.topology = PrimitiveTopology::TriangleStrip;
+    let filled = device
+        .create_render_pipeline(&descriptor)
+        .expect("a valid pipeline");
+    let buffers = [
+        Buffer::from_f32s(&points),
+        Buffer::from_f32s(&[-1.0, -1.0, 1.0, -1.0, -1.0, 1.0, 1.0, 1.0]),
+    ];
+    let draws = [
+        Draw {
+            vertex_buffers: &buffers[..1],
+            ..Draw::new(&dots, 0..4)
+        },
+        Draw {
+            vertex_buffers: &buffers[1..],
+            scissor: Some(ScissorRect {
+                x: right - 1,
+                y: bottom,
+                width: 1,
+                height: 1,
+            }),
+            ..Draw::new(&filled, 0..4)
+        },
+    ];
+    let mut target = device.create_render_target(&RenderTargetDescriptor {
+        color_formats: vec![TextureFormat::R8Unorm],
+        ..RenderTargetDescriptor::new(width, height)
+    })?;
+    device.render(
+        &mut target,
+        &RenderPass {
+            draws: &draws,
+            ..RenderPass::default()
+        },
+    );
+    let texels = target.read_texels(0, 0);
+    let depths = target.read_depth();
+    let (rows, depths) = (texels.chunks(width as usize), depths.chunks(width as usize));
+    let mut white = Vec::new();
+    for (y, (row, depths)) in (0..).zip(rows.zip(depths)) {
+        for (x, (texel, depth)) in (0..).zip(row.iter().zip(depths)) {
+            assert_eq!(*texel == 0, *depth == 1.0, "({x}, {y})");
+            if *texel != 0 {
+                white.push(([x, y], *depth));
+            }
+        }
+    }
+    Ok(white)
+}
+
+fn check(width: u32, height: u32) {
+    let white = match drawn(width, height) {
+        Ok(white) => white,
+        Err(TargetError::OutOfMemory { bytes }) => {
+            panic!("the machine has no {bytes} bytes for a target of {width}x{height}")
+        }
+        Err(other) => panic!("{other}"),
+    };
+    let (right, bottom) = (width - 1, height - 1);
+    let expected = [
+        [0, 0],
+        [right, 0],
+        [0, bottom],
+        [right - 1, bottom],
+        [right, bottom],
+    ];
+    assert_eq!(white, expected.map(|pixel| (pixel, 0.5)));
+}
+
+/// Rows: R1, O2.
+#[test]
+fn corners_of_8192_by_8192_pixels() {
+    check(8192, 8192);
+}
+
+/// Rows: R1, O2.
+#[test]
+fn corners_of_the_longest_sides() {
+    check(16_384, 16);
+    check(16, 16_384);
+}
+
+/// Rows: R1.
+#[test]
+fn a_side_too_long_is_an_error_that_names_the_limit() {
+    let device = Device::new(&DeviceDescriptor::default()).expect("threads can be had");
+    let refused = device.create_render_target(&RenderTargetDescriptor::new(16_385, 16));
+    let message = refused.expect_err("too wide").to_string();
+    assert!(message.contains("16385x16") && message.contains("16384"), "{message}");
+}
