@@ -47,6 +47,7 @@ const CORE: Order = Order {
         "geometry::positions",
         "geometry::assembly",
         "geometry::cull",
+        "geometry::between",
         "geometry::clip",
         "geometry::binning",
         "geometry::setup",

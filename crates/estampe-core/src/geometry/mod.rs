@@ -1,8 +1,9 @@
 //! The geometry side: from a draw's vertices to set-up primitives in bins.
 //!
 //! The stages, in order: [`fetch`] reads attributes, [`shading`] runs the vertex shader and projects
-//! its vertices, [`assembly`] joins vertices into primitives ([`restart`] does where indices may end them), [`cull`] drops most of the
-//! triangles sixteen at a time, [`clip`] cuts the few that need it, [`viewport`] is the way from clip
+//! its vertices, [`assembly`] joins vertices into primitives ([`restart`] does where indices may end them), [`cull`]
+//! drops most of the triangles sixteen at a time and [`between`] those that lie between samples, [`clip`] cuts the
+//! few that need it, [`viewport`] is the way from clip
 //! space to the window, [`setup`] sorts vertices and makes planes, [`binning`] finds tiles; [`rows`] is how
 //! vertices, one after the other in memory, become lanes.
 //!
@@ -24,6 +25,8 @@ pub(crate) mod assembly;
 pub(crate) mod restart;
 
 pub(crate) mod cull;
+
+pub(crate) mod between;
 
 pub(crate) mod clip;
 

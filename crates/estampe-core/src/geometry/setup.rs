@@ -8,6 +8,7 @@
 //! (y, x) first makes everything that follows independent of the order in which a triangle's vertices were
 //! given.
 
+use super::between::between_samples;
 use super::binning::{BinState, TileRanges};
 use super::cull::WindowTriangles;
 use super::rows::columns_of;
@@ -121,6 +122,12 @@ impl<'a> Setup<'a> {
         let second = order.exchange::<1, 2>();
         let third = order.exchange::<0, 1>();
         let odd = first ^ second ^ third;
+        let mut kept = kept;
+        if self.bins.sample_range == [128; 2] {
+            let between = between_samples(s, order.x, order.y, kept);
+            kept &= !between;
+            self.chunk.statistics.primitives_culled += u64::from(between.count_ones());
+        }
         let area = odd.select(-area, area);
         self.waiting
             .append(s, order.vertex, provoking, area.bitcast(), kept);
