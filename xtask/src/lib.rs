@@ -4,6 +4,8 @@
 //! ```text
 //! cargo run -p xtask -- check     every check of the sources and documents
 //! cargo run -p xtask -- asm       the check of the hot functions' machine code
+//! cargo run -p xtask -- conformance  writes which tests prove which row of the pipeline
+//! cargo run -p xtask -- fuzz raster  random triangles that share edges, for long
 //! cargo run -p xtask -- models F  the models on which `estampe render` is measured, into folder F
 //! ```
 //!
@@ -13,6 +15,7 @@
 //! and say why in the commit.
 
 mod assembly;
+mod conformance;
 mod documents;
 mod edges;
 mod elf;
@@ -28,6 +31,7 @@ mod stages;
 mod words;
 
 pub use assembly::{AssemblyError, AssemblyReport, check_binary};
+pub use conformance::{check_conformance, conformance_document};
 pub use documents::check_documents;
 pub use edges::check_edges;
 pub use finding::{Finding, Severity};
@@ -49,4 +53,5 @@ pub const CHECKS: &[Check] = &[
     ("rooms", check_rooms),
     ("words", check_words),
     ("documents", check_documents),
+    ("conformance", check_conformance),
 ];

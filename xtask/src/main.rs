@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
-use xtask::{CHECKS, Repository, check_binary, write_models};
+use xtask::{CHECKS, Repository, check_binary, conformance_document, write_models};
 
 /// The packages whose programs the check of the assembly builds.
 const HOT_PROGRAMS: &[&str] = &["estampe-bench", "estampe-cli"];
@@ -12,6 +12,10 @@ const HOT_PROGRAMS: &[&str] = &["estampe-bench", "estampe-cli"];
 const USAGE: &str = "\
 usage: cargo run -p xtask -- check          check sources and documents
        cargo run -p xtask -- models FOLDER  write the models on which the whole process is measured
+       cargo run -p xtask -- conformance    write which tests prove which row of the pipeline
+       cargo run -p xtask -- fuzz raster [--seconds N] [--seed N]
+                                            draw random triangles that share edges, for so long, and count how
+                                            often each sample is covered
        cargo run -p xtask -- asm [BINARY]…  check that hot code is inlined into its SIMD level;
                                             without BINARY, builds the programs and checks them";
 
@@ -23,6 +27,8 @@ fn main() -> ExitCode {
         ["models", folder] => write_models(folder.as_ref())
             .map(|()| true)
             .map_err(|error| format!("{folder}: {error}")),
+        ["conformance"] => conformance(),
+        ["fuzz", arguments @ ..] => fuzz(arguments),
         ["asm", binaries @ ..] => asm(binaries),
         _ => {
             eprintln!("{USAGE}");
@@ -92,6 +98,28 @@ fn asm(binaries: &[&str]) -> Result<bool, String> {
         passed &= report.offences.is_empty();
     }
     Ok(passed)
+}
+
+/// Writes `docs/CONFORMANCE.md`.
+fn conformance() -> Result<bool, String> {
+    let repository = Repository::of_this_build().map_err(|error| error.to_string())?;
+    let path = repository.root().join("docs/CONFORMANCE.md");
+    std::fs::write(&path, conformance_document(&repository))
+        .map_err(|error| format!("{}: {error}", path.display()))?;
+    Ok(true)
+}
+
+/// Runs the long random tests, which are a program of the tests' own; says whether they passed.
+fn fuzz(arguments: &[&str]) -> Result<bool, String> {
+    let repository = Repository::of_this_build().map_err(|error| error.to_string())?;
+    let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+        .current_dir(repository.root())
+        .args(["run", "--release", "--locked", "--package", "estampe-tests"])
+        .args(["--bin", "fuzz", "--"])
+        .args(arguments)
+        .status()
+        .map_err(|error| format!("cannot start cargo: {error}"))?;
+    Ok(status.success())
 }
 
 /// Builds the programs in release form with symbols that show generic arguments, in a folder of its

@@ -41,3 +41,8 @@ fn words_are_those_of_the_glossary() {
 fn documents_point_at_what_exists() {
     passes(xtask::check_documents);
 }
+
+#[test]
+fn every_row_of_the_pipeline_has_its_tests() {
+    passes(xtask::check_conformance);
+}

@@ -10,6 +10,7 @@ const SIZE: FrameSize = FrameSize {
     height: 90,
 };
 
+/// Rows: U3.
 #[test]
 fn every_level_and_thread_count_gives_the_same_bytes() {
     let scenes: Vec<Scene> = ALL

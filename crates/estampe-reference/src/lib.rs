@@ -30,7 +30,7 @@
 //!
 //! Beside them: [`texture`] and [`depth_map`] (sampling), [`color`], [`channel`] and [`small_float`] (codes and
 //! numbers), [`line`](mod@line) and [`point`] (the other primitives), [`conservative`] (triangles by touched pixels),
-//! [`bresenham`] (integer lines of the classic scan conversion),
+//! [`bresenham`] (integer lines) and [`scan_conversion`] (triangles) as the classics have them,
 //! and [`exact`], the same formulas in f64 with bounds for the error of the f32 ones.
 
 pub mod arithmetic;
@@ -52,6 +52,7 @@ pub mod per_sample;
 mod pipeline;
 pub mod point;
 pub mod raster;
+pub mod scan_conversion;
 pub mod setup;
 pub mod shading;
 pub mod small_float;

@@ -6,6 +6,7 @@ mod colors;
 mod coverage;
 mod drawing;
 mod lines;
+mod scan_conversion;
 mod textures;
 mod vertices;
 

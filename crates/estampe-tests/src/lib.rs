@@ -19,11 +19,13 @@ pub mod case;
 pub mod compare;
 pub mod fast_path;
 pub mod fragment_ops;
+pub mod fuzz;
 pub mod geometry;
 pub mod oracle;
 pub mod random;
 pub mod readback;
 pub mod shaders;
+pub mod shared_edges;
 
 pub use case::{Case, CaseDraw};
 pub use compare::{check, check_one, check_some};

@@ -92,6 +92,7 @@ fn layers(random: &mut Random, format: TextureFormat) -> Case {
     case
 }
 
+/// Rows: O5, O7, O8.
 #[test]
 fn unorm_targets() {
     check("colors/unorm", 80, |random| {
@@ -99,6 +100,7 @@ fn unorm_targets() {
     });
 }
 
+/// Rows: O5, O7, O8.
 #[test]
 fn srgb_targets() {
     check("colors/srgb", 60, |random| {
@@ -106,6 +108,7 @@ fn srgb_targets() {
     });
 }
 
+/// Rows: O5.
 #[test]
 fn overlapping_primitives_blend_in_order() {
     // More packets than one call shades, of many primitives in the same place.
@@ -131,6 +134,7 @@ fn overlapping_primitives_blend_in_order() {
     });
 }
 
+/// Rows: O5, O8.
 #[test]
 fn every_code_survives_blending_with_nothing() {
     // s·0 + d·1 gives back each stored code, in both formats.

@@ -75,6 +75,7 @@ fn draw_with(random: &mut Random, case: &Case, shader: impl Into<TestShader>) ->
     draw
 }
 
+/// Rows: O4, O9.
 #[test]
 fn early_tests() {
     check("depth/early", 60, |random| {
@@ -92,6 +93,7 @@ fn early_tests() {
     });
 }
 
+/// Rows: F1, O9.
 #[test]
 fn discarded_fragments_leave_no_depth() {
     check("depth/discard", 40, |random| {
@@ -108,6 +110,7 @@ fn discarded_fragments_leave_no_depth() {
     });
 }
 
+/// Rows: F1, O4, O9.
 #[test]
 fn shaders_that_write_depth() {
     check("depth/output", 60, |random| {
@@ -126,6 +129,7 @@ fn shaders_that_write_depth() {
     });
 }
 
+/// Rows: F1, O4.
 #[test]
 fn given_depths_that_are_not_numbers() {
     check("depth/output_odd", 20, |random| {
@@ -142,6 +146,7 @@ fn given_depths_that_are_not_numbers() {
     });
 }
 
+/// Rows: F1, O4.
 #[test]
 fn targets_with_depth_alone() {
     check("depth/only", 30, |random| {
@@ -155,6 +160,7 @@ fn targets_with_depth_alone() {
     });
 }
 
+/// Rows: O4, O9.
 #[test]
 fn whole_blocks_are_hidden_only_where_nothing_passes() {
     // Many large triangles over a target of several tiles: what hierarchical depth leaves out.

@@ -93,6 +93,7 @@ fn image(random: &mut Random, rough: f32) -> DepthMap {
     }
 }
 
+/// Rows: F2.
 #[test]
 fn random_places_of_rough_and_smooth_images() {
     for seed in 0..300 {

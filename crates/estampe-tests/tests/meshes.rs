@@ -47,6 +47,7 @@ fn perspective_grid(random: &mut Random, n: u32) -> Vec<Vertex> {
         .collect()
 }
 
+/// Rows: A3, R5.
 #[test]
 fn perspective_grids_across_the_near_plane_and_the_eye() {
     check("meshes/perspective", 16, |random| {
@@ -62,6 +63,7 @@ fn perspective_grids_across_the_near_plane_and_the_eye() {
     });
 }
 
+/// Rows: R1, R5.
 #[test]
 fn ridged_grids_of_small_triangles() {
     check("meshes/small", 8, |random| {
@@ -110,6 +112,7 @@ fn counting(size: [u32; 2], samples: u32, mut draw: CaseDraw, unit: [f32; 8]) ->
 
 const UNIT: f32 = 1.0 / 255.0;
 
+/// Rows: R1, R6.
 #[test]
 fn a_planar_triangulation_covers_each_sample_once() {
     for seed in 0..12 {
@@ -154,6 +157,7 @@ fn a_planar_triangulation_covers_each_sample_once() {
     }
 }
 
+/// Rows: A2, R1.
 #[test]
 fn of_a_closed_mesh_every_sample_has_as_many_front_as_back_hits() {
     for seed in 0..12 {
@@ -217,6 +221,7 @@ fn octant(step: u32) -> f32 {
     [1.0, half, 0.0, -half, -1.0, -half, 0.0, half][step as usize % 8]
 }
 
+/// Rows: R1, R5.
 #[test]
 fn the_order_of_a_triangles_vertices_changes_nothing() {
     for seed in 0..24 {
@@ -248,6 +253,7 @@ fn the_order_of_a_triangles_vertices_changes_nothing() {
     }
 }
 
+/// Rows: A3, R1.
 #[test]
 fn two_triangles_of_which_one_leaves_the_guard_band_share_their_edge() {
     // The edge lies within the band and crosses the view; one neighbour reaches far beyond the band.

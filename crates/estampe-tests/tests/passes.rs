@@ -74,6 +74,7 @@ fn any_draw(random: &mut Random, size: [u32; 2], count: u32) -> CaseDraw {
     draw
 }
 
+/// Rows: O5, U3.
 #[test]
 fn many_pipelines_in_one_pass_and_in_two() {
     check("passes/pipelines", 40, |random| {
@@ -89,6 +90,7 @@ fn many_pipelines_in_one_pass_and_in_two() {
     });
 }
 
+/// Rows: U3.
 #[test]
 fn more_primitives_than_a_chunk_holds() {
     // Several chunks of 4096 primitives, which workers make and tiles read in order.
@@ -115,6 +117,7 @@ fn more_primitives_than_a_chunk_holds() {
     });
 }
 
+/// Rows: V2, U3.
 #[test]
 fn more_primitives_than_an_item_or_a_wave_holds() {
     // A million primitives make an item, two million a wave; cut strips keep their winding. The whole

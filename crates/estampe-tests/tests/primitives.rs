@@ -46,6 +46,7 @@ fn check_topologies(topic: &str, count: u64, topologies: &[PrimitiveTopology]) {
     });
 }
 
+/// Rows: A1.
 #[test]
 fn strips_and_fans() {
     let topologies = [
@@ -55,6 +56,7 @@ fn strips_and_fans() {
     check_topologies("primitives/strips", 40, &topologies);
 }
 
+/// Rows: A1, R3.
 #[test]
 fn lines_strips_and_loops() {
     let topologies = [
@@ -65,6 +67,7 @@ fn lines_strips_and_loops() {
     check_topologies("primitives/lines", 80, &topologies);
 }
 
+/// Rows: R3.
 #[test]
 fn lines_in_every_octant_from_and_to_pixel_centres() {
     check("primitives/octants", 12, |random| {
@@ -91,6 +94,7 @@ fn lines_in_every_octant_from_and_to_pixel_centres() {
     });
 }
 
+/// Rows: R4.
 #[test]
 fn points_of_every_size() {
     check("primitives/points", 60, |random| {
@@ -120,6 +124,7 @@ fn points_of_every_size() {
     });
 }
 
+/// Rows: A5.
 #[test]
 fn polygon_modes_line_and_point() {
     check("primitives/polygon_modes", 80, |random| {

@@ -59,6 +59,7 @@ fn textured_case(random: &mut Random, style: Style, scales: &[f32]) -> Case {
     case
 }
 
+/// Rows: F2, R7.
 #[test]
 fn magnified_and_minified() {
     check("textures/scales", 70, |random| {
@@ -66,6 +67,7 @@ fn magnified_and_minified() {
     });
 }
 
+/// Rows: F2, R7.
 #[test]
 fn small_triangles_across_quads() {
     check("textures/small", 30, |random| {
@@ -73,6 +75,7 @@ fn small_triangles_across_quads() {
     });
 }
 
+/// Rows: F2.
 #[test]
 fn perspective_towards_the_horizon() {
     check("textures/perspective", 30, |random| {
@@ -80,6 +83,7 @@ fn perspective_towards_the_horizon() {
     });
 }
 
+/// Rows: F2.
 #[test]
 fn coordinates_that_are_hardly_numbers() {
     check("textures/odd", 30, |random| {
@@ -95,6 +99,7 @@ fn coordinates_that_are_hardly_numbers() {
     });
 }
 
+/// Rows: F2, R7.
 #[test]
 fn on_lines_and_points() {
     check("textures/lines", 24, |random| {

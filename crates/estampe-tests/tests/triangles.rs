@@ -59,6 +59,7 @@ styles! {
     hostile: Hostile;
 }
 
+/// Rows: R1, R5, U3.
 #[test]
 fn larger_targets_with_a_mixture() {
     check("triangles/mixture", 4, |random| {
@@ -76,6 +77,7 @@ fn larger_targets_with_a_mixture() {
     });
 }
 
+/// Rows: A3, A4.
 #[test]
 fn a_w_that_is_infinite_drops_its_triangle_though_its_inverse_is_finite() {
     check("triangles/infinite_w", 4, |random| {

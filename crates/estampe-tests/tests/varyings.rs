@@ -53,6 +53,7 @@ scalars! {
     front_facing: FrontFacing;
 }
 
+/// Rows: R5.
 #[test]
 fn values_that_are_hardly_numbers() {
     check("varyings/odd", 40, |random| {

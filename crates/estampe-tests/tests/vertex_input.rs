@@ -69,6 +69,7 @@ fn indexed_draw(random: &mut Random, case: &Case) -> CaseDraw {
     draw
 }
 
+/// Rows: V2.
 #[test]
 fn instances() {
     check("vertex_input/instances", 40, |random| {
@@ -98,6 +99,7 @@ fn many_instances_of_a_draw_that_fills_no_group() {
     check_some("vertex_input/many", &case);
 }
 
+/// Rows: V2.
 #[test]
 fn the_base_vertex_moves_indices_alone() {
     check("vertex_input/base_without_indices", 6, |random| {
@@ -120,6 +122,7 @@ fn index_bytes(format: IndexFormat, indices: &[u32]) -> Vec<u8> {
     bytes.flat_map(|four| four[..width].to_vec()).collect()
 }
 
+/// Rows: V2.
 #[test]
 fn indices_of_every_width() {
     check("vertex_input/indices", 120, |random| {
@@ -148,6 +151,7 @@ fn indices_of_every_width() {
     });
 }
 
+/// Rows: V2.
 #[test]
 fn elements_at_the_end_of_the_range_of_u32() {
     check("vertex_input/far_elements", 6, |random| {
@@ -162,6 +166,7 @@ fn elements_at_the_end_of_the_range_of_u32() {
     });
 }
 
+/// Rows: V2.
 #[test]
 fn vertex_buffers_that_end_too_soon() {
     check("vertex_input/short", 60, |random| {
@@ -181,6 +186,7 @@ fn vertex_buffers_that_end_too_soon() {
     });
 }
 
+/// Rows: V1, V2.
 #[test]
 fn formats_strides_and_offsets() {
     check("vertex_input/formats", 250, |random| {
@@ -222,6 +228,7 @@ fn formats_strides_and_offsets() {
     });
 }
 
+/// Rows: V2.
 #[test]
 fn draws_of_nothing() {
     check("vertex_input/nothing", 6, |random| {

@@ -60,6 +60,7 @@ fn target(random: &mut Random, size: [u32; 2]) -> Case {
     case
 }
 
+/// Rows: O4, U3.
 #[test]
 fn large_triangles_over_each_other() {
     check("visibility/large", 24, |random| {
@@ -83,6 +84,7 @@ fn large_triangles_over_each_other() {
     });
 }
 
+/// Rows: R1, O4, U3.
 #[test]
 fn crowds_of_small_triangles() {
     check("visibility/small", 24, |random| {
@@ -102,6 +104,7 @@ fn crowds_of_small_triangles() {
     });
 }
 
+/// Rows: O4, O5, U3.
 #[test]
 fn opaque_and_blended_draws_in_turn() {
     check("visibility/turns", 24, |random| {

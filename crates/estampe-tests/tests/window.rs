@@ -83,6 +83,7 @@ fn draw_somewhere(random: &mut Random, case: &Case) -> CaseDraw {
     draw
 }
 
+/// Rows: A4.
 #[test]
 fn viewports() {
     check("window/viewports", 90, |random| {
@@ -94,6 +95,7 @@ fn viewports() {
     });
 }
 
+/// Rows: A4.
 #[test]
 fn viewports_beyond_their_limits_draw_nothing() {
     // Few enough that all may be empty: a valid number may come out, too.
@@ -126,6 +128,7 @@ fn viewports_beyond_their_limits_draw_nothing() {
     }
 }
 
+/// Rows: A4, O1, O2.
 #[test]
 fn scissors_and_viewports() {
     check("window/scissors", 60, |random| {
@@ -142,6 +145,7 @@ fn scissors_and_viewports() {
     });
 }
 
+/// Rows: O1.
 #[test]
 fn targets_of_odd_sizes() {
     check("window/sizes", 12, |random| {

@@ -51,6 +51,7 @@ fn drawn(device: &Device, format: TextureFormat, size: (u32, u32)) -> RenderTarg
     target
 }
 
+/// Rows: R6.
 #[test]
 fn a_resolved_picture_is_the_one_that_is_read_back() {
     for threads in [1, 2, 7] {

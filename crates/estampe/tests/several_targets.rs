@@ -59,6 +59,7 @@ fn device(threads: usize, level: Level) -> Device {
     Device::new(&descriptor).expect("one or two threads can be had")
 }
 
+/// Rows: F1, O5, O7, O8.
 #[test]
 fn each_target_has_its_own_format_blending_and_mask() {
     let (width, height) = (70, 9);

@@ -24,6 +24,7 @@ fn random_vertex(random: &mut Random, w: f32) -> ClipVertex {
     clip_vertex([place[0] * w, place[1] * w, random.unit() * w, w], &values)
 }
 
+/// Rows: A4.
 #[test]
 fn window_positions_lie_within_their_bounds() {
     let mut random = Random(21);
@@ -45,6 +46,7 @@ fn window_positions_lie_within_their_bounds() {
     }
 }
 
+/// Rows: R5.
 #[test]
 fn depth_and_varyings_lie_within_their_bounds() {
     let mut random = Random(22);

@@ -55,6 +55,7 @@ fn ndc_area(polygon: &[[f64; 4]]) -> f64 {
         .sum()
 }
 
+/// Rows: A3.
 #[test]
 fn clipped_polygons_lie_inside_and_keep_their_area() {
     const ULP: f32 = f32::EPSILON;
@@ -92,6 +93,7 @@ fn clipped_polygons_lie_inside_and_keep_their_area() {
     assert!(by_sides > 1000, "only {by_sides} cuts were by the sides");
 }
 
+/// Rows: A3.
 #[test]
 fn neighbours_share_their_clipped_vertices_to_the_bit() {
     let mut random = Random(12);
@@ -220,6 +222,7 @@ fn an_edge_within_the_guard_band_has_no_crack_where_one_of_its_triangles_leaves_
     }
 }
 
+/// Rows: A3.
 #[test]
 fn near_crossings_are_where_hand_computation_puts_them() {
     // z from 0.75 to −0.25: the crossing is at three quarters.
@@ -233,6 +236,7 @@ fn near_crossings_are_where_hand_computation_puts_them() {
     assert_eq!((start.position[0], end), (0.75, a));
 }
 
+/// Rows: A3, R4.
 #[test]
 fn points_are_clipped_by_their_centre() {
     let point = |position| keeps_point(&clip_vertex(position, &[]), &transform());
@@ -243,6 +247,7 @@ fn points_are_clipped_by_their_centre() {
     assert!(!point([0.0, 0.0, 0.5, f32::INFINITY]));
 }
 
+/// Rows: A2.
 #[test]
 fn counter_clockwise_as_seen_is_negative_in_the_window_and_positive_in_clip_space() {
     let ccw = [
@@ -259,6 +264,7 @@ fn counter_clockwise_as_seen_is_negative_in_the_window_and_positive_in_clip_spac
     assert!(!cull::is_culled(cull::Face::Back, CullMode::Front));
 }
 
+/// Rows: A2.
 #[test]
 fn the_clip_space_test_agrees_with_the_snapped_one_beyond_snapping() {
     let mut random = Random(13);

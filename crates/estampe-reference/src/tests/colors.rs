@@ -8,6 +8,7 @@ use crate::per_sample::masked;
 const UNORM: TextureFormat = TextureFormat::Rgba8Unorm;
 const SRGB: TextureFormat = TextureFormat::Rgba8UnormSrgb;
 
+/// Rows: O8.
 #[test]
 fn unorm_codes_round_half_up_and_confine() {
     let unorm_code = |value| Channel::Unorm(8).encode(value);
@@ -23,6 +24,7 @@ fn unorm_codes_round_half_up_and_confine() {
     }
 }
 
+/// Rows: O8.
 #[test]
 fn srgb_follows_the_standard() {
     // IEC 61966-2-1: code 188 is linear 0.5029; middle grey 0.18 is code 118; alpha is linear.
@@ -39,6 +41,7 @@ fn srgb_follows_the_standard() {
     }
 }
 
+/// Rows: O5.
 #[test]
 fn blending_agrees_with_f64() {
     use BlendFactor as F;
@@ -139,6 +142,7 @@ fn blending_agrees_with_f64() {
     }
 }
 
+/// Rows: O5, O7, O8.
 #[test]
 fn a_draw_blends_masks_and_decodes_srgb() {
     let full = [[-1.0, 1.0], [-1.0, -3.0], [3.0, 1.0]];
@@ -182,6 +186,7 @@ fn a_draw_blends_masks_and_decodes_srgb() {
     }
 }
 
+/// Rows: R6.
 #[test]
 fn resolving_takes_the_mean_in_linear_light() {
     let codes = [

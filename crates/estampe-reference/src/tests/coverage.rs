@@ -29,6 +29,7 @@ fn hits(triangles: &[[[i32; 2]; 3]], width: u32, height: u32, samples: u32) -> V
     hits
 }
 
+/// Rows: R1.
 #[test]
 fn top_and_left_edges_keep_their_samples_and_others_do_not() {
     // A square of 2 pixels whose corners lie on the centres of pixels 0 and 2: only the samples of
@@ -45,6 +46,7 @@ fn top_and_left_edges_keep_their_samples_and_others_do_not() {
     assert_eq!(Edge::new([0, 0], [9, 0]).function([3, 2]), 18);
 }
 
+/// Rows: R6.
 #[test]
 fn multisample_positions_are_vulkans() {
     // A triangle far larger than the pixel, whose vertical right edge is at x = 0.5 pixel: samples
@@ -91,6 +93,7 @@ fn random_triangulation(random: &mut Random, cell: i32, jitter: u32) -> Vec<[[i3
     triangles
 }
 
+/// Rows: R1, R6.
 #[test]
 fn a_planar_triangulation_covers_each_sample_once() {
     let mut random = Random(1);
@@ -111,6 +114,7 @@ fn a_planar_triangulation_covers_each_sample_once() {
     }
 }
 
+/// Rows: R1, R5.
 #[test]
 fn the_order_of_vertices_changes_no_bit() {
     let mut random = Random(2);
@@ -157,6 +161,7 @@ impl MapBits for Vec<f32> {
     }
 }
 
+/// Rows: R1.
 #[test]
 fn degenerate_triangles_cover_nothing_and_huge_ones_do_not_overflow() {
     let mut target = unorm(8, 8, 1);
@@ -171,6 +176,7 @@ fn degenerate_triangles_cover_nothing_and_huge_ones_do_not_overflow() {
     assert!(covered.iter().all(|&count| count == 1));
 }
 
+/// Rows: A2, R1.
 #[test]
 fn a_closed_mesh_shows_each_sample_as_many_fronts_as_backs() {
     /// Adds 1/255 to red for each hit.

@@ -14,6 +14,7 @@ fn pixels(target: &Target) -> Vec<String> {
         .collect()
 }
 
+/// Rows: R1.
 #[test]
 fn a_right_triangle_covers_what_the_top_left_rule_says() {
     // The hypotenuse from (4, 0) to (0, 4) passes through pixel centres (3.5, 0.5), …; it is a
@@ -35,6 +36,7 @@ fn a_right_triangle_covers_what_the_top_left_rule_says() {
     assert_eq!(pixels(&other), ["...#", "..##", ".###", "####"]);
 }
 
+/// Rows: V1, R5.
 #[test]
 fn a_perspective_triangle_interpolates_smooth_affine_and_flat() {
     // Two vertices at w = 1 on the left, one at w = 3 on the right edge of a 4-pixel target.
@@ -53,6 +55,7 @@ fn a_perspective_triangle_interpolates_smooth_affine_and_flat() {
     assert_eq!(flat, 51); // the first vertex's 0.2
 }
 
+/// Rows: O4.
 #[test]
 fn the_nearer_triangle_wins_in_any_order_and_the_depth_is_stored() {
     let state = State {
@@ -102,6 +105,7 @@ estampe_types::shader! {
     }
 }
 
+/// Rows: F1, R7.
 #[test]
 fn shaders_discard_write_depth_and_see_derivatives_and_position() {
     let state = State {
@@ -136,6 +140,7 @@ fn shaders_discard_write_depth_and_see_derivatives_and_position() {
     assert_eq!(target.depth[target.index([1, 1], 0)], 1.0);
 }
 
+/// Rows: A4, O2.
 #[test]
 fn the_scissor_and_the_viewport_confine() {
     let mut target = unorm(8, 8, 1);
@@ -170,6 +175,7 @@ fn the_scissor_and_the_viewport_confine() {
     assert_eq!(target.depth[target.index([2, 2], 0)], 0.75);
 }
 
+/// Rows: R6.
 #[test]
 fn multisampling_covers_samples_and_shades_pixels_once() {
     let mut target = unorm(2, 1, 4);

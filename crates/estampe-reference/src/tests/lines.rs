@@ -13,6 +13,7 @@ fn integer(from: [i32; 2], to: [i32; 2]) -> Vec<[i32; 2]> {
     bresenham::line(from, to).collect()
 }
 
+/// Rows: R3.
 #[test]
 fn integer_lines_draw_both_ends_in_every_octant() {
     let mut random = Random(31);
@@ -37,6 +38,7 @@ fn integer_lines_draw_both_ends_in_every_octant() {
     }
 }
 
+/// Rows: R3.
 #[test]
 fn integer_lines_plot_then_step_and_ties_stay() {
     // The course's mistake, steps before it plots, would give (0, 1)…(5, 6).
@@ -57,6 +59,7 @@ fn pipeline(from: [f32; 2], to: [f32; 2]) -> Vec<[u32; 2]> {
     LinePath::new(from.map(viewport::snap), to.map(viewport::snap)).pixels(&EVERYWHERE)
 }
 
+/// Rows: R3.
 #[test]
 fn pipeline_lines_include_their_start_and_not_their_end() {
     assert_eq!(pipeline([0.5, 0.5], [3.5, 0.5]), [[0, 0], [1, 0], [2, 0]]);
@@ -73,6 +76,7 @@ fn pipeline_lines_include_their_start_and_not_their_end() {
     assert_eq!(pipeline([0.5, 0.5], [0.5, 0.5]), [[0_u32; 2]; 0]);
 }
 
+/// Rows: R3.
 #[test]
 fn a_strip_along_one_direction_touches_no_pixel_twice() {
     let mut random = Random(32);
@@ -104,6 +108,7 @@ fn a_strip_along_one_direction_touches_no_pixel_twice() {
     }
 }
 
+/// Rows: R3, R5.
 #[test]
 fn lines_interpolate_depth_and_varyings() {
     let mut target = unorm(8, 1, 4);
@@ -133,6 +138,7 @@ fn lines_interpolate_depth_and_varyings() {
     }
 }
 
+/// Rows: A5.
 #[test]
 fn polygon_modes_draw_edges_and_vertices_of_what_is_not_culled() {
     let image = |polygon_mode, cull_mode| {
@@ -190,6 +196,7 @@ fn a_clipped_outline_shows_no_diagonals() {
     assert!(rows.into_iter().all(|count| count <= 2));
 }
 
+/// Rows: R4.
 #[test]
 fn points_are_half_open_squares() {
     let cover = |x: f32, y: f32, size: f32, samples| {

@@ -54,6 +54,7 @@ fn red(mode: AddressMode, filter: FilterMode, u: f32) -> f32 {
     row.sample(Vec2::new(u, 0.5)).x * 255.0
 }
 
+/// Rows: F2.
 #[test]
 fn addresses_wrap_as_they_say() {
     use AddressMode::{ClampToEdge, MirrorRepeat, Repeat};
@@ -93,6 +94,7 @@ fn addresses_wrap_as_they_say() {
     }
 }
 
+/// Rows: F2.
 #[test]
 fn bilinear_weights_lie_between_centres() {
     use AddressMode::{ClampToEdge, MirrorRepeat, Repeat};
@@ -124,6 +126,7 @@ fn bilinear_weights_lie_between_centres() {
     assert_eq!(square.sample(Vec2::new(0.5, 0.5)).w, 51.0 * (1.0 / 255.0));
 }
 
+/// Rows: F2.
 #[test]
 fn srgb_is_decoded_before_it_is_filtered() {
     let pair = |format| {
@@ -136,6 +139,7 @@ fn srgb_is_decoded_before_it_is_filtered() {
     assert_eq!(pair(TextureFormat::Rgba8Unorm).x, 127.5 * (1.0 / 255.0));
 }
 
+/// Rows: F2, R7.
 #[test]
 fn the_level_follows_the_derivatives_of_the_quads_first_lane() {
     let sizes = [[4, 4], [2, 2], [1, 1]];

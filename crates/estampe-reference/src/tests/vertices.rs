@@ -16,6 +16,7 @@ fn layout(format: VertexFormat, stride: u32, offset: u32, location: u32) -> Vert
     }
 }
 
+/// Rows: V2.
 #[test]
 fn formats_are_filled_up_with_0_0_0_1() {
     let floats = Buffer::from_f32s(&[1.5, -2.0, 3.0, 4.0]);
@@ -48,6 +49,7 @@ fn formats_are_filled_up_with_0_0_0_1() {
     assert_eq!(decode(VertexFormat::Unorm16x4, &bytes)[2..], [1.0, 0.0]);
 }
 
+/// Rows: V2.
 #[test]
 fn what_is_not_there_reads_zeros() {
     let buffers = [(
@@ -70,6 +72,7 @@ fn what_is_not_there_reads_zeros() {
     assert_eq!(fetch::attribute(&short, 0, 0, [0; 2]), [0.0, 0.0, 0.0, 1.0]);
 }
 
+/// Rows: V2.
 #[test]
 fn indices_of_every_width_and_the_base_vertex() {
     let bytes = Buffer::from_bytes(&[1, 2, 3, 4, 5]);
@@ -87,6 +90,7 @@ fn indices_of_every_width_and_the_base_vertex() {
     assert_eq!(index(IndexFormat::Uint8, 0, -2), u32::MAX, "modulo 2³²");
 }
 
+/// Rows: A1, A5.
 #[test]
 fn assembly_keeps_winding_and_puts_the_provoking_vertex_first() {
     use PrimitiveTopology as T;
@@ -126,6 +130,7 @@ fn assembly_keeps_winding_and_puts_the_provoking_vertex_first() {
     }
 }
 
+/// Rows: V2.
 #[test]
 fn instances_advance_instance_buffers_and_are_drawn_in_order() {
     // A quad of one pixel as an indexed strip, moved and coloured by instance.

@@ -1,0 +1,428 @@
+//! Coverage of triangles that share edges: each sample exactly once, through the public API.
+//!
+//! A batch is several [meshes](crate::shared_edges) over one target, each of which covers every pixel once. Their hits
+//! are added up by additive blending, one unit each, so that each pixel must end with as many units as there are
+//! meshes. With four samples the mean could hide a sample missed beside one hit twice: a second channel counts only the
+//! first hit of each mesh on each sample (it lies nearer than the mesh before, so only the first passes the depth test).
+//! If each sample of a pixel is hit at least once and all hits are as many as samples, each is hit exactly once.
+
+use crate::Random;
+use crate::fast_path;
+use crate::geometry::clip_at;
+use crate::shared_edges::{Corner, Kind, covered, mesh};
+use estampe::{
+    Device, DeviceDescriptor, Draw, Level, Limits, LoadOp, RenderPass, RenderPipeline,
+    RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor,
+};
+use estampe_types::shader::VertexOut;
+use estampe_types::state::{
+    BlendState, ColorTargetState, ColorWrites, CompareFunction, DepthState, VertexBufferLayout,
+};
+use estampe_types::{Buffer, FragmentIn, FragmentOut, TextureFormat, Vec4, VertexFormat, VertexIn};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+/// Codes that a hit adds: each of four samples' codes is a multiple, and so is their mean.
+const UNIT: u8 = 4;
+
+/// Meshes of a batch: 60 hits of 4 codes fit into 8 bits.
+const MESHES: u32 = 60;
+
+/// Triangles of a batch, about: beyond this it is closed.
+const TRIANGLES: usize = 40_000;
+
+/// Adds a unit wherever it is.
+#[derive(Debug, Clone, Copy)]
+struct Hit;
+
+estampe_types::shader! {
+    impl Shader for Hit {
+        type Attributes<R: Real> = Vec4<R>;
+        type Varyings<R: Real> = ();
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            position: Vec4<R>,
+        ) -> VertexOut<R, ()> {
+            VertexOut::new(position, ())
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, _nothing: ()) -> FragmentOut<R> {
+            let unit = input.real(f32::from(UNIT) / 255.0);
+            FragmentOut::color(Vec4::new(unit, unit, unit, unit))
+        }
+    }
+}
+
+/// What was tried.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Batches drawn.
+    pub batches: u64,
+    /// Triangles in them.
+    pub primitives: u64,
+}
+
+/// Meshes over one target.
+#[derive(Debug)]
+struct Batch {
+    size: [u32; 2],
+    samples: u32,
+    meshes: Vec<(Kind, Vec<[Corner; 3]>)>,
+    /// The w of all vertices of each mesh, or 0 where each has its own.
+    ws: Vec<f32>,
+}
+
+/// Draws batches until the time is up, from a seed on, one at least; each batch is the next seed. All processors
+/// work.
+///
+/// # Errors
+/// A sample that was not hit once, with the seed of its batch and the mesh.
+pub fn run(time: Duration, first_seed: u64) -> Result<Tally, String> {
+    let start = Instant::now();
+    let next = AtomicU64::new(0);
+    let has_failed = AtomicBool::new(false);
+    let work = || {
+        let mut tally = Tally::default();
+        let mut fuzzer = Fuzzer::new();
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            if number > 0 && (start.elapsed() >= time || has_failed.load(Ordering::Relaxed)) {
+                return Ok(tally);
+            }
+            match fuzzer.batch(first_seed.wrapping_add(number)) {
+                Ok(primitives) => tally.primitives += primitives,
+                Err(failure) => {
+                    has_failed.store(true, Ordering::Relaxed);
+                    return Err(failure);
+                }
+            }
+            tally.batches += 1;
+        }
+    };
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        let handles: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+        let mut sum = Tally::default();
+        for handle in handles {
+            let tally = match handle.join() {
+                Ok(tally) => tally?,
+                Err(panic) => std::panic::resume_unwind(panic),
+            };
+            sum.batches += tally.batches;
+            sum.primitives += tally.primitives;
+        }
+        Ok(sum)
+    })
+}
+
+/// The devices of a worker, with pipelines and targets, which take longer to make than to draw with.
+struct Fuzzer {
+    /// Scalar first.
+    devices: Vec<Device>,
+    kept: Vec<Kept>,
+}
+
+struct Kept {
+    device: usize,
+    size: [u32; 2],
+    samples: u32,
+    target: RenderTarget,
+    all_hits: RenderPipeline,
+    first_hits: RenderPipeline,
+}
+
+impl Fuzzer {
+    fn new() -> Self {
+        let device = |level| {
+            Device::new(&DeviceDescriptor {
+                threads: 1,
+                level,
+                limits: Limits::default(),
+            })
+            .expect("a device without threads of its own")
+        };
+        Self {
+            devices: Level::all_available().into_iter().map(device).collect(),
+            kept: Vec::new(),
+        }
+    }
+
+    /// Which device draws the batch of a seed: the first and slowest one in sixteen times.
+    fn device_of(&self, seed: u64) -> usize {
+        let others = self.devices.len() as u64 - 1;
+        if others == 0 || seed.is_multiple_of(16) {
+            0
+        } else {
+            1 + usize::try_from(seed % others).expect("few levels")
+        }
+    }
+
+    /// Draws the batch of a seed; how many triangles it has.
+    fn batch(&mut self, seed: u64) -> Result<u64, String> {
+        let mut random = Random::new("fuzz/raster", seed);
+        let batch = Batch::random(&mut random);
+        let at = self.device_of(seed);
+        let kept = self.kept(at, batch.size, batch.samples);
+        let (device, kept) = (&self.devices[at], &mut self.kept[kept]);
+        let meshes: Vec<usize> = (0..batch.meshes.len()).collect();
+        let Some(first) = wrong_pixel(device, kept, &batch, &meshes) else {
+            let counts = batch
+                .meshes
+                .iter()
+                .map(|(_, triangles)| triangles.len() as u64);
+            return Ok(counts.sum());
+        };
+        // Which of the meshes is it?
+        let alone = meshes.iter().find_map(|&number| {
+            let wrong = wrong_pixel(device, kept, &batch, &[number])?;
+            Some((number, wrong))
+        });
+        let (size, samples) = (batch.size, batch.samples);
+        let place = format!(
+            "seed {seed}, {}, target {size:?} of {samples} samples",
+            fast_path::name(device)
+        );
+        let again = format!("again: cargo xtask fuzz raster --seconds 0 --seed {seed}");
+        Err(match alone {
+            Some((number, wrong)) => {
+                let (kind, triangles) = &batch.meshes[number];
+                let near = around(triangles, wrong.pixel);
+                format!(
+                    "{place}, mesh {number} ({kind:?}, {} triangles, w {}): {wrong:?}\n\
+                     triangles there, in 1/256 pixel: {near:?}\n{again}",
+                    triangles.len(),
+                    batch.ws[number],
+                )
+            }
+            None => format!(
+                "{place}, {} meshes, none wrong alone: {first:?}\n{again}",
+                meshes.len()
+            ),
+        })
+    }
+
+    /// Where what a batch needs is kept.
+    fn kept(&mut self, device: usize, size: [u32; 2], samples: u32) -> usize {
+        let is_it =
+            |kept: &Kept| kept.device == device && kept.size == size && kept.samples == samples;
+        self.kept.iter().position(is_it).unwrap_or_else(|| {
+            let kept = Kept::new(&self.devices[device], device, size, samples);
+            self.kept.push(kept);
+            self.kept.len() - 1
+        })
+    }
+}
+
+impl Kept {
+    fn new(device: &Device, number: usize, size: [u32; 2], samples: u32) -> Self {
+        let pipeline = |write_mask: u8, depth: Option<DepthState>| {
+            device
+                .create_render_pipeline(&RenderPipelineDescriptor {
+                    vertex_buffers: vec![VertexBufferLayout::packed(&[VertexFormat::Float32x4])],
+                    depth,
+                    samples,
+                    targets: vec![ColorTargetState {
+                        format: TextureFormat::Rgba8Unorm,
+                        blend: Some(BlendState::ADDITIVE),
+                        write_mask: ColorWrites(write_mask),
+                    }],
+                    ..RenderPipelineDescriptor::new(Hit)
+                })
+                .expect("a valid pipeline")
+        };
+        let nearer = DepthState {
+            write_enabled: true,
+            compare: CompareFunction::Less,
+        };
+        Self {
+            device: number,
+            size,
+            samples,
+            target: device
+                .create_render_target(&RenderTargetDescriptor {
+                    samples,
+                    ..RenderTargetDescriptor::new(size[0], size[1])
+                })
+                .expect("a valid target"),
+            all_hits: pipeline(0b0001, None),
+            first_hits: pipeline(0b0010, Some(nearer)),
+        }
+    }
+}
+
+impl Batch {
+    fn random(random: &mut Random) -> Self {
+        let size = random.pick(&[[64, 64], [32, 32], [16, 16], [61, 35], [130, 20]]);
+        let samples = random.pick(&[1, 1, 4]);
+        let mut meshes = Vec::new();
+        let mut ws = Vec::new();
+        let mut triangles = 0;
+        while meshes.len() < MESHES as usize && triangles < TRIANGLES {
+            let kind = random.pick(&Kind::ALL);
+            let made = mesh(random, kind, size);
+            triangles += made.len();
+            meshes.push((kind, made));
+            ws.push(random.pick(&[1.0, 1.0, 0.5, 8.0]));
+        }
+        Self {
+            size,
+            samples,
+            meshes,
+            ws,
+        }
+    }
+
+    /// Clip positions of some meshes, each nearer than the one before.
+    fn positions(&self, meshes: &[usize]) -> Buffer {
+        let mut scalars = Vec::new();
+        for (turn, &number) in (1u8..).zip(meshes) {
+            let z = 1.0 - f32::from(turn) / 64.0;
+            let (w, (_, triangles)) = (self.ws[number], &self.meshes[number]);
+            for corner in triangles.iter().flatten() {
+                let place = corner.map(|subpixels| subpixels as f32 / 256.0);
+                scalars.extend(clip_at(self.size, place, z, w));
+            }
+        }
+        Buffer::from_f32s(&scalars)
+    }
+}
+
+/// A pixel that was hit other than it should be.
+#[derive(Debug, Clone, Copy)]
+struct Wrong {
+    pixel: [u32; 2],
+    /// Codes of all hits and of first hits, summed over the meshes.
+    #[expect(dead_code, reason = "it is for whoever reads the message")]
+    codes: [u8; 2],
+    /// What both should be.
+    #[expect(dead_code, reason = "it is for whoever reads the message")]
+    wanted: u8,
+}
+
+/// Draws some meshes, and looks for a pixel that they do not hit once each.
+fn wrong_pixel(device: &Device, kept: &mut Kept, batch: &Batch, meshes: &[usize]) -> Option<Wrong> {
+    let [width, height] = batch.size;
+    let buffers = [batch.positions(meshes)];
+    let count = buffers[0].len_bytes() / 16;
+    let elements = 0..u32::try_from(count).expect("few triangles");
+    let mut draws = vec![Draw {
+        vertex_buffers: &buffers,
+        ..Draw::new(&kept.all_hits, elements.clone())
+    }];
+    if batch.samples > 1 {
+        draws.push(Draw {
+            vertex_buffers: &buffers,
+            ..Draw::new(&kept.first_hits, elements)
+        });
+    }
+    device.render(
+        &mut kept.target,
+        &RenderPass {
+            load_colors: vec![LoadOp::Clear([0.0; 4])],
+            draws: &draws,
+            ..RenderPass::default()
+        },
+    );
+    let color = kept.target.read_color(0);
+    let (pixels, _) = color.as_chunks::<4>();
+    // Meshes that do not reach all of the target are wanted only where they do.
+    let mut wanted = vec![0_u8; pixels.len()];
+    let mut unsure = vec![false; pixels.len()];
+    for &number in meshes {
+        let (kind, triangles) = &batch.meshes[number];
+        let [columns, rows] = covered(*kind, batch.size, triangles);
+        for y in 0..height {
+            for x in 0..width {
+                let at = (y * width + x) as usize;
+                if x < columns && y < rows {
+                    wanted[at] += UNIT;
+                } else {
+                    unsure[at] = true;
+                }
+            }
+        }
+    }
+    (0u32..)
+        .zip(pixels)
+        .find_map(|(number, &[all, first, ..])| {
+            let at = number as usize;
+            let counts = if batch.samples > 1 {
+                [all, first]
+            } else {
+                [all; 2]
+            };
+            let is_wrong = !unsure[at] && counts != [wanted[at]; 2];
+            is_wrong.then_some(Wrong {
+                pixel: [number % width, number / width],
+                codes: counts,
+                wanted: wanted[at],
+            })
+        })
+}
+
+/// Triangles whose boxes touch a pixel, a few.
+fn around(triangles: &[[Corner; 3]], pixel: [u32; 2]) -> Vec<[Corner; 3]> {
+    let touches = |triangle: &&[Corner; 3]| {
+        (0..2).all(|axis| {
+            let low = i32::try_from(pixel[axis] * 256).unwrap_or(i32::MAX - 256);
+            let places = || triangle.iter().map(|corner| corner[axis]);
+            places().min() <= Some(low + 256) && places().max() >= Some(low)
+        })
+    };
+    triangles.iter().filter(touches).take(12).copied().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A grid over a small target, drawn with some samples.
+    fn grid(samples: u32) -> Batch {
+        let mut random = Random::new("fuzz/self", 3);
+        let size = [16, 16];
+        Batch {
+            size,
+            samples,
+            meshes: vec![(Kind::Grid, mesh(&mut random, Kind::Grid, size))],
+            ws: vec![1.0],
+        }
+    }
+
+    fn is_found(batch: &Batch) -> bool {
+        let mut fuzzer = Fuzzer::new();
+        let at = fuzzer.kept(0, batch.size, batch.samples);
+        wrong_pixel(&fuzzer.devices[0], &mut fuzzer.kept[at], batch, &[0]).is_some()
+    }
+
+    #[test]
+    fn a_hole_and_a_sample_hit_twice_are_found() {
+        for samples in [1, 4] {
+            let whole = grid(samples);
+            assert!(!is_found(&whole), "{samples} samples");
+            let triangles = &whole.meshes[0].1;
+            let is_seen =
+                |triangle: &[Corner; 3]| triangle.iter().flatten().all(|at| (0..4096).contains(at));
+            let inner = triangles.iter().position(is_seen).expect("one inside");
+
+            let mut holed = grid(samples);
+            holed.meshes[0].1.remove(inner);
+            assert!(is_found(&holed), "{samples} samples: a hole");
+
+            let mut doubled = grid(samples);
+            doubled.meshes[0].1.push(triangles[inner]);
+            assert!(
+                is_found(&doubled),
+                "{samples} samples: a triangle drawn twice"
+            );
+        }
+        // A shared vertex that moved for one of its triangles alone, by 1/4 pixel: with four samples the pixels' sums
+        // of hits may stay what they were.
+        let mut torn = grid(4);
+        for triangle in &mut torn.meshes[0].1 {
+            triangle[0][0] += 64;
+        }
+        assert!(is_found(&torn), "a seam");
+    }
+}
