@@ -3,9 +3,13 @@
 mod bounds;
 mod clipping;
 mod colors;
+mod conservative;
 mod coverage;
 mod drawing;
+mod formats;
 mod lines;
+mod multisampling;
+mod per_sample;
 mod scan_conversion;
 mod textures;
 mod vertices;
