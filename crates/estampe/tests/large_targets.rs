@@ -133,5 +133,8 @@ fn a_side_too_long_is_an_error_that_names_the_limit() {
     let device = Device::new(&DeviceDescriptor::default()).expect("threads can be had");
     let refused = device.create_render_target(&RenderTargetDescriptor::new(16_385, 16));
     let message = refused.expect_err("too wide").to_string();
-    assert!(message.contains("16385x16") && message.contains("16384"), "{message}");
+    assert!(
+        message.contains("16385x16") && message.contains("16384"),
+        "{message}"
+    );
 }
