@@ -215,7 +215,10 @@ mod tests {
             pixels_of_the_lower(&pixels)
         });
         let [depth16, depth24, reversed, logarithmic] = wrong;
-        assert!(depth16 > 10_000 && depth24 > 0 && depth24 < 200, "{wrong:?}");
+        assert!(
+            depth16 > 10_000 && depth24 > 0 && depth24 < 200,
+            "{wrong:?}"
+        );
         assert_eq!([reversed, logarithmic], [0, 0]);
     }
 }

@@ -7,6 +7,7 @@ use crate::geometry::assembly::ElementSource;
 use crate::geometry::binning::BinState;
 use crate::geometry::chunk::{ChunkScratch, ChunkWork, process};
 use crate::geometry::cull::CullState;
+use crate::geometry::line_style::{LineRun, LineStyle};
 use crate::geometry::shading::{ShadedVertices, ShadingScratch, shade};
 use crate::per_sample::texel::TexelCodec;
 use crate::raster::general::sample_range;
@@ -15,7 +16,7 @@ use crate::schedule::{Executor, ThreadError};
 use crate::statistics::Statistics;
 use crate::tile_pass::{self, AnyTileScratch, Clear, TileItem, TileJob, TilePass, TileScratch};
 use crate::tiles::{Chunk, ChunkIndex};
-use crate::wave::{Item, VertexJob, Waves};
+use crate::wave::{Item, VertexJob, Waves, is_line_strip};
 use estampe_simd::Level;
 use estampe_types::DepthTexture;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -204,7 +205,7 @@ impl Context {
         memory: &mut Memory,
     ) -> usize {
         let total = |item: &Item<'_>| u32::try_from(item.total_primitives()).unwrap_or(u32::MAX);
-        let count = |item: &Item<'_>| total(item).div_ceil(PRIMITIVE_CHUNK) as usize;
+        let count = |item: &Item<'_>| total(item).div_ceil(item.chunk_primitives()) as usize;
         let used = items.iter().map(count).sum();
         if memory.chunks.len() < used {
             memory.chunks.resize_with(used, Chunk::default);
@@ -212,11 +213,12 @@ impl Context {
         let mut jobs: Vec<ChunkJob<'_>> = recycled(std::mem::take(&mut memory.lists.chunk_jobs));
         let mut chunks = memory.chunks.iter_mut();
         for (item, total) in items.iter().map(total).enumerate() {
-            let starts = (0..total).step_by(PRIMITIVE_CHUNK as usize);
+            let size = items[item].chunk_primitives();
+            let starts = (0..total).step_by(size as usize);
             jobs.extend(starts.zip(&mut chunks).map(|(from, chunk)| ChunkJob {
                 chunk,
                 item,
-                primitives: [from, from.saturating_add(PRIMITIVE_CHUNK).min(total)],
+                primitives: [from, from.saturating_add(size).min(total)],
             }));
         }
         let (grid, vertices) = (target.grid(), &memory.vertices);
@@ -254,6 +256,12 @@ impl Context {
                         sample_range,
                     },
                     polygon_mode: state.polygon_mode,
+                    depth_bias: item.depth_bias,
+                    lines: LineRun {
+                        style: LineStyle::new(&state.line),
+                        is_strip: is_line_strip(state.topology),
+                        restarts: &item.line_restarts,
+                    },
                     instance_vertices: item.vertices,
                     instance_primitives: item.primitives,
                     primitives: job.primitives,
@@ -329,9 +337,6 @@ impl Context {
 
 /// Vertices that one worker shades at a time.
 const VERTEX_CHUNK: usize = 4096;
-
-/// Primitives of a chunk.
-const PRIMITIVE_CHUNK: u32 = 4096;
 
 impl Clear {
     fn new(target: &RenderTarget, pass: &RenderPass<'_>) -> Self {

@@ -3,7 +3,8 @@
 use estampe_types::shader::{DepthOutput, MAX_DISTANCES, Sampling};
 use estampe_types::state::{
     BlendFactor, BlendState, ColorTargetState, CompareFunction, ConservativeMode, DepthBiasState,
-    DepthState, LogicOperation, PrimitiveState, StencilState, VertexBufferLayout,
+    DepthState, LineRasterization, LineState, LineStipple, LogicOperation, PrimitiveState,
+    StencilState, VertexBufferLayout,
 };
 use estampe_types::{
     Interface, Interpolation, Limits, Program, Shader, ShaderProgram, TextureFormat,
@@ -72,6 +73,12 @@ pub enum PipelineError {
     /// The sample count is not offered.
     #[error("a pipeline has 1, 2, 4, 8 or 16 samples per pixel, not {0}")]
     SampleCount(u32),
+    /// Lines of no width, or of more than 64 pixels.
+    #[error("lines are {0} pixels wide; their width must be above 0 and at most 64")]
+    LineWidth(String),
+    /// A stipple factor that is 0 or more than 256.
+    #[error("the stipple factor is {0}; it must be 1 to 256")]
+    StippleFactor(u16),
     /// Too many colour targets.
     #[error("the pipeline has {count} colour targets; the limit max_color_attachments is {limit}")]
     TooManyTargets {
@@ -251,6 +258,7 @@ impl RenderPipeline {
         let interface = descriptor.program.interface();
         check_targets(descriptor, interface, limits)?;
         check_interface(interface, limits)?;
+        check_lines(&descriptor.primitive.line)?;
         let attributes = attribute_sources(descriptor, interface, limits)?;
         let key = stage_key(descriptor, interface);
         Ok(Self {
@@ -325,6 +333,18 @@ fn check_targets(
         return Err(PipelineError::DualSourceTargets(count));
     }
     Ok(())
+}
+
+fn check_lines(state: &LineState) -> Result<(), PipelineError> {
+    if !(state.width > 0.0 && state.width <= 64.0) {
+        return Err(PipelineError::LineWidth(state.width.to_string()));
+    }
+    match state.stipple {
+        Some(LineStipple { factor, .. }) if !(1..=256).contains(&factor) => {
+            Err(PipelineError::StippleFactor(factor))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn check_interface(interface: &Interface, limits: &Limits) -> Result<(), PipelineError> {
@@ -423,7 +443,9 @@ fn stage_key(descriptor: &RenderPipelineDescriptor, interface: &Interface) -> St
         uniform_over_primitive: flat && !interface.reads_position && early_depth,
         early_depth,
         // A program of a caller's own may claim more than it has.
+        // Smooth lines change the colour on its way.
         passes_color: interface.passes_color
+            && descriptor.primitive.line.rasterization != LineRasterization::RectangularSmooth
             && early_depth
             && interface.color_targets == 1
             && interface.varyings.len() >= 4,

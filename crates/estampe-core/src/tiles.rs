@@ -116,9 +116,11 @@ pub(crate) struct LinePrimitive {
     pub(crate) ends: [WindowVertex; 2],
     pub(crate) provoking: VertexRef,
     pub(crate) front: bool,
+    /// How many fragments of its strip lie before it, where a stipple pattern counts them.
+    pub(crate) stipple: u32,
 }
 
-/// A square point.
+/// A point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PointPrimitive {
     pub(crate) center: WindowVertex,

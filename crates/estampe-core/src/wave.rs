@@ -9,6 +9,7 @@ use crate::commands::Draw;
 use crate::geometry::assembly::{PrimitiveKind, kind_of, primitive_count, vertex_index};
 use crate::geometry::chunk::ItemVertices;
 use crate::geometry::cull::Facing;
+use crate::geometry::depth_bias::DepthBias;
 use crate::geometry::restart::{RestartCursor, RestartSource};
 use crate::geometry::shading::{ShadedSlice, ShadedVertices, VertexSource};
 use crate::geometry::viewport::{PixelRect, ViewportTransform};
@@ -26,7 +27,10 @@ const WAVE_BUDGET: usize = 2_000_000;
 /// Primitives of one item at most: a larger draw becomes several items.
 const ITEM_PRIMITIVES: u32 = 1_000_000;
 
-/// Elements of a fan or loop at most: what is beyond is not drawn. Memory for a draw is bounded by it.
+/// Primitives of a chunk.
+const PRIMITIVE_CHUNK: u32 = 4096;
+
+/// Elements of a fan, loop or stippled strip at most: what is beyond is not drawn. Memory for a draw is bounded by it.
 const MAX_WHOLE_ELEMENTS: u32 = 1 << 24;
 
 /// How much larger than its number of elements a draw's range of indices may be; beyond, vertices are
@@ -56,6 +60,9 @@ pub(crate) struct Item<'a> {
     pub(crate) sparse: Option<Vec<u32>>,
     /// The item's vertices of each primitive of an instance, where indices may restart primitives.
     pub(crate) restarted: Option<Vec<[u32; 3]>>,
+    /// Those of them that begin a strip of stippled lines, ascending.
+    pub(crate) line_restarts: Vec<u32>,
+    pub(crate) depth_bias: Option<DepthBias>,
     /// Primitives of one instance.
     pub(crate) primitives: u32,
     /// Scalars of a vertex's varyings.
@@ -72,6 +79,16 @@ impl Item<'_> {
         let state = &self.draw.pipeline.descriptor().primitive;
         kind_of(state.topology) != PrimitiveKind::Triangles
             || state.polygon_mode != PolygonMode::Fill
+    }
+
+    /// Primitives of a chunk. Stippled strips are not cut, because each line's pattern goes on where that of the one
+    /// before ended.
+    pub(crate) fn chunk_primitives(&self) -> u32 {
+        if is_stippled_strip(self.draw) {
+            self.primitives.max(1)
+        } else {
+            PRIMITIVE_CHUNK
+        }
     }
 
     /// Where its vertices come from.
@@ -112,6 +129,7 @@ struct Remainder<'a> {
     viewport: Viewport,
     primitives: Range<u32>,
     instances: Range<u32>,
+    depth_bias: Option<DepthBias>,
     /// Where indices may restart primitives: how far these were looked for in the instance at hand.
     restart: RestartCursor,
 }
@@ -187,6 +205,10 @@ impl<'a> Waves<'a> {
                 viewport,
                 primitives,
                 instances,
+                depth_bias: DepthBias::new(
+                    &draw.pipeline.descriptor().depth_bias,
+                    target.depth_stencil_format(),
+                ),
                 restart: RestartCursor::default(),
             });
         }
@@ -241,7 +263,7 @@ impl<'a> Remainder<'a> {
         let topology = descriptor.primitive.topology;
         let whole = element_count(draw);
         let all = primitive_count(topology, whole);
-        let splittable = is_splittable(topology);
+        let splittable = is_splittable(draw);
         let (elements, instances);
         if all > ITEM_PRIMITIVES && splittable {
             let count = (self.primitives.end - self.primitives.start).min(ITEM_PRIMITIVES);
@@ -267,7 +289,17 @@ impl<'a> Remainder<'a> {
     /// The same where indices may restart primitives.
     fn take_restarted(&mut self, source: &RestartSource<'_>) -> Item<'a> {
         let is_first = self.restart.is_at_start();
-        let mut corners = self.restart.take(source, ITEM_PRIMITIVES as usize);
+        let is_whole = is_stippled_strip(self.draw);
+        let mut begins = Vec::new();
+        let limit = if is_whole {
+            MAX_WHOLE_ELEMENTS
+        } else {
+            ITEM_PRIMITIVES
+        };
+        let mut corners = self.restart.take(source, limit, &mut begins);
+        if !is_whole {
+            begins.clear();
+        }
         let is_done = self.restart.is_done(source);
         let primitives = u32::try_from(corners.len()).unwrap_or(u32::MAX);
         let instances = if is_first && is_done {
@@ -280,6 +312,7 @@ impl<'a> Remainder<'a> {
         let item = Item {
             primitives,
             restarted: Some(corners),
+            line_restarts: begins,
             ..self.item_of([0, 0], instances, vertices)
         };
         if is_done {
@@ -321,6 +354,8 @@ impl<'a> Remainder<'a> {
             vertices,
             sparse,
             restarted: None,
+            line_restarts: Vec::new(),
+            depth_bias: self.depth_bias,
             primitives: primitive_count(descriptor.primitive.topology, count),
             varying_scalars: draw.pipeline.interface().varyings.len(),
             vertex_base: 0,
@@ -365,24 +400,39 @@ fn list_vertices(corners: &mut [[u32; 3]]) -> (u32, u32, Option<Vec<u32>>) {
     (0, count, Some(sparse))
 }
 
-/// How many elements a draw has. Fans and loops cannot be cut into items, so that they end at
+/// How many elements a draw has. Fans, loops and stippled strips cannot be cut into items, so that they end at
 /// [`MAX_WHOLE_ELEMENTS`].
 fn element_count(draw: &Draw<'_>) -> u32 {
     let count = draw.elements.end.saturating_sub(draw.elements.start);
-    let splittable = is_splittable(draw.pipeline.descriptor().primitive.topology);
-    if splittable {
+    if is_splittable(draw) {
         count
     } else {
         count.min(MAX_WHOLE_ELEMENTS)
     }
 }
 
-/// Whether a run of a topology's primitives is a run of elements of the same topology.
-fn is_splittable(topology: PrimitiveTopology) -> bool {
+/// Whether a run of a draw's primitives is a run of elements of the same topology, drawn like any other.
+fn is_splittable(draw: &Draw<'_>) -> bool {
+    let topology = draw.pipeline.descriptor().primitive.topology;
     !matches!(
         topology,
         PrimitiveTopology::TriangleFan | PrimitiveTopology::LineLoop
+    ) && !is_stippled_strip(draw)
+}
+
+/// Whether each line of a topology goes on where the one before ended.
+pub(crate) fn is_line_strip(topology: PrimitiveTopology) -> bool {
+    matches!(
+        topology,
+        PrimitiveTopology::LineStrip
+            | PrimitiveTopology::LineLoop
+            | PrimitiveTopology::LineStripAdjacency
     )
+}
+
+fn is_stippled_strip(draw: &Draw<'_>) -> bool {
+    let state = &draw.pipeline.descriptor().primitive;
+    state.line.stipple.is_some() && is_line_strip(state.topology)
 }
 
 /// The elements (first, count) of `count` primitives from `first` on. `ITEM_PRIMITIVES` is even, so a

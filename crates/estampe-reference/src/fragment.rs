@@ -29,6 +29,10 @@ pub trait Surface {
     fn varyings_at(&self, pixel: [u32; 2], _place: [u8; 2]) -> Vec<f32> {
         self.varyings(pixel)
     }
+    /// What the alpha of every colour is multiplied by, if by anything.
+    fn alpha(&self, _pixel: [u32; 2]) -> Option<f32> {
+        None
+    }
 }
 
 /// A pixel's centre, in 1/16 pixel from its corner.
@@ -43,7 +47,8 @@ pub fn sample_window(pixel: [u32; 2], sample: [u8; 2]) -> [f32; 2] {
 /// The surface of a triangle.
 #[derive(Debug, Clone)]
 pub struct TriangleSurface {
-    depth: Plane,
+    /// Depth, before it is confined to the viewport's range.
+    pub depth: Plane,
     inverse_w: Plane,
     varyings: Vec<Varying>,
 }

@@ -29,8 +29,9 @@
 //! | [`per_sample`] with [`stencil`], [`blending`], [`logic`] | a fragment | the [`Target`] |
 //!
 //! Beside them: [`texture`] and [`depth_map`] (sampling), [`color`], [`channel`] and [`small_float`] (codes and
-//! numbers), [`line`](mod@line) and [`point`] (the other primitives), [`conservative`] (triangles by touched pixels),
-//! [`bresenham`] (integer lines) and [`scan_conversion`] (triangles) as the classics have them,
+//! numbers), [`line`](mod@line), [`rectangle`] and [`point`] (the other primitives), [`depth_bias`], [`conservative`]
+//! (triangles by touched pixels), [`bresenham`] (integer lines) and [`scan_conversion`] (triangles) as the classics
+//! have them,
 //! and [`exact`], the same formulas in f64 with bounds for the error of the f32 ones.
 
 pub mod arithmetic;
@@ -42,6 +43,7 @@ pub mod clip;
 pub mod color;
 pub mod conservative;
 pub mod cull;
+pub mod depth_bias;
 pub mod depth_map;
 pub mod exact;
 pub mod fetch;
@@ -52,6 +54,7 @@ pub mod per_sample;
 mod pipeline;
 pub mod point;
 pub mod raster;
+pub mod rectangle;
 pub mod scan_conversion;
 pub mod setup;
 pub mod shading;

@@ -1,4 +1,4 @@
-//! Pipeline lines: one pixel wide, by Vulkan's Bresenham rule.
+//! Pipeline lines by Vulkan's Bresenham rule, one pixel wide or more.
 //!
 //! In · Out: two window vertices · pixels, and a surface. Precision: coverage exact, the rest f32 in
 //! the order of NUMERICS.md, *Lines and points*.
@@ -9,7 +9,8 @@
 //!             of a strip share no pixel
 //! ```
 //!
-//! Integer lines, whose both ends are drawn, are in [`bresenham`](crate::bresenham).
+//! A line that is W pixels wide is moved by (W − 1)/2 pixels along its minor axis, against it; then W pixels are
+//! covered in each column, from that one on. Integer lines, whose both ends are drawn, are in [`bresenham`](crate::bresenham).
 
 use crate::WindowVertex;
 use crate::arithmetic::floor_div;
@@ -41,6 +42,22 @@ impl LinePath {
             end,
             major: usize::from(width < height),
         }
+    }
+
+    /// The same line so wide, in pixels: moved along its minor axis.
+    #[must_use]
+    pub fn widened(mut self, width: i64) -> Self {
+        let minor = 1 - self.major;
+        self.start[minor] -= 128 * (width - 1);
+        self.end[minor] -= 128 * (width - 1);
+        self
+    }
+
+    /// How many columns it covers.
+    #[must_use]
+    pub fn length(&self) -> u32 {
+        let columns = self.columns();
+        u32::try_from(columns.end - columns.start).unwrap_or(0)
     }
 
     /// Δ along an axis.
@@ -81,16 +98,35 @@ impl LinePath {
     /// The pixels inside `bounds`, from the start on.
     #[must_use]
     pub fn pixels(&self, bounds: &PixelBounds) -> Vec<[u32; 2]> {
+        let columns = self.wide_pixels(1, bounds);
+        columns.into_iter().map(|(_, pixel)| pixel).collect()
+    }
+
+    /// The pixels inside `bounds` of a line so many pixels wide, from the start on, each with the number of its
+    /// column, counted from the start.
+    #[must_use]
+    pub fn wide_pixels(&self, width: i64, bounds: &PixelBounds) -> Vec<(u32, [u32; 2])> {
         let limits = [&bounds.x, &bounds.y][self.major];
-        let columns = self.columns();
-        let columns =
-            columns.start.max(i64::from(limits.start))..columns.end.min(i64::from(limits.end));
-        let inside = columns
-            .map(|column| self.pixel(column))
-            .filter(|&pixel| bounds.contains(pixel));
+        let all = self.columns();
+        let columns = all.start.max(i64::from(limits.start))..all.end.min(i64::from(limits.end));
+        let runs_back = self.delta(self.major) < 0;
         let narrow = |at: i64| u32::try_from(at).expect("bounds begin at 0 or later");
-        let mut pixels: Vec<_> = inside.map(|pixel| pixel.map(narrow)).collect();
-        if self.delta(self.major) < 0 {
+        let mut pixels = Vec::new();
+        for column in columns {
+            let number = if runs_back {
+                all.end - 1 - column
+            } else {
+                column - all.start
+            };
+            for across in 0..width {
+                let mut pixel = self.pixel(column);
+                pixel[1 - self.major] += across;
+                if bounds.contains(pixel) {
+                    pixels.push((narrow(number), pixel.map(narrow)));
+                }
+            }
+        }
+        if runs_back {
             pixels.reverse();
         }
         pixels
@@ -130,22 +166,32 @@ impl Surface for LineSurface<'_> {
     }
 
     fn varyings(&self, pixel: [u32; 2]) -> Vec<f32> {
-        let [a, b] = self.ends;
         let t = self.path.fraction(pixel);
-        let w_is_constant = a.inverse_w.to_bits() == b.inverse_w.to_bits();
-        let w = 1.0 / mix(a.inverse_w, b.inverse_w, t);
-        let value = |(k, mode): (usize, &Interpolation)| match mode {
-            Interpolation::Flat => self.flat[k],
-            Interpolation::Smooth if !w_is_constant => {
-                let over_w = [a, b].map(|end| end.varyings[k] * end.inverse_w);
-                mix(over_w[0], over_w[1], t) * w
-            }
-            Interpolation::Smooth | Interpolation::NoPerspective => {
-                mix(a.varyings[k], b.varyings[k], t)
-            }
-        };
-        self.modes.iter().enumerate().map(value).collect()
+        mix_ends(self.ends, self.modes, self.flat, t)
     }
+}
+
+/// The varyings at a fraction of the way between two ends.
+#[must_use]
+pub fn mix_ends(
+    [a, b]: [&WindowVertex; 2],
+    modes: &[Interpolation],
+    flat: &[f32],
+    t: f32,
+) -> Vec<f32> {
+    let w_is_constant = a.inverse_w.to_bits() == b.inverse_w.to_bits();
+    let w = 1.0 / mix(a.inverse_w, b.inverse_w, t);
+    let value = |(k, mode): (usize, &Interpolation)| match mode {
+        Interpolation::Flat => flat[k],
+        Interpolation::Smooth if !w_is_constant => {
+            let over_w = [a, b].map(|end| end.varyings[k] * end.inverse_w);
+            mix(over_w[0], over_w[1], t) * w
+        }
+        Interpolation::Smooth | Interpolation::NoPerspective => {
+            mix(a.varyings[k], b.varyings[k], t)
+        }
+    };
+    modes.iter().enumerate().map(value).collect()
 }
 
 fn mix(a: f32, b: f32, t: f32) -> f32 {

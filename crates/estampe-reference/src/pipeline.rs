@@ -1,5 +1,6 @@
 //! A draw: the stages, one after the other, on one primitive at a time.
 
+use crate::arithmetic::round_half_even;
 use crate::assembly::{Primitive, primitives, runs, turned};
 use crate::clip::{clip_line, clip_triangle, is_distant, keeps_point};
 use crate::conservative;
@@ -8,14 +9,16 @@ use crate::fragment::{Invocation, Surface, TriangleSurface, sample_depth, shade_
 use crate::line::{LinePath, LineSurface};
 use crate::point::{self, PointSurface};
 use crate::raster::{self, QuadCoverage, all_samples, sample_positions};
+use crate::rectangle::{LineRectangle, RectangleSurface};
 use crate::setup::SortedTriangle;
 use crate::shading::shade_vertex;
 use crate::viewport::{PixelBounds, ViewportTransform, is_drawable};
-use crate::{ClipVertex, Target, WindowVertex, fetch, per_sample};
+use crate::{ClipVertex, Target, WindowVertex, depth_bias, fetch, per_sample};
 use estampe_types::shader::{Interpolation, Sampling, Shader, Varyings};
 use estampe_types::state::{
-    BlendState, ColorWrites, ConservativeMode, DepthState, LogicOperation, PolygonMode,
-    PrimitiveState, ProvokingVertex, ScissorRect, StencilState, VertexBufferLayout, Viewport,
+    BlendState, ColorWrites, ConservativeMode, DepthBiasState, DepthState, LineRasterization,
+    LineStipple, LogicOperation, PolygonMode, PrimitiveState, PrimitiveTopology, ProvokingVertex,
+    ScissorRect, StencilState, VertexBufferLayout, Viewport,
 };
 use estampe_types::{Bindings, Buffer, IndexFormat};
 use std::ops::Range;
@@ -27,6 +30,10 @@ pub struct State {
     pub primitive: PrimitiveState,
     /// The depth test; `None` neither tests nor writes.
     pub depth: Option<DepthState>,
+    /// What is added to the depth of triangles.
+    pub depth_bias: DepthBiasState,
+    /// The unit of its constant in a fixed-point depth attachment; `None` in a float one.
+    pub depth_bias_unit: Option<f32>,
     /// The stencil test; `None` neither tests nor writes.
     pub stencil: Option<StencilState>,
     /// What front and back are compared with.
@@ -67,6 +74,8 @@ impl State {
         Self {
             primitive: PrimitiveState::default(),
             depth: None,
+            depth_bias: DepthBiasState::default(),
+            depth_bias_unit: None,
             stencil: None,
             stencil_reference: [0; 2],
             depth_bounds: None,
@@ -178,6 +187,7 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
         bounds: PixelBounds::new(&state.viewport, &state.scissor, size),
         modes,
         is_by_sample,
+        stipple: 0,
         counts: Counts::default(),
     };
     let count = draw.vertices.end.saturating_sub(draw.vertices.start);
@@ -204,6 +214,8 @@ struct Pass<'a, S> {
     bounds: PixelBounds,
     modes: Vec<Interpolation>,
     is_by_sample: bool,
+    /// How many fragments of a stippled strip lie behind.
+    stipple: u32,
     counts: Counts,
 }
 
@@ -212,6 +224,8 @@ struct Pass<'a, S> {
 struct Parent<'a> {
     face: Face,
     flat: &'a [f32],
+    /// What is added to depth.
+    bias: Option<f32>,
 }
 
 impl<S: Shader> Pass<'_, S> {
@@ -232,6 +246,9 @@ impl<S: Shader> Pass<'_, S> {
                     }
                 }
                 Primitive::Line(at) => {
+                    if index == 0 || !is_line_strip(topology) {
+                        self.stipple = 0;
+                    }
                     let ends = at.map(&shade);
                     if !is_distant(&ends) {
                         self.line(&ends, None);
@@ -264,12 +281,22 @@ impl<S: Shader> Pass<'_, S> {
                 // edges and vertices are then clipped on their own.
                 PolygonMode::Line | PolygonMode::Point => {
                     if !is_culled {
-                        self.outline(vertices, Parent { face, flat: &flat });
+                        let bias = SortedTriangle::new(placed).and_then(|piece| self.bias(&piece));
+                        let flat = &flat;
+                        self.stipple = 0;
+                        self.outline(vertices, Parent { face, flat, bias });
                     }
                     return;
                 }
             }
         }
+    }
+
+    /// What is added to the depth of a triangle, if anything.
+    fn bias(&self, triangle: &SortedTriangle) -> Option<f32> {
+        let state = &self.state.depth_bias;
+        let offset = || depth_bias::offset(state, self.state.depth_bias_unit, triangle);
+        (!state.is_zero()).then(offset)
     }
 
     /// Draws one piece of a clipped triangle.
@@ -278,7 +305,10 @@ impl<S: Shader> Pass<'_, S> {
             return;
         };
         self.counts.rasterized += 1;
-        let surface = TriangleSurface::new(&sorted, &self.modes, flat);
+        let mut surface = TriangleSurface::new(&sorted, &self.modes, flat);
+        if let Some(bias) = self.bias(&sorted) {
+            surface.depth.value += bias;
+        }
         let (corners, samples) = (sorted.corners(), self.target.samples);
         let quads = match self.state.primitive.conservative {
             ConservativeMode::Disabled => raster::triangle(corners, &self.bounds, samples),
@@ -305,15 +335,37 @@ impl<S: Shader> Pass<'_, S> {
         let Some(kept) = clip_line(ends, &self.viewport) else {
             return;
         };
-        let [start, end] = kept.each_ref().map(|vertex| self.viewport.place(vertex));
-        let path = LinePath::new(start.snapped, end.snapped);
+        let [start, end] = kept
+            .each_ref()
+            .map(|vertex| moved(self.viewport.place(vertex), parent));
         self.counts.rasterized += 1;
+        let provoking = match self.state.primitive.provoking_vertex {
+            ProvokingVertex::First => &ends[0],
+            ProvokingVertex::Last => &ends[1],
+        };
+        let flat = parent.map_or(&provoking.varyings[..], |parent| parent.flat);
+        if self.state.primitive.line.rasterization == LineRasterization::Bresenham {
+            self.columns([&start, &end], flat, face_of(parent));
+        } else {
+            self.rectangle([&start, &end], flat, face_of(parent));
+        }
+    }
+
+    /// Draws a line as columns of pixels.
+    fn columns(&mut self, ends: [&WindowVertex; 2], flat: &[f32], face: Face) {
+        let [start, end] = ends.map(|end| end.snapped);
+        let path = LinePath::new(start, end);
+        let line = self.state.primitive.line;
+        let width = i64::from(round_half_even(line.width).max(1));
         // A line covers all samples of its pixels.
         let all_samples = all_samples(self.target.samples);
+        let stipple = self.stipple;
         let quads: Vec<_> = path
-            .pixels(&self.bounds)
+            .widened(width)
+            .wide_pixels(width, &self.bounds)
             .into_iter()
-            .map(|[x, y]| {
+            .filter(|(column, _)| shows(line.stipple, stipple.wrapping_add(*column)))
+            .map(|(_, [x, y])| {
                 let mut samples = [0; 4];
                 samples[(x % 2 + 2 * (y % 2)) as usize] = all_samples;
                 QuadCoverage {
@@ -322,18 +374,47 @@ impl<S: Shader> Pass<'_, S> {
                 }
             })
             .collect();
+        self.stipple = stipple.wrapping_add(path.length());
         let modes = self.modes.clone();
-        let provoking = match self.state.primitive.provoking_vertex {
-            ProvokingVertex::First => &ends[0],
-            ProvokingVertex::Last => &ends[1],
-        };
         let surface = LineSurface {
             path,
-            ends: [&start, &end],
+            ends,
             modes: &modes,
-            flat: parent.map_or(&provoking.varyings, |parent| parent.flat),
+            flat,
         };
-        self.fragments(&quads, &surface, face_of(parent));
+        self.fragments(&quads, &surface, face);
+    }
+
+    /// Draws a line as a rectangle.
+    fn rectangle(&mut self, ends: [&WindowVertex; 2], flat: &[f32], face: Face) {
+        let [start, end] = ends.map(|end| end.snapped);
+        let line = self.state.primitive.line;
+        let rectangle = LineRectangle::new(start, end, line.width);
+        let is_smooth = line.rasterization == LineRasterization::RectangularSmooth;
+        let samples = self.target.samples;
+        let mut quads = if is_smooth {
+            rectangle.cover_smooth(&self.bounds, samples)
+        } else {
+            rectangle.cover(&self.bounds, samples)
+        };
+        for quad in &mut quads {
+            for lane in 0..4 {
+                let steps = rectangle.steps(QuadCoverage::pixel(quad.origin, lane));
+                if !shows(line.stipple, self.stipple.wrapping_add(steps)) {
+                    quad.samples[lane] = 0;
+                }
+            }
+        }
+        self.stipple = self.stipple.wrapping_add(rectangle.whole_length());
+        let modes = self.modes.clone();
+        let surface = RectangleSurface {
+            rectangle,
+            ends,
+            modes: &modes,
+            flat,
+            is_smooth,
+        };
+        self.fragments(&quads, &surface, face);
     }
 
     fn point(&mut self, vertex: &ClipVertex, parent: Option<Parent<'_>>) {
@@ -341,9 +422,14 @@ impl<S: Shader> Pass<'_, S> {
             return;
         }
         self.counts.rasterized += 1;
-        let placed = self.viewport.place(vertex);
+        let placed = moved(self.viewport.place(vertex), parent);
         let samples = self.target.samples;
-        let quads = point::cover(placed.snapped, vertex.point_size, &self.bounds, samples);
+        let cover = if self.state.primitive.round_points {
+            point::cover_round
+        } else {
+            point::cover
+        };
+        let quads = cover(placed.snapped, vertex.point_size, &self.bounds, samples);
         let modes = self.modes.clone();
         let surface = PointSurface {
             vertex: &placed,
@@ -388,7 +474,14 @@ impl<S: Shader> Pass<'_, S> {
         let viewport = self.viewport;
         let clamp_depth = |depth| viewport.clamp_depth(depth);
         let shaded = shade_quad(self.shader, self.bindings, surface, invocation, clamp_depth);
-        for (lane, fragment) in shaded.iter().enumerate() {
+        for (lane, mut fragment) in shaded.into_iter().enumerate() {
+            let pixel = QuadCoverage::pixel(invocation.origin, lane);
+            if let Some(factor) = surface.alpha(pixel) {
+                for [_, _, _, alpha] in &mut fragment.colors {
+                    *alpha *= factor;
+                }
+            }
+            let fragment = &fragment;
             let covered = kept[lane];
             self.counts.fragments += u64::from(covered != 0);
             self.counts.samples_covered += u64::from(covered.count_ones());
@@ -396,7 +489,6 @@ impl<S: Shader> Pass<'_, S> {
                 continue;
             }
             let stored = covered & per_sample::kept_samples(fragment, self.state, self.target);
-            let pixel = QuadCoverage::pixel(invocation.origin, lane);
             for (s, &sample) in (0u32..).zip(sample_positions(invocation.samples)) {
                 if stored >> s & 1 == 0 {
                     continue;
@@ -415,4 +507,29 @@ impl<S: Shader> Pass<'_, S> {
 /// Lines and points show their front, unless they outline a triangle that does not.
 fn face_of(parent: Option<Parent<'_>>) -> Face {
     parent.map_or(Face::Front, |parent| parent.face)
+}
+
+/// A vertex with the depth that it has as part of a triangle.
+fn moved(vertex: WindowVertex, parent: Option<Parent<'_>>) -> WindowVertex {
+    match parent.and_then(|parent| parent.bias) {
+        Some(bias) => WindowVertex {
+            z: vertex.z + bias,
+            ..vertex
+        },
+        None => vertex,
+    }
+}
+
+/// Whether each line of a topology goes on where the one before ended.
+fn is_line_strip(topology: PrimitiveTopology) -> bool {
+    use PrimitiveTopology as T;
+    matches!(topology, T::LineStrip | T::LineLoop | T::LineStripAdjacency)
+}
+
+/// Whether a stipple pattern shows the fragment of this number.
+fn shows(stipple: Option<LineStipple>, number: u32) -> bool {
+    stipple.is_none_or(|LineStipple { factor, pattern }| {
+        let bit = number / u32::from(factor) % 16;
+        pattern & 1 << bit != 0
+    })
 }

@@ -1,4 +1,4 @@
-//! Points: squares around a snapped position.
+//! Points: squares around a snapped position, or the discs in them.
 //!
 //! In · Out: one window vertex and a size · quads of covered samples, and a surface. Precision:
 //! coverage exact. Spec: NUMERICS.md, *Lines and points*.
@@ -26,6 +26,25 @@ pub fn cover(center: [i32; 2], size: f32, bounds: &PixelBounds, samples: u32) ->
     raster::cover(square, bounds, samples, |point| {
         let within = |axis: usize| square[axis][0] <= point[axis] && point[axis] < square[axis][1];
         within(0) && within(1)
+    })
+}
+
+/// The quads that a round point covers anything of: samples of the square that are no farther from the centre than
+/// half its width.
+#[must_use]
+pub fn cover_round(
+    center: [i32; 2],
+    size: f32,
+    bounds: &PixelBounds,
+    samples: u32,
+) -> Vec<QuadCoverage> {
+    let half = i64::from(half_width_subpixel(size));
+    let center = center.map(i64::from);
+    let square = center.map(|at| [at - half, at + half]);
+    raster::cover(square, bounds, samples, |point| {
+        let within = |axis: usize| square[axis][0] <= point[axis] && point[axis] < square[axis][1];
+        let [x, y] = [0, 1].map(|axis: usize| point[axis] - center[axis]);
+        within(0) && within(1) && x * x + y * y <= half * half
     })
 }
 

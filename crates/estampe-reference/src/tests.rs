@@ -5,6 +5,7 @@ mod clipping;
 mod colors;
 mod conservative;
 mod coverage;
+mod diamond;
 mod drawing;
 mod formats;
 mod lines;

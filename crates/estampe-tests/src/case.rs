@@ -3,8 +3,8 @@
 use crate::geometry::{Vertex, vertex_buffer, vertex_layout};
 use crate::{Random, TestShader};
 use estampe_types::state::{
-    BlendState, ColorWrites, DepthState, LogicOperation, PrimitiveState, ScissorRect, StencilState,
-    VertexBufferLayout, Viewport,
+    BlendState, ColorWrites, DepthBiasState, DepthState, LogicOperation, PrimitiveState,
+    ScissorRect, StencilState, VertexBufferLayout, Viewport,
 };
 use estampe_types::{Bindings, Buffer, IndexFormat, TextureFormat};
 use std::fmt::Write;
@@ -54,6 +54,8 @@ pub struct CaseDraw {
     pub primitive: PrimitiveState,
     /// The depth test.
     pub depth: Option<DepthState>,
+    /// What is added to the depth of triangles.
+    pub depth_bias: DepthBiasState,
     /// Blending.
     pub blend: Option<BlendState>,
     /// Its constant.
@@ -161,6 +163,7 @@ impl CaseDraw {
             base_vertex: 0,
             primitive: PrimitiveState::default(),
             depth: Some(DepthState::LESS_WRITE),
+            depth_bias: DepthBiasState::default(),
             blend: None,
             blend_constant: [0.0; 4],
             write_mask: ColorWrites::ALL,
@@ -191,7 +194,7 @@ impl CaseDraw {
 
     fn describe(&self) -> String {
         let mut text = format!(
-            "{:?}\n    elements {:?} of {:?}, instances {:?}, base vertex {}, {:?}\n    {:?} {:?} \
+            "{:?}\n    elements {:?} of {:?}, instances {:?}, base vertex {}, {:?}\n    {:?} {:?} {:?} \
              constant {:?} {:?}\n    viewport {:?} scissor {:?}",
             self.shader,
             self.elements,
@@ -200,6 +203,7 @@ impl CaseDraw {
             self.base_vertex,
             self.primitive,
             self.depth,
+            self.depth_bias,
             self.blend,
             self.blend_constant,
             self.write_mask,

@@ -219,6 +219,7 @@ fn pipeline(device: &Device, case: &Case, draw: &CaseDraw) -> RenderPipeline {
             primitive: draw.primitive,
             depth: draw.depth,
             stencil: draw.stencil,
+            depth_bias: draw.depth_bias,
             samples: case.samples,
             sample_mask: draw.sample_mask,
             alpha_to_coverage: draw.alpha_to_coverage,

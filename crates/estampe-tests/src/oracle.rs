@@ -3,6 +3,7 @@
 use crate::case::{Case, CaseDraw};
 use crate::readback::{self, Stored};
 use estampe_reference::{Counts, Draw, State, Target, TargetState, color};
+use estampe_types::TextureFormat;
 
 /// What both sides must agree on.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,7 +75,7 @@ fn drawn(case: &Case) -> (Target, Vec<u64>) {
     target.clear_stencil(case.clear_stencil);
     let mut counts = Vec::new();
     for draw in &case.draws {
-        let passed = draw_one(&mut target, draw, formats.len()).samples_passed;
+        let passed = draw_one(&mut target, draw, case).samples_passed;
         if draw.is_counted {
             counts.push(passed);
         }
@@ -126,8 +127,16 @@ fn matches(depths: &[f32; 4]) -> [u8; 4] {
     })
 }
 
-fn draw_one(target: &mut Target, draw: &CaseDraw, attachments: usize) -> Counts {
+fn draw_one(target: &mut Target, draw: &CaseDraw, case: &Case) -> Counts {
+    let attachments = case.formats().len();
     let whole = State::new(target.width, target.height);
+    let depth_bias_unit = match case.depth_stencil {
+        Some(TextureFormat::Depth16Unorm) => Some(1.0 / 65_536.0),
+        Some(TextureFormat::Depth24Plus | TextureFormat::Depth24PlusStencil8) => {
+            Some(1.0 / 16_777_216.0)
+        }
+        _ => None,
+    };
     let state = State {
         primitive: draw.primitive,
         depth: draw.depth,
@@ -144,6 +153,8 @@ fn draw_one(target: &mut Target, draw: &CaseDraw, attachments: usize) -> Counts 
                 TargetState { blend, write_mask }
             })
             .collect(),
+        depth_bias: draw.depth_bias,
+        depth_bias_unit,
         blend_constant: draw.blend_constant,
         viewport: draw.viewport.unwrap_or(whole.viewport),
         scissor: draw.scissor.unwrap_or(whole.scissor),

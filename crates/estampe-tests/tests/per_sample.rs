@@ -6,8 +6,8 @@ use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
 use estampe_types::TextureFormat;
 use estampe_types::state::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorWrites, CompareFunction,
-    ConservativeMode, DepthState, LogicOperation, PrimitiveTopology, StencilFaceState,
-    StencilOperation, StencilState,
+    ConservativeMode, DepthBiasState, DepthState, LineRasterization, LineState, LineStipple,
+    LogicOperation, PrimitiveTopology, StencilFaceState, StencilOperation, StencilState,
 };
 
 const FUNCTIONS: [CompareFunction; 8] = [
@@ -309,6 +309,26 @@ fn everything_together() {
         if random.once_in(4) {
             draw.depth_bounds = Some([0.1, 0.8]);
         }
+        if random.once_in(3) {
+            draw.depth_bias = DepthBiasState {
+                constant: random.pick(&[0.0, 3.0, -1000.0]),
+                slope_scale: random.pick(&[0.0, 1.5, -0.25]),
+                clamp: random.pick(&[0.0, 0.01, -0.1]),
+            };
+        }
+        draw.primitive.line = LineState {
+            width: random.pick(&[1.0, 2.5, 5.0]),
+            rasterization: random.pick(&[
+                LineRasterization::Bresenham,
+                LineRasterization::Rectangular,
+                LineRasterization::RectangularSmooth,
+            ]),
+            stipple: random.once_in(3).then_some(LineStipple {
+                factor: 2,
+                pattern: 0x5E37,
+            }),
+        };
+        draw.primitive.round_points = random.once_in(2);
         draw.is_counted = random.once_in(2);
         draw.alpha_to_coverage = random.once_in(5);
         draw.sample_shading = random.once_in(4);

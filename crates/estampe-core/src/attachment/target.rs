@@ -169,6 +169,12 @@ impl RenderTarget {
         &self.descriptor.color_formats
     }
 
+    /// The format of the depth and stencil attachment.
+    #[must_use]
+    pub fn depth_stencil_format(&self) -> Option<TextureFormat> {
+        self.descriptor.depth_stencil
+    }
+
     /// Whether there is a depth attachment.
     #[must_use]
     pub fn has_depth(&self) -> bool {

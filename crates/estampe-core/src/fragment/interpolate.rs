@@ -4,8 +4,10 @@
 //! any pixel. Planes are evaluated anew at each pixel, from the first sorted vertex:
 //! `p₀ + ((X − x₀)·∂p/∂x + (Y − y₀)·∂p/∂y)`.
 
+use crate::geometry::line_style::{
+    LineAxis, LineRectangle, LineShape, LineStyle, along, length_squared,
+};
 use crate::geometry::rows::columns_of_reals;
-use crate::raster::line::LineAxis;
 use crate::tiles::{LinePrimitive, Plane, PointPrimitive, TrianglePacket, VertexRef};
 use estampe_simd::{
     LANE_X, LANE_Y, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x4, f32x16, i32x16,
@@ -412,16 +414,65 @@ impl TriangleSurface<'_> {
 pub(crate) struct LineSurface<'a> {
     line: &'a LinePrimitive,
     axis: LineAxis,
+    /// The rectangle's width, where the line is one.
+    rectangle: Option<f32>,
     source: VaryingSource<'a>,
 }
 
 impl<'a> LineSurface<'a> {
-    pub(crate) fn new(line: &'a LinePrimitive, source: VaryingSource<'a>) -> Self {
+    pub(crate) fn new(
+        line: &'a LinePrimitive,
+        style: &LineStyle,
+        source: VaryingSource<'a>,
+    ) -> Self {
         Self {
             line,
             axis: LineAxis::new(line),
+            rectangle: match style.shape {
+                LineShape::Columns { .. } => None,
+                LineShape::Rectangle { width, .. } => Some(width),
+            },
             source,
         }
+    }
+
+    /// How much of each pixel a rectangle covers, estimated with sixteen points.
+    pub(crate) fn coverage(&self, [x, y]: [i32; 2]) -> Packet<f32> {
+        let rectangle = self
+            .rectangle
+            .and_then(|width| LineRectangle::new(self.line, width));
+        let mut covered = Packet([1.0; LANES]);
+        if let Some(rectangle) = rectangle {
+            for (lane, covered) in covered.0.iter_mut().enumerate() {
+                let pixel = [x + i32::from(LANE_X[lane]), y + i32::from(LANE_Y[lane])];
+                *covered = rectangle.sixteenths(pixel) as f32 * (1.0 / 16.0);
+            }
+        }
+        covered
+    }
+
+    /// The fraction of the way to the end at an offset in the pixels, in pixels: of a rectangle that of the nearest
+    /// point of the line.
+    #[inline(always)]
+    fn fraction_at<S: Lanes>(&self, s: S, pixel: [i32; 2], offset: [f32; 2]) -> f32x16<S> {
+        if self.rectangle.is_none() {
+            return self.fraction(s, pixel);
+        }
+        f32x16::load_array(s, self.rectangle_fraction(pixel, offset))
+    }
+
+    #[inline(never)]
+    #[expect(clippy::cast_possible_truncation, reason = "an offset is below 1")]
+    fn rectangle_fraction(&self, [x, y]: [i32; 2], offset: [f32; 2]) -> [f32; LANES] {
+        let [right, below] = offset.map(|pixels| (pixels * 256.0) as i32);
+        let squared = length_squared(self.line) as f32;
+        std::array::from_fn(|lane| {
+            let at = [
+                (x + i32::from(LANE_X[lane])) * 256 + right,
+                (y + i32::from(LANE_Y[lane])) * 256 + below,
+            ];
+            along(self.line, at) as f32 / squared
+        })
     }
 
     /// The fraction of the way to the end, at the pixels' centres along the major axis.
@@ -453,9 +504,9 @@ fn mix<S: Lanes>(s: S, a: f32, b: f32, t: f32x16<S>) -> f32x16<S> {
 
 impl<S: Lanes> Surface<S> for LineSurface<'_> {
     #[inline(always)]
-    fn depth(&self, s: S, pixel: [i32; 2], _sample: [f32; 2]) -> f32x16<S> {
+    fn depth(&self, s: S, pixel: [i32; 2], sample: [f32; 2]) -> f32x16<S> {
         let [a, b] = &self.line.ends;
-        mix(s, a.z, b.z, self.fraction(s, pixel))
+        mix(s, a.z, b.z, self.fraction_at(s, pixel, sample))
     }
 
     #[inline(always)]
@@ -464,7 +515,7 @@ impl<S: Lanes> Surface<S> for LineSurface<'_> {
         if a.iw.to_bits() == b.iw.to_bits() {
             return SimdBase::splat(s, a.iw);
         }
-        mix(s, a.iw, b.iw, self.fraction(s, pixel))
+        mix(s, a.iw, b.iw, self.fraction_at(s, pixel, [0.5; 2]))
     }
 
     #[inline(always)]
@@ -472,7 +523,7 @@ impl<S: Lanes> Surface<S> for LineSurface<'_> {
         let [a, b] = &self.line.ends;
         let (from, to) = (self.source.of(a.vertex), self.source.of(b.vertex));
         let provoking = self.source.of(self.line.provoking);
-        let t = self.fraction(s, pixel);
+        let t = self.fraction_at(s, pixel, [0.5; 2]);
         let perspective = a.iw.to_bits() != b.iw.to_bits();
         let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
         let w = one / mix(s, a.iw, b.iw, t);

@@ -329,6 +329,20 @@ impl<const N: usize> FragmentQueue<N> {
         fragments
     }
 
+    /// Multiplies every colour's alpha by a factor for each of the packets that are queued.
+    pub(crate) fn scale_alpha(&mut self, factors: impl Fn(u16) -> Packet<f32>) {
+        let len = self.len.min(CAPACITY);
+        for (slot, queued) in self.queued[..len].iter().enumerate() {
+            let factors = factors(queued.covered.packet);
+            let colors = &mut self.colors[slot * self.targets * 4..][..self.targets * 4];
+            for color in colors.as_chunks_mut::<4>().0 {
+                for (alpha, factor) in color[3].0.iter_mut().zip(factors.0) {
+                    *alpha *= factor;
+                }
+            }
+        }
+    }
+
     /// The shaded packets in order; the queue is empty afterwards.
     #[inline(always)]
     pub(crate) fn drain(&mut self, has_depth_out: bool) -> impl Iterator<Item = Shaded<'_, N>> {

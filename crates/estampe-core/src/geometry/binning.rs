@@ -128,13 +128,12 @@ impl BinState {
         }
     }
 
-    /// Adds a line to a chunk.
-    pub(crate) fn push_line(&self, line: LinePrimitive, chunk: &mut Chunk) {
+    /// Adds a line to a chunk, whose pixels begin no farther from it than `reach`, in 1/256 pixel.
+    pub(crate) fn push_line(&self, line: LinePrimitive, reach: i32, chunk: &mut Chunk) {
         let [a, b] = &line.ends;
-        // Pixels whose centres the line's box may touch on either axis.
         let range = self.tiles_of(
             [a.x.min(b.x), a.y.min(b.y), a.x.max(b.x), a.y.max(b.y)],
-            256,
+            reach,
         );
         let entry = BinEntry::Line(u32::try_from(chunk.lines.len()).unwrap_or(u32::MAX));
         chunk.lines.push(line);

@@ -4,8 +4,10 @@ use super::assembly::{ElementSource, PrimitiveKind, kind_of};
 use super::binning::BinState;
 use super::clip::{ClipPolygon, is_point_visible};
 use super::cull::{CullState, TriangleGroup, WindowTriangles, cull};
+use super::depth_bias::DepthBias;
+use super::line_style::LineRun;
 use super::positions::PositionCache;
-use super::setup::{Setup, SetupLanes};
+use super::setup::{Setup, SetupLanes, sorted};
 use super::shading::{NEEDS_CLIPPING, VertexSource, WindowRow};
 use super::viewport::{ViewportTransform, snap};
 use crate::pipeline::RenderPipeline;
@@ -63,6 +65,9 @@ pub(crate) struct ChunkWork<'a> {
     pub(crate) cull: CullState,
     pub(crate) bins: BinState,
     pub(crate) polygon_mode: PolygonMode,
+    pub(crate) depth_bias: Option<DepthBias>,
+    /// How lines are drawn, and where one in a strip follows the one before.
+    pub(crate) lines: LineRun<'a>,
     /// Vertices and primitives of one instance.
     pub(crate) instance_vertices: u32,
     pub(crate) instance_primitives: u32,
@@ -93,8 +98,14 @@ pub(crate) fn process(
     scratch.clipped_rows.clear();
     scratch.clip_positions.clear();
     let rows = std::mem::take(&mut scratch.clipped_rows);
-    let setup = Setup::new(level, work.bins, work.vertices.window, chunk, rows);
-    let mut worker = Worker { level, work, setup };
+    let state = (work.bins, work.depth_bias);
+    let setup = Setup::new(level, state, work.vertices.window, chunk, rows);
+    let mut worker = Worker {
+        level,
+        work,
+        setup,
+        stipple: 0,
+    };
     match (kind_of(work.elements.topology), work.polygon_mode) {
         (PrimitiveKind::Triangles, PolygonMode::Fill) => {
             dispatch!(level, s => worker.fill(s, scratch));
@@ -102,11 +113,15 @@ pub(crate) fn process(
         (kind, mode) => {
             let mut groups = Groups::new(work);
             let mut corners = [[0; 3]; LANES];
-            while let Some(count) = groups.next(work, &mut corners) {
+            loop {
+                let first = groups.local;
+                let Some(count) = groups.next(work, &mut corners) else {
+                    break;
+                };
                 let corners = &corners[..count];
                 match kind {
                     PrimitiveKind::Triangles => worker.outlines(corners, mode, scratch),
-                    PrimitiveKind::Lines => worker.lines(corners, scratch),
+                    PrimitiveKind::Lines => worker.lines(first, corners, scratch),
                     PrimitiveKind::Points => worker.points(corners, scratch),
                 }
             }
@@ -157,6 +172,39 @@ struct Worker<'a, 'c> {
     level: Level,
     work: &'a ChunkWork<'a>,
     setup: Setup<'c>,
+    /// How many fragments of a stippled strip lie behind.
+    stipple: u32,
+}
+
+/// What a line or point has besides its vertices: that of the triangle which it outlines, or its own.
+#[derive(Debug, Clone, Copy)]
+struct Outline {
+    /// The vertex that flat varyings come from.
+    provoking: VertexRef,
+    front: bool,
+    /// What is added to its depth.
+    bias: Option<f32>,
+}
+
+impl Outline {
+    fn own(provoking: u32) -> Self {
+        Self {
+            provoking: VertexRef(provoking),
+            front: true,
+            bias: None,
+        }
+    }
+
+    /// A vertex with the depth that it has in this outline.
+    fn moved(&self, vertex: WindowVertex) -> WindowVertex {
+        match self.bias {
+            Some(bias) => WindowVertex {
+                z: vertex.z + bias,
+                ..vertex
+            },
+            None => vertex,
+        }
+    }
 }
 
 impl Worker<'_, '_> {
@@ -362,29 +410,23 @@ impl Worker<'_, '_> {
         true
     }
 
-    fn lines(&mut self, lines: &[[u32; 3]], scratch: &mut ChunkScratch) {
-        for &[a, b, provoking] in lines {
+    /// Lines of which the first one is this of its instance.
+    fn lines(&mut self, first: u32, lines: &[[u32; 3]], scratch: &mut ChunkScratch) {
+        for (number, &[a, b, provoking]) in (first..).zip(lines) {
+            if self.work.lines.begins(number) {
+                self.stipple = 0;
+            }
             if !self.is_distant(&[a, b], scratch) {
-                self.line([a, b], VertexRef(provoking), true, scratch);
+                self.line([a, b], Outline::own(provoking), scratch);
             }
         }
     }
 
-    fn line(
-        &mut self,
-        corners: [u32; 2],
-        provoking: VertexRef,
-        front: bool,
-        scratch: &mut ChunkScratch,
-    ) {
+    fn line(&mut self, corners: [u32; 2], outline: Outline, scratch: &mut ChunkScratch) {
         let vertices = &self.work.vertices;
         let ends = corners.map(|corner| vertices.window_vertex(corner));
         if let [Some(a), Some(b)] = ends {
-            self.setup.push_line(LinePrimitive {
-                ends: [a, b],
-                provoking,
-                front,
-            });
+            self.push_line([a, b], outline);
             return;
         }
         self.setup.chunk().statistics.primitives_clipped += 1;
@@ -393,29 +435,33 @@ impl Worker<'_, '_> {
             && a.vertex != DROPPED
             && b.vertex != DROPPED
         {
-            self.setup.push_line(LinePrimitive {
-                ends: [a, b],
-                provoking,
-                front,
-            });
+            self.push_line([a, b], outline);
         }
+    }
+
+    fn push_line(&mut self, ends: [WindowVertex; 2], outline: Outline) {
+        let line = LinePrimitive {
+            ends: ends.map(|end| outline.moved(end)),
+            provoking: outline.provoking,
+            front: outline.front,
+            stipple: self.stipple,
+        };
+        let style = &self.work.lines.style;
+        if style.stipple.is_some() {
+            self.stipple = self.stipple.wrapping_add(style.fragments(&line));
+        }
+        self.setup.push_line(line, style);
     }
 
     fn points(&mut self, points: &[[u32; 3]], scratch: &mut ChunkScratch) {
         for &[vertex, ..] in points {
             if !self.is_distant(&[vertex], scratch) {
-                self.point(vertex, VertexRef(vertex), true, scratch);
+                self.point(vertex, Outline::own(vertex), scratch);
             }
         }
     }
 
-    fn point(
-        &mut self,
-        vertex: u32,
-        provoking: VertexRef,
-        front: bool,
-        scratch: &mut ChunkScratch,
-    ) {
+    fn point(&mut self, vertex: u32, outline: Outline, scratch: &mut ChunkScratch) {
         let vertices = &self.work.vertices;
         let is_visible = |position| is_point_visible(self.work.transform, position);
         if !vertices.clip_position(vertex).is_some_and(is_visible) {
@@ -432,10 +478,10 @@ impl Worker<'_, '_> {
             .copied()
             .unwrap_or(1.0);
         self.setup.push_point(PointPrimitive {
-            center,
-            provoking,
+            center: outline.moved(center),
+            provoking: outline.provoking,
             half: half_size(size),
-            front,
+            front: outline.front,
         });
     }
 
@@ -466,34 +512,49 @@ impl Worker<'_, '_> {
     /// Triangles as their edges or vertices (A5).
     fn outlines(&mut self, triangles: &[[u32; 3]], mode: PolygonMode, scratch: &mut ChunkScratch) {
         for &corners in triangles {
-            let area = self.area_of(corners, scratch);
+            let piece = self.first_piece(corners, scratch);
+            let area = piece.map_or(0, |piece| doubled_area(&piece));
             if self.work.cull.facing.drops(area) {
                 self.setup.chunk().statistics.primitives_culled += 1;
                 continue;
             }
-            let front = self.work.cull.facing.is_front(area);
+            let bias = self.work.depth_bias.zip(piece).map(|(bias, piece)| {
+                let (order, odd) = sorted(&piece);
+                let area = if odd { -area } else { area };
+                bias.of_triangle(order.map(|from| piece[from]), area)
+            });
             let [a, b, c] = corners;
+            let outline = Outline {
+                provoking: VertexRef(a),
+                front: self.work.cull.facing.is_front(area),
+                bias,
+            };
+            self.stipple = 0;
             if mode == PolygonMode::Line {
                 for edge in [[a, b], [b, c], [c, a]] {
-                    self.line(edge, VertexRef(a), front, scratch);
+                    self.line(edge, outline, scratch);
                 }
             } else {
                 for corner in corners {
-                    self.point(corner, VertexRef(a), front, scratch);
+                    self.point(corner, outline, scratch);
                 }
             }
         }
     }
 
-    /// The doubled area of a triangle, clipped if it must be: of the first piece that has any.
-    fn area_of(&mut self, corners: [u32; 3], scratch: &mut ChunkScratch) -> i64 {
+    /// A triangle in the window; the first piece with an area if it must be clipped.
+    fn first_piece(
+        &mut self,
+        corners: [u32; 3],
+        scratch: &mut ChunkScratch,
+    ) -> Option<[WindowVertex; 3]> {
         let vertices = &self.work.vertices;
         let whole = corners.map(|corner| vertices.window_vertex(corner));
         if let [Some(a), Some(b), Some(c)] = whole {
-            return doubled_area(&[a, b, c]);
+            return Some([a, b, c]);
         }
         if self.is_distant(&corners, scratch) || !self.clip(&corners, scratch) {
-            return 0;
+            return None;
         }
         let fan = |last| {
             [
@@ -505,9 +566,7 @@ impl Worker<'_, '_> {
         (2..scratch.clipped.len())
             .map(fan)
             .filter(|fan| fan.iter().all(|vertex| vertex.vertex != DROPPED))
-            .map(|fan| doubled_area(&fan))
-            .find(|area| *area != 0)
-            .unwrap_or(0)
+            .find(|fan| doubled_area(fan) != 0)
     }
 }
 

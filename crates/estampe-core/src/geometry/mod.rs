@@ -4,7 +4,8 @@
 //! its vertices, [`assembly`] joins vertices into primitives ([`restart`] does where indices may end them), [`cull`]
 //! drops most of the triangles sixteen at a time and [`between`] those that lie between samples, [`clip`] cuts the
 //! few that need it, [`viewport`] is the way from clip
-//! space to the window, [`setup`] sorts vertices and makes planes, [`binning`] finds tiles; [`rows`] is how
+//! space to the window, [`setup`] sorts vertices and makes planes ([`depth_bias`] moves those of depth), [`binning`]
+//! finds tiles; [`line_style`] says what shape lines have; [`rows`] is how
 //! vertices, one after the other in memory, become lanes.
 //!
 //! Each vertex is shaded once: an item's dense index range is shaded as a whole before its primitives
@@ -30,7 +31,11 @@ pub(crate) mod between;
 
 pub(crate) mod clip;
 
+pub(crate) mod line_style;
+
 pub(crate) mod binning;
+
+pub(crate) mod depth_bias;
 
 pub(crate) mod setup;
 

@@ -10,9 +10,6 @@ use super::assembly::{corners_of, primitive_count, raw_index};
 use estampe_types::state::{PrimitiveTopology, ProvokingVertex};
 use estampe_types::{Buffer, IndexFormat};
 
-/// Elements that are looked at for one item, at most: most of them may be restarts.
-const MAX_ELEMENTS: u32 = 1 << 22;
-
 /// Where in a draw's elements the next primitive is looked for.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct RestartCursor {
@@ -45,11 +42,18 @@ impl RestartCursor {
         self.next >= source.elements[1]
     }
 
-    /// The vertices of the next primitives, as many as `limit` or few more.
-    pub(crate) fn take(&mut self, source: &RestartSource<'_>, limit: usize) -> Vec<[u32; 3]> {
+    /// The vertices of the next primitives, as many as `limit` or few more; `begins` gets the numbers of those that
+    /// are a run's first.
+    pub(crate) fn take(
+        &mut self,
+        source: &RestartSource<'_>,
+        limit: u32,
+        begins: &mut Vec<u32>,
+    ) -> Vec<[u32; 3]> {
         let mut corners = Vec::new();
-        let end = source.elements[1].min(self.next.saturating_add(MAX_ELEMENTS));
-        while self.next < end && corners.len() < limit {
+        // Most of the elements may be restarts.
+        let end = source.elements[1].min(self.next.saturating_add(limit.saturating_mul(4)));
+        while self.next < end && corners.len() < limit as usize {
             let element = self.next;
             self.next += 1;
             if source.raw(element) == source.format.restart() {
@@ -67,6 +71,9 @@ impl RestartCursor {
             };
             let number = count(vertices);
             if count(vertices + 1) > number {
+                if number == 0 {
+                    begins.push(u32::try_from(corners.len()).unwrap_or(u32::MAX));
+                }
                 // One more than there are, so that no loop is closed here.
                 let elements = vertices + 2;
                 let of_run = corners_of(source.topology, source.provoking, number, elements);

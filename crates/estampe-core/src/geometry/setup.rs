@@ -11,6 +11,8 @@
 use super::between::between_samples;
 use super::binning::{BinState, TileRanges};
 use super::cull::WindowTriangles;
+use super::depth_bias::DepthBias;
+use super::line_style::LineStyle;
 use super::rows::columns_of;
 use super::shading::WindowRow;
 use crate::tiles::{
@@ -42,6 +44,7 @@ const FRONT: u32 = 1 << 31;
 pub(crate) struct Setup<'a> {
     level: Level,
     bins: BinState,
+    bias: Option<DepthBias>,
     waiting: Waiting,
     /// The item's vertices.
     window: &'a [WindowRow],
@@ -61,7 +64,7 @@ pub(crate) struct SetupLanes<S: Lanes> {
 impl<'a> Setup<'a> {
     pub(crate) fn new(
         level: Level,
-        bins: BinState,
+        (bins, bias): (BinState, Option<DepthBias>),
         window: &'a [WindowRow],
         chunk: &'a mut Chunk,
         clipped: Vec<WindowRow>,
@@ -69,6 +72,7 @@ impl<'a> Setup<'a> {
         Self {
             level,
             bins,
+            bias,
             waiting: Waiting {
                 vertex: [[0; 2 * LANES]; 3],
                 provoking: [0; 2 * LANES],
@@ -221,6 +225,9 @@ impl<'a> Setup<'a> {
         };
         edges.r.store_array(&mut packet.r);
         edges.plane(z0, z1, z2, &mut packet.z);
+        if let Some(bias) = &self.bias {
+            bias.apply(&mut packet.z, &[z1.to_array(), z2.to_array()]);
+        }
         packet.equal_w = s.bits_of_mask(w0.simd_eq(w1) & w0.simd_eq(w2));
         let [w0, w1, w2]: [f32x16<S>; 3] = [w0.bitcast(), w1.bitcast(), w2.bitcast()];
         w0.store_array(&mut packet.iw_at[0]);
@@ -260,8 +267,8 @@ impl<'a> Setup<'a> {
     }
 
     /// Adds a line.
-    pub(crate) fn push_line(&mut self, line: LinePrimitive) {
-        self.bins.push_line(line, self.chunk);
+    pub(crate) fn push_line(&mut self, line: LinePrimitive, style: &LineStyle) {
+        self.bins.push_line(line, style.reach(), self.chunk);
     }
 
     /// Adds a point.
@@ -358,7 +365,7 @@ fn first_half<T>(values: &[T; 2 * LANES]) -> &[T; LANES] {
 
 /// The order of three vertices by (y, x), and whether it is an odd permutation. Equal ones keep theirs.
 #[inline(always)]
-fn sorted(vertices: &[WindowVertex; 3]) -> ([usize; 3], bool) {
+pub(super) fn sorted(vertices: &[WindowVertex; 3]) -> ([usize; 3], bool) {
     let before = |a: usize, b: usize| {
         let (a, b) = (&vertices[a], &vertices[b]);
         (a.y, a.x) <= (b.y, b.x)

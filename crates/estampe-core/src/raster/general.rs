@@ -7,6 +7,7 @@
 //! a square and a triangle touch unless an edge of the triangle or a side of the square parts them.
 
 use super::{CoverageList, TileShape, line, point, rect_mask, sample_positions};
+use crate::geometry::line_style::LineStyle;
 use crate::geometry::viewport::PixelRect;
 use crate::layout::morton;
 use crate::tiles::{LinePrimitive, PointPrimitive, TrianglePacket};
@@ -287,6 +288,7 @@ impl GeneralTriangle {
 /// Lists the packets that a line covers.
 pub(crate) fn cover_line(
     line: &LinePrimitive,
+    style: &LineStyle,
     tile: TileShape,
     rect: &PixelRect,
     samples: usize,
@@ -294,7 +296,7 @@ pub(crate) fn cover_line(
 ) {
     by_samples!(samples, N => {
         let mut list = CoverageList::<N>::default();
-        line::cover(line, tile, rect, &mut list);
+        line::cover(line, style, tile, rect, &mut list);
         widen(&list, out);
     });
 }
@@ -302,6 +304,7 @@ pub(crate) fn cover_line(
 /// Lists the packets that a point covers.
 pub(crate) fn cover_point(
     point: &PointPrimitive,
+    is_round: bool,
     tile: TileShape,
     rect: &PixelRect,
     samples: usize,
@@ -309,7 +312,7 @@ pub(crate) fn cover_point(
 ) {
     by_samples!(samples, N => {
         let mut list = CoverageList::<N>::default();
-        point::cover(point, tile, rect, &mut list);
+        point::cover(point, is_round, tile, rect, &mut list);
         widen(&list, out);
     });
 }

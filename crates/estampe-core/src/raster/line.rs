@@ -1,69 +1,63 @@
-//! Pipeline lines (R3): Vulkan's Bresenham rule, one pixel wide.
+//! Pipeline lines (R3): Vulkan's Bresenham rule, one pixel wide or more, and rectangles.
 //!
 //! ```text
 //!     x-major:  in every column whose centre lies between the ends (the start's included, the end's
 //!     not), the pixel whose row holds the line's y at that centre; y-major lines likewise
 //! ```
 //!
-//! *Precision* exact 64-bit integers · *Spec* Vulkan §Bresenham Line Segment Rasterization.
+//! *Precision* exact 64-bit integers · *Spec* Vulkan §Bresenham Line Segment Rasterization, §Rectangular.
 
-use super::{CoverageList, TileShape};
+use super::{CoverageList, MAX_PACKETS, TileShape, packet_origin, sample_positions};
+use crate::geometry::line_style::{LineAxis, LineRectangle, LineShape, LineStyle, along, length};
 use crate::geometry::viewport::PixelRect;
 use crate::tiles::LinePrimitive;
+use estampe_simd::{LANE_X, LANE_Y, LANES};
 
-/// A line along its major axis, in 1/256 pixel.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct LineAxis {
-    /// Whether x is the major axis.
-    pub(crate) x_major: bool,
-    /// The start on the major and the minor axis.
-    pub(crate) start: [i64; 2],
-    /// The way to the end on both.
-    pub(crate) delta: [i64; 2],
-}
-
-impl LineAxis {
-    pub(crate) fn new(line: &LinePrimitive) -> Self {
-        let [a, b] = &line.ends;
-        let (dx, dy) = (i64::from(b.x - a.x), i64::from(b.y - a.y));
-        let x_major = dx.abs() >= dy.abs();
-        let start = [i64::from(a.x), i64::from(a.y)];
-        let (start, delta) = if x_major {
-            (start, [dx, dy])
-        } else {
-            ([start[1], start[0]], [dy, dx])
-        };
-        Self {
-            x_major,
-            start,
-            delta,
-        }
-    }
-
-    /// The first and last unit of the major axis that the line covers; empty when first > last.
-    fn span(&self) -> [i64; 2] {
-        let [from, to] = [self.start[0], self.start[0] + self.delta[0]];
-        // Centres 256·i + 128 with from ≤ centre < to, or to < centre ≤ from.
-        if self.delta[0] >= 0 {
-            [(from + 127) >> 8, (to - 129) >> 8]
-        } else {
-            [(to + 128) >> 8, (from - 128) >> 8]
-        }
-    }
-
-    /// The pixel on the minor axis at a unit of the major axis: ⌊minor(centre) / 256⌋ exactly.
-    fn minor_at(&self, unit: i64) -> i64 {
-        let along = unit * 256 + 128 - self.start[0];
-        // minor = start + along·Δminor/Δmajor; products are below 2⁴⁹.
-        let numerator = self.start[1] * self.delta[0] + along * self.delta[1];
-        let denominator = 256 * self.delta[0];
-        numerator.div_euclid(denominator)
-            - i64::from(denominator < 0 && numerator.rem_euclid(denominator) != 0)
-    }
-}
-
-/// Lists the packets that a line covers, all samples of a pixel alike; `rect` is in the tile's own pixels.
+/// Lists the packets that a line covers; `rect` is in the tile's own pixels.
 pub(crate) fn cover<const N: usize>(
+    line: &LinePrimitive,
+    style: &LineStyle,
+    tile: TileShape,
+    rect: &PixelRect,
+    out: &mut CoverageList<N>,
+) {
+    match style.shape {
+        LineShape::Columns { width: 1 } if style.stipple.is_none() => {
+            cover_thin(line, tile, rect, out)
+        }
+        LineShape::Columns { width } => cover_columns(line, style, width, (tile, rect), out),
+        LineShape::Rectangle { width, .. } => {
+            if let Some(rectangle) = LineRectangle::new(line, width) {
+                cover_rectangle(line, style, &rectangle, (tile, rect), out);
+            }
+        }
+    }
+}
+
+/// The units of the major axis inside a rectangle of a tile, and the rows that may be covered there.
+fn ranges(axis: &LineAxis, tile: TileShape, rect: &PixelRect) -> [std::ops::Range<i64>; 2] {
+    let origin = [i64::from(tile.x), i64::from(tile.y)];
+    let (low, high) = ([rect.x0, rect.y0], [rect.x1, rect.y1]);
+    let [major, minor] = if axis.x_major { [0, 1] } else { [1, 0] };
+    let [first, last] = axis.span();
+    let first = first.max(origin[major] + i64::from(low[major]));
+    let last = last.min(origin[major] + i64::from(high[major]) - 1);
+    let rows = origin[minor] + i64::from(low[minor])..origin[minor] + i64::from(high[minor]);
+    [first..last + 1, rows]
+}
+
+/// The packet of a tile's pixel at (major, minor) in the target, and the pixel's bit in it.
+fn lane_at(axis: &LineAxis, tile: TileShape, unit: i64, row: i64) -> (u32, u16) {
+    let (x, y) = if axis.x_major {
+        (unit, row)
+    } else {
+        (row, unit)
+    };
+    lane_of(x - i64::from(tile.x), y - i64::from(tile.y))
+}
+
+/// A line of one pixel's width, all samples of a pixel alike.
+fn cover_thin<const N: usize>(
     line: &LinePrimitive,
     tile: TileShape,
     rect: &PixelRect,
@@ -73,27 +67,15 @@ pub(crate) fn cover<const N: usize>(
     if axis.delta[0] == 0 {
         return;
     }
-    let origin = [i64::from(tile.x), i64::from(tile.y)];
-    let (low, high) = ([rect.x0, rect.y0], [rect.x1, rect.y1]);
-    let [major, minor] = if axis.x_major { [0, 1] } else { [1, 0] };
-    let [first, last] = axis.span();
-    let first = first.max(origin[major] + i64::from(low[major]));
-    let last = last.min(origin[major] + i64::from(high[major]) - 1);
-    let minor_range = i64::from(low[minor])..i64::from(high[minor]);
+    let [units, rows] = ranges(&axis, tile, rect);
     // A monotone line leaves a packet for good, so only the newest one can get another pixel.
     let mut current: Option<(u32, u16)> = None;
-    for unit in first..=last {
-        let across = axis.minor_at(unit) - origin[minor];
-        if !minor_range.contains(&across) {
+    for unit in units {
+        let row = axis.minor_at(unit);
+        if !rows.contains(&row) {
             continue;
         }
-        let along = unit - origin[major];
-        let (x, y) = if axis.x_major {
-            (along, across)
-        } else {
-            (across, along)
-        };
-        let (packet, bit) = lane_of(x, y);
+        let (packet, bit) = lane_at(&axis, tile, unit, row);
         match &mut current {
             Some((at, mask)) if *at == packet => *mask |= bit,
             _ => {
@@ -107,6 +89,118 @@ pub(crate) fn cover<const N: usize>(
     if let Some((at, mask)) = current {
         out.push(at, [mask; N]);
     }
+}
+
+/// Columns of several pixels, or those of a pattern.
+fn cover_columns<const N: usize>(
+    line: &LinePrimitive,
+    style: &LineStyle,
+    width: i32,
+    (tile, rect): (TileShape, &PixelRect),
+    out: &mut CoverageList<N>,
+) {
+    let axis = LineAxis::new(line).moved(i64::from(width - 1) * -128);
+    if axis.delta[0] == 0 {
+        return;
+    }
+    let mut masks = [0u16; MAX_PACKETS];
+    let [units, rows] = ranges(&axis, tile, rect);
+    let [first, last] = axis.span();
+    for unit in units {
+        let number = if axis.delta[0] > 0 {
+            unit - first
+        } else {
+            last - unit
+        };
+        let number = line
+            .stipple
+            .wrapping_add(u32::try_from(number).unwrap_or(0));
+        if !style.shows(number) {
+            continue;
+        }
+        let row = axis.minor_at(unit);
+        for row in row.max(rows.start)..(row + i64::from(width)).min(rows.end) {
+            let (packet, bit) = lane_at(&axis, tile, unit, row);
+            masks[packet as usize % MAX_PACKETS] |= bit;
+        }
+    }
+    for (packet, mask) in (0..).zip(masks) {
+        if mask != 0 {
+            out.push(packet, [mask; N]);
+        }
+    }
+}
+
+/// A rectangle: its samples, or with a smooth line all samples of every pixel that it touches.
+fn cover_rectangle<const N: usize>(
+    line: &LinePrimitive,
+    style: &LineStyle,
+    rectangle: &LineRectangle,
+    (tile, rect): (TileShape, &PixelRect),
+    out: &mut CoverageList<N>,
+) {
+    let samples = sample_positions::<N>();
+    let [x0, y0, x1, y1] = rectangle.bounds.map(|at| at >> 8);
+    let columns = (x0 - tile.x).max(rect.x0)..(x1 + 1 - tile.x).min(rect.x1);
+    let rows = (y0 - tile.y).max(rect.y0)..(y1 + 1 - tile.y).min(rect.y1);
+    let per_pixel = length(line) * 256.0;
+    for packet in 0..1u32 << (2 * (tile.log2 - 2)) {
+        let (px, py) = packet_origin(packet);
+        let is_near = px + 4 > columns.start && px < columns.end;
+        if !is_near || py + 4 <= rows.start || py >= rows.end {
+            continue;
+        }
+        if misses(rectangle, [tile.x + px, tile.y + py]) {
+            continue;
+        }
+        let mut masks = [0u16; N];
+        for lane in 0..LANES {
+            let (x, y) = (px + i32::from(LANE_X[lane]), py + i32::from(LANE_Y[lane]));
+            if !columns.contains(&x) || !rows.contains(&y) {
+                continue;
+            }
+            let pixel = [tile.x + x, tile.y + y];
+            let at = |[sx, sy]: [i32; 2]| [pixel[0] * 256 + sx, pixel[1] * 256 + sy];
+            if style.stipple.is_some() {
+                let distance = along(line, at([128; 2])) as f32 / per_pixel;
+                if !style.shows(line.stipple.wrapping_add(whole(distance))) {
+                    continue;
+                }
+            }
+            let is_touched = style.is_smooth() && rectangle.sixteenths(pixel) > 0;
+            for (mask, sample) in masks.iter_mut().zip(samples) {
+                let is_covered = if style.is_smooth() {
+                    is_touched
+                } else {
+                    rectangle.contains(at(sample))
+                };
+                *mask |= u16::from(is_covered) << lane;
+            }
+        }
+        if masks != [0; N] {
+            out.push(packet, masks);
+        }
+    }
+}
+
+/// Whether no point of the packet of 4×4 pixels that begins with a pixel is inside.
+fn misses(rectangle: &LineRectangle, pixel: [i32; 2]) -> bool {
+    let [x, y] = pixel.map(|at| i64::from(at) * 256);
+    rectangle.edges.iter().any(|[a, b, c]| {
+        let best_x = if *a > 0 { x + 1024 } else { x };
+        let best_y = if *b > 0 { y + 1024 } else { y };
+        a * best_x + b * best_y + c < 0
+    })
+}
+
+/// ⌊distance⌋, at least 0.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "`as` saturates"
+)]
+fn whole(distance: f32) -> u32 {
+    distance as u32
 }
 
 /// The packet of a tile's pixel and the pixel's bit in it.

@@ -15,6 +15,7 @@ use crate::fragment::interpolate::{
     VaryingSource, set_planes,
 };
 use crate::fragment::queue::clamp_depth;
+use crate::geometry::line_style::LineStyle;
 use crate::per_sample::depth::line_mut;
 use crate::per_sample::general::{GeneralTarget, SampleTests, StencilTest};
 use crate::raster::general::{
@@ -88,6 +89,7 @@ pub(super) fn draw_chunk(
         rejects_early: !early && can_reject_early(&tests, interface.depth_output),
         per_sample,
         source: work.varyings(work.chunk),
+        smooth: None,
         passed: 0,
         job,
         scratch,
@@ -150,6 +152,8 @@ struct Drawing<'a, 'j, 't> {
     rejects_early: bool,
     per_sample: bool,
     source: VaryingSource<'a>,
+    /// The line at hand, if it is a smooth one.
+    smooth: Option<LineSurface<'a>>,
     /// Samples that passed all tests.
     passed: u64,
     job: &'j mut TileJob<'t>,
@@ -157,7 +161,7 @@ struct Drawing<'a, 'j, 't> {
     statistics: &'j mut Statistics,
 }
 
-impl Drawing<'_, '_, '_> {
+impl<'a> Drawing<'a, '_, '_> {
     #[inline(always)]
     fn triangle<S: Lanes>(&mut self, s: S, packet: &TrianglePacket, lane: usize) {
         let ChunkInTile { shape, rect, .. } = *self.work;
@@ -184,18 +188,30 @@ impl Drawing<'_, '_, '_> {
         self.scratch.planes = planes;
     }
 
-    fn line(&mut self, line: &LinePrimitive) {
+    fn line(&mut self, line: &'a LinePrimitive) {
         let ChunkInTile { shape, rect, .. } = self.work;
         self.scratch.covered.clear();
-        cover_line(line, *shape, rect, self.samples, &mut self.scratch.covered);
-        let surface = LineSurface::new(line, self.source);
+        let style = LineStyle::new(&self.work.item.pipeline.descriptor().primitive.line);
+        let covered = &mut self.scratch.covered;
+        cover_line(line, &style, *shape, rect, self.samples, covered);
+        let surface = LineSurface::new(line, &style, self.source);
+        if style.is_smooth() {
+            self.smooth = Some(surface);
+        }
         dispatch!(self.work.level, s => self.covered(s, &surface, line.front));
+        if style.is_smooth() {
+            // Alpha is that of this line alone.
+            self.flush();
+            self.smooth = None;
+        }
     }
 
     fn point(&mut self, point: &PointPrimitive) {
         let ChunkInTile { shape, rect, .. } = self.work;
         self.scratch.covered.clear();
-        cover_point(point, *shape, rect, self.samples, &mut self.scratch.covered);
+        let is_round = self.work.item.pipeline.descriptor().primitive.round_points;
+        let covered = &mut self.scratch.covered;
+        cover_point(point, is_round, *shape, rect, self.samples, covered);
         let surface = PointSurface {
             point,
             source: self.source,
@@ -301,6 +317,9 @@ impl Drawing<'_, '_, '_> {
         let queue = &mut self.scratch.queue;
         let fragments = queue.shade(self.work.level, item.pipeline, item.bindings);
         self.statistics.fragments_shaded += fragments;
+        if let Some(line) = &self.smooth {
+            queue.scale_alpha(|pixel| line.coverage(pixel));
+        }
         dispatch!(self.work.level, s => self.store(s));
     }
 

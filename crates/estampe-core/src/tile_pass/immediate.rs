@@ -9,6 +9,7 @@ use crate::fragment::interpolate::{
     VaryingSource, set_planes,
 };
 use crate::fragment::queue::{Needs, clamp_depth};
+use crate::geometry::line_style::LineStyle;
 use crate::per_sample::color::ColorTarget;
 use crate::per_sample::depth::{DepthTest, line_mut, test_early, test_late};
 use crate::per_sample::depth_bounds::Judgement;
@@ -55,6 +56,7 @@ pub(super) fn draw_chunk<S: Lanes, const N: usize>(
             depth_range: work.item.depth_range,
         },
         planes: std::mem::take(&mut scratch.planes),
+        smooth: None,
         job,
         scratch,
     };
@@ -93,11 +95,13 @@ struct Drawing<'a, 'j, 't, const N: usize> {
     needs: Needs,
     /// Planes of the triangle at hand.
     planes: Vec<f32>,
+    /// The line at hand, if it is a smooth one.
+    smooth: Option<LineSurface<'a>>,
     job: &'j mut TileJob<'t>,
     scratch: &'j mut TileScratch<N>,
 }
 
-impl<const N: usize> Drawing<'_, '_, '_, N> {
+impl<'a, const N: usize> Drawing<'a, '_, '_, N> {
     #[inline(always)]
     fn triangle<S: Lanes>(&mut self, s: S, packet: &TrianglePacket, lane: usize) {
         let ChunkInTile {
@@ -195,18 +199,28 @@ impl<const N: usize> Drawing<'_, '_, '_, N> {
 
     /// Lines and points enter the level one by one: they are few, and their code is kept out of the
     /// triangles' way.
-    fn line(&mut self, line: &LinePrimitive) {
+    fn line(&mut self, line: &'a LinePrimitive) {
         let ChunkInTile { shape, rect, .. } = self.work;
         self.scratch.list.clear();
-        line::cover(line, *shape, rect, &mut self.scratch.list);
-        let surface = LineSurface::new(line, self.source);
+        let style = LineStyle::new(&self.work.item.pipeline.descriptor().primitive.line);
+        line::cover(line, &style, *shape, rect, &mut self.scratch.list);
+        let surface = LineSurface::new(line, &style, self.source);
+        if style.is_smooth() {
+            self.smooth = Some(surface);
+        }
         dispatch!(self.work.level, s => self.covered(s, &surface, line.front));
+        if style.is_smooth() {
+            // Alpha is that of this line alone.
+            self.flush();
+            self.smooth = None;
+        }
     }
 
     fn point(&mut self, point: &PointPrimitive) {
         let ChunkInTile { shape, rect, .. } = self.work;
         self.scratch.list.clear();
-        point::cover(point, *shape, rect, &mut self.scratch.list);
+        let is_round = self.work.item.pipeline.descriptor().primitive.round_points;
+        point::cover(point, is_round, *shape, rect, &mut self.scratch.list);
         let surface = PointSurface {
             point,
             source: self.source,
@@ -269,6 +283,13 @@ impl<const N: usize> Drawing<'_, '_, '_, N> {
             self.work.item.bindings,
         );
         self.scratch.statistics.fragments_shaded += fragments;
+        if let Some(line) = &self.smooth {
+            let (x, y) = (self.work.shape.x, self.work.shape.y);
+            self.scratch.queue.scale_alpha(|packet| {
+                let (right, below) = packet_origin(u32::from(packet));
+                line.coverage([x + right, y + below])
+            });
+        }
         dispatch!(self.work.level, s => self.store(s));
     }
 

@@ -204,6 +204,22 @@ impl GeneralQueue {
         fragments
     }
 
+    /// Multiplies the alpha of every target's colour by a factor for each pixel of the packets at hand.
+    pub(super) fn scale_alpha(&mut self, factors: impl Fn([i32; 2]) -> Packet<f32>) {
+        for (slot, place) in self.places.iter().enumerate().take(CAPACITY) {
+            let factors = factors(place.pixel);
+            let from = slot * self.colors_each * 4;
+            for color in self.colors[from..][..self.targets * 4]
+                .as_chunks_mut::<4>()
+                .0
+            {
+                for (alpha, factor) in color[3].0.iter_mut().zip(factors.0) {
+                    *alpha *= factor;
+                }
+            }
+        }
+    }
+
     /// How many packets there are.
     pub(super) fn len(&self) -> usize {
         self.places.len().min(CAPACITY)

@@ -1,0 +1,170 @@
+//! Rectangular lines: the rectangle around a line, and how much of a pixel it covers.
+//!
+//! In · Out: two snapped positions and a width · quads of covered samples, and a surface. Precision: the corners are
+//! rounded to 1/256 pixel, the rest of the coverage is exact. Spec: NUMERICS.md, *Lines and points*; Vulkan,
+//! "Rectangular lines".
+//!
+//! ```text
+//!   a − h ────────────▶ b − h        h = (−Δy, Δx) · half the width ÷ the length, rounded: across the line
+//!     ▲       a ──▶ b     │          (y down: h points below a line that runs to the right)
+//!   a + h ◀──────────── b + h
+//! ```
+
+use crate::WindowVertex;
+use crate::arithmetic::round_half_even;
+use crate::fragment::{CENTER, Surface};
+use crate::line::mix_ends;
+use crate::raster::{self, Edge, QuadCoverage, sample_subpixel};
+use crate::viewport::PixelBounds;
+use estampe_types::shader::Interpolation;
+
+/// A line and the rectangle around it.
+#[derive(Debug, Clone, Copy)]
+pub struct LineRectangle {
+    start: [i32; 2],
+    end: [i32; 2],
+    edges: Option<[Edge; 4]>,
+    corners: [[i32; 2]; 4],
+}
+
+impl LineRectangle {
+    /// The rectangle of a width in pixels. It covers nothing where it has no area.
+    #[must_use]
+    pub fn new(start: [i32; 2], end: [i32; 2], width: f32) -> Self {
+        let delta = [0, 1].map(|axis: usize| end[axis] - start[axis]);
+        let [dx, dy] = delta.map(|subpixels| subpixels as f32);
+        let across = (width * 128.0) / length(start, end);
+        let h = [round_half_even(-dy * across), round_half_even(dx * across)];
+        let minus = |p: [i32; 2]| [p[0] - h[0], p[1] - h[1]];
+        let plus = |p: [i32; 2]| [p[0] + h[0], p[1] + h[1]];
+        let corners = [minus(start), minus(end), plus(end), plus(start)];
+        let cross = i64::from(delta[0]) * i64::from(h[1]) - i64::from(delta[1]) * i64::from(h[0]);
+        let edges = [0, 1, 2, 3].map(|k: usize| Edge::new(corners[k], corners[(k + 1) % 4]));
+        Self {
+            start,
+            end,
+            edges: (cross > 0).then_some(edges),
+            corners,
+        }
+    }
+
+    /// Whether a point in 1/256 pixel is inside, by the fill rule of triangles.
+    #[must_use]
+    pub fn covers(&self, point: [i64; 2]) -> bool {
+        self.edges
+            .is_some_and(|edges| edges.iter().all(|edge| edge.covers(point)))
+    }
+
+    /// How many of a pixel's sixteen points, a grid of four by four, are inside.
+    #[must_use]
+    pub fn sixteenths(&self, pixel: [i64; 2]) -> u8 {
+        let places = [2, 6, 10, 14];
+        let mut inside = 0;
+        for y in places {
+            for x in places {
+                inside += u8::from(self.covers(sample_subpixel(pixel, [x, y])));
+            }
+        }
+        inside
+    }
+
+    /// The quads of which it covers samples.
+    #[must_use]
+    pub fn cover(&self, bounds: &PixelBounds, samples: u32) -> Vec<QuadCoverage> {
+        raster::cover(self.extent(), bounds, samples, |point| self.covers(point))
+    }
+
+    /// The quads of which it touches pixels: one of the sixteen points is enough for all of a pixel's samples.
+    #[must_use]
+    pub fn cover_smooth(&self, bounds: &PixelBounds, samples: u32) -> Vec<QuadCoverage> {
+        raster::cover(self.extent(), bounds, samples, |[x, y]| {
+            self.sixteenths([x.div_euclid(256), y.div_euclid(256)]) > 0
+        })
+    }
+
+    fn extent(&self) -> [[i64; 2]; 2] {
+        [0, 1].map(|axis: usize| {
+            let along = self.corners.map(|corner| i64::from(corner[axis]));
+            let (least, greatest) = (along.iter().min(), along.iter().max());
+            [least, greatest].map(|end| *end.expect("four corners"))
+        })
+    }
+
+    /// The product of the way from the start to a point with the way to the end, and the latter's square. Exact.
+    fn along(&self, point: [i64; 2]) -> [i64; 2] {
+        let way = [0, 1].map(|axis: usize| i64::from(self.end[axis]) - i64::from(self.start[axis]));
+        let to = [0, 1].map(|axis: usize| point[axis] - i64::from(self.start[axis]));
+        [
+            to[0] * way[0] + to[1] * way[1],
+            way[0] * way[0] + way[1] * way[1],
+        ]
+    }
+
+    /// How far along the line the point of it that is nearest to a sample is: 0 at the start, 1 at the end.
+    #[must_use]
+    pub fn fraction(&self, pixel: [u32; 2], sample: [u8; 2]) -> f32 {
+        let [product, square] = self.along(sample_subpixel(pixel.map(i64::from), sample));
+        product as f32 / square as f32
+    }
+
+    /// How many whole pixels along the line a pixel's centre is.
+    #[must_use]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "`as` saturates: what lies before the start is 0"
+    )]
+    pub fn steps(&self, pixel: [u32; 2]) -> u32 {
+        let [product, _] = self.along(sample_subpixel(pixel.map(i64::from), CENTER));
+        (product as f32 / (length(self.start, self.end) * 256.0)) as u32
+    }
+
+    /// The line's length in whole pixels.
+    #[must_use]
+    pub fn whole_length(&self) -> u32 {
+        round_half_even(length(self.start, self.end) / 256.0).unsigned_abs()
+    }
+}
+
+/// A length in 1/256 pixel.
+fn length(start: [i32; 2], end: [i32; 2]) -> f32 {
+    let [dx, dy] = [0, 1].map(|axis: usize| (end[axis] - start[axis]) as f32);
+    (dx * dx + dy * dy).sqrt()
+}
+
+/// What varies along a rectangular line.
+#[derive(Debug, Clone, Copy)]
+pub struct RectangleSurface<'a> {
+    /// Where it is.
+    pub rectangle: LineRectangle,
+    /// Its start and end.
+    pub ends: [&'a WindowVertex; 2],
+    /// How each scalar of the varyings is interpolated.
+    pub modes: &'a [Interpolation],
+    /// The provoking vertex's varyings.
+    pub flat: &'a [f32],
+    /// Whether alpha is multiplied by what is covered.
+    pub is_smooth: bool,
+}
+
+impl Surface for RectangleSurface<'_> {
+    fn depth(&self, pixel: [u32; 2], sample: [u8; 2]) -> f32 {
+        let [a, b] = self.ends;
+        a.z + (b.z - a.z) * self.rectangle.fraction(pixel, sample)
+    }
+
+    fn inverse_w(&self, pixel: [u32; 2]) -> f32 {
+        let [a, b] = self.ends;
+        a.inverse_w + (b.inverse_w - a.inverse_w) * self.rectangle.fraction(pixel, CENTER)
+    }
+
+    fn varyings(&self, pixel: [u32; 2]) -> Vec<f32> {
+        let t = self.rectangle.fraction(pixel, CENTER);
+        mix_ends(self.ends, self.modes, self.flat, t)
+    }
+
+    fn alpha(&self, pixel: [u32; 2]) -> Option<f32> {
+        let sixteenths = self.rectangle.sixteenths(pixel.map(i64::from));
+        self.is_smooth.then(|| f32::from(sixteenths) / 16.0)
+    }
+}
