@@ -144,6 +144,9 @@ const OUTSIDE: &[(&str, Homes)] = &[
             "estampe-bench",
         ]),
     ),
+    // Blocks of compressed textures, decoded when a texture is made.
+    ("astc-decode", Homes::Only(&["estampe-texture"])),
+    ("bcdec_rs", Homes::Only(&["estampe-texture"])),
     ("earcut", Homes::Only(&["estampe-shapes"])),
     // File formats: everyone else sees decoded images.
     ("png", Homes::Only(&["estampe-assets", "estampe-bench"])),

@@ -156,7 +156,7 @@ fn linear(mode: AddressMode, coordinate: f32, size: u32) -> ([u32; 2], f32) {
 /// A coordinate brought into the first tile.
 fn tiled(mode: AddressMode, u: f32) -> f32 {
     match mode {
-        AddressMode::ClampToEdge => u,
+        AddressMode::ClampToEdge | AddressMode::MirrorOnce | AddressMode::ClampToBorder => u,
         AddressMode::Repeat => max(u - u.floor(), 0.0),
         AddressMode::MirrorRepeat => 1.0 - ((u - 2.0 * (u * 0.5).floor()) - 1.0).abs(),
     }
@@ -166,7 +166,7 @@ fn tiled(mode: AddressMode, u: f32) -> f32 {
 fn confined(mode: AddressMode, position: f32, size: u32) -> f32 {
     match mode {
         AddressMode::Repeat => position,
-        AddressMode::ClampToEdge | AddressMode::MirrorRepeat => {
+        _ => {
             clamp(position, 0.0, size.max(1) as f32 - 1.0)
         }
     }
@@ -177,7 +177,7 @@ fn address(mode: AddressMode, at: i64, size: u32) -> u32 {
     let size = i64::from(size.max(1));
     let found = match mode {
         AddressMode::Repeat => at.rem_euclid(size),
-        AddressMode::ClampToEdge | AddressMode::MirrorRepeat => at.clamp(0, size - 1),
+        _ => at.clamp(0, size - 1),
     };
     u32::try_from(found).expect("below the size")
 }

@@ -38,6 +38,7 @@ fn sampler(random: &mut Random) -> SamplerDescriptor {
         mipmap_filter: random.pick(&filters),
         lod_min_clamp: random.pick(&[0.0, 0.0, 0.5, 2.0]),
         lod_max_clamp: random.pick(&[32.0, 32.0, 1.3]),
+        ..SamplerDescriptor::default()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::TextureError;
 use crate::mips;
-use estampe_types::{Limits, MipLevel, Texture, TextureFormat};
+use estampe_types::{Limits, MipLevel, TexelEncoding, Texture, TextureFormat, TextureShape};
 
 /// Offsets of texels fit the signed 32-bit indices of lane code.
 const MAX_TEXELS: u64 = i32::MAX as u64;
@@ -78,6 +78,7 @@ fn texture(format: TextureFormat, levels: Vec<MipLevel>, texels: Vec<u32>) -> Te
         levels,
         is_opaque: texels.iter().all(|texel| texel >> 24 == 255),
         texels: texels.into(),
+        shape: TextureShape::default(),
     }
 }
 
@@ -93,7 +94,7 @@ fn lay_out(
     count: usize,
     limits: &Limits,
 ) -> Result<Vec<MipLevel>, TextureError> {
-    if !format.is_color() {
+    if format.encoding() != TexelEncoding::Unorm8 || format.components() != 4 {
         return Err(TextureError::Format { format });
     }
     if width == 0 || height == 0 {

@@ -30,25 +30,36 @@
 //! with. The second and fourth byte stay where they are, as 256·c, and the factor 1/255 at the end
 //! makes up for it. All of this is exact, so the bits are those of `docs/NUMERICS.md`.
 
+mod blocks;
 mod compare;
 mod create;
+mod decode;
+mod descriptor;
+mod encode;
 mod error;
 mod filter;
+mod generate;
 mod lod;
 mod mips;
 mod mixed;
 mod sampled;
 mod texel;
+mod upload;
+mod view;
 mod wrap;
 
 pub use compare::{sample_compare_level, sample_compare_sum};
 pub use create::{MipGeneration, create_texture, create_texture_with_levels};
+pub use descriptor::TextureDescriptor;
 pub use error::TextureError;
 pub use estampe_types::{
-    AddressMode, DepthTexture, FilterMode, Limits, MipLevel, SamplerDescriptor, Texture,
-    TextureFormat,
+    AddressMode, BorderColor, DepthTexture, FilterMode, Limits, MipLevel, SamplerDescriptor,
+    Texture, TextureAspect, TextureDimension, TextureFormat, TextureShape, TextureViewDescriptor,
+    ViewDimension,
 };
 pub use sampled::Sampled;
+pub use upload::LevelData;
+pub use view::{Coordinates, Lod, SampledView, TextureView};
 
 #[cfg(test)]
 mod tests;

@@ -11,11 +11,7 @@ pub(crate) fn append_half(
     to: MipLevel,
     format: TextureFormat,
 ) {
-    let mean = if format.is_srgb() {
-        mean_srgb
-    } else {
-        mean_unorm
-    };
+    let mean = mean_of_four(format);
     let width = from.width as usize;
     let start = from.offset as usize;
     for y in 0..to.height {
@@ -32,6 +28,15 @@ pub(crate) fn append_half(
             ];
             texels.push(mean(four));
         }
+    }
+}
+
+/// The mean of four texels of four 8-bit channels.
+pub(crate) fn mean_of_four(format: TextureFormat) -> fn([u32; 4]) -> u32 {
+    if format.is_srgb() {
+        mean_srgb
+    } else {
+        mean_unorm
     }
 }
 

@@ -12,7 +12,8 @@ pub(crate) fn wrap<R: Real>(u: R, mode: AddressMode) -> R {
             let tile = (u * 0.5).floor() * 2.0;
             u.splat(1.0) - (u - tile - 1.0).abs()
         }
-        AddressMode::ClampToEdge => u,
+        // The other two are not of this path: `SampledView` samples with them.
+        AddressMode::ClampToEdge | AddressMode::MirrorOnce | AddressMode::ClampToBorder => u,
     }
 }
 

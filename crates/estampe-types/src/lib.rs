@@ -46,7 +46,10 @@ pub use shader::{
     NoPerspective, PerSample, Program, Sampling, Shader, ShaderProgram, Varyings, VertexBatch,
     VertexIn,
 };
-pub use texture::{AddressMode, DepthTexture, FilterMode, MipLevel, SamplerDescriptor, Texture};
+pub use texture::{
+    AddressMode, BorderColor, DepthTexture, FilterMode, MipLevel, SamplerDescriptor, Texture,
+    TextureAspect, TextureDimension, TextureShape, TextureViewDescriptor, ViewDimension,
+};
 pub use vector::{Vec2, Vec3, Vec4};
 
 #[cfg(test)]

@@ -1,20 +1,35 @@
 //! Textures as plain data, and how they are to be sampled. Sampling itself is `estampe-texture`'s.
 
+mod sampler;
+mod shape;
+mod view;
+
+pub use sampler::{AddressMode, BorderColor, FilterMode, SamplerDescriptor};
+pub use shape::{TextureDimension, TextureShape};
+pub use view::{TextureAspect, TextureViewDescriptor, ViewDimension};
+
 use crate::format::TextureFormat;
 use crate::{Lines, depth_bounds};
 use std::sync::Arc;
 
-/// A two-dimensional texture with its mip levels; immutable and shared by reference.
+/// A texture with its mip levels; immutable and shared by reference.
+///
+/// Level after level, of each level slice after slice (the layers of an array, six faces a cube, or the depths of
+/// a 3D texture), of each slice row after row from the top, of each row texel after texel, of each texel sample
+/// after sample: each of [`Texture::words_per_texel`] words, the bytes of [`Texture::stored_format`] from the
+/// lowest on.
 #[derive(Debug, Clone)]
 pub struct Texture {
-    /// What the texels hold.
+    /// What the texels are: what they were given as.
     pub format: TextureFormat,
     /// The levels, the full size first; each is half the one before, rounded down, at least 1.
     pub levels: Vec<MipLevel>,
-    /// The texels of all levels, row by row from the top: R in the low byte of each word.
+    /// The texels of all levels: of four 8-bit channels R in the low byte of each word.
     pub texels: Arc<[u32]>,
     /// Whether alpha is 255 in every texel, so that samplers may leave it out; `false` is always right.
     pub is_opaque: bool,
+    /// What there is beside width and height; by default nothing.
+    pub shape: TextureShape,
 }
 
 /// One level of a texture.
@@ -24,7 +39,7 @@ pub struct MipLevel {
     pub width: u32,
     /// Height in texels.
     pub height: u32,
-    /// Where the level begins in [`Texture::texels`].
+    /// How many texels are stored before it, samples and slices counted.
     pub offset: u32,
 }
 
@@ -174,74 +189,4 @@ pub(crate) const fn spread(v: usize) -> usize {
     let v = (v | (v << 4)) & 0x30F;
     let v = (v | (v << 2)) & 0x333;
     (v | (v << 1)) & 0x555
-}
-
-/// How a coordinate outside 0..1 finds a texel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum AddressMode {
-    /// The texel at the border.
-    #[default]
-    ClampToEdge,
-    /// The texture is tiled.
-    Repeat,
-    /// The texture is tiled, every other tile mirrored.
-    MirrorRepeat,
-}
-
-/// How texels or mip levels are combined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum FilterMode {
-    /// The nearest one.
-    #[default]
-    Nearest,
-    /// The weighted mean of the neighbours.
-    Linear,
-}
-
-/// How a texture is sampled. The default is nearest and clamped, as in WebGPU.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SamplerDescriptor {
-    /// For u.
-    pub address_mode_u: AddressMode,
-    /// For v.
-    pub address_mode_v: AddressMode,
-    /// When the level of detail is ≤ 0: a texel covers a pixel or more.
-    pub mag_filter: FilterMode,
-    /// When the level of detail is > 0.
-    pub min_filter: FilterMode,
-    /// Between mip levels.
-    pub mipmap_filter: FilterMode,
-    /// The least level of detail. Default 0.
-    pub lod_min_clamp: f32,
-    /// The greatest level of detail. Default 32.
-    pub lod_max_clamp: f32,
-}
-
-impl Default for SamplerDescriptor {
-    fn default() -> Self {
-        Self {
-            address_mode_u: AddressMode::ClampToEdge,
-            address_mode_v: AddressMode::ClampToEdge,
-            mag_filter: FilterMode::Nearest,
-            min_filter: FilterMode::Nearest,
-            mipmap_filter: FilterMode::Nearest,
-            lod_min_clamp: 0.0,
-            lod_max_clamp: 32.0,
-        }
-    }
-}
-
-impl SamplerDescriptor {
-    /// Linear in every direction and between levels, tiled.
-    #[must_use]
-    pub fn trilinear_repeat() -> Self {
-        Self {
-            address_mode_u: AddressMode::Repeat,
-            address_mode_v: AddressMode::Repeat,
-            mag_filter: FilterMode::Linear,
-            min_filter: FilterMode::Linear,
-            mipmap_filter: FilterMode::Linear,
-            ..Self::default()
-        }
-    }
 }

@@ -29,6 +29,7 @@ fn texture(
             .map(|&red| u32::from_le_bytes([red, 255 - red, 0, 51]))
             .collect(),
         is_opaque: false,
+        shape: estampe_types::TextureShape::default(),
     };
     ReferenceTexture::new(Arc::new(texture), sampler)
 }

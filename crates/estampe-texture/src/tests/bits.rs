@@ -44,6 +44,7 @@ fn samplers() -> Vec<SamplerDescriptor> {
             mipmap_filter: filters[bits >> 2 & 1],
             lod_min_clamp: if bits % 5 == 4 { 0.75 } else { 0.0 },
             lod_max_clamp: if bits % 7 == 6 { 1.5 } else { 32.0 },
+            ..SamplerDescriptor::default()
         });
     }
     samplers.push(SamplerDescriptor::trilinear_repeat());
@@ -199,6 +200,7 @@ fn a_texture_put_together_by_hand_cannot_harm() {
             levels,
             texels: texels.into(),
             is_opaque: false,
+            shape: estampe_types::TextureShape::default(),
         });
         for mut sampler in samplers() {
             sampler.lod_min_clamp = f32::NAN;

@@ -2,7 +2,10 @@
 //! number at every SIMD level.
 
 mod bits;
+mod blocks;
+mod codes;
 mod create;
+mod descriptors;
 mod naive;
 mod several;
 mod values;

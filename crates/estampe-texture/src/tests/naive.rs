@@ -51,7 +51,7 @@ fn axis(u: f32, size: u32, mode: AddressMode, filter: FilterMode) -> ([u32; 2], 
     let s = match mode {
         AddressMode::Repeat => max(u - u.floor(), 0.0),
         AddressMode::MirrorRepeat => 1.0 - ((u - 2.0 * (u * 0.5).floor()) - 1.0).abs(),
-        AddressMode::ClampToEdge => u,
+        _ => u,
     };
     let mut q = s * length;
     if filter == FilterMode::Linear {

@@ -1,0 +1,104 @@
+//! Mip levels of every dimension and filterable format, from the level above.
+//!
+//! A side is halved rounding down, at least 1. A texel is the mean of the two by two (of 3D textures by two) texels
+//! from 2x, 2y, 2z on, the second clamped where a side is 1; the last one of an odd side is left out. (As
+//! [`MipGeneration::Full`](crate::MipGeneration::Full) says.)
+
+use crate::decode::Decoder;
+use crate::encode::encode;
+use crate::mips;
+use estampe_types::TextureAspect;
+use estampe_types::{SampleType, TexelEncoding, Texture, TextureDimension, TextureFormat};
+
+/// Whether levels of the texture's format can be made: those of numbers, blocks included.
+pub(crate) fn is_possible(texture: &Texture) -> bool {
+    texture.format.sample_type() == SampleType::Float
+}
+
+/// Makes a level from the one above among the texture's words; level 0 has none above.
+pub(crate) fn level(texture: &Texture, level: usize, words: &mut [u32]) {
+    let Some(above) = level.checked_sub(1) else {
+        return;
+    };
+    let stored = texture.stored_format();
+    let (from, to) = (texture.levels[above], texture.levels[level]);
+    let decoder = Decoder::new(stored, TextureAspect::All);
+    let per_texel = decoder.words;
+    let is_3d = texture.shape.dimension == TextureDimension::D3;
+    let (from_slices, slices) = (
+        texture.shape.slices(above) as usize,
+        texture.shape.slices(level) as usize,
+    );
+    let (width, height) = (from.width as usize, from.height as usize);
+    let (above, rest) = words.split_at_mut(to.offset as usize * per_texel);
+    let above = &above[from.offset as usize * per_texel..];
+    let mut made = rest.chunks_exact_mut(per_texel);
+    for slice in 0..slices {
+        let near = if is_3d { 2 * slice } else { slice };
+        let far = if is_3d {
+            (near + 1).min(from_slices - 1)
+        } else {
+            near
+        };
+        for y in 0..to.height as usize {
+            let rows = [2 * y, (2 * y + 1).min(height - 1)];
+            for x in 0..to.width as usize {
+                let columns = [2 * x, (2 * x + 1).min(width - 1)];
+                let texel = |slice: usize, row: usize, column: usize| {
+                    let at = (slice * height + rows[row]) * width + columns[column];
+                    &above[at * per_texel..][..per_texel]
+                };
+                let four = |slice| {
+                    [
+                        texel(slice, 0, 0),
+                        texel(slice, 0, 1),
+                        texel(slice, 1, 0),
+                        texel(slice, 1, 1),
+                    ]
+                };
+                let Some(made) = made.next() else { return };
+                let mean = match (stored, is_3d) {
+                    (TextureFormat::Rgba8Unorm | TextureFormat::Rgba8UnormSrgb, false) => {
+                        let mean = mips::mean_of_four(stored);
+                        [mean(four(near).map(|texel| texel[0])), 0, 0, 0]
+                    }
+                    (_, false) => mean(stored, &decoder, &[four(near)]),
+                    (_, true) => mean(stored, &decoder, &[four(near), four(far)]),
+                };
+                made.copy_from_slice(&mean[..per_texel]);
+            }
+        }
+    }
+}
+
+/// The mean of four texels, or of eight.
+fn mean(format: TextureFormat, decoder: &Decoder, fours: &[[&[u32]; 4]]) -> [u32; 4] {
+    use TexelEncoding as E;
+    let factor = 0.25 / fours.len() as f32;
+    let mut of_slices = [[0.0; 4]; 2];
+    for (sum, four) in of_slices.iter_mut().zip(fours) {
+        let [a, b, c, d] = four.map(|texel| decoder.unit(texel));
+        for k in 0..4 {
+            sum[k] = (a[k] + b[k]) + (c[k] + d[k]);
+        }
+    }
+    let is_code = matches!(
+        format.encoding(),
+        E::Unorm8 | E::Snorm8 | E::Unorm16 | E::Snorm16 | E::Unorm10_2
+    );
+    let value = std::array::from_fn(|k| {
+        let sum = if fours.len() == 2 {
+            of_slices[0][k] + of_slices[1][k]
+        } else {
+            of_slices[0][k]
+        };
+        let mean = sum * factor;
+        // Sums of codes are exact, and so is this code: ⌊mean + ½⌋; R, G and B of sRGB are numbers.
+        if is_code && !(format.is_srgb() && k < 3) {
+            (mean + 0.5).floor() * decoder.scale[k]
+        } else {
+            mean
+        }
+    });
+    encode(format, value)
+}

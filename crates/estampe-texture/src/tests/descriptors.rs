@@ -1,0 +1,439 @@
+//! Textures of every dimension are made by their rules.
+
+use crate::decode::Decoder;
+use crate::{
+    LevelData, Limits, MipGeneration, SampledView, SamplerDescriptor, Texture, TextureAspect,
+    TextureDescriptor, TextureDimension, TextureError, TextureFormat, TextureView,
+    TextureViewDescriptor, ViewDimension,
+};
+use estampe_types::SampleType;
+
+fn make(descriptor: TextureDescriptor) -> Result<Texture, TextureError> {
+    descriptor.create(&[], MipGeneration::None, &Limits::default())
+}
+
+fn flat() -> TextureDescriptor {
+    TextureDescriptor::new_2d(4, 4, TextureFormat::Rgba8Unorm)
+}
+
+fn block() -> TextureDescriptor {
+    TextureDescriptor {
+        dimension: TextureDimension::D3,
+        depth_or_layers: 4,
+        ..flat()
+    }
+}
+
+fn row() -> TextureDescriptor {
+    TextureDescriptor {
+        dimension: TextureDimension::D1,
+        height: 1,
+        ..flat()
+    }
+}
+
+/// Descriptors, and whether an error is that of the rule that they break.
+type Broken = (TextureDescriptor, fn(&TextureError) -> bool);
+
+fn broken() -> Vec<Broken> {
+    use TextureError as E;
+    let (block, row) = (block(), row());
+    vec![
+        (
+            TextureDescriptor { width: 0, ..flat() },
+            (|e| matches!(e, E::Empty { .. })) as fn(&E) -> bool,
+        ),
+        (
+            TextureDescriptor {
+                height: 16_385,
+                ..flat()
+            },
+            |e| matches!(e, E::TooLarge { limit: 16_384, .. }),
+        ),
+        (
+            TextureDescriptor {
+                width: 2049,
+                ..block
+            },
+            |e| matches!(e, E::TooLarge { limit: 2048, .. }),
+        ),
+        (
+            TextureDescriptor {
+                depth_or_layers: 257,
+                ..flat()
+            },
+            |e| matches!(e, E::Slices { most: 256, .. }),
+        ),
+        (
+            TextureDescriptor {
+                depth_or_layers: 0,
+                ..flat()
+            },
+            |e| matches!(e, E::Slices { .. }),
+        ),
+        (
+            TextureDescriptor {
+                depth_or_layers: 2049,
+                ..block
+            },
+            |e| matches!(e, E::Slices { most: 2048, .. }),
+        ),
+        (TextureDescriptor { height: 2, ..row }, |e| {
+            matches!(e, E::Slices { height: 2, .. })
+        }),
+        (
+            TextureDescriptor {
+                format: TextureFormat::Bc1RgbaUnorm,
+                ..block
+            },
+            |e| matches!(e, E::NotFlat { .. }),
+        ),
+        (
+            TextureDescriptor {
+                format: TextureFormat::Depth32Float,
+                ..row
+            },
+            |e| matches!(e, E::NotFlat { .. }),
+        ),
+        (
+            TextureDescriptor {
+                mip_level_count: 4,
+                ..flat()
+            },
+            |e| matches!(e, E::LevelCount { most: 3, actual: 4 }),
+        ),
+        (
+            TextureDescriptor {
+                mip_level_count: 0,
+                ..flat()
+            },
+            |e| matches!(e, E::LevelCount { .. }),
+        ),
+        (
+            TextureDescriptor {
+                sample_count: 3,
+                ..flat()
+            },
+            |e| matches!(e, E::Samples { samples: 3 }),
+        ),
+        (
+            TextureDescriptor {
+                sample_count: 4,
+                mip_level_count: 2,
+                ..flat()
+            },
+            |e| matches!(e, E::Samples { .. }),
+        ),
+        (
+            TextureDescriptor {
+                width: 16_384,
+                height: 16_384,
+                depth_or_layers: 256,
+                ..flat()
+            },
+            |e| matches!(e, E::TooManyTexels { .. }),
+        ),
+    ]
+}
+
+#[test]
+fn rules_that_are_broken_are_named() {
+    for (descriptor, is_expected) in broken() {
+        let error = make(descriptor).expect_err("a broken rule");
+        assert!(is_expected(&error), "{error:?} of {descriptor:?}");
+        assert!(error.to_string().len() > 20);
+    }
+    for descriptor in [
+        flat().with_all_levels(),
+        block().with_all_levels(),
+        row().with_all_levels(),
+        TextureDescriptor {
+            depth_or_layers: 256,
+            ..flat()
+        },
+        TextureDescriptor {
+            sample_count: 16,
+            ..flat()
+        },
+        TextureDescriptor {
+            width: 16_384,
+            height: 1,
+            ..flat()
+        },
+    ] {
+        let texture = make(descriptor).expect("within the rules");
+        assert!(texture.texels.iter().all(|word| *word == 0));
+    }
+}
+
+#[test]
+fn rows_that_overlap_or_end_early_are_refused() {
+    let bytes = [7; 64];
+    let create =
+        |data: LevelData<'_>| flat().create(&[data], MipGeneration::None, &Limits::default());
+    let tight = LevelData::tight(&bytes);
+    assert!(create(tight).is_ok());
+    for (data, is_layout) in [
+        (
+            LevelData {
+                bytes_per_row: Some(15),
+                ..tight
+            },
+            true,
+        ),
+        (
+            LevelData {
+                rows_per_image: Some(3),
+                ..tight
+            },
+            true,
+        ),
+        (
+            LevelData {
+                bytes_per_row: Some(17),
+                ..tight
+            },
+            false,
+        ),
+        (LevelData::tight(&bytes[..63]), false),
+        (
+            LevelData {
+                bytes_per_row: Some(u32::MAX),
+                rows_per_image: Some(u32::MAX),
+                ..tight
+            },
+            false,
+        ),
+    ] {
+        let error = create(data).expect_err("short");
+        let is_row_layout = matches!(
+            error,
+            TextureError::RowLayout {
+                bytes_per_row: 16,
+                ..
+            }
+        );
+        assert_eq!(is_row_layout, is_layout, "{error:?}");
+    }
+    let both = [tight, tight];
+    let error = flat().create(&both, MipGeneration::None, &Limits::default());
+    assert!(matches!(
+        error,
+        Err(TextureError::LevelCount { most: 1, actual: 2 })
+    ));
+}
+
+#[test]
+fn views_and_samplers_ask_for_what_is_there() {
+    let texture = std::sync::Arc::new(
+        make(TextureDescriptor {
+            depth_or_layers: 7,
+            ..flat().with_all_levels()
+        })
+        .expect("an array"),
+    );
+    let view = |descriptor| TextureView::new(texture.clone(), &descriptor);
+    let of = |dimension| TextureViewDescriptor {
+        dimension: Some(dimension),
+        ..TextureViewDescriptor::default()
+    };
+    let array = view(TextureViewDescriptor::default()).expect("all of it");
+    assert_eq!(array.dimension(), ViewDimension::D2Array);
+    assert_eq!((array.layer_count(), array.level_count()), (7, 3));
+    assert_eq!((array.size(1), array.size(3)), ([2, 2, 1], [0; 3]));
+    let cube = view(TextureViewDescriptor {
+        base_array_layer: 1,
+        base_mip_level: 1,
+        ..of(ViewDimension::Cube)
+    });
+    assert_eq!(cube.expect("six layers").size(0), [2, 2, 1]);
+    for refused in [
+        of(ViewDimension::D3),
+        of(ViewDimension::CubeArray),
+        TextureViewDescriptor {
+            base_array_layer: 2,
+            ..of(ViewDimension::Cube)
+        },
+        TextureViewDescriptor {
+            base_array_layer: 7,
+            ..of(ViewDimension::D2)
+        },
+        TextureViewDescriptor {
+            array_layer_count: Some(8),
+            ..of(ViewDimension::D2Array)
+        },
+        TextureViewDescriptor {
+            base_mip_level: 3,
+            ..of(ViewDimension::D2)
+        },
+        TextureViewDescriptor {
+            mip_level_count: Some(u32::MAX),
+            ..of(ViewDimension::D2)
+        },
+        TextureViewDescriptor {
+            aspect: TextureAspect::Stencil,
+            ..of(ViewDimension::D2)
+        },
+    ] {
+        let error = view(refused).expect_err("not there");
+        assert!(matches!(error, TextureError::View { .. }), "{error}");
+    }
+    let linear = SamplerDescriptor::trilinear_repeat();
+    let sampled = |format, sampler| {
+        let texture = make(TextureDescriptor { format, ..flat() }).expect("a texture");
+        SampledView::new(TextureView::of(texture).expect("a view"), sampler)
+    };
+    assert!(sampled(TextureFormat::Rgba32Float, linear).is_ok());
+    let less = Some(estampe_types::state::CompareFunction::Less);
+    for (format, sampler) in [
+        (TextureFormat::R8Uint, linear),
+        (TextureFormat::Stencil8, linear),
+        (
+            TextureFormat::R8Unorm,
+            SamplerDescriptor {
+                compare: less,
+                ..linear
+            },
+        ),
+        (
+            TextureFormat::R8Unorm,
+            SamplerDescriptor {
+                max_anisotropy: 17,
+                ..linear
+            },
+        ),
+        (
+            TextureFormat::R8Unorm,
+            SamplerDescriptor {
+                max_anisotropy: 0,
+                ..linear
+            },
+        ),
+        (
+            TextureFormat::R8Unorm,
+            SamplerDescriptor {
+                max_anisotropy: 2,
+                ..SamplerDescriptor::default()
+            },
+        ),
+        (
+            TextureFormat::R8Unorm,
+            SamplerDescriptor {
+                lod_min_clamp: 3.0,
+                lod_max_clamp: 2.0,
+                ..linear
+            },
+        ),
+        (
+            TextureFormat::R8Unorm,
+            SamplerDescriptor {
+                lod_min_clamp: f32::NAN,
+                ..linear
+            },
+        ),
+    ] {
+        let error = sampled(format, sampler).expect_err("refused");
+        assert!(matches!(error, TextureError::Sampler { .. }), "{error}");
+    }
+}
+
+#[test]
+fn levels_are_means() {
+    for &format in TextureFormat::ALL {
+        for dimension in [TextureDimension::D2, TextureDimension::D3] {
+            if format.is_compressed() && dimension == TextureDimension::D3 {
+                continue;
+            }
+            check_levels(format, dimension);
+        }
+    }
+}
+
+fn check_levels(format: TextureFormat, dimension: TextureDimension) {
+    let descriptor = TextureDescriptor {
+        dimension,
+        depth_or_layers: 3,
+        ..TextureDescriptor::new_2d(13, 6, format)
+    };
+    let descriptor = descriptor.with_all_levels();
+    let [block_width, block_height] = format.block_size();
+    let blocks = 13_u32.div_ceil(block_width) * 6_u32.div_ceil(block_height) * 3;
+    // Noise whose floats are ordinary numbers.
+    let random = &mut super::Random(format.block_bytes() * 7);
+    let mut bytes = random.bytes((blocks * format.block_bytes()) as usize);
+    let channel = format.block_bytes() as usize / format.components();
+    if format.block_bytes() >= 2 && !format.is_compressed() {
+        let high = |byte: u8| 0x38 | byte & 0x83;
+        bytes
+            .iter_mut()
+            .skip(channel.max(1) - 1)
+            .step_by(channel.max(1))
+            .for_each(|b| *b = high(*b));
+    }
+    let data = [LevelData::tight(&bytes)];
+    let made = descriptor.create(&data, MipGeneration::Full, &Limits::default());
+    if format.sample_type() != SampleType::Float {
+        if dimension == TextureDimension::D2 || format.is_color() {
+            assert!(
+                matches!(made, Err(TextureError::MipGeneration { .. })),
+                "{format:?}"
+            );
+        }
+        return;
+    }
+    let texture = made.unwrap_or_else(|error| panic!("{format:?}: {error}"));
+    let decoder = Decoder::new(texture.stored_format(), TextureAspect::All);
+    let value = |level: usize, at: [usize; 3]| {
+        let size = texture.levels[level];
+        let index = (at[2] * size.height as usize + at[1]) * size.width as usize + at[0];
+        let begin = (size.offset as usize + index) * decoder.words;
+        decoder.finish(decoder.unit(&texture.texels[begin..begin + decoder.words]))
+    };
+    for level in 1..texture.levels.len() {
+        let [width, height] = [0, 1].map(|k| {
+            let size = |l: usize| [texture.levels[l].width, texture.levels[l].height][k] as usize;
+            [size(level), size(level - 1)]
+        });
+        let slices = [level, level - 1].map(|level| texture.shape.slices(level) as usize);
+        for at in 0..width[0] * height[0] * slices[0] {
+            let at = [
+                at % width[0],
+                at / width[0] % height[0],
+                at / width[0] / height[0],
+            ];
+            let two = |at: usize, above: usize| [2 * at, (2 * at + 1).min(above - 1)];
+            let columns = two(at[0], width[1]);
+            let rows = two(at[1], height[1]);
+            let planes = match dimension {
+                TextureDimension::D3 => two(at[2], slices[1]),
+                _ => [at[2]; 2],
+            };
+            let mut sum = [0.0; 4];
+            for index in 0..8 {
+                let of = [columns[index & 1], rows[index >> 1 & 1], planes[index >> 2]];
+                for (sum, x) in sum.iter_mut().zip(value(level - 1, of)) {
+                    *sum += f64::from(x) / 8.0;
+                }
+            }
+            let got = value(level, at);
+            for k in 0..4 {
+                // Half a code of the coarsest format near such a number: 2⁻⁵ of it, or 1/6 of two bits.
+                let tolerance = match texture.stored_format() {
+                    TextureFormat::Rgb10a2Unorm if k == 3 => 0.17,
+                    TextureFormat::Rgba8UnormSrgb => 0.006,
+                    TextureFormat::Rg11b10Ufloat => sum[k].abs() / 60.0 + 1e-6,
+                    TextureFormat::Rgb9e5Ufloat => {
+                        sum.iter().fold(0.0_f64, |m, x| m.max(*x)) / 500.0
+                    }
+                    stored if stored.block_bytes() as usize == stored.components() => 0.0041,
+                    _ => sum[k].abs() / 1000.0 + 1e-3,
+                };
+                let error = (f64::from(got[k]) - sum[k]).abs();
+                assert!(
+                    error <= tolerance,
+                    "{format:?} {dimension:?} level {level} {at:?} channel {k}: {got:?} is not {sum:?}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! One axis: from a coordinate to the texels that it lies between, with offsets and borders.
+
+use estampe_types::{AddressMode, FilterMode, Real};
+
+/// Where a sample lies along one axis: two texels, of which the second counts with linear filtering alone, and how
+/// far it is from the first. −1 is the border.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place {
+    pub(crate) texels: [i32; 2],
+    pub(crate) fraction: f32,
+}
+
+/// Beyond this, texels are not told apart any more.
+const FAR: f32 = 16_777_216.0;
+
+/// The place of a coordinate in `count` texels, `length` of them.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "confined to whole numbers within ±2²⁴"
+)]
+#[inline]
+pub(crate) fn place(
+    u: f32,
+    (count, length): (i32, f32),
+    mode: AddressMode,
+    filter: FilterMode,
+    offset: i32,
+) -> Place {
+    let half = match filter {
+        FilterMode::Nearest => 0.0,
+        FilterMode::Linear => 0.5,
+    };
+    // As `wrap` does it, to the bit, so that all paths agree.
+    if offset == 0 && mode.is_plain() {
+        let wrapped = crate::wrap::wrap(u, mode);
+        let mut at = wrapped * length - half;
+        if mode != AddressMode::Repeat {
+            at = Real::clamp(at, 0.0, length - 1.0);
+        }
+        let whole = at.floor();
+        let first = whole as i32;
+        let texels = match mode {
+            AddressMode::Repeat => [first, first + 1].map(|texel| crate::wrap::tile(texel, count)),
+            _ => [first, (first + 1).min(count - 1)],
+        };
+        return Place {
+            texels,
+            fraction: at - whole,
+        };
+    }
+    let at = Real::clamp(u * length - half, -FAR, FAR);
+    let whole = at.floor();
+    let first = (whole as i32).saturating_add(offset.clamp(-1024, 1024));
+    Place {
+        texels: [first, first + 1].map(|texel| wrapped(texel, count, mode)),
+        fraction: at - whole,
+    }
+}
+
+/// The texel that a whole coordinate finds; −1 for the border.
+#[inline]
+pub(crate) fn wrapped(texel: i32, count: i32, mode: AddressMode) -> i32 {
+    let mirrored = |texel: i32| if texel >= 0 { texel } else { -1 - texel };
+    match mode {
+        AddressMode::Repeat => texel.rem_euclid(count),
+        AddressMode::MirrorRepeat => (count - 1) - mirrored(texel.rem_euclid(2 * count) - count),
+        AddressMode::ClampToEdge => texel.clamp(0, count - 1),
+        AddressMode::MirrorOnce => mirrored(texel).min(count - 1),
+        AddressMode::ClampToBorder if (0..count).contains(&texel) => texel,
+        AddressMode::ClampToBorder => -1,
+    }
+}

@@ -1,0 +1,51 @@
+//! Comparison samplers: texels are compared with a reference, and the answers, 1 or 0, are filtered.
+
+use super::SampledView;
+use super::coordinates::{Lanes, MAX_LANES};
+use super::sample::Tap;
+use estampe_types::state::CompareFunction;
+use estampe_types::{Real, TexelEncoding};
+
+/// How a texel compares: 1 where the comparison passes, else 0.
+pub(crate) struct Comparison {
+    function: CompareFunction,
+    reference: f32,
+}
+
+impl Tap for Comparison {
+    #[inline(always)]
+    fn of(&self, unit: [f32; 4]) -> [f32; 4] {
+        let passes = self.function.passes(self.reference, unit[0]);
+        [if passes { 1.0 } else { 0.0 }, 0.0, 0.0, 0.0]
+    }
+}
+
+impl SampledView {
+    /// Of fixed-point depths, the reference is confined to 0..=1 as they are.
+    pub(crate) fn comparison(&self, reference: f32) -> Comparison {
+        let encoding = self.view.texture.stored_format().encoding();
+        let is_fixed = matches!(encoding, TexelEncoding::Depth16 | TexelEncoding::Depth24);
+        Comparison {
+            // A sampler that does not compare is refused for this before; `Never` gives 0.
+            function: self.sampler.compare.unwrap_or(CompareFunction::Never),
+            reference: if is_fixed {
+                Real::saturate(reference)
+            } else {
+                reference
+            },
+        }
+    }
+
+    /// Compares lanes one after the other; the answers stand in the first channel.
+    #[inline(never)]
+    pub(crate) fn compare_lanes(&self, lanes: &Lanes, answers: &mut [[f32; 4]; MAX_LANES]) {
+        for (lane, answer) in answers.iter_mut().enumerate().take(lanes.count) {
+            let footprint = super::footprint::Footprint {
+                probes: 1,
+                ..self.footprint(lanes, lane)
+            };
+            let comparison = self.comparison(lanes.reference[lane]);
+            *answer = self.probes(lanes, lane, &footprint, &comparison);
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Texels by their whole coordinates, without a sampler.
+
+use super::TextureView;
+use super::coordinates::MAX_LANES;
+use estampe_types::ViewDimension;
+use estampe_types::{Int, Real, Vec4};
+
+impl TextureView {
+    /// The texel (x, y, z) of a level, z being the depth of a 3D view, or the layer of an array (of cubes: six for
+    /// each); sides that the view does not have are not looked at. `sample` is that of a multisampled texture.
+    ///
+    /// Numbers are as sampling gives them; of integers it gives the [bits](Real::to_bits). What is not there (a
+    /// texel, layer, level or sample) reads as zeros, alpha too (WebGPU's and Vulkan's robust access).
+    #[inline(always)]
+    pub fn fetch<R: Real>(&self, [x, y, z]: [R::Int; 3], level: R::Int, sample: R::Int) -> Vec4<R> {
+        let like = x.to_real();
+        like.outlined(
+            #[inline(always)]
+            || {
+                let mut places = [[0; 5]; MAX_LANES];
+                for (lane, place) in places.iter_mut().enumerate().take(R::LANES) {
+                    *place = [
+                        x.lane(lane),
+                        y.lane(lane),
+                        z.lane(lane),
+                        level.lane(lane),
+                        sample.lane(lane),
+                    ];
+                }
+                let mut texels = [[0.0; 4]; MAX_LANES];
+                self.fetch_lanes(&places[..R::LANES], &mut texels);
+                super::coordinates::packed(like, &texels)
+            },
+        )
+    }
+
+    #[inline(never)]
+    fn fetch_lanes(&self, places: &[[i32; 5]], texels: &mut [[f32; 4]; MAX_LANES]) {
+        for (place, texel) in places.iter().zip(texels) {
+            *texel = self.fetch_one(*place).unwrap_or_default();
+        }
+    }
+
+    fn fetch_one(&self, [x, y, z, level, sample]: [i32; 5]) -> Option<[f32; 4]> {
+        use ViewDimension as V;
+        let plane = self.planes.get(usize::try_from(level).ok()?)?;
+        let sample = u32::try_from(sample).ok()?;
+        let samples = self.texture.shape.samples;
+        let faces = if self.is_cube() { 6 } else { 1 };
+        let (y, z) = match self.dimension {
+            V::D1 => (0, 0),
+            V::D2 => (y, 0),
+            V::D2Array | V::Cube | V::CubeArray | V::D3 => (y, z),
+        };
+        let slices = match self.dimension {
+            V::D3 => plane.sides[2],
+            _ => self.layers * faces,
+        };
+        let is_there = (0..plane.sides[0]).contains(&x)
+            && (0..plane.sides[1]).contains(&y)
+            && (0..slices).contains(&z)
+            // A texture without samples has but one.
+            && sample < samples;
+        if !is_there {
+            return None;
+        }
+        let slice = self.base_layer.cast_signed() + z;
+        let words = self.texel(plane, [x, y, slice], sample);
+        Some(self.decoder.finish(self.decoder.unit(words)))
+    }
+}

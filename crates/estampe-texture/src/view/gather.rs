@@ -1,0 +1,56 @@
+//! Gathering: one channel of the four texels that linear filtering of the base level would mix.
+
+use super::SampledView;
+use super::coordinates::{Lanes, MAX_LANES};
+use super::sample::{Channels, Tap};
+use estampe_types::{FilterMode, ViewDimension};
+
+/// From upper left, upper right, lower left, lower right to the order of shading languages: lower left, lower
+/// right, upper right, upper left.
+const ORDER: [usize; 4] = [2, 3, 1, 0];
+
+impl SampledView {
+    /// Gathers a channel for lanes, one after the other.
+    #[inline(never)]
+    pub(crate) fn gather_lanes(
+        &self,
+        lanes: &Lanes,
+        channel: usize,
+        texels: &mut [[f32; 4]; MAX_LANES],
+    ) {
+        let decoder = &self.view.decoder;
+        for (lane, texel) in texels.iter_mut().enumerate().take(lanes.count) {
+            let four = self.four(lanes, lane, &Channels);
+            let four = four.map(|unit| decoder.finish(unit)[channel & 3]);
+            *texel = ORDER.map(|index| four[index]);
+        }
+    }
+
+    /// Gathers answers of a comparison.
+    #[inline(never)]
+    pub(crate) fn gather_compare_lanes(&self, lanes: &Lanes, answers: &mut [[f32; 4]; MAX_LANES]) {
+        for (lane, answer) in answers.iter_mut().enumerate().take(lanes.count) {
+            let comparison = self.comparison(lanes.reference[lane]);
+            let four = self.four(lanes, lane, &comparison);
+            *answer = ORDER.map(|index| four[index][0]);
+        }
+    }
+
+    /// The four texels around a lane's coordinates: upper left, upper right, lower left, lower right.
+    fn four(&self, lanes: &Lanes, lane: usize, tap: &impl Tap) -> [[f32; 4]; 4] {
+        if matches!(self.view.dimension, ViewDimension::D1 | ViewDimension::D3) {
+            return [[0.0; 4]; 4];
+        }
+        let plane = &self.view.planes[0];
+        let spot = self.spot(lanes.at[lane], lanes.layer[lane]);
+        if self.view.is_cube() {
+            return self.four_of_cube(plane, &spot, plane.sides[0], tap).0;
+        }
+        let [x, y] = [0, 1].map(|axis| {
+            self.place(plane, &spot, axis, FilterMode::Linear, lanes.offset)
+                .texels
+        });
+        [(x[0], y[0]), (x[1], y[0]), (x[0], y[1]), (x[1], y[1])]
+            .map(|(x, y)| tap.of(self.unit(plane, [x, y, spot.layer()])))
+    }
+}

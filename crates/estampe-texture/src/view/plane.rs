@@ -1,0 +1,205 @@
+//! Which part of a texture is seen, and as what.
+
+use crate::TextureError;
+use crate::decode::Decoder;
+use estampe_types::{
+    Texture, TextureAspect, TextureDimension, TextureViewDescriptor, ViewDimension,
+};
+use std::sync::Arc;
+
+/// The longest side, confined to which arithmetic stays in range.
+const MAX_SIDE: u32 = 16_384;
+
+/// One level as sampling needs it. A texture put together by hand may claim anything: sides are confined here, and
+/// what is not there reads as zeros.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Plane {
+    /// Width, height and depth (layers do not count).
+    pub(crate) sides: [i32; 3],
+    /// The same.
+    pub(crate) size: [f32; 3],
+    /// Texels before it, samples counted.
+    offset: usize,
+}
+
+/// A texture as a shader reads it. Cheap to clone.
+#[derive(Debug, Clone)]
+pub struct TextureView {
+    pub(crate) texture: Arc<Texture>,
+    pub(crate) dimension: ViewDimension,
+    pub(crate) planes: Arc<[Plane]>,
+    pub(crate) base_layer: u32,
+    /// Layers, or cubes.
+    pub(crate) layers: i32,
+    pub(crate) decoder: Decoder,
+    /// Whether it shows all of the texture.
+    pub(crate) is_whole: bool,
+}
+
+impl TextureView {
+    /// A view of a texture.
+    ///
+    /// # Errors
+    /// [`TextureError::View`] when the texture does not have what the descriptor asks for.
+    pub fn new(
+        texture: impl Into<Arc<Texture>>,
+        descriptor: &TextureViewDescriptor,
+    ) -> Result<Self, TextureError> {
+        use ViewDimension as V;
+        let texture: Arc<Texture> = texture.into();
+        let missing = |what| TextureError::View { what };
+        let all_layers = match texture.shape.dimension {
+            TextureDimension::D3 => 1,
+            TextureDimension::D1 | TextureDimension::D2 => texture.shape.depth_or_layers,
+        };
+        let dimension = descriptor
+            .dimension
+            .unwrap_or(match texture.shape.dimension {
+                TextureDimension::D1 => V::D1,
+                TextureDimension::D2 if all_layers > 1 => V::D2Array,
+                TextureDimension::D2 => V::D2,
+                TextureDimension::D3 => V::D3,
+            });
+        let wanted = match dimension {
+            V::D1 => TextureDimension::D1,
+            V::D3 => TextureDimension::D3,
+            V::D2 | V::D2Array | V::Cube | V::CubeArray => TextureDimension::D2,
+        };
+        if texture.shape.dimension != wanted {
+            return Err(missing("another dimension"));
+        }
+        let first = descriptor.base_array_layer;
+        let rest = all_layers.saturating_sub(first);
+        let layers = descriptor.array_layer_count.unwrap_or(match dimension {
+            V::D1 | V::D2 | V::D3 => rest.min(1),
+            V::Cube => rest.min(6),
+            V::D2Array | V::CubeArray => rest,
+        });
+        if layers == 0 || layers > rest {
+            return Err(missing("layers"));
+        }
+        let is_whole = layers == all_layers;
+        let layers = match dimension {
+            V::D1 | V::D2 | V::D3 if layers == 1 => 1,
+            V::D2Array => layers,
+            V::Cube if layers == 6 => 1,
+            V::CubeArray if layers.is_multiple_of(6) => layers / 6,
+            _ => return Err(missing("another number of layers (a cube is six)")),
+        };
+        let base = descriptor.base_mip_level as usize;
+        let rest = texture.levels.len().saturating_sub(base);
+        let levels = descriptor
+            .mip_level_count
+            .map_or(rest, |count| count as usize);
+        if levels == 0 || levels > rest {
+            return Err(missing("levels"));
+        }
+        let is_multisampled = texture.shape.samples > 1;
+        let is_cube = matches!(dimension, V::Cube | V::CubeArray);
+        let is_square = texture.levels.iter().all(|l| l.width == l.height);
+        if is_cube && (!is_square || is_multisampled) {
+            return Err(missing(
+                "a cube of faces that are square and have one sample",
+            ));
+        }
+        if descriptor.aspect == TextureAspect::Stencil && !texture.format.has_stencil() {
+            return Err(missing("stencil"));
+        }
+        let is_whole = is_whole && levels == texture.levels.len();
+        let planes = (base..base + levels).map(|level| Plane::new(&texture, level));
+        Ok(Self {
+            planes: planes.collect(),
+            dimension,
+            base_layer: first,
+            layers: layers.cast_signed(),
+            decoder: Decoder::new(texture.stored_format(), descriptor.aspect),
+            is_whole,
+            texture,
+        })
+    }
+
+    /// All of a texture, as an array if it has several layers.
+    ///
+    /// # Errors
+    /// [`TextureError::View`] when it has no level or no layer.
+    pub fn of(texture: impl Into<Arc<Texture>>) -> Result<Self, TextureError> {
+        Self::new(texture, &TextureViewDescriptor::default())
+    }
+
+    /// The texture.
+    #[must_use]
+    pub fn texture(&self) -> &Arc<Texture> {
+        &self.texture
+    }
+
+    /// As what it is read.
+    #[must_use]
+    pub fn dimension(&self) -> ViewDimension {
+        self.dimension
+    }
+
+    /// Width, height and depth of a level (`textureDimensions`); 1 where it has no such side, 0 of a level that is
+    /// not there.
+    #[must_use]
+    pub fn size(&self, level: usize) -> [u32; 3] {
+        self.planes
+            .get(level)
+            .map_or([0; 3], |plane| plane.sides.map(i32::cast_unsigned))
+    }
+
+    /// How many levels there are (`textureNumLevels`).
+    #[must_use]
+    pub fn level_count(&self) -> usize {
+        self.planes.len()
+    }
+
+    /// How many layers, or cubes, there are (`textureNumLayers`).
+    #[must_use]
+    pub fn layer_count(&self) -> u32 {
+        self.layers.cast_unsigned()
+    }
+
+    /// How many samples a texel has (`textureNumSamples`).
+    #[must_use]
+    pub fn sample_count(&self) -> u32 {
+        self.texture.shape.samples
+    }
+
+    pub(crate) fn is_cube(&self) -> bool {
+        matches!(
+            self.dimension,
+            ViewDimension::Cube | ViewDimension::CubeArray
+        )
+    }
+
+    /// The words of a sample of a texel inside its plane: `slice` is a depth, or a layer of the texture.
+    #[inline]
+    pub(crate) fn texel(&self, plane: &Plane, [x, y, slice]: [i32; 3], sample: u32) -> &[u32] {
+        let [width, height, _] = plane.sides.map(|side| side as usize);
+        let samples = self.texture.shape.samples as usize;
+        let row = (slice as usize).saturating_mul(height) + y as usize;
+        let at = plane
+            .offset
+            .saturating_add(row.saturating_mul(width).saturating_add(x as usize) * samples);
+        let begin = at.saturating_add(sample as usize) * self.decoder.words;
+        let end = begin + self.decoder.words;
+        self.texture.texels.get(begin..end).unwrap_or_default()
+    }
+}
+
+impl Plane {
+    fn new(texture: &Texture, level: usize) -> Self {
+        let of_level = &texture.levels[level];
+        let depth = match texture.shape.dimension {
+            TextureDimension::D3 => texture.shape.slices(level),
+            TextureDimension::D1 | TextureDimension::D2 => 1,
+        };
+        let sides = [of_level.width, of_level.height, depth];
+        let sides = sides.map(|side| side.clamp(1, MAX_SIDE).cast_signed());
+        Self {
+            sides,
+            size: sides.map(|side| side as f32),
+            offset: of_level.offset as usize,
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! A view with a sampler, as a shader holds it.
+
+use super::TextureView;
+use super::coordinates::{Coordinates, Lanes, Lod, MAX_LANES, packed};
+use crate::{Sampled, TextureError};
+use estampe_types::ViewDimension;
+use estampe_types::shader::Sample2d;
+use estampe_types::{FilterMode, Real, SampleType, SamplerDescriptor, Texture, TextureFormat};
+use estampe_types::{Vec2, Vec4};
+
+/// A view of any texture and how it is sampled. Cheap to clone.
+///
+/// Coordinates may be anything: NaN and infinities read some texel, as `docs/NUMERICS.md` says. Of integer formats
+/// every function gives the [bits](Real::to_bits).
+#[derive(Debug, Clone)]
+pub struct SampledView {
+    pub(crate) view: TextureView,
+    pub(crate) sampler: SamplerDescriptor,
+    /// The same, where it is of the common kind: 2D, four 8-bit channels, WebGPU's address modes.
+    common: Option<Sampled>,
+}
+
+impl Sample2d for SampledView {
+    #[inline(always)]
+    fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
+        self.sample(Coordinates::d2(uv))
+    }
+}
+
+impl SampledView {
+    /// A view with a sampler.
+    ///
+    /// # Errors
+    /// [`TextureError::Sampler`] when the sampler is not valid, or cannot sample the view.
+    pub fn new(view: TextureView, sampler: SamplerDescriptor) -> Result<Self, TextureError> {
+        check(&view, &sampler)?;
+        let common = is_common(&view, &sampler).then(|| {
+            let texture = Texture {
+                format: view.texture.stored_format(),
+                ..Texture::clone(&view.texture)
+            };
+            Sampled::new(texture, sampler)
+        });
+        Ok(Self {
+            view,
+            sampler,
+            common,
+        })
+    }
+
+    /// The view, for its sizes and for fetching texels.
+    #[must_use]
+    pub fn view(&self) -> &TextureView {
+        &self.view
+    }
+
+    /// How it is sampled.
+    #[must_use]
+    pub fn sampler(&self) -> &SamplerDescriptor {
+        &self.sampler
+    }
+
+    /// The filtered texel (`textureSample`), level of detail from the quad.
+    #[inline(always)]
+    pub fn sample<R: Real>(&self, at: Coordinates<R>) -> Vec4<R> {
+        if let Some(common) = &self.common {
+            return common.sample(Vec2::new(at.uvw.x, at.uvw.y));
+        }
+        self.sample_with(at, Lod::Implicit, [0; 3])
+    }
+
+    /// The filtered texel at a level of detail that is found as `lod` says, `offset` texels from its coordinates
+    /// (`textureSampleBias`, `textureSampleLevel`, `textureSampleGrad`). Cubes take no offsets.
+    #[inline(always)]
+    pub fn sample_with<R: Real>(
+        &self,
+        at: Coordinates<R>,
+        lod: Lod<R>,
+        offset: [i32; 3],
+    ) -> Vec4<R> {
+        at.uvw.x.outlined(
+            #[inline(always)]
+            || {
+                let lanes = Lanes::new(&at, &lod, offset);
+                let mut colors = [[0.0; 4]; MAX_LANES];
+                self.sample_lanes(&lanes, &mut colors);
+                packed(at.uvw.x, &colors)
+            },
+        )
+    }
+
+    /// One channel, 0 to 3, of the four texels of the base level around the coordinates (`textureGather`): lower
+    /// left, lower right, upper right, upper left, v pointing down. 1D and 3D textures give zeros.
+    #[inline(always)]
+    pub fn gather<R: Real>(&self, at: Coordinates<R>, channel: usize, offset: [i32; 2]) -> Vec4<R> {
+        at.uvw.x.outlined(
+            #[inline(always)]
+            || {
+                let lanes = Lanes::new(&at, &Lod::Implicit, [offset[0], offset[1], 0]);
+                let mut texels = [[0.0; 4]; MAX_LANES];
+                self.gather_lanes(&lanes, channel, &mut texels);
+                packed(at.uvw.x, &texels)
+            },
+        )
+    }
+
+    /// How much of the texels `reference` passes against (`textureSampleCompare`), 0 to 1. Without a comparison in
+    /// the sampler, 0.
+    #[inline(always)]
+    pub fn sample_compare<R: Real>(
+        &self,
+        at: Coordinates<R>,
+        reference: R,
+        lod: Lod<R>,
+        offset: [i32; 2],
+    ) -> R {
+        reference.outlined(
+            #[inline(always)]
+            || {
+                let mut lanes = Lanes::new(&at, &lod, [offset[0], offset[1], 0]);
+                lanes.set_reference(reference);
+                let mut answers = [[0.0; 4]; MAX_LANES];
+                self.compare_lanes(&lanes, &mut answers);
+                packed(reference, &answers).x
+            },
+        )
+    }
+
+    /// How `reference` compares with each of the four texels around the coordinates, 1 or 0
+    /// (`textureGatherCompare`), in the order of [`SampledView::gather`].
+    #[inline(always)]
+    pub fn gather_compare<R: Real>(
+        &self,
+        at: Coordinates<R>,
+        reference: R,
+        offset: [i32; 2],
+    ) -> Vec4<R> {
+        reference.outlined(
+            #[inline(always)]
+            || {
+                let mut lanes = Lanes::new(&at, &Lod::Implicit, [offset[0], offset[1], 0]);
+                lanes.set_reference(reference);
+                let mut answers = [[0.0; 4]; MAX_LANES];
+                self.gather_compare_lanes(&lanes, &mut answers);
+                packed(reference, &answers)
+            },
+        )
+    }
+}
+
+fn check(view: &TextureView, sampler: &SamplerDescriptor) -> Result<(), TextureError> {
+    let refuse = |what| Err(TextureError::Sampler { what });
+    let filters = [
+        sampler.mag_filter,
+        sampler.min_filter,
+        sampler.mipmap_filter,
+    ];
+    let (least, most) = (sampler.lod_min_clamp, sampler.lod_max_clamp);
+    let has_nan = least.is_nan() || most.is_nan() || sampler.lod_bias.is_nan();
+    if has_nan || least > most {
+        return refuse("a sampler's lod_min_clamp is at most its lod_max_clamp, and none is NaN");
+    }
+    if !(1..=16).contains(&sampler.max_anisotropy) {
+        return refuse("max_anisotropy is 1 to 16");
+    }
+    if sampler.max_anisotropy > 1 && filters != [FilterMode::Linear; 3] {
+        return refuse("a sampler with max_anisotropy above 1 filters linearly, levels too");
+    }
+    if view.texture.shape.samples != 1 {
+        return refuse("multisampled textures are not sampled: fetch their texels");
+    }
+    if view.decoder.is_integer() && filters != [FilterMode::Nearest; 3] {
+        return refuse("integers cannot be filtered: choose FilterMode::Nearest");
+    }
+    if sampler.compare.is_some() && view.decoder.sample_type != SampleType::Depth {
+        return refuse("a comparison sampler needs a texture of depths");
+    }
+    if sampler.compare.is_some() && view.dimension == ViewDimension::D3 {
+        return refuse("3D textures are not compared");
+    }
+    Ok(())
+}
+
+/// Whether [`Sampled`] gives the same, and faster.
+fn is_common(view: &TextureView, sampler: &SamplerDescriptor) -> bool {
+    let stored = view.texture.stored_format();
+    let is_rgba8 = matches!(
+        stored,
+        TextureFormat::Rgba8Unorm | TextureFormat::Rgba8UnormSrgb
+    );
+    is_rgba8
+        && view.dimension == ViewDimension::D2
+        && view.is_whole
+        && sampler.address_mode_u.is_plain()
+        && sampler.address_mode_v.is_plain()
+        && sampler.max_anisotropy <= 1
+        && sampler.lod_bias == 0.0
+}
