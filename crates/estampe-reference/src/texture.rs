@@ -3,6 +3,12 @@
 //! In · Out: (u, v) of each lane · linear values 0..=1. Precision: f32 in the order of NUMERICS.md,
 //! *Textures*. The level of detail is one for each quad, from the derivatives at its first lane.
 
+pub mod cube;
+pub mod texel;
+pub mod view;
+
+pub use view::ReferenceView;
+
 use crate::arithmetic::{clamp, max, min};
 use crate::color::INVERSE_255;
 use estampe_types::shader::Sample2d;
@@ -166,9 +172,7 @@ fn tiled(mode: AddressMode, u: f32) -> f32 {
 fn confined(mode: AddressMode, position: f32, size: u32) -> f32 {
     match mode {
         AddressMode::Repeat => position,
-        _ => {
-            clamp(position, 0.0, size.max(1) as f32 - 1.0)
-        }
+        _ => clamp(position, 0.0, size.max(1) as f32 - 1.0),
     }
 }
 

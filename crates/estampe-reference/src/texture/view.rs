@@ -1,0 +1,436 @@
+//! Sampling any texture, texel by texel.
+//!
+//! In · Out: coordinates of one lane, or derivatives of a quad · filtered values, answers of comparisons, gathered or
+//! fetched texels. Precision: f32 in the order of NUMERICS.md, *Textures*.
+
+use super::cube;
+use super::texel::TexelReader;
+use super::{log2, mix, whole};
+use crate::arithmetic::{clamp, max, min};
+use estampe_types::{
+    AddressMode, BorderColor, FilterMode, SamplerDescriptor, TexelEncoding, Texture, TextureAspect,
+    TextureDimension, ViewDimension,
+};
+use std::sync::Arc;
+
+/// A part of a texture, and how it is sampled.
+#[derive(Debug, Clone)]
+pub struct ReferenceView {
+    /// The texture.
+    pub texture: Arc<Texture>,
+    /// As what it is read.
+    pub dimension: ViewDimension,
+    /// The first level and how many there are.
+    pub levels: [usize; 2],
+    /// The first layer and how many there are (six for each cube).
+    pub layers: [u32; 2],
+    /// Whether stencil is read.
+    pub aspect: TextureAspect,
+    /// Addressing, filtering and comparing.
+    pub sampler: SamplerDescriptor,
+}
+
+/// Where and at which level a lane samples.
+#[derive(Debug, Clone, Copy)]
+pub struct Sample {
+    /// u, v, w, or the direction.
+    pub at: [f32; 3],
+    /// The layer, or cube.
+    pub layer: i32,
+    /// λ with its bias, not yet clamped.
+    pub lod: f32,
+    /// How many probes there are.
+    pub probes: u16,
+    /// The derivative along which they lie.
+    pub step: [f32; 3],
+    /// In texels.
+    pub offset: [i32; 3],
+    /// What texels are compared with; `None` gives their channels.
+    pub reference: Option<f32>,
+}
+
+impl ReferenceView {
+    fn reader(&self) -> TexelReader {
+        TexelReader {
+            format: self.texture.stored_format(),
+            aspect: self.aspect,
+        }
+    }
+
+    fn is_cube(&self) -> bool {
+        use ViewDimension::{Cube, CubeArray};
+        matches!(self.dimension, Cube | CubeArray)
+    }
+
+    /// Width, height and depth of a level of the view.
+    fn sides(&self, level: usize) -> [u32; 3] {
+        let of_level = &self.texture.levels[self.levels[0] + level];
+        let depth = match self.texture.shape.dimension {
+            TextureDimension::D3 => self.texture.shape.slices(self.levels[0] + level),
+            TextureDimension::D1 | TextureDimension::D2 => 1,
+        };
+        [of_level.width, of_level.height, depth]
+    }
+
+    /// How many layers, or cubes, coordinates choose from.
+    fn layer_count(&self) -> u32 {
+        if self.is_cube() {
+            self.layers[1] / 6
+        } else {
+            self.layers[1]
+        }
+    }
+
+    /// λ without bias, the number of probes, and the derivative along which they lie, from the coordinates'
+    /// derivatives along x and y at `at`.
+    #[must_use]
+    pub fn footprint(&self, at: [f32; 3], dx: [f32; 3], dy: [f32; 3]) -> (f32, u16, [f32; 3]) {
+        use ViewDimension::{D1, D3};
+        let sides = self.sides(0).map(|side| side as f32);
+        let squared = |d: [f32; 3]| {
+            let d = if self.is_cube() {
+                let [s, t] = cube::derivatives(cube::face(at), at, d);
+                [s, t, 0.0]
+            } else {
+                d
+            };
+            let texels: [f32; 3] = std::array::from_fn(|k| d[k] * sides[k]);
+            let one = texels[0] * texels[0];
+            let two = one + texels[1] * texels[1];
+            match self.dimension {
+                D1 => one,
+                D3 => two + texels[2] * texels[2],
+                _ => two,
+            }
+        };
+        let (x, y) = (squared(dx), squared(dy));
+        let limit = f32::from(self.sampler.max_anisotropy);
+        if limit <= 1.0 || matches!(self.dimension, D1 | D3) {
+            return (0.5 * log2(max(max(x, y), 0.0)), 1, [0.0; 3]);
+        }
+        let (x, y) = (max(x, 0.0), max(y, 0.0));
+        let (larger, smaller, step) = if y > x { (y, x, dy) } else { (x, y, dx) };
+        let r = (larger / smaller).sqrt();
+        let eta = if r >= 1.0 { min(r, limit) } else { 1.0 };
+        let probes = (1..=16).find(|&n| f32::from(n) >= eta).unwrap_or(16);
+        (0.5 * log2(larger / (eta * eta)), probes, step)
+    }
+
+    /// λ with the biases.
+    #[must_use]
+    pub fn biased(&self, lod: f32, shader_bias: f32) -> f32 {
+        lod + clamp(self.sampler.lod_bias + shader_bias, -16.0, 15.99)
+    }
+
+    /// The filtered value, or the filtered answers in the first channel.
+    #[must_use]
+    pub fn sample(&self, sample: &Sample) -> [f32; 4] {
+        let mut sum = [0.0; 4];
+        for i in 1..=sample.probes {
+            let t = f32::from(i) / f32::from(sample.probes + 1) - 0.5;
+            let at = std::array::from_fn(|k| {
+                if sample.probes == 1 {
+                    sample.at[k]
+                } else {
+                    sample.at[k] + sample.step[k] * t
+                }
+            });
+            let color = self.mixture(&Sample { at, ..*sample });
+            sum = std::array::from_fn(|k| if i == 1 { color[k] } else { sum[k] + color[k] });
+        }
+        if sample.probes > 1 {
+            sum = sum.map(|channel| channel * (1.0 / f32::from(sample.probes)));
+        }
+        match sample.reference {
+            Some(_) => sum,
+            None => self.finished(sum),
+        }
+    }
+
+    /// Units as values.
+    fn finished(&self, units: [f32; 4]) -> [f32; 4] {
+        let factors = self.reader().factors();
+        std::array::from_fn(|k| {
+            if self.reader().is_integer() {
+                units[k]
+            } else {
+                units[k] * factors[k]
+            }
+        })
+    }
+
+    /// One probe: one level or two.
+    fn mixture(&self, sample: &Sample) -> [f32; 4] {
+        let sampler = &self.sampler;
+        let lod = clamp(sample.lod, sampler.lod_min_clamp, sampler.lod_max_clamp);
+        let filter = if lod <= 0.0 {
+            sampler.mag_filter
+        } else {
+            sampler.min_filter
+        };
+        let lod = clamp(lod, 0.0, self.levels[1] as f32 - 1.0);
+        let level = |level: f32| {
+            let level = usize::try_from(whole(level)).unwrap_or_default();
+            self.filtered(level, filter, sample)
+        };
+        match sampler.mipmap_filter {
+            FilterMode::Nearest => level((lod + 0.5).floor()),
+            FilterMode::Linear if lod == lod.floor() => level(lod),
+            FilterMode::Linear => {
+                let first = lod.floor();
+                mix(level(first), level(first + 1.0), lod - first)
+            }
+        }
+    }
+
+    /// The texture's layer of the sample; the face +x of cubes.
+    fn slice(&self, layer: i32) -> i64 {
+        let layer = i64::from(layer).clamp(0, i64::from(self.layer_count()) - 1);
+        i64::from(self.layers[0]) + layer * if self.is_cube() { 6 } else { 1 }
+    }
+
+    /// One level.
+    fn filtered(&self, level: usize, filter: FilterMode, sample: &Sample) -> [f32; 4] {
+        if self.is_cube() {
+            return self.filtered_cube(level, filter, sample);
+        }
+        let axes = match self.dimension {
+            ViewDimension::D1 => 1,
+            ViewDimension::D3 => 3,
+            _ => 2,
+        };
+        // Nearest is linear filtering of which the first texel alone counts.
+        let places: [_; 3] = std::array::from_fn(|k| {
+            if k < axes {
+                self.place(level, k, filter, sample)
+            } else {
+                ([Some(0); 2], 0.0)
+            }
+        });
+        let texel = |x: usize, y: usize, z: usize| {
+            let [x, y, z] = [places[0].0[x], places[1].0[y], places[2].0[z]];
+            let slice = if axes == 3 {
+                z
+            } else {
+                Some(self.slice(sample.layer))
+            };
+            self.answer(level, [x, y, slice], sample.reference)
+        };
+        if filter == FilterMode::Nearest {
+            return texel(0, 0, 0);
+        }
+        let row = |y, z| mix(texel(0, y, z), texel(1, y, z), places[0].1);
+        let image = |z| {
+            if axes == 1 {
+                row(0, z)
+            } else {
+                mix(row(0, z), row(1, z), places[1].1)
+            }
+        };
+        if axes == 3 {
+            mix(image(0), image(1), places[2].1)
+        } else {
+            image(0)
+        }
+    }
+
+    /// The two texels along an axis, `None` the border, and how far between them.
+    fn place(
+        &self,
+        level: usize,
+        axis: usize,
+        filter: FilterMode,
+        sample: &Sample,
+    ) -> ([Option<i64>; 2], f32) {
+        use AddressMode as A;
+        let sampler = &self.sampler;
+        let mode = match axis {
+            0 => sampler.address_mode_u,
+            1 => sampler.address_mode_v,
+            _ => sampler.address_mode_w,
+        };
+        let (u, n) = (sample.at[axis], self.sides(level)[axis]);
+        if sample.offset[axis] == 0 && matches!(mode, A::Repeat | A::MirrorRepeat | A::ClampToEdge)
+        {
+            let (texels, fraction) = match filter {
+                FilterMode::Nearest => ([super::nearest(mode, u, n); 2], 0.0),
+                FilterMode::Linear => super::linear(mode, u, n),
+            };
+            return (texels.map(|texel| Some(i64::from(texel))), fraction);
+        }
+        let half = match filter {
+            FilterMode::Nearest => 0.0,
+            FilterMode::Linear => 0.5,
+        };
+        let q = clamp(u * n as f32 - half, -16_777_216.0, 16_777_216.0);
+        let first = whole(q.floor()) + i64::from(sample.offset[axis].clamp(-1024, 1024));
+        let n = i64::from(n);
+        let mirror = |i: i64| if i >= 0 { i } else { -1 - i };
+        let wrap = |i: i64| match mode {
+            A::Repeat => Some(i.rem_euclid(n)),
+            A::MirrorRepeat => Some((n - 1) - mirror(i.rem_euclid(2 * n) - n)),
+            A::ClampToEdge => Some(i.clamp(0, n - 1)),
+            A::MirrorOnce => Some(mirror(i).min(n - 1)),
+            A::ClampToBorder => (0..n).contains(&i).then_some(i),
+        };
+        ([wrap(first), wrap(first + 1)], q - q.floor())
+    }
+
+    /// One level of a cube.
+    fn filtered_cube(&self, level: usize, filter: FilterMode, sample: &Sample) -> [f32; 4] {
+        if filter == FilterMode::Linear {
+            let (four, [fx, fy]) = self.four_of_cube(level, sample);
+            return mix(mix(four[0], four[1], fx), mix(four[2], four[3], fx), fy);
+        }
+        let face = cube::face(sample.at);
+        let n = self.sides(level)[0] as f32;
+        let texel = cube::coordinates(face, sample.at)
+            .map(|s| Some(whole(clamp((s * n).floor(), 0.0, n - 1.0))));
+        let slice = self.slice(sample.layer) + face as i64;
+        self.answer(level, [texel[0], texel[1], Some(slice)], sample.reference)
+    }
+
+    /// The four texels around a direction, and how far between them.
+    fn four_of_cube(&self, level: usize, sample: &Sample) -> ([[f32; 4]; 4], [f32; 2]) {
+        let face = cube::face(sample.at);
+        let n = self.sides(level)[0];
+        let q = cube::coordinates(face, sample.at)
+            .map(|s| clamp(s * n as f32 - 0.5, -0.5, n as f32 - 0.5));
+        let first = q.map(|q| whole(q.floor()));
+        let n = i64::from(n);
+        let places = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| [first[0] + x, first[1] + y]);
+        let texel = |face: usize, x: i64, y: i64| {
+            let slice = self.slice(sample.layer) + face as i64;
+            self.answer(level, [Some(x), Some(y), Some(slice)], sample.reference)
+        };
+        let found = places.map(|[x, y]| {
+            let corner = |at: i64| at.clamp(0, n - 1);
+            cube::neighbor(face, x, y, n)
+                .or_else(|| {
+                    let is_integer = self.reader().is_integer();
+                    is_integer.then(|| (face, corner(x), corner(y)))
+                })
+                .map(|(face, x, y)| texel(face, x, y))
+        });
+        let there: Vec<_> = found.iter().flatten().collect();
+        let mean = || {
+            let third = 1.0 / 3.0;
+            std::array::from_fn(|k| ((there[0][k] + there[1][k]) + there[2][k]) * third)
+        };
+        (
+            found.map(|texel| texel.unwrap_or_else(mean)),
+            q.map(|q| q - q.floor()),
+        )
+    }
+
+    /// A texel in units, or how it compares; `None` is the border.
+    fn answer(&self, level: usize, at: [Option<i64>; 3], reference: Option<f32>) -> [f32; 4] {
+        let units = match at {
+            [Some(x), Some(y), Some(slice)] => self.units(level, [x, y, slice], 0),
+            _ => self.border(),
+        };
+        let Some(reference) = reference else {
+            return units;
+        };
+        let encoding = self.texture.stored_format().encoding();
+        let reference = match encoding {
+            TexelEncoding::Depth16 | TexelEncoding::Depth24 => clamp(reference, 0.0, 1.0),
+            _ => reference,
+        };
+        let passes = self
+            .sampler
+            .compare
+            .is_some_and(|function| function.passes(reference, units[0]));
+        [f32::from(u8::from(passes)), 0.0, 0.0, 0.0]
+    }
+
+    fn border(&self) -> [f32; 4] {
+        let reader = self.reader();
+        let nothing = reader.units(&[]);
+        std::array::from_fn(|k| {
+            let is_one = match self.sampler.border_color {
+                BorderColor::TransparentBlack => false,
+                BorderColor::OpaqueBlack => k == 3,
+                BorderColor::OpaqueWhite => true,
+            };
+            if k >= reader.format.components() {
+                nothing[k]
+            } else if is_one {
+                reader.one(k)
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// The texel that lies inside a level, in units.
+    fn units(&self, level: usize, [x, y, slice]: [i64; 3], sample: i64) -> [f32; 4] {
+        let of_level = &self.texture.levels[self.levels[0] + level];
+        let [width, height] = [of_level.width, of_level.height].map(i64::from);
+        let samples = i64::from(self.texture.shape.samples);
+        let texel = ((slice * height + y) * width + x) * samples + sample;
+        let words = self.texture.words_per_texel();
+        let at = usize::try_from(i64::from(of_level.offset) + texel).unwrap_or(usize::MAX / 8);
+        let words: Vec<u32> = (at * words..(at + 1) * words)
+            .map(|at| self.texture.texels.get(at).copied().unwrap_or_default())
+            .collect();
+        self.reader().units(&words)
+    }
+
+    /// One channel of the four texels that linear filtering of the base level mixes (or their answers, as the
+    /// first channel): c₀₁, c₁₁, c₁₀, c₀₀.
+    #[must_use]
+    pub fn gather(&self, sample: &Sample, channel: usize) -> [f32; 4] {
+        if matches!(self.dimension, ViewDimension::D1 | ViewDimension::D3) {
+            return [0.0; 4];
+        }
+        let four = if self.is_cube() {
+            self.four_of_cube(0, sample).0
+        } else {
+            let [x, y] = [0, 1].map(|axis| self.place(0, axis, FilterMode::Linear, sample).0);
+            let slice = Some(self.slice(sample.layer));
+            [[0, 0], [1, 0], [0, 1], [1, 1]]
+                .map(|[i, j]| self.answer(0, [x[i], y[j], slice], sample.reference))
+        };
+        let value = |units: [f32; 4]| match sample.reference {
+            Some(_) => units[0],
+            None => self.finished(units)[channel],
+        };
+        [four[2], four[3], four[1], four[0]].map(value)
+    }
+
+    /// A texel, zeros where there is none; `z` is the depth, or the layer (face of a cube).
+    #[must_use]
+    pub fn fetch(&self, [x, y, z]: [i32; 3], level: i32, sample: i32) -> [f32; 4] {
+        use ViewDimension::{D1, D2, D3};
+        let y = if self.dimension == D1 { 0 } else { y };
+        let z = if matches!(self.dimension, D1 | D2) {
+            0
+        } else {
+            z
+        };
+        let Ok(level) = usize::try_from(level) else {
+            return [0.0; 4];
+        };
+        if level >= self.levels[1] {
+            return [0.0; 4];
+        }
+        let [width, height, depth] = self.sides(level);
+        let slices = if self.dimension == D3 {
+            depth
+        } else {
+            self.layers[1]
+        };
+        let beyond = |at: i32, count: u32| at < 0 || i64::from(at) >= i64::from(count);
+        if beyond(x, width)
+            || beyond(y, height)
+            || beyond(z, slices)
+            || beyond(sample, self.texture.shape.samples)
+        {
+            return [0.0; 4];
+        }
+        let slice = i64::from(self.layers[0]) + i64::from(z);
+        let texel = [i64::from(x), i64::from(y), slice];
+        self.finished(self.units(level, texel, i64::from(sample)))
+    }
+}

@@ -1,0 +1,594 @@
+//! Every dimension, format, sampler and function of texture views against the oracle: bits, at every SIMD level and
+//! for every kind of number.
+
+use estampe_reference::texture::ReferenceView;
+use estampe_reference::texture::view::Sample;
+use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
+use estampe_tests::Random;
+use estampe_texture::{
+    Coordinates, LevelData, Lod, MipGeneration, SampledView, TextureDescriptor, TextureView,
+};
+use estampe_types::state::CompareFunction;
+use estampe_types::{
+    AddressMode, BorderColor, FilterMode, Limits, Pair, Quad, Real, SampleType, SamplerDescriptor,
+    Texture, TextureAspect, TextureDimension, TextureFormat, TextureViewDescriptor, Vec2, Vec3,
+    Vec4, ViewDimension,
+};
+use std::sync::Arc;
+
+/// What is asked of a view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Function {
+    Sample,
+    Bias,
+    Level,
+    Gradients,
+    Compare,
+    CompareLevel,
+    Gather(usize),
+    GatherCompare,
+}
+
+/// The lanes of a packet.
+#[derive(Clone, Debug)]
+struct Ask {
+    function: Function,
+    at: [[f32; LANES]; 3],
+    layer: [i32; LANES],
+    /// Bias or level.
+    value: [f32; LANES],
+    gradients: [[f32; LANES]; 6],
+    reference: [f32; LANES],
+    offset: [i32; 3],
+}
+
+type Answers = [[f32; 4]; LANES];
+
+/// Numbers of some kind, made of the lanes from one on.
+trait Kind: Real {
+    fn real(self, from: &[f32; LANES], first: usize) -> Self;
+    fn int(self, from: &[i32; LANES], first: usize) -> Self::Int;
+}
+
+macro_rules! kinds {
+    ($(($($generic:tt)*) $kind:ty;)*) => {$(
+        impl $($generic)* Kind for $kind {
+            #[inline(always)]
+            fn real(self, from: &[f32; LANES], first: usize) -> Self {
+                self.with_lanes(
+                    #[inline(always)]
+                    |lane| from[(first + lane) % LANES],
+                )
+            }
+            #[inline(always)]
+            fn int(self, from: &[i32; LANES], first: usize) -> Self::Int {
+                let bits = self.with_lanes(
+                    #[inline(always)]
+                    |lane| f32::from_bits(from[(first + lane) % LANES].cast_unsigned()),
+                );
+                Real::to_bits(bits)
+            }
+        }
+    )*};
+}
+kinds! {
+    () f32;
+    () Quad;
+    (<S: Lanes>) f32x16<S>;
+    () Pair<Quad>;
+}
+
+#[inline(always)]
+fn ask<R: Kind>(view: &SampledView, ask: &Ask, like: R, first: usize, answers: &mut Answers) {
+    let [u, v, w] = [
+        like.real(&ask.at[0], first),
+        like.real(&ask.at[1], first),
+        like.real(&ask.at[2], first),
+    ];
+    let layer = like.int(&ask.layer, first);
+    let at = match view.view().dimension() {
+        ViewDimension::D1 => Coordinates::d1(u),
+        ViewDimension::D2 => Coordinates::d2(Vec2::new(u, v)),
+        ViewDimension::D2Array => Coordinates::d2_array(Vec2::new(u, v), layer),
+        ViewDimension::D3 => Coordinates::d3(Vec3::new(u, v, w)),
+        ViewDimension::Cube => Coordinates::cube(Vec3::new(u, v, w)),
+        ViewDimension::CubeArray => Coordinates::cube_array(Vec3::new(u, v, w), layer),
+    };
+    let gradient = |k: usize| {
+        Vec3::new(
+            like.real(&ask.gradients[k], first),
+            like.real(&ask.gradients[k + 1], first),
+            like.real(&ask.gradients[k + 2], first),
+        )
+    };
+    let value = like.real(&ask.value, first);
+    let reference = like.real(&ask.reference, first);
+    let flat = [ask.offset[0], ask.offset[1]];
+    let only = |answer: R| Vec4::new(answer, like, like, like);
+    let color = match ask.function {
+        Function::Sample if ask.offset == [0; 3] => view.sample(at),
+        Function::Sample => view.sample_with(at, Lod::Implicit, ask.offset),
+        Function::Bias => view.sample_with(at, Lod::Bias(value), ask.offset),
+        Function::Level => view.sample_with(at, Lod::Level(value), ask.offset),
+        Function::Gradients => {
+            view.sample_with(at, Lod::Gradients(gradient(0), gradient(3)), ask.offset)
+        }
+        Function::Compare => only(view.sample_compare(at, reference, Lod::Implicit, flat)),
+        Function::CompareLevel => only(view.sample_compare(at, reference, Lod::Level(value), flat)),
+        Function::Gather(channel) => view.gather(at, channel, flat),
+        Function::GatherCompare => view.gather_compare(at, reference, flat),
+    };
+    for lane in 0..R::LANES {
+        if first + lane < LANES {
+            let Vec4 { x, y, z, w } = color;
+            answers[first + lane] = [x.lane(lane), y.lane(lane), z.lane(lane), w.lane(lane)];
+        }
+    }
+}
+
+/// What the fast path answers at a level.
+fn packets(level: Level, view: &SampledView, question: &Ask) -> Answers {
+    #[inline(always)]
+    fn wide<S: Lanes>(simd: S, view: &SampledView, question: &Ask) -> Answers {
+        let mut answers = [[0.0; 4]; LANES];
+        let zero: f32x16<S> = SimdBase::splat(simd, 0.0);
+        ask(view, question, zero, 0, &mut answers);
+        answers
+    }
+    dispatch!(level, s => wide(s, view, question))
+}
+
+/// What the oracle answers for a lane, with derivatives of its quad or (`is_alone`) none.
+fn oracle(view: &ReferenceView, ask: &Ask, lane: usize, is_alone: bool) -> [f32; 4] {
+    let at_lane = |lane: usize| [0, 1, 2].map(|k| ask.at[k][lane]);
+    let quad = if is_alone { lane } else { lane & !3 };
+    let difference = |other: usize| {
+        let (a, b) = (
+            at_lane(quad),
+            at_lane(quad + if is_alone { 0 } else { other }),
+        );
+        [0, 1, 2].map(|k| if is_alone { 0.0 } else { b[k] - a[k] })
+    };
+    let implicit = || view.footprint(at_lane(quad), difference(1), difference(2));
+    let given = |k: usize| [0, 1, 2].map(|i| ask.gradients[k + i][lane]);
+    let reference = ask.reference[lane];
+    let none = (0.0, 1, [0.0; 3]);
+    let ((lod, probes, step), bias) = match ask.function {
+        Function::Sample | Function::Compare => (implicit(), 0.0),
+        Function::Bias => (implicit(), ask.value[lane]),
+        Function::Level | Function::CompareLevel => ((ask.value[lane], 1, [0.0; 3]), 0.0),
+        Function::Gradients => (view.footprint(at_lane(lane), given(0), given(3)), 0.0),
+        Function::Gather(_) | Function::GatherCompare => (none, 0.0),
+    };
+    let compares = matches!(
+        ask.function,
+        Function::Compare | Function::CompareLevel | Function::GatherCompare
+    );
+    let sample = Sample {
+        at: at_lane(lane),
+        layer: ask.layer[lane],
+        lod: view.biased(lod, bias),
+        probes: if compares { 1 } else { probes },
+        step,
+        offset: ask.offset,
+        reference: compares.then_some(reference),
+    };
+    match ask.function {
+        Function::Gather(channel) => view.gather(&sample, channel),
+        Function::GatherCompare => view.gather(&sample, 0),
+        Function::Compare | Function::CompareLevel => [view.sample(&sample)[0], 0.0, 0.0, 0.0],
+        _ => view.sample(&sample),
+    }
+}
+
+/// Bits, all NaNs alike: their payloads are the processor's choice.
+fn bits(channels: [f32; 4]) -> [u32; 4] {
+    channels.map(|x| if x.is_nan() { 0x7FC0_0000 } else { x.to_bits() })
+}
+
+fn texture(
+    random: &mut Random,
+    dimension: ViewDimension,
+    formats: &[TextureFormat],
+) -> Arc<Texture> {
+    use ViewDimension as V;
+    let sides = [1, 2, 3, 5, 8, 13, 16];
+    let format = random.pick(formats);
+    let width = random.pick(&sides);
+    let (height, slices) = match dimension {
+        V::D1 => (1, 1),
+        V::D2 => (random.pick(&sides), 1 + random.below(2)),
+        V::D2Array => (random.pick(&sides), 1 + random.below(5)),
+        V::Cube => (width, 6 + random.below(3)),
+        V::CubeArray => (width, 6 * (1 + random.below(3))),
+        V::D3 => (random.pick(&sides), random.pick(&sides)),
+    };
+    let descriptor = TextureDescriptor {
+        dimension: match dimension {
+            V::D1 => TextureDimension::D1,
+            V::D3 => TextureDimension::D3,
+            _ => TextureDimension::D2,
+        },
+        depth_or_layers: slices,
+        ..TextureDescriptor::new_2d(width, height, format)
+    };
+    let mut descriptor = descriptor.with_all_levels();
+    descriptor.mip_level_count -= random.below(descriptor.mip_level_count);
+    let shape = estampe_types::TextureShape {
+        dimension: descriptor.dimension,
+        depth_or_layers: slices,
+        samples: 1,
+    };
+    // Every level its own noise: levels must not be mistaken for each other.
+    let levels: Vec<Vec<u8>> = (0..descriptor.mip_level_count as usize)
+        .map(|level| {
+            let [block_width, block_height] = format.block_size();
+            let columns = (width >> level).max(1).div_ceil(block_width);
+            let rows = (height >> level).max(1).div_ceil(block_height);
+            let blocks = columns * rows * shape.slices(level);
+            noise(random, format, blocks as usize)
+        })
+        .collect();
+    let data: Vec<_> = levels.iter().map(|bytes| LevelData::tight(bytes)).collect();
+    let made = descriptor.create(&data, MipGeneration::None, &Limits::default());
+    Arc::new(made.expect("a valid texture"))
+}
+
+/// Bytes of so many blocks; floats are mostly of ordinary size.
+fn noise(random: &mut Random, format: TextureFormat, blocks: usize) -> Vec<u8> {
+    use estampe_types::TexelEncoding as E;
+    let count = blocks * format.block_bytes() as usize;
+    let is_odd = random.once_in(8);
+    match format.encoding() {
+        E::Float32 | E::Depth32 if !is_odd => (0..count / 4)
+            .flat_map(|_| random.unit().to_le_bytes())
+            .collect(),
+        E::Float16 if !is_odd => (0..count / 2)
+            .flat_map(|_| [random.byte(), 0x30 | random.byte() & 0x8F])
+            .collect(),
+        _ => (0..count).map(|_| random.byte()).collect(),
+    }
+}
+
+fn sampler(random: &mut Random, view: &TextureView) -> SamplerDescriptor {
+    use AddressMode as A;
+    let modes = [
+        A::ClampToEdge,
+        A::Repeat,
+        A::MirrorRepeat,
+        A::MirrorOnce,
+        A::ClampToBorder,
+    ];
+    let kind = view.texture().format.sample_type();
+    let filters = match kind {
+        SampleType::Uint | SampleType::Sint => [FilterMode::Nearest; 2],
+        SampleType::Float | SampleType::Depth => [FilterMode::Nearest, FilterMode::Linear],
+    };
+    use CompareFunction as C;
+    let functions = [
+        C::Never,
+        C::Less,
+        C::Equal,
+        C::LessEqual,
+        C::Greater,
+        C::NotEqual,
+        C::GreaterEqual,
+        C::Always,
+    ];
+    let is_anisotropic = filters[1] == FilterMode::Linear && random.once_in(3);
+    let mut filter = || {
+        if is_anisotropic {
+            FilterMode::Linear
+        } else {
+            random.pick(&filters)
+        }
+    };
+    let [mag_filter, min_filter, mipmap_filter] = [filter(), filter(), filter()];
+    SamplerDescriptor {
+        address_mode_u: random.pick(&modes),
+        address_mode_v: random.pick(&modes),
+        address_mode_w: random.pick(&modes),
+        mag_filter,
+        min_filter,
+        mipmap_filter,
+        lod_min_clamp: random.pick(&[0.0, 0.0, 0.5, 2.0]),
+        lod_max_clamp: random.pick(&[32.0, 32.0, 2.0]),
+        lod_bias: random.pick(&[0.0, 0.0, 0.7, -1.3, 40.0]),
+        max_anisotropy: if is_anisotropic {
+            random.pick(&[2, 3, 8, 16])
+        } else {
+            1
+        },
+        border_color: random.pick(&[
+            BorderColor::TransparentBlack,
+            BorderColor::OpaqueBlack,
+            BorderColor::OpaqueWhite,
+        ]),
+        compare: (kind == SampleType::Depth).then(|| random.pick(&functions)),
+    }
+}
+
+fn question(random: &mut Random, function: Function, view: &TextureView) -> Ask {
+    let is_cube = matches!(
+        view.dimension(),
+        ViewDimension::Cube | ViewDimension::CubeArray
+    );
+    let spread = random.pick(&[0.001, 0.02, 0.2, 2.0]);
+    let origin = [0; 3].map(|_| random.range(-2.0, 2.0));
+    let with_odd = random.once_in(3);
+    let at = origin.map(|origin| {
+        std::array::from_fn(|_| {
+            if with_odd && random.once_in(8) {
+                random.odd_number()
+            } else if random.once_in(6) {
+                // Between texels, on edges and corners.
+                (random.below(33) as f32 - 16.0) / 8.0
+            } else {
+                origin + random.range(-spread, spread)
+            }
+        })
+    });
+    let slope = random.pick(&[0.01, 0.1, 1.0]);
+    let mut offset = [0; 3];
+    if !is_cube && random.once_in(2) {
+        offset = offset.map(|_| random.below(17).cast_signed() - 8);
+    }
+    Ask {
+        function,
+        at,
+        layer: std::array::from_fn(|_| random.below(8).cast_signed() - 1),
+        value: std::array::from_fn(|_| {
+            if with_odd && random.once_in(9) {
+                random.odd_number()
+            } else {
+                random.range(-2.0, 6.0)
+            }
+        }),
+        gradients: [0; 6].map(|_| {
+            let skew = random.pick(&[0.05, 1.0]);
+            std::array::from_fn(|_| random.range(-slope, slope) * skew)
+        }),
+        reference: std::array::from_fn(|_| {
+            if random.once_in(5) {
+                random.odd_number()
+            } else {
+                random.range(-0.1, 1.1)
+            }
+        }),
+        offset,
+    }
+}
+
+/// Asks both sides the same.
+fn check(view: &SampledView, reference: &ReferenceView, question: &Ask) {
+    let compares = !matches!(
+        question.function,
+        Function::Sample
+            | Function::Bias
+            | Function::Level
+            | Function::Gradients
+            | Function::Gather(_)
+            | Function::GatherCompare
+    );
+    let used = |answer: [f32; 4]| {
+        if compares {
+            [answer[0], 0.0, 0.0, 0.0]
+        } else {
+            answer
+        }
+    };
+    let same = |kind: &str, lane: usize, got: [f32; 4], wanted: [f32; 4]| {
+        let texture = view.view().texture();
+        assert_eq!(
+            bits(used(got)),
+            bits(wanted),
+            "{kind}, lane {lane}: {got:?} is not {wanted:?}: {:?} of {:?} {:?}, {:?}, {:?}, at {:?}, {question:?}",
+            view.view().dimension(),
+            texture.format,
+            texture.levels,
+            texture.shape,
+            view.sampler(),
+            [0, 1, 2].map(|k| question.at[k][lane]),
+        );
+    };
+    let wanted: Answers = std::array::from_fn(|lane| oracle(reference, question, lane, false));
+    for level in Level::all_available() {
+        let got = packets(level, view, question);
+        for lane in 0..LANES {
+            same(level.name(), lane, got[lane], wanted[lane]);
+        }
+    }
+    let mut got = [[0.0; 4]; LANES];
+    for first in (0..LANES).step_by(4) {
+        ask(view, question, Quad([0.0; 4]), first, &mut got);
+    }
+    let mut of_pairs = [[0.0; 4]; LANES];
+    for first in [0, 8] {
+        let pair = Pair(Quad([0.0; 4]), Quad([0.0; 4]));
+        ask(view, question, pair, first, &mut of_pairs);
+    }
+    for lane in 0..LANES {
+        same("pair", lane, of_pairs[lane], wanted[lane]);
+        same("quad", lane, got[lane], wanted[lane]);
+        ask(view, question, 0.0_f32, lane, &mut got);
+        let alone = oracle(reference, question, lane, true);
+        same("alone", lane, got[lane], alone);
+    }
+}
+
+fn checks(
+    topic: &str,
+    count: u64,
+    dimensions: &[ViewDimension],
+    formats: &[TextureFormat],
+    functions: &[Function],
+) {
+    for seed in 0..count {
+        let random = &mut Random::new(topic, seed);
+        let dimension = random.pick(dimensions);
+        let texture = texture(random, dimension, formats);
+        let all = texture.levels.len();
+        let base = random.below(2).min(all as u32 - 1) as usize;
+        let first = random.below(2).min(match dimension {
+            ViewDimension::D1 | ViewDimension::D3 => 0,
+            ViewDimension::Cube => texture.shape.depth_or_layers - 6,
+            ViewDimension::CubeArray => 0,
+            _ => texture.shape.depth_or_layers - 1,
+        });
+        let aspect = if texture.format.has_stencil() && random.once_in(2) {
+            TextureAspect::Stencil
+        } else {
+            TextureAspect::All
+        };
+        let descriptor = TextureViewDescriptor {
+            dimension: Some(dimension),
+            base_mip_level: base as u32,
+            base_array_layer: first,
+            aspect,
+            ..TextureViewDescriptor::default()
+        };
+        let view = TextureView::new(texture.clone(), &descriptor).expect("a view");
+        let mut sampler = sampler(random, &view);
+        if aspect == TextureAspect::Stencil {
+            sampler = SamplerDescriptor {
+                mag_filter: FilterMode::Nearest,
+                min_filter: FilterMode::Nearest,
+                mipmap_filter: FilterMode::Nearest,
+                max_anisotropy: 1,
+                compare: None,
+                ..sampler
+            };
+        }
+        let rest = texture.shape.depth_or_layers - first;
+        let reference = ReferenceView {
+            dimension,
+            levels: [base, all - base],
+            layers: match dimension {
+                ViewDimension::D1 | ViewDimension::D2 | ViewDimension::D3 => [first, 1],
+                ViewDimension::Cube => [first, 6],
+                _ => [first, rest],
+            },
+            aspect,
+            sampler,
+            texture,
+        };
+        let view = SampledView::new(view, sampler).expect("a sampler");
+        for &function in functions {
+            let question = question(random, function, view.view());
+            check(&view, &reference, &question);
+        }
+    }
+}
+
+const FUNCTIONS: [Function; 6] = [
+    Function::Sample,
+    Function::Bias,
+    Function::Level,
+    Function::Gradients,
+    Function::Gather(1),
+    Function::Gather(3),
+];
+
+fn formats(keep: impl Fn(TextureFormat) -> bool) -> Vec<TextureFormat> {
+    let all = TextureFormat::ALL.iter().copied();
+    all.filter(|&format| keep(format)).collect()
+}
+
+fn is_plain(format: TextureFormat) -> bool {
+    format.is_color() && !format.is_compressed()
+}
+
+#[test]
+fn images_and_arrays_of_every_format() {
+    use ViewDimension::{D2, D2Array};
+    checks(
+        "views/2d",
+        1200,
+        &[D2, D2Array],
+        TextureFormat::ALL,
+        &FUNCTIONS,
+    );
+}
+
+#[test]
+fn rows_and_blocks_of_texels() {
+    use ViewDimension::{D1, D3};
+    checks(
+        "views/1d 3d",
+        900,
+        &[D1, D3],
+        &formats(is_plain),
+        &FUNCTIONS,
+    );
+}
+
+#[test]
+fn cubes_without_seams() {
+    use ViewDimension::{Cube, CubeArray};
+    let formats = formats(|format| is_plain(format) || format.block_size() == [4, 4]);
+    checks(
+        "views/cubes",
+        1200,
+        &[Cube, CubeArray],
+        &formats,
+        &FUNCTIONS,
+    );
+}
+
+#[test]
+fn comparisons_with_every_function() {
+    use ViewDimension::{Cube, CubeArray, D2, D2Array};
+    let depths = formats(TextureFormat::has_depth);
+    let functions = [
+        Function::Compare,
+        Function::CompareLevel,
+        Function::GatherCompare,
+        Function::Sample,
+        Function::Gather(0),
+    ];
+    let dimensions = [D2, D2Array, Cube, CubeArray];
+    checks("views/compare", 900, &dimensions, &depths, &functions);
+}
+
+#[test]
+fn the_common_kind_is_the_same_as_every_other() {
+    // `SampledView` hands these over to `Sampled`; the oracle of views knows nothing of that.
+    let formats = [
+        TextureFormat::Rgba8Unorm,
+        TextureFormat::Bgra8UnormSrgb,
+        TextureFormat::Bc1RgbaUnorm,
+    ];
+    for seed in 0..400 {
+        let random = &mut Random::new("views/common", seed);
+        let texture = texture(random, ViewDimension::D2Array, &formats);
+        let texture = Texture {
+            shape: estampe_types::TextureShape::default(),
+            ..Texture::clone(&texture)
+        };
+        // The first layer alone, with its levels where they are.
+        let texture = Arc::new(Texture {
+            levels: texture.levels[..1].to_vec(),
+            ..texture
+        });
+        let view = TextureView::of(texture.clone()).expect("a view");
+        let sampler = SamplerDescriptor {
+            mag_filter: random.pick(&[FilterMode::Nearest, FilterMode::Linear]),
+            address_mode_u: random.pick(&[AddressMode::Repeat, AddressMode::MirrorRepeat]),
+            ..SamplerDescriptor::default()
+        };
+        let reference = ReferenceView {
+            texture,
+            dimension: ViewDimension::D2,
+            levels: [0, 1],
+            layers: [0, 1],
+            aspect: TextureAspect::All,
+            sampler,
+        };
+        let view = SampledView::new(view, sampler).expect("a sampler");
+        let question = Ask {
+            offset: [0; 3],
+            ..question(random, Function::Sample, view.view())
+        };
+        check(&view, &reference, &question);
+    }
+}
