@@ -96,6 +96,14 @@ pub enum TextureError {
         /// The format.
         format: TextureFormat,
     },
+    /// A format whose texels shaders cannot store.
+    #[error(
+        "{format:?} cannot be stored to: choose a colour format without blocks, sRGB or shared exponent"
+    )]
+    NotStorable {
+        /// The format.
+        format: TextureFormat,
+    },
     /// There is no memory for it.
     #[error("no memory for a texture of {bytes} bytes")]
     OutOfMemory {

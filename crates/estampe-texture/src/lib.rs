@@ -43,6 +43,7 @@ mod lod;
 mod mips;
 mod mixed;
 mod sampled;
+mod storage;
 mod texel;
 mod upload;
 mod view;
@@ -54,10 +55,13 @@ pub use descriptor::TextureDescriptor;
 pub use error::TextureError;
 pub use estampe_types::{
     AddressMode, BorderColor, DepthTexture, FilterMode, Limits, MipLevel, SamplerDescriptor,
-    Texture, TextureAspect, TextureDimension, TextureFormat, TextureShape, TextureViewDescriptor,
-    ViewDimension,
+    StorageTexture, Texture, TextureAspect, TextureDimension, TextureFormat, TextureShape,
+    TextureViewDescriptor, ViewDimension,
 };
 pub use sampled::Sampled;
+pub use storage::{
+    create_storage_texture, storage_bytes, storage_load, storage_store, storage_texture_to_texture,
+};
 pub use upload::LevelData;
 pub use view::{Coordinates, Lod, SampledView, TextureView};
 

@@ -20,5 +20,6 @@ mod sample;
 mod sampled_view;
 
 pub use coordinates::{Coordinates, Lod};
+pub(crate) use coordinates::{MAX_LANES, packed};
 pub use plane::TextureView;
 pub use sampled_view::SampledView;

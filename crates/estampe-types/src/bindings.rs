@@ -4,7 +4,7 @@
 //! resources this way; a Rust shader may own its uniforms instead, and use bindings for what changes
 //! from draw to draw. What is not bound reads as zeros.
 
-use crate::{Buffer, DepthTexture, SamplerDescriptor, Texture};
+use crate::{Buffer, DepthTexture, SamplerDescriptor, StorageTexture, Texture};
 use std::sync::Arc;
 
 /// One resource.
@@ -23,6 +23,8 @@ pub enum Binding {
     Texture(Arc<Texture>),
     /// A depth image.
     DepthTexture(DepthTexture),
+    /// A texture that shaders store to.
+    StorageTexture(StorageTexture),
     /// How a texture is sampled.
     Sampler(SamplerDescriptor),
 }
@@ -101,6 +103,25 @@ impl Bindings {
     pub fn texture(&self, group: u32, binding: u32) -> Option<&Arc<Texture>> {
         match self.get(group, binding)? {
             Binding::Texture(texture) => Some(texture),
+            _ => None,
+        }
+    }
+
+    /// The storage texture at a group and binding number.
+    #[inline]
+    #[must_use]
+    pub fn storage_texture(&self, group: u32, binding: u32) -> Option<&StorageTexture> {
+        match self.get(group, binding)? {
+            Binding::StorageTexture(texture) => Some(texture),
+            _ => None,
+        }
+    }
+
+    /// The sampler at a group and binding number.
+    #[must_use]
+    pub fn sampler(&self, group: u32, binding: u32) -> Option<&SamplerDescriptor> {
+        match self.get(group, binding)? {
+            Binding::Sampler(sampler) => Some(sampler),
             _ => None,
         }
     }

@@ -47,8 +47,9 @@ pub use shader::{
     VertexIn,
 };
 pub use texture::{
-    AddressMode, BorderColor, DepthTexture, FilterMode, MipLevel, SamplerDescriptor, Texture,
-    TextureAspect, TextureDimension, TextureShape, TextureViewDescriptor, ViewDimension,
+    AddressMode, BorderColor, DepthTexture, FilterMode, MipLevel, SamplerDescriptor,
+    StorageTexture, Texture, TextureAspect, TextureDimension, TextureShape, TextureViewDescriptor,
+    ViewDimension,
 };
 pub use vector::{Vec2, Vec3, Vec4};
 

@@ -2,10 +2,12 @@
 
 mod sampler;
 mod shape;
+mod storage;
 mod view;
 
 pub use sampler::{AddressMode, BorderColor, FilterMode, SamplerDescriptor};
 pub use shape::{TextureDimension, TextureShape};
+pub use storage::StorageTexture;
 pub use view::{TextureAspect, TextureViewDescriptor, ViewDimension};
 
 use crate::format::TextureFormat;

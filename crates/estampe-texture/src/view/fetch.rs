@@ -12,13 +12,13 @@ impl TextureView {
     /// Numbers are as sampling gives them; of integers it gives the [bits](Real::to_bits). What is not there (a
     /// texel, layer, level or sample) reads as zeros, alpha too (WebGPU's and Vulkan's robust access).
     #[inline(always)]
-    pub fn fetch<R: Real>(&self, [x, y, z]: [R::Int; 3], level: R::Int, sample: R::Int) -> Vec4<R> {
+    pub fn fetch<I: Int>(&self, [x, y, z]: [I; 3], level: I, sample: I) -> Vec4<I::Real> {
         let like = x.to_real();
         like.outlined(
             #[inline(always)]
             || {
                 let mut places = [[0; 5]; MAX_LANES];
-                for (lane, place) in places.iter_mut().enumerate().take(R::LANES) {
+                for (lane, place) in places.iter_mut().enumerate().take(<I::Real as Real>::LANES) {
                     *place = [
                         x.lane(lane),
                         y.lane(lane),
@@ -28,7 +28,7 @@ impl TextureView {
                     ];
                 }
                 let mut texels = [[0.0; 4]; MAX_LANES];
-                self.fetch_lanes(&places[..R::LANES], &mut texels);
+                self.fetch_lanes(&places[..<I::Real as Real>::LANES], &mut texels);
                 super::coordinates::packed(like, &texels)
             },
         )

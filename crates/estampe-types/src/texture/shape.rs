@@ -66,7 +66,7 @@ impl Texture {
 ///
 /// What blocks of 8-bit colours decode to are such colours; those of one or two channels have more than 8 bits and
 /// become floats, those of half floats stay so.
-const fn stored_format(format: TextureFormat) -> TextureFormat {
+pub(super) const fn stored_format(format: TextureFormat) -> TextureFormat {
     use TextureFormat as F;
     match format {
         F::Bgra8Unorm => F::Rgba8Unorm,

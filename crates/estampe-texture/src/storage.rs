@@ -1,0 +1,223 @@
+//! Storage textures: made, loaded from, stored to, read back.
+//!
+//! Threads draw tiles at once, so texels are atomic words (relaxed: what one fragment stores, another may see or not
+//! until the pass has ended). A store takes the lanes that are to store: helper lanes and discarded fragments must
+//! not.
+
+use crate::decode::Decoder;
+use crate::encode::encode;
+use crate::view::{MAX_LANES, packed};
+use crate::{LevelData, MipGeneration, TextureDescriptor, TextureError};
+use estampe_types::{
+    Int, Limits, Real, StorageTexture, TexelEncoding, Texture, TextureAspect, TextureFormat, Vec4,
+};
+
+/// A storage texture of the data, or of zeros without any: one level and one sample of a format of colours that is
+/// neither sRGB nor of blocks.
+///
+/// # Errors
+/// [`TextureError`] when the descriptor breaks a rule, bytes are missing, or memory is short.
+pub fn create_storage_texture(
+    descriptor: &TextureDescriptor,
+    data: Option<LevelData<'_>>,
+    limits: &Limits,
+) -> Result<StorageTexture, TextureError> {
+    let format = descriptor.format;
+    if !is_storable(format) {
+        return Err(TextureError::NotStorable { format });
+    }
+    descriptor.check(limits)?;
+    if descriptor.mip_level_count != 1 {
+        return Err(TextureError::LevelCount {
+            most: 1,
+            actual: descriptor.mip_level_count as usize,
+        });
+    }
+    let samples = descriptor.sample_count;
+    if samples != 1 {
+        return Err(TextureError::Samples { samples });
+    }
+    let size = (descriptor.width, descriptor.height);
+    let slices = descriptor.depth_or_layers;
+    let made = StorageTexture::zeros(format, size, descriptor.dimension, slices);
+    let made = made.ok_or_else(|| {
+        let texels = u64::from(size.0) * u64::from(size.1) * u64::from(slices);
+        TextureError::OutOfMemory {
+            // At least a word each.
+            bytes: texels * u64::from(format.block_bytes().max(4)),
+        }
+    })?;
+    if let Some(data) = data {
+        let given = descriptor.create(&[data], MipGeneration::None, limits)?;
+        for (index, word) in given.texels.iter().enumerate() {
+            made.store(index, *word);
+        }
+    }
+    Ok(made)
+}
+
+/// Whether shaders can store texels of a format.
+fn is_storable(format: TextureFormat) -> bool {
+    format.is_color()
+        && !format.is_compressed()
+        && !format.is_srgb()
+        && format.encoding() != TexelEncoding::SharedExponent
+}
+
+/// The texel (x, y) of a slice (`textureLoad`); zeros where there is none. Of integers the [bits](Real::to_bits).
+#[inline(always)]
+pub fn storage_load<I: Int>(texture: &StorageTexture, at: [I; 3]) -> Vec4<I::Real> {
+    let like = at[0].to_real();
+    like.outlined(
+        #[inline(always)]
+        || {
+            let places = Places::new(at, u32::MAX);
+            let mut texels = [[0.0; 4]; MAX_LANES];
+            load_lanes(texture, &places, <I::Real as Real>::LANES, &mut texels);
+            packed(like, &texels)
+        },
+    )
+}
+
+/// Stores a texel (x, y) of a slice in the lanes of the mask (`textureStore`); nothing where there is none. Numbers
+/// become codes as in render targets; of integers the value's bits are stored.
+#[inline(always)]
+pub fn storage_store<R: Real>(
+    texture: &StorageTexture,
+    mask: R::Mask,
+    at: [R::Int; 3],
+    value: Vec4<R>,
+) {
+    value.x.outlined(
+        #[inline(always)]
+        || {
+            let places = Places::new(at, R::mask_bits(mask));
+            let mut texels = [[0.0; 4]; MAX_LANES];
+            for (lane, texel) in texels.iter_mut().enumerate().take(R::LANES) {
+                let Vec4 { x, y, z, w } = value;
+                *texel = [x.lane(lane), y.lane(lane), z.lane(lane), w.lane(lane)];
+            }
+            store_lanes(texture, &places, R::LANES, &texels);
+        },
+    );
+}
+
+/// The texels of lanes.
+struct Places {
+    at: [[i32; 3]; MAX_LANES],
+    /// The lanes that count.
+    mask: u32,
+}
+
+impl Places {
+    #[inline(always)]
+    fn new<I: Int>([x, y, slice]: [I; 3], mask: u32) -> Self {
+        let mut places = Self {
+            at: [[0; 3]; MAX_LANES],
+            mask,
+        };
+        let lanes = <I::Real as Real>::LANES;
+        for (lane, place) in places.at.iter_mut().enumerate().take(lanes) {
+            *place = [x.lane(lane), y.lane(lane), slice.lane(lane)];
+        }
+        places
+    }
+}
+
+#[inline(never)]
+fn load_lanes(
+    texture: &StorageTexture,
+    places: &Places,
+    lanes: usize,
+    texels: &mut [[f32; 4]; MAX_LANES],
+) {
+    let decoder = decoder_of(texture);
+    for (place, texel) in places.at.iter().zip(texels).take(lanes) {
+        if let Some(index) = texture.index(*place) {
+            let mut words = [0; 4];
+            for (k, word) in words.iter_mut().enumerate().take(decoder.words) {
+                *word = texture.load(index + k);
+            }
+            *texel = decoder.finish(decoder.unit(&words));
+        }
+    }
+}
+
+#[inline(never)]
+fn store_lanes(
+    texture: &StorageTexture,
+    places: &Places,
+    lanes: usize,
+    texels: &[[f32; 4]; MAX_LANES],
+) {
+    let (format, count) = (stored(texture), texture.words_per_texel());
+    for (lane, (place, texel)) in places.at.iter().zip(texels).enumerate().take(lanes) {
+        if places.mask >> lane & 1 == 0 {
+            continue;
+        }
+        if let Some(index) = texture.index(*place) {
+            for (k, word) in encode(format, *texel).into_iter().enumerate().take(count) {
+                texture.store(index + k, word);
+            }
+        }
+    }
+}
+
+/// As what texels are stored: R first.
+fn stored(texture: &StorageTexture) -> TextureFormat {
+    match texture.format() {
+        TextureFormat::Bgra8Unorm => TextureFormat::Rgba8Unorm,
+        format => format,
+    }
+}
+
+fn decoder_of(texture: &StorageTexture) -> Decoder {
+    Decoder::new(stored(texture), TextureAspect::All)
+}
+
+/// What a storage texture holds, as rows of the format's bytes that follow each other, slice after slice.
+#[must_use]
+pub fn storage_bytes(texture: &StorageTexture) -> Vec<u8> {
+    let size = texture.format().block_bytes() as usize;
+    let count = texture.words_per_texel();
+    let mut bytes = Vec::with_capacity(texture.len() / count.max(1) * size);
+    for texel in (0..texture.len()).step_by(count.max(1)) {
+        let mut of_texel = [0; 16];
+        for (k, four) in of_texel
+            .as_chunks_mut::<4>()
+            .0
+            .iter_mut()
+            .enumerate()
+            .take(count)
+        {
+            *four = texture.load(texel + k).to_le_bytes();
+        }
+        if texture.format().is_bgra() {
+            of_texel.swap(0, 2);
+        }
+        bytes.extend_from_slice(&of_texel[..size]);
+    }
+    bytes
+}
+
+/// What a storage texture holds now, as a texture that can be sampled, with levels made from it if wanted.
+///
+/// # Errors
+/// [`TextureError`] when memory is short, or levels of the format cannot be made.
+pub fn storage_texture_to_texture(
+    texture: &StorageTexture,
+    mips: MipGeneration,
+) -> Result<Texture, TextureError> {
+    let descriptor = TextureDescriptor {
+        dimension: texture.shape().dimension,
+        depth_or_layers: texture.shape().depth_or_layers,
+        ..TextureDescriptor::new_2d(texture.width(), texture.height(), texture.format())
+    };
+    let descriptor = match mips {
+        MipGeneration::None => descriptor,
+        MipGeneration::Full => descriptor.with_all_levels(),
+    };
+    let bytes = storage_bytes(texture);
+    let data = [LevelData::tight(&bytes)];
+    descriptor.create(&data, mips, &Limits::default())
+}

@@ -1,0 +1,136 @@
+//! Textures that shaders store to.
+
+use super::{TextureDimension, TextureShape};
+use crate::format::TextureFormat;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// A texture of one level that shaders load from and store to, texel by texel, all threads at once. Clones are the
+/// same texture. How shaders do it is `estampe-texture`'s.
+///
+/// Each texel is [`StorageTexture::words_per_texel`] words, which are stored one by one: where several fragments store
+/// to one texel, each word is one of theirs, and which is not specified, as in the specifications.
+#[derive(Clone)]
+pub struct StorageTexture {
+    format: TextureFormat,
+    shape: TextureShape,
+    width: u32,
+    height: u32,
+    words: Arc<Vec<AtomicU32>>,
+}
+
+impl StorageTexture {
+    /// A texture of zeros, or `None` when memory is short.
+    #[must_use]
+    pub fn zeros(
+        format: TextureFormat,
+        (width, height): (u32, u32),
+        dimension: TextureDimension,
+        depth_or_layers: u32,
+    ) -> Option<Self> {
+        let mut made = Self {
+            format,
+            shape: TextureShape {
+                dimension,
+                depth_or_layers,
+                samples: 1,
+            },
+            width,
+            height,
+            words: Arc::default(),
+        };
+        let slice = (width as usize).checked_mul(height as usize)?;
+        let texels = slice.checked_mul(depth_or_layers as usize)?;
+        let count = texels.checked_mul(made.words_per_texel())?;
+        let mut words = Vec::new();
+        words.try_reserve_exact(count).ok()?;
+        words.resize_with(count, AtomicU32::default);
+        made.words = Arc::new(words);
+        Some(made)
+    }
+
+    /// What the texels are.
+    #[must_use]
+    pub fn format(&self) -> TextureFormat {
+        self.format
+    }
+
+    /// What there is beside width and height.
+    #[must_use]
+    pub fn shape(&self) -> TextureShape {
+        self.shape
+    }
+
+    /// Width in texels.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height in texels.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Words of each texel, as of [`Texture`](super::Texture)s.
+    #[must_use]
+    pub const fn words_per_texel(&self) -> usize {
+        super::shape::stored_format(self.format)
+            .block_bytes()
+            .div_ceil(4) as usize
+    }
+
+    /// Where the words of texel (x, y) of a slice (a layer, or a depth) begin; `None` where there is none.
+    #[inline]
+    #[must_use]
+    pub fn index(&self, [x, y, slice]: [i32; 3]) -> Option<usize> {
+        let [x, y, slice] = [x, y, slice].map(i32::cast_unsigned);
+        // Negative coordinates are beyond every side.
+        if x >= self.width || y >= self.height || slice >= self.shape.depth_or_layers {
+            return None;
+        }
+        let row = slice as usize * self.height as usize + y as usize;
+        Some((row * self.width as usize + x as usize) * self.words_per_texel())
+    }
+
+    /// A word; 0 beyond the end.
+    #[inline]
+    #[must_use]
+    pub fn load(&self, index: usize) -> u32 {
+        self.words
+            .get(index)
+            .map_or(0, |word| word.load(Ordering::Relaxed))
+    }
+
+    /// Stores a word; beyond the end nothing.
+    #[inline]
+    pub fn store(&self, index: usize, word: u32) {
+        if let Some(to) = self.words.get(index) {
+            to.store(word, Ordering::Relaxed);
+        }
+    }
+
+    /// How many words there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.words.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.words.is_empty()
+    }
+}
+
+impl std::fmt::Debug for StorageTexture {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { width, height, .. } = self;
+        write!(
+            f,
+            "StorageTexture({:?}, {width}×{height}, {:?})",
+            self.format, self.shape
+        )
+    }
+}
