@@ -1,5 +1,10 @@
 //! Storage textures: what is stored is loaded, sampled and read back; masks, borders, threads.
 
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "sizes and masks of small textures"
+)]
+
 use estampe_reference::texture::texel::TexelReader;
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_tests::Random;

@@ -1,5 +1,10 @@
 //! Texels of every format: uploads with padded rows and images, and fetching, also where there is nothing.
 
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "sizes and masks of small textures"
+)]
+
 use estampe_reference::texture::ReferenceView;
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_tests::Random;

@@ -1,6 +1,11 @@
 //! Every dimension, format, sampler and function of texture views against the oracle: bits, at every SIMD level and
 //! for every kind of number.
 
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "sizes and masks of small textures"
+)]
+
 use estampe_reference::texture::ReferenceView;
 use estampe_reference::texture::view::Sample;
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
