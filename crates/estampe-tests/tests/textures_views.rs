@@ -398,6 +398,7 @@ fn check(view: &SampledView, reference: &ReferenceView, question: &Ask) {
     };
     let wanted: Answers = std::array::from_fn(|lane| oracle(reference, question, lane, false));
     for level in Level::all_available() {
+        let view = &view.clone().at_level(level);
         let got = packets(level, view, question);
         for lane in 0..LANES {
             same(level.name(), lane, got[lane], wanted[lane]);

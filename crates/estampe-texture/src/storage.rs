@@ -6,8 +6,9 @@
 
 use crate::decode::Decoder;
 use crate::encode::encode;
-use crate::view::{MAX_LANES, packed};
+use crate::view::{Answers, answer, packed, put, put_ints, requests};
 use crate::{LevelData, MipGeneration, TextureDescriptor, TextureError};
+use estampe_simd::LANES;
 use estampe_types::{
     Int, Limits, Real, StorageTexture, TexelEncoding, Texture, TextureAspect, TextureFormat, Vec4,
 };
@@ -71,9 +72,12 @@ pub fn storage_load<I: Int>(texture: &StorageTexture, at: [I; 3]) -> Vec4<I::Rea
     like.outlined(
         #[inline(always)]
         || {
-            let places = Places::new(at, u32::MAX);
-            let mut texels = [[0.0; 4]; MAX_LANES];
-            load_lanes(texture, &places, <I::Real as Real>::LANES, &mut texels);
+            let mut texels = [Answers::default(); 2];
+            let requests = requests::<I::Real>();
+            for (index, texels) in texels.iter_mut().enumerate().take(requests) {
+                let places = Places::new(at, index * LANES, u32::MAX);
+                load_lanes(texture, &places, texels);
+            }
             packed(like, &texels)
         },
     )
@@ -91,72 +95,71 @@ pub fn storage_store<R: Real>(
     value.x.outlined(
         #[inline(always)]
         || {
-            let places = Places::new(at, R::mask_bits(mask));
-            let mut texels = [[0.0; 4]; MAX_LANES];
-            for (lane, texel) in texels.iter_mut().enumerate().take(R::LANES) {
-                let Vec4 { x, y, z, w } = value;
-                *texel = [x.lane(lane), y.lane(lane), z.lane(lane), w.lane(lane)];
+            for index in 0..requests::<R>() {
+                let first = index * LANES;
+                let places = Places::new(at, first, R::mask_bits(mask) >> first);
+                let mut texels = Answers::default();
+                put(value.x, first, &mut texels[0]);
+                put(value.y, first, &mut texels[1]);
+                put(value.z, first, &mut texels[2]);
+                put(value.w, first, &mut texels[3]);
+                store_lanes(texture, &places, &texels);
             }
-            store_lanes(texture, &places, R::LANES, &texels);
         },
     );
 }
 
-/// The texels of lanes.
+/// The texels of sixteen lanes, or fewer.
 struct Places {
-    at: [[i32; 3]; MAX_LANES],
+    at: [[i32; LANES]; 3],
+    count: usize,
     /// The lanes that count.
     mask: u32,
 }
 
 impl Places {
     #[inline(always)]
-    fn new<I: Int>([x, y, slice]: [I; 3], mask: u32) -> Self {
+    fn new<I: Int>([x, y, slice]: [I; 3], first: usize, mask: u32) -> Self {
         let mut places = Self {
-            at: [[0; 3]; MAX_LANES],
+            at: [[0; LANES]; 3],
+            count: <I::Real as Real>::LANES.min(LANES),
             mask,
         };
-        let lanes = <I::Real as Real>::LANES;
-        for (lane, place) in places.at.iter_mut().enumerate().take(lanes) {
-            *place = [x.lane(lane), y.lane(lane), slice.lane(lane)];
-        }
+        put_ints(x, first, &mut places.at[0]);
+        put_ints(y, first, &mut places.at[1]);
+        put_ints(slice, first, &mut places.at[2]);
         places
+    }
+
+    fn of_lane(&self, lane: usize) -> [i32; 3] {
+        self.at.map(|of_lanes| of_lanes[lane])
     }
 }
 
 #[inline(never)]
-fn load_lanes(
-    texture: &StorageTexture,
-    places: &Places,
-    lanes: usize,
-    texels: &mut [[f32; 4]; MAX_LANES],
-) {
+fn load_lanes(texture: &StorageTexture, places: &Places, texels: &mut Answers) {
     let decoder = decoder_of(texture);
-    for (place, texel) in places.at.iter().zip(texels).take(lanes) {
-        if let Some(index) = texture.index(*place) {
+    for lane in 0..places.count {
+        if let Some(index) = texture.index(places.of_lane(lane)) {
             let mut words = [0; 4];
             for (k, word) in words.iter_mut().enumerate().take(decoder.words) {
                 *word = texture.load(index + k);
             }
-            *texel = decoder.finish(decoder.unit(&words));
+            answer(texels, lane, decoder.finish(decoder.unit(&words)));
         }
     }
 }
 
 #[inline(never)]
-fn store_lanes(
-    texture: &StorageTexture,
-    places: &Places,
-    lanes: usize,
-    texels: &[[f32; 4]; MAX_LANES],
-) {
+fn store_lanes(texture: &StorageTexture, places: &Places, texels: &Answers) {
     let (format, count) = (stored(texture), texture.words_per_texel());
-    for (lane, (place, texel)) in places.at.iter().zip(texels).enumerate().take(lanes) {
+    for lane in 0..places.count {
         if places.mask >> lane & 1 == 0 {
             continue;
         }
-        if let Some(index) = texture.index(*place) {
-            for (k, word) in encode(format, *texel).into_iter().enumerate().take(count) {
+        if let Some(index) = texture.index(places.of_lane(lane)) {
+            let texel = texels.map(|of_lanes| of_lanes[lane]);
+            for (k, word) in encode(format, texel).into_iter().enumerate().take(count) {
                 texture.store(index + k, word);
             }
         }

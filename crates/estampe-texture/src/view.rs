@@ -15,11 +15,13 @@ mod cube;
 mod fetch;
 mod footprint;
 mod gather;
+mod packet;
+mod packet_texel;
 mod plane;
 mod sample;
 mod sampled_view;
 
+pub(crate) use coordinates::{Answers, answer, packed, put, put_ints, requests};
 pub use coordinates::{Coordinates, Lod};
-pub(crate) use coordinates::{MAX_LANES, packed};
 pub use plane::TextureView;
 pub use sampled_view::SampledView;

@@ -11,7 +11,7 @@ pub(crate) struct Place {
 }
 
 /// Beyond this, texels are not told apart any more.
-const FAR: f32 = 16_777_216.0;
+pub(crate) const FAR: f32 = 16_777_216.0;
 
 /// The place of a coordinate in `count` texels, `length` of them.
 #[expect(

@@ -1,7 +1,7 @@
 //! Comparison samplers: texels are compared with a reference, and the answers, 1 or 0, are filtered.
 
 use super::SampledView;
-use super::coordinates::{Lanes, MAX_LANES};
+use super::coordinates::{Answers, Lanes, answer};
 use super::sample::Tap;
 use estampe_types::state::CompareFunction;
 use estampe_types::{Real, TexelEncoding};
@@ -36,16 +36,23 @@ impl SampledView {
         }
     }
 
-    /// Compares lanes one after the other; the answers stand in the first channel.
+    /// Compares lanes, sixteen at once where it can; the answers stand in the first channel.
     #[inline(never)]
-    pub(crate) fn compare_lanes(&self, lanes: &Lanes, answers: &mut [[f32; 4]; MAX_LANES]) {
-        for (lane, answer) in answers.iter_mut().enumerate().take(lanes.count) {
-            let footprint = super::footprint::Footprint {
-                probes: 1,
-                ..self.footprint(lanes, lane)
-            };
-            let comparison = self.comparison(lanes.reference[lane]);
-            *answer = self.probes(lanes, lane, &footprint, &comparison);
+    pub(crate) fn compare_lanes(&self, lanes: &Lanes, answers: &mut Answers) {
+        if !self.sample_packet(lanes, answers, true) {
+            for lane in 0..lanes.count {
+                answer(answers, lane, self.compare_lane(lanes, lane));
+            }
         }
+    }
+
+    /// Compares one lane.
+    pub(crate) fn compare_lane(&self, lanes: &Lanes, lane: usize) -> [f32; 4] {
+        let footprint = super::footprint::Footprint {
+            probes: 1,
+            ..self.footprint(lanes, lane)
+        };
+        let comparison = self.comparison(lanes.reference[lane]);
+        self.probes(lanes, lane, &footprint, &comparison)
     }
 }

@@ -1,9 +1,9 @@
 //! Texels by their whole coordinates, without a sampler.
 
 use super::TextureView;
-use super::coordinates::MAX_LANES;
-use estampe_types::ViewDimension;
-use estampe_types::{Int, Real, Vec4};
+use super::coordinates::{Answers, answer, packed, put_ints, requests};
+use estampe_simd::LANES;
+use estampe_types::{Int, Real, Vec4, ViewDimension};
 
 impl TextureView {
     /// The texel (x, y, z) of a level, z being the depth of a 3D view, or the layer of an array (of cubes: six for
@@ -17,27 +17,28 @@ impl TextureView {
         like.outlined(
             #[inline(always)]
             || {
-                let mut places = [[0; 5]; MAX_LANES];
-                for (lane, place) in places.iter_mut().enumerate().take(<I::Real as Real>::LANES) {
-                    *place = [
-                        x.lane(lane),
-                        y.lane(lane),
-                        z.lane(lane),
-                        level.lane(lane),
-                        sample.lane(lane),
-                    ];
+                let mut texels = [Answers::default(); 2];
+                let requests = requests::<I::Real>();
+                for (index, texels) in texels.iter_mut().enumerate().take(requests) {
+                    let first = index * LANES;
+                    let mut places = [[0; LANES]; 5];
+                    put_ints(x, first, &mut places[0]);
+                    put_ints(y, first, &mut places[1]);
+                    put_ints(z, first, &mut places[2]);
+                    put_ints(level, first, &mut places[3]);
+                    put_ints(sample, first, &mut places[4]);
+                    self.fetch_lanes(&places, <I::Real as Real>::LANES.min(LANES), texels);
                 }
-                let mut texels = [[0.0; 4]; MAX_LANES];
-                self.fetch_lanes(&places[..<I::Real as Real>::LANES], &mut texels);
-                super::coordinates::packed(like, &texels)
+                packed(like, &texels)
             },
         )
     }
 
     #[inline(never)]
-    fn fetch_lanes(&self, places: &[[i32; 5]], texels: &mut [[f32; 4]; MAX_LANES]) {
-        for (place, texel) in places.iter().zip(texels) {
-            *texel = self.fetch_one(*place).unwrap_or_default();
+    fn fetch_lanes(&self, places: &[[i32; LANES]; 5], count: usize, texels: &mut Answers) {
+        for lane in 0..count {
+            let place = places.map(|of_lanes| of_lanes[lane]);
+            answer(texels, lane, self.fetch_one(place).unwrap_or_default());
         }
     }
 

@@ -1,7 +1,7 @@
 //! Gathering: one channel of the four texels that linear filtering of the base level would mix.
 
 use super::SampledView;
-use super::coordinates::{Lanes, MAX_LANES};
+use super::coordinates::{Answers, Lanes, answer};
 use super::sample::{Channels, Tap};
 use estampe_types::{FilterMode, ViewDimension};
 
@@ -12,27 +12,22 @@ const ORDER: [usize; 4] = [2, 3, 1, 0];
 impl SampledView {
     /// Gathers a channel for lanes, one after the other.
     #[inline(never)]
-    pub(crate) fn gather_lanes(
-        &self,
-        lanes: &Lanes,
-        channel: usize,
-        texels: &mut [[f32; 4]; MAX_LANES],
-    ) {
+    pub(crate) fn gather_lanes(&self, lanes: &Lanes, channel: usize, texels: &mut Answers) {
         let decoder = &self.view.decoder;
-        for (lane, texel) in texels.iter_mut().enumerate().take(lanes.count) {
+        for lane in 0..lanes.count {
             let four = self.four(lanes, lane, &Channels);
             let four = four.map(|unit| decoder.finish(unit)[channel & 3]);
-            *texel = ORDER.map(|index| four[index]);
+            answer(texels, lane, ORDER.map(|index| four[index]));
         }
     }
 
     /// Gathers answers of a comparison.
     #[inline(never)]
-    pub(crate) fn gather_compare_lanes(&self, lanes: &Lanes, answers: &mut [[f32; 4]; MAX_LANES]) {
-        for (lane, answer) in answers.iter_mut().enumerate().take(lanes.count) {
+    pub(crate) fn gather_compare_lanes(&self, lanes: &Lanes, answers: &mut Answers) {
+        for lane in 0..lanes.count {
             let comparison = self.comparison(lanes.reference[lane]);
             let four = self.four(lanes, lane, &comparison);
-            *answer = ORDER.map(|index| four[index][0]);
+            answer(answers, lane, ORDER.map(|index| four[index][0]));
         }
     }
 
@@ -42,7 +37,7 @@ impl SampledView {
             return [[0.0; 4]; 4];
         }
         let plane = &self.view.planes[0];
-        let spot = self.spot(lanes.at[lane], lanes.layer[lane]);
+        let spot = self.spot(lanes.at(lane), lanes.layer[lane]);
         if self.view.is_cube() {
             return self.four_of_cube(plane, &spot, plane.sides[0], tap).0;
         }

@@ -188,6 +188,14 @@ impl TextureView {
 }
 
 impl Plane {
+    /// Where it begins among the texture's words.
+    #[inline(always)]
+    pub(crate) fn begin_words(&self, words: i32) -> i32 {
+        // Textures have fewer than 2³¹ words; gathers confine what one put together by hand claims.
+        let begin = i32::try_from(self.offset).unwrap_or(i32::MAX);
+        begin.wrapping_mul(words)
+    }
+
     fn new(texture: &Texture, level: usize) -> Self {
         let of_level = &texture.levels[level];
         let depth = match texture.shape.dimension {

@@ -1,7 +1,7 @@
 //! Filtering, one lane at a time: probes, levels, texels.
 
 use super::axis::{self, Place};
-use super::coordinates::{Lanes, LodOfLanes, MAX_LANES};
+use super::coordinates::{Answers, Lanes, LodOfLanes, answer};
 use super::footprint::Footprint;
 use super::plane::Plane;
 use super::{SampledView, cube};
@@ -41,14 +41,21 @@ impl Tap for Channels {
 }
 
 impl SampledView {
-    /// Samples lanes one after the other.
+    /// Samples lanes: sixteen at once where it can, else one after the other.
     #[inline(never)]
-    pub(crate) fn sample_lanes(&self, lanes: &Lanes, colors: &mut [[f32; 4]; MAX_LANES]) {
-        for (lane, color) in colors.iter_mut().enumerate().take(lanes.count) {
-            let footprint = self.footprint(lanes, lane);
-            let unit = self.probes(lanes, lane, &footprint, &Channels);
-            *color = self.view.decoder.finish(unit);
+    pub(crate) fn sample_lanes(&self, lanes: &Lanes, colors: &mut Answers) {
+        if !self.sample_packet(lanes, colors, false) {
+            for lane in 0..lanes.count {
+                answer(colors, lane, self.sample_lane(lanes, lane));
+            }
         }
+    }
+
+    /// Samples one lane.
+    pub(crate) fn sample_lane(&self, lanes: &Lanes, lane: usize) -> [f32; 4] {
+        let footprint = self.footprint(lanes, lane);
+        let unit = self.probes(lanes, lane, &footprint, &Channels);
+        self.view.decoder.finish(unit)
     }
 
     /// λ with every bias, and the probes.
@@ -58,10 +65,10 @@ impl SampledView {
             LodOfLanes::Level => Footprint::of_level(lanes.value[lane]),
             LodOfLanes::Bias => {
                 let first = lanes.first_of_quad(lane);
-                Footprint::new(view, sampler, lanes.at[first], lanes.differences(first))
+                Footprint::new(view, sampler, lanes.at(first), lanes.differences(first))
             }
             LodOfLanes::Gradients => {
-                Footprint::new(view, sampler, lanes.at[lane], lanes.gradients[lane])
+                Footprint::new(view, sampler, lanes.at(lane), lanes.gradients(lane))
             }
         };
         let bias = match lanes.lod {
@@ -80,7 +87,7 @@ impl SampledView {
         footprint: &Footprint,
         tap: &impl Tap,
     ) -> [f32; 4] {
-        let at = lanes.at[lane];
+        let at = lanes.at(lane);
         let count = f32::from(footprint.probes);
         let mut sum = [0.0; 4];
         for probe in 1..=footprint.probes {

@@ -1,8 +1,10 @@
 //! A view with a sampler, as a shader holds it.
 
 use super::TextureView;
-use super::coordinates::{Coordinates, Lanes, Lod, MAX_LANES, packed};
+use super::coordinates::{Answers, Coordinates, Lanes, Lod, packed, requests};
+use super::packet::PacketFormat;
 use crate::{Sampled, TextureError};
+use estampe_simd::{LANES, Level};
 use estampe_types::ViewDimension;
 use estampe_types::shader::Sample2d;
 use estampe_types::{FilterMode, Real, SampleType, SamplerDescriptor, Texture, TextureFormat};
@@ -18,6 +20,10 @@ pub struct SampledView {
     pub(crate) sampler: SamplerDescriptor,
     /// The same, where it is of the common kind: 2D, four 8-bit channels, WebGPU's address modes.
     common: Option<Sampled>,
+    /// How sixteen lanes read texels at once, where they can.
+    pub(crate) packets: Option<PacketFormat>,
+    /// With which instructions they do.
+    pub(crate) level: Level,
 }
 
 impl Sample2d for SampledView {
@@ -42,10 +48,19 @@ impl SampledView {
             Sampled::new(texture, sampler)
         });
         Ok(Self {
+            packets: PacketFormat::new(&view),
+            level: Level::best(),
             view,
             sampler,
             common,
         })
+    }
+
+    /// The same, whose packets are sampled with the instructions of a SIMD level rather than the best one. The
+    /// answers are the same.
+    #[must_use]
+    pub fn at_level(self, level: Level) -> Self {
+        Self { level, ..self }
     }
 
     /// The view, for its sizes and for fetching texels.
@@ -81,9 +96,11 @@ impl SampledView {
         at.uvw.x.outlined(
             #[inline(always)]
             || {
-                let lanes = Lanes::new(&at, &lod, offset);
-                let mut colors = [[0.0; 4]; MAX_LANES];
-                self.sample_lanes(&lanes, &mut colors);
+                let mut colors = [Answers::default(); 2];
+                for (index, colors) in colors.iter_mut().enumerate().take(requests::<R>()) {
+                    let lanes = Lanes::new(&at, &lod, offset, index * LANES);
+                    self.sample_lanes(&lanes, colors);
+                }
                 packed(at.uvw.x, &colors)
             },
         )
@@ -96,9 +113,12 @@ impl SampledView {
         at.uvw.x.outlined(
             #[inline(always)]
             || {
-                let lanes = Lanes::new(&at, &Lod::Implicit, [offset[0], offset[1], 0]);
-                let mut texels = [[0.0; 4]; MAX_LANES];
-                self.gather_lanes(&lanes, channel, &mut texels);
+                let mut texels = [Answers::default(); 2];
+                for (index, texels) in texels.iter_mut().enumerate().take(requests::<R>()) {
+                    let offset = [offset[0], offset[1], 0];
+                    let lanes = Lanes::new(&at, &Lod::Implicit, offset, index * LANES);
+                    self.gather_lanes(&lanes, channel, texels);
+                }
                 packed(at.uvw.x, &texels)
             },
         )
@@ -117,10 +137,13 @@ impl SampledView {
         reference.outlined(
             #[inline(always)]
             || {
-                let mut lanes = Lanes::new(&at, &lod, [offset[0], offset[1], 0]);
-                lanes.set_reference(reference);
-                let mut answers = [[0.0; 4]; MAX_LANES];
-                self.compare_lanes(&lanes, &mut answers);
+                let mut answers = [Answers::default(); 2];
+                for (index, answers) in answers.iter_mut().enumerate().take(requests::<R>()) {
+                    let offset = [offset[0], offset[1], 0];
+                    let mut lanes = Lanes::new(&at, &lod, offset, index * LANES);
+                    lanes.set_reference(reference, index * LANES);
+                    self.compare_lanes(&lanes, answers);
+                }
                 packed(reference, &answers).x
             },
         )
@@ -138,10 +161,13 @@ impl SampledView {
         reference.outlined(
             #[inline(always)]
             || {
-                let mut lanes = Lanes::new(&at, &Lod::Implicit, [offset[0], offset[1], 0]);
-                lanes.set_reference(reference);
-                let mut answers = [[0.0; 4]; MAX_LANES];
-                self.gather_compare_lanes(&lanes, &mut answers);
+                let mut answers = [Answers::default(); 2];
+                for (index, answers) in answers.iter_mut().enumerate().take(requests::<R>()) {
+                    let offset = [offset[0], offset[1], 0];
+                    let mut lanes = Lanes::new(&at, &Lod::Implicit, offset, index * LANES);
+                    lanes.set_reference(reference, index * LANES);
+                    self.gather_compare_lanes(&lanes, answers);
+                }
                 packed(reference, &answers)
             },
         )

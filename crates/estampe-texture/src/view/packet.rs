@@ -1,0 +1,598 @@
+//! Filtering sixteen lanes at once.
+//!
+//! The same as `sample` does lane by lane, for the formats of [`PacketFormat`] in every dimension, with every
+//! filter. It is entered with arrays and chooses its instructions itself, so it is compiled once, in this
+//! crate, and not into every shader.
+//!
+//! A lane whose texels are not all within its level, where that needs more than a wrapped index (a border, an offset,
+//! a cube's edge), is done again by `sample`: there are few of them.
+
+pub(crate) use super::packet_texel::PacketFormat;
+
+use super::SampledView;
+use super::axis::FAR;
+use super::coordinates::{Answers, Lanes, LodOfLanes, answer};
+use super::packet_texel::passes;
+use super::plane::Plane;
+use crate::lod::level_of_detail;
+use crate::wrap::{place, tile, wrap};
+use estampe_simd::{LANES, SimdBase, dispatch, f32x16};
+use estampe_types::state::CompareFunction;
+use estampe_types::{AddressMode, FilterMode, Int, Real, TexelEncoding, ViewDimension};
+
+impl SampledView {
+    /// Samples or compares sixteen lanes; `false` where it cannot, and nothing is done.
+    #[inline(always)]
+    pub(crate) fn sample_packet(
+        &self,
+        lanes: &Lanes,
+        answers: &mut Answers,
+        compares: bool,
+    ) -> bool {
+        let Some(format) = self.packets else {
+            return false;
+        };
+        if lanes.count != LANES {
+            return false;
+        }
+        let compares = compares.then(|| self.sampler.compare.unwrap_or(CompareFunction::Never));
+        let packet = Packet {
+            of: self,
+            format,
+            lanes,
+            compares,
+        };
+        // One channel is all that is compared, and that many formats have.
+        let again = if compares.is_some() || format.components == 1 {
+            dispatch!(@wide self.level, s => {
+                let zero: f32x16<_> = SimdBase::splat(s, 0.0);
+                packet.sample::<_, 1>(zero, answers)
+            }, scalar => return false)
+        } else {
+            dispatch!(@wide self.level, s => {
+                let zero: f32x16<_> = SimdBase::splat(s, 0.0);
+                packet.sample::<_, 4>(zero, answers)
+            }, scalar => return false)
+        };
+        for lane in 0..LANES {
+            if again >> lane & 1 == 1 {
+                let channels = if compares.is_some() {
+                    self.compare_lane(lanes, lane)
+                } else {
+                    self.sample_lane(lanes, lane)
+                };
+                answer(answers, lane, channels);
+            }
+        }
+        true
+    }
+}
+
+/// A packet and what is asked of it.
+struct Packet<'a> {
+    of: &'a SampledView,
+    format: PacketFormat,
+    lanes: &'a Lanes,
+    compares: Option<CompareFunction>,
+}
+
+/// Coordinates of all lanes, as far as they do not depend on the level.
+struct Spots<R: Real> {
+    /// In their first tile, of cubes within the face.
+    at: [R; 3],
+    /// The texture's layer.
+    slice: R::Int,
+}
+
+/// Places along one axis.
+struct Places<R: Real> {
+    texels: [R::Int; 2],
+    fraction: R,
+}
+
+impl Packet<'_> {
+    #[inline(always)]
+    fn load<R: Real>(like: R, from: &[f32; LANES]) -> R {
+        like.with_lanes(
+            #[inline(always)]
+            |lane| from[lane],
+        )
+    }
+
+    /// A given derivative.
+    #[inline(always)]
+    fn gradient<R: Real>(&self, like: R, first: usize) -> [R; 3] {
+        [
+            Self::load(like, &self.lanes.gradients[first]),
+            Self::load(like, &self.lanes.gradients[first + 1]),
+            Self::load(like, &self.lanes.gradients[first + 2]),
+        ]
+    }
+
+    /// Samples the packet; gives the lanes that are to be done again.
+    #[inline(always)]
+    fn sample<R: Real, const C: usize>(&self, like: R, answers: &mut Answers) -> u32 {
+        let sampler = &self.of.sampler;
+        let at = [
+            Self::load(like, &self.lanes.at[0]),
+            Self::load(like, &self.lanes.at[1]),
+            Self::load(like, &self.lanes.at[2]),
+        ];
+        let value = Self::load(like, &self.lanes.value);
+        let (lod, bias, probes, step) = match self.lanes.lod {
+            LodOfLanes::Level => (value, like, like.splat(1.0), [like; 3]),
+            LodOfLanes::Bias => {
+                let first = of_quad(at, 0);
+                let d = [minus(of_quad(at, 1), first), minus(of_quad(at, 2), first)];
+                let (lod, probes, step) = self.footprint(first, d);
+                (lod, value, probes, step)
+            }
+            LodOfLanes::Gradients => {
+                let d = [self.gradient(like, 0), self.gradient(like, 3)];
+                let (lod, probes, step) = self.footprint(at, d);
+                (lod, like, probes, step)
+            }
+        };
+        let lod = lod + (bias + sampler.lod_bias).clamp(-16.0, 15.99);
+        // Comparisons make one probe.
+        let is_anisotropic = sampler.max_anisotropy > 1 && self.compares.is_none();
+        let probes = if is_anisotropic {
+            probes
+        } else {
+            like.splat(1.0)
+        };
+        let mut again = 0;
+        let mut sum = [like; C];
+        let mut probe = 1.0;
+        loop {
+            let counts = probes.ge(like.splat(probe));
+            let active = R::mask_bits(counts);
+            if active == 0 {
+                break;
+            }
+            let mut uvw = at;
+            let several = probes.gt(like.splat(1.0));
+            if is_anisotropic {
+                let t = like.splat(probe) / (probes + 1.0) - 0.5;
+                for k in 0..3 {
+                    uvw[k] = R::select(several, at[k] + step[k] * t, at[k]);
+                }
+            }
+            let spots = self.spots(uvw);
+            let color = self.levels::<R, C>(&spots, lod, active, &mut again);
+            for k in 0..C {
+                let added = if probe == 1.0 {
+                    color[k]
+                } else {
+                    sum[k] + color[k]
+                };
+                sum[k] = R::select(counts, added, sum[k]);
+            }
+            probe += 1.0;
+            if !is_anisotropic {
+                break;
+            }
+        }
+        self.finish(sum, probes, answers);
+        again
+    }
+
+    /// Weighs the probes' sum, brings it to numbers and stores it.
+    #[inline(always)]
+    fn finish<R: Real, const C: usize>(&self, sum: [R; C], probes: R, answers: &mut Answers) {
+        let several = probes.gt(probes.splat(1.0));
+        let weight = probes.splat(1.0) / probes;
+        let scale = self.of.view.decoder.scale;
+        let mut k = 0;
+        while k < C {
+            let mut color = sum[k];
+            if self.compares.is_none() {
+                if self.of.sampler.max_anisotropy > 1 {
+                    color = R::select(several, color * weight, color);
+                }
+                color = color * scale[k];
+            }
+            for (lane, to) in answers[k].iter_mut().enumerate() {
+                *to = color.lane(lane);
+            }
+            k += 1;
+        }
+        if C == 1 {
+            answers[1] = [0.0; LANES];
+            answers[2] = [0.0; LANES];
+            let alpha = if self.compares.is_some() { 0.0 } else { 1.0 };
+            answers[3] = [alpha; LANES];
+        }
+    }
+
+    /// λ, the number of probes, and the derivative along which they lie.
+    #[inline(always)]
+    fn footprint<R: Real>(&self, at: [R; 3], [dx, dy]: [[R; 3]; 2]) -> (R, R, [R; 3]) {
+        let one = at[0].splat(1.0);
+        let zero = at[0].splat(0.0);
+        let [x, y] = [self.squared(at, dx), self.squared(at, dy)];
+        let most_probes = f32::from(self.of.sampler.max_anisotropy.min(16));
+        let is_flat = !matches!(
+            self.of.view.dimension,
+            ViewDimension::D1 | ViewDimension::D3
+        );
+        if most_probes <= 1.0 || !is_flat {
+            return (level_of_detail(x.max(y).max(zero)), one, [zero; 3]);
+        }
+        let (x, y) = (x.max(zero), y.max(zero));
+        let is_y = y.gt(x);
+        let (most, least) = (R::select(is_y, y, x), R::select(is_y, x, y));
+        let ratio = (most / least).sqrt();
+        let limited = ratio.min(one.splat(most_probes));
+        let ratio = R::select(ratio.ge(one), limited, one);
+        let mut step = dx;
+        for k in 0..3 {
+            step[k] = R::select(is_y, dy[k], dx[k]);
+        }
+        let probes = -(-ratio).floor();
+        (level_of_detail(most / (ratio * ratio)), probes, step)
+    }
+
+    /// The squared length of a derivative in texels of the base level.
+    #[inline(always)]
+    fn squared<R: Real>(&self, at: [R; 3], d: [R; 3]) -> R {
+        let size = self.of.view.planes[0].size;
+        let d = if self.of.view.is_cube() {
+            let face = Face::of(at);
+            let ([sc, tc, rc], [ds, dt, dr]) = (face.turned(at), face.turned(d));
+            let length = rc.abs();
+            let squared = length * length;
+            let s = (length * ds - sc * dr) / squared * 0.5;
+            let t = (length * dt - tc * dr) / squared * 0.5;
+            [s, t, s]
+        } else {
+            d
+        };
+        let x = d[0] * size[0];
+        let one = x * x;
+        if self.of.view.dimension == ViewDimension::D1 {
+            return one;
+        }
+        let y = d[1] * size[1];
+        let two = one + y * y;
+        if self.of.view.dimension != ViewDimension::D3 {
+            return two;
+        }
+        let z = d[2] * size[2];
+        two + z * z
+    }
+
+    /// Where coordinates lie.
+    #[inline(always)]
+    fn spots<R: Real>(&self, at: [R; 3]) -> Spots<R> {
+        let view = &self.of.view;
+        let layer = Self::load(
+            at[0],
+            &self
+                .lanes
+                .layer
+                .map(|layer| f32::from_bits(layer.cast_unsigned())),
+        );
+        let layer = layer.to_bits();
+        let layer = layer.max(layer.splat(0)).min(layer.splat(view.layers - 1));
+        let base = layer.splat(view.base_layer.cast_signed());
+        if view.is_cube() {
+            let face = Face::of(at);
+            let [sc, tc, rc] = face.turned(at);
+            let length = rc.abs();
+            let s = sc / length * 0.5 + 0.5;
+            let t = tc / length * 0.5 + 0.5;
+            return Spots {
+                at: [s, t, s],
+                slice: base + layer * layer.splat(6) + face.index,
+            };
+        }
+        Spots {
+            at: [
+                self.tiled(at[0], 0),
+                self.tiled(at[1], 1),
+                self.tiled(at[2], 2),
+            ],
+            slice: base + layer,
+        }
+    }
+
+    /// How an axis is addressed: `None` as a cube's face is.
+    #[inline(always)]
+    fn mode(&self, axis: usize) -> AddressMode {
+        let sampler = &self.of.sampler;
+        match axis {
+            0 => sampler.address_mode_u,
+            1 => sampler.address_mode_v,
+            _ => sampler.address_mode_w,
+        }
+    }
+
+    /// Whether all texels of an axis are found by wrapping coordinates.
+    #[inline(always)]
+    fn is_plain(&self, axis: usize) -> bool {
+        self.lanes.offset[axis] == 0 && self.mode(axis).is_plain()
+    }
+
+    /// A coordinate in its first tile.
+    #[inline(always)]
+    fn tiled<R: Real>(&self, u: R, axis: usize) -> R {
+        if self.is_plain(axis) {
+            wrap(u, self.mode(axis))
+        } else {
+            u
+        }
+    }
+
+    /// One level of each lane, or the mixture of two, for the active lanes: once for every level among them.
+    #[inline(always)]
+    fn levels<R: Real, const C: usize>(
+        &self,
+        spots: &Spots<R>,
+        lod: R,
+        active: u32,
+        again: &mut u32,
+    ) -> [R; C] {
+        let (sampler, planes) = (&self.of.sampler, &self.of.view.planes);
+        let zero = lod.splat(0.0);
+        let lod = lod.clamp(sampler.lod_min_clamp, sampler.lod_max_clamp);
+        let is_minified = lod.gt(zero);
+        let last = planes.len() - 1;
+        let within = lod.clamp(0.0, last as f32);
+        let (level, fraction) = match sampler.mipmap_filter {
+            FilterMode::Nearest => ((within + 0.5).floor(), zero),
+            FilterMode::Linear => (within.floor(), within - within.floor()),
+        };
+        let is_mixed = R::mask_bits(fraction.gt(zero));
+        let level = level.to_int_within_range();
+        // What a lane reads: 2·level, and 1 more where it is minified.
+        let key = (level + level) | R::Int::select(is_minified, level.splat(1), level.splat(0));
+        let mut color = [zero; C];
+        let mut left = active;
+        while left != 0 {
+            let first = key.lane(left.trailing_zeros() as usize);
+            let mask = key.eq(key.splat(first));
+            let lanes = R::mask_bits(mask) & left;
+            let filter = if first & 1 == 0 {
+                sampler.mag_filter
+            } else {
+                sampler.min_filter
+            };
+            let at = (first >> 1).cast_unsigned() as usize;
+            let steps = if lanes & is_mixed == 0 { 1 } else { 2 };
+            let mut of_key = [zero; C];
+            for step in 0..steps {
+                let plane = &planes[(at + step).min(last)];
+                let mut outside = 0;
+                let texels = self.texels::<R, C>(plane, spots, filter, &mut outside);
+                *again |= outside & lanes & if step == 0 { u32::MAX } else { is_mixed };
+                for k in 0..C {
+                    let mixed = of_key[k] + (texels[k] - of_key[k]) * fraction;
+                    of_key[k] = if step == 0 {
+                        texels[k]
+                    } else {
+                        R::select(fraction.gt(zero), mixed, of_key[k])
+                    };
+                }
+            }
+            for k in 0..C {
+                color[k] = R::select(mask, of_key[k], color[k]);
+            }
+            left &= !lanes;
+        }
+        color
+    }
+
+    /// One level, nearest or linear; sets the lanes that cannot be done here.
+    #[inline(always)]
+    fn texels<R: Real, const C: usize>(
+        &self,
+        plane: &Plane,
+        spots: &Spots<R>,
+        filter: FilterMode,
+        outside: &mut u32,
+    ) -> [R; C] {
+        let like = spots.at[0];
+        let view = &self.of.view;
+        let axes = match view.dimension {
+            ViewDimension::D1 => 1,
+            ViewDimension::D3 => 3,
+            _ => 2,
+        };
+        let fixed = |texel: R::Int| Places {
+            texels: [texel; 2],
+            fraction: like,
+        };
+        let x = self.places(plane, spots, 0, filter, outside);
+        let y = if axes > 1 {
+            self.places(plane, spots, 1, filter, outside)
+        } else {
+            fixed(spots.slice.splat(0))
+        };
+        let z = if axes > 2 {
+            self.places(plane, spots, 2, filter, outside)
+        } else {
+            fixed(spots.slice)
+        };
+        let [width, height, _] = plane.sides.map(|side| spots.slice.splat(side));
+        let words = spots.slice.splat(self.format.words);
+        let begin = spots.slice.splat(plane.begin_words(self.format.words));
+        let is_linear = filter == FilterMode::Linear;
+        let count = |axis: usize| if is_linear && axes > axis { 2 } else { 1 };
+        let reference = self.reference(like);
+        // Loops, so that the long code of a texel exists once.
+        let mut images = [[like; C]; 2];
+        for (slice, image) in images.iter_mut().enumerate().take(count(2)) {
+            let mut rows = [[like; C]; 2];
+            for (row, mean) in rows.iter_mut().enumerate().take(count(1)) {
+                let begin_row = (z.texels[slice] * height + y.texels[row]) * width;
+                let mut pair = [[like; C]; 2];
+                for (column, units) in pair.iter_mut().enumerate().take(count(0)) {
+                    let index = (begin_row + x.texels[column]) * words + begin;
+                    self.missing(units);
+                    self.format.units(&view.texture.texels, index, units);
+                    if let Some(function) = self.compares {
+                        units[0] = passes(function, reference, units[0]);
+                    }
+                }
+                *mean = mix(pair, x.fraction, is_linear);
+            }
+            *image = mix(rows, y.fraction, count(1) == 2);
+        }
+        mix(images, z.fraction, count(2) == 2)
+    }
+
+    /// What channels that the format lacks read as.
+    #[inline(always)]
+    fn missing<R: Real, const C: usize>(&self, units: &mut [R; C]) {
+        let mut k = self.format.components;
+        while k < C {
+            units[k] = units[k].splat(if k == 3 { 1.0 } else { 0.0 });
+            k += 1;
+        }
+    }
+
+    /// What texels are compared with.
+    #[inline(always)]
+    fn reference<R: Real>(&self, like: R) -> R {
+        let reference = Self::load(like, &self.lanes.reference);
+        let encoding = self.of.view.texture.stored_format().encoding();
+        if matches!(encoding, TexelEncoding::Depth16 | TexelEncoding::Depth24) {
+            return reference.saturate();
+        }
+        reference
+    }
+
+    /// The places along one axis of a level.
+    #[inline(always)]
+    fn places<R: Real>(
+        &self,
+        plane: &Plane,
+        spots: &Spots<R>,
+        axis: usize,
+        filter: FilterMode,
+        outside: &mut u32,
+    ) -> Places<R> {
+        let (count, length) = (plane.sides[axis], plane.size[axis]);
+        let is_linear = filter == FilterMode::Linear;
+        let at = spots.at[axis];
+        if self.of.view.is_cube() {
+            let (low, high) = if is_linear {
+                (-0.5, length - 0.5)
+            } else {
+                (0.0, length - 1.0)
+            };
+            let at = at * length;
+            let at = if is_linear {
+                (at - 0.5).clamp(low, high)
+            } else {
+                at.floor().clamp(low, high)
+            };
+            return Self::unwrapped(at, 0, count, is_linear, outside);
+        }
+        if !self.is_plain(axis) {
+            let at = at * length;
+            let at = if is_linear { at - 0.5 } else { at };
+            let offset = self.lanes.offset[axis].clamp(-1024, 1024);
+            return Self::unwrapped(at.clamp(-FAR, FAR), offset, count, is_linear, outside);
+        }
+        let mode = self.mode(axis);
+        let place = place(at, length, mode, filter);
+        let next = place.texel + place.texel.splat(1);
+        let texels = if mode == AddressMode::Repeat {
+            [tile(place.texel, count), tile(next, count)]
+        } else {
+            [place.texel, next.min(next.splat(count - 1))]
+        };
+        Places {
+            texels,
+            fraction: place.fraction,
+        }
+    }
+
+    /// Places that are right if they are within the level; of the others, the texels at its border.
+    #[inline(always)]
+    fn unwrapped<R: Real>(
+        at: R,
+        offset: i32,
+        count: i32,
+        is_linear: bool,
+        outside: &mut u32,
+    ) -> Places<R> {
+        let whole = at.floor();
+        let first = whole.to_int_within_range();
+        let first = first + first.splat(offset);
+        let room = if is_linear { count - 1 } else { count };
+        *outside |= R::mask_bits(first.is_outside(room));
+        let (zero, last) = (first.splat(0), first.splat(count - 1));
+        let next = first + first.splat(1);
+        Places {
+            texels: [first.max(zero).min(last), next.max(zero).min(last)],
+            fraction: at - whole,
+        }
+    }
+}
+
+/// Coordinates of one fragment of each quad.
+#[inline(always)]
+fn of_quad<R: Real>([x, y, z]: [R; 3], index: u8) -> [R; 3] {
+    [x.quad_lane(index), y.quad_lane(index), z.quad_lane(index)]
+}
+
+#[inline(always)]
+fn minus<R: Real>([a, b, c]: [R; 3], [x, y, z]: [R; 3]) -> [R; 3] {
+    [a - x, b - y, c - z]
+}
+
+/// `a + (b − a)·t` of each channel, or a alone.
+#[inline(always)]
+fn mix<R: Real, const C: usize>([a, b]: [[R; C]; 2], t: R, is_linear: bool) -> [R; C] {
+    if !is_linear {
+        return a;
+    }
+    let mut mixed = a;
+    for k in 0..C {
+        mixed[k] = a[k] + (b[k] - a[k]) * t;
+    }
+    mixed
+}
+
+/// The faces of a cube that directions meet.
+struct Face<R: Real> {
+    index: R::Int,
+    is_x: R::Mask,
+    is_z: R::Mask,
+    is_negative: R::Mask,
+}
+
+impl<R: Real> Face<R> {
+    #[inline(always)]
+    fn of([x, y, z]: [R; 3]) -> Self {
+        let (ax, ay, az) = (x.abs(), y.abs(), z.abs());
+        let is_z = az.ge(ay) & az.ge(ax);
+        let is_x = !is_z & !ay.ge(ax);
+        let major = R::select(is_z, z, R::select(is_x, x, y));
+        let is_negative = major.lt(x.splat(0.0));
+        let int = |value: i32| x.splat_int(value);
+        let axis = R::Int::select(is_z, int(4), R::Int::select(is_x, int(0), int(2)));
+        let sign = R::Int::select(is_negative, int(1), int(0));
+        Self {
+            index: axis + sign,
+            is_x,
+            is_z,
+            is_negative,
+        }
+    }
+
+    /// (sc, tc, the major component times its sign) of vectors.
+    #[inline(always)]
+    fn turned(&self, [x, y, z]: [R; 3]) -> [R; 3] {
+        let negated = |value: R| R::select(self.is_negative, -value, value);
+        // +x: −z, −y; −x: z, −y; +y: x, z; −y: x, −z; +z: x, −y; −z: −x, −y.
+        let s_of_x = R::select(self.is_negative, z, -z);
+        let sc = R::select(self.is_x, s_of_x, R::select(self.is_z, negated(x), x));
+        let tc = R::select(self.is_x | self.is_z, -y, negated(z));
+        let major = R::select(self.is_z, z, R::select(self.is_x, x, y));
+        [sc, tc, negated(major)]
+    }
+}
