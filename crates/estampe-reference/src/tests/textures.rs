@@ -1,5 +1,7 @@
 //! Sampling: addressing, filters, levels.
 
+mod views;
+
 use super::*;
 use estampe_types::shader::Sample2d;
 use std::sync::Arc;
