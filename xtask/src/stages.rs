@@ -38,7 +38,14 @@ struct Order {
 const CORE: Order = Order {
     sources: "crates/estampe-core/src",
     // `tiles` is the one boundary between the two sides: both import it.
-    foundations: &["layout", "pipeline", "recording", "statistics", "tiles"],
+    foundations: &[
+        "commands",
+        "layout",
+        "pipeline",
+        "recording",
+        "statistics",
+        "tiles",
+    ],
     stages: &[
         "geometry::viewport",
         "geometry::rows",

@@ -8,6 +8,8 @@
 //! `Depth16Unorm`, `Depth24Plus`, `Depth32Float` with reversed z and an infinite far plane, and `Depth16Unorm`
 //! again with logarithmic depth, which the fragment shader writes.
 
+#![expect(clippy::print_stdout, reason = "an example talks to who runs it")]
+
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{CompareFunction, DepthState, PrimitiveTopology, VertexBufferLayout};
 use estampe::{

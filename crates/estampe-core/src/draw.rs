@@ -1,7 +1,7 @@
 //! The page on which the pipeline reads: what a draw is, and the order in which its stages run.
 
+use crate::attachment::RenderTarget;
 use crate::attachment::resolve::ResolveJob;
-use crate::attachment::{RenderTarget, texel_words};
 use crate::commands::{LoadOp, OcclusionQueries, RenderPass};
 use crate::geometry::assembly::ElementSource;
 use crate::geometry::binning::BinState;
@@ -9,6 +9,7 @@ use crate::geometry::chunk::{ChunkScratch, ChunkWork, process};
 use crate::geometry::cull::CullState;
 use crate::geometry::line_style::{LineRun, LineStyle};
 use crate::geometry::shading::{ShadedVertices, ShadingScratch, shade};
+use crate::layout::texel_words;
 use crate::per_sample::texel::TexelCodec;
 use crate::raster::general::sample_range;
 use crate::recording::Phase;

@@ -1,5 +1,7 @@
 //! Which pixel is stored where.
 
+use estampe_types::TextureFormat;
+
 /// Side of a storage block, in pixels.
 pub(crate) const BLOCK: u32 = 64;
 
@@ -72,6 +74,11 @@ impl TileGrid {
         let (px, py) = (x % BLOCK / 4, y % BLOCK / 4);
         block as usize * 256 + morton(px, py) as usize
     }
+}
+
+/// Words of 32 bits that a texel of a colour format takes in an attachment: smaller ones take one all the same.
+pub(crate) fn texel_words(format: TextureFormat) -> usize {
+    (format.block_bytes() as usize).div_ceil(4)
 }
 
 /// Interleaves the low four bits of x and y: bit 0 of x is bit 0, bit 0 of y is bit 1.

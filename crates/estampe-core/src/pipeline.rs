@@ -480,6 +480,7 @@ fn is_general(descriptor: &RenderPipelineDescriptor, interface: &Interface) -> b
         || interface.reads_coverage
         || interface.writes_sample_mask
         || interface.dual_source
+        || interface.stores
         || matches!(
             interface.depth_output,
             DepthOutput::Greater | DepthOutput::Less

@@ -33,10 +33,11 @@ fn drawn(width: u32, height: u32) -> Result<Vec<([u32; 2], f32)>, TargetError> {
     let device = Device::new(&DeviceDescriptor::default()).expect("threads can be had");
     let (right, bottom) = (width - 1, height - 1);
     let corners = [[0, 0], [right, 0], [0, bottom], [right, bottom]];
-    let ndc = |pixel: u32, side: u32| (f64::from(pixel) + 0.5) / f64::from(side) * 2.0 - 1.0;
+    // Exact: sides are powers of two.
+    let ndc = |pixel: u32, side: u32| (pixel as f32 + 0.5) / side as f32 * 2.0 - 1.0;
     let points: Vec<f32> = corners
         .iter()
-        .flat_map(|&[x, y]| [ndc(x, width) as f32, -ndc(y, height) as f32])
+        .flat_map(|&[x, y]| [ndc(x, width), -ndc(y, height)])
         .collect();
     let mut descriptor = RenderPipelineDescriptor::new(White);
     descriptor.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x2])];

@@ -19,5 +19,4 @@ mod readback;
 pub(crate) mod resolve;
 mod target;
 
-pub(crate) use target::texel_words;
 pub use target::{RenderTarget, RenderTargetDescriptor, TargetError};

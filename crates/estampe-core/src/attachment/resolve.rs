@@ -4,7 +4,7 @@
 //! samples' lines of packet i. So the work is one pass over memory, cut anywhere.
 
 use super::RenderTarget;
-use super::target::texel_words;
+use crate::layout::texel_words;
 use crate::per_sample::texel::{MAX_WORDS, TexelCodec};
 use crate::raster::general::MAX_SAMPLES;
 use estampe_simd::LANES;

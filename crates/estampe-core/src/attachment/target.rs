@@ -1,6 +1,6 @@
 //! A render target: colour attachments and a depth attachment of one size.
 
-use crate::layout::TileGrid;
+use crate::layout::{TileGrid, texel_words};
 use crate::per_sample::general::DepthFormat;
 use estampe_types::{Limits, Lines, TextureFormat};
 use std::sync::Arc;
@@ -90,7 +90,7 @@ pub enum TargetError {
 pub struct RenderTarget {
     pub(crate) descriptor: RenderTargetDescriptor,
     pub(super) grid: TileGrid,
-    /// In storage order; a texel of each sample is one, two or four [`words`](texel_words) of sixteen lanes. RGBA8 has
+    /// In storage order; a texel of each sample is one, two or four [`words`](crate::layout::texel_words) of sixteen lanes. RGBA8 has
     /// R in the low byte.
     pub(crate) colors: Vec<Lines<u32>>,
     /// One element per sample, in storage order; empty without depth. Shared with the depth textures that
@@ -236,9 +236,4 @@ fn check(descriptor: &RenderTargetDescriptor, limits: &Limits) -> Result<(), Tar
         return Err(TargetError::NotDepthStencil(format));
     }
     Ok(())
-}
-
-/// Words of 32 bits that a texel of a colour format takes in an attachment: smaller ones take one all the same.
-pub(crate) fn texel_words(format: TextureFormat) -> usize {
-    (format.block_bytes() as usize).div_ceil(4)
 }

@@ -56,7 +56,7 @@ impl TexelCodec {
             is_srgb: format.is_srgb(),
             is_bgra: format.is_bgra(),
             sample_type: format.sample_type(),
-            words: crate::attachment::texel_words(format),
+            words: crate::layout::texel_words(format),
         }
     }
 

@@ -66,6 +66,7 @@ pub(super) fn draw_chunk(
     let alpha_to_coverage =
         descriptor.alpha_to_coverage && targets[0].is_some_and(|target| !target.is_integer());
     let early = !interface.discards
+        && !interface.stores
         && interface.depth_output == DepthOutput::None
         && !alpha_to_coverage
         && !interface.writes_sample_mask;
@@ -86,7 +87,9 @@ pub(super) fn draw_chunk(
         targets,
         alpha_to_coverage,
         early,
-        rejects_early: !early && can_reject_early(&tests, interface.depth_output),
+        rejects_early: !early
+            && !interface.stores
+            && can_reject_early(&tests, interface.depth_output),
         per_sample,
         source: work.varyings(work.chunk),
         smooth: None,

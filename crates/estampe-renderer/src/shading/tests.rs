@@ -169,6 +169,7 @@ fn alpha_cuts_out_is_kept_or_ignored() {
     let input = FragmentIn {
         position: Vec4::repeat(0.0_f32),
         front_facing: true,
+        is_live: true,
         sample_index: 0,
         coverage: 0,
         bindings: &bindings,

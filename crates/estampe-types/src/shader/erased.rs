@@ -33,6 +33,7 @@ impl<T: Shader> ShaderProgram<T> {
             reads_coverage: T::READS_COVERAGE,
             writes_sample_mask: T::WRITES_SAMPLE_MASK,
             dual_source: T::DUAL_SOURCE,
+            stores: T::STORES,
             ..Interface::default()
         };
         T::Attributes::<f32>::components(&mut interface.attributes);
@@ -151,6 +152,7 @@ impl<T: Shader> ShaderProgram<T> {
             let input = FragmentIn {
                 position,
                 front_facing: R::mask_of(simd, packets.map(|packet| batch.front_facing[packet])),
+                is_live: R::mask_of(simd, packets.map(|packet| batch.coverage[packet])),
                 sample_index,
                 coverage: samples_covered,
                 bindings,

@@ -14,6 +14,9 @@ pub struct FragmentIn<'a, R: Real> {
     /// Whether the triangle faces the viewer, also where only its edges or vertices are drawn; true for
     /// primitives that were lines or points from the start.
     pub front_facing: R::Mask,
+    /// Whether the lane is a fragment; where not it is a helper, there for its neighbours' derivatives, and must not
+    /// store anything.
+    pub is_live: R::Mask,
     /// The number of the sample that is shaded, if the shader is run [per sample](crate::Shader::PER_SAMPLE); 0
     /// where not.
     pub sample_index: R::Int,

@@ -68,6 +68,8 @@ pub struct Interface {
     pub reads_coverage: bool,
     /// Whether fragments write which samples are kept.
     pub writes_sample_mask: bool,
+    /// Whether fragments store where others can see it, so that they must be shaded before they are tested.
+    pub stores: bool,
     /// Whether fragments give a second colour for blending target 0, the only one.
     pub dual_source: bool,
     /// Whether vertices set a point size.

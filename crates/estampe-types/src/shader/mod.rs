@@ -75,6 +75,9 @@ pub trait Shader: Send + Sync + 'static {
     const READS_COVERAGE: bool = false;
     /// Whether the fragment says which samples it keeps: [`FragmentOut::with_sample_mask`].
     const WRITES_SAMPLE_MASK: bool = false;
+    /// Whether the fragment stores to [storage textures](crate::StorageTexture). It is then shaded wherever the
+    /// primitive covers it, hidden or not, and tested afterwards.
+    const STORES: bool = false;
     /// Whether the fragment gives a second colour for blending: [`FragmentOut::with_second_color`]. It then has one
     /// target.
     const DUAL_SOURCE: bool = false;

@@ -14,6 +14,7 @@ pub(super) fn passes_color<T: Shader>(shader: &T, interface: &Interface) -> bool
         || interface.depth_output != super::DepthOutput::None
         || interface.color_targets != 1
         || interface.dual_source
+        || T::STORES
         || interface.writes_sample_mask
         || scalars < 4
     {

@@ -83,6 +83,7 @@ pub(super) fn fragments<T: Shader>(
             let input = FragmentIn {
                 position,
                 front_facing,
+                is_live: Quad([0, 1, 2, 3].map(|k| batch.coverage[packet] >> (lane + k) & 1 == 1)),
                 sample_index: Quad([sample_index.cast_signed(); QUAD]),
                 coverage: batch
                     .samples_covered
