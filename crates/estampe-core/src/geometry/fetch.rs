@@ -6,9 +6,7 @@
 
 use super::rows::columns_of;
 use crate::pipeline::AttributeSource;
-use estampe_simd::{
-    Bytes, LANES, Lanes, Packet, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16,
-};
+use estampe_simd::{Bytes, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
 use estampe_types::{Buffer, VertexEncoding, VertexFormat};
 
 /// Which vertices a packet holds.
@@ -60,14 +58,27 @@ pub(crate) fn fetch<S: Lanes>(
 /// The words that an attribute's first components lie in.
 #[inline(always)]
 fn words_of(format: VertexFormat, components: usize) -> usize {
-    (components * format.size_bytes() / format.components()).div_ceil(4)
+    match format {
+        VertexFormat::Float32
+        | VertexFormat::Float32x2
+        | VertexFormat::Float32x3
+        | VertexFormat::Float32x4 => components,
+        VertexFormat::Unorm8x2 | VertexFormat::Unorm8x4 => 1,
+        _ => (components * bits_of_component(format)).div_ceil(32),
+    }
 }
 
-/// One component of sixteen elements.
+/// Bits of a component; of packed formats their average.
+fn bits_of_component(format: VertexFormat) -> usize {
+    format.size_bytes() * 8 / format.components()
+}
+
+/// One component of sixteen elements. The formats of most meshes are decoded here, all others out of the way: with
+/// code for every format in this place fetching took twice the time for those few.
 #[inline(always)]
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "a component is 0, 1, 2 or 3, and a width at most 32"
+    reason = "a component is 0, 1, 2 or 3"
 )]
 fn decode<S: Lanes>(
     s: S,
@@ -75,54 +86,70 @@ fn decode<S: Lanes>(
     words: &[u32x16<S>; 4],
     component: usize,
 ) -> f32x16<S> {
-    let (component, bits) = match format {
+    match format {
         VertexFormat::Float32
         | VertexFormat::Float32x2
         | VertexFormat::Float32x3
-        | VertexFormat::Float32x4 => return words[component & 3].bitcast(),
-        VertexFormat::Unorm10_10_10_2 => {
-            let code = words[0] >> (component as u32 * 10);
-            return if component == 3 {
-                float(code) * (1.0 / 3.0)
-            } else {
-                float(code & 0x3FF) * (1.0 / 1023.0)
-            };
+        | VertexFormat::Float32x4 => words[component & 3].bitcast(),
+        VertexFormat::Unorm8x2 | VertexFormat::Unorm8x4 => {
+            let code = (words[0] >> (component as u32 * 8)) & 0xFF;
+            float(code) * (1.0 / 255.0)
         }
-        VertexFormat::Unorm8x4Bgra => ([2, 1, 0, 3][component & 3], 8),
-        _ => (component, format.size_bytes() * 8 / format.components()),
-    };
-    let (word, shift) = (component * bits / 32, (component * bits % 32) as u32);
-    // The code in the highest bits; from there it comes down with or without its sign.
-    let down = 32 - bits as u32;
-    let code = words[word & 3] << (down - shift);
-    let signed: i32x16<S> = code.bitcast();
-    let is_byte = bits == 8;
-    match format.encoding() {
-        VertexEncoding::Unorm => {
-            let scale = if is_byte { 1.0 / 255.0 } else { 1.0 / 65_535.0 };
-            float(code >> down) * scale
+        VertexFormat::Unorm16x2 | VertexFormat::Unorm16x4 => {
+            let code = (words[(component / 2) & 3] >> (component as u32 % 2 * 16)) & 0xFFFF;
+            float(code) * (1.0 / 65_535.0)
         }
-        VertexEncoding::Snorm => {
-            let scale = if is_byte { 1.0 / 127.0 } else { 1.0 / 32_767.0 };
-            let value = f32x16::float_from(signed >> down) * scale;
-            s.max_f32(value, SimdBase::splat(s, -1.0))
+        _ => {
+            let word = component * bits_of_component(format) / 32;
+            let decoded = decode_rare(format, words[word & 3].to_array(), component);
+            f32x16::load_array(s, decoded)
         }
-        VertexEncoding::Uint => (code >> down).bitcast(),
-        VertexEncoding::Sint => (signed >> down).bitcast(),
-        VertexEncoding::Float => half(code),
     }
 }
 
-/// 16-bit floats in the upper halves of words, exactly.
-#[inline(always)]
-fn half<S: Lanes>(code: u32x16<S>) -> f32x16<S> {
+/// The same of any format, from the word that holds the component.
+#[inline(never)]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a component is 0, 1, 2 or 3, and a width at most 32"
+)]
+fn decode_rare(format: VertexFormat, words: [u32; LANES], component: usize) -> [f32; LANES] {
+    let (shift, bits) = match format {
+        VertexFormat::Unorm10_10_10_2 => (component * 10, if component == 3 { 2 } else { 10 }),
+        VertexFormat::Unorm8x4Bgra => ([16, 8, 0, 24][component & 3], 8),
+        _ => {
+            let bits = bits_of_component(format);
+            (component * bits % 32, bits)
+        }
+    };
+    // The code in the highest bits; from there it comes down with or without its sign.
+    let (up, down) = ((32 - bits - shift) as u32, (32 - bits) as u32);
+    let greatest = (u32::MAX >> down) as f32;
+    let greatest_signed = (u32::MAX >> down >> 1) as f32;
+    let codes = words.map(|word| word << up);
+    let signed = |code: u32| code.cast_signed() >> down;
+    match format.encoding() {
+        VertexEncoding::Unorm => codes.map(|code| (code >> down) as f32 * (1.0 / greatest)),
+        VertexEncoding::Snorm => codes.map(|code| {
+            let value = signed(code) as f32 * (1.0 / greatest_signed);
+            if value > -1.0 { value } else { -1.0 }
+        }),
+        VertexEncoding::Uint => codes.map(|code| f32::from_bits(code >> down)),
+        VertexEncoding::Sint => codes.map(|code| f32::from_bits(signed(code).cast_unsigned())),
+        VertexEncoding::Float => codes.map(half),
+    }
+}
+
+/// The 16-bit float in the upper half of a word, exactly.
+fn half(code: u32) -> f32 {
     let magnitude = (code & 0x7FFF_0000) >> 3;
-    // The exponent is 112 less than it should be; as a product that is right of denormal numbers, too.
-    let as_float: f32x16<S> = magnitude.bitcast();
-    let number: u32x16<S> = (as_float * f32::from_bits(0x7780_0000)).bitcast();
-    let is_number = magnitude.simd_lt(0x0F80_0000);
-    let number = is_number.select(number, magnitude | 0x7F80_0000);
-    (number | (code & 0x8000_0000)).bitcast()
+    let number = if magnitude < 0x0F80_0000 {
+        // The exponent is 112 less than it should be; as a product that is right of denormal numbers, too.
+        (f32::from_bits(magnitude) * f32::from_bits(0x7780_0000)).to_bits()
+    } else {
+        magnitude | 0x7F80_0000
+    };
+    f32::from_bits(number | code & 0x8000_0000)
 }
 
 /// The first words of an attribute of sixteen elements, what lies beyond the buffer's end zero; at least
