@@ -145,7 +145,6 @@ const OUTSIDE: &[(&str, Homes)] = &[
         ]),
     ),
     // Blocks of compressed textures, decoded when a texture is made.
-    ("astc-decode", Homes::Only(&["estampe-texture"])),
     ("bcdec_rs", Homes::Only(&["estampe-texture"])),
     ("earcut", Homes::Only(&["estampe-shapes"])),
     // File formats: everyone else sees decoded images.

@@ -1,8 +1,9 @@
 //! Compressed blocks, decoded when a texture is made.
 //!
-//! BC1 to BC7 are [`bcdec_rs`]'s, ASTC [`astc_decode`]'s; ETC2 and EAC are ours, because the libraries give 8 of
-//! EAC's 11 bits. This module alone names the libraries.
+//! BC1 to BC7 are [`bcdec_rs`]'s. ETC2, EAC and ASTC are ours: libraries gave 8 of EAC's 11 bits, and ASTC's sRGB as
+//! if it were linear. This module alone names the library.
 
+mod astc;
 mod etc;
 
 use estampe_types::TextureFormat;
@@ -14,6 +15,7 @@ pub(crate) const MAX_WORDS: usize = 144;
 /// `block` has the format's number of bytes; formats without blocks give nothing.
 pub(crate) fn decode(format: TextureFormat, block: &[u8], words: &mut [u32; MAX_WORDS]) {
     use TextureFormat as F;
+    let is_astc_4x4 = matches!(format, F::Astc4x4Unorm | F::Astc4x4UnormSrgb);
     match format {
         F::Bc1RgbaUnorm | F::Bc1RgbaUnormSrgb => bytes(words, |to| bcdec_rs::bc1(block, to, 16)),
         F::Bc2RgbaUnorm | F::Bc2RgbaUnormSrgb => bytes(words, |to| bcdec_rs::bc2(block, to, 16)),
@@ -37,16 +39,17 @@ pub(crate) fn decode(format: TextureFormat, block: &[u8], words: &mut [u32; MAX_
                 texel.copy_from_slice(&[r | g << 16, b | 0x3C00 << 16]);
             }
         }
-        _ if format.block_size() != [4, 4] || is_astc(format) => astc(format, block, words),
-        _ => etc::decode(format, block, words),
+        _ => {
+            let size = format.block_size();
+            match block.try_into() {
+                // Blocks of other sizes are ASTC's alone.
+                Ok(block) if size != [4, 4] || is_astc_4x4 => {
+                    astc::decode(block, size, format.is_srgb(), words);
+                }
+                _ => etc::decode(format, block, words),
+            }
+        }
     }
-}
-
-fn is_astc(format: TextureFormat) -> bool {
-    matches!(
-        format,
-        TextureFormat::Astc4x4Unorm | TextureFormat::Astc4x4UnormSrgb
-    )
 }
 
 /// Sixteen texels of four bytes.
@@ -62,16 +65,4 @@ fn floats(words: &mut [u32], from: &[f32]) {
     for (word, value) in words.iter_mut().zip(from) {
         *word = value.to_bits();
     }
-}
-
-fn astc(format: TextureFormat, block: &[u8], words: &mut [u32; MAX_WORDS]) {
-    let (Ok(block), [width, height]) = (block.try_into(), format.block_size()) else {
-        return;
-    };
-    let footprint = astc_decode::Footprint::new(width, height);
-    astc_decode::astc_decode_block(block, footprint, |x, y, rgba| {
-        if let Some(word) = words.get_mut((y * width + x) as usize) {
-            *word = u32::from_le_bytes(rgba);
-        }
-    });
 }

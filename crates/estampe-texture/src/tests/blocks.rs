@@ -236,6 +236,48 @@ fn astc_of_one_color_and_of_errors() {
     assert_eq!(decode(F::Astc8x8Unorm, &[0; 16]), vec![0xFFFF_00FF; 64]);
 }
 
+/// Compared with texture2ddecoder 0.1.2 on 200,000 random blocks of each of five sizes: the 74,242 that are LDR
+/// differ by one code at most, for it cuts off where we round. (A third, astc-decode 0.3.1, takes other colours for
+/// some blocks of several partitions.) This keeps what was compared.
+#[test]
+fn astc_is_what_another_decoder_makes_of_it() {
+    let formats = [
+        F::Astc4x4Unorm,
+        F::Astc6x5Unorm,
+        F::Astc8x8Unorm,
+        F::Astc10x10Unorm,
+        F::Astc12x12Unorm,
+    ];
+    assert_eq!(formats.map(hash_of), ASTC_HASHES);
+}
+
+/// sRGB takes the upper half of what lies between endpoints with 128 below them; alpha is as ever.
+#[test]
+fn astc_colors_of_srgb_are_cut_off() {
+    let mut differing = 0;
+    for block in random_blocks(16, 20_000) {
+        let linear = decode(F::Astc6x6Unorm, &block);
+        let srgb = decode(F::Astc6x6UnormSrgb, &block);
+        for (linear, srgb) in linear.into_iter().zip(srgb) {
+            let (a, b) = (linear.to_le_bytes(), srgb.to_le_bytes());
+            assert_eq!(a[3], b[3]);
+            for k in 0..3 {
+                assert!(a[k].abs_diff(b[k]) <= 1, "{a:?} {b:?}");
+            }
+            differing += u32::from(linear != srgb);
+        }
+    }
+    assert!(differing > 100);
+}
+
+const ASTC_HASHES: [u64; 5] = [
+    14_449_804_357_981_816_599,
+    13_100_367_860_990_400_027,
+    15_122_660_721_375_443_153,
+    13_195_934_375_246_095_503,
+    2_430_571_871_916_244_374,
+];
+
 #[test]
 fn hostile_blocks_do_no_harm() {
     for &format in F::ALL {
