@@ -337,6 +337,99 @@ fn views_and_samplers_ask_for_what_is_there() {
     }
 }
 
+/// The fields of a texture are public: what they claim must not harm.
+#[test]
+fn views_of_textures_put_together_by_hand_cannot_harm() {
+    use crate::{Coordinates, Lod};
+    use estampe_types::{Quad, Vec3};
+    let sides = [0, 1, 7, 16_384, u32::MAX];
+    let random = &mut super::Random(77);
+    let mut views = 0;
+    for round in 0..30_000_u32 {
+        let pick = |random: &mut super::Random| sides[random.bits() as usize % sides.len()];
+        let levels = (0..random.bits() % 4)
+            .map(|_| {
+                let side = pick(random);
+                crate::MipLevel {
+                    width: side,
+                    height: if random.bits().is_multiple_of(2) {
+                        side
+                    } else {
+                        pick(random)
+                    },
+                    offset: pick(random),
+                }
+            })
+            .collect();
+        let dimension = [
+            TextureDimension::D1,
+            TextureDimension::D2,
+            TextureDimension::D3,
+        ];
+        let texture = Texture {
+            format: TextureFormat::ALL[round as usize % TextureFormat::ALL.len()],
+            levels,
+            texels: vec![0x3F80_0000; random.bits() as usize % 50].into(),
+            is_opaque: true,
+            shape: crate::TextureShape {
+                dimension: dimension[random.bits() as usize % 3],
+                depth_or_layers: [0, 1, 6, 12, 1 << 14, u32::MAX][random.bits() as usize % 6],
+                samples: [0, 1, 1, 1, 4, u32::MAX][random.bits() as usize % 6],
+            },
+        };
+        use ViewDimension as V;
+        let dimension = [V::D1, V::D2, V::D2Array, V::Cube, V::CubeArray, V::D3];
+        let descriptor = TextureViewDescriptor {
+            dimension: Some(dimension[random.bits() as usize % 6]),
+            base_mip_level: random.bits() % 3,
+            base_array_layer: if random.bits().is_multiple_of(4) {
+                pick(random)
+            } else {
+                0
+            },
+            ..TextureViewDescriptor::default()
+        };
+        let Ok(view) = TextureView::new(texture, &descriptor) else {
+            continue;
+        };
+        views += 1;
+        let ints = |random: &mut super::Random| {
+            Quad([0, 1, i32::MAX, 16_383].map(|k| k ^ (random.bits() % 2).cast_signed()))
+        };
+        let at = [ints(random), ints(random), ints(random)];
+        view.fetch(at, Quad([0, 1, 0, i32::MIN]), Quad([0, 0, 3, i32::MAX]));
+        let sampler = SamplerDescriptor {
+            compare: view
+                .texture()
+                .format
+                .has_depth()
+                .then_some(estampe_types::state::CompareFunction::Less),
+            ..if view.texture().format.sample_type() == SampleType::Uint
+                || view.texture().format.sample_type() == SampleType::Sint
+            {
+                SamplerDescriptor::default()
+            } else {
+                SamplerDescriptor::trilinear_repeat()
+            }
+        };
+        let Ok(sampled) = SampledView::new(view, sampler) else {
+            continue;
+        };
+        let mut number = || Quad([0; 4].map(|_| (random.unit() - 0.5) * 8.0));
+        let at = Coordinates::cube_array(
+            Vec3::new(number(), number(), number()),
+            Quad([i32::MIN, 0, 5, i32::MAX]),
+        );
+        sampled.sample_with(at, Lod::Level(number()), [i32::MAX, i32::MIN, 1]);
+        sampled.gather(at, 7, [1, 2]);
+        sampled.sample_compare(at, number(), Lod::Implicit, [0; 2]);
+        for level in estampe_simd::Level::all_available() {
+            super::sample_view_packet(level, &sampled);
+        }
+    }
+    assert!(views > 1000, "{views}");
+}
+
 #[test]
 fn levels_are_means() {
     for &format in TextureFormat::ALL {

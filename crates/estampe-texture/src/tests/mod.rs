@@ -65,6 +65,21 @@ fn sample_packet(level: Level, sampled: &Sampled, uv: [[f32; LANES]; 2], lod: Lo
     dispatch!(level, s => wide(s, sampled, uv, lod))
 }
 
+/// One packet of a view at a SIMD level: that it comes back is all that is asked.
+fn sample_view_packet(level: Level, view: &crate::SampledView) {
+    #[inline(always)]
+    fn wide<S: Lanes>(simd: S, view: &crate::SampledView) {
+        let mut u = [0.0; LANES];
+        for (lane, u) in (0..).zip(&mut u) {
+            *u = (lane - 7) as f32 * 0.3;
+        }
+        let u = f32x16::load_array(simd, u);
+        let at = crate::Coordinates::d3(estampe_types::Vec3::new(u, u * 0.7, u * -0.1));
+        view.sample_with(at, crate::Lod::Implicit, [3, 0, 0]);
+    }
+    dispatch!(level, s => wide(s, &view.clone().at_level(level)));
+}
+
 fn array(color: Vec4<f32>) -> [f32; 4] {
     [color.x, color.y, color.z, color.w]
 }

@@ -10,6 +10,9 @@ use std::sync::Arc;
 /// The longest side, confined to which arithmetic stays in range.
 const MAX_SIDE: u32 = 16_384;
 
+/// More layers than any texture has; arithmetic stays in range.
+const MAX_LAYERS: u32 = 1 << 14;
+
 /// One level as sampling needs it. A texture put together by hand may claim anything: sides are confined here, and
 /// what is not there reads as zeros.
 #[derive(Debug, Clone, Copy)]
@@ -75,7 +78,7 @@ impl TextureView {
             V::Cube => rest.min(6),
             V::D2Array | V::CubeArray => rest,
         });
-        if layers == 0 || layers > rest {
+        if layers == 0 || layers > rest || layers > MAX_LAYERS || first > MAX_LAYERS {
             return Err(missing("layers"));
         }
         let is_whole = layers == all_layers;
@@ -177,12 +180,13 @@ impl TextureView {
     pub(crate) fn texel(&self, plane: &Plane, [x, y, slice]: [i32; 3], sample: u32) -> &[u32] {
         let [width, height, _] = plane.sides.map(|side| side as usize);
         let samples = self.texture.shape.samples as usize;
-        let row = (slice as usize).saturating_mul(height) + y as usize;
-        let at = plane
-            .offset
-            .saturating_add(row.saturating_mul(width).saturating_add(x as usize) * samples);
-        let begin = at.saturating_add(sample as usize) * self.decoder.words;
-        let end = begin + self.decoder.words;
+        // Saturating, for what a texture put together by hand claims.
+        let row = (slice as usize * height).saturating_add(y as usize);
+        let texel = row.saturating_mul(width).saturating_add(x as usize);
+        let at = plane.offset.saturating_add(texel.saturating_mul(samples));
+        let at = at.saturating_add(sample as usize);
+        let begin = at.saturating_mul(self.decoder.words);
+        let end = begin.saturating_add(self.decoder.words);
         self.texture.texels.get(begin..end).unwrap_or_default()
     }
 }
