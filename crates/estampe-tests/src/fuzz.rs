@@ -1,10 +1,7 @@
 //! Coverage of triangles that share edges: each sample exactly once, through the public API.
 //!
 //! A batch is several [meshes](crate::shared_edges) over one target, each of which covers every pixel once. Their hits
-//! are added up by additive blending, one unit each, so that each pixel must end with as many units as there are
-//! meshes. With four samples the mean could hide a sample missed beside one hit twice: a second channel counts only the
-//! first hit of each mesh on each sample (it lies nearer than the mesh before, so only the first passes the depth test).
-//! If each sample of a pixel is hit at least once and all hits are as many as samples, each is hit exactly once.
+//! are added up by additive blending, one code each, so that each sample must end with as many as there are meshes.
 
 use crate::Random;
 use crate::fast_path;
@@ -15,23 +12,18 @@ use estampe::{
     RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor,
 };
 use estampe_types::shader::VertexOut;
-use estampe_types::state::{
-    BlendState, ColorTargetState, ColorWrites, CompareFunction, DepthState, VertexBufferLayout,
-};
+use estampe_types::state::{BlendState, ColorTargetState, VertexBufferLayout};
 use estampe_types::{Buffer, FragmentIn, FragmentOut, TextureFormat, Vec4, VertexFormat, VertexIn};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// Codes that a hit adds: each of four samples' codes is a multiple, and so is their mean.
-const UNIT: u8 = 4;
-
-/// Meshes of a batch: 60 hits of 4 codes fit into 8 bits.
-const MESHES: u32 = 60;
+/// Meshes of a batch at most: their hits fit into 8 bits, if some are hit twice too.
+const MESHES: u32 = 100;
 
 /// Triangles of a batch, about: beyond this it is closed.
 const TRIANGLES: usize = 40_000;
 
-/// Adds a unit wherever it is.
+/// Adds one code of 8 bits wherever it is.
 #[derive(Debug, Clone, Copy)]
 struct Hit;
 
@@ -49,7 +41,7 @@ estampe_types::shader! {
         }
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, _nothing: ()) -> FragmentOut<R> {
-            let unit = input.real(f32::from(UNIT) / 255.0);
+            let unit = input.real(1.0 / 255.0);
             FragmentOut::color(Vec4::new(unit, unit, unit, unit))
         }
     }
@@ -129,8 +121,7 @@ struct Kept {
     size: [u32; 2],
     samples: u32,
     target: RenderTarget,
-    all_hits: RenderPipeline,
-    first_hits: RenderPipeline,
+    pipeline: RenderPipeline,
 }
 
 impl Fuzzer {
@@ -167,7 +158,7 @@ impl Fuzzer {
         let kept = self.kept(at, batch.size, batch.samples);
         let (device, kept) = (&self.devices[at], &mut self.kept[kept]);
         let meshes: Vec<usize> = (0..batch.meshes.len()).collect();
-        let Some(first) = wrong_pixel(device, kept, &batch, &meshes) else {
+        let Some(first) = wrong_sample(device, kept, &batch, &meshes) else {
             let counts = batch
                 .meshes
                 .iter()
@@ -176,7 +167,7 @@ impl Fuzzer {
         };
         // Which of the meshes is it?
         let alone = meshes.iter().find_map(|&number| {
-            let wrong = wrong_pixel(device, kept, &batch, &[number])?;
+            let wrong = wrong_sample(device, kept, &batch, &[number])?;
             Some((number, wrong))
         });
         let (size, samples) = (batch.size, batch.samples);
@@ -217,25 +208,18 @@ impl Fuzzer {
 
 impl Kept {
     fn new(device: &Device, number: usize, size: [u32; 2], samples: u32) -> Self {
-        let pipeline = |write_mask: u8, depth: Option<DepthState>| {
-            device
-                .create_render_pipeline(&RenderPipelineDescriptor {
-                    vertex_buffers: vec![VertexBufferLayout::packed(&[VertexFormat::Float32x4])],
-                    depth,
-                    samples,
-                    targets: vec![ColorTargetState {
-                        format: TextureFormat::Rgba8Unorm,
-                        blend: Some(BlendState::ADDITIVE),
-                        write_mask: ColorWrites(write_mask),
-                    }],
-                    ..RenderPipelineDescriptor::new(Hit)
-                })
-                .expect("a valid pipeline")
-        };
-        let nearer = DepthState {
-            write_enabled: true,
-            compare: CompareFunction::Less,
-        };
+        let pipeline = device
+            .create_render_pipeline(&RenderPipelineDescriptor {
+                vertex_buffers: vec![VertexBufferLayout::packed(&[VertexFormat::Float32x4])],
+                depth: None,
+                samples,
+                targets: vec![ColorTargetState {
+                    blend: Some(BlendState::ADDITIVE),
+                    ..TextureFormat::Rgba8Unorm.into()
+                }],
+                ..RenderPipelineDescriptor::new(Hit)
+            })
+            .expect("a valid pipeline");
         Self {
             device: number,
             size,
@@ -246,8 +230,7 @@ impl Kept {
                     ..RenderTargetDescriptor::new(size[0], size[1])
                 })
                 .expect("a valid target"),
-            all_hits: pipeline(0b0001, None),
-            first_hits: pipeline(0b0010, Some(nearer)),
+            pipeline,
         }
     }
 }
@@ -255,7 +238,7 @@ impl Kept {
 impl Batch {
     fn random(random: &mut Random) -> Self {
         let size = random.pick(&[[64, 64], [32, 32], [16, 16], [61, 35], [130, 20]]);
-        let samples = random.pick(&[1, 1, 4]);
+        let samples = random.pick(&[1, 1, 1, 4, 4, 2, 8, 16]);
         let mut meshes = Vec::new();
         let mut ws = Vec::new();
         let mut triangles = 0;
@@ -274,49 +257,67 @@ impl Batch {
         }
     }
 
-    /// Clip positions of some meshes, each nearer than the one before.
+    /// Clip positions of some meshes.
     fn positions(&self, meshes: &[usize]) -> Buffer {
         let mut scalars = Vec::new();
-        for (turn, &number) in (1u8..).zip(meshes) {
-            let z = 1.0 - f32::from(turn) / 64.0;
+        for &number in meshes {
             let (w, (_, triangles)) = (self.ws[number], &self.meshes[number]);
             for corner in triangles.iter().flatten() {
                 let place = corner.map(|subpixels| subpixels as f32 / 256.0);
-                scalars.extend(clip_at(self.size, place, z, w));
+                scalars.extend(clip_at(self.size, place, 0.5, w));
             }
         }
         Buffer::from_f32s(&scalars)
     }
+
+    /// How often each pixel's samples are to be hit by some meshes; `None` where a mesh ends.
+    fn wanted(&self, meshes: &[usize]) -> Vec<Option<u8>> {
+        let [width, height] = self.size;
+        let mut wanted = vec![Some(0); width as usize * height as usize];
+        for &number in meshes {
+            let (kind, triangles) = &self.meshes[number];
+            let [columns, rows] = covered(*kind, self.size, triangles);
+            for y in 0..height {
+                for x in 0..width {
+                    let hits = &mut wanted[(y * width + x) as usize];
+                    let is_covered = x < columns && y < rows;
+                    *hits = hits.filter(|_| is_covered).map(|hits| hits + 1);
+                }
+            }
+        }
+        wanted
+    }
 }
 
-/// A pixel that was hit other than it should be.
+/// A sample that was hit other than it should be.
 #[derive(Debug, Clone, Copy)]
 struct Wrong {
     pixel: [u32; 2],
-    /// Codes of all hits and of first hits, summed over the meshes.
     #[expect(dead_code, reason = "it is for whoever reads the message")]
-    codes: [u8; 2],
-    /// What both should be.
+    sample: u32,
+    #[expect(dead_code, reason = "it is for whoever reads the message")]
+    hits: u8,
     #[expect(dead_code, reason = "it is for whoever reads the message")]
     wanted: u8,
 }
 
-/// Draws some meshes, and looks for a pixel that they do not hit once each.
-fn wrong_pixel(device: &Device, kept: &mut Kept, batch: &Batch, meshes: &[usize]) -> Option<Wrong> {
-    let [width, height] = batch.size;
+/// Draws some meshes, and looks for a sample that they do not hit once each.
+fn wrong_sample(
+    device: &Device,
+    kept: &mut Kept,
+    batch: &Batch,
+    meshes: &[usize],
+) -> Option<Wrong> {
+    let width = batch.size[0];
     let buffers = [batch.positions(meshes)];
     let count = buffers[0].len_bytes() / 16;
-    let elements = 0..u32::try_from(count).expect("few triangles");
-    let mut draws = vec![Draw {
+    let draws = [Draw {
         vertex_buffers: &buffers,
-        ..Draw::new(&kept.all_hits, elements.clone())
+        ..Draw::new(
+            &kept.pipeline,
+            0..u32::try_from(count).expect("few triangles"),
+        )
     }];
-    if batch.samples > 1 {
-        draws.push(Draw {
-            vertex_buffers: &buffers,
-            ..Draw::new(&kept.first_hits, elements)
-        });
-    }
     device.render(
         &mut kept.target,
         &RenderPass {
@@ -325,41 +326,20 @@ fn wrong_pixel(device: &Device, kept: &mut Kept, batch: &Batch, meshes: &[usize]
             ..RenderPass::default()
         },
     );
-    let color = kept.target.read_color(0);
-    let (pixels, _) = color.as_chunks::<4>();
-    // Meshes that do not reach all of the target are wanted only where they do.
-    let mut wanted = vec![0_u8; pixels.len()];
-    let mut unsure = vec![false; pixels.len()];
-    for &number in meshes {
-        let (kind, triangles) = &batch.meshes[number];
-        let [columns, rows] = covered(*kind, batch.size, triangles);
-        for y in 0..height {
-            for x in 0..width {
-                let at = (y * width + x) as usize;
-                if x < columns && y < rows {
-                    wanted[at] += UNIT;
-                } else {
-                    unsure[at] = true;
-                }
-            }
-        }
-    }
-    (0u32..)
-        .zip(pixels)
-        .find_map(|(number, &[all, first, ..])| {
-            let at = number as usize;
-            let counts = if batch.samples > 1 {
-                [all, first]
-            } else {
-                [all; 2]
-            };
-            let is_wrong = !unsure[at] && counts != [wanted[at]; 2];
-            is_wrong.then_some(Wrong {
-                pixel: [number % width, number / width],
-                codes: counts,
-                wanted: wanted[at],
+    let wanted = batch.wanted(meshes);
+    (0..batch.samples).find_map(|sample| {
+        let texels = kept.target.read_texels(0, sample);
+        let hits = texels.iter().step_by(4).zip(&wanted);
+        (0u32..).zip(hits).find_map(|(at, (&hits, &wanted))| {
+            let wanted = wanted.filter(|&wanted| wanted != hits)?;
+            Some(Wrong {
+                pixel: [at % width, at / width],
+                sample,
+                hits,
+                wanted,
             })
         })
+    })
 }
 
 /// Triangles whose boxes touch a pixel, a few.
@@ -393,12 +373,12 @@ mod tests {
     fn is_found(batch: &Batch) -> bool {
         let mut fuzzer = Fuzzer::new();
         let at = fuzzer.kept(0, batch.size, batch.samples);
-        wrong_pixel(&fuzzer.devices[0], &mut fuzzer.kept[at], batch, &[0]).is_some()
+        wrong_sample(&fuzzer.devices[0], &mut fuzzer.kept[at], batch, &[0]).is_some()
     }
 
     #[test]
     fn a_hole_and_a_sample_hit_twice_are_found() {
-        for samples in [1, 4] {
+        for samples in [1, 4, 16] {
             let whole = grid(samples);
             assert!(!is_found(&whole), "{samples} samples");
             let triangles = &whole.meshes[0].1;
@@ -417,8 +397,7 @@ mod tests {
                 "{samples} samples: a triangle drawn twice"
             );
         }
-        // A shared vertex that moved for one of its triangles alone, by 1/4 pixel: with four samples the pixels' sums
-        // of hits may stay what they were.
+        // A shared vertex that moved for one of its triangles alone, by 1/4 pixel.
         let mut torn = grid(4);
         for triangle in &mut torn.meshes[0].1 {
             triangle[0][0] += 64;

@@ -1,7 +1,9 @@
 //! Blending, write mask, depth and stencil of one sample: 2,000 cases with the results of the reference fragment processor
 //! of KhronosGroup/VK-GL-CTS, where the file is there, and a small file of our oracle's, always.
 
+use estampe::Device;
 use estampe_reference::Target;
+use estampe_tests::fast_path::{self, some_devices};
 use estampe_tests::fragment_ops::{FragmentOp, Stored};
 use estampe_tests::{Random, oracle};
 use estampe_types::TextureFormat;
@@ -69,6 +71,38 @@ fn the_oracle_agrees_with_the_reference_processor_of_others() {
     if let Some(cases) = cases_of_others() {
         assert_eq!(cases.len(), 2000);
         check(&cases, oracle_of);
+    }
+}
+
+/// The fast path's result on one device.
+fn fast_path_of(device: &Device, case: &FragmentOp) -> Stored {
+    let image = fast_path::draw(device, &case.case(), &None);
+    Stored {
+        color: image.color.try_into().expect("four bytes"),
+        depth: f32::from_bits(image.depth[0]),
+        stencil: image.stored.stencils[0][0],
+    }
+}
+
+/// Rows: O3, O4, O5, O7, U3.
+#[test]
+fn every_level_agrees_with_the_reference_processor_of_others() {
+    let Some(cases) = cases_of_others() else {
+        return;
+    };
+    for device in some_devices(0) {
+        check(&cases, |case| fast_path_of(device, case));
+    }
+}
+
+/// Rows: O3, O4, O5, O7, U3.
+#[test]
+fn every_level_agrees_with_the_oracles_own_cases() {
+    let cases = lines(&own_file()).expect("data/fragment-ops.jsonl is part of the project");
+    for device in some_devices(1) {
+        for case in &cases {
+            assert_eq!(fast_path_of(device, case), case.result, "{}", case.line());
+        }
     }
 }
 

@@ -1,16 +1,23 @@
 //! The shaders of the tests: each shows something that both sides must compute alike.
 
+mod attachments;
 mod colored;
 mod depths;
 mod distances;
 mod probe;
+mod samples;
 mod textured;
 mod vertex_input;
 
+pub use attachments::{
+    GreaterDepth, HeldDepth, Layers, Layers1, Layers3, Layers8, LessDepth, LogarithmicDepth,
+    TwoColors,
+};
 pub use colored::{Colored, FlatColored, Halved, Sized, Uniform};
 pub use depths::{Cutout, CutoutDepth, DepthGiven, DepthOnly, GivenDepth};
 pub use distances::{Distant, ManyDistances};
 pub use probe::{Probe, Scalar};
+pub use samples::{AtCentroid, AtSample, BySample, Masking, Shown};
 pub use textured::{TexelSource, Textured};
 pub use vertex_input::{Formats, Indexed};
 
@@ -98,6 +105,17 @@ test_shaders!(
     DepthGiven,
     CutoutDepth,
     DepthOnly,
+    Layers1,
+    Layers3,
+    Layers8,
+    TwoColors,
+    GreaterDepth,
+    LessDepth,
+    LogarithmicDepth,
+    AtCentroid,
+    AtSample,
+    BySample,
+    Masking,
     Indexed,
     Formats,
     Distant,

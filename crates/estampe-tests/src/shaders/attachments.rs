@@ -1,0 +1,155 @@
+//! Shaders of several targets, of integers, and of two colours for one.
+
+use super::bytes_of;
+use estampe_types::shader::{DepthOutput, VertexOut};
+use estampe_types::{FragmentIn, FragmentOut, Int, Real, Shader, Vec4, VertexIn};
+
+/// So many targets, each with a colour of its own: of the targets whose bit is set integers, as bits; of the
+/// others numbers.
+#[derive(Debug, Clone, Copy)]
+pub struct Layers<const N: usize>(pub u8);
+
+/// One target.
+pub type Layers1 = Layers<1>;
+/// Three targets.
+pub type Layers3 = Layers<3>;
+/// As many as there can be.
+pub type Layers8 = Layers<8>;
+
+/// Integers around the ends of every format's range, from a number.
+#[inline(always)]
+fn integer<R: Real>(value: R) -> R {
+    let near = (value * 300.0).to_int();
+    let high = value.to_bits();
+    let is_near = value.lt(value.splat(0.75));
+    R::Int::select(is_near, near, high).to_real_bits()
+}
+
+impl<const N: usize> Shader for Layers<N> {
+    type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
+    type Varyings<R: Real> = Vec4<R>;
+    const COLOR_TARGETS: usize = N;
+
+    #[inline(always)]
+    fn vertex<R: Real>(
+        &self,
+        _input: VertexIn<'_, R>,
+        (position, color): (Vec4<R>, Vec4<R>),
+    ) -> VertexOut<R, Vec4<R>> {
+        VertexOut::new(position, color)
+    }
+
+    #[inline(always)]
+    fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, color: Vec4<R>) -> FragmentOut<R> {
+        let mut out = FragmentOut::none();
+        let mut turned = color;
+        for target in 0..N {
+            turned = Vec4::new(turned.y, turned.z, turned.w * 1.25, turned.x);
+            let given = if self.0 >> target & 1 == 1 {
+                Vec4::new(
+                    integer(turned.x),
+                    integer(turned.y),
+                    integer(turned.z),
+                    integer(turned.w),
+                )
+            } else {
+                turned
+            };
+            // The last of eight is given none: zeros are stored.
+            if target < 7 {
+                out = out.with_color(target, given);
+            }
+        }
+        out
+    }
+}
+
+/// Two colours for one target.
+#[derive(Debug, Clone, Copy)]
+pub struct TwoColors;
+
+estampe_types::shader! {
+    impl Shader for TwoColors {
+        type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
+        type Varyings<R: Real> = Vec4<R>;
+        const DUAL_SOURCE: bool = true;
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, color): (Vec4<R>, Vec4<R>),
+        ) -> VertexOut<R, Vec4<R>> {
+            VertexOut::new(position, color)
+        }
+
+        fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, color: Vec4<R>) -> FragmentOut<R> {
+            let second = Vec4::new(color.w, color.x * 2.0 - 0.5, color.y, color.z);
+            FragmentOut::color(color).with_second_color(second)
+        }
+    }
+}
+
+/// A depth that is declared to lie behind the interpolated one (`true`) or before it, or that does not keep the word.
+#[derive(Debug, Clone, Copy)]
+pub struct HeldDepth<const GREATER: bool>;
+
+/// Declared to be greater.
+pub type GreaterDepth = HeldDepth<true>;
+/// Declared to be less.
+pub type LessDepth = HeldDepth<false>;
+
+impl<const GREATER: bool> Shader for HeldDepth<GREATER> {
+    type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
+    type Varyings<R: Real> = Vec4<R>;
+    const READS_POSITION: bool = true;
+    const DEPTH_OUTPUT: DepthOutput = if GREATER {
+        DepthOutput::Greater
+    } else {
+        DepthOutput::Less
+    };
+
+    #[inline(always)]
+    fn vertex<R: Real>(
+        &self,
+        _input: VertexIn<'_, R>,
+        (position, color): (Vec4<R>, Vec4<R>),
+    ) -> VertexOut<R, Vec4<R>> {
+        VertexOut::new(position, color)
+    }
+
+    #[inline(always)]
+    fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, color: Vec4<R>) -> FragmentOut<R> {
+        let z = input.position.z;
+        FragmentOut::color(bytes_of(z)).with_depth(z + (color.x - 0.5) * 0.5)
+    }
+}
+
+/// Logarithmic depth, log₂(1 + w) ÷ log₂(1 + far): the depth that the shader writes; far is the number it holds.
+#[derive(Debug, Clone, Copy)]
+pub struct LogarithmicDepth(pub f32);
+
+estampe_types::shader! {
+    impl Shader for LogarithmicDepth {
+        type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
+        type Varyings<R: Real> = Vec4<R>;
+        const READS_POSITION: bool = true;
+        const DEPTH_OUTPUT: DepthOutput =
+            DepthOutput::Any;
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, color): (Vec4<R>, Vec4<R>),
+        ) -> VertexOut<R, Vec4<R>> {
+            VertexOut::new(position, color)
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, color: Vec4<R>) -> FragmentOut<R> {
+            let one = input.real(1.0);
+            let w = one / input.position.w;
+            let scale = one / estampe_types::maths::log2(input.real(1.0 + self.0));
+            let depth = estampe_types::maths::log2(w + 1.0) * scale;
+            FragmentOut::color(color).with_depth(depth)
+        }
+    }
+}

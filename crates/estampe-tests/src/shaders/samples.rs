@@ -1,0 +1,144 @@
+//! Shaders that know of the samples of a pixel.
+
+use super::{bytes_of, bytes_of_int};
+use crate::Random;
+use estampe_types::shader::VertexOut;
+use estampe_types::{
+    Centroid, Flat, FragmentIn, FragmentOut, Int, NoPerspective, PerSample, Real, Vec2, Vec4,
+    VertexIn,
+};
+
+/// What is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shown {
+    /// The first varying.
+    Varying,
+    /// Its derivative in x.
+    Ddx,
+    /// Its derivative in y.
+    Ddy,
+    /// The second varying, which is linear in the window and at the pixel's centre unless shading is by sample.
+    Second,
+    /// The samples that are covered, and the number of the one that is shaded.
+    Samples,
+    /// Window x.
+    X,
+    /// Depth.
+    Z,
+    /// 1/w.
+    InverseW,
+}
+
+impl Shown {
+    /// One of them.
+    pub fn random(random: &mut Random) -> Self {
+        random.pick(&[
+            Self::Varying,
+            Self::Ddx,
+            Self::Ddy,
+            Self::Second,
+            Self::Samples,
+            Self::X,
+            Self::Z,
+            Self::InverseW,
+        ])
+    }
+}
+
+#[inline(always)]
+fn show<R: Real>(
+    what: Shown,
+    input: FragmentIn<'_, R>,
+    first: Vec2<R>,
+    second: Vec2<R>,
+) -> FragmentOut<R> {
+    let p = input.position;
+    FragmentOut::color(match what {
+        Shown::Varying => bytes_of(first.x),
+        Shown::Ddx => bytes_of(first.x.ddx()),
+        Shown::Ddy => bytes_of(first.y.ddy()),
+        Shown::Second => bytes_of(second.y),
+        Shown::Samples => bytes_of_int::<R>(input.coverage | (input.sample_index << 16)),
+        Shown::X => bytes_of(p.x),
+        Shown::Z => bytes_of(p.z),
+        Shown::InverseW => bytes_of(p.w),
+    })
+}
+
+macro_rules! sampled {
+    ($($doc:literal $name:ident $wrapper:ident $per_sample:literal;)*) => {$(
+        #[doc = $doc]
+        #[derive(Debug, Clone, Copy)]
+        pub struct $name(pub Shown);
+
+        estampe_types::shader! {
+            impl Shader for $name {
+                type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
+                type Varyings<R: Real> =
+                    ($wrapper<Vec2<R>>, NoPerspective<Vec2<R>>, Flat<[R; 1]>);
+                const READS_POSITION: bool = true;
+                const READS_COVERAGE: bool = true;
+                const PER_SAMPLE: bool = $per_sample;
+
+                fn vertex<R: Real>(
+                    &self,
+                    _input: VertexIn<'_, R>,
+                    (position, v): (Vec4<R>, Vec4<R>),
+                ) -> VertexOut<R, Self::Varyings<R>> {
+                    let varyings = (
+                        $wrapper(Vec2::new(v.x, v.y)),
+                        NoPerspective(Vec2::new(v.z, v.x)),
+                        Flat([v.w]),
+                    );
+                    VertexOut::new(position, varyings)
+                }
+
+                fn fragment<R: Real>(
+                    &self,
+                    input: FragmentIn<'_, R>,
+                    ($wrapper(first), NoPerspective(second), Flat([flat])): Self::Varyings<R>,
+                ) -> FragmentOut<R> {
+                    show(self.0, input, first, Vec2::new(flat, second.y))
+                }
+            }
+        }
+    )*};
+}
+sampled! {
+    "A varying where the primitive covers the pixel." AtCentroid Centroid false;
+    "A varying at each sample, which makes shading go by sample." AtSample PerSample false;
+    "Shaded by sample because it reads the sample's number; the varying is declared centroid." BySample Centroid true;
+}
+
+/// Keeps the samples of a mask, which is made of the first value, and shows the coverage; discards some.
+#[derive(Debug, Clone, Copy)]
+pub struct Masking {
+    /// Added to the mask's bits.
+    pub always: u16,
+}
+
+estampe_types::shader! {
+    impl Shader for Masking {
+        type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
+        type Varyings<R: Real> = Vec4<R>;
+        const READS_COVERAGE: bool = true;
+        const WRITES_SAMPLE_MASK: bool = true;
+        const DISCARDS: bool = true;
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, color): (Vec4<R>, Vec4<R>),
+        ) -> VertexOut<R, Vec4<R>> {
+            VertexOut::new(position, color)
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, color: Vec4<R>) -> FragmentOut<R> {
+            let mask = (color.x.saturate() * 65535.0).to_int() | input.coverage.splat(self.always.into());
+            let kept = color.y.gt(color.x.splat(0.15));
+            FragmentOut::color(bytes_of_int::<R>(input.coverage))
+                .with_sample_mask(mask)
+                .keep_where(kept)
+        }
+    }
+}
