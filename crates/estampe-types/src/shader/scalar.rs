@@ -78,7 +78,9 @@ pub(super) fn fragments<T: Shader>(
                 black
             };
             let front = batch.front_facing[packet] >> lane;
-            let sample_index = batch.sample_index.get(packet).copied().unwrap_or_default();
+            // As in the wide form: only shaders that declare it are told.
+            let told = batch.sample_index.get(packet).filter(|_| T::PER_SAMPLE);
+            let sample_index = told.copied().unwrap_or_default();
             let front_facing = Quad([0, 1, 2, 3].map(|k| front >> k & 1 == 1));
             let input = FragmentIn {
                 position,
