@@ -164,10 +164,17 @@ pub struct Counts {
 
 /// Draws into a target.
 ///
+/// A draw whose viewport, scissor and target have no pixel in common is none: nothing of it is counted.
+///
 /// It cannot fail: indices out of range and short buffers read zeros, and what is not a number is
 /// dropped or stored as NUMERICS.md says. A draw takes as long as its ranges ask for.
 pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Draw<'_>) -> Counts {
     if !is_drawable(&state.viewport) {
+        return Counts::default();
+    }
+    let size = [target.width, target.height];
+    let bounds = PixelBounds::new(&state.viewport, &state.scissor, size);
+    if bounds.x.is_empty() || bounds.y.is_empty() {
         return Counts::default();
     }
     let mut modes = Vec::new();
@@ -176,7 +183,6 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
     S::Varyings::<f32>::sampling(&mut sampling);
     let is_by_sample =
         state.sample_shading || S::PER_SAMPLE || sampling.contains(&Sampling::Sample);
-    let size = [target.width, target.height];
     let mut pass = Pass {
         target,
         shader,
@@ -184,7 +190,7 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
         bindings: draw.bindings,
         viewport: ViewportTransform::new(&state.viewport)
             .with_unclipped_depth(state.primitive.unclipped_depth),
-        bounds: PixelBounds::new(&state.viewport, &state.scissor, size),
+        bounds,
         modes,
         is_by_sample,
         stipple: 0,

@@ -106,7 +106,10 @@ fn difference(case: &Case, device: &Device, got: &Image, wanted: &Image) -> Stri
     let device = fast_path::name(device);
     let Some(&at) = all.first() else {
         let stored = got.stored.difference(&wanted.stored, case);
-        let counts = format!("counts {:?}, oracle {:?}", got.counts, wanted.counts);
+        let counts = format!(
+            "{} primitives, oracle {}; counts {:?}, oracle {:?}",
+            got.primitives, wanted.primitives, got.counts, wanted.counts
+        );
         return format!("{device}: {}", stored.unwrap_or(counts));
     };
     let depth = |image: &Image| image.depth.get(at).map(|&bits| f32::from_bits(bits));

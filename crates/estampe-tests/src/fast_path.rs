@@ -7,7 +7,7 @@ use crate::readback;
 use crate::shaders::Colored;
 use estampe::{
     Device, DeviceDescriptor, Draw, Level, Limits, LoadOp, OcclusionQueries, RenderPass,
-    RenderPipeline, RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor,
+    RenderPipeline, RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, Statistics,
 };
 use estampe_types::TextureFormat;
 use estampe_types::state::{
@@ -72,6 +72,7 @@ pub fn draw(device: &Device, case: &Case, depths: &SampleDepths) -> Image {
         .expect("a valid target");
     let queries = OcclusionQueries::new(case.draws.len());
     let first_draws = case.passes()[0].len();
+    let mut primitives = 0;
     for (number, draws) in case.passes().into_iter().enumerate() {
         let is_first = number == 0;
         let mut clear = RenderPass {
@@ -87,7 +88,8 @@ pub fn draw(device: &Device, case: &Case, depths: &SampleDepths) -> Image {
             clear.load_stencil = LoadOp::Load;
         }
         let first_draw = if is_first { 0 } else { first_draws };
-        draw_pass(device, &mut target, case, (draws, first_draw), clear);
+        let drawn = draw_pass(device, &mut target, case, (draws, first_draw), clear);
+        primitives += drawn.primitives_in;
     }
     let color = match case.format {
         Some(format) if readback::is_read_as_color(format) => target.read_color(0),
@@ -110,6 +112,7 @@ pub fn draw(device: &Device, case: &Case, depths: &SampleDepths) -> Image {
         depth,
         matches,
         stored,
+        primitives,
         counts,
     }
 }
@@ -121,7 +124,7 @@ fn draw_pass(
     case: &Case,
     (draws, first_draw): (&[CaseDraw], usize),
     clear: RenderPass<'_>,
-) {
+) -> Statistics {
     let first_draw = u32::try_from(first_draw).expect("few draws");
     let pipelines: Vec<_> = draws
         .iter()
@@ -154,7 +157,7 @@ fn draw_pass(
         draws: &commands,
         ..clear
     };
-    device.render(target, &pass);
+    device.render(target, &pass)
 }
 
 /// How many of a pixel's samples hold each of the oracle's four depths: for each of those a point of one

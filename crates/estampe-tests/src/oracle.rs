@@ -19,6 +19,8 @@ pub struct Image {
     pub matches: Vec<[u8; 4]>,
     /// What every sample of every attachment holds: see [`readback`](crate::readback).
     pub stored: Stored,
+    /// Primitives that the draws name.
+    pub primitives: u64,
     /// Of each draw that counts samples, in order, how many passed.
     pub counts: Vec<u64>,
 }
@@ -33,7 +35,7 @@ pub type SampleDepths = Option<Vec<[f32; 4]>>;
 #[must_use]
 pub fn draw(case: &Case) -> (Image, SampleDepths) {
     let [width, height] = case.size;
-    let (target, counts) = drawn(case);
+    let (target, counts, primitives) = drawn(case);
     let color = match case.format {
         Some(format) if readback::is_read_as_color(format) => {
             let texels = target.resolve(0).into_iter();
@@ -55,6 +57,7 @@ pub fn draw(case: &Case) -> (Image, SampleDepths) {
         depth: first_samples.map(|depth| depth.to_bits()).collect(),
         matches: depths.iter().flatten().map(matches).collect(),
         stored: stored(&target),
+        primitives,
         counts,
     };
     (image, depths)
@@ -66,21 +69,22 @@ pub fn target(case: &Case) -> Target {
     drawn(case).0
 }
 
-/// The target, and the counts of the draws that count.
-fn drawn(case: &Case) -> (Target, Vec<u64>) {
+/// The target, the counts of the draws that count, and the primitives of all.
+fn drawn(case: &Case) -> (Target, Vec<u64>, u64) {
     let formats = case.formats();
     let mut target =
         Target::with_attachments(case.size, case.samples, &formats, case.depth_stencil);
     target.clear(case.clear_color, case.clear_depth);
     target.clear_stencil(case.clear_stencil);
-    let mut counts = Vec::new();
+    let (mut counts, mut primitives) = (Vec::new(), 0);
     for draw in &case.draws {
-        let passed = draw_one(&mut target, draw, case).samples_passed;
+        let drawn = draw_one(&mut target, draw, case);
+        primitives += drawn.primitives;
         if draw.is_counted {
-            counts.push(passed);
+            counts.push(drawn.samples_passed);
         }
     }
-    (target, counts)
+    (target, counts, primitives)
 }
 
 /// Every sample of every attachment.

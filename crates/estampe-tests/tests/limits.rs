@@ -4,8 +4,9 @@ use estampe::{
     Device, DeviceDescriptor, Draw, RenderPass, RenderPipelineDescriptor, RenderTargetDescriptor,
 };
 use estampe_tests::geometry::{Style, Vertex, clip_at, triangles};
-use estampe_tests::shaders::Colored;
-use estampe_tests::{Case, CaseDraw, Random, check_some};
+use estampe_tests::shaders::{Colored, Crowded};
+use estampe_tests::{Case, CaseDraw, Random, check, check_some};
+use estampe_types::Buffer;
 use estampe_types::state::DepthState;
 
 /// Rows: L, R1.
@@ -28,6 +29,29 @@ fn the_longest_sides() {
         case.draws.push(CaseDraw::new(Colored, &vertices));
         check_some("limits/sides", &case);
     }
+}
+
+/// Rows: L, V1, V2.
+#[test]
+fn all_attributes_of_all_buffers_and_all_varyings() {
+    check("limits/inputs", 20, |random| {
+        let mut case = Case::random_target(random);
+        let style = random.pick(&[Style::Large, Style::Small, Style::AroundEye]);
+        let vertices = triangles(random, style, case.size, 4);
+        let mut draw = CaseDraw::new(Crowded, &vertices);
+        // Two attributes in each of eight buffers; the first buffer's are position and values.
+        for buffer in 1..8 {
+            let mut layout = draw.buffers[0].0.clone();
+            for attribute in &mut layout.attributes {
+                attribute.shader_location += 2 * buffer;
+            }
+            let values = vertices.iter().flat_map(|_| [0; 8].map(|_| random.unit()));
+            let values: Vec<f32> = values.collect();
+            draw.buffers.push((layout, Buffer::from_f32s(&values)));
+        }
+        case.draws.push(draw);
+        case
+    });
 }
 
 /// Rows: L.

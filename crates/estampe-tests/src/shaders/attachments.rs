@@ -153,3 +153,35 @@ estampe_types::shader! {
         }
     }
 }
+
+/// Four vectors of four numbers.
+type Sixteen<R> = (Vec4<R>, Vec4<R>, Vec4<R>, Vec4<R>);
+
+/// As many attributes and varyings as there may be: 16 of four numbers each. The first attribute is the position.
+#[derive(Debug, Clone, Copy)]
+pub struct Crowded;
+
+estampe_types::shader! {
+    impl Shader for Crowded {
+        type Attributes<R: Real> = (Sixteen<R>, Sixteen<R>, Sixteen<R>, Sixteen<R>);
+        type Varyings<R: Real> = (Sixteen<R>, Sixteen<R>, Sixteen<R>, Sixteen<R>);
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            attributes: Self::Attributes<R>,
+        ) -> VertexOut<R, Self::Varyings<R>> {
+            VertexOut::new(attributes.0.0, attributes)
+        }
+
+        fn fragment<R: Real>(
+            &self,
+            input: FragmentIn<'_, R>,
+            (a, b, c, d): Self::Varyings<R>,
+        ) -> FragmentOut<R> {
+            let half = input.real(0.5);
+            let mix = |v: Sixteen<R>| ((v.3 * half + v.2) * half + v.1) * half + v.0;
+            FragmentOut::color(((mix(d) * half + mix(c)) * half + mix(b)) * half + mix(a))
+        }
+    }
+}

@@ -10,8 +10,8 @@ mod textured;
 mod vertex_input;
 
 pub use attachments::{
-    GreaterDepth, HeldDepth, Layers, Layers1, Layers3, Layers8, LessDepth, LogarithmicDepth,
-    TwoColors,
+    Crowded, GreaterDepth, HeldDepth, Layers, Layers1, Layers3, Layers8, LessDepth,
+    LogarithmicDepth, TwoColors,
 };
 pub use colored::{Colored, FlatColored, Halved, Sized, Uniform};
 pub use depths::{Cutout, CutoutDepth, DepthGiven, DepthOnly, GivenDepth};
@@ -112,6 +112,7 @@ test_shaders!(
     GreaterDepth,
     LessDepth,
     LogarithmicDepth,
+    Crowded,
     AtCentroid,
     AtSample,
     BySample,
