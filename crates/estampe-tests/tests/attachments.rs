@@ -1,10 +1,11 @@
 //! Several targets of different formats, integers, and two colours for one target.
 
 use estampe_tests::geometry::{Style, triangles};
-use estampe_tests::shaders::{Layers, TwoColors};
+use estampe_tests::shaders::{Colored, DepthOnly, Layers, TwoColors};
 use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
 use estampe_types::state::{
-    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorWrites, LogicOperation,
+    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorWrites, CompareFunction,
+    DepthState, LogicOperation, StencilFaceState, StencilOperation, StencilState,
 };
 use estampe_types::{SampleType, TextureFormat};
 
@@ -104,6 +105,9 @@ fn layers(random: &mut Random, count: usize, blended: bool) -> Case {
         draw.is_counted = random.once_in(2);
         case.draws.push(draw);
     }
+    if random.once_in(3) {
+        case.second_pass = random.index(4);
+    }
     case
 }
 
@@ -163,6 +167,112 @@ fn two_sources() {
             draw.blend_constant = random.four(-0.5, 1.5);
             draw.depth = None;
             case.draws.push(draw);
+        }
+        case
+    });
+}
+
+/// Rows: O5, O8.
+#[test]
+fn numbers_that_are_hardly_numbers() {
+    // Of integers a NaN's bits would count, which processors choose.
+    let blendable: Vec<_> = renderable()
+        .into_iter()
+        .filter(|f| f.is_blendable())
+        .collect();
+    check("attachments/odd numbers", 60, |random| {
+        let mut case = Case::random_target(random);
+        case.samples = random.pick(&[1, 1, 2, 4]);
+        case.format = Some(random.pick(&blendable));
+        case.clear_color = random.four(-0.5, 1.5);
+        if random.once_in(2) {
+            case.clear_color[random.index(4)] = random.odd_number();
+        }
+        for _ in 0..3 {
+            let mut vertices = triangles(random, Style::Large, case.size, 3);
+            for triangle in vertices.chunks_mut(3) {
+                // The same at all corners, so that it is not lost in what is between.
+                let values = [0; 4].map(|_| match random.below(3) {
+                    0 => random.odd_number(),
+                    1 => random.range(-1e5, 1e5),
+                    _ => random.unit(),
+                });
+                for vertex in triangle {
+                    vertex.values = values;
+                }
+            }
+            let shader: TestShader = match random.below(3) {
+                0 => TwoColors.into(),
+                1 => Colored.into(),
+                _ => Layers::<1>(0).into(),
+            };
+            let is_dual = matches!(shader, TestShader::TwoColors(_));
+            let mut draw = CaseDraw::new(shader, &vertices);
+            let factors = if is_dual { &FACTORS[..] } else { &FACTORS[..8] };
+            draw.blend = (!random.once_in(3)).then(|| blend(random, factors));
+            draw.blend_constant = [0; 4].map(|_| match random.below(2) {
+                0 => random.odd_number(),
+                _ => random.unit(),
+            });
+            draw.alpha_to_coverage = random.once_in(4);
+            draw.depth = None;
+            case.draws.push(draw);
+        }
+        case
+    });
+}
+
+/// Rows: O3, O4, O10, D1.
+#[test]
+fn targets_without_colours() {
+    use TextureFormat as F;
+    check("attachments/none", 60, |random| {
+        let mut case = Case::random_target(random);
+        case.samples = random.pick(&[1, 2, 4, 8]);
+        case.format = None;
+        case.depth_stencil = random.pick(&[
+            None,
+            Some(F::Stencil8),
+            Some(F::Depth16Unorm),
+            Some(F::Depth24Plus),
+            Some(F::Depth24PlusStencil8),
+            Some(F::Depth32Float),
+            Some(F::Depth32FloatStencil8),
+        ]);
+        case.clear_depth = random.pick(&[1.0, 0.3, f32::NAN, 7.0]);
+        case.clear_stencil = random.byte();
+        let has = |what: fn(F) -> bool| case.depth_stencil.is_some_and(what);
+        let (has_depth, has_stencil) = (has(F::has_depth), has(F::has_stencil));
+        for _ in 0..4 {
+            let style = random.pick(&[Style::Large, Style::Small, Style::AcrossDepths]);
+            let vertices = triangles(random, style, case.size, 4);
+            let mut draw = CaseDraw::new(DepthOnly, &vertices);
+            draw.depth = (has_depth && !random.once_in(4)).then(|| DepthState {
+                write_enabled: !random.once_in(3),
+                compare: random.pick(&[
+                    CompareFunction::Less,
+                    CompareFunction::GreaterEqual,
+                    CompareFunction::NotEqual,
+                    CompareFunction::Always,
+                ]),
+            });
+            draw.stencil = (has_stencil && !random.once_in(4)).then(|| {
+                StencilState::from(StencilFaceState {
+                    compare: random.pick(&[CompareFunction::Less, CompareFunction::Always]),
+                    fail_op: StencilOperation::DecrementClamp,
+                    depth_fail_op: StencilOperation::Invert,
+                    pass_op: random
+                        .pick(&[StencilOperation::IncrementWrap, StencilOperation::Replace]),
+                    read_mask: random.pick(&[0xFF, 0x7F]),
+                    write_mask: random.pick(&[0xFF, 0x3C]),
+                })
+            });
+            draw.stencil_reference = [random.byte(); 2];
+            draw.is_counted = true;
+            case.draws.push(draw);
+        }
+        if random.once_in(3) {
+            case.second_pass = random.index(5);
         }
         case
     });

@@ -45,6 +45,9 @@ fn case(random: &mut Random, shader: impl Fn(&mut Random) -> TestShader) -> Case
         draw.is_counted = random.once_in(2);
         case.draws.push(draw);
     }
+    if random.once_in(4) {
+        case.second_pass = 1;
+    }
     case
 }
 
