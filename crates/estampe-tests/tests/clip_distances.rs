@@ -61,6 +61,7 @@ fn distant(random: &mut Random) -> TestShader {
     Distant { shift, shown }.into()
 }
 
+/// Rows: V1, A3, A5.
 #[test]
 fn every_topology_and_polygon_mode_is_clipped_and_culled_by_distances() {
     check("clip_distances/random", 300, |random| {
@@ -74,6 +75,7 @@ fn every_topology_and_polygon_mode_is_clipped_and_culled_by_distances() {
     });
 }
 
+/// Rows: A3.
 #[test]
 fn distances_that_are_hardly_numbers() {
     check("clip_distances/hostile", 120, |random| {
@@ -90,6 +92,7 @@ fn distances_that_are_hardly_numbers() {
     });
 }
 
+/// Rows: A3.
 #[test]
 fn depth_that_is_not_clipped_is_clamped() {
     check("clip_distances/unclipped_depth", 200, |random| {

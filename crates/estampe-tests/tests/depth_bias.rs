@@ -8,6 +8,7 @@ use estampe_types::state::{
     PrimitiveTopology, Viewport,
 };
 
+/// Rows: A5, D1.
 #[test]
 fn every_kind_of_bias_and_triangle() {
     check("depth_bias/random", 300, |random| {
@@ -89,6 +90,7 @@ fn every_kind_of_bias_and_triangle() {
     });
 }
 
+/// Rows: A5, D1.
 #[test]
 fn coplanar_triangles_are_told_apart_by_one_unit() {
     // Drawn twice with less: the second time shows only with a bias towards the viewer.

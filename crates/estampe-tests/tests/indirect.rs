@@ -35,6 +35,7 @@ fn image(device: &Device, draw: Draw<'_>) -> Vec<u8> {
     target.read_color(0)
 }
 
+/// Rows: V2.
 #[test]
 fn a_buffer_says_what_is_drawn() {
     let (device, random) = (device(), &mut Random::new("indirect", 1));
@@ -77,6 +78,7 @@ fn a_buffer_says_what_is_drawn() {
     }
 }
 
+/// Rows: V2.
 #[test]
 fn hostile_numbers_are_cut_to_the_limit() {
     let device = device();
@@ -99,6 +101,7 @@ fn hostile_numbers_are_cut_to_the_limit() {
     }
 }
 
+/// Rows: V2.
 #[test]
 fn parameters_beyond_the_buffers_end_are_zero() {
     let device = device();

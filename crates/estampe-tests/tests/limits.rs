@@ -1,13 +1,10 @@
-//! The largest targets.
+//! The longest targets, the most attributes, buffers and varyings. (Corners of the largest targets:
+//! `crates/estampe/tests/large_targets.rs`.)
 
-use estampe::{
-    Device, DeviceDescriptor, Draw, RenderPass, RenderPipelineDescriptor, RenderTargetDescriptor,
-};
 use estampe_tests::geometry::{Style, Vertex, clip_at, triangles};
 use estampe_tests::shaders::{Colored, Crowded};
 use estampe_tests::{Case, CaseDraw, Random, check, check_some};
 use estampe_types::Buffer;
-use estampe_types::state::DepthState;
 
 /// Rows: L, R1.
 #[test]
@@ -52,71 +49,4 @@ fn all_attributes_of_all_buffers_and_all_varyings() {
         case.draws.push(draw);
         case
     });
-}
-
-/// Rows: L.
-#[test]
-fn the_corners_of_a_target_of_8192_by_8192() {
-    const SIDE: u32 = 8192;
-    let device = Device::new(&DeviceDescriptor::default()).expect("a device");
-    let mut target = device
-        .create_render_target(&RenderTargetDescriptor {
-            depth_stencil: None,
-            ..RenderTargetDescriptor::new(SIDE, SIDE)
-        })
-        .expect("8192 is guaranteed");
-    // A square of two pixels, of two triangles, in each corner and in the middle.
-    let places = [
-        [0, 0],
-        [SIDE - 2, 0],
-        [0, SIDE - 2],
-        [SIDE - 2, SIDE - 2],
-        [4095, 4095],
-    ];
-    let square = |[x, y]: [u32; 2]| {
-        [[0, 0], [0, 2], [2, 0], [2, 0], [0, 2], [2, 2]].map(|[dx, dy]: [u32; 2]| Vertex {
-            position: clip_at([SIDE; 2], [(x + dx) as f32, (y + dy) as f32], 0.5, 1.0),
-            values: [1.0; 4],
-        })
-    };
-    let vertices: Vec<_> = places.into_iter().flat_map(square).collect();
-    let draw = CaseDraw::new(Colored, &vertices);
-    let pipeline = device
-        .create_render_pipeline(&RenderPipelineDescriptor {
-            vertex_buffers: draw
-                .buffers
-                .iter()
-                .map(|(layout, _)| layout.clone())
-                .collect(),
-            depth: None::<DepthState>,
-            ..RenderPipelineDescriptor::with_program(draw.shader.program())
-        })
-        .expect("a valid pipeline");
-    let buffers = [draw.buffers[0].1.clone()];
-    let draws = [Draw {
-        vertex_buffers: &buffers,
-        ..Draw::new(&pipeline, draw.elements)
-    }];
-    device.render(
-        &mut target,
-        &RenderPass {
-            draws: &draws,
-            ..RenderPass::default()
-        },
-    );
-    let color = target.read_color(0);
-    let (pixels, _) = color.as_chunks::<4>();
-    let drawn: Vec<_> = (0u32..)
-        .zip(pixels)
-        .filter(|(_, pixel)| **pixel != [0; 4])
-        .collect();
-    let wanted = |[x, y]: [u32; 2]| [0, 1].map(|dy| [0, 1].map(|dx| (y + dy) * SIDE + x + dx));
-    let mut wanted: Vec<_> = places
-        .into_iter()
-        .flat_map(|place| wanted(place).concat())
-        .collect();
-    wanted.sort_unstable();
-    assert!(drawn.iter().all(|(_, pixel)| **pixel == [255; 4]));
-    let drawn: Vec<_> = drawn.into_iter().map(|(at, _)| at).collect();
-    assert_eq!(drawn, wanted);
 }

@@ -80,6 +80,7 @@ fn with_state(random: &mut Random, case: &mut Case, draw: &mut CaseDraw) {
     }
 }
 
+/// Rows: R3, R6.
 #[test]
 fn every_shape_width_and_pattern() {
     check("lines/shapes", 400, |random| {
@@ -106,6 +107,7 @@ fn every_shape_width_and_pattern() {
     });
 }
 
+/// Rows: A5, R3.
 #[test]
 fn the_edges_of_triangles() {
     check("lines/polygon_mode", 120, |random| {
@@ -121,6 +123,7 @@ fn the_edges_of_triangles() {
     });
 }
 
+/// Rows: R3.
 #[test]
 fn long_stippled_strips_go_on_where_they_ended() {
     check("lines/strips", 6, |random| {
@@ -151,6 +154,7 @@ fn long_stippled_strips_go_on_where_they_ended() {
     });
 }
 
+/// Rows: R4.
 #[test]
 fn round_points() {
     check("lines/round_points", 80, |random| {

@@ -151,6 +151,7 @@ fn more_primitives_than_an_item_or_a_wave_holds() {
     }
 }
 
+/// Rows: O8.
 #[test]
 fn a_pass_without_draws_clears() {
     check("passes/clear", 6, |random| {

@@ -68,6 +68,7 @@ fn indexed(random: &mut Random, draw: &mut CaseDraw, count: u32) {
     draw.base_vertex = random.pick(&[0, 0, 0, 1, -2]);
 }
 
+/// Rows: V2, A1.
 #[test]
 fn every_topology_restarts() {
     check("primitive_restart/topologies", 220, |random| {
@@ -92,6 +93,7 @@ fn every_topology_restarts() {
     });
 }
 
+/// Rows: A1, A5.
 #[test]
 fn the_provoking_vertex_of_every_topology() {
     check("primitive_restart/provoking", 160, |random| {
@@ -116,6 +118,7 @@ fn the_provoking_vertex_of_every_topology() {
     });
 }
 
+/// Rows: V2.
 #[test]
 fn instances_whose_vertices_are_far_apart() {
     check("primitive_restart/sparse", 8, |random| {
@@ -139,6 +142,7 @@ fn instances_whose_vertices_are_far_apart() {
     });
 }
 
+/// Rows: V2, A1.
 #[test]
 fn more_primitives_than_an_item_holds() {
     // Over a million points, lines and triangles of one strip, fan and loop, with restarts.

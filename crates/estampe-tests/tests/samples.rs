@@ -7,7 +7,8 @@ use estampe_tests::shaders::{
 use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
 use estampe_types::TextureFormat;
 use estampe_types::state::{
-    BlendState, ConservativeMode, CullMode, DepthState, PolygonMode, PrimitiveTopology,
+    BlendState, ConservativeMode, CullMode, DepthState, LineRasterization, PolygonMode,
+    PrimitiveTopology,
 };
 
 /// Some draws of a shader, into few pixels of many samples.
@@ -35,6 +36,13 @@ fn case(random: &mut Random, shader: impl Fn(&mut Random) -> TestShader) -> Case
         draw.primitive.cull_mode = random.pick(&[CullMode::None, CullMode::None, CullMode::Front]);
         draw.primitive.polygon_mode =
             random.pick(&[PolygonMode::Fill, PolygonMode::Fill, PolygonMode::Line]);
+        draw.primitive.line.width = random.pick(&[1.0, 1.0, 3.5]);
+        draw.primitive.line.rasterization = random.pick(&[
+            LineRasterization::Bresenham,
+            LineRasterization::Rectangular,
+            LineRasterization::RectangularSmooth,
+        ]);
+        draw.primitive.round_points = random.once_in(2);
         draw.depth = random.pick(&[None, Some(DepthState::LESS_WRITE)]);
         if random.once_in(3) {
             draw.sample_mask = random.bits();

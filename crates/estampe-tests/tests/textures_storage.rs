@@ -103,6 +103,7 @@ fn confined(format: TextureFormat, value: f32) -> f32 {
     }
 }
 
+/// Rows: F2.
 #[test]
 fn what_is_stored_is_loaded_and_read_back() {
     for (number, &format) in TextureFormat::ALL.iter().enumerate() {
@@ -220,6 +221,7 @@ fn check_contents(
     }
 }
 
+/// Rows: F2.
 #[test]
 fn given_bytes_are_kept() {
     let bytes: Vec<u8> = (0..4 * 3 * 2 * 4).collect();
@@ -249,6 +251,7 @@ fn given_bytes_are_kept() {
     }
 }
 
+/// Rows: F2.
 #[test]
 fn threads_store_side_by_side() {
     let descriptor = TextureDescriptor::new_2d(256, 256, TextureFormat::Rgba32Uint);
@@ -274,6 +277,7 @@ fn threads_store_side_by_side() {
     }
 }
 
+/// Rows: F2, L.
 #[test]
 fn large_ones_hold_their_corners() {
     let descriptor = TextureDescriptor::new_2d(8192, 8192, TextureFormat::R8Unorm);

@@ -119,6 +119,7 @@ fn packets(level: Level, view: &TextureView, places: &Places) -> [[f32; LANES]; 
     dispatch!(level, s => wide(s, view, places))
 }
 
+/// Rows: F2.
 #[test]
 fn every_format_is_uploaded_and_fetched() {
     for (number, &format) in TextureFormat::ALL.iter().enumerate() {

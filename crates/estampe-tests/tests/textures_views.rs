@@ -504,6 +504,7 @@ fn is_plain(format: TextureFormat) -> bool {
     format.is_color() && !format.is_compressed()
 }
 
+/// Rows: F2.
 #[test]
 fn images_and_arrays_of_every_format() {
     use ViewDimension::{D2, D2Array};
@@ -516,6 +517,7 @@ fn images_and_arrays_of_every_format() {
     );
 }
 
+/// Rows: F2.
 #[test]
 fn rows_and_blocks_of_texels() {
     use ViewDimension::{D1, D3};
@@ -528,6 +530,7 @@ fn rows_and_blocks_of_texels() {
     );
 }
 
+/// Rows: F2.
 #[test]
 fn cubes_without_seams() {
     use ViewDimension::{Cube, CubeArray};
@@ -541,6 +544,7 @@ fn cubes_without_seams() {
     );
 }
 
+/// Rows: F2.
 #[test]
 fn comparisons_with_every_function() {
     use ViewDimension::{Cube, CubeArray, D2, D2Array};
@@ -556,6 +560,7 @@ fn comparisons_with_every_function() {
     checks("views/compare", 900, &dimensions, &depths, &functions);
 }
 
+/// Rows: F2.
 #[test]
 fn the_common_kind_is_the_same_as_every_other() {
     // `SampledView` hands these over to `Sampled`; the oracle of views knows nothing of that.

@@ -84,6 +84,7 @@ fn instances() {
     });
 }
 
+/// Rows: V2.
 #[test]
 fn many_instances_of_a_draw_that_fills_no_group() {
     // Lanes that a group of sixteen does not use once gathered the instances' first vertices until they

@@ -115,20 +115,20 @@ fn check(width: u32, height: u32) {
     assert_eq!(white, expected.map(|pixel| (pixel, 0.5)));
 }
 
-/// Rows: R1, O2.
+/// Rows: L, R1, O2.
 #[test]
 fn corners_of_8192_by_8192_pixels() {
     check(8192, 8192);
 }
 
-/// Rows: R1, O2.
+/// Rows: L, R1, O2.
 #[test]
 fn corners_of_the_longest_sides() {
     check(16_384, 16);
     check(16, 16_384);
 }
 
-/// Rows: R1.
+/// Rows: L.
 #[test]
 fn a_side_too_long_is_an_error_that_names_the_limit() {
     let device = Device::new(&DeviceDescriptor::default()).expect("threads can be had");

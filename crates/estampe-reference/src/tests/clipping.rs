@@ -176,6 +176,7 @@ fn a_triangle_inside_the_guard_band_is_kept_whole() {
     }
 }
 
+/// Rows: A3.
 #[test]
 fn an_edge_within_the_guard_band_has_no_crack_where_one_of_its_triangles_leaves_it() {
     let mut random = Random(77);
@@ -292,6 +293,7 @@ fn the_clip_space_test_agrees_with_the_snapped_one_beyond_snapping() {
     assert!(agreed > 1000 && behind > 300, "{agreed}, {behind}");
 }
 
+/// Rows: A4, O2.
 #[test]
 fn bounds_are_the_pixels_whose_centres_lie_inside() {
     let viewport = Viewport {
@@ -320,6 +322,7 @@ fn plane_distance(normal: [f32; 4], p: [f32; 4]) -> f32 {
     p[0] * normal[0] + p[1] * normal[1] + p[2] * normal[2] + p[3] * normal[3]
 }
 
+/// Rows: A3.
 #[test]
 fn what_clip_distances_leave_lies_inside_and_keeps_its_area() {
     let random = &mut Random(29);
@@ -387,6 +390,7 @@ fn clip_f64_by(normal: [f64; 4], polygon: &[[f64; 4]]) -> Vec<[f64; 4]> {
     kept
 }
 
+/// Rows: A3.
 #[test]
 fn neighbours_share_the_crossings_of_clip_distances() {
     let random = &mut Random(31);
@@ -406,6 +410,7 @@ fn neighbours_share_the_crossings_of_clip_distances() {
     }
 }
 
+/// Rows: A3.
 #[test]
 fn cull_distances_drop_what_is_wholly_outside_one() {
     let vertex = |distances: &[f32]| ClipVertex {
@@ -419,6 +424,7 @@ fn cull_distances_drop_what_is_wholly_outside_one() {
     assert!(!is_distant(&[vertex(&[])]));
 }
 
+/// Rows: A3.
 #[test]
 fn without_depth_clipping_w_is_clipped_instead() {
     let open = transform().with_unclipped_depth(true);

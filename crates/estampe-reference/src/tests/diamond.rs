@@ -65,6 +65,7 @@ fn random_end(random: &mut Random) -> [i32; 2] {
     [0, 1].map(|_| (random.below(40 * 256) as i32 + 12 * 256) / step * step)
 }
 
+/// Rows: R3.
 #[test]
 fn lines_between_centres_are_those_of_the_diamond_exit_rule() {
     let mut random = Random(71);
@@ -87,6 +88,7 @@ fn lines_between_centres_are_those_of_the_diamond_exit_rule() {
     }
 }
 
+/// Rows: R3.
 #[test]
 fn lines_between_any_ends_keep_vulkans_rules() {
     let mut random = Random(73);
@@ -130,6 +132,7 @@ fn lines_between_any_ends_keep_vulkans_rules() {
     );
 }
 
+/// Rows: R3.
 #[test]
 fn lines_that_go_on_in_one_direction_leave_no_gap_and_touch_no_pixel_twice() {
     let mut random = Random(79);
@@ -156,6 +159,7 @@ fn lines_that_go_on_in_one_direction_leave_no_gap_and_touch_no_pixel_twice() {
     }
 }
 
+/// Rows: R3.
 #[test]
 fn wide_lines_are_columns_around_the_thin_one() {
     let (from, to) = (
@@ -184,6 +188,7 @@ fn wide_lines_are_columns_around_the_thin_one() {
     }
 }
 
+/// Rows: R3.
 #[test]
 fn rectangles_around_lines_have_the_lines_length_and_width() {
     // Along an axis exactly; and no sample is covered twice by two that lie side by side.
@@ -235,6 +240,7 @@ fn rectangles_around_lines_have_the_lines_length_and_width() {
     }
 }
 
+/// Rows: R4.
 #[test]
 fn a_strip_of_four_vertices_fills_a_rectangle_exactly() {
     // Rectangles (row R4): every sample of the half-open rectangle once, none beside it.
@@ -274,6 +280,7 @@ fn a_strip_of_four_vertices_fills_a_rectangle_exactly() {
     }
 }
 
+/// Rows: R4.
 #[test]
 fn round_points_are_discs() {
     let center = [32 * 256, 32 * 256];
@@ -292,6 +299,7 @@ fn round_points_are_discs() {
     }
 }
 
+/// Rows: A5, D1.
 #[test]
 fn the_unit_of_float_depths_is_their_last_bit() {
     for depth in [1.0_f32, 0.75, 0.5, 0.3, 1e-3, 1e-30, 1e-37, 1e-44, 0.0] {

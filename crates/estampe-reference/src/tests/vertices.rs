@@ -182,6 +182,7 @@ fn instances_advance_instance_buffers_and_are_drawn_in_order() {
     );
 }
 
+/// Rows: V2.
 #[test]
 fn codes_at_the_ends_of_every_normalised_format_are_one_and_minus_one() {
     let ones = Buffer::from_bytes(&[0xFF; 16]);
@@ -217,6 +218,7 @@ fn codes_at_the_ends_of_every_normalised_format_are_one_and_minus_one() {
     }
 }
 
+/// Rows: V2.
 #[test]
 fn packed_formats_and_halves_are_read_as_webgpu_says() {
     let word = |word: u32| Buffer::from_words(vec![word]);
@@ -244,6 +246,7 @@ fn packed_formats_and_halves_are_read_as_webgpu_says() {
     assert_eq!(integers, [u32::MAX - 1, 0, 0, 1]);
 }
 
+/// Rows: V2.
 #[test]
 fn instances_step_from_the_first_one() {
     let of = |instance, rate| fetch::instance_element(instance, 10, rate);
@@ -252,6 +255,7 @@ fn instances_step_from_the_first_one() {
     assert_eq!([10, 99].map(|i| of(i, 0)), [10, 10]);
 }
 
+/// Rows: V2, A1.
 #[test]
 fn runs_end_where_an_index_restarts() {
     use crate::assembly::runs;
@@ -261,6 +265,7 @@ fn runs_end_where_an_index_restarts() {
     assert_eq!(at(&[4]), [0..4, 5..5]);
 }
 
+/// Rows: A1, A5.
 #[test]
 fn the_provoking_vertices_are_those_of_vulkans_table() {
     use crate::assembly::turned;

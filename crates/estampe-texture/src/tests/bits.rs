@@ -79,6 +79,7 @@ fn assert_same(got: [f32; 4], expected: [f32; 4], what: impl Fn() -> String) {
     );
 }
 
+/// Rows: F2, U3.
 #[test]
 fn packets_quads_and_fragments_give_the_bits_of_the_naive_text() {
     let mut random = Random(7);

@@ -56,6 +56,7 @@ fn bc1(block: &[u8], has_four: bool) -> Vec<[f64; 4]> {
         .collect()
 }
 
+/// Rows: F2.
 #[test]
 fn bc1_to_bc5_follow_their_formulas() {
     let near = |word: u32, wanted: [f64; 4], what: &str| {
@@ -144,6 +145,7 @@ fn hash_of(format: F) -> u64 {
 
 /// Compared texel by texel with texture2ddecoder 0.1.2, another implementation, on these blocks: equal. (Of blocks with
 /// one bit of alpha, it leaves colours in transparent texels.)
+/// Rows: F2.
 #[test]
 fn etc2_and_bc7_are_what_another_decoder_makes_of_them() {
     let formats = [F::Etc2Rgb8Unorm, F::Etc2Rgba8Unorm, F::Bc7RgbaUnorm];
@@ -156,6 +158,7 @@ const HASHES: [u64; 3] = [
     17_464_397_738_444_573_311,
 ];
 
+/// Rows: F2.
 #[test]
 fn eac_keeps_eleven_bits() {
     // Base 100, multiplier 3, table 0; indices 0 to 7 twice, down the columns.
@@ -202,6 +205,7 @@ fn transparent_texels_of_etc2_are_black() {
     );
 }
 
+/// Rows: F2.
 #[test]
 fn bc6h_gives_halves() {
     // Mode 11 (ten bits an end, no differences): both ends 0 gives 0, alpha 1.
@@ -239,6 +243,7 @@ fn astc_of_one_color_and_of_errors() {
 /// Compared with texture2ddecoder 0.1.2 on 200,000 random blocks of each of five sizes: the 74,242 that are LDR
 /// differ by one code at most, for it cuts off where we round. (A third, astc-decode 0.3.1, takes other colours for
 /// some blocks of several partitions.) This keeps what was compared.
+/// Rows: F2.
 #[test]
 fn astc_is_what_another_decoder_makes_of_it() {
     let formats = [
@@ -252,6 +257,7 @@ fn astc_is_what_another_decoder_makes_of_it() {
 }
 
 /// sRGB takes the upper half of what lies between endpoints with 128 below them; alpha is as ever.
+/// Rows: F2.
 #[test]
 fn astc_colors_of_srgb_are_cut_off() {
     let mut differing = 0;
@@ -278,6 +284,7 @@ const ASTC_HASHES: [u64; 5] = [
     2_430_571_871_916_244_374,
 ];
 
+/// Rows: F2.
 #[test]
 fn hostile_blocks_do_no_harm() {
     for &format in F::ALL {

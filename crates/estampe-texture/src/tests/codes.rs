@@ -9,6 +9,7 @@ fn decode(format: F, word: u32) -> [f32; 4] {
     decoder.finish(decoder.unit(&[word, 0, 0, 0]))
 }
 
+/// Rows: F2.
 #[test]
 fn numbers_of_the_specifications() {
     let tiny = 2.0_f32.powi(-24);
@@ -61,6 +62,7 @@ fn numbers_of_the_specifications() {
     assert_eq!(stencil.unit(&[0x3F80_0000, 0xFFFF_FF12])[0].to_bits(), 0x12);
 }
 
+/// Rows: F2.
 #[test]
 fn every_code_decodes_to_a_number_that_encodes_to_it() {
     use TexelEncoding as E;

@@ -18,6 +18,7 @@ fn level(texture: &Texture, index: usize) -> Vec<[u8; 4]> {
     texels.iter().map(|texel| texel.to_le_bytes()).collect()
 }
 
+/// Rows: F2.
 #[test]
 fn levels_halve_rounding_down_to_one_texel() {
     let texture = full(13, 6, TextureFormat::Rgba8Unorm, &[9; 13 * 6 * 4]);
@@ -59,6 +60,7 @@ fn odd_sides_leave_the_last_out_and_single_ones_count_twice() {
     assert_eq!(level(&texture, 1), [[15; 4]]);
 }
 
+/// Rows: F2.
 #[test]
 fn srgb_boxes_are_means_of_light_and_alpha_is_not() {
     let rgba = [

@@ -136,6 +136,7 @@ fn broken() -> Vec<Broken> {
     ]
 }
 
+/// Rows: F2, L.
 #[test]
 fn rules_that_are_broken_are_named() {
     for (descriptor, is_expected) in broken() {
@@ -223,6 +224,7 @@ fn rows_that_overlap_or_end_early_are_refused() {
     ));
 }
 
+/// Rows: F2.
 #[test]
 fn views_and_samplers_ask_for_what_is_there() {
     let texture = std::sync::Arc::new(
@@ -430,6 +432,7 @@ fn views_of_textures_put_together_by_hand_cannot_harm() {
     assert!(views > 1000, "{views}");
 }
 
+/// Rows: F2.
 #[test]
 fn levels_are_means() {
     for &format in TextureFormat::ALL {

@@ -92,6 +92,7 @@ fn unit(state: &mut u32) -> f32 {
     (*state >> 8) as f32 / 16_777_216.0
 }
 
+/// Rows: F2.
 #[test]
 fn blocks_of_texels_are_near_the_exact_mean() {
     let sides = [8_u32, 4, 16];
@@ -148,6 +149,7 @@ fn blocks_of_texels_are_near_the_exact_mean() {
 
 /// A cube whose texels hold a smooth function of their direction shows that function everywhere: a face in the
 /// wrong place, turned, or joined to the wrong edge would show.
+/// Rows: F2.
 #[test]
 fn cubes_show_what_lies_in_their_direction() {
     const N: u32 = 24;
@@ -228,6 +230,7 @@ fn every_texel_beyond_an_edge_has_a_neighbor_that_has_it() {
     }
 }
 
+/// Rows: F2.
 #[test]
 fn a_cubes_derivatives_are_those_of_its_coordinates() {
     let mut state = 3;
@@ -254,6 +257,7 @@ fn a_cubes_derivatives_are_those_of_its_coordinates() {
     }
 }
 
+/// Rows: F2.
 #[test]
 fn anisotropic_probes_keep_what_isotropic_filtering_blurs() {
     // Rows of 0 and 1: seen at a grazing angle along the rows.
@@ -306,6 +310,7 @@ fn anisotropic_probes_keep_what_isotropic_filtering_blurs() {
     assert!((ramp.sample(&sample)[0] - 31.5).abs() < 1e-4);
 }
 
+/// Rows: F2.
 #[test]
 fn borders_mirrors_and_offsets_find_their_texels() {
     use AddressMode::{ClampToBorder, ClampToEdge, MirrorOnce, MirrorRepeat, Repeat};
@@ -360,6 +365,7 @@ fn borders_mirrors_and_offsets_find_their_texels() {
     }
 }
 
+/// Rows: F2.
 #[test]
 fn gathering_goes_around_from_the_lower_left() {
     let square = view(ViewDimension::D2, [2, 2, 1], 1, linear(), |_, [x, y, _]| {
@@ -372,6 +378,7 @@ fn gathering_goes_around_from_the_lower_left() {
     assert_eq!(square.gather(&centre, 3), [1.0; 4]);
 }
 
+/// Rows: F2.
 #[test]
 fn comparisons_are_mixed_not_depths() {
     let with = |function, reference| {
