@@ -268,6 +268,11 @@ fn targets_without_colours() {
                 })
             });
             draw.stencil_reference = [random.byte(); 2];
+            draw.depth_bounds = random.once_in(3).then(|| match random.below(3) {
+                0 => [random.odd_number(), random.odd_number()],
+                1 => [0.3, random.odd_number()],
+                _ => [0.2, 0.7],
+            });
             draw.is_counted = true;
             case.draws.push(draw);
         }
