@@ -240,3 +240,48 @@ fn nothing_hostile_panics() {
         draw_plain(&mut unorm(4, 4, 4), &state, &vertices);
     }
 }
+
+#[test]
+fn depth_bias_is_vulkans_sum_of_slope_and_constant() {
+    // Depth rises by 1/64 a pixel in x, and by half of that in y, from 1/4 at the corner; the greatest depth of the
+    // triangle, 5/8, lies in 0.5..1, where a float's last bit is 2⁻²⁴.
+    let bias = |constant, slope_scale, clamp, unit| {
+        let mut target = unorm(8, 8, 1);
+        let corner = |x: f32, y: f32| (at(&target, x, y, 0.25 + x / 64.0 + y / 128.0), [0.0; 3]);
+        let vertices = [corner(0.0, 0.0), corner(0.0, 16.0), corner(24.0, 0.0)];
+        let state = State {
+            depth: Some(DepthState {
+                write_enabled: true,
+                compare: CompareFunction::Always,
+            }),
+            depth_bias: DepthBiasState {
+                constant,
+                slope_scale,
+                clamp,
+            },
+            depth_bias_unit: unit,
+            ..State::new(8, 8)
+        };
+        draw_plain(&mut target, &state, &vertices);
+        // Pixel (3, 2): at its centre depth is exactly 0.25 + 3.5/64 + 2.5/128.
+        target.depth[2 * 8 + 3] - (0.25 + 3.5 / 64.0 + 2.5 / 128.0)
+    };
+    assert_eq!(bias(0.0, 0.0, 0.0, None), 0.0);
+    assert_eq!(bias(0.0, 2.0, 0.0, None), 2.0 / 64.0);
+    assert_eq!(bias(8.0, 0.0, 0.0, None), 8.0 / 16_777_216.0);
+    assert_eq!(
+        bias(-16.0, -1.0, 0.0, None),
+        -1.0 / 64.0 - 16.0 / 16_777_216.0
+    );
+    assert_eq!(bias(64.0, 0.0, 0.0, Some(1.0 / 65_536.0)), 64.0 / 65_536.0);
+    assert_eq!(
+        bias(0.0, 2.0, 0.01, None),
+        0.25 + 3.5 / 64.0 + 2.5 / 128.0 + 0.01 - (0.25 + 3.5 / 64.0 + 2.5 / 128.0)
+    );
+    assert_eq!(bias(0.0, -2.0, 0.01, None), -2.0 / 64.0);
+    // What leaves the viewport's range is clamped.
+    assert_eq!(
+        bias(0.0, 1000.0, 0.0, None) + (0.25 + 3.5 / 64.0 + 2.5 / 128.0),
+        1.0
+    );
+}

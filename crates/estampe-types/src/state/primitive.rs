@@ -15,7 +15,8 @@ pub enum PrimitiveTopology {
     #[default]
     TriangleList,
     /// Each vertex after the second makes a triangle with the two before; every other one is turned
-    /// so that all face the same way.
+    /// so that all face the same way. One of four vertices, (x₀, y₀), (x₀, y₁), (x₁, y₀), (x₁, y₁), fills a
+    /// rectangle exactly: every sample in it once.
     TriangleStrip,
     /// Each vertex after the second makes a triangle with the one before and the first.
     TriangleFan,
@@ -94,7 +95,7 @@ pub enum LineRasterization {
     Bresenham,
     /// The rectangle around the line.
     Rectangular,
-    /// The same, alpha multiplied by how much of each pixel is covered: anti-aliased.
+    /// The same, alpha multiplied by how much of each pixel is covered, in sixteenths: anti-aliased, if blended.
     RectangularSmooth,
 }
 
@@ -110,11 +111,13 @@ pub struct LineStipple {
 /// How lines are drawn. The default is one pixel wide, by the diamond-exit rule, not stippled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineState {
-    /// Width in pixels, above 0 and at most 64.
+    /// Width in pixels, above 0 and at most 64. Bresenham lines are as many pixels wide as this is when rounded,
+    /// half to even, but at least one.
     pub width: f32,
     /// How they become pixels.
     pub rasterization: LineRasterization,
-    /// What is left out, if anything.
+    /// What is left out, if anything. The pattern goes on along the lines of a strip or loop, and along the edges of a
+    /// triangle.
     pub stipple: Option<LineStipple>,
 }
 
