@@ -105,6 +105,15 @@ impl Item<'_> {
         }
     }
 
+    /// The same of fewer instances, if all of them had more vertices than a wave should: a triangle can have a dozen,
+    /// in each of a million instances.
+    fn within_budget(mut self) -> Self {
+        let most = WAVE_BUDGET / (self.vertices as usize).max(1);
+        let most = u32::try_from(most).unwrap_or(u32::MAX).max(1);
+        self.instances = self.instances.min(most);
+        self
+    }
+
     pub(crate) fn total_vertices(&self) -> usize {
         (self.vertices as usize).saturating_mul(self.instances as usize)
     }
@@ -281,8 +290,8 @@ impl<'a> Remainder<'a> {
             let left = self.instances.end - self.instances.start;
             instances = (ITEM_PRIMITIVES / all.max(1)).clamp(1, left);
         }
-        let item = self.item(executor, elements, instances);
-        self.instances.start += instances;
+        let item = self.item(executor, elements, instances).within_budget();
+        self.instances.start += item.instances;
         item
     }
 
@@ -315,9 +324,10 @@ impl<'a> Remainder<'a> {
             line_restarts: begins,
             ..self.item_of([0, 0], instances, vertices)
         };
+        let item = item.within_budget();
         if is_done {
             self.restart = RestartCursor::default();
-            self.instances.start += instances;
+            self.instances.start += item.instances;
         }
         item
     }

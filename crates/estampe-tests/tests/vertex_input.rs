@@ -102,6 +102,24 @@ fn many_instances_of_a_draw_that_fills_no_group() {
 
 /// Rows: V2.
 #[test]
+fn instances_of_more_vertices_than_a_wave_holds() {
+    // Twelve vertices each, so that memory would be short before primitives are many; the step rate counts across
+    // the cut.
+    let random = &mut Random::new("vertex_input/waves", 1);
+    let mut case = Case::new([3, 3], 1);
+    let mut draw = indexed_draw(random, &case);
+    draw.buffers[1].0.step_mode = VertexStepMode::Instance;
+    draw.buffers[1].0.instance_step_rate = 100_003;
+    draw.indices = Some((IndexFormat::Uint8, Buffer::from_bytes(&[0, 5, 11])));
+    draw.elements = 0..3;
+    draw.instances = 7..200_007;
+    draw.primitive.topology = PrimitiveTopology::TriangleList;
+    draw.depth = None;
+    case.draws.push(draw);
+    check_some("vertex_input/waves", &case);
+}
+
+#[test]
 fn the_base_vertex_moves_indices_alone() {
     check("vertex_input/base_without_indices", 6, |random| {
         let mut case = Case::new([40, 40], 1);
