@@ -48,7 +48,11 @@ fn with_state(random: &mut Random, draw: &mut CaseDraw) {
     draw.primitive.unclipped_depth = random.once_in(4);
     draw.depth = random.pick(&[None, Some(DepthState::LESS_WRITE)]);
     if random.once_in(4) {
-        draw.blend = Some(BlendState::ADDITIVE);
+        draw.blend = Some(random.pick(&[
+            BlendState::ADDITIVE,
+            BlendState::ALPHA_BLENDING,
+            BlendState::PREMULTIPLIED_ALPHA_BLENDING,
+        ]));
     }
 }
 

@@ -71,7 +71,11 @@ fn every_kind_of_bias_and_triangle() {
                 ]),
             });
             if random.once_in(4) {
-                draw.blend = Some(BlendState::ADDITIVE);
+                draw.blend = Some(random.pick(&[
+                    BlendState::ADDITIVE,
+                    BlendState::ALPHA_BLENDING,
+                    BlendState::PREMULTIPLIED_ALPHA_BLENDING,
+                ]));
             }
             if random.once_in(4) {
                 let [min_depth, max_depth] = random.pick(&[[0.2, 0.7], [1.0, 0.0], [0.0, 1e-4]]);
