@@ -7,7 +7,7 @@ use estampe_types::state::{
     StencilState, VertexBufferLayout,
 };
 use estampe_types::{
-    Interface, Interpolation, Limits, Program, Shader, ShaderProgram, TextureFormat,
+    Interface, Interpolation, Limits, Program, Shader, ShaderProgram, TextureFormat, VertexFormat,
 };
 use std::sync::Arc;
 
@@ -216,6 +216,10 @@ pub(crate) struct AttributeSource {
     pub(crate) per_instance: bool,
     /// Instances that share an element; 0: all of them.
     pub(crate) step_rate: u32,
+    /// Components of the format.
+    pub(crate) components: usize,
+    /// Whether it is fetched out of the way of common attributes.
+    pub(crate) is_rare: bool,
 }
 
 /// What selects code, reduced: nothing in it changes from fragment to fragment.
@@ -420,6 +424,9 @@ fn attribute_sources(
                 stride,
                 per_instance,
                 step_rate: layout.instance_step_rate,
+                components: attribute.format.components(),
+                is_rare: !is_common(attribute.format)
+                    || per_instance && layout.instance_step_rate != 1,
             });
         }
     }
@@ -427,6 +434,21 @@ fn attribute_sources(
         source.ok_or(PipelineError::LocationMissing(location))
     };
     sources.into_iter().enumerate().map(found).collect()
+}
+
+/// Whether a format is fetched by the kernel for most meshes.
+fn is_common(format: VertexFormat) -> bool {
+    matches!(
+        format,
+        VertexFormat::Float32
+            | VertexFormat::Float32x2
+            | VertexFormat::Float32x3
+            | VertexFormat::Float32x4
+            | VertexFormat::Unorm8x2
+            | VertexFormat::Unorm8x4
+            | VertexFormat::Unorm16x2
+            | VertexFormat::Unorm16x4
+    )
 }
 
 fn stage_key(descriptor: &RenderPipelineDescriptor, interface: &Interface) -> StageKey {

@@ -3,10 +3,15 @@
 //! *In* vertex and instance indices · *Out* attribute scalars, structure of arrays · *Spec* WebGPU
 //! §Vertex formats. Bytes beyond a buffer's end read as zeros; what a format lacks is (0, 0, 0, 1). Integers
 //! arrive as bits.
+//!
+//! The formats of most meshes are fetched by a kernel of their own: with all of WebGPU's
+//! formats in it, it took twice the time for those few, and a frame of small triangles 7 % more.
 
 use super::rows::columns_of;
 use crate::pipeline::AttributeSource;
-use estampe_simd::{Bytes, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
+use estampe_simd::{
+    Bytes, LANES, Lanes, Level, Packet, SimdBase, SimdCvtFloat, dispatch, f32x16, i32x16, u32x16,
+};
 use estampe_types::{Buffer, VertexEncoding, VertexFormat};
 
 /// Which vertices a packet holds.
@@ -24,6 +29,7 @@ pub(crate) struct PacketIndex {
 #[inline(always)]
 pub(crate) fn fetch<S: Lanes>(
     s: S,
+    level: Level,
     sources: &[AttributeSource],
     wanted: &[usize],
     buffers: &[Buffer],
@@ -36,8 +42,12 @@ pub(crate) fn fetch<S: Lanes>(
             return;
         };
         rest = others;
+        if source.is_rare {
+            fetch_rare(level, source, buffers, index, scalars);
+            continue;
+        }
         let format = source.attribute.format;
-        let there = wanted.min(format.components());
+        let there = wanted.min(source.components);
         let words = match buffers.get(source.buffer) {
             Some(buffer) => fetch_words(s, source, buffer, index, words_of(format, there)),
             None => [<u32x16<S> as SimdBase<S>>::splat(s, 0); 4],
@@ -45,9 +55,9 @@ pub(crate) fn fetch<S: Lanes>(
         let mut component = 0;
         while component < wanted {
             let value = if component < there {
-                decode(s, format, &words, component)
+                decode(format, &words, component)
             } else {
-                SimdBase::splat(s, f32::from_bits(format.missing(component)))
+                SimdBase::splat(s, if component == 3 { 1.0 } else { 0.0 })
             };
             value.store_array(&mut scalars[component].0);
             component += 1;
@@ -59,33 +69,19 @@ pub(crate) fn fetch<S: Lanes>(
 #[inline(always)]
 fn words_of(format: VertexFormat, components: usize) -> usize {
     match format {
-        VertexFormat::Float32
-        | VertexFormat::Float32x2
-        | VertexFormat::Float32x3
-        | VertexFormat::Float32x4 => components,
         VertexFormat::Unorm8x2 | VertexFormat::Unorm8x4 => 1,
-        _ => (components * bits_of_component(format)).div_ceil(32),
+        VertexFormat::Unorm16x2 | VertexFormat::Unorm16x4 => components.div_ceil(2),
+        _ => components,
     }
 }
 
-/// Bits of a component; of packed formats their average.
-fn bits_of_component(format: VertexFormat) -> usize {
-    format.size_bytes() * 8 / format.components()
-}
-
-/// One component of sixteen elements. The formats of most meshes are decoded here, all others out of the way: with
-/// code for every format in this place fetching took twice the time for those few.
+/// One component of sixteen elements.
 #[inline(always)]
 #[expect(
     clippy::cast_possible_truncation,
     reason = "a component is 0, 1, 2 or 3"
 )]
-fn decode<S: Lanes>(
-    s: S,
-    format: VertexFormat,
-    words: &[u32x16<S>; 4],
-    component: usize,
-) -> f32x16<S> {
+fn decode<S: Lanes>(format: VertexFormat, words: &[u32x16<S>; 4], component: usize) -> f32x16<S> {
     match format {
         VertexFormat::Float32
         | VertexFormat::Float32x2
@@ -99,57 +95,8 @@ fn decode<S: Lanes>(
             let code = (words[(component / 2) & 3] >> (component as u32 % 2 * 16)) & 0xFFFF;
             float(code) * (1.0 / 65_535.0)
         }
-        _ => {
-            let word = component * bits_of_component(format) / 32;
-            let decoded = decode_rare(format, words[word & 3].to_array(), component);
-            f32x16::load_array(s, decoded)
-        }
+        other => unreachable!("vertex format {other:?} is not common"),
     }
-}
-
-/// The same of any format, from the word that holds the component.
-#[inline(never)]
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "a component is 0, 1, 2 or 3, and a width at most 32"
-)]
-fn decode_rare(format: VertexFormat, words: [u32; LANES], component: usize) -> [f32; LANES] {
-    let (shift, bits) = match format {
-        VertexFormat::Unorm10_10_10_2 => (component * 10, if component == 3 { 2 } else { 10 }),
-        VertexFormat::Unorm8x4Bgra => ([16, 8, 0, 24][component & 3], 8),
-        _ => {
-            let bits = bits_of_component(format);
-            (component * bits % 32, bits)
-        }
-    };
-    // The code in the highest bits; from there it comes down with or without its sign.
-    let (up, down) = ((32 - bits - shift) as u32, (32 - bits) as u32);
-    let greatest = (u32::MAX >> down) as f32;
-    let greatest_signed = (u32::MAX >> down >> 1) as f32;
-    let codes = words.map(|word| word << up);
-    let signed = |code: u32| code.cast_signed() >> down;
-    match format.encoding() {
-        VertexEncoding::Unorm => codes.map(|code| (code >> down) as f32 * (1.0 / greatest)),
-        VertexEncoding::Snorm => codes.map(|code| {
-            let value = signed(code) as f32 * (1.0 / greatest_signed);
-            if value > -1.0 { value } else { -1.0 }
-        }),
-        VertexEncoding::Uint => codes.map(|code| f32::from_bits(code >> down)),
-        VertexEncoding::Sint => codes.map(|code| f32::from_bits(signed(code).cast_unsigned())),
-        VertexEncoding::Float => codes.map(half),
-    }
-}
-
-/// The 16-bit float in the upper half of a word, exactly.
-fn half(code: u32) -> f32 {
-    let magnitude = (code & 0x7FFF_0000) >> 3;
-    let number = if magnitude < 0x0F80_0000 {
-        // The exponent is 112 less than it should be; as a product that is right of denormal numbers, too.
-        (f32::from_bits(magnitude) * f32::from_bits(0x7780_0000)).to_bits()
-    } else {
-        magnitude | 0x7F80_0000
-    };
-    f32::from_bits(number | code & 0x8000_0000)
 }
 
 /// The first words of an attribute of sixteen elements, what lies beyond the buffer's end zero; at least
@@ -178,14 +125,10 @@ fn fetch_words<S: Lanes>(
             return strided(s, rows, stride, count == 1);
         }
     }
-    let stepped;
-    let lanes = match source.step_rate {
-        _ if !source.per_instance => &index.vertex,
-        1 => &index.instance,
-        rate => {
-            stepped = step(index, rate);
-            &stepped
-        }
+    let lanes = if source.per_instance {
+        &index.instance
+    } else {
+        &index.vertex
     };
     let mut out = [<u32x16<S> as SimdBase<S>>::splat(s, 0); 4];
     let lanes = u32x16::load_array_ref(s, &lanes.0);
@@ -208,17 +151,6 @@ fn fetch_words<S: Lanes>(
         };
     }
     out
-}
-
-/// The elements of instances that share one between `rate` of them, or all of them.
-#[inline(never)]
-fn step(index: &PacketIndex, rate: u32) -> Packet<u32> {
-    let first = index.base_instance;
-    let of = |instance: u32| {
-        let steps = instance.wrapping_sub(first).checked_div(rate);
-        first.wrapping_add(steps.unwrap_or(0))
-    };
-    Packet(index.instance.0.map(of))
 }
 
 /// Words of sixteen rows that are `stride` words apart: the first four, or the first one.
@@ -256,4 +188,112 @@ fn whole_elements(source: &AttributeSource, buffer: &Buffer) -> u32 {
 fn float<S: Lanes>(code: u32x16<S>) -> f32x16<S> {
     let signed: i32x16<S> = code.bitcast();
     f32x16::float_from(signed)
+}
+
+/// An attribute of a format that is not common, or that several instances share.
+#[inline(never)]
+fn fetch_rare(
+    level: Level,
+    source: &AttributeSource,
+    buffers: &[Buffer],
+    index: &PacketIndex,
+    out: &mut [Packet<f32>],
+) {
+    let index = &PacketIndex {
+        vertex: index.vertex,
+        instance: step(index, source.step_rate),
+        ..*index
+    };
+    let format = source.attribute.format;
+    let there = out.len().min(source.components);
+    let bits = bits_of_component(format);
+    let mut words = [[0; LANES]; 4];
+    if let Some(buffer) = buffers.get(source.buffer) {
+        let count = (there * bits).div_ceil(32);
+        dispatch!(level, s => read_words(s, source, buffer, index, count, &mut words));
+    }
+    for (component, out) in out.iter_mut().enumerate() {
+        out.0 = if component < there {
+            decode_rare(format, &words[component * bits / 32 % 4], component)
+        } else {
+            [f32::from_bits(format.missing(component)); LANES]
+        };
+    }
+}
+
+#[inline(always)]
+fn read_words<S: Lanes>(
+    s: S,
+    source: &AttributeSource,
+    buffer: &Buffer,
+    index: &PacketIndex,
+    count: usize,
+    out: &mut [[u32; LANES]; 4],
+) {
+    let words = fetch_words(s, source, buffer, index, count);
+    for (words, out) in words.iter().zip(out) {
+        words.store_array(out);
+    }
+}
+
+/// The elements of instances that share one between `rate` of them, or all of them.
+#[inline(never)]
+fn step(index: &PacketIndex, rate: u32) -> Packet<u32> {
+    let first = index.base_instance;
+    let of = |instance: u32| {
+        let steps = instance.wrapping_sub(first).checked_div(rate);
+        first.wrapping_add(steps.unwrap_or(0))
+    };
+    Packet(index.instance.0.map(of))
+}
+
+/// Bits of a component; of packed formats their average.
+fn bits_of_component(format: VertexFormat) -> usize {
+    format.size_bytes() * 8 / format.components()
+}
+
+/// A component of sixteen elements of any format, from the word that holds it.
+#[inline(never)]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a component is 0, 1, 2 or 3, and a width at most 32"
+)]
+fn decode_rare(format: VertexFormat, words: &[u32; LANES], component: usize) -> [f32; LANES] {
+    let (shift, bits) = match format {
+        VertexFormat::Unorm10_10_10_2 => (component * 10, if component == 3 { 2 } else { 10 }),
+        VertexFormat::Unorm8x4Bgra => ([16, 8, 0, 24][component & 3], 8),
+        _ => {
+            let bits = bits_of_component(format);
+            (component * bits % 32, bits)
+        }
+    };
+    // The code in the highest bits; from there it comes down with or without its sign.
+    let (up, down) = ((32 - bits - shift) as u32, (32 - bits) as u32);
+    let greatest = (u32::MAX >> down) as f32;
+    let greatest_signed = (u32::MAX >> down >> 1) as f32;
+    let codes = words.map(|word| word << up);
+    let signed = |code: u32| code.cast_signed() >> down;
+    match format.encoding() {
+        VertexEncoding::Unorm => codes.map(|code| (code >> down) as f32 * (1.0 / greatest)),
+        VertexEncoding::Snorm => codes.map(|code| {
+            let value = signed(code) as f32 * (1.0 / greatest_signed);
+            if value > -1.0 { value } else { -1.0 }
+        }),
+        VertexEncoding::Uint => codes.map(|code| f32::from_bits(code >> down)),
+        VertexEncoding::Sint => codes.map(|code| f32::from_bits(signed(code).cast_unsigned())),
+        VertexEncoding::Float if bits == 32 => codes.map(f32::from_bits),
+        VertexEncoding::Float => codes.map(half),
+    }
+}
+
+/// The 16-bit float in the upper half of a word, exactly.
+fn half(code: u32) -> f32 {
+    let magnitude = (code & 0x7FFF_0000) >> 3;
+    let number = if magnitude < 0x0F80_0000 {
+        // The exponent is 112 less than it should be; as a product that is right of denormal numbers, too.
+        (f32::from_bits(magnitude) * f32::from_bits(0x7780_0000)).to_bits()
+    } else {
+        magnitude | 0x7F80_0000
+    };
+    f32::from_bits(number | code & 0x8000_0000)
 }

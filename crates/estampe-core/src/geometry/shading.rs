@@ -150,7 +150,7 @@ fn run(
     scratch
         .distances
         .resize(distances * BATCH, Packet::default());
-    dispatch!(level, s => fetch_batch(s, pipeline, source, (first, done, total), scratch));
+    dispatch!(level, s => fetch_batch(s, level, pipeline, source, (first, done, total), scratch));
     let sizes = if interface.writes_point_size {
         packets
     } else {
@@ -211,6 +211,7 @@ fn number_vertices(source: &VertexSource<'_>, first: u32, last: u32, index: &mut
 )]
 fn fetch_batch<S: Lanes>(
     s: S,
+    level: Level,
     pipeline: &RenderPipeline,
     source: &VertexSource<'_>,
     (first, done, total): (u32, usize, usize),
@@ -232,6 +233,7 @@ fn fetch_batch<S: Lanes>(
         let out = &mut scratch.attributes[packet * scalars..][..scalars];
         fetch(
             s,
+            level,
             pipeline.attributes(),
             wanted,
             source.buffers,
