@@ -19,17 +19,14 @@ use estampe_types::{Buffer, VertexEncoding, VertexFormat};
 pub(crate) struct PacketIndex {
     pub(crate) vertex: Packet<u32>,
     pub(crate) instance: Packet<u32>,
-    /// The draw's first instance, from which instances step.
-    pub(crate) base_instance: u32,
     /// The first vertex, where lane `i` is vertex `first + i` of one instance.
     pub(crate) first: Option<u32>,
 }
 
-/// Fills `out` with the scalars of every attribute; `wanted` says how many each location has.
+/// Fills `out` with the scalars of every attribute but those that [`fetch_rare`] reads; `wanted` says how many each location has.
 #[inline(always)]
 pub(crate) fn fetch<S: Lanes>(
     s: S,
-    level: Level,
     sources: &[AttributeSource],
     wanted: &[usize],
     buffers: &[Buffer],
@@ -43,7 +40,6 @@ pub(crate) fn fetch<S: Lanes>(
         };
         rest = others;
         if source.is_rare {
-            fetch_rare(level, source, buffers, index, scalars);
             continue;
         }
         let format = source.attribute.format;
@@ -190,20 +186,41 @@ fn float<S: Lanes>(code: u32x16<S>) -> f32x16<S> {
     f32x16::float_from(signed)
 }
 
-/// An attribute of a format that is not common, or that several instances share.
+/// Fills `out` with the attributes of formats that are not common, and those that several instances share;
+/// `first_instance` is the draw's.
 #[inline(never)]
-fn fetch_rare(
+pub(crate) fn fetch_rare(
+    level: Level,
+    sources: &[AttributeSource],
+    wanted: &[usize],
+    buffers: &[Buffer],
+    (index, first_instance): (&PacketIndex, u32),
+    out: &mut [Packet<f32>],
+) {
+    let mut rest = out;
+    for (source, &wanted) in sources.iter().zip(wanted) {
+        let Some((scalars, others)) = rest.split_at_mut_checked(wanted) else {
+            return;
+        };
+        rest = others;
+        if source.is_rare {
+            let index = &PacketIndex {
+                vertex: index.vertex,
+                instance: step(&index.instance, first_instance, source.step_rate),
+                first: None,
+            };
+            fetch_one(level, source, buffers, index, scalars);
+        }
+    }
+}
+
+fn fetch_one(
     level: Level,
     source: &AttributeSource,
     buffers: &[Buffer],
     index: &PacketIndex,
     out: &mut [Packet<f32>],
 ) {
-    let index = &PacketIndex {
-        vertex: index.vertex,
-        instance: step(index, source.step_rate),
-        ..*index
-    };
     let format = source.attribute.format;
     let there = out.len().min(source.components);
     let bits = bits_of_component(format);
@@ -237,14 +254,12 @@ fn read_words<S: Lanes>(
 }
 
 /// The elements of instances that share one between `rate` of them, or all of them.
-#[inline(never)]
-fn step(index: &PacketIndex, rate: u32) -> Packet<u32> {
-    let first = index.base_instance;
+fn step(instances: &Packet<u32>, first: u32, rate: u32) -> Packet<u32> {
     let of = |instance: u32| {
         let steps = instance.wrapping_sub(first).checked_div(rate);
         first.wrapping_add(steps.unwrap_or(0))
     };
-    Packet(index.instance.0.map(of))
+    Packet(instances.0.map(of))
 }
 
 /// Bits of a component; of packed formats their average.

@@ -2,7 +2,7 @@
 //!
 //! *In* a dense range of vertices · *Out* [`ShadedVertices`] · *Space* clip, then window.
 
-use super::fetch::{PacketIndex, fetch};
+use super::fetch::{PacketIndex, fetch, fetch_rare};
 use super::rows::{store_rows, store_scalars};
 use super::viewport::ViewportTransform;
 use crate::pipeline::RenderPipeline;
@@ -150,7 +150,21 @@ fn run(
     scratch
         .distances
         .resize(distances * BATCH, Packet::default());
-    dispatch!(level, s => fetch_batch(s, level, pipeline, source, (first, done, total), scratch));
+    dispatch!(level, s => fetch_batch(s, pipeline, source, (first, done, total), scratch));
+    let sources = pipeline.attributes();
+    if sources.iter().any(|source| source.is_rare) {
+        for packet in 0..packets {
+            let index = PacketIndex {
+                vertex: scratch.vertex_index[packet],
+                instance: scratch.instance_index[packet],
+                first: None,
+            };
+            let index = (&index, source.base_instance);
+            let out = &mut scratch.attributes[packet * attributes..][..attributes];
+            let wanted = &interface.attributes;
+            fetch_rare(level, sources, wanted, source.buffers, index, out);
+        }
+    }
     let sizes = if interface.writes_point_size {
         packets
     } else {
@@ -211,7 +225,6 @@ fn number_vertices(source: &VertexSource<'_>, first: u32, last: u32, index: &mut
 )]
 fn fetch_batch<S: Lanes>(
     s: S,
-    level: Level,
     pipeline: &RenderPipeline,
     source: &VertexSource<'_>,
     (first, done, total): (u32, usize, usize),
@@ -222,10 +235,7 @@ fn fetch_batch<S: Lanes>(
     let packets = (total - done).div_ceil(LANES).min(BATCH);
     let last = first + (total - 1) as u32;
     for packet in 0..packets {
-        let mut index = PacketIndex {
-            base_instance: source.base_instance,
-            ..PacketIndex::default()
-        };
+        let mut index = PacketIndex::default();
         let start = first + (done + packet * LANES) as u32;
         number_vertices(source, start, last, &mut index);
         scratch.vertex_index[packet] = index.vertex;
@@ -233,7 +243,6 @@ fn fetch_batch<S: Lanes>(
         let out = &mut scratch.attributes[packet * scalars..][..scalars];
         fetch(
             s,
-            level,
             pipeline.attributes(),
             wanted,
             source.buffers,
