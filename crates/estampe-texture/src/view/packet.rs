@@ -16,9 +16,9 @@ use super::packet_texel::passes;
 use super::plane::Plane;
 use crate::lod::level_of_detail;
 use crate::wrap::{place, tile, wrap};
-use estampe_simd::{LANES, SimdBase, dispatch, f32x16};
+use estampe_simd::{LANES, Level, SimdBase, dispatch, f32x16};
 use estampe_types::state::CompareFunction;
-use estampe_types::{AddressMode, FilterMode, Int, Real, TexelEncoding, ViewDimension};
+use estampe_types::{AddressMode, FilterMode, Int, Real, ViewDimension};
 
 impl SampledView {
     /// Samples or compares sixteen lanes; `false` where it cannot, and nothing is done.
@@ -44,15 +44,14 @@ impl SampledView {
         };
         // One channel is all that is compared, and that many formats have.
         let again = if compares.is_some() || format.components == 1 {
-            dispatch!(@wide self.level, s => {
-                let zero: f32x16<_> = SimdBase::splat(s, 0.0);
-                packet.sample::<_, 1>(zero, answers)
-            }, scalar => return false)
+            packet.enter::<1, false>(self.level, answers)
+        } else if format.is_rgba8() {
+            packet.enter::<4, true>(self.level, answers)
         } else {
-            dispatch!(@wide self.level, s => {
-                let zero: f32x16<_> = SimdBase::splat(s, 0.0);
-                packet.sample::<_, 4>(zero, answers)
-            }, scalar => return false)
+            packet.enter::<4, false>(self.level, answers)
+        };
+        let Some(again) = again else {
+            return false;
         };
         for lane in 0..LANES {
             if again >> lane & 1 == 1 {
@@ -91,6 +90,18 @@ struct Places<R: Real> {
 }
 
 impl Packet<'_> {
+    /// Samples the packet at a level; gives the lanes that are to be done again. The scalar level has no packets.
+    fn enter<const C: usize, const RGBA8: bool>(
+        &self,
+        level: Level,
+        answers: &mut Answers,
+    ) -> Option<u32> {
+        dispatch!(@wide level, s => {
+            let zero: f32x16<_> = SimdBase::splat(s, 0.0);
+            Some(self.sample::<_, C, RGBA8>(zero, answers))
+        }, scalar => None)
+    }
+
     #[inline(always)]
     fn load<R: Real>(like: R, from: &[f32; LANES]) -> R {
         like.with_lanes(
@@ -111,7 +122,11 @@ impl Packet<'_> {
 
     /// Samples the packet; gives the lanes that are to be done again.
     #[inline(always)]
-    fn sample<R: Real, const C: usize>(&self, like: R, answers: &mut Answers) -> u32 {
+    fn sample<R: Real, const C: usize, const RGBA8: bool>(
+        &self,
+        like: R,
+        answers: &mut Answers,
+    ) -> u32 {
         let sampler = &self.of.sampler;
         let at = [
             Self::load(like, &self.lanes.at[0]),
@@ -159,7 +174,7 @@ impl Packet<'_> {
                 }
             }
             let spots = self.spots(uvw);
-            let color = self.levels::<R, C>(&spots, lod, active, &mut again);
+            let color = self.levels::<R, C, RGBA8>(&spots, lod, active, &mut again);
             for k in 0..C {
                 let added = if probe == 1.0 {
                     color[k]
@@ -326,7 +341,7 @@ impl Packet<'_> {
 
     /// One level of each lane, or the mixture of two, for the active lanes: once for every level among them.
     #[inline(always)]
-    fn levels<R: Real, const C: usize>(
+    fn levels<R: Real, const C: usize, const RGBA8: bool>(
         &self,
         spots: &Spots<R>,
         lod: R,
@@ -364,7 +379,7 @@ impl Packet<'_> {
             for step in 0..steps {
                 let plane = &planes[(at + step).min(last)];
                 let mut outside = 0;
-                let texels = self.texels::<R, C>(plane, spots, filter, &mut outside);
+                let texels = self.texels::<R, C, RGBA8>(plane, spots, filter, &mut outside);
                 *again |= outside & lanes & if step == 0 { u32::MAX } else { is_mixed };
                 for k in 0..C {
                     let mixed = of_key[k] + (texels[k] - of_key[k]) * fraction;
@@ -385,7 +400,7 @@ impl Packet<'_> {
 
     /// One level, nearest or linear; sets the lanes that cannot be done here.
     #[inline(always)]
-    fn texels<R: Real, const C: usize>(
+    fn texels<R: Real, const C: usize, const RGBA8: bool>(
         &self,
         plane: &Plane,
         spots: &Spots<R>,
@@ -419,7 +434,11 @@ impl Packet<'_> {
         let begin = spots.slice.splat(plane.begin_words(self.format.words));
         let is_linear = filter == FilterMode::Linear;
         let count = |axis: usize| if is_linear && axes > axis { 2 } else { 1 };
-        let reference = self.reference(like);
+        let reference = if self.compares.is_some() {
+            self.reference(like)
+        } else {
+            like
+        };
         // Loops, so that the long code of a texel exists once.
         let mut images = [[like; C]; 2];
         for (slice, image) in images.iter_mut().enumerate().take(count(2)) {
@@ -430,7 +449,8 @@ impl Packet<'_> {
                 for (column, units) in pair.iter_mut().enumerate().take(count(0)) {
                     let index = (begin_row + x.texels[column]) * words + begin;
                     self.missing(units);
-                    self.format.units(&view.texture.texels, index, units);
+                    let texels = &view.texture.texels;
+                    self.format.units::<R, C, RGBA8>(texels, index, units);
                     if let Some(function) = self.compares {
                         units[0] = passes(function, reference, units[0]);
                     }
@@ -456,11 +476,11 @@ impl Packet<'_> {
     #[inline(always)]
     fn reference<R: Real>(&self, like: R) -> R {
         let reference = Self::load(like, &self.lanes.reference);
-        let encoding = self.of.view.texture.stored_format().encoding();
-        if matches!(encoding, TexelEncoding::Depth16 | TexelEncoding::Depth24) {
-            return reference.saturate();
+        if self.format.is_fixed_depth() {
+            reference.saturate()
+        } else {
+            reference
         }
-        reference
     }
 
     /// The places along one axis of a level.
