@@ -12,7 +12,7 @@ pub(crate) use super::packet_texel::PacketFormat;
 use super::SampledView;
 use super::axis::FAR;
 use super::coordinates::{Answers, Lanes, LodOfLanes, answer};
-use super::packet_texel::passes;
+use super::packet_texel::{OTHERS, RGBA8, RGBA16F, passes};
 use super::plane::Plane;
 use crate::lod::level_of_detail;
 use crate::wrap::{place, tile, wrap};
@@ -44,11 +44,13 @@ impl SampledView {
         };
         // One channel is all that is compared, and that many formats have.
         let again = if compares.is_some() || format.components == 1 {
-            packet.enter::<1, false>(self.level, answers)
-        } else if format.is_rgba8() {
-            packet.enter::<4, true>(self.level, answers)
+            packet.enter::<1, OTHERS>(self.level, answers)
         } else {
-            packet.enter::<4, false>(self.level, answers)
+            match format.kind() {
+                RGBA8 => packet.enter::<4, RGBA8>(self.level, answers),
+                RGBA16F => packet.enter::<4, RGBA16F>(self.level, answers),
+                _ => packet.enter::<4, OTHERS>(self.level, answers),
+            }
         };
         let Some(again) = again else {
             return false;
@@ -91,14 +93,14 @@ struct Places<R: Real> {
 
 impl Packet<'_> {
     /// Samples the packet at a level; gives the lanes that are to be done again. The scalar level has no packets.
-    fn enter<const C: usize, const RGBA8: bool>(
+    fn enter<const C: usize, const KIND: u8>(
         &self,
         level: Level,
         answers: &mut Answers,
     ) -> Option<u32> {
         dispatch!(@wide level, s => {
             let zero: f32x16<_> = SimdBase::splat(s, 0.0);
-            Some(self.sample::<_, C, RGBA8>(zero, answers))
+            Some(self.sample::<_, C, KIND>(zero, answers))
         }, scalar => None)
     }
 
@@ -122,7 +124,7 @@ impl Packet<'_> {
 
     /// Samples the packet; gives the lanes that are to be done again.
     #[inline(always)]
-    fn sample<R: Real, const C: usize, const RGBA8: bool>(
+    fn sample<R: Real, const C: usize, const KIND: u8>(
         &self,
         like: R,
         answers: &mut Answers,
@@ -174,7 +176,7 @@ impl Packet<'_> {
                 }
             }
             let spots = self.spots(uvw);
-            let color = self.levels::<R, C, RGBA8>(&spots, lod, active, &mut again);
+            let color = self.levels::<R, C, KIND>(&spots, lod, active, &mut again);
             for k in 0..C {
                 let added = if probe == 1.0 {
                     color[k]
@@ -341,7 +343,7 @@ impl Packet<'_> {
 
     /// One level of each lane, or the mixture of two, for the active lanes: once for every level among them.
     #[inline(always)]
-    fn levels<R: Real, const C: usize, const RGBA8: bool>(
+    fn levels<R: Real, const C: usize, const KIND: u8>(
         &self,
         spots: &Spots<R>,
         lod: R,
@@ -379,7 +381,7 @@ impl Packet<'_> {
             for step in 0..steps {
                 let plane = &planes[(at + step).min(last)];
                 let mut outside = 0;
-                let texels = self.texels::<R, C, RGBA8>(plane, spots, filter, &mut outside);
+                let texels = self.texels::<R, C, KIND>(plane, spots, filter, &mut outside);
                 *again |= outside & lanes & if step == 0 { u32::MAX } else { is_mixed };
                 for k in 0..C {
                     let mixed = of_key[k] + (texels[k] - of_key[k]) * fraction;
@@ -400,7 +402,7 @@ impl Packet<'_> {
 
     /// One level, nearest or linear; sets the lanes that cannot be done here.
     #[inline(always)]
-    fn texels<R: Real, const C: usize, const RGBA8: bool>(
+    fn texels<R: Real, const C: usize, const KIND: u8>(
         &self,
         plane: &Plane,
         spots: &Spots<R>,
@@ -450,7 +452,7 @@ impl Packet<'_> {
                     let index = (begin_row + x.texels[column]) * words + begin;
                     self.missing(units);
                     let texels = &view.texture.texels;
-                    self.format.units::<R, C, RGBA8>(texels, index, units);
+                    self.format.units::<R, C, KIND>(texels, index, units);
                     if let Some(function) = self.compares {
                         units[0] = passes(function, reference, units[0]);
                     }

@@ -5,6 +5,13 @@ use estampe_types::srgb::LINEAR_BITS_FROM_SRGB;
 use estampe_types::state::CompareFunction;
 use estampe_types::{Int, Real, TexelEncoding};
 
+/// Formats without code of their own.
+pub(super) const OTHERS: u8 = 0;
+/// Four unorm bytes: arrays of them are sampled in 11 ns rather than 17.
+pub(super) const RGBA8: u8 = 1;
+/// Four half floats.
+pub(super) const RGBA16F: u8 = 2;
+
 /// A format whose texels sixteen lanes read at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PacketFormat {
@@ -34,10 +41,13 @@ impl PacketFormat {
         })
     }
 
-    /// Whether it is four unorm bytes, which have code of their own: arrays of them are sampled in 12.2 ns rather than
-    /// 17. (Four half floats with their own gained a twentieth.)
-    pub(super) fn is_rgba8(self) -> bool {
-        self.encoding == TexelEncoding::Unorm8 && self.components == 4 && !self.is_srgb
+    /// The format's number among those that have code of their own.
+    pub(super) fn kind(self) -> u8 {
+        match (self.encoding, self.components) {
+            (TexelEncoding::Unorm8, 4) if !self.is_srgb => RGBA8,
+            (TexelEncoding::Float16, 4) => RGBA16F,
+            _ => OTHERS,
+        }
     }
 
     /// Whether it is a depth of whole codes.
@@ -50,7 +60,7 @@ impl PacketFormat {
 
     /// Texels' channels in units, the index being that of their first words; those that the format lacks are left.
     #[inline(always)]
-    pub(super) fn units<R: Real, const C: usize, const RGBA8: bool>(
+    pub(super) fn units<R: Real, const C: usize, const KIND: u8>(
         self,
         words: &[u32],
         index: R::Int,
@@ -58,10 +68,18 @@ impl PacketFormat {
     ) {
         use TexelEncoding as E;
         let word = |k: i32| (index + index.splat(k)).gather(words);
-        if RGBA8 {
+        if KIND == RGBA8 {
             let all = word(0);
             for (k, unit) in (0..).zip(units) {
                 *unit = (all.shr_unsigned(8 * k) & index.splat(0xFF)).to_real();
+            }
+            return;
+        }
+        if KIND == RGBA16F {
+            let (rg, ba) = (word(0), word(1));
+            for (k, unit) in (0..).zip(units) {
+                let pair = if k < 2 { rg } else { ba };
+                *unit = float_of_half(pair.shr_unsigned(16 * (k % 2)) & index.splat(0xFFFF));
             }
             return;
         }
