@@ -1,17 +1,26 @@
 #![forbid(unsafe_code)]
-//! Textures: making them, and reading them at (u, v).
+//! Textures: making them, reading them at coordinates, storing to them.
 //!
-//! * [`create_texture`], [`create_texture_with_levels`]: bytes become a [`Texture`], with mip levels
-//!   made from the level above or given; [`TextureError`] names the rule that was broken;
-//! * [`Sampled`]: a texture with a sampler, as a shader holds it. One text samples one fragment
-//!   (`f32`), a 2×2 quad ([`Quad`](estampe_types::Quad)) or a packet of sixteen, with the same bits.
-//! * [`sample_compare_level`], [`sample_compare_sum`]: a depth image compared with a reference.
+//! * [`TextureDescriptor`]: bytes of any [`TextureFormat`] become a [`Texture`] of one, two or three dimensions, with
+//!   layers, levels or samples; [`create_texture`] is the short way for four 8-bit channels. [`TextureError`] names
+//!   the rule that was broken;
+//! * [`TextureView`]: as what and how much of it is read; its sizes, and fetching texels;
+//! * [`SampledView`]: a view with a sampler: sampling, gathering, comparing, at any [`Coordinates`] and [`Lod`];
+//! * [`Sampled`]: the common kind by itself: 2D, four 8-bit channels, WebGPU's address modes;
+//! * [`sample_compare_level`], [`sample_compare_sum`]: a depth attachment, as it lies, compared with a reference;
+//! * [`StorageTexture`], which shaders store to: [`storage_load`], [`storage_store`].
+//!
+//! All of it is one text for one fragment (`f32`), a 2×2 quad ([`Quad`](estampe_types::Quad)) and packets, with the
+//! same bits.
 //!
 //! ```text
-//!  derivatives ─▶ lod ─▶ levels and their mixture ─▶ wrap ─▶ filter ─▶ texel (load, unpack)
+//!  bytes ─▶ upload (blocks) ─▶ generate ─▶ Texture          encode ◀─ StorageTexture
+//!                                            │ decode
+//!  coordinates ─▶ footprint ─▶ levels ─▶ axis, cube ─▶ texels ─▶ mixture        (view: everything)
+//!  derivatives ─▶ lod ─▶ levels and their mixture ─▶ wrap ─▶ filter ─▶ texel    (sampled: the common kind)
 //! ```
 //!
-//! # How a packet is sampled
+//! # How a packet of the common kind is sampled
 //!
 //! Nearly always all sixteen lanes want the same mip level: 4×4 neighbouring pixels. So a level is
 //! sampled with its size and place the same in every lane, and where a packet does straddle levels,
