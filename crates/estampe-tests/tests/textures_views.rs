@@ -243,7 +243,7 @@ fn texture(
 fn noise(random: &mut Random, format: TextureFormat, blocks: usize) -> Vec<u8> {
     use estampe_types::TexelEncoding as E;
     let count = blocks * format.block_bytes() as usize;
-    let is_odd = random.once_in(8);
+    let is_odd = random.once_in(4);
     match format.encoding() {
         E::Float32 | E::Depth32 if !is_odd => (0..count / 4)
             .flat_map(|_| random.unit().to_le_bytes())
@@ -345,6 +345,9 @@ fn question(random: &mut Random, function: Function, view: &TextureView) -> Ask 
         value: std::array::from_fn(|_| {
             if with_odd && random.once_in(9) {
                 random.odd_number()
+            } else if random.once_in(3) {
+                // One level alone.
+                random.below(4) as f32
             } else {
                 random.range(-2.0, 6.0)
             }

@@ -7,7 +7,8 @@
 //! * [`TextureView`]: as what and how much of it is read; its sizes, and fetching texels;
 //! * [`SampledView`]: a view with a sampler: sampling, gathering, comparing, at any [`Coordinates`] and [`Lod`];
 //! * [`Sampled`]: the common kind by itself: 2D, four 8-bit channels, WebGPU's address modes;
-//! * [`sample_compare_level`], [`sample_compare_sum`]: a depth attachment, as it lies, compared with a reference;
+//! * [`sample_compare_level`], [`sample_compare_sum`]: a depth attachment, as it lies, compared with a reference
+//!   ([`texture_from_depth`] makes it a texture like others);
 //! * [`StorageTexture`], which shaders store to: [`storage_load`], [`storage_store`].
 //!
 //! All of it is one text for one fragment (`f32`), a 2×2 quad ([`Quad`](estampe_types::Quad)) and packets, with the
@@ -47,6 +48,7 @@ mod descriptor;
 mod encode;
 mod error;
 mod filter;
+mod from_depth;
 mod generate;
 mod lod;
 mod mips;
@@ -67,6 +69,7 @@ pub use estampe_types::{
     StorageTexture, Texture, TextureAspect, TextureDimension, TextureFormat, TextureShape,
     TextureViewDescriptor, ViewDimension,
 };
+pub use from_depth::texture_from_depth;
 pub use sampled::Sampled;
 pub use storage::{
     create_storage_texture, storage_bytes, storage_load, storage_store, storage_texture_to_texture,

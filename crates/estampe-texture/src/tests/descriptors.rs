@@ -533,3 +533,28 @@ fn check_levels(format: TextureFormat, dimension: TextureDimension) {
         }
     }
 }
+
+#[test]
+fn a_depth_image_is_compared_the_same_as_a_texture() {
+    use crate::{
+        Coordinates, DepthTexture, FilterMode, Lod, sample_compare_level, texture_from_depth,
+    };
+    let random = &mut super::Random(5);
+    let rows: Vec<f32> = (0..37 * 70).map(|_| random.unit()).collect();
+    let image = DepthTexture::from_rows(37, 70, &rows);
+    let view = TextureView::of(texture_from_depth(&image).expect("not empty")).expect("a view");
+    let sampler = SamplerDescriptor {
+        mag_filter: FilterMode::Linear,
+        compare: Some(estampe_types::state::CompareFunction::LessEqual),
+        ..SamplerDescriptor::default()
+    };
+    let view = SampledView::new(view, sampler).expect("a sampler");
+    for _ in 0..2000 {
+        let uv = crate::tests::Vec2::new(random.unit() * 1.2 - 0.1, random.unit() * 1.2 - 0.1);
+        let reference = random.unit();
+        let wanted: f32 = sample_compare_level(&image, uv, reference);
+        let got = view.sample_compare(Coordinates::d2(uv), reference, Lod::Level(0.0), [0; 2]);
+        assert_eq!(got.to_bits(), wanted.to_bits());
+    }
+    assert!(texture_from_depth(&DepthTexture::default()).is_err());
+}

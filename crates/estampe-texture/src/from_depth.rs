@@ -1,0 +1,21 @@
+//! A depth image as a texture like others.
+
+use crate::{LevelData, MipGeneration, TextureDescriptor, TextureError};
+use estampe_types::{DepthTexture, Limits, Texture, TextureFormat};
+
+/// A copy of a depth image, such as a depth attachment was, as a texture of [`TextureFormat::Depth32Float`]: to be
+/// sampled, gathered and compared in every way. [`sample_compare_level`](crate::sample_compare_level) reads the image
+/// as it lies.
+///
+/// # Errors
+/// [`TextureError`] when the image is empty, or memory is short.
+pub fn texture_from_depth(depth: &DepthTexture) -> Result<Texture, TextureError> {
+    let (width, height) = (depth.width(), depth.height());
+    let descriptor = TextureDescriptor::new_2d(width, height, TextureFormat::Depth32Float);
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let bytes: Vec<u8> = places
+        .flat_map(|(x, y)| depth.texel(x, y).to_le_bytes())
+        .collect();
+    let data = [LevelData::tight(&bytes)];
+    descriptor.create(&data, MipGeneration::None, &Limits::default())
+}
