@@ -3,9 +3,12 @@
 use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::TexturedShader;
 use estampe_tests::{Case, CaseDraw, Random, check};
-use estampe_texture::{MipGeneration, create_texture};
+use estampe_texture::{LevelData, MipGeneration, TextureDescriptor, create_texture};
 use estampe_types::state::{PolygonMode, PrimitiveTopology};
-use estampe_types::{AddressMode, FilterMode, Limits, SamplerDescriptor, Texture, TextureFormat};
+use estampe_types::{
+    AddressMode, BorderColor, FilterMode, Limits, SampleType, SamplerDescriptor, Texture,
+    TextureFormat,
+};
 use std::sync::Arc;
 
 fn texture(random: &mut Random) -> Arc<Texture> {
@@ -55,9 +58,68 @@ fn textured_case(random: &mut Random, style: Style, scales: &[f32]) -> Case {
         texture: texture(random),
         sampler: sampler(random),
         channel: random.pick(&[None, Some(0), Some(1), Some(2), Some(3)]),
+        is_view: false,
     };
     case.draws.push(CaseDraw::new(shader, &vertices));
     case
+}
+
+/// A texture of any format of numbers, and a sampler with all that it can have.
+fn any_texture(random: &mut Random) -> (Arc<Texture>, SamplerDescriptor) {
+    let all = TextureFormat::ALL.iter().copied();
+    let formats: Vec<_> = all
+        .filter(|format| format.sample_type() == SampleType::Float)
+        .collect();
+    let format = random.pick(&formats);
+    let sides = [1_u32, 2, 3, 8, 17, 32];
+    let (width, height) = (random.pick(&sides), random.pick(&sides));
+    let [block_width, block_height] = format.block_size();
+    let blocks = width.div_ceil(block_width) * height.div_ceil(block_height);
+    let bytes: Vec<u8> = (0..blocks * format.block_bytes())
+        .map(|_| random.byte())
+        .collect();
+    let descriptor = TextureDescriptor::new_2d(width, height, format).with_all_levels();
+    let data = [LevelData::tight(&bytes)];
+    let made = descriptor.create(&data, MipGeneration::Full, &Limits::default());
+    let linear = [FilterMode::Linear; 3];
+    let sampler = sampler(random);
+    let filters = [
+        sampler.mag_filter,
+        sampler.min_filter,
+        sampler.mipmap_filter,
+    ];
+    let modes = [
+        AddressMode::MirrorOnce,
+        AddressMode::ClampToBorder,
+        AddressMode::Repeat,
+    ];
+    let sampler = SamplerDescriptor {
+        address_mode_u: random.pick(&modes),
+        max_anisotropy: if filters == linear { 8 } else { 1 },
+        lod_bias: random.pick(&[0.0, -0.6, 1.4]),
+        lod_max_clamp: 32.0,
+        border_color: random.pick(&[BorderColor::OpaqueWhite, BorderColor::TransparentBlack]),
+        ..sampler
+    };
+    (Arc::new(made.expect("a valid texture")), sampler)
+}
+
+/// Rows: F2.
+#[test]
+fn views_of_every_format_of_numbers() {
+    check("textures/views", 60, |random| {
+        let style = random.pick(&[Style::Large, Style::Small, Style::AroundEye]);
+        let mut case = textured_case(random, style, &[0.3, 1.0, 4.0, 30.0]);
+        let (texture, sampler) = any_texture(random);
+        let shader = TexturedShader {
+            texture,
+            sampler,
+            channel: random.pick(&[None, Some(0), Some(1), Some(3)]),
+            is_view: true,
+        };
+        case.draws[0].shader = shader.into();
+        case
+    });
 }
 
 /// Rows: F2, R7.

@@ -7,9 +7,10 @@ use super::cube;
 use super::texel::TexelReader;
 use super::{log2, mix, whole};
 use crate::arithmetic::{clamp, max, min};
+use estampe_types::shader::Sample2d;
 use estampe_types::{
-    AddressMode, BorderColor, FilterMode, SamplerDescriptor, TexelEncoding, Texture, TextureAspect,
-    TextureDimension, ViewDimension,
+    AddressMode, BorderColor, FilterMode, Real, SamplerDescriptor, TexelEncoding, Texture,
+    TextureAspect, TextureDimension, Vec2, Vec4, ViewDimension,
 };
 use std::sync::Arc;
 
@@ -49,7 +50,45 @@ pub struct Sample {
     pub reference: Option<f32>,
 }
 
+impl Sample2d for ReferenceView {
+    fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
+        // Two packets have thirty-two lanes; a lone fragment is its own quad.
+        let mut texels = [[0.0; 4]; 32];
+        let gradients = [uv.x.ddx(), uv.y.ddx(), uv.x.ddy(), uv.y.ddy()];
+        for (lane, texel) in texels.iter_mut().enumerate().take(R::LANES) {
+            let first = if R::LANES >= 4 { lane / 4 * 4 } else { lane };
+            let at = |lane: usize| [uv.x.lane(lane), uv.y.lane(lane), 0.0];
+            let [u_x, v_x, u_y, v_y] = gradients.map(|gradient| gradient.lane(first));
+            let (lod, probes, step) = self.footprint(at(first), [u_x, v_x, 0.0], [u_y, v_y, 0.0]);
+            *texel = self.sample(&Sample {
+                at: at(lane),
+                layer: 0,
+                lod: self.biased(lod, 0.0),
+                probes,
+                step,
+                offset: [0; 3],
+                reference: None,
+            });
+        }
+        let channel = |k: usize| uv.x.with_lanes(|lane| texels[lane][k]);
+        Vec4::new(channel(0), channel(1), channel(2), channel(3))
+    }
+}
+
 impl ReferenceView {
+    /// All of a texture of one image.
+    #[must_use]
+    pub fn of_image(texture: Arc<Texture>, sampler: SamplerDescriptor) -> Self {
+        Self {
+            dimension: ViewDimension::D2,
+            levels: [0, texture.levels.len()],
+            layers: [0, 1],
+            aspect: TextureAspect::All,
+            sampler,
+            texture,
+        }
+    }
+
     fn reader(&self) -> TexelReader {
         TexelReader {
             format: self.texture.stored_format(),

@@ -18,12 +18,11 @@ pub use depths::{Cutout, CutoutDepth, DepthGiven, DepthOnly, GivenDepth};
 pub use distances::{Distant, ManyDistances};
 pub use probe::{Probe, Scalar};
 pub use samples::{AtCentroid, AtSample, BySample, Masking, Shown};
-pub use textured::{TexelSource, Textured};
+pub use textured::{TexelSource, Textured, TexturedShader};
 pub use vertex_input::{Formats, Indexed};
 
-use estampe_reference::{Counts, Draw, ReferenceTexture, State, Target};
-use estampe_texture::Sampled;
-use estampe_types::{Int, Program, Real, SamplerDescriptor, ShaderProgram, Texture, Vec4};
+use estampe_reference::{Counts, Draw, State, Target};
+use estampe_types::{Int, Program, Real, ShaderProgram, Vec4};
 use std::sync::Arc;
 
 /// The 32 bits of a number as the four bytes of a colour, so that a unorm target shows the last bit. A
@@ -38,17 +37,6 @@ pub fn bytes_of<R: Real>(value: R) -> Vec4<R> {
 pub fn bytes_of_int<R: Real>(bits: R::Int) -> Vec4<R> {
     let byte = |shift: u32| ((bits >> shift) & bits.splat(0xFF)).to_real() * (1.0 / 255.0);
     Vec4::new(byte(0), byte(8), byte(16), byte(24))
-}
-
-/// A texture, sampled by each side's own code.
-#[derive(Debug, Clone)]
-pub struct TexturedShader {
-    /// The texels.
-    pub texture: Arc<Texture>,
-    /// How they are sampled.
-    pub sampler: SamplerDescriptor,
-    /// Which channel shows its bits; `None` shows the colour.
-    pub channel: Option<usize>,
 }
 
 macro_rules! test_shaders {
@@ -73,10 +61,7 @@ macro_rules! test_shaders {
             pub fn program(&self) -> Arc<dyn Program> {
                 match self {
                     $(Self::$name(shader) => Arc::new(ShaderProgram::new(*shader)),)+
-                    Self::Textured(TexturedShader { texture, sampler, channel }) => {
-                        let texels = Sampled::new(texture.clone(), *sampler);
-                        Arc::new(ShaderProgram::new(Textured { texels, channel: *channel }))
-                    }
+                    Self::Textured(shader) => shader.program(),
                 }
             }
 
@@ -84,11 +69,7 @@ macro_rules! test_shaders {
             pub fn draw_oracle(&self, target: &mut Target, state: &State, draw: &Draw<'_>) -> Counts {
                 match self {
                     $(Self::$name(shader) => estampe_reference::draw(target, shader, state, draw),)+
-                    Self::Textured(TexturedShader { texture, sampler, channel }) => {
-                        let texels = ReferenceTexture::new(texture.clone(), *sampler);
-                        let shader = Textured { texels, channel: *channel };
-                        estampe_reference::draw(target, &shader, state, draw)
-                    }
+                    Self::Textured(shader) => shader.draw_oracle(target, state, draw),
                 }
             }
         }

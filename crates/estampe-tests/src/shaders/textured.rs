@@ -1,12 +1,60 @@
 //! A shader over any texture, so that each side brings its own sampling.
 
 use super::bytes_of;
+use estampe_reference::texture::ReferenceView;
+use estampe_reference::{Counts, Draw, ReferenceTexture, State, Target};
+use estampe_texture::{Sampled, SampledView, TextureView};
 use estampe_types::shader::{Sample2d, VertexOut};
-use estampe_types::{FragmentIn, FragmentOut, Vec2, Vec4, VertexIn};
+use estampe_types::{
+    FragmentIn, FragmentOut, Program, SamplerDescriptor, ShaderProgram, Texture, Vec2, Vec4,
+    VertexIn,
+};
+use std::sync::Arc;
 
 /// A texture that a shader can own.
 pub trait TexelSource: Sample2d + 'static {}
 impl<T: Sample2d + 'static> TexelSource for T {}
+
+/// A 2D texture, sampled by each side's own code.
+#[derive(Debug, Clone)]
+pub struct TexturedShader {
+    /// The texels.
+    pub texture: Arc<Texture>,
+    /// How they are sampled.
+    pub sampler: SamplerDescriptor,
+    /// Which channel shows its bits; `None` shows the colour.
+    pub channel: Option<usize>,
+    /// Whether it is a view, which takes every format and sampler.
+    pub is_view: bool,
+}
+
+impl TexturedShader {
+    pub(super) fn program(&self) -> Arc<dyn Program> {
+        let channel = self.channel;
+        if self.is_view {
+            let view = TextureView::of(self.texture.clone()).expect("a texture of one image");
+            let texels = SampledView::new(view, self.sampler).expect("a sampler that fits");
+            return Arc::new(ShaderProgram::new(Textured { texels, channel }));
+        }
+        let texels = Sampled::new(self.texture.clone(), self.sampler);
+        Arc::new(ShaderProgram::new(Textured { texels, channel }))
+    }
+
+    pub(super) fn draw_oracle(
+        &self,
+        target: &mut Target,
+        state: &State,
+        draw: &Draw<'_>,
+    ) -> Counts {
+        let (texture, sampler, channel) = (self.texture.clone(), self.sampler, self.channel);
+        if self.is_view {
+            let texels = ReferenceView::of_image(texture, sampler);
+            return estampe_reference::draw(target, &Textured { texels, channel }, state, draw);
+        }
+        let texels = ReferenceTexture::new(texture, sampler);
+        estampe_reference::draw(target, &Textured { texels, channel }, state, draw)
+    }
+}
 
 /// The texture at the first two values; or the bits of one of its channels.
 #[derive(Debug, Clone)]
