@@ -206,6 +206,16 @@ pub enum PipelineError {
     },
 }
 
+/// How an attribute is decoded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Decoding {
+    Float32,
+    Unorm8,
+    Unorm16,
+    /// Anything else, and what several instances share: fetched out of the way of common attributes.
+    Rare,
+}
+
 /// Where one attribute of the shader comes from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct AttributeSource {
@@ -218,8 +228,7 @@ pub(crate) struct AttributeSource {
     pub(crate) step_rate: u32,
     /// Components of the format.
     pub(crate) components: usize,
-    /// Whether it is fetched out of the way of common attributes.
-    pub(crate) is_rare: bool,
+    pub(crate) decoding: Decoding,
 }
 
 /// What selects code, reduced: nothing in it changes from fragment to fragment.
@@ -425,8 +434,11 @@ fn attribute_sources(
                 per_instance,
                 step_rate: layout.instance_step_rate,
                 components: attribute.format.components(),
-                is_rare: !is_common(attribute.format)
-                    || per_instance && layout.instance_step_rate != 1,
+                decoding: if per_instance && layout.instance_step_rate != 1 {
+                    Decoding::Rare
+                } else {
+                    decoding(attribute.format)
+                },
             });
         }
     }
@@ -436,19 +448,17 @@ fn attribute_sources(
     sources.into_iter().enumerate().map(found).collect()
 }
 
-/// Whether a format is fetched by the kernel for most meshes.
-fn is_common(format: VertexFormat) -> bool {
-    matches!(
-        format,
+/// How an attribute of a format is decoded, if it does not step.
+fn decoding(format: VertexFormat) -> Decoding {
+    match format {
         VertexFormat::Float32
-            | VertexFormat::Float32x2
-            | VertexFormat::Float32x3
-            | VertexFormat::Float32x4
-            | VertexFormat::Unorm8x2
-            | VertexFormat::Unorm8x4
-            | VertexFormat::Unorm16x2
-            | VertexFormat::Unorm16x4
-    )
+        | VertexFormat::Float32x2
+        | VertexFormat::Float32x3
+        | VertexFormat::Float32x4 => Decoding::Float32,
+        VertexFormat::Unorm8x2 | VertexFormat::Unorm8x4 => Decoding::Unorm8,
+        VertexFormat::Unorm16x2 | VertexFormat::Unorm16x4 => Decoding::Unorm16,
+        _ => Decoding::Rare,
+    }
 }
 
 fn stage_key(descriptor: &RenderPipelineDescriptor, interface: &Interface) -> StageKey {

@@ -8,7 +8,7 @@
 //! formats in it, it took twice the time for those few, and a frame of small triangles 7 % more.
 
 use super::rows::columns_of;
-use crate::pipeline::AttributeSource;
+use crate::pipeline::{AttributeSource, Decoding};
 use estampe_simd::{
     Bytes, LANES, Lanes, Level, Packet, SimdBase, SimdCvtFloat, dispatch, f32x16, i32x16, u32x16,
 };
@@ -39,59 +39,45 @@ pub(crate) fn fetch<S: Lanes>(
             return;
         };
         rest = others;
-        if source.is_rare {
-            continue;
-        }
-        let format = source.attribute.format;
+        // Each format has loops of its own: one for all, which asks for the format of each component, is slower.
         let there = wanted.min(source.components);
+        let words = match source.decoding {
+            Decoding::Float32 => there,
+            Decoding::Unorm8 => 1,
+            Decoding::Unorm16 => there.div_ceil(2),
+            Decoding::Rare => continue,
+        };
         let words = match buffers.get(source.buffer) {
-            Some(buffer) => fetch_words(s, source, buffer, index, words_of(format, there)),
+            Some(buffer) => fetch_words(s, source, buffer, index, words),
             None => [<u32x16<S> as SimdBase<S>>::splat(s, 0); 4],
         };
-        let mut component = 0;
-        while component < wanted {
-            let value = if component < there {
-                decode(format, &words, component)
-            } else {
-                SimdBase::splat(s, if component == 3 { 1.0 } else { 0.0 })
-            };
-            value.store_array(&mut scalars[component].0);
-            component += 1;
+        let (found, missing) = scalars.split_at_mut(there);
+        match source.decoding {
+            Decoding::Float32 => {
+                for (scalar, word) in found.iter_mut().zip(words) {
+                    let value: f32x16<S> = word.bitcast();
+                    value.store_array(&mut scalar.0);
+                }
+            }
+            Decoding::Unorm8 => {
+                for (scalar, shift) in found.iter_mut().zip([0, 8, 16, 24]) {
+                    let value = float((words[0] >> shift) & 0xFF) * (1.0 / 255.0);
+                    value.store_array(&mut scalar.0);
+                }
+            }
+            Decoding::Unorm16 | Decoding::Rare => {
+                for (pair, word) in found.chunks_mut(2).zip(words) {
+                    for (scalar, shift) in pair.iter_mut().zip([0, 16]) {
+                        let value = float((word >> shift) & 0xFFFF) * (1.0 / 65_535.0);
+                        value.store_array(&mut scalar.0);
+                    }
+                }
+            }
         }
-    }
-}
-
-/// The words that an attribute's first components lie in.
-#[inline(always)]
-fn words_of(format: VertexFormat, components: usize) -> usize {
-    match format {
-        VertexFormat::Unorm8x2 | VertexFormat::Unorm8x4 => 1,
-        VertexFormat::Unorm16x2 | VertexFormat::Unorm16x4 => components.div_ceil(2),
-        _ => components,
-    }
-}
-
-/// One component of sixteen elements.
-#[inline(always)]
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "a component is 0, 1, 2 or 3"
-)]
-fn decode<S: Lanes>(format: VertexFormat, words: &[u32x16<S>; 4], component: usize) -> f32x16<S> {
-    match format {
-        VertexFormat::Float32
-        | VertexFormat::Float32x2
-        | VertexFormat::Float32x3
-        | VertexFormat::Float32x4 => words[component & 3].bitcast(),
-        VertexFormat::Unorm8x2 | VertexFormat::Unorm8x4 => {
-            let code = (words[0] >> (component as u32 * 8)) & 0xFF;
-            float(code) * (1.0 / 255.0)
+        for (component, scalar) in (there..).zip(missing) {
+            let value = if component == 3 { 1.0 } else { 0.0 };
+            scalar.0 = [value; LANES];
         }
-        VertexFormat::Unorm16x2 | VertexFormat::Unorm16x4 => {
-            let code = (words[(component / 2) & 3] >> (component as u32 % 2 * 16)) & 0xFFFF;
-            float(code) * (1.0 / 65_535.0)
-        }
-        other => unreachable!("vertex format {other:?} is not common"),
     }
 }
 
@@ -203,7 +189,7 @@ pub(crate) fn fetch_rare(
             return;
         };
         rest = others;
-        if source.is_rare {
+        if source.decoding == Decoding::Rare {
             let index = &PacketIndex {
                 vertex: index.vertex,
                 instance: step(&index.instance, first_instance, source.step_rate),

@@ -5,7 +5,7 @@
 use super::fetch::{PacketIndex, fetch, fetch_rare};
 use super::rows::{store_rows, store_scalars};
 use super::viewport::ViewportTransform;
-use crate::pipeline::RenderPipeline;
+use crate::pipeline::{Decoding, RenderPipeline};
 use estampe_simd::{
     Bytes, LANES, Lanes, Level, Packet, Select, SimdBase, dispatch, f32x16, i32x16,
 };
@@ -152,7 +152,10 @@ fn run(
         .resize(distances * BATCH, Packet::default());
     dispatch!(level, s => fetch_batch(s, pipeline, source, (first, done, total), scratch));
     let sources = pipeline.attributes();
-    if sources.iter().any(|source| source.is_rare) {
+    if sources
+        .iter()
+        .any(|source| source.decoding == Decoding::Rare)
+    {
         for packet in 0..packets {
             let index = PacketIndex {
                 vertex: scratch.vertex_index[packet],
