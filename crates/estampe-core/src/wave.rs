@@ -4,22 +4,30 @@
 //! once, and the primitives between them. A wave holds items up to a budget of vertices and primitives,
 //! so that memory is bounded whatever is drawn; most passes are one wave.
 
+mod elements;
+mod vertices;
+
 use crate::attachment::RenderTarget;
 use crate::commands::Draw;
-use crate::geometry::assembly::{PrimitiveKind, kind_of, primitive_count, vertex_index};
-use crate::geometry::chunk::ItemVertices;
+use crate::geometry::assembly::{PrimitiveKind, kind_of, primitive_count};
 use crate::geometry::cull::Facing;
 use crate::geometry::depth_bias::DepthBias;
 use crate::geometry::restart::{RestartCursor, RestartSource};
-use crate::geometry::shading::{ShadedSlice, ShadedVertices, VertexSource};
+use crate::geometry::shading::VertexSource;
 use crate::geometry::viewport::{PixelRect, ViewportTransform};
 use crate::per_sample::color::ColorTarget;
-use crate::per_sample::general::DepthFormat;
 use crate::schedule::Executor;
-use crate::tile_pass::{MAX_TARGETS, TileItem};
-use estampe_types::state::{PolygonMode, PrimitiveTopology, Viewport};
-use estampe_types::{Bindings, Interpolation};
+use crate::tile_pass::MAX_TARGETS;
+use elements::{
+    element_count, is_splittable, is_stippled_strip, list_vertices, part_of, restart_source,
+    vertex_range,
+};
+use estampe_types::Bindings;
+use estampe_types::state::{PolygonMode, Viewport};
 use std::ops::Range;
+
+pub(crate) use elements::is_line_strip;
+pub(crate) use vertices::VertexJob;
 
 /// Vertices or primitives that a wave holds before it is drawn.
 const WAVE_BUDGET: usize = 2_000_000;
@@ -372,313 +380,4 @@ impl<'a> Remainder<'a> {
             varying_base: 0,
         }
     }
-}
-
-/// A draw's elements, if its indices may restart primitives.
-fn restart_source<'a>(draw: &Draw<'a>) -> Option<RestartSource<'a>> {
-    let state = &draw.pipeline.descriptor().primitive;
-    let (buffer, format) = draw.indices.filter(|_| state.primitive_restart)?;
-    let count = draw.elements.end.saturating_sub(draw.elements.start);
-    Some(RestartSource {
-        topology: state.topology,
-        provoking: state.provoking_vertex,
-        buffer,
-        format,
-        base_vertex: draw.base_vertex,
-        elements: [draw.elements.start, count],
-    })
-}
-
-/// Numbers the vertices of listed primitives: as a range that holds all of them, from its first one on, or one by
-/// one where that range is sparse.
-fn list_vertices(corners: &mut [[u32; 3]]) -> (u32, u32, Option<Vec<u32>>) {
-    let all = corners.as_flattened_mut();
-    let (Some(&least), Some(&greatest)) = (all.iter().min(), all.iter().max()) else {
-        return (0, 0, None);
-    };
-    let count = all.len() as u64;
-    let span = u64::from(greatest - least) + 1;
-    if span <= count * SPARSE_FACTOR {
-        all.iter_mut().for_each(|vertex| *vertex -= least);
-        return (least, u32::try_from(span).unwrap_or(u32::MAX), None);
-    }
-    let sparse: Vec<u32> = all.to_vec();
-    for (number, vertex) in (0..).zip(all) {
-        *vertex = number;
-    }
-    let count = u32::try_from(sparse.len()).unwrap_or(u32::MAX);
-    (0, count, Some(sparse))
-}
-
-/// How many elements a draw has. Fans, loops and stippled strips cannot be cut into items, so that they end at
-/// [`MAX_WHOLE_ELEMENTS`].
-fn element_count(draw: &Draw<'_>) -> u32 {
-    let count = draw.elements.end.saturating_sub(draw.elements.start);
-    if is_splittable(draw) {
-        count
-    } else {
-        count.min(MAX_WHOLE_ELEMENTS)
-    }
-}
-
-/// Whether a run of a draw's primitives is a run of elements of the same topology, drawn like any other.
-fn is_splittable(draw: &Draw<'_>) -> bool {
-    let topology = draw.pipeline.descriptor().primitive.topology;
-    !matches!(
-        topology,
-        PrimitiveTopology::TriangleFan | PrimitiveTopology::LineLoop
-    ) && !is_stippled_strip(draw)
-}
-
-/// Whether each line of a topology goes on where the one before ended.
-pub(crate) fn is_line_strip(topology: PrimitiveTopology) -> bool {
-    matches!(
-        topology,
-        PrimitiveTopology::LineStrip
-            | PrimitiveTopology::LineLoop
-            | PrimitiveTopology::LineStripAdjacency
-    )
-}
-
-fn is_stippled_strip(draw: &Draw<'_>) -> bool {
-    let state = &draw.pipeline.descriptor().primitive;
-    state.line.stipple.is_some() && is_line_strip(state.topology)
-}
-
-/// The elements (first, count) of `count` primitives from `first` on. `ITEM_PRIMITIVES` is even, so a
-/// strip's parts begin on triangles that are not turned.
-fn part_of(topology: PrimitiveTopology, first: u32, count: u32, whole: u32) -> [u32; 2] {
-    use PrimitiveTopology as T;
-    let [each, more] = match topology {
-        T::PointList => [1, 0],
-        T::LineList => [2, 0],
-        T::LineStrip => [1, 1],
-        T::TriangleList => [3, 0],
-        T::TriangleStrip => [1, 2],
-        T::LineListAdjacency => [4, 0],
-        T::LineStripAdjacency => [1, 3],
-        T::TriangleListAdjacency => [6, 0],
-        T::TriangleStripAdjacency => [2, 4],
-        T::LineLoop | T::TriangleFan => return [0, whole],
-    };
-    [first * each, count * each + more]
-}
-
-/// The range of vertices that elements name (first, count), or a list of them if the range is sparse.
-fn vertex_range(
-    executor: &Executor,
-    draw: &Draw<'_>,
-    first: u32,
-    count: u32,
-) -> (u32, u32, Option<Vec<u32>>) {
-    let Some((buffer, format)) = draw.indices else {
-        return (first, count, None);
-    };
-    let index = |element: u32| {
-        let at = first as usize + element as usize;
-        vertex_index(buffer, format, at, draw.base_vertex)
-    };
-    let (from, to) = (first as usize, first as usize + count as usize);
-    let words = buffer.words().get(from..to);
-    let words = words.filter(|_| format == estampe_types::IndexFormat::Uint32);
-    // The common case in a form that becomes SIMD code.
-    let of_words = words.and_then(|words| {
-        let (least, greatest) = extremes(executor, words)?;
-        let base = draw.base_vertex;
-        Some((
-            least.checked_add_signed(base)?,
-            greatest.checked_add_signed(base)?,
-        ))
-    });
-    let (least, greatest) = of_words.unwrap_or_else(|| {
-        let wider =
-            |(least, greatest): (u32, u32), index: u32| (least.min(index), greatest.max(index));
-        (0..count).map(index).fold((u32::MAX, 0), wider)
-    });
-    if count == 0 {
-        return (0, 0, None);
-    }
-    let span = u64::from(greatest - least) + 1;
-    if span <= u64::from(count) * SPARSE_FACTOR {
-        return (least, u32::try_from(span).unwrap_or(u32::MAX), None);
-    }
-    (0, count, Some((0..count).map(index).collect()))
-}
-
-/// Indices that one worker looks through at a time.
-const INDEX_CHUNK: usize = 1 << 16;
-
-/// The least and the greatest of some indices. A million triangles have 12 MB of them, which one thread
-/// alone reads no faster than memory gives them to it.
-fn extremes(executor: &Executor, words: &[u32]) -> Option<(u32, u32)> {
-    let of_part = |words: &[u32]| {
-        let (mut least, mut greatest) = (u32::MAX, 0);
-        for &word in words {
-            least = least.min(word);
-            greatest = greatest.max(word);
-        }
-        (least, greatest)
-    };
-    if words.is_empty() {
-        return None;
-    }
-    if words.len() <= INDEX_CHUNK {
-        return Some(of_part(words));
-    }
-    let mut parts: [(&[u32], (u32, u32)); 64] = [(&[], (u32::MAX, 0)); 64];
-    let each = words.len().div_ceil(parts.len());
-    let mut used = 0;
-    for (part, words) in parts.iter_mut().zip(words.chunks(each)) {
-        part.0 = words;
-        used += 1;
-    }
-    executor.for_each_alone(&mut parts[..used], |(words, found)| *found = of_part(words));
-    let wider = |a: (u32, u32), b: (u32, u32)| (a.0.min(b.0), a.1.max(b.1));
-    parts.iter().map(|part| part.1).reduce(wider)
-}
-
-/// A run of an item's vertices for one worker.
-#[derive(Debug)]
-pub(crate) struct VertexJob<'a> {
-    pub(crate) item: usize,
-    /// The first of them, counted in the item.
-    pub(crate) first: u32,
-    pub(crate) out: ShadedSlice<'a>,
-}
-
-impl ShadedVertices {
-    /// Makes room for the vertices of a wave.
-    pub(crate) fn resize_for(&mut self, items: &[Item<'_>]) {
-        let vertices: usize = items.iter().map(|item| item.total_vertices()).sum();
-        let varyings = items
-            .iter()
-            .map(|item| item.total_vertices() * item.varying_scalars)
-            .sum();
-        let has_sizes = |item: &Item<'_>| item.draw.pipeline.interface().writes_point_size;
-        let sizes = if items.iter().any(has_sizes) {
-            vertices
-        } else {
-            0
-        };
-        grow(&mut self.window, vertices, [0; 4]);
-        if items.iter().any(Item::keeps_positions) {
-            grow(&mut self.clip, vertices, [0; 4]);
-        }
-        grow(&mut self.varyings, varyings, 0.0);
-        self.point_size.resize(sizes, 0.0);
-    }
-
-    /// Cuts the wave's vertices into jobs of at most `size`.
-    pub(crate) fn split<'a>(
-        &'a mut self,
-        items: &[Item<'_>],
-        size: usize,
-        jobs: &mut Vec<VertexJob<'a>>,
-    ) {
-        let has_sizes = !self.point_size.is_empty();
-        let has_positions = items.iter().any(Item::keeps_positions);
-        let mut rest = ShadedSlice {
-            window: &mut self.window,
-            clip: &mut self.clip,
-            varyings: &mut self.varyings,
-            point_size: &mut self.point_size,
-        };
-        for (number, item) in items.iter().enumerate() {
-            let interface = item.draw.pipeline.interface();
-            let total = item.total_vertices();
-            for first in (0..total).step_by(size) {
-                let count = size.min(total - first);
-                let sizes = if has_sizes { count } else { 0 };
-                let mut out = ShadedSlice {
-                    window: take(&mut rest.window, count),
-                    clip: take(&mut rest.clip, if has_positions { count } else { 0 }),
-                    varyings: take(&mut rest.varyings, count * item.varying_scalars),
-                    point_size: take(&mut rest.point_size, sizes),
-                };
-                if !item.keeps_positions() {
-                    out.clip = &mut [];
-                }
-                if !interface.writes_point_size {
-                    // Another item of the wave has sizes; this one's points are one pixel.
-                    out.point_size.fill(1.0);
-                    out.point_size = &mut [];
-                }
-                let first = u32::try_from(first).unwrap_or(u32::MAX);
-                jobs.push(VertexJob {
-                    item: number,
-                    first,
-                    out,
-                });
-            }
-        }
-    }
-
-    /// The vertices of one item.
-    pub(crate) fn of_item(&self, item: &Item<'_>) -> ItemVertices<'_> {
-        let (from, count) = (item.vertex_base, item.total_vertices());
-        let scalars = item.varying_scalars;
-        ItemVertices {
-            window: &self.window[from..][..count],
-            clip: if item.keeps_positions() {
-                &self.clip[from..][..count]
-            } else {
-                &[]
-            },
-            varyings: &self.varyings[item.varying_base..][..count * scalars],
-            varying_scalars: scalars,
-            point_size: if self.point_size.is_empty() {
-                &[]
-            } else {
-                &self.point_size[from..][..count]
-            },
-        }
-    }
-
-    /// An item as its fragments need it.
-    pub(crate) fn tile_item<'a>(
-        &'a self,
-        item: &'a Item<'_>,
-        target: &RenderTarget,
-        has_queries: bool,
-    ) -> TileItem<'a> {
-        let draw = item.draw;
-        let key = draw.pipeline.key();
-        let depth_format = target.depth_format();
-        let is_general = key.is_general
-            || draw.depth_bounds.is_some()
-            || has_queries && draw.occlusion_query.is_some()
-            || key.depth.is_some() && depth_format != DepthFormat::Float;
-        let modes = &item.draw.pipeline.interface().varyings;
-        TileItem {
-            pipeline: item.draw.pipeline,
-            bindings: item.bindings,
-            varyings: self.of_item(item).varyings,
-            rect: item.rect,
-            depth_range: item.transform.depth_range,
-            targets: item.targets,
-            draw,
-            depth_format,
-            is_general,
-            all_smooth: modes.iter().all(|mode| *mode == Interpolation::Smooth),
-        }
-    }
-}
-
-/// Makes a list at least so long; what it held is overwritten. It never shrinks, because zeroing it anew for
-/// each wave would cost as much as writing it. Fresh memory is asked for as zeros, which the system has: the
-/// threads that shade are then the first to touch it, not this one.
-fn grow<T: Clone>(list: &mut Vec<T>, len: usize, zero: T) {
-    if list.capacity() < len {
-        *list = Vec::new();
-        *list = vec![zero; len];
-    } else if list.len() < len {
-        list.resize(len, zero);
-    }
-}
-
-/// Takes the first `count` elements off a slice.
-fn take<'a, T>(rest: &mut &'a mut [T], count: usize) -> &'a mut [T] {
-    let (first, others) = std::mem::take(rest).split_at_mut(count);
-    *rest = others;
-    first
 }
