@@ -91,6 +91,17 @@ struct Places<R: Real> {
     fraction: R,
 }
 
+impl<R: Real> Places<R> {
+    /// One texel, of an axis that is not filtered.
+    #[inline(always)]
+    fn fixed(texel: R::Int, like: R) -> Self {
+        Self {
+            texels: [texel; 2],
+            fraction: like,
+        }
+    }
+}
+
 impl Packet<'_> {
     /// Samples the packet at a level; gives the lanes that are to be done again. The scalar level has no packets.
     fn enter<const C: usize, const KIND: u8>(
@@ -416,20 +427,16 @@ impl Packet<'_> {
             ViewDimension::D3 => 3,
             _ => 2,
         };
-        let fixed = |texel: R::Int| Places {
-            texels: [texel; 2],
-            fraction: like,
-        };
         let x = self.places(plane, spots, 0, filter, outside);
         let y = if axes > 1 {
             self.places(plane, spots, 1, filter, outside)
         } else {
-            fixed(spots.slice.splat(0))
+            Places::fixed(spots.slice.splat(0), like)
         };
         let z = if axes > 2 {
             self.places(plane, spots, 2, filter, outside)
         } else {
-            fixed(spots.slice)
+            Places::fixed(spots.slice, like)
         };
         let [width, height, _] = plane.sides.map(|side| spots.slice.splat(side));
         let words = spots.slice.splat(self.format.words);

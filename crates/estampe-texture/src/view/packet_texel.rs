@@ -67,16 +67,15 @@ impl PacketFormat {
         units: &mut [R; C],
     ) {
         use TexelEncoding as E;
-        let word = |k: i32| (index + index.splat(k)).gather(words);
         if KIND == RGBA8 {
-            let all = word(0);
+            let all = word(words, index, 0);
             for (k, unit) in (0..).zip(units) {
                 *unit = (all.shr_unsigned(8 * k) & index.splat(0xFF)).to_real();
             }
             return;
         }
         if KIND == RGBA16F {
-            let (rg, ba) = (word(0), word(1));
+            let (rg, ba) = (word(words, index, 0), word(words, index, 1));
             for (k, unit) in (0..).zip(units) {
                 let pair = if k < 2 { rg } else { ba };
                 *unit = float_of_half(pair.shr_unsigned(16 * (k % 2)) & index.splat(0xFFFF));
@@ -86,11 +85,11 @@ impl PacketFormat {
         match self.encoding {
             E::Float32 | E::Depth32 => {
                 for (k, unit) in (0..).zip(units).take(self.components) {
-                    *unit = word(k).to_real_bits();
+                    *unit = word(words, index, k).to_real_bits();
                 }
             }
             E::Float16 | E::Unorm16 => {
-                let mut of_two = word(0);
+                let mut of_two = word(words, index, 0);
                 for (k, unit) in units.iter_mut().enumerate().take(self.components) {
                     let half = if k % 2 == 0 {
                         of_two & index.splat(0xFFFF)
@@ -103,14 +102,18 @@ impl PacketFormat {
                         half.to_real()
                     };
                     if k == 1 && self.components > 2 {
-                        of_two = word(1);
+                        of_two = word(words, index, 1);
                     }
                 }
             }
-            E::Depth16 => units[0] = (word(0) & index.splat(0xFFFF)).to_real() / 65535.0,
-            E::Depth24 => units[0] = (word(0) & index.splat(0xFF_FFFF)).to_real() / 16_777_215.0,
+            E::Depth16 => {
+                units[0] = (word(words, index, 0) & index.splat(0xFFFF)).to_real() / 65535.0
+            }
+            E::Depth24 => {
+                units[0] = (word(words, index, 0) & index.splat(0xFF_FFFF)).to_real() / 16_777_215.0
+            }
             _ => {
-                let mut left = word(0);
+                let mut left = word(words, index, 0);
                 for (k, unit) in units.iter_mut().enumerate().take(self.components) {
                     let code = left & index.splat(0xFF);
                     *unit = if self.is_srgb && k < 3 {
@@ -123,6 +126,12 @@ impl PacketFormat {
             }
         }
     }
+}
+
+/// One of the words of texels that begin at an index.
+#[inline(always)]
+fn word<I: Int>(words: &[u32], index: I, k: i32) -> I {
+    (index + index.splat(k)).gather(words)
 }
 
 /// The numbers that half floats' bits stand for.
