@@ -606,3 +606,43 @@ fn the_common_kind_is_the_same_as_every_other() {
         check(&view, &reference, &question);
     }
 }
+
+#[test]
+fn a_level_without_weight_does_not_show() {
+    // Beside lanes that mix both levels: ∞ times 0 would be no number.
+    let bytes = [0.5_f32; 16].map(f32::to_le_bytes);
+    let (one, infinity) = (
+        [1.0_f32; 4].map(f32::to_le_bytes),
+        f32::INFINITY.to_le_bytes(),
+    );
+    let data = [
+        LevelData::tight(bytes.as_flattened()),
+        LevelData::tight(one.as_flattened()),
+        LevelData::tight(&infinity),
+    ];
+    let descriptor = TextureDescriptor::new_2d(4, 4, TextureFormat::R32Float).with_all_levels();
+    let texture = descriptor.create(&data, MipGeneration::None, &Limits::default());
+    let texture = Arc::new(texture.expect("a texture"));
+    let sampler = SamplerDescriptor {
+        mipmap_filter: FilterMode::Linear,
+        ..SamplerDescriptor::default()
+    };
+    let reference = ReferenceView::of_image(texture.clone(), sampler);
+    let view = TextureView::of(texture).expect("a view");
+    let view = SampledView::new(view, sampler).expect("a sampler");
+    let question = Ask {
+        function: Function::Level,
+        at: [[0.25; LANES]; 3],
+        layer: [0; LANES],
+        value: std::array::from_fn(|lane| 1.0 + (lane % 3) as f32 * 0.25),
+        gradients: [[0.0; LANES]; 6],
+        reference: [0.0; LANES],
+        offset: [0; 3],
+    };
+    check(&view, &reference, &question);
+    assert_eq!(
+        oracle(&reference, &question, 0, false),
+        [1.0, 0.0, 0.0, 1.0]
+    );
+    assert_eq!(oracle(&reference, &question, 1, false)[0], f32::INFINITY);
+}
