@@ -11,7 +11,8 @@ use crate::generate::{LittleEndian, hash32};
 use crate::measure::{Effort, Timing, measure};
 use crate::scene::{Scene, SceneDraw, vertex_layout};
 use estampe::state::{
-    BlendState, ColorTargetState, CullMode, DepthState, PrimitiveState, PrimitiveTopology,
+    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTargetState, CullMode,
+    DepthState, LogicOperation, PrimitiveState, PrimitiveTopology,
 };
 use estampe::{
     Device, Flat, FragmentIn, FragmentOut, Int, RenderPipelineDescriptor, TextureFormat, Vec2,
@@ -143,6 +144,9 @@ pub fn loads() -> impl Iterator<Item = Load> {
         flat_hidden,
         smooth_passing,
         smooth_blended,
+        general_quads,
+        general_blended,
+        general_triangles,
     ];
     geometry
         .into_iter()
@@ -228,6 +232,55 @@ fn smooth_blended() -> Load {
             }],
             ..smooth(layers)
         },
+    )
+}
+
+/// A logic operation that copies: the picture of what replaces, on the path for rare states.
+fn copied(layers: Layers) -> RenderPipelineDescriptor {
+    RenderPipelineDescriptor {
+        logic_operation: Some(LogicOperation::Copy),
+        ..smooth(layers)
+    }
+}
+
+fn general_quads() -> Load {
+    load(
+        "quads, smooth, rare state",
+        Grid::whole(),
+        Layers::BACK_TO_FRONT,
+        copied,
+    )
+}
+
+fn general_blended() -> Load {
+    load(
+        "quads, smooth, rare factors",
+        Grid::whole(),
+        Layers::BACK_TO_FRONT,
+        |layers| RenderPipelineDescriptor {
+            depth: Some(DepthState::LESS_READ),
+            targets: vec![ColorTargetState {
+                blend: Some(BlendState {
+                    color: BlendComponent {
+                        operation: BlendOperation::Add,
+                        src_factor: BlendFactor::ConstantAlpha,
+                        dst_factor: BlendFactor::OneMinusConstantAlpha,
+                    },
+                    alpha: BlendComponent::OVER,
+                }),
+                ..TextureFormat::Rgba8Unorm.into()
+            }],
+            ..smooth(layers)
+        },
+    )
+}
+
+fn general_triangles() -> Load {
+    load(
+        "triangles of 8 px, rare state",
+        Grid::of(4.0),
+        Layers::ONE,
+        copied,
     )
 }
 

@@ -17,7 +17,7 @@ pub struct Image {
     /// Of each pixel of four samples, how many samples hold the oracle's depth of sample 0, 1, 2 and 3, as
     /// codes of a resolved target; empty where that is not asked. So the depths of all samples are compared.
     pub matches: Vec<[u8; 4]>,
-    /// What every sample of every attachment holds: see [`readback`](crate::readback).
+    /// What every sample of every attachment holds: see [`readback`].
     pub stored: Stored,
     /// Primitives that the draws name.
     pub primitives: u64,
