@@ -76,7 +76,8 @@ pub trait Shader: Send + Sync + 'static {
     /// Whether the fragment says which samples it keeps: [`FragmentOut::with_sample_mask`].
     const WRITES_SAMPLE_MASK: bool = false;
     /// Whether the fragment stores to [storage textures](crate::StorageTexture). It is then shaded wherever the
-    /// primitive covers it, hidden or not, and tested afterwards.
+    /// primitive covers it, hidden or not, and tested afterwards. Vertices must not store: lanes of a packet beyond
+    /// the last vertex are shaded too.
     const STORES: bool = false;
     /// Whether the fragment gives a second colour for blending: [`FragmentOut::with_second_color`]. It then has one
     /// target.
