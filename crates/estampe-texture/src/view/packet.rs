@@ -7,18 +7,20 @@
 //! A lane whose texels are not all within its level, where that needs more than a wrapped index (a border, an offset,
 //! a cube's edge), is done again by `sample`: there are few of them.
 
+mod face;
+mod footprint;
+mod places;
+
 pub(crate) use super::packet_texel::PacketFormat;
 
 use super::SampledView;
-use super::axis::FAR;
 use super::coordinates::{Answers, Lanes, LodOfLanes, answer};
 use super::packet_texel::{OTHERS, RGBA8, RGBA16F, passes};
 use super::plane::Plane;
-use crate::lod::level_of_detail;
-use crate::wrap::{place, tile, wrap};
 use estampe_simd::{LANES, Level, SimdBase, dispatch, f32x16};
 use estampe_types::state::CompareFunction;
-use estampe_types::{AddressMode, FilterMode, Int, Real, ViewDimension};
+use estampe_types::{FilterMode, Int, Real, ViewDimension};
+use places::{Places, Spots};
 
 impl SampledView {
     /// Samples or compares sixteen lanes; `false` where it cannot, and nothing is done.
@@ -75,31 +77,6 @@ struct Packet<'a> {
     format: PacketFormat,
     lanes: &'a Lanes,
     compares: Option<CompareFunction>,
-}
-
-/// Coordinates of all lanes, as far as they do not depend on the level.
-struct Spots<R: Real> {
-    /// In their first tile, of cubes within the face.
-    at: [R; 3],
-    /// The texture's layer.
-    slice: R::Int,
-}
-
-/// Places along one axis.
-struct Places<R: Real> {
-    texels: [R::Int; 2],
-    fraction: R,
-}
-
-impl<R: Real> Places<R> {
-    /// One texel, of an axis that is not filtered.
-    #[inline(always)]
-    fn fixed(texel: R::Int, like: R) -> Self {
-        Self {
-            texels: [texel; 2],
-            fraction: like,
-        }
-    }
 }
 
 impl Packet<'_> {
@@ -230,125 +207,6 @@ impl Packet<'_> {
             answers[2] = [0.0; LANES];
             let alpha = if self.compares.is_some() { 0.0 } else { 1.0 };
             answers[3] = [alpha; LANES];
-        }
-    }
-
-    /// λ, the number of probes, and the derivative along which they lie.
-    #[inline(always)]
-    fn footprint<R: Real>(&self, at: [R; 3], [dx, dy]: [[R; 3]; 2]) -> (R, R, [R; 3]) {
-        let one = at[0].splat(1.0);
-        let zero = at[0].splat(0.0);
-        let [x, y] = [self.squared(at, dx), self.squared(at, dy)];
-        let most_probes = f32::from(self.of.sampler.max_anisotropy.min(16));
-        let is_flat = !matches!(
-            self.of.view.dimension,
-            ViewDimension::D1 | ViewDimension::D3
-        );
-        if most_probes <= 1.0 || !is_flat {
-            return (level_of_detail(x.max(y).max(zero)), one, [zero; 3]);
-        }
-        let (x, y) = (x.max(zero), y.max(zero));
-        let is_y = y.gt(x);
-        let (most, least) = (R::select(is_y, y, x), R::select(is_y, x, y));
-        let ratio = (most / least).sqrt();
-        let limited = ratio.min(one.splat(most_probes));
-        let ratio = R::select(ratio.ge(one), limited, one);
-        let mut step = dx;
-        for k in 0..3 {
-            step[k] = R::select(is_y, dy[k], dx[k]);
-        }
-        let probes = -(-ratio).floor();
-        (level_of_detail(most / (ratio * ratio)), probes, step)
-    }
-
-    /// The squared length of a derivative in texels of the base level.
-    #[inline(always)]
-    fn squared<R: Real>(&self, at: [R; 3], d: [R; 3]) -> R {
-        let size = self.of.view.planes[0].size;
-        let d = if self.of.view.is_cube() {
-            let face = Face::of(at);
-            let ([sc, tc, rc], [ds, dt, dr]) = (face.turned(at), face.turned(d));
-            let length = rc.abs();
-            let squared = length * length;
-            let s = (length * ds - sc * dr) / squared * 0.5;
-            let t = (length * dt - tc * dr) / squared * 0.5;
-            [s, t, s]
-        } else {
-            d
-        };
-        let x = d[0] * size[0];
-        let one = x * x;
-        if self.of.view.dimension == ViewDimension::D1 {
-            return one;
-        }
-        let y = d[1] * size[1];
-        let two = one + y * y;
-        if self.of.view.dimension != ViewDimension::D3 {
-            return two;
-        }
-        let z = d[2] * size[2];
-        two + z * z
-    }
-
-    /// Where coordinates lie.
-    #[inline(always)]
-    fn spots<R: Real>(&self, at: [R; 3]) -> Spots<R> {
-        let view = &self.of.view;
-        let layer = Self::load(
-            at[0],
-            &self
-                .lanes
-                .layer
-                .map(|layer| f32::from_bits(layer.cast_unsigned())),
-        );
-        let layer = layer.to_bits();
-        let layer = layer.max(layer.splat(0)).min(layer.splat(view.layers - 1));
-        let base = layer.splat(view.base_layer.cast_signed());
-        if view.is_cube() {
-            let face = Face::of(at);
-            let [sc, tc, rc] = face.turned(at);
-            let length = rc.abs();
-            let s = sc / length * 0.5 + 0.5;
-            let t = tc / length * 0.5 + 0.5;
-            return Spots {
-                at: [s, t, s],
-                slice: base + layer * layer.splat(6) + face.index,
-            };
-        }
-        Spots {
-            at: [
-                self.tiled(at[0], 0),
-                self.tiled(at[1], 1),
-                self.tiled(at[2], 2),
-            ],
-            slice: base + layer,
-        }
-    }
-
-    /// How an axis is addressed: `None` as a cube's face is.
-    #[inline(always)]
-    fn mode(&self, axis: usize) -> AddressMode {
-        let sampler = &self.of.sampler;
-        match axis {
-            0 => sampler.address_mode_u,
-            1 => sampler.address_mode_v,
-            _ => sampler.address_mode_w,
-        }
-    }
-
-    /// Whether all texels of an axis are found by wrapping coordinates.
-    #[inline(always)]
-    fn is_plain(&self, axis: usize) -> bool {
-        self.lanes.offset[axis] == 0 && self.mode(axis).is_plain()
-    }
-
-    /// A coordinate in its first tile.
-    #[inline(always)]
-    fn tiled<R: Real>(&self, u: R, axis: usize) -> R {
-        if self.is_plain(axis) {
-            wrap(u, self.mode(axis))
-        } else {
-            u
         }
     }
 
@@ -491,75 +349,6 @@ impl Packet<'_> {
             reference
         }
     }
-
-    /// The places along one axis of a level.
-    #[inline(always)]
-    fn places<R: Real>(
-        &self,
-        plane: &Plane,
-        spots: &Spots<R>,
-        axis: usize,
-        filter: FilterMode,
-        outside: &mut u32,
-    ) -> Places<R> {
-        let (count, length) = (plane.sides[axis], plane.size[axis]);
-        let is_linear = filter == FilterMode::Linear;
-        let at = spots.at[axis];
-        if self.of.view.is_cube() {
-            let (low, high) = if is_linear {
-                (-0.5, length - 0.5)
-            } else {
-                (0.0, length - 1.0)
-            };
-            let at = at * length;
-            let at = if is_linear {
-                (at - 0.5).clamp(low, high)
-            } else {
-                at.floor().clamp(low, high)
-            };
-            return Self::unwrapped(at, 0, count, is_linear, outside);
-        }
-        if !self.is_plain(axis) {
-            let at = at * length;
-            let at = if is_linear { at - 0.5 } else { at };
-            let offset = self.lanes.offset[axis].clamp(-1024, 1024);
-            return Self::unwrapped(at.clamp(-FAR, FAR), offset, count, is_linear, outside);
-        }
-        let mode = self.mode(axis);
-        let place = place(at, length, mode, filter);
-        let next = place.texel + place.texel.splat(1);
-        let texels = if mode == AddressMode::Repeat {
-            [tile(place.texel, count), tile(next, count)]
-        } else {
-            [place.texel, next.min(next.splat(count - 1))]
-        };
-        Places {
-            texels,
-            fraction: place.fraction,
-        }
-    }
-
-    /// Places that are right if they are within the level; of the others, the texels at its border.
-    #[inline(always)]
-    fn unwrapped<R: Real>(
-        at: R,
-        offset: i32,
-        count: i32,
-        is_linear: bool,
-        outside: &mut u32,
-    ) -> Places<R> {
-        let whole = at.floor();
-        let first = whole.to_int_within_range();
-        let first = first + first.splat(offset);
-        let room = if is_linear { count - 1 } else { count };
-        *outside |= R::mask_bits(first.is_outside(room));
-        let (zero, last) = (first.splat(0), first.splat(count - 1));
-        let next = first + first.splat(1);
-        Places {
-            texels: [first.max(zero).min(last), next.max(zero).min(last)],
-            fraction: at - whole,
-        }
-    }
 }
 
 /// Coordinates of one fragment of each quad.
@@ -584,44 +373,4 @@ fn mix<R: Real, const C: usize>([a, b]: [[R; C]; 2], t: R, is_linear: bool) -> [
         mixed[k] = a[k] + (b[k] - a[k]) * t;
     }
     mixed
-}
-
-/// The faces of a cube that directions meet.
-struct Face<R: Real> {
-    index: R::Int,
-    is_x: R::Mask,
-    is_z: R::Mask,
-    is_negative: R::Mask,
-}
-
-impl<R: Real> Face<R> {
-    #[inline(always)]
-    fn of([x, y, z]: [R; 3]) -> Self {
-        let (ax, ay, az) = (x.abs(), y.abs(), z.abs());
-        let is_z = az.ge(ay) & az.ge(ax);
-        let is_x = !is_z & !ay.ge(ax);
-        let major = R::select(is_z, z, R::select(is_x, x, y));
-        let is_negative = major.lt(x.splat(0.0));
-        let int = |value: i32| x.splat_int(value);
-        let axis = R::Int::select(is_z, int(4), R::Int::select(is_x, int(0), int(2)));
-        let sign = R::Int::select(is_negative, int(1), int(0));
-        Self {
-            index: axis + sign,
-            is_x,
-            is_z,
-            is_negative,
-        }
-    }
-
-    /// (sc, tc, the major component times its sign) of vectors.
-    #[inline(always)]
-    fn turned(&self, [x, y, z]: [R; 3]) -> [R; 3] {
-        let negated = |value: R| R::select(self.is_negative, -value, value);
-        // +x: −z, −y; −x: z, −y; +y: x, z; −y: x, −z; +z: x, −y; −z: −x, −y.
-        let s_of_x = R::select(self.is_negative, z, -z);
-        let sc = R::select(self.is_x, s_of_x, R::select(self.is_z, negated(x), x));
-        let tc = R::select(self.is_x | self.is_z, -y, negated(z));
-        let major = R::select(self.is_z, z, R::select(self.is_x, x, y));
-        [sc, tc, negated(major)]
-    }
 }

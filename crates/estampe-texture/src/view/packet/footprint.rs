@@ -1,0 +1,65 @@
+//! The footprint of a pixel: which level of detail it wants, and how many probes along which derivative.
+
+use super::Packet;
+use super::face::Face;
+use crate::lod::level_of_detail;
+use estampe_types::{Real, ViewDimension};
+
+impl Packet<'_> {
+    /// λ, the number of probes, and the derivative along which they lie.
+    #[inline(always)]
+    pub(super) fn footprint<R: Real>(&self, at: [R; 3], [dx, dy]: [[R; 3]; 2]) -> (R, R, [R; 3]) {
+        let one = at[0].splat(1.0);
+        let zero = at[0].splat(0.0);
+        let [x, y] = [self.squared(at, dx), self.squared(at, dy)];
+        let most_probes = f32::from(self.of.sampler.max_anisotropy.min(16));
+        let is_flat = !matches!(
+            self.of.view.dimension,
+            ViewDimension::D1 | ViewDimension::D3
+        );
+        if most_probes <= 1.0 || !is_flat {
+            return (level_of_detail(x.max(y).max(zero)), one, [zero; 3]);
+        }
+        let (x, y) = (x.max(zero), y.max(zero));
+        let is_y = y.gt(x);
+        let (most, least) = (R::select(is_y, y, x), R::select(is_y, x, y));
+        let ratio = (most / least).sqrt();
+        let limited = ratio.min(one.splat(most_probes));
+        let ratio = R::select(ratio.ge(one), limited, one);
+        let mut step = dx;
+        for k in 0..3 {
+            step[k] = R::select(is_y, dy[k], dx[k]);
+        }
+        let probes = -(-ratio).floor();
+        (level_of_detail(most / (ratio * ratio)), probes, step)
+    }
+
+    /// The squared length of a derivative in texels of the base level.
+    #[inline(always)]
+    fn squared<R: Real>(&self, at: [R; 3], d: [R; 3]) -> R {
+        let size = self.of.view.planes[0].size;
+        let d = if self.of.view.is_cube() {
+            let face = Face::of(at);
+            let ([sc, tc, rc], [ds, dt, dr]) = (face.turned(at), face.turned(d));
+            let length = rc.abs();
+            let squared = length * length;
+            let s = (length * ds - sc * dr) / squared * 0.5;
+            let t = (length * dt - tc * dr) / squared * 0.5;
+            [s, t, s]
+        } else {
+            d
+        };
+        let x = d[0] * size[0];
+        let one = x * x;
+        if self.of.view.dimension == ViewDimension::D1 {
+            return one;
+        }
+        let y = d[1] * size[1];
+        let two = one + y * y;
+        if self.of.view.dimension != ViewDimension::D3 {
+            return two;
+        }
+        let z = d[2] * size[2];
+        two + z * z
+    }
+}

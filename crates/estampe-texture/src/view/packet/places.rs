@@ -1,0 +1,166 @@
+//! From coordinates to texels: faces and layers, then the one or two texels of each axis of a level.
+
+use super::Packet;
+use super::face::Face;
+use crate::view::axis::FAR;
+use crate::view::plane::Plane;
+use crate::wrap::{place, tile, wrap};
+use estampe_types::{AddressMode, FilterMode, Int, Real};
+
+/// Coordinates of all lanes, as far as they do not depend on the level.
+pub(super) struct Spots<R: Real> {
+    /// In their first tile, of cubes within the face.
+    pub(super) at: [R; 3],
+    /// The texture's layer.
+    pub(super) slice: R::Int,
+}
+
+/// Places along one axis.
+pub(super) struct Places<R: Real> {
+    pub(super) texels: [R::Int; 2],
+    pub(super) fraction: R,
+}
+
+impl<R: Real> Places<R> {
+    /// One texel, of an axis that is not filtered.
+    #[inline(always)]
+    pub(super) fn fixed(texel: R::Int, like: R) -> Self {
+        Self {
+            texels: [texel; 2],
+            fraction: like,
+        }
+    }
+}
+
+impl Packet<'_> {
+    /// Where coordinates lie.
+    #[inline(always)]
+    pub(super) fn spots<R: Real>(&self, at: [R; 3]) -> Spots<R> {
+        let view = &self.of.view;
+        let layer = Self::load(
+            at[0],
+            &self
+                .lanes
+                .layer
+                .map(|layer| f32::from_bits(layer.cast_unsigned())),
+        );
+        let layer = layer.to_bits();
+        let layer = layer.max(layer.splat(0)).min(layer.splat(view.layers - 1));
+        let base = layer.splat(view.base_layer.cast_signed());
+        if view.is_cube() {
+            let face = Face::of(at);
+            let [sc, tc, rc] = face.turned(at);
+            let length = rc.abs();
+            let s = sc / length * 0.5 + 0.5;
+            let t = tc / length * 0.5 + 0.5;
+            return Spots {
+                at: [s, t, s],
+                slice: base + layer * layer.splat(6) + face.index,
+            };
+        }
+        Spots {
+            at: [
+                self.tiled(at[0], 0),
+                self.tiled(at[1], 1),
+                self.tiled(at[2], 2),
+            ],
+            slice: base + layer,
+        }
+    }
+
+    /// How an axis is addressed; of cubes it is not asked.
+    #[inline(always)]
+    fn mode(&self, axis: usize) -> AddressMode {
+        let sampler = &self.of.sampler;
+        match axis {
+            0 => sampler.address_mode_u,
+            1 => sampler.address_mode_v,
+            _ => sampler.address_mode_w,
+        }
+    }
+
+    /// Whether all texels of an axis are found by wrapping coordinates.
+    #[inline(always)]
+    fn is_plain(&self, axis: usize) -> bool {
+        self.lanes.offset[axis] == 0 && self.mode(axis).is_plain()
+    }
+
+    /// A coordinate in its first tile.
+    #[inline(always)]
+    fn tiled<R: Real>(&self, u: R, axis: usize) -> R {
+        if self.is_plain(axis) {
+            wrap(u, self.mode(axis))
+        } else {
+            u
+        }
+    }
+
+    /// The places along one axis of a level.
+    #[inline(always)]
+    pub(super) fn places<R: Real>(
+        &self,
+        plane: &Plane,
+        spots: &Spots<R>,
+        axis: usize,
+        filter: FilterMode,
+        outside: &mut u32,
+    ) -> Places<R> {
+        let (count, length) = (plane.sides[axis], plane.size[axis]);
+        let is_linear = filter == FilterMode::Linear;
+        let at = spots.at[axis];
+        if self.of.view.is_cube() {
+            let (low, high) = if is_linear {
+                (-0.5, length - 0.5)
+            } else {
+                (0.0, length - 1.0)
+            };
+            let at = at * length;
+            let at = if is_linear {
+                (at - 0.5).clamp(low, high)
+            } else {
+                at.floor().clamp(low, high)
+            };
+            return Self::unwrapped(at, 0, count, is_linear, outside);
+        }
+        if !self.is_plain(axis) {
+            let at = at * length;
+            let at = if is_linear { at - 0.5 } else { at };
+            let offset = self.lanes.offset[axis].clamp(-1024, 1024);
+            return Self::unwrapped(at.clamp(-FAR, FAR), offset, count, is_linear, outside);
+        }
+        let mode = self.mode(axis);
+        let place = place(at, length, mode, filter);
+        let next = place.texel + place.texel.splat(1);
+        let texels = if mode == AddressMode::Repeat {
+            [tile(place.texel, count), tile(next, count)]
+        } else {
+            [place.texel, next.min(next.splat(count - 1))]
+        };
+        Places {
+            texels,
+            fraction: place.fraction,
+        }
+    }
+
+    /// Places that are right if they are within the level; of the others, the texels at its border.
+    #[inline(always)]
+    fn unwrapped<R: Real>(
+        at: R,
+        offset: i32,
+        count: i32,
+        is_linear: bool,
+        outside: &mut u32,
+    ) -> Places<R> {
+        let whole = at.floor();
+        let first = whole.to_int_within_range();
+        let first = first + first.splat(offset);
+        let room = if is_linear { count - 1 } else { count };
+        *outside |= R::mask_bits(first.is_outside(room));
+        let (zero, last) = (first.splat(0), first.splat(count - 1));
+        let next = first + first.splat(1);
+        Places {
+            texels: [first.max(zero).min(last), next.max(zero).min(last)],
+            fraction: at - whole,
+        }
+    }
+}
