@@ -1,4 +1,6 @@
-//! Just enough of Markdown for the checks: fenced blocks, links, images, code spans, headings.
+//! Documents as the checks read them: fenced blocks, links, images, code, headings, tables.
+
+use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 
 /// A fenced block.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -11,7 +13,7 @@ pub(crate) struct Fence {
     pub(crate) line: usize,
 }
 
-/// Something outside fenced blocks that a document points with.
+/// A part of a document that may name a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Pointer {
     /// The target of `[text](target)`.
@@ -20,92 +22,104 @@ pub(crate) enum Pointer {
     Image(String),
     /// The text of a code span.
     Code(String),
+    /// Other text.
+    Text(String),
 }
 
-/// What a document holds, in its order.
+/// The contents of a document, each part in the order of the text.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Document {
-    /// The fenced blocks.
     pub(crate) fences: Vec<Fence>,
     /// The pointers and their lines, from 1.
     pub(crate) pointers: Vec<(usize, Pointer)>,
     /// The anchors of the headings, as GitHub makes them.
     pub(crate) anchors: Vec<String>,
+    /// The rows of all tables, headings left out, and their lines, from 1.
+    pub(crate) rows: Vec<(usize, Vec<String>)>,
+}
+
+/// What the reader is inside of.
+#[derive(Debug, Default)]
+struct Open {
+    heading: Option<String>,
+    fence: Option<Fence>,
+    row: Option<(usize, Vec<String>)>,
 }
 
 impl Document {
-    /// Reads a document; what is malformed is text.
+    /// Reads a document. Every text is valid Markdown.
     pub(crate) fn parse(text: &str) -> Self {
+        let line_starts: Vec<usize> = text.match_indices('\n').map(|(at, _)| at + 1).collect();
+        let line_of = |at: usize| line_starts.partition_point(|start| *start <= at) + 1;
         let mut document = Self::default();
-        let mut open: Option<Fence> = None;
-        for (index, line) in text.lines().enumerate() {
-            let line_number = index + 1;
-            let fence = line.trim_start().strip_prefix("```");
-            match (&mut open, fence) {
-                (None, Some(language)) => {
-                    let language = language.trim().to_owned();
-                    open = Some(Fence {
-                        language,
-                        lines: Vec::new(),
-                        line: line_number,
-                    });
-                }
-                (Some(_), Some(_)) => document.fences.extend(open.take()),
-                (Some(fence), None) => fence.lines.push(line.to_owned()),
-                (None, None) => document.read_line(line, line_number),
-            }
+        let mut open = Open::default();
+        for (event, range) in Parser::new_ext(text, Options::ENABLE_TABLES).into_offset_iter() {
+            document.read(event, line_of(range.start), &mut open);
         }
-        document.fences.extend(open);
         document
     }
 
-    fn read_line(&mut self, line: &str, line_number: usize) {
-        if let Some(heading) = line.strip_prefix('#') {
-            self.anchors.push(anchor(heading.trim_start_matches('#')));
-        }
-        // Code spans are the odd pieces between backticks; links are looked for in the others.
-        for (index, piece) in line.split('`').enumerate() {
-            if index % 2 == 1 {
-                self.pointers
-                    .push((line_number, Pointer::Code(piece.to_owned())));
+    fn read(&mut self, event: Event<'_>, line: usize, open: &mut Open) {
+        let mut point = |pointer| self.pointers.push((line, pointer));
+        match event {
+            Event::Start(Tag::Link { dest_url, .. }) => {
+                point(Pointer::Link(dest_url.into_string()))
             }
-        }
-        for (at, _) in line.match_indices("](") {
-            let target = line[at + 2..]
-                .split([')', ' '])
-                .next()
-                .unwrap_or_default()
-                .to_owned();
-            let is_image = line[..opening_bracket(line, at)].ends_with('!');
-            let pointer = if is_image {
-                Pointer::Image(target)
-            } else {
-                Pointer::Link(target)
-            };
-            self.pointers.push((line_number, pointer));
-        }
-        for (at, start) in line.match_indices("src=\"") {
-            let target = line[at + start.len()..]
-                .split('"')
-                .next()
-                .unwrap_or_default();
-            self.pointers
-                .push((line_number, Pointer::Image(target.to_owned())));
+            Event::Start(Tag::Image { dest_url, .. }) => {
+                point(Pointer::Image(dest_url.into_string()));
+            }
+            Event::Html(html) | Event::InlineHtml(html) => {
+                let sources = html.split("src=\"").skip(1);
+                let targets = sources.filter_map(|rest| rest.split('"').next());
+                targets.for_each(|target| point(Pointer::Image(target.to_owned())));
+            }
+            Event::Start(Tag::CodeBlock(CodeBlockKind::Fenced(language))) => {
+                open.fence = Some(Fence {
+                    language: language.into_string(),
+                    lines: Vec::new(),
+                    line,
+                });
+            }
+            Event::End(TagEnd::CodeBlock) => self.fences.extend(open.fence.take()),
+            Event::Start(Tag::Heading { .. }) => open.heading = Some(String::new()),
+            Event::End(TagEnd::Heading(_)) => {
+                self.anchors
+                    .extend(open.heading.take().map(|heading| anchor(&heading)));
+            }
+            Event::Start(Tag::TableRow) => open.row = Some((line, Vec::new())),
+            Event::End(TagEnd::TableRow) => self.rows.extend(open.row.take()),
+            Event::Start(Tag::TableCell) => {
+                if let Some((_, cells)) = &mut open.row {
+                    cells.push(String::new());
+                }
+            }
+            Event::Text(text) => {
+                if let Some(fence) = &mut open.fence {
+                    fence.lines.extend(text.lines().map(str::to_owned));
+                } else {
+                    open.add_text(&text);
+                    point(Pointer::Text(text.into_string()));
+                }
+            }
+            Event::Code(code) => {
+                open.add_text(&code);
+                point(Pointer::Code(code.into_string()));
+            }
+            _ => {}
         }
     }
 }
 
-/// Where the bracket opens that closes at `closing`; `closing` itself where none does.
-fn opening_bracket(line: &str, closing: usize) -> usize {
-    let mut depth = 0_usize;
-    for (at, bracket) in line[..closing].rmatch_indices(['[', ']']) {
-        match (bracket, depth) {
-            ("[", 0) => return at,
-            ("[", _) => depth -= 1,
-            _ => depth += 1,
+impl Open {
+    fn add_text(&mut self, text: &str) {
+        if let Some(heading) = &mut self.heading {
+            heading.push_str(text);
+        }
+        let cells = self.row.as_mut().map(|(_, cells)| cells);
+        if let Some(cell) = cells.and_then(|cells| cells.last_mut()) {
+            cell.push_str(text);
         }
     }
-    closing
 }
 
 /// The anchor of a heading: lower case, letters and digits, `-` for spaces.
@@ -125,25 +139,30 @@ mod tests {
 
     #[test]
     fn every_part_is_read() {
-        let text = "# The *Big* one, twice\n![a](b.png) and [c](d.md#e) and `f/g`\n\
-                    [![h](i.svg)](j)\n<img src=\"k.png\" width=\"3\">\n```sh\n# [l](m)\nn\n```\n";
+        let text = "# The *Big* one, `twice`\n![a](b.png) and [c](d.md#e) and `f/g`\n\
+                    [![h](i.svg)](j)\n<img src=\"k.png\" width=\"3\">\n```sh\n# [l](m)\nn\n```\n\
+                    [reference]\n\n[reference]: o.md\n";
         let document = Document::parse(text);
         assert_eq!(document.anchors, ["the-big-one-twice"]);
+        let is_text = |pointer: &Pointer| matches!(pointer, Pointer::Text(_));
         let pointers: Vec<_> = document
             .pointers
             .iter()
-            .map(|(_, pointer)| pointer.clone())
+            .filter(|(_, pointer)| !is_text(pointer))
+            .cloned()
             .collect();
         let owned = str::to_owned;
         assert_eq!(
             pointers,
             [
-                Pointer::Code(owned("f/g")),
-                Pointer::Image(owned("b.png")),
-                Pointer::Link(owned("d.md#e")),
-                Pointer::Image(owned("i.svg")),
-                Pointer::Link(owned("j")),
-                Pointer::Image(owned("k.png")),
+                (1, Pointer::Code(owned("twice"))),
+                (2, Pointer::Image(owned("b.png"))),
+                (2, Pointer::Link(owned("d.md#e"))),
+                (2, Pointer::Code(owned("f/g"))),
+                (3, Pointer::Link(owned("j"))),
+                (3, Pointer::Image(owned("i.svg"))),
+                (4, Pointer::Image(owned("k.png"))),
+                (9, Pointer::Link(owned("o.md"))),
             ]
         );
         let fence = Fence {
@@ -155,8 +174,29 @@ mod tests {
     }
 
     #[test]
+    fn tables_are_read() {
+        let text = "| a | b |\n|---|---|\n| c **d** `e` | [f](g) |\n| h | |\n";
+        let owned = |cells: [&str; 2]| cells.map(str::to_owned).to_vec();
+        assert_eq!(
+            Document::parse(text).rows,
+            [(3, owned(["c d e", "f"])), (4, owned(["h", ""]))]
+        );
+    }
+
+    /// The reader takes every text; this looks for panics alone.
+    #[test]
     fn malformed_text_is_text() {
-        for text in ["](", "`", "```", "[a](b", "src=\"", "![](", "]()"] {
+        for text in [
+            "](",
+            "`",
+            "```",
+            "[a](b",
+            "<img src=\"",
+            "![](",
+            "]()",
+            "|",
+            "| a |\n|-",
+        ] {
             let _ = Document::parse(text);
         }
     }

@@ -1,310 +1,275 @@
-//! Just enough of Rust's grammar to read sources without a compiler: code apart from comments and
-//! literals, identifiers, and paths with their `use` groups unfolded.
+//! Rust sources as token streams: identifiers, relative paths, and code without its tests.
 //!
-//! The rejected alternative is `syn`: exact, but it sees neither the inside of macros (where shaders
-//! are written) nor code under `cfg`, and costs more build time than all of `xtask`.
+//! A token stream shows the inside of macros (where shaders are written) and code under every
+//! `cfg`. A syntax tree (`syn`) shows neither, which is why the lexer alone is used.
 
-/// The text with comments, strings and character literals replaced by spaces. Line breaks stay, so
-/// that line numbers hold.
-pub(crate) fn code_only(text: &str) -> String {
-    let chars: Vec<char> = text.chars().collect();
-    let mut code = String::with_capacity(text.len());
-    let mut at = 0;
-    while at < chars.len() {
-        let end = end_of_skipped(&chars, at);
-        if end == at {
-            code.push(chars[at]);
-            at += 1;
-        } else {
-            code.extend(
-                chars[at..end]
-                    .iter()
-                    .map(|&c| if c == '\n' { '\n' } else { ' ' }),
-            );
-            at = end;
-        }
-    }
-    code
+use proc_macro2::{Delimiter, LexError, Span, TokenStream, TokenTree};
+
+/// A source as token trees. Comments are gone; a doc comment is a `#[doc = "…"]` attribute.
+#[derive(Debug, Clone)]
+pub(crate) struct RustSource {
+    trees: Vec<TokenTree>,
 }
 
-/// Where the comment or literal that starts at `at` ends; `at` itself where none starts.
-fn end_of_skipped(chars: &[char], at: usize) -> usize {
-    let next = chars.get(at + 1).copied();
-    match chars[at] {
-        '/' if next == Some('/') => position(chars, at, |c| c == '\n').unwrap_or(chars.len()),
-        '/' if next == Some('*') => end_of_block_comment(chars, at),
-        '"' => end_of_string(chars, at),
-        'r' if !continues_identifier(chars, at) => end_of_raw_string(chars, at),
-        '\'' => end_of_char(chars, at),
-        _ => at,
-    }
+/// An identifier and its line, from 1.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Identifier {
+    pub(crate) name: String,
+    pub(crate) line: usize,
 }
 
-fn end_of_block_comment(chars: &[char], start: usize) -> usize {
-    let mut depth = 0_usize;
-    let mut at = start;
-    while at + 1 < chars.len() {
-        match (chars[at], chars[at + 1]) {
-            ('/', '*') => (depth, at) = (depth + 1, at + 2),
-            ('*', '/') => {
-                (depth, at) = (depth - 1, at + 2);
-                if depth == 0 {
-                    return at;
-                }
-            }
-            _ => at += 1,
-        }
-    }
-    chars.len()
+/// A path that starts at `crate`, `super` or `self`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct RelativePath {
+    /// The segments, the first included. The groups of a `use` are unfolded: one path per name.
+    pub(crate) segments: Vec<String>,
+    /// The line of its last segment, from 1.
+    pub(crate) line: usize,
 }
 
-fn end_of_string(chars: &[char], start: usize) -> usize {
-    let mut at = start + 1;
-    while at < chars.len() {
-        match chars[at] {
-            '\\' => at += 2,
-            '"' => return at + 1,
-            _ => at += 1,
-        }
-    }
-    chars.len()
-}
-
-/// `r"…"`, `r#"…"#` and so on; the `r` of `br` and `cr` strings is preceded by an identifier's
-/// character and handled by the caller's test, which those prefixes pass through [`end_of_string`].
-fn end_of_raw_string(chars: &[char], start: usize) -> usize {
-    let Some(quote) = position(chars, start + 1, |c| c != '#') else {
-        return start;
-    };
-    if chars[quote] != '"' {
-        return start;
-    }
-    let hashes = quote - start - 1;
-    (quote + 1..chars.len())
-        .find(|&end| {
-            chars[end] == '"'
-                && chars.len() > end + hashes
-                && chars[end + 1..=end + hashes].iter().all(|&c| c == '#')
+impl RustSource {
+    /// Splits a source into token trees.
+    ///
+    /// # Errors
+    /// An unclosed delimiter or literal.
+    pub(crate) fn parse(text: &str) -> Result<Self, LexError> {
+        let stream: TokenStream = text.parse()?;
+        Ok(Self {
+            trees: stream.into_iter().collect(),
         })
-        .map_or(chars.len(), |end| end + hashes + 1)
-}
+    }
 
-/// A character literal, told from a lifetime by its closing quote.
-fn end_of_char(chars: &[char], start: usize) -> usize {
-    match chars.get(start + 1) {
-        Some('\\') => position(chars, start + 3, |c| c == '\'').map_or(start, |quote| quote + 1),
-        Some(_) if chars.get(start + 2) == Some(&'\'') => start + 3,
-        _ => start,
+    /// The source without the items under `#[cfg(test)]`, at any depth.
+    pub(crate) fn without_test_items(&self) -> Self {
+        Self {
+            trees: without_test_items(&self.trees),
+        }
+    }
+
+    /// The line of the last token, from 1; 0 where there is none.
+    pub(crate) fn last_line(&self) -> usize {
+        self.trees
+            .last()
+            .map_or(0, |tree| last_span(tree).end().line)
+    }
+
+    /// Every identifier and keyword, in order.
+    pub(crate) fn identifiers(&self) -> Vec<Identifier> {
+        let mut found = Vec::new();
+        collect_identifiers(&self.trees, &mut found);
+        found
+    }
+
+    /// Every path that starts at `crate`, `super` or `self`, in order.
+    pub(crate) fn relative_paths(&self) -> Vec<RelativePath> {
+        let mut found = Vec::new();
+        collect_paths(&self.trees, &mut found);
+        found
+    }
+
+    /// Whether the source has the inner attribute `#![level(lint)]`.
+    pub(crate) fn has_inner_attribute(&self, level: &str, lint: &str) -> bool {
+        let wanted = format!("{level} ({lint})");
+        self.trees.windows(3).any(|window| match window {
+            [hash, bang, TokenTree::Group(attribute)] => {
+                is_punct(hash, '#')
+                    && is_punct(bang, '!')
+                    && attribute.stream().to_string() == wanted
+            }
+            _ => false,
+        })
     }
 }
 
-fn position(chars: &[char], from: usize, wanted: impl Fn(char) -> bool) -> Option<usize> {
-    (from..chars.len()).find(|&at| wanted(chars[at]))
+fn last_span(tree: &TokenTree) -> Span {
+    match tree {
+        TokenTree::Group(group) => group.span_close(),
+        _ => tree.span(),
+    }
 }
 
-/// Whether the character before `at` belongs to an identifier other than the string prefixes `b` and
-/// `c`.
-fn continues_identifier(chars: &[char], at: usize) -> bool {
-    let is_part = |index: usize| chars[index].is_alphanumeric() || chars[index] == '_';
-    match at.checked_sub(1) {
-        Some(before) if is_part(before) => {
-            let is_prefix = matches!(chars[before], 'b' | 'c');
-            !is_prefix || before.checked_sub(1).is_some_and(is_part)
+fn is_punct(tree: &TokenTree, wanted: char) -> bool {
+    matches!(tree, TokenTree::Punct(punct) if punct.as_char() == wanted)
+}
+
+/// Whether `::` starts at `at`.
+fn is_separator(trees: &[TokenTree], at: usize) -> bool {
+    matches!(trees.get(at..at + 2), Some([a, b]) if is_punct(a, ':') && is_punct(b, ':'))
+}
+
+fn inner_trees(group: &proc_macro2::Group) -> Vec<TokenTree> {
+    group.stream().into_iter().collect()
+}
+
+fn without_test_items(trees: &[TokenTree]) -> Vec<TokenTree> {
+    let mut kept = Vec::with_capacity(trees.len());
+    let mut at = 0;
+    while let Some(tree) = trees.get(at) {
+        if is_cfg_test(trees, at) {
+            at = end_of_item(trees, at + 2);
+            continue;
+        }
+        kept.push(match tree {
+            TokenTree::Group(group) => {
+                let inner = without_test_items(&inner_trees(group));
+                let mut copy =
+                    proc_macro2::Group::new(group.delimiter(), inner.into_iter().collect());
+                copy.set_span(group.span());
+                TokenTree::Group(copy)
+            }
+            other => other.clone(),
+        });
+        at += 1;
+    }
+    kept
+}
+
+/// Whether the attribute `#[cfg(test)]` starts at `at`.
+fn is_cfg_test(trees: &[TokenTree], at: usize) -> bool {
+    match trees.get(at..at + 2) {
+        Some([hash, TokenTree::Group(attribute)]) => {
+            is_punct(hash, '#') && attribute.stream().to_string() == "cfg (test)"
         }
         _ => false,
     }
 }
 
-/// An identifier, a punctuation mark or `::`, and the line it stands on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Token<'code> {
-    /// The text of the token.
-    pub(crate) text: &'code str,
-    /// From 1.
-    pub(crate) line: usize,
-}
-
-/// Splits code (see [`code_only`]) into tokens.
-pub(crate) fn tokens(code: &str) -> Vec<Token<'_>> {
-    let mut tokens = Vec::new();
-    let mut line = 1;
-    let mut rest = code;
-    while let Some(first) = rest.chars().next() {
-        let len_bytes = if first.is_alphanumeric() || first == '_' {
-            rest.find(|c: char| !(c.is_alphanumeric() || c == '_'))
-                .unwrap_or(rest.len())
-        } else if rest.starts_with("::") {
-            2
+/// Where the item that starts at `start` ends: behind its braces or its semicolon.
+fn end_of_item(trees: &[TokenTree], start: usize) -> usize {
+    let is_end = |tree: &TokenTree| match tree {
+        TokenTree::Group(group) => group.delimiter() == Delimiter::Brace,
+        tree => is_punct(tree, ';'),
+    };
+    // `use a::{b, c};` has braces and ends at its semicolon.
+    let is_use = matches!(trees.get(start), Some(TokenTree::Ident(word)) if word == "use");
+    let is_end = |tree: &TokenTree| {
+        if is_use {
+            is_punct(tree, ';')
         } else {
-            first.len_utf8()
-        };
-        let (text, after) = rest.split_at(len_bytes);
-        if first == '\n' {
-            line += 1;
-        } else if !first.is_whitespace() {
-            tokens.push(Token { text, line });
+            is_end(tree)
         }
-        rest = after;
-    }
-    tokens
+    };
+    (start..trees.len())
+        .find(|&at| is_end(&trees[at]))
+        .map_or(trees.len(), |at| at + 1)
 }
 
-/// Removes what is compiled for tests only: an item after `#[cfg(test)]`, to its closing brace or
-/// semicolon.
-pub(crate) fn without_test_items<'code>(tokens: &[Token<'code>]) -> Vec<Token<'code>> {
-    const CFG_TEST: [&str; 7] = ["#", "[", "cfg", "(", "test", ")", "]"];
-    let mut kept = Vec::with_capacity(tokens.len());
+fn collect_identifiers(trees: &[TokenTree], found: &mut Vec<Identifier>) {
+    for tree in trees {
+        match tree {
+            TokenTree::Ident(name) => found.push(Identifier {
+                name: name.to_string(),
+                line: name.span().start().line,
+            }),
+            TokenTree::Group(group) => collect_identifiers(&inner_trees(group), found),
+            TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+        }
+    }
+}
+
+fn collect_paths(trees: &[TokenTree], found: &mut Vec<RelativePath>) {
     let mut at = 0;
-    while at < tokens.len() {
-        let is_test = tokens[at..]
-            .iter()
-            .map(|token| token.text)
-            .take(7)
-            .eq(CFG_TEST);
-        if is_test {
-            at = end_of_item(tokens, at + CFG_TEST.len());
-        } else {
-            kept.push(tokens[at]);
-            at += 1;
-        }
-    }
-    kept
-}
-
-fn end_of_item(tokens: &[Token<'_>], start: usize) -> usize {
-    let mut depth = 0_usize;
-    for (at, token) in tokens.iter().enumerate().skip(start) {
-        match token.text {
-            "{" => depth += 1,
-            "}" if depth <= 1 => return at + 1,
-            "}" => depth -= 1,
-            ";" if depth == 0 => return at + 1,
+    while let Some(tree) = trees.get(at) {
+        let continues_path = at >= 2 && is_separator(trees, at - 2);
+        match tree {
+            TokenTree::Ident(word)
+                if (word == "crate" || word == "super" || word == "self")
+                    && is_separator(trees, at + 1)
+                    && !continues_path =>
+            {
+                at = unfold(trees, at, &[], found);
+                continue;
+            }
+            TokenTree::Group(group) => collect_paths(&inner_trees(group), found),
             _ => {}
         }
+        at += 1;
     }
-    tokens.len()
 }
 
-/// A path that starts at `crate`, `super` or `self`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct PathUse<'code> {
-    /// The segments, the first included; the groups of a `use` are unfolded.
-    pub(crate) segments: Vec<&'code str>,
-    /// The line of its last segment, from 1.
-    pub(crate) line: usize,
-}
-
-/// Every path that starts at `crate`, `super` or `self`.
-pub(crate) fn relative_paths<'code>(tokens: &[Token<'code>]) -> Vec<PathUse<'code>> {
-    let mut paths = Vec::new();
-    let mut at = 0;
-    while at < tokens.len() {
-        let follows_path = at > 0 && tokens[at - 1].text == "::";
-        let is_root = matches!(tokens[at].text, "crate" | "super" | "self");
-        let is_path = tokens.get(at + 1).is_some_and(|next| next.text == "::");
-        if is_root && is_path && !follows_path {
-            at = unfold(tokens, at, &mut Vec::new(), &mut paths);
-        } else {
-            at += 1;
-        }
-    }
-    paths
-}
-
-/// Reads one path tree (`a::b`, `a::{b, c::d}`, `a::*`) and returns where it ends.
-fn unfold<'code>(
-    tokens: &[Token<'code>],
+/// Adds the paths of one path tree (`a::b`, `a::{b, c::d}`, `a::*`) and returns where it ends.
+fn unfold(
+    trees: &[TokenTree],
     start: usize,
-    prefix: &mut Vec<&'code str>,
-    paths: &mut Vec<PathUse<'code>>,
+    prefix: &[String],
+    found: &mut Vec<RelativePath>,
 ) -> usize {
-    let depth = prefix.len();
+    let mut segments = prefix.to_vec();
     let mut at = start;
-    let mut line = tokens.get(start).map_or(0, |token| token.line);
-    while let Some(token) = tokens.get(at) {
-        if token.text == "{" {
-            at += 1;
-            while tokens.get(at).is_some_and(|inner| inner.text != "}") {
-                let end = unfold(tokens, at, prefix, paths);
-                let is_comma = tokens.get(end).is_some_and(|after| after.text == ",");
-                at = if is_comma || end == at { end + 1 } else { end };
+    let mut line = 0;
+    while let Some(tree) = trees.get(at) {
+        match tree {
+            TokenTree::Ident(name) => segments.push(name.to_string()),
+            TokenTree::Punct(star) if star.as_char() == '*' => segments.push("*".to_owned()),
+            TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => {
+                let inner = inner_trees(group);
+                for branch in inner.split(|tree| is_punct(tree, ',')) {
+                    unfold(branch, 0, &segments, found);
+                }
+                return at + 1;
             }
-            prefix.truncate(depth);
-            return at + 1;
+            _ => break,
         }
-        let is_segment = token.text.chars().all(|c| c.is_alphanumeric() || c == '_');
-        if !is_segment && token.text != "*" {
+        line = tree.span().start().line;
+        at += 1;
+        if !is_separator(trees, at) {
             break;
         }
-        prefix.push(token.text);
-        line = token.line;
-        at += 1;
-        if tokens
-            .get(at)
-            .is_none_or(|separator| separator.text != "::")
-        {
-            break;
-        }
-        at += 1;
+        at += 2;
     }
-    if prefix.len() > depth {
-        paths.push(PathUse {
-            segments: prefix.clone(),
-            line,
-        });
+    if segments.len() > prefix.len() {
+        found.push(RelativePath { segments, line });
     }
-    prefix.truncate(depth);
-    // `crate::a as b`: the new name is no part of the path.
-    if tokens.get(at).is_some_and(|token| token.text == "as") {
-        at + 2
-    } else {
-        at
-    }
+    at
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn paths_of(source: &str) -> Vec<String> {
-        let code = code_only(source);
-        let tokens = tokens(&code);
-        relative_paths(&tokens)
+    fn source(text: &str) -> RustSource {
+        RustSource::parse(text).expect("the text is made of Rust's tokens")
+    }
+
+    fn paths_of(text: &str) -> Vec<String> {
+        let paths = source(text).relative_paths();
+        paths.iter().map(|path| path.segments.join("::")).collect()
+    }
+
+    fn names_of(source: &RustSource) -> String {
+        let names: Vec<String> = source
+            .identifiers()
+            .into_iter()
+            .map(|found| found.name)
+            .collect();
+        names.join(" ")
+    }
+
+    #[test]
+    fn comments_and_literals_are_no_identifiers() {
+        let text = "a // x\nb /* c /* d */ e */ \"g \\\" h\" 'i' r#\"l \" m\"# br\"n\" m!{ p(q) }";
+        assert_eq!(names_of(&source(text)), "a b m p q");
+        let lines: Vec<usize> = source("a\n\n/* \n */ b")
+            .identifiers()
             .iter()
-            .map(|path| path.segments.join("::"))
-            .collect()
+            .map(|i| i.line)
+            .collect();
+        assert_eq!(lines, [1, 4]);
     }
 
     #[test]
-    fn comments_and_literals_are_no_code() {
-        let source = concat!(
-            "a // crate::x\nb /* c /* d */ e */ f \"g \\\" h\" 'i' '\\'' j<'k> r#\"l \" m\"# br\"n\"",
-            " bar\"o\" r#type '\\u{7f}' p"
-        );
-        let code = code_only(source);
-        let words: Vec<_> = tokens(&code).iter().map(|token| token.text).collect();
-        assert_eq!(
-            words,
-            [
-                "a", "b", "f", "j", "<", "'", "k", ">", "b", "bar", "r", "#", "type", "p"
-            ]
-        );
-        assert_eq!(code.lines().count(), source.lines().count());
-    }
-
-    #[test]
-    fn an_unclosed_literal_ends_with_the_file() {
-        for source in ["\"a", "r#\"a\"", "/* a", "'", "'\\", "r", "\"\\"] {
-            let _ = code_only(source);
+    fn an_unclosed_delimiter_is_an_error() {
+        for text in ["\"a", "r#\"a\"", "{", ")"] {
+            assert!(RustSource::parse(text).is_err(), "{text}");
         }
     }
 
     #[test]
     fn groups_are_unfolded() {
-        let source =
+        let text =
             "use crate::{raster::{edge::Edge, *}, tiles as t, self};\nlet x = super::cull();";
         assert_eq!(
-            paths_of(source),
+            paths_of(text),
             [
                 "crate::raster::edge::Edge",
                 "crate::raster::*",
@@ -318,19 +283,39 @@ mod tests {
     #[test]
     fn paths_inside_expressions_and_macros_are_seen() {
         assert_eq!(
-            paths_of("vectorize!(|| crate::raster::run(self.x, a::super_b, pub(crate) fn))"),
+            paths_of("dispatch!(|| crate::raster::run(self.x, a::super_b, pub(crate) fn))"),
             ["crate::raster::run"]
         );
-        assert!(paths_of("crate::{ {").is_empty());
+        assert_eq!(
+            paths_of("crate::f::<super::T>(self::g())"),
+            ["crate::f", "super::T", "self::g"]
+        );
     }
 
     #[test]
     fn test_items_are_removed() {
-        let code = code_only(
-            "fn a() {} #[cfg(test)] mod tests { fn b() { {} } } #[cfg(test)] use c; fn d() {}",
+        let text = "fn a() {} #[cfg(test)] mod tests { fn b() { {} } } #[cfg(test)] use c::{x};\n\
+                    mod m { #[cfg(test)] fn e() {} } fn d() {}";
+        assert_eq!(
+            names_of(&source(text).without_test_items()),
+            "fn a mod m fn d"
         );
-        let tokens = tokens(&code);
-        let words: Vec<_> = without_test_items(&tokens).iter().map(|t| t.text).collect();
-        assert_eq!(words.join(" "), "fn a ( ) { } fn d ( ) { }");
+    }
+
+    #[test]
+    fn the_last_line_is_that_of_the_last_token() {
+        assert_eq!(source("").last_line(), 0);
+        assert_eq!(source("fn a() {\n}\n// b\n").last_line(), 2);
+    }
+
+    #[test]
+    fn inner_attributes_are_found() {
+        let root = source("//! Text.\n#![forbid(unsafe_code)]\n");
+        assert!(root.has_inner_attribute("forbid", "unsafe_code"));
+        assert!(!root.has_inner_attribute("deny", "unsafe_code"));
+        assert!(
+            !source("#[forbid(unsafe_code)] fn f() {}")
+                .has_inner_attribute("forbid", "unsafe_code")
+        );
     }
 }

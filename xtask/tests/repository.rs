@@ -18,6 +18,11 @@ fn crate_edges_are_those_of_the_architecture() {
 }
 
 #[test]
+fn every_dependency_is_used() {
+    passes(xtask::check_unused);
+}
+
+#[test]
 fn outside_packages_are_pure_rust_from_crates_io() {
     passes(xtask::check_outside);
 }
@@ -28,8 +33,8 @@ fn no_stage_names_a_later_one() {
 }
 
 #[test]
-fn rooms_are_tidy() {
-    passes(xtask::check_rooms);
+fn files_keep_the_rules_of_style() {
+    passes(xtask::check_files);
 }
 
 #[test]

@@ -1,20 +1,20 @@
-//! What can go wrong with a file: the kind, what, where, and what to do about it.
+//! Errors of readers and writers: the kind, the problem, its location, and advice.
 
 use std::fmt;
 
-/// Why a file could not be read or written.
+/// The reason why a file could not be read or written.
 ///
-/// The variant says whose fault it is, the [`Fault`] what happened, where, and what to do.
+/// The variant is the cause; the [`Fault`] describes the problem, its location, and advice.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AssetError {
-    /// The system refused: no such file, no permission, a failed read or write.
+    /// The system refused the operation: no such file, no permission, a failed read or write.
     #[error("{0}")]
     Io(Fault),
     /// The bytes break the rules of their format.
     #[error("{0}")]
     Malformed(Fault),
-    /// The bytes may be right, but use something that is not read here.
+    /// The bytes may be valid, but use a feature that is not supported here.
     #[error("{0}")]
     Unsupported(Fault),
     /// The file asks for more than [`Limits`](crate::Limits) allow.
@@ -22,20 +22,20 @@ pub enum AssetError {
     LimitExceeded(Fault),
 }
 
-/// What happened, where, and what to do.
+/// The problem, its location, and advice.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
     /// Name of the file; empty while it is not known (the caller adds it).
     pub file: String,
-    /// Where in the file.
+    /// Location in the file.
     pub location: Option<Location>,
-    /// What is wrong.
+    /// The problem.
     pub what: String,
-    /// What the user can do.
+    /// Advice for the user.
     pub advice: String,
 }
 
-/// A place in a file.
+/// A location in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Location {
     /// A line of a text file, counted from 1.
@@ -45,7 +45,7 @@ pub enum Location {
 }
 
 impl AssetError {
-    /// The system refused; `what` names the operation and the system's reason.
+    /// The system refused; `what` names the operation and the system's message.
     pub fn io(what: impl Into<String>, advice: impl Into<String>) -> Self {
         Self::Io(Fault::new(what, advice))
     }
@@ -55,7 +55,7 @@ impl AssetError {
         Self::Malformed(Fault::new(what, advice))
     }
 
-    /// Something that is not read here.
+    /// A feature that is not supported here.
     pub fn unsupported(what: impl Into<String>, advice: impl Into<String>) -> Self {
         Self::Unsupported(Fault::new(what, advice))
     }
@@ -65,14 +65,14 @@ impl AssetError {
         Self::LimitExceeded(Fault::new(what, advice))
     }
 
-    /// The same error at a place in the file.
+    /// Adds the location in the file.
     #[must_use]
     pub fn at(mut self, location: Location) -> Self {
         self.fault_mut().location = Some(location);
         self
     }
 
-    /// The same error with the file's name, unless it already has one.
+    /// Adds the file's name, unless there is one already.
     #[must_use]
     pub fn in_file(mut self, file: &str) -> Self {
         let fault = self.fault_mut();
@@ -82,7 +82,7 @@ impl AssetError {
         self
     }
 
-    /// What happened, where, and what to do.
+    /// The problem, its location, and advice.
     #[must_use]
     pub fn fault(&self) -> &Fault {
         match self {

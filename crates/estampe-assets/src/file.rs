@@ -1,28 +1,29 @@
-//! The bytes of a file, and never more than the limit.
+//! Reading the bytes of a file, up to the limit.
 
 use crate::Limits;
 use estampe_scene::Workers;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 
-/// Reads a file that is expected to have so many bytes, which may be wrong; it may be a pipe.
+/// Reads a file with an expected length, which may be wrong; the file may be a pipe.
 ///
-/// Large files are read by several threads (`Limits::threads`): what takes the time is not the disk, when it
-/// was read before, but the system's handing out of fresh memory, 4 KiB at a time.
+/// Large files are read by several threads (`Limits::threads`). If the file is in the system's
+/// cache, the time goes not to the disk but to the system's page faults for fresh memory, 4 KiB at
+/// a time.
 ///
 /// # Errors
-/// What the system says, and `FileTooLarge` for more than `Limits::max_file_bytes`.
+/// The system's error, or `FileTooLarge` for more than `Limits::max_file_bytes`.
 pub fn read_bytes(mut file: File, expected: u64, limits: &Limits) -> io::Result<Vec<u8>> {
     let mut bytes = read_parts(&file, expected, limits).unwrap_or_default();
     if !bytes.is_empty() {
-        // What was added meanwhile; nothing as a rule.
+        // Bytes that were added in the meantime; usually none.
         file.seek(SeekFrom::Start(bytes.len() as u64))?;
     }
     read_rest(file, &mut bytes, expected, limits)?;
     Ok(bytes)
 }
 
-/// Reads what has no size, such as standard input.
+/// Reads a stream without a known length, such as standard input.
 ///
 /// # Errors
 /// As [`read_bytes`].
@@ -49,7 +50,8 @@ fn read_rest(
     Ok(())
 }
 
-/// All of a large file; `None` where it is small, has no places to read at, or is shorter than expected.
+/// The bytes of a large file. `None` if it is small, cannot be read at offsets, or is shorter than
+/// expected.
 #[cfg(unix)]
 fn read_parts(file: &File, expected: u64, limits: &Limits) -> Option<Vec<u8>> {
     use std::os::unix::fs::FileExt;

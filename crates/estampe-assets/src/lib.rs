@@ -1,12 +1,13 @@
 #![forbid(unsafe_code)]
-//! Bytes to scenes and pictures, and pictures to bytes.
+//! Readers of models and images, and writers of images.
 //!
 //! - [`model`]: OBJ with its material libraries, STL and PLY become an [`estampe_scene::Scene`].
 //! - [`image`]: TGA, PNG and JPEG become an [`estampe_scene::Image`], and back.
 //!
-//! Every input is taken for hostile: a reader ends with a value or an [`AssetError`] that says what is
-//! wrong, where and what to do; it takes no memory that the file's own size does not justify, and
-//! [`Limits`] bound the rest. What can be tolerated is tolerated, with a located [`Warning`].
+//! Every input is treated as hostile: a reader ends with a value or an [`AssetError`] with the
+//! problem, its location and advice. It allocates no memory that the file's own size does not
+//! justify, and [`Limits`] bound the rest. Tolerable errors are tolerated, with a located
+//! [`Warning`].
 
 mod error;
 mod file;

@@ -1,34 +1,36 @@
-//! How much a file may ask for.
+//! Limits on the resources that a file may require.
 
 use crate::AssetError;
 
-/// Upper bounds on everything that a file can announce, checked before memory is taken for it.
+/// Upper bounds on all sizes that a file can state, checked before memory is allocated.
 ///
-/// The defaults are generous: what exceeds them is far more likely an accident or an attack than a model.
+/// The defaults are generous: a file that exceeds them is far more likely an accident or an attack
+/// than a model.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Limits {
     /// Bytes of one file (1 GiB).
     pub max_file_bytes: u64,
     /// Vertices of one model (50 million).
     pub max_vertices: u64,
-    /// Triangles of one model after polygons are split; also its lines, and its points (100 million).
+    /// Triangles of one model after polygons are split; also its lines, and its points (100
+    /// million).
     pub max_triangles: u64,
-    /// Corners of one polygon (16384). A polygon above it is left out with a warning.
+    /// Corners of one polygon (16384). A larger polygon is omitted with a warning.
     pub max_polygon_corners: u64,
-    /// Objects of one model (65536). What follows joins the last one.
+    /// Objects of one model (65536). Further objects are joined to the last one.
     pub max_meshes: u64,
     /// Materials of one model (65536).
     pub max_materials: u64,
-    /// Side files (material libraries, textures) that one model may look for (1024).
+    /// Side files (material libraries, textures) that one model may request (1024).
     pub max_side_files: u64,
     /// Pixels of one image (16384²).
     pub max_image_pixels: u64,
     /// Pixels of all images of one model together (2 · 16384²).
     pub max_total_image_pixels: u64,
-    /// Warnings that are kept in words; the others are only counted (100).
+    /// Warnings that are kept as text; further ones are only counted (100).
     pub max_warnings: usize,
-    /// Threads that read one file; 0, the default, is one for each processor. What is read does not depend
-    /// on it.
+    /// Threads that read one file; 0, the default, is one per processor. Results do not depend on
+    /// it.
     pub threads: usize,
 }
 
@@ -51,10 +53,10 @@ impl Default for Limits {
 }
 
 impl Limits {
-    /// Checks that `count` of `what` stays within `limit`.
+    /// Checks that `count` of `what` is at most `limit`.
     ///
     /// # Errors
-    /// `LimitExceeded` naming both numbers.
+    /// `LimitExceeded` with both numbers.
     pub(crate) fn check(what: &str, count: u64, limit: u64) -> Result<(), AssetError> {
         if count <= limit {
             return Ok(());

@@ -1,16 +1,16 @@
-//! What was tolerated while reading: said, located, and bounded in number.
+//! Warnings: tolerated errors with their location, bounded in number.
 
 use crate::{Location, error::write_place};
 use std::fmt;
 
-/// Something odd in a file that did not stop its reading.
+/// An irregularity in a file that did not stop its reading.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Warning {
     /// Name of the file, which may be a side file (a material library, a texture).
     pub file: String,
-    /// Where in it.
+    /// Location in the file.
     pub location: Option<Location>,
-    /// What is odd and what was done about it.
+    /// The irregularity and how it was handled.
     pub message: String,
 }
 
@@ -21,9 +21,9 @@ impl fmt::Display for Warning {
     }
 }
 
-/// Collects warnings; the first ones are kept in words, all are counted.
+/// Collects warnings: the first ones are kept as text, all are counted.
 ///
-/// A hostile file can cause one per byte, so the words are only made for those that are kept.
+/// A hostile file can cause one per byte, so texts are only made for those that are kept.
 #[derive(Debug)]
 pub(crate) struct Warnings {
     kept: Vec<Warning>,
@@ -57,7 +57,7 @@ impl Warnings {
         }
     }
 
-    /// The kept warnings, and how many there were in all.
+    /// The kept warnings, and the number of all.
     pub(crate) fn finish(self) -> (Vec<Warning>, u64) {
         (self.kept, self.count)
     }

@@ -1,4 +1,4 @@
-//! OBJ and MTL: what the statements mean.
+//! OBJ and MTL: the meaning of the statements.
 
 use estampe_assets::model::{NoResources, ResourceError, Resources};
 use estampe_assets::{AssetError, Limits, Loaded, Location, ModelFormat, parse_model};
@@ -500,7 +500,7 @@ fn limits_hold() {
     assert_eq!(
         loaded.scene.meshes[0].triangles.len(),
         0,
-        "polygons above it are left out"
+        "polygons above it are omitted"
     );
     let one = Limits {
         max_meshes: 1,
@@ -529,8 +529,8 @@ fn hostile_sharing_takes_no_quadratic_time() {
     assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
 }
 
-/// Plain lines of large files are read ahead, by several threads; a blank before a line keeps it from being
-/// plain and changes nothing else.
+/// Plain lines of large files are read ahead, by several threads; a blank at the start makes a line
+/// not plain and has no other effect.
 #[test]
 fn plain_lines_mean_the_same_read_ahead() {
     let rows = 14_000_u32;
@@ -578,7 +578,7 @@ fn plain_lines_mean_the_same_read_ahead() {
         }
     }
     assert!(text.len() > 2 << 20, "several pieces: {}", text.len());
-    // Comments, and lines that go on, stay as they are.
+    // Comments and continued lines stay as they are.
     let lines = text.split_inclusive('\n');
     let odd: String = lines.flat_map(|line| [" ", line]).collect();
     let parse = |text: &str, limits: &Limits| {
@@ -617,7 +617,7 @@ fn plain_lines_mean_the_same_read_ahead() {
             assert_eq!(ahead.points, expected.points);
             assert_eq!(ahead.surfaces, expected.surfaces);
         }
-        // Limits hold at the same line.
+        // Limits apply at the same line.
         let few = Limits {
             max_vertices: 20_000,
             ..limits.clone()

@@ -24,7 +24,7 @@ fn mesh(bytes: &[u8]) -> Mesh {
 const XYZ: &str = "property float x\nproperty float y\nproperty float z\n";
 const SQUARE: &str = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
-/// An ASCII file of a square's four corners and what `elements` and `rows` add.
+/// An ASCII file of a square's four corners, extended by `elements` and `rows`.
 fn ascii(elements: &str, rows: &str) -> Vec<u8> {
     format!("ply\nformat ascii 1.0\nelement vertex 4\n{XYZ}{elements}end_header\n{SQUARE}{rows}")
         .into_bytes()

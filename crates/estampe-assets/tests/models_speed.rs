@@ -1,5 +1,5 @@
-//! How fast models are read. Run in release, by hand:
-//! `cargo test --release -p estampe-assets --test models_speed -- --ignored --nocapture`
+//! Speed of reading models. Run in release, by hand: `cargo test --release -p estampe-assets --test
+//! models_speed -- --ignored --nocapture`
 
 use estampe_assets::model::{NoResources, NormalMode, normals};
 use estampe_assets::{Limits, ModelFormat, parse_model};

@@ -19,7 +19,8 @@ fn read(bytes: &[u8]) -> Loaded {
     try_read(bytes).unwrap()
 }
 
-/// A binary file of triangles of the tetrahedron, each with its attribute, that announces `announced`.
+/// A binary file of triangles of the tetrahedron, each with its attribute, whose header states
+/// `announced` triangles.
 fn binary(header: &[u8], attributes: &[u16], announced: u32) -> Vec<u8> {
     let corners = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
     let mut bytes = vec![0; 80];

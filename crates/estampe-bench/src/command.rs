@@ -2,9 +2,11 @@
 
 use crate::frame::{FrameSize, PreparedScene};
 use crate::measure::{Effort, measure};
+use crate::models::write_models;
 use crate::picture::{Difference, Picture};
 use crate::report::{self, Report, Row};
 use crate::scene::{self, Detail, Scene, SceneEntry};
+use crate::states::{self, StatesArguments};
 use crate::versus::{self, CompareArguments};
 use crate::{BenchError, growth, stages};
 use clap::{Parser, Subcommand};
@@ -80,6 +82,14 @@ pub struct Arguments {
 pub enum Task {
     /// Compares estampe with lavapipe, scene by scene
     Compare(CompareArguments),
+    /// Writes the models on which PERFORMANCE.md measures the whole process
+    Models {
+        /// The folder that they are written to
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+    },
+    /// Measures what each state of the pipeline costs
+    States(StatesArguments),
 }
 
 /// Whether the pictures were as they should be.
@@ -110,22 +120,27 @@ impl Arguments {
         }
     }
 
+    /// The scenes that were asked for; to be compared, only those that the other renderer's client has.
     fn scenes(&self) -> Result<Vec<&'static SceneEntry>, BenchError> {
-        let asked = match &self.task {
-            Some(Task::Compare(compare)) => &compare.scenes,
-            None => &self.scenes,
+        let (asked, is_offered): (_, fn(&SceneEntry) -> bool) = match &self.task {
+            Some(Task::Compare(compare)) => (&compare.scenes, |entry| entry.is_peers),
+            _ => (&self.scenes, |_| true),
         };
+        let offered: Vec<_> = scene::ALL
+            .iter()
+            .filter(|entry| is_offered(entry))
+            .collect();
         if asked.is_empty() {
-            return Ok(scene::ALL.iter().collect());
+            return Ok(offered);
         }
-        let known = || {
-            let names: Vec<_> = scene::ALL.iter().map(|entry| entry.name).collect();
-            names.join(", ")
-        };
         let find = |name: &String| {
-            SceneEntry::named(name).ok_or_else(|| BenchError::UnknownScene {
-                name: name.clone(),
-                known: known(),
+            let found = offered.iter().find(|entry| entry.name == name);
+            found.copied().ok_or_else(|| {
+                let known: Vec<_> = offered.iter().map(|entry| entry.name).collect();
+                BenchError::UnknownScene {
+                    name: name.clone(),
+                    known: known.join(", "),
+                }
             })
         };
         asked.iter().map(find).collect()
@@ -138,9 +153,23 @@ impl Arguments {
 /// [`BenchError`]: wrong usage, or a file.
 pub fn run(arguments: &Arguments, out: &mut impl Write) -> Result<Outcome, BenchError> {
     let scenes = arguments.scenes()?;
-    if let Some(Task::Compare(compare)) = &arguments.task {
-        let names: Vec<_> = scenes.iter().map(|entry| entry.name).collect();
-        return versus::run(compare, &names, out).map(Outcome::of);
+    match &arguments.task {
+        Some(Task::Compare(compare)) => {
+            let names: Vec<_> = scenes.iter().map(|entry| entry.name).collect();
+            return versus::run(compare, &names, out).map(Outcome::of);
+        }
+        Some(Task::States(states)) => {
+            states::run(states, out)?;
+            return Ok(Outcome::Agreement);
+        }
+        Some(Task::Models { folder }) => {
+            write_models(folder).map_err(|source| BenchError::File {
+                path: folder.clone(),
+                source,
+            })?;
+            return Ok(Outcome::Agreement);
+        }
+        None => {}
     }
     if let Some(folder) = &arguments.growth {
         let section = growth::run(folder, Level::named(&arguments.simd)?)?;
@@ -272,6 +301,8 @@ mod tests {
             "bench --scenes fill,teapot",
             "bench --simd mmx",
             "bench compare --quick --scenes teapot",
+            "bench compare --quick --scenes quad_draws",
+            "bench states --states teapot",
         ] {
             let error = run(&parsed(line), &mut Vec::new()).unwrap_err();
             assert!(error.is_usage(), "{error}");

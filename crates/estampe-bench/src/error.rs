@@ -15,6 +15,14 @@ pub enum BenchError {
         /// What there is.
         known: String,
     },
+    /// There is no state of that name.
+    #[error("no state and no group of states is named '{name}'; the states are {known}")]
+    UnknownState {
+        /// What was asked for.
+        name: String,
+        /// What there is.
+        known: String,
+    },
     /// The SIMD level cannot be used.
     #[error(transparent)]
     Level(#[from] LevelError),
@@ -27,6 +35,9 @@ pub enum BenchError {
     /// A render target was refused.
     #[error(transparent)]
     Target(#[from] TargetError),
+    /// A texture was refused.
+    #[error("{0}")]
+    Texture(String),
     /// A file cannot be read or written.
     #[error("{path}: {source}")]
     File {
@@ -67,7 +78,11 @@ impl BenchError {
     pub fn is_usage(&self) -> bool {
         matches!(
             self,
-            Self::UnknownScene { .. } | Self::Level(_) | Self::Device(_) | Self::Target(_)
+            Self::UnknownScene { .. }
+                | Self::UnknownState { .. }
+                | Self::Level(_)
+                | Self::Device(_)
+                | Self::Target(_)
         )
     }
 }

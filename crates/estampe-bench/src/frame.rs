@@ -6,6 +6,7 @@ use estampe::{
     BindGroup, Binding, Bindings, Buffer, DepthTexture, Device, Draw, IndexFormat, LoadOp,
     RenderPass, RenderPipeline, RenderTarget, RenderTargetDescriptor, Statistics,
 };
+use std::ops::Range;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -66,7 +67,7 @@ struct Resources {
 #[derive(Debug)]
 struct PreparedDraw {
     draw: SceneDraw,
-    index_count: u32,
+    elements: Range<u32>,
 }
 
 /// What one frame took.
@@ -87,7 +88,7 @@ impl<'d> PreparedScene<'d> {
         let prepared = |draws: &[SceneDraw]| -> Vec<PreparedDraw> {
             let draws = draws.iter().map(|draw| PreparedDraw {
                 draw: *draw,
-                index_count: scene.index_count(draw),
+                elements: scene.elements(draw),
             });
             draws.collect()
         };
@@ -161,7 +162,24 @@ impl<'d> PreparedScene<'d> {
     /// The last frame's colours: RGBA8, row by row from the top.
     #[must_use]
     pub fn read_color(&self) -> Vec<u8> {
-        self.resolved.as_ref().unwrap_or(&self.target).read_color(0)
+        self.device.read_color(self.picture(), 0)
+    }
+
+    /// How many bytes [`Self::read_color`] gives.
+    #[must_use]
+    pub fn color_len_bytes(&self) -> usize {
+        self.picture().color_len_bytes(0)
+    }
+
+    /// [`Self::read_color`] into memory of [`Self::color_len_bytes`], by the device's threads.
+    pub fn read_color_into(&self, image: &mut [u8]) {
+        let read = self.device.read_color_into(self.picture(), 0, image);
+        debug_assert_eq!(read, Ok(()), "memory of color_len_bytes");
+    }
+
+    /// The target that holds the frame with one sample a pixel.
+    fn picture(&self) -> &RenderTarget {
+        self.resolved.as_ref().unwrap_or(&self.target)
     }
 
     /// The last frame's depths, row by row from the top.
@@ -217,12 +235,12 @@ fn render(
     });
     let bindings: Vec<Bindings> = bindings.collect();
     let recorded: Vec<Draw<'_>> = (draws.iter().zip(&bindings))
-        .map(|(PreparedDraw { draw, index_count }, bindings)| Draw {
+        .map(|(PreparedDraw { draw, elements }, bindings)| Draw {
             vertex_buffers: std::slice::from_ref(&resources.buffers[draw.vertices]),
             indices: Some((&resources.buffers[draw.indices], IndexFormat::Uint32)),
             instances: 0..draw.instances,
             bindings: Some(bindings),
-            ..Draw::new(&resources.pipelines[draw.pipeline], 0..*index_count)
+            ..Draw::new(&resources.pipelines[draw.pipeline], elements.clone())
         })
         .collect();
     let pass = RenderPass {

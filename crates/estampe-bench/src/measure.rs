@@ -35,6 +35,8 @@ impl Default for Effort {
 const MAX_FRAMES: usize = 1000;
 const WARM_UP: Duration = Duration::from_millis(150);
 const MAX_WARM_UP_FRAMES: usize = 50;
+/// How often reading back is measured.
+const READBACKS: usize = 15;
 /// Cores' worth of other processes' work that counts as a disturbance.
 const DISTURBED_CORES: f64 = 0.1;
 
@@ -63,8 +65,10 @@ pub struct Timing {
     pub first_ms: f64,
     /// Cores' worth of work that other processes did meanwhile.
     pub other_cores: f64,
-    /// De-tiling colour to rows, median; no part of the frame.
+    /// De-tiling colour to rows in memory that is used again, by the device's threads, median; no part of the frame.
     pub readback_ms: f64,
+    /// Copying as many bytes from rows to rows by one thread, median: the rate that de-tiling is held against.
+    pub copy_ms: f64,
     /// What a frame did; its times are the last frame's.
     pub statistics: Statistics,
 }
@@ -90,8 +94,10 @@ pub fn measure(scene: &mut PreparedScene<'_>, effort: Effort) -> Timing {
         }
     }
     let timing = best.expect("the loop runs at least once");
+    let [readback_ms, copy_ms] = measure_readback(scene);
     Timing {
-        readback_ms: measure_readback(scene),
+        readback_ms,
+        copy_ms,
         ..timing
     }
 }
@@ -143,17 +149,28 @@ fn measure_once(scene: &mut PreparedScene<'_>, effort: Effort) -> Timing {
         first_ms: 0.0,
         other_cores: machine.saturating_sub(spent).as_secs_f64() / elapsed.as_secs_f64(),
         readback_ms: 0.0,
+        copy_ms: 0.0,
         statistics: frames.last().expect("a frame was drawn").statistics,
     }
 }
 
-fn measure_readback(scene: &PreparedScene<'_>) -> f64 {
-    let times = (0..7).map(|_| {
+/// De-tiling colour to rows, and copying as many bytes, in turn. The first time takes memory from the system.
+fn measure_readback(scene: &PreparedScene<'_>) -> [f64; 2] {
+    let mut image = vec![0; scene.color_len_bytes()];
+    scene.read_color_into(&mut image);
+    let rows = image.clone();
+    let (mut readback, mut copy) = (Vec::new(), Vec::new());
+    for _ in 0..READBACKS {
         let start = Instant::now();
-        std::hint::black_box(scene.read_color());
-        ms(start.elapsed())
-    });
-    median(times.collect())
+        scene.read_color_into(&mut image);
+        readback.push(ms(start.elapsed()));
+        std::hint::black_box(&mut image);
+        let start = Instant::now();
+        image.copy_from_slice(std::hint::black_box(&rows));
+        copy.push(ms(start.elapsed()));
+        std::hint::black_box(&mut image);
+    }
+    [median(readback), median(copy)]
 }
 
 /// Milliseconds.

@@ -54,6 +54,8 @@ pub struct Row {
     pub other_cores: f64,
     /// De-tiling colour to rows: not part of the frame.
     pub readback_ms: f64,
+    /// Copying as many bytes by one thread.
+    pub copy_ms: f64,
     /// The geometry side, median.
     pub geometry_ms: f64,
     /// The tile side, median.
@@ -61,7 +63,7 @@ pub struct Row {
     /// Fragments shaded.
     pub fragments: u64,
     /// Runs of triangles, tile by tile, whose shading was put off until all were seen.
-    pub deferred_runs: u64,
+    pub visibility_runs: u64,
     /// The share of pixels, 0..=1, that differ from the other renderer's by more than the tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beyond: Option<f64>,
@@ -88,10 +90,11 @@ impl Row {
             first_ms: rounded(timing.first_ms),
             other_cores: rounded(timing.other_cores),
             readback_ms: rounded(timing.readback_ms),
+            copy_ms: rounded(timing.copy_ms),
             geometry_ms: rounded(timing.geometry_ms),
             raster_ms: rounded(timing.raster_ms),
             fragments: timing.statistics.fragments_shaded,
-            deferred_runs: timing.statistics.deferred_runs,
+            visibility_runs: timing.statistics.visibility_runs,
             beyond: None,
         }
     }
@@ -100,7 +103,7 @@ impl Row {
     #[must_use]
     pub fn line(&self) -> String {
         let size = format!("{}x{}", self.w, self.h);
-        let mut line = format!("{:<12}{size:>10}", self.scene);
+        let mut line = format!("{:<15}{size:>10}", self.scene);
         for value in [
             self.median_ms,
             self.min_ms,
@@ -111,6 +114,7 @@ impl Row {
             self.geometry_ms,
             self.raster_ms,
             self.readback_ms,
+            self.copy_ms,
             self.first_ms,
         ] {
             let _ = write!(line, "{value:>9.3}");
@@ -124,10 +128,10 @@ impl Row {
 /// The heads of the table's columns.
 #[must_use]
 pub fn header() -> String {
-    let mut line = format!("{:<12}{:>10}", "scene", "size");
+    let mut line = format!("{:<15}{:>10}", "scene", "size");
     for name in [
         "median", "min", "encode", "cpu", "cpu min", "thread", "geometry", "raster", "readback",
-        "first",
+        "copy", "first",
     ] {
         let _ = write!(line, "{name:>9}");
     }
@@ -219,6 +223,7 @@ mod tests {
             first_ms: 4.0,
             other_cores: 0.01,
             readback_ms: 0.3,
+            copy_ms: 0.2,
             statistics: estampe::Statistics::default(),
         };
         let report = Report {

@@ -1,7 +1,7 @@
 //! The generated data are `peerbench`'s, byte for byte.
 
 use estampe_bench::frame::FrameSize;
-use estampe_bench::scene::{Detail, SceneEntry};
+use estampe_bench::scene::{ALL, Detail, SceneEntry};
 
 /// Scene, triangles and fingerprint, as `peerbench` prints them at 1280×720.
 const PEERBENCH: &[(&str, u64, u64)] = &[
@@ -16,7 +16,13 @@ const PEERBENCH: &[(&str, u64, u64)] = &[
     ("shadow", 139_394, 0xf1e6_0395_f911_3e8e),
     ("msaa4", 69_696, 0x5d8f_b7d2_93ba_0559),
     ("instances", 1_000_000, 0x34e0_1eb1_75a5_2260),
+    ("fill_draws", 64, 0x0252_fe24_63db_7e25),
+    ("textured_draws", 32, 0x392a_b9bc_6e9e_47aa),
+    ("many_draws", 1_000_000, 0x34e0_1eb1_75a5_2260),
 ];
+
+/// The same of scenes that `peerbench` does not have, so that they stay what they are.
+const OURS: &[(&str, u64, u64)] = &[("quad_draws", 20_000, 0x2a65_8d6c_788e_f3ba)];
 
 #[test]
 fn the_data_are_those_of_peerbench() {
@@ -24,7 +30,7 @@ fn the_data_are_those_of_peerbench() {
         width: 1280,
         height: 720,
     };
-    for &(name, triangles, fingerprint) in PEERBENCH {
+    for &(name, triangles, fingerprint) in PEERBENCH.iter().chain(OURS) {
         let scene = SceneEntry::named(name)
             .expect(name)
             .make(Detail::Full, size);
@@ -35,5 +41,9 @@ fn the_data_are_those_of_peerbench() {
             "{name}: {:016x}, not {fingerprint:016x}",
             scene.fingerprint()
         );
+    }
+    let is_peers = |name: &str| PEERBENCH.iter().any(|(peers, ..)| *peers == name);
+    for entry in ALL {
+        assert_eq!(entry.is_peers, is_peers(entry.name), "{}", entry.name);
     }
 }

@@ -2,7 +2,7 @@
 
 use estampe::{Device, DeviceDescriptor, Level};
 use estampe_bench::frame::{FrameSize, PreparedScene};
-use estampe_bench::scene::{ALL, CLEAR_COLOR, Detail, Scene};
+use estampe_bench::scene::{ALL, CLEAR_COLOR, Detail, Scene, SceneEntry};
 
 /// Neither side is a multiple of a tile's.
 const SIZE: FrameSize = FrameSize {
@@ -53,7 +53,9 @@ fn a_scene_is_seen() {
         // How much of the frame each scene covers: full-screen quads, a sphere, a torus, a heap.
         let expected = match entry.name {
             "clear" => 0..=0,
-            "fill" | "fill_front" | "blend" | "heavy_fs" => pixels.len()..=pixels.len(),
+            "fill" | "fill_front" | "fill_draws" | "blend" | "heavy_fs" => {
+                pixels.len()..=pixels.len()
+            }
             _ => pixels.len() / 4..=pixels.len(),
         };
         assert!(
@@ -62,6 +64,24 @@ fn a_scene_is_seen() {
             entry.name,
             pixels.len()
         );
+    }
+}
+
+#[test]
+fn a_scene_in_more_draws_is_the_same_picture() {
+    let device = Device::new(&DeviceDescriptor::default()).unwrap();
+    for (one, many, count) in [
+        ("fill", "fill_draws", 32),
+        ("textured", "textured_draws", 16),
+        ("instances", "many_draws", 80 * 5),
+    ] {
+        let [whole, cut] =
+            [one, many].map(|name| SceneEntry::named(name).unwrap().make(Detail::Reduced, SIZE));
+        assert_eq!(
+            (cut.draws.len(), cut.triangles()),
+            (count, whole.triangles())
+        );
+        assert!(draw(&device, &cut) == draw(&device, &whole), "{many}");
     }
 }
 

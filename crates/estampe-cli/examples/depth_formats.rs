@@ -1,12 +1,12 @@
-//! Two planes a centimetre apart, from underfoot to nine kilometres away: which is in front, says each depth format.
+//! Precision of depth formats: two planes a centimetre apart, at distances up to nine kilometres.
 //!
 //! ```text
 //! cargo run --release -p estampe-cli --example depth_formats -- depth-formats.png
 //! ```
 //!
-//! The upper plane is blue; every red pixel is one where the depth buffer could not tell. From left to right:
-//! `Depth16Unorm`, `Depth24Plus`, `Depth32Float` with reversed z and an infinite far plane, and `Depth16Unorm`
-//! again with logarithmic depth, which the fragment shader writes.
+//! The upper plane is blue; at each red pixel the depth buffer could not resolve the two. From left
+//! to right: `Depth16Unorm`, `Depth24Plus`, `Depth32Float` with reversed z and an infinite far
+//! plane, and `Depth16Unorm` again with logarithmic depth, which the fragment shader writes.
 
 #![expect(clippy::print_stdout, reason = "an example talks to who runs it")]
 
@@ -26,16 +26,16 @@ use std::error::Error;
 
 const NEAR: f32 = 0.01;
 const FAR: f32 = 10_000.0;
-/// Of one panel.
+/// Size of one panel, in pixels.
 const SIZE: [u32; 2] = [240, 320];
 
-/// A plane of one colour, ruled by its distance: its depth is the projection's.
+/// A plane of one colour with stripes by distance. Its depth is the projection's.
 struct Plane {
     clip_from_world: Mat4,
     color: [f32; 3],
 }
 
-/// The same; its depth is log₂(1 + w) / log₂(1 + far).
+/// The same plane with the depth log₂(1 + w) / log₂(1 + far).
 struct LogarithmicPlane(Plane);
 
 estampe::shader! {
@@ -75,7 +75,7 @@ estampe::shader! {
     }
 }
 
-/// How depth is made and kept.
+/// A depth format with its projection and shader.
 #[derive(Debug, Clone, Copy)]
 struct Method {
     format: TextureFormat,
@@ -147,7 +147,7 @@ fn panel(device: &Device, method: Method) -> Result<Vec<u8>, Box<dyn Error>> {
         });
         device.create_render_pipeline(&descriptor)
     };
-    // The lower plane first, so that it is seen where both depths are stored alike.
+    // The lower plane is drawn first, so that it stays visible where both depths are stored alike.
     let (lower, upper) = (pipeline([0.9, 0.15, 0.1])?, pipeline([0.2, 0.45, 0.9])?);
     let (lower_corners, upper_corners) = (plane(0.0), plane(0.01));
     let draws = [(&lower, &lower_corners), (&upper, &upper_corners)];
@@ -171,7 +171,7 @@ fn panel(device: &Device, method: Method) -> Result<Vec<u8>, Box<dyn Error>> {
     Ok(target.read_color(0))
 }
 
-/// How many pixels show the lower plane.
+/// Number of pixels that show the lower plane.
 fn pixels_of_the_lower(pixels: &[u8]) -> usize {
     let is_lower = |[r, _, b, _]: &&[u8; 4]| r > b;
     pixels.as_chunks().0.iter().filter(is_lower).count()

@@ -1,4 +1,4 @@
-//! `estampe info`: what is in a model.
+//! `estampe info`: describes the contents of a model.
 
 use crate::failure::Failure;
 use crate::input::Model;
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-/// Tells what is in a model: counts, bounds, attributes, materials, and what the reader found odd.
+/// Describes a model: counts, bounds, attributes, materials, and the reader's warnings.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "\
 Examples:
@@ -19,14 +19,14 @@ Examples:
   estampe info part.stl --json | jq .counts.triangles
 
 Bounds are in the file's own space. Vertices are counted as they are drawn: corners of faces that differ in a \
-normal or texture coordinate are vertices of their own. Normals that a file lacks are made while reading.
+normal or texture coordinate are separate vertices. Missing normals are computed while reading.
 
-Exit codes: 0 done, 1 the model is at fault (or missing), 2 wrong usage, 3 the report cannot be written.
+Exit codes: 0 success, 1 the model is missing or invalid, 2 wrong usage, 3 the report cannot be written.
 
 With --json one object is written: model, format, up, counts {meshes, vertices, triangles, lines, points, \
 materials, textures}, bounds {min, max, size} or null, meshes [{name, vertices, triangles, lines, points, \
 attributes, materials}], materials [{name, base_color, opacity, specular, shininess, emissive, texture, \
-alpha}], textures [{width, height}], warnings [text], warning_count. A failure gives {error, exit_code}.")]
+alpha}], textures [{width, height}], warnings [text], warning_count. An error gives {error, exit_code}.")]
 pub(crate) struct InfoArgs {
     /// The model: a file, builtin:NAME, or - for standard input
     #[arg(value_name = "MODEL")]
@@ -54,7 +54,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
         .and_then(|()| out.flush())
         .map_err(|error| {
             Failure::Output(format!(
-                "the report: {error}; check what reads standard output"
+                "the report: {error}; check the program that reads standard output"
             ))
         })
 }
@@ -67,7 +67,7 @@ fn bounds(scene: &Scene) -> Option<Bounds> {
     (!union.is_empty()).then_some(union)
 }
 
-/// The attributes that a mesh has, besides positions.
+/// The attributes of a mesh besides positions.
 fn attributes(mesh: &Mesh) -> Vec<&'static str> {
     let has = [
         ("normals", !mesh.normals.is_empty()),
@@ -80,7 +80,7 @@ fn attributes(mesh: &Mesh) -> Vec<&'static str> {
         .collect()
 }
 
-/// The materials that a mesh's surfaces name, each once, in order.
+/// The materials that a mesh's surfaces use, each once, in order.
 fn materials_of(mesh: &Mesh) -> Vec<usize> {
     let mut named: Vec<usize> = mesh
         .surfaces
@@ -152,7 +152,7 @@ fn json(model: &Model) -> Value {
     })
 }
 
-/// The report for people. Writing into a `String` cannot fail.
+/// The report as text. Writing into a `String` cannot fail.
 fn text(model: &Model) -> String {
     const LISTED: usize = 20;
     let scene = &model.scene;

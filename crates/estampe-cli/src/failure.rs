@@ -1,20 +1,20 @@
-//! Why a command failed, by whose fault it is: that decides the exit code.
+//! Errors of a command by their cause, which determines the exit code.
 
 use estampe_assets::AssetError;
 use estampe_renderer::RenderError;
 use std::fmt;
 
-/// The command did what was asked.
+/// The command succeeded.
 pub(crate) const DONE: u8 = 0;
 
-/// A failure: one sentence that says what, where, and what to do.
+/// An error: one sentence with the problem, its place, and advice.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Failure {
-    /// The input is at fault: missing, malformed, or without anything to draw. Exit code 1.
+    /// The input is missing, malformed, or has nothing to draw. Exit code 1.
     Input(String),
-    /// The command line asks for what does not exist. Exit code 2.
+    /// The command line is invalid. Exit code 2.
     Usage(String),
-    /// The output cannot be written, or the system refuses. Exit code 3.
+    /// The output cannot be written, or the system refuses a resource. Exit code 3.
     Output(String),
 }
 
@@ -39,7 +39,7 @@ impl fmt::Display for Failure {
     }
 }
 
-/// What a file that is read is at fault of.
+/// Maps reader errors to their cause.
 impl From<AssetError> for Failure {
     fn from(error: AssetError) -> Self {
         Self::Input(error.to_string())

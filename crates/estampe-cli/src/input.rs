@@ -16,24 +16,24 @@ use std::time::{Duration, Instant};
 #[derive(Debug)]
 pub(crate) struct Model {
     pub(crate) scene: Scene,
-    /// How people know it: the path, `standard input`, or the built-in name.
+    /// Name for messages: the path, `standard input`, or the built-in name.
     pub(crate) name: String,
     /// `None` for built-in models.
     pub(crate) format: Option<ModelFormat>,
     /// The first warnings of the reader.
     pub(crate) warnings: Vec<Warning>,
-    /// How many there were.
+    /// Number of all warnings.
     pub(crate) warning_count: u64,
-    /// How long the bytes took.
+    /// Time to read the bytes.
     pub(crate) read: Duration,
-    /// How long it took to make a scene of them, normals included.
+    /// Time to build a scene from the bytes, normals included.
     pub(crate) parse: Duration,
 }
 
 impl Model {
     /// Reads a model.
     ///
-    /// `on_stage` is told what comes next.
+    /// `on_stage` is called before each stage with its name.
     pub(crate) fn read(
         source: &Source,
         format: Option<FormatName>,
@@ -49,13 +49,14 @@ impl Model {
                 let name = "standard input";
                 let Some(format) = format else {
                     return Err(Failure::Usage(
-                        "standard input has no name to tell the format by; add --format obj, stl or \
+                        "standard input has no file name that shows the format; add --format obj, stl or \
                          ply"
                         .to_owned(),
                     ));
                 };
-                let bytes = read_stream(io::stdin().lock(), limits)
-                    .map_err(|error| unreadable(name, &error, "check what feeds it"))?;
+                let bytes = read_stream(io::stdin().lock(), limits).map_err(|error| {
+                    unreadable(name, &error, "check the program that writes it")
+                })?;
                 let read = start.elapsed();
                 on_stage("parsing");
                 Self::parsed(read, name, || {
@@ -133,7 +134,7 @@ impl Model {
     pub(crate) fn print_warnings(&self) {
         const SHOWN: usize = 5;
         let mut err = io::stderr().lock();
-        // Where standard error is closed there is nobody to warn.
+        // If standard error is closed, warnings are lost.
         for warning in self.warnings.iter().take(SHOWN) {
             let _ = writeln!(err, "warning: {warning}");
         }
@@ -145,7 +146,7 @@ impl Model {
     }
 }
 
-/// The bytes of a file that the user named, which may be a pipe; never more than the limit.
+/// The bytes of a file that the user named, which may be a pipe; at most the limit.
 pub(crate) fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, Failure> {
     let name = shown(path);
     let advice = "check the path and its permissions";
@@ -168,7 +169,7 @@ pub(crate) fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, Failure
 
 fn unreadable(name: &str, error: &io::Error, advice: &str) -> Failure {
     let reason = match error.kind() {
-        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::NotFound => "no such file".to_owned(),
         _ => error.to_string(),
     };
     Failure::Input(format!("{name}: {reason}; {advice}"))

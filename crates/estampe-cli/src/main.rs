@@ -1,12 +1,13 @@
 #![forbid(unsafe_code)]
 //! The `estampe` command.
 //!
-//! * [`render`]: a model becomes a picture;
-//! * [`describe`]: what is in a model;
-//! * [`diff`]: how far two pictures are apart.
+//! * [`render`]: renders a model to an image;
+//! * [`describe`]: describes the contents of a model;
+//! * [`diff`]: measures the difference of two images.
 //!
-//! [`input`] reads models from files, standard input or by built-in name, [`output`] writes files whole or
-//! not at all, [`values`] reads the options' values, and [`failure`] holds the exit codes.
+//! [`input`] reads models from files, standard input or by built-in name, [`output`] writes files
+//! completely or not at all, [`values`] parses the options' values, and [`failure`] has the exit
+//! codes.
 
 mod describe;
 mod diff;
@@ -24,7 +25,7 @@ use std::sync::LazyLock;
 use clap::{Parser, Subcommand};
 use failure::Failure;
 
-/// Turns 3D models into pictures, on any machine: no GPU, no display, no system libraries. The same
+/// Renders 3D models to images, on any machine: no GPU, no display, no system libraries. The same
 /// command gives the same bytes everywhere.
 #[derive(Debug, Parser)]
 #[command(name = "estampe", version = version(), arg_required_else_help = true)]
@@ -35,7 +36,7 @@ Examples:
   estampe info model.stl
   estampe diff expected.png actual.png
 
-`estampe help COMMAND` tells everything about a command.")]
+`estampe help COMMAND` explains all options of a command.")]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -43,13 +44,13 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    // Boxed: it has many options.
+    // Boxed, because it has many options.
     Render(Box<render::RenderArgs>),
     Info(describe::InfoArgs),
     Diff(diff::DiffArgs),
 }
 
-/// The version of the program, and of its pictures.
+/// The versions of the program and of its images.
 fn version() -> &'static str {
     static VERSION: LazyLock<String> = LazyLock::new(|| {
         let pictures = estampe_renderer::PICTURE_VERSION;
@@ -75,14 +76,14 @@ fn main() -> ExitCode {
     ExitCode::from(code)
 }
 
-/// Tells why a command failed, if it did, and gives its exit code. `json` is whether an object is wanted
-/// too, and whether it goes to standard error.
+/// Reports the error of a command, if any, and returns its exit code. `json` is set if a JSON
+/// object is wanted too; it is true if the object goes to standard error.
 fn report(command: &str, json: Option<bool>, result: Result<(), Failure>) -> u8 {
     let Err(failure) = result else {
         return failure::DONE;
     };
     let code = failure.exit_code();
-    // Where these streams are closed there is nobody to tell; the exit code remains.
+    // If these streams are closed, only the exit code reports the error.
     if let Some(to_standard_error) = json {
         let object = serde_json::json!({ "error": failure.to_string(), "exit_code": code });
         let _ = if to_standard_error {

@@ -1,4 +1,4 @@
-//! Files written whole or not at all.
+//! Output files, written completely or not at all.
 
 use crate::failure::Failure;
 use crate::values::{Destination, shown};
@@ -6,7 +6,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Refuses, before any work is done, a destination that cannot be written.
+/// Checks a destination before any work is done, and refuses one that cannot be written.
 pub(crate) fn check(destination: &Destination) -> Result<(), Failure> {
     let Destination::File(path) = destination else {
         return Ok(());
@@ -23,7 +23,7 @@ pub(crate) fn check(destination: &Destination) -> Result<(), Failure> {
     }
     let (name, folder) = (shown(path), shown(folder));
     Err(Failure::Output(format!(
-        "{name}: there is no folder {folder}; make it first"
+        "{name}: the folder {folder} does not exist; create it first"
     )))
 }
 
@@ -35,7 +35,9 @@ pub(crate) fn write(destination: &Destination, bytes: &[u8]) -> Result<(), Failu
             out.write_all(bytes)
                 .and_then(|()| out.flush())
                 .map_err(|error| {
-                    Failure::Output(format!("standard output: {error}; check what reads it"))
+                    Failure::Output(format!(
+                        "standard output: {error}; check the program that reads it"
+                    ))
                 })
         }
         Destination::File(path) => write_whole(path, bytes).map_err(|error| {
@@ -47,8 +49,9 @@ pub(crate) fn write(destination: &Destination, bytes: &[u8]) -> Result<(), Failu
     }
 }
 
-/// Writes a file beside its place, then renames it: whoever looks sees the old file or the new one. A
-/// link is followed; a device or pipe is written in place, for it must not be replaced.
+/// Writes a temporary file in the same folder, then renames it, so that other processes see the old
+/// file or the new one. Links are followed. A device or pipe is written in place, because it must
+/// not be replaced.
 fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file()) {
@@ -59,14 +62,14 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
         .write_all(bytes)
         .and_then(|()| fs::rename(&part, &path));
     if written.is_err() {
-        // The first error is the one to report, whether or not a part is left to remove.
+        // The first error is reported; removing the temporary file may fail.
         let _ = fs::remove_file(&part);
     }
     written
 }
 
-/// Creates the file that is written first: hidden, in the same folder, and new, so that nothing that
-/// lies there, not even a link, is written to.
+/// Creates the temporary file: hidden, in the same folder, and always a new file, so that no
+/// existing file or link is overwritten.
 fn create_part(path: &Path) -> io::Result<(PathBuf, File)> {
     const MOST_TRIES: u32 = 100;
     let mut tries = 0;

@@ -1,4 +1,4 @@
-//! A progress bar, on a terminal, for what takes over a second.
+//! A progress bar, on a terminal, for jobs that take over a second.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -6,17 +6,17 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Nothing is shown before this.
+/// Delay before the bar appears.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Shows which stage of a job runs. Dropping it removes the bar.
+/// Shows the current stage of a job. Dropping it removes the bar.
 #[derive(Debug)]
 pub(crate) struct Progress {
     watcher: Option<(Sender<&'static str>, JoinHandle<()>)>,
 }
 
 impl Progress {
-    /// Watches a job of so many stages; silent where standard error is no terminal.
+    /// Progress of a job with this number of stages; silent if standard error is no terminal.
     pub(crate) fn new(stages: u64, is_quiet: bool) -> Self {
         let is_shown = !is_quiet && std::io::stderr().is_terminal();
         let watcher = is_shown.then(|| {
@@ -26,10 +26,10 @@ impl Progress {
         Self { watcher }
     }
 
-    /// The next stage begins.
+    /// Starts the next stage.
     pub(crate) fn stage(&self, name: &'static str) {
         if let Some((sender, _)) = &self.watcher {
-            // A watcher that has ended has nothing to show.
+            // If the thread has ended, there is no bar to update.
             let _ = sender.send(name);
         }
     }
@@ -39,13 +39,13 @@ impl Drop for Progress {
     fn drop(&mut self) {
         if let Some((sender, thread)) = self.watcher.take() {
             drop(sender);
-            // It has no result, and a panic in it was printed already.
+            // The thread has no result, and its panic was printed already.
             let _ = thread.join();
         }
     }
 }
 
-/// Counts the stages; shows a bar once patience has run out, until the sender is gone.
+/// Counts the stages and shows a bar after the delay, until the sender is dropped.
 fn watch(stages: &Receiver<&'static str>, count: u64) {
     let start = Instant::now();
     let mut bar: Option<ProgressBar> = None;

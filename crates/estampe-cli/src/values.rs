@@ -1,14 +1,15 @@
-//! The values of options: how they are written and what they mean.
+//! Parsers for the values of options.
 
 use estampe::Level;
 use estampe_assets::ModelFormat;
 use estampe_assets::image::ImageFormat;
+use estampe_renderer::transforms::round_to_f32;
 use estampe_renderer::{CullMode, Shading, Up, ViewDirection};
 use estampe_scene::UpAxis;
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 
-/// The greatest width and height of a picture.
+/// The greatest width and height of an image.
 pub(crate) const MAX_SIDE: u32 = 16_384;
 
 /// `WxH` in pixels.
@@ -41,7 +42,7 @@ pub(crate) fn azimuth(text: &str) -> Result<f64, String> {
     number_between(text, -36_000.0, 36_000.0)
 }
 
-/// Degrees above the level.
+/// Degrees above the horizontal plane.
 pub(crate) fn elevation(text: &str) -> Result<f64, String> {
     number_between(text, -90.0, 90.0)
 }
@@ -51,7 +52,7 @@ pub(crate) fn fov(text: &str) -> Result<f64, String> {
     number_between(text, 0.1, 175.0)
 }
 
-/// A fraction of the shorter side.
+/// A fraction of the shorter side of the image.
 pub(crate) fn margin(text: &str) -> Result<f64, String> {
     number_between(text, 0.0, 0.49)
 }
@@ -59,7 +60,7 @@ pub(crate) fn margin(text: &str) -> Result<f64, String> {
 /// Ambient light.
 pub(crate) fn ambient(text: &str) -> Result<f32, String> {
     let ambient = number_between(text, 0.0, 10.0)?;
-    Ok(DVec3::splat(ambient).as_vec3().x)
+    Ok(round_to_f32(ambient))
 }
 
 /// `x,y,z`.
@@ -74,7 +75,9 @@ pub(crate) fn vector(text: &str) -> Result<DVec3, String> {
 /// `x,y,z`, not all zero.
 pub(crate) fn direction(text: &str) -> Result<DVec3, String> {
     match vector(text)? {
-        DVec3::ZERO => Err("0,0,0 is no direction".to_owned()),
+        DVec3::ZERO => {
+            Err("0,0,0 is not a direction; write three numbers that are not all zero".to_owned())
+        }
         direction => Ok(direction),
     }
 }
@@ -90,7 +93,7 @@ pub(crate) fn up(text: &str) -> Result<Up, String> {
     }
 }
 
-/// `none` or `#rrggbb`, the mark optional because shells take it for a comment.
+/// `none` or `#rrggbb`. The mark is optional because shells take it for a comment.
 pub(crate) fn background(text: &str) -> Result<Background, String> {
     if text.eq_ignore_ascii_case("none") {
         return Ok(Background(None));
@@ -115,7 +118,7 @@ pub(crate) fn simd(text: &str) -> Result<Level, String> {
     Level::named(text).map_err(|error| error.to_string())
 }
 
-/// Where a model comes from.
+/// Source of a model.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Source {
     /// A file.
@@ -138,7 +141,7 @@ impl From<std::ffi::OsString> for Source {
     }
 }
 
-/// Where a picture goes.
+/// Destination of an image.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Destination {
     /// A file.
@@ -148,12 +151,12 @@ pub(crate) enum Destination {
 }
 
 impl Destination {
-    /// Whether it is standard output.
+    /// True for standard output.
     pub(crate) fn is_standard_output(&self) -> bool {
         matches!(self, Self::StandardOutput)
     }
 
-    /// The format that the name asks for.
+    /// The format of the destination's extension.
     pub(crate) fn image_format(&self) -> Option<ImageFormat> {
         match self {
             Self::File(path) => ImageFormat::from_path(path),
@@ -172,7 +175,7 @@ impl From<std::ffi::OsString> for Destination {
     }
 }
 
-/// The path as people write it.
+/// The path for messages.
 pub(crate) fn shown(path: &Path) -> String {
     path.display().to_string()
 }
@@ -198,7 +201,7 @@ impl From<FormatName> for ModelFormat {
     }
 }
 
-/// Formats of pictures.
+/// Formats of images.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum ImageFormatName {
     /// Lossless, with alpha
@@ -253,20 +256,20 @@ impl From<ViewName> for ViewDirection {
     }
 }
 
-/// Looks.
+/// Names of shadings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum ShadingName {
-    /// One light for each face
+    /// Lighting once per face
     Flat,
-    /// Light at the vertices, interpolated
+    /// Lighting at the vertices, interpolated
     Gouraud,
-    /// Light at every pixel
+    /// Lighting at every pixel
     Phong,
-    /// Light in four steps, like a drawing
+    /// Lighting in four steps
     Toon,
-    /// Colours and textures as they are
+    /// Colours and textures without lighting
     Unlit,
-    /// Edges; faces hide what lies behind them
+    /// Edges; faces hide the edges behind them
     Wireframe,
     /// Normals as colours: red right, green up, blue towards the eye
     Normals,
@@ -292,14 +295,14 @@ impl From<ShadingName> for Shading {
     }
 }
 
-/// Which faces are left out.
+/// Names of cull modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum CullName {
     /// None: both sides of every face are drawn
     None,
-    /// Those that turn away
+    /// Faces that face away
     Back,
-    /// Those that face the viewer
+    /// Faces that face the viewer
     Front,
 }
 

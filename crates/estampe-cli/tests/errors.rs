@@ -1,4 +1,4 @@
-//! What the command says and returns when something is wrong, and that it leaves nothing behind.
+//! Error messages and exit codes of the command; failed commands leave no files behind.
 
 mod support;
 
@@ -45,7 +45,7 @@ fn a_fault_of_the_input_is_1() {
         );
         assert!(run.out.is_empty() && !out.exists());
     }
-    // A texture needs coordinates to lie on.
+    // A texture requires texture coordinates.
     let picture = estampe(
         "render builtin:cube -o {} -q --size 4x4",
         &[&folder.path("t.png")],

@@ -32,10 +32,11 @@ pub struct Draw<'a> {
     pub blend_constant: [f32; 4],
     /// The stencil reference where the front is seen and where the back is. Default zeros.
     pub stencil_reference: [u8; 2],
-    /// Fragments are drawn only where the *stored* depth lies in this range, both ends included. (Vulkan's depth
-    /// bounds test.) Default none.
+    /// Fragments are drawn only where the *stored* depth lies in this range, both ends included.
+    /// (Vulkan's depth bounds test.) Default none.
     pub depth_bounds: Option<[f32; 2]>,
-    /// Which of the pass's [`OcclusionQueries`] counts the samples that pass all tests. Default none.
+    /// Which of the pass's [`OcclusionQueries`] counts the samples that pass all tests. Default
+    /// none.
     pub occlusion_query: Option<u32>,
 }
 
@@ -60,20 +61,21 @@ impl<'a> Draw<'a> {
         }
     }
 
-    /// A draw whose ranges stand in a buffer, at an offset in bytes, as four 32-bit numbers (WebGPU's
-    /// `drawIndirect`): how many vertices, how many instances, the first vertex, the first instance. Numbers
-    /// beyond the buffer's end are zero.
+    /// A draw whose ranges stand in a buffer, at an offset in bytes, as four 32-bit numbers
+    /// (WebGPU's `drawIndirect`): how many vertices, how many instances, the first vertex, the
+    /// first instance. Numbers beyond the buffer's end are zero.
     ///
-    /// Of more than [`Draw::INDIRECT_LIMIT`] vertices, over all instances, those beyond are not drawn, so
-    /// that no buffer keeps a program busy for hours. Several draws of one buffer are several calls.
+    /// Of more than [`Draw::INDIRECT_LIMIT`] vertices, over all instances, those beyond are not
+    /// drawn, so that no buffer keeps a program busy for hours. Several draws of one buffer are
+    /// several calls.
     #[must_use]
     pub fn indirect(pipeline: &'a RenderPipeline, parameters: &Buffer, offset: usize) -> Self {
         let [count, instances, first, first_instance, _] = indirect_words(parameters, offset);
         Self::limited(pipeline, [first, count], [first_instance, instances])
     }
 
-    /// The same with an index buffer, and five numbers (WebGPU's `drawIndexedIndirect`): how many indices, how many
-    /// instances, the first index, the base vertex, the first instance.
+    /// The same with an index buffer, and five numbers (WebGPU's `drawIndexedIndirect`): how many
+    /// indices, how many instances, the first index, the base vertex, the first instance.
     #[must_use]
     pub fn indexed_indirect(
         pipeline: &'a RenderPipeline,
@@ -123,8 +125,9 @@ pub enum LoadOp<T> {
 /// Draws into one target, with what becomes of its old contents.
 #[derive(Debug, Clone)]
 pub struct RenderPass<'a> {
-    /// By colour attachment: linear RGBA, which the attachment's format stores as it stores a fragment's colour; of
-    /// integer formats the integers. Attachments beyond the list's end are cleared to zeros.
+    /// By colour attachment: linear RGBA, which the attachment's format stores as it stores a
+    /// fragment's colour; of integer formats the integers. Attachments beyond the list's end are
+    /// cleared to zeros.
     pub load_colors: Vec<LoadOp<[f64; 4]>>,
     /// Of the depth attachment: a number in 0..=1.
     pub load_depth: LoadOp<f32>,
@@ -149,8 +152,8 @@ impl Default for RenderPass<'_> {
     }
 }
 
-/// Counters of samples that pass all tests (O10); a draw names the one that it adds to. What is counted is exact,
-/// and does not depend on threads or the SIMD level.
+/// Counters of samples that pass all tests (O10); a draw names the one that it adds to. What is
+/// counted is exact, and does not depend on threads or the SIMD level.
 #[derive(Debug, Default)]
 pub struct OcclusionQueries {
     counters: Vec<AtomicU64>,

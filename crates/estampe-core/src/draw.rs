@@ -1,23 +1,24 @@
 //! The page on which the pipeline reads: what a draw is, and the order in which its stages run.
 
-use crate::attachment::RenderTarget;
 use crate::attachment::resolve::ResolveJob;
-use crate::commands::{LoadOp, OcclusionQueries, RenderPass};
-use crate::geometry::assembly::ElementSource;
-use crate::geometry::binning::BinState;
-use crate::geometry::chunk::{ChunkScratch, ChunkWork, process};
-use crate::geometry::cull::CullState;
-use crate::geometry::line_style::{LineRun, LineStyle};
-use crate::geometry::shading::{ShadedVertices, ShadingScratch, shade};
+use crate::attachment::{ReadbackError, RenderTarget};
+use crate::bounds::chunk::{Chunk, ChunkIndex};
+use crate::commands::{OcclusionQueries, RenderPass};
+use crate::geometry::chunk::{ChunkScratch, add_run};
+use crate::geometry::shaded_vertices::{ShadedVertices, VertexJob};
+use crate::geometry::shading::{ShadingScratch, shade};
 use crate::layout::texel_words;
-use crate::per_sample::texel::TexelCodec;
-use crate::raster::general::sample_range;
-use crate::recording::Phase;
+use crate::plan::chunk_plan::{ChunkPart, ChunkPlan};
+use crate::plan::draw_batch::DrawBatch;
+use crate::plan::draw_cursor::DrawCursor;
+use crate::plan::draw_state::DrawState;
+use crate::plan::sub_draw::SubDraw;
+use crate::plan::tile_plan::{PlannedGeometry, TargetFacts, TilePlan};
+use crate::profile::JobTimings;
+use crate::raster::MAX_SAMPLES;
 use crate::schedule::{Executor, ThreadError};
 use crate::statistics::Statistics;
-use crate::tile_pass::{self, AnyTileScratch, Clear, TileItem, TileJob, TilePass, TileScratch};
-use crate::tiles::{Chunk, ChunkIndex};
-use crate::wave::{Item, VertexJob, Waves, is_line_strip};
+use crate::tile_pass::{self, Clear, TileJob, TilePass, TileScratch};
 use estampe_simd::Level;
 use estampe_types::DepthTexture;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -36,39 +37,40 @@ pub struct Context {
 struct Memory {
     lists: Lists,
     vertices: ShadedVertices,
+    chunk_plan: ChunkPlan,
     chunks: Vec<Chunk>,
     chunk_index: ChunkIndex,
     shading: Vec<Mutex<ShadingScratch>>,
     chunk_scratch: Vec<Mutex<ChunkScratch>>,
     tiles_1: Vec<Mutex<TileScratch<1>>>,
     tiles_4: Vec<Mutex<TileScratch<4>>>,
-    tiles_any: Vec<Mutex<AnyTileScratch>>,
+    tiles_many: Vec<Mutex<TileScratch<MAX_SAMPLES>>>,
 }
 
 /// Lists whose elements borrow from a pass, empty between passes: see [`recycled`].
 #[derive(Debug, Default)]
 struct Lists {
-    items: Vec<Item<'static>>,
+    states: Vec<DrawState<'static>>,
+    sub_draws: Vec<SubDraw<'static>>,
     vertex_jobs: Vec<VertexJob<'static>>,
     chunk_jobs: Vec<ChunkJob<'static>>,
-    tile_items: Vec<TileItem<'static>>,
+    plans: Vec<TilePlan<'static>>,
     tile_jobs: Vec<TileJob<'static>>,
 }
 
-/// An empty list in the memory of another one, whose elements differ in a lifetime alone. (The standard
-/// library collects in place where sizes agree; if it did not, this would only be slower.)
+/// An empty list in the memory of another one, whose elements differ in a lifetime alone. (The
+/// standard library collects in place where sizes agree; if it did not, this would only be slower.)
 fn recycled<A, B>(mut list: Vec<A>) -> Vec<B> {
     list.clear();
     let none = |_| unreachable!("the list was cleared");
     list.into_iter().map(none).collect()
 }
 
-/// The primitives of a chunk.
+/// A chunk, and the primitives that it takes.
 #[derive(Debug)]
 struct ChunkJob<'a> {
     chunk: &'a mut Chunk,
-    item: usize,
-    primitives: [u32; 2],
+    parts: &'a [ChunkPart],
 }
 
 impl Context {
@@ -80,11 +82,11 @@ impl Context {
         Ok(Self::on(Executor::new(threads)?, level))
     }
 
-    /// A context that draws on the calling thread alone and notes what each job took: see
-    /// [`Context::take_phases`].
+    /// A context that draws on the calling thread alone and measures what each job takes: see
+    /// [`Context::take_timings`].
     #[must_use]
-    pub fn recording(level: Level) -> Self {
-        Self::on(Executor::recording(), level)
+    pub fn profiling(level: Level) -> Self {
+        Self::on(Executor::profiling(), level)
     }
 
     fn on(executor: Executor, level: Level) -> Self {
@@ -94,7 +96,7 @@ impl Context {
         memory.chunk_scratch.resize_with(workers, Mutex::default);
         memory.tiles_1.resize_with(workers, Mutex::default);
         memory.tiles_4.resize_with(workers, Mutex::default);
-        memory.tiles_any.resize_with(workers, Mutex::default);
+        memory.tiles_many.resize_with(workers, Mutex::default);
         Self {
             level,
             executor,
@@ -102,11 +104,11 @@ impl Context {
         }
     }
 
-    /// What each job took since the last call; nothing unless the context is one that
-    /// [records](Context::recording).
+    /// What each job took since the last call; nothing unless the context is made for
+    /// [profiling](Context::profiling).
     #[must_use]
-    pub fn take_phases(&self) -> Vec<Phase> {
-        self.executor.take_phases()
+    pub fn take_timings(&self) -> Vec<JobTimings> {
+        self.executor.take_timings()
     }
 
     /// The SIMD level that kernels run at.
@@ -121,51 +123,76 @@ impl Context {
         self.executor.threads()
     }
 
-    /// Draws a pass. It cannot fail: what a draw lacks reads as zeros, and a draw whose pipeline does
-    /// not fit the target (samples, formats, depth), or whose viewport is not finite, draws nothing.
+    /// Draws a pass. It cannot fail: what a draw lacks reads as zeros, and a draw whose pipeline
+    /// does not fit the target (samples, formats, depth), or whose viewport is not finite, draws
+    /// nothing.
     pub fn render(&self, target: &mut RenderTarget, pass: &RenderPass<'_>) -> Statistics {
         let mut memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
         let memory = &mut *memory;
         let mut statistics = Statistics::default();
-        let mut waves = Waves::new(pass.draws);
-        let mut items = recycled(std::mem::take(&mut memory.lists.items));
+        let mut cursor = DrawCursor::new(pass.draws);
+        let mut batch = DrawBatch {
+            states: recycled(std::mem::take(&mut memory.lists.states)),
+            sub_draws: recycled(std::mem::take(&mut memory.lists.sub_draws)),
+            invisible_primitives: 0,
+        };
         let mut clear = Clear::new(target, pass);
         loop {
             let start = Instant::now();
-            let more = waves.next_wave(&self.executor, target, &mut items);
+            let more = cursor.next_batch(&self.executor, target, &mut batch);
             if !more && clear.is_done() {
                 break;
             }
-            self.shade_vertices(&items, memory);
-            let chunks = self.build_chunks(target, &items, memory);
+            self.shade_vertices(&batch, memory);
+            let chunks = self.build_chunks(&batch, memory);
             statistics.geometry += start.elapsed();
             let start = Instant::now();
             statistics += self.draw_tiles(
                 target,
-                &items,
+                &batch,
                 chunks,
                 (&clear, pass.occlusion_queries),
                 memory,
             );
             statistics.raster += start.elapsed();
-            let shaded = items.iter().map(Item::total_vertices).sum::<usize>();
-            statistics.vertices_shaded += shaded as u64;
+            statistics.vertices_shaded += batch.total_vertices() as u64;
+            statistics.primitives_in += batch.invisible_primitives;
+            statistics.primitives_culled += batch.invisible_primitives;
             clear = Clear::default();
         }
-        memory.lists.items = recycled(items);
+        memory.lists.states = recycled(batch.states);
+        memory.lists.sub_draws = recycled(batch.sub_draws);
         statistics
     }
 
-    /// Writes the mean of each pixel's samples to a target of one sample, of the same size and with the
-    /// same colour formats. Targets that do not fit together are left alone.
+    /// Writes the mean of each pixel's samples to a target of one sample, of the same size and with
+    /// the same colour formats. Targets that do not fit together are left alone.
     pub fn resolve(&self, from: &RenderTarget, into: &mut RenderTarget) {
         let mut jobs = ResolveJob::all(from, into);
-        let memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
+        let level = self.level;
         self.executor
-            .for_each(&mut jobs, &memory.chunk_scratch, |job, _| job.run());
+            .for_each_alone(&mut jobs, |job| job.run(level));
     }
 
-    /// The target's depth as a texture, without a copy; `None` without depth or with several samples.
+    /// A colour attachment's texels as [`RenderTarget::read_color_into`] gives them, by all threads.
+    ///
+    /// # Errors
+    /// [`ReadbackError`] beyond the last attachment, or when the memory has another length.
+    pub fn read_color_into(
+        &self,
+        target: &RenderTarget,
+        index: usize,
+        image: &mut [u8],
+    ) -> Result<(), ReadbackError> {
+        let mut jobs: Vec<_> = target.color_jobs(index, image)?.collect();
+        let level = self.level;
+        self.executor
+            .for_each_alone(&mut jobs, |job| job.run(level));
+        Ok(())
+    }
+
+    /// The target's depth as a texture, without a copy; `None` without depth or with several
+    /// samples.
     pub fn depth_texture(&self, target: &mut RenderTarget) -> Option<DepthTexture> {
         let memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
         target.depth_texture(|jobs| {
@@ -174,101 +201,46 @@ impl Context {
         })
     }
 
-    /// Geometry, first half: every vertex of the wave is shaded once.
-    fn shade_vertices(&self, items: &[Item<'_>], memory: &mut Memory) {
-        memory.vertices.resize_for(items);
+    /// Geometry, first half: every vertex of the batch is shaded once and taken to the window.
+    fn shade_vertices(&self, batch: &DrawBatch<'_>, memory: &mut Memory) {
+        memory.vertices.resize_for(batch.spans());
         let mut jobs = recycled(std::mem::take(&mut memory.lists.vertex_jobs));
-        memory.vertices.split(items, VERTEX_CHUNK, &mut jobs);
+        memory
+            .vertices
+            .split(batch.spans(), VERTEX_CHUNK, &mut jobs);
         self.executor
             .for_each(&mut jobs, &memory.shading, |job, scratch| {
-                let item = &items[job.item];
-                let source = item.vertex_source();
-                let pipeline = item.draw.pipeline;
-                let out = (&mut job.out, scratch);
-                shade(
-                    self.level,
-                    pipeline,
-                    &source,
-                    &item.transform,
-                    job.first,
-                    out,
-                );
+                let sub_draw = &batch.sub_draws[job.sub_draw];
+                let source = sub_draw.vertex_source();
+                let transform = &batch.plan(sub_draw).transform;
+                let out = &mut job.out;
+                shade(self.level, &source, transform, job.first, out, scratch);
             });
         memory.lists.vertex_jobs = recycled(jobs);
     }
 
-    /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in chunks
-    /// whose borders do not depend on the number of threads.
-    fn build_chunks(
-        &self,
-        target: &RenderTarget,
-        items: &[Item<'_>],
-        memory: &mut Memory,
-    ) -> usize {
-        let total = |item: &Item<'_>| u32::try_from(item.total_primitives()).unwrap_or(u32::MAX);
-        let count = |item: &Item<'_>| total(item).div_ceil(item.chunk_primitives()) as usize;
-        let used = items.iter().map(count).sum();
+    /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in
+    /// chunks whose borders do not depend on the number of threads. Says how many chunks there are.
+    fn build_chunks(&self, batch: &DrawBatch<'_>, memory: &mut Memory) -> usize {
+        memory.chunk_plan.build(&batch.sub_draws);
+        let used = memory.chunk_plan.len();
         if memory.chunks.len() < used {
             memory.chunks.resize_with(used, Chunk::default);
         }
         let mut jobs: Vec<ChunkJob<'_>> = recycled(std::mem::take(&mut memory.lists.chunk_jobs));
-        let mut chunks = memory.chunks.iter_mut();
-        for (item, total) in items.iter().map(total).enumerate() {
-            let size = items[item].chunk_primitives();
-            let starts = (0..total).step_by(size as usize);
-            jobs.extend(starts.zip(&mut chunks).map(|(from, chunk)| ChunkJob {
-                chunk,
-                item,
-                primitives: [from, from.saturating_add(size).min(total)],
-            }));
-        }
-        let (grid, vertices) = (target.grid(), &memory.vertices);
-        let samples = target.samples() as usize;
+        let chunks = memory.chunks.iter_mut().zip(memory.chunk_plan.chunks());
+        jobs.extend(chunks.map(|(chunk, parts)| ChunkJob { chunk, parts }));
+        let vertices = &memory.vertices;
         self.executor
             .for_each(&mut jobs, &memory.chunk_scratch, |job, scratch| {
-                let item = &items[job.item];
-                let state = &item.draw.pipeline.descriptor().primitive;
-                let sample_range = sample_range(samples, state.conservative);
-                let is_listed = item.sparse.is_some() || item.restarted.is_some();
-                let indices = item.draw.indices.filter(|_| !is_listed);
-                let work = ChunkWork {
-                    elements: ElementSource {
-                        topology: state.topology,
-                        provoking: state.provoking_vertex,
-                        restarted: item.restarted.as_deref(),
-                        elements: item.elements[1],
-                        indices,
-                        first_element: item.elements[0],
-                        first_vertex: item.first_vertex,
-                        base_vertex: item.draw.base_vertex,
-                    },
-                    vertices: vertices.of_item(item),
-                    source: &item.vertex_source(),
-                    pipeline: item.draw.pipeline,
-                    transform: &item.transform,
-                    cull: CullState {
-                        rect: item.rect,
-                        facing: item.facing,
-                        sample_range,
-                    },
-                    bins: BinState {
-                        grid,
-                        rect: item.rect,
-                        sample_range,
-                    },
-                    polygon_mode: state.polygon_mode,
-                    depth_bias: item.depth_bias,
-                    lines: LineRun {
-                        style: LineStyle::new(&state.line),
-                        is_strip: is_line_strip(state.topology),
-                        restarts: &item.line_restarts,
-                    },
-                    instance_vertices: item.vertices,
-                    instance_primitives: item.primitives,
-                    primitives: job.primitives,
-                };
-                job.chunk.reset(job.item);
-                process(self.level, &work, job.chunk, scratch);
+                job.chunk.clear();
+                for part in job.parts {
+                    let sub_draw = &batch.sub_draws[part.sub_draw as usize];
+                    let (plan, vertices) = (batch.plan(sub_draw), vertices.of_span(&sub_draw.span));
+                    let work = sub_draw.run_work(self.level, plan, vertices, part.primitives);
+                    add_run(part.sub_draw, &work, job.chunk, scratch);
+                }
+                job.chunk.bins.sort();
             });
         memory.lists.chunk_jobs = recycled(jobs);
         used
@@ -278,93 +250,80 @@ impl Context {
     fn draw_tiles(
         &self,
         target: &mut RenderTarget,
-        items: &[Item<'_>],
+        batch: &DrawBatch<'_>,
         chunks: usize,
         (clear, occlusion_queries): (&Clear, Option<&OcclusionQueries>),
         memory: &mut Memory,
     ) -> Statistics {
         let chunks = &memory.chunks[..chunks];
         memory.chunk_index.build(target.grid().tiles(), chunks);
-        let mut tile_items = recycled(std::mem::take(&mut memory.lists.tile_items));
-        tile_items.extend(items.iter().map(|item| {
-            memory
-                .vertices
-                .tile_item(item, target, occlusion_queries.is_some())
+        let facts = TargetFacts {
+            level: self.level,
+            samples: target.samples() as usize,
+            depth_format: target.depth_format(),
+            has_depth: target.has_depth(),
+            has_queries: occlusion_queries.is_some(),
+        };
+        let mut plans = recycled(std::mem::take(&mut memory.lists.plans));
+        plans.extend(batch.sub_draws.iter().map(|sub_draw| {
+            let state = batch.state(sub_draw);
+            let geometry = PlannedGeometry {
+                bindings: sub_draw.bindings,
+                varyings: memory.vertices.of_span(&sub_draw.span).varyings,
+                rect: state.geometry.rect,
+                cut_samples: state.geometry.cut_samples,
+                depth_range: state.geometry.transform.depth_range,
+                line_style: &state.geometry.line_style,
+            };
+            TilePlan::new(sub_draw.draw, &geometry, &facts)
         }));
         let pass = TilePass {
             level: self.level,
             grid: target.grid(),
-            items: &tile_items,
+            plans: &plans,
             chunks,
             chunk_index: &memory.chunk_index,
             clear: *clear,
-            samples: target.samples() as usize,
+            samples: facts.samples,
             occlusion_queries,
         };
-        let samples = target.samples();
         let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
         tile_jobs(target, &mut jobs);
         let mut statistics = Statistics::default();
-        if !matches!(samples, 1 | 4) {
-            self.executor
-                .for_each(&mut jobs, &memory.tiles_any, |job, scratch| {
-                    tile_pass::draw_any(&pass, job, scratch);
-                });
-            for worker in &mut memory.tiles_any {
-                let worker = worker.get_mut().unwrap_or_else(PoisonError::into_inner);
-                statistics += std::mem::take(&mut worker.statistics);
+        match facts.samples {
+            1 if !self.level.is_scalar() => {
+                self.executor
+                    .for_each(&mut jobs, &memory.tiles_1, |job, scratch| {
+                        tile_pass::draw(&pass, job, scratch);
+                    });
+                take_statistics(&mut memory.tiles_1, &mut statistics);
             }
-        } else if samples == 1 {
-            self.executor
-                .for_each(&mut jobs, &memory.tiles_1, |job, scratch| {
-                    tile_pass::draw(&pass, job, scratch);
-                });
-            take_statistics(&mut memory.tiles_1, &mut statistics);
-        } else {
-            self.executor
-                .for_each(&mut jobs, &memory.tiles_4, |job, scratch| {
-                    tile_pass::draw(&pass, job, scratch);
-                });
-            take_statistics(&mut memory.tiles_4, &mut statistics);
+            4 if !self.level.is_scalar() => {
+                self.executor
+                    .for_each(&mut jobs, &memory.tiles_4, |job, scratch| {
+                        tile_pass::draw(&pass, job, scratch);
+                    });
+                take_statistics(&mut memory.tiles_4, &mut statistics);
+            }
+            _ => {
+                self.executor
+                    .for_each(&mut jobs, &memory.tiles_many, |job, scratch| {
+                        tile_pass::draw_many_samples(&pass, job, scratch);
+                    });
+                take_statistics(&mut memory.tiles_many, &mut statistics);
+            }
         }
         for chunk in chunks {
             statistics += chunk.statistics;
         }
         memory.lists.tile_jobs = recycled(jobs);
-        memory.lists.tile_items = recycled(tile_items);
+        memory.lists.plans = recycled(plans);
         statistics
     }
 }
 
 /// Vertices that one worker shades at a time.
 const VERTEX_CHUNK: usize = 4096;
-
-impl Clear {
-    fn new(target: &RenderTarget, pass: &RenderPass<'_>) -> Self {
-        let mut clear = Self::default();
-        let formats = target.color_formats().iter();
-        for (index, (color, format)) in clear.colors.iter_mut().zip(formats).enumerate() {
-            let load = pass.load_colors.get(index);
-            if let LoadOp::Clear(rgba) = load.copied().unwrap_or(LoadOp::Clear([0.0; 4])) {
-                let codec = TexelCodec::new(*format);
-                *color = Some((codec.clear_words(rgba), codec.words));
-            }
-        }
-        // Depths are kept in 0..=1, NaN as 0: hierarchical depth relies on their order.
-        if let (LoadOp::Clear(depth), true) = (pass.load_depth, target.has_depth()) {
-            let confined = if depth > 0.0 { depth.min(1.0) } else { 0.0 };
-            clear.depth = Some(target.depth_format().stored(confined));
-        }
-        if let (LoadOp::Clear(stencil), true) = (pass.load_stencil, target.has_stencil()) {
-            clear.stencil = Some(stencil);
-        }
-        clear
-    }
-
-    fn is_done(&self) -> bool {
-        self.colors.iter().all(Option::is_none) && self.depth.is_none() && self.stencil.is_none()
-    }
-}
 
 /// Cuts a target into its tiles' slices.
 fn tile_jobs<'a>(target: &'a mut RenderTarget, jobs: &mut Vec<TileJob<'a>>) {
@@ -378,18 +337,18 @@ fn tile_jobs<'a>(target: &'a mut RenderTarget, jobs: &mut Vec<TileJob<'a>>) {
     for (index, (colors, format)) in target.colors.iter_mut().zip(formats).enumerate() {
         let elements = elements * texel_words(*format);
         for (job, slice) in jobs.iter_mut().zip(colors.chunks_exact_mut(elements)) {
-            job.colors[index] = slice;
+            job.colors[index] = slice.as_chunks_mut().0;
         }
     }
     for (job, slice) in jobs
         .iter_mut()
         .zip(target.stencil.chunks_exact_mut(elements))
     {
-        job.stencil = slice;
+        job.stencil = slice.as_chunks_mut().0;
     }
     let depth = Arc::make_mut(&mut target.depth);
     for (job, slice) in jobs.iter_mut().zip(depth.chunks_exact_mut(elements)) {
-        job.depth = slice;
+        job.depth = slice.as_chunks_mut().0;
     }
 }
 

@@ -76,7 +76,8 @@ impl TileGrid {
     }
 }
 
-/// Words of 32 bits that a texel of a colour format takes in an attachment: smaller ones take one all the same.
+/// Words of 32 bits that a texel of a colour format takes in an attachment: smaller ones take one
+/// all the same.
 pub(crate) fn texel_words(format: TextureFormat) -> usize {
     (format.block_bytes() as usize).div_ceil(4)
 }

@@ -1,32 +1,48 @@
 #![forbid(unsafe_code)]
+#![allow(
+    clippy::self_named_module_files,
+    reason = "folders that are being rewritten get their `mod.rs` then"
+)]
 //! The pipeline: from vertices to pixels.
 //!
 //! ```text
-//!     Draw ─▶ geometry ───────────────────────────────────────────────────┐
-//!             fetch ▸ shading ▸ assembly ▸ cull ▸ clip ▸ viewport ▸ setup  │ chunks of primitives
-//!                                                                         ▼
-//!             ═════════════════════ tiles: plain data, the one boundary ═════════════════════
-//!                                                                         │ one tile a worker
-//!             attachment ◀ per_sample ◀ fragment ◀ raster ◀───────────────┘
+//!     Draws ─▶ plan: batches of sub-draws, states resolved once
+//!                │
+//!                ▼  geometry, in slices of vertices, then in chunks of primitives
+//!     fetch ▸ vertex shader ▸ viewport transform ──▶ assembly ▸ cull ─────▸ set-up ▸ binning
+//!                                                                └▸ clip ▸─┘  the detour of the few that need it
+//!                │
+//!     ═══════════▼══════════ bounds: chunks of plain data, the one boundary ══════════════════
+//!                │
+//!                ▼  one tile a worker
+//!     raster ▸ fragment ▸ per_sample ▸ attachment
 //! ```
 //!
-//! Data flows one way: each stage owns the type that it gives, and the next one takes it. State is a
-//! value: a descriptor is validated once into a [`RenderPipeline`], and drawing cannot fail.
-//! Both sides of the boundary run in parallel: geometry in chunks cut by primitive count, never by
-//! thread count, and tiles, each with its own slice of the attachments; so an image's bytes cannot
-//! depend on the number of threads. The conventions and the order of every operation are in
+//! The viewport transform is part of vertex shading, so that culling compares window positions. The
+//! detour computes the clip-space positions of its vertices again, cuts, and takes the pieces to
+//! the window.
+//!
+//! Data flows one way: each stage owns the type that it gives, and the next one takes it. State is
+//! a value: a descriptor is validated once into a [`RenderPipeline`], and drawing cannot fail. Both
+//! sides of the boundary run in parallel: geometry in chunks cut by the draws, never by thread
+//! count, and tiles, each with its own slice of the attachments; so an image's bytes cannot depend
+//! on the number of threads. The conventions and the order of every operation are in
 //! `docs/NUMERICS.md`.
 //!
-//! The modules, in pipeline order: `layout` (which pixel is stored where), [`pipeline`] (state), `geometry`, `tiles`, `raster`, `fragment`,
-//! `per_sample`, [`attachment`]; `tile_pass` and [`draw`] are the two pages that call them in order,
-//! `wave` cuts draws into items, `schedule` runs them on threads, [`recording`] notes what they took.
+//! The modules, in pipeline order: `layout` (which pixel is stored where), [`pipeline`] (state),
+//! `plan`, `geometry`, `bounds`, `raster`, `fragment`, `per_sample`, [`attachment`]; [`draw`] and
+//! `tile_pass` are the two pages that call them in order, `schedule` runs them on threads,
+//! [`profile`] measures them.
 
+mod depth_format;
 mod layout;
 pub mod pipeline;
 
+mod plan;
+
 mod geometry;
 
-mod tiles;
+mod bounds;
 
 mod raster;
 
@@ -39,15 +55,16 @@ pub mod attachment;
 pub mod commands;
 
 pub mod draw;
-pub mod recording;
+pub mod profile;
 mod schedule;
 pub mod statistics;
 mod tile_pass;
-mod wave;
+pub mod tile_path;
 
-pub use attachment::{RenderTarget, RenderTargetDescriptor, TargetError};
+pub use attachment::{ReadbackError, RenderTarget, RenderTargetDescriptor, TargetError};
 pub use commands::{Draw, LoadOp, OcclusionQueries, RenderPass};
 pub use draw::Context;
 pub use pipeline::{PipelineError, RenderPipeline, RenderPipelineDescriptor};
 pub use schedule::ThreadError;
 pub use statistics::Statistics;
+pub use tile_path::{PathCounts, TilePath};

@@ -1,12 +1,12 @@
-//! Who does the work: this thread alone, or this thread and helpers.
+//! Threads: work is done by the calling thread alone, or by it and helpers.
 //!
-//! Work is a slice of independent items; each worker brings its own scratch. The calling thread is one of
-//! the workers: it begins at once, and the helpers, which are rayon's threads, join it when they have woken
-//! up. (The whole pass inside rayon's pool costs a wake-up before the first item and another after the last,
-//! while the caller sleeps.) Workers take items from the front of what is left, many at first and one by one
-//! in the end, so that they finish together.
+//! Work is a slice of independent items; each worker brings its own scratch. The calling thread is
+//! one of the workers: it begins at once, and the helpers, which are rayon's threads, join it when
+//! they have woken up. (The whole pass inside rayon's pool costs a wake-up before the first item
+//! and another after the last, while the caller sleeps.) Workers take items from the front of what
+//! is left, many at first and one by one in the end, so that they finish together.
 
-use crate::recording::{Phase, Recorder};
+use crate::profile::{JobTimings, Profiler};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -14,8 +14,8 @@ use std::sync::{Mutex, PoisonError};
 #[derive(Debug)]
 pub(crate) struct Executor {
     helpers: Option<rayon::ThreadPool>,
-    /// What notes each item's time, if anyone asked for that.
-    recorder: Option<Recorder>,
+    /// Measures each item, if the context is made for profiling.
+    profiler: Option<Profiler>,
 }
 
 /// Why there is no executor.
@@ -28,8 +28,8 @@ pub struct ThreadError {
     pub reason: String,
 }
 
-/// How many times each worker takes items, at least, where there are enough: the fewer, the less they wait
-/// for each other, and the later the last one ends.
+/// How many times each worker takes items, at least, where there are enough: the fewer, the less
+/// they wait for each other, and the later the last one ends.
 const TURNS: usize = 4;
 
 impl Executor {
@@ -40,7 +40,7 @@ impl Executor {
         if threads == 1 {
             return Ok(Self {
                 helpers: None,
-                recorder: None,
+                profiler: None,
             });
         }
         let builder = rayon::ThreadPoolBuilder::new()
@@ -52,22 +52,22 @@ impl Executor {
         })?;
         Ok(Self {
             helpers: Some(pool),
-            recorder: None,
+            profiler: None,
         })
     }
 
-    /// An executor of the calling thread alone that notes what each item took.
-    pub(crate) fn recording() -> Self {
+    /// An executor of the calling thread alone that measures what each item takes.
+    pub(crate) fn profiling() -> Self {
         Self {
             helpers: None,
-            recorder: Some(Recorder::default()),
+            profiler: Some(Profiler::default()),
         }
     }
 
-    /// What was noted since the last call.
-    pub(crate) fn take_phases(&self) -> Vec<Phase> {
-        let recorder = self.recorder.as_ref();
-        recorder.map(Recorder::take).unwrap_or_default()
+    /// What each item took since the last call.
+    pub(crate) fn take_timings(&self) -> Vec<JobTimings> {
+        let profiler = self.profiler.as_ref();
+        profiler.map(Profiler::take).unwrap_or_default()
     }
 
     /// How many items run at once.
@@ -108,8 +108,8 @@ impl Executor {
     ) {
         let workers = self.threads().min(items.len());
         let Some(pool) = self.helpers.as_ref().filter(|_| workers > 1) else {
-            if let Some(recorder) = &self.recorder {
-                recorder.hand_out(items, |next| work(0, next));
+            if let Some(profiler) = &self.profiler {
+                profiler.hand_out(items, |next| work(0, next));
                 return;
             }
             let mut all = Some(items);
@@ -133,8 +133,9 @@ impl Executor {
     }
 }
 
-/// Waits for the helpers' last items without going to sleep, because to be woken again takes longer than most
-/// of these. Who is late beyond that, or panicked, is waited for by rayon.
+/// Waits for the helpers' last items without going to sleep, because to be woken again takes longer
+/// than most of these. Beyond the limit, or after a helper's panic, the caller blocks in rayon's
+/// scope.
 fn wait_a_little(running: &AtomicUsize) {
     for _ in 0..ROUNDS {
         if running.load(Ordering::Acquire) == 0 {
@@ -142,11 +143,12 @@ fn wait_a_little(running: &AtomicUsize) {
         }
         (0..PAUSES).for_each(|_| std::hint::spin_loop());
     }
-    // From a helper's last word to rayon's knowing it.
+    // The time that rayon takes to observe that a helper is done.
     (0..PAUSES).for_each(|_| std::hint::spin_loop());
 }
 
-/// How often a worker that is done looks for the others, and how many pauses lie between: 50 µs in all.
+/// How often a worker that is done looks for the others, and how many pauses lie between: 50 µs in
+/// all.
 const ROUNDS: usize = 128;
 const PAUSES: usize = 16;
 
@@ -160,8 +162,8 @@ fn take_some<'i, T>(left: &Mutex<&'i mut [T]>, workers: usize) -> Option<&'i mut
     Some(first)
 }
 
-/// Locks what only holds plain data: after a panic elsewhere it is as good as before. A worker's scratch is
-/// only ever locked by that worker, so that it never waits.
+/// Locks what only holds plain data: after a panic elsewhere it is as good as before. A worker's
+/// scratch is only ever locked by that worker, so that it never waits.
 fn lock<C>(scratch: &Mutex<C>) -> std::sync::MutexGuard<'_, C> {
     scratch.lock().unwrap_or_else(PoisonError::into_inner)
 }

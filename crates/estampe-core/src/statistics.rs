@@ -1,5 +1,6 @@
 //! What a pass did: counts of each stage and the time they took.
 
+use crate::tile_path::PathCounts;
 use std::time::Duration;
 
 /// Counts and times of one render pass. Counts do not depend on threads, and but for those of
@@ -18,9 +19,12 @@ pub struct Statistics {
     pub primitives_binned: u64,
     /// Fragments that went through the fragment shader, helper lanes not counted.
     pub fragments_shaded: u64,
-    /// Runs of opaque triangles, tile by tile, whose shading was put off until all of them had been seen:
-    /// what later ones hide is not shaded. None at the scalar level.
-    pub deferred_runs: u64,
+    /// Runs of opaque triangles, tile by tile, whose visible samples were shaded at the run's end:
+    /// hidden fragments are not shaded. None at the scalar level.
+    pub visibility_runs: u64,
+    /// Primitives by the path that drew them, once for each tile that they touch. They depend on
+    /// the SIMD level.
+    pub paths: PathCounts,
     /// Time of the geometry side.
     pub geometry: Duration,
     /// Time of the tile side.
@@ -35,7 +39,8 @@ impl std::ops::AddAssign for Statistics {
         self.primitives_culled += other.primitives_culled;
         self.primitives_binned += other.primitives_binned;
         self.fragments_shaded += other.fragments_shaded;
-        self.deferred_runs += other.deferred_runs;
+        self.visibility_runs += other.visibility_runs;
+        self.paths += other.paths;
         self.geometry += other.geometry;
         self.raster += other.raster;
     }

@@ -1,7 +1,7 @@
 //! Primitive assembly: which vertices make which point, line or triangle.
 //!
 //! In · Out: a topology and a number of vertices · primitives as positions in the vertex stream.
-//! Spec: PIPELINE.md row A1; the order within strips and fans is Vulkan's, so that of a triangle the provoking
+//! Spec: docs/PIPELINE.md row A1; the order within strips and fans is Vulkan's, so that of a triangle the provoking
 //! vertex stands first, where that is the first one:
 //!
 //! ```text

@@ -4,7 +4,8 @@
 
 use crate::arithmetic::{clamp, max, min};
 use crate::small_float::{half_code, half_value, unsigned_code, unsigned_value};
-use estampe_types::{TexelEncoding, TextureFormat, srgb};
+use crate::srgb;
+use estampe_types::{TexelEncoding, TextureFormat};
 
 /// How a channel's code is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -102,7 +103,7 @@ impl Channel {
                 let scaled = self.confine(value) * greatest(bits) + 0.5;
                 whole(scaled).cast_unsigned()
             }
-            Self::Srgb => u32::from(srgb_code(value)),
+            Self::Srgb => u32::from(srgb::code(value)),
             Self::Snorm(bits) => {
                 let scaled = self.confine(value) * greatest(bits - 1) + 0.5;
                 self.cut(whole(scaled).cast_unsigned())
@@ -126,7 +127,7 @@ impl Channel {
         match self {
             Self::Missing(value) => f32::from(value),
             Self::Unorm(bits) => code as f32 * (1.0 / greatest(bits)),
-            Self::Srgb => srgb::LINEAR_FROM_SRGB[code as usize & 0xFF],
+            Self::Srgb => srgb::linear(code),
             Self::Snorm(bits) => {
                 let factor = 1.0 / greatest(bits - 1);
                 max(self.signed(code) as f32 * factor, -1.0)
@@ -185,16 +186,6 @@ impl Channel {
         let above = 32 - self.bits();
         (code << above).cast_signed() >> above
     }
-}
-
-/// How many of the 255 thresholds are at or below the value; NaN gives 0. Counted one by one.
-#[must_use]
-pub fn srgb_code(linear: f32) -> u8 {
-    let below = srgb::THRESHOLDS
-        .iter()
-        .filter(|&&threshold| threshold <= linear)
-        .count();
-    u8::try_from(below).expect("there are 255 thresholds")
 }
 
 /// A depth as an attachment can hold it: the nearest multiple of 1/(2ⁿ − 1), ties to even; in float formats itself.

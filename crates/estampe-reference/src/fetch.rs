@@ -19,9 +19,9 @@ pub fn index(format: IndexFormat, buffer: &Buffer, position: u32, base_vertex: i
 pub fn raw_index(format: IndexFormat, buffer: &Buffer, position: u32) -> u32 {
     let at = |width: usize| (position as usize).saturating_mul(width);
     match format {
-        IndexFormat::Uint8 => u32::from(buffer.byte(at(1))),
+        IndexFormat::Uint8 => u32::from(byte_at(buffer, at(1))),
         IndexFormat::Uint16 => u32::from(u16_at(buffer, at(2))),
-        IndexFormat::Uint32 => buffer.word_at(at(4)),
+        IndexFormat::Uint32 => word_at(buffer, at(4)),
     }
 }
 
@@ -65,9 +65,9 @@ pub fn attribute(
 #[must_use]
 pub fn decode(format: VertexFormat, buffer: &Buffer, offset: usize) -> [f32; 4] {
     use VertexFormat as F;
-    let byte = |k: usize| buffer.byte(offset.saturating_add(k));
+    let byte = |k: usize| byte_at(buffer, offset.saturating_add(k));
     let short = |k: usize| u16_at(buffer, offset.saturating_add(2 * k));
-    let word = |k: usize| buffer.word_at(offset.saturating_add(4 * k));
+    let word = |k: usize| word_at(buffer, offset.saturating_add(4 * k));
 
     let unorm = |code: u32, greatest: f32| code as f32 * (1.0 / greatest);
     let snorm = |code: i32, greatest: f32| max(code as f32 * (1.0 / greatest), -1.0);
@@ -120,5 +120,17 @@ pub fn half(code: u16) -> f32 {
 }
 
 fn u16_at(buffer: &Buffer, offset: usize) -> u16 {
-    u16::from_le_bytes([buffer.byte(offset), buffer.byte(offset.saturating_add(1))])
+    u16::from_le_bytes([0, 1].map(|k| byte_at(buffer, offset.saturating_add(k))))
+}
+
+fn word_at(buffer: &Buffer, offset: usize) -> u32 {
+    u32::from_le_bytes([0, 1, 2, 3].map(|k| byte_at(buffer, offset.saturating_add(k))))
+}
+
+/// A byte of a buffer, which lies in little-endian words; zero beyond the end.
+fn byte_at(buffer: &Buffer, offset: usize) -> u8 {
+    if offset >= buffer.len_bytes() {
+        return 0;
+    }
+    (buffer.words()[offset / 4] >> (offset % 4 * 8) & 0xFF) as u8
 }

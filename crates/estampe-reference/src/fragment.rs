@@ -214,7 +214,7 @@ pub fn shade_quad<S: Shader>(
     let input = FragmentIn {
         position: Vec4::new(read(0), read(1), read(2), read(3)),
         front_facing: Quad([invocation.front_facing; 4]),
-        is_live: Quad(lanes.map(|lane| invocation.samples_of(lane) != 0)),
+        is_helper: Quad(lanes.map(|lane| invocation.samples_of(lane) == 0)),
         sample_index: Quad([sample_index.cast_signed(); 4]),
         coverage: Quad(lanes.map(covered)),
         bindings,

@@ -9,7 +9,7 @@
 //!             of a strip share no pixel
 //! ```
 //!
-//! A line that is W pixels wide is moved by (W − 1)/2 pixels along its minor axis, against it; then W pixels are
+//! A line that is W whole pixels wide is moved by (W − 1)/2 pixels along its minor axis, against it; then W pixels are
 //! covered in each column, from that one on. Integer lines, whose both ends are drawn, are in [`bresenham`](crate::bresenham).
 
 use crate::WindowVertex;

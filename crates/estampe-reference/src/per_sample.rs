@@ -9,7 +9,7 @@ use crate::channel::{Channel, channels};
 use crate::color::{self, Codes};
 use crate::cull::Face;
 use crate::fragment::Fragment;
-use crate::{State, Target, TargetState, logic, stencil};
+use crate::{State, Target, TargetState, compare, logic, stencil};
 use estampe_types::TextureFormat;
 use estampe_types::state::ColorWrites;
 
@@ -58,7 +58,7 @@ pub fn store_sample(
 
     let depth = target.quantised(depth);
     let depth_passes = match state.depth {
-        Some(test) if has_depth => test.compare.passes(depth, target.depth[index]),
+        Some(test) if has_depth => compare::passes(test.compare, depth, target.depth[index]),
         _ => true,
     };
     let stencil_passes = match &state.stencil {

@@ -1,6 +1,5 @@
 //! A draw: the stages, one after the other, on one primitive at a time.
 
-use crate::arithmetic::round_half_even;
 use crate::assembly::{Primitive, primitives, runs, turned};
 use crate::clip::{clip_line, clip_triangle, is_distant, keeps_point};
 use crate::conservative;
@@ -12,7 +11,7 @@ use crate::raster::{self, QuadCoverage, all_samples, sample_positions};
 use crate::rectangle::{LineRectangle, RectangleSurface};
 use crate::setup::SortedTriangle;
 use crate::shading::shade_vertex;
-use crate::viewport::{PixelBounds, ViewportTransform, is_drawable};
+use crate::viewport::{PixelBounds, ViewportSamples, ViewportTransform, is_drawable};
 use crate::{ClipVertex, Target, WindowVertex, depth_bias, fetch, per_sample};
 use estampe_types::shader::{Interpolation, Sampling, Shader, Varyings};
 use estampe_types::state::{
@@ -173,7 +172,7 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
         return Counts::default();
     }
     let size = [target.width, target.height];
-    let bounds = PixelBounds::new(&state.viewport, &state.scissor, size);
+    let bounds = PixelBounds::new(&state.viewport, &state.scissor, size, target.samples);
     if bounds.x.is_empty() || bounds.y.is_empty() {
         return Counts::default();
     }
@@ -191,6 +190,7 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
         viewport: ViewportTransform::new(&state.viewport)
             .with_unclipped_depth(state.primitive.unclipped_depth),
         bounds,
+        viewport_samples: ViewportSamples::new(&state.viewport),
         modes,
         is_by_sample,
         stipple: 0,
@@ -218,10 +218,11 @@ struct Pass<'a, S> {
     bindings: &'a Bindings,
     viewport: ViewportTransform,
     bounds: PixelBounds,
+    viewport_samples: ViewportSamples,
     modes: Vec<Interpolation>,
     is_by_sample: bool,
-    /// How many fragments of a stippled strip lie behind.
-    stipple: u32,
+    /// How much of the stipple pattern the lines of the strip have taken: columns, of rectangles 1/65536 pixels.
+    stipple: u64,
     counts: Counts,
 }
 
@@ -302,7 +303,7 @@ impl<S: Shader> Pass<'_, S> {
     fn bias(&self, triangle: &SortedTriangle) -> Option<f32> {
         let state = &self.state.depth_bias;
         let offset = || depth_bias::offset(state, self.state.depth_bias_unit, triangle);
-        (!state.is_zero()).then(offset)
+        (state.constant != 0.0 || state.slope_scale != 0.0).then(offset)
     }
 
     /// Draws one piece of a clipped triangle.
@@ -362,7 +363,7 @@ impl<S: Shader> Pass<'_, S> {
         let [start, end] = ends.map(|end| end.snapped);
         let path = LinePath::new(start, end);
         let line = self.state.primitive.line;
-        let width = i64::from(round_half_even(line.width).max(1));
+        let width = whole_width(line.width);
         // A line covers all samples of its pixels.
         let all_samples = all_samples(self.target.samples);
         let stipple = self.stipple;
@@ -370,7 +371,7 @@ impl<S: Shader> Pass<'_, S> {
             .widened(width)
             .wide_pixels(width, &self.bounds)
             .into_iter()
-            .filter(|(column, _)| shows(line.stipple, stipple.wrapping_add(*column)))
+            .filter(|(column, _)| shows(line.stipple, stipple + u64::from(*column)))
             .map(|(_, [x, y])| {
                 let mut samples = [0; 4];
                 samples[(x % 2 + 2 * (y % 2)) as usize] = all_samples;
@@ -380,7 +381,7 @@ impl<S: Shader> Pass<'_, S> {
                 }
             })
             .collect();
-        self.stipple = stipple.wrapping_add(path.length());
+        self.stipple += u64::from(path.length());
         let modes = self.modes.clone();
         let surface = LineSurface {
             path,
@@ -405,13 +406,13 @@ impl<S: Shader> Pass<'_, S> {
         };
         for quad in &mut quads {
             for lane in 0..4 {
-                let steps = rectangle.steps(QuadCoverage::pixel(quad.origin, lane));
-                if !shows(line.stipple, self.stipple.wrapping_add(steps)) {
+                let along = rectangle.distance_65536(QuadCoverage::pixel(quad.origin, lane));
+                if !shows(line.stipple, (self.stipple + along) / 65_536) {
                     quad.samples[lane] = 0;
                 }
             }
         }
-        self.stipple = self.stipple.wrapping_add(rectangle.whole_length());
+        self.stipple += rectangle.length_65536();
         let modes = self.modes.clone();
         let surface = RectangleSurface {
             rectangle,
@@ -447,15 +448,26 @@ impl<S: Shader> Pass<'_, S> {
 
     /// Shades quads and hands their samples to the per-sample operations.
     fn fragments(&mut self, quads: &[QuadCoverage], surface: &impl Surface, face: Face) {
-        let masked = |samples: u16| {
-            let kept = u32::from(samples) & self.state.sample_mask;
-            u16::try_from(kept).expect("a part of 16 bits")
-        };
         let samples = self.target.samples;
-        for quad in quads {
+        let inside = self.viewport_samples.clone();
+        let kept = |pixel: [u32; 2], covered: u16| {
+            let mut kept = 0;
+            for (s, &position) in sample_positions(samples).iter().enumerate() {
+                let at = raster::sample_subpixel(pixel.map(i64::from), position);
+                let is_masked = self.state.sample_mask >> s & 1 == 1;
+                kept |= u16::from(is_masked && inside.contains(at)) << s;
+            }
+            covered & kept
+        };
+        let kept = |quad: &QuadCoverage| {
+            [0, 1, 2, 3]
+                .map(|lane| kept(QuadCoverage::pixel(quad.origin, lane), quad.samples[lane]))
+        };
+        let coverages: Vec<[u16; 4]> = quads.iter().map(kept).collect();
+        for (quad, coverage) in quads.iter().zip(coverages) {
             let whole = Invocation {
                 origin: quad.origin,
-                coverage: quad.samples.map(masked),
+                coverage,
                 samples,
                 sample: None,
                 front_facing: face == Face::Front,
@@ -532,10 +544,21 @@ fn is_line_strip(topology: PrimitiveTopology) -> bool {
     matches!(topology, T::LineStrip | T::LineLoop | T::LineStripAdjacency)
 }
 
+/// How many pixels the columns of a line of a width have: ⌊w + ½⌋, at least 1.
+fn whole_width(width: f32) -> i64 {
+    let halves = f64::from(width) * 2.0;
+    // ⌊w + ½⌋ is the greatest n with 2n − 1 ≤ 2w.
+    (1..=64)
+        .rev()
+        .find(|&n: &i32| f64::from(2 * n - 1) <= halves)
+        .unwrap_or(1)
+        .into()
+}
+
 /// Whether a stipple pattern shows the fragment of this number.
-fn shows(stipple: Option<LineStipple>, number: u32) -> bool {
+fn shows(stipple: Option<LineStipple>, number: u64) -> bool {
     stipple.is_none_or(|LineStipple { factor, pattern }| {
-        let bit = number / u32::from(factor) % 16;
+        let bit = number / u64::from(factor) % 16;
         pattern & 1 << bit != 0
     })
 }

@@ -107,22 +107,28 @@ impl LineRectangle {
         product as f32 / square as f32
     }
 
-    /// How many whole pixels along the line a pixel's centre is.
+    /// How far along the line a pixel's centre is, in 1/65536 pixel, rounded down; 0 before the start.
     #[must_use]
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "`as` saturates: what lies before the start is 0"
     )]
-    pub fn steps(&self, pixel: [u32; 2]) -> u32 {
+    pub fn distance_65536(&self, pixel: [u32; 2]) -> u64 {
         let [product, _] = self.along(sample_subpixel(pixel.map(i64::from), CENTER));
-        (product as f32 / (length(self.start, self.end) * 256.0)) as u32
+        let subpixels = product as f32 / length(self.start, self.end);
+        (f64::from(subpixels) * 256.0) as u64
     }
 
-    /// The line's length in whole pixels.
+    /// The line's length in 1/65536 pixel, half to even.
     #[must_use]
-    pub fn whole_length(&self) -> u32 {
-        round_half_even(length(self.start, self.end) / 256.0).unsigned_abs()
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "lengths are positive and below 2³⁵"
+    )]
+    pub fn length_65536(&self) -> u64 {
+        (f64::from(length(self.start, self.end)) * 256.0).round_ties_even() as u64
     }
 }
 

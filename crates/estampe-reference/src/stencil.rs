@@ -1,14 +1,19 @@
 //! The stencil test.
 //!
 //! In · Out: the state of one face, reference, stored value · what passed and what is stored then. Exact.
+//! Spec: Vulkan 1.3, "Stencil Test"; WebGPU, `GPUStencilOperation`.
 
-use estampe_types::state::StencilFaceState;
+use crate::compare;
+use estampe_types::state::{StencilFaceState, StencilOperation};
+
+/// The greatest value of 8 bits of stencil.
+const GREATEST: i32 = 255;
 
 /// Whether a stored value passes: `(reference & read_mask) OP (stored & read_mask)`.
 #[must_use]
 pub fn passes(face: &StencilFaceState, reference: u8, stored: u8) -> bool {
     let [new, old] = [reference, stored].map(|value| value & face.read_mask);
-    face.compare.passes_stencil(new, old)
+    compare::passes(face.compare, new, old)
 }
 
 /// What is stored after the tests, of which the depth test counts only where stencil passes.
@@ -25,6 +30,24 @@ pub fn updated(
         (true, false) => face.depth_fail_op,
         (true, true) => face.pass_op,
     };
-    let new = operation.apply(stored, reference);
+    let new = operated(operation, reference, stored);
     (new & face.write_mask) | (stored & !face.write_mask)
+}
+
+/// The value that an operation makes, before the write mask: computed as a whole number, then brought back to 8 bits.
+#[must_use]
+pub fn operated(operation: StencilOperation, reference: u8, stored: u8) -> u8 {
+    use StencilOperation as O;
+    let old = i32::from(stored);
+    let new = match operation {
+        O::Keep => old,
+        O::Zero => 0,
+        O::Replace => i32::from(reference),
+        O::Invert => GREATEST - old,
+        O::IncrementClamp => Ord::min(old + 1, GREATEST),
+        O::DecrementClamp => Ord::max(old - 1, 0),
+        O::IncrementWrap => (old + 1).rem_euclid(GREATEST + 1),
+        O::DecrementWrap => (old - 1).rem_euclid(GREATEST + 1),
+    };
+    u8::try_from(new).expect("within 0..=255")
 }

@@ -5,6 +5,7 @@
 
 use crate::ClipVertex;
 use crate::arithmetic::{clamp, max, min, round_half_even};
+use crate::raster::sample_positions;
 use estampe_types::state::{ScissorRect, Viewport};
 use std::ops::Range;
 
@@ -152,15 +153,26 @@ pub struct PixelBounds {
 }
 
 impl PixelBounds {
-    /// Viewport ∩ scissor ∩ target: what a draw may touch.
+    /// Viewport ∩ scissor ∩ target: the pixels that a draw may touch. The viewport's columns and rows are those in which
+    /// samples may lie inside; which of them do is for [`ViewportSamples`] to say.
     #[must_use]
-    pub fn new(viewport: &Viewport, scissor: &ScissorRect, [width, height]: [u32; 2]) -> Self {
+    pub fn new(
+        viewport: &Viewport,
+        scissor: &ScissorRect,
+        [width, height]: [u32; 2],
+        samples: u32,
+    ) -> Self {
+        let offsets = sample_positions(samples).as_flattened().iter();
+        let offset = |sixteenths: Option<&u8>| f64::from(*sixteenths.unwrap_or(&8)) / 16.0;
+        let (least, most) = (offset(offsets.clone().min()), offset(offsets.max()));
         let axis = |start: f32, extent: f32, first: u32, count: u32, size: u32| {
             let (start, extent) = (f64::from(start), f64::from(extent));
-            let low = pixel_at_or_after(start).max(first);
-            let high = pixel_at_or_after(start + extent)
-                .min(first.saturating_add(count))
-                .min(size);
+            let end = start + extent;
+            // The last sample of the first column is inside, and so is the first one of the last column.
+            let low = start.floor() + f64::from(u8::from(start.floor() + most < start));
+            let high = end.floor() + f64::from(u8::from(end.floor() + least < end));
+            let low = whole(low).max(first);
+            let high = whole(high).min(first.saturating_add(count)).min(size);
             low..high.max(low)
         };
         Self {
@@ -184,12 +196,39 @@ impl PixelBounds {
     }
 }
 
-/// The first pixel whose centre is at or after an edge: ⌈edge − ½⌉, at least 0.
+/// A whole number of pixels, at least 0.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "`as` saturates: beyond every target"
 )]
-fn pixel_at_or_after(edge: f64) -> u32 {
-    (edge - 0.5).ceil() as u32
+fn whole(edge: f64) -> u32 {
+    edge as u32
+}
+
+/// The samples of a viewport: those whose positions it contains, its left and top edges included.
+#[derive(Debug, Clone)]
+pub struct ViewportSamples {
+    x: Range<f64>,
+    y: Range<f64>,
+}
+
+impl ViewportSamples {
+    /// The samples of a viewport.
+    #[must_use]
+    pub fn new(viewport: &Viewport) -> Self {
+        let axis = |start: f32, extent: f32| f64::from(start)..f64::from(start) + f64::from(extent);
+        Self {
+            x: axis(viewport.x, viewport.width),
+            y: axis(viewport.y, viewport.height),
+        }
+    }
+
+    /// Whether a position in 1/256 pixel lies inside.
+    #[must_use]
+    pub fn contains(&self, [x, y]: [i64; 2]) -> bool {
+        // Positions in a target are far below 2⁵³.
+        let pixels = |subpixels: i64| subpixels as f64 / 256.0;
+        self.x.contains(&pixels(x)) && self.y.contains(&pixels(y))
+    }
 }

@@ -1,18 +1,18 @@
-//! Between the target's premultiplied pixels and files' straight alpha.
+//! Conversion of the target's premultiplied pixels to the straight alpha of image files.
 
 use estampe::srgb::{LINEAR_FROM_SRGB, srgb_from_linear};
 use estampe_scene::Image;
 
-/// How the target's codes stand for numbers.
+/// Encoding of the target's 8-bit channels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Encoding {
-    /// Code ÷ 255.
+    /// Channel value ÷ 255.
     Linear,
     /// The sRGB curve, for R, G and B.
     Srgb,
 }
 
-/// Divides colours by their alpha: what was drawn over transparent black becomes straight alpha.
+/// Divides colours by their alpha: an image drawn over transparent black becomes straight alpha.
 pub(crate) fn straighten(rgba: &mut [u8], encoding: Encoding) {
     for pixel in rgba.chunks_exact_mut(4) {
         let alpha = pixel[3];
@@ -27,8 +27,8 @@ pub(crate) fn straighten(rgba: &mut [u8], encoding: Encoding) {
     }
 }
 
-/// The image over a background of one colour, opaque: for formats without alpha. Both are sRGB, and
-/// are mixed as light.
+/// Composites the image over a background of one colour, for formats without alpha. The result is
+/// opaque. Both are sRGB; they are mixed in linear light.
 #[must_use]
 pub fn composite_over(image: &Image, background: [u8; 3]) -> Image {
     let mut rgba = image.rgba.clone();

@@ -1,4 +1,4 @@
-//! What is drawn, and in which order: opaque surfaces, lines and points as the scene has them, then
+//! The draws of a frame in their order: opaque surfaces, lines and points in scene order, then
 //! transparent triangles back to front.
 
 use crate::alpha::{Encoding, decode};
@@ -9,8 +9,9 @@ use crate::geometry::vertex_data::{MeshStreams, StreamData, VertexStream};
 use crate::materials::Materials;
 use crate::options::{RenderOptions, Shading};
 use crate::scene_view::SceneView;
-use crate::shading::marks::Marks;
+use crate::shading::points_and_lines::PointsAndLines;
 use crate::surface_pipelines::{FrameStyle, StreamPipeline, Transparency};
+use crate::transforms::round_to_f32;
 use estampe::state::PrimitiveTopology;
 use estampe::{Buffer, Device, Draw, IndexFormat, TextureFormat};
 use estampe_scene::{Mesh, Scene, Surface, Workers};
@@ -18,7 +19,7 @@ use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// Everything that the draws of a frame refer to.
+/// The pipelines and buffers of a frame's draws.
 #[derive(Debug, Default)]
 pub(crate) struct DrawPlan {
     pipelines: Vec<StreamPipeline>,
@@ -55,7 +56,7 @@ impl DrawPlan {
     }
 }
 
-/// What makes two surfaces share a pipeline: their material, and which streams are constant.
+/// Surfaces with equal keys share a pipeline: same material, and the same streams are constant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 struct PipelineKey {
     material: Option<usize>,
@@ -65,59 +66,59 @@ struct PipelineKey {
     has_colors: bool,
 }
 
-/// Puts a plan together.
+/// Inputs of [`Planner::plan`].
 pub(crate) struct Planner<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) options: &'a RenderOptions,
     pub(crate) view: &'a SceneView,
     pub(crate) style: &'a FrameStyle,
     pub(crate) device: &'a Device,
-    /// Threads to make buffers with.
+    /// Threads that create buffers.
     pub(crate) workers: Workers,
 }
 
-/// The plan while it grows.
+/// The parts of a plan that are complete so far.
 #[derive(Default)]
-struct Growing {
+struct DrawPlanBuilder {
     plan: DrawPlan,
     pipeline_of_key: HashMap<PipelineKey, usize>,
     transparent: Vec<DistantTriangle>,
-    /// Of each transparent surface: its pipeline and vertex buffers.
+    /// Pipeline and vertex buffers of each transparent surface.
     transparent_surfaces: Vec<(usize, Vec<Buffer>)>,
 }
 
 impl Planner<'_> {
-    /// The plan of the whole scene.
+    /// Plans the draws of the whole scene.
     pub(crate) fn plan(&self) -> Result<DrawPlan, RenderError> {
         let mut materials = Materials::new(self.scene, self.options, self.device);
-        let mut growing = Growing::default();
+        let mut builder = DrawPlanBuilder::default();
         for mesh in &self.scene.meshes {
-            self.plan_mesh(mesh, &mut materials, &mut growing)?;
+            self.plan_mesh(mesh, &mut materials, &mut builder)?;
         }
-        for run in back_to_front(std::mem::take(&mut growing.transparent)) {
+        for run in back_to_front(std::mem::take(&mut builder.transparent)) {
             let (pipeline, vertex_buffers) =
-                growing.transparent_surfaces[run.surface as usize].clone();
+                builder.transparent_surfaces[run.surface as usize].clone();
             let elements = 0..element_count(run.indices.len())?;
             let indices = Some(Buffer::from_words(run.indices));
-            growing.plan.draws.push(PlannedDraw {
+            builder.plan.draws.push(PlannedDraw {
                 pipeline,
                 vertex_buffers,
                 indices,
                 elements,
             });
         }
-        Ok(growing.plan)
+        Ok(builder.plan)
     }
 
     fn plan_mesh(
         &self,
         mesh: &Mesh,
         materials: &mut Materials<'_>,
-        growing: &mut Growing,
+        builder: &mut DrawPlanBuilder,
     ) -> Result<(), RenderError> {
         let is_unshared = self.style.needs_unshared_vertices() || mesh.normals.is_empty();
-        let has_marks = !mesh.lines.is_empty() || !mesh.points.is_empty();
-        let shared = (!is_unshared && !mesh.triangles.is_empty() || has_marks)
+        let has_points_or_lines = !mesh.lines.is_empty() || !mesh.points.is_empty();
+        let shared = (!is_unshared && !mesh.triangles.is_empty() || has_points_or_lines)
             .then(|| MeshStreams::shared(mesh, &self.view.space, self.workers));
         if !mesh.triangles.is_empty() {
             let unshared;
@@ -128,10 +129,10 @@ impl Planner<'_> {
                     &unshared
                 }
             };
-            self.plan_triangles(mesh, streams, is_unshared, materials, growing)?;
+            self.plan_triangles(mesh, streams, is_unshared, materials, builder)?;
         }
         if let Some(shared) = &shared {
-            self.plan_marks(mesh, shared, growing)?;
+            self.plan_points_and_lines(mesh, shared, builder)?;
         }
         Ok(())
     }
@@ -142,7 +143,7 @@ impl Planner<'_> {
         streams: &MeshStreams,
         is_unshared: bool,
         materials: &mut Materials<'_>,
-        growing: &mut Growing,
+        builder: &mut DrawPlanBuilder,
     ) -> Result<(), RenderError> {
         element_count(mesh.triangles.len().saturating_mul(3))?;
         let indices = (!is_unshared).then(|| self.index_buffer(mesh));
@@ -171,27 +172,27 @@ impl Planner<'_> {
                 has_uvs: !mesh.uvs.is_empty(),
                 has_colors: !mesh.colors.is_empty(),
             };
-            let pipeline = match growing.pipeline_of_key.get(&key) {
+            let pipeline = match builder.pipeline_of_key.get(&key) {
                 Some(&pipeline) => pipeline,
                 None => {
                     let pipeline = self.style.surface(self.device, &style, streams)?;
-                    growing.plan.pipelines.push(pipeline);
-                    let last = growing.plan.pipelines.len() - 1;
-                    growing.pipeline_of_key.insert(key, last);
+                    builder.plan.pipelines.push(pipeline);
+                    let last = builder.plan.pipelines.len() - 1;
+                    builder.pipeline_of_key.insert(key, last);
                     last
                 }
             };
-            let vertex_buffers = buffers_of(&growing.plan.pipelines[pipeline], streams);
+            let vertex_buffers = buffers_of(&builder.plan.pipelines[pipeline], streams);
             if style.transparency == Transparency::Blended && self.style.shows_transparency() {
-                self.collect_transparent(mesh, triangles, is_unshared, growing);
-                growing
+                self.collect_transparent(mesh, triangles, is_unshared, builder);
+                builder
                     .transparent_surfaces
                     .push((pipeline, vertex_buffers));
                 continue;
             }
             let elements = element_count(triangles.start * 3)?..element_count(triangles.end * 3)?;
             let indices = indices.clone();
-            growing.plan.draws.push(PlannedDraw {
+            builder.plan.draws.push(PlannedDraw {
                 pipeline,
                 vertex_buffers,
                 indices,
@@ -201,9 +202,9 @@ impl Planner<'_> {
         Ok(())
     }
 
-    /// The triangles' corners as they are.
+    /// The triangles' vertex indices, unchanged.
     fn index_buffer(&self, mesh: &Mesh) -> Buffer {
-        /// Some hundred microseconds of work: new memory costs more than copying.
+        /// Some hundred microseconds of work: touching new memory costs more than copying.
         const PIECE: usize = 1 << 16;
         let corners = mesh.triangles.as_flattened();
         let mut words = vec![0; corners.len()];
@@ -213,15 +214,15 @@ impl Planner<'_> {
         Buffer::from_words(words)
     }
 
-    /// Adds the triangles of the transparent surface that is pushed next.
+    /// Adds the triangles of the next transparent surface, which the caller pushes afterwards.
     fn collect_transparent(
         &self,
         mesh: &Mesh,
         triangles: Range<usize>,
         is_unshared: bool,
-        growing: &mut Growing,
+        builder: &mut DrawPlanBuilder,
     ) {
-        let surface = u32::try_from(growing.transparent_surfaces.len()).unwrap_or(u32::MAX);
+        let surface = u32::try_from(builder.transparent_surfaces.len()).unwrap_or(u32::MAX);
         let position = |index: u32| {
             let position = mesh
                 .positions
@@ -233,15 +234,15 @@ impl Planner<'_> {
         for number in triangles {
             let triangle = mesh.triangles[number];
             let middle = triangle.map(position).into_iter().sum::<DVec3>() / 3.0;
-            let distance = DVec3::splat(self.view.distance(middle)).as_vec3().x;
-            // The triangles' corners were counted: they fit u32.
+            let distance = round_to_f32(self.view.distance(middle));
+            // `plan_triangles` has checked that all corners fit u32.
             let first = u32::try_from(number * 3).unwrap_or(u32::MAX);
             let corners = if is_unshared {
                 [first, first.saturating_add(1), first.saturating_add(2)]
             } else {
                 triangle
             };
-            growing.transparent.push(DistantTriangle {
+            builder.transparent.push(DistantTriangle {
                 distance,
                 surface,
                 corners,
@@ -249,11 +250,11 @@ impl Planner<'_> {
         }
     }
 
-    fn plan_marks(
+    fn plan_points_and_lines(
         &self,
         mesh: &Mesh,
         shared: &MeshStreams,
-        growing: &mut Growing,
+        builder: &mut DrawPlanBuilder,
     ) -> Result<(), RenderError> {
         let lines = (mesh.lines.as_flattened(), PrimitiveTopology::LineList);
         let points = (&mesh.points[..], PrimitiveTopology::PointList);
@@ -267,13 +268,15 @@ impl Planner<'_> {
             if !shows_colors {
                 streams.colors = StreamData::constant(&[1.0; 4]);
             }
-            let marks = self.marks(shows_colors, mesh.points.len());
-            let pipeline = self.style.marks(self.device, marks, topology, &streams)?;
+            let shader = self.points_and_lines(shows_colors, mesh.points.len());
+            let pipeline = self
+                .style
+                .points_and_lines(self.device, shader, topology, &streams)?;
             let vertex_buffers = buffers_of(&pipeline, &streams);
-            growing.plan.pipelines.push(pipeline);
-            let pipeline = growing.plan.pipelines.len() - 1;
+            builder.plan.pipelines.push(pipeline);
+            let pipeline = builder.plan.pipelines.len() - 1;
             let indices = Some(Buffer::from_words(indices));
-            growing.plan.draws.push(PlannedDraw {
+            builder.plan.draws.push(PlannedDraw {
                 pipeline,
                 vertex_buffers,
                 indices,
@@ -283,8 +286,9 @@ impl Planner<'_> {
         Ok(())
     }
 
-    /// The look of points and lines: their own colours, or a tone that stands out from the background.
-    fn marks(&self, shows_colors: bool, point_count: usize) -> Marks {
+    /// The shader of points and lines: vertex colours, or one colour that contrasts with the
+    /// background.
+    fn points_and_lines(&self, shows_colors: bool, point_count: usize) -> PointsAndLines {
         let encoding = match self.style.format {
             TextureFormat::Rgba8UnormSrgb => Encoding::Srgb,
             _ => Encoding::Linear,
@@ -293,54 +297,52 @@ impl Planner<'_> {
             .options
             .background
             .unwrap_or(RenderOptions::DEFAULT_BACKGROUND);
-        let tone = if is_dark(background) {
+        let contrasting = if is_dark(background) {
             [0xd8, 0xdc, 0xe2]
         } else {
             [0x2c, 0x3a, 0x4a]
         };
         let is_depth = self.style.shading == Shading::Depth;
-        let (color, haze, fading) = if is_depth {
+        let (color, fog_color, fog_at_furthest) = if is_depth {
             ([1.0; 3], [0.0; 3], 1.0)
         } else {
             let own = if shows_colors {
                 [1.0; 3]
             } else {
-                tone.map(|code| decode(code, encoding))
+                contrasting.map(|code| decode(code, encoding))
             };
-            let fading = if self.style.shading.holds_numbers() || shows_colors {
+            let fog = if self.style.shading.holds_numbers() || shows_colors {
                 0.0
             } else {
                 0.4
             };
-            (own, background.map(|code| decode(code, encoding)), fading)
+            (own, background.map(|code| decode(code, encoding)), fog)
         };
-        Marks {
+        PointsAndLines {
             transforms: self.style.transforms,
             color,
-            haze,
-            fading,
+            fog_color,
+            fog_at_furthest,
             depth_range: self.style.depth_range,
             point_size_px: point_size_px(self.options, point_count),
         }
     }
 }
 
-/// Whether light marks stand out better from a background than dark ones.
+/// True if light points and lines contrast better with a background than dark ones.
 pub(crate) fn is_dark([r, g, b]: [u8; 3]) -> bool {
     let luma = u32::from(r) * 2126 + u32::from(g) * 7152 + u32::from(b) * 722;
     luma < 110 * 10_000
 }
 
-/// Width of points so that a cloud looks like a surface: its share of half the picture's area, but
-/// visible, and no blot.
+/// Width of points, chosen so that a cloud looks like a surface: the points share about half of the
+/// image's area, within limits that keep them visible and apart.
 fn point_size_px(options: &RenderOptions, count: usize) -> f32 {
     let (width, height) = (f64::from(options.width), f64::from(options.height));
     let shorter = width.min(height);
     let count = f64::from(u32::try_from(count).unwrap_or(u32::MAX).max(1));
     let share = libm::sqrt(width * height / count) * 0.6;
-    DVec3::splat(share.clamp((shorter / 400.0).max(1.0), (shorter / 50.0).max(1.0)))
-        .as_vec3()
-        .x
+    round_to_f32(share.clamp((shorter / 400.0).max(1.0), (shorter / 50.0).max(1.0)))
 }
 
 fn buffers_of(pipeline: &StreamPipeline, streams: &MeshStreams) -> Vec<Buffer> {

@@ -1,4 +1,4 @@
-//! From a scene to a frame: the whole way on one page.
+//! Rendering of a scene to a frame, step by step.
 
 use crate::alpha::{Encoding, decode, straighten};
 use crate::draw_plan::{Planner, is_dark};
@@ -16,20 +16,20 @@ use estampe_scene::{Camera, Image, Scene, Workers};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// A picture, and how it came about.
+/// A rendered image with its statistics and camera.
 #[derive(Debug, Clone)]
 pub struct Frame {
-    /// The picture: straight alpha; sRGB, or numbers for the shadings that hold those.
+    /// The image, straight alpha. sRGB, except for shadings that show numbers.
     pub image: Image,
-    /// What the pipeline counted.
+    /// Counters of the pipeline.
     pub statistics: Statistics,
-    /// How long each stage took.
+    /// Duration of each stage.
     pub timings: FrameTimings,
-    /// The camera it was taken with, in world space.
+    /// The camera of the image, in world space.
     pub camera: Camera,
 }
 
-/// How long the stages of a frame took.
+/// Durations of the stages of a frame.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct FrameTimings {
     /// Camera, vertex buffers, textures, pipelines and the target.
@@ -38,22 +38,22 @@ pub struct FrameTimings {
     pub geometry: Duration,
     /// Tiles: coverage, fragments and per-sample operations.
     pub raster: Duration,
-    /// From the target to rows of pixels, resolved, alpha made straight.
+    /// Reading the target back: resolve, rows of pixels, straight alpha.
     pub read_back: Duration,
 }
 
-/// Why there is no picture.
+/// Errors of [`render`].
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {
     /// The size is zero or too large.
     #[error("a picture of {width}x{height} pixels is not possible: each side is 1 to {limit}")]
     Size {
-        /// The width asked for.
+        /// The requested width.
         width: u32,
-        /// The height asked for.
+        /// The requested height.
         height: u32,
-        /// The greatest side.
+        /// The greatest possible side.
         limit: u32,
     },
     /// One mesh has more corners than can be counted in 32 bits.
@@ -61,16 +61,16 @@ pub enum RenderError {
         "a mesh of {elements} triangle corners is too large: 4294967295 are possible; split it"
     )]
     TooManyElements {
-        /// How many corners, line ends or points.
+        /// Number of triangle corners, line ends or points.
         elements: usize,
     },
-    /// The pipeline refused a state; names the rule.
+    /// A pipeline state breaks a rule.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
-    /// The target is not possible.
+    /// The target cannot be created.
     #[error(transparent)]
     Target(#[from] TargetError),
-    /// A texture is not possible.
+    /// A texture cannot be created.
     #[error(transparent)]
     Texture(#[from] TextureError),
 }
@@ -78,8 +78,8 @@ pub enum RenderError {
 /// Draws a scene.
 ///
 /// # Errors
-/// [`RenderError`] when the picture or a texture is larger than the device's limits, or memory is
-/// short. A scene itself cannot be at fault: what is broken in it is left out.
+/// [`RenderError`] if the image or a texture exceeds the device's limits, or memory is short.
+/// Invalid data in the scene is no error: invalid parts are omitted.
 pub fn render(
     scene: &Scene,
     options: &RenderOptions,
@@ -118,7 +118,7 @@ pub fn render(
     let statistics = device.render(&mut target, &pass);
 
     let start = Instant::now();
-    let mut rgba = target.read_color_by(0, workers.count());
+    let mut rgba = device.read_color(&target, 0);
     if options.background.is_none() {
         straighten(&mut rgba, encoding(options));
     }
@@ -179,7 +179,7 @@ fn frame_style(view: &SceneView, options: &RenderOptions) -> FrameStyle {
     FrameStyle {
         shading: options.shading,
         transforms,
-        rig: Arc::new(view.rig(options)),
+        lights: Arc::new(view.lights(options)),
         wireframe: wireframe(transforms, options),
         depth_range: view.depth_range(),
         cull: options.cull,
@@ -191,17 +191,17 @@ fn frame_style(view: &SceneView, options: &RenderOptions) -> FrameStyle {
     }
 }
 
-/// Edges that stand out from the background, as wide as suits the picture.
+/// Wireframe edges that contrast with the background, with a width in proportion to the image.
 fn wireframe(transforms: VertexTransforms, options: &RenderOptions) -> Wireframe {
     let background = options
         .background
         .unwrap_or(RenderOptions::DEFAULT_BACKGROUND);
-    let tone = if is_dark(background) {
+    let color = if is_dark(background) {
         [0xe4, 0xe8, 0xee]
     } else {
         [0x1e, 0x2a, 0x38]
     };
-    let [r, g, b] = tone.map(|code| decode(code, Encoding::Srgb));
+    let [r, g, b] = color.map(|code| decode(code, Encoding::Srgb));
     let shorter_px = options.width.min(options.height);
     let sixteenths = u16::try_from((shorter_px / 64).clamp(8, 64)).unwrap_or(64);
     Wireframe {

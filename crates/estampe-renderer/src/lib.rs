@@ -1,21 +1,22 @@
 #![forbid(unsafe_code)]
-//! From a scene to frames, through the device of `estampe`.
+//! Rendering of scenes to images, with the device of `estampe`.
 //!
 //! ```text
-//! Scene ─┬─ scene_view      its unit space, the fitted camera, the lights
-//!        ├─ materials       styles and textures
+//! Scene ─┬─ scene_view      unit space, fitted camera, lights
+//!        ├─ materials       surface styles and textures
 //!        ├─ geometry        vertex buffers, unshared faces, back-to-front order
-//!        ├─ surface_pipelines   look × base colour × streams -> pipelines
+//!        ├─ surface_pipelines   material programs × vertex streams -> pipelines
 //!        ├─ draw_plan       the draws, in order
-//!        └─ frame           render: all of it, and the pixels back
+//!        └─ frame           render: all of it, and reading back the pixels
 //! ```
 //!
-//! [`render`] draws a [`Scene`](estampe_scene::Scene) as [`RenderOptions`] say, whose defaults are a
-//! picture that a person would keep: three quarters from the front, fitted to the projected vertices,
-//! key, fill and ambient light, smooth shading, anti-aliased, on a light background. Models of any
-//! size are drawn in a unit space of their own, so 10³⁰ and 10⁻³⁰ look like 1.
+//! [`render`] draws a [`Scene`](estampe_scene::Scene) with [`RenderOptions`]. The defaults suit a
+//! presentable image: a three-quarter view from the front, fitted to the projected vertices, with
+//! key, fill and ambient light, Phong shading and anti-aliasing, on a light background. Models of
+//! any size are drawn in a unit space of their own, so 10³⁰ and 10⁻³⁰ look like 1.
 //!
-//! It knows neither files nor windows. Row numbers in the documentation are those of PIPELINE.md.
+//! The crate depends on neither files nor windows.
+//! Row numbers in the documentation are those of `docs/PIPELINE.md`.
 
 pub mod camera;
 pub mod transforms;
@@ -36,6 +37,6 @@ pub use estampe::state::CullMode;
 pub use frame::{Frame, FrameTimings, RenderError, render};
 pub use options::{RenderOptions, Shading, Up};
 
-/// Number of the pictures' generation: it grows whenever the same scene and options give other bytes
-/// than before. CHANGELOG says which.
+/// Version of the images. It rises whenever the same scene and options give other bytes than
+/// before; CHANGELOG lists the changes.
 pub const PICTURE_VERSION: u32 = 1;

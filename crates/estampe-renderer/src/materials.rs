@@ -1,4 +1,4 @@
-//! A scene's materials, ready for shaders; textures are made when a surface first needs them.
+//! A scene's materials, prepared for shaders; textures are created when a surface first needs them.
 
 use crate::frame::RenderError;
 use crate::options::{RenderOptions, Shading};
@@ -9,12 +9,12 @@ use estampe::{Device, SamplerDescriptor, TextureFormat};
 use estampe_scene::{AlphaMode, Image, Material, Mesh, Scene};
 use std::collections::HashMap;
 
-/// Makes styles of materials.
+/// Creates the styles of surfaces from materials.
 pub(crate) struct Materials<'a> {
     scene: &'a Scene,
     options: &'a RenderOptions,
     device: &'a Device,
-    /// By index into the scene's images; `None` is the options' own.
+    /// Textures by index into the scene's images; `None` is the texture of the options.
     textures: HashMap<Option<usize>, Sampled>,
 }
 
@@ -39,7 +39,7 @@ impl<'a> Materials<'a> {
         let material = own.unwrap_or(&default);
         let has_vertex_colors = !mesh.colors.is_empty();
         let is_overridden = self.options.texture.is_some() && !mesh.uvs.is_empty();
-        // What paints the surface takes the place of the default grey.
+        // A texture of the options, or vertex colours without a material, replace the default grey.
         let is_painted = is_overridden || own.is_none() && has_vertex_colors;
         let color = if is_painted {
             glam::Vec3::ONE
@@ -70,8 +70,8 @@ impl<'a> Materials<'a> {
         })
     }
 
-    /// The colour, but no blacker than soot: a surface that answers no light has no form, and
-    /// exporters often write black for "nothing said".
+    /// The colour, at least `DARKEST` per channel: a surface that reflects no light shows no shape,
+    /// and exporters often write black for an unset colour.
     fn visible(&self, color: glam::Vec3) -> glam::Vec3 {
         const DARKEST: f32 = 0.03;
         match self.options.shading {
@@ -84,7 +84,7 @@ impl<'a> Materials<'a> {
         !self.options.shading.holds_numbers() && self.options.shading != Shading::Wireframe
     }
 
-    /// The texture of a surface: the options' own, or else the material's.
+    /// The texture of a surface: that of the options, else the material's.
     fn texture(
         &mut self,
         material: &Material,
@@ -123,7 +123,7 @@ impl<'a> Materials<'a> {
     }
 }
 
-/// The nearest whole exponent from 1 on; readers keep them below 10,000.
+/// The nearest whole exponent, at least 1; readers keep exponents below 10,000.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

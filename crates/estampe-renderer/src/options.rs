@@ -1,11 +1,11 @@
-//! What a picture is to look like.
+//! Options of a rendered image.
 
 use crate::camera::CameraOptions;
 use estampe::state::CullMode;
 use estampe_scene::{Image, Light, UpAxis};
 use glam::DVec3;
 
-/// Everything that can be asked of a picture. The default is a picture that a person would keep.
+/// Options of a rendered image. The defaults give a presentable image of any model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RenderOptions {
     /// Width in pixels, 1..=16384. Default 1024.
@@ -14,26 +14,26 @@ pub struct RenderOptions {
     pub height: u32,
     /// Samples per pixel, 1 or 4. Default 4.
     pub samples: u32,
-    /// Where the picture is taken from.
+    /// Position, target and projection of the camera.
     pub camera: CameraOptions,
-    /// What points up. Default what the scene says.
+    /// The up direction. Default: the scene's.
     pub up: Up,
-    /// How surfaces look. Default [`Shading::Phong`].
+    /// Shading of surfaces. Default [`Shading::Phong`].
     pub shading: Shading,
-    /// Lights in world space, in place of those that go with the camera. Default none.
+    /// Lights in world space, which replace the default lights. Default none.
     pub lights: Vec<Light>,
     /// Ambient light, times the base colour. `None` (default) is 0.18.
     pub ambient: Option<f32>,
-    /// A base-colour texture, sRGB, in place of the materials' own colours and textures.
+    /// A base-colour texture, sRGB, which replaces the materials' colours and textures.
     pub texture: Option<Image>,
     /// The background, sRGB, or `None` for a transparent one. Default #f2f2f2.
     pub background: Option<[u8; 3]>,
-    /// Which faces are left out. Default none.
+    /// Faces that are culled. Default none.
     pub cull: CullMode,
 }
 
 impl RenderOptions {
-    /// The background where nothing else is asked for.
+    /// The default background.
     pub const DEFAULT_BACKGROUND: [u8; 3] = [0xf2; 3];
 }
 
@@ -55,21 +55,21 @@ impl Default for RenderOptions {
     }
 }
 
-/// How surfaces look.
+/// Shading of surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Shading {
-    /// One light for each face.
+    /// Lighting once per face.
     Flat,
-    /// Light at the vertices, interpolated.
+    /// Lighting at the vertices, interpolated.
     Gouraud,
-    /// Light at every pixel.
+    /// Lighting at every fragment.
     #[default]
     Phong,
-    /// Light at every pixel, in four steps.
+    /// Lighting at every fragment, in four steps.
     Toon,
-    /// The base colour without light.
+    /// The base colour without lighting.
     Unlit,
-    /// Edges; faces hide what lies behind them.
+    /// Edges; faces hide the edges behind them.
     Wireframe,
     /// Normals in view space as colours: red to the right, green up, blue towards the eye.
     Normals,
@@ -80,22 +80,22 @@ pub enum Shading {
 }
 
 impl Shading {
-    /// Whether the picture holds numbers, which are stored as they are, instead of light, which is
-    /// stored by the sRGB curve.
+    /// True if the image shows numbers, which are stored unchanged, not light, which is
+    /// sRGB-encoded.
     #[must_use]
     pub fn holds_numbers(self) -> bool {
         matches!(self, Self::Normals | Self::Depth | Self::Uv)
     }
 }
 
-/// What points up.
+/// The up direction of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Up {
-    /// What the scene says: a Z-up model is turned, (x, y, z) → (x, z, −y).
+    /// The scene's up axis. A Z-up model is rotated: (x, y, z) → (x, z, −y).
     #[default]
     FromScene,
-    /// This axis of the file, whatever the scene says; Z turns the model as above.
+    /// This axis of the file, in place of the scene's; Z rotates the model as above.
     Axis(UpAxis),
-    /// This direction; the model is not turned, so the world is the file's space.
+    /// This direction. The model is not rotated, so world space is the file's space.
     Direction(DVec3),
 }

@@ -1,21 +1,21 @@
-//! How a scene is seen: its unit space, the camera in it, and the transforms that follow.
+//! The view of a scene: its unit space, its camera, and the resulting transforms.
 
 use crate::camera::placement::Lens;
 use crate::camera::{CameraOptions, Cloud, Eye, PlacedCamera};
 use crate::geometry::unit_space::{UnitSpace, UsedVertices, used_vertices};
 use crate::options::{RenderOptions, Up};
 use crate::shading::VertexTransforms;
-use crate::shading::lighting::{DEFAULT_AMBIENT, LightRig, ViewLight};
-use crate::transforms::{to_f32, transform_vector};
+use crate::shading::lighting::{DEFAULT_AMBIENT, Lights, ViewLight};
+use crate::transforms::{round_to_f32, to_f32, transform_vector};
 use estampe_scene::{Camera, Projection, Scene, UpAxis, Workers};
 use glam::{DMat3, DMat4, DVec3};
 
-/// A scene's space and the camera that looks at it.
+/// A scene's unit space and its camera.
 #[derive(Debug, Clone)]
 pub(crate) struct SceneView {
     pub(crate) space: UnitSpace,
     pub(crate) camera: PlacedCamera,
-    /// Width ÷ height of the picture.
+    /// Width ÷ height of the image.
     aspect: f64,
 }
 
@@ -49,7 +49,7 @@ impl SceneView {
         }
     }
 
-    /// The transforms of vertices; each product is rounded to f32 once.
+    /// The transforms of vertices; each matrix product is rounded to f32 once.
     pub(crate) fn transforms(&self) -> VertexTransforms {
         let view_from_unit = self.camera.frame.view_from_world();
         let clip_from_unit = self.camera.clip_from_view(self.aspect) * view_from_unit;
@@ -62,11 +62,11 @@ impl SceneView {
         }
     }
 
-    /// The lights that were asked for, in view space, or those that go with the camera.
-    pub(crate) fn rig(&self, options: &RenderOptions) -> LightRig {
+    /// The lights of the options in view space, or the default lights.
+    pub(crate) fn lights(&self, options: &RenderOptions) -> Lights {
         let ambient = options.ambient.unwrap_or(DEFAULT_AMBIENT);
         if options.lights.is_empty() {
-            return LightRig::studio(ambient);
+            return Lights::studio(ambient);
         }
         let view_from_world = self.camera.frame.view_from_world();
         let lights = options.lights.iter().map(|light| {
@@ -80,28 +80,28 @@ impl SceneView {
                 highlight: 1.0,
             }
         });
-        LightRig::given(lights.collect(), ambient)
+        Lights::with_uniform_ambient(lights.collect(), ambient)
     }
 
-    /// Distances of the nearest and the furthest point, in the unit space; apart even for flat models.
+    /// Distances of the nearest and the furthest point, in unit space; different even for flat
+    /// models.
     pub(crate) fn depth_range(&self) -> (f32, f32) {
         const LEAST: f32 = 1e-5;
         let (nearest, furthest) = self.camera.depth_range;
-        let nearest = DVec3::splat(nearest.max(0.0)).as_vec3().x;
-        let furthest = DVec3::splat(furthest).as_vec3().x;
+        let nearest = round_to_f32(nearest.max(0.0));
+        let furthest = round_to_f32(furthest);
         (nearest, furthest.max(nearest + LEAST))
     }
 
-    /// Distance along the view direction of a point in the unit space.
+    /// Distance of a unit-space point along the view direction.
     pub(crate) fn distance(&self, point_unit: DVec3) -> f64 {
         let frame = &self.camera.frame;
         (frame.eye_world - point_unit).dot(frame.back_world)
     }
 
-    /// The camera in the world, rounded.
+    /// The camera in world space, rounded to f32.
     pub(crate) fn camera_world(&self) -> Camera {
-        let f32_of = |value: f64| DVec3::splat(value).as_vec3().x;
-        let length = |unit: f64| f32_of(unit * self.space.world_per_unit());
+        let length = |unit: f64| round_to_f32(unit * self.space.world_per_unit());
         let (near, far) = (length(self.camera.near), length(self.camera.far));
         Camera {
             eye_world: self
@@ -112,7 +112,7 @@ impl SceneView {
             up_world: self.camera.frame.up_world.as_vec3(),
             projection: match self.camera.lens {
                 Lens::Perspective(fov) => Projection::Perspective {
-                    fov_y_rad: f32_of(fov),
+                    fov_y_rad: round_to_f32(fov),
                     near,
                     far,
                 },
@@ -126,7 +126,7 @@ impl SceneView {
     }
 }
 
-/// The rotation of the model, and the direction that points up in the world.
+/// The rotation of the model, and the up direction in world space.
 fn orientation(up: Up, of_scene: UpAxis) -> (DMat3, DVec3) {
     let axis = match up {
         Up::FromScene => of_scene,

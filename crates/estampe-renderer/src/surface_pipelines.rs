@@ -1,15 +1,14 @@
-//! Which shader and state a surface is drawn with: the one place that puts looks, base colours and
-//! vertex streams together.
+//! Chooses the shader, vertex streams and fixed-function state of each surface.
 
 use crate::geometry::vertex_data::{MeshStreams, VertexStream};
 use crate::options::Shading;
 use crate::shading::VertexTransforms;
 use crate::shading::inspection::{DepthGrey, Normals, UvColors};
-use crate::shading::lighting::{Gloss, LightRig};
-use crate::shading::marks::Marks;
-use crate::shading::phong::{PhongLight, Tone};
+use crate::shading::lighting::{Gloss, Lights};
+use crate::shading::phong::{PhongLight, ShadingMode};
+use crate::shading::points_and_lines::PointsAndLines;
 use crate::shading::surfaces::{Alpha, Painted, PlainPhong, PlainVertexLit, SurfaceLight};
-use crate::shading::vertex_lit::{VertexLight, VertexTone};
+use crate::shading::vertex_lit::{VertexLight, VertexShadingMode};
 use crate::shading::wireframe::Wireframe;
 use estampe::shader::{FragmentBatch, Interface, VertexBatch};
 use estampe::state::{
@@ -23,21 +22,21 @@ use estampe::{
 };
 use std::sync::Arc;
 
-/// What is the same for all surfaces of a frame.
+/// Options that all surfaces of a frame share.
 #[derive(Debug, Clone)]
 pub(crate) struct FrameStyle {
     pub(crate) shading: Shading,
     pub(crate) transforms: VertexTransforms,
-    pub(crate) rig: Arc<LightRig>,
+    pub(crate) lights: Arc<Lights>,
     pub(crate) wireframe: Wireframe,
-    /// Distances of the nearest and the furthest point.
+    /// Distances of the model's nearest and furthest point.
     pub(crate) depth_range: (f32, f32),
     pub(crate) cull: CullMode,
     pub(crate) samples: u32,
     pub(crate) format: TextureFormat,
 }
 
-/// A surface's material, ready for shaders.
+/// A surface's material, prepared for shaders.
 #[derive(Debug, Clone)]
 pub(crate) struct SurfaceStyle {
     pub(crate) gloss: Gloss,
@@ -48,27 +47,27 @@ pub(crate) struct SurfaceStyle {
     pub(crate) transparency: Transparency,
 }
 
-/// What becomes of alpha.
+/// Treatment of a surface's alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Transparency {
-    /// Nothing.
+    /// Alpha is ignored.
     Opaque,
     /// Fragments below ½ are discarded.
     Masked,
-    /// It is blended, without writing depth.
+    /// Blended, without writing depth.
     Blended,
 }
 
-/// Steps of light in toon shading (row F3).
+/// Number of light steps in toon shading.
 const TOON_LEVELS: u16 = 4;
 
-/// A program, and the streams that it reads, by location.
-struct Look {
+/// A program with the vertex streams that it reads, by location.
+struct MaterialProgram {
     program: Arc<dyn Program>,
     streams: Vec<VertexStream>,
 }
 
-impl Look {
+impl MaterialProgram {
     fn new(shader: impl Shader, streams: &[VertexStream]) -> Self {
         Self {
             program: Arc::new(ShaderProgram::new(shader)),
@@ -77,8 +76,8 @@ impl Look {
     }
 }
 
-impl Look {
-    /// The same for a shader that discards nothing with these uniforms, so that depth can be tested
+impl MaterialProgram {
+    /// Declares that the program discards nothing with these uniforms, so that depth can be tested
     /// before it runs.
     fn without_discarding(self) -> Self {
         let interface = Interface {
@@ -93,7 +92,7 @@ impl Look {
     }
 }
 
-/// A program that keeps every fragment, whatever its type says.
+/// A program whose interface declares that it does not discard.
 #[derive(Debug)]
 struct NotDiscarding {
     program: Arc<dyn Program>,
@@ -114,7 +113,7 @@ impl Program for NotDiscarding {
     }
 }
 
-/// A pipeline, and the streams that its draws bring, in order.
+/// A pipeline with the vertex streams of its draws, by location.
 #[derive(Debug)]
 pub(crate) struct StreamPipeline {
     pub(crate) pipeline: RenderPipeline,
@@ -129,7 +128,7 @@ impl FrameStyle {
         surface: &SurfaceStyle,
         mesh: &MeshStreams,
     ) -> Result<StreamPipeline, PipelineError> {
-        let look = self.look(surface);
+        let material = self.material_program(surface);
         let is_blended = surface.transparency == Transparency::Blended && self.shows_transparency();
         let primitive = PrimitiveState {
             cull_mode: self.cull,
@@ -142,7 +141,7 @@ impl FrameStyle {
         };
         self.pipeline(
             device,
-            look,
+            material,
             mesh,
             PipelineState {
                 primitive,
@@ -153,14 +152,14 @@ impl FrameStyle {
     }
 
     /// The pipeline of points or lines.
-    pub(crate) fn marks(
+    pub(crate) fn points_and_lines(
         &self,
         device: &Device,
-        marks: Marks,
+        shader: PointsAndLines,
         topology: PrimitiveTopology,
         mesh: &MeshStreams,
     ) -> Result<StreamPipeline, PipelineError> {
-        let look = Look::new(marks, &[VertexStream::Position, VertexStream::Color]);
+        let material = MaterialProgram::new(shader, &[VertexStream::Position, VertexStream::Color]);
         let primitive = PrimitiveState {
             topology,
             ..PrimitiveState::default()
@@ -170,41 +169,44 @@ impl FrameStyle {
             depth: DepthState::LESS_WRITE,
             blend: None,
         };
-        self.pipeline(device, look, mesh, state)
+        self.pipeline(device, material, mesh, state)
     }
 
-    /// Whether transparent surfaces let through what lies behind them.
+    /// True if surfaces behind a transparent surface are visible.
     pub(crate) fn shows_transparency(&self) -> bool {
         !self.shading.holds_numbers() && self.shading != Shading::Wireframe
     }
 
-    /// Whether each triangle has vertices of its own.
+    /// True if each triangle needs separate vertices.
     pub(crate) fn needs_unshared_vertices(&self) -> bool {
         matches!(self.shading, Shading::Flat | Shading::Wireframe)
     }
 
-    fn look(&self, surface: &SurfaceStyle) -> Look {
+    fn material_program(&self, surface: &SurfaceStyle) -> MaterialProgram {
         use VertexStream::{Corner, Normal, Position, Uv};
         let transforms = self.transforms;
         match self.shading {
-            Shading::Phong => self.painted_or_plain(surface, self.phong(surface, Tone::Smooth)),
+            Shading::Phong => {
+                self.painted_or_plain(surface, self.phong(surface, ShadingMode::Smooth))
+            }
             Shading::Toon => {
-                self.painted_or_plain(surface, self.phong(surface, Tone::Toon(TOON_LEVELS)))
+                self.painted_or_plain(surface, self.phong(surface, ShadingMode::Toon(TOON_LEVELS)))
             }
-            Shading::Gouraud => {
-                self.painted_or_plain(surface, self.vertex_lit(surface, VertexTone::Gouraud))
-            }
+            Shading::Gouraud => self.painted_or_plain(
+                surface,
+                self.vertex_lit(surface, VertexShadingMode::Gouraud),
+            ),
             Shading::Flat => {
-                self.painted_or_plain(surface, self.vertex_lit(surface, VertexTone::Flat))
+                self.painted_or_plain(surface, self.vertex_lit(surface, VertexShadingMode::Flat))
             }
             Shading::Unlit => {
-                self.painted_or_plain(surface, self.vertex_lit(surface, VertexTone::Unlit))
+                self.painted_or_plain(surface, self.vertex_lit(surface, VertexShadingMode::Unlit))
             }
-            Shading::Wireframe => Look::new(self.wireframe.clone(), &[Position, Corner]),
-            Shading::Normals => Look::new(Normals { transforms }, &[Position, Normal]),
+            Shading::Wireframe => MaterialProgram::new(self.wireframe.clone(), &[Position, Corner]),
+            Shading::Normals => MaterialProgram::new(Normals { transforms }, &[Position, Normal]),
             Shading::Depth => {
                 let (nearest, furthest) = self.depth_range;
-                Look::new(
+                MaterialProgram::new(
                     DepthGrey {
                         transforms,
                         nearest,
@@ -213,31 +215,31 @@ impl FrameStyle {
                     &[Position],
                 )
             }
-            Shading::Uv => Look::new(UvColors { transforms }, &[Position, Uv]),
+            Shading::Uv => MaterialProgram::new(UvColors { transforms }, &[Position, Uv]),
         }
     }
 
-    fn phong(&self, surface: &SurfaceStyle, tone: Tone) -> SurfaceLight {
+    fn phong(&self, surface: &SurfaceStyle, mode: ShadingMode) -> SurfaceLight {
         let (transforms, gloss) = (self.transforms, surface.gloss);
         SurfaceLight::Fragments(PhongLight {
             transforms,
-            rig: Arc::clone(&self.rig),
+            lights: Arc::clone(&self.lights),
             gloss,
-            tone,
+            mode,
         })
     }
 
-    fn vertex_lit(&self, surface: &SurfaceStyle, tone: VertexTone) -> SurfaceLight {
+    fn vertex_lit(&self, surface: &SurfaceStyle, mode: VertexShadingMode) -> SurfaceLight {
         let (transforms, gloss) = (self.transforms, surface.gloss);
         SurfaceLight::Vertices(VertexLight {
             transforms,
-            rig: Arc::clone(&self.rig),
+            lights: Arc::clone(&self.lights),
             gloss,
-            tone,
+            mode,
         })
     }
 
-    fn painted_or_plain(&self, surface: &SurfaceStyle, light: SurfaceLight) -> Look {
+    fn painted_or_plain(&self, surface: &SurfaceStyle, light: SurfaceLight) -> MaterialProgram {
         use VertexStream::{Color, Normal, Position, Uv};
         let (factor, texture) = (surface.base, surface.texture.clone());
         let alpha = match surface.transparency {
@@ -252,11 +254,11 @@ impl FrameStyle {
                 texture,
                 alpha,
             };
-            let look = Look::new(shader, &[Position, Normal, Uv, Color]);
+            let material = MaterialProgram::new(shader, &[Position, Normal, Uv, Color]);
             return if alpha == Alpha::CutsOut {
-                look
+                material
             } else {
-                look.without_discarding()
+                material.without_discarding()
             };
         }
         let [r, g, b, opacity] = factor;
@@ -272,10 +274,10 @@ impl FrameStyle {
         ];
         match light {
             SurfaceLight::Fragments(light) => {
-                Look::new(PlainPhong { light, color }, &[Position, Normal])
+                MaterialProgram::new(PlainPhong { light, color }, &[Position, Normal])
             }
             SurfaceLight::Vertices(light) => {
-                Look::new(PlainVertexLit { light, color }, &[Position, Normal])
+                MaterialProgram::new(PlainVertexLit { light, color }, &[Position, Normal])
             }
         }
     }
@@ -283,11 +285,11 @@ impl FrameStyle {
     fn pipeline(
         &self,
         device: &Device,
-        look: Look,
+        material: MaterialProgram,
         mesh: &MeshStreams,
         state: PipelineState,
     ) -> Result<StreamPipeline, PipelineError> {
-        let layouts = look.streams.iter().enumerate();
+        let layouts = material.streams.iter().enumerate();
         let layouts = layouts.map(|(location, &stream)| mesh.get(stream).layout(stream, location));
         let target = ColorTargetState {
             format: self.format,
@@ -300,12 +302,12 @@ impl FrameStyle {
             depth: Some(state.depth),
             samples: self.samples,
             targets: vec![target],
-            ..RenderPipelineDescriptor::with_program(look.program)
+            ..RenderPipelineDescriptor::with_program(material.program)
         };
         let pipeline = device.create_render_pipeline(&descriptor)?;
         Ok(StreamPipeline {
             pipeline,
-            streams: look.streams,
+            streams: material.streams,
         })
     }
 }

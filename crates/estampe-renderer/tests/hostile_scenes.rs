@@ -1,4 +1,4 @@
-//! A scene cannot be at fault: whatever is broken in it is left out, and nothing panics.
+//! Invalid scenes: invalid parts are omitted, and nothing panics.
 
 use estampe::{Device, DeviceDescriptor};
 use estampe_renderer::{
@@ -36,7 +36,7 @@ fn small(shading: Shading) -> RenderOptions {
     }
 }
 
-/// A good triangle among everything that a mesh should not hold.
+/// A valid triangle among all kinds of invalid data.
 fn broken() -> Scene {
     let mesh = Mesh {
         positions: vec![
@@ -172,7 +172,7 @@ fn a_mesh_without_normals_is_lit_by_its_faces() {
     let with = render(&triangle(vec![Vec3::Z; 3]), &options, &device).expect("small");
     assert_eq!(without.image, with.image);
     assert_eq!(with.statistics.primitives_in, 1);
-    // Normals that point away from the front of the face are taken for the exporter's mistake.
+    // Normals that point away from the front of the face are treated as an exporter's mistake.
     let turned = render(&triangle(vec![-Vec3::Z; 3]), &options, &device).expect("small");
     assert_eq!(turned.image, with.image);
 }

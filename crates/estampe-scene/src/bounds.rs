@@ -12,13 +12,14 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The box that holds nothing.
+    /// The box that contains no point.
     pub const EMPTY: Self = Self {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,
     };
 
-    /// The smallest box around all finite points; points with a NaN or infinite coordinate are left out.
+    /// The smallest box around all finite points; points with a NaN or infinite coordinate are left
+    /// out.
     pub fn of(points: impl IntoIterator<Item = Vec3>) -> Self {
         let mut bounds = Self::EMPTY;
         for point in points {
@@ -30,13 +31,13 @@ impl Bounds {
         bounds
     }
 
-    /// Whether no point was added.
+    /// True if no point was added.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         !self.min.cmple(self.max).all()
     }
 
-    /// The smallest box around both.
+    /// The smallest box around both boxes.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
         Self {
@@ -45,7 +46,8 @@ impl Bounds {
         }
     }
 
-    /// The middle of the box; the origin when empty. Halves first, so it cannot overflow.
+    /// The middle of the box; the origin when empty. The corners are halved before they are added,
+    /// so that the sum cannot overflow.
     #[must_use]
     pub fn center(&self) -> Vec3 {
         if self.is_empty() {

@@ -1,4 +1,4 @@
-//! Where the picture is taken from.
+//! The camera of a scene.
 
 use glam::Vec3;
 
@@ -7,18 +7,18 @@ use glam::Vec3;
 pub struct Camera {
     /// Position of the eye.
     pub eye_world: Vec3,
-    /// The point that is seen in the middle of the picture.
+    /// The point in the middle of the picture.
     pub target_world: Vec3,
     /// The direction that points up in the picture; need not be unit or perpendicular.
     pub up_world: Vec3,
-    /// How depth becomes size.
+    /// Projection from view space to the picture.
     pub projection: Projection,
 }
 
-/// How view space is mapped to the picture.
+/// Projection from view space to the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Projection {
-    /// Far things are smaller.
+    /// Perspective: size decreases with distance.
     Perspective {
         /// Vertical opening angle, in (0, π).
         fov_y_rad: f32,
@@ -29,7 +29,7 @@ pub enum Projection {
     },
     /// Size does not depend on distance.
     Orthographic {
-        /// Half of the height that is seen, in world units.
+        /// Half of the visible height, in world units.
         half_height: f32,
         /// Distance of the near plane; may be negative (behind the eye).
         near: f32,

@@ -1,8 +1,9 @@
-//! Pictures in memory.
+//! Images in memory.
 
 /// An image of 8-bit RGBA texels, row by row from the top, straight alpha.
 ///
-/// Colour images hold sRGB-encoded values; what the values mean is the user's business.
+/// Colour images hold sRGB-encoded values. Other images, such as normals or depths, hold the values
+/// that their producer documents.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Image {
     /// Width in pixels.

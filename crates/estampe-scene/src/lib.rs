@@ -1,8 +1,8 @@
 #![forbid(unsafe_code)]
 //! The plain data of a scene: meshes, materials, images, lights and cameras.
 //!
-//! Readers (`estampe-assets`) and built-in shapes fill these values, the renderer draws them; nothing
-//! here knows files or rendering. Spaces are named in the fields: `object` is the file's own space,
+//! Readers (`estampe-assets`) and built-in shapes create these values, and the renderer draws them;
+//! this crate depends on neither. Field names state the space: `object` is the file's own space,
 //! `world` the scene's (right-handed, Y up). [`Workers`] are threads for work on such data.
 
 mod bounds;
@@ -21,7 +21,7 @@ pub use material::{AlphaMode, Material};
 pub use mesh::{LineSegment, Mesh, Surface, Triangle, UpAxis};
 pub use workers::{Workers, pieces};
 
-/// Everything that one file describes.
+/// The contents of one file.
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
     /// The meshes, in file order. All are in the same space.

@@ -1,4 +1,4 @@
-//! What lights a scene.
+//! Lights of a scene.
 
 use glam::Vec3;
 

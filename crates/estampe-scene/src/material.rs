@@ -1,4 +1,4 @@
-//! What surfaces are made of.
+//! Materials of surfaces.
 
 use glam::Vec3;
 
@@ -19,11 +19,11 @@ pub struct Material {
     pub emissive: Vec3,
     /// Index into `Scene::images` of the sRGB base-colour texture.
     pub base_color_texture: Option<usize>,
-    /// How the texture's alpha is used.
+    /// Use of the texture's alpha.
     pub alpha_mode: AlphaMode,
 }
 
-/// What a material's alpha means.
+/// Use of a material's alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AlphaMode {
     /// Alpha is ignored.

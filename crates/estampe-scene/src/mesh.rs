@@ -1,4 +1,4 @@
-//! Vertices, what connects them, and their attributes (row M1).
+//! Meshes: vertices with their attributes, and the primitives that connect them.
 
 use crate::Bounds;
 use glam::{Vec2, Vec3};
@@ -10,9 +10,9 @@ use glam::{Vec2, Vec3};
 pub struct Mesh {
     /// Name of the object or group; may be empty.
     pub name: String,
-    /// Vertex positions in the file's space. May hold non-finite values when the file did.
+    /// Vertex positions in the file's space. Non-finite if the file's values are.
     pub positions: Vec<Vec3>,
-    /// Unit vertex normals, or empty. A zero normal means "this vertex has none".
+    /// Unit vertex normals, or empty. A zero normal means that the vertex has none.
     pub normals: Vec<Vec3>,
     /// Texture coordinates with v = 0 at the image's top row, or empty.
     pub uvs: Vec<Vec2>,
@@ -46,10 +46,10 @@ pub struct Surface {
 /// The axis that points up in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum UpAxis {
-    /// Most formats.
+    /// Y, as in most formats.
     #[default]
     Y,
-    /// STL, by the habit of machine drawing.
+    /// Z, as usual in STL files.
     Z,
 }
 

@@ -3,28 +3,28 @@
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// How many threads may work at once.
+/// The number of threads that may work at once.
 ///
-/// Work is cut into pieces by its size alone, and results are in the order of the pieces, so nothing
-/// depends on the number of threads. Threads live as long as one call: a piece should take some
-/// hundred microseconds, starting a thread takes thirty.
+/// Work is divided by its size alone, and results are in the order of the pieces, so that no result
+/// depends on the number of threads. Threads live as long as one call. A piece should take some
+/// hundred microseconds; starting a thread takes thirty.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Workers {
     count: usize,
 }
 
 impl Default for Workers {
-    /// One for each processor.
+    /// One thread for each processor.
     fn default() -> Self {
         Self::new(0)
     }
 }
 
 impl Workers {
-    /// The caller alone.
+    /// The calling thread alone.
     pub const ONE: Self = Self { count: 1 };
 
-    /// So many threads, the caller included; 0 is one for each processor.
+    /// `count` threads, the calling thread included; 0 for one per processor.
     #[must_use]
     pub fn new(count: usize) -> Self {
         let available = || std::thread::available_parallelism().map_or(1, usize::from);
@@ -33,13 +33,13 @@ impl Workers {
         }
     }
 
-    /// How many threads there may be, the caller included.
+    /// The maximum number of threads, the calling thread included.
     #[must_use]
     pub fn count(self) -> usize {
         self.count
     }
 
-    /// Does `work` on each item, and gives the results in the items' order.
+    /// Calls `work` on each item, and returns the results in the order of the items.
     pub fn map<T: Send, R: Send>(
         self,
         items: impl IntoIterator<Item = T>,
@@ -51,7 +51,7 @@ impl Workers {
             return items.into_iter().map(work).collect();
         }
         let mut results: Vec<Option<R>> = items.iter().map(|_| None).collect();
-        // Who is free takes the next item.
+        // Each thread takes the next item when it has finished one.
         let queue = Mutex::new(items.into_iter().zip(&mut results));
         let run = || {
             loop {
@@ -62,7 +62,7 @@ impl Workers {
         };
         std::thread::scope(|scope| {
             for _ in 0..helpers {
-                // Where the system gives no thread, those that there are do the work.
+                // If the system refuses a thread, the existing threads do the work.
                 let _ = std::thread::Builder::new().spawn_scoped(scope, run);
             }
             run();
@@ -71,7 +71,7 @@ impl Workers {
         results.into_iter().flatten().collect()
     }
 
-    /// Does both, at once where there are two threads.
+    /// Calls both functions, on two threads if there are two.
     pub fn join<A: Send, B: Send>(
         self,
         first: impl FnOnce() -> A + Send,
@@ -93,12 +93,12 @@ impl Workers {
                 Ok(Err(panic)) => std::panic::resume_unwind(panic),
                 Err(_) => take(),
             };
-            (a, b.expect("whoever took the work did it"))
+            (a, b.expect("a thread has done the work"))
         })
     }
 }
 
-/// Ranges of `size` that cover `0..len`; the last may be shorter.
+/// Ranges of length `size` that cover `0..len`; the last one may be shorter.
 pub fn pieces(len: usize, size: usize) -> impl Iterator<Item = Range<usize>> {
     (0..len)
         .step_by(size.max(1))

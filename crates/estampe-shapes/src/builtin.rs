@@ -1,4 +1,4 @@
-//! The models that need no file, by name.
+//! The built-in models, by name.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,7 +7,7 @@ use crate::mesh::ShapeMesh;
 use crate::parametric::{plane, sphere, torus};
 use crate::{cube, teapot};
 
-/// A model that needs no file.
+/// A built-in model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BuiltinShape {
     /// The Utah teapot with its bottom, standing on y = 0: 6.43 wide, 3.15 high, spout towards +x.
@@ -23,7 +23,7 @@ pub enum BuiltinShape {
 }
 
 impl BuiltinShape {
-    /// Every built-in model, in the order in which they are listed to people.
+    /// Every built-in model, in the order in which listings show them.
     pub const ALL: [Self; 5] = [
         Self::Teapot,
         Self::Sphere,
@@ -44,7 +44,7 @@ impl BuiltinShape {
         }
     }
 
-    /// Builds the model, fine enough for a picture of a thousand pixels.
+    /// Builds the model, fine enough for an image of a thousand pixels.
     #[must_use]
     pub fn build(self) -> ShapeMesh {
         match self {
@@ -76,16 +76,16 @@ impl FromStr for BuiltinShape {
     }
 }
 
-/// A name that no built-in model has.
+/// Error: no built-in model has this name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownShape {
-    /// The name as it was given.
+    /// The given name.
     pub name: String,
 }
 
 impl fmt::Display for UnknownShape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "there is no built-in model {:?}; there are ", self.name)?;
+        write!(f, "no built-in model is called {:?}; there are ", self.name)?;
         for (i, shape) in BuiltinShape::ALL.into_iter().enumerate() {
             let separator = match i {
                 0 => "",

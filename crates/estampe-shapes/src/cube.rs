@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3};
 
 use crate::mesh::ShapeMesh;
 
-/// The faces: outward normal, and the direction in which the image's u grows.
+/// The faces: outward normal, and the direction of the image's u.
 ///
 /// The image's top points to +Y on the four sides; seen from the front, the top continues the front
 /// face upwards and the bottom continues it downwards.

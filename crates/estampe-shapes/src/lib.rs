@@ -1,24 +1,23 @@
 #![forbid(unsafe_code)]
-//! Shapes made of numbers: the built-in models, parametric surfaces, polygons and their
-//! triangulation.
+//! Built-in models, parametric surfaces, polygons and their triangulation.
 //!
-//! Everything here is plain geometry: positions, normals, texture coordinates and triangles.
-//! Nothing knows about cameras, materials or rendering.
+//! The crate has geometry only: positions, normals, texture coordinates and triangles. It depends
+//! neither on cameras nor on materials or rendering.
 //!
-//! | module | what |
+//! | module | contents |
 //! |---|---|
-//! | [`builtin`] | the models that need no file, by name |
+//! | [`builtin`] | the built-in models, by name |
 //! | [`teapot`] | the Utah teapot from its published control points |
 //! | [`parametric`] | surfaces S(s, t) on a grid: sphere, torus, plane |
 //! | [`cube`] | the one built-in model that is not a surface on a grid |
 //! | [`bezier`] | Bézier curves and patches with their derivatives |
-//! | [`mesh`] | the triangles that all of these produce |
+//! | [`mesh`] | the triangle mesh that all of these produce |
 //! | [`polygon`] | area, convexity, point tests, triangulation |
 //!
 //! Conventions: Y is up, triangles are counter-clockwise seen from outside, normals have unit
 //! length and point outwards, texture coordinates have v = 0 at the image's top row, and images are
-//! not mirrored where they are seen from outside. Points are computed in f64 with `libm` and
-//! rounded once, so a shape has the same bits on every machine.
+//! not mirrored when seen from outside. Points are computed in f64 with `libm` and rounded once, so
+//! a shape has the same bits on every machine.
 
 pub mod bezier;
 pub mod builtin;
@@ -26,6 +25,8 @@ pub mod cube;
 pub mod mesh;
 pub mod parametric;
 pub mod polygon;
+#[cfg(test)]
+mod random_cases;
 pub mod teapot;
 
 pub use builtin::{BuiltinShape, UnknownShape};

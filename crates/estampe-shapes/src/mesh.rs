@@ -1,11 +1,11 @@
-//! The triangles that every shape here produces.
+//! The triangle mesh that every shape produces.
 
 use glam::{Vec2, Vec3};
 
 /// An indexed triangle mesh with one normal and one texture coordinate per vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShapeMesh {
-    /// What the shape is called, in lower case.
+    /// Name of the shape, in lower case.
     pub name: String,
     /// Vertex positions in object space, Y up.
     pub positions: Vec<Vec3>,

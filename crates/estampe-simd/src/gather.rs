@@ -1,16 +1,16 @@
 //! Indexed loads: `table[index]` for sixteen indices at once.
 //!
-//! The hardware's gather reads wherever it is told to; clamping the indices to the table first makes
-//! it sound for any input, at one instruction. Squares of four elements are read by loads of eight bytes
-//! instead: two gathers of pairs, or four of elements, were measured to take longer on Zen 4, and half of
-//! the processors have no gather at all. For single elements the gather wins. This is the crate's only
-//! `unsafe` code.
+//! A hardware gather reads any address; clamping the indices to the table first makes it sound for
+//! any input, at the cost of one instruction. Squares of four elements are read by loads of eight
+//! bytes instead: two gathers of pairs, or four of elements, were measured to take longer on Zen 4,
+//! and half of the processors have no gather at all. For single elements the gather is faster. This
+//! module has the crate's only `unsafe` code.
 
 use crate::LANES;
 use fearless_simd::{Simd, SimdBase, u32x16};
 
-/// The last valid index, or `None` for an empty table. Tables longer than 2³¹ elements are cut: the
-/// hardware's indices are signed.
+/// The last valid index, or `None` for an empty table. Elements from 2³¹ on are not reachable,
+/// because hardware indices are signed.
 #[inline(always)]
 fn last_index(table: &[u32]) -> Option<u32> {
     let last = table.len().checked_sub(1)?;
@@ -24,13 +24,14 @@ fn last_index(table: &[u32]) -> Option<u32> {
     reason = "the crate's only unsafe file; safe transmutation is not stable"
 )]
 pub fn bits_of(table: &[f32]) -> &[u32] {
-    // SAFETY: f32 and u32 have the same size and alignment, every bit pattern of either is valid, and the
-    // result borrows what the argument borrows.
+    // SAFETY: f32 and u32 have the same size and alignment, every bit pattern of either is valid,
+    // and the result borrows what the argument borrows.
     unsafe { std::slice::from_raw_parts(table.as_ptr().cast(), table.len()) }
 }
 
-/// The last index of which all of `index`, `index + 1`, `index + stride` and `index + stride + 1` are
-/// valid, or `None` for a table too short for that. Tables are cut where indices of 32 bits end.
+/// The last index for which all of `index`, `index + 1`, `index + stride` and `index + stride + 1`
+/// are valid, or `None` if the table is too short. Elements beyond 32-bit indices are not
+/// reachable.
 #[inline(always)]
 #[expect(
     clippy::cast_possible_truncation,
@@ -62,7 +63,7 @@ pub(crate) fn square_by_lane<S: Simd>(
     ]
 }
 
-/// One load per lane, for levels without a gather instruction.
+/// One load per lane, for SIMD levels without a gather instruction.
 #[inline(always)]
 pub(crate) fn by_lane<S: Simd>(simd: S, table: &[u32], index: u32x16<S>) -> u32x16<S> {
     let Some(last) = last_index(table) else {
@@ -71,14 +72,14 @@ pub(crate) fn by_lane<S: Simd>(simd: S, table: &[u32], index: u32x16<S>) -> u32x
     let index = index.min(u32x16::splat(simd, last));
     let mut out = [0; LANES];
     for (value, &at) in out.iter_mut().zip(index.as_slice()) {
-        // The index is in range; `get` only tells the compiler so without a panic path.
+        // The index is in range; `get` spares the compiler a panic path.
         *value = table.get(at as usize).copied().unwrap_or_default();
     }
     u32x16::load_array(simd, out)
 }
 
 #[cfg(target_arch = "x86_64")]
-pub(crate) use x86::{avx2, avx512, square_avx2, square_avx512, square_sse2};
+pub(crate) use x86::{avx2, avx512, lookup_avx512, square_avx2, square_avx512, square_sse2};
 
 #[cfg(target_arch = "x86_64")]
 #[expect(unsafe_code, reason = "the gather intrinsics take a raw pointer")]
@@ -108,6 +109,60 @@ mod x86 {
         kernel(simd, table, index.min(u32x16::splat(simd, last)))
     }
 
+    /// [`Lanes::lookup`](crate::Lanes::lookup) by permutations: eight of 32 elements each, from which the index's
+    /// highest three bits choose. Sixteen loads of one element take two to three times as long.
+    #[inline(always)]
+    pub(crate) fn lookup_avx512(
+        simd: Avx512,
+        table: &[u32; 256],
+        index: u32x16<Avx512>,
+    ) -> u32x16<Avx512> {
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn of_32(
+                simd: Avx512,
+                low: u32x16<Avx512>,
+                index: u32x16<Avx512>,
+                high: u32x16<Avx512>,
+            ) -> u32x16<Avx512> {
+                use core::arch::x86_64::*;
+                _mm512_permutex2var_epi32(low.into(), index.into(), high.into()).simd_into(simd)
+            }
+        );
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn choose(
+                simd: Avx512,
+                clear: u32x16<Avx512>,
+                set: u32x16<Avx512>,
+                index: u32x16<Avx512>,
+                bit: u32x16<Avx512>,
+            ) -> u32x16<Avx512> {
+                use core::arch::x86_64::*;
+                let is_set = _mm512_test_epi32_mask(index.into(), bit.into());
+                _mm512_mask_blend_epi32(is_set, clear.into(), set.into()).simd_into(simd)
+            }
+        );
+        let mut found = [u32x16::splat(simd, 0); 8];
+        let (rows, _) = table.as_chunks::<16>();
+        let mut k = 0;
+        while k < 8 {
+            let low = u32x16::load_array_ref(simd, &rows[2 * k]);
+            let high = u32x16::load_array_ref(simd, &rows[2 * k + 1]);
+            found[k] = of_32(simd, low, index, high);
+            k += 1;
+        }
+        let bit = |value| u32x16::splat(simd, value);
+        let [a, b, c, d, e, f, g, h] = found;
+        let a = choose(simd, a, b, index, bit(32));
+        let c = choose(simd, c, d, index, bit(32));
+        let e = choose(simd, e, f, index, bit(32));
+        let g = choose(simd, g, h, index, bit(32));
+        let a = choose(simd, a, c, index, bit(64));
+        let e = choose(simd, e, g, index, bit(64));
+        choose(simd, a, e, index, bit(128))
+    }
+
     #[inline(always)]
     pub(crate) fn avx2(simd: Avx2, table: &[u32], index: u32x16<Avx2>) -> u32x16<Avx2> {
         let Some(last) = last_index(table) else {
@@ -118,8 +173,8 @@ mod x86 {
             fn kernel(simd: Avx2, table: &[u32], index: u32x8<Avx2>) -> u32x8<Avx2> {
                 use core::arch::x86_64::*;
                 let base = table.as_ptr().cast::<i32>();
-                // SAFETY: the token proves AVX2. Every index is at most `last_index(table)`, so each
-                // lane reads four bytes inside `table`, which is borrowed for the call.
+                // SAFETY: the token proves AVX2. Every index is at most `last_index(table)`, so
+                // each lane reads four bytes inside `table`, which is borrowed for the call.
                 let values: __m256i = unsafe { _mm256_i32gather_epi32::<4>(base, index.into()) };
                 values.simd_into(simd)
             }
@@ -128,10 +183,11 @@ mod x86 {
         kernel(simd, table, low).combine(kernel(simd, table, high))
     }
 
-    /// The squares of sixteen lanes, each in 128 bits: left and right of the upper row, then of the lower.
+    /// The squares of sixteen lanes, each in 128 bits: left and right of the upper row, then of the
+    /// lower.
     ///
-    /// Unsafe because of the checks: one per lane and row, of indices that have been cut just before, made the
-    /// whole no faster than gathers.
+    /// Unsafe, because checks cost too much: one per lane and row, of indices that were clamped
+    /// just before, made the whole no faster than gathers.
     #[inline(always)]
     fn squares<S: Simd>(
         simd: S,
@@ -140,8 +196,8 @@ mod x86 {
         stride: u32,
     ) -> Option<[__m128i; LANES]> {
         let last = last_square(table, stride)?;
-        // Through memory on purpose: taking lanes out of registers made AVX2's trilinear samples take a
-        // quarter longer, and AVX-512's no shorter.
+        // The indices go through memory on purpose: extracting lanes from registers made AVX2's
+        // trilinear samples take a quarter longer, and AVX-512's no shorter.
         let index = index.min(u32x16::splat(simd, last)).to_array();
         let index = std::hint::black_box(index);
         let upper = table.as_ptr();
@@ -152,12 +208,14 @@ mod x86 {
         while lane < LANES {
             let at = index[lane] as usize;
             let (upper, lower) = (upper.wrapping_add(at), lower.wrapping_add(at));
-            // SAFETY: `at` is at most `last`, so `at + 1` is in the table: these are eight bytes of it.
+            // SAFETY: `at` is at most `last`, so `at + 1` is in the table, and all eight bytes are
+            // inside.
             let upper = unsafe { upper.cast::<u64>().read_unaligned() };
-            // SAFETY: so is `at + stride + 1`.
+            // SAFETY: `at` is at most `last`, so `at + stride + 1` is in the table, and all eight
+            // bytes are inside.
             let lower = unsafe { lower.cast::<u64>().read_unaligned() };
-            // As f64, because that is a load, and a load with an insertion; moving them keeps all bits.
-            // SAFETY: SSE2 is x86-64's baseline.
+            // As f64, because the compiler then emits a load and a load with insertion; moves keep
+            // all bits. SAFETY: SSE2 is x86-64's baseline.
             let square = unsafe { _mm_set_pd(f64::from_bits(lower), f64::from_bits(upper)) };
             // SAFETY: as above.
             squares[lane] = unsafe { _mm_castpd_si128(square) };
@@ -176,7 +234,7 @@ mod x86 {
         let Some(squares) = squares(simd, table, index, stride) else {
             return [u32x16::splat(simd, 0); 4];
         };
-        // Small functions: a long one would not be inlined.
+        // The functions are small, because a long one would not be inlined.
         fearless_simd::kernel!(
             #[inline(always)]
             fn join(

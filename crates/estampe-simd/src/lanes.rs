@@ -1,50 +1,63 @@
-//! The extension trait of level tokens: what lane code may use beyond the vector types' own methods.
+//! The extension trait of level tokens: operations beyond the methods of the vector types.
 
+use crate::Level;
 use fearless_simd::{
-    Fallback, Select, Simd, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, SimdMask, f32x16,
-    i32x16, mask32x16, u32x16,
+    Select, Simd, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, SimdMask, f32x16, i32x16,
+    mask32x16, u32x16,
 };
 
-/// A level token for lane code. Every operation gives the same bits at every level.
+/// A level token for lane code. Every operation gives the same bits at every SIMD level.
 pub trait Lanes: Simd {
-    /// Whether lanes are plain scalars, sixteen of which are long code.
+    /// True if lanes are plain scalars, so that code for sixteen lanes is long.
     const IS_SCALAR: bool = false;
 
-    /// `a < b ? a : b` lane by lane: `b` where either is NaN, and of two zeros `b`.
+    /// The SIMD level of the token.
+    fn as_level(self) -> Level;
+
+    /// `a < b ? a : b` in each lane: `b` if either is NaN, and of two zeros `b`.
     #[inline(always)]
     fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
         a.simd_lt(b).select(a, b)
     }
 
-    /// `a > b ? a : b` lane by lane: `b` where either is NaN, and of two zeros `b`.
+    /// `a > b ? a : b` in each lane: `b` if either is NaN, and of two zeros `b`.
     #[inline(always)]
     fn max_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
         a.simd_gt(b).select(a, b)
     }
 
-    /// The greatest integer not above `a`; −0 stays −0, NaN and infinities stay.
+    /// The greatest integer that is not above `a`. −0, NaN and infinities are returned unchanged.
     #[inline(always)]
     fn floor_f32(self, a: f32x16<Self>) -> f32x16<Self> {
         a.floor()
     }
 
-    /// Nearest integer, ties to even, of values within ±2²²; anything else is unspecified but safe.
+    /// The nearest integer, ties to even, for values within ±2²². The result for other values is
+    /// unspecified but safe.
     #[inline(always)]
     fn round_to_i32(self, a: f32x16<Self>) -> i32x16<Self> {
         // Adding 1.5·2²³ leaves the integer in the low bits of the mantissa, rounded as every
-        // addition is: to nearest, ties to even. It is the same two instructions at every level.
+        // addition is: to nearest, ties to even. These are the same two instructions at every SIMD
+        // level.
         let magic = f32x16::splat(self, 12_582_912.0);
         let bits: i32x16<Self> = i32x16::from_bytes_of(a + magic);
         bits - i32x16::splat(self, 0x4B40_0000)
     }
 
-    /// `table[index]` lane by lane; an index at or beyond the end reads the last element, and an
-    /// empty table reads as zeros.
+    /// `table[index]` in each lane. An index at or beyond the end reads the last element; an empty
+    /// table reads as zeros.
     fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self>;
 
-    /// `table[index]`, `table[index + 1]`, `table[index + stride]`, `table[index + stride + 1]` lane by
-    /// lane: two neighbours of one row and those below them. An index of which one of these is beyond the
-    /// end reads the last square; a table with less than `stride + 2` elements reads as zeros.
+    /// `table[index]` in each lane, for an index below 256; for any other index, some element.
+    #[inline(always)]
+    fn lookup(self, table: &[u32; 256], index: u32x16<Self>) -> u32x16<Self> {
+        self.gather(table, index)
+    }
+
+    /// `table[index]`, `table[index + 1]`, `table[index + stride]` and `table[index + stride + 1]`
+    /// in each lane: two neighbours in one row and the two below them. If any of the four is beyond
+    /// the end, the last square is read; a table with fewer than `stride + 2` elements reads as
+    /// zeros.
     #[inline(always)]
     fn gather_square(self, table: &[u32], index: u32x16<Self>, stride: u32) -> [u32x16<Self>; 4] {
         crate::gather::square_by_lane(self, table, index, stride)
@@ -56,7 +69,7 @@ pub trait Lanes: Simd {
         mask32x16::from_bitmask(self, u64::from(bits))
     }
 
-    /// The mask's 16 bits: lane `i` is bit `i`.
+    /// The mask as 16 bits: lane `i` is bit `i`.
     #[inline(always)]
     #[expect(
         clippy::cast_possible_truncation,
@@ -66,7 +79,7 @@ pub trait Lanes: Simd {
         mask.to_bitmask() as u16
     }
 
-    /// The bits of the lanes that are negative (sign bit set).
+    /// Bit `i` is set if lane `i` is negative (its sign bit is set).
     #[inline(always)]
     fn sign_bits(self, a: i32x16<Self>) -> u16 {
         self.bits_of_mask(a.simd_lt(i32x16::splat(self, 0)))
@@ -86,8 +99,14 @@ impl<S: Simd> FromBytesOf<S> for i32x16<S> {
     }
 }
 
-impl Lanes for Fallback {
+#[cfg(scalar_level)]
+impl Lanes for fearless_simd::Fallback {
     const IS_SCALAR: bool = true;
+
+    #[inline(always)]
+    fn as_level(self) -> Level {
+        Level::Scalar(self)
+    }
 
     #[inline(always)]
     fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
@@ -102,6 +121,10 @@ mod x86 {
 
     impl Lanes for Sse2 {
         #[inline(always)]
+        fn as_level(self) -> Level {
+            Level::Sse2(self)
+        }
+        #[inline(always)]
         fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
             a.min(b)
         }
@@ -109,8 +132,8 @@ mod x86 {
         fn max_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
             a.max(b)
         }
-        /// SSE2 has no rounding instruction and a call per lane is slow: truncate, step down where
-        /// that went up, keep what has no fraction, and give zeros back their sign.
+        /// SSE2 has no rounding instruction, and a call per lane is slow. So: truncate, subtract 1
+        /// where that rounded up, keep values without a fraction, and restore the sign of zeros.
         #[inline(always)]
         fn floor_f32(self, a: f32x16<Self>) -> f32x16<Self> {
             let int = i32x16::truncate_from(a);
@@ -138,6 +161,10 @@ mod x86 {
 
     impl Lanes for Avx2 {
         #[inline(always)]
+        fn as_level(self) -> Level {
+            Level::Avx2(self)
+        }
+        #[inline(always)]
         fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
             a.min(b)
         }
@@ -162,6 +189,10 @@ mod x86 {
 
     impl Lanes for Avx512 {
         #[inline(always)]
+        fn as_level(self) -> Level {
+            Level::Avx512(self)
+        }
+        #[inline(always)]
         fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
             a.min(b)
         }
@@ -172,6 +203,10 @@ mod x86 {
         #[inline(always)]
         fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
             crate::gather::avx512(self, table, index)
+        }
+        #[inline(always)]
+        fn lookup(self, table: &[u32; 256], index: u32x16<Self>) -> u32x16<Self> {
+            crate::gather::lookup_avx512(self, table, index)
         }
         #[inline(always)]
         fn gather_square(
@@ -188,6 +223,11 @@ mod x86 {
 #[cfg(target_arch = "aarch64")]
 impl Lanes for fearless_simd::aarch64::Neon {
     #[inline(always)]
+    fn as_level(self) -> Level {
+        Level::Neon(self)
+    }
+
+    #[inline(always)]
     fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
         crate::gather::by_lane(self, table, index)
     }
@@ -195,6 +235,11 @@ impl Lanes for fearless_simd::aarch64::Neon {
 
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 impl Lanes for fearless_simd::wasm32::WasmSimd128 {
+    #[inline(always)]
+    fn as_level(self) -> Level {
+        Level::Simd128(self)
+    }
+
     #[inline(always)]
     fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
         crate::gather::by_lane(self, table, index)

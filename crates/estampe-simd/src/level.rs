@@ -1,5 +1,6 @@
-//! The SIMD levels: which exist, which this processor has, and how code is entered at one.
+//! The SIMD levels: the known ones, the ones that this processor has, and entering code at a level.
 
+#[cfg(scalar_level)]
 use fearless_simd::Fallback;
 #[cfg(target_arch = "aarch64")]
 use fearless_simd::aarch64::Neon;
@@ -12,35 +13,44 @@ use fearless_simd::x86::{Avx2, Avx512, Sse2};
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub enum Level {
-    /// Plain scalar code; on every processor.
+    /// Plain scalar code, for every processor. Built in with the feature `scalar-level`, and on
+    /// targets without SIMD instructions.
+    #[cfg(scalar_level)]
     Scalar(Fallback),
-    /// x86-64's baseline: 4 lanes a register.
+    /// x86-64's baseline: 4 lanes per register.
     #[cfg(target_arch = "x86_64")]
     Sse2(Sse2),
-    /// AVX2 (x86-64-v3): 8 lanes a register.
+    /// AVX2 (x86-64-v3): 8 lanes per register.
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
-    /// AVX-512 as in Ice Lake and Zen 4: 16 lanes a register.
+    /// AVX-512 as in Ice Lake and Zen 4: 16 lanes per register.
     #[cfg(target_arch = "x86_64")]
     Avx512(Avx512),
-    /// AArch64's baseline: 4 lanes a register.
+    /// AArch64's baseline: 4 lanes per register.
     #[cfg(target_arch = "aarch64")]
     Neon(Neon),
-    /// WebAssembly's 128-bit SIMD: 4 lanes a register.
+    /// WebAssembly's 128-bit SIMD: 4 lanes per register.
     #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
     Simd128(WasmSimd128),
 }
 
-/// A level that cannot be used here.
+/// The reason why a SIMD level cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LevelError {
     /// No level has this name.
     Unknown(String),
-    /// The level exists, but not on this processor.
-    Missing {
-        /// The level that was asked for.
+    /// The level exists, but this build does not contain it.
+    NotBuiltIn {
+        /// The requested level.
         name: &'static str,
-        /// The best level that this processor has.
+        /// The Cargo feature that includes the level.
+        feature: &'static str,
+    },
+    /// The level exists, but this processor does not support it.
+    Missing {
+        /// The requested level.
+        name: &'static str,
+        /// The widest level that this processor supports.
         best: &'static str,
     },
 }
@@ -51,6 +61,12 @@ impl std::fmt::Display for LevelError {
             Self::Unknown(name) => {
                 write!(f, "no SIMD level is named '{name}'; the levels are ")?;
                 write!(f, "auto, {}", Level::NAMES.join(", "))
+            }
+            Self::NotBuiltIn { name, feature } => {
+                write!(
+                    f,
+                    "the SIMD level {name} is not built in; build with the feature `{feature}`"
+                )
             }
             Self::Missing { name, best } => {
                 write!(
@@ -65,28 +81,34 @@ impl std::fmt::Display for LevelError {
 impl std::error::Error for LevelError {}
 
 impl Level {
-    /// The names that [`Level::named`] knows, from the narrowest to the widest of each architecture.
+    /// The names that [`Level::named`] accepts, narrowest level first within each architecture.
     pub const NAMES: [&'static str; 6] = ["scalar", "sse2", "avx2", "avx512", "neon", "simd128"];
 
-    /// The scalar level.
+    /// True for the scalar level.
     #[must_use]
-    pub fn scalar() -> Self {
-        Self::Scalar(Fallback::new())
+    #[inline]
+    pub fn is_scalar(self) -> bool {
+        #[cfg(scalar_level)]
+        return matches!(self, Self::Scalar(_));
+        #[cfg(not(scalar_level))]
+        false
     }
 
-    /// The widest level that this processor has.
+    /// The widest level that this processor supports.
     #[must_use]
     pub fn best() -> Self {
         *Self::all_available()
             .last()
-            .expect("the scalar level is always there")
+            .expect("every target has its baseline's level, or the scalar one")
     }
 
-    /// Every level that this processor has, scalar first and widest last.
+    /// Every level that this processor supports and this build contains, narrowest first.
     #[must_use]
     pub fn all_available() -> Vec<Self> {
         let detected = fearless_simd::Level::new();
-        let mut levels = vec![Self::scalar()];
+        let mut levels = Vec::new();
+        #[cfg(scalar_level)]
+        levels.push(Self::Scalar(Fallback::new()));
         #[cfg(target_arch = "x86_64")]
         {
             levels.extend(detected.as_sse2().map(Self::Sse2));
@@ -105,6 +127,7 @@ impl Level {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            #[cfg(scalar_level)]
             Self::Scalar(_) => "scalar",
             #[cfg(target_arch = "x86_64")]
             Self::Sse2(_) => "sse2",
@@ -119,10 +142,10 @@ impl Level {
         }
     }
 
-    /// The level of that name, or the widest for `auto`.
+    /// The level with this name, or the widest level for `auto`.
     ///
     /// # Errors
-    /// [`LevelError`] when there is no such level, or this processor lacks it.
+    /// [`LevelError`] if no level has this name, or if this processor or this build lacks it.
     pub fn named(name: &str) -> Result<Self, LevelError> {
         if name == "auto" {
             return Ok(Self::best());
@@ -134,6 +157,10 @@ impl Level {
             return Ok(level);
         }
         match Self::NAMES.into_iter().find(|known| *known == name) {
+            Some(name @ "scalar") => Err(LevelError::NotBuiltIn {
+                name,
+                feature: "scalar-level",
+            }),
             Some(name) => Err(LevelError::Missing {
                 name,
                 best: Self::best().name(),
@@ -152,14 +179,13 @@ impl Default for Level {
 
 /// Runs an expression in code compiled for a [`Level`], with the level's token bound to a name.
 ///
-/// `dispatch!(level, s => work(s, input))` calls `work` once. `work` must be generic over
-/// `S: Lanes` and `#[inline(always)]`, as must all that it calls with lanes. Do it once per batch or
-/// tile: an entry costs a few nanoseconds, and nothing is inlined across it.
+/// `dispatch!(level, s => work(s, input))` calls `work` once. `work`, and every function with lanes
+/// that it calls, must be generic over `S: Lanes` and `#[inline(always)]`. Dispatch once per batch
+/// or tile: an entry costs a few nanoseconds, and nothing is inlined across it.
 #[macro_export]
 macro_rules! dispatch {
     ($level:expr, $simd:ident => $op:expr) => {
         match $level {
-            $crate::Level::Scalar(token) => $crate::dispatch!(@enter token, $simd => $op),
             #[cfg(target_arch = "x86_64")]
             $crate::Level::Sse2(token) => $crate::dispatch!(@enter token, $simd => $op),
             #[cfg(target_arch = "x86_64")]
@@ -170,15 +196,13 @@ macro_rules! dispatch {
             $crate::Level::Neon(token) => $crate::dispatch!(@enter token, $simd => $op),
             #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
             $crate::Level::Simd128(token) => $crate::dispatch!(@enter token, $simd => $op),
-            // `Level` is non-exhaustive for other crates; inside a build its variants are these.
-            #[allow(unreachable_patterns, reason = "reached only by a level of a newer version")]
-            _ => ::core::unreachable!("a SIMD level that this macro does not know"),
+            #[allow(unreachable_patterns, reason = "reached by the scalar level, where it is built in")]
+            other => $crate::dispatch_scalar!(other, $simd => $op),
         }
     };
-    // Every level but the scalar one, for code that has a scalar form of its own.
+    // Every SIMD level except the scalar one, for code that has a separate scalar form.
     (@wide $level:expr, $simd:ident => $op:expr, scalar => $scalar:expr) => {
         match $level {
-            $crate::Level::Scalar(_) => $scalar,
             #[cfg(target_arch = "x86_64")]
             $crate::Level::Sse2(token) => $crate::dispatch!(@enter token, $simd => $op),
             #[cfg(target_arch = "x86_64")]
@@ -189,12 +213,37 @@ macro_rules! dispatch {
             $crate::Level::Neon(token) => $crate::dispatch!(@enter token, $simd => $op),
             #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
             $crate::Level::Simd128(token) => $crate::dispatch!(@enter token, $simd => $op),
-            #[allow(unreachable_patterns, reason = "reached only by a level of a newer version")]
-            _ => ::core::unreachable!("a SIMD level that this macro does not know"),
+            #[allow(unreachable_patterns, reason = "reached by the scalar level, where it is built in")]
+            _ => $scalar,
         }
     };
     (@enter $token:ident, $simd:ident => $op:expr) => {{
         let $simd = $token;
         $crate::token::Simd::vectorize($simd, #[inline(always)] || $op)
+    }};
+}
+
+/// The scalar arm of [`dispatch!`]. It is a separate macro because a `cfg` inside a macro tests the
+/// features of the crate that expands it, not of this crate.
+#[cfg(scalar_level)]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! dispatch_scalar {
+    ($level:expr, $simd:ident => $op:expr) => {
+        match $level {
+            $crate::Level::Scalar(token) => $crate::dispatch!(@enter token, $simd => $op),
+            _ => ::core::unreachable!("a SIMD level that `dispatch!` does not know"),
+        }
+    };
+}
+
+/// The scalar arm of [`dispatch!`] in builds without the scalar level.
+#[cfg(not(scalar_level))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! dispatch_scalar {
+    ($level:expr, $simd:ident => $op:expr) => {{
+        let _ = $level;
+        ::core::unreachable!("a SIMD level that `dispatch!` does not know")
     }};
 }

@@ -2,37 +2,41 @@
 //! Sixteen lanes at every SIMD level.
 //!
 //! All lane code of estampe is written once, generic over a level token `S: Lanes`, with the fixed
-//! 16-lane types [`f32x16`], [`i32x16`], [`u32x16`] and [`mask32x16`] at every level: one AVX-512
-//! register, two AVX2 registers, four SSE2 or NEON registers, or plain scalars. A [`Level`] is
-//! chosen once, at run time, and [`dispatch!`] enters the code that was compiled for it.
+//! 16-lane types [`f32x16`], [`i32x16`], [`u32x16`] and [`mask32x16`] at every SIMD level: one
+//! AVX-512 register, two AVX2 registers, four SSE2 or NEON registers, or plain scalars. A [`Level`]
+//! is chosen once, at run time, and [`dispatch!`] enters the code that was compiled for it.
 //!
-//! The crate is a thin layer over `fearless_simd`. It adds what that crate lacks:
+//! The crate is a thin layer over `fearless_simd`. It adds:
 //!
-//! * [`Lanes`]: operations that give the same bits at every level (`min`/`max` as `a < b ? a : b`),
-//!   and `gather`, whose indices are clamped, so that it is sound for any input;
-//! * a [`Level`] that a caller can name, list and ask for, with a true scalar level;
+//! * [`Lanes`]: operations that give the same bits at every SIMD level (`min`/`max` as `a < b ? a :
+//!   b`), and `gather`, whose indices are clamped, so that it is sound for any input;
+//! * a [`Level`] that a caller can name, list and request, with a true scalar level;
 //! * [`dispatch!`], which keeps the token's type (and with it the extension trait).
 //!
-//! **Everything generic over lanes is `#[inline(always)]`.** A function that is not inlined into its
-//! `dispatch!` is compiled without the level's instructions, which was measured to cost 5 to 14
-//! times. `[T; N]::map`, `from_fn` and attributes on `let` closures break inlining: use loops.
+//! **Every function that is generic over lanes is `#[inline(always)]`.** A function that is not
+//! inlined into its `dispatch!` is compiled without the level's instructions, which was measured to
+//! cost 5 to 14 times. `[T; N]::map`, `from_fn` and attributes on `let` closures break inlining:
+//! use loops.
 //!
 //! Lane `i` of a packet is the pixel at ([`LANE_X`]`[i]`, [`LANE_Y`]`[i]`): Morton order, so that
 //! each four neighbouring lanes are one 2×2 quad and derivatives stay inside 128 bits.
 
 mod gather;
+mod index;
 mod lanes;
 mod level;
 
 pub use fearless_simd::{
     Bytes, ExtractToken, Select, Simd, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, SimdInt,
-    SimdInto, SimdMask, f32x4, f32x16, i32x16, mask32x16, u32x16,
+    SimdInto, SimdMask, f32x4, f32x16, f64x2, i32x16, mask8x16, mask32x16, u8x16, u16x8, u32x4,
+    u32x16,
 };
 pub use gather::bits_of;
+pub use index::{Lane, LanesOf, PacketIndex};
 pub use lanes::Lanes;
 pub use level::{Level, LevelError};
 
-/// Lanes of a packet: 4×4 pixels.
+/// Number of lanes of a packet: 4×4 pixels.
 pub const LANES: usize = 16;
 
 /// Column of each lane's pixel inside its 4×4 packet.
@@ -54,7 +58,7 @@ impl<T: Default + Copy> Default for Packet<T> {
 
 #[doc(hidden)]
 pub mod token {
-    //! What `dispatch!` needs to name.
+    //! Names that `dispatch!` uses.
     pub use fearless_simd::Simd;
 }
 

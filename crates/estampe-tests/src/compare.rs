@@ -2,9 +2,10 @@
 
 use crate::Random;
 use crate::case::Case;
-use crate::fast_path::{self, all_devices, some_devices};
+use crate::expected_paths::ExpectedPaths;
+use crate::fast_path::{self, Drawn, all_devices, some_devices};
 use crate::oracle::{self, Image};
-use estampe::Device;
+use estampe::{Device, Statistics, TilePath};
 use estampe_types::state::PrimitiveTopology;
 
 /// How often a failing case is made smaller, at most.
@@ -15,10 +16,25 @@ const SHRINK_STEPS: usize = 400;
 /// # Panics
 /// Where an image differs; the message names the seed and describes a smaller case that differs too.
 pub fn check(topic: &str, count: u64, make: impl Fn(&mut Random) -> Case) {
+    check_paths(topic, count, ExpectedPaths::default(), make);
+}
+
+/// Draws `count` random cases of a topic on both sides; together they must have taken some paths.
+///
+/// # Panics
+/// Where an image differs, as [`check`] does; where a path was never taken.
+pub fn check_paths(
+    topic: &str,
+    count: u64,
+    paths: ExpectedPaths,
+    make: impl Fn(&mut Random) -> Case,
+) {
     let (mut cases, mut empty) = (0, 0);
+    let mut statistics = Statistics::default();
     let number = |name: &str| std::env::var(name).ok()?.parse::<u64>().ok();
     let factor = number("ESTAMPE_TEST_FACTOR");
-    let seeds = match number("ESTAMPE_TEST_SEED") {
+    let only = number("ESTAMPE_TEST_SEED");
+    let seeds = match only {
         Some(seed) => seed..seed + 1,
         None => 0..count * factor.unwrap_or(1),
     };
@@ -28,7 +44,7 @@ pub fn check(topic: &str, count: u64, make: impl Fn(&mut Random) -> Case) {
             Some(_) => all_devices(),
             None => some_devices(seed),
         };
-        let image = match compare(&case, &devices) {
+        let image = match compare(&case, &devices, &mut statistics) {
             Ok(image) => image,
             Err(first) => {
                 let (small, difference) = shrunk(case, &devices, first);
@@ -44,6 +60,20 @@ pub fn check(topic: &str, count: u64, make: impl Fn(&mut Random) -> Case) {
         count < FEW || empty * 4 < cases * 3,
         "{topic}: {empty} of {cases} cases show nothing"
     );
+    eprintln!("{topic}: {}", described(&statistics));
+    // One seed alone need not take every path.
+    if only.is_none() {
+        paths.assert_reached(topic, &statistics);
+    }
+}
+
+/// The paths of a topic's primitives, for those who choose which paths a topic must take.
+fn described(statistics: &Statistics) -> String {
+    let taken = TilePath::ALL
+        .into_iter()
+        .filter(|path| statistics.paths.of(*path) > 0);
+    let words = taken.map(|path| format!("{} {}", statistics.paths.of(path), path.name()));
+    words.collect::<Vec<_>>().join("; ")
 }
 
 /// A topic of so few cases may show nothing.
@@ -66,7 +96,7 @@ fn is_of_one_piece(image: &Image) -> bool {
 /// # Panics
 /// Where an image differs.
 pub fn check_some(topic: &str, case: &Case) {
-    if let Err(difference) = compare(case, &some_devices(1)) {
+    if let Err(difference) = compare(case, &some_devices(1), &mut Statistics::default()) {
         panic!("{topic}: {difference}\n{}", case.describe());
     }
 }
@@ -76,19 +106,24 @@ pub fn check_some(topic: &str, case: &Case) {
 /// # Panics
 /// Where an image differs.
 pub fn check_one(topic: &str, case: &Case) -> Image {
-    match compare(case, &all_devices()) {
+    match compare(case, &all_devices(), &mut Statistics::default()) {
         Ok(image) => image,
         Err(difference) => panic!("{topic}: {difference}\n{}", case.describe()),
     }
 }
 
-/// The image, or how that of the first device whose image is not the oracle's differs from it.
-fn compare(case: &Case, devices: &[&Device]) -> Result<Image, String> {
-    let (wanted, depths) = oracle::draw(case);
+/// The image, or how that of the first device whose image is not the oracle's differs from it. The devices' counts are
+/// added to the statistics.
+fn compare(case: &Case, devices: &[&Device], statistics: &mut Statistics) -> Result<Image, String> {
+    let wanted = oracle::draw(case);
     for device in devices {
-        let got = fast_path::draw(device, case, &depths);
-        if got != wanted {
-            return Err(difference(case, device, &got, &wanted));
+        let Drawn {
+            image,
+            statistics: of_device,
+        } = fast_path::draw(device, case);
+        *statistics += of_device;
+        if image != wanted {
+            return Err(difference(case, device, &image, &wanted));
         }
     }
     Ok(wanted)
@@ -98,9 +133,7 @@ fn difference(case: &Case, device: &Device, got: &Image, wanted: &Image) -> Stri
     let pixels = case.size[0] as usize * case.size[1] as usize;
     let color = |image: &Image, at: usize| image.color.get(at * 4..at * 4 + 4).map(<[u8]>::to_vec);
     let differs = |at: &usize| {
-        color(got, *at) != color(wanted, *at)
-            || got.depth.get(*at) != wanted.depth.get(*at)
-            || got.matches.get(*at) != wanted.matches.get(*at)
+        color(got, *at) != color(wanted, *at) || got.depth.get(*at) != wanted.depth.get(*at)
     };
     let all: Vec<_> = (0..pixels).filter(differs).collect();
     let device = fast_path::name(device);
@@ -114,8 +147,7 @@ fn difference(case: &Case, device: &Device, got: &Image, wanted: &Image) -> Stri
     };
     let depth = |image: &Image| image.depth.get(at).map(|&bits| f32::from_bits(bits));
     format!(
-        "{device}: {} pixels differ, first ({}, {}): fast path {:?} depth {:?}, oracle {:?} depth {:?}; \
-         samples of the oracle's depths {:?} for {:?}",
+        "{device}: {} pixels differ, first ({}, {}): fast path {:?} depth {:?}, oracle {:?} depth {:?}",
         all.len(),
         at % case.size[0] as usize,
         at / case.size[0] as usize,
@@ -123,8 +155,6 @@ fn difference(case: &Case, device: &Device, got: &Image, wanted: &Image) -> Stri
         depth(got),
         color(wanted, at),
         depth(wanted),
-        got.matches.get(at),
-        wanted.matches.get(at),
     )
 }
 
@@ -137,7 +167,7 @@ fn shrunk(mut case: Case, devices: &[&Device], mut how: String) -> (Case, String
             if steps > SHRINK_STEPS {
                 return (case, how);
             }
-            if let Err(difference) = compare(&smaller, devices) {
+            if let Err(difference) = compare(&smaller, devices, &mut Statistics::default()) {
                 (case, how) = (smaller, difference);
                 continue 'again;
             }

@@ -1,18 +1,14 @@
 //! The image that the fast path draws of a case, on one of the test's devices.
 
 use crate::case::{Case, CaseDraw};
-use crate::geometry::{Vertex, clip_at};
-use crate::oracle::{Image, SampleDepths};
+use crate::oracle::Image;
 use crate::readback;
-use crate::shaders::Colored;
 use estampe::{
     Device, DeviceDescriptor, Draw, Level, Limits, LoadOp, OcclusionQueries, RenderPass,
     RenderPipeline, RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, Statistics,
 };
 use estampe_types::TextureFormat;
-use estampe_types::state::{
-    BlendState, ColorTargetState, CompareFunction, DepthState, PrimitiveTopology,
-};
+use estampe_types::state::ColorTargetState;
 use std::sync::LazyLock;
 
 /// The numbers of threads: one, an even division, and more than this machine may have.
@@ -57,10 +53,18 @@ pub fn name(device: &Device) -> String {
     format!("{} × {} threads", device.level().name(), device.threads())
 }
 
-/// Draws a case, and compares the depths of all samples with the oracle's. A state that the API refuses
-/// is a fault of the test.
+/// What a device drew of a case, and what it did for that.
+#[derive(Debug)]
+pub struct Drawn {
+    /// What must agree with the oracle.
+    pub image: Image,
+    /// Counts of all passes.
+    pub statistics: Statistics,
+}
+
+/// Draws a case. A state that the API refuses is a fault of the test.
 #[must_use]
-pub fn draw(device: &Device, case: &Case, depths: &SampleDepths) -> Image {
+pub fn draw(device: &Device, case: &Case) -> Drawn {
     let [width, height] = case.size;
     let mut target = device
         .create_render_target(&RenderTargetDescriptor {
@@ -72,7 +76,7 @@ pub fn draw(device: &Device, case: &Case, depths: &SampleDepths) -> Image {
         .expect("a valid target");
     let queries = OcclusionQueries::new(case.draws.len());
     let first_draws = case.passes()[0].len();
-    let mut primitives = 0;
+    let mut statistics = Statistics::default();
     for (number, draws) in case.passes().into_iter().enumerate() {
         let is_first = number == 0;
         let mut clear = RenderPass {
@@ -88,8 +92,7 @@ pub fn draw(device: &Device, case: &Case, depths: &SampleDepths) -> Image {
             clear.load_stencil = LoadOp::Load;
         }
         let first_draw = if is_first { 0 } else { first_draws };
-        let drawn = draw_pass(device, &mut target, case, (draws, first_draw), clear);
-        primitives += drawn.primitives_in;
+        statistics += draw_pass(device, &mut target, case, (draws, first_draw), clear);
     }
     let color = match case.format {
         Some(format) if readback::is_read_as_color(format) => target.read_color(0),
@@ -102,19 +105,15 @@ pub fn draw(device: &Device, case: &Case, depths: &SampleDepths) -> Image {
         .map(|(number, _)| queries.samples_passed(number))
         .collect();
     let depth = target.read_depth().iter().map(|z| z.to_bits()).collect();
-    let matches = match depths {
-        Some(depths) => matches(device, &mut target, case, depths),
-        None => Vec::new(),
-    };
-    Image {
+    let image = Image {
         pixels: width as usize * height as usize,
         color,
         depth,
-        matches,
         stored,
-        primitives,
+        primitives: statistics.primitives_in,
         counts,
-    }
+    };
+    Drawn { image, statistics }
 }
 
 /// Draws some draws, of which the first has a number in the case.
@@ -158,53 +157,6 @@ fn draw_pass(
         ..clear
     };
     device.render(target, &pass)
-}
-
-/// How many of a pixel's samples hold each of the oracle's four depths: for each of those a point of one
-/// pixel, at that depth and in a channel of its own, is added where depths are equal.
-fn matches(
-    device: &Device,
-    target: &mut RenderTarget,
-    case: &Case,
-    depths: &[[f32; 4]],
-) -> Vec<[u8; 4]> {
-    let points: Vec<_> = (0..case.size[0] * case.size[1])
-        .zip(depths)
-        .flat_map(|(pixel, depths)| {
-            let (x, y) = (pixel % case.size[0], pixel / case.size[0]);
-            let center = [x as f32 + 0.5, y as f32 + 0.5];
-            [0, 1, 2, 3].map(|sample: usize| Vertex {
-                position: clip_at(case.size, center, depths[sample], 1.0),
-                values: std::array::from_fn(|k| f32::from(u8::from(k == sample))),
-            })
-        })
-        .collect();
-    let mut draw = CaseDraw::new(Colored, &points);
-    draw.primitive.topology = PrimitiveTopology::PointList;
-    draw.blend = Some(BlendState::ADDITIVE);
-    draw.depth = Some(DepthState {
-        write_enabled: false,
-        compare: CompareFunction::Equal,
-    });
-    let clear = RenderPass {
-        load_depth: LoadOp::Load,
-        ..RenderPass::default()
-    };
-    draw_pass(device, target, case, (&[draw], 0), clear);
-    let mut codes = target.read_color(0).as_chunks::<4>().0.to_vec();
-    if case.format.is_some_and(|format| format.is_srgb()) {
-        // Means of linear values 0 and 1; alpha is as it is.
-        let linear = |code: u8| match code {
-            137 => 64,
-            188 => 128,
-            225 => 191,
-            ends => ends,
-        };
-        for [r, g, b, _] in &mut codes {
-            (*r, *g, *b) = (linear(*r), linear(*g), linear(*b));
-        }
-    }
-    codes
 }
 
 fn pipeline(device: &Device, case: &Case, draw: &CaseDraw) -> RenderPipeline {

@@ -1,5 +1,5 @@
 //! Cases of blending, write mask, depth and stencil, one a line, in the form of `fragment-ops-2000.jsonl`: values that
-//! the reference fragment processor of KhronosGroup/VK-GL-CTS computed, or our oracle.
+//! the reference fragment processor of KhronosGroup/VK-GL-CTS computed, or our oracle: see `crates/estampe-tests/data/README.md`.
 //!
 //! A line is an object of numbers and lists of numbers:
 //!
@@ -28,7 +28,8 @@ use estampe_types::state::{
 };
 use std::fmt::Write;
 
-const EQUATIONS: [BlendOperation; 5] = [
+/// The blend equations, by the numbers of the files.
+pub const EQUATIONS: [BlendOperation; 5] = [
     BlendOperation::Add,
     BlendOperation::Subtract,
     BlendOperation::ReverseSubtract,
@@ -36,7 +37,8 @@ const EQUATIONS: [BlendOperation; 5] = [
     BlendOperation::Max,
 ];
 
-const FACTORS: [BlendFactor; 15] = [
+/// The blend factors, by the numbers of the files.
+pub const FACTORS: [BlendFactor; 15] = [
     BlendFactor::Zero,
     BlendFactor::One,
     BlendFactor::Src,
@@ -54,7 +56,8 @@ const FACTORS: [BlendFactor; 15] = [
     BlendFactor::SrcAlphaSaturated,
 ];
 
-const FUNCTIONS: [CompareFunction; 8] = [
+/// The comparison functions, by the numbers of the files.
+pub const FUNCTIONS: [CompareFunction; 8] = [
     CompareFunction::Never,
     CompareFunction::Always,
     CompareFunction::Less,
@@ -65,7 +68,8 @@ const FUNCTIONS: [CompareFunction; 8] = [
     CompareFunction::NotEqual,
 ];
 
-const OPERATIONS: [StencilOperation; 8] = [
+/// The stencil operations, by the numbers of the files.
+pub const OPERATIONS: [StencilOperation; 8] = [
     StencilOperation::Keep,
     StencilOperation::Zero,
     StencilOperation::Replace,

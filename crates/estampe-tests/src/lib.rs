@@ -11,16 +11,18 @@
 //!                                       └▶ fast_path ─┘
 //! ```
 //!
-//! The topics are the files of `tests`. Two environment variables change a run: `ESTAMPE_TEST_FACTOR=20`
+//! The topics are the files of `tests`. A topic can name the [tile paths](ExpectedPaths) that its cases must reach. Two environment variables change a run: `ESTAMPE_TEST_FACTOR=20`
 //! draws twenty times as many cases, each on every level at every number of threads;
 //! `ESTAMPE_TEST_SEED=7` draws only the case of that seed.
 
 pub mod case;
 pub mod compare;
+pub mod expected_paths;
 pub mod fast_path;
 pub mod fragment_ops;
 pub mod fuzz;
 pub mod geometry;
+pub mod mixed_draws;
 pub mod oracle;
 pub mod random;
 pub mod readback;
@@ -28,6 +30,7 @@ pub mod shaders;
 pub mod shared_edges;
 
 pub use case::{Case, CaseDraw};
-pub use compare::{check, check_one, check_some};
+pub use compare::{check, check_one, check_paths, check_some};
+pub use expected_paths::ExpectedPaths;
 pub use random::Random;
 pub use shaders::TestShader;

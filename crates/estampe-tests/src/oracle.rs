@@ -14,9 +14,6 @@ pub struct Image {
     pub color: Vec<u8>,
     /// The bits of the first sample's depths, rows from the top.
     pub depth: Vec<u32>,
-    /// Of each pixel of four samples, how many samples hold the oracle's depth of sample 0, 1, 2 and 3, as
-    /// codes of a resolved target; empty where that is not asked. So the depths of all samples are compared.
-    pub matches: Vec<[u8; 4]>,
     /// What every sample of every attachment holds: see [`readback`].
     pub stored: Stored,
     /// Primitives that the draws name.
@@ -25,15 +22,9 @@ pub struct Image {
     pub counts: Vec<u64>,
 }
 
-/// The largest target, in pixels, of which the depths of all samples are compared.
-const MATCHED_PIXELS: u32 = 400;
-
-/// The depths of all samples of every pixel, if they are to be compared one by one.
-pub type SampleDepths = Option<Vec<[f32; 4]>>;
-
 /// Draws a case.
 #[must_use]
-pub fn draw(case: &Case) -> (Image, SampleDepths) {
+pub fn draw(case: &Case) -> Image {
     let [width, height] = case.size;
     let (target, counts, primitives) = drawn(case);
     let color = match case.format {
@@ -46,21 +37,14 @@ pub fn draw(case: &Case) -> (Image, SampleDepths) {
         _ => Vec::new(),
     };
     let first_samples = target.depth.iter().step_by(case.samples as usize);
-    let is_matched = !readback::READS_SAMPLES
-        && case.samples == 4
-        && case.format.is_some()
-        && width * height <= MATCHED_PIXELS;
-    let depths = is_matched.then(|| target.depth.as_chunks::<4>().0.to_vec());
-    let image = Image {
+    Image {
         pixels: width as usize * height as usize,
         color,
         depth: first_samples.map(|depth| depth.to_bits()).collect(),
-        matches: depths.iter().flatten().map(matches).collect(),
         stored: stored(&target),
         primitives,
         counts,
-    };
-    (image, depths)
+    }
 }
 
 /// The target after a case was drawn.
@@ -89,9 +73,6 @@ fn drawn(case: &Case) -> (Target, Vec<u64>, u64) {
 
 /// Every sample of every attachment.
 fn stored(target: &Target) -> Stored {
-    if !readback::READS_SAMPLES {
-        return Stored::default();
-    }
     let attachments = 0..target.color_formats.len();
     let samples = target.samples;
     let of_sample = |sample: u32| {
@@ -121,14 +102,6 @@ fn stored(target: &Target) -> Stored {
             })
             .collect(),
     }
-}
-
-/// How many of four depths equal each of them, as the mean of four codes 0 or 255.
-fn matches(depths: &[f32; 4]) -> [u8; 4] {
-    depths.map(|wanted| {
-        let equal = depths.iter().filter(|&&depth| depth == wanted).count();
-        [0, 64, 128, 191, 255][equal]
-    })
 }
 
 fn draw_one(target: &mut Target, draw: &CaseDraw, case: &Case) -> Counts {

@@ -1,8 +1,8 @@
 //! Pseudo-random numbers that repeat from a seed.
 
-/// PCG-XSH-RR (O'Neill 2014).
+/// Random numbers of a topic and a seed.
 #[derive(Debug, Clone)]
-pub struct Random(u64);
+pub struct Random(fastrand::Rng);
 
 impl Random {
     /// The stream of a topic and a seed.
@@ -12,24 +12,18 @@ impl Random {
         let hash = topic.bytes().fold(0xCBF2_9CE4_8422_2325, |hash, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01B3)
         });
-        let mut random = Self(hash ^ seed.wrapping_mul(0x9E37_79B9_7F4A_7C15));
-        random.bits();
-        random
+        let of_seed = hash ^ seed.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        Self(fastrand::Rng::with_seed(of_seed))
     }
 
     /// 32 bits.
     pub fn bits(&mut self) -> u32 {
-        let old = self.0;
-        self.0 = old
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        let low = |bits: u64| u32::try_from(bits & 0xFFFF_FFFF).expect("32 bits");
-        low(((old >> 18) ^ old) >> 27).rotate_right(low(old >> 59))
+        self.0.u32(..)
     }
 
     /// In 0..1.
     pub fn unit(&mut self) -> f32 {
-        (self.bits() >> 8) as f32 / 16_777_216.0
+        self.0.f32()
     }
 
     /// In low..high.
@@ -39,17 +33,17 @@ impl Random {
 
     /// An integer below `n`.
     pub fn below(&mut self, n: u32) -> u32 {
-        self.bits() % n
+        self.0.u32(..n)
     }
 
     /// An index below `n`.
     pub fn index(&mut self, n: usize) -> usize {
-        self.bits() as usize % n
+        self.0.usize(..n)
     }
 
     /// A byte.
     pub fn byte(&mut self) -> u8 {
-        self.bits().to_be_bytes()[0]
+        self.0.u8(..)
     }
 
     /// True once in `n` times.

@@ -4,10 +4,6 @@ use crate::case::Case;
 use estampe::{Device, RenderTarget, RenderTargetDescriptor};
 use estampe_types::TextureFormat;
 
-/// Whether the fast path gives single samples. Until it does, resolved colours and the depths of first samples are
-/// compared, and the other depths by counting matches.
-pub const READS_SAMPLES: bool = true;
-
 /// Whether `read_color` gives an attachment's bytes.
 #[must_use]
 pub fn is_read_as_color(format: TextureFormat) -> bool {
@@ -17,7 +13,7 @@ pub fn is_read_as_color(format: TextureFormat) -> bool {
     )
 }
 
-/// The contents of a target; all lists are empty where single samples cannot be read.
+/// The contents of a target.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Stored {
     /// Rows of texels: of attachment 0 its samples in order, then of attachment 1, and so on.
@@ -93,9 +89,6 @@ impl Stored {
 /// Reads a target.
 #[must_use]
 pub fn stored(device: &Device, target: &RenderTarget) -> Stored {
-    if !READS_SAMPLES {
-        return Stored::default();
-    }
     let samples = target.samples();
     let attachments = 0..target.color_formats().len();
     let mut resolved = Vec::new();

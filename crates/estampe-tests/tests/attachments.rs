@@ -123,7 +123,7 @@ fn three_targets_blended_each_in_its_own_way() {
     check("attachments/blended", 40, |random| layers(random, 3, true));
 }
 
-/// Rows: F1, O8, L.
+/// Rows: F1, O8, N1.
 #[test]
 fn eight_targets() {
     check("attachments/eight", 25, |random| {

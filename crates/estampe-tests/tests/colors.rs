@@ -1,8 +1,12 @@
 //! Blending, write masks, sRGB, clearing and loading.
 
-use estampe_tests::geometry::{Style, triangles};
+use estampe::TilePath;
+use estampe_reference::srgb::THRESHOLDS;
+use estampe_tests::geometry::{Style, Vertex, clip_at, triangles};
 use estampe_tests::shaders::{Colored, FlatColored, Probe, Sized};
-use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
+use estampe_tests::{
+    Case, CaseDraw, ExpectedPaths, Random, TestShader, check, check_one, check_paths,
+};
 use estampe_types::TextureFormat;
 use estampe_types::state::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorWrites, PrimitiveTopology,
@@ -95,9 +99,12 @@ fn layers(random: &mut Random, format: TextureFormat) -> Case {
 /// Rows: O5, O7, O8.
 #[test]
 fn unorm_targets() {
-    check("colors/unorm", 80, |random| {
-        layers(random, TextureFormat::Rgba8Unorm)
-    });
+    check_paths(
+        "colors/unorm",
+        80,
+        ExpectedPaths(&[TilePath::InOrderBlocks, TilePath::InOrderQuads]),
+        |random| layers(random, TextureFormat::Rgba8Unorm),
+    );
 }
 
 /// Rows: O5, O7, O8.
@@ -134,6 +141,35 @@ fn overlapping_primitives_blend_in_order() {
     });
 }
 
+/// Rows: O8.
+#[test]
+fn srgb_codes_change_at_the_oracles_thresholds() {
+    // A point for each threshold and the number of f32 before it.
+    let size = [32, 16];
+    let values = THRESHOLDS.iter().flat_map(|&at| [at.next_down(), at]);
+    let vertices: Vec<_> = (0_u16..)
+        .zip(values)
+        .map(|(number, value)| {
+            let place = [number % 32, number / 32].map(|along| f32::from(along) + 0.5);
+            Vertex {
+                position: clip_at(size, place, 0.5, 1.0),
+                values: [value; 4],
+            }
+        })
+        .collect();
+    for format in [TextureFormat::Rgba8UnormSrgb, TextureFormat::Bgra8UnormSrgb] {
+        let mut case = Case::new(size, 1);
+        case.format = Some(format);
+        let mut draw = CaseDraw::new(Colored, &vertices);
+        draw.primitive.topology = PrimitiveTopology::PointList;
+        case.draws.push(draw);
+        let image = check_one("colors/srgb thresholds", &case);
+        let reds = image.stored.texels[0].chunks(4).map(|texel| texel[0]);
+        let expected = (0..255_u8).flat_map(|code| [code, code + 1]);
+        assert!(reds.take(510).eq(expected));
+    }
+}
+
 /// Rows: O5, O8.
 #[test]
 fn every_code_survives_blending_with_nothing() {
@@ -151,13 +187,13 @@ fn every_code_survives_blending_with_nothing() {
         let mut draw = CaseDraw::new(Colored, &vertices);
         draw.depth = None;
         case.draws.push(draw.clone());
-        let before = estampe_tests::check_one("colors/keep", &case);
+        let before = check_one("colors/keep", &case);
         draw.blend = Some(BlendState {
             color: keep,
             alpha: keep,
         });
         case.draws.push(draw);
-        let after = estampe_tests::check_one("colors/keep", &case);
+        let after = check_one("colors/keep", &case);
         assert_eq!(before.color, after.color);
     }
 }

@@ -1,10 +1,11 @@
 //! The depth test: every comparison, with and without writing, early and late.
 
+use estampe::TilePath;
 use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::{
     Colored, Cutout, CutoutDepth, DepthGiven, DepthOnly, FlatColored, GivenDepth, Probe, Scalar,
 };
-use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
+use estampe_tests::{Case, CaseDraw, ExpectedPaths, Random, TestShader, check, check_paths};
 use estampe_types::state::{CompareFunction, DepthState, PrimitiveTopology, Viewport};
 
 const FUNCTIONS: [CompareFunction; 8] = [
@@ -149,15 +150,20 @@ fn given_depths_that_are_not_numbers() {
 /// Rows: F1, O4.
 #[test]
 fn targets_with_depth_alone() {
-    check("depth/only", 30, |random| {
-        let mut case = target(random);
-        case.format = None;
-        for _ in 0..2 {
-            let draw = draw_with(random, &case, DepthOnly);
-            case.draws.push(draw);
-        }
-        case
-    });
+    check_paths(
+        "depth/only",
+        30,
+        ExpectedPaths(&[TilePath::VisibilityDepthOnly]),
+        |random| {
+            let mut case = target(random);
+            case.format = None;
+            for _ in 0..2 {
+                let draw = draw_with(random, &case, DepthOnly);
+                case.draws.push(draw);
+            }
+            case
+        },
+    );
 }
 
 /// Rows: O4, O9.

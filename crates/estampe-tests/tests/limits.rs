@@ -6,7 +6,7 @@ use estampe_tests::shaders::{Colored, Crowded};
 use estampe_tests::{Case, CaseDraw, Random, check, check_some};
 use estampe_types::Buffer;
 
-/// Rows: L, R1.
+/// Rows: N1, R1.
 #[test]
 fn the_longest_sides() {
     for size in [[16_384, 4], [4, 16_384], [16_383, 3]] {
@@ -28,7 +28,7 @@ fn the_longest_sides() {
     }
 }
 
-/// Rows: L, V1, V2.
+/// Rows: N1, V1, V2.
 #[test]
 fn all_attributes_of_all_buffers_and_all_varyings() {
     check("limits/inputs", 20, |random| {

@@ -1,8 +1,9 @@
 //! Wide, rectangular, smooth and stippled lines, and round points.
 
+use estampe::TilePath;
 use estampe_tests::geometry::{Style, Vertex, clip_at, triangles, values};
 use estampe_tests::shaders::{Colored, CutoutDepth, FlatColored, GivenDepth, Probe, Sized};
-use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
+use estampe_tests::{Case, CaseDraw, ExpectedPaths, Random, TestShader, check, check_paths};
 use estampe_types::state::{
     BlendState, CullMode, DepthState, LineRasterization, LineState, LineStipple, PolygonMode,
     PrimitiveTopology, ProvokingVertex, ScissorRect,
@@ -83,28 +84,33 @@ fn with_state(random: &mut Random, case: &mut Case, draw: &mut CaseDraw) {
 /// Rows: R3, R6.
 #[test]
 fn every_shape_width_and_pattern() {
-    check("lines/shapes", 400, |random| {
-        let mut case = Case::random_target(random);
-        let vertices = vertices(random, case.size, 9);
-        let mut draw = CaseDraw::new(shader(random), &vertices);
-        draw.primitive.topology = random.pick(&TOPOLOGIES);
-        draw.primitive.line = line_state(random);
-        with_state(random, &mut case, &mut draw);
-        draw.instances = random.pick(&[0..1, 0..1, 0..2]);
-        if random.once_in(3) {
-            let count = draw.elements.end;
-            let index = |_| match random.below(5) {
-                0 => u32::MAX,
-                _ => random.below(count),
-            };
-            let indices: Vec<_> = (0..14).map(index).collect();
-            draw.indices = Some((IndexFormat::Uint32, Buffer::from_words(indices)));
-            draw.elements = 0..14;
-            draw.primitive.primitive_restart = true;
-        }
-        case.draws.push(draw);
-        case
-    });
+    check_paths(
+        "lines/shapes",
+        400,
+        ExpectedPaths(&[TilePath::InOrderPackets]),
+        |random| {
+            let mut case = Case::random_target(random);
+            let vertices = vertices(random, case.size, 9);
+            let mut draw = CaseDraw::new(shader(random), &vertices);
+            draw.primitive.topology = random.pick(&TOPOLOGIES);
+            draw.primitive.line = line_state(random);
+            with_state(random, &mut case, &mut draw);
+            draw.instances = random.pick(&[0..1, 0..1, 0..2]);
+            if random.once_in(3) {
+                let count = draw.elements.end;
+                let index = |_| match random.below(5) {
+                    0 => u32::MAX,
+                    _ => random.below(count),
+                };
+                let indices: Vec<_> = (0..14).map(index).collect();
+                draw.indices = Some((IndexFormat::Uint32, Buffer::from_words(indices)));
+                draw.elements = 0..14;
+                draw.primitive.primitive_restart = true;
+            }
+            case.draws.push(draw);
+            case
+        },
+    );
 }
 
 /// Rows: A5, R3.

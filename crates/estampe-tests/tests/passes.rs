@@ -120,7 +120,7 @@ fn more_primitives_than_a_chunk_holds() {
 /// Rows: V2, U3.
 #[test]
 fn more_primitives_than_an_item_or_a_wave_holds() {
-    // A million primitives make an item, two million a wave; cut strips keep their winding. The whole
+    // A million primitives make a sub-draw, two million a batch; cut strips keep their winding. The whole
     // takes half a minute, so only longer runs do it.
     if std::env::var_os("ESTAMPE_TEST_FACTOR").is_none() {
         return;
@@ -143,7 +143,7 @@ fn more_primitives_than_an_item_or_a_wave_holds() {
         draw.depth = None;
         draw.blend = Some(BlendState::ALPHA_BLENDING);
         case.draws.push(draw.clone());
-        // The second draw begins in the wave that the first one ends in.
+        // The second draw begins in the batch that the first one ends in.
         draw.elements = 0..30;
         draw.instances = 0..50_000;
         case.draws.push(draw);

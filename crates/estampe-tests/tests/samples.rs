@@ -1,10 +1,11 @@
 //! Shaders that know of samples: shading by sample, centroids, coverage in and out; at every number of samples.
 
+use estampe::TilePath;
 use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::{
     AtCentroid, AtSample, BySample, Colored, Cutout, Masking, Probe, Shown,
 };
-use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
+use estampe_tests::{Case, CaseDraw, ExpectedPaths, Random, TestShader, check, check_paths};
 use estampe_types::TextureFormat;
 use estampe_types::state::{
     BlendState, ConservativeMode, CullMode, DepthState, LineRasterization, PolygonMode,
@@ -62,9 +63,12 @@ fn case(random: &mut Random, shader: impl Fn(&mut Random) -> TestShader) -> Case
 /// Rows: R6, R7, F1.
 #[test]
 fn varyings_at_centroids() {
-    check("samples/centroid", 50, |random| {
-        case(random, |random| AtCentroid(Shown::random(random)).into())
-    });
+    check_paths(
+        "samples/centroid",
+        50,
+        ExpectedPaths(&[TilePath::InOrderPackets]),
+        |random| case(random, |random| AtCentroid(Shown::random(random)).into()),
+    );
 }
 
 /// Rows: R6, R7, F1.

@@ -51,7 +51,7 @@ fn the_classics_cover_what_the_pipeline_draws() {
         draw.depth = None;
         case.draws.push(draw);
         for device in some_devices(seed) {
-            let image = fast_path::draw(device, &case, &None);
+            let image = fast_path::draw(device, &case).image;
             let drawn: Vec<[u32; 2]> = (0u32..)
                 .zip(image.color.chunks(4))
                 .filter(|(_, pixel)| pixel[3] != 0)

@@ -277,7 +277,7 @@ fn threads_store_side_by_side() {
     }
 }
 
-/// Rows: F2, L.
+/// Rows: F2, N1.
 #[test]
 fn large_ones_hold_their_corners() {
     let descriptor = TextureDescriptor::new_2d(8192, 8192, TextureFormat::R8Unorm);

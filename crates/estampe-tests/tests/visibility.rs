@@ -1,9 +1,10 @@
 //! What is seen of many opaque triangles in one place: shading is put off until that is known, large triangles
 //! are seen front to back and small ones sixteen at a time, and ties of depth go by the order of drawing.
 
+use estampe::TilePath;
 use estampe_tests::geometry::{Style, Vertex, triangles};
 use estampe_tests::shaders::{Colored, FlatColored, Halved, Probe};
-use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
+use estampe_tests::{Case, CaseDraw, ExpectedPaths, Random, TestShader, check_paths};
 use estampe_types::state::{BlendState, CompareFunction, CullMode, DepthState, ScissorRect};
 
 const ORDERED: [CompareFunction; 4] = [
@@ -63,74 +64,103 @@ fn target(random: &mut Random, size: [u32; 2]) -> Case {
 /// Rows: O4, U3.
 #[test]
 fn large_triangles_over_each_other() {
-    check("visibility/large", 24, |random| {
-        let mut case = target(random, [140, 75]);
-        for _ in 0..=random.below(2) {
-            let count = 2 + random.below(14);
-            let mut vertices = triangles(random, Style::Large, case.size, count);
-            quantize(random, &mut vertices);
-            let mut draw = opaque(random, &vertices);
-            if random.once_in(4) {
-                draw.scissor = Some(ScissorRect {
-                    x: random.below(60),
-                    y: random.below(40),
-                    width: 70,
-                    height: 30,
-                });
+    check_paths(
+        "visibility/large",
+        24,
+        ExpectedPaths(&[
+            TilePath::VisibilityPerPrimitive,
+            TilePath::VisibilityCrossTriangle,
+            TilePath::VisibilityQuads,
+        ]),
+        |random| {
+            let mut case = target(random, [140, 75]);
+            for _ in 0..=random.below(2) {
+                let count = 2 + random.below(14);
+                let mut vertices = triangles(random, Style::Large, case.size, count);
+                quantize(random, &mut vertices);
+                let mut draw = opaque(random, &vertices);
+                if random.once_in(4) {
+                    draw.scissor = Some(ScissorRect {
+                        x: random.below(60),
+                        y: random.below(40),
+                        width: 70,
+                        height: 30,
+                    });
+                }
+                case.draws.push(draw);
             }
-            case.draws.push(draw);
-        }
-        case
-    });
+            case
+        },
+    );
 }
 
 /// Rows: R1, O4, U3.
 #[test]
 fn crowds_of_small_triangles() {
-    check("visibility/small", 24, |random| {
-        let mut case = target(random, [40, 36]);
-        for _ in 0..=random.below(2) {
-            let style = random.pick(&[Style::Tiny, Style::Small, Style::OnGrid]);
-            let count = 40 + random.below(60);
-            let mut vertices = triangles(random, style, case.size, count);
-            if random.once_in(2) {
-                vertices.extend(triangles(random, Style::Large, case.size, 2));
-                vertices.extend(triangles(random, style, case.size, 20));
+    check_paths(
+        "visibility/small",
+        24,
+        ExpectedPaths(&[
+            TilePath::VisibilityPerPrimitive,
+            TilePath::VisibilityCrossTriangle,
+            TilePath::VisibilityQuads,
+        ]),
+        |random| {
+            let mut case = target(random, [40, 36]);
+            for _ in 0..=random.below(2) {
+                let style = random.pick(&[Style::Tiny, Style::Small, Style::OnGrid]);
+                let count = 40 + random.below(60);
+                let mut vertices = triangles(random, style, case.size, count);
+                if random.once_in(2) {
+                    vertices.extend(triangles(random, Style::Large, case.size, 2));
+                    vertices.extend(triangles(random, style, case.size, 20));
+                }
+                quantize(random, &mut vertices);
+                case.draws.push(opaque(random, &vertices));
             }
-            quantize(random, &mut vertices);
-            case.draws.push(opaque(random, &vertices));
-        }
-        case
-    });
+            case
+        },
+    );
 }
 
 /// Rows: O4, O5, U3.
 #[test]
 fn opaque_and_blended_draws_in_turn() {
-    check("visibility/turns", 24, |random| {
-        let mut case = target(random, [100, 70]);
-        for turn in 0..4 {
-            let style = random.pick(&[Style::Large, Style::Small]);
-            let mut vertices = triangles(random, style, case.size, 5);
-            quantize(random, &mut vertices);
-            if random.once_in(2) {
-                for vertex in &mut vertices {
-                    // One alpha all over, in 0..1 with all the rest.
-                    vertex.values = vertex.values.map(|value| value.clamp(0.0, 1.0));
-                    vertex.values[3] = 0.25;
-                    vertex.position[3] = 1.0;
+    check_paths(
+        "visibility/turns",
+        24,
+        ExpectedPaths(&[
+            TilePath::VisibilityPerPrimitive,
+            TilePath::VisibilityCrossTriangle,
+            TilePath::VisibilityQuads,
+            TilePath::InOrderBlocks,
+            TilePath::InOrderQuads,
+        ]),
+        |random| {
+            let mut case = target(random, [100, 70]);
+            for turn in 0..4 {
+                let style = random.pick(&[Style::Large, Style::Small]);
+                let mut vertices = triangles(random, style, case.size, 5);
+                quantize(random, &mut vertices);
+                if random.once_in(2) {
+                    for vertex in &mut vertices {
+                        // One alpha all over, in 0..1 with all the rest.
+                        vertex.values = vertex.values.map(|value| value.clamp(0.0, 1.0));
+                        vertex.values[3] = 0.25;
+                        vertex.position[3] = 1.0;
+                    }
                 }
+                let mut draw = opaque(random, &vertices);
+                if turn % 2 == 1 {
+                    draw.shader = Colored.into();
+                    draw.blend = Some(BlendState::ALPHA_BLENDING);
+                }
+                case.draws.push(draw);
             }
-            let mut draw = opaque(random, &vertices);
-            if turn % 2 == 1 {
-                draw.shader = Colored.into();
-                draw.blend = Some(BlendState::ALPHA_BLENDING);
+            if random.once_in(3) {
+                case.clear_color[3] = 1.0;
             }
-            case.draws.push(draw);
-        }
-        if random.once_in(3) {
-            case.clear_color[3] = 1.0;
-        }
-        case
-    });
+            case
+        },
+    );
 }

@@ -1,9 +1,11 @@
 //! Viewports, scissors and targets of odd sizes.
 
-use estampe_tests::geometry::{Style, triangles};
+use estampe_tests::geometry::{Style, Vertex, triangles};
 use estampe_tests::shaders::{Colored, Probe, Sized};
 use estampe_tests::{Case, CaseDraw, Random, TestShader, check, check_one};
-use estampe_types::state::{PolygonMode, PrimitiveTopology, ScissorRect, Viewport};
+use estampe_types::state::{
+    ConservativeMode, CullMode, PolygonMode, PrimitiveTopology, ScissorRect, Viewport,
+};
 
 fn style(random: &mut Random) -> Style {
     random.pick(&Style::ALL)
@@ -125,6 +127,61 @@ fn viewports_beyond_their_limits_draw_nothing() {
         });
         case.draws.push(draw);
         check_one("window/invalid", &case);
+    }
+}
+
+/// Rows: A4, R6.
+#[test]
+fn viewports_cut_pixels_by_their_samples() {
+    check("window/viewport samples", 60, |random| {
+        let size = random.pick(&[[33, 20], [63, 65], [70, 5]]);
+        let mut case = Case::new(size, random.pick(&[2, 4, 4, 8, 16]));
+        for _ in 0..2 {
+            let mut draw = draw_somewhere(random, &case);
+            draw.viewport = Some(random_viewport(random, case.size));
+            draw.sample_shading = random.once_in(8);
+            draw.primitive.conservative = random.pick(&[
+                ConservativeMode::Disabled,
+                ConservativeMode::Disabled,
+                ConservativeMode::Overestimate,
+            ]);
+            case.draws.push(draw);
+        }
+        case
+    });
+}
+
+/// A viewport that begins at x = 10.6 and ends at y = 7.3. Of the four samples, at x = 0.375, 0.875, 0.125 and 0.625 and
+/// y = 0.125, 0.375, 0.625 and 0.875 in their pixel, column 10 keeps the second and the fourth, row 7 the first.
+///
+/// Rows: A4, R6.
+#[test]
+fn a_pixel_at_a_viewports_edge_keeps_the_samples_inside() {
+    let mut case = Case::new([20, 12], 4);
+    let everything = [[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]].map(|[x, y]| Vertex {
+        position: [x, y, 0.5, 1.0],
+        values: [1.0; 4],
+    });
+    let mut draw = CaseDraw::new(Colored, &everything);
+    draw.primitive.cull_mode = CullMode::None;
+    draw.viewport = Some(Viewport {
+        x: 10.6,
+        y: 2.0,
+        width: 6.4,
+        height: 5.3,
+        min_depth: 0.0,
+        max_depth: 1.0,
+    });
+    case.draws.push(draw);
+    let image = check_one("window/a pixel at the edge", &case);
+    for (sample, depths) in image.stored.depths.iter().enumerate() {
+        for (at, &depth) in depths.iter().enumerate() {
+            let (x, y) = (at % 20, at / 20);
+            let column = (11..17).contains(&x) || x == 10 && sample % 2 == 1;
+            let row = (2..7).contains(&y) || y == 7 && sample == 0;
+            let expected: f32 = if column && row { 0.5 } else { 1.0 };
+            assert_eq!(depth, expected.to_bits(), "sample {sample} of ({x}, {y})");
+        }
     }
 }
 

@@ -59,13 +59,8 @@ fn main() {
         .map_or(2048, |size| size.parse().expect("SIZE is a number"));
     let only = arguments.next().filter(|level| level != "all");
     let only_case = arguments.next();
-    let mut state = 1_u32;
-    let noise: Vec<u8> = (0..size * size * 4)
-        .map(|_| {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            state.to_be_bytes()[0]
-        })
-        .collect();
+    let mut random = fastrand::Rng::with_seed(1);
+    let noise: Vec<u8> = (0..size * size * 4).map(|_| random.u8(..)).collect();
     let mut opaque_noise = noise.clone();
     for texel in opaque_noise.chunks_exact_mut(4) {
         texel[3] = 255;

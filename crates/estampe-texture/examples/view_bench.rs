@@ -85,24 +85,18 @@ fn view(
     };
     let texels = (width * height * slices) as usize;
     let channels = texels * format.components();
-    let mut state = 1_u32;
-    let mut noise = || {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        state >> 8
-    };
+    let mut random = fastrand::Rng::with_seed(1);
     let bytes: Vec<u8> = match format.block_bytes() as usize / format.components() {
         4 => (0..channels)
-            .flat_map(|_| (noise() as f32 / 16_777_216.0).to_le_bytes())
+            .flat_map(|_| random.f32().to_le_bytes())
             .collect(),
         2 => (0..channels)
             .flat_map(|_| {
-                [
-                    noise().to_le_bytes()[0],
-                    0x34 | noise().to_le_bytes()[1] & 3,
-                ]
+                // Halves from ¼ to 4.
+                [random.u8(..), 0x34 | random.u8(..4)]
             })
             .collect(),
-        _ => (0..channels).map(|_| noise().to_le_bytes()[1]).collect(),
+        _ => (0..channels).map(|_| random.u8(..)).collect(),
     };
     let mips = if is_color {
         MipGeneration::Full

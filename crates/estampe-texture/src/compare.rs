@@ -17,6 +17,7 @@
 use crate::texel::mix;
 use crate::wrap::place;
 use estampe_simd::bits_of;
+use estampe_types::morton::spread_lanes;
 use estampe_types::{AddressMode, DepthTexture, FilterMode, Int, Real, Vec2};
 
 /// How much of the texels around (u, v) is not nearer than the reference, 0..=1: WebGPU's
@@ -36,7 +37,7 @@ pub fn sample_compare_sum<R: Real, const N: usize>(
     reference: R,
 ) -> R {
     let map = Map::new(texture);
-    if R::NARROW {
+    if R::EMULATED_LANES {
         return reference.with_lanes(
             #[inline(always)]
             |lane| {
@@ -45,7 +46,7 @@ pub fn sample_compare_sum<R: Real, const N: usize>(
             },
         );
     }
-    reference.outlined(
+    reference.out_of_line(
         #[inline(always)]
         || map.sum(uv, offsets, reference),
     )
@@ -242,7 +243,7 @@ impl<'a> Map<'a> {
     #[inline(always)]
     fn row<I: Int>(&self, y: I) -> I {
         let blocks = (y >> 6) * y.splat(self.stride / 16);
-        (blocks << 12) + (spread(y) << 1)
+        (blocks << 12) + (spread_lanes(y) << 1)
     }
 }
 
@@ -269,16 +270,7 @@ fn add_row<R: Real>(sum: R, above: [R; 3], below: [R; 3], fraction: R) -> R {
 /// What a column adds to the index of its texels.
 #[inline(always)]
 fn column<I: Int>(x: I) -> I {
-    ((x >> 6) << 12) + spread(x)
-}
-
-/// Moves bit i of the lowest six bits to bit 2i.
-#[inline(always)]
-fn spread<I: Int>(v: I) -> I {
-    let v = v & v.splat(0x3F);
-    let v = (v | (v << 4)) & v.splat(0x30F);
-    let v = (v | (v << 2)) & v.splat(0x333);
-    (v | (v << 1)) & v.splat(0x555)
+    ((x >> 6) << 12) + spread_lanes(x)
 }
 
 #[inline(always)]

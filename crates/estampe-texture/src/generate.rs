@@ -4,10 +4,8 @@
 //! from 2x, 2y, 2z on, the second clamped where a side is 1; the last one of an odd side is left out. (As
 //! [`MipGeneration::Full`](crate::MipGeneration::Full) says.)
 
-use crate::decode::Decoder;
-use crate::encode::encode;
 use crate::mips;
-use estampe_types::TextureAspect;
+use estampe_format::TexelCodec;
 use estampe_types::{SampleType, TexelEncoding, Texture, TextureDimension, TextureFormat};
 
 /// Whether levels of the texture's format can be made: those of numbers, blocks included.
@@ -22,8 +20,8 @@ pub(crate) fn level(texture: &Texture, level: usize, words: &mut [u32]) {
     };
     let stored = texture.stored_format();
     let (from, to) = (texture.levels[above], texture.levels[level]);
-    let decoder = Decoder::new(stored, TextureAspect::All);
-    let per_texel = decoder.words;
+    let codec = TexelCodec::new(stored);
+    let per_texel = codec.words();
     let is_3d = texture.shape.dimension == TextureDimension::D3;
     let (from_slices, slices) = (
         texture.shape.slices(above) as usize,
@@ -62,8 +60,8 @@ pub(crate) fn level(texture: &Texture, level: usize, words: &mut [u32]) {
                         let mean = mips::mean_of_four(stored);
                         [mean(four(near).map(|texel| texel[0])), 0, 0, 0]
                     }
-                    (_, false) => mean(stored, &decoder, &[four(near)]),
-                    (_, true) => mean(stored, &decoder, &[four(near), four(far)]),
+                    (_, false) => mean(stored, &codec, &[four(near)]),
+                    (_, true) => mean(stored, &codec, &[four(near), four(far)]),
                 };
                 made.copy_from_slice(&mean[..per_texel]);
             }
@@ -72,12 +70,12 @@ pub(crate) fn level(texture: &Texture, level: usize, words: &mut [u32]) {
 }
 
 /// The mean of four texels, or of eight.
-fn mean(format: TextureFormat, decoder: &Decoder, fours: &[[&[u32]; 4]]) -> [u32; 4] {
+fn mean(format: TextureFormat, codec: &TexelCodec, fours: &[[&[u32]; 4]]) -> [u32; 4] {
     use TexelEncoding as E;
     let factor = 0.25 / fours.len() as f32;
     let mut of_slices = [[0.0; 4]; 2];
     for (sum, four) in of_slices.iter_mut().zip(fours) {
-        let [a, b, c, d] = four.map(|texel| decoder.unit(texel));
+        let [a, b, c, d] = four.map(|texel| codec.units(texel));
         for k in 0..4 {
             sum[k] = (a[k] + b[k]) + (c[k] + d[k]);
         }
@@ -95,10 +93,10 @@ fn mean(format: TextureFormat, decoder: &Decoder, fours: &[[&[u32]; 4]]) -> [u32
         let mean = sum * factor;
         // Sums of codes are exact, and so is this code: ⌊mean + ½⌋; R, G and B of sRGB are numbers.
         if is_code && !(format.is_srgb() && k < 3) {
-            (mean + 0.5).floor() * decoder.scale[k]
+            (mean + 0.5).floor() * codec.scale()[k]
         } else {
             mean
         }
     });
-    encode(format, value)
+    codec.encode(value)
 }

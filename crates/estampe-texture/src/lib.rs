@@ -1,4 +1,8 @@
 #![forbid(unsafe_code)]
+#![allow(
+    clippy::self_named_module_files,
+    reason = "folders that are being rewritten get their `mod.rs` then"
+)]
 //! Textures: making them, reading them at coordinates, storing to them.
 //!
 //! * [`TextureDescriptor`]: bytes of any [`TextureFormat`] become a [`Texture`] of one, two or three dimensions, with
@@ -32,7 +36,7 @@
 //! are on their way ([`Int::gather_square`](estampe_types::Int::gather_square)) while λ is still being
 //! computed; λ then says whether the guess was right.
 //!
-//! At the scalar level ([`Real::NARROW`](estampe_types::Real::NARROW)), the lanes are sampled one after the
+//! At the scalar level ([`Real::EMULATED_LANES`](estampe_types::Real::EMULATED_LANES)), the lanes are sampled one after the
 //! other by the same text on `f32`: sixteen lanes at once took minutes to compile.
 //!
 //! Unorm8 channels become numbers without a conversion: a byte put into the mantissa of 2²³ is
@@ -43,9 +47,7 @@
 mod blocks;
 mod compare;
 mod create;
-mod decode;
 mod descriptor;
-mod encode;
 mod error;
 mod filter;
 mod from_depth;
@@ -53,6 +55,7 @@ mod generate;
 mod lod;
 mod mips;
 mod mixed;
+mod request;
 mod sampled;
 mod storage;
 mod texel;

@@ -1,7 +1,7 @@
 //! A mip level from the one above it: 2×2 boxes. The rule is stated at
 //! [`MipGeneration::Full`](crate::MipGeneration::Full).
 
-use estampe_types::srgb::{LINEAR_FROM_SRGB, srgb_from_linear};
+use estampe_format::srgb;
 use estampe_types::{MipLevel, TextureFormat};
 
 /// Appends level `to`, the half of level `from`, to the texels of all levels above it.
@@ -53,12 +53,12 @@ fn mean_unorm(four: [u32; 4]) -> u32 {
 
 /// R, G and B by their linear values, alpha as unorm.
 fn mean_srgb(four: [u32; 4]) -> u32 {
-    let table = &*LINEAR_FROM_SRGB;
+    let table = &*srgb::LINEAR_FROM_SRGB;
     let mut texel = mean_unorm(four) & 0xFF00_0000;
     for shift in [0, 8, 16] {
         let [a, b, c, d] = four.map(|t| table[(t >> shift & 0xFF) as usize]);
         let linear = ((a + b) + (c + d)) * 0.25;
-        texel |= u32::from(srgb_from_linear(linear)) << shift;
+        texel |= u32::from(srgb::encode(linear)) << shift;
     }
     texel
 }

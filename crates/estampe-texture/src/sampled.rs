@@ -1,9 +1,11 @@
 //! A texture with a sampler, as a shader holds it.
 
 use crate::filter::{Inside, Level, mix_colors, sample_level};
-use crate::lod::{implicit_rho2, level_of_detail, rho2};
+use crate::lod::{level_of_detail, rho2};
 use crate::mixed::Mixed;
+use crate::request::Request;
 use crate::texel::{finish, unpack};
+use crate::view::{Answers, packed, requests};
 use crate::wrap::wrap;
 use estampe_simd::LANES;
 use estampe_types::shader::Sample2d;
@@ -23,12 +25,12 @@ const MAX_LEVELS: usize = 16;
 /// `docs/NUMERICS.md` says. Colours are linear, alpha is straight, all in 0..=1.
 #[derive(Clone, Debug)]
 pub struct Sampled {
-    texture: Arc<Texture>,
-    sampler: SamplerDescriptor,
+    pub(crate) texture: Arc<Texture>,
+    pub(crate) sampler: SamplerDescriptor,
     /// The texture's levels; beyond the end the last one.
-    levels: Arc<[Level; MAX_LEVELS]>,
+    pub(crate) levels: Arc<[Level; MAX_LEVELS]>,
     /// The least and greatest level of detail that the sampler and the levels allow.
-    lod_range: [f32; 2],
+    pub(crate) lod_range: [f32; 2],
     /// The finer level at both.
     level_range: [i32; 2],
     /// Whether it is the common case, unorm8 that is filtered linearly near and far.
@@ -44,13 +46,6 @@ impl Sample2d for Sampled {
     fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
         Self::sample(self, uv)
     }
-}
-
-/// One lane of those that are sampled one by one.
-#[derive(Clone, Copy, Default)]
-struct Lane {
-    uv: [f32; 2],
-    lod: f32,
 }
 
 impl Sampled {
@@ -100,16 +95,7 @@ impl Sampled {
     /// fragment (`f32`) has none: it reads the finest level.
     #[inline(always)]
     pub fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
-        if R::NARROW {
-            return self.sample_narrow(uv, None);
-        }
-        uv.x.outlined(
-            #[inline(always)]
-            || {
-                let rho2 = implicit_rho2(uv, self.levels[0].size);
-                self.sample_at(uv, level_of_detail(rho2), self.guess_of_level(rho2))
-            },
-        )
+        self.request(uv, None)
     }
 
     /// The colours of several textures at one place, such as a surface's colour and its normal map: what
@@ -119,48 +105,28 @@ impl Sampled {
     /// detail and the texels' places are found once for all.
     #[inline(always)]
     pub fn sample_all<R: Real, const N: usize>(textures: [&Self; N], uv: Vec2<R>) -> [Vec4<R>; N] {
-        let mut colors = [Vec4::repeat(uv.x); N];
-        let Some((first, others)) = textures.split_first() else {
-            return colors;
-        };
-        if R::NARROW || !others.iter().all(|other| first.is_like(other)) {
-            let mut index = 0;
-            while index < N {
-                colors[index] = textures[index].sample(uv);
-                index += 1;
-            }
-            return colors;
+        let mut answers = [[Answers::default(); N]; 2];
+        for (index, answers) in answers.iter_mut().enumerate().take(requests::<R>()) {
+            let request = Request::new(uv, None, index * LANES);
+            Self::sample_all_lanes(&textures, &request, answers);
         }
-        uv.x.outlined(
-            #[inline(always)]
-            || {
-                let rho2 = implicit_rho2(uv, first.levels[0].size);
-                let lod = level_of_detail(rho2);
-                if let Some(inside) = first.inside(uv, lod, first.guess_of_level(rho2)) {
-                    let mut index = 0;
-                    while index < N {
-                        colors[index] = finish(inside.color(&textures[index].texture), false);
-                        index += 1;
-                    }
-                    return colors;
-                }
-                uv.x.outlined(
-                    #[inline(always)]
-                    || {
-                        let mut index = 0;
-                        let mixed = first.mixed(uv, lod);
-                        while index < N {
-                            colors[index] = match &mixed {
-                                Some(mixed) => finish(mixed.color(&textures[index].texture), false),
-                                None => textures[index].sample_anywhere(uv, lod),
-                            };
-                            index += 1;
-                        }
-                        colors
-                    },
-                )
-            },
-        )
+        let mut colors = [Vec4::repeat(uv.x); N];
+        let mut index = 0;
+        while index < N {
+            colors[index] = packed(uv.x, &[answers[0][index], answers[1][index]]);
+            index += 1;
+        }
+        colors
+    }
+
+    /// Samples sixteen lanes at a time, by code that is not compiled into the shader.
+    #[inline(always)]
+    fn request<R: Real>(&self, uv: Vec2<R>, lod: Option<R>) -> Vec4<R> {
+        let mut answers = [Answers::default(); 2];
+        for (index, answers) in answers.iter_mut().enumerate().take(requests::<R>()) {
+            self.sample_lanes(&Request::new(uv, lod, index * LANES), answers);
+        }
+        packed(uv.x, &answers)
     }
 
     /// The colour at (u, v), level of detail from the given derivatives of (u, v) along x and y.
@@ -172,17 +138,7 @@ impl Sampled {
     /// The colour at (u, v) at a level of detail: 0 is the base level, each further one half as large.
     #[inline(always)]
     pub fn sample_level<R: Real>(&self, uv: Vec2<R>, lod: R) -> Vec4<R> {
-        if R::NARROW {
-            return self.sample_narrow(uv, Some(lod));
-        }
-        uv.x.outlined(
-            #[inline(always)]
-            || {
-                let within = lod.clamp(self.lod_range[0], self.lod_range[1]);
-                let (level, _) = mixture(within, self.sampler.mipmap_filter);
-                self.sample_at(uv, lod, level.to_int_within_range().lane(0))
-            },
-        )
+        self.request(uv, Some(lod))
     }
 
     /// The texel (x, y) of a level, without filtering; what lies outside reads the nearest texel inside.
@@ -198,7 +154,7 @@ impl Sampled {
 
     /// Whether samples of both lie at the same place, and are common enough for the fast path.
     #[inline(always)]
-    fn is_like(&self, other: &Self) -> bool {
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.is_linear_unorm
             && other.is_linear_unorm
             && self.is_regular
@@ -213,7 +169,7 @@ impl Sampled {
     /// The finer level of the first lane, most probably: λ without the clamps is e/2 and a little more, with
     /// e the exponent of ρ². It is known long before λ is, so addresses need not wait for that.
     #[inline(always)]
-    fn guess_of_level<R: Real>(&self, rho2: R) -> i32 {
+    pub(crate) fn guess_of_level<R: Real>(&self, rho2: R) -> i32 {
         let exponent = (rho2.to_bits().lane(0) >> 23) - 127;
         let twice = match self.sampler.mipmap_filter {
             FilterMode::Nearest => exponent + 1,
@@ -223,47 +179,6 @@ impl Sampled {
         Ord::min(Ord::max(twice >> 1, first), last)
     }
 
-    /// [`Self::sample`], or [`Self::sample_level`] where a level of detail is given, lane by lane.
-    #[inline(always)]
-    fn sample_narrow<R: Real>(&self, uv: Vec2<R>, lod: Option<R>) -> Vec4<R> {
-        let mut lanes = [Lane::default(); LANES];
-        for (index, lane) in lanes.iter_mut().enumerate().take(R::LANES) {
-            lane.uv = [uv.x.lane(index), uv.y.lane(index)];
-            lane.lod = lod.map_or(0.0, |lod| lod.lane(index));
-        }
-        let mut colors = [[0.0; 4]; LANES];
-        self.sample_lanes(&lanes[..R::LANES], lod.is_none(), &mut colors);
-        let like = uv.x;
-        Vec4::new(
-            like.with_lanes(|lane| colors[lane][0]),
-            like.with_lanes(|lane| colors[lane][1]),
-            like.with_lanes(|lane| colors[lane][2]),
-            like.with_lanes(|lane| colors[lane][3]),
-        )
-    }
-
-    /// Samples lanes one after the other; they are whole quads where their levels of detail are to be
-    /// found.
-    #[inline(never)]
-    fn sample_lanes(&self, lanes: &[Lane], is_implicit: bool, colors: &mut [[f32; 4]]) {
-        let (mut lod, mut level) = (0.0, 0);
-        for (index, (lane, color)) in lanes.iter().zip(colors).enumerate() {
-            if !is_implicit {
-                lod = lane.lod;
-            } else if let (0, [a, b, c, ..]) = (index % 4, &lanes[index..]) {
-                let [dx, dy] =
-                    [b, c].map(|other| Vec2::new(other.uv[0] - a.uv[0], other.uv[1] - a.uv[1]));
-                lod = level_of_detail(rho2(dx, dy, self.levels[0].size));
-            }
-            if !is_implicit || index % 4 == 0 {
-                let within = Real::clamp(lod, self.lod_range[0], self.lod_range[1]);
-                level = mixture(within, self.sampler.mipmap_filter).0.to_int();
-            }
-            let Vec4 { x, y, z, w } = self.sample_at(Vec2::from(lane.uv), lod, level);
-            *color = [x, y, z, w];
-        }
-    }
-
     #[inline(always)]
     fn address_modes(&self) -> [AddressMode; 2] {
         [self.sampler.address_mode_u, self.sampler.address_mode_v]
@@ -271,11 +186,11 @@ impl Sampled {
 
     /// The colour at a level of detail; `guess` is the finer level, most probably.
     #[inline(always)]
-    fn sample_at<R: Real>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Vec4<R> {
+    pub(crate) fn sample_at<R: Real>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Vec4<R> {
         if let Some(inside) = self.inside(uv, lod, guess) {
             return finish(inside.color(&self.texture), false);
         }
-        lod.outlined(
+        lod.out_of_line(
             #[inline(always)]
             || match self.mixed(uv, lod) {
                 Some(mixed) => finish(mixed.color(&self.texture), false),
@@ -294,7 +209,7 @@ impl Sampled {
     /// Where the sample lies in the common case, and the fast one: linear filtering of unorm8, all lanes of one
     /// level and none at a border. `None` where it is another.
     #[inline(always)]
-    fn inside<R: Real>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Option<Inside<R>> {
+    pub(crate) fn inside<R: Real>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Option<Inside<R>> {
         if !self.is_linear_unorm {
             return None;
         }
@@ -313,7 +228,7 @@ impl Sampled {
 
     /// Where the sample lies in the next common case: lanes of one level or of two neighbouring ones, repeated.
     #[inline(always)]
-    fn mixed<R: Real>(&self, uv: Vec2<R>, lod: R) -> Option<Mixed<R>> {
+    pub(crate) fn mixed<R: Real>(&self, uv: Vec2<R>, lod: R) -> Option<Mixed<R>> {
         if R::LANES == 1
             || !self.is_linear_unorm
             || self.address_modes() != [AddressMode::Repeat; 2]
@@ -337,7 +252,7 @@ impl Sampled {
     /// Any case: samples the whole packet once for every level among its lanes, and picks the lanes
     /// together.
     #[inline(always)]
-    fn sample_anywhere<R: Real>(&self, uv: Vec2<R>, lod: R) -> Vec4<R> {
+    pub(crate) fn sample_anywhere<R: Real>(&self, uv: Vec2<R>, lod: R) -> Vec4<R> {
         let sampler = &self.sampler;
         let lod = lod.clamp(sampler.lod_min_clamp, sampler.lod_max_clamp);
         let is_minified = lod.gt(lod.splat(0.0));
@@ -397,7 +312,7 @@ fn is_regular(levels: &[MipLevel]) -> bool {
 
 /// The finer level and the weight of the next one, from a level of detail within the existing levels.
 #[inline(always)]
-fn mixture<R: Real>(lod: R, filter: FilterMode) -> (R, R) {
+pub(crate) fn mixture<R: Real>(lod: R, filter: FilterMode) -> (R, R) {
     match filter {
         FilterMode::Nearest => ((lod + 0.5).floor(), lod.splat(0.0)),
         FilterMode::Linear => {

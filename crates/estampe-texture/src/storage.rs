@@ -4,13 +4,12 @@
 //! until the pass has ended). A store takes the lanes that are to store: helper lanes and discarded fragments must
 //! not.
 
-use crate::decode::Decoder;
-use crate::encode::encode;
 use crate::view::{Answers, answer, packed, put, put_ints, requests};
 use crate::{LevelData, MipGeneration, TextureDescriptor, TextureError};
+use estampe_format::TexelCodec;
 use estampe_simd::LANES;
 use estampe_types::{
-    Int, Limits, Real, StorageTexture, TexelEncoding, Texture, TextureAspect, TextureFormat, Vec4,
+    Int, Limits, Real, StorageTexture, TexelEncoding, Texture, TextureFormat, Vec4,
 };
 
 /// A storage texture of the data, or of zeros without any: one level and one sample of a format of colours that is
@@ -69,7 +68,7 @@ fn is_storable(format: TextureFormat) -> bool {
 #[inline(always)]
 pub fn storage_load<I: Int>(texture: &StorageTexture, at: [I; 3]) -> Vec4<I::Real> {
     let like = at[0].to_real();
-    like.outlined(
+    like.out_of_line(
         #[inline(always)]
         || {
             let mut texels = [Answers::default(); 2];
@@ -92,7 +91,7 @@ pub fn storage_store<R: Real>(
     at: [R::Int; 3],
     value: Vec4<R>,
 ) {
-    value.x.outlined(
+    value.x.out_of_line(
         #[inline(always)]
         || {
             for index in 0..requests::<R>() {
@@ -138,28 +137,33 @@ impl Places {
 
 #[inline(never)]
 fn load_lanes(texture: &StorageTexture, places: &Places, texels: &mut Answers) {
-    let decoder = decoder_of(texture);
+    let codec = TexelCodec::new(stored(texture));
     for lane in 0..places.count {
         if let Some(index) = texture.index(places.of_lane(lane)) {
             let mut words = [0; 4];
-            for (k, word) in words.iter_mut().enumerate().take(decoder.words) {
+            for (k, word) in words.iter_mut().enumerate().take(codec.words()) {
                 *word = texture.load(index + k);
             }
-            answer(texels, lane, decoder.finish(decoder.unit(&words)));
+            answer(texels, lane, codec.decode(&words));
         }
     }
 }
 
 #[inline(never)]
 fn store_lanes(texture: &StorageTexture, places: &Places, texels: &Answers) {
-    let (format, count) = (stored(texture), texture.words_per_texel());
+    let codec = TexelCodec::new(stored(texture));
     for lane in 0..places.count {
         if places.mask >> lane & 1 == 0 {
             continue;
         }
         if let Some(index) = texture.index(places.of_lane(lane)) {
             let texel = texels.map(|of_lanes| of_lanes[lane]);
-            for (k, word) in encode(format, texel).into_iter().enumerate().take(count) {
+            for (k, word) in codec
+                .encode(texel)
+                .into_iter()
+                .enumerate()
+                .take(codec.words())
+            {
                 texture.store(index + k, word);
             }
         }
@@ -172,10 +176,6 @@ fn stored(texture: &StorageTexture) -> TextureFormat {
         TextureFormat::Bgra8Unorm => TextureFormat::Rgba8Unorm,
         format => format,
     }
-}
-
-fn decoder_of(texture: &StorageTexture) -> Decoder {
-    Decoder::new(stored(texture), TextureAspect::All)
 }
 
 /// What a storage texture holds, as rows of the format's bytes that follow each other, slice after slice.

@@ -4,7 +4,8 @@
 //! and third as codes c, its second and fourth as 256·c, sRGB's colours as linear values. [`finish`]
 //! brings all of them to 0..1.
 
-use estampe_types::srgb::LINEAR_BITS_FROM_SRGB;
+use estampe_format::srgb;
+use estampe_simd::bits_of;
 use estampe_types::{Int, Real, Vec3, Vec4};
 
 /// 2²³ as f32: the bits below are its mantissa, so `MAGIC | c` is 2²³ + c for c < 2²³.
@@ -84,7 +85,7 @@ impl<I: Int> Corners<I> {
     /// without such an instruction.
     #[inline(always)]
     fn mean_of_srgb(self, fx: I::Real, fy: I::Real) -> Vec4<I::Real> {
-        let table = &*LINEAR_BITS_FROM_SRGB;
+        let table = bits_of(&*srgb::LINEAR_FROM_SRGB);
         let mut colors = [fx; 3];
         let ([mut a, mut b], [mut c, mut d]) = (self.upper, self.lower);
         for color in &mut colors {
@@ -111,7 +112,7 @@ fn mean_of_bytes<I: Int>([left, right]: [I; 2], mask: i32, f: I::Real) -> I::Rea
 
 /// The linear value of the sRGB code in the lowest byte.
 #[inline(always)]
-fn decoded<I: Int>(word: I, table: &[u32; 256]) -> I::Real {
+fn decoded<I: Int>(word: I, table: &[u32]) -> I::Real {
     (word & word.splat(0xFF)).gather(table).to_real_bits()
 }
 
@@ -124,7 +125,7 @@ pub(crate) fn unpack<I: Int>(word: I, is_srgb: bool) -> Vec4<I::Real> {
     let high = word >> 16;
     let w = biased(high, 0xFF00) - MAGIC_REAL;
     if is_srgb {
-        let table = &*LINEAR_BITS_FROM_SRGB;
+        let table = bits_of(&*srgb::LINEAR_FROM_SRGB);
         let mut colors = [w; 3];
         let mut word = word;
         for color in &mut colors {

@@ -1,8 +1,10 @@
-//! How a shader finds its uniforms, buffers and textures: by group and binding number, as in WebGPU.
+//! Bindings: the uniforms, buffers and textures of a draw, found by group and binding number as in
+//! WebGPU.
 //!
-//! A draw names up to [`Limits::max_bind_groups`](crate::Limits) groups. Text shaders read all their
-//! resources this way; a Rust shader may own its uniforms instead, and use bindings for what changes
-//! from draw to draw. What is not bound reads as zeros.
+//! A draw names up to [`Limits::max_bind_groups`](crate::Limits) groups. Text shaders read all
+//! their resources through bindings. A Rust shader may own its uniforms and textures instead, and
+//! use bindings for values that change from draw to draw. A resource that is not bound reads as
+//! zeros.
 
 use crate::{Buffer, DepthTexture, SamplerDescriptor, StorageTexture, Texture};
 use std::sync::Arc;
@@ -12,39 +14,40 @@ use std::sync::Arc;
 pub enum Binding {
     /// Bytes of a uniform or storage buffer.
     Buffer {
-        /// The whole buffer.
+        /// The whole buffer; the binding starts at `offset`.
         buffer: Buffer,
-        /// Where the binding begins, in bytes.
+        /// Start of the binding, in bytes from the start of the buffer.
         offset: u32,
-        /// Whether the draw adds its dynamic offset.
+        /// If set, the draw's dynamic offset of this group is added to `offset`.
         has_dynamic_offset: bool,
     },
     /// A texture.
     Texture(Arc<Texture>),
-    /// A depth image.
+    /// A depth texture, such as a shadow map.
     DepthTexture(DepthTexture),
-    /// A texture that shaders store to.
+    /// A texture that fragment shaders store to.
     StorageTexture(StorageTexture),
-    /// How a texture is sampled.
+    /// The state by which a texture is sampled.
     Sampler(SamplerDescriptor),
 }
 
-/// Resources that are bound together: (binding number, resource).
+/// Resources that are bound together, as pairs of binding number and resource.
 #[derive(Debug, Clone, Default)]
 pub struct BindGroup {
     /// The entries, in any order.
     pub entries: Vec<(u32, Binding)>,
 }
 
-/// What one draw binds.
+/// The resources that one draw binds.
 #[derive(Debug, Clone, Default)]
 pub struct Bindings {
-    /// Each group and the dynamic offset, in bytes, of those of its buffers that have one.
+    /// By group number: the group, and the dynamic offset in bytes, which applies to its buffers
+    /// with `has_dynamic_offset`.
     pub groups: Vec<(Arc<BindGroup>, u32)>,
 }
 
 impl Bindings {
-    /// The resource at a group and binding number.
+    /// The resource at a group and binding number; `None` if nothing is bound there.
     #[inline]
     #[must_use]
     pub fn get(&self, group: u32, binding: u32) -> Option<&Binding> {
@@ -56,8 +59,8 @@ impl Bindings {
             .map(|(_, entry)| entry)
     }
 
-    /// `N` consecutive 32-bit floats of a bound buffer from a byte offset on; zeros where there is
-    /// no such buffer or it ends.
+    /// `N` consecutive 32-bit floats of the bound buffer, starting at a byte offset. Floats beyond
+    /// the buffer's end, and all floats if no buffer is bound, are zero.
     #[inline]
     #[must_use]
     pub fn f32s<const N: usize>(&self, group: u32, binding: u32, offset_bytes: u32) -> [f32; N] {
@@ -75,7 +78,8 @@ impl Bindings {
             0
         };
         let start = *offset as usize + dynamic as usize + offset_bytes as usize;
-        // The common case, at one look: programs read their uniforms once a packet.
+        // Fast path for aligned offsets inside the buffer: programs read their uniforms once per
+        // packet.
         if let Some(words) = buffer.words().get(start / 4..)
             && let Some(words) = words.first_chunk::<N>()
             && start.is_multiple_of(4)
@@ -89,7 +93,7 @@ impl Bindings {
         values
     }
 
-    /// A 4×4 matrix of a bound buffer, by columns.
+    /// A 4×4 matrix of the bound buffer, stored by columns.
     #[inline]
     #[must_use]
     pub fn mat4(&self, group: u32, binding: u32, offset_bytes: u32) -> crate::Mat4 {
@@ -126,7 +130,7 @@ impl Bindings {
         }
     }
 
-    /// The depth image at a group and binding number.
+    /// The depth texture at a group and binding number.
     #[inline]
     #[must_use]
     pub fn depth_texture(&self, group: u32, binding: u32) -> Option<&DepthTexture> {

@@ -1,17 +1,18 @@
-//! Bytes that a draw reads.
+//! Buffers: immutable memory that a draw reads, for vertices, indices, uniforms and storage.
 
 use std::sync::Arc;
 
-/// Immutable bytes, shared by reference; kept as little-endian 32-bit words so that lanes gather them.
+/// An immutable buffer, shared by reference. The bytes are kept as little-endian 32-bit words, so
+/// that lanes can gather them.
 #[derive(Clone)]
 pub struct Buffer {
-    // A vector, not `Arc<[u32]>`: what was filled by several threads need not be copied.
+    // A vector, not `Arc<[u32]>`: a vector that several threads filled need not be copied.
     words: Arc<Vec<u32>>,
     len_bytes: usize,
 }
 
 impl Buffer {
-    /// A buffer of these bytes.
+    /// A buffer with these bytes.
     #[must_use]
     pub fn from_bytes(bytes: &[u8]) -> Self {
         let word = |chunk: &[u8]| {
@@ -46,7 +47,7 @@ impl Buffer {
         )
     }
 
-    /// Its length.
+    /// The length in bytes.
     #[must_use]
     pub fn len_bytes(&self) -> usize {
         self.len_bytes
@@ -58,7 +59,7 @@ impl Buffer {
         &self.words
     }
 
-    /// The byte at an offset; beyond the end zero.
+    /// The byte at an offset; zero beyond the end.
     #[inline]
     #[must_use]
     pub fn byte(&self, offset: usize) -> u8 {
@@ -66,7 +67,8 @@ impl Buffer {
         word.to_le_bytes()[offset % 4]
     }
 
-    /// Four bytes at any offset as a little-endian word; what lies beyond the end is zero.
+    /// The little-endian word of the four bytes at an offset, which need not be aligned. Bytes
+    /// beyond the end are zero.
     #[inline]
     #[must_use]
     pub fn word_at(&self, offset: usize) -> u32 {

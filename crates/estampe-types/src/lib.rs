@@ -1,25 +1,26 @@
 #![forbid(unsafe_code)]
-//! The contract of the pipeline: plain data and traits that every other room of the house shares.
+//! The contract of the pipeline: plain data and traits that all other crates share.
 //!
-//! * [`state`]: what a pipeline is made of, in WebGPU's words: topology, culling, depth, blending,
+//! * [`state`]: the state of a pipeline in WebGPU's words: topology, culling, depth, blending,
 //!   write masks, multisampling, vertex layouts, each a value with stated defaults;
 //! * [`mod@format`]: formats of vertices, indices and textures; [`Limits`];
-//! * [`buffer`], [`texture`], [`bindings`]: data that shaders read, and how a shader finds it;
-//! * [`mod@shader`]: how a shader is written in Rust, and the one interface ([`Program`]) that Rust
-//!   shaders and compiled text shaders share;
-//! * [`Real`] and the small vectors [`Vec2`], [`Vec3`], [`Vec4`], [`Mat4`]: arithmetic that is written
-//!   once and runs on one fragment, on a 2×2 quad, or on sixteen lanes.
+//! * [`buffer`], [`texture`], [`bindings`]: data that shaders read, and how a draw binds it;
+//! * [`mod@shader`]: the trait by which a shader is written in Rust, and the one interface
+//!   ([`Program`]) that Rust shaders and compiled text shaders share;
+//! * [`Real`] and the small vectors [`Vec2`], [`Vec3`], [`Vec4`], [`Mat4`]: arithmetic that is
+//!   written once and runs on one fragment, on a 2×2 quad, or on sixteen lanes.
 //!
 //! The conventions (spaces, rounding, order of operations) are in `docs/NUMERICS.md`.
 
 pub mod bindings;
 pub mod buffer;
-mod depth_bounds;
+mod depth_minmax;
 pub mod format;
 mod limits;
 mod lines;
 pub mod maths;
 mod matrix;
+pub mod morton;
 mod pair;
 mod quad;
 mod real;

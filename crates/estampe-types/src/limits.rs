@@ -1,10 +1,11 @@
-//! How large things may be.
+//! The largest sizes of resources and pipelines.
 
-/// The largest sizes that creation accepts. Beyond one, creation is an error that names it.
+/// The largest sizes that creation accepts. If a limit is exceeded, creation fails with an error
+/// that names it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Limits {
     /// Width and height of a render target or texture, in pixels. Default and maximum 16384: the
-    /// fixed-point raster's guard band is made for it.
+    /// guard band of the fixed-point rasterizer is sized for it.
     pub max_texture_dimension_2d: u32,
     /// Bytes of one buffer. Default 2³⁰.
     pub max_buffer_size: u64,
@@ -12,9 +13,9 @@ pub struct Limits {
     pub max_vertex_attributes: u32,
     /// Vertex buffers of a pipeline. Default 8.
     pub max_vertex_buffers: u32,
-    /// Bytes from one element of a vertex buffer to the next. Default 2048.
+    /// Stride of a vertex buffer: bytes from one element to the next. Default 2048.
     pub max_vertex_buffer_array_stride: u32,
-    /// Scalars that a vertex hands to the fragments. Default 64: 16 variables of 4 components.
+    /// Scalars of all varyings together. Default 64: 16 variables of 4 components.
     pub max_inter_stage_scalars: u32,
     /// Colour targets of a pipeline. Default 8.
     pub max_color_attachments: u32,

@@ -1,36 +1,38 @@
-//! Memory of images: elements that begin at a cache line.
+//! Image memory whose elements begin at a cache line.
 
 use std::ops::{Deref, DerefMut};
 
 /// Bytes of a cache line, and of sixteen lanes.
 const LINE: usize = 64;
 
-/// Elements whose first lies at a multiple of 64 bytes, so that every packet of sixteen is one cache line.
+/// A vector whose first element is at a multiple of 64 bytes, so that each packet of sixteen 32-bit
+/// elements is one cache line.
 ///
-/// An allocation of this size begins 16 bytes behind a page's start, and then every packet's load and store
-/// touches two lines.
+/// Large allocations usually begin 16 bytes after the start of a page. Without alignment, each load
+/// and store of a packet would then touch two cache lines.
 #[derive(Debug, Default)]
 pub struct Lines<T> {
-    /// The elements, and before them up to a line of unused ones.
+    /// The elements, preceded by less than one cache line of unused ones.
     memory: Vec<T>,
     start: usize,
     len: usize,
 }
 
 impl<T: Copy + Default> Lines<T> {
-    /// Zeros, or `None` when memory is short.
+    /// `len` zeros, or `None` if there is not enough memory.
     #[must_use]
     pub fn zeros(len: usize) -> Option<Self> {
         let spare = LINE / size_of::<T>();
         let memory: Vec<T> = zeros(len.checked_add(spare)?)?;
-        // Where this cannot be told (it may be so in constant evaluation) alignment is given up.
+        // `align_offset` may fail (in constant evaluation it may always do so); then the elements
+        // are not aligned.
         let start = memory.as_ptr().align_offset(LINE).min(spare);
         Some(Self { memory, start, len })
     }
 }
 
 impl<T> From<Vec<T>> for Lines<T> {
-    /// The same elements where they are, at a line's begin or not.
+    /// The given elements without a copy, so that they may be unaligned.
     fn from(memory: Vec<T>) -> Self {
         let len = memory.len();
         Self {
@@ -43,7 +45,7 @@ impl<T> From<Vec<T>> for Lines<T> {
 
 impl<T: Copy + Default> Clone for Lines<T> {
     fn clone(&self) -> Self {
-        // As `Vec::clone` does when memory is short.
+        // `Vec::clone` panics too when memory runs out.
         let mut copy = Self::zeros(self.len).expect("there is memory for a copy");
         copy.copy_from_slice(self);
         copy
@@ -64,14 +66,15 @@ impl<T> DerefMut for Lines<T> {
     }
 }
 
-/// Zeros, or `None` when memory is short.
+/// `len` zeros, or `None` if there is not enough memory.
 ///
-/// The system's fresh memory is zero already, and is then first touched by the threads that draw; writing
-/// zeros here took a thread 16 ms for 1280×720 with four samples.
+/// The system's fresh memory is zero already, and is first touched by the threads that draw.
+/// Writing zeros here took one thread 16 ms for 1280×720 with four samples.
 fn zeros<T: Clone + Default>(len: usize) -> Option<Vec<T>> {
-    /// An allocator may keep smaller blocks that are given back, and would have to clear them.
+    /// Below this size, an allocator may reuse memory that was freed, and would have to clear it.
     const LEAST_ROOM: usize = 64 << 20;
-    // `vec!` asks for zeroed memory but cannot fail softly: whether there is room is asked before.
+    // `vec!` asks for zeroed memory but aborts when there is none, so the reservation is tried
+    // first.
     let mut room: Vec<u8> = Vec::new();
     let bytes = len.checked_mul(size_of::<T>())?;
     if room.try_reserve_exact(bytes.max(LEAST_ROOM)).is_ok() {

@@ -1,12 +1,12 @@
-//! Transcendental functions of [`Real`] numbers by our own polynomials: the same bits on every
-//! machine, which the system's functions do not give.
+//! Transcendental functions of [`Real`] numbers by our own polynomials. They give the same bits on
+//! every machine, which the system's functions do not.
 
 use crate::{Int, Real};
 
-/// 2ˣ, within 2 ulp for x in −126..128; below 2⁻¹²⁶ it gives 0, above 2¹²⁸ infinity, NaN for NaN.
+/// 2ˣ, within 2 ulp for x in −126..128. Gives 0 below 2⁻¹²⁶, infinity above 2¹²⁸, and NaN for NaN.
 ///
-/// x = i + f with i = floor(x + ½), |f| ≤ ½; 2^f by its Taylor series (terms up to f⁷, whose
-/// remainder is below 2⁻²⁷), 2^i by the exponent bits, in two factors so that i = 128 does not wrap.
+/// x = i + f with i = floor(x + ½), |f| ≤ ½. 2^f is its Taylor series (terms up to f⁷, remainder
+/// below 2⁻²⁷); 2^i is made of exponent bits, in two factors so that i = 128 does not wrap.
 #[inline(always)]
 pub fn exp2<R: Real>(x: R) -> R {
     let clamped = x.clamp(-127.0, 129.0);
@@ -33,13 +33,14 @@ fn power_of_two<R: Real>(i: R::Int) -> R {
     ((i + i.splat(127)) << 23).to_real_bits()
 }
 
-/// log₂ x, within 3.6·10⁻⁷ times max(|log₂ x|, 1) for positive normal x. Zero and
-/// subnormals give −∞, negative numbers and NaN give NaN, infinity gives infinity.
+/// log₂ x, within 3.6·10⁻⁷ times max(|log₂ x|, 1) for positive normal x. Zero and subnormals give
+/// −∞, negative numbers and NaN give NaN, infinity gives infinity.
 ///
-/// x = 2^e·m with m in √½..√2; log₂ m = 2/ln 2 · artanh(s), s = (m − 1)/(m + 1), by its series in s².
+/// x = 2^e·m with m in √½..√2; log₂ m = 2/ln 2 · artanh(s), s = (m − 1)/(m + 1), by its series in
+/// s².
 #[inline(always)]
 pub fn log2<R: Real>(x: R) -> R {
-    // Only positive normal numbers take part; the others are put right at the end.
+    // The series holds for positive normal numbers only; all others are replaced at the end.
     let regular = x.ge(x.splat(f32::MIN_POSITIVE)) & x.le(x.splat(f32::MAX));
     let bits = R::select(regular, x, x.splat(1.0)).to_bits();
     // The exponent of x/√½: adding the distance from √½ to 1 carries where m ≥ √2.
@@ -83,39 +84,42 @@ pub fn powi<R: Real>(x: R, n: u32) -> R {
     result
 }
 
-/// 1.5·2²³: a number within ±2²² plus this is rounded to the nearest integer, ties to even, which then
-/// stands in the low bits of the sum.
+/// 1.5·2²³: a number within ±2²² plus this is rounded to the nearest integer, ties to even, which
+/// then stands in the low bits of the sum.
 const ROUNDING: f32 = 12_582_912.0;
 
-/// sin x of an angle in radians, within 1.5·10⁻⁷ for |x| ≤ 2048. Beyond, the error grows as the distance
-/// between neighbouring numbers does; any finite x gives a number in −1..=1, the others NaN.
+/// sin x of an angle in radians, within 1.5·10⁻⁷ for |x| ≤ 2048. Beyond, the error grows as the
+/// distance between neighbouring numbers does. Any finite x gives a number in −1..=1, all others
+/// NaN.
 ///
-/// x = k·π + r with k the nearest integer to x/π, |r| ≤ π/2; sin x = (−1)^k·sin r. π is subtracted in two
-/// parts (Cody and Waite 1980), of which the first has so few bits that k times it is exact. sin r =
-/// r + r³·p(r²), p the minimax polynomial of degree 3 (error 5·10⁻⁹), its upper and lower half side by side:
-/// programs wait for sines more than they are busy with them.
+/// x = k·π + r with k the nearest integer to x/π, |r| ≤ π/2; sin x = (−1)^k·sin r. π is subtracted
+/// in two parts (Cody and Waite 1980), the first of which has so few bits that k times it is exact.
+/// sin r = r + r³·p(r²), where p is the minimax polynomial of degree 3 (error 5·10⁻⁹). Its upper
+/// and lower half are evaluated side by side, because the latency of sines limits programs more
+/// than their throughput.
 #[inline(always)]
 pub fn sin<R: Real>(x: R) -> R {
     const PI_PARTS: [f32; 2] = [3.140_625, 9.676_536e-4];
     let rounded = x * std::f32::consts::FRAC_1_PI + ROUNDING;
     let k = rounded - ROUNDING;
     let r = x - k * PI_PARTS[0] - k * PI_PARTS[1];
-    // Only where x is too large to have a remainder; in this order of operands NaN stays NaN.
+    // If x is too large for a remainder, r is clamped. In this order of operands NaN stays NaN.
     let r = r.splat(-2.0).max(r.splat(2.0).min(r));
     let r2 = r * r;
     let upper = r2 * 2.599_903_4e-6 - 1.980_654_8e-4;
     let lower = r2 * 8.333_016e-3 - 1.666_665_7e-1;
     let sine = (upper * (r2 * r2) + lower) * (r2 * r) + r;
-    // The lowest bit of k turns the sign.
+    // The lowest bit of k flips the sign.
     (sine.to_bits() ^ (rounded.to_bits() << 31)).to_real_bits()
 }
 
-/// eˣ, within 1.5·10⁻⁷ times its value where that is a normal number; below 2⁻¹⁵⁰ it gives 0, beyond
-/// f32's range infinity, NaN for NaN.
+/// eˣ, within 1.5·10⁻⁷ times its value where that is a normal number. Gives 0 below 2⁻¹⁵⁰, infinity
+/// beyond f32's range, and NaN for NaN.
 ///
-/// x = k·ln 2 + r with k the nearest integer to x/ln 2, |r| ≤ ½·ln 2; ln 2 is subtracted in two parts, of
-/// which the first has so few bits that k times it is exact. eʳ = 1 + r + r²·p(r), p the minimax polynomial of
-/// degree 4 (error 3·10⁻⁹); 2^k by the exponent bits, in two factors.
+/// x = k·ln 2 + r with k the nearest integer to x/ln 2, |r| ≤ ½·ln 2. ln 2 is subtracted in two
+/// parts, the first of which has so few bits that k times it is exact. eʳ = 1 + r + r²·p(r), where
+/// p is the minimax polynomial of degree 4 (error 3·10⁻⁹); 2^k is made of exponent bits, in two
+/// factors.
 #[inline(always)]
 pub fn exp<R: Real>(x: R) -> R {
     const LN_2_PARTS: [f32; 2] = [0.693_359_4, -2.121_944_4e-4];

@@ -8,7 +8,7 @@ use std::ops::Mul;
 pub struct Mat4(pub [[f32; 4]; 4]);
 
 impl Mat4 {
-    /// The matrix that changes nothing.
+    /// The identity matrix.
     pub const IDENTITY: Self = Self([
         [1.0, 0.0, 0.0, 0.0],
         [0.0, 1.0, 0.0, 0.0],
@@ -43,8 +43,8 @@ impl Mat4 {
     }
 }
 
-// Functions and not closures: a closure is inlined at the compiler's pleasure, and one that was not cost a
-// shader its SIMD level.
+// Functions and not closures: the compiler decides whether it inlines a closure, and one that was
+// not inlined lost the shader its SIMD level.
 
 /// A row times (v, 0).
 #[inline(always)]
@@ -66,7 +66,7 @@ fn product<R: Real>(row: [f32; 4], v: Vec4<R>) -> R {
 
 impl<R: Real> Mul<Vec4<R>> for Mat4 {
     type Output = Vec4<R>;
-    /// Each row's products are summed from the first column on.
+    /// Sums each row's products from the first column on.
     #[inline(always)]
     fn mul(self, v: Vec4<R>) -> Vec4<R> {
         let [x, y, z, w] = self.rows();

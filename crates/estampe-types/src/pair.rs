@@ -1,20 +1,21 @@
-//! Two packets as one number.
+//! Packet pairs: two packets as one number.
 
 use crate::{Int, Real};
+use estampe_simd::Level;
 use std::ops::{
     Add, AddAssign, BitAnd, BitOr, BitXor, Div, DivAssign, Mul, MulAssign, Neg, Not, Shl, Shr, Sub,
     SubAssign,
 };
 
-/// Two numbers (or masks) side by side, with the lanes of the first before those of the second.
+/// Two numbers (or masks) side by side; the lanes of the first come before those of the second.
 ///
-/// Each operation is done on both, and neither waits for the other: that is what it is for. Where each
-/// operation of a long loop needs the one before, a packet alone leaves most of the processor idle; see
-/// [`Shader::LONG_CHAINS`](crate::Shader::LONG_CHAINS).
+/// Each operation is done on both halves, and the two do not depend on each other. If each
+/// operation of a long loop depends on the one before, a single packet leaves most of the
+/// processor's execution units idle; see [`Shader::PAIR_PACKETS`](crate::Shader::PAIR_PACKETS).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair<T>(pub T, pub T);
 
-/// Operators of pairs whose halves have them.
+/// Implements operators for pairs whose halves have them.
 macro_rules! operators {
     (assign $($trait:ident $method:ident;)*) => {$(
         impl<T: $trait> $trait for Pair<T> {
@@ -65,7 +66,7 @@ impl<T: Not<Output = T>> Not for Pair<T> {
     }
 }
 
-/// Methods that do the same to both halves.
+/// Implements methods that call the same method on both halves.
 macro_rules! both {
     (with_other $($name:ident -> $out:ty;)*) => {$(
         #[inline(always)]
@@ -85,8 +86,8 @@ impl<R: Real> Real for Pair<R> {
     type Mask = Pair<R::Mask>;
     type Int = Pair<R::Int>;
     const LANES: usize = 2 * R::LANES;
-    // Plain scalars gain nothing by being paired.
-    const NARROW: bool = false;
+    // The scalar level shades quads; it never makes pairs.
+    const EMULATED_LANES: bool = false;
 
     both! {
         splat(value: f32) -> Self;
@@ -127,8 +128,12 @@ impl<R: Real> Real for Pair<R> {
         R::mask_bits(mask.0) | R::mask_bits(mask.1) << R::LANES
     }
     #[inline(always)]
-    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
-        self.0.outlined(work)
+    fn out_of_line<T>(self, work: impl FnOnce() -> T) -> T {
+        self.0.out_of_line(work)
+    }
+    #[inline(always)]
+    fn level(self) -> Option<Level> {
+        self.0.level()
     }
     #[inline(always)]
     fn lane(self, index: usize) -> f32 {

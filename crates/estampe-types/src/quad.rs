@@ -6,10 +6,10 @@ use std::ops::{
     SubAssign,
 };
 
-/// One value for each fragment of a 2×2 quad: left top, right top, left bottom, right bottom.
+/// One value for each fragment of a 2×2 quad: top left, top right, bottom left, bottom right.
 ///
-/// It is the smallest [`Real`] with true derivatives, in code that can be read and stepped through;
-/// the reference rasterizer shades with it.
+/// It is the smallest [`Real`] with true derivatives, in code that can be read and stepped through.
+/// The scalar level and the oracle shade with it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quad<T = f32>(pub [T; 4]);
 
@@ -99,7 +99,7 @@ impl Real for Quad {
     type Mask = Quad<bool>;
     type Int = Quad<i32>;
     const LANES: usize = 4;
-    const NARROW: bool = true;
+    const EMULATED_LANES: bool = true;
 
     #[inline(always)]
     fn splat(self, value: f32) -> Self {
@@ -270,7 +270,7 @@ impl Real for f32 {
     type Mask = bool;
     type Int = i32;
     const LANES: usize = 1;
-    const NARROW: bool = false;
+    const EMULATED_LANES: bool = false;
 
     #[inline(always)]
     fn splat(self, value: f32) -> Self {
@@ -298,7 +298,7 @@ impl Real for f32 {
         reason = "within ±2²³ it drops the fraction alone"
     )]
     fn floor(self) -> Self {
-        // Where the processor has no instruction for it, `f32::floor` is a slow call.
+        // `f32::floor` is a slow call on processors that have no instruction for it.
         if Self::abs(self) < 8_388_608.0 {
             let towards_zero = self as i32 as Self;
             let step = if towards_zero > self { 1.0 } else { 0.0 };

@@ -1,17 +1,18 @@
-//! The number that shaders compute with.
+//! The numbers that shaders compute with.
 
+use estampe_simd::Level;
 use std::fmt::Debug;
 use std::ops::{
     Add, AddAssign, BitAnd, BitOr, BitXor, Div, DivAssign, Mul, MulAssign, Neg, Not, Shl, Shr, Sub,
     SubAssign,
 };
 
-/// A real number in f32 arithmetic: one (`f32`), four of a 2×2 quad ([`Quad`](crate::Quad)),
-/// sixteen of a packet (`f32x16<S>`), or thirty-two of a pair of packets ([`Pair`](crate::Pair)).
+/// Real numbers in f32 arithmetic: one (`f32`), the four of a 2×2 quad ([`Quad`](crate::Quad)), the
+/// sixteen of a packet (`f32x16<S>`), or the thirty-two of a packet pair ([`Pair`](crate::Pair)).
 ///
-/// Each operation acts on every lane alone and gives the same bits in all of them. Constants are made
-/// from a value at hand, because sixteen lanes need their level's token: `x.splat(0.5)`, or simply
-/// an `f32` on the right of an operator: `x * 0.5 + 1.0`.
+/// Each operation acts on every lane alone and gives the same bits for every implementation.
+/// Constants are made from an existing number, because sixteen lanes need the token of their SIMD
+/// level: `x.splat(0.5)`, or an `f32` on the right of an operator: `x * 0.5 + 1.0`.
 pub trait Real:
     Copy
     + Debug
@@ -31,7 +32,7 @@ pub trait Real:
     + MulAssign
     + DivAssign
 {
-    /// A yes or no for each lane.
+    /// A boolean in each lane.
     type Mask: Copy
         + Debug
         + BitAnd<Output = Self::Mask>
@@ -40,11 +41,11 @@ pub trait Real:
     /// A 32-bit integer for each lane.
     type Int: Int<Real = Self, Mask = Self::Mask>;
 
-    /// How many lanes there are: 1, 4, 16 or 32.
+    /// The number of lanes: 1, 4, 16 or 32.
     const LANES: usize;
-    /// Whether long code with many table look-ups had better be run lane by lane with `f32`: the lanes are
-    /// plain scalars anyway.
-    const NARROW: bool;
+    /// True if several lanes are emulated by scalar instructions. Long code with many table
+    /// look-ups should then loop over the lanes with `f32` numbers.
+    const EMULATED_LANES: bool;
 
     /// `value` in every lane.
     #[must_use]
@@ -52,7 +53,7 @@ pub trait Real:
     /// `value` in every lane, as integers.
     #[must_use]
     fn splat_int(self, value: i32) -> Self::Int;
-    /// The same answer for every lane.
+    /// `value` in every lane of a mask.
     #[must_use]
     fn splat_mask(self, value: bool) -> Self::Mask;
 
@@ -62,7 +63,7 @@ pub trait Real:
     /// Absolute value.
     #[must_use]
     fn abs(self) -> Self;
-    /// Greatest integer not above.
+    /// The greatest integer that is not above `self`.
     #[must_use]
     fn floor(self) -> Self;
     /// `self < other ? self : other`: `other` where either is NaN.
@@ -72,18 +73,18 @@ pub trait Real:
     #[must_use]
     fn max(self, other: Self) -> Self;
 
-    /// Whether `self < other`.
+    /// True in the lanes where `self < other`.
     fn lt(self, other: Self) -> Self::Mask;
-    /// Whether `self <= other`.
+    /// True in the lanes where `self <= other`.
     fn le(self, other: Self) -> Self::Mask;
-    /// Whether `self == other`.
+    /// True in the lanes where `self == other`.
     fn eq(self, other: Self) -> Self::Mask;
-    /// Whether `self > other`.
+    /// True in the lanes where `self > other`.
     #[inline(always)]
     fn gt(self, other: Self) -> Self::Mask {
         other.lt(self)
     }
-    /// Whether `self >= other`.
+    /// True in the lanes where `self >= other`.
     #[inline(always)]
     fn ge(self, other: Self) -> Self::Mask {
         other.le(self)
@@ -92,55 +93,64 @@ pub trait Real:
     /// `yes` in the lanes of the mask, `no` in the others.
     #[must_use]
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// Whether any lane is in the mask.
+    /// True if the mask is true in any lane.
     fn any(mask: Self::Mask) -> bool;
     /// The mask as bits: lane `i` is bit `i`.
     fn mask_bits(mask: Self::Mask) -> u32;
 
-    /// Rounds towards zero to an integer; NaN gives 0, values beyond the range its ends.
+    /// Rounds towards zero. NaN gives 0; values out of range give the least or the greatest
+    /// integer.
     fn to_int(self) -> Self::Int;
-    /// Rounds towards zero a number within ±2³⁰; of any other, the result is unspecified, and may be another
-    /// at another level. It is one instruction where [`Real::to_int`] takes several.
+    /// Rounds numbers within ±2³⁰ towards zero. The result for any other number is unspecified and
+    /// may differ between SIMD levels. This is one instruction where [`Real::to_int`] takes
+    /// several.
     fn to_int_within_range(self) -> Self::Int;
     /// The bits of each lane as an integer.
     fn to_bits(self) -> Self::Int;
 
     /// Fine partial derivative in x: right minus left neighbour in the lane's row of its 2×2 quad.
-    /// One lone fragment (`f32`) has no neighbours: 0.
+    /// 0 for a single fragment (`f32`), which has no neighbours.
     #[must_use]
     fn ddx(self) -> Self;
     /// Fine partial derivative in y: lower minus upper neighbour in the lane's column of its quad.
-    /// One lone fragment (`f32`) has no neighbours: 0.
+    /// 0 for a single fragment (`f32`), which has no neighbours.
     #[must_use]
     fn ddy(self) -> Self;
 
-    /// Coarse partial derivative in x: that of the first row, for the whole quad.
-    /// One lone fragment (`f32`) has no neighbours: 0.
+    /// Coarse partial derivative in x: that of the quad's first row, in all four lanes. 0 for a
+    /// single fragment (`f32`), which has no neighbours.
     #[must_use]
     fn ddx_coarse(self) -> Self;
-    /// Coarse partial derivative in y: that of the first column, for the whole quad.
-    /// One lone fragment (`f32`) has no neighbours: 0.
+    /// Coarse partial derivative in y: that of the quad's first column, in all four lanes. 0 for a
+    /// single fragment (`f32`), which has no neighbours.
     #[must_use]
     fn ddy_coarse(self) -> Self;
 
-    /// The value of one fragment of each 2×2 quad in all four: 0 left top, 1 right top, 2 left bottom, 3 right
-    /// bottom. A lone fragment (`f32`) is all four.
+    /// Broadcasts one fragment of each 2×2 quad to all four lanes: 0 is top left, 1 top right, 2
+    /// bottom left, 3 bottom right. A single fragment (`f32`) is returned unchanged.
     #[must_use]
     fn quad_lane(self, index: u8) -> Self;
 
-    /// Calls `work` in a function of its own that is compiled for this kind of number. For long code
-    /// that many shaders share: they call it instead of each containing it.
-    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
+    /// Calls `work` in a separate function that is compiled for this kind of number. For long code
+    /// that many shaders share: they call it and do not each contain it.
+    fn out_of_line<T>(self, work: impl FnOnce() -> T) -> T {
         work()
+    }
+
+    /// The SIMD level of packets, with which code that is compiled once for all shaders goes on; `None` of a lone
+    /// fragment and of a quad.
+    #[inline(always)]
+    fn level(self) -> Option<Level> {
+        None
     }
 
     /// One lane's value; `index` is below [`Real::LANES`].
     fn lane(self, index: usize) -> f32;
-    /// The same kind of number with each lane's value from a function of its index.
+    /// A number of the same kind, whose lanes are computed from their index.
     #[must_use]
     fn with_lanes(self, value: impl FnMut(usize) -> f32) -> Self;
 
-    /// `self` confined to `low..=high`: `max(low)` then `min(high)`; NaN gives `low`.
+    /// `self` clamped to `low..=high`: `max(low)` then `min(high)`; NaN gives `low`.
     #[inline(always)]
     #[must_use]
     fn clamp(self, low: f32, high: f32) -> Self {
@@ -148,7 +158,7 @@ pub trait Real:
         self.max(low).min(high)
     }
 
-    /// `self` confined to 0..=1; NaN gives 0.
+    /// `self` clamped to 0..=1; NaN gives 0.
     #[inline(always)]
     #[must_use]
     fn saturate(self) -> Self {
@@ -163,8 +173,8 @@ pub trait Real:
     }
 }
 
-/// A 32-bit integer in each lane. Arithmetic that overflows wraps in packets; code must not rely on it,
-/// because a lone `i32` is checked in debug builds.
+/// A 32-bit integer in each lane. Overflow wraps in packets, but a single `i32` panics in debug
+/// builds, so code must not overflow.
 pub trait Int:
     Copy
     + Debug
@@ -179,7 +189,7 @@ pub trait Int:
 {
     /// The real number with the same lanes.
     type Real: Real<Int = Self, Mask = Self::Mask>;
-    /// A yes or no for each lane.
+    /// A boolean in each lane.
     type Mask: Copy;
 
     /// `value` in every lane.
@@ -188,7 +198,7 @@ pub trait Int:
     /// The product modulo 2³², for hashes.
     #[must_use]
     fn wrapping_mul(self, other: Self) -> Self;
-    /// Shifts zeros in from the left, as of unsigned numbers; `by` is below 32.
+    /// Shifts right and fills with zeros, as for unsigned numbers; `by` is below 32.
     #[must_use]
     fn shr_unsigned(self, by: u32) -> Self;
     /// The nearest real number, ties to even.
@@ -201,22 +211,22 @@ pub trait Int:
     /// The greater one, signed.
     #[must_use]
     fn max(self, other: Self) -> Self;
-    /// Whether `self < other`, signed.
+    /// True in the lanes where `self < other`, signed.
     fn lt(self, other: Self) -> Self::Mask;
-    /// Whether `self == other`.
+    /// True in the lanes where `self == other`.
     fn eq(self, other: Self) -> Self::Mask;
-    /// Whether `self` is not in `0..count`, where `count` is not negative.
+    /// True in the lanes where `self` is outside `0..count`; `count` is not negative.
     fn is_outside(self, count: i32) -> Self::Mask;
     /// `yes` in the lanes of the mask, `no` in the others.
     #[must_use]
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// `table[self]`, the index read as unsigned; beyond the end the last element, 0 from an empty
-    /// table.
+    /// `table[self]`, the index read as unsigned. An index beyond the end gives the last element;
+    /// an empty table gives 0.
     #[must_use]
     fn gather(self, table: &[u32]) -> Self;
-    /// `table[self]`, `table[self + 1]`, `table[self + stride]`, `table[self + stride + 1]`: two neighbours
-    /// of one row and those below them. Of an index of which one of these is beyond the end, each may be
-    /// any element of the table, or 0.
+    /// `table[self]`, `table[self + 1]`, `table[self + stride]` and `table[self + stride + 1]`: two
+    /// neighbours in one row and the two below them. If any of the four is beyond the end, each of
+    /// the four may be any element of the table, or 0.
     #[inline(always)]
     #[must_use]
     fn gather_square(self, table: &[u32], stride: i32) -> [Self; 4] {

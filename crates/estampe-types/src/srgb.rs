@@ -1,7 +1,7 @@
-//! The sRGB transfer function (IEC 61966-2-1) by tables: 256 decoded values, 255 thresholds.
+//! The sRGB transfer function (IEC 61966-2-1) as tables: 256 decoded values and 255 thresholds.
 //!
-//! The tables are computed once, in f64 with `+ − × ÷ √` only, so they are the same on every machine:
-//! x^2.4 = x²·(x²)^(1/5), the fifth root by Newton's method.
+//! The tables are computed once, in f64 with `+ − × ÷ √` only, so that they are the same on every
+//! machine: x^2.4 = x²·(x²)^(1/5), with the fifth root by Newton's method.
 
 use std::sync::LazyLock;
 
@@ -18,8 +18,8 @@ pub static LINEAR_FROM_SRGB: LazyLock<[f32; 256]> = LazyLock::new(|| {
 pub static LINEAR_BITS_FROM_SRGB: LazyLock<[u32; 256]> =
     LazyLock::new(|| LINEAR_FROM_SRGB.map(f32::to_bits));
 
-/// Threshold `k` is the least f32 whose code is `k + 1`: the linear value of the code boundary
-/// `(k + ½) / 255`, rounded up.
+/// Threshold `k` is the least f32 that is encoded as `k + 1`: the linear value of the boundary `(k
+/// + ½) / 255` between two codes, rounded up.
 pub static THRESHOLDS: LazyLock<[f32; 255]> = LazyLock::new(|| {
     let mut table = [0.0; 255];
     for (code, value) in (0u32..).zip(&mut table) {
@@ -34,10 +34,11 @@ pub static THRESHOLDS: LazyLock<[f32; 255]> = LazyLock::new(|| {
     table
 });
 
-/// The 8-bit sRGB code of a linear value: how many thresholds are at or below it. NaN gives 0.
+/// The 8-bit sRGB code of a linear value: the number of thresholds that are at or below it. NaN
+/// gives 0.
 #[must_use]
 pub fn srgb_from_linear(linear: f32) -> u8 {
-    // 255 thresholds: at most 255.
+    // There are 255 thresholds, so the count fits `u8`.
     u8::try_from(THRESHOLDS.partition_point(|threshold| *threshold <= linear)).unwrap_or(u8::MAX)
 }
 
@@ -50,10 +51,11 @@ fn decode(encoded: f64) -> f64 {
     square * fifth_root(square)
 }
 
-/// The fifth root of a number in 0..=1, to the last bits of f64.
+/// The fifth root of a number in 0..=1, accurate to the last bits of f64.
 fn fifth_root(a: f64) -> f64 {
     let mut y = 1.0;
-    // From above, Newton's iteration falls until rounding stops it; 100 steps are ample.
+    // Started from above, Newton's iteration decreases until rounding stops it; 100 steps are
+    // ample.
     for _ in 0..100 {
         let next = (4.0 * y + a / (y * y * y * y)) / 5.0;
         if next >= y {

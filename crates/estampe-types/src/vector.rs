@@ -1,4 +1,4 @@
-//! Small vectors of [`Real`] numbers, with the operators that a shader's author expects.
+//! Small vectors of [`Real`] numbers with the usual operators.
 
 use crate::Real;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -20,14 +20,14 @@ macro_rules! vector {
         }
 
         impl<R: Real> $name<R> {
-            /// The same vector in every lane; `like` is any number of the wanted kind.
+            /// The vector `value` in every lane; `like` is any number of the wanted kind.
             #[inline(always)]
             pub fn uniform(like: R, value: impl Into<[f32; $n]>) -> Self {
                 let [$($field),+] = value.into();
                 Self { $($field: like.splat($field)),+ }
             }
 
-            /// Every component the same.
+            /// The vector whose components are all `value`.
             #[inline(always)]
             pub fn repeat(value: R) -> Self {
                 Self { $($field: value),+ }
@@ -40,7 +40,7 @@ macro_rules! vector {
                 vector!(@sum products $($field)+)
             }
 
-            /// Inner product with the same vector in every lane.
+            /// Inner product with a vector that is the same in every lane.
             #[inline(always)]
             pub fn dot_uniform(self, other: impl Into<[f32; $n]>) -> R {
                 self.dot(Self::uniform(self.x, other))
@@ -52,7 +52,7 @@ macro_rules! vector {
                 self.dot(self).sqrt()
             }
 
-            /// The vector times 1 ÷ √(v·v). The zero vector gives NaNs.
+            /// The vector times 1 ÷ √(v·v). The zero vector gives NaN.
             #[inline(always)]
             #[must_use]
             pub fn normalize(self) -> Self {
@@ -133,11 +133,11 @@ vector! {
     Vec2 2: x y
 }
 vector! {
-    /// Three numbers: a position, direction or colour. Products are by component.
+    /// Three numbers: a position, direction or colour. Products are component-wise.
     Vec3 3: x y z
 }
 vector! {
-    /// Four numbers: a homogeneous position, or a colour with alpha. Products are by component.
+    /// Four numbers: a homogeneous position, or a colour with alpha. Products are component-wise.
     Vec4 4: x y z w
 }
 
@@ -153,19 +153,19 @@ impl<R: Real> Vec3<R> {
         }
     }
 
-    /// The vector with a fourth component.
+    /// Appends a fourth component.
     #[inline(always)]
     pub fn extend(self, w: R) -> Vec4<R> {
         Vec4::new(self.x, self.y, self.z, w)
     }
 
-    /// The homogeneous point: w = 1.
+    /// The homogeneous point (x, y, z, 1).
     #[inline(always)]
     pub fn point(self) -> Vec4<R> {
         self.extend(self.x.splat(1.0))
     }
 
-    /// The direction `self` mirrored at the unit normal `n`: v − n·2(n·v).
+    /// The direction `self` mirrored at the plane with unit normal `n`: v − n·2(n·v).
     #[inline(always)]
     #[must_use]
     pub fn reflect(self, n: Self) -> Self {

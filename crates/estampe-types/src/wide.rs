@@ -2,15 +2,15 @@
 
 use crate::{Int, Real};
 use estampe_simd::{
-    Bytes, LANES, Lanes, Select, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, SimdMask,
-    f32x16, i32x16, mask32x16, u32x16,
+    Bytes, LANES, Lanes, Level, Select, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat,
+    SimdMask, f32x16, i32x16, mask32x16, u32x16,
 };
 
 impl<S: Lanes> Real for f32x16<S> {
     type Mask = mask32x16<S>;
     type Int = i32x16<S>;
     const LANES: usize = LANES;
-    const NARROW: bool = S::IS_SCALAR;
+    const EMULATED_LANES: bool = S::IS_SCALAR;
 
     #[inline(always)]
     fn splat(self, value: f32) -> Self {
@@ -110,8 +110,12 @@ impl<S: Lanes> Real for f32x16<S> {
         self.swizzle_dyn_within_blocks(quad_bytes(token(self), [index & 3; 4]))
     }
     #[inline(never)]
-    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
+    fn out_of_line<T>(self, work: impl FnOnce() -> T) -> T {
         token(self).vectorize(work)
+    }
+    #[inline(always)]
+    fn level(self) -> Option<Level> {
+        Some(token(self).as_level())
     }
     #[inline(always)]
     fn lane(self, index: usize) -> f32 {
@@ -170,7 +174,7 @@ impl<S: Lanes> Int for i32x16<S> {
     }
     #[inline(always)]
     fn is_outside(self, count: i32) -> mask32x16<S> {
-        // Read as unsigned, a negative number is above all others.
+        // Read as unsigned, a negative number is greater than all others.
         let (unsigned, count): (u32x16<S>, u32x16<S>) = (
             Bytes::bitcast(self),
             Bytes::bitcast(Int::splat(self, count)),
@@ -210,7 +214,7 @@ fn token<S: Lanes>(value: f32x16<S>) -> S {
     estampe_simd::ExtractToken::token(&value)
 }
 
-/// Byte indices that pick one 32-bit lane of each 128-bit block for each lane.
+/// Byte indices that select one 32-bit lane of each 128-bit block for each lane.
 #[inline(always)]
 fn quad_bytes<S: Lanes>(simd: S, pick: [u8; 4]) -> <f32x16<S> as Bytes>::Bytes {
     let mut bytes = [0u8; 64];

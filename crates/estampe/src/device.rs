@@ -1,37 +1,38 @@
-//! The device: threads, a SIMD level and limits; it makes and draws everything.
+//! The device: threads, a SIMD level and limits. It creates pipelines and targets, and draws.
 
 use crate::{
-    DepthTexture, Draw, Level, Limits, PipelineError, RenderPass, RenderPipeline,
+    DepthTexture, Draw, Level, Limits, PipelineError, ReadbackError, RenderPass, RenderPipeline,
     RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, Statistics, TargetError,
 };
 use estampe_core::Context;
-use estampe_core::recording::Phase;
+use estampe_core::profile::JobTimings;
 
-/// What a device is made of.
+/// Threads, SIMD level and limits of a device.
 #[derive(Debug, Clone, Default)]
 pub struct DeviceDescriptor {
-    /// How many threads draw. Default 0: one for each processor. The image does not depend on it.
+    /// Number of threads that draw. Default 0: one for each processor. The image does not depend on
+    /// it.
     pub threads: usize,
-    /// The SIMD level of the kernels. Default the widest that the processor has. The image does not
-    /// depend on it.
+    /// SIMD level of the kernels. Default the widest that the processor supports. The image does
+    /// not depend on it.
     pub level: Level,
-    /// How large things may be.
+    /// The largest sizes of resources and pipelines.
     pub limits: Limits,
 }
 
-/// Why there is no device.
+/// Errors of [`Device::new`].
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DeviceError {
-    /// More threads than make sense.
+    /// More than 1024 threads were requested.
     #[error("{0} threads: at most 1024 are possible")]
     TooManyThreads(usize),
-    /// The system gives no threads.
+    /// The system could not start the threads.
     #[error("the system gives no threads: {0}")]
     Threads(String),
 }
 
-/// Makes pipelines and targets, and draws. It is `Send + Sync`: share it by reference.
+/// Creates pipelines and targets, and draws. It is `Send + Sync`: share it by reference.
 #[derive(Debug)]
 pub struct Device {
     context: Context,
@@ -39,10 +40,10 @@ pub struct Device {
 }
 
 impl Device {
-    /// Makes a device.
+    /// Creates a device.
     ///
     /// # Errors
-    /// [`DeviceError`] when the system gives no threads.
+    /// [`DeviceError`] if too many threads are requested, or the system cannot start them.
     pub fn new(descriptor: &DeviceDescriptor) -> Result<Self, DeviceError> {
         if descriptor.threads > 1024 {
             return Err(DeviceError::TooManyThreads(descriptor.threads));
@@ -55,23 +56,24 @@ impl Device {
         })
     }
 
-    /// A device for those who measure: it draws on the calling thread alone and notes what each job took.
+    /// A device for profiling: it draws on the calling thread alone and measures the time of each
+    /// job.
     #[must_use]
-    pub fn recording(level: Level) -> Self {
+    pub fn profiling(level: Level) -> Self {
         Self {
-            context: Context::recording(level),
+            context: Context::profiling(level),
             limits: Limits::default(),
         }
     }
 
-    /// What each job took since the last call; nothing unless the device is one that
-    /// [records](Device::recording).
+    /// The times of all jobs since the last call. Empty unless the device was created by
+    /// [`Device::profiling`].
     #[must_use]
-    pub fn take_phases(&self) -> Vec<Phase> {
-        self.context.take_phases()
+    pub fn take_timings(&self) -> Vec<JobTimings> {
+        self.context.take_timings()
     }
 
-    /// Makes a pipeline: checks the descriptor once, so that drawing cannot fail.
+    /// Creates a pipeline. The descriptor is checked here, so that drawing cannot fail.
     ///
     /// # Errors
     /// [`PipelineError`] names the rule that the descriptor breaks.
@@ -82,10 +84,10 @@ impl Device {
         RenderPipeline::new(descriptor, &self.limits)
     }
 
-    /// Makes a render target.
+    /// Creates a render target.
     ///
     /// # Errors
-    /// [`TargetError`] names the rule that the descriptor breaks, or that memory is short.
+    /// [`TargetError`] names the rule that the descriptor breaks, or reports that memory is short.
     pub fn create_render_target(
         &self,
         descriptor: &RenderTargetDescriptor,
@@ -93,13 +95,16 @@ impl Device {
         RenderTarget::new(descriptor, &self.limits)
     }
 
-    /// Draws a pass into a target. It cannot fail: what a draw lacks reads as zeros, and a draw whose
-    /// pipeline does not fit the target (samples, formats, depth) draws nothing.
+    /// Draws a pass into a target. It cannot fail: resources that a draw does not bind read as
+    /// zeros, and a draw whose pipeline does not fit the target (samples, formats, depth) draws
+    /// nothing.
     pub fn render(&self, target: &mut RenderTarget, pass: &RenderPass<'_>) -> Statistics {
         self.context.render(target, pass)
     }
 
-    /// Clears a target to black and depth 1, and draws: the short way.
+    /// Draws a pass that first clears the target: colours to transparent black, depth to 1, stencil
+    /// to 0. A second call therefore shows only its own draws; use [`Device::render`] to keep the
+    /// contents.
     pub fn draw(&self, target: &mut RenderTarget, draws: &[Draw<'_>]) -> Statistics {
         self.render(
             target,
@@ -110,15 +115,42 @@ impl Device {
         )
     }
 
-    /// Resolves: writes the mean of each pixel's samples to a target of one sample. The targets have the
-    /// same size and colour formats; others are left alone. Depth is not resolved.
+    /// Multisample resolve: writes the mean of each pixel's samples to a target with one sample.
+    /// Nothing is written unless the targets have the same size and colour formats. Depth is not
+    /// resolved.
     pub fn resolve(&self, from: &RenderTarget, into: &mut RenderTarget) {
         self.context.resolve(from, into);
     }
 
-    /// The target's depth as a texture that shaders compare with, such as a shadow map; `None` without
-    /// depth or with several samples. It shares the target's memory: drop it, and bind groups that hold it,
-    /// before the target is drawn again, or that will draw into a copy.
+    /// A colour attachment's texels in the format's own bytes, row by row from the top; several samples are resolved
+    /// to their mean. It is what [`RenderTarget::read_color`] gives, by all of the device's threads. Beyond the last
+    /// attachment it is empty.
+    #[must_use]
+    pub fn read_color(&self, target: &RenderTarget, index: usize) -> Vec<u8> {
+        let mut image = vec![0; target.color_len_bytes(index)];
+        match self.read_color_into(target, index, &mut image) {
+            Ok(()) => image,
+            Err(_) => Vec::new(),
+        }
+    }
+
+    /// [`Device::read_color`] into memory of [`RenderTarget::color_len_bytes`]. Memory that is used again is several
+    /// times as fast as new memory, whose pages the system has to make first.
+    ///
+    /// # Errors
+    /// [`ReadbackError`] beyond the last attachment, or when the memory has another length; nothing is written then.
+    pub fn read_color_into(
+        &self,
+        target: &RenderTarget,
+        index: usize,
+        image: &mut [u8],
+    ) -> Result<(), ReadbackError> {
+        self.context.read_color_into(target, index, image)
+    }
+
+    /// The target's depth as a texture for comparisons in shaders, such as a shadow map. `None` if
+    /// the target has no depth or several samples. The texture shares the target's memory: drop it,
+    /// and bind groups that hold it, before the target is drawn again, or that draws into a copy.
     #[must_use]
     pub fn depth_texture(&self, target: &mut RenderTarget) -> Option<DepthTexture> {
         self.context.depth_texture(target)
@@ -130,13 +162,13 @@ impl Device {
         self.context.level()
     }
 
-    /// How many threads draw.
+    /// The number of threads that draw.
     #[must_use]
     pub fn threads(&self) -> usize {
         self.context.threads()
     }
 
-    /// How large things may be.
+    /// The largest sizes of resources and pipelines.
     #[must_use]
     pub fn limits(&self) -> &Limits {
         &self.limits

@@ -1,11 +1,11 @@
-//! A depth attachment as a texture: the same depths, without a copy, and never changed.
+//! A depth attachment as a texture: the same depths, without a copy, and immutable.
 
 use estampe::{
     DepthTexture, Device, DeviceDescriptor, Draw, FragmentIn, FragmentOut, Int,
     RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, Vec4, VertexIn, VertexOut,
 };
 
-/// A triangle that leans towards the viewer, depth alone.
+/// A triangle that slopes towards the viewer, depth only.
 struct Slope;
 
 estampe::shader! {
@@ -75,7 +75,7 @@ fn the_texture_holds_the_depths_and_bounds_them() {
             let scaled = depth * DepthTexture::BOUND_SCALE;
             assert!((word & 0xFFFF) as f32 <= scaled && (word >> 16) as f32 >= scaled);
         }
-        // The same image, brought as rows; bounds differ only where packets reach beyond the image.
+        // The same image from rows; the bounds differ only where packets extend beyond the image.
         let brought = DepthTexture::from_rows(SIZE.0, SIZE.1, &depths);
         assert!(rows(&brought) == depths);
         assert_eq!(brought.bounds()[..32], texture.bounds()[..32]);

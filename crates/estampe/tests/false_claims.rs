@@ -1,4 +1,4 @@
-//! A program of a caller's own that claims to pass its colour on, and has none to pass.
+//! A `Program` that claims to pass its colour through although it has no varyings.
 
 use estampe::shader::{FragmentBatch, Interface, VertexBatch};
 use estampe::state::BlendState;
@@ -17,7 +17,7 @@ impl Program for Claimant {
     }
 
     fn run_vertices(&self, _level: Level, _bindings: &Bindings, batch: VertexBatch<'_>) {
-        // One triangle over all of the target.
+        // One triangle that covers the target.
         let corners = [[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]];
         for (position, index) in batch.positions.chunks_exact_mut(4).zip(batch.vertex_index) {
             for (lane, vertex) in index.0.iter().enumerate() {
@@ -50,8 +50,8 @@ fn it_is_called_like_any_other() {
             let mut descriptor =
                 RenderPipelineDescriptor::with_program(Arc::new(Claimant(Interface {
                     color_targets: 1,
-                    passes_color: true,
-                    independent_fragments: true,
+                    color_passthrough: true,
+                    no_derivatives: true,
                     ..Interface::default()
                 })));
             descriptor.targets[0].blend = blend;

@@ -1,4 +1,4 @@
-//! Targets of the greatest sizes: pixels at their corners are drawn, and nothing beside them.
+//! Targets of the greatest sizes: pixels at their corners are drawn, and no other pixels.
 
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{PrimitiveTopology, ScissorRect, VertexBufferLayout};
@@ -27,8 +27,8 @@ estampe::shader! {
     }
 }
 
-/// Draws points at pixels' centres and, with a scissor, a rectangle over everything into the pixel beside the last
-/// corner; says which pixels are white, and how deep they are.
+/// Draws points at pixels' centres and, with a scissor, a rectangle over the whole target into the
+/// pixel beside the last corner. Returns the white pixels and their depths.
 fn drawn(width: u32, height: u32) -> Result<Vec<([u32; 2], f32)>, TargetError> {
     let device = Device::new(&DeviceDescriptor::default()).expect("threads can be had");
     let (right, bottom) = (width - 1, height - 1);
@@ -115,20 +115,20 @@ fn check(width: u32, height: u32) {
     assert_eq!(white, expected.map(|pixel| (pixel, 0.5)));
 }
 
-/// Rows: L, R1, O2.
+/// Rows: N1, R1, O2.
 #[test]
 fn corners_of_8192_by_8192_pixels() {
     check(8192, 8192);
 }
 
-/// Rows: L, R1, O2.
+/// Rows: N1, R1, O2.
 #[test]
 fn corners_of_the_longest_sides() {
     check(16_384, 16);
     check(16, 16_384);
 }
 
-/// Rows: L.
+/// Rows: N1.
 #[test]
 fn a_side_too_long_is_an_error_that_names_the_limit() {
     let device = Device::new(&DeviceDescriptor::default()).expect("threads can be had");

@@ -1,4 +1,5 @@
-//! The limits that every device keeps: as many attributes, varyings and layers as WebGPU promises, and no more.
+//! The limits of every device: WebGPU's guaranteed numbers of attributes, varyings and layers, no
+//! more.
 
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{PrimitiveTopology, VertexBufferLayout};
@@ -11,7 +12,8 @@ use estampe::{
 type Four<R> = (Vec4<R>, Vec4<R>, Vec4<R>, Vec4<R>);
 type Sixteen<R> = (Four<R>, Four<R>, Four<R>, Four<R>);
 
-/// Sixteen attributes of four numbers become sixteen varyings of four, whose weighted sum is the colour.
+/// Sixteen attributes of four numbers become sixteen varyings of four, whose weighted sum is the
+/// colour.
 struct Full;
 
 #[inline(always)]
@@ -37,7 +39,7 @@ estampe::shader! {
             input: VertexIn<'_, R>,
             attributes: Sixteen<R>,
         ) -> VertexOut<R, Sixteen<R>> {
-            // A triangle over everything from the vertices' numbers.
+            // A triangle that covers the target, from the vertex indices.
             let index = input.vertex_index;
             let is = |number: i32| Int::eq(index, index.splat(number));
             let (low, high) = (input.real(-1.0), input.real(3.0));
@@ -69,7 +71,7 @@ fn descriptor() -> RenderPipelineDescriptor {
     descriptor
 }
 
-/// Rows: L, V2.
+/// Rows: N1, V2.
 #[test]
 fn sixteen_attributes_and_sixteen_varyings() {
     // Attribute k of every vertex is 2⁻⁸ · 2^(k mod 4) in its channel k / 4: every one counts.
@@ -121,7 +123,7 @@ fn sixteen_attributes_and_sixteen_varyings() {
     }
 }
 
-/// Rows: L.
+/// Rows: N1.
 #[test]
 fn one_more_is_an_error_that_names_the_limit() {
     let refused = |limits: Limits| {
@@ -157,7 +159,7 @@ fn one_more_is_an_error_that_names_the_limit() {
     assert!(least.max_color_attachments >= 8 && least.max_texture_dimension_2d >= 8192);
 }
 
-/// Rows: L, F2.
+/// Rows: N1, F2.
 #[test]
 fn textures_have_256_layers_and_no_more() {
     let layers = |depth_or_layers: u32| TextureDescriptor {

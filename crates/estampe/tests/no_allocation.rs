@@ -1,4 +1,4 @@
-//! A frame like the one before allocates nothing.
+//! A frame that repeats the previous one allocates nothing.
 
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{CullMode, PrimitiveState, VertexBufferLayout};
@@ -10,20 +10,20 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Allocations of all threads since the program began.
+/// Allocations of all threads since the start of the program.
 static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
 
-/// The counter is of the whole process, so that the tests take turns.
+/// The counter belongs to the whole process, so the tests take turns.
 static TURN: Mutex<()> = Mutex::new(());
 
 struct Counting;
 
-// SAFETY: every call goes to the system's allocator as it came.
+// SAFETY: every call is passed on to the system's allocator unchanged.
 #[expect(unsafe_code, reason = "a global allocator is an unsafe trait")]
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-        // SAFETY: the caller's promises are the system's conditions.
+        // SAFETY: the caller guarantees the system allocator's conditions.
         unsafe { System.alloc(layout) }
     }
 
@@ -42,7 +42,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// A colour on a position in clip space, nearer than the eye where z is negative.
+/// A colour at a position in clip space, outside the near plane where z is negative.
 struct Colored;
 
 estampe::shader! {
@@ -132,7 +132,7 @@ impl Scene {
         }
     }
 
-    /// How many allocations each of some frames makes; the first ones are not counted.
+    /// The number of allocations of each of four frames, after frames that are not counted.
     fn allocations(&mut self) -> [usize; 4] {
         let elements = 80 * 80 * 6;
         let draws = [0, 1, 0].map(|pipeline: usize| Draw {
@@ -173,10 +173,10 @@ fn one_thread_allocates_nothing() {
     }
 }
 
-/// Rayon allocates a job for each helper that it wakes, once for each of a pass's phases (indices are too few
-/// here to be shared; then vertices, primitives, tiles), and now and then a block of its queue. Which worker gets
-/// which tile differs from frame to frame, so that a worker's scratch may still grow in a frame; the least is
-/// what a frame needs.
+/// Rayon allocates a job for each helper that it wakes, once for each of a pass's phases (too few
+/// indices to be shared; then vertices, primitives, tiles), and now and then a block of its queue.
+/// The assignment of tiles to workers differs from frame to frame, so that a worker's scratch may
+/// still grow in a later frame; the minimum over frames is what a frame needs.
 #[test]
 fn two_threads_allocate_only_rayons_jobs() {
     let _turn = turn();

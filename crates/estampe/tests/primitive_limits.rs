@@ -6,7 +6,7 @@ use estampe::{
     Shader, Vec4, VertexIn, VertexOut,
 };
 
-/// Has so many clip and cull distances.
+/// A shader with `CLIP` clip distances and `CULL` cull distances.
 struct Distant<const CLIP: usize, const CULL: usize>;
 
 impl<const CLIP: usize, const CULL: usize> Shader for Distant<CLIP, CULL> {
@@ -17,7 +17,7 @@ impl<const CLIP: usize, const CULL: usize> Shader for Distant<CLIP, CULL> {
 
     fn vertex<R: estampe::Real>(&self, input: VertexIn<'_, R>, _nothing: ()) -> VertexOut<R, ()> {
         let zero = input.zero;
-        // Places beyond the eighth do not exist.
+        // Indices from 8 on do not exist.
         VertexOut::new(Vec4::new(zero, zero, zero, zero), ())
             .with_clip_distance(9, zero)
             .with_cull_distance(usize::MAX, zero)

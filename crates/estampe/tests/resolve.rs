@@ -1,4 +1,5 @@
-//! Resolving gives the picture that reading the samples back gives, and refuses what does not fit.
+//! Resolving gives the same picture as reading the samples back, and refuses targets that do not
+//! fit.
 
 use estampe::{
     Device, DeviceDescriptor, Draw, FragmentIn, FragmentOut, Int, RenderPipelineDescriptor,
@@ -60,7 +61,12 @@ fn a_resolved_picture_is_the_one_that_is_read_back() {
             ..DeviceDescriptor::default()
         })
         .unwrap();
-        for format in [TextureFormat::Rgba8Unorm, TextureFormat::Rgba8UnormSrgb] {
+        for format in [
+            TextureFormat::Rgba8Unorm,
+            TextureFormat::Rgba8UnormSrgb,
+            TextureFormat::Bgra8Unorm,
+            TextureFormat::Bgra8UnormSrgb,
+        ] {
             for size in [(1, 1), (63, 65), (200, 130)] {
                 let samples = drawn(&device, format, size);
                 let mut image = device
@@ -69,7 +75,14 @@ fn a_resolved_picture_is_the_one_that_is_read_back() {
                 device.resolve(&samples, &mut image);
                 let expected = samples.read_color(0);
                 assert!(image.read_color(0) == expected, "{format:?} {size:?}");
-                // A pixel's edge is covered in part: there is something to resolve.
+                assert!(
+                    device.read_color(&samples, 0) == expected,
+                    "{format:?} {size:?}"
+                );
+                let mut memory = vec![0xA5; image.color_len_bytes(0)];
+                device.read_color_into(&image, 0, &mut memory).unwrap();
+                assert!(memory == expected, "{format:?} {size:?}");
+                // Some pixel is partly covered, so that there is something to resolve.
                 let colors = expected.as_chunks::<4>().0;
                 let shades: std::collections::BTreeSet<_> = colors.iter().collect();
                 assert!(size.0 == 1 || shades.len() > 100, "{}", shades.len());

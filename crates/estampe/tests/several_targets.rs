@@ -1,4 +1,4 @@
-//! Several colour targets of one pass: formats, blending and write masks apart for each.
+//! Several colour targets of one pass, each with its own format, blending and write mask.
 
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{
@@ -114,7 +114,7 @@ fn each_target_has_its_own_format_blending_and_mask() {
 
 #[test]
 fn a_pipeline_names_the_rule_that_it_breaks() {
-    let device = device(1, Level::scalar());
+    let device = device(1, Level::best());
     let refused = |change: fn(&mut RenderPipelineDescriptor)| {
         let mut descriptor = descriptor();
         change(&mut descriptor);

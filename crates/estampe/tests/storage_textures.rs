@@ -1,4 +1,4 @@
-//! Fragments that store to a texture: all that a primitive covers do, helper lanes do not.
+//! Fragments that store to a texture: all covered fragments store, helper invocations do not.
 
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{DepthState, VertexBufferLayout};
@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 const SIZE: [u32; 2] = [75, 41];
 
-/// A colour from the position, into the target and into a texture.
+/// Writes a colour that depends on the position, to the target and to a texture.
 struct Storing {
     texture: Arc<StorageTexture>,
     depth: f32,
@@ -36,13 +36,14 @@ estampe::shader! {
             let color = Vec4::new(x / 128.0, y / 128.0, input.real(1.0), input.real(1.0));
             let at = [x.floor().to_int(), y.floor().to_int()];
             let slice = at[0].splat(0);
-            storage_store(&self.texture, input.is_live, [at[0], at[1], slice], color);
+            storage_store(&self.texture, !input.is_helper, [at[0], at[1], slice], color);
             FragmentOut::color(color)
         }
     }
 }
 
-/// What the target and the texture hold after triangles at depth ½ were drawn into a target cleared to a depth.
+/// The contents of the target and of the texture after triangles at depth ½ were drawn into a
+/// target cleared to `clear_depth`.
 fn drawn(level: Level, threads: usize, clear_depth: f32) -> [Vec<u8>; 2] {
     let device = Device::new(&DeviceDescriptor {
         threads,
@@ -96,7 +97,7 @@ fn what_is_covered_is_stored_whether_it_is_seen_or_not() {
             let [target, stored] = drawn(level, threads, 1.0);
             assert_eq!(target, seen, "{}", level.name());
             assert_eq!(stored, seen, "{}", level.name());
-            // Nothing passes the depth test, but the fragments are shaded.
+            // No fragment passes the depth test, but all are shaded.
             let [target, stored] = drawn(level, threads, 0.25);
             assert_eq!(white(&target), 0);
             assert_eq!(stored, seen, "{}", level.name());

@@ -113,7 +113,7 @@ fn a_lane_operation_that_nothing_calls_directly_is_an_offence() {
 }
 
 #[test]
-fn a_binary_without_a_level_is_not_judged() {
+fn a_binary_without_a_level_is_an_error() {
     let wanted = "::vectorize::vectorize_avx512";
     let error = report_of(&[(AVX2_ENTRY, &[]), (HELPER, &[])]).unwrap_err();
     assert_eq!(error, AssemblyError::NoEntry { wanted });
@@ -146,7 +146,8 @@ fn a_function_of_this_file() -> usize {
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 fn the_functions_of_a_real_file_are_found() {
     let file = std::fs::read(std::env::current_exe().unwrap()).unwrap();
-    let functions = elf::functions(&file).unwrap();
+    let parsed = object::File::parse(&*file).unwrap();
+    let functions = functions_of(&parsed);
     let own = "a_function_of_this_file";
     assert_eq!(a_function_of_this_file(), 7);
     let found = functions

@@ -1,28 +1,33 @@
-//! The check must fail on manifests that break the tables, and only on those.
+//! The check must fail on packages that break the tables, and only on those.
 
 use super::*;
+use crate::packages::Dependency;
 
-/// The findings about one crate with these dependency sections.
-fn messages_of(name: &str, sections: &str) -> Vec<String> {
-    let manifest = format!(
-        "[package]\nname = \"{name}\"\nlicense.workspace = true\n[lints]\nworkspace = true\n{sections}"
-    );
-    let path = format!("crates/{name}/Cargo.toml");
-    check_edges(&Repository::synthetic(&[(&path, &manifest)]))
-        .iter()
-        .map(ToString::to_string)
-        .filter(|message| message.contains(&path))
-        .collect()
+/// What is said about a package with these dependencies.
+fn objections_of(name: &str, dependencies: Vec<Dependency>) -> Vec<String> {
+    objections(&Package::synthetic(name, dependencies))
+}
+
+fn used(package: &str) -> Vec<Dependency> {
+    vec![Dependency::synthetic(package, false)]
+}
+
+fn used_by_tests(package: &str) -> Vec<Dependency> {
+    vec![Dependency::synthetic(package, true)]
 }
 
 #[test]
 fn allowed_edges_pass() {
-    let core = "[dependencies]\nestampe-simd.workspace = true\nrayon = \"1\"\n\
-                [dev-dependencies]\nproptest = \"1\"";
-    assert_eq!(messages_of("estampe-core", core), [""; 0]);
-    let tests =
-        "[dependencies]\nestampe-core = { path = \"x\" }\nestampe-reference = { path = \"y\" }";
-    assert_eq!(messages_of("estampe-tests", tests), [""; 0]);
+    for (name, dependencies) in [
+        ("estampe-core", used("estampe-simd")),
+        ("estampe-core", used("rayon")),
+        ("estampe-core", used_by_tests("fastrand")),
+        ("estampe-renderer", used_by_tests("estampe-shapes")),
+        ("estampe-tests", used("estampe-reference")),
+        ("estampe", used_by_tests("estampe")),
+    ] {
+        assert_eq!(objections_of(name, dependencies), [""; 0], "{name}");
+    }
 }
 
 #[test]
@@ -35,84 +40,66 @@ fn forbidden_edges_fail() {
         ("estampe-cli", "estampe-bench"),
         ("estampe-cli", "xtask"),
         ("estampe-renderer", "rayon"),
-        ("estampe-core", "glam"),
+        ("estampe-renderer", "estampe-shapes"),
         ("estampe-core", "fearless_simd"),
         ("estampe-scene", "png"),
         ("estampe", "clap"),
     ] {
-        let found = messages_of(name, &format!("[dependencies]\n{package} = \"1\""));
-        assert_eq!(found.len(), 1, "{name} -> {package}: {found:?}");
-        assert!(found[0].contains(&format!("`{name}` may not use `{package}`")));
+        let found = objections_of(name, used(package));
+        let expected = format!("`{name}` may not use `{package}`: see ARCHITECTURE.md");
+        assert_eq!(found, [expected]);
     }
-}
-
-#[test]
-fn a_forbidden_edge_cannot_hide() {
-    for section in [
-        "[target.'cfg(unix)'.dependencies]\nrayon = \"1\"",
-        "[dependencies]\nthreads = { package = \"rayon\", version = \"1\" }",
-        "[dev-dependencies]\nestampe-reference.workspace = true",
-        "[build-dependencies]\nrayon = \"1\"",
-    ] {
-        assert_eq!(
-            messages_of("estampe-texture", section).len(),
-            1,
-            "{section}"
-        );
-    }
-}
-
-#[test]
-fn what_has_no_row_fails() {
-    assert_eq!(messages_of("estampe-attic", "").len(), 1);
     assert_eq!(
-        messages_of("estampe-core", "[dependencies]\nleft-pad = \"1\"").len(),
+        objections_of("estampe-texture", used_by_tests("estampe-reference")).len(),
         1
     );
 }
 
 #[test]
-fn a_row_without_a_crate_fails() {
-    let found = check_edges(&Repository::synthetic(&[]));
-    assert_eq!(found.len(), ROOMS.len());
+fn a_package_without_a_row_fails() {
+    assert_eq!(objections_of("estampe-unknown", Vec::new()).len(), 1);
+    let found = objections_of("estampe-core", used("left-pad"));
+    assert!(found[0].contains("`left-pad` has no row"), "{found:?}");
+    assert_eq!(found.len(), 1);
 }
 
 #[test]
-fn manifests_must_inherit_lints_and_lie_in_their_folder() {
-    let bare = "[package]\nname = \"estampe-simd\"\nlicense.workspace = true";
-    let findings = check_edges(&Repository::synthetic(&[("crates/simd/Cargo.toml", bare)]));
-    let about: Vec<_> = findings
-        .iter()
-        .filter(|f| f.path.starts_with("crates"))
-        .collect();
-    assert_eq!(about.len(), 2, "{about:?}");
+fn a_row_without_a_package_fails() {
+    assert_eq!(check_packages(&[]).len(), CRATES.len());
+}
+
+#[test]
+fn packages_must_inherit_and_be_in_their_folder() {
+    let mut package = Package::synthetic("estampe-simd", Vec::new());
+    package.folder = "crates/simd".into();
+    package.license = None;
+    assert_eq!(objections(&package).len(), 2);
+    assert!(inherits_lints("[lints]\nworkspace = true"));
+    assert!(!inherits_lints("[package]\nname = \"a\""));
 }
 
 #[test]
 fn features_that_keep_pictures_the_same_are_required() {
-    let found = check_workspace(
-        "Cargo.toml",
-        "[workspace.dependencies]\nglam = { version = \"1\" }",
-    );
-    assert_eq!(found.len(), 2);
-    let glam = "[workspace.dependencies]\nglam = { features = [\"libm\", \"scalar-math\"] }";
-    assert!(check_workspace("Cargo.toml", glam).is_empty());
+    let mut glam = Dependency::synthetic("glam", false);
+    assert_eq!(objections_of("estampe-types", vec![glam.clone()]).len(), 1);
+    glam.features = vec!["libm".to_owned(), "scalar-math".to_owned()];
+    assert_eq!(objections_of("estampe-types", vec![glam.clone()]), [""; 0]);
+    glam.has_default_features = true;
+    assert_eq!(objections_of("estampe-types", vec![glam]).len(), 1);
 }
 
 #[test]
 fn every_row_names_known_crates() {
     let are_known = |names: &[&str]| {
-        names
-            .iter()
-            .all(|name| ROOMS.iter().any(|room| room.name == *name))
+        let is_known = |name: &&str| CRATES.iter().any(|(row, _)| row == name);
+        names.iter().all(is_known)
     };
-    for room in ROOMS {
-        assert!(are_known(room.uses), "{}", room.name);
-        assert!(are_known(room.tests_use), "{}", room.name);
+    for (name, uses) in CRATES.iter().chain(TESTS) {
+        assert!(are_known(uses), "{name}");
     }
-    for (outside, homes) in OUTSIDE {
-        if let Homes::Only(homes) = homes {
-            assert!(are_known(homes), "{outside}");
+    for (outside, users) in OUTSIDE {
+        if let Users::Only(users) = users {
+            assert!(are_known(users), "{outside}");
         }
     }
 }

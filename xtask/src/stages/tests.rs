@@ -32,7 +32,9 @@ fn an_earlier_stage_may_be_named() {
 fn a_later_stage_may_not() {
     let found = messages_of("geometry/clip", "\nuse super::{assembly::A, setup::Setup};");
     assert_eq!(found.len(), 1, "{found:?}");
-    assert!(found[0].starts_with("error: crates/estampe-core/src/geometry/clip.rs:2: stage"));
+    assert!(
+        found[0].starts_with("error: crates/estampe-core/src/geometry/clip.rs:2: `geometry::clip`")
+    );
     assert!(found[0].contains("`geometry::setup::Setup`"));
     assert_eq!(
         messages_of("tiles", "fn f() { crate::raster::run() }").len(),
@@ -50,19 +52,17 @@ fn a_later_stage_may_not() {
 
 #[test]
 fn a_re_export_does_not_hide_a_later_stage() {
-    assert_eq!(messages_of("tiles", "use crate::Coverage;").len(), 1);
-    assert_eq!(
-        messages_of("geometry/fetch", "use super::SetupPrimitive;").len(),
-        1
-    );
-    assert_eq!(
-        messages_of("geometry/fetch", "use crate::geometry::*;").len(),
-        1
-    );
+    for (module, source) in [
+        ("tiles", "use crate::Coverage;"),
+        ("geometry/fetch", "use super::SetupPrimitive;"),
+        ("geometry/fetch", "use crate::geometry::*;"),
+    ] {
+        assert_eq!(messages_of(module, source).len(), 1, "{source}");
+    }
 }
 
 #[test]
-fn conductors_name_all_and_are_named_by_none() {
+fn the_last_layer_names_all_and_is_named_by_none() {
     let source = "use crate::{geometry::fetch, raster, attachment::Attachment, Limits};";
     assert_eq!(messages_of("draw", source), [""; 0]);
     assert_eq!(messages_of("raster", "use crate::draw::Draw;").len(), 1);
@@ -73,14 +73,29 @@ fn conductors_name_all_and_are_named_by_none() {
 }
 
 #[test]
-fn every_module_has_a_place() {
-    let found = messages_of("geometry/magic", "fn f() {}");
+fn every_module_has_a_layer() {
+    let found = messages_of("unknown", "fn f() {}");
     assert_eq!(found.len(), 1);
-    assert!(found[0].contains("no place in the stage order"));
-    assert_eq!(messages_of("attic", "fn f() {}").len(), 1);
+    assert!(found[0].contains("has no layer"));
     assert_eq!(
-        messages_of("lib", "mod attic; pub use crate::draw::Draw;"),
+        messages_of("lib", "mod unknown; pub use crate::draw::Draw;"),
         [""; 0]
+    );
+}
+
+#[test]
+fn a_module_without_a_row_has_the_layer_of_its_folder() {
+    assert_eq!(
+        messages_of("geometry/new", "use super::setup::Setup;"),
+        [""; 0]
+    );
+    assert_eq!(
+        messages_of("geometry/new", "use crate::raster::Edge;").len(),
+        1
+    );
+    assert_eq!(
+        messages_of("geometry/clip", "use super::new::New;").len(),
+        1
     );
 }
 
@@ -96,7 +111,7 @@ fn comments_strings_and_tests_are_free() {
 }
 
 #[test]
-fn only_the_scheduler_knows_threads() {
+fn only_the_scheduler_names_rayon() {
     assert_eq!(
         messages_of("schedule/pool", "use rayon::ThreadPool;"),
         [""; 0]

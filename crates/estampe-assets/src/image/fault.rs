@@ -1,20 +1,17 @@
-//! Errors in the words of pictures, and the checks that come before memory is taken.
+//! Errors of image files, and the checks that precede allocations.
 
 use estampe_scene::Image;
 
 use crate::error::Location;
 use crate::{AssetError, Limits};
 
-/// The picture's bytes break their format's rules at byte `offset`.
+/// The image's bytes break their format's rules at byte `offset`.
 pub(super) fn malformed(offset: usize, what: impl Into<String>) -> AssetError {
-    AssetError::malformed(
-        what,
-        "the picture is damaged, save it again from its source",
-    )
-    .at(Location::Byte(offset as u64))
+    AssetError::malformed(what, "the image is damaged; save it again from its source")
+        .at(Location::Byte(offset as u64))
 }
 
-/// The picture uses `what`, which is not read here.
+/// The image uses `what`, which is not supported here.
 pub(super) fn unsupported(what: impl Into<String>) -> AssetError {
     AssetError::unsupported(
         format!("{} cannot be read", what.into()),
@@ -22,7 +19,7 @@ pub(super) fn unsupported(what: impl Into<String>) -> AssetError {
     )
 }
 
-/// Checks the size that a picture announces.
+/// Checks the size in an image's header.
 pub(super) fn check_size(width: u32, height: u32, limits: &Limits) -> Result<(), AssetError> {
     Limits::check(
         "pixels",
@@ -31,7 +28,7 @@ pub(super) fn check_size(width: u32, height: u32, limits: &Limits) -> Result<(),
     )
 }
 
-/// Room for `texels` RGBA texels, or an error where the system has none.
+/// Reserves memory for `texels` RGBA texels, or returns an error if there is not enough.
 pub(super) fn allocate_texels(texels: usize) -> Result<Vec<u8>, AssetError> {
     let mut rgba = Vec::new();
     match texels
@@ -40,13 +37,13 @@ pub(super) fn allocate_texels(texels: usize) -> Result<Vec<u8>, AssetError> {
     {
         Some(Ok(())) => Ok(rgba),
         _ => Err(AssetError::limit_exceeded(
-            format!("there is no memory for a picture of {texels} pixels"),
-            "make the picture smaller",
+            format!("not enough memory for an image of {texels} pixels"),
+            "use a smaller image",
         )),
     }
 }
 
-/// Checks that a picture to be written has texels, and as many bytes as its size says.
+/// Checks that an image to be written has texels, and as many bytes as its size requires.
 pub(super) fn check_texels(image: &Image) -> Result<(), AssetError> {
     let expected = (image.width as u128) * (image.height as u128) * 4;
     if expected == 0 {
@@ -67,7 +64,7 @@ pub(super) fn check_texels(image: &Image) -> Result<(), AssetError> {
     Ok(())
 }
 
-/// A picture to be written has a side over the format's `max_side`.
+/// An image to be written has a side over the format's `max_side`.
 pub(super) fn too_large(image: &Image, format: &str, max_side: u32) -> AssetError {
     AssetError::limit_exceeded(
         format!("{image:?} has a side over the {max_side} pixels that {format} can hold"),

@@ -1,4 +1,4 @@
-//! Which format a picture is in, and the way to its reader or writer.
+//! Detection of an image's format, and dispatch to its reader or writer.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use super::fault::{malformed, unsupported};
 use super::{jpeg, png, tga};
 use crate::{AssetError, Limits};
 
-/// A format that pictures are written in.
+/// A format in which images are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ImageFormat {
@@ -21,14 +21,14 @@ pub enum ImageFormat {
 }
 
 impl ImageFormat {
-    /// The format that a file name's extension names, in any case: `png`, `jpg`, `jpeg`, `jpe`, `jfif`,
+    /// The format of a file name's extension, in either case: `png`, `jpg`, `jpeg`, `jpe`, `jfif`,
     /// `tga`, `icb`, `vda`, `vst`.
     #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
         Self::from_extension(path.extension()?.to_str()?)
     }
 
-    /// The format that an extension (without its dot) names.
+    /// The format of an extension without its dot.
     #[must_use]
     pub fn from_extension(extension: &str) -> Option<Self> {
         match extension.to_ascii_lowercase().as_str() {
@@ -39,8 +39,8 @@ impl ImageFormat {
         }
     }
 
-    /// Whether the format keeps alpha. Without it, [`encode`] takes every pixel as opaque: composite
-    /// over a background first.
+    /// True if the format stores alpha. For a format without alpha, [`encode`] treats every pixel
+    /// as opaque: composite over a background first.
     #[must_use]
     pub fn has_alpha(self) -> bool {
         match self {
@@ -50,20 +50,20 @@ impl ImageFormat {
     }
 }
 
-/// Whether a writer stores alpha.
+/// Rule by which a writer stores alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum AlphaChannel {
-    /// When a pixel is not opaque.
+    /// If some pixel is not opaque.
     #[default]
     WhenNeeded,
-    /// Even when every pixel is opaque.
+    /// Even if every pixel is opaque.
     Always,
-    /// Not at all: every pixel is taken as opaque.
+    /// Never: every pixel is treated as opaque.
     Never,
 }
 
 impl AlphaChannel {
-    /// Whether a file of `image` has alpha.
+    /// True if a file of `image` has alpha.
     pub(super) fn is_written_for(self, image: &Image) -> bool {
         match self {
             Self::WhenNeeded => image
@@ -78,16 +78,16 @@ impl AlphaChannel {
     }
 }
 
-/// Reads a picture: PNG and JPEG by their signatures, else TGA by its footer or a plausible header.
+/// Reads an image: PNG and JPEG by their signatures, else TGA by its footer or a plausible header.
 ///
 /// # Errors
-/// `LimitExceeded` when the file is larger or announces more pixels than `limits` allow, before memory is
-/// taken for them; `Malformed` with a byte offset when the bytes break the format's rules;
+/// `LimitExceeded` if the file is larger or has more pixels than `limits` allow, before memory is
+/// allocated for them; `Malformed` with a byte offset if the bytes break the format's rules;
 /// `Unsupported` for other formats.
 pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
     Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)?;
     if bytes.is_empty() {
-        return Err(malformed(0, "the picture file is empty"));
+        return Err(malformed(0, "the image file is empty"));
     }
     if bytes.starts_with(png::SIGNATURE) {
         return png::decode(bytes, limits);
@@ -98,16 +98,16 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
     match foreign_format(bytes) {
         Some(name) => Err(unsupported(format!("the {name} format"))),
         None if tga::looks_like_tga(bytes) => tga::decode(bytes, limits),
-        None => Err(unsupported("a picture that is neither PNG, JPEG nor TGA")),
+        None => Err(unsupported("an image that is neither PNG, JPEG nor TGA")),
     }
 }
 
-/// Writes a picture with the format's default settings: PNG and TGA keep alpha where a pixel needs it,
-/// JPEG has quality 90 and takes every pixel as opaque.
+/// Writes an image with the format's default settings: PNG and TGA store alpha if a pixel needs it,
+/// JPEG has quality 90 and treats every pixel as opaque.
 ///
 /// # Errors
-/// `LimitExceeded` when the format cannot hold the picture's size, `Malformed` when the image has no
-/// pixels or its bytes are not its size's.
+/// `LimitExceeded` if the format cannot store the image's size, `Malformed` if the image has no
+/// pixels or its bytes do not fit its size.
 pub fn encode(image: &Image, format: ImageFormat) -> Result<Vec<u8>, AssetError> {
     match format {
         ImageFormat::Png => png::encode_png(image, AlphaChannel::WhenNeeded),
@@ -116,7 +116,7 @@ pub fn encode(image: &Image, format: ImageFormat) -> Result<Vec<u8>, AssetError>
     }
 }
 
-/// The name of a well-known format that is not read here, so that the error can say it.
+/// The name of a well-known unsupported format, for the error message.
 fn foreign_format(bytes: &[u8]) -> Option<&'static str> {
     const SIGNATURES: [(&[u8], &str); 9] = [
         (b"GIF8", "GIF"),
@@ -179,7 +179,7 @@ mod tests {
     fn what_is_no_picture_is_named() {
         let limits = Limits::default();
         let message = |bytes: &[u8]| decode(bytes, &limits).expect_err("no picture").to_string();
-        assert!(message(b"").contains("byte 0: the picture file is empty"));
+        assert!(message(b"").contains("byte 0: the image file is empty"));
         assert!(message(b"GIF89a......................").contains("GIF"));
         assert!(message(b"RIFF\x10\0\0\0WEBPVP8 ").contains("WebP"));
         assert!(message(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").contains("neither PNG"));

@@ -1,4 +1,4 @@
-//! Pictures to and from bytes: PNG, JPEG and TGA.
+//! Reading and writing images: PNG, JPEG and TGA.
 //!
 //! ```text
 //!   bytes --format::decode--> Image            (by content: signature, or a plausible TGA header)
@@ -6,9 +6,9 @@
 //!   Image --transform-------> Image            (flips, nearest scaling)
 //! ```
 //!
-//! PNG stands on the `png` crate and JPEG on the `image` crate; TGA is our own. Every reader checks a
-//! picture's announced size against [`Limits`](crate::Limits) before it allocates. Every writer uses
-//! fixed settings, so the same picture is always the same bytes.
+//! PNG uses the `png` crate and JPEG the `image` crate; TGA is implemented here. Every reader
+//! checks the size in an image's header against [`Limits`](crate::Limits) before it allocates.
+//! Every writer uses fixed settings, so that the same image always gives the same bytes.
 
 mod fault;
 mod format;

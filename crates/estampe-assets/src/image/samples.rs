@@ -1,8 +1,8 @@
-//! Pictures that the tests of every format share.
+//! Images that the tests of all formats share.
 
 use estampe_scene::Image;
 
-/// A picture of noise, in which every `opaque_in`-th texel at least is opaque and runs occur.
+/// An image of noise with runs, in which at least every `opaque_in`-th texel is opaque.
 pub(super) fn noise(width: u32, height: u32, seed: u64) -> Image {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut rgba = Vec::new();
@@ -25,7 +25,7 @@ pub(super) fn noise(width: u32, height: u32, seed: u64) -> Image {
     }
 }
 
-/// The same picture, opaque.
+/// The image with alpha 255.
 pub(super) fn opaque(mut image: Image) -> Image {
     for texel in image.rgba.as_chunks_mut::<4>().0 {
         texel[3] = 255;
@@ -33,7 +33,7 @@ pub(super) fn opaque(mut image: Image) -> Image {
     image
 }
 
-/// A smooth disc on a plain ground: what a render looks like to a compressor.
+/// A smooth disc on a plain background: similar to a rendered image for a compressor.
 pub(super) fn disc(width: u32, height: u32) -> Image {
     let mut image = Image::filled(width, height, [0xf2, 0xf2, 0xf2, 255]);
     let (rx, ry) = (width as f32 / 2.0, height as f32 / 2.0);
@@ -49,25 +49,27 @@ pub(super) fn disc(width: u32, height: u32) -> Image {
     image
 }
 
-/// The same arbitrary bytes on every machine (xorshift64, G. Marsaglia, 2003).
+/// The same arbitrary bytes on every machine.
 #[derive(Debug)]
-pub(super) struct Random(pub(super) u64);
+pub(super) struct Random(fastrand::Rng);
 
 impl Random {
+    /// Random numbers from a seed.
+    pub(super) fn new(seed: u64) -> Self {
+        Self(fastrand::Rng::with_seed(seed))
+    }
+
     /// The next number.
     pub(super) fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
+        self.0.u64(..)
     }
 
     /// A number below `end`.
     pub(super) fn below(&mut self, end: usize) -> usize {
-        (self.next() >> 16) as usize % end
+        self.0.usize(..end)
     }
 
-    /// `bytes` with one to eight places changed, cut off, or doubled.
+    /// `bytes` with one to eight positions changed, cut off, or doubled.
     pub(super) fn mutated(&mut self, bytes: &[u8]) -> Vec<u8> {
         let mut bytes = bytes.to_vec();
         for _ in 0..=self.below(8) {
@@ -85,7 +87,7 @@ impl Random {
                 }
                 3 => bytes[at] = [0, 1, 0x7f, 0x80, 0xff][self.below(5)],
                 4 => bytes[at] ^= 1 << self.below(8),
-                // Aim at the head, where sizes and types stand.
+                // Changes near the start, where sizes and types are.
                 5 => bytes[at % 32.min(at + 1)] = self.next() as u8,
                 _ => bytes[at] = self.next() as u8,
             }

@@ -1,8 +1,8 @@
-//! Whole-picture transforms: mirror images and nearest-texel scaling.
+//! Transforms of whole images: mirroring and nearest-texel scaling.
 
 use estampe_scene::Image;
 
-/// The picture mirrored left to right.
+/// The image mirrored left to right.
 #[must_use]
 pub fn flip_horizontal(image: &Image) -> Image {
     let mut flipped = image.clone();
@@ -14,7 +14,7 @@ pub fn flip_horizontal(image: &Image) -> Image {
     flipped
 }
 
-/// The picture mirrored top to bottom.
+/// The image mirrored top to bottom.
 #[must_use]
 pub fn flip_vertical(image: &Image) -> Image {
     let mut rgba = Vec::with_capacity(image.rgba.len());
@@ -30,13 +30,13 @@ pub fn flip_vertical(image: &Image) -> Image {
     }
 }
 
-/// The picture at another size, each texel copied from the source texel that holds its centre:
-/// source column = ⌊(x + ½) · W / `width`⌋, rows alike.
+/// The image at another size. Each texel is a copy of the source texel that contains its centre:
+/// source column = ⌊(x + ½) · W / `width`⌋, and the row likewise.
 ///
 /// An image without texels gives transparent black.
 ///
 /// # Panics
-/// When `width * height * 4` does not fit `usize`.
+/// If `width * height * 4` does not fit `usize`.
 #[must_use]
 pub fn scale_nearest(image: &Image, width: u32, height: u32) -> Image {
     if image.width == 0 || image.height == 0 {

@@ -1,8 +1,8 @@
-//! Which format a model is in.
+//! Detection of a model's format.
 
 use std::path::Path;
 
-/// The formats of models that are read.
+/// Formats of models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ModelFormat {
@@ -15,7 +15,7 @@ pub enum ModelFormat {
 }
 
 impl ModelFormat {
-    /// The format that the path's extension names, in upper or lower case.
+    /// The format of the path's extension, in upper or lower case.
     #[must_use]
     pub fn from_extension(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_str()?;
@@ -25,10 +25,10 @@ impl ModelFormat {
             .map(|(format, _)| format)
     }
 
-    /// The format that the bytes look like, for input without a name.
+    /// The format by content, for input without a name.
     ///
-    /// PLY has a magic word, binary STL a length that must fit its own count; ASCII STL and OBJ are told
-    /// by their first statements.
+    /// PLY has a magic word, and binary STL a length that must fit its triangle count; ASCII STL
+    /// and OBJ are recognised by their first statements.
     #[must_use]
     pub fn from_content(bytes: &[u8]) -> Option<Self> {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
@@ -41,7 +41,7 @@ impl ModelFormat {
         first_statements(bytes)
     }
 
-    /// The usual name, as the user knows it.
+    /// The common name, for messages.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -52,7 +52,7 @@ impl ModelFormat {
     }
 }
 
-/// Whether the bytes open with PLY's magic word on a line of its own.
+/// True if the bytes start with PLY's magic word on a separate line.
 pub(super) fn is_ply(bytes: &[u8]) -> bool {
     bytes.starts_with(b"ply")
         && bytes
@@ -60,7 +60,7 @@ pub(super) fn is_ply(bytes: &[u8]) -> bool {
             .is_none_or(|&byte| matches!(byte, b'\n' | b'\r' | b' ' | b'\t'))
 }
 
-/// The length that a binary STL with this head must have: 84 + 50 n.
+/// The length of a binary STL with this header: 84 + 50 n.
 pub(super) fn binary_stl_length(bytes: &[u8]) -> Option<u64> {
     let count = u32::from_le_bytes(*bytes.get(80..)?.first_chunk()?);
     Some(84 + 50 * u64::from(count))

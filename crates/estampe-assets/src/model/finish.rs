@@ -1,18 +1,18 @@
-//! What all formats share at the end: non-finite corners dropped, missing normals made.
+//! Final steps of all readers: removal of non-finite corners, computation of missing normals.
 
 use super::load::{Context, Parsed};
 use super::normals::{self, NormalMode};
 use estampe_scene::{Material, Mesh, Scene, Surface};
 use glam::{Vec2, Vec3};
 
-/// Makes the scene fit to draw.
+/// Prepares the scene for drawing.
 pub(super) fn finish(mut parsed: Parsed, context: &mut Context<'_>) -> Parsed {
     for (index, mesh) in parsed.scene.meshes.iter_mut().enumerate() {
         let groups = parsed.smoothing_groups.get_mut(index);
         let dropped = drop_non_finite(mesh, groups);
         if dropped > 0 {
             context.warnings.add(context.name, None, || {
-                format!("{dropped} elements with a coordinate that is not finite are left out")
+                format!("{dropped} elements with a coordinate that is not finite are omitted")
             });
         }
         drop_useless_normals(mesh);
@@ -35,14 +35,14 @@ pub(super) fn finish(mut parsed: Parsed, context: &mut Context<'_>) -> Parsed {
     let is_empty =
         |mesh: &Mesh| mesh.triangles.is_empty() && mesh.lines.is_empty() && mesh.points.is_empty();
     if parsed.scene.meshes.iter().all(is_empty) {
-        context.warnings.add(context.name, None, || {
-            "there is nothing to draw in it".to_owned()
-        });
+        context
+            .warnings
+            .add(context.name, None, || "it has nothing to draw".to_owned());
     }
     parsed
 }
 
-/// Removes the elements that use a vertex that is not finite; how many they were.
+/// Removes the elements that use a vertex that is not finite; returns their number.
 fn drop_non_finite(mesh: &mut Mesh, groups: Option<&mut Vec<u32>>) -> usize {
     if mesh.positions.iter().all(|position| position.is_finite()) {
         return 0;
@@ -61,7 +61,7 @@ fn drop_non_finite(mesh: &mut Mesh, groups: Option<&mut Vec<u32>>) -> usize {
         let mut triangles = mesh.triangles.iter();
         groups.retain(|_| triangles.next().is_none_or(|triangle| is_kept(triangle)));
     }
-    // Surfaces shrink by what is removed inside them.
+    // Surfaces shrink by the triangles that are removed from them.
     let mut kept = Vec::with_capacity(mesh.triangles.len());
     let mut surfaces = std::mem::take(&mut mesh.surfaces);
     if surfaces.is_empty() {
@@ -86,15 +86,15 @@ fn drop_non_finite(mesh: &mut Mesh, groups: Option<&mut Vec<u32>>) -> usize {
     before - count(mesh)
 }
 
-/// Normals that are all zero say nothing.
+/// Removes normals that are all zero, which have no information.
 fn drop_useless_normals(mesh: &mut Mesh) {
     if mesh.normals.iter().all(|normal| *normal == Vec3::ZERO) {
         mesh.normals = Vec::new();
     }
 }
 
-/// Gives meshes with vertex colours, where they have no material, a white one: the colours are then what
-/// is seen, not their product with the default grey.
+/// Gives meshes that have vertex colours and no material a white material, so that the vertex
+/// colours are not multiplied by the default grey.
 fn whiten_colored(scene: &mut Scene) {
     let white = scene.materials.len();
     let mut is_used = false;

@@ -1,4 +1,4 @@
-//! The two entrances: a path, or bytes that are already here.
+//! Entry points: a path, or bytes in memory.
 
 use super::resources::{Folder, ResourceError, Resources};
 use super::{ModelFormat, finish, obj, ply, stl};
@@ -9,32 +9,32 @@ use glam::Vec3;
 use std::fs::File;
 use std::path::Path;
 
-/// A model that was read, and what was odd about it.
+/// A model with its warnings.
 #[derive(Debug, Clone)]
 pub struct Loaded {
-    /// What the file describes. Every mesh with triangles has normals.
+    /// The contents of the file. Every mesh with triangles has normals.
     pub scene: Scene,
     /// The format that was read.
     pub format: ModelFormat,
     /// The first warnings, at most `Limits::max_warnings`.
     pub warnings: Vec<Warning>,
-    /// How many warnings there were in all.
+    /// Number of all warnings.
     pub warning_count: u64,
     /// OBJ's `vp` statements: points in the parameter space of free-form curves, which are kept but
     /// not drawn.
     pub parameter_points: Vec<Vec3>,
 }
 
-/// What a format's reader gives, before the finish that all share.
+/// Output of a format's reader, before the final steps.
 #[derive(Debug, Default)]
 pub(super) struct Parsed {
     pub(super) scene: Scene,
-    /// Smoothing group of each triangle of each mesh; empty when the file has none.
+    /// Smoothing group of each triangle of each mesh; empty if the file has none.
     pub(super) smoothing_groups: Vec<Vec<u32>>,
     pub(super) parameter_points: Vec<Vec3>,
 }
 
-/// What every reader works with.
+/// State that all readers share.
 pub(super) struct Context<'a> {
     /// Name of the model, for messages.
     pub(super) name: &'a str,
@@ -42,17 +42,17 @@ pub(super) struct Context<'a> {
     pub(super) limits: &'a Limits,
     pub(super) warnings: Warnings,
     pub(super) workers: Workers,
-    /// How many more side files may be looked for.
+    /// Number of side files that may still be requested.
     side_files_left: u64,
 }
 
 impl Context<'_> {
-    /// Finds the side file `name`: one name per file, however it is spelled.
+    /// Finds the side file `name`; returns one name per file for all its spellings.
     pub(super) fn find_side_file(&mut self, name: &str) -> Result<String, ResourceError> {
         let Some(left) = self.side_files_left.checked_sub(1) else {
             let limit = self.limits.max_side_files;
             return Err(ResourceError::Io(format!(
-                "more than {limit} side files are asked for"
+                "the model names more than {limit} side files"
             )));
         };
         self.side_files_left = left;
@@ -67,10 +67,10 @@ impl Context<'_> {
 
 /// Reads the model at `path`, and the side files that it names from its own folder.
 ///
-/// Without a `format`, the extension decides, and the content where the extension says nothing.
+/// Without a `format`, the extension decides, or the content if the extension is unknown.
 ///
 /// # Errors
-/// `Io` when the file cannot be read, else as [`parse_model`].
+/// `Io` if the file cannot be read, else as [`parse_model`].
 pub fn load_model(
     path: &Path,
     format: Option<ModelFormat>,
@@ -83,7 +83,7 @@ pub fn load_model(
         .or_else(|| ModelFormat::from_content(&bytes))
         .ok_or_else(|| {
             AssetError::unsupported(
-                "neither the extension nor the content is that of a model",
+                "neither the extension nor the content is that of a known model format",
                 "OBJ, STL and PLY are read; name the format if it is one of them",
             )
             .in_file(&name)
@@ -91,12 +91,12 @@ pub fn load_model(
     parse_model(&bytes, format, &name, &Folder::of_model(path), limits)
 }
 
-/// Reads a model from `bytes`; `name` stands for it in messages.
+/// Reads a model from `bytes`; `name` is its name in messages.
 ///
 /// # Errors
-/// `Malformed` when nothing sensible is left of the file, `Unsupported` for what is not read here, and
-/// `LimitExceeded` for more than `limits` allow. A side file that is missing, forbidden or broken is a
-/// warning.
+/// `Malformed` if nothing usable is left of the file, `Unsupported` for unsupported formats, and
+/// `LimitExceeded` for more than `limits` allow. A side file that is missing, forbidden or broken
+/// is a warning.
 pub fn parse_model(
     bytes: &[u8],
     format: ModelFormat,
@@ -130,7 +130,7 @@ pub fn parse_model(
     })
 }
 
-/// The bytes of the model itself. The user named it, so it may be a pipe; it is never read past the limit.
+/// The bytes of the model itself, up to the limit. The user named it, so it may be a pipe.
 fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, AssetError> {
     let advice = "check the path and its permissions";
     let failed = |error: std::io::Error| AssetError::io(error.to_string(), advice);

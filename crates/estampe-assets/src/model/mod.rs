@@ -3,13 +3,13 @@
 //! ```text
 //! bytes -> obj | stl | ply  (one folder each: lines or records -> meshes)
 //!       -> finish           (faces with non-finite corners dropped, limits)
-//!       -> normals          (what the file leaves out)
+//!       -> normals          (missing ones)
 //!       -> Scene
 //! ```
 //!
-//! The readers work on bytes, so no encoding is assumed; names become text by UTF-8 or, where that
-//! fails, Latin-1. Side files (material libraries, textures) come through [`Resources`], which decides
-//! what a model may make us open.
+//! The readers work on bytes, so no encoding is assumed; names are decoded as UTF-8 or, if that
+//! fails, as Latin-1. Side files (material libraries, textures) come from [`Resources`], which
+//! decides which files a model may open.
 
 mod detect;
 mod finish;

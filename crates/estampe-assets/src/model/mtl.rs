@@ -1,13 +1,14 @@
 //! MTL: the material libraries of OBJ.
 //!
-//! Read: `Kd`, `Ks`, `Ke` (one value means grey), `Ns`, `d`, `Tr`, `illum`, `map_Kd`, `map_d`. Colours are
-//! taken as sRGB-encoded, as programs show them to those who pick them, and become linear. `Ka` is
-//! known and means nothing to us: ambient light is the scene's matter. Of the other maps one warning
-//! tells that they are not drawn.
+//! Read: `Kd`, `Ks`, `Ke` (one value means grey), `Ns`, `d`, `Tr`, `illum`, `map_Kd`, `map_d`.
+//! Colours are treated as sRGB-encoded, as modelling programs display them, and become linear. `Ka`
+//! is known and ignored, because ambient light belongs to the scene. One warning reports the other
+//! maps, which are not drawn.
 //!
-//! Where both are given, `d` wins over `Tr`. `Tr 1` alone would make the material invisible; old exporters
-//! mean opaque by it, and so do we, with a warning. A texture whose `Kd` is missing or black is drawn
-//! as if `Kd` were white: black would hide it, and that is never meant.
+//! If both are present, `d` overrides `Tr`. `Tr 1` alone would make the material invisible; old
+//! exporters use it for opaque materials, so it is read as opaque, with a warning. A texture whose
+//! `Kd` is missing or black is drawn as if `Kd` were white, because black would hide the texture,
+//! which is never the intention.
 //!
 //! Source: "MTL material format (Lightwave, OBJ)", Wavefront 1995; P. Bourke's copy.
 
@@ -20,7 +21,7 @@ use estampe_scene::{AlphaMode, Image, Material};
 use glam::Vec3;
 use std::collections::HashMap;
 
-/// A material's name in the model, and where it was first used.
+/// A material's name in the model, and the location of its first use.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MaterialUse<'a> {
     pub(super) name: &'a [u8],
@@ -32,11 +33,11 @@ pub(super) struct MaterialUse<'a> {
 pub(super) struct Library {
     pub(super) materials: Vec<Material>,
     pub(super) images: Vec<Image>,
-    /// For each use, the index of its material.
+    /// The material index of each use.
     pub(super) of_use: Vec<Option<usize>>,
 }
 
-/// A material and the textures that it names.
+/// A material with the names of its textures.
 #[derive(Debug, Default)]
 struct Draft {
     material: Material,
@@ -49,14 +50,14 @@ struct Draft {
     opacity_map: Option<TextureName>,
 }
 
-/// A library file that was opened.
+/// An opened library file.
 struct Source<'a> {
-    /// As the model spells it.
+    /// The name as spelled in the model.
     name: &'a str,
     bytes: &'a [u8],
 }
 
-/// Reads the libraries, in order, and the textures of the materials that are used. `uses[0]` stands for
+/// Reads the libraries, in order, and the textures of the materials that are used. `uses[0]` means
 /// "no material".
 pub(super) fn load(
     libraries: &[(&[u8], Location)],
@@ -112,7 +113,7 @@ pub(super) fn load(
     }
 }
 
-/// The files that follow `mtllib`: one name with blanks in it, or several.
+/// The files named by `mtllib`: one name with blanks, or several names.
 fn find_libraries(
     names: &[u8],
     location: Location,
@@ -134,7 +135,7 @@ fn find_libraries(
 
 fn warn_library(name: &str, reason: &str, location: Location, context: &mut Context<'_>) {
     context.warnings.add(context.name, location, || {
-        format!("the material library `{name}` is left out: {reason}")
+        format!("the material library `{name}` is omitted: {reason}")
     });
 }
 
@@ -144,7 +145,7 @@ fn unquoted(name: &str) -> &str {
         .unwrap_or(name)
 }
 
-/// Appends the materials of one library; a name that is defined again is replaced.
+/// Appends the materials of one library; a later definition replaces an earlier one.
 fn parse_library(
     source: &Source<'_>,
     drafts: &mut Vec<Draft>,
@@ -159,7 +160,7 @@ fn parse_library(
                 context
                     .warnings
                     .add(source.name, statements.location(), || {
-                        "more materials than the limit; the rest is left out".to_owned()
+                        "more materials than the limit; the rest is omitted".to_owned()
                     });
                 return;
             }
@@ -254,7 +255,7 @@ impl Draft {
             (None, Some(transparency)) if transparency >= 1.0 => {
                 context.warnings.add(context.name, None, || {
                     let name = &material.name;
-                    format!("`Tr 1` would hide the material `{name}`; it is taken as opaque")
+                    format!("`Tr 1` would hide the material `{name}`; it is read as opaque")
                 });
                 1.0
             }
@@ -290,9 +291,9 @@ fn read_number(statements: &mut Statements<'_>) -> Option<f32> {
         .filter(|number| number.is_finite())
 }
 
-/// A linear colour; `None` for the spectral and XYZ forms, and for what is no colour.
+/// A linear colour; `None` for the spectral and XYZ forms, and for invalid colours.
 fn read_color(statements: &mut Statements<'_>) -> Option<Vec3> {
-    // Emitted light may well be brighter than white.
+    // Emitted light may exceed white.
     const BRIGHTEST: Vec3 = Vec3::splat(100.0);
     let red = read_number(statements)?;
     let green = read_number(statements).unwrap_or(red);
@@ -301,7 +302,7 @@ fn read_color(statements: &mut Statements<'_>) -> Option<Vec3> {
     Some(encoded.map(linear_from_srgb))
 }
 
-/// The file's name after the options, which are read and have no effect.
+/// The file name after the options, which are skipped.
 fn read_map(statements: &mut Statements<'_>, source: &Source<'_>) -> Option<TextureName> {
     let location = statements.location();
     let rest = statements.rest();
@@ -318,7 +319,7 @@ fn read_map(statements: &mut Statements<'_>, source: &Source<'_>) -> Option<Text
     })
 }
 
-/// What follows the options `-name argument…`. The last word is never an argument.
+/// The text after the options `-name argument…`. The last word is never an argument.
 fn after_options(mut text: &[u8]) -> &[u8] {
     loop {
         let (word, rest) = split_word(text);
@@ -346,7 +347,7 @@ fn after_options(mut text: &[u8]) -> &[u8] {
     }
 }
 
-/// The first word, and what follows it without the blanks between.
+/// The first word, and the text after the following blanks.
 fn split_word(text: &[u8]) -> (&[u8], &[u8]) {
     let length = text
         .iter()

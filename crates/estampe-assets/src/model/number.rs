@@ -1,11 +1,11 @@
 //! Decimal numbers from bytes, correctly rounded and fast.
 //!
-//! A decimal is w · 10^e with an integer w of up to 19 digits. The idea is Clinger's (1990): compute
-//! d = w · 10^e in f64 and round that to f32. Here w, 10^e and the product are each rounded once, so d
-//! is off by less than 2 units in its last place. Rounding d to f32 gives the right answer unless a
-//! point midway between two f32 lies within that error: the 29 bits of d that f32 drops are then near
-//! 1000…0. Those cases (one in ten million), and results outside f32's normal range, go to the
-//! standard library, which is exact and slow.
+//! A decimal is w · 10^e with an integer w of up to 19 digits. The idea is Clinger's (1990):
+//! compute d = w · 10^e in f64 and round that to f32. Here w, 10^e and the product are each rounded
+//! once, so d is off by less than 2 units in its last place. Rounding d to f32 gives the right
+//! answer unless a point midway between two f32 lies within that error: the 29 bits of d that f32
+//! drops are then near 1000…0. Those cases (one in ten million), and results outside f32's normal
+//! range, go to the standard library, which is exact and slow.
 
 /// Powers of ten, each the f64 nearest to it.
 const POWERS_OF_TEN: [f64; 39] = [
@@ -14,13 +14,13 @@ const POWERS_OF_TEN: [f64; 39] = [
     1e33, 1e34, 1e35, 1e36, 1e37, 1e38,
 ];
 
-/// As many decimal digits as always fit u64.
+/// The number of decimal digits that always fit u64.
 const MAX_DIGITS: usize = 19;
 
-/// Reads the number that `text` starts with; also how many bytes it takes.
+/// Reads the number at the start of `text`; also returns its length in bytes.
 ///
-/// `None` when no number starts there. A sign, a leading point and an exponent may be present; values
-/// beyond f32 become ±∞. `nan` and `inf` in any case, and what old C libraries print for them
+/// `None` if no number starts there. A sign, a leading point and an exponent may be present; values
+/// beyond f32 become ±∞. `nan` and `inf` in any case, and the spellings of old C libraries
 /// (`-nan(ind)`, `1.#QNAN`), are numbers too.
 #[inline]
 pub(super) fn parse_f32(text: &[u8]) -> Option<(f32, usize)> {
@@ -46,14 +46,14 @@ pub(super) fn parse_f32(text: &[u8]) -> Option<(f32, usize)> {
         exponent += take_exponent(text, &mut at);
     }
     if digits > MAX_DIGITS {
-        // Leading zeros count as digits, so this is not always a long number; the rest is rare.
+        // Leading zeros count as digits, so the number need not be long; other cases are rare.
         return Some((exact(&text[..at]), at));
     }
     let value = rounded(mantissa, exponent).unwrap_or_else(|| exact(&text[start..at]));
     Some((if negative { -value } else { value }, at))
 }
 
-/// Appends the digits at `*at` to `mantissa`; how many there were. Wraps after 19.
+/// Appends the digits at `*at` to `mantissa` and returns their number. Wraps after 19.
 #[inline]
 fn take_digits(text: &[u8], at: &mut usize, mantissa: &mut u64) -> usize {
     let start = *at;
@@ -91,7 +91,7 @@ fn take_exponent(text: &[u8], at: &mut usize) -> i64 {
     if sign == Some(&b'-') { -value } else { value }
 }
 
-/// w · 10^e rounded to f32, when that can be told from the f64 product.
+/// w · 10^e rounded to f32, if the f64 product determines it.
 #[inline]
 fn rounded(mantissa: u64, exponent: i64) -> Option<f32> {
     const DROPPED_BITS: u64 = (1 << 29) - 1;
@@ -113,7 +113,7 @@ fn rounded(mantissa: u64, exponent: i64) -> Option<f32> {
     (is_normal && from_midpoint > ERROR_ULPS).then_some(wide as f32)
 }
 
-/// The standard library's answer.
+/// The standard library's result.
 #[cold]
 fn exact(text: &[u8]) -> f32 {
     std::str::from_utf8(text)
@@ -122,7 +122,7 @@ fn exact(text: &[u8]) -> f32 {
         .unwrap_or(f32::NAN)
 }
 
-/// The values that have names instead of digits.
+/// Values with names instead of digits.
 #[cold]
 fn parse_named(text: &[u8], start: usize) -> Option<(f32, usize)> {
     let is_end = |byte: &u8| byte.is_ascii_whitespace() || *byte == b'/';
@@ -154,7 +154,7 @@ fn parse_named(text: &[u8], start: usize) -> Option<(f32, usize)> {
     None
 }
 
-/// Reads the integer that `text` starts with; also how many bytes it takes. Saturates.
+/// Reads the integer at the start of `text`; also returns its length in bytes. Saturates.
 #[inline]
 pub(super) fn parse_i64(text: &[u8]) -> Option<(i64, usize)> {
     let negative = text.first() == Some(&b'-');

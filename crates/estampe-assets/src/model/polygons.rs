@@ -1,4 +1,4 @@
-//! Splits polygons, with a bound on the work for all of a file's polygons together.
+//! Splitting of polygons, with a bound on the work for all of a file's polygons together.
 
 use estampe_shapes::polygon::Triangulator;
 use glam::Vec3;
@@ -13,14 +13,14 @@ pub(super) struct Polygons {
 }
 
 impl Polygons {
-    /// Beyond this much work polygons become fans: ear clipping is quadratic for hostile ones, and a file
-    /// can hold many.
+    /// Beyond this much work polygons become fans: ear clipping is quadratic for hostile ones, and
+    /// a file can have many.
     const MAX_WORK: u64 = 1 << 32;
     /// Polygons up to here are not counted.
     const SMALL_CORNERS: usize = 64;
 
-    /// The triangles of a polygon, as indices into `corners`, and whether it is only a fan because the
-    /// work was used up.
+    /// The triangles of a polygon, as indices into `corners`. Also returns true if it is only a fan
+    /// because the work is used up.
     pub(super) fn split(&mut self, corners: &[Vec3]) -> (&[[u32; 3]], bool) {
         self.triangles.clear();
         if corners.len() > Self::SMALL_CORNERS {
@@ -40,6 +40,6 @@ impl Polygons {
     }
 }
 
-/// What to tell of a polygon that is only a fan.
+/// Warning for a polygon that is only a fan.
 pub(super) const SPENT: &str =
-    "too many large polygons; this one is cut into a fan, which is right if it is convex";
+    "too many large polygons; this one becomes a fan, which is correct only if it is convex";

@@ -1,25 +1,26 @@
-//! What a model may make us open: regular files below its own folder, and nothing else.
+//! Access to the side files of a model: regular files below its own folder only.
 
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Where the side files of a model come from.
+/// A source of a model's side files.
 pub trait Resources {
-    /// Finds the file that a model calls `name`, and returns one name per file however it is spelled.
+    /// Finds the file that a model calls `name`, and returns one name per file for all its
+    /// spellings.
     ///
     /// # Errors
-    /// Why the file may not or cannot be opened.
+    /// The reason why the file cannot or must not be opened.
     fn resolve(&self, name: &str) -> Result<String, ResourceError>;
 
-    /// The bytes of a file that [`Self::resolve`] found, if they are no more than `max_bytes`.
+    /// The bytes of a file that [`Self::resolve`] found, if there are at most `max_bytes`.
     ///
     /// # Errors
-    /// Why it cannot be read.
+    /// The reason why it cannot be read.
     fn read(&self, resolved: &str, max_bytes: u64) -> Result<Vec<u8>, ResourceError>;
 }
 
-/// Why a side file is not opened.
+/// The reason why a side file is not opened.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ResourceError {
@@ -30,7 +31,7 @@ pub enum ResourceError {
     #[error("no such file in the model's folder")]
     NotFound,
     /// The name leads out of the model's folder.
-    #[error("it lies outside the model's folder, from which alone side files are read")]
+    #[error("it is outside the model's folder; side files are read from that folder only")]
     Outside,
     /// A folder, a device, a pipe.
     #[error("it is not a regular file")]
@@ -38,12 +39,12 @@ pub enum ResourceError {
     /// Larger than allowed.
     #[error("it is larger than the limit of {0} bytes")]
     TooLarge(u64),
-    /// The system's own words.
+    /// The system's message.
     #[error("{0}")]
     Io(String),
 }
 
-/// No side files at all: for models from a pipe.
+/// No side files, for models from a pipe.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NoResources;
 
@@ -59,9 +60,9 @@ impl Resources for NoResources {
 
 /// The regular files below one folder.
 ///
-/// Both `/` and `\` part the names of folders. A name that is absolute or holds `..` is refused, and so is
-/// a link that leads out of the folder. Where no file has the exact name, one that differs in upper
-/// and lower case is taken (the first in the order of names).
+/// Both `/` and `\` separate the names of folders. A name that is absolute or contains `..` is
+/// refused, and so is a link that leads out of the folder. If no file has the exact name, a file
+/// whose name differs in upper and lower case is used (the first in the order of names).
 #[derive(Debug, Clone)]
 pub struct Folder {
     /// Canonical, so that canonical paths of files can be compared with it.
@@ -69,7 +70,7 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// More than a path ever has; longer names are refused.
+    /// Longer than any real path; longer names are refused.
     const MAX_NAME_BYTES: usize = 4096;
     const MAX_DEPTH: usize = 64;
 
@@ -81,7 +82,7 @@ impl Folder {
         }
     }
 
-    /// The files below the folder that the model at `path` lies in.
+    /// The files below the folder of the model at `path`.
     #[must_use]
     pub fn of_model(path: &Path) -> Self {
         match path.parent() {
@@ -90,7 +91,7 @@ impl Folder {
         }
     }
 
-    /// The path that `name` means, with links followed, certainly below the root.
+    /// The path of `name`, with links followed, always below the root.
     fn find(&self, name: &str) -> Result<PathBuf, ResourceError> {
         let root = self.root.as_ref().ok_or(ResourceError::Unavailable)?;
         if name.is_empty() || name.len() > Self::MAX_NAME_BYTES || name.contains('\0') {
@@ -105,12 +106,12 @@ impl Folder {
             .split(is_separator)
             .filter(|part| !part.is_empty() && *part != ".");
         for (depth, part) in parts.enumerate() {
-            // A colon is a drive or a stream on Windows, and nothing sensible elsewhere.
+            // A colon means a drive or a stream on Windows, and is unusual elsewhere.
             if part == ".." || part.contains(':') || depth >= Self::MAX_DEPTH {
                 return Err(ResourceError::Outside);
             }
             path = Self::step(&path, part)?;
-            // Checked at every step: not even the names in a folder outside are looked at.
+            // Checked at every step, so that not even the names in an outside folder are read.
             if !path.starts_with(root) {
                 return Err(ResourceError::Outside);
             }
@@ -118,7 +119,7 @@ impl Folder {
         Ok(path)
     }
 
-    /// The canonical path of the entry of `folder` that is called `part`, by case if need be.
+    /// The canonical path of the entry `part` of `folder`, in another case if necessary.
     fn step(folder: &Path, part: &str) -> Result<PathBuf, ResourceError> {
         let exact = folder.join(part);
         if let Ok(path) = fs::canonicalize(&exact) {
@@ -138,7 +139,7 @@ impl Folder {
 impl Resources for Folder {
     fn resolve(&self, name: &str) -> Result<String, ResourceError> {
         let path = self.find(name)?;
-        // Looked at before it is opened: opening a pipe would wait for its writer.
+        // The type is tested before the file is opened: opening a pipe would wait for its writer.
         let metadata = fs::metadata(&path).map_err(|error| ResourceError::Io(error.to_string()))?;
         if !metadata.is_file() {
             return Err(ResourceError::NotRegular);

@@ -1,9 +1,9 @@
-//! From colours as files store them to linear light.
+//! Conversion of stored colours to linear light.
 
 use std::sync::LazyLock;
 
-/// Linear light of one sRGB-encoded component (IEC 61966-2-1). Values above 1 follow the same curve,
-/// values below 0 and NaN are 0.
+/// Linear light of one sRGB-encoded component (IEC 61966-2-1). Values above 1 follow the same
+/// curve, values below 0 and NaN are 0.
 pub(super) fn linear_from_srgb(encoded: f32) -> f32 {
     if encoded <= 0.040_45 {
         encoded.max(0.0) / 12.92

@@ -1,12 +1,12 @@
-//! A cursor over the statements of OBJ and MTL: lines of words, whatever the line ends.
+//! A cursor over the statements of OBJ and MTL: lines of words, with any line end.
 //!
-//! Lines end with LF, CR or CR LF. A backslash before a line's end continues the statement, so it counts as
-//! a blank, and is treated as one without copying anything. `#` starts a comment where a word would start.
+//! Lines end with LF, CR or CR LF. A backslash before a line end continues the statement; it counts
+//! as a blank, without copying the text. `#` starts a comment where a word would start.
 
 use super::number;
 use crate::Location;
 
-/// Stands somewhere in a statement.
+/// A position in a statement.
 #[derive(Debug, Clone)]
 pub(super) struct Statements<'a> {
     bytes: &'a [u8],
@@ -24,7 +24,7 @@ fn is_blank(byte: u8) -> bool {
 }
 
 impl<'a> Statements<'a> {
-    /// Stands at the first statement; a byte-order mark is skipped.
+    /// Starts at the first statement; a byte-order mark is skipped.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         let at = if bytes.starts_with(b"\xef\xbb\xbf") {
             3
@@ -34,35 +34,35 @@ impl<'a> Statements<'a> {
         Self { bytes, at, line: 1 }
     }
 
-    /// Stands at a byte that is in a line, as the reader of a header left it.
+    /// Starts at a byte inside a line, after the header reader.
     pub(super) fn starting_at(bytes: &'a [u8], at: usize, line: u64) -> Self {
         Self { bytes, at, line }
     }
 
-    /// The line that it stands in.
+    /// The location of the current line.
     pub(super) fn location(&self) -> Location {
         Location::Line(self.line)
     }
 
-    /// The number of the line that it stands in.
+    /// The number of the current line.
     #[inline]
     pub(super) fn line(&self) -> u64 {
         self.line
     }
 
-    /// Where it stands.
+    /// The current position, in bytes.
     #[inline]
     pub(super) fn at(&self) -> usize {
         self.at
     }
 
-    /// Moves to a later place, over so many line ends.
+    /// Moves to a later position, over `line_ends` line ends.
     pub(super) fn jump(&mut self, at: usize, line_ends: u64) {
         self.at = at;
         self.line += line_ends;
     }
 
-    /// Moves over a line's end with a line feed, if it stands at one; the number of the line counts it.
+    /// Moves over a line end with a line feed, if it is the next byte; the line number counts it.
     #[inline]
     pub(super) fn take_line_feed(&mut self) -> bool {
         let rest = &self.bytes[self.at..];
@@ -73,7 +73,7 @@ impl<'a> Statements<'a> {
         is_there
     }
 
-    /// The next statement's keyword, after which the cursor stands; `None` at the end of the file.
+    /// Moves after the next statement's keyword and returns it; `None` at the end of the file.
     #[inline]
     pub(super) fn next_keyword(&mut self) -> Option<&'a [u8]> {
         if self.find_word() {
@@ -100,7 +100,7 @@ impl<'a> Statements<'a> {
         }
     }
 
-    /// Comments are not continued: they may well end with the backslash of a path.
+    /// Comments are not continued: they may end with the backslash of a path.
     fn skip_comment(&mut self) {
         let rest = &self.bytes[self.at..];
         self.at += rest
@@ -119,14 +119,15 @@ impl<'a> Statements<'a> {
         }
     }
 
-    /// Whether no word is left in the statement.
+    /// True if no word is left in the statement.
     #[inline]
     pub(super) fn is_at_end(&mut self) -> bool {
         self.skip_blanks();
         matches!(self.bytes.get(self.at), None | Some(b'\n' | b'\r' | b'#'))
     }
 
-    /// The next word as a number: `None` at the end, `Some(None)` when it is no number (it is skipped).
+    /// The next word as a number: `None` at the end, `Some(None)` if it is not a number (it is
+    /// skipped).
     #[inline]
     pub(super) fn number(&mut self) -> Option<Option<f32>> {
         if self.is_at_end() {
@@ -161,8 +162,9 @@ impl<'a> Statements<'a> {
         }
     }
 
-    /// Everything up to the end of the statement, without blanks around it. A `#` belongs to it: names of
-    /// files hold it. Continued lines are not joined: no name goes on over a line's end.
+    /// The text up to the end of the statement, without blanks around it. A `#` is part of it,
+    /// because file names may contain it. Continued lines are not joined: no name crosses a line
+    /// end.
     pub(super) fn rest(&mut self) -> &'a [u8] {
         self.skip_blanks();
         let start = self.at;
@@ -170,7 +172,7 @@ impl<'a> Statements<'a> {
         self.bytes[start..self.at].trim_ascii()
     }
 
-    /// Whether the next word starts with `prefix`.
+    /// True if the next word starts with `prefix`.
     pub(super) fn remaining_starts_with(&mut self, prefix: &[u8]) -> bool {
         self.skip_blanks();
         self.bytes[self.at..].starts_with(prefix)
@@ -182,7 +184,7 @@ impl<'a> Statements<'a> {
         &self.bytes[self.at..]
     }
 
-    /// Moves on by `count` bytes of what [`Self::remaining`] showed, which hold no line's end.
+    /// Moves by `count` bytes of the text of [`Self::remaining`], which contain no line end.
     #[inline]
     pub(super) fn advance(&mut self, count: usize) {
         self.at += count;
@@ -219,8 +221,8 @@ impl<'a> Statements<'a> {
     }
 }
 
-/// Whether a backslash at the start of `rest` stands at its line's end. At the end of the file it does not:
-/// there it is a word.
+/// True if a backslash at the start of `rest` is at its line's end. At the end of the file it is
+/// not: there it is a word.
 fn is_continued(rest: &[u8]) -> bool {
     rest.get(1).is_some_and(|&byte| is_line_end(byte))
 }

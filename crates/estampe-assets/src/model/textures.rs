@@ -6,19 +6,20 @@ use crate::{AssetError, Limits, Location};
 use estampe_scene::{AlphaMode, Image};
 use std::collections::HashMap;
 
-/// A texture as a material names it.
+/// A texture as named by a material.
 #[derive(Debug, Clone)]
 pub(super) struct TextureName {
     /// The file's name, relative to `folder` or to the model.
     pub(super) name: String,
-    /// Folder of the file that names it, relative to the model, with its last separator; may be empty.
+    /// Folder of the file that names it, relative to the model, with its last separator; may be
+    /// empty.
     pub(super) folder: String,
     /// The file that names it, for messages.
     pub(super) named_in: String,
     pub(super) location: Location,
 }
 
-/// A loaded texture: an index into [`Textures::images`], and what its alpha means.
+/// A loaded texture: an index into [`Textures::images`], and the use of its alpha.
 pub(super) type Loaded = (usize, AlphaMode);
 
 /// The images loaded so far.
@@ -30,7 +31,7 @@ pub(super) struct Textures {
     pixels_left: u64,
 }
 
-/// The text of a name in a file: UTF-8, or else Latin-1, in which every byte is a character.
+/// The text of a name in a file: UTF-8, else Latin-1, in which every byte is a character.
 pub(super) fn text_of_name(name: &[u8]) -> String {
     match std::str::from_utf8(name) {
         Ok(text) => text.to_owned(),
@@ -48,7 +49,7 @@ impl Textures {
         }
     }
 
-    /// Loads the texture of a base colour whose alpha, if `opacity` is given, is another file's brightness.
+    /// Loads a base-colour texture. If `opacity` is given, its alpha is that file's brightness.
     /// Without a base colour it is white. Failures are warnings.
     pub(super) fn load(
         &mut self,
@@ -58,7 +59,7 @@ impl Textures {
     ) -> Option<Loaded> {
         let resolved = [base, opacity].map(|name| find(name?, context));
         let resolved = match resolved {
-            // One file for both means that its own alpha counts.
+            // One file for both means that its own alpha is used.
             [Some(base), Some(opacity)] if base == opacity => [Some(base), None],
             other => other,
         };
@@ -82,7 +83,7 @@ impl Textures {
             )),
         };
         let loaded = image.map(|mut image| {
-            let mode = judge_alpha(&mut image);
+            let mode = classify_alpha(&mut image);
             self.images.push(image);
             (self.images.len() - 1, mode)
         });
@@ -133,12 +134,12 @@ fn find(name: &TextureName, context: &mut Context<'_>) -> Option<String> {
 
 fn warn(name: &TextureName, reason: &str, context: &mut Context<'_>) {
     context.warnings.add(&name.named_in, name.location, || {
-        format!("the texture `{}` is left out: {reason}", name.name)
+        format!("the texture `{}` is omitted: {reason}", name.name)
     });
 }
 
-/// `color` with the brightness of `mask` (its alpha, if it has any) as alpha; the nearest texel where
-/// the sizes differ.
+/// `color` with the brightness of `mask` (its alpha, if it has any) as alpha; nearest texel if the
+/// sizes differ.
 fn with_opacity(mut color: Image, mask: &Image) -> Image {
     let has_alpha = mask
         .rgba
@@ -167,9 +168,9 @@ fn brightness(rgb: [u8; 3]) -> u8 {
     u8::try_from((sum + 1) / 3).expect("a mean of bytes is a byte")
 }
 
-/// What the alpha means: all 255 is opaque, 0 and 255 a mask, anything else blends. All 0 is what some
-/// programs write into a channel that they do not use: it becomes opaque.
-fn judge_alpha(image: &mut Image) -> AlphaMode {
+/// Classifies an alpha channel: all 255 is opaque, 0 and 255 a mask, all else blends. All 0 is what
+/// some programs write into an unused channel; it becomes opaque.
+fn classify_alpha(image: &mut Image) -> AlphaMode {
     let texels = image.rgba.as_chunks_mut::<4>().0;
     if texels.iter().all(|texel| texel[3] == 255) {
         return AlphaMode::Opaque;

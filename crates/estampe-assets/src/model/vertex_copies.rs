@@ -1,4 +1,5 @@
-//! Splits vertices: one source vertex (a position) becomes as many vertices as it has different attributes.
+//! Splitting of vertices: one source vertex (a position) becomes a vertex for each set of
+//! attributes.
 
 /// For each source, the list of the vertices that were made from it.
 #[derive(Debug, Default)]
@@ -14,8 +15,8 @@ pub(super) struct VertexCopies {
 const NONE: u32 = u32::MAX;
 
 impl VertexCopies {
-    /// Longer lists are not searched to their end: a vertex may then exist twice, which is harmless, but a
-    /// hostile file with all attributes at one position stays linear.
+    /// Longer lists are not searched to their end. A vertex may then exist twice, which is
+    /// harmless, but a hostile file with all attributes at one position takes linear time.
     const MAX_STEPS: usize = 64;
 
     /// No vertices, of `source_count` sources.
@@ -27,7 +28,7 @@ impl VertexCopies {
         }
     }
 
-    /// Each source has become the vertex of its own number.
+    /// Each source is the vertex of its own number.
     pub(super) fn identity(source_count: u32) -> Self {
         let sources: Vec<u32> = (0..source_count).collect();
         Self {
@@ -42,7 +43,8 @@ impl VertexCopies {
         &self.sources
     }
 
-    /// The vertex of `source` for which `is_same` holds, or a new one, and whether it is new.
+    /// The vertex of `source` that satisfies `is_same`, or a new one; also returns true if it is
+    /// new.
     #[inline]
     pub(super) fn find_or_add(
         &mut self,
@@ -67,7 +69,7 @@ impl VertexCopies {
         (added, true)
     }
 
-    /// Forgets all vertices, in time that depends on their number only.
+    /// Removes all vertices, in time that depends on their number only.
     pub(super) fn clear(&mut self) {
         for &source in &self.sources {
             self.newest[source as usize] = NONE;

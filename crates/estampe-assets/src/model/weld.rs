@@ -1,13 +1,13 @@
-//! Finds positions that are equal to the bit.
+//! Search for positions that are equal to the bit.
 //!
-//! Keys are dealt out by three bits of their hash, in order, to eight small tables, which threads fill at
-//! once. Which key is the first of its equals depends on neither the tables nor the threads.
+//! Keys are distributed by three bits of their hash, in order, to eight small tables, which threads
+//! fill at once. The first of equal keys depends on neither the tables nor the threads.
 
 use estampe_scene::{Workers, pieces};
 use glam::Vec3;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// What is compared: the bits of a position, and a tag that keeps apart what must not be one.
+/// The compared values: the bits of a position, and a tag that keeps different vertices apart.
 pub(super) type Key = [u32; 4];
 
 /// The key of a position; `-0.0` equals `0.0`, and a NaN equals a NaN of the same bits.
@@ -22,7 +22,7 @@ pub(super) fn key(position: Vec3, tag: u32) -> Key {
     ]
 }
 
-/// For each of `count` keys the number of the first that equals it; about `expected` are different.
+/// For each of `count` keys the index of the first equal key; about `expected` are different.
 pub(super) fn first_equals(
     count: usize,
     expected: usize,
@@ -58,15 +58,15 @@ pub(super) fn first_equals(
 
 /// The first of each set of equal keys.
 ///
-/// A hash table with open addressing that never looks further than [`Self::MAX_PROBES`] places: positions
-/// chosen to collide are then simply not found to be equal, and the time stays linear without a secret
+/// A hash table with open addressing that probes at most [`Self::MAX_PROBES`] slots. Positions
+/// chosen to collide are then not recognised as equal, and the time stays linear without a secret
 /// seed, so the result is the same in every run.
 struct Table<'a, K> {
-    /// Number of a key plus one; 0 is free. At most half full.
+    /// Index of a key plus one; 0 is free. At most half full.
     slots: Vec<u32>,
-    /// 64 less the bits of a place.
+    /// 64 minus the bits of a slot index.
     shift: u32,
-    /// How many different keys there are.
+    /// Number of different keys.
     len: usize,
     key: &'a K,
 }
@@ -75,7 +75,7 @@ impl<'a, K: Fn(usize) -> Key> Table<'a, K> {
     const MAX_PROBES: usize = 128;
     const LEAST_BITS: u32 = 6;
 
-    /// Nothing yet, and room for `count` different keys.
+    /// An empty table with space for `count` different keys.
     fn with_room(count: usize, key: &'a K) -> Self {
         let bits = (count.saturating_mul(2) | 1).ilog2() + 1;
         let bits = bits.clamp(Self::LEAST_BITS, 32);
@@ -87,7 +87,7 @@ impl<'a, K: Fn(usize) -> Key> Table<'a, K> {
         }
     }
 
-    /// The first key that equals the one of this number, which is itself if there is none yet.
+    /// The first key that equals key `number`, which is `number` itself if there is none before.
     #[inline]
     fn first(&mut self, number: u32) -> u32 {
         if self.len * 2 >= self.slots.len() {
@@ -110,7 +110,7 @@ impl<'a, K: Fn(usize) -> Key> Table<'a, K> {
         number
     }
 
-    /// Four times the table: growing is then a third of the work at most.
+    /// Quadruples the table, so that growing is at most a third of the work.
     #[cold]
     fn grow(&mut self) {
         self.shift -= 2;
@@ -143,7 +143,7 @@ fn hash(key: Key) -> u64 {
     fold(mixed, 0x8ebc_6af0_9c88_c6e3)
 }
 
-/// Both halves of the product, xored.
+/// Both halves of the product, combined by XOR.
 #[inline]
 fn fold(a: u64, b: u64) -> u64 {
     let product = u128::from(a) * u128::from(b);

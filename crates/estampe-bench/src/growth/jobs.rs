@@ -96,17 +96,17 @@ impl FrameCosts {
     /// # Errors
     /// [`BenchError`] when the device refuses the frame's size.
     pub fn record(level: Level, scene: &Scene, size: FrameSize) -> Result<Self, BenchError> {
-        let device = Device::recording(level);
+        let device = Device::profiling(level);
         let mut prepared = PreparedScene::new(&device, scene, size)?;
         prepared.draw();
         prepared.draw();
-        drop(device.take_phases());
+        drop(device.take_timings());
         let frames: Vec<Self> = (0..FRAMES)
             .map(|_| {
                 let start = Instant::now();
                 prepared.draw();
                 let total = start.elapsed();
-                let phases = device.take_phases();
+                let phases = device.take_timings();
                 let phases: Vec<_> = phases
                     .iter()
                     .map(|phase| PhaseCosts {

@@ -15,7 +15,7 @@ use estampe::{Device, DeviceDescriptor, Level};
 pub struct TriangleMemory {
     /// Which class.
     pub class: SizeClass,
-    /// Bytes for each triangle, as long as a frame fits into one wave.
+    /// Bytes for each triangle, as long as a frame fits into one draw batch.
     pub each: f64,
 }
 

@@ -43,7 +43,7 @@ pub fn section(results: &Results) -> String {
     let _ = write!(
         out,
         "# How cost grows\n\n\
-         Written by `cargo run --release -p estampe-bench -- --growth docs`, which measures all of it anew.\n\
+         Written by `cargo run --release -p estampe-bench -- --growth docs`, which repeats all measurements.\n\
          {}. A frame is recorded, cleared, drawn and stored to memory; times are medians.\n",
         results.driver
     );
@@ -59,11 +59,11 @@ fn triangles(results: &Results, out: &mut String) {
         "\n## With triangles\n\n\
          ![Frame time against the number of triangles](images/growth_triangles.svg)\n\n\
          A mesh of triangles of one mean area, Gouraud-shaded, opaque, with depth, in a frame of 1280×720. Meshes that\n\
-         do not fit into the frame have layers over each other, the farthest first, so that every triangle passes the\n\
-         depth test. A tile first finds out what is visible and then shades it: in one layer each triangle pays for its\n\
-         own shading; in many layers for its vertices, set-up, coverage and depth test, and shading is what one layer's\n\
-         costs, however many there are. So there are two lines *fixed + each · triangles*, of least squares of relative\n\
-         errors; *off* is the largest distance of a measurement from its line.\n\n",
+         do not fit into the frame have several layers, the farthest first, so that every triangle passes the depth test.\n\
+         A tile first resolves visibility and then shades. In one layer the cost of a triangle includes its shading. In\n\
+         many layers it is that of vertices, set-up, coverage and depth test, and the cost of shading is that of one\n\
+         layer for any number of layers. So there are two lines *fixed + each · triangles*, fitted by least squares of\n\
+         relative errors; *off* is the largest distance of a measurement from its line.\n\n",
     );
     fit_heads("triangle", out);
     for one in &results.triangles {
@@ -82,8 +82,8 @@ fn pixels(results: &Results, out: &mut String) {
         "\n## With pixels\n\n\
          ![Frame time against the number of pixels](images/growth_pixels.svg)\n\n\
          A fan of sixteen triangles that covers each pixel of a square frame once. Colour and depth of\n\
-         1024² pixels are 8 MiB, which caches hold; those of 2048² are 32 MiB, which go to memory: a line for each.\n\
-         *Clear* is a part of the other two.\n\n",
+         1024² pixels are 8 MiB, which fit the caches; those of 2048² are 32 MiB, which do not. Each case has a line.\n\
+         *Clear* is included in the other two.\n\n",
     );
     fit_heads("pixel", out);
     for one in &results.pixels {
@@ -141,12 +141,12 @@ fn costs(series: &[Series], heads: &[String], unit: &str, out: &mut String) {
 fn memory(results: &Results, out: &mut String) {
     out.push_str(
         "\n## Memory\n\n\
-         A triangle takes, from the data structures: 16 bytes of each vertex for its place in the window and 4 for each\n\
-         scalar of its varyings (Gouraud: 16), at half a vertex per triangle of a closed mesh; a sixteenth of a packet\n\
-         of 1,344 bytes, which is 84; and for each packet and tile that it reaches an entry of 12 bytes as binned and 8\n\
-         as sorted, in lists that double when they grow. That is 100 bytes and the entries; what is measured above it is what\n\
-         lists outgrew and the allocator still holds. Waves of two million primitives bound all of it: larger frames\n\
-         reuse the same memory. A pixel takes 4 bytes for each sample of each attachment, in blocks of 64×64.\n",
+         By the data structures, a triangle takes 16 bytes per vertex for the window position and 4 for each scalar of\n\
+         the varyings (Gouraud: 16), at half a vertex per triangle of a closed mesh; a sixteenth of a packet of 1,344\n\
+         bytes, which is 84; and for each packet and tile that it touches an entry of 12 bytes when binned and 8 when\n\
+         sorted, in lists that double when they grow. That is 100 bytes and the entries. Measured memory above that was\n\
+         freed by growing lists and kept by the allocator. Draw batches of two million primitives bound all of it: larger\n\
+         frames reuse the memory. A pixel takes 4 bytes for each sample of each attachment, in blocks of 64×64.\n",
     );
     let Some(memory) = &results.memory else {
         return;
@@ -177,11 +177,11 @@ fn cores(results: &Results, out: &mut String) {
     let _ = write!(
         out,
         "\n## With cores\n\n\
-         Every job of a frame (runs of vertices, chunks of primitives, tiles) was timed on one core, and the scheduler\n\
-         played with these times: in each phase the caller wakes its helpers, and whoever is free takes jobs from the front\n\
-         of what is left, in batches of a fourth of its share. The parts between phases are serial. Speed-ups are given\n\
-         for helpers that are awake; in brackets for those that sleep before each phase, by this machine's times of\n\
-         {:.1} µs to call one and {:.1} µs until it runs. Memory is taken to be as fast for many cores as for one.\n\n\
+         Every job of a frame (runs of vertices, chunks of primitives, tiles) was timed on one core, and the schedule was\n\
+         simulated with these times: in each phase the caller wakes its helpers, and each idle thread takes jobs from the\n\
+         front of the remaining ones, in batches of a fourth of its share. The parts between phases are serial. Speed-ups are\n\
+         for helpers that are awake; in brackets for helpers that sleep before each phase, with this machine's times of\n\
+         {:.1} µs to call one and {:.1} µs until it runs. The simulation assumes that memory is as fast for many cores as for one.\n\n\
          | scene | ms on 1 | {} measured |",
         wake_up.call_ns as f64 * 1e-3,
         wake_up.arrival_ns as f64 * 1e-3,
@@ -191,7 +191,7 @@ fn cores(results: &Results, out: &mut String) {
         let _ = write!(out, " {cores} |");
     }
     out.push_str(
-        " what stops 64 (shares of their time) |\n|---|---:|---:|---:|---:|---:|---:|---|\n",
+        " limits of 64 (shares of their time) |\n|---|---:|---:|---:|---:|---:|---:|---|\n",
     );
     for (name, frame, measured) in &results.scenes {
         let alone = frame.on_cores_ns(1, wake_up) as f64 * 1e-6;

@@ -1,5 +1,5 @@
-//! `fill` and `fill_front`: 32 full-screen opaque quads in flat colours, depth test *less* with writes,
-//! in one draw.
+//! `fill`, `fill_front` and `fill_draws`: 32 full-screen opaque quads in flat colours, depth test *less* with
+//! writes, in one draw; `fill_draws` is `fill` as a draw for each quad.
 //!
 //! Quad i lies at z = (i + 1)/33; its colour is the hash of 1000 + i. Drawn from the farthest, every
 //! fragment passes; drawn from the nearest, only the first quad's do. A vertex is its position (3 floats)
@@ -46,6 +46,10 @@ pub(super) fn back_to_front() -> Scene {
 
 pub(super) fn front_to_back() -> Scene {
     scene("fill_front", 0..QUADS)
+}
+
+pub(super) fn as_draws() -> Scene {
+    scene("fill_draws", (0..QUADS).rev()).cut_into(QUADS)
 }
 
 fn scene(name: &'static str, order: impl Iterator<Item = u32>) -> Scene {

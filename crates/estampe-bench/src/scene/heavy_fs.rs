@@ -32,7 +32,7 @@ estampe::shader! {
         type Attributes<R: Real> = Vec2<R>; // position
         type Varyings<R: Real> = ();
         const READS_POSITION: bool = true;
-        const LONG_CHAINS: bool = true;
+        const PAIR_PACKETS: bool = true;
 
         fn vertex<R: Real>(&self, input: VertexIn<'_, R>, at: Vec2<R>) -> VertexOut<R, ()> {
             let position = Vec4::new(at.x, at.y, input.real(0.5), input.real(1.0));

@@ -4,6 +4,8 @@
 //! Sphere n stands in column n mod 50 and row n / 50 of a grid, at a random depth, turned and coloured at
 //! random. The uniforms are the matrix that takes the model to clip space and the colour, 80 bytes each
 //! 256.
+//!
+//! `many_draws`: each sphere as five draws of 100 triangles, the same picture.
 
 use super::{ASPECT, Detail, Scene, SceneDraw, vertex_layout};
 use crate::generate::{LittleEndian, Matrix, look_at, perspective, unit_hash, uv_sphere};
@@ -26,7 +28,7 @@ estampe::shader! {
     impl Shader for Lambert {
         type Attributes<R: Real> = (Vec3<R>, Vec3<R>); // position, normal
         type Varyings<R: Real> = Vec3<R>;              // normal
-        const INDEPENDENT_FRAGMENTS: bool = true;
+        const NO_DERIVATIVES: bool = true;
 
         fn vertex<R: Real>(
             &self,
@@ -47,6 +49,15 @@ estampe::shader! {
 }
 
 pub(super) fn scene(detail: Detail) -> Scene {
+    of_parts("instances", detail, 1)
+}
+
+pub(super) fn many_draws(detail: Detail) -> Scene {
+    of_parts("many_draws", detail, 5)
+}
+
+/// The spheres, each in so many draws.
+fn of_parts(name: &'static str, detail: Detail, parts: u32) -> Scene {
     let (columns, rows) = detail.of((50, 40), (10, 8));
     // Fewer spheres are larger and farther apart.
     let unit = detail.of(1.0, 5.0);
@@ -83,13 +94,20 @@ pub(super) fn scene(detail: Detail) -> Scene {
         ..RenderPipelineDescriptor::new(Lambert)
     };
     let buffers = vec![mesh.vertices, mesh.indices, uniforms.into_bytes()];
-    let draws = (0..columns * rows).map(|number| SceneDraw {
-        dynamic_offset: number * UNIFORM_STRIDE,
-        ..SceneDraw::new(0, 0, 1)
+    let scene = Scene {
+        uniforms: Some(2),
+        ..Scene::of_one_draw(name, buffers, Vec::new(), pipeline)
+    }
+    .cut_into(parts);
+    let draws = (0..columns * rows).flat_map(|number| {
+        let of_sphere = |part: &SceneDraw| SceneDraw {
+            dynamic_offset: number * UNIFORM_STRIDE,
+            ..*part
+        };
+        scene.draws.iter().map(of_sphere).collect::<Vec<_>>()
     });
     Scene {
-        uniforms: Some(2),
         draws: draws.collect(),
-        ..Scene::of_one_draw("instances", buffers, Vec::new(), pipeline)
+        ..scene
     }
 }

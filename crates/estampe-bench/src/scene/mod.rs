@@ -14,6 +14,10 @@
 //! | shadow | depth map of the torus, then torus and ground, 3×3 comparisons | 139,394 |
 //! | msaa4 | mid_tris with 4 samples, resolved | 69,696 |
 //! | instances | 2,000 draws, a dynamic uniform offset each | 1,000,000 |
+//! | fill_draws | fill as 32 draws, the same picture | 64 |
+//! | textured_draws | textured as 16 draws, the same picture | 32 |
+//! | many_draws | instances as 10,000 draws, the same picture | 1,000,000 |
+//! | quad_draws | 10,000 draws of a quad, a dynamic uniform offset each; not in `peerbench` | 20,000 |
 //!
 //! Targets are RGBA8 and 32-bit depth, cleared to [`CLEAR_COLOR`] and 1.
 
@@ -23,6 +27,7 @@ mod fill;
 mod heavy_fs;
 mod instances;
 mod mid_tris;
+mod quad_draws;
 pub(crate) mod shadow;
 mod small_tris;
 mod textured;
@@ -33,6 +38,7 @@ use crate::frame::FrameSize;
 use crate::generate::{Fingerprint, MipChain};
 use estampe::state::{VertexAttribute, VertexBufferLayout};
 use estampe::{RenderPipelineDescriptor, VertexFormat};
+use std::ops::Range;
 
 /// What every frame is cleared to: whole steps of 1/255, so that no renderer meets a tie.
 pub const CLEAR_COLOR: [f32; 4] = [26.0 / 255.0, 51.0 / 255.0, 77.0 / 255.0, 1.0];
@@ -98,6 +104,8 @@ pub struct SceneDraw {
     pub vertices: usize,
     /// Which buffer holds the indices, 32 bits each.
     pub indices: usize,
+    /// Which of them, the end excluded; `None`: all.
+    pub elements: Option<[u32; 2]>,
     /// How many instances.
     pub instances: u32,
     /// Where its uniforms begin, in bytes.
@@ -105,12 +113,13 @@ pub struct SceneDraw {
 }
 
 impl SceneDraw {
-    /// One instance, uniforms from the start of their buffer.
+    /// One instance, all indices, uniforms from the start of their buffer.
     pub(crate) const fn new(pipeline: usize, vertices: usize, indices: usize) -> Self {
         Self {
             pipeline,
             vertices,
             indices,
+            elements: None,
             instances: 1,
             dynamic_offset: 0,
         }
@@ -140,17 +149,33 @@ impl Scene {
     /// How many triangles a frame submits, if they are in lists.
     #[must_use]
     pub fn triangles(&self) -> u64 {
-        let triangles =
-            |draw: &SceneDraw| u64::from(self.index_count(draw)) / 3 * u64::from(draw.instances);
+        let triangles = |draw: &SceneDraw| {
+            let indices = self.elements(draw).len() as u64;
+            indices / 3 * u64::from(draw.instances)
+        };
         let depth_map = self.depth_map.iter().flat_map(|map| &map.draws);
         self.draws.iter().chain(depth_map).map(triangles).sum()
     }
 
-    /// How many indices a draw has.
+    /// Which indices a draw has.
     #[must_use]
-    pub fn index_count(&self, draw: &SceneDraw) -> u32 {
+    pub fn elements(&self, draw: &SceneDraw) -> Range<u32> {
         let words = self.buffers[draw.indices].len() / 4;
-        u32::try_from(words).expect("the generators count indices in 32 bits")
+        let all = u32::try_from(words).expect("the generators count indices in 32 bits");
+        let [first, end] = draw.elements.unwrap_or([0, all]);
+        first..end
+    }
+
+    /// The scene's one draw cut into so many, whose numbers of indices are the same.
+    fn cut_into(mut self, draws: u32) -> Self {
+        let whole = self.draws[0];
+        let each = self.elements(&whole).end / draws;
+        let parts = (0..draws).map(|part| SceneDraw {
+            elements: Some([part * each, (part + 1) * each]),
+            ..whole
+        });
+        self.draws = parts.collect();
+        self
     }
 
     /// FNV-1a of all buffers' bytes, then of all textures' levels: equal to `peerbench`'s when the data
@@ -173,6 +198,8 @@ impl Scene {
 pub struct SceneEntry {
     /// Its name, as on the command line.
     pub name: &'static str,
+    /// Whether `peerbench` has it, so that it can be compared.
+    pub is_peers: bool,
     make: fn(Detail, FrameSize) -> Scene,
 }
 
@@ -203,10 +230,21 @@ pub const ALL: &[SceneEntry] = &[
     entry("shadow", |detail, _| shadow::scene(detail)),
     entry("msaa4", |detail, _| mid_tris::multisampled(detail)),
     entry("instances", |detail, _| instances::scene(detail)),
+    entry("fill_draws", |_, _| fill::as_draws()),
+    entry("textured_draws", |detail, _| textured::as_draws(detail)),
+    entry("many_draws", |detail, _| instances::many_draws(detail)),
+    SceneEntry {
+        is_peers: false,
+        ..entry("quad_draws", |detail, _| quad_draws::scene(detail))
+    },
 ];
 
 const fn entry(name: &'static str, make: fn(Detail, FrameSize) -> Scene) -> SceneEntry {
-    SceneEntry { name, make }
+    SceneEntry {
+        name,
+        is_peers: true,
+        make,
+    }
 }
 
 /// A vertex buffer's layout: (format, byte offset) of locations 0, 1, ….

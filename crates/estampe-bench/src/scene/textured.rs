@@ -4,6 +4,8 @@
 //! Each quad is 8 × 8 units, at a random tilt and place at a distance from 12 to 5. Positions are rounded
 //! to binary32 in view space; the uniform is the projection. A vertex is its position (3 floats) and
 //! texture coordinate (2), which runs from 0 to 3.
+//!
+//! `textured_draws`: the same as a draw for each quad.
 
 use super::{ASPECT, Detail, Scene, uniforms, upload, vertex_layout};
 use crate::generate::{
@@ -43,6 +45,14 @@ estampe::shader! {
 }
 
 pub(super) fn scene(detail: Detail) -> Scene {
+    of_name("textured", detail)
+}
+
+pub(super) fn as_draws(detail: Detail) -> Scene {
+    of_name("textured_draws", detail).cut_into(QUADS)
+}
+
+fn of_name(name: &'static str, detail: Detail) -> Scene {
     let mut vertices = LittleEndian::default();
     for quad in 0..QUADS {
         let view_from_object = view_from_object(quad).columns;
@@ -68,7 +78,7 @@ pub(super) fn scene(detail: Detail) -> Scene {
         ..RenderPipelineDescriptor::new(shader)
     };
     let buffers = vec![vertices.into_bytes(), quad_indices(QUADS), uniform_bytes];
-    Scene::of_one_draw("textured", buffers, vec![texture], pipeline)
+    Scene::of_one_draw(name, buffers, vec![texture], pipeline)
 }
 
 /// Where a quad stands before the camera.

@@ -7,17 +7,18 @@
 //! * [`peer`] finds or builds `peerbench`, and runs it and ourselves, pinned to one or two cores;
 //! * [`results`] reads what either wrote, and chooses among rounds;
 //! * [`limits`] says how fast the machine itself could be;
-//! * [`table`] makes the tables, [`document`] puts them into PERFORMANCE.md.
+//! * [`table`] makes the tables, [`section`] the section of PERFORMANCE.md that they stand in.
 
-pub mod document;
 pub mod limits;
 pub mod peer;
 pub mod results;
+pub mod section;
 pub mod table;
 
-use crate::BenchError;
 use crate::frame::FrameSize;
 use crate::picture::{Difference, Picture};
+use crate::provenance::Versions;
+use crate::{BenchError, document};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use limits::Limits;
@@ -133,15 +134,15 @@ pub fn run(
     }
     bar.finish_and_clear();
 
-    let text = document::section(&tables, &driver, &session.versions());
+    let text = section::section(&tables, &driver, &Versions::here());
     let print = |error| BenchError::File {
         path: "standard output".into(),
         source: error,
     };
     writeln!(out, "{text}").map_err(print)?;
     if !arguments.quick {
-        let path = (arguments.document.clone()).unwrap_or_else(|| session.default_document());
-        document::update(&path, &text)?;
+        let path = (arguments.document.clone()).unwrap_or_else(document::default_document);
+        document::update(&path, "compare", &text)?;
         writeln!(out, "written to {}", path.display()).map_err(print)?;
     }
     let mut lines = tables.iter().flat_map(|table| &table.lines);

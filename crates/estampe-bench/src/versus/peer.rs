@@ -1,14 +1,13 @@
 //! Who is run, and how: ourselves and `peerbench` on lavapipe, on the same cores.
 
-use super::document::Versions;
 use super::limits::Limits;
 use super::results::RunResults;
 use crate::BenchError;
 use crate::frame::FrameSize;
-use std::ffi::OsStr;
+use crate::process::run;
+use crate::provenance::repository;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Where Vulkan's loader finds drivers.
 const DRIVERS: &str = "/usr/share/vulkan/icd.d";
@@ -39,8 +38,6 @@ impl Effort {
 /// Everything that a comparison needs, found.
 #[derive(Debug)]
 pub struct Session {
-    /// The repository.
-    root: PathBuf,
     peerbench: PathBuf,
     /// Lavapipe's driver file.
     lavapipe: PathBuf,
@@ -54,7 +51,7 @@ impl Session {
     /// # Errors
     /// [`BenchError::Missing`] says what to install.
     pub fn new(peerbench: Option<&Path>) -> Result<Self, BenchError> {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let root = repository();
         let missing = |what: String, remedy: &str| BenchError::Missing {
             what,
             remedy: remedy.to_owned(),
@@ -80,7 +77,6 @@ impl Session {
             None => build_peerbench(&root)?,
         };
         Ok(Self {
-            root,
             peerbench,
             lavapipe,
             folder,
@@ -152,36 +148,6 @@ impl Session {
         let program = self.peerbench.with_file_name("limits");
         run(Command::new(program).arg("--out").arg(&json))?;
         Limits::read(&json)
-    }
-
-    /// PERFORMANCE.md of the repository.
-    #[must_use]
-    pub fn default_document(&self) -> PathBuf {
-        self.root.join("PERFORMANCE.md")
-    }
-
-    /// What is compared, on what.
-    #[must_use]
-    pub fn versions(&self) -> Versions {
-        let since = SystemTime::now().duration_since(UNIX_EPOCH);
-        let days = since.map_or(0, |time| time.as_secs() / 86_400);
-        let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-        let mut git = Command::new("git");
-        git.args(["describe", "--always", "--dirty"]);
-        let commit = run(git.current_dir(&self.root));
-        let version = format!("estampe {}", env!("CARGO_PKG_VERSION"));
-        Versions {
-            date: date_of(days),
-            processor: processor(&cpu),
-            estampe: match commit {
-                Ok(commit) => format!("{version}, {}", commit.trim()),
-                Err(_) => version,
-            },
-            rustc: run(Command::new("rustc").arg("-V")).map_or_else(
-                |_| "rustc unknown".to_owned(),
-                |text| text.trim().to_owned(),
-            ),
-        }
     }
 }
 
@@ -266,87 +232,13 @@ fn pinned(
     command
 }
 
-/// Runs a command to its end; gives what it printed.
-fn run(command: &mut Command) -> Result<String, BenchError> {
-    let words = std::iter::once(command.get_program()).chain(command.get_args());
-    let words: Vec<_> = words.map(OsStr::to_string_lossy).collect();
-    let line = words.join(" ");
-    let fault = |reason: String| BenchError::Command {
-        command: line.clone(),
-        reason,
-    };
-    let output = command.output().map_err(|error| fault(error.to_string()))?;
-    if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stderr);
-        return Err(fault(format!("{}: {}", output.status, said.trim())));
-    }
-    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
-}
-
-/// The first processor's name in `/proc/cpuinfo`, and how many there are.
-fn processor(cpuinfo: &str) -> String {
-    let field = |line: &str| {
-        Some(
-            line.strip_prefix("model name")?
-                .split_once(':')?
-                .1
-                .trim()
-                .to_owned(),
-        )
-    };
-    let names: Vec<String> = cpuinfo.lines().filter_map(field).collect();
-    match names.first() {
-        Some(name) => format!("{name}, {} cores", names.len()),
-        None => "an unknown processor".to_owned(),
-    }
-}
-
-/// The date of a day since 1970-01-01, as 2026-11-21, by the Gregorian calendar.
-fn date_of(days: u64) -> String {
-    let (mut year, mut left) = (1970, days);
-    let is_leap = |year: u64| {
-        year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400))
-    };
-    while left >= 365 + u64::from(is_leap(year)) {
-        left -= 365 + u64::from(is_leap(year));
-        year += 1;
-    }
-    let february = 28 + u64::from(is_leap(year));
-    let mut month = 1;
-    for length in [31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31] {
-        if left < length {
-            break;
-        }
-        left -= length;
-        month += 1;
-    }
-    format!("{year}-{month:02}-{:02}", left + 1)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::ffi::OsStr;
 
     #[test]
-    fn days_become_dates() {
-        assert_eq!(date_of(0), "1970-01-01");
-        assert_eq!(date_of(11_016), "2000-02-29");
-        assert_eq!(date_of(20_778), "2026-11-21");
-        assert_eq!(date_of(47_540), "2100-02-28");
-        assert_eq!(date_of(47_541), "2100-03-01");
-    }
-
-    #[test]
-    fn processors_are_named_and_counted() {
-        let text = "processor\t: 0\nmodel name\t: A B\nprocessor\t: 1\nmodel name\t: A B\n";
-        assert_eq!(processor(text), "A B, 2 cores");
-        assert_eq!(processor(""), "an unknown processor");
-    }
-
-    #[test]
-    fn what_fails_says_which_command() {
-        let error = run(Command::new("taskset-of-nowhere").arg("x")).unwrap_err();
-        assert!(error.to_string().starts_with("taskset-of-nowhere x: "));
+    fn a_missing_client_is_said_to_be_missing() {
         let error = Session::new(Some(Path::new("/no/peerbench"))).unwrap_err();
         assert!(matches!(error, BenchError::Missing { .. }), "{error}");
     }

@@ -38,13 +38,16 @@ pub struct Measured {
     /// De-tiling to rows, in milliseconds; the peer stores rows anyway.
     #[serde(default)]
     pub readback_ms: f64,
+    /// Copying as many bytes by one thread, in milliseconds.
+    #[serde(default)]
+    pub copy_ms: f64,
     /// Fragments shaded; 0 where the renderer does not count.
     #[serde(default)]
     pub fragments: u64,
     /// Runs of opaque triangles that were shaded after all of them had been seen, so that what later ones hide
     /// was not.
     #[serde(default)]
-    pub deferred_runs: u64,
+    pub visibility_runs: u64,
 }
 
 impl RunResults {

@@ -60,9 +60,13 @@ impl Line {
         } else {
             " (other data!)"
         };
-        let dropped = if ours.deferred_runs > 0 { "yes" } else { "no" };
+        let dropped = if ours.visibility_runs > 0 {
+            "yes"
+        } else {
+            "no"
+        };
         format!(
-            "| {}{data} | {} | {} | {} | {} | {:.2} | {share} | {} | {off}{verdict} | {dropped} |",
+            "| {}{data} | {} | {} | {} | {} | {:.2} | {share} | {} ({}) | {off}{verdict} | {dropped} |",
             ours.scene,
             milliseconds(theirs.median_ms),
             milliseconds(theirs.cpu_ms),
@@ -70,6 +74,7 @@ impl Line {
             milliseconds(ours.cpu_ms),
             self.ratio(),
             milliseconds(ours.readback_ms),
+            milliseconds(ours.copy_ms),
         )
     }
 }
@@ -98,7 +103,7 @@ impl Table {
     pub fn markdown(&self) -> String {
         let cores = if self.cores == 1 { "core" } else { "cores" };
         let mut text = format!("### {}, {} {cores}\n\n", self.size, self.cores);
-        text += "| scene | lavapipe ms | CPU ms | estampe ms | CPU ms | ratio | of the limit | to rows ms | \
+        text += "| scene | lavapipe ms | CPU ms | estampe ms | CPU ms | ratio | of the limit | to rows ms (copy) | \
                  pixels off | hidden work dropped |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
         for line in &self.lines {
             let _ = writeln!(text, "{}", line.markdown());
@@ -154,8 +159,9 @@ pub(super) mod tests {
             cpu_ms: median_ms * 2.0,
             other_cores: 0.0,
             readback_ms: 0.25,
+            copy_ms: 0.125,
             fragments: 0,
-            deferred_runs: 0,
+            visibility_runs: 0,
         };
         Line {
             ours: measured(ours_ms),
@@ -172,15 +178,16 @@ pub(super) mod tests {
     #[test]
     fn a_line_says_what_was_measured() {
         let mut line = line("fill", 20.0, 4.0);
-        let expected = "| fill | 20.0 | 40.0 | 4.00 | 8.00 | 5.00 | 50 % | 0.250 | 0.0700 % | no |";
+        let expected =
+            "| fill | 20.0 | 40.0 | 4.00 | 8.00 | 5.00 | 50 % | 0.250 (0.125) | 0.0700 % | no |";
         assert_eq!(line.markdown(), expected);
         line.ours.fingerprint = "1f".to_owned();
-        line.ours.deferred_runs = 9;
+        line.ours.visibility_runs = 9;
         line.limit = None;
         line.difference.beyond = 51;
         let text = line.markdown();
         assert!(text.contains("(other data!)") && text.contains("too many"));
-        assert!(text.contains("| 5.00 |  | 0.250 |") && text.ends_with("| yes |"));
+        assert!(text.contains("| 5.00 |  | 0.250 (0.125) |") && text.ends_with("| yes |"));
     }
 
     #[test]

@@ -1,11 +1,11 @@
-//! The exact difference of two pictures, channel by channel, alpha included.
+//! The exact difference of two images, channel by channel, alpha included.
 
 use estampe_scene::Image;
 
-/// What separates two pictures of one size. Arrays are R, G, B, A.
+/// The difference of two images of one size. Arrays are R, G, B, A.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Comparison {
-    /// Pixels of either picture.
+    /// Pixels per image.
     pub(crate) pixels: u64,
     /// Pixels that differ in any channel.
     pub(crate) differing_pixels: u64,
@@ -28,13 +28,13 @@ impl Comparison {
         self.mean.iter().sum::<f64>() / 4.0
     }
 
-    /// Whether every byte is the same.
+    /// True if every byte is the same.
     pub(crate) fn is_identical(&self) -> bool {
         self.differing_pixels == 0
     }
 }
 
-/// Compares two pictures; none if their sizes differ.
+/// Compares two images; `None` if their sizes differ.
 pub(crate) fn compare(a: &Image, b: &Image, limit: u8) -> Option<Comparison> {
     if (a.width, a.height) != (b.width, b.height) {
         return None;

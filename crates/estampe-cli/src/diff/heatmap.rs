@@ -1,8 +1,8 @@
-//! The perceived difference as a picture: black, purple, red, orange, pale yellow.
+//! The heat map of perceived differences: black, purple, red, orange, pale yellow.
 //!
-//! The colour map is a path through CIE L*C*h: lightness rises evenly with the value, so a step looks
-//! the same anywhere and survives a greyscale print, while the hue turns from violet over red to yellow.
-//! Chroma is as large as sRGB holds, up to a limit that leaves both ends nearly grey.
+//! The colour map is a path through CIE L*C*h. Lightness rises linearly with the value, so that
+//! equal steps look equal, in greyscale prints too. The hue turns from violet over red to yellow.
+//! Chroma is as large as sRGB allows, up to a limit that leaves both ends nearly grey.
 
 use estampe_scene::Image;
 
@@ -12,7 +12,7 @@ use super::flip::FlipMap;
 const LIGHTNESS: [f64; 2] = [0.5, 97.0];
 /// Hue of the values 0 and 1 in degrees: violet, and yellow a turn further.
 const HUE_DEG: [f64; 2] = [285.0, 455.0];
-/// Chroma at half lightness; it falls to 0 at black and to [`PALE_CHROMA`] at the brightest.
+/// Chroma at half lightness; it decreases to 0 at black and to [`PALE_CHROMA`] at the brightest.
 const MAX_CHROMA: f64 = 82.0;
 const PALE_CHROMA: f64 = 32.0;
 
@@ -46,7 +46,7 @@ fn color(value: f64) -> [u8; 4] {
     let wanted = MAX_CHROMA * (1.0 - (2.0 * value - 1.0) * (2.0 * value - 1.0))
         + PALE_CHROMA * value * value;
 
-    // Find the largest chroma up to the wanted one that sRGB holds.
+    // Find the largest chroma in sRGB's gamut, up to the wanted one.
     let (mut held, mut beyond) = (0.0, wanted);
     for _ in 0..20 {
         let chroma = 0.5 * (held + beyond);

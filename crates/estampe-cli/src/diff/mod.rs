@@ -1,11 +1,11 @@
-//! `estampe diff`: how far two pictures are apart.
+//! `estampe diff`: measures the difference of two images.
 //!
 //! ```text
 //!   two files --command--> two images --compare--> exact counts, maximum and mean per channel
-//!                                     --flip-----> perceived difference of each pixel --heatmap--> picture
+//!                                     --flip-----> perceived difference of each pixel --heatmap--> image
 //! ```
 //!
-//! The exact numbers decide the verdict (`--max`); the perceptual one says how much an eye would mind.
+//! The exact numbers decide the result (`--max`); FLIP measures the perceived difference.
 
 pub(crate) mod command;
 pub(crate) mod compare;

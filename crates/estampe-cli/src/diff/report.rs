@@ -1,4 +1,4 @@
-//! What `estampe diff` tells, as sentences and as JSON.
+//! The report of `estampe diff`, as sentences and as JSON.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -10,23 +10,23 @@ use super::DiffArgs;
 use super::compare::Comparison;
 use super::flip::FlipMap;
 
-/// Everything that is known about two pictures.
+/// The results of a comparison.
 #[derive(Debug)]
 pub(crate) struct Report<'a> {
-    /// What was asked.
+    /// The command line.
     pub(crate) args: &'a DiffArgs,
     pub(crate) a: &'a Image,
     pub(crate) b: &'a Image,
-    /// None where the sizes differ.
+    /// `None` if the sizes differ.
     pub(crate) comparison: Option<Comparison>,
-    /// None where the sizes differ.
+    /// `None` if the sizes differ.
     pub(crate) flip: Option<&'a FlipMap>,
-    /// Where the heat map was written.
+    /// The path of the heat map, if one was written.
     pub(crate) heatmap: Option<&'a Path>,
 }
 
 impl Report<'_> {
-    /// The verdict: no channel of any pixel differs by more than the limit.
+    /// True if no channel of any pixel differs by more than the limit.
     pub(crate) fn is_same(&self) -> bool {
         self.comparison
             .is_some_and(|comparison| comparison.pixels_over_limit == 0)
@@ -39,7 +39,7 @@ pub(crate) fn write_text(report: &Report<'_>, out: &mut dyn Write) -> io::Result
     let (Some(comparison), Some(flip)) = (report.comparison, report.flip) else {
         return writeln!(
             out,
-            "{a} is {} × {} pixels and {b} is {} × {}: pictures of different sizes cannot be the same.",
+            "{a} is {} × {} pixels and {b} is {} × {}: images of different sizes are not the same.",
             report.a.width, report.a.height, report.b.width, report.b.height
         );
     };
@@ -68,7 +68,7 @@ pub(crate) fn write_text(report: &Report<'_>, out: &mut dyn Write) -> io::Result
         writeln!(out, "  mean     R {r:.3}  G {g:.3}  B {b:.3}  A {alpha:.3}")?;
         writeln!(
             out,
-            "  FLIP     {:.4} mean, {:.4} at most (0: nothing is noticed, 1: everything)",
+            "  FLIP     {:.4} mean, {:.4} at most (0: no perceived difference, 1: the greatest)",
             flip.mean(),
             flip.max()
         )?;
@@ -79,7 +79,7 @@ pub(crate) fn write_text(report: &Report<'_>, out: &mut dyn Write) -> io::Result
     }
 }
 
-/// Writes one JSON object on one line; the fields stand in the command's help.
+/// Writes one JSON object on one line; the command's help lists the fields.
 pub(crate) fn write_json(report: &Report<'_>, out: &mut dyn Write) -> io::Result<()> {
     let picture = |path: &Path, image: &Image| json!({ "path": path.to_string_lossy(), "width": image.width, "height": image.height });
     let channels = |[r, g, b, a]: [Value; 4], all: Value| json!({ "r": r, "g": g, "b": b, "a": a, "all": all });

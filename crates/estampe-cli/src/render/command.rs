@@ -1,4 +1,4 @@
-//! From arguments to a written picture, stage by stage.
+//! Runs `estampe render`, from arguments to a written image, stage by stage.
 
 use super::arguments::RenderArgs;
 use super::report::{Encoded, Report};
@@ -17,7 +17,7 @@ use estampe_scene::{Image, Light, Scene};
 use glam::Vec3;
 use std::time::{Duration, Instant};
 
-/// How many stages the progress bar counts.
+/// Number of stages of the progress bar.
 const STAGES: u64 = 5;
 
 /// Runs the command.
@@ -92,14 +92,14 @@ fn image_format(args: &RenderArgs) -> Result<ImageFormat, Failure> {
     let named = args.output_format.map(ImageFormat::from);
     named.or_else(|| args.output.image_format()).ok_or_else(|| {
         Failure::Usage(
-            "OUT's name does not tell the picture's format; name it .png, .jpg or .tga, or add \
+            "OUT's name does not show the image's format; name it .png, .jpg or .tga, or add \
              --output-format"
                 .to_owned(),
         )
     })
 }
 
-/// A picture of nothing would be a silent failure.
+/// Refuses a model without anything to draw, which would give an empty image.
 fn check_drawable(model: &Model) -> Result<(), Failure> {
     let has_primitives = |scene: &Scene| {
         let meshes = &mut scene.meshes.iter();
@@ -109,9 +109,9 @@ fn check_drawable(model: &Model) -> Result<(), Failure> {
         return Ok(());
     }
     let name = &model.name;
-    let advice = "check that it was exported whole";
+    let advice = "check that the export was complete";
     Err(Failure::Input(format!(
-        "{name}: there is nothing to draw, no triangle, line or point; {advice}"
+        "{name}: the model has no triangle, line or point to draw; {advice}"
     )))
 }
 
@@ -122,7 +122,7 @@ fn read_texture(path: &std::path::Path, model: &Model) -> Result<Image, Failure>
     if model.scene.meshes.iter().all(|mesh| mesh.uvs.is_empty()) {
         let name = &model.name;
         return Err(Failure::Input(format!(
-            "{name}: the model has no texture coordinates, so --texture cannot be shown; leave it out"
+            "{name}: the model has no texture coordinates, so --texture has no effect; omit it"
         )));
     }
     Ok(image)
@@ -148,7 +148,7 @@ fn options(args: &RenderArgs, texture: Option<Image>) -> RenderOptions {
         },
     };
     let light = |towards: &glam::DVec3| Light {
-        // Halves of f64's range do not fit f32; the direction's length means nothing.
+        // Normalised, because f64's range exceeds f32's; only the direction matters.
         towards_light_world: towards.normalize_or(glam::DVec3::Y).as_vec3(),
         color: Vec3::ONE,
     };
@@ -178,7 +178,7 @@ fn options(args: &RenderArgs, texture: Option<Image>) -> RenderOptions {
     }
 }
 
-/// The picture's file; formats without alpha get the default background behind transparency.
+/// The image's file; formats without alpha get the default background behind transparency.
 fn encoded(frame: &Frame, format: ImageFormat) -> Result<Vec<u8>, Failure> {
     let opaque;
     let image = if format.has_alpha() {
@@ -190,7 +190,7 @@ fn encoded(frame: &Frame, format: ImageFormat) -> Result<Vec<u8>, Failure> {
     encode(image, format).map_err(|error| Failure::Output(error.to_string()))
 }
 
-/// Milliseconds, for people and for JSON.
+/// Milliseconds, for text and JSON.
 pub(super) fn milliseconds(duration: Duration) -> f64 {
     duration.as_secs_f64() * 1e3
 }

@@ -1,8 +1,8 @@
-//! `estampe render`: a model becomes a picture.
+//! `estampe render`: renders a model to an image.
 //!
 //! ```text
 //! arguments -> input (read, parse) -> renderer (prepare, geometry, raster, read back)
-//!           -> encode -> output (whole or not at all), report
+//!           -> encode -> output (complete or not at all), report
 //! ```
 
 mod arguments;

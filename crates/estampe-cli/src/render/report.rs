@@ -1,4 +1,4 @@
-//! What `estampe render` tells about a picture: a line for people, an object for programs.
+//! The report of `estampe render`: a line of text, or a JSON object.
 
 use super::arguments::RenderArgs;
 use super::command::milliseconds;
@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::time::Duration;
 
-/// The file that was written, and how long its stages took.
+/// The written file, and the duration of its stages.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Encoded {
     pub(super) format: ImageFormat,
@@ -26,7 +26,7 @@ pub(super) struct Encoded {
     pub(super) total: Duration,
 }
 
-/// All that is told.
+/// The contents of a report.
 pub(super) struct Report<'a> {
     pub(super) args: &'a RenderArgs,
     pub(super) model: &'a Model,
@@ -36,7 +36,7 @@ pub(super) struct Report<'a> {
 }
 
 impl Report<'_> {
-    /// One line, to standard error.
+    /// Writes one line to standard error.
     pub(super) fn write_summary(&self) {
         let (width, height) = self.args.size;
         let triangles: usize = self
@@ -48,14 +48,15 @@ impl Report<'_> {
             .sum();
         let total = milliseconds(self.written.total);
         let output = self.output_name();
-        // Where standard error is closed there is nobody to tell.
+        // If standard error is closed, the line is lost.
         let _ = writeln!(
             io::stderr(),
             "{output}: {width}x{height}, {triangles} triangles, {total:.0} ms"
         );
     }
 
-    /// One object, to standard output, or to standard error when the picture is there.
+    /// Writes one object to standard output, or to standard error if the image goes to standard
+    /// output.
     pub(super) fn write_json(&self) -> Result<(), Failure> {
         let object = self.json();
         let written = if self.args.output.is_standard_output() {
@@ -66,7 +67,7 @@ impl Report<'_> {
         };
         written.map_err(|error| {
             Failure::Output(format!(
-                "the report: {error}; check what reads standard output"
+                "the report: {error}; check the program that reads standard output"
             ))
         })
     }
@@ -169,7 +170,7 @@ impl Report<'_> {
     }
 }
 
-/// What is in a model, in numbers.
+/// The counts of a model's contents.
 pub(crate) fn counts(model: &Model) -> Value {
     let scene = &model.scene;
     let sum = |count: fn(&estampe_scene::Mesh) -> usize| -> usize {

@@ -1,11 +1,11 @@
-//! Runs the command, in a folder of its own that is removed afterwards.
+//! Runs the command in a temporary folder that is removed afterwards.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// An OBJ of a tetrahedron with uv, small enough to see through.
+/// An OBJ of a tetrahedron with uv.
 pub(crate) const TETRAHEDRON: &str = "\
 v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n\
 f 1/1 3/3 2/2\nf 1/1 2/2 4/3\nf 1/1 4/2 3/3\nf 2/1 3/2 4/3\n";
@@ -56,7 +56,7 @@ impl Drop for Folder {
     }
 }
 
-/// What a run of the command gave.
+/// Result of a run of the command.
 pub(crate) struct Run {
     pub(crate) code: i32,
     pub(crate) out: Vec<u8>,
@@ -78,7 +78,7 @@ pub(crate) fn estampe(words: &str, paths: &[&Path]) -> Run {
     estampe_fed(words, paths, &[])
 }
 
-/// The same with something on standard input.
+/// Runs the command with these bytes on standard input.
 pub(crate) fn estampe_fed(words: &str, paths: &[&Path], input: &[u8]) -> Run {
     let mut paths = paths.iter();
     let mut command = Command::new(env!("CARGO_BIN_EXE_estampe"));
@@ -94,7 +94,7 @@ pub(crate) fn estampe_fed(words: &str, paths: &[&Path], input: &[u8]) -> Run {
         .stderr(Stdio::piped())
         .spawn()
         .expect("the command starts");
-    // A command that does not read its input closes the pipe: no fault of the test.
+    // A command that does not read its input closes the pipe, which is no error of the test.
     let _ = child.stdin.take().expect("piped").write_all(input);
     child.wait_with_output().expect("the command ends").into()
 }

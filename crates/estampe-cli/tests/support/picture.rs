@@ -1,8 +1,8 @@
-//! Pictures that the command wrote.
+//! Images that the command wrote.
 
 use std::path::Path;
 
-/// A picture that the command wrote.
+/// An image that the command wrote.
 pub(crate) struct Picture {
     pub(crate) width: usize,
     pub(crate) height: usize,
@@ -35,7 +35,8 @@ impl Picture {
         ]
     }
 
-    /// Left, top, right and bottom of what differs from the top left pixel; the last two excluded.
+    /// Left, top, right and bottom of the pixels that differ from the top left pixel; right and
+    /// bottom are exclusive.
     pub(crate) fn extent(&self) -> [usize; 4] {
         let background = self.pixel(0, 0);
         let mut extent = [self.width, self.height, 0, 0];
@@ -54,7 +55,7 @@ impl Picture {
         extent
     }
 
-    /// How many different colours there are.
+    /// Number of different colours.
     pub(crate) fn color_count(&self) -> usize {
         let mut colors: Vec<&[u8]> = self.rgba.chunks_exact(4).collect();
         colors.sort_unstable();

@@ -20,8 +20,8 @@ impl BoundsJob<'_> {
 }
 
 impl RenderTarget {
-    /// The depth attachment as a texture, its bounds found by `run_all`; `None` without depth or with
-    /// several samples.
+    /// The depth attachment as a texture, its bounds found by `run_all`; `None` without depth or
+    /// with several samples.
     pub(crate) fn depth_texture(
         &mut self,
         run_all: impl FnOnce(&mut [BoundsJob<'_>]),

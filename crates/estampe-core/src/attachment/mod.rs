@@ -10,13 +10,15 @@
 //!     block (64×64) ─▶ 256 packets ─▶ 1 or 4 samples ─▶ 16 lanes
 //! ```
 //!
-//! So a packet of 16 RGBA8 or depth values is one aligned 64-byte line, any aligned power-of-two tile
-//! is one contiguous slice, and safe `&mut` slices go to the workers. Row order was measured three
-//! times slower for filling (every packet touches four lines); it is made once, on read-back.
+//! So a packet of 16 RGBA8 or depth values is one aligned 64-byte line, any aligned power-of-two
+//! tile is one contiguous slice, and safe `&mut` slices go to the workers. Row order was measured
+//! three times slower for filling (every packet touches four lines); it is made once, on read-back.
 
 mod depth_texture;
+mod detile;
 mod readback;
 pub(crate) mod resolve;
 mod target;
 
+pub use readback::ReadbackError;
 pub use target::{RenderTarget, RenderTargetDescriptor, TargetError};

@@ -1,156 +1,129 @@
 //! From storage order to rows: the only place where the layout becomes visible as an image.
 
 use super::RenderTarget;
-use super::resolve::{is_rgba8, mean_srgb, mean_unorm, mean_words};
-use crate::per_sample::texel::{MAX_WORDS, TexelCodec};
-use estampe_simd::{LANE_X, LANE_Y, LANES};
-use estampe_types::TextureFormat;
+use super::detile::{RowsJob, Selection, StoredTexels};
+use super::resolve::Mean;
+use crate::layout::texel_words;
+use estampe_simd::{LANE_X, LANE_Y, LANES, Level};
 
-/// Lanes of each row of a packet, from left to right.
-const LANES_OF_ROW: [[usize; 4]; 4] = {
-    let mut lanes = [[0; 4]; 4];
-    let mut lane = 0;
-    while lane < LANES {
-        lanes[LANE_Y[lane] as usize][LANE_X[lane] as usize] = lane;
-        lane += 1;
-    }
-    lanes
-};
+/// Why nothing was read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadbackError {
+    /// There is no such colour attachment.
+    #[error("no colour attachment {index}: the target has {count}")]
+    NoAttachment {
+        /// Which was asked for.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// The memory for the image is too short or too long.
+    #[error("{actual} bytes of memory for an image of {expected} bytes: see color_len_bytes")]
+    Length {
+        /// How many bytes the image has.
+        expected: usize,
+        /// How many there are.
+        actual: usize,
+    },
+}
 
 impl RenderTarget {
-    /// A colour attachment's texels in the format's own bytes (of RGBA8 R, G, B, A), row by row from the top;
-    /// several samples are resolved to their mean (linear for sRGB). Beyond the last attachment it is empty.
+    /// How many bytes a colour attachment has as rows of texels, one after the other without padding: width · height
+    /// · bytes of the format. Beyond the last attachment it is 0.
     #[must_use]
-    pub fn read_color(&self, index: usize) -> Vec<u8> {
-        self.read_color_by(index, 1)
+    pub fn color_len_bytes(&self, index: usize) -> usize {
+        let formats = self.color_formats();
+        let bytes = formats.get(index).map_or(0, |format| format.block_bytes());
+        self.width() as usize * self.height() as usize * bytes as usize
     }
 
-    /// [`Self::read_color`] by so many threads, whose number changes nothing but the time.
+    /// A colour attachment's texels in the format's own bytes (of RGBA8 R, G, B, A), row by row from the top;
+    /// several samples are resolved to their mean (linear for sRGB). Beyond the last attachment it is empty.
+    ///
+    /// One thread does it; a device does it with all of its threads, and into memory that is there already.
     #[must_use]
-    pub fn read_color_by(&self, index: usize, threads: usize) -> Vec<u8> {
-        let (Some(stored), Some(&format)) = (
-            self.colors.get(index),
-            self.descriptor.color_formats.get(index),
-        ) else {
-            return Vec::new();
-        };
-        let stored = &stored[..];
-        let samples = self.samples() as usize;
-        if !is_rgba8(format) || !matches!(samples, 1 | 4) {
-            let codec = TexelCodec::new(format);
-            let elements = LANES * codec.words * samples;
-            return self.texels_of(format, |packet| {
-                let of_packet = &stored[packet * elements..][..elements];
-                if samples == 1 {
-                    codec.words_of(of_packet)
-                } else {
-                    mean_words(&codec, of_packet, samples)
-                }
-            });
+    pub fn read_color(&self, index: usize) -> Vec<u8> {
+        // Zeroed memory comes from the system untouched, so that filling it touches each page for the first time.
+        let mut image = vec![0; self.color_len_bytes(index)];
+        if let Ok(jobs) = self.color_jobs(index, &mut image) {
+            run_all(jobs);
         }
-        if samples == 1 {
-            return self.bytes_of(threads, |packet| {
-                let pixels = stored[packet * LANES..].first_chunk();
-                *pixels.expect("every packet is stored whole")
-            });
-        }
-        let resolve = if format.is_srgb() {
-            mean_srgb
-        } else {
-            mean_unorm
-        };
-        self.bytes_of(threads, |packet| {
-            let samples = &stored[packet * LANES * 4..][..LANES * 4];
-            std::array::from_fn(|lane| {
-                resolve([0, 1, 2, 3].map(|sample| samples[sample * LANES + lane]))
-            })
-        })
+        image
+    }
+
+    /// [`Self::read_color`] into memory of [`Self::color_len_bytes`].
+    ///
+    /// # Errors
+    /// [`ReadbackError`] beyond the last attachment, or when the memory has another length; nothing is written then.
+    pub fn read_color_into(&self, index: usize, image: &mut [u8]) -> Result<(), ReadbackError> {
+        run_all(self.color_jobs(index, image)?);
+        Ok(())
     }
 
     /// The texels of one sample of a colour attachment in the format's own bytes, row by row from the top. Beyond
     /// the last attachment or sample it is empty.
     #[must_use]
     pub fn read_texels(&self, index: usize, sample: u32) -> Vec<u8> {
-        let (Some(stored), Some(&format), true) = (
-            self.colors.get(index),
-            self.descriptor.color_formats.get(index),
-            sample < self.samples(),
-        ) else {
+        if sample >= self.samples() {
             return Vec::new();
-        };
-        let codec = TexelCodec::new(format);
-        let elements = LANES * codec.words;
-        self.texels_of(format, |packet| {
-            let number = packet * self.samples() as usize + sample as usize;
-            codec.words_of(&stored[number * elements..][..elements])
-        })
-    }
-
-    /// Rows of texels from a function of the packet.
-    fn texels_of(
-        &self,
-        format: TextureFormat,
-        packet: impl Fn(usize) -> [[u32; LANES]; MAX_WORDS],
-    ) -> Vec<u8> {
-        let (width, height) = (self.width() as usize, self.height() as usize);
-        let bytes_each = format.block_bytes() as usize;
-        let mut bytes = vec![0; width * height * bytes_each];
-        for y in (0..self.height()).step_by(4) {
-            for x in (0..self.width()).step_by(4) {
-                let words = packet(self.grid.packet_of(x, y));
-                for lane in 0..LANES {
-                    let (x, y) = (x + u32::from(LANE_X[lane]), y + u32::from(LANE_Y[lane]));
-                    let (x, y) = (x as usize, y as usize);
-                    if x >= width || y >= height {
-                        continue;
-                    }
-                    let texel = &mut bytes[(y * width + x) * bytes_each..][..bytes_each];
-                    for (part, word) in texel.chunks_mut(4).zip(&words) {
-                        part.copy_from_slice(&word[lane].to_le_bytes()[..part.len()]);
-                    }
-                }
-            }
         }
-        bytes
+        let mut image = vec![0; self.color_len_bytes(index)];
+        if let Ok(jobs) = self.jobs(index, Some(sample as usize), &mut image) {
+            run_all(jobs);
+        }
+        image
     }
 
-    /// Rows of bytes from a function of the packet. A thread makes a run of rows, and is the first to touch
-    /// their memory: that takes as long as filling them.
-    fn bytes_of(&self, threads: usize, packet: impl Fn(usize) -> [u32; LANES] + Sync) -> Vec<u8> {
-        let row_bytes = self.width() as usize * 4;
-        let bands = self.height().div_ceil(4) as usize;
-        let bands_each = bands.div_ceil(threads.clamp(1, bands));
-        let mut bytes = vec![0; row_bytes * self.height() as usize];
-        let fill = |bytes: &mut [u8], first_y: u32| {
-            for (rows, y) in bytes.chunks_mut(row_bytes * 4).zip((first_y..).step_by(4)) {
-                for x in (0..self.width()).step_by(4) {
-                    let pixels = packet(self.grid.packet_of(x, y));
-                    for (row, lanes) in rows.chunks_mut(row_bytes).zip(&LANES_OF_ROW) {
-                        let quad = lanes.map(|lane| pixels[lane].to_le_bytes());
-                        let to = &mut row[x as usize * 4..];
-                        match to.first_chunk_mut::<16>() {
-                            Some(to) => to.copy_from_slice(quad.as_flattened()),
-                            // At the right edge.
-                            None => to.copy_from_slice(&quad.as_flattened()[..to.len()]),
-                        }
-                    }
-                }
-            }
+    /// The jobs that fill an image with a colour attachment's resolved texels.
+    pub(crate) fn color_jobs<'a>(
+        &'a self,
+        index: usize,
+        image: &'a mut [u8],
+    ) -> Result<impl Iterator<Item = RowsJob<'a>>, ReadbackError> {
+        let sample = (self.samples() == 1).then_some(0);
+        self.jobs(index, sample, image)
+    }
+
+    /// The jobs that fill an image with one sample of a colour attachment, or with the mean of all.
+    fn jobs<'a>(
+        &'a self,
+        index: usize,
+        sample: Option<usize>,
+        image: &'a mut [u8],
+    ) -> Result<impl Iterator<Item = RowsJob<'a>>, ReadbackError> {
+        let formats = self.color_formats();
+        let (Some(words), Some(&format)) = (self.colors.get(index), formats.get(index)) else {
+            return Err(ReadbackError::NoAttachment {
+                index,
+                count: formats.len(),
+            });
         };
-        std::thread::scope(|scope| {
-            let step_y = u32::try_from(bands_each * 4).unwrap_or(u32::MAX);
-            let mut parts = bytes
-                .chunks_mut(row_bytes * 4 * bands_each)
-                .zip((0..).step_by(step_y as usize));
-            let own = parts.next();
-            for (part, y) in parts {
-                scope.spawn(move || fill(part, y));
-            }
-            if let Some((part, y)) = own {
-                fill(part, y);
-            }
-        });
-        bytes
+        let expected = self.color_len_bytes(index);
+        if image.len() != expected {
+            return Err(ReadbackError::Length {
+                expected,
+                actual: image.len(),
+            });
+        }
+        let samples = self.samples() as usize;
+        let stored = StoredTexels {
+            words,
+            grid: self.grid,
+            words_each: texel_words(format),
+            samples,
+            selection: match sample {
+                Some(sample) => Selection::Sample(sample),
+                None => Selection::Mean(Mean::new(format, samples)),
+            },
+        };
+        let bytes_each = format.block_bytes() as usize;
+        Ok(RowsJob::all(
+            stored,
+            self.width() as usize,
+            bytes_each,
+            image,
+        ))
     }
 
     /// The depth attachment, row by row from the top; of several samples the first. Depths of fixed-point formats
@@ -173,31 +146,146 @@ impl RenderTarget {
         self.rows_of_sample(&self.stencil, sample)
     }
 
+    /// Rows of one value a pixel, packet by packet.
     fn rows_of_sample<T: Copy + Default>(&self, stored: &[T], sample: u32) -> Vec<T> {
         if stored.is_empty() || sample >= self.samples() {
             return Vec::new();
         }
-        let mut rows = vec![T::default(); self.width() as usize * self.height() as usize];
-        let (samples, sample) = (self.samples() as usize, sample as usize);
-        self.rows_of(&mut rows, |packet, lane| {
-            stored[(packet * samples + sample) * LANES + lane]
-        });
-        rows
-    }
-
-    /// Fills rows from a function of packet and lane, four rows of packets at a time.
-    fn rows_of<T: Copy>(&self, rows: &mut [T], value: impl Fn(usize, usize) -> T) {
         let (width, height) = (self.width(), self.height());
+        let mut rows = vec![T::default(); width as usize * height as usize];
+        let (samples, sample) = (self.samples() as usize, sample as usize);
         for y in (0..height).step_by(4) {
             for x in (0..width).step_by(4) {
-                let packet = self.grid.packet_of(x, y);
-                for lane in 0..LANES {
+                let first = (self.grid.packet_of(x, y) * samples + sample) * LANES;
+                let packet = &stored[first..][..LANES];
+                for (lane, &value) in packet.iter().enumerate() {
                     let (x, y) = (x + u32::from(LANE_X[lane]), y + u32::from(LANE_Y[lane]));
                     if x < width && y < height {
-                        rows[y as usize * width as usize + x as usize] = value(packet, lane);
+                        rows[y as usize * width as usize + x as usize] = value;
                     }
                 }
             }
         }
+        rows
+    }
+}
+
+fn run_all<'a>(jobs: impl Iterator<Item = RowsJob<'a>>) {
+    let level = Level::best();
+    jobs.for_each(|mut job| job.run(level));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::RenderTargetDescriptor;
+    use crate::attachment::resolve::mean_words;
+    use estampe_format::AttachmentCodec;
+    use estampe_types::{Limits, TextureFormat};
+
+    /// A target whose attachment holds pseudo-random texels.
+    fn target(format: TextureFormat, samples: u32, size: (u32, u32)) -> RenderTarget {
+        let descriptor = RenderTargetDescriptor {
+            samples,
+            color_formats: vec![format],
+            depth_stencil: None,
+            ..RenderTargetDescriptor::new(size.0, size.1)
+        };
+        let mut target = RenderTarget::new(&descriptor, &Limits::default()).unwrap();
+        let used = u32::MAX >> (32 - format.block_bytes().min(4) * 8);
+        let mut state = size.0;
+        for word in target.colors[0].iter_mut() {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            *word = (state ^ state >> 16) & used;
+        }
+        target
+    }
+
+    /// The definition: pixel by pixel, each texel's words from where they are stored, or the codec's mean of them.
+    fn defined(target: &RenderTarget, sample: Option<usize>) -> Vec<u8> {
+        let format = target.color_formats()[0];
+        let codec = AttachmentCodec::new(format);
+        let (count, words) = (target.samples() as usize, codec.words());
+        let mut bytes = Vec::new();
+        for y in 0..target.height() {
+            for x in 0..target.width() {
+                let is_here = |lane: &usize| {
+                    let at = (u32::from(LANE_X[*lane]), u32::from(LANE_Y[*lane]));
+                    at == (x % 4, y % 4)
+                };
+                let lane = (0..LANES).find(is_here).unwrap();
+                let packet = target.grid.packet_of(x, y) * count;
+                let elements = LANES * words;
+                let texels = &target.colors[0][packet * elements..][..elements * count];
+                let words = match sample {
+                    Some(sample) => texels[sample * elements..][..elements].to_vec(),
+                    None => mean_words(codec, texels, count).as_flattened()[..elements].to_vec(),
+                };
+                let texel: Vec<u8> = words
+                    .chunks_exact(LANES)
+                    .flat_map(|word| word[lane].to_le_bytes())
+                    .collect();
+                bytes.extend(&texel[..format.block_bytes() as usize]);
+            }
+        }
+        bytes
+    }
+
+    #[test]
+    fn rows_are_those_of_the_definition() {
+        for &format in TextureFormat::ALL.iter().filter(|f| f.is_renderable()) {
+            for samples in [1, 2, 4, 8, 16] {
+                for size in [(1, 1), (16, 4), (37, 21)] {
+                    let target = target(format, samples, size);
+                    let place = format!("{}, {samples} samples, {size:?}", format.name());
+                    let last = samples as usize - 1;
+                    let texels = target.read_texels(0, samples - 1);
+                    assert!(texels == defined(&target, Some(last)), "{place}");
+                    let sample = (samples == 1).then_some(0);
+                    let expected = defined(&target, sample);
+                    assert!(target.read_color(0) == expected, "{place}");
+                    for level in Level::all_available() {
+                        let mut image = vec![0xA5; expected.len()];
+                        let jobs = target.color_jobs(0, &mut image).unwrap();
+                        jobs.for_each(|mut job| job.run(level));
+                        assert!(image == expected, "{place}, {}", level.name());
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn large_odd_sizes_are_read_whole() {
+        for (format, size) in [
+            (TextureFormat::Bgra8Unorm, (203, 131)),
+            (TextureFormat::R8Unorm, (130, 67)),
+            (TextureFormat::Rg16Float, (65, 64)),
+            (TextureFormat::Rgba16Float, (129, 17)),
+            (TextureFormat::Rgba32Float, (80, 81)),
+        ] {
+            let target = target(format, 1, size);
+            assert!(
+                target.read_color(0) == defined(&target, Some(0)),
+                "{format:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn memory_of_another_length_is_left_alone() {
+        let target = target(TextureFormat::Rg8Unorm, 1, (5, 3));
+        assert_eq!(target.color_len_bytes(0), 30);
+        for actual in [0, 29, 31] {
+            let mut image = vec![7; actual];
+            let error = target.read_color_into(0, &mut image).unwrap_err();
+            let expected = 30;
+            assert_eq!(error, ReadbackError::Length { expected, actual });
+            assert!(image.iter().all(|&byte| byte == 7));
+        }
+        let none = ReadbackError::NoAttachment { index: 1, count: 1 };
+        assert_eq!(target.read_color_into(1, &mut []), Err(none));
+        assert_eq!(target.color_len_bytes(1), 0);
+        assert!(target.read_color(1).is_empty() && target.read_texels(0, 1).is_empty());
     }
 }

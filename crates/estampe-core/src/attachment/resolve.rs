@@ -5,17 +5,17 @@
 
 use super::RenderTarget;
 use crate::layout::texel_words;
-use crate::per_sample::texel::{MAX_WORDS, TexelCodec};
-use crate::raster::general::MAX_SAMPLES;
-use estampe_simd::LANES;
-use estampe_types::TextureFormat;
+use crate::pipeline::color_target::MAX_WORDS;
+use estampe_format::{AttachmentCodec, PacketCodec, with_codec};
+use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16, u32x16};
 use estampe_types::srgb::{LINEAR_FROM_SRGB, srgb_from_linear};
-
-/// Samples of the pixels that have a function of their own: four of RGBA8.
-const SAMPLES: usize = 4;
+use estampe_types::{TexelEncoding, TextureFormat};
 
 /// Packets of one job: a 64×64 block.
 const JOB_PACKETS: usize = 256;
+
+/// Words of a packet's texels, at most.
+pub(super) const MAX_PACKET: usize = LANES * MAX_WORDS;
 
 /// A run of packets for one worker.
 #[derive(Debug)]
@@ -57,107 +57,238 @@ impl<'a> ResolveJob<'a> {
     }
 
     /// Resolves the job's packets.
-    pub(crate) fn run(&mut self) {
-        let is_srgb = self.format.is_srgb();
-        if self.count != SAMPLES || !is_rgba8(self.format) {
-            self.run_any();
-            return;
+    pub(crate) fn run(&mut self, level: Level) {
+        let mean = Mean::new(self.format, self.count);
+        let elements = LANES * texel_words(self.format);
+        dispatch!(level, s => {
+            let samples = self.samples.chunks_exact(elements * self.count);
+            for (samples, pixels) in samples.zip(self.pixels.chunks_exact_mut(elements)) {
+                mean.write(s, samples, pixels);
+            }
+        });
+    }
+}
+
+/// How the samples of a format's texels become their mean. See `docs/NUMERICS.md`, *Resolve*.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Mean {
+    /// Of 8-bit unorm channels, sums of integers.
+    Unorm8 {
+        /// log₂ of the samples of a pixel.
+        samples_log2: u32,
+    },
+    /// Of four 8-bit channels, three of which are sRGB, and four samples.
+    FourSrgb,
+    /// Of any format.
+    Any {
+        /// How texels are read and written.
+        codec: AttachmentCodec,
+        /// Samples of a pixel.
+        samples: usize,
+    },
+}
+
+impl Mean {
+    /// Of so many samples: 1, 2, 4, 8 or 16.
+    pub(super) fn new(format: TextureFormat, samples: usize) -> Self {
+        let is_unorm8 = format.encoding() == TexelEncoding::Unorm8;
+        match (is_unorm8, format.is_srgb(), samples) {
+            (true, false, _) => Self::Unorm8 {
+                samples_log2: samples.ilog2(),
+            },
+            (true, true, 4) => Self::FourSrgb,
+            _ => Self::Any {
+                codec: AttachmentCodec::new(format),
+                samples,
+            },
         }
-        let samples = self.samples.as_chunks::<{ LANES * SAMPLES }>().0;
-        let pixels = self.pixels.as_chunks_mut::<LANES>().0;
-        for (samples, pixels) in samples.iter().zip(pixels) {
-            let [a, b, c, d] = [0, 1, 2, 3].map(|sample| &samples[sample * LANES..][..LANES]);
-            for (lane, pixel) in pixels.iter_mut().enumerate() {
-                let of_pixel = [a[lane], b[lane], c[lane], d[lane]];
-                *pixel = if is_srgb {
-                    mean_srgb(of_pixel)
-                } else {
-                    mean_unorm(of_pixel)
-                };
+    }
+
+    /// Writes the mean of a packet's samples.
+    #[inline(always)]
+    pub(super) fn write<S: Lanes>(&self, s: S, samples: &[u32], pixels: &mut [u32]) {
+        match self {
+            Self::Unorm8 { samples_log2 } => {
+                mean_unorm(s, samples, *samples_log2).store_slice(&mut pixels[..LANES]);
+            }
+            Self::FourSrgb => mean_srgb(s, samples, pixels),
+            Self::Any {
+                codec,
+                samples: count,
+            } => {
+                let words = mean_words(*codec, samples, *count);
+                pixels.copy_from_slice(&words.as_flattened()[..pixels.len()]);
             }
         }
     }
-
-    /// Of any format and number of samples.
-    fn run_any(&mut self) {
-        let codec = TexelCodec::new(self.format);
-        let elements = LANES * codec.words;
-        let samples = self.samples.chunks_exact(elements * self.count);
-        for (samples, pixels) in samples.zip(self.pixels.chunks_exact_mut(elements)) {
-            let words = mean_words(&codec, samples, self.count);
-            pixels.copy_from_slice(&words.as_flattened()[..elements]);
-        }
-    }
 }
 
-/// Whether four samples of a format have functions of their own.
-pub(super) fn is_rgba8(format: TextureFormat) -> bool {
-    matches!(
-        format,
-        TextureFormat::Rgba8Unorm | TextureFormat::Rgba8UnormSrgb
-    )
-}
-
-/// The words of a packet's texels: the means of its samples.
+/// The words of a packet's texels: the means of its samples, which follow each other. Of integers
+/// the first sample counts.
+#[inline(never)]
 pub(super) fn mean_words(
-    codec: &TexelCodec,
+    codec: AttachmentCodec,
     samples: &[u32],
     count: usize,
 ) -> [[u32; LANES]; MAX_WORDS] {
-    let mut codes = [[[0; LANES]; 4]; MAX_SAMPLES];
-    let of_samples = samples.chunks_exact(LANES * codec.words);
-    for (codes, texels) in codes.iter_mut().zip(of_samples) {
-        *codes = codec.unpack(&codec.words_of(texels));
+    let (texels, words) = (samples.as_chunks().0, codec.words());
+    if codec.is_integer() {
+        let mut first = [[0; LANES]; MAX_WORDS];
+        first[..words].copy_from_slice(&texels[..words]);
+        return first;
     }
-    codec.pack(&codec.mean(&codes[..count.min(MAX_SAMPLES)]))
+    dispatch!(Level::best(), s => with_codec!(codec, codec => mean_of(s, codec, texels, count)))
 }
 
-/// The mean of four unorm pixels, rounded to the nearest code: floor(sum/4 + ½) in integers, two channels
-/// at a time in halves of 16 bits.
 #[inline(always)]
-pub(super) fn mean_unorm([a, b, c, d]: [u32; 4]) -> u32 {
-    const HALVES: u32 = 0x00FF_00FF;
-    const ROUNDING: u32 = 0x0002_0002;
-    let even = (a & HALVES) + (b & HALVES) + (c & HALVES) + (d & HALVES) + ROUNDING;
-    let odd = (a >> 8 & HALVES) + (b >> 8 & HALVES) + (c >> 8 & HALVES) + (d >> 8 & HALVES);
-    (even >> 2 & HALVES) | (((odd + ROUNDING) >> 2 & HALVES) << 8)
+fn mean_of<S: Lanes, C: PacketCodec<S>>(
+    s: S,
+    codec: C,
+    texels: &[[u32; LANES]],
+    count: usize,
+) -> [[u32; LANES]; MAX_WORDS] {
+    let mut sums = [<f32x16<S> as SimdBase<S>>::splat(s, 0.0); 4];
+    for texel in texels.chunks_exact(C::WORDS).take(count) {
+        let mut words = [<u32x16<S> as SimdBase<S>>::splat(s, 0); MAX_WORDS];
+        for (word, stored) in words.iter_mut().zip(texel) {
+            *word = u32x16::load_array_ref(s, stored);
+        }
+        let units = codec.units(s, words);
+        for (sum, units) in sums.iter_mut().zip(&units) {
+            *sum += *units;
+        }
+    }
+    let inverse_count = 1.0 / count as f32;
+    for sum in &mut sums {
+        *sum *= inverse_count;
+    }
+    let mut means = [[0; LANES]; MAX_WORDS];
+    let words = codec.encode_units(s, sums);
+    for (mean, word) in means.iter_mut().zip(&words) {
+        *mean = word.to_array();
+    }
+    means
 }
 
-/// The mean of four sRGB pixels: linear for colour, alpha as it is.
-pub(super) fn mean_srgb(samples: [u32; 4]) -> u32 {
+/// The means of sixteen pixels' samples in unorm channels of 8 bits, rounded to the nearest code: floor(sum/n + ½) in
+/// integers, two channels at a time in halves of 16 bits. Sixteen samples sum up to 4,088 at most.
+#[inline(always)]
+fn mean_unorm<S: Lanes>(s: S, samples: &[u32], samples_log2: u32) -> u32x16<S> {
+    let halves = u32x16::splat(s, 0x00FF_00FF);
+    let rounding = u32x16::splat(s, ((1 << samples_log2) >> 1) * 0x0001_0001);
+    let (mut even, mut odd) = (rounding, rounding);
+    for sample in samples.as_chunks::<LANES>().0 {
+        let sample = u32x16::load_array_ref(s, sample);
+        even += sample & halves;
+        odd += (sample >> 8) & halves;
+    }
+    ((even >> samples_log2) & halves) | (((odd >> samples_log2) & halves) << 8)
+}
+
+/// The means of sixteen pixels' four samples in sRGB: linear for colour, alpha as it is. Most packets lie inside a
+/// primitive, and their samples are equal.
+#[inline(always)]
+fn mean_srgb<S: Lanes>(s: S, samples: &[u32], pixels: &mut [u32]) {
+    let (a, b) = (&samples[..LANES], &samples[LANES..][..LANES]);
+    let (c, d) = (
+        &samples[2 * LANES..][..LANES],
+        &samples[3 * LANES..][..LANES],
+    );
+    let first = u32x16::from_slice(s, a);
+    let unlike = (first ^ u32x16::from_slice(s, b))
+        | (first ^ u32x16::from_slice(s, c))
+        | (first ^ u32x16::from_slice(s, d));
+    let is_equal = unlike.simd_eq(u32x16::splat(s, 0));
+    if s.bits_of_mask(is_equal) == u16::MAX {
+        first.store_slice(&mut pixels[..LANES]);
+        return;
+    }
+    let alpha = mean_unorm(s, samples, 2) & u32x16::splat(s, 0xFF00_0000);
+    alpha.store_slice(&mut pixels[..LANES]);
+    for (lane, pixel) in pixels.iter_mut().enumerate() {
+        *pixel |= mean_srgb_colors([a[lane], b[lane], c[lane], d[lane]]);
+    }
+}
+
+/// The mean of four sRGB pixels' colours, without alpha.
+#[inline(never)]
+fn mean_srgb_colors(samples: [u32; 4]) -> u32 {
     if samples[1..] == [samples[0]; 3] {
-        return samples[0];
+        return samples[0] & 0x00FF_FFFF;
     }
     let table = &*LINEAR_FROM_SRGB;
     let channel = |shift: u32| {
         let [a, b, c, d] = samples.map(|sample| table[(sample >> shift & 0xFF) as usize]);
         u32::from(srgb_from_linear((a + b + c + d) * 0.25)) << shift
     };
-    channel(0) | channel(8) | channel(16) | mean_unorm(samples) & 0xFF00_0000
+    channel(0) | channel(8) | channel(16)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::mean_unorm;
+    use super::*;
+
+    /// Pseudo-random words, the first sample of some packets repeated in the others.
+    fn samples(count: usize, words: usize) -> Vec<u32> {
+        let mut state = 1_u32;
+        let elements = LANES * words;
+        let mut samples = Vec::new();
+        for packet in 0..200 {
+            let first: Vec<u32> = (0..elements * count)
+                .map(|_| {
+                    state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                    state ^ state >> 16
+                })
+                .collect();
+            if packet % 3 == 0 {
+                samples.extend(first[..elements].repeat(count));
+            } else {
+                samples.extend(first);
+            }
+        }
+        samples
+    }
 
     #[test]
     fn each_channel_is_rounded_alone() {
         let samples = [0xFF00_01FE, 0xFF01_02FF, 0xFF00_02FF, 0xFF00_02FD];
-        // Sums 1020, 1, 7, 1017: over four, with halves up, 255, 0, 2, 254.
-        assert_eq!(mean_unorm(samples), 0xFF00_02FE);
-        let mut state = 1_u32;
-        for _ in 0..10_000 {
-            let samples = [0; 4].map(|_: u32| {
-                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                state ^ state >> 16
-            });
-            let mean = mean_unorm(samples).to_le_bytes();
-            for (channel, mean) in mean.into_iter().enumerate() {
-                let sum: u32 = samples
+        let samples: Vec<u32> = samples.iter().flat_map(|&word| [word; LANES]).collect();
+        for level in Level::all_available() {
+            let mut pixels = [0; LANES];
+            dispatch!(level, s => mean_unorm(s, &samples, 2).store_slice(&mut pixels));
+            // Sums 1020, 1, 7, 1017: over four, with halves up, 255, 0, 2, 254.
+            assert_eq!(pixels, [0xFF00_02FE; LANES]);
+        }
+    }
+
+    /// The fast forms give the bits of the definition, which is the codec's.
+    #[test]
+    fn means_are_the_codecs() {
+        for &format in TextureFormat::ALL.iter().filter(|f| f.is_renderable()) {
+            let codec = AttachmentCodec::new(format);
+            let elements = LANES * codec.words();
+            for count in [1, 2, 4, 8, 16] {
+                // Small formats leave the upper bits of their word empty.
+                let used = u32::MAX >> (32 - format.block_bytes().min(4) * 8);
+                let samples: Vec<u32> = samples(count, codec.words())
                     .iter()
-                    .map(|sample| u32::from(sample.to_le_bytes()[channel]))
-                    .sum();
-                assert_eq!(u32::from(mean), (sum + 2) / 4);
+                    .map(|w| w & used)
+                    .collect();
+                let mean = Mean::new(format, count);
+                for level in Level::all_available() {
+                    for packet in samples.chunks_exact(elements * count) {
+                        let mut pixels = [0; MAX_PACKET];
+                        let pixels = &mut pixels[..elements];
+                        dispatch!(level, s => mean.write(s, packet, pixels));
+                        let expected = mean_words(codec, packet, count);
+                        assert_eq!(
+                            pixels,
+                            &expected.as_flattened()[..elements],
+                            "{}",
+                            format.name()
+                        );
+                    }
+                }
             }
         }
     }

@@ -1,7 +1,7 @@
 //! A render target: colour attachments and a depth attachment of one size.
 
+use crate::depth_format::DepthFormat;
 use crate::layout::{TileGrid, texel_words};
-use crate::per_sample::general::DepthFormat;
 use estampe_types::{Limits, Lines, TextureFormat};
 use std::sync::Arc;
 
@@ -90,11 +90,11 @@ pub enum TargetError {
 pub struct RenderTarget {
     pub(crate) descriptor: RenderTargetDescriptor,
     pub(super) grid: TileGrid,
-    /// In storage order; a texel of each sample is one, two or four [`words`](crate::layout::texel_words) of sixteen lanes. RGBA8 has
-    /// R in the low byte.
+    /// In storage order; a texel of each sample is one, two or four
+    /// [`words`](crate::layout::texel_words) of sixteen lanes. RGBA8 has R in the low byte.
     pub(crate) colors: Vec<Lines<u32>>,
-    /// One element per sample, in storage order; empty without depth. Shared with the depth textures that
-    /// were taken of it; drawing while one lives draws into a copy.
+    /// One element per sample, in storage order; empty without depth. Shared with the depth
+    /// textures that were taken of it; drawing while one lives draws into a copy.
     pub(crate) depth: Arc<Lines<f32>>,
     /// One byte per sample, in storage order; empty without stencil.
     pub(crate) stencil: Lines<u8>,

@@ -1,34 +1,13 @@
 //! Primitive assembly (A1): which elements make primitive `p`.
 //!
-//! *In* a topology and a count of elements · *Out* element numbers, of triangles the provoking one first ·
-//! *Spec* WebGPU §Primitive assembly; Vulkan §Primitive Topologies for fans and adjacency.
+//! *In* a topology and a count of elements · *Out* element numbers, of triangles the provoking one
+//! first · *Spec* WebGPU §Primitive assembly; Vulkan §Primitive Topologies for fans and adjacency.
 
+use crate::pipeline::primitive_kind::PrimitiveKind;
+use crate::pipeline::primitive_kind::kind_of;
 use estampe_simd::LANES;
 use estampe_types::state::{PrimitiveTopology, ProvokingVertex};
 use estampe_types::{Buffer, IndexFormat};
-
-/// What kind of primitives a topology makes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum PrimitiveKind {
-    Points,
-    Lines,
-    Triangles,
-}
-
-pub(crate) fn kind_of(topology: PrimitiveTopology) -> PrimitiveKind {
-    use PrimitiveTopology as T;
-    match topology {
-        T::PointList => PrimitiveKind::Points,
-        T::LineList | T::LineStrip | T::LineLoop | T::LineListAdjacency | T::LineStripAdjacency => {
-            PrimitiveKind::Lines
-        }
-        T::TriangleList
-        | T::TriangleStrip
-        | T::TriangleFan
-        | T::TriangleListAdjacency
-        | T::TriangleStripAdjacency => PrimitiveKind::Triangles,
-    }
-}
 
 /// How many primitives `elements` elements make; an incomplete last one is dropped.
 pub(crate) fn primitive_count(topology: PrimitiveTopology, elements: u32) -> u32 {
@@ -53,8 +32,8 @@ pub(crate) fn primitive_count(topology: PrimitiveTopology, elements: u32) -> u32
     }
 }
 
-/// The elements of primitive `p`. The first of a triangle is the provoking one; the third of a line repeats the
-/// provoking one, and so do unused places of a point.
+/// The elements of primitive `p`. The first of a triangle is the provoking one; the third of a line
+/// repeats the provoking one, and so do unused places of a point.
 #[inline(always)]
 pub(crate) fn corners_of(
     topology: PrimitiveTopology,
@@ -69,8 +48,9 @@ pub(crate) fn corners_of(
     }
 }
 
-/// The same triangle begun with the vertex that comes last in the stream (of a fan: but the first one's), and a
-/// line's last vertex in the third place. (Vulkan §Flat Shading, the table of provoking vertices.)
+/// Rotates a triangle's corners so that the last provoking vertex comes first (in a fan, vertex p +
+/// 2), and repeats a line's last vertex in the third place. (Vulkan §Flat Shading, the table of
+/// provoking vertices.)
 #[inline(never)]
 fn by_last(topology: PrimitiveTopology, p: u32, [a, b, c]: [u32; 3]) -> [u32; 3] {
     use PrimitiveTopology as T;
@@ -84,7 +64,7 @@ fn by_last(topology: PrimitiveTopology, p: u32, [a, b, c]: [u32; 3]) -> [u32; 3]
     }
 }
 
-/// The same where the first vertex provokes.
+/// The elements of primitive `p` where the first vertex provokes.
 #[inline(always)]
 pub(crate) fn elements_of(topology: PrimitiveTopology, p: u32, elements: u32) -> [u32; 3] {
     use PrimitiveTopology as T;
@@ -108,12 +88,13 @@ pub(crate) fn elements_of(topology: PrimitiveTopology, p: u32, elements: u32) ->
     }
 }
 
-/// How elements become vertices of an item.
+/// How elements become vertices of a sub-draw.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ElementSource<'a> {
     pub(crate) topology: PrimitiveTopology,
     pub(crate) provoking: ProvokingVertex,
-    /// The item's vertices of each primitive of an instance, where indices may restart primitives.
+    /// The sub-draw's vertices of each primitive of an instance, where indices may restart
+    /// primitives.
     pub(crate) restarted: Option<&'a [[u32; 3]]>,
     /// Elements of one instance.
     pub(crate) elements: u32,
@@ -121,56 +102,65 @@ pub(crate) struct ElementSource<'a> {
     pub(crate) indices: Option<(&'a Buffer, IndexFormat)>,
     /// The first element in the index buffer.
     pub(crate) first_element: u32,
-    /// Taken from an index (after the base vertex was added) to give the item's vertex.
+    /// Taken from an index (after the base vertex was added) to give the sub-draw's vertex.
     pub(crate) first_vertex: u32,
     pub(crate) base_vertex: i32,
 }
 
 impl ElementSource<'_> {
-    /// The item's vertices of up to sixteen primitives from `first` on, `base` added to them; lanes beyond
-    /// repeat the first one.
+    /// The sub-draw's vertices of an instance's primitives from `first` on, as many as `out` holds
+    /// and at most sixteen; `base` is added to them.
     #[inline(always)]
-    pub(crate) fn assemble(
-        &self,
-        first: u32,
-        count: usize,
-        base: u32,
-        out: &mut [[u32; 3]; LANES],
-    ) {
-        if let (
-            PrimitiveTopology::TriangleList,
-            ProvokingVertex::First,
-            Some((buffer, IndexFormat::Uint32)),
-            LANES,
-        ) = (self.topology, self.provoking, self.indices, count)
-        {
-            let at = (self.first_element as usize).saturating_add(first as usize * 3);
-            let words = buffer.words().get(at..).unwrap_or_default();
-            if let Some(corners) = words.first_chunk::<{ 3 * LANES }>() {
-                let base = base
-                    .wrapping_add_signed(self.base_vertex)
-                    .wrapping_sub(self.first_vertex);
-                for (vertex, corner) in out.as_flattened_mut().iter_mut().zip(corners) {
-                    *vertex = corner.wrapping_add(base);
-                }
-                return;
-            }
-        }
+    pub(crate) fn assemble(&self, first: u32, base: u32, out: &mut [[u32; 3]]) {
         if let Some(restarted) = self.restarted {
-            let from = restarted.get(first as usize..).unwrap_or_default();
+            let from = &restarted[first as usize..][..out.len()];
             for (vertices, from) in out.iter_mut().zip(from) {
                 *vertices = from.map(|vertex| vertex.wrapping_add(base));
             }
-            let first = out[0];
-            out[count.min(LANES)..].fill(first);
             return;
         }
-        for (p, vertices) in (first..).zip(out.iter_mut().take(count)) {
+        if let Some(out) = out.first_chunk_mut::<LANES>()
+            && let Some(indices) = self.listed_indices(first)
+        {
+            let base = base
+                .wrapping_add_signed(self.base_vertex)
+                .wrapping_sub(self.first_vertex);
+            for (vertex, index) in out.as_flattened_mut().iter_mut().zip(indices) {
+                *vertex = index.wrapping_add(base);
+            }
+            return;
+        }
+        for (p, vertices) in (first..).zip(out) {
             let elements = corners_of(self.topology, self.provoking, p, self.elements);
             *vertices = elements.map(|element| self.vertex_of(element).wrapping_add(base));
         }
-        let first = out[0];
-        out[count.min(LANES)..].fill(first);
+    }
+
+    /// The indices of sixteen triangles of a list, if that is what is drawn, its first vertices
+    /// provoke, and the index buffer holds all of them.
+    #[inline(always)]
+    fn listed_indices(&self, first: u32) -> Option<[u32; 3 * LANES]> {
+        let (PrimitiveTopology::TriangleList, ProvokingVertex::First, Some((buffer, format))) =
+            (self.topology, self.provoking, self.indices)
+        else {
+            return None;
+        };
+        let at = self.first_element as usize + first as usize * 3;
+        match format {
+            IndexFormat::Uint32 => buffer.words().get(at..)?.first_chunk().copied(),
+            IndexFormat::Uint16 => {
+                let words = buffer.words().get(at / 2..)?;
+                let indices = halves(words.first_chunk::<{ 3 * LANES / 2 }>()?);
+                if at.is_multiple_of(2) {
+                    return Some(indices);
+                }
+                // One further on: the first index comes off, and another is appended.
+                let mut shifted = [words.get(3 * LANES / 2)? & 0xFFFF; 3 * LANES];
+                shifted[..3 * LANES - 1].copy_from_slice(&indices[1..]);
+                Some(shifted)
+            }
+            IndexFormat::Uint8 => None,
+        }
     }
 
     #[inline(always)]
@@ -185,8 +175,8 @@ impl ElementSource<'_> {
     }
 }
 
-/// The vertex that an index names. Bytes beyond the buffer's end are zero, also those that an index there
-/// lacks: the last of a buffer's words is filled up with zeros.
+/// The vertex that an index names. Bytes beyond the buffer's end are zero, also those that an index
+/// there lacks: the last of a buffer's words is filled up with zeros.
 #[inline(always)]
 pub(crate) fn vertex_index(
     buffer: &Buffer,
@@ -208,10 +198,51 @@ pub(crate) fn raw_index(buffer: &Buffer, format: IndexFormat, at: usize) -> u32 
     }
 }
 
+/// The 16-bit halves of words, the low one of each first.
+#[inline(always)]
+fn halves(words: &[u32; 3 * LANES / 2]) -> [u32; 3 * LANES] {
+    let mut halves = [0; 3 * LANES];
+    for (pair, word) in halves.as_chunks_mut::<2>().0.iter_mut().zip(words) {
+        *pair = [word & 0xFFFF, word >> 16];
+    }
+    halves
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use PrimitiveTopology as T;
+
+    #[test]
+    fn sixteen_triangles_are_assembled_like_one() {
+        let bytes: Vec<u8> = (0..240u32).map(|at| (at * 37 % 251) as u8).collect();
+        let buffer = Buffer::from_bytes(&bytes);
+        for format in [IndexFormat::Uint32, IndexFormat::Uint16, IndexFormat::Uint8] {
+            for first_element in [0, 1, 6, 9, 71, 72] {
+                let source = ElementSource {
+                    topology: T::TriangleList,
+                    provoking: ProvokingVertex::First,
+                    restarted: None,
+                    elements: 60,
+                    indices: Some((&buffer, format)),
+                    first_element,
+                    first_vertex: 3,
+                    base_vertex: -1,
+                };
+                for first in [0, 1, 4] {
+                    let mut together = [[0; 3]; LANES];
+                    source.assemble(first, 5, &mut together);
+                    for (p, together) in (first..).zip(together) {
+                        let mut alone = [[0; 3]];
+                        source.assemble(p, 5, &mut alone);
+                        assert_eq!(alone[0], together, "{format:?} {first_element} {p}");
+                        let index = raw_index(&buffer, format, (first_element + p * 3) as usize);
+                        assert_eq!(alone[0][0], index.wrapping_add(5 - 1 - 3));
+                    }
+                }
+            }
+        }
+    }
 
     #[test]
     fn incomplete_primitives_are_dropped() {

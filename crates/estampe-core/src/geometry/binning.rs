@@ -1,24 +1,16 @@
 //! Binning (R2): which tiles a primitive may touch.
 //!
-//! *In* set-up primitives · *Out* entries of [`Bins`](crate::tiles::Bins) · *Space* window, tiles ·
+//! *In* set-up primitives · *Out* entries of [`Bins`] · *Space* window, tiles ·
 //! *Precision* exact.
 //!
-//! Most triangles of a large mesh lie in one tile, and so do their neighbours: those of a packet that share a
-//! tile are found sixteen at a time and get one entry.
+//! Most triangles of a large mesh lie in one tile, and so do their neighbours: those of a packet
+//! that share a tile are found sixteen at a time and get one entry.
 
-use super::viewport::PixelRect;
-use crate::layout::TileGrid;
-use crate::tiles::{BinEntry, Bins, Chunk, LinePrimitive, PointPrimitive, TrianglePacket};
-use estampe_simd::{LANES, Lanes, SimdBase, i32x16};
-
-/// Where primitives are binned.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct BinState {
-    pub(crate) grid: TileGrid,
-    pub(crate) rect: PixelRect,
-    /// The least and the greatest offset of a sample inside its pixel, in 1/256 pixel.
-    pub(crate) sample_range: [i32; 2],
-}
+use super::plan::GeometryPlan;
+use crate::bounds::bins::{BinEntry, Bins};
+use crate::bounds::chunk::{Chunk, number};
+use crate::bounds::primitives::{LinePrimitive, PointPrimitive, TrianglePacket};
+use estampe_simd::{LANES, Lane, Lanes, SimdBase, i32x16};
 
 /// A half-open range of tiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,133 +22,166 @@ struct TileRange {
 }
 
 /// The tiles of sixteen triangles: first and last column and row.
-pub(crate) struct TileRanges<S: Lanes> {
-    pub(crate) x0: i32x16<S>,
-    pub(crate) y0: i32x16<S>,
-    pub(crate) x1: i32x16<S>,
-    pub(crate) y1: i32x16<S>,
+struct TileRanges<S: Lanes> {
+    x0: i32x16<S>,
+    y0: i32x16<S>,
+    x1: i32x16<S>,
+    y1: i32x16<S>,
 }
 
 /// The most tiles of a triangle whose entries are merged with its neighbours'.
 const FEW_TILES: i32 = 4;
 
-impl BinState {
-    /// Bins the last packet of a chunk.
+impl<S: Lanes> TileRanges<S> {
+    /// The tiles of the boxes of sixteen triangles with samples of the plan's rectangle; their
+    /// vertices are sorted by y.
     #[inline(always)]
-    pub(crate) fn bin_packet<S: Lanes>(&self, s: S, ranges: &TileRanges<S>, chunk: &mut Chunk) {
-        let Some((last, packet)) = chunk.triangles.split_last().map(|(last, others)| {
-            let number = u32::try_from(others.len()).unwrap_or(u32::MAX);
-            (last, number)
-        }) else {
-            return;
-        };
-        let bins = &mut chunk.bins;
-        bins.end_run();
-        let live = u16::MAX >> (LANES - usize::from(last.len).min(LANES));
+    fn new(s: S, plan: &GeometryPlan, [x, y]: [[i32x16<S>; 3]; 2]) -> Self {
         let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
-        let (columns, rows) = (ranges.x1 - ranges.x0, ranges.y1 - ranges.y0);
-        let single = s.bits_of_mask((columns | rows).simd_eq(splat(0))) & live;
-        let mut rest = single;
-        if single != live {
-            let tiles = (columns + splat(1)) * (rows + splat(1));
-            let many = s.bits_of_mask(tiles.simd_gt(splat(FEW_TILES))) & live;
-            if many != 0 {
-                // One by one, because triangles must not be merged across these.
-                rest = 0;
+        let [first, last] = plan.sample_range.map(splat);
+        let (rect, log2) = (plan.rect, plan.grid.tile_log2());
+        let (x_min, x_max) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
+        Self {
+            x0: ((x_min - last + 255) >> 8).max(splat(rect.x0)) >> log2,
+            y0: ((y[0] - last + 255) >> 8).max(splat(rect.y0)) >> log2,
+            x1: ((x_max - first) >> 8).min(splat(rect.x1 - 1)) >> log2,
+            y1: ((y[2] - first) >> 8).min(splat(rect.y1 - 1)) >> log2,
+        }
+    }
+}
+
+/// Bins the last packet of a chunk, whose triangles have these x and y.
+#[inline(always)]
+pub(crate) fn bin_packet<S: Lanes>(
+    s: S,
+    plan: &GeometryPlan,
+    positions: [[i32x16<S>; 3]; 2],
+    chunk: &mut Chunk,
+) {
+    let ranges = TileRanges::new(s, plan, positions);
+    let Some((last, others)) = chunk.triangles.split_last() else {
+        unreachable!("a packet was just set up");
+    };
+    let packet = number(others.len());
+    let bins = &mut chunk.bins;
+    bins.end_packet();
+    let used = u16::MAX >> (LANES - usize::from(last.len).min(LANES));
+    let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
+    let (columns, rows) = (ranges.x1 - ranges.x0, ranges.y1 - ranges.y0);
+    let single = s.bits_of_mask((columns | rows).simd_eq(splat(0))) & used;
+    let mut rest = single;
+    if single != used {
+        let tiles = (columns + splat(1)) * (rows + splat(1));
+        let many = s.bits_of_mask(tiles.simd_gt(splat(FEW_TILES))) & used;
+        if many != 0 {
+            // One by one, because triangles must not be merged across these.
+            rest = 0;
+        }
+    }
+    let (left, top) = (ranges.x0.to_array(), ranges.y0.to_array());
+    let one_by_one = used & !rest;
+    while let Some(lane) = Lane::first_of(rest) {
+        let (x, y) = (lane.of(&left), lane.of(&top));
+        let shares = ranges.x0.simd_eq(splat(x)) & ranges.y0.simd_eq(splat(y));
+        let lanes = s.bits_of_mask(shares) & rest;
+        rest &= !lanes;
+        let tile = plan.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
+        bins.push(tile, BinEntry::Triangles { packet, lanes });
+    }
+    if one_by_one != 0 {
+        let (right, bottom) = (ranges.x1.to_array(), ranges.y1.to_array());
+        for lane in Lane::all_of(one_by_one) {
+            let range = TileRange {
+                x0: lane.of(&left),
+                y0: lane.of(&top),
+                x1: lane.of(&right) + 1,
+                y1: lane.of(&bottom) + 1,
+            };
+            let triangle = PacketLane {
+                triangles: last,
+                packet,
+                lane,
+            };
+            bin_lane(plan, triangle, range, bins);
+        }
+    }
+}
+
+/// One triangle of a packet.
+#[derive(Debug, Clone, Copy)]
+struct PacketLane<'p> {
+    triangles: &'p TrianglePacket,
+    /// The packet's number in the chunk.
+    packet: u32,
+    lane: Lane,
+}
+
+/// Bins one triangle, leaving out tiles of its box that it misses.
+fn bin_lane(plan: &GeometryPlan, triangle: PacketLane<'_>, range: TileRange, bins: &mut Bins) {
+    let PacketLane { packet, lane, .. } = triangle;
+    let (columns, rows) = (range.x1 - range.x0, range.y1 - range.y0);
+    // A triangle of many tiles has entries of its own: looking for one to merge with would
+    // take time quadratic in tiles. Small ones before and after it must not merge across it.
+    let many = columns * rows > FEW_TILES;
+    if many {
+        bins.end_packet();
+    }
+    let is_box = columns > 1 && rows > 1;
+    let edges = is_box.then(|| TileEdges::new(triangle, plan.sample_range));
+    let misses = |x, y| {
+        let edges = edges.as_ref();
+        edges.is_some_and(|edges| edges.miss(x, y, plan.grid.tile_log2()))
+    };
+    for y in range.y0..range.y1 {
+        for x in range.x0..range.x1 {
+            if misses(x, y) {
+                continue;
+            }
+            let tile = plan.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
+            if many {
+                let lanes = lane.bit();
+                bins.push(tile, BinEntry::Triangles { packet, lanes });
+            } else {
+                bins.push_lane(tile, packet, lane);
             }
         }
-        let (left, top) = (ranges.x0.to_array(), ranges.y0.to_array());
-        let mut left_over = live & !rest;
-        while rest != 0 {
-            let lane = rest.trailing_zeros() as usize;
-            let (x, y) = (left[lane], top[lane]);
-            let shares = ranges.x0.simd_eq(splat(x)) & ranges.y0.simd_eq(splat(y));
-            let lanes = s.bits_of_mask(shares) & rest;
-            rest &= !lanes;
-            let tile = self.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
-            bins.push(tile, BinEntry::Triangles { packet, lanes });
-        }
-        if left_over != 0 {
-            let (right, bottom) = (ranges.x1.to_array(), ranges.y1.to_array());
-            while left_over != 0 {
-                let lane = left_over.trailing_zeros() as usize;
-                left_over &= left_over - 1;
-                let range = TileRange {
-                    x0: left[lane],
-                    y0: top[lane],
-                    x1: right[lane] + 1,
-                    y1: bottom[lane] + 1,
-                };
-                self.bin_lane(last, packet, lane, range, bins);
-            }
-        }
     }
-
-    /// Bins one triangle of a packet, leaving out tiles of its box that it misses.
-    fn bin_lane(
-        &self,
-        triangles: &TrianglePacket,
-        packet: u32,
-        lane: usize,
-        range: TileRange,
-        bins: &mut Bins,
-    ) {
-        let (columns, rows) = (range.x1 - range.x0, range.y1 - range.y0);
-        // A triangle of many tiles has entries of its own: looking for one to merge with would
-        // take time quadratic in tiles. Small ones before and after it must not merge across it.
-        let many = columns * rows > FEW_TILES;
-        if many {
-            bins.end_run();
-        }
-        let edges = TileEdges::new(triangles, lane, self.sample_range);
-        for y in range.y0..range.y1 {
-            for x in range.x0..range.x1 {
-                if columns > 1 && rows > 1 && edges.miss(x, y, self.grid.tile_log2()) {
-                    continue;
-                }
-                let tile = self.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
-                if many {
-                    let lanes = 1 << lane;
-                    bins.push(tile, BinEntry::Triangles { packet, lanes });
-                } else {
-                    bins.push_lane(tile, packet, lane);
-                }
-            }
-        }
-        if many {
-            bins.end_run();
-        }
+    if many {
+        bins.end_packet();
     }
+}
 
-    /// Adds a line to a chunk, whose pixels begin no farther from it than `reach`, in 1/256 pixel.
-    pub(crate) fn push_line(&self, line: LinePrimitive, reach: i32, chunk: &mut Chunk) {
-        let [a, b] = &line.ends;
-        let range = self.tiles_of(
-            [a.x.min(b.x), a.y.min(b.y), a.x.max(b.x), a.y.max(b.y)],
-            reach,
-        );
-        let entry = BinEntry::Line(u32::try_from(chunk.lines.len()).unwrap_or(u32::MAX));
-        chunk.lines.push(line);
-        self.push_range(range, entry, chunk);
-    }
+/// Adds a line to a chunk; its pixels begin no farther from it than the line style's reach.
+pub(crate) fn push_line(plan: &GeometryPlan, line: LinePrimitive, chunk: &mut Chunk) {
+    let [a, b] = &line.ends;
+    let range = TileRange::new(
+        plan,
+        [a.x.min(b.x), a.y.min(b.y), a.x.max(b.x), a.y.max(b.y)],
+        plan.line_style.reach(),
+    );
+    let entry = BinEntry::Line(number(chunk.lines.len()));
+    chunk.lines.push(line);
+    push_range(plan, range, entry, chunk);
+}
 
-    /// Adds a point to a chunk.
-    pub(crate) fn push_point(&self, point: PointPrimitive, chunk: &mut Chunk) {
-        let (x, y, half) = (point.center.x, point.center.y, point.half);
-        let range = self.tiles_of([x - half, y - half, x + half, y + half], 0);
-        let entry = BinEntry::Point(u32::try_from(chunk.points.len()).unwrap_or(u32::MAX));
-        chunk.points.push(point);
-        self.push_range(range, entry, chunk);
-    }
+/// Adds a point to a chunk.
+pub(crate) fn push_point(plan: &GeometryPlan, point: PointPrimitive, chunk: &mut Chunk) {
+    let (x, y, half) = (point.center.x, point.center.y, point.half);
+    let range = TileRange::new(plan, [x - half, y - half, x + half, y + half], 0);
+    let entry = BinEntry::Point(number(chunk.points.len()));
+    chunk.points.push(point);
+    push_range(plan, range, entry, chunk);
+}
 
-    /// The tiles of a box in 1/256 pixel, grown by a margin, inside the rectangle of pixels.
-    fn tiles_of(&self, [x0, y0, x1, y1]: [i32; 4], margin: i32) -> Option<TileRange> {
-        let (rect, log2) = (self.rect, self.grid.tile_log2());
+impl TileRange {
+    /// The tiles of a box in 1/256 pixel, grown by a margin, inside the plan's rectangle.
+    fn new(plan: &GeometryPlan, [x0, y0, x1, y1]: [i32; 4], margin: i32) -> Option<Self> {
+        let (rect, log2) = (plan.rect, plan.grid.tile_log2());
         let first = |low: i32, edge: i32| ((low - margin) >> 8).max(edge);
         let last = |high: i32, edge: i32| ((high + margin) >> 8).min(edge - 1);
         let (x0, x1) = (first(x0, rect.x0), last(x1, rect.x1));
         let (y0, y1) = (first(y0, rect.y0), last(y1, rect.y1));
-        let range = TileRange {
+        let range = Self {
             x0: x0 >> log2,
             y0: y0 >> log2,
             x1: (x1 >> log2) + 1,
@@ -164,17 +189,17 @@ impl BinState {
         };
         (x0 <= x1 && y0 <= y1).then_some(range)
     }
+}
 
-    fn push_range(&self, range: Option<TileRange>, entry: BinEntry, chunk: &mut Chunk) {
-        let Some(range) = range else {
-            return;
-        };
-        chunk.statistics.primitives_binned += 1;
-        for y in range.y0..range.y1 {
-            for x in range.x0..range.x1 {
-                let tile = self.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
-                chunk.bins.push(tile, entry);
-            }
+fn push_range(plan: &GeometryPlan, range: Option<TileRange>, entry: BinEntry, chunk: &mut Chunk) {
+    let Some(range) = range else {
+        return;
+    };
+    chunk.statistics.primitives_binned += 1;
+    for y in range.y0..range.y1 {
+        for x in range.x0..range.x1 {
+            let tile = plan.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
+            chunk.bins.push(tile, entry);
         }
     }
 }
@@ -187,15 +212,15 @@ struct TileEdges {
 }
 
 impl TileEdges {
-    fn new(packet: &TrianglePacket, lane: usize, sample_range: [i32; 2]) -> Self {
+    fn new(triangle: PacketLane<'_>, sample_range: [i32; 2]) -> Self {
+        let (packet, lane) = (triangle.triangles, triangle.lane);
         let at = |corner: usize| {
             (
-                i64::from(packet.x[corner][lane]),
-                i64::from(packet.y[corner][lane]),
+                i64::from(lane.of(&packet.x[corner])),
+                i64::from(lane.of(&packet.y[corner])),
             )
         };
-        let clockwise = packet.clockwise >> lane & 1 == 1;
-        let ends = if clockwise {
+        let ends = if lane.is_in(packet.clockwise) {
             [(0, 1), (1, 2), (2, 0)]
         } else {
             [(0, 2), (2, 1), (1, 0)]
@@ -220,5 +245,102 @@ impl TileEdges {
             let y = if *b > 0 { high(row) } else { low(row) };
             a * x + b * y + c < 0
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bounds::pixel_rect::PixelRect;
+    use crate::geometry::plan::TargetGeometry;
+    use crate::layout::TileGrid;
+    use estampe_simd::{Level, dispatch};
+    use estampe_types::state::{DepthBiasState, PrimitiveState, Viewport};
+
+    const SIZE: [u32; 2] = [200, 150];
+
+    fn plan() -> GeometryPlan {
+        let target = TargetGeometry {
+            grid: TileGrid::new(SIZE[0], SIZE[1], 1),
+            depth_stencil: None,
+            rect: PixelRect::of_target(None, SIZE[0], SIZE[1]),
+            position_range: [128; 2],
+            sample_range: [128; 2],
+        };
+        let viewport = Viewport::of_target(SIZE[0], SIZE[1]);
+        let (state, bias) = (PrimitiveState::default(), DepthBiasState::default());
+        GeometryPlan::new(&state, &bias, &viewport, target)
+    }
+
+    /// Whether a triangle whose vertices are in clockwise order has the centre of some pixel of a tile strictly inside.
+    fn holds_samples(corners: [[i64; 2]; 3], grid: TileGrid, tile: u32) -> bool {
+        let (left, top) = grid.tile_origin(tile);
+        let is_inside = |x: u32, y: u32| {
+            let [px, py] = [x, y].map(|at| i64::from(at) * 256 + 128);
+            (0..3).all(|edge| {
+                let ([ax, ay], [bx, by]) = (corners[edge], corners[(edge + 1) % 3]);
+                (bx - ax) * (py - ay) - (by - ay) * (px - ax) > 0
+            })
+        };
+        let (right, bottom) = ((left + 64).min(SIZE[0]), (top + 64).min(SIZE[1]));
+        (top..bottom).any(|y| (left..right).any(|x| is_inside(x, y)))
+    }
+
+    #[test]
+    fn every_tile_with_a_covered_sample_has_an_entry_and_lanes_are_in_order() {
+        let (plan, mut state) = (plan(), 7u32);
+        let mut random = |below: i32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            i32::try_from(state >> 8).unwrap() % below
+        };
+        for turn in 0..12 {
+            // Small ones, which share tiles; and some that span many.
+            let size = [6, 6, 40, 300][turn % 4] * 256;
+            let mut corners = [[[0_i32; 2]; 3]; LANES];
+            let mut chunk = Chunk::default();
+            chunk.begin_run(0);
+            let packet = chunk.triangles.push_stale();
+            (packet.len, packet.clockwise) = (16, 0);
+            for (lane, corners) in Lane::ALL.into_iter().zip(&mut corners) {
+                let place = [random(230 * 256), random(180 * 256)];
+                *corners = [0; 3].map(|_| place.map(|at| at - 15 * 256 + random(size)));
+                corners.sort_by_key(|[x, y]| (*y, *x));
+                let [[ax, ay], [bx, by], [cx, cy]] = corners.map(|corner| corner.map(i64::from));
+                if (bx - ax) * (cy - ay) - (by - ay) * (cx - ax) > 0 {
+                    packet.clockwise |= lane.bit();
+                }
+                for (corner, [x, y]) in corners.iter().enumerate() {
+                    *lane.of_mut(&mut packet.x[corner]) = *x;
+                    *lane.of_mut(&mut packet.y[corner]) = *y;
+                }
+            }
+            let (x, y, clockwise) = (packet.x, packet.y, packet.clockwise);
+            dispatch!(Level::best(), s => {
+                let load = |lanes: [i32; LANES]| i32x16::load_array(s, lanes);
+                let positions = [[load(x[0]), load(x[1]), load(x[2])], [load(y[0]), load(y[1]), load(y[2])]];
+                bin_packet(s, &plan, positions, &mut chunk);
+            });
+            chunk.bins.sort();
+            for tile in 0..u32::try_from(plan.grid.tiles()).unwrap() {
+                let mut found = 0;
+                for entry in chunk.bins.of_tile(tile) {
+                    let BinEntry::Triangles { packet: 0, lanes } = *entry else {
+                        panic!("{entry:?} is not of the one packet");
+                    };
+                    assert!(found < lanes & lanes.wrapping_neg(), "out of order");
+                    found |= lanes;
+                }
+                for (lane, corners) in Lane::ALL.into_iter().zip(&corners) {
+                    let [a, b, c] = corners.map(|corner| corner.map(i64::from));
+                    let wound = if lane.is_in(clockwise) {
+                        [a, b, c]
+                    } else {
+                        [a, c, b]
+                    };
+                    let is_needed = holds_samples(wound, plan.grid, tile);
+                    assert!(lane.is_in(found) || !is_needed, "tile {tile}: {corners:?}");
+                }
+            }
+        }
     }
 }

@@ -1,7 +1,8 @@
 //! Clipping (A3): the few primitives that leave the view volume or the guard band.
 //!
-//! *In* clip-space vertices · *Out* a polygon inside the planes · *Space* clip · *Precision* f32 in the
-//! order of `docs/NUMERICS.md` · *Spec* Sutherland and Hodgman, Reentrant Polygon Clipping, 1974.
+//! *In* clip-space vertices · *Out* a polygon inside the planes · *Space* clip · *Precision* f32 in
+//! the order of `docs/NUMERICS.md` · *Spec* Sutherland and Hodgman, Reentrant Polygon Clipping,
+//! 1974.
 //!
 //! ```text
 //!     inside a ──────●────── b outside      t = d(a) ÷ (d(a) − d(b)), always from the inside out:
@@ -42,8 +43,9 @@ impl Plane {
     const DEPTH: [Self; 2] = [Self::Near, Self::Far];
     const UNCLIPPED_DEPTH: [Self; 1] = [Self::Eye];
 
-    /// Left, right, top and bottom of the guard band under a viewport. They lie at the band rather than
-    /// at ±w, so that an edge with both ends inside the band stays whole in both of its triangles.
+    /// Left, right, top and bottom of the guard band under a viewport. They lie at the band rather
+    /// than at ±w, so that an edge with both ends inside the band stays whole in both of its
+    /// triangles.
     fn sides(transform: &ViewportTransform) -> [Self; 4] {
         let side = |axis: usize| {
             let (scale, offset) = (transform.scale[axis], transform.offset[axis]);
@@ -88,8 +90,8 @@ impl Plane {
     }
 }
 
-/// Whether all of some vertices lie outside one side of the view volume, near and far left out where depth is not
-/// clipped.
+/// Whether all of some vertices lie outside one side of the view volume, near and far left out
+/// where depth is not clipped.
 fn are_outside<'a>(
     transform: &ViewportTransform,
     vertices: impl Iterator<Item = &'a [f32]> + Clone,
@@ -222,16 +224,7 @@ mod tests {
     use estampe_types::state::Viewport;
 
     fn transform() -> ViewportTransform {
-        let (width, height) = (64.0, 64.0);
-        let viewport = Viewport {
-            x: 0.0,
-            y: 0.0,
-            width,
-            height,
-            min_depth: 0.0,
-            max_depth: 1.0,
-        };
-        ViewportTransform::new(&viewport, false)
+        ViewportTransform::new(&Viewport::of_target(64, 64), false)
     }
 
     fn clipped(corners: &[[f32; 4]]) -> Vec<Vec<f32>> {

@@ -3,7 +3,8 @@
 //! *In* a triangle in the window · *Out* an offset of its depth · *Precision* f32 in the order of
 //! `docs/NUMERICS.md` · *Spec* Vulkan §Depth Bias Computation.
 
-use crate::tiles::{PlanePacket, WindowVertex};
+use crate::bounds::plane::PlanePacket;
+use crate::bounds::primitives::WindowVertex;
 use estampe_simd::LANES;
 use estampe_types::state::DepthBiasState;
 use estampe_types::{TexelEncoding, TextureFormat};
@@ -28,7 +29,8 @@ impl DepthBias {
         (!state.is_zero()).then_some(Self { state, unit })
     }
 
-    /// Moves the depth planes of a packet; the depths are those of the triangles' second and third vertices.
+    /// Moves the depth planes of a packet; the depths are those of the triangles' second and third
+    /// vertices.
     #[inline(never)]
     pub(crate) fn apply(&self, planes: &mut PlanePacket, depths: &[[f32; LANES]; 2]) {
         for lane in 0..LANES {
@@ -38,8 +40,8 @@ impl DepthBias {
         }
     }
 
-    /// The offset of a triangle that is drawn as its edges or corners; its vertices and area are those of the sorted
-    /// order.
+    /// The offset of a triangle that is drawn as its edges or corners; its vertices and area are
+    /// those of the sorted order.
     pub(crate) fn of_triangle(&self, [a, b, c]: [WindowVertex; 3], area: i64) -> f32 {
         let difference = |to: i32, from: i32| (to - from) as f32 * (1.0 / 256.0);
         let (dx1, dy1) = (difference(b.x, a.x), difference(b.y, a.y));

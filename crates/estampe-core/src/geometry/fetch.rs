@@ -1,18 +1,19 @@
 //! Vertex fetch (V2): attributes from buffers, sixteen vertices at a time.
 //!
 //! *In* vertex and instance indices · *Out* attribute scalars, structure of arrays · *Spec* WebGPU
-//! §Vertex formats. Bytes beyond a buffer's end read as zeros; what a format lacks is (0, 0, 0, 1). Integers
-//! arrive as bits.
+//! §Vertex formats. Bytes beyond a buffer's end read as zeros; what a format lacks is (0, 0, 0, 1).
+//! Integers arrive as bits.
 //!
 //! The formats of most meshes are fetched by a kernel of their own: with all of WebGPU's
 //! formats in it, it took twice the time for those few, and a frame of small triangles 7 % more.
 
-use super::rows::columns_of;
+use crate::bounds::transpose::components_of;
 use crate::pipeline::{AttributeSource, Decoding};
+use estampe_format::vertex::VertexCodec;
 use estampe_simd::{
     Bytes, LANES, Lanes, Level, Packet, SimdBase, SimdCvtFloat, dispatch, f32x16, i32x16, u32x16,
 };
-use estampe_types::{Buffer, VertexEncoding, VertexFormat};
+use estampe_types::Buffer;
 
 /// Which vertices a packet holds.
 #[derive(Debug, Default)]
@@ -23,7 +24,8 @@ pub(crate) struct PacketIndex {
     pub(crate) first: Option<u32>,
 }
 
-/// Fills `out` with the scalars of every attribute but those that [`fetch_rare`] reads; `wanted` says how many each location has.
+/// Fills `out` with the scalars of every attribute but those that [`fetch_rare`] reads; `wanted`
+/// says how many each location has.
 #[inline(always)]
 pub(crate) fn fetch<S: Lanes>(
     s: S,
@@ -39,7 +41,8 @@ pub(crate) fn fetch<S: Lanes>(
             return;
         };
         rest = others;
-        // Each format has loops of its own: one for all, which asks for the format of each component, is slower.
+        // Each format has loops of its own: one for all, which asks for the format of each
+        // component, is slower.
         let there = wanted.min(source.components);
         let words = match source.decoding {
             Decoding::Float32 => there,
@@ -81,11 +84,11 @@ pub(crate) fn fetch<S: Lanes>(
     }
 }
 
-/// The first words of an attribute of sixteen elements, what lies beyond the buffer's end zero; at least
-/// `count` of the four are there.
+/// The first words of an attribute of sixteen elements, what lies beyond the buffer's end zero; at
+/// least `count` of the four are there.
 ///
-/// Vertices that follow one another, as in a dense range, are rows of words at a fixed distance. Elsewhere
-/// words are gathered one by one.
+/// Vertices that follow one another, as in a dense range, are rows of words at a fixed distance.
+/// Elsewhere words are gathered one by one.
 #[inline(always)]
 fn fetch_words<S: Lanes>(
     s: S,
@@ -151,7 +154,7 @@ fn strided<S: Lanes>(s: S, rows: &[u32], stride: usize, is_single: bool) -> [u32
             *quad = row;
         }
     }
-    columns_of(s, &quads)
+    components_of(s, &quads)
 }
 
 /// How many elements hold an attribute whole.
@@ -172,8 +175,8 @@ fn float<S: Lanes>(code: u32x16<S>) -> f32x16<S> {
     f32x16::float_from(signed)
 }
 
-/// Fills `out` with the attributes of formats that are not common, and those that several instances share;
-/// `first_instance` is the draw's.
+/// Fills `out` with the attributes of formats that are not common, and those that several instances
+/// share; `first_instance` is the draw's.
 #[inline(never)]
 pub(crate) fn fetch_rare(
     level: Level,
@@ -193,7 +196,7 @@ pub(crate) fn fetch_rare(
             let index = &PacketIndex {
                 vertex: index.vertex,
                 instance: step(&index.instance, first_instance, source.step_rate),
-                first: None,
+                first: index.first,
             };
             fetch_one(level, source, buffers, index, scalars);
         }
@@ -208,34 +211,31 @@ fn fetch_one(
     out: &mut [Packet<f32>],
 ) {
     let format = source.attribute.format;
-    let there = out.len().min(source.components);
-    let bits = bits_of_component(format);
-    let mut words = [[0; LANES]; 4];
-    if let Some(buffer) = buffers.get(source.buffer) {
-        let count = (there * bits).div_ceil(32);
-        dispatch!(level, s => read_words(s, source, buffer, index, count, &mut words));
+    let (found, missing) = out.split_at_mut(out.len().min(source.components));
+    match buffers.get(source.buffer) {
+        Some(buffer) => dispatch!(level, s => decode(s, source, buffer, index, found)),
+        None => found.fill(Packet([0.0; LANES])),
     }
-    for (component, out) in out.iter_mut().enumerate() {
-        out.0 = if component < there {
-            decode_rare(format, &words[component * bits / 32 % 4], component)
-        } else {
-            [f32::from_bits(format.missing(component)); LANES]
-        };
+    for (component, out) in (found.len()..).zip(missing) {
+        out.0 = [f32::from_bits(format.missing(component)); LANES];
     }
 }
 
+/// The components of an attribute of any format, from the words that hold them.
 #[inline(always)]
-fn read_words<S: Lanes>(
+fn decode<S: Lanes>(
     s: S,
     source: &AttributeSource,
     buffer: &Buffer,
     index: &PacketIndex,
-    count: usize,
-    out: &mut [[u32; LANES]; 4],
+    out: &mut [Packet<f32>],
 ) {
-    let words = fetch_words(s, source, buffer, index, count);
-    for (words, out) in words.iter().zip(out) {
-        words.store_array(out);
+    let codec = VertexCodec::new(source.attribute.format);
+    let words = fetch_words(s, source, buffer, index, codec.words(out.len()));
+    for (component, out) in out.iter_mut().enumerate() {
+        codec
+            .decode_lanes(s, &words, component)
+            .store_array(&mut out.0);
     }
 }
 
@@ -246,55 +246,4 @@ fn step(instances: &Packet<u32>, first: u32, rate: u32) -> Packet<u32> {
         first.wrapping_add(steps.unwrap_or(0))
     };
     Packet(instances.0.map(of))
-}
-
-/// Bits of a component; of packed formats their average.
-fn bits_of_component(format: VertexFormat) -> usize {
-    format.size_bytes() * 8 / format.components()
-}
-
-/// A component of sixteen elements of any format, from the word that holds it.
-#[inline(never)]
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "a component is 0, 1, 2 or 3, and a width at most 32"
-)]
-fn decode_rare(format: VertexFormat, words: &[u32; LANES], component: usize) -> [f32; LANES] {
-    let (shift, bits) = match format {
-        VertexFormat::Unorm10_10_10_2 => (component * 10, if component == 3 { 2 } else { 10 }),
-        VertexFormat::Unorm8x4Bgra => ([16, 8, 0, 24][component & 3], 8),
-        _ => {
-            let bits = bits_of_component(format);
-            (component * bits % 32, bits)
-        }
-    };
-    // The code in the highest bits; from there it comes down with or without its sign.
-    let (up, down) = ((32 - bits - shift) as u32, (32 - bits) as u32);
-    let greatest = (u32::MAX >> down) as f32;
-    let greatest_signed = (u32::MAX >> down >> 1) as f32;
-    let codes = words.map(|word| word << up);
-    let signed = |code: u32| code.cast_signed() >> down;
-    match format.encoding() {
-        VertexEncoding::Unorm => codes.map(|code| (code >> down) as f32 * (1.0 / greatest)),
-        VertexEncoding::Snorm => codes.map(|code| {
-            let value = signed(code) as f32 * (1.0 / greatest_signed);
-            if value > -1.0 { value } else { -1.0 }
-        }),
-        VertexEncoding::Uint => codes.map(|code| f32::from_bits(code >> down)),
-        VertexEncoding::Sint => codes.map(|code| f32::from_bits(signed(code).cast_unsigned())),
-        VertexEncoding::Float if bits == 32 => codes.map(f32::from_bits),
-        VertexEncoding::Float => codes.map(half),
-    }
-}
-
-/// The 16-bit float in the upper half of a word, exactly.
-fn half(code: u32) -> f32 {
-    let magnitude = (code & 0x7FFF_0000) >> 3;
-    let number = if magnitude < 0x0F80_0000 {
-        // The exponent is 112 less than it should be; as a product that is right of denormal numbers, too.
-        (f32::from_bits(magnitude) * f32::from_bits(0x7780_0000)).to_bits()
-    } else {
-        magnitude | 0x7F80_0000
-    };
-    f32::from_bits(number | code & 0x8000_0000)
 }

@@ -5,10 +5,10 @@
 //!     rectangular    the rectangle around the line, its corners at ±half the width across it
 //! ```
 //!
-//! *Precision* exact integers, but for the rectangle's corners, which are rounded to 1/256 pixel · *Spec* Vulkan
-//! §Line Segments; `docs/NUMERICS.md`.
+//! *Precision* exact integers, but for the rectangle's corners, which are rounded to 1/256 pixel ·
+//! *Spec* Vulkan §Line Segments; `docs/NUMERICS.md`.
 
-use crate::tiles::LinePrimitive;
+use crate::bounds::primitives::LinePrimitive;
 use estampe_types::state::{LineRasterization, LineState, LineStipple};
 
 /// The shape of a pipeline's lines.
@@ -31,7 +31,7 @@ impl LineStyle {
     pub(crate) fn new(state: &LineState) -> Self {
         let shape = match state.rasterization {
             LineRasterization::Bresenham => LineShape::Columns {
-                width: round(state.width).max(1),
+                width: whole_width(state.width),
             },
             kind => LineShape::Rectangle {
                 width: state.width,
@@ -55,42 +55,63 @@ impl LineStyle {
         }
     }
 
-    /// How many fragments of the pattern a line takes.
-    pub(crate) fn fragments(&self, line: &LinePrimitive) -> u32 {
-        let length = match self.shape {
+    /// The phase of the stipple pattern at the end of a line, which begins with the phase
+    /// [`LinePrimitive::stipple`].
+    ///
+    /// A phase counts columns; of rectangles it counts 1/65536 pixels, so that the next line of a
+    /// strip goes on with the part of a pixel that this one left. It is less than the length of the
+    /// pattern.
+    pub(crate) fn phase_after(&self, line: &LinePrimitive) -> u32 {
+        let Some(LineStipple { factor, .. }) = self.stipple else {
+            return 0;
+        };
+        let (advance, per_bit) = match self.shape {
             LineShape::Columns { .. } => {
                 let [first, last] = LineAxis::new(line).span();
-                last - first + 1
+                (u64::try_from(last - first + 1).unwrap_or(0), 1)
             }
-            LineShape::Rectangle { .. } => i64::from(round(length(line) / 256.0)),
+            LineShape::Rectangle { .. } => (
+                phases((length(line) * 256.0).round_ties_even()),
+                PHASES_OF_A_PIXEL,
+            ),
         };
-        u32::try_from(length).unwrap_or(0)
+        // At most 16 · 256 pixels: less than 2²⁹ phases.
+        let period = 16 * u64::from(factor.max(1)) * per_bit;
+        u32::try_from((u64::from(line.stipple) + advance) % period).unwrap_or(0)
     }
 
-    /// Whether the pattern shows a strip's fragment of this number.
-    pub(crate) fn shows(&self, fragment: u32) -> bool {
+    /// Whether the pattern shows a line's fragment of this number, counted from where the pattern
+    /// began.
+    pub(crate) fn shows(&self, fragment: u64) -> bool {
         self.stipple.is_none_or(|LineStipple { factor, pattern }| {
-            let bit = fragment / u32::from(factor.max(1)) % 16;
+            let bit = fragment / u64::from(factor.max(1)) % 16;
             pattern >> bit & 1 == 1
         })
     }
-}
 
-/// The lines of an item.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct LineRun<'a> {
-    pub(crate) style: LineStyle,
-    /// Whether each goes on where the one before ended.
-    pub(crate) is_strip: bool,
-    /// Those of an instance that begin a strip after a restart, ascending.
-    pub(crate) restarts: &'a [u32],
-}
-
-impl LineRun<'_> {
-    /// Whether an instance's line of this number begins anew.
-    pub(crate) fn begins(&self, number: u32) -> bool {
-        !self.is_strip || number == 0 || self.restarts.binary_search(&number).is_ok()
+    /// Whether the pattern shows a rectangle at a distance from its start, in 1/256 pixel.
+    pub(crate) fn shows_at(&self, line: &LinePrimitive, distance: f32) -> bool {
+        let phase = u64::from(line.stipple) + phases(distance * 256.0);
+        self.shows(phase / PHASES_OF_A_PIXEL)
     }
+}
+
+/// How many phases of a stipple pattern a pixel of a rectangular line has.
+const PHASES_OF_A_PIXEL: u64 = 65_536;
+
+/// ⌊phases⌋, at least 0. Distances are below 2²⁶ in 1/256 pixel, so that 64 bits hold any.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "`as` saturates, and NaN is 0"
+)]
+fn phases(value: f32) -> u64 {
+    value as u64
+}
+
+/// A width in whole pixels: ⌊w + ½⌋, at least 1.
+fn whole_width(width: f32) -> i32 {
+    round((width + 0.5).floor()).max(1)
 }
 
 /// A line along its major axis, in 1/256 pixel.
@@ -214,8 +235,8 @@ impl LineRectangle {
     }
 }
 
-/// How far along a line a point in 1/256 pixel is, times the line's length: the product of the way to it with the
-/// way to the end.
+/// How far along a line a point in 1/256 pixel is, times the line's length: the product of the way
+/// to it with the way to the end.
 pub(crate) fn along(line: &LinePrimitive, [x, y]: [i32; 2]) -> i64 {
     let [a, b] = &line.ends;
     let product = |at: i32, from: i32, to: i32| i64::from(at - from) * i64::from(to - from);

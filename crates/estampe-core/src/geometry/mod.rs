@@ -1,42 +1,65 @@
 //! The geometry side: from a draw's vertices to set-up primitives in bins.
 //!
-//! The stages, in order: [`fetch`] reads attributes, [`shading`] runs the vertex shader and projects
-//! its vertices, [`assembly`] joins vertices into primitives ([`restart`] does where indices may end them), [`cull`]
-//! drops most of the triangles sixteen at a time and [`between`] those that lie between samples, [`clip`] cuts the
-//! few that need it, [`viewport`] is the way from clip
-//! space to the window, [`setup`] sorts vertices and makes planes ([`depth_bias`] moves those of depth), [`binning`]
-//! finds tiles; [`line_style`] says what shape lines have; [`rows`] is how
-//! vertices, one after the other in memory, become lanes.
+//! [`plan`] is the draw's state as all stages read it. The stages, in the order in which data
+//! flows: [`fetch`] reads attributes; [`shading`] runs the vertex shader and takes its vertices
+//! through the [`viewport`] to the window, where they wait as [`shaded_vertices`]; [`assembly`]
+//! joins vertices into primitives, in [`groups`] of sixteen, for each [`run`]; [`cull`] drops most
+//! triangles ([`facing`] says which side is culled); [`setup`] sorts vertices, drops triangles that
+//! cover no sample ([`cull_uncovered`]), makes planes and moves those of depth ([`depth_bias`]);
+//! [`binning`] finds tiles. [`filled`] is the loop over these, and [`chunk`] its entry.
 //!
-//! Each vertex is shaded once: an item's dense index range is shaded as a whole before its primitives
-//! are assembled.
+//! The exceptions: [`restart`] assembles primitives where indices may end them; [`clip_detour`]
+//! takes the few primitives that leave the view volume through [`clip`], with positions and
+//! distances that [`clip_positions`] computes again; [`polygon_mode`], [`lines`] and [`points`]
+//! draw what is no filled triangle, in the shape that [`line_style`] says.
+//!
+//! Each vertex is shaded once: the dense index range of a sub-draw is shaded as a whole before its
+//! primitives are assembled.
 
-pub(crate) mod viewport;
-
-pub(crate) mod rows;
+pub(crate) mod plan;
 
 pub(crate) mod fetch;
 
-pub(crate) mod shading;
+pub(crate) mod viewport;
 
-pub(crate) mod positions;
+pub(crate) mod shaded_vertices;
+
+pub(crate) mod shading;
 
 pub(crate) mod assembly;
 
-pub(crate) mod restart;
+pub(crate) mod groups;
+
+pub(crate) mod run;
+
+pub(crate) mod facing;
 
 pub(crate) mod cull;
 
-pub(crate) mod between;
-
-pub(crate) mod clip;
-
-pub(crate) mod line_style;
-
-pub(crate) mod binning;
+pub(crate) mod cull_uncovered;
 
 pub(crate) mod depth_bias;
 
 pub(crate) mod setup;
+
+pub(crate) mod binning;
+
+mod filled;
+
+pub(crate) mod restart;
+
+pub(crate) mod clip;
+
+pub(crate) mod clip_positions;
+
+mod clip_detour;
+
+mod polygon_mode;
+
+mod lines;
+
+mod points;
+
+pub(crate) mod line_style;
 
 pub(crate) mod chunk;

@@ -1,10 +1,12 @@
-//! Primitive restart (V2): the greatest index of a format ends a strip, fan, loop or list and begins another.
+//! Primitive restart (V2): the greatest index of a format ends a strip, fan, loop or list and
+//! begins another.
 //!
-//! *In* an index buffer, a run of its elements · *Out* the vertices of each primitive · *Spec* Vulkan
-//! §Primitive Topologies, `primitiveRestartEnable` and `VK_EXT_primitive_topology_list_restart`.
+//! *In* an index buffer, a run of its elements · *Out* the vertices of each primitive · *Spec*
+//! Vulkan §Primitive Topologies, `primitiveRestartEnable` and
+//! `VK_EXT_primitive_topology_list_restart`.
 //!
-//! A primitive is written out when the element that completes it is met, so that a draw is cut anywhere, also
-//! within a fan, and memory is bounded by the cut.
+//! A primitive is written out when the element that completes it is met, so that a draw is cut
+//! anywhere, also within a fan, and memory is bounded by the cut.
 
 use super::assembly::{corners_of, primitive_count, raw_index};
 use estampe_types::state::{PrimitiveTopology, ProvokingVertex};
@@ -42,8 +44,8 @@ impl RestartCursor {
         self.next >= source.elements[1]
     }
 
-    /// The vertices of the next primitives, as many as `limit` or few more; `begins` gets the numbers of those that
-    /// are a run's first.
+    /// The vertices of the next primitives, as many as `limit` or few more; `begins` gets the
+    /// numbers of those that are a run's first.
     pub(crate) fn take(
         &mut self,
         source: &RestartSource<'_>,
@@ -72,7 +74,7 @@ impl RestartCursor {
             let number = count(vertices);
             if count(vertices + 1) > number {
                 if number == 0 {
-                    begins.push(u32::try_from(corners.len()).unwrap_or(u32::MAX));
+                    begins.push(number_of(&corners));
                 }
                 // One more than there are, so that no loop is closed here.
                 let elements = vertices + 2;
@@ -94,6 +96,13 @@ impl RestartCursor {
             corners.push(of_run.map(|element| source.vertex(self.run_start + element)));
         }
     }
+}
+
+/// The number of the primitive that is next in a list, which has at most one for each element of a
+/// draw.
+fn number_of(corners: &[[u32; 3]]) -> u32 {
+    debug_assert!(u32::try_from(corners.len()).is_ok());
+    u32::try_from(corners.len()).unwrap_or(u32::MAX)
 }
 
 impl RestartSource<'_> {

@@ -1,25 +1,24 @@
 //! Set-up (R1, R5): sorts a triangle's vertices and makes its planes.
 //!
-//! *In* triangles that survive culling · *Out* [`TrianglePacket`]s, binned · *Space* window · *Precision*
-//! positions exact, planes f32 in the order of `docs/NUMERICS.md`.
+//! *In* triangles that survive culling · *Out* [`TrianglePacket`]s, binned · *Space* window ·
+//! *Precision* positions exact, planes f32 in the order of `docs/NUMERICS.md`.
 //!
 //! Triangles wait as vertex numbers until there are sixteen; then positions, depth and 1/w of their
-//! vertices are read and the planes of all computed together, whoever their neighbours were. Sorting by
-//! (y, x) first makes everything that follows independent of the order in which a triangle's vertices were
-//! given.
+//! vertices are read and the planes of all computed together. Sorting by (y, x) first makes
+//! everything that follows independent of the order in which a triangle's vertices were given.
 
-use super::between::between_samples;
-use super::binning::{BinState, TileRanges};
+use super::binning::bin_packet;
 use super::cull::WindowTriangles;
-use super::depth_bias::DepthBias;
-use super::line_style::LineStyle;
-use super::rows::columns_of;
-use super::shading::WindowRow;
-use crate::tiles::{
-    Chunk, LinePrimitive, PlanePacket, PointPrimitive, TrianglePacket, VertexRef, WindowVertex,
-};
+use super::cull_uncovered::cull_uncovered;
+use super::plan::GeometryPlan;
+use super::shaded_vertices::PackedVertex;
+use crate::bounds::chunk::{Chunk, number};
+use crate::bounds::plane::PlanePacket;
+use crate::bounds::primitives::{VertexRef, WindowVertex};
+use crate::bounds::transpose::components_of;
 use estampe_simd::{
-    Bytes, LANES, Lanes, Level, Select, SimdBase, SimdCvtFloat, dispatch, f32x16, i32x16, u32x16,
+    Bytes, LANES, Lane, Lanes, Level, Select, SimdBase, SimdCvtFloat, dispatch, f32x16, i32x16,
+    u32x16,
 };
 
 /// Triangles that wait for their packet to be full: at most fifteen, and sixteen that join them.
@@ -28,8 +27,8 @@ use estampe_simd::{
 struct Waiting {
     /// The vertices in sorted order, as [`VertexRef`]s.
     vertex: [[u32; 2 * LANES]; 3],
-    /// The provoking vertex, which is never one made by clipping; with [`FRONT`] if the triangle faces the
-    /// viewer.
+    /// The provoking vertex, which is never one made by clipping; with [`FRONT`] if the triangle
+    /// faces the viewer.
     provoking: [u32; 2 * LANES],
     /// Doubled area in sorted order, rounded.
     doubled_area: [f32; 2 * LANES],
@@ -39,60 +38,65 @@ struct Waiting {
 /// The bit of a provoking vertex that tells triangles that face the viewer.
 const FRONT: u32 = 1 << 31;
 
-/// Fills packets and bins them into a chunk.
+/// Memory of one worker.
+#[derive(Debug, Default)]
+pub(crate) struct SetupScratch {
+    waiting: Waiting,
+    /// The vertices that clipping made for the run at hand, in the window.
+    clipped: Vec<PackedVertex>,
+}
+
+/// Fills the packets of one run of a chunk, and bins them.
 #[derive(Debug)]
 pub(crate) struct Setup<'a> {
     level: Level,
-    bins: BinState,
-    bias: Option<DepthBias>,
-    waiting: Waiting,
-    /// The item's vertices.
-    window: &'a [WindowRow],
-    /// The chunk's own, made by clipping.
-    clipped: Vec<WindowRow>,
-    chunk: &'a mut Chunk,
+    plan: &'a GeometryPlan,
+    /// The sub-draw's vertices.
+    window: &'a [PackedVertex],
+    waiting: &'a mut Waiting,
+    clipped: &'a mut Vec<PackedVertex>,
+    /// The number of the first of `clipped` in the chunk.
+    first_clipped: u32,
+    pub(crate) chunk: &'a mut Chunk,
 }
 
 /// Sixteen triangles of known area.
 pub(crate) struct SetupLanes<S: Lanes> {
-    /// The item's vertices, in the order given.
+    /// The sub-draw's vertices, in the order given.
     pub(crate) vertices: [u32x16<S>; 3],
     /// In the order given, rounded; not 0.
     pub(crate) doubled_area: f32x16<S>,
 }
 
 impl<'a> Setup<'a> {
+    /// Set-up of a run whose vertices have so many scalars of varyings.
     pub(crate) fn new(
         level: Level,
-        (bins, bias): (BinState, Option<DepthBias>),
-        window: &'a [WindowRow],
+        plan: &'a GeometryPlan,
+        window: &'a [PackedVertex],
+        varying_scalars: usize,
         chunk: &'a mut Chunk,
-        clipped: Vec<WindowRow>,
+        scratch: &'a mut SetupScratch,
     ) -> Self {
+        let SetupScratch { waiting, clipped } = scratch;
+        debug_assert_eq!(waiting.len, 0, "the run before was not finished");
+        clipped.clear();
         Self {
             level,
-            bins,
-            bias,
-            waiting: Waiting {
-                vertex: [[0; 2 * LANES]; 3],
-                provoking: [0; 2 * LANES],
-                doubled_area: [1.0; 2 * LANES],
-                len: 0,
-            },
+            plan,
             window,
+            waiting,
             clipped,
+            first_clipped: chunk.align_clipped_varyings(varying_scalars),
             chunk,
         }
     }
 
-    pub(crate) fn chunk(&mut self) -> &mut Chunk {
-        self.chunk
-    }
-
     /// Adds a vertex made by clipping.
-    pub(crate) fn push_clipped(&mut self, row: WindowRow) -> VertexRef {
-        let number = u32::try_from(self.clipped.len()).unwrap_or(u32::MAX);
-        self.clipped.push(row);
+    pub(crate) fn push_clipped(&mut self, vertex: PackedVertex, varyings: &[f32]) -> VertexRef {
+        let number = self.first_clipped + number(self.clipped.len());
+        self.clipped.push(vertex);
+        self.chunk.clipped_varyings.extend_from_slice(varyings);
         VertexRef(number | VertexRef::CLIPPED)
     }
 
@@ -103,14 +107,13 @@ impl<'a> Setup<'a> {
         s: S,
         window: &WindowTriangles<S>,
         triangles: &SetupLanes<S>,
-        clockwise_is_front: bool,
         kept: u16,
     ) {
         let area = triangles.doubled_area;
         let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
         let provoking = triangles.vertices[0];
         let front = <u32x16<S> as SimdBase<S>>::splat(s, FRONT);
-        let is_front = if clockwise_is_front {
+        let is_front = if self.plan.facing.clockwise_is_front {
             area.simd_gt(zero)
         } else {
             area.simd_lt(zero)
@@ -127,10 +130,10 @@ impl<'a> Setup<'a> {
         let third = order.exchange::<0, 1>();
         let odd = first ^ second ^ third;
         let mut kept = kept;
-        if self.bins.sample_range == [128; 2] {
-            let between = between_samples(s, order.x, order.y, kept);
-            kept &= !between;
-            self.chunk.statistics.primitives_culled += u64::from(between.count_ones());
+        if self.plan.samples_centers() {
+            let uncovered = cull_uncovered(s, order.x, order.y, kept);
+            kept &= !uncovered;
+            self.chunk.statistics.primitives_culled += u64::from(uncovered.count_ones());
         }
         let area = odd.select(-area, area);
         self.waiting
@@ -163,12 +166,11 @@ impl<'a> Setup<'a> {
         }
     }
 
-    /// Sets up what waits, and gives back the memory of clipped vertices.
-    pub(crate) fn finish(mut self) -> Vec<WindowRow> {
+    /// Sets up what waits: the run's last packet.
+    pub(crate) fn finish(mut self) {
         if self.waiting.len > 0 {
             self.emit();
         }
-        self.clipped
     }
 
     /// Sets up and bins the first packet of those that wait.
@@ -183,16 +185,13 @@ impl<'a> Setup<'a> {
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "at most sixteen lanes")]
     fn set_up<S: Lanes>(&mut self, s: S, len: usize) {
-        let waiting = &self.waiting;
+        let waiting = &*self.waiting;
         let [v0, v1, v2] = [0, 1, 2].map(|corner| first_half(&waiting.vertex[corner]));
         let [x0, y0, z0, w0] = self.read(s, v0);
         let [x1, y1, z1, w1] = self.read(s, v1);
         let [x2, y2, z2, w2] = self.read(s, v2);
 
-        self.chunk.triangles.push(TrianglePacket::EMPTY);
-        let Some(packet) = self.chunk.triangles.last_mut() else {
-            return;
-        };
+        let packet = self.chunk.triangles.push_stale();
         let live = u16::MAX >> (LANES - len);
         for (corner, from) in [v0, v1, v2].into_iter().enumerate() {
             packet.vertex[corner] = from.map(VertexRef);
@@ -225,7 +224,7 @@ impl<'a> Setup<'a> {
         };
         edges.r.store_array(&mut packet.r);
         edges.plane(z0, z1, z2, &mut packet.z);
-        if let Some(bias) = &self.bias {
+        if let Some(bias) = &self.plan.depth_bias {
             bias.apply(&mut packet.z, &[z1.to_array(), z2.to_array()]);
         }
         packet.equal_w = s.bits_of_mask(w0.simd_eq(w1) & w0.simd_eq(w2));
@@ -235,45 +234,27 @@ impl<'a> Setup<'a> {
         w2.store_array(&mut packet.iw_at[2]);
         edges.plane(w0, w1, w2, &mut packet.iw);
 
-        let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
-        let [first, last] = self.bins.sample_range.map(splat);
-        let (rect, log2) = (self.bins.rect, self.bins.grid.tile_log2());
-        let (x_min, x_max) = (x0.min(x1).min(x2), x0.max(x1).max(x2));
-        let ranges = TileRanges {
-            x0: ((x_min - last + 255) >> 8).max(splat(rect.x0)) >> log2,
-            y0: ((y0 - last + 255) >> 8).max(splat(rect.y0)) >> log2,
-            x1: ((x_max - first) >> 8).min(splat(rect.x1 - 1)) >> log2,
-            y1: ((y2 - first) >> 8).min(splat(rect.y1 - 1)) >> log2,
-        };
-        self.bins.bin_packet(s, &ranges, self.chunk);
+        bin_packet(s, self.plan, [[x0, x1, x2], [y0, y1, y2]], self.chunk);
     }
 
     /// x, y, depth and 1/w of sixteen vertices, as bits.
     #[inline(always)]
     fn read<S: Lanes>(&self, s: S, vertices: &[u32; LANES]) -> [u32x16<S>; 4] {
-        // Unused lanes hold what was there before: vertices of this chunk, too.
-        let mut rows = [&[0; 4]; LANES];
-        for (row, &vertex) in rows.iter_mut().zip(vertices) {
+        // Unused lanes hold vertices of triangles that waited before, perhaps of another run: any
+        // will do, or zeros.
+        let mut records = [&[0; 4]; LANES];
+        for (record, &vertex) in records.iter_mut().zip(vertices) {
             let found = if vertex & VertexRef::CLIPPED == 0 {
                 self.window.get(vertex as usize)
             } else {
-                self.clipped.get((vertex & !VertexRef::CLIPPED) as usize)
+                let number = (vertex & !VertexRef::CLIPPED).wrapping_sub(self.first_clipped);
+                self.clipped.get(number as usize)
             };
             if let Some(found) = found {
-                *row = found;
+                *record = found;
             }
         }
-        columns_of(s, &rows)
-    }
-
-    /// Adds a line.
-    pub(crate) fn push_line(&mut self, line: LinePrimitive, style: &LineStyle) {
-        self.bins.push_line(line, style.reach(), self.chunk);
-    }
-
-    /// Adds a point.
-    pub(crate) fn push_point(&mut self, point: PointPrimitive) {
-        self.bins.push_point(point, self.chunk);
+        components_of(s, &records)
     }
 }
 
@@ -302,6 +283,17 @@ impl<S: Lanes> Order<S> {
     }
 }
 
+impl Default for Waiting {
+    fn default() -> Self {
+        Self {
+            vertex: [[0; 2 * LANES]; 3],
+            provoking: [0; 2 * LANES],
+            doubled_area: [1.0; 2 * LANES],
+            len: 0,
+        }
+    }
+}
+
 impl Waiting {
     /// Adds the lanes in `kept`, in order.
     #[inline(always)]
@@ -317,7 +309,8 @@ impl Waiting {
         self.len += kept.count_ones() as usize;
         let [to_a, to_b, to_c] = &mut self.vertex;
         if <S::u32s as SimdBase<S>>::LEN == LANES {
-            // The whole vector is written; what is beyond the kept lanes is garbage until overwritten.
+            // The whole vector is written; what is beyond the kept lanes is garbage until
+            // overwritten.
             let mask = s.mask_from_bits(kept);
             a.compress(mask).store_slice(&mut to_a[at..][..LANES]);
             b.compress(mask).store_slice(&mut to_b[at..][..LANES]);
@@ -331,22 +324,21 @@ impl Waiting {
         }
         let (a, b, c) = (a.to_array(), b.to_array(), c.to_array());
         let (provoking, area) = (provoking.to_array(), area.to_array());
-        let (mut rest, mut to) = (kept, at);
-        while rest != 0 {
-            let lane = rest.trailing_zeros() as usize;
-            rest &= rest - 1;
-            to_a[to] = a[lane];
-            to_b[to] = b[lane];
-            to_c[to] = c[lane];
-            self.provoking[to] = provoking[lane];
-            self.doubled_area[to] = area[lane];
-            to += 1;
+        for (to, lane) in (at..).zip(Lane::all_of(kept)) {
+            to_a[to] = lane.of(&a);
+            to_b[to] = lane.of(&b);
+            to_c[to] = lane.of(&c);
+            self.provoking[to] = lane.of(&provoking);
+            self.doubled_area[to] = lane.of(&area);
         }
     }
 
     /// Moves what waits beyond the first packet to its place.
     fn drop_first(&mut self, len: usize) {
         self.len -= len;
+        if self.len == 0 {
+            return;
+        }
         for values in &mut self.vertex {
             values.copy_within(LANES.., 0);
         }
@@ -363,7 +355,8 @@ fn first_half<T>(values: &[T; 2 * LANES]) -> &[T; LANES] {
         .unwrap_or_else(|| unreachable!("32 lanes have a first half"))
 }
 
-/// The order of three vertices by (y, x), and whether it is an odd permutation. Equal ones keep theirs.
+/// The order of three vertices by (y, x), and whether it is an odd permutation. Equal ones keep
+/// theirs.
 #[inline(always)]
 pub(super) fn sorted(vertices: &[WindowVertex; 3]) -> ([usize; 3], bool) {
     let before = |a: usize, b: usize| {

@@ -1,55 +1,33 @@
-//! Vertex shading (V1): runs the program over an item's vertices and projects what it gives.
+//! Vertex shading (V1): runs the program over a sub-draw's vertices and takes what it gives to the
+//! window.
 //!
-//! *In* a dense range of vertices · *Out* [`ShadedVertices`] · *Space* clip, then window.
+//! *In* a dense range of vertices · *Out* a slice of
+//! [`ShadedVertices`](super::shaded_vertices::ShadedVertices) · *Space* clip, then window.
 
 use super::fetch::{PacketIndex, fetch, fetch_rare};
-use super::rows::{store_rows, store_scalars};
+use super::shaded_vertices::{NEEDS_CLIPPING, PackedVertex, ShadedSlice};
 use super::viewport::ViewportTransform;
+use crate::bounds::transpose::{store_components, store_records};
 use crate::pipeline::{Decoding, RenderPipeline};
 use estampe_simd::{
     Bytes, LANES, Lanes, Level, Packet, Select, SimdBase, dispatch, f32x16, i32x16,
 };
 use estampe_types::{Bindings, Buffer, Interface, VertexBatch};
 
-/// Packets that a program shades in one call. Few, because fetching and storing wait for memory while programs
-/// compute: of a million triangles' half a million vertices, with 2, 4, 8 and 16 packets, the geometry side took
-/// 9.6, 9.9, 10.5 and 11.6 ms of CPU time.
+/// Packets that a program shades in one call. Few, because fetching and storing wait for memory
+/// while programs compute: of a million triangles' half a million vertices, with 2, 4, 8 and 16
+/// packets, the geometry side took 9.6, 9.9, 10.5 and 11.6 ms of CPU time.
 const BATCH: usize = 2;
 
 /// Vertices of a packet.
 #[expect(clippy::cast_possible_truncation, reason = "sixteen")]
 pub(crate) const PACKET: u32 = LANES as u32;
 
-/// A window x that says "this vertex must be clipped"; no snapped coordinate reaches it.
-pub(crate) const NEEDS_CLIPPING: i32 = i32::MIN;
-
-/// A vertex in the window, as bits: x and y in 1/256 pixel, depth, 1/w.
-pub(crate) type WindowRow = [u32; 4];
-
-/// Vertices after the shader and the viewport, one after the other.
-#[derive(Debug, Default)]
-pub(crate) struct ShadedVertices {
-    pub(crate) window: Vec<WindowRow>,
-    /// Clip-space positions as bits: of points, lines and outlines, which all look at them.
-    pub(crate) clip: Vec<[u32; 4]>,
-    /// The varyings' scalars of each vertex.
-    pub(crate) varyings: Vec<f32>,
-    /// Point sizes in pixels, where points are drawn.
-    pub(crate) point_size: Vec<f32>,
-}
-
-/// The part of [`ShadedVertices`] that one worker fills.
-#[derive(Debug)]
-pub(crate) struct ShadedSlice<'a> {
-    pub(crate) window: &'a mut [WindowRow],
-    pub(crate) clip: &'a mut [[u32; 4]],
-    pub(crate) varyings: &'a mut [f32],
-    pub(crate) point_size: &'a mut [f32],
-}
-
-/// Where an item's vertices come from: flat vertex `i` is vertex `i % count` of instance `i / count`.
+/// Where a sub-draw's vertices come from: flat vertex `i` is vertex `i % count` of instance `i /
+/// count`.
 #[derive(Debug, Clone)]
 pub(crate) struct VertexSource<'a> {
+    pub(crate) pipeline: &'a RenderPipeline,
     pub(crate) buffers: &'a [Buffer],
     pub(crate) bindings: &'a Bindings,
     /// The first vertex index.
@@ -57,7 +35,7 @@ pub(crate) struct VertexSource<'a> {
     /// Vertices of one instance.
     pub(crate) count: u32,
     pub(crate) first_instance: u32,
-    /// The draw's first instance, which an item's need not be.
+    /// The draw's first instance, which the sub-draw's need not be.
     pub(crate) base_instance: u32,
     pub(crate) instances: u32,
     /// Explicit vertex indices in place of the dense range, where indices are sparse.
@@ -85,63 +63,80 @@ pub(crate) struct ShadingScratch {
 }
 
 impl ShadingScratch {
-    /// The distances of the first packet that was shaded last.
-    pub(crate) fn distances_of_first(&self, pipeline: &RenderPipeline) -> &[Packet<f32>] {
-        &self.distances[..pipeline.interface().distances()]
+    /// The distances of the first packet of the batch that was shaded last, of a shader with so
+    /// many.
+    pub(crate) fn distances_of_first(&self, distances: usize) -> &[Packet<f32>] {
+        &self.distances[..distances]
+    }
+}
+
+/// A batch of flat vertices: those from `done` on of `total`, which begin at `first`.
+#[derive(Debug, Clone, Copy)]
+struct ShadeBatch {
+    first: u32,
+    done: usize,
+    total: usize,
+}
+
+impl ShadeBatch {
+    /// How many packets the batch takes.
+    #[inline(always)]
+    fn packets(self) -> usize {
+        (self.total - self.done).div_ceil(LANES).min(BATCH)
     }
 }
 
 /// Shades the flat vertices from `first` on, as many as `out` holds.
 pub(crate) fn shade(
     level: Level,
-    pipeline: &RenderPipeline,
     source: &VertexSource<'_>,
     transform: &ViewportTransform,
     first: u32,
-    (out, scratch): (&mut ShadedSlice<'_>, &mut ShadingScratch),
+    out: &mut ShadedSlice<'_>,
+    scratch: &mut ShadingScratch,
 ) {
-    let interface = pipeline.interface();
-    let (stride, distances) = (interface.varyings.len(), interface.distances());
+    let interface = source.pipeline.interface();
     let total = out.window.len();
-    let mut done = 0;
-    while done < total {
-        let count = (total - done).min(BATCH * LANES);
-        let packets = count.div_ceil(LANES);
-        run(level, pipeline, source, (first, done, total), scratch);
-        dispatch!(level, s => store_batch(s, transform, stride, done, packets, (out, scratch)));
-        if distances > 0 {
-            mark_distant(interface, &scratch.distances, &mut out.window[done..]);
+    let mut batch = ShadeBatch {
+        first,
+        done: 0,
+        total,
+    };
+    while batch.done < total {
+        run(level, source, batch, scratch);
+        dispatch!(level, s => store_batch(s, transform, batch, out, scratch));
+        if interface.distances() > 0 {
+            let window = &mut out.window[batch.done..];
+            mark_outside_distances(interface, &scratch.distances, window);
         }
-        done += count;
+        batch.done += BATCH * LANES;
     }
 }
 
 /// The clip-space positions of the packet that begins with the flat vertex `first`.
 pub(crate) fn shade_positions(
     level: Level,
-    pipeline: &RenderPipeline,
     source: &VertexSource<'_>,
     first: u32,
     scratch: &mut ShadingScratch,
 ) -> [Packet<f32>; 4] {
-    let total = source.total().saturating_sub(first).min(PACKET);
-    run(level, pipeline, source, (first, 0, total as usize), scratch);
+    let total = source.total().saturating_sub(first).min(PACKET) as usize;
+    let batch = ShadeBatch {
+        first,
+        done: 0,
+        total,
+    };
+    run(level, source, batch, scratch);
     scratch.positions[0]
 }
 
-/// Fetches and shades a batch: the vertices from `done` on of `total`, which begin at the flat vertex
-/// `first`.
-fn run(
-    level: Level,
-    pipeline: &RenderPipeline,
-    source: &VertexSource<'_>,
-    (first, done, total): (u32, usize, usize),
-    scratch: &mut ShadingScratch,
-) {
+/// Fetches and shades a batch.
+fn run(level: Level, source: &VertexSource<'_>, batch: ShadeBatch, scratch: &mut ShadingScratch) {
+    let pipeline = source.pipeline;
     let interface = pipeline.interface();
     let stride = interface.varyings.len();
     let attributes = interface.attribute_scalars();
-    let packets = (total - done).div_ceil(LANES).min(BATCH);
+    let packets = batch.packets();
     scratch
         .attributes
         .resize(attributes * BATCH, Packet::default());
@@ -150,7 +145,7 @@ fn run(
     scratch
         .distances
         .resize(distances * BATCH, Packet::default());
-    dispatch!(level, s => fetch_batch(s, pipeline, source, (first, done, total), scratch));
+    dispatch!(level, s => fetch_batch(s, source, batch, scratch));
     let sources = pipeline.attributes();
     if sources
         .iter()
@@ -188,12 +183,15 @@ fn run(
     );
 }
 
-/// Writes the vertex and instance index of each lane of the packet whose first vertex is the flat vertex
-/// `first`; lanes beyond the end repeat the last vertex.
+/// Writes the vertex and instance index of each lane of the packet whose first vertex is the flat
+/// vertex `first`; lanes beyond the flat vertex `last` repeat it.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "a lane is below 16")]
 fn number_vertices(source: &VertexSource<'_>, first: u32, last: u32, index: &mut PacketIndex) {
-    let (start, turn) = (first % source.count, first / source.count);
+    let (mut start, mut turn) = match source.count {
+        count if first < count => (first, 0),
+        count => (first % count, first / count),
+    };
     let follows = last - first >= LANES as u32 - 1 && source.count - start >= LANES as u32;
     let vertex = source.first_vertex.checked_add(start);
     index.first = match (vertex, source.sparse) {
@@ -207,39 +205,43 @@ fn number_vertices(source: &VertexSource<'_>, first: u32, last: u32, index: &mut
         index.instance.0 = [source.first_instance.wrapping_add(turn); LANES];
         return;
     }
+    let left = last - first;
     let lanes = index.vertex.0.iter_mut().zip(&mut index.instance.0);
-    for (lane, (vertex, instance)) in lanes.enumerate() {
-        let flat = first.saturating_add(lane as u32).min(last);
-        let (start, turn) = (flat % source.count, flat / source.count);
+    for (lane, (vertex, instance)) in (0..).zip(lanes) {
         *vertex = match source.sparse {
-            Some(sparse) => sparse.get(start as usize).copied().unwrap_or_default(),
+            // As many as the source's count.
+            Some(sparse) => sparse[start as usize],
             None => source.first_vertex.wrapping_add(start),
         };
         *instance = source.first_instance.wrapping_add(turn);
+        if lane < left {
+            start += 1;
+            if start == source.count {
+                (start, turn) = (0, turn + 1);
+            }
+        }
     }
 }
 
-/// Fetches the attributes of a batch: the vertices from `done` on of `total`, which begin at the flat
-/// vertex `first`.
+/// Fetches the attributes of a batch.
 #[inline(always)]
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "an item has fewer than 2³² vertices"
+    reason = "a sub-draw has fewer than 2³² vertices"
 )]
 fn fetch_batch<S: Lanes>(
     s: S,
-    pipeline: &RenderPipeline,
     source: &VertexSource<'_>,
-    (first, done, total): (u32, usize, usize),
+    batch: ShadeBatch,
     scratch: &mut ShadingScratch,
 ) {
+    let pipeline = source.pipeline;
     let wanted = &pipeline.interface().attributes;
     let scalars: usize = wanted.iter().sum();
-    let packets = (total - done).div_ceil(LANES).min(BATCH);
-    let last = first + (total - 1) as u32;
-    for packet in 0..packets {
+    let last = batch.first + (batch.total - 1) as u32;
+    for packet in 0..batch.packets() {
         let mut index = PacketIndex::default();
-        let start = first + (done + packet * LANES) as u32;
+        let start = batch.first + (batch.done + packet * LANES) as u32;
         number_vertices(source, start, last, &mut index);
         scratch.vertex_index[packet] = index.vertex;
         scratch.instance_index[packet] = index.instance;
@@ -255,10 +257,14 @@ fn fetch_batch<S: Lanes>(
     }
 }
 
-/// Marks the vertices of a batch that a clip or cull distance keeps from being drawn as they are. So primitives
-/// that no distance touches take the way of all others.
+/// Marks the vertices of a batch with a negative clip or cull distance as needing clipping. All
+/// other primitives are drawn as if there were no distances.
 #[inline(never)]
-fn mark_distant(interface: &Interface, distances: &[Packet<f32>], window: &mut [WindowRow]) {
+fn mark_outside_distances(
+    interface: &Interface,
+    distances: &[Packet<f32>],
+    window: &mut [PackedVertex],
+) {
     let of_packets = distances.chunks_exact(interface.distances());
     for (of_packet, rows) in of_packets.zip(window.chunks_mut(LANES)) {
         let (clip, cull) = of_packet.split_at(interface.clip_distances);
@@ -271,17 +277,17 @@ fn mark_distant(interface: &Interface, distances: &[Packet<f32>], window: &mut [
     }
 }
 
-/// Projects a batch and writes it vertex by vertex.
+/// Takes a batch to the window and writes it vertex by vertex.
 #[inline(always)]
 fn store_batch<S: Lanes>(
     s: S,
     transform: &ViewportTransform,
-    stride: usize,
-    done: usize,
-    packets: usize,
-    (out, scratch): (&mut ShadedSlice<'_>, &mut ShadingScratch),
+    batch: ShadeBatch,
+    out: &mut ShadedSlice<'_>,
+    scratch: &ShadingScratch,
 ) {
-    for packet in 0..packets {
+    let stride = scratch.varyings.len() / BATCH;
+    for packet in 0..batch.packets() {
         let [x, y, z, w] = &scratch.positions[packet];
         let clip = [
             f32x16::load_array_ref(s, &x.0),
@@ -298,9 +304,9 @@ fn store_batch<S: Lanes>(
             projected.z.bitcast(),
             projected.iw.bitcast(),
         ];
-        let first = done + packet * LANES;
+        let first = batch.done + packet * LANES;
         let count = (out.window.len() - first).min(LANES);
-        store_rows(s, window, &mut out.window[first..][..count]);
+        store_records(s, window, &mut out.window[first..][..count]);
         if !out.clip.is_empty() {
             let clip = [
                 clip[0].bitcast(),
@@ -308,11 +314,11 @@ fn store_batch<S: Lanes>(
                 clip[2].bitcast(),
                 clip[3].bitcast(),
             ];
-            store_rows(s, clip, &mut out.clip[first..][..count]);
+            store_records(s, clip, &mut out.clip[first..][..count]);
         }
         let varyings = &scratch.varyings[packet * stride..][..stride];
         let to = &mut out.varyings[first * stride..][..count * stride];
-        store_scalars(s, varyings, to);
+        store_components(s, varyings, to);
         if !out.point_size.is_empty() {
             let sizes = &scratch.point_size[packet].0[..count];
             out.point_size[first..][..count].copy_from_slice(sizes);

@@ -4,12 +4,12 @@
 //! 1/256 pixel · *Spec* Vulkan §Coordinate Transformations; `docs/NUMERICS.md`.
 
 use estampe_simd::{Lanes, Select, SimdBase, f32x16, i32x16, mask32x16};
-use estampe_types::state::{ScissorRect, Viewport};
+use estampe_types::state::Viewport;
 
 /// The least window coordinate that needs no clipping, in pixels.
 pub(crate) const GUARD_MIN: f32 = -8192.0;
-/// The greatest: the guard band is 2¹⁵ pixels in all, so differences of positions in 1/256 pixel fit
-/// 24 bits and products of two of them 48.
+/// The greatest: the guard band is 2¹⁵ pixels in all, so differences of positions in 1/256 pixel
+/// fit 24 bits and products of two of them 48.
 pub(crate) const GUARD_MAX: f32 = 24_575.0;
 
 /// The least w that is not clipped where depth is not.
@@ -83,7 +83,8 @@ impl ViewportTransform {
         }
     }
 
-    /// Whether a position lies between the planes that bound depth, or w where depth is not clipped.
+    /// Whether a position lies between the planes that bound depth, or w where depth is not
+    /// clipped.
     pub(crate) fn is_in_depth(&self, [_, _, z, w]: [f32; 4]) -> bool {
         if self.unclipped_depth {
             w >= LEAST_W
@@ -138,8 +139,9 @@ pub(crate) fn is_within_guard_band(x: f32, y: f32) -> bool {
     (GUARD_MIN..=GUARD_MAX).contains(&x) && (GUARD_MIN..=GUARD_MAX).contains(&y)
 }
 
-/// A window coordinate in 1/256 pixel, half to even. Clipped vertices lie up to a pixel outside the guard
-/// band; the clamp stands for those that rounding put further, or that overflowed: NaN gives the least.
+/// A window coordinate in 1/256 pixel, half to even. Clipped vertices lie up to a pixel outside the
+/// guard band; the clamp stands for those that rounding put further, or that overflowed: NaN gives
+/// the least.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the clamp keeps it below 2²³"
@@ -152,8 +154,8 @@ pub(crate) fn snap(coordinate: f32) -> i32 {
 
 /// The same for sixteen coordinates within the guard band; others give anything.
 ///
-/// `round_to_i32` is exact up to 2²² = 16384 pixels; greater values are multiples of ½, so 2²² comes
-/// off without rounding and goes back on as an integer.
+/// `round_to_i32` is exact up to 2²² = 16384 pixels; greater values are multiples of ½, so 2²²
+/// comes off without rounding and goes back on as an integer.
 #[inline(always)]
 fn snap_lanes<S: Lanes>(s: S, coordinate: f32x16<S>) -> i32x16<S> {
     let scaled = coordinate * 256.0;
@@ -162,53 +164,6 @@ fn snap_lanes<S: Lanes>(s: S, coordinate: f32x16<S>) -> i32x16<S> {
     let rounded = s.round_to_i32(high.select(scaled - base, scaled));
     let back = <i32x16<S> as SimdBase<S>>::splat(s, 1 << 22);
     high.select(rounded + back, rounded)
-}
-
-/// A half-open rectangle of pixels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct PixelRect {
-    pub(crate) x0: i32,
-    pub(crate) y0: i32,
-    pub(crate) x1: i32,
-    pub(crate) y1: i32,
-}
-
-impl PixelRect {
-    /// Viewport ∩ scissor ∩ target. The viewport's pixels are those whose centres it contains.
-    pub(crate) fn new(
-        viewport: &Viewport,
-        scissor: Option<ScissorRect>,
-        width: u32,
-        height: u32,
-    ) -> Self {
-        let size = |pixels: u32| i32::try_from(pixels).unwrap_or(i32::MAX);
-        // In f64 the sums are exact: an edge just before a centre stays there.
-        let [x, y, across, down] =
-            [viewport.x, viewport.y, viewport.width, viewport.height].map(f64::from);
-        let mut rect = Self {
-            x0: first_center(x).max(0),
-            y0: first_center(y).max(0),
-            x1: first_center(x + across).min(size(width)),
-            y1: first_center(y + down).min(size(height)),
-        };
-        if let Some(scissor) = scissor {
-            rect.x0 = rect.x0.max(size(scissor.x));
-            rect.y0 = rect.y0.max(size(scissor.y));
-            rect.x1 = rect.x1.min(size(scissor.x.saturating_add(scissor.width)));
-            rect.y1 = rect.y1.min(size(scissor.y.saturating_add(scissor.height)));
-        }
-        rect
-    }
-
-    pub(crate) fn is_empty(&self) -> bool {
-        self.x0 >= self.x1 || self.y0 >= self.y1
-    }
-}
-
-/// ⌈edge − ½⌉: the first pixel whose centre is at or beyond an edge.
-#[expect(clippy::cast_possible_truncation, reason = "`as` saturates")]
-fn first_center(edge: f64) -> i32 {
-    (edge - 0.5).ceil() as i32
 }
 
 #[cfg(test)]
@@ -241,27 +196,5 @@ mod tests {
                 "{level:?}"
             );
         }
-    }
-
-    #[test]
-    fn a_viewport_has_the_pixels_whose_centers_it_contains() {
-        let viewport = Viewport {
-            x: 0.5,
-            y: -3.0,
-            width: 2.0,
-            height: 5.0,
-            min_depth: 0.0,
-            max_depth: 1.0,
-        };
-        let rect = PixelRect::new(&viewport, None, 10, 10);
-        assert_eq!(
-            rect,
-            PixelRect {
-                x0: 0,
-                y0: 0,
-                x1: 2,
-                y1: 2
-            }
-        );
     }
 }

@@ -5,12 +5,13 @@
 //!     not), the pixel whose row holds the line's y at that centre; y-major lines likewise
 //! ```
 //!
-//! *Precision* exact 64-bit integers · *Spec* Vulkan §Bresenham Line Segment Rasterization, §Rectangular.
+//! *Precision* exact 64-bit integers · *Spec* Vulkan §Bresenham Line Segment Rasterization,
+//! §Rectangular.
 
-use super::{CoverageList, MAX_PACKETS, TileShape, packet_origin, sample_positions};
+use super::{CoverageList, MAX_PACKETS, TileShape, packet_origin};
+use crate::bounds::pixel_rect::PixelRect;
+use crate::bounds::primitives::LinePrimitive;
 use crate::geometry::line_style::{LineAxis, LineRectangle, LineShape, LineStyle, along, length};
-use crate::geometry::viewport::PixelRect;
-use crate::tiles::LinePrimitive;
 use estampe_simd::{LANE_X, LANE_Y, LANES};
 
 /// Lists the packets that a line covers; `rect` is in the tile's own pixels.
@@ -34,7 +35,8 @@ pub(crate) fn cover<const N: usize>(
     }
 }
 
-/// The units of the major axis inside a rectangle of a tile, and the rows that may be covered there.
+/// The units of the major axis inside a rectangle of a tile, and the rows that may be covered
+/// there.
 fn ranges(axis: &LineAxis, tile: TileShape, rect: &PixelRect) -> [std::ops::Range<i64>; 2] {
     let origin = [i64::from(tile.x), i64::from(tile.y)];
     let (low, high) = ([rect.x0, rect.y0], [rect.x1, rect.y1]);
@@ -112,10 +114,8 @@ fn cover_columns<const N: usize>(
         } else {
             last - unit
         };
-        let number = line
-            .stipple
-            .wrapping_add(u32::try_from(number).unwrap_or(0));
-        if !style.shows(number) {
+        let number = u64::try_from(number).unwrap_or(0);
+        if !style.shows(u64::from(line.stipple) + number) {
             continue;
         }
         let row = axis.minor_at(unit);
@@ -139,11 +139,11 @@ fn cover_rectangle<const N: usize>(
     (tile, rect): (TileShape, &PixelRect),
     out: &mut CoverageList<N>,
 ) {
-    let samples = sample_positions::<N>();
+    let samples = out.samples().subpixels();
     let [x0, y0, x1, y1] = rectangle.bounds.map(|at| at >> 8);
     let columns = (x0 - tile.x).max(rect.x0)..(x1 + 1 - tile.x).min(rect.x1);
     let rows = (y0 - tile.y).max(rect.y0)..(y1 + 1 - tile.y).min(rect.y1);
-    let per_pixel = length(line) * 256.0;
+    let length = length(line);
     for packet in 0..1u32 << (2 * (tile.log2 - 2)) {
         let (px, py) = packet_origin(packet);
         let is_near = px + 4 > columns.start && px < columns.end;
@@ -162,8 +162,8 @@ fn cover_rectangle<const N: usize>(
             let pixel = [tile.x + x, tile.y + y];
             let at = |[sx, sy]: [i32; 2]| [pixel[0] * 256 + sx, pixel[1] * 256 + sy];
             if style.stipple.is_some() {
-                let distance = along(line, at([128; 2])) as f32 / per_pixel;
-                if !style.shows(line.stipple.wrapping_add(whole(distance))) {
+                let distance = along(line, at([128; 2])) as f32 / length;
+                if !style.shows_at(line, distance) {
                     continue;
                 }
             }
@@ -191,16 +191,6 @@ fn misses(rectangle: &LineRectangle, pixel: [i32; 2]) -> bool {
         let best_y = if *b > 0 { y + 1024 } else { y };
         a * best_x + b * best_y + c < 0
     })
-}
-
-/// ⌊distance⌋, at least 0.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "`as` saturates"
-)]
-fn whole(distance: f32) -> u32 {
-    distance as u32
 }
 
 /// The packet of a tile's pixel and the pixel's bit in it.

@@ -1,8 +1,8 @@
 //! Points (R4): squares, or the discs inside them.
 
-use super::{CoverageList, TileShape, rect_mask, sample_positions};
-use crate::geometry::viewport::PixelRect;
-use crate::tiles::PointPrimitive;
+use super::{CoverageList, TileShape, rect_mask};
+use crate::bounds::pixel_rect::PixelRect;
+use crate::bounds::primitives::PointPrimitive;
 use estampe_simd::{LANE_X, LANE_Y, LANES};
 
 /// Lists the packets of which a point covers samples; `rect` is in the tile's own pixels.
@@ -16,7 +16,8 @@ pub(crate) fn cover<const N: usize>(
     let (x, y, half) = (point.center.x, point.center.y, point.half);
     // For each sample the pixels with low ≤ 256·i + offset < high.
     let first = |low: i32, offset: i32| (low - offset + 255) >> 8;
-    let by_sample = sample_positions::<N>().map(|[sx, sy]| PixelRect {
+    let positions = out.samples().subpixels();
+    let by_sample = positions.map(|[sx, sy]| PixelRect {
         x0: (first(x - half, sx) - tile.x).max(rect.x0),
         y0: (first(y - half, sy) - tile.y).max(rect.y0),
         x1: (first(x + half, sx) - tile.x).min(rect.x1),
@@ -42,7 +43,7 @@ pub(crate) fn cover<const N: usize>(
             });
             if is_round {
                 let pixel = [tile.x + column * 4, tile.y + row * 4];
-                for (mask, sample) in masks.iter_mut().zip(sample_positions::<N>()) {
+                for (mask, sample) in masks.iter_mut().zip(positions) {
                     *mask &= disc_mask(point, pixel, sample);
                 }
             }

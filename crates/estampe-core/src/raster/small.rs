@@ -1,8 +1,9 @@
 //! Coverage of small triangles, sixteen triangles at a time.
 //!
-//! A triangle whose box holds at most 8×8 pixels would leave most of sixteen pixels' lanes idle; here the
-//! lanes are the triangles of a packet, and the loop is over the pixels of their boxes. All
-//! differences of positions are below 2¹³, so that 32-bit edges are exact without a tile's constants.
+//! A triangle whose box holds at most 8×8 pixels would leave most of sixteen pixels' lanes idle;
+//! here the lanes are the triangles of a packet, and the loop is over the pixels of their boxes.
+//! All differences of positions are below 2¹³, so that 32-bit edges are exact without a tile's
+//! constants.
 //!
 //! ```text
 //!     pixel (0,0)   (1,0)   (0,1)  …      of each lane's own box
@@ -10,8 +11,9 @@
 //! ```
 
 use super::TileShape;
-use crate::geometry::viewport::PixelRect;
-use crate::tiles::TrianglePacket;
+use crate::bounds::pixel_rect::PixelRect;
+use crate::bounds::primitives::TrianglePacket;
+use crate::depth_format::StoredDepth;
 use estampe_simd::{
     Bytes, LANES, Lanes, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, mask32x16, u32x16,
 };
@@ -77,7 +79,7 @@ impl SmallTriangles {
         packet: &TrianglePacket,
         lanes: u16,
         (tile, rect): (TileShape, &PixelRect),
-        [low, high]: [f32; 2],
+        stored: StoredDepth,
     ) -> u16 {
         let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
         let (mut x, mut y) = ([splat(0); 3], [splat(0); 3]);
@@ -112,7 +114,6 @@ impl SmallTriangles {
         let from_x = f32x16::float_from((x_first << 8) + 128 - x0) * (1.0 / 256.0);
         let from_y = f32x16::float_from((y_first << 8) + 128 - y0) * (1.0 / 256.0);
 
-        let real = |value: f32| <f32x16<S> as SimdBase<S>>::splat(s, value);
         let mut covered = [splat(0); 2];
         let mut row_edges = [edges[0].value, edges[1].value, edges[2].value];
         for row in 0..rows {
@@ -128,7 +129,7 @@ impl SmallTriangles {
                 covered[half] = inside.select(covered[half] | splat(bit), covered[half]);
                 let by_x = (from_x + column as f32) * dx;
                 let depth = origin + (by_x + by_y);
-                let depth = s.min_f32(s.max_f32(depth, real(low)), real(high));
+                let depth = stored.of(s, depth);
                 depth.store_array(&mut self.depth[(row * SIDE + column) as usize % PIXELS]);
                 for (value, edge) in values.iter_mut().zip(&edges) {
                     *value += edge.a;
@@ -167,7 +168,8 @@ fn spread<S: Lanes>(s: S, value: i32x16<S>) -> u32x16<S> {
     (v | (v << 1)) & mask(0x555)
 }
 
-/// One edge of sixteen triangles: its value at the box's first pixel, and what a pixel further adds.
+/// One edge of sixteen triangles: its value at the box's first pixel, and what a pixel further
+/// adds.
 #[derive(Clone, Copy)]
 struct EdgeLanes<S: Lanes> {
     value: i32x16<S>,
@@ -177,8 +179,8 @@ struct EdgeLanes<S: Lanes> {
 
 /// The three edges, wound so that inside is ≥ 0, the fill rule folded in.
 ///
-/// Vertices are sorted by (y, x), which decides what is a top or a left edge: clockwise 0→1 and 1→2 where
-/// they are level (top) and 2→0 always (left); counter-clockwise 0→2 never, 2→1 and 1→0 where
+/// Vertices are sorted by (y, x), which decides what is a top or a left edge: clockwise 0→1 and 1→2
+/// where they are level (top) and 2→0 always (left); counter-clockwise 0→2 never, 2→1 and 1→0 where
 /// they rise (left).
 #[inline(always)]
 fn edges<S: Lanes>(
@@ -210,8 +212,8 @@ struct Winding<S: Lanes> {
 }
 
 impl<S: Lanes> Winding<S> {
-    /// The edge from a to b of clockwise triangles, from b to a of others; and where each has its samples
-    /// inside.
+    /// The edge from a to b of clockwise triangles, from b to a of others; and where each has its
+    /// samples inside.
     #[inline(always)]
     fn edge(
         &self,

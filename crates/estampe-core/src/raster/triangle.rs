@@ -1,24 +1,26 @@
 //! Coverage of a triangle, tile by tile.
 //!
-//! **Two widths.** Positions are 1/256 pixel in a guard band of 2¹⁵ pixels, so an edge's constant needs
-//! 48 bits. It is computed once per tile in 64 bits with the fill rule's bias folded in; then every value
-//! at a sample is `c + 256·(a·i + b·j)`, whose sign is that of `(c >> 8) + a·i + b·j` (the shift is a
-//! floor and the rest an integer). Inside a tile that the edge crosses these values are below
-//! 126·2²³ in magnitude and fit 32 bits; an edge that does not cross the tile is decided there and then.
+//! **Two widths.** Positions are 1/256 pixel in a guard band of 2¹⁵ pixels, so an edge's constant
+//! needs 48 bits. It is computed once per tile in 64 bits with the fill rule's bias folded in; then
+//! every value at a sample is `c + 256·(a·i + b·j)`, whose sign is that of `(c >> 8) + a·i + b·j`
+//! (the shift is a floor and the rest an integer). Inside a tile that the edge crosses these values
+//! are below 126·2²³ in magnitude and fit 32 bits; an edge that does not cross the tile is decided
+//! there and then.
 //!
 //! **Two paths.** A triangle whose box lies in few packets goes straight to pixels; others descend
-//! blocks, packets, pixels. With the hierarchy for all, a frame of 998 k triangles of about a pixel took
-//! 63 ms on one core in place of 48 (`estampe-bench --scenes small_tris --threads 1`).
+//! blocks, packets, pixels. With the hierarchy for all, a frame of 998 k triangles of about a pixel
+//! took 63 ms on one core in place of 48 (`estampe-bench --scenes small_tris --threads 1`).
 
-use super::{CoverageList, TileShape, sample_positions};
-use crate::geometry::viewport::PixelRect;
-use crate::tiles::TrianglePacket;
+use super::{CoverageList, SampleSet, TileShape};
+use crate::bounds::pixel_rect::PixelRect;
+use crate::bounds::primitives::TrianglePacket;
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, SimdBase, i32x16};
 
 /// Packets of a box that are tried one by one rather than through the hierarchy.
 const DIRECT_PACKETS: i32 = 6;
 
-/// One edge inside a tile: `c[s] + a·i + b·j ≥ 0` is inside for sample `s` of the tile's pixel (i, j).
+/// One edge inside a tile: `c[s] + a·i + b·j ≥ 0` is inside for sample `s` of the tile's pixel (i,
+/// j).
 #[derive(Debug, Clone, Copy)]
 struct Edge<const N: usize> {
     a: i32,
@@ -44,6 +46,7 @@ impl<const N: usize> TileTriangle<N> {
         lane: usize,
         tile: TileShape,
         rect: &PixelRect,
+        samples: SampleSet<N>,
     ) -> Option<Self> {
         let x = [packet.x[0][lane], packet.x[1][lane], packet.x[2][lane]];
         let y = [packet.y[0][lane], packet.y[1][lane], packet.y[2][lane]];
@@ -68,7 +71,7 @@ impl<const N: usize> TileTriangle<N> {
             c: [0; N],
         }; 3];
         for (edge, (from, to)) in edges.iter_mut().zip(ends) {
-            *edge = Edge::new([x[from], y[from]], [x[to], y[to]], tile)?;
+            *edge = Edge::new([x[from], y[from]], [x[to], y[to]], tile, samples)?;
         }
         Some(Self {
             edges,
@@ -108,7 +111,7 @@ impl<const N: usize> TileTriangle<N> {
         }
         // A tile of 32×32 has four blocks: the first four lanes.
         let blocks = if tile.log2 == 6 { u16::MAX } else { 0xF };
-        let (some, all) = lanes.judge(s, self, [0, 0], 16);
+        let (some, all) = lanes.classify(s, self, [0, 0], 16);
         let mut live = some & blocks & !skip;
         let whole = live & all & whole;
         live &= !whole;
@@ -122,7 +125,7 @@ impl<const N: usize> TileTriangle<N> {
                 }
                 continue;
             }
-            let (some, all) = lanes.judge(s, self, origin, 4);
+            let (some, all) = lanes.classify(s, self, origin, 4);
             let mut live = some;
             while live != 0 {
                 let packet = live.trailing_zeros();
@@ -150,7 +153,7 @@ impl<const N: usize> TileTriangle<N> {
         out: &mut CoverageList<N>,
     ) {
         let mut masks = [0; N];
-        for (sample, mask) in masks.iter_mut().enumerate() {
+        for (sample, mask) in masks.iter_mut().enumerate().take(out.samples().count()) {
             let value = |edge: usize| {
                 let Edge { a, b, c } = &self.edges[edge];
                 lanes.pixel[edge] + <i32x16<S> as SimdBase<S>>::splat(s, c[sample] + a * x + b * y)
@@ -174,20 +177,25 @@ fn origin_of(index: u32, size: i32) -> [i32; 2] {
 }
 
 impl<const N: usize> Edge<N> {
-    /// The edge from one vertex to another; `None` when all of the tile is outside, and an edge that
-    /// is always inside when all of the tile is.
+    /// The edge from one vertex to another; `None` when all of the tile is outside, and an edge
+    /// that is always inside when all of the tile is.
     #[inline(always)]
     #[expect(
         clippy::cast_possible_truncation,
         reason = "see the head: an edge that crosses fits"
     )]
-    fn new([ax, ay]: [i32; 2], [bx, by]: [i32; 2], tile: TileShape) -> Option<Self> {
+    fn new(
+        [ax, ay]: [i32; 2],
+        [bx, by]: [i32; 2],
+        tile: TileShape,
+        samples: SampleSet<N>,
+    ) -> Option<Self> {
         // E(x, y) = (bx − ax)·(y − ay) − (by − ay)·(x − ax), differences below 2²⁴.
         let (a, b) = (i64::from(ay - by), i64::from(bx - ax));
         // A sample on the edge is inside if the edge is a top or a left one.
         let is_top_left = by < ay || by == ay && bx > ax;
         let bias = i64::from(is_top_left) - 1;
-        let positions = sample_positions::<N>();
+        let positions = samples.subpixels();
         let mut c = [0; N];
         for (c, [sx, sy]) in c.iter_mut().zip(positions) {
             let (x, y) = (tile.x * 256 + sx - ax, tile.y * 256 + sy - ay);
@@ -240,10 +248,10 @@ impl<S: Lanes> EdgeLanes<S> {
         }
     }
 
-    /// Of sixteen units of `size` pixels from (x, y) on: which hold covered samples, perhaps, and which
-    /// are covered whole.
+    /// Of sixteen units of `size` pixels from (x, y) on: which hold covered samples, perhaps, and
+    /// which are covered whole.
     #[inline(always)]
-    fn judge<const N: usize>(
+    fn classify<const N: usize>(
         &self,
         s: S,
         triangle: &TileTriangle<N>,

@@ -1,183 +1,164 @@
 //! The page of the tile side: one tile, from its bins to its attachments.
 //!
-//! A worker owns the tile's slices of the attachments, clears them if the pass says so, and consumes the
-//! chunks in submission order, so an image does not depend on who draws which tile. Most triangles are first
-//! [seen and then shaded](deferred); what depends on order is drawn [in order](immediate).
+//! A worker owns the tile's slices of the attachments, clears them if the pass says so, and
+//! consumes the chunks in submission order, so an image does not depend on which worker draws which
+//! tile. A sub-draw's [path](TilePath) says how: opaque triangles go to the [visibility] path,
+//! which runs on over draws; everything else is drawn [in order](in_order).
 
-mod deferred;
-mod general;
-mod immediate;
+mod clear;
+mod in_order;
+mod visibility;
 
-use crate::commands::{Draw, OcclusionQueries};
+pub(crate) use clear::Clear;
+
+use crate::bounds::bins::BinEntry;
+use crate::bounds::chunk::{Chunk, ChunkIndex};
+use crate::bounds::pixel_rect::PixelRect;
+use crate::commands::OcclusionQueries;
 use crate::fragment::interpolate::VaryingSource;
-use crate::fragment::queue::FragmentQueue;
-use crate::geometry::viewport::PixelRect;
+use crate::fragment::queue::{FragmentQueue, ShadedBatch};
 use crate::layout::TileGrid;
-use crate::per_sample::color::ColorTarget;
-use crate::per_sample::depth::DepthTest;
-use crate::per_sample::depth_bounds::DepthBounds;
-use crate::per_sample::general::DepthFormat;
-use crate::per_sample::texel::MAX_WORDS;
-use crate::pipeline::RenderPipeline;
-use crate::raster::{CoverageList, TileShape};
+use crate::per_sample::color_writer::ColorWriter;
+use crate::per_sample::hiz::HierarchicalZ;
+use crate::plan::tile_plan::TilePlan;
+use crate::raster::{MAX_SAMPLES, SampleSet, TileShape};
 use crate::statistics::Statistics;
-use crate::tiles::{Chunk, ChunkIndex};
-use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16, u32x16};
-use estampe_types::Bindings;
+use crate::tile_path::TilePath;
+use estampe_simd::{LANES, Level};
 
 /// The most colour targets of a pass.
 pub(crate) const MAX_TARGETS: usize = 8;
 
-/// Boxes of fewer packets than this are not worth asking the depth bounds for.
-const BOUNDED_PACKETS: i32 = 16;
+/// Boxes of fewer packets than this are not worth asking hierarchical z for.
+const HIZ_PACKETS: i32 = 16;
 
-/// An item of a wave as its fragments need it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct TileItem<'a> {
-    pub(crate) pipeline: &'a RenderPipeline,
-    pub(crate) bindings: &'a Bindings,
-    pub(crate) varyings: &'a [f32],
-    pub(crate) rect: PixelRect,
-    pub(crate) depth_range: [f32; 2],
-    pub(crate) targets: [Option<ColorTarget>; MAX_TARGETS],
-    pub(crate) all_smooth: bool,
-    pub(crate) draw: &'a Draw<'a>,
-    /// How the target stores depth.
-    pub(crate) depth_format: DepthFormat,
-    /// Whether its state, or the target's, is beyond the common paths.
-    pub(crate) is_general: bool,
-}
-
-/// What every tile of a pass shares.
+/// Data that every tile of a pass shares.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TilePass<'a> {
     pub(crate) level: Level,
     pub(crate) grid: TileGrid,
-    pub(crate) items: &'a [TileItem<'a>],
+    /// By sub-draw.
+    pub(crate) plans: &'a [TilePlan<'a>],
     pub(crate) chunks: &'a [Chunk],
     /// Which of the chunks reach a tile.
     pub(crate) chunk_index: &'a ChunkIndex,
-    /// What is cleared first.
+    /// The values that attachments are cleared to first.
     pub(crate) clear: Clear,
     pub(crate) samples: usize,
     pub(crate) occlusion_queries: Option<&'a OcclusionQueries>,
 }
 
-/// What a pass clears in each tile.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Clear {
-    /// The words of a texel, by colour attachment, and how many there are.
-    pub(crate) colors: [Option<([u32; MAX_WORDS], usize)>; MAX_TARGETS],
-    pub(crate) depth: Option<f32>,
-    pub(crate) stencil: Option<u8>,
+impl TilePass<'_> {
+    /// The samples of a pixel.
+    fn sample_set<const N: usize>(&self) -> SampleSet<N> {
+        SampleSet::new(self.samples)
+    }
 }
 
-/// One tile's share of the attachments.
+/// One tile's share of the attachments: packets of sixteen words, depths, stencil values.
 #[derive(Debug, Default)]
 pub(crate) struct TileJob<'a> {
     pub(crate) tile: u32,
-    pub(crate) colors: [&'a mut [u32]; MAX_TARGETS],
-    pub(crate) depth: &'a mut [f32],
-    pub(crate) stencil: &'a mut [u8],
+    pub(crate) colors: [&'a mut [[u32; LANES]]; MAX_TARGETS],
+    pub(crate) depth: &'a mut [[f32; LANES]],
+    pub(crate) stencil: &'a mut [[u8; LANES]],
 }
 
 /// Memory of one worker, for `N` samples.
 #[derive(Debug, Default)]
 pub(crate) struct TileScratch<const N: usize> {
-    list: CoverageList<N>,
-    /// Planes of one triangle's varyings.
-    planes: Vec<f32>,
     queue: FragmentQueue<N>,
-    bounds: DepthBounds,
-    deferred: deferred::Deferred<N>,
-    general: general::GeneralScratch,
+    hiz: HierarchicalZ,
+    in_order: in_order::InOrderScratch<N>,
+    visibility: visibility::VisibilityScratch<N>,
     pub(crate) statistics: Statistics,
 }
 
-/// Memory of one worker, for any number of samples: such targets have the general path alone.
-#[derive(Debug, Default)]
-pub(crate) struct AnyTileScratch {
-    general: general::GeneralScratch,
-    pub(crate) statistics: Statistics,
-}
-
-/// Draws a tile.
+/// Draws a tile of 1 or 4 samples.
 pub(crate) fn draw<const N: usize>(
     pass: &TilePass<'_>,
     job: &mut TileJob<'_>,
     scratch: &mut TileScratch<N>,
 ) {
-    dispatch!(pass.level, s => clear(s, pass, job));
-    scratch.bounds.begin(pass.clear.depth);
+    begin(pass, job, scratch);
     for &number in pass.chunk_index.of_tile(job.tile) {
-        let entries = pass.chunks[number as usize].bins.of_tile(job.tile);
-        let work = ChunkInTile::new(pass, number, job);
-        if work.item.is_general {
-            deferred::shade_run(pass, job, scratch);
-            let memory = (&mut scratch.general, &mut scratch.statistics);
-            let samples = (N, pass.occlusion_queries);
-            general::draw_chunk(&work, entries, samples, job, memory);
-            scratch.bounds.invalidate(u16::MAX);
-        } else if deferred::is_deferred(&work) {
-            deferred::see_chunk(pass, (&work, entries), job, scratch);
-        } else {
-            deferred::shade_run(pass, job, scratch);
-            dispatch!(pass.level, s => immediate::draw_chunk(s, &work, entries, job, scratch));
+        for (sub_draw, entries) in pass.chunks[number as usize].runs_of_tile(job.tile) {
+            let work = TileWork::new(pass, [number, sub_draw], job.tile);
+            scratch.count(work.plan.path, entries);
+            if work.plan.path.is_visibility() {
+                visibility::add(pass, (&work, entries), job, scratch);
+            } else {
+                visibility::resolve(pass, job, scratch);
+                in_order::draw(&work, entries, job, scratch);
+            }
         }
     }
-    deferred::shade_run(pass, job, scratch);
+    visibility::resolve(pass, job, scratch);
 }
 
-/// Draws a tile of any number of samples.
-pub(crate) fn draw_any(pass: &TilePass<'_>, job: &mut TileJob<'_>, scratch: &mut AnyTileScratch) {
-    dispatch!(pass.level, s => clear(s, pass, job));
+/// Draws a tile of 2, 8 or 16 samples, or of any number at the scalar level: the visibility path is
+/// not compiled for these.
+pub(crate) fn draw_many_samples(
+    pass: &TilePass<'_>,
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<MAX_SAMPLES>,
+) {
+    begin(pass, job, scratch);
     for &number in pass.chunk_index.of_tile(job.tile) {
-        let entries = pass.chunks[number as usize].bins.of_tile(job.tile);
-        let work = ChunkInTile::new(pass, number, job);
-        let memory = (&mut scratch.general, &mut scratch.statistics);
-        let samples = (pass.samples, pass.occlusion_queries);
-        general::draw_chunk(&work, entries, samples, job, memory);
+        for (sub_draw, entries) in pass.chunks[number as usize].runs_of_tile(job.tile) {
+            let work = TileWork::new(pass, [number, sub_draw], job.tile);
+            scratch.count(work.plan.path, entries);
+            in_order::draw(&work, entries, job, scratch);
+        }
     }
 }
 
-/// Clears the tile's attachments, sixteen elements a store: `fill` is compiled for the least processor.
-#[inline(always)]
-fn clear<S: Lanes>(s: S, pass: &TilePass<'_>, job: &mut TileJob<'_>) {
-    for (colors, color) in job.colors.iter_mut().zip(&pass.clear.colors) {
-        let Some((words, count)) = color else {
-            continue;
+fn begin<const N: usize>(pass: &TilePass<'_>, job: &mut TileJob<'_>, scratch: &mut TileScratch<N>) {
+    pass.clear.run(pass.level, job);
+    scratch.hiz.begin(pass.clear.depth);
+}
+
+impl<const N: usize> TileScratch<N> {
+    /// Counts the primitives of a path.
+    fn count(&mut self, path: TilePath, entries: &[BinEntry]) {
+        let counts = entries.iter().map(|entry| match entry {
+            BinEntry::Triangles { lanes, .. } => u64::from(lanes.count_ones()),
+            BinEntry::Line(_) | BinEntry::Point(_) => 1,
+        });
+        self.statistics.paths.add(path, counts.sum());
+    }
+}
+
+/// Writes shaded packets to the colour attachments.
+fn write_colors(
+    plan: &TilePlan<'_>,
+    level: Level,
+    batch: &ShadedBatch<'_>,
+    colors: &mut [&mut [[u32; LANES]]; MAX_TARGETS],
+) {
+    let targets = plan.pipeline.color_targets().iter().zip(colors);
+    for (index, (target, stored)) in targets.enumerate() {
+        let writer = ColorWriter {
+            target,
+            index,
+            constant: plan.blend_constant,
         };
-        let lines = colors.as_chunks_mut::<LANES>().0;
-        for (word, code) in words.iter().enumerate().take(*count) {
-            let value = <u32x16<S> as SimdBase<S>>::splat(s, *code);
-            if *count == 1 {
-                lines.iter_mut().for_each(|line| value.store_array(line));
-                break;
-            }
-            for line in lines.iter_mut().skip(word).step_by(*count) {
-                value.store_array(line);
-            }
-        }
-    }
-    if let Some(stencil) = pass.clear.stencil {
-        job.stencil.fill(stencil);
-    }
-    if let Some(depth) = pass.clear.depth {
-        let value = <f32x16<S> as SimdBase<S>>::splat(s, depth);
-        for line in job.depth.as_chunks_mut::<LANES>().0 {
-            value.store_array(line);
-        }
+        writer.write_batch(level, batch, stored);
     }
 }
 
-/// A chunk in the tile at hand.
+/// A run of a chunk in the tile at hand.
 #[derive(Debug, Clone, Copy)]
-struct ChunkInTile<'a> {
+struct TileWork<'a> {
     level: Level,
     chunk: &'a Chunk,
     /// The chunk's number in the pass.
     number: u32,
-    item: &'a TileItem<'a>,
+    /// The sub-draw's number in the pass.
+    sub_draw: u32,
+    plan: &'a TilePlan<'a>,
+    samples: usize,
+    queries: Option<&'a OcclusionQueries>,
     shape: TileShape,
     /// Where pixels may change, in the tile's own pixels.
     rect: PixelRect,
@@ -185,49 +166,41 @@ struct ChunkInTile<'a> {
     is_whole: bool,
     /// The blocks of 16×16 pixels that lie in it, one bit each.
     blocks: u16,
-    test: Option<DepthTest>,
 }
 
-impl<'a> ChunkInTile<'a> {
-    fn new(pass: &TilePass<'a>, number: u32, job: &TileJob<'_>) -> Self {
+impl<'a> TileWork<'a> {
+    fn new(pass: &TilePass<'a>, [number, sub_draw]: [u32; 2], tile: u32) -> Self {
         let chunk = &pass.chunks[number as usize];
-        let item = &pass.items[chunk.item];
-        let (x, y) = pass.grid.tile_origin(job.tile);
+        let plan = &pass.plans[sub_draw as usize];
+        let (x, y) = pass.grid.tile_origin(tile);
         let shape = TileShape {
             x: x.cast_signed(),
             y: y.cast_signed(),
             log2: pass.grid.tile_log2(),
         };
-        let rect = shape.local(&item.rect);
-        let depth = item.pipeline.key().depth;
+        let rect = shape.local(&plan.rect);
         Self {
             level: pass.level,
             chunk,
             number,
-            item,
+            sub_draw,
+            plan,
+            samples: pass.samples,
+            queries: pass.occlusion_queries,
             shape,
             rect,
             is_whole: shape.is_whole(&rect),
             blocks: shape.blocks_inside(&rect),
-            test: depth
-                .filter(|_| !job.depth.is_empty())
-                .map(|state| DepthTest {
-                    state,
-                    range: item.depth_range,
-                    origin: [shape.x, shape.y],
-                }),
         }
     }
 
-    /// The varyings of the item's vertices, and of those that a chunk made by clipping.
-    fn varyings<'c>(&self, chunk: &'c Chunk) -> VaryingSource<'c>
-    where
-        'a: 'c,
-    {
+    /// The varyings of the sub-draw's vertices, and of the vertices that the chunk made by
+    /// clipping.
+    fn varyings(&self) -> VaryingSource<'a> {
         VaryingSource {
-            shaded: self.item.varyings,
-            clipped: &chunk.clipped_varyings,
-            modes: &self.item.pipeline.interface().varyings,
+            shaded: self.plan.varyings,
+            clipped: &self.chunk.clipped_varyings,
+            modes: &self.plan.pipeline.interface().varyings,
         }
     }
 }

@@ -3,7 +3,7 @@
 //! In · Out: three corners · pixels, row by row. *Printed* is what courses print: corners at pixels, whose centres have
 //! whole coordinates; all edges are drawn, so neighbours share their border. *Repaired* takes corners in 1/256 pixel,
 //! puts centres at ½ and keeps the top-left rule, exactly: it covers the very pixels that [`raster`](crate::raster)
-//! covers with one sample. Spec: PIPELINE.md row R2.
+//! covers with one sample. Spec: docs/PIPELINE.md row R2.
 //!
 //! | file | idea | repaired by |
 //! |---|---|---|

@@ -27,7 +27,7 @@ fn random_vertex(random: &mut Random, w: f32) -> ClipVertex {
 /// Rows: A4.
 #[test]
 fn window_positions_lie_within_their_bounds() {
-    let mut random = Random(21);
+    let mut random = Random::new(21);
     for _ in 0..20_000 {
         let viewport = random_viewport(&mut random);
         let w = random.range(0.01, 100.0);
@@ -49,7 +49,7 @@ fn window_positions_lie_within_their_bounds() {
 /// Rows: R5.
 #[test]
 fn depth_and_varyings_lie_within_their_bounds() {
-    let mut random = Random(22);
+    let mut random = Random::new(22);
     let modes = [Interpolation::Smooth, Interpolation::NoPerspective];
     let target_bounds = PixelBounds { x: 0..64, y: 0..64 };
     let (mut fragments, mut tight) = (0_u32, 0_u32);
@@ -103,7 +103,7 @@ fn depth_and_varyings_lie_within_their_bounds() {
 
 #[test]
 fn a_constant_stays_constant_to_the_bit() {
-    let mut random = Random(23);
+    let mut random = Random::new(23);
     for _ in 0..500 {
         let value = random.range(-2.0, 2.0);
         let vertices: [ClipVertex; 3] = std::array::from_fn(|_| random_vertex(&mut random, 1.5));

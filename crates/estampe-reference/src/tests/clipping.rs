@@ -59,7 +59,7 @@ fn ndc_area(polygon: &[[f64; 4]]) -> f64 {
 #[test]
 fn clipped_polygons_lie_inside_and_keep_their_area() {
     const ULP: f32 = f32::EPSILON;
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     let (mut clipped, mut by_sides) = (0, 0);
     for round in 0..4000 {
         // NDC −257..767 lies within the guard band: the second reach meets all of its sides.
@@ -96,7 +96,7 @@ fn clipped_polygons_lie_inside_and_keep_their_area() {
 /// Rows: A3.
 #[test]
 fn neighbours_share_their_clipped_vertices_to_the_bit() {
-    let mut random = Random(12);
+    let mut random = Random::new(12);
     let mut shared = 0;
     for round in 0..4000 {
         let reach = [3.0, 1500.0][round % 2];
@@ -179,7 +179,7 @@ fn a_triangle_inside_the_guard_band_is_kept_whole() {
 /// Rows: A3.
 #[test]
 fn an_edge_within_the_guard_band_has_no_crack_where_one_of_its_triangles_leaves_it() {
-    let mut random = Random(77);
+    let mut random = Random::new(77);
     let bounds = PixelBounds { x: 0..64, y: 0..64 };
     for round in 0..300 {
         // Edge ab crosses the view, c lies far above the band, d below the view but within the band;
@@ -268,7 +268,7 @@ fn counter_clockwise_as_seen_is_negative_in_the_window_and_positive_in_clip_spac
 /// Rows: A2.
 #[test]
 fn the_clip_space_test_agrees_with_the_snapped_one_beyond_snapping() {
-    let mut random = Random(13);
+    let mut random = Random::new(13);
     let (mut agreed, mut behind) = (0, 0);
     for _ in 0..3000 {
         // Vertices before and behind the eye, near plane at w = ¼ (z = w − ¼ scaled).
@@ -310,9 +310,9 @@ fn bounds_are_the_pixels_whose_centres_lie_inside() {
         width,
         height,
     };
-    let whole = PixelBounds::new(&viewport, &scissor(0, 0, u32::MAX, u32::MAX), [100, 100]);
+    let whole = PixelBounds::new(&viewport, &scissor(0, 0, u32::MAX, u32::MAX), [100, 100], 1);
     assert_eq!((whole.x, whole.y), (0..2, 0..2));
-    let cut = PixelBounds::new(&viewport, &scissor(1, 5, 7, 7), [100, 100]);
+    let cut = PixelBounds::new(&viewport, &scissor(1, 5, 7, 7), [100, 100], 1);
     assert_eq!(cut.x, 1..2);
     assert!(cut.y.is_empty());
 }
@@ -325,7 +325,7 @@ fn plane_distance(normal: [f32; 4], p: [f32; 4]) -> f32 {
 /// Rows: A3.
 #[test]
 fn what_clip_distances_leave_lies_inside_and_keeps_its_area() {
-    let random = &mut Random(29);
+    let random = &mut Random::new(29);
     let mut clipped = 0;
     for _ in 0..3000 {
         let normals: Vec<[f32; 4]> = (0..3)
@@ -393,7 +393,7 @@ fn clip_f64_by(normal: [f64; 4], polygon: &[[f64; 4]]) -> Vec<[f64; 4]> {
 /// Rows: A3.
 #[test]
 fn neighbours_share_the_crossings_of_clip_distances() {
-    let random = &mut Random(31);
+    let random = &mut Random::new(31);
     for _ in 0..500 {
         let [mut a, mut b] = [0, 1].map(|_| random_vertex(random, 2.0));
         a.clip_distances = vec![random.range(0.0, 3.0)];

@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::blending::{BlendInputs, blend};
-use crate::channel::{Channel, srgb_code};
+use crate::channel::Channel;
 use crate::per_sample::masked;
+use crate::srgb;
 
 const UNORM: TextureFormat = TextureFormat::Rgba8Unorm;
 const SRGB: TextureFormat = TextureFormat::Rgba8UnormSrgb;
@@ -35,10 +36,37 @@ fn srgb_follows_the_standard() {
         color::encode(SRGB, [0.18, 0.18, 0.18, 0.18]),
         [118, 118, 118, 46]
     );
-    for k in 0..=4000 {
-        let linear = k as f32 / 4000.0;
-        assert_eq!(srgb_code(linear), srgb::srgb_from_linear(linear));
+}
+
+/// Rows: O8.
+#[test]
+#[expect(clippy::cast_possible_truncation, reason = "rounds, once")]
+fn srgb_tables_are_the_formula_in_f64() {
+    let decoded = |encoded: f64| match encoded {
+        e if e <= 0.040_45 => e / 12.92,
+        e => libm::pow((e + 0.055) / 1.055, 2.4),
+    };
+    for code in 0..=255_u32 {
+        let (got, exact) = (srgb::linear(code), decoded(f64::from(code) / 255.0));
+        // The nearest number of f32: no neighbour is nearer.
+        let error = |value: f32| (f64::from(value) - exact).abs();
+        assert!(error(got) <= error(got.next_up()), "{code}");
+        assert!(error(got) <= error(got.next_down()), "{code}");
+        assert_eq!(u32::from(srgb::code(got)), code);
     }
+    for code in 0..255_u8 {
+        // The least number of f32 whose code is the next one.
+        let boundary = decoded((f64::from(code) + 0.5) / 255.0);
+        let mut first = boundary as f32;
+        if f64::from(first) < boundary {
+            first = first.next_up();
+        }
+        assert_eq!(srgb::code(first), code + 1);
+        assert_eq!(srgb::code(first.next_down()), code);
+    }
+    assert_eq!(srgb::code(f32::NAN), 0);
+    assert_eq!(srgb::code(-1.0), 0);
+    assert_eq!(srgb::code(f32::INFINITY), 255);
 }
 
 /// Rows: O5.
@@ -73,7 +101,7 @@ fn blending_agrees_with_f64() {
         BlendOperation::Min,
         BlendOperation::Max,
     ];
-    let mut random = Random(41);
+    let mut random = Random::new(41);
     for _ in 0..5000 {
         let mut colour = || [0; 4].map(|_: i32| random.unit());
         let (s, d, k, m) = (colour(), colour(), colour(), colour());
@@ -159,7 +187,7 @@ fn a_draw_blends_masks_and_decodes_srgb() {
     let stored = color::decode(SRGB, target.color[0])[0];
     let untouched = target.color[0][2];
     draw_plain(&mut target, &state, &vertices(0.3));
-    let expected = u32::from(srgb_code(0.3 + stored));
+    let expected = u32::from(srgb::code(0.3 + stored));
     assert_eq!(target.color[0], [expected, expected, untouched, 255]);
     assert_eq!(masked(ColorWrites::NONE, [1; 4], [2; 4]), [2; 4]);
 

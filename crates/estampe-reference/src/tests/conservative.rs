@@ -62,7 +62,7 @@ fn covered(quads: &[QuadCoverage]) -> Vec<[u32; 2]> {
 #[test]
 fn touched_and_filled_pixels_are_those_of_another_method() {
     let bounds = PixelBounds { x: 1..13, y: 0..12 };
-    let mut random = Random(91);
+    let mut random = Random::new(91);
     let mut counts = [0; 3];
     for round in 0..1500 {
         let (step, reach) = (

@@ -96,7 +96,7 @@ fn random_triangulation(random: &mut Random, cell: i32, jitter: u32) -> Vec<[[i3
 /// Rows: R1, R6.
 #[test]
 fn a_planar_triangulation_covers_each_sample_once() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     // Cells of many pixels, of one, and of less than one; jitter keeps every cell convex. With a
     // jitter of 1 all vertices lie on pixel corners, with an offset of half a pixel on samples.
     for (cell, jitter) in [(3000, 900), (256, 70), (97, 25), (512, 1)] {
@@ -117,7 +117,7 @@ fn a_planar_triangulation_covers_each_sample_once() {
 /// Rows: R1, R5.
 #[test]
 fn the_order_of_vertices_changes_no_bit() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     let state = State {
         depth: Some(DepthState::LESS_WRITE),
         ..State::new(32, 32)
@@ -199,7 +199,7 @@ fn a_closed_mesh_shows_each_sample_as_many_fronts_as_backs() {
             }
         }
     }
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     let mut seen = 0;
     for _ in 0..60 {
         // A tetrahedron with its faces wound alike, partly outside the window.

@@ -68,7 +68,7 @@ fn random_end(random: &mut Random) -> [i32; 2] {
 /// Rows: R3.
 #[test]
 fn lines_between_centres_are_those_of_the_diamond_exit_rule() {
-    let mut random = Random(71);
+    let mut random = Random::new(71);
     for _ in 0..400 {
         let mut end = || [0, 1].map(|_| random.below(30) as i32 * 256 + 128);
         let (from, to) = (end(), end());
@@ -91,7 +91,7 @@ fn lines_between_centres_are_those_of_the_diamond_exit_rule() {
 /// Rows: R3.
 #[test]
 fn lines_between_any_ends_keep_vulkans_rules() {
-    let mut random = Random(73);
+    let mut random = Random::new(73);
     let mut same = 0;
     for _ in 0..1500 {
         let (from, to) = (random_end(&mut random), random_end(&mut random));
@@ -135,7 +135,7 @@ fn lines_between_any_ends_keep_vulkans_rules() {
 /// Rows: R3.
 #[test]
 fn lines_that_go_on_in_one_direction_leave_no_gap_and_touch_no_pixel_twice() {
-    let mut random = Random(79);
+    let mut random = Random::new(79);
     for _ in 0..1500 {
         let [a, b] = [0; 2].map(|_| random_end(&mut random));
         let c = random_end(&mut random);
@@ -188,6 +188,90 @@ fn wide_lines_are_columns_around_the_thin_one() {
     }
 }
 
+/// Draws white lines through places in pixels; which pixels of the target then are white.
+fn drawn(size: [u32; 2], primitive: PrimitiveState, places: &[[f32; 2]]) -> Vec<[u32; 2]> {
+    let mut target = unorm(size[0], size[1], 1);
+    let state = State {
+        primitive,
+        ..State::new(size[0], size[1])
+    };
+    let vertices: Vec<_> = places
+        .iter()
+        .map(|&[x, y]| (at(&target, x, y, 0.5), [1.0; 3]))
+        .collect();
+    draw_plain(&mut target, &state, &vertices);
+    let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+    pixels
+        .zip(&target.color)
+        .filter(|(_, codes)| codes[3] != 0)
+        .map(|(pixel, _)| pixel)
+        .collect()
+}
+
+/// Rows: R3.
+#[test]
+fn widths_are_rounded_half_up() {
+    for (width, rows) in [
+        (0.01, 1),
+        (0.5, 1),
+        (1.0, 1),
+        (1.499, 1),
+        (1.5, 2),
+        (2.499, 2),
+        (2.5, 3),
+        (3.499, 3),
+        (3.5, 4),
+        (4.5, 5),
+        (63.5, 64),
+        (64.0, 64),
+    ] {
+        let primitive = PrimitiveState {
+            topology: PrimitiveTopology::LineList,
+            line: LineState {
+                width,
+                ..LineState::default()
+            },
+            ..PrimitiveState::default()
+        };
+        let pixels = drawn([8, 80], primitive, &[[1.5, 40.5], [6.5, 40.5]]);
+        assert_eq!(pixels.len(), 5 * rows, "{width} pixels wide");
+    }
+}
+
+/// Rows: R3.
+#[test]
+fn stippled_rectangles_of_a_strip_carry_the_rest_of_a_pixel() {
+    let shown = |topology, factor, pattern, places: &[f32]| {
+        let primitive = PrimitiveState {
+            topology,
+            line: LineState {
+                width: 1.0,
+                rasterization: LineRasterization::Rectangular,
+                stipple: Some(LineStipple { factor, pattern }),
+            },
+            ..PrimitiveState::default()
+        };
+        let places: Vec<_> = places.iter().map(|&x| [x, 2.5]).collect();
+        let pixels = drawn([32, 5], primitive, &places);
+        assert!(pixels.iter().all(|&[_, y]| y == 2));
+        pixels.iter().map(|&[x, _]| x).collect::<Vec<_>>()
+    };
+    // The pattern runs on over the strip as if it were one line, whatever the lengths of its parts: 2.4 pixels leave
+    // 0.6 of the third, and so on. Lengths rounded to pixels would show pixel 5 in place of 6.
+    let strip = [0.0, 2.4, 4.8, 7.2, 7.3, 7.4, 20.0];
+    let strip_of = PrimitiveTopology::LineStrip;
+    let every_other: Vec<u32> = (0..20).step_by(2).collect();
+    assert_eq!(shown(strip_of, 1, 0x5555, &strip), every_other);
+    assert_eq!(shown(strip_of, 1, 0x5555, &[0.0, 20.0]), every_other);
+    // Bits of three pixels: 0 to 2, and from 6 on every other three.
+    let threes: Vec<u32> = (0..20).filter(|x| x / 3 % 2 == 0).collect();
+    assert_eq!(shown(strip_of, 3, 0x5555, &strip), threes);
+    // Each line of a list begins anew: the second at 2.5, whose pixels 2 and 3 are ½ and 1½ from there.
+    let list = [0.0, 2.5, 2.5, 6.0];
+    let pixels = shown(PrimitiveTopology::LineList, 1, 0x5555, &list);
+    assert_eq!(pixels, [0, 2, 4]);
+}
+
 /// Rows: R3.
 #[test]
 fn rectangles_around_lines_have_the_lines_length_and_width() {
@@ -208,7 +292,9 @@ fn rectangles_around_lines_have_the_lines_length_and_width() {
     assert_eq!(rectangle.sixteenths([3, 1]), 0);
     let thin = LineRectangle::new([0, 1024], [2560, 1024], 0.5);
     assert_eq!(thin.sixteenths([3, 3]) + thin.sixteenths([3, 4]), 8);
-    assert_eq!((thin.steps([7, 4]), thin.whole_length()), (7, 10));
+    // Pixel 7's centre is 7½ pixels from the start, in 1/65536 pixel.
+    assert_eq!(thin.distance_65536([7, 4]), 491_520);
+    assert_eq!(thin.length_65536(), 655_360);
     // A line without length covers nothing.
     assert!(
         LineRectangle::new([700; 2], [700; 2], 9.0)
@@ -216,7 +302,7 @@ fn rectangles_around_lines_have_the_lines_length_and_width() {
             .is_empty()
     );
 
-    let mut random = Random(83);
+    let mut random = Random::new(83);
     for _ in 0..300 {
         let (from, to) = (random_end(&mut random), random_end(&mut random));
         let width = random.range(0.5, 12.0);
@@ -244,7 +330,7 @@ fn rectangles_around_lines_have_the_lines_length_and_width() {
 #[test]
 fn a_strip_of_four_vertices_fills_a_rectangle_exactly() {
     // Rectangles (row R4): every sample of the half-open rectangle once, none beside it.
-    let mut random = Random(89);
+    let mut random = Random::new(89);
     for round in 0..400 {
         let samples = [1, 4][round % 2];
         let [(x0, x1), (y0, y1)] = [0; 2].map(|_| {

@@ -128,7 +128,7 @@ fn small_floats_round_to_even() {
     }
 
     // No neighbour is nearer, and of two as near the even one was taken.
-    let mut random = Random(81);
+    let mut random = Random::new(81);
     for _ in 0..20_000 {
         let value = f32::from_bits(random.next()).abs();
         for channel in [half, eleven, ten] {

@@ -16,7 +16,7 @@ fn integer(from: [i32; 2], to: [i32; 2]) -> Vec<[i32; 2]> {
 /// Rows: R3.
 #[test]
 fn integer_lines_draw_both_ends_in_every_octant() {
-    let mut random = Random(31);
+    let mut random = Random::new(31);
     for _ in 0..2000 {
         let mut end = || [0, 1].map(|_| random.below(41) as i32 - 20);
         let (from, to) = (end(), end());
@@ -79,7 +79,7 @@ fn pipeline_lines_include_their_start_and_not_their_end() {
 /// Rows: R3.
 #[test]
 fn a_strip_along_one_direction_touches_no_pixel_twice() {
-    let mut random = Random(32);
+    let mut random = Random::new(32);
     for _ in 0..500 {
         // A chain of points along one x-major direction: every column once, without holes.
         let slope = random.range(-1.0, 1.0);

@@ -96,6 +96,35 @@ fn stencil_goes_by_what_fails_first() {
     );
 }
 
+/// Rows: O3, O4.
+#[test]
+fn comparisons_are_new_against_stored() {
+    use CompareFunction as C;
+    // Against 5: 4, 5, 6 and what is not a number.
+    for (function, passes) in [
+        (C::Never, [false, false, false, false]),
+        (C::Less, [true, false, false, false]),
+        (C::Equal, [false, true, false, false]),
+        (C::LessEqual, [true, true, false, false]),
+        (C::Greater, [false, false, true, false]),
+        (C::NotEqual, [true, false, true, true]),
+        (C::GreaterEqual, [false, true, true, false]),
+        (C::Always, [true, true, true, true]),
+    ] {
+        let numbers = [4.0, 5.0, 6.0, f32::NAN];
+        let got = numbers.map(|new| compare::passes(function, new, 5.0));
+        assert_eq!(got, passes, "{function:?}");
+        let stored_nan = compare::passes(function, 5.0, f32::NAN);
+        assert_eq!(stored_nan, passes[3], "{function:?}");
+        for (new, passes) in [4_u8, 5, 6].into_iter().zip(passes) {
+            assert_eq!(compare::passes(function, new, 5), passes, "{function:?}");
+        }
+        // As if 200 were −56, it would be less.
+        let is_greater = compare::passes(function, 200_u8, 5);
+        assert_eq!(is_greater, passes[2], "{function:?}");
+    }
+}
+
 /// Rows: O3.
 #[test]
 fn stencil_operations_stop_or_wrap_at_the_ends() {

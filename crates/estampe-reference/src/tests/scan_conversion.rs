@@ -30,7 +30,7 @@ fn sorted<T: Ord>(mut pixels: Vec<T>) -> Vec<T> {
 /// Rows: R2.
 #[test]
 fn repaired_forms_cover_what_the_rasterizer_covers() {
-    let mut random = Random(71);
+    let mut random = Random::new(71);
     let mut covered = 0;
     for round in 0..6000 {
         let bounds = PixelBounds {

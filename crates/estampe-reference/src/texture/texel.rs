@@ -3,7 +3,8 @@
 //! In · Out: the bytes of a stored texel · channels in *units* (codes of unorm and snorm, else numbers, of integers
 //! their bits) and what units are multiplied by. Spec: NUMERICS.md, *Textures*.
 
-use estampe_types::{SampleType, TexelEncoding, TextureAspect, TextureFormat, srgb};
+use crate::srgb;
+use estampe_types::{SampleType, TexelEncoding, TextureAspect, TextureFormat};
 
 /// How the texels of a stored format are read.
 #[derive(Debug, Clone, Copy)]
@@ -100,9 +101,7 @@ impl TexelReader {
         let ten_two = |channel: usize| field(channel * 10, if channel == 3 { 2 } else { 10 });
         let wants_stencil = self.aspect == TextureAspect::Stencil;
         match self.format.encoding() {
-            E::Unorm8 if self.format.is_srgb() && channel < 3 => {
-                srgb::LINEAR_FROM_SRGB[whole(8) as usize]
-            }
+            E::Unorm8 if self.format.is_srgb() && channel < 3 => srgb::linear(whole(8)),
             E::Unorm8 => whole(8) as f32,
             E::Unorm16 => whole(16) as f32,
             E::Snorm8 => Ord::max(signed(8), -127) as f32,

@@ -7,6 +7,7 @@ use super::cube;
 use super::texel::TexelReader;
 use super::{log2, mix, whole};
 use crate::arithmetic::{clamp, max, min};
+use crate::compare;
 use estampe_types::shader::Sample2d;
 use estampe_types::{
     AddressMode, BorderColor, FilterMode, Real, SamplerDescriptor, TexelEncoding, Texture,
@@ -282,12 +283,7 @@ impl ReferenceView {
         sample: &Sample,
     ) -> ([Option<i64>; 2], f32) {
         use AddressMode as A;
-        let sampler = &self.sampler;
-        let mode = match axis {
-            0 => sampler.address_mode_u,
-            1 => sampler.address_mode_v,
-            _ => sampler.address_mode_w,
-        };
+        let mode = self.mode(axis);
         let (u, n) = (sample.at[axis], self.sides(level)[axis]);
         if sample.offset[axis] == 0 && matches!(mode, A::Repeat | A::MirrorRepeat | A::ClampToEdge)
         {
@@ -297,6 +293,20 @@ impl ReferenceView {
             };
             return (texels.map(|texel| Some(i64::from(texel))), fraction);
         }
+        self.place_in_integers(level, axis, filter, sample)
+    }
+
+    /// The same with each of the two texels wrapped by itself: what offsets, borders and gathering need.
+    fn place_in_integers(
+        &self,
+        level: usize,
+        axis: usize,
+        filter: FilterMode,
+        sample: &Sample,
+    ) -> ([Option<i64>; 2], f32) {
+        use AddressMode as A;
+        let mode = self.mode(axis);
+        let (u, n) = (sample.at[axis], self.sides(level)[axis]);
         let half = match filter {
             FilterMode::Nearest => 0.0,
             FilterMode::Linear => 0.5,
@@ -313,6 +323,15 @@ impl ReferenceView {
             A::ClampToBorder => (0..n).contains(&i).then_some(i),
         };
         ([wrap(first), wrap(first + 1)], q - q.floor())
+    }
+
+    fn mode(&self, axis: usize) -> AddressMode {
+        let sampler = &self.sampler;
+        match axis {
+            0 => sampler.address_mode_u,
+            1 => sampler.address_mode_v,
+            _ => sampler.address_mode_w,
+        }
     }
 
     /// One level of a cube.
@@ -379,7 +398,7 @@ impl ReferenceView {
         let passes = self
             .sampler
             .compare
-            .is_some_and(|function| function.passes(reference, units[0]));
+            .is_some_and(|function| compare::passes(function, reference, units[0]));
         [f32::from(u8::from(passes)), 0.0, 0.0, 0.0]
     }
 
@@ -416,8 +435,8 @@ impl ReferenceView {
         self.reader().units(&words)
     }
 
-    /// One channel of the four texels that linear filtering of the base level mixes (or their answers, as the
-    /// first channel): c₀₁, c₁₁, c₁₀, c₀₀.
+    /// One channel of the four texels around a place in the base level (or their answers, as the first channel):
+    /// c₀₁, c₁₁, c₁₀, c₀₀. Each wraps by itself.
     #[must_use]
     pub fn gather(&self, sample: &Sample, channel: usize) -> [f32; 4] {
         if matches!(self.dimension, ViewDimension::D1 | ViewDimension::D3) {
@@ -426,7 +445,13 @@ impl ReferenceView {
         let four = if self.is_cube() {
             self.four_of_cube(0, sample).0
         } else {
-            let [x, y] = [0, 1].map(|axis| self.place(0, axis, FilterMode::Linear, sample).0);
+            let [x, y] = [0, 1].map(|axis| match self.mode(axis) {
+                AddressMode::Repeat => self.place(0, axis, FilterMode::Linear, sample).0,
+                _ => {
+                    self.place_in_integers(0, axis, FilterMode::Linear, sample)
+                        .0
+                }
+            });
             let slice = Some(self.slice(sample.layer));
             [[0, 0], [1, 0], [0, 1], [1, 1]]
                 .map(|[i, j]| self.answer(0, [x[i], y[j], slice], sample.reference))

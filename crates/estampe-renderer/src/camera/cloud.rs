@@ -4,8 +4,8 @@ use super::fit::FrameTangents;
 use estampe_scene::{Workers, pieces};
 use glam::DVec3;
 
-/// Points, in pieces that threads share. What is computed of them are greatest values, so it depends
-/// neither on the pieces nor on the number of threads.
+/// Points, in pieces that threads share. Only minima and maxima are computed of them, so results
+/// depend neither on the pieces nor on the number of threads.
 #[derive(Debug, Clone, Default)]
 pub struct Cloud {
     pieces: Vec<Vec<DVec3>>,
@@ -13,7 +13,7 @@ pub struct Cloud {
 }
 
 impl Cloud {
-    /// The points of so many items, `of_item` giving those of a range.
+    /// A cloud with the points that `of_item` returns for each item.
     pub(crate) fn new<T: Send>(
         items: impl IntoIterator<Item = T>,
         of_item: impl Fn(T) -> Vec<DVec3> + Sync,
@@ -30,7 +30,7 @@ impl Cloud {
         self.pieces.iter().flatten()
     }
 
-    /// The threads that may work on them.
+    /// The threads that may process the points.
     pub(super) fn workers(&self) -> Workers {
         self.workers
     }
@@ -44,7 +44,7 @@ impl Cloud {
         });
     }
 
-    /// How far they reach; `None` when there are none.
+    /// The extent of the points for the fit; `None` if there are none.
     pub(super) fn reach(&self, k: FrameTangents) -> Option<Reach> {
         let of_pieces = self.workers.map(&self.pieces, |piece| {
             piece.iter().fold(Reach::NONE, |reach, p| reach.with(p, k))
@@ -73,20 +73,20 @@ impl From<&Vec<DVec3>> for Cloud {
     }
 }
 
-/// Greatest values over points p in view-aligned coordinates, for tangents k; see the module `fit`.
+/// Maxima over points p in view-aligned coordinates, for tangents k; see the module `fit`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reach {
-    /// Of p.
+    /// Maximum of each coordinate of p.
     pub(super) most: DVec3,
-    /// The least coordinates.
+    /// Minimum of each coordinate of p.
     pub(super) least: DVec3,
-    /// Of pₓ + kₓ·p_z.
+    /// Maximum of pₓ + kₓ·p_z.
     pub(super) right: f64,
-    /// Of −pₓ + kₓ·p_z.
+    /// Maximum of −pₓ + kₓ·p_z.
     pub(super) left: f64,
-    /// Of p_y + k_y·p_z.
+    /// Maximum of p_y + k_y·p_z.
     pub(super) top: f64,
-    /// Of −p_y + k_y·p_z.
+    /// Maximum of −p_y + k_y·p_z.
     pub(super) bottom: f64,
 }
 

@@ -17,7 +17,7 @@ use glam::DVec3;
 pub struct ViewDirection {
     /// Angle around the up axis, in degrees, counted from the front towards the right.
     pub azimuth_deg: f64,
-    /// Angle above the level, in degrees, in −90..=90.
+    /// Angle above the horizontal plane, in degrees, in −90..=90.
     pub elevation_deg: f64,
 }
 
@@ -48,7 +48,7 @@ impl ViewDirection {
 
     /// The camera's axes, for Y up: right, up and back (towards the eye).
     ///
-    /// Up is ∂back/∂e, so it is defined straight above and below too.
+    /// Up is ∂back/∂e, so it is defined for elevations of ±90° too.
     #[must_use]
     pub fn axes(self) -> [DVec3; 3] {
         let (sin_a, cos_a) = sin_cos_deg(self.azimuth_deg);

@@ -1,23 +1,25 @@
 //! The nearest eye that sees every point inside the frame less its margin.
 //!
-//! In view-aligned coordinates (x right, y up, z towards the eye) a point p is seen from the eye e at
-//! ((pₓ − eₓ)/(e_z − p_z), …). It lies inside the frame when |pₓ − eₓ| ≤ kₓ·(e_z − p_z), where kₓ is the
-//! tangent of half the opening angle, less the margin: two constraints that are *linear* in e:
+//! In view-aligned coordinates (x right, y up, z towards the eye) a point p is seen from the eye e
+//! at ((pₓ − eₓ)/(e_z − p_z), …). It lies inside the frame when |pₓ − eₓ| ≤ kₓ·(e_z − p_z), where
+//! kₓ is the tangent of half the opening angle, less the margin: two constraints that are *linear*
+//! in e:
 //!
 //! ```text
 //!   eₓ + kₓ·e_z ≥ A = max(pₓ + kₓ·p_z)         e_z ≥ (A + B) / 2kₓ, reached by eₓ = (A − B) / 2
 //!  −eₓ + kₓ·e_z ≥ B = max(−pₓ + kₓ·p_z)
 //! ```
 //!
-//! and the same in y. So the nearest eye is exact, by one pass over the points; the axis that has room
-//! left is then centred by equal projected margins on both sides. Rejected: a bounding sphere, which
-//! leaves a flat model a third of the frame.
+//! The constraints in y have the same form. One pass over the points therefore gives the exact
+//! nearest eye. Along the axis that is not tight, the model is then centred by equal projected
+//! margins on both sides. Rejected: a bounding sphere, which leaves a flat model a third of the
+//! frame.
 
 use super::Cloud;
 use glam::DVec3;
 
-/// Tangents of half the opening angles, less the margin; for orthographic views the half extents that
-/// a half height of 1 gives.
+/// Tangents of half the opening angles, less the margin; for orthographic views the half extents
+/// that a half height of 1 gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrameTangents {
     /// Horizontally; > 0.
@@ -40,13 +42,14 @@ impl FrameTangents {
     }
 }
 
-/// Nearer than this a point is not brought, in units of the normalised model (about 1 in radius).
+/// The least distance between the eye and a point, in units of the normalised model (about 1 in
+/// radius).
 const CLOSEST: f64 = 1e-3;
 
 /// The nearest eye of a perspective camera that looks down −z. With `through`, the eye stays on the
-/// line through that point, which is then seen in the middle.
+/// line through that point, which is then in the middle of the image.
 ///
-/// Of no points, the eye is that of the unit box.
+/// Without points, the result is the eye for the unit box.
 #[must_use]
 pub fn perspective_eye(points: &Cloud, k: FrameTangents, through: Option<DVec3>) -> DVec3 {
     let Some(reach) = points.reach(k) else {
@@ -72,7 +75,8 @@ pub fn perspective_eye(points: &Cloud, k: FrameTangents, through: Option<DVec3>)
     DVec3::new(x, y, z)
 }
 
-/// A model without size (one point, or points behind one another) is seen from a distance of 2.
+/// A model without extent across the view (one point, or points behind one another) is seen from a
+/// distance of 2.
 fn at_least_a_step(z: f64, front: f64, points: &Cloud) -> f64 {
     let first = points.iter().next().copied().unwrap_or_default();
     let has_no_size = |p: &DVec3| (p.x - first.x).abs() + (p.y - first.y).abs() < CLOSEST;
@@ -83,8 +87,8 @@ fn at_least_a_step(z: f64, front: f64, points: &Cloud) -> f64 {
     }
 }
 
-/// The coordinate of the eye at which the points reach as far to one side as to the other:
-/// max (p − e)/(z − p_z) = max (e − p)/(z − p_z), by Newton's method on its linear pieces.
+/// The coordinate of the eye at which the points have equal projected extent on both sides: max (p
+/// − e)/(z − p_z) = max (e − p)/(z − p_z), by Newton's method on its linear pieces.
 fn centred(points: &Cloud, eye_z: f64, start: f64, coordinate: impl Fn(&DVec3) -> f64) -> f64 {
     const MOST_STEPS: usize = 16;
     let mut eye = start;
@@ -109,8 +113,8 @@ fn centred(points: &Cloud, eye_z: f64, start: f64, coordinate: impl Fn(&DVec3) -
     eye
 }
 
-/// The middle (z: the nearest point's) and the half height of the smallest orthographic view that
-/// holds every point; with `through`, the middle stays there.
+/// The middle (its z is that of the nearest point) and the half height of the smallest orthographic
+/// view that holds every point; `through` fixes the middle.
 #[must_use]
 pub fn orthographic_view(points: &Cloud, k: FrameTangents, through: Option<DVec3>) -> (DVec3, f64) {
     let (least, most) = points

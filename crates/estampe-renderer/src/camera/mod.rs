@@ -1,9 +1,9 @@
-//! Where a picture is taken from: view directions, and the distance at which a model fits its frame.
+//! Camera placement: view directions, and the distance at which a model fits its frame.
 //!
 //! * [`direction`]: azimuth, elevation and the named views;
-//! * [`cloud`]: the points that it is fitted to;
+//! * [`cloud`]: the points to which a camera is fitted;
 //! * [`fit`]: the nearest eye that sees every vertex inside the frame less its margin;
-//! * [`placement`]: a camera from what the caller asked for, with near and far planes.
+//! * [`placement`]: a camera from the caller's options, with near and far planes.
 
 pub mod cloud;
 pub mod direction;

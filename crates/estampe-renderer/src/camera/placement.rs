@@ -1,4 +1,4 @@
-//! A camera from what the caller asked for.
+//! A camera from the caller's options.
 
 use super::Cloud;
 use super::direction::ViewDirection;
@@ -8,17 +8,18 @@ use crate::transforms::view::CameraFrame;
 use crate::transforms::{affine, transform_vector};
 use glam::{DMat4, DVec3};
 
-/// What a picture asks of its camera. Positions are in the model's world space.
+/// Options of the camera. Positions are in the model's world space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraOptions {
-    /// Where the eye is. Default: the default view direction, fitted.
+    /// Position of the eye. Default: fitted in the default view direction.
     pub eye: Eye,
-    /// The point in the middle of the picture. `None` (default): what fits best, or the middle of the
-    /// bounds when the eye is given.
+    /// The point in the middle of the image. `None` (default): the best fit for a fitted eye, the
+    /// middle of the bounds for a given eye.
     pub target_world: Option<DVec3>,
-    /// How depth becomes size. Default: perspective, 35° high.
+    /// Projection. Default: perspective, 35° high.
     pub projection: ProjectionKind,
-    /// Free border on each side, as a fraction of the picture's shorter side; in 0..0.5. Default 0.05.
+    /// Free border on each side, as a fraction of the picture's shorter side; in 0..0.5. Default
+    /// 0.05.
     pub margin: f64,
 }
 
@@ -33,19 +34,19 @@ impl Default for CameraOptions {
     }
 }
 
-/// Where the eye is.
+/// Position of the eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Eye {
-    /// In this direction, as near as the fit allows.
+    /// In this direction from the model, as near as the fit allows.
     Fitted(ViewDirection),
-    /// Here.
+    /// At this position.
     At(DVec3),
 }
 
-/// How depth becomes size.
+/// Projection of a camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ProjectionKind {
-    /// Far things are smaller.
+    /// Perspective: size decreases with distance.
     Perspective {
         /// Vertical opening angle in degrees, in 0..180, both excluded.
         fov_y_deg: f64,
@@ -60,14 +61,14 @@ impl Default for ProjectionKind {
     }
 }
 
-/// A camera in some space, ready to draw with.
+/// A camera with position, projection and clip planes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlacedCamera {
     /// Position and axes.
     pub frame: CameraFrame,
     /// The point in the middle of the picture.
     pub target: DVec3,
-    /// What is seen.
+    /// The projection's opening.
     pub lens: Lens,
     /// Distance of the near plane along the view direction.
     pub near: f64,
@@ -77,20 +78,20 @@ pub struct PlacedCamera {
     pub depth_range: (f64, f64),
 }
 
-/// How wide a camera sees.
+/// Opening of a projection.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Lens {
     /// Vertical opening angle, in radians.
     Perspective(f64),
-    /// Half of the height that is seen.
+    /// Half of the visible height.
     Orthographic(f64),
 }
 
 impl PlacedCamera {
     /// Places a camera for `points`, the model's vertices, and a picture of `size_px`.
     ///
-    /// The options' positions and the points are in the same space, in which the model is about 1 in
-    /// radius. `up` is the direction that points up.
+    /// The options' positions and the points are in the same space, in which the model is about 1
+    /// in radius. `up` is the direction that points up.
     #[must_use]
     pub fn new(
         options: &CameraOptions,
@@ -117,7 +118,7 @@ impl PlacedCamera {
         }
     }
 
-    /// The camera in a direction, as near as the model allows.
+    /// The camera in a view direction, as near as the model allows.
     fn fitted(
         direction: ViewDirection,
         target: Option<DVec3>,
@@ -159,7 +160,7 @@ impl PlacedCamera {
         Self::with_planes(frame, target, lens, (nearest, furthest))
     }
 
-    /// The camera whose eye is given.
+    /// The camera with a given eye.
     fn standing(
         eye: DVec3,
         target: Option<DVec3>,
@@ -188,11 +189,12 @@ impl PlacedCamera {
         Self::with_planes(frame, target, lens, depths(&aligned, k, eye_aligned.z))
     }
 
-    /// Near and far planes a little outside the model's depths.
+    /// Adds near and far planes a little outside the model's range of depths.
     fn with_planes(frame: CameraFrame, target: DVec3, lens: Lens, depth_range: (f64, f64)) -> Self {
-        /// Of the model's depth, on both sides.
+        /// Free space in front of and behind the model, as a fraction of its depth.
         const SLACK: f64 = 0.01;
-        /// The near plane's least part of the far plane's distance: f32 depth tells apart enough.
+        /// The least near distance, as a fraction of the far distance, for which f32 depth is
+        /// precise enough.
         const LEAST_NEAR: f64 = 1e-4;
         let (nearest, furthest) = depth_range;
         let slack = (furthest - nearest).max(1e-3) * SLACK;
@@ -245,10 +247,10 @@ fn align_one(p: DVec3, frame: &CameraFrame) -> DVec3 {
     )
 }
 
-/// Distances of the nearest and the furthest point along the view direction; of no points, those of the
-/// unit box's middle.
+/// Distances of the nearest and the furthest point along the view direction. Without points, the
+/// distance of the unit box's middle.
 fn depths(aligned: &Cloud, k: FrameTangents, eye_z: f64) -> (f64, f64) {
-    // Rounding keeps order, so the extremes' distances are the extreme distances.
+    // Rounding is monotonic, so the extreme points have the extreme distances.
     aligned
         .reach(k)
         .map_or((eye_z - 1.0, eye_z + 1.0), |reach| {

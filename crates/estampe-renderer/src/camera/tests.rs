@@ -1,4 +1,4 @@
-//! View directions are the documented ones; fits are tight, inside and centred.
+//! View directions have the documented axes; fits are tight, inside the frame and centred.
 
 use super::Cloud;
 use super::fit::{FrameTangents, orthographic_view, perspective_eye};
@@ -47,13 +47,8 @@ fn axes_are_orthonormal_and_right_handed_at_every_angle() {
 
 /// A cloud of points with different extents on each axis, in −1..1.
 fn cloud(seed: u64, count: usize, extents: DVec3) -> Vec<DVec3> {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    };
+    let mut random = fastrand::Rng::with_seed(seed);
+    let mut next = || random.f64() * 2.0 - 1.0;
     (0..count)
         .map(|_| DVec3::new(next(), next(), next()) * extents)
         .collect()
@@ -122,7 +117,7 @@ fn fits_are_inside_tight_and_centred() {
                     let context = format!("{seed} {extents} {size:?} {projection:?}: {free:?}");
                     assert!(free.iter().all(|&f| f > -1e-6), "outside: {context}");
                     let tight = free[0].max(free[2]).min(free[1].max(free[3]));
-                    // A wide view may be stopped by the point that is next to the eye instead.
+                    // For a wide view, the eye may instead be limited by the point nearest to it.
                     let is_close = camera.depth_range.0 < 2e-3;
                     assert!(tight < 1e-5 || is_close, "not tight: {context}");
                     assert!(
@@ -169,7 +164,7 @@ fn a_given_eye_is_where_the_picture_is_taken() {
     let camera = PlacedCamera::new(&options, DVec3::Y, &points, (400, 300));
     assert_eq!(camera.frame.eye_world, eye);
     window_extent(&camera, &points, (400, 300));
-    // From inside the model, and from the target itself, there is still a valid camera.
+    // The camera is valid even if the eye is inside the model, or at the target.
     for eye in [DVec3::splat(0.01), DVec3::ZERO, DVec3::Y * 3.0] {
         let options = CameraOptions {
             eye: Eye::At(eye),

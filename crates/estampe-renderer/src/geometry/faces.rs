@@ -1,12 +1,12 @@
-//! Triangles that share no vertices: each corner can then carry what belongs to its face alone.
+//! Triangles without shared vertices: each corner can then have attributes of its face.
 
 use super::unit_space::UnitSpace;
 use super::vertex_data::{MeshStreams, StreamData};
 use estampe_scene::Mesh;
 use glam::Vec3;
 
-/// The streams of a mesh with three vertices of its own for each triangle, in the triangles' order, and
-/// with the faces' normals in place of the vertices'.
+/// The streams of a mesh with three separate vertices for each triangle, in the triangles' order,
+/// and with the faces' normals instead of the vertices'.
 pub(crate) fn unshared_streams(mesh: &Mesh, space: &UnitSpace) -> MeshStreams {
     let position = |index: u32| at(&mesh.positions, index).unwrap_or(Vec3::NAN);
     let corners = || mesh.triangles.iter().flatten().copied();
@@ -34,17 +34,17 @@ pub(crate) fn unshared_streams(mesh: &Mesh, space: &UnitSpace) -> MeshStreams {
     }
 }
 
-/// The unit normal of a counter-clockwise triangle, in f64; zero when it has no area.
+/// The unit normal of a counter-clockwise triangle, computed in f64; zero if the area is zero.
 pub(crate) fn face_normal(corners: [Vec3; 3]) -> Vec3 {
-    // The fourth power of any f32 stays inside f64, so nothing here overflows or vanishes.
+    // The fourth power of any f32 is in f64's range, so nothing here overflows or underflows.
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     (b - a).cross(c - a).normalize_or_zero().as_vec3()
 }
 
-/// Whether a mesh's normals point to the back of most of its triangles: some exporters write the one and
-/// turn the other. Two-sided shading goes by the winding, and would light such a model from behind.
+/// True if a mesh's normals point to the back of most of its triangles: some exporters flip one of
+/// the two. Two-sided shading follows the winding, and would light such a model from behind.
 ///
-/// It looks at a few thousand triangles at most, evenly spread.
+/// At most a few thousand triangles, evenly spread, are examined.
 pub(crate) fn normals_oppose_winding(mesh: &Mesh) -> bool {
     const EXAMINED: usize = 2048;
     let stride = mesh.triangles.len().div_ceil(EXAMINED).max(1);

@@ -1,10 +1,10 @@
-//! From a scene's meshes to what draws read: a space of its own for every model, vertex buffers, and
-//! the order in which transparent triangles are drawn.
+//! Geometry of a scene for drawing: a unit space for the model, vertex buffers, and the order of
+//! transparent triangles.
 //!
 //! * [`unit_space`]: the box around the model becomes the cube −1..1, in f64;
-//! * [`vertex_data`]: buffers of positions, normals, uv and colours, straight from the arrays;
-//! * [`faces`]: triangles that share no vertices, for flat shading and wireframes;
-//! * [`order`]: back to front.
+//! * [`vertex_data`]: buffers of positions, normals, uv and colours, copied from the mesh's arrays;
+//! * [`faces`]: triangles without shared vertices, for flat shading and wireframes;
+//! * [`order`]: back-to-front order.
 
 pub(crate) mod faces;
 pub(crate) mod order;

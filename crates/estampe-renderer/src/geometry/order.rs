@@ -1,32 +1,33 @@
 //! The order of transparent triangles: back to front, over all surfaces at once.
 
-/// A triangle of a surface, and how far away it is.
+/// A triangle of a surface with its distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct DistantTriangle {
-    /// Distance of its middle along the view direction.
+    /// Distance of the triangle's centroid along the view direction.
     pub(crate) distance: f32,
-    /// Which surface it is of.
+    /// Index of the surface.
     pub(crate) surface: u32,
-    /// Its corners.
+    /// Vertex indices of the corners.
     pub(crate) corners: [u32; 3],
 }
 
-/// A run of triangles of one surface: indices, in drawing order.
+/// Consecutive triangles of one surface, in drawing order.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Run {
-    /// Which surface.
+    /// Index of the surface.
     pub(crate) surface: u32,
-    /// The corners, three for each triangle.
+    /// Vertex indices, three per triangle.
     pub(crate) indices: Vec<u32>,
 }
 
-/// More runs than this cost more than they are worth: surfaces are then drawn whole.
+/// The most runs that are drawn; beyond, their cost exceeds their use, and surfaces are drawn
+/// whole.
 const MOST_RUNS: usize = 4096;
 
-/// Sorts triangles back to front (equal ones stay in order) and gathers neighbours of one surface.
+/// Sorts triangles back to front (stably) and joins consecutive triangles of one surface to runs.
 ///
-/// Where the surfaces interleave so much that there would be thousands of draws, whole surfaces are
-/// ordered by their furthest triangle instead, each sorted inside.
+/// If interleaved surfaces would need more than `MOST_RUNS` draws, whole surfaces are ordered by
+/// their furthest triangle instead, and triangles are sorted inside each surface.
 pub(crate) fn back_to_front(mut triangles: Vec<DistantTriangle>) -> Vec<Run> {
     triangles.sort_by(|a, b| b.distance.total_cmp(&a.distance));
     let changes = triangles

@@ -1,4 +1,4 @@
-//! The unit space holds models of any size; orders and faces are right.
+//! The unit space fits models of any size; drawing order and face normals are correct.
 
 use super::faces::{face_normal, normals_oppose_winding};
 use super::order::{DistantTriangle, back_to_front};

@@ -1,24 +1,24 @@
-//! The space in which a model is drawn: its box becomes the cube −1..1, so that models of any size,
-//! 10⁻³⁰ or 10³⁰, are drawn with the same precision.
+//! The unit space in which a model is drawn: its box becomes the cube −1..1, so that models of any
+//! size, 10⁻³⁰ or 10³⁰, are drawn with the same precision.
 
 use estampe_scene::{Mesh, Scene, Workers, pieces};
 use glam::{DMat3, DVec3, Vec3};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The map from a file's space by way of the world's to the cube −1..1.
+/// The transform from object space through world space to the cube −1..1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct UnitSpace {
-    /// Turns the file's space into the world's: a rotation.
+    /// Rotation from the file's space to the world's.
     pub(crate) world_from_object: DMat3,
-    /// The middle of the model's box in the world.
+    /// The middle of the model's box, in world space.
     center_world: DVec3,
-    /// Half of the box's longest side in the world; > 0.
+    /// Half of the box's longest side, in world units; > 0.
     half_side: f64,
 }
 
 impl UnitSpace {
-    /// The space of those vertices of a scene that a primitive names.
+    /// The unit space of the vertices that some primitive of the scene uses.
     pub(crate) fn new(
         used: &[UsedVertices<'_>],
         world_from_object: DMat3,
@@ -46,29 +46,29 @@ impl UnitSpace {
         }
     }
 
-    /// A vertex.
+    /// The position of a vertex in unit space.
     pub(crate) fn unit_from_object(&self, position: Vec3) -> Vec3 {
         self.unit_from_world(self.world_from_object * position.as_dvec3())
             .as_vec3()
     }
 
-    /// A point of the world.
+    /// A world-space point in unit space.
     pub(crate) fn unit_from_world(&self, position: DVec3) -> DVec3 {
         (position - self.center_world) / self.half_side
     }
 
-    /// A point of the world again.
+    /// A unit-space point in world space.
     pub(crate) fn world_from_unit(&self, position: DVec3) -> DVec3 {
         position * self.half_side + self.center_world
     }
 
-    /// Length in the world of 1 in the unit space.
+    /// World units per unit of the unit space.
     pub(crate) fn world_per_unit(&self) -> f64 {
         self.half_side
     }
 }
 
-/// A run of a mesh's vertices, with those marked that a triangle, line or point names.
+/// A range of a mesh's vertices, with flags for those that a triangle, line or point uses.
 #[derive(Debug, Clone)]
 pub(crate) struct UsedVertices<'a> {
     mesh: &'a Mesh,
@@ -77,7 +77,7 @@ pub(crate) struct UsedVertices<'a> {
 }
 
 impl<'a> UsedVertices<'a> {
-    /// All vertices of a scene; `is_used` says, by mesh, which ones are named.
+    /// All vertices of a scene in ranges; `is_used` has one flag per vertex, by mesh.
     pub(crate) fn of_scene(scene: &'a Scene, is_used: &'a [Vec<bool>]) -> Vec<Self> {
         /// Some hundred microseconds of work.
         const PIECE: usize = 1 << 14;
@@ -92,7 +92,7 @@ impl<'a> UsedVertices<'a> {
         meshes.flat_map(of_mesh).collect()
     }
 
-    /// The finite ones that are named.
+    /// The finite positions that are used.
     pub(crate) fn positions(&self) -> impl Iterator<Item = Vec3> {
         let positions = self.mesh.positions[self.range.clone()].iter();
         let named = positions.zip(self.is_used).filter(|(_, is_used)| **is_used);
@@ -102,7 +102,7 @@ impl<'a> UsedVertices<'a> {
     }
 }
 
-/// Which vertices of a mesh a triangle, line or point names.
+/// For each vertex of a mesh, whether a triangle, line or point uses it.
 pub(crate) fn used_vertices(mesh: &Mesh, workers: Workers) -> Vec<bool> {
     /// Some hundred microseconds of work.
     const PIECE: usize = 1 << 16;
@@ -116,7 +116,7 @@ pub(crate) fn used_vertices(mesh: &Mesh, workers: Workers) -> Vec<bool> {
     let runs = [corners, ends, &mesh.points];
     workers.map(runs.into_iter().flat_map(|run| run.chunks(PIECE)), |run| {
         for &index in run {
-            // Nearly all are named more than once, and reading leaves the line shared.
+            // Most vertices are used more than once, and reading first keeps the cache line shared.
             if let Some(slot) = is_used.get(index as usize)
                 && !slot.load(Ordering::Relaxed)
             {

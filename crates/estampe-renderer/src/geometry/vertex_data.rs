@@ -1,4 +1,4 @@
-//! Vertex buffers straight from a mesh's arrays.
+//! Vertex buffers copied from a mesh's arrays.
 
 use super::faces::normals_oppose_winding;
 use super::unit_space::UnitSpace;
@@ -32,7 +32,7 @@ impl VertexStream {
     }
 }
 
-/// One stream of a mesh: an element for each vertex, or one for all.
+/// One stream of a mesh: an element per vertex, or one element for all.
 #[derive(Debug, Clone)]
 pub(crate) struct StreamData {
     buffer: Buffer,
@@ -40,7 +40,7 @@ pub(crate) struct StreamData {
 }
 
 impl StreamData {
-    /// An element for each vertex; elements have the stream's number of floats.
+    /// A stream with an element per vertex; each has the stream's number of floats.
     pub(crate) fn per_vertex<const N: usize>(elements: impl Iterator<Item = [f32; N]>) -> Self {
         let mut words = Vec::with_capacity(elements.size_hint().0.saturating_mul(N));
         for element in elements {
@@ -52,13 +52,14 @@ impl StreamData {
         }
     }
 
-    /// An element for each value, made by several threads.
+    /// A stream with an element per value, computed by several threads.
     fn of_each<T: Copy + Sync, const N: usize>(
         values: &[T],
         element: impl Fn(T) -> [f32; N] + Sync,
         workers: Workers,
     ) -> Self {
-        /// Some hundred microseconds of work: new memory costs more than what is written to it.
+        /// Some hundred microseconds of work: touching new memory costs more than the writes
+        /// themselves.
         const PIECE: usize = 1 << 14;
         let mut words = vec![0; values.len() * N];
         let parts = words.chunks_mut(PIECE * N).zip(values.chunks(PIECE));
@@ -73,7 +74,7 @@ impl StreamData {
         }
     }
 
-    /// The same element for all vertices.
+    /// A stream with one element for all vertices.
     pub(crate) fn constant(element: &[f32]) -> Self {
         Self {
             buffer: Buffer::from_f32s(element),
@@ -86,7 +87,7 @@ impl StreamData {
         self.buffer.clone()
     }
 
-    /// How the buffer lies, when it feeds `location`.
+    /// The layout of the buffer when it feeds `location`.
     pub(crate) fn layout(&self, stream: VertexStream, location: usize) -> VertexBufferLayout {
         let format = stream.format();
         let element_bytes =
@@ -104,7 +105,7 @@ impl StreamData {
     }
 }
 
-/// The streams of one mesh whose vertices are shared as in the scene.
+/// The streams of one mesh.
 #[derive(Debug, Clone)]
 pub(crate) struct MeshStreams {
     pub(crate) positions: StreamData,
@@ -115,7 +116,8 @@ pub(crate) struct MeshStreams {
 }
 
 impl MeshStreams {
-    /// The streams of a mesh. What it lacks is the same for all vertices: no normal, uv (0, 0), white.
+    /// The streams of a mesh with the scene's shared vertices. Missing attributes are constant: no
+    /// normal, uv (0, 0), white.
     pub(crate) fn shared(mesh: &Mesh, space: &UnitSpace, workers: Workers) -> Self {
         let position = |p| space.unit_from_object(p).to_array();
         Self {
@@ -144,7 +146,7 @@ impl MeshStreams {
         }
     }
 
-    /// The stream that a shader names.
+    /// The data of a stream.
     pub(crate) fn get(&self, stream: VertexStream) -> &StreamData {
         match stream {
             VertexStream::Position => &self.positions,

@@ -1,6 +1,6 @@
-//! Normals, depth and uv as colours: what the stages handed over, made visible (row I3).
+//! Normals, depth and uv as colours, for inspection.
 //!
-//! These are numbers, not light: the target stores them as they are, without the sRGB curve.
+//! These are numbers, not light: the target stores them without sRGB encoding.
 
 use super::{VertexTransforms, shading_normal};
 use estampe::{FragmentIn, FragmentOut, Real, Vec2, Vec3, VertexIn, VertexOut};
@@ -69,7 +69,7 @@ estampe::shader! {
     }
 }
 
-/// Texture coordinates: u is red, v is green; beyond 0..1 they begin again.
+/// Texture coordinates: u is red, v is green; outside 0..1 they repeat.
 #[derive(Debug, Clone)]
 pub(crate) struct UvColors {
     pub(crate) transforms: VertexTransforms,
@@ -95,7 +95,7 @@ estampe::shader! {
     }
 }
 
-/// A coordinate in 0..=1: itself where it is inside, else what follows its whole part.
+/// A coordinate in 0..=1: unchanged if it is inside, else its fractional part.
 #[inline(always)]
 fn wrapped<R: Real>(coordinate: R) -> R {
     let is_inside = coordinate.ge(coordinate.splat(0.0)) & coordinate.le(coordinate.splat(1.0));

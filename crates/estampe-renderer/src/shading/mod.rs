@@ -1,21 +1,21 @@
-//! The looks: shaders written once for one fragment and for sixteen.
+//! The shaders of each [`Shading`](crate::Shading), each written once for all lane counts.
 //!
-//! | module | what |
+//! | module | contents |
 //! |---|---|
-//! | [`lighting`] | the lights and the Phong model |
-//! | [`phong`] | light at every fragment, smooth or in toon's steps |
-//! | [`vertex_lit`] | light at the vertices (Gouraud) or the faces (flat), or none (unlit) |
-//! | [`surfaces`] | the shaders of plain and of painted surfaces, in either light |
-//! | [`wireframe`] | edges over faces that hide what lies behind |
+//! | [`lighting`] | lights and the Phong lighting model |
+//! | [`phong`] | lighting at every fragment, smooth or in toon steps |
+//! | [`vertex_lit`] | lighting at the vertices (Gouraud) or the faces (flat), or none (unlit) |
+//! | [`surfaces`] | shaders of surfaces, plain or with texture and vertex colours |
+//! | [`wireframe`] | edges over faces that hide the edges behind them |
 //! | [`inspection`] | normals, depth and uv as colours |
-//! | [`marks`] | points and lines |
+//! | [`points_and_lines`] | points and lines |
 //!
-//! All light is computed in view space, linear.
+//! Lighting is computed in view space, in linear light.
 
 pub(crate) mod inspection;
 pub(crate) mod lighting;
-pub(crate) mod marks;
 pub(crate) mod phong;
+pub(crate) mod points_and_lines;
 pub(crate) mod surfaces;
 pub(crate) mod vertex_lit;
 pub(crate) mod wireframe;
@@ -25,16 +25,16 @@ mod tests;
 
 use estampe::{Mat4, Real, Vec3, Vec4};
 
-/// The transforms that vertices go through.
+/// The transforms of vertices.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct VertexTransforms {
-    /// Clip space from the unit space that vertices are in.
+    /// From unit space, the space of vertex buffers, to clip space.
     pub(crate) clip_from_unit: Mat4,
-    /// View space from the unit space.
+    /// From unit space to view space.
     pub(crate) view_from_unit: Mat4,
-    /// Normals of view space from normals of object space; a rotation.
+    /// From object-space normals to view-space normals; a rotation.
     pub(crate) view_from_object_normal: Mat4,
-    /// Whether all rays to the eye are parallel.
+    /// True if all rays to the eye are parallel.
     pub(crate) is_orthographic: bool,
 }
 
@@ -57,7 +57,7 @@ impl VertexTransforms {
         self.view_from_object_normal.transform_vector(normal)
     }
 
-    /// Unit direction to the eye from a point of view space.
+    /// Unit direction from a view-space point to the eye.
     #[inline(always)]
     pub(crate) fn eye_direction<R: Real>(&self, position_view: Vec3<R>) -> Vec3<R> {
         if self.is_orthographic {
@@ -68,8 +68,8 @@ impl VertexTransforms {
     }
 }
 
-/// The unit shading normal: `normal` renormalised, negated on back faces (two-sided), and towards the
-/// eye where the vertices have none.
+/// The unit shading normal: `normal` normalised, and negated on back faces (two-sided lighting).
+/// Where the vertices have no normal, the direction to the eye.
 #[inline(always)]
 pub(crate) fn shading_normal<R: Real>(
     normal: Vec3<R>,

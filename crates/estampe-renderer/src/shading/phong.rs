@@ -1,30 +1,30 @@
-//! Light at every fragment: Phong's smooth shading, and toon's steps.
+//! Lighting at every fragment: Phong shading, and toon steps.
 
-use super::lighting::{Gloss, LightRig};
+use super::lighting::{Gloss, Lights};
 use super::{VertexTransforms, shading_normal};
 use estampe::{Real, Vec3};
 use std::sync::Arc;
 
-/// How light becomes colour.
+/// Shading of a lit fragment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Tone {
-    /// As it is.
+pub(crate) enum ShadingMode {
+    /// Smooth: the light unchanged.
     Smooth,
-    /// In this many steps.
+    /// Toon: the light in this many steps.
     Toon(u16),
 }
 
-/// Light at every fragment.
+/// Lighting at every fragment.
 #[derive(Debug, Clone)]
 pub(crate) struct PhongLight {
     pub(crate) transforms: VertexTransforms,
-    pub(crate) rig: Arc<LightRig>,
+    pub(crate) lights: Arc<Lights>,
     pub(crate) gloss: Gloss,
-    pub(crate) tone: Tone,
+    pub(crate) mode: ShadingMode,
 }
 
 impl PhongLight {
-    /// The colour of a fragment of this base colour, at a point of view space, with its interpolated
+    /// The colour of a fragment with this base colour, at a view-space point, with its interpolated
     /// normal.
     #[inline(always)]
     pub(crate) fn color<R: Real>(
@@ -36,23 +36,23 @@ impl PhongLight {
     ) -> Vec3<R> {
         let to_eye = self.transforms.eye_direction(view);
         let normal = shading_normal(normal, to_eye, front_facing);
-        match self.tone {
-            Tone::Smooth => {
-                let light = self.rig.illuminate(&self.gloss, normal, to_eye);
+        match self.mode {
+            ShadingMode::Smooth => {
+                let light = self.lights.illuminate(&self.gloss, normal, to_eye);
                 base * light.diffuse + light.added
             }
-            Tone::Toon(levels) => self.toon(base, normal, levels),
+            ShadingMode::Toon(levels) => self.toon(base, normal, levels),
         }
     }
 
-    /// The base colour in steps of light: min(⌊I·N⌋, N − 1)/(N − 1) of the way from shade to full light
-    /// (row F3).
+    /// Toon shading: the base colour interpolated between shade and full light by min(⌊I·N⌋, N −
+    /// 1)/(N − 1).
     #[inline(always)]
     fn toon<R: Real>(&self, base: Vec3<R>, normal: Vec3<R>, levels: u16) -> Vec3<R> {
         const SHADE: f32 = 0.3;
         const FULL: f32 = 1.0;
         let n = f32::from(levels.max(2));
-        let lit = self.rig.lit_fraction(normal);
+        let lit = self.lights.lit_fraction(normal);
         let step = (lit * n).floor().min(lit.splat(n - 1.0)) / (n - 1.0);
         let emissive = Vec3::uniform(lit, self.gloss.emissive);
         base * (step * (FULL - SHADE) + SHADE) + emissive

@@ -1,8 +1,9 @@
-//! The shaders of surfaces: what colour there is, in what light.
+//! The shaders of surfaces.
 //!
-//! Three of them: plain surfaces lit at their fragments or their vertices, and painted ones (texture,
-//! vertex colours) with either light in one shader. A shader for each would be clearer by a little, but
-//! each that samples a texture costs the compiler all SIMD levels of the sampler again, a minute.
+//! There are three: plain surfaces lit at their fragments or at their vertices, and surfaces with a
+//! texture or vertex colours, with either lighting in one shader. Separate shaders would be a
+//! little clearer, but each shader that samples a texture compiles the sampler at all SIMD levels
+//! again, which takes a minute.
 
 use super::phong::PhongLight;
 use super::vertex_lit::{self, BothSides, VertexLight};
@@ -82,15 +83,15 @@ estampe::shader! {
 #[derive(Debug, Clone)]
 pub(crate) struct Painted {
     pub(crate) light: SurfaceLight,
-    /// Linear RGBA, times the texture and the vertex colour.
+    /// Linear RGBA, multiplied by the texture and the vertex colour.
     pub(crate) factor: [f32; 4],
     /// The base-colour texture.
     pub(crate) texture: Option<Sampled>,
-    /// What alpha does.
+    /// Use of alpha.
     pub(crate) alpha: Alpha,
 }
 
-/// Where a surface is lit.
+/// Lighting of a surface.
 #[derive(Debug, Clone)]
 pub(crate) enum SurfaceLight {
     /// At every fragment.
@@ -99,21 +100,21 @@ pub(crate) enum SurfaceLight {
     Vertices(VertexLight),
 }
 
-/// What the alpha of texture and vertices does.
+/// Use of the texture's and the vertices' alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Alpha {
-    /// Nothing: it is 1.
+    /// Alpha is 1.
     Ignored,
     /// Fragments below ½ are discarded.
     CutsOut,
-    /// It is the colour's.
+    /// Alpha is written with the colour.
     Kept,
 }
 
 estampe::shader! {
     impl Shader for Painted {
         type Attributes<R: Real> = (Vec3<R>, Vec3<R>, Vec2<R>, Vec4<R>); // position, normal, uv, color
-        // Light at the vertices takes all four; light at the fragments needs two of them, for the view
+        // Vertex lighting uses all four values; fragment lighting uses two of them, for the view
         // position and the normal.
         type Varyings<R: Real> = (BothSides<R>, Vec2<R>, Vec4<R>);
         const DISCARDS: bool = true;
@@ -159,7 +160,7 @@ estampe::shader! {
             };
             let out = FragmentOut::color(color.extend(base.w));
             if self.alpha == Alpha::CutsOut {
-                out.keep_where(base.w.ge(input.real(0.5)))
+                out.discard_unless(base.w.ge(input.real(0.5)))
             } else {
                 out
             }

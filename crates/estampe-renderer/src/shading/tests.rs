@@ -1,9 +1,10 @@
-//! Shaders on lone fragments: the same text as on sixteen, in numbers that can be checked by hand.
+//! Shaders on single fragments: the same source as on sixteen, with numbers that can be checked by
+//! hand.
 
-use super::lighting::{Gloss, LightRig, ViewLight};
-use super::phong::{PhongLight, Tone};
+use super::lighting::{Gloss, Lights, ViewLight};
+use super::phong::{PhongLight, ShadingMode};
 use super::surfaces::{Alpha, Painted, SurfaceLight};
-use super::vertex_lit::{self, VertexLight, VertexTone};
+use super::vertex_lit::{self, VertexLight, VertexShadingMode};
 use super::{VertexTransforms, shading_normal};
 use estampe::{Bindings, FragmentIn, Mat4, Shader, Vec2, Vec3, Vec4};
 use std::sync::Arc;
@@ -21,21 +22,21 @@ const DULL: Gloss = Gloss {
     emissive: [0.0; 3],
 };
 
-fn one_light(towards: [f32; 3], ambient: f32) -> Arc<LightRig> {
+fn one_light(towards: [f32; 3], ambient: f32) -> Arc<Lights> {
     let light = ViewLight {
         towards,
         color: [1.0; 3],
         highlight: 1.0,
     };
-    Arc::new(LightRig::given(vec![light], ambient))
+    Arc::new(Lights::with_uniform_ambient(vec![light], ambient))
 }
 
-fn phong(rig: Arc<LightRig>, gloss: Gloss, tone: Tone) -> PhongLight {
+fn phong(lights: Arc<Lights>, gloss: Gloss, mode: ShadingMode) -> PhongLight {
     PhongLight {
         transforms: TRANSFORMS,
-        rig,
+        lights,
         gloss,
-        tone,
+        mode,
     }
 }
 
@@ -43,7 +44,7 @@ fn phong(rig: Arc<LightRig>, gloss: Gloss, tone: Tone) -> PhongLight {
 fn phong_is_ambient_plus_diffuse_plus_specular() {
     let white = Vec3::new(1.0, 0.5, 0.25);
     let (view, normal) = (Vec3::new(0.0, 0.0, -2.0), Vec3::new(0.0, 0.0, 4.0));
-    let light = phong(one_light([0.0, 0.6, 0.8], 0.1), DULL, Tone::Smooth);
+    let light = phong(one_light([0.0, 0.6, 0.8], 0.1), DULL, ShadingMode::Smooth);
     let color = light.color(white, view, normal, true);
     assert!(
         (color.x - 0.9).abs() < 1e-6 && (color.y - 0.45).abs() < 1e-6,
@@ -55,12 +56,12 @@ fn phong_is_ambient_plus_diffuse_plus_specular() {
         shininess: 2,
         emissive: [0.0, 0.0, 0.25],
     };
-    let light = phong(one_light([0.0, 0.6, 0.8], 0.0), gloss, Tone::Smooth);
+    let light = phong(one_light([0.0, 0.6, 0.8], 0.0), gloss, ShadingMode::Smooth);
     let color = light.color(white, view, normal, true);
     assert!((color.x - (0.8 + 0.5 * 0.64)).abs() < 1e-6, "{color:?}");
     assert!((color.z - (0.2 + 0.32 + 0.25)).abs() < 1e-6, "{color:?}");
     // A light from behind gives neither diffuse light nor a highlight.
-    let light = phong(one_light([0.0, 0.0, -1.0], 0.0), gloss, Tone::Smooth);
+    let light = phong(one_light([0.0, 0.0, -1.0], 0.0), gloss, ShadingMode::Smooth);
     assert_eq!(light.color(white, view, normal, true).x, 0.0);
 }
 
@@ -84,7 +85,11 @@ fn toon_has_four_steps() {
     for step in 0..=100u8 {
         let cosine = f32::from(step) / 100.0;
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        let light = phong(one_light([sine, 0.0, cosine], 0.2), DULL, Tone::Toon(4));
+        let light = phong(
+            one_light([sine, 0.0, cosine], 0.2),
+            DULL,
+            ShadingMode::Toon(4),
+        );
         let color = light.color(
             Vec3::repeat(1.0),
             Vec3::repeat(0.0),
@@ -104,19 +109,19 @@ fn toon_has_four_steps() {
 
 #[test]
 fn vertices_carry_the_light_of_both_sides() {
-    let rig = one_light([0.0, 0.0, 1.0], 0.1);
+    let lights = one_light([0.0, 0.0, 1.0], 0.1);
     let light = VertexLight {
         transforms: TRANSFORMS,
-        rig,
+        lights,
         gloss: DULL,
-        tone: VertexTone::Gouraud,
+        mode: VertexShadingMode::Gouraud,
     };
     let sides = light.both_sides(Vec3::repeat(0.0), Vec3::new(0.0, 0.0, 1.0));
     let base = Vec3::repeat(1.0);
     assert!((vertex_lit::color(base, sides, true).x - 1.1).abs() < 1e-6);
     assert!((vertex_lit::color(base, sides, false).x - 0.1).abs() < 1e-6);
     let unlit = VertexLight {
-        tone: VertexTone::Unlit,
+        mode: VertexShadingMode::Unlit,
         ..light
     };
     let sides = unlit.both_sides(Vec3::repeat(0.0), Vec3::new(0.0, 0.0, 1.0));
@@ -125,16 +130,17 @@ fn vertices_carry_the_light_of_both_sides() {
 
 #[test]
 fn the_studio_leaves_nothing_dark_and_burns_nothing_out() {
-    let rig = LightRig::studio(super::lighting::DEFAULT_AMBIENT);
+    let lights = Lights::studio(super::lighting::DEFAULT_AMBIENT);
     let to_eye = Vec3::new(0.0, 0.0, 1.0);
     let seen: Vec<f32> = (0..1000u16)
         .filter_map(|i| {
-            // Points of a spiral on the sphere, those that face the eye.
+            // Points of a spiral on the sphere that face the eye.
             let z = 1.0 - f32::from(i) / 500.0;
             let (s, c) = libm::sincosf(f32::from(i) * 2.4);
             let r = (1.0 - z * z).max(0.0).sqrt();
             (z > 0.05).then(|| {
-                rig.illuminate(&DULL, Vec3::new(c * r, s * r, z), to_eye)
+                lights
+                    .illuminate(&DULL, Vec3::new(c * r, s * r, z), to_eye)
                     .diffuse
                     .y
             })
@@ -147,19 +153,19 @@ fn the_studio_leaves_nothing_dark_and_burns_nothing_out() {
         (1.0..1.5).contains(&brightest),
         "{brightest}: times the grey of 0.6 it stays below 1"
     );
-    let facing = rig.illuminate(&DULL, to_eye, to_eye).diffuse.y;
+    let facing = lights.illuminate(&DULL, to_eye, to_eye).diffuse.y;
     assert!(facing > 0.5, "{facing}: what faces the eye is well lit");
 }
 
 #[test]
 fn alpha_cuts_out_is_kept_or_ignored() {
-    let rig = one_light([0.0, 0.0, 1.0], 0.0);
+    let lights = one_light([0.0, 0.0, 1.0], 0.0);
     let painted = |alpha| Painted {
         light: SurfaceLight::Vertices(VertexLight {
             transforms: TRANSFORMS,
-            rig: Arc::clone(&rig),
+            lights: Arc::clone(&lights),
             gloss: DULL,
-            tone: VertexTone::Unlit,
+            mode: VertexShadingMode::Unlit,
         }),
         factor: [1.0, 1.0, 1.0, 0.5],
         texture: None,
@@ -169,7 +175,7 @@ fn alpha_cuts_out_is_kept_or_ignored() {
     let input = FragmentIn {
         position: Vec4::repeat(0.0_f32),
         front_facing: true,
-        is_live: true,
+        is_helper: false,
         sample_index: 0,
         coverage: 0,
         bindings: &bindings,

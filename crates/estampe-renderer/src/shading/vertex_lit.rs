@@ -1,47 +1,47 @@
-//! Light at the vertices: Gouraud's interpolated colours, flat faces, and no light at all.
+//! Lighting at the vertices: Gouraud's interpolated colours, flat faces, and unlit surfaces.
 //!
-//! Which side of a triangle is seen is known only after the vertices, so light is computed for both
-//! sides, and the fragment takes one.
+//! The facing of a triangle is known only after vertex shading, so light is computed for both
+//! sides, and the fragment selects one.
 
-use super::lighting::{Gloss, LightRig};
+use super::lighting::{Gloss, Lights};
 use super::{VertexTransforms, shading_normal};
 use estampe::{Real, Vec3};
 use std::sync::Arc;
 
-/// What light a vertex gets.
+/// Lighting of a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum VertexTone {
-    /// That of its normal, as seen from the eye.
+pub(crate) enum VertexShadingMode {
+    /// With the vertex normal, seen from the eye.
     Gouraud,
-    /// That of its face's normal, as seen from infinitely far away, so that all vertices of a face, and
-    /// all faces of a plane, get the same.
+    /// With the face's normal, seen from infinitely far away, so that all vertices of a face, and
+    /// all faces of a plane, have the same light.
     Flat,
-    /// Just enough to see the base colour.
+    /// Full diffuse light, so that the base colour is unchanged.
     Unlit,
 }
 
-/// Light at the vertices.
+/// Lighting at the vertices.
 #[derive(Debug, Clone)]
 pub(crate) struct VertexLight {
     pub(crate) transforms: VertexTransforms,
-    pub(crate) rig: Arc<LightRig>,
+    pub(crate) lights: Arc<Lights>,
     pub(crate) gloss: Gloss,
-    pub(crate) tone: VertexTone,
+    pub(crate) mode: VertexShadingMode,
 }
 
-/// Light on both sides: diffuse and added of the front, then of the back.
+/// Light on both sides: diffuse and added light of the front, then of the back.
 pub(crate) type BothSides<R> = (Vec3<R>, Vec3<R>, Vec3<R>, Vec3<R>);
 
 impl VertexLight {
-    /// Light on a vertex of the unit space, with its normal of the object's space.
+    /// Light on a vertex, given its position in unit space and its normal in object space.
     #[inline(always)]
     pub(crate) fn both_sides<R: Real>(&self, position: Vec3<R>, normal: Vec3<R>) -> BothSides<R> {
-        let to_eye = match self.tone {
-            VertexTone::Gouraud => self
+        let to_eye = match self.mode {
+            VertexShadingMode::Gouraud => self
                 .transforms
                 .eye_direction(self.transforms.view(position)),
-            VertexTone::Flat => Vec3::uniform(position.x, [0.0, 0.0, 1.0]),
-            VertexTone::Unlit => {
+            VertexShadingMode::Flat => Vec3::uniform(position.x, [0.0, 0.0, 1.0]),
+            VertexShadingMode::Unlit => {
                 let one = Vec3::uniform(position.x, [1.0; 3]);
                 let added = Vec3::uniform(position.x, self.gloss.emissive);
                 return (one, added, one, added);
@@ -49,13 +49,13 @@ impl VertexLight {
         };
         let yes = to_eye.x.splat_mask(true);
         let normal = shading_normal(self.transforms.normal(normal), to_eye, yes);
-        let front = self.rig.illuminate(&self.gloss, normal, to_eye);
-        let back = self.rig.illuminate(&self.gloss, -normal, to_eye);
+        let front = self.lights.illuminate(&self.gloss, normal, to_eye);
+        let back = self.lights.illuminate(&self.gloss, -normal, to_eye);
         (front.diffuse, front.added, back.diffuse, back.added)
     }
 }
 
-/// The light of the side that is seen, on the base colour.
+/// The base colour in the light of the facing side.
 #[inline(always)]
 pub(crate) fn color<R: Real>(base: Vec3<R>, sides: BothSides<R>, front_facing: R::Mask) -> Vec3<R> {
     let (front, front_added, back, back_added) = sides;

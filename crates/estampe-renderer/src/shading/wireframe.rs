@@ -1,10 +1,10 @@
-//! Edges over faces that hide what lies behind them.
+//! Wireframe with hidden lines removed.
 //!
-//! Each triangle has vertices of its own that carry a 1 at one corner: interpolated, the three numbers
-//! are the fragment's distances from the edges, in parts of the triangle's heights. Divided by their
-//! rate of change they are pixels, so edges have the same width everywhere, smooth borders, and lie
-//! exactly on the faces. (Rejected: pipeline lines over filled faces, which fight in the depth buffer
-//! and are not anti-aliased.)
+//! Each triangle has separate vertices, with a 1 at one of three corners each: interpolated, the
+//! three numbers are the fragment's distances from the edges, as fractions of the triangle's
+//! heights. Divided by their gradients they are pixels, so edges have the same width everywhere,
+//! smooth borders, and lie exactly on the faces. (Rejected: pipeline lines over filled faces, which
+//! have depth-buffer conflicts and are not anti-aliased.)
 
 use super::VertexTransforms;
 use estampe::{FragmentIn, FragmentOut, Real, Vec3, Vec4, VertexIn, VertexOut};
@@ -15,9 +15,9 @@ pub(crate) struct Wireframe {
     pub(crate) transforms: VertexTransforms,
     /// Linear colour and alpha of the edges.
     pub(crate) line: [f32; 4],
-    /// Linear premultiplied colour and alpha of the faces: the background's.
+    /// Linear premultiplied colour and alpha of the faces: those of the background.
     pub(crate) face: [f32; 4],
-    /// Half of an edge's width, in pixels; the two triangles at an edge draw a half each.
+    /// Half of an edge's width, in pixels; each of the two triangles at an edge draws one half.
     pub(crate) half_width_px: f32,
 }
 
@@ -37,12 +37,12 @@ estampe::shader! {
         fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, corner: Vec3<R>) -> FragmentOut<R> {
             let one = corner.x.splat(1.0);
             let rates = Vec3::new(gradient(corner.x), gradient(corner.y), gradient(corner.z));
-            // The nearest edge, in pixels.
+            // Distance of the nearest edge, in pixels.
             let distances = corner / rates;
             let distance = distances.x.min(distances.y).min(distances.z);
             let coverage = (one * (self.half_width_px + 0.5) - distance).saturate();
-            // Where triangles are a few pixels small, edges would fill everything: they fade, so that
-            // a dense mesh is a grey tone instead of a black blot. |∇a × ∇b| = 1 ÷ 2·area.
+            // Edges of triangles of a few pixels would cover everything, so they fade: a dense mesh
+            // becomes grey and not solid. |∇a × ∇b| = 1 ÷ 2·area.
             let (a, b) = (corner.x, corner.y);
             let cross = (a.ddx() * b.ddy() - a.ddy() * b.ddx()).abs().max(one * 1e-9);
             let side_px = (one / cross).sqrt();
@@ -54,7 +54,7 @@ estampe::shader! {
     }
 }
 
-/// How much a value changes from pixel to pixel, at most: the length of its gradient.
+/// The length of a value's gradient: its greatest change from pixel to pixel.
 #[inline(always)]
 fn gradient<R: Real>(value: R) -> R {
     let (dx, dy) = (value.ddx(), value.ddy());

@@ -1,4 +1,4 @@
-//! Scale, shear, rotation and translation, in space and in the plane (row X1).
+//! Scale, shear, rotation and translation, in space and in the plane.
 //!
 //! Products do not commute: `translation(t) * rotation(…) * scale(s)` scales first.
 
@@ -21,9 +21,10 @@ pub fn translation(offset: DVec3) -> DMat4 {
     DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::Z, offset.extend(1.0))
 }
 
-/// Moves each point along `along` in proportion to its coordinate along `normal`: p + along·(normal·p).
+/// Moves each point along `along` in proportion to its coordinate along `normal`: p +
+/// along·(normal·p).
 ///
-/// Volumes stay when the two are perpendicular.
+/// Preserves volumes if the two are perpendicular.
 #[must_use]
 pub fn shear(along: DVec3, normal: DVec3) -> DMat4 {
     let column = |axis: DVec3| (axis + along * normal.dot(axis)).extend(0.0);
@@ -35,8 +36,8 @@ pub fn shear(along: DVec3, normal: DVec3) -> DMat4 {
     )
 }
 
-/// Turns by `angle_rad` about the axis `direction` through the origin, counter-clockwise as seen from
-/// where the axis points.
+/// Rotates by `angle_rad` about the axis `direction` through the origin, counter-clockwise when
+/// seen against the axis direction.
 ///
 /// Rodrigues: R = (1 − c)·d·dᵀ + c·I + s·`[d]`×, ‖d‖ = 1. A zero direction gives the identity.
 #[must_use]
@@ -56,14 +57,14 @@ pub fn rotation(direction: DVec3, angle_rad: f64) -> DMat4 {
     )
 }
 
-/// Turns about an axis through `point`: T(point) · R · T(−point).
+/// Rotates about an axis through `point`: T(point) · R · T(−point).
 #[must_use]
 pub fn rotation_about(point: DVec3, direction: DVec3, angle_rad: f64) -> DMat4 {
     translation(point) * rotation(direction, angle_rad) * translation(-point)
 }
 
-/// The smallest rotation that takes the direction `from` to `to`; half a turn about X, or else Z, when
-/// they are opposite. Zero directions give the identity.
+/// The smallest rotation that takes the direction `from` to `to`; half a turn about X, or else Z,
+/// when they are opposite. Zero directions give the identity.
 #[must_use]
 pub fn rotation_between(from: DVec3, to: DVec3) -> DMat4 {
     let (a, b) = (from.normalize_or_zero(), to.normalize_or_zero());
@@ -71,7 +72,8 @@ pub fn rotation_between(from: DVec3, to: DVec3) -> DMat4 {
         return DMat4::IDENTITY;
     }
     let (axis, cosine) = (a.cross(b), a.dot(b));
-    // Near half a turn 1 + c cancels: half a turn takes a to −a exactly, the rest is a small rotation.
+    // Near half a turn 1 + c cancels: half a turn takes a to −a exactly, the rest is a small
+    // rotation.
     if 1.0 + cosine < 1e-6 {
         let axis = if a.x.abs() < 0.9 { DVec3::X } else { DVec3::Z };
         let perpendicular = (axis - a * a.dot(axis)).normalize();
@@ -102,19 +104,19 @@ pub fn compose(offset: DVec3, rotation: DMat4, factors: DVec3) -> DMat4 {
     translation(offset) * rotation * scale(factors)
 }
 
-/// In the plane, homogeneous: scale.
+/// 2D scale, as a homogeneous matrix.
 #[must_use]
 pub fn scale_2d(factors: DVec2) -> DMat3 {
     DMat3::from_cols(DVec3::X * factors.x, DVec3::Y * factors.y, DVec3::Z)
 }
 
-/// In the plane: translation of points (w = 1).
+/// 2D translation of points (w = 1).
 #[must_use]
 pub fn translation_2d(offset: DVec2) -> DMat3 {
     DMat3::from_cols(DVec3::X, DVec3::Y, offset.extend(1.0))
 }
 
-/// In the plane: x' = x + by.x·y, y' = y + by.y·x.
+/// 2D shear: x' = x + by.x·y, y' = y + by.y·x.
 #[must_use]
 pub fn shear_2d(by: DVec2) -> DMat3 {
     DMat3::from_cols(
@@ -124,7 +126,7 @@ pub fn shear_2d(by: DVec2) -> DMat3 {
     )
 }
 
-/// In the plane: counter-clockwise rotation (x right, y up) about `point`.
+/// 2D rotation about `point`, counter-clockwise (x right, y up).
 #[must_use]
 pub fn rotation_2d(point: DVec2, angle_rad: f64) -> DMat3 {
     let (s, c) = libm::sincos(angle_rad);

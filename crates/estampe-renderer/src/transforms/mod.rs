@@ -1,19 +1,19 @@
-//! Transforms between the spaces of the pipeline (rows X1 to X5), computed in f64.
+//! Transforms between the spaces of the pipeline, computed in f64.
 //!
 //! ```text
 //! object --affine--> world --view--> view (eye) --projection--> clip --÷w--> NDC --viewport--> window
 //! ```
 //!
-//! Matrices act on column vectors and are named `to_from`, so that a chain checks itself by eye:
-//! `clip_from_view * view_from_world * p_world`. Everything right-handed; the camera looks down −z.
-//! Sines and cosines are `libm`'s, so the same numbers come out on every machine. What the GPU gets
-//! is the product of all matrices, rounded to f32 once.
+//! Matrices act on column vectors and are named `to_from`, so that adjacent names in a product
+//! agree: `clip_from_view * view_from_world * p_world`. All spaces are right-handed; the camera
+//! looks down −z. Sines and cosines are `libm`'s, so that results are the same on every machine.
+//! The product of all matrices is rounded to f32 once, for the shader.
 //!
-//! * [`affine`]: scale, shear, rotation, translation and their composition (X1);
-//! * [`normals`]: how normals follow a transform (X2);
-//! * [`view`]: the camera's frame and the view that inverts it (X3);
-//! * [`projection`]: frustum, perspective, orthographic and central projections (X4);
-//! * [`viewport`]: from NDC to the window (X5).
+//! * [`affine`]: scale, shear, rotation, translation and their composition;
+//! * [`normals`]: transformation of normals;
+//! * [`view`]: the camera's frame and the view that inverts it;
+//! * [`projection`]: frustum, perspective, orthographic and central projections;
+//! * [`viewport`]: from NDC to the window.
 
 pub mod affine;
 pub mod normals;
@@ -33,10 +33,17 @@ pub fn transform_point(m: &DMat4, p: DVec3) -> DVec3 {
     h.truncate() / h.w
 }
 
-/// `m * (v, 0)`: directions do not feel translations.
+/// `m * (v, 0)`: translations have no effect on directions.
 #[must_use]
 pub fn transform_vector(m: &DMat4, v: DVec3) -> DVec3 {
     (*m * v.extend(0.0)).truncate()
+}
+
+/// `value` rounded to the nearest f32, ties to even; infinite beyond f32's range.
+#[expect(clippy::cast_possible_truncation, reason = "rounding is the purpose")]
+#[must_use]
+pub fn round_to_f32(value: f64) -> f32 {
+    value as f32
 }
 
 /// The matrix in f32, for a shader.

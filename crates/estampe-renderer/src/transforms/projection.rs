@@ -1,16 +1,16 @@
-//! From view to clip space (row X4).
+//! Projections from view to clip space.
 
 use glam::{DMat4, DVec4};
 
-/// Which NDC depths the near and far planes get.
+/// NDC depths of the near and far planes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum DepthConvention {
-    /// Near 0, far 1: Vulkan, WebGPU, and the pipeline here.
+    /// Near 0, far 1: Vulkan, WebGPU and this pipeline.
     #[default]
     ZeroToOne,
     /// Near −1, far 1: OpenGL.
     MinusOneToOne,
-    /// Near 1, far 0: keeps precision far away in floating-point depth.
+    /// Near 1, far 0: floating-point depth then keeps its precision at a distance.
     Reversed,
 }
 
@@ -26,7 +26,8 @@ impl DepthConvention {
     }
 }
 
-/// The box or pyramid that is seen: the window on the near plane, and the distances of both planes.
+/// The visible volume, a box or a pyramid: the window on the near plane, and the distances of both
+/// planes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frustum {
     /// Left edge on the near plane.
@@ -88,8 +89,8 @@ pub fn frustum(f: &Frustum, convention: DepthConvention) -> DMat4 {
     )
 }
 
-/// The centred perspective with a vertical opening angle; `aspect` is width ÷ height, and `far` may be
-/// infinite.
+/// The centred perspective with a vertical opening angle; `aspect` is width ÷ height, and `far` may
+/// be infinite.
 #[must_use]
 pub fn perspective(
     fov_y_rad: f64,
@@ -135,8 +136,9 @@ pub fn orthographic(f: &Frustum, convention: DepthConvention) -> DMat4 {
     )
 }
 
-/// The teaching form of the central projection, for a view whose origin is the centre of the scene and
-/// whose eye stands at z = `d`: z is kept, w = 1 − z/d. An infinite `d` is a parallel projection.
+/// The teaching form of the central projection, for a view whose origin is the centre of the scene
+/// and whose eye stands at z = `d`: z is kept, w = 1 − z/d. An infinite `d` is a parallel
+/// projection.
 #[must_use]
 pub fn central_teaching(d: f64) -> DMat4 {
     DMat4::from_cols(

@@ -118,7 +118,7 @@ fn normals_stay_perpendicular_under_uneven_scale_and_reflection() {
             moved.dot(transform_vector(&m, tangent)).abs() < 1e-13,
             "{m}"
         );
-        // It stays on its side: the point it pointed to is still on its side of the tangent plane.
+        // The normal still points to the same side of the tangent plane.
         assert!(moved.dot(transform_vector(&m, normal)) > 0.0, "{m}");
     }
     let flattened = affine::scale(DVec3::new(1.0, 0.0, 1.0));

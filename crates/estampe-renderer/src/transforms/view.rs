@@ -1,4 +1,4 @@
-//! The camera's frame, and the view that inverts it (row X3).
+//! The camera's frame, and the view that inverts it.
 //!
 //! ```text
 //!          up (y)
@@ -12,12 +12,12 @@
 
 use glam::{DMat4, DVec3, DVec4};
 
-/// Where a camera stands and how it is turned: an orthonormal, right-handed frame in world space.
+/// Position and orientation of a camera: an orthonormal, right-handed frame in world space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CameraFrame {
-    /// To the right in the picture.
+    /// Direction to the right in the image.
     pub right_world: DVec3,
-    /// Up in the picture.
+    /// Direction up in the image.
     pub up_world: DVec3,
     /// Towards the viewer: the opposite of the view direction.
     pub back_world: DVec3,
@@ -26,11 +26,11 @@ pub struct CameraFrame {
 }
 
 impl CameraFrame {
-    /// A camera at `eye` that looks at `centre`: z = normalize(eye − centre), x = normalize(up × z),
-    /// y = z × x.
+    /// A camera at `eye` that looks at `centre`: z = normalize(eye − centre), x = normalize(up ×
+    /// z), y = z × x.
     ///
-    /// Where `eye` is `centre`, it looks down −z; where `up` is parallel to the view direction, the
-    /// world axis that is least so takes its place.
+    /// If `eye` equals `centre`, the camera looks down −z. If `up` is parallel to the view
+    /// direction, the less parallel one of the world axes Y and Z replaces it.
     #[must_use]
     pub fn look_at(eye_world: DVec3, centre_world: DVec3, up_world: DVec3) -> Self {
         let back = (eye_world - centre_world).normalize_or_zero();

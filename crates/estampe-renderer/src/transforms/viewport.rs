@@ -1,4 +1,5 @@
-//! From NDC to the window (row X5), as matrices: the pipeline does it itself, these explain it.
+//! Transforms from NDC to the window as matrices. The pipeline has its own code; these
+//! matrices document it.
 
 use glam::{DMat4, DVec4};
 
@@ -31,8 +32,8 @@ pub fn window_from_ndc(v: &ViewportRectangle) -> DMat4 {
     )
 }
 
-/// The teaching form: y up and pixel centres at integers, so that NDC (−1, −1) is (−½, −½) and (1, 1)
-/// is (width − ½, height − ½); z stays.
+/// The teaching form: y up and pixel centres at integers, so that NDC (−1, −1) is (−½, −½) and (1,
+/// 1) is (width − ½, height − ½); z is unchanged.
 #[must_use]
 pub fn window_from_ndc_teaching(width: f64, height: f64) -> DMat4 {
     DMat4::from_cols(
@@ -43,8 +44,8 @@ pub fn window_from_ndc_teaching(width: f64, height: f64) -> DMat4 {
     )
 }
 
-/// The teaching form that enlarges the picture about its middle by `zoom` and maps z to
-/// 100 + 100·z, which a grey value can show.
+/// The teaching form that magnifies the image about its middle by `zoom` and maps z to 100 + 100·z,
+/// which a grey value can show.
 #[must_use]
 pub fn window_from_ndc_zoomed(width: f64, height: f64, zoom: f64) -> DMat4 {
     DMat4::from_cols(

@@ -1,4 +1,4 @@
-//! A surface cut into the cells of a grid.
+//! Meshes of surfaces over a grid of parameters.
 
 use std::ops::Range;
 
@@ -6,13 +6,13 @@ use glam::{DVec3, Vec2};
 
 use crate::mesh::ShapeMesh;
 
-/// The most cells that a grid has in either direction; more are not made.
+/// The maximum number of cells of a grid in either direction; larger numbers are clamped.
 pub const MAX_CELLS: u32 = 2048;
 
 /// A point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// Where it is.
+    /// The position.
     pub position: DVec3,
     /// The unit normal, on the side of ∂S/∂t × ∂S/∂s.
     pub normal: DVec3,
@@ -20,8 +20,9 @@ pub struct SurfacePoint {
 
 /// Meshes the surface `point(s, t)` over a rectangle of parameters.
 ///
-/// `cells` counts the cells along s and t, each brought into 1 to [`MAX_CELLS`]. Texture
-/// coordinates run from 0 to 1 along both. Triangles without extent are left out, see [the module](super).
+/// `cells` are the numbers of cells along s and t, clamped to 1..=[`MAX_CELLS`]. Texture
+/// coordinates run from 0 to 1 along both. Degenerate triangles are omitted, see [the
+/// module](super).
 #[must_use]
 pub fn surface(
     name: &str,
@@ -46,15 +47,14 @@ pub fn surface(
     mesh
 }
 
-/// The end points themselves at both ends, whatever the rounding.
+/// Interpolates a range; exact at both ends in spite of rounding.
 fn between(range: &Range<f64>, step: u32, steps: u32) -> f64 {
     let (step, steps) = (f64::from(step), f64::from(steps));
     (range.start * (steps - step) + range.end * step) / steps
 }
 
-/// Appends a grid of cells; `point` is given a step along s, of how many, and the same along t.
-///
-/// The image's part `uv` is laid over it; `uv.start` belongs to the grid's first point.
+/// Appends a grid of cells. `point` is called with a step along s, the number of steps, and the
+/// same along t. The grid shows the part `uv` of the image; `uv.start` belongs to its first point.
 pub(crate) fn append_grid(
     mesh: &mut ShapeMesh,
     cells: [u32; 2],
@@ -74,7 +74,7 @@ pub(crate) fn append_grid(
 
     let mut row_above: Vec<u32> = Vec::new();
     for step_t in 0..=cells_t {
-        // Sample the row, and see whether it is drawn together into one point.
+        // Sample the row, and test whether all of it is a single point.
         let samples: Vec<_> = (0..=cells_s)
             .map(|step_s| {
                 let sample = point(step_s, cells_s, step_t, cells_t);
@@ -104,7 +104,7 @@ pub(crate) fn append_grid(
             })
             .collect();
 
-        // A pole's vertex i stands for both upper or both lower corners of cell i.
+        // Vertex i of a pole is both upper or both lower corners of cell i.
         let corners = |row: &[u32], cell: usize| {
             let right = if row.len() > cells_s as usize {
                 cell + 1

@@ -1,7 +1,8 @@
 //! Parametric surfaces S(s, t) on a grid.
 //!
-//! A rectangle of parameters is cut into cells; s runs along the image's u, to the right as seen
-//! from outside, and t along its v, downwards. The outside is therefore the side of ∂S/∂t × ∂S/∂s:
+//! A rectangle of parameters is divided into cells; s runs along the image's u, to the right as
+//! seen from outside, and t along its v, downwards. The outside is therefore the side of ∂S/∂t ×
+//! ∂S/∂s:
 //!
 //! ```text
 //!   (s₀,t₀)───────▶ s, u        a─────d
@@ -11,8 +12,8 @@
 //!    t, v
 //! ```
 //!
-//! Where a row of the grid is drawn together into one point, as at a sphere's poles, its cells are
-//! triangles, each with a pole vertex of its own whose u is that of the cell's middle.
+//! Where a row of the grid is a single point, as at a sphere's poles, its cells are triangles. Each
+//! has a separate pole vertex whose u is that of the cell's middle.
 
 mod circle;
 mod grid;

@@ -1,4 +1,4 @@
-//! The surfaces with names: sphere, torus, plane.
+//! The named surfaces: sphere, torus, plane.
 
 use glam::DVec3;
 
@@ -44,9 +44,9 @@ pub fn sphere(radius: f64, segments: u32, rings: u32) -> ShapeMesh {
 
 /// A torus around the Y axis.
 ///
-/// `ring_radius` leads from the axis to the tube's middle, `tube_radius` from there to the surface.
-/// `segments` cells go around the axis and `sides` around the tube (at least 3 each). The image's
-/// upper and lower edges meet on the inside; its middle faces +Z.
+/// `ring_radius` is the distance from the axis to the tube's middle, `tube_radius` the tube's
+/// radius. `segments` cells go around the axis and `sides` around the tube (at least 3 each). The
+/// image's upper and lower edges meet on the inside; its middle faces +Z.
 ///
 /// S(s, t) = ((R + r cos t) sin s, r sin t, (R + r cos t) cos s), with s from −½ to ½ turn and t
 /// from ½ turn (inside) over ¼ (top), 0 (outside) and −¼ (bottom) to −½.

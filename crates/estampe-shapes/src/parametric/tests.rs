@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use std::f64::consts::PI;
 
 use glam::{DVec3, Vec2, Vec3};
-use proptest::prelude::*;
 
 use super::*;
 use crate::BuiltinShape;
 use crate::mesh::ShapeMesh;
+use crate::random_cases::random_cases;
 
 /// What every mesh here keeps: sizes, ranges, unit normals on the side that the winding shows, images that
 /// are not mirrored.
@@ -110,36 +110,57 @@ fn images_face_the_front() {
     }
 }
 
-proptest! {
-    #[test]
-    fn any_grid_is_sound(a in 0_u32..40, b in 0_u32..40) {
+#[test]
+fn any_grid_is_sound() {
+    random_cases(|random| {
+        let (a, b) = (random.u32(..40), random.u32(..40));
         let sphere = sphere(1.0, a, b);
         assert_sound(&sphere, 0.4);
-        prop_assert_eq!(euler_characteristic_of_closed(&sphere), 2);
+        assert_eq!(euler_characteristic_of_closed(&sphere), 2);
         let torus = torus(1.0, 0.45, a, b);
         assert_sound(&torus, 0.2);
-        prop_assert_eq!(euler_characteristic_of_closed(&torus), 0);
+        assert_eq!(euler_characteristic_of_closed(&torus), 0);
         assert_sound(&plane(1.0, 3.0, [a, b]), 0.999);
-    }
+    });
+}
 
-    #[test]
-    fn cosine_and_sine(turns in -3.0..3.0_f64) {
+#[test]
+fn cosine_and_sine() {
+    random_cases(|random| {
+        let turns = random.f64() * 6.0 - 3.0;
         let (cos, sin) = cos_sin_turns(turns);
-        prop_assert!((cos - libm::cos(2.0 * PI * turns)).abs() < 1e-14);
-        prop_assert!((sin - libm::sin(2.0 * PI * turns)).abs() < 1e-14);
-    }
+        assert!((cos - libm::cos(2.0 * PI * turns)).abs() < 1e-14);
+        assert!((sin - libm::sin(2.0 * PI * turns)).abs() < 1e-14);
+    });
+}
 
-    /// Any function whatever: indices in range, no panic.
-    #[test]
-    fn hostile_surfaces(bits: [u64; 6], cells in [0_u32..30, 0_u32..30]) {
-        let number = |i: usize, s: f64, t: f64| f64::from_bits(bits[i]) * s + f64::from_bits(bits[i + 3]) * t;
-        let mesh = surface("any", -1.0..f64::from_bits(bits[0]), 0.0..1.0, cells, |s, t| SurfacePoint {
-            position: DVec3::new(number(0, s, t), number(1, s, t), number(2, s, t)),
-            normal: DVec3::ZERO,
-        });
+/// Any function whatever: indices in range, no panic.
+#[test]
+fn hostile_surfaces() {
+    random_cases(|random| {
+        let bits = [0; 6].map(|_| random.u64(..));
+        let cells = [0; 2].map(|_| random.u32(..30));
+        let number = |i: usize, s: f64, t: f64| {
+            f64::from_bits(bits[i]) * s + f64::from_bits(bits[i + 3]) * t
+        };
+        let mesh = surface(
+            "any",
+            -1.0..f64::from_bits(bits[0]),
+            0.0..1.0,
+            cells,
+            |s, t| SurfacePoint {
+                position: DVec3::new(number(0, s, t), number(1, s, t), number(2, s, t)),
+                normal: DVec3::ZERO,
+            },
+        );
         let count = mesh.positions.len() as u32;
-        prop_assert!(mesh.triangles.as_flattened().iter().all(|&index| index < count));
-    }
+        assert!(
+            mesh.triangles
+                .as_flattened()
+                .iter()
+                .all(|&index| index < count)
+        );
+    });
 }
 
 #[test]

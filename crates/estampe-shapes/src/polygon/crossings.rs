@@ -1,8 +1,8 @@
-//! Whether a ring crosses itself so often that no triangulation of it means anything.
+//! Test for rings that cross themselves so often that no triangulation is meaningful.
 
 use super::plane::{Point, turn};
 
-/// An edge that the sweep has met and not yet passed.
+/// An edge that the sweep has reached and not yet passed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SweptEdge {
     index: usize,
@@ -11,11 +11,11 @@ pub(super) struct SweptEdge {
     upper: f64,
 }
 
-/// Whether more than `limit` pairs of edges that are not neighbours meet.
+/// True if more than `limit` pairs of edges that are not neighbours meet.
 ///
-/// Edges are met in the order of their left ends; those that the sweep has passed are dropped. That
-/// is O(n log n) for compact polygons and n² ÷ 2 quick rejections where all edges overlap in x. It
-/// stops at the limit, which a polygon that crosses itself everywhere reaches soon.
+/// The sweep reaches edges in the order of their left ends, and drops those that it has passed.
+/// That is O(n log n) for compact polygons and n² ÷ 2 quick rejections where all edges overlap in
+/// x. It stops at the limit, which a polygon that crosses itself everywhere reaches soon.
 pub(super) fn exceed(ring: &[Point], limit: usize, active: &mut Vec<SweptEdge>) -> bool {
     let count = ring.len();
     let ends = |edge: usize| (ring[edge], ring[(edge + 1) % count]);
@@ -56,7 +56,7 @@ pub(super) fn exceed(ring: &[Point], limit: usize, active: &mut Vec<SweptEdge>) 
     false
 }
 
-/// Whether two segments whose bounds overlap share a point; touching counts.
+/// True if two segments whose bounds overlap share a point; touching counts.
 fn do_meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
     turn(a, b, c) * turn(a, b, d) <= 0.0 && turn(c, d, a) * turn(c, d, b) <= 0.0
 }

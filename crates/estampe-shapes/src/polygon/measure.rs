@@ -4,13 +4,13 @@ use glam::Vec2;
 
 use super::plane::{Convexity, Point, convexity, doubled_area, relative_to_first};
 
-/// What counts as inside where a polygon crosses itself.
+/// Rule for the inside of polygons that cross themselves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum FillRule {
-    /// Inside where a ray to infinity crosses the boundary an odd number of times.
+    /// A point is inside if a ray to infinity crosses the boundary an odd number of times.
     #[default]
     EvenOdd,
-    /// Inside where the boundary winds around the point, in whichever direction.
+    /// A point is inside if the boundary winds around it, in either direction.
     NonZero,
 }
 
@@ -24,7 +24,7 @@ pub fn signed_area_2d(corners: &[Vec2]) -> f64 {
     0.5 * doubled_area(&ring)
 }
 
-/// Whether the polygon is convex: simple, and never turning against its own winding.
+/// True if the polygon is convex: simple, and never turning against its winding.
 ///
 /// Corners along a straight edge and repeated corners are allowed. Either winding. Polygons without
 /// area, and those that turn more than once around (a pentagram), are not convex.
@@ -34,15 +34,15 @@ pub fn is_convex_2d(corners: &[Vec2]) -> bool {
     convexity(&ring) != Convexity::Concave
 }
 
-/// Whether `point` lies inside the polygon.
+/// True if `point` lies inside the polygon.
 ///
 /// Crossings are counted along the ray from the point towards +x (Sunday, "Inclusion of a Point in
-/// a Polygon", 2001). Edges own their lower end only and points on an edge belong to the polygon on
-/// its right, so of polygons that share edges exactly one contains each point.
+/// a Polygon", 2001). An edge includes its lower end only, and points on an edge belong to the
+/// polygon on its right, so of polygons that share edges exactly one contains each point.
 ///
 /// ```text
 ///        ╱╲        each edge that crosses the ray: +1 upwards, −1 downwards;
-///   p ──╱──╲──▶    even-odd looks at the count, non-zero at the sum
+///   p ──╱──╲──▶    even-odd uses the count, non-zero the sum
 ///      ╱____╲
 /// ```
 #[must_use]
@@ -52,7 +52,8 @@ pub fn point_in_polygon(point: Vec2, corners: &[Vec2], rule: FillRule) -> bool {
     let ends = corners.iter().skip(1).chain(corners.first());
     for (&from, &to) in corners.iter().zip(ends) {
         let is_upward = from.y < to.y;
-        // Both neighbours of a shared edge must see the same numbers: always from its lower end.
+        // Always start from the lower end, so that both neighbours of a shared edge compute the
+        // same numbers.
         let (low, high) = if is_upward { (from, to) } else { (to, from) };
         if !(low.y <= point.y && point.y < high.y) {
             continue;

@@ -5,7 +5,7 @@ use glam::{DVec3, Vec2, Vec3};
 /// A corner in the plane, relative to the polygon's first one.
 pub(super) type Point = [f64; 2];
 
-/// The corners relative to the first: what is small stays exact, however far from the origin.
+/// The corners relative to the first, so that small polygons stay exact far from the origin.
 pub(super) fn relative_to_first(corners: &[Vec2]) -> impl Iterator<Item = Point> {
     let first = corners.first().copied().unwrap_or_default().as_dvec2();
     corners
@@ -27,14 +27,14 @@ pub(super) fn doubled_area(ring: &[Point]) -> f64 {
         .sum()
 }
 
-/// How a ring turns.
+/// Convexity of a ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Convexity {
-    /// Every corner is a real one: a fan from any of them has no triangle without area.
+    /// Convex without collinear or repeated corners: no fan of it has a degenerate triangle.
     Strict,
     /// Convex, but some corner lies on a straight edge or repeats its neighbour.
     Weak,
-    /// Everything else: concave, crossing itself, winding twice, without area, not finite.
+    /// All other rings: concave, crossing themselves, winding twice, without area, not finite.
     Concave,
 }
 
@@ -88,11 +88,11 @@ pub(super) fn convexity(ring: &[Point]) -> Convexity {
     }
 }
 
-/// The axes that a polygon in space keeps when it is laid flat.
+/// The axes that remain when a polygon in space is projected to the plane.
 ///
-/// The Newell normal, Σ cᵢ × cᵢ₊₁, is twice the polygon's area vector, and its components are
-/// twice the areas seen along the axes (Sutherland, Sproull, Schumacker 1974). Dropping the axis of
-/// its largest component shrinks the polygon least; the order of the other two makes the result
+/// The Newell normal, Σ cᵢ × cᵢ₊₁, is twice the polygon's area vector, and its components are twice
+/// the areas seen along the axes (Sutherland, Sproull, Schumacker 1974). Dropping the axis of its
+/// largest component shrinks the polygon least; the order of the other two makes the result
 /// counter-clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct DominantPlane {
@@ -101,7 +101,7 @@ pub(super) struct DominantPlane {
 }
 
 impl DominantPlane {
-    /// The plane of a polygon, or nothing if it has no area or is not finite.
+    /// The plane of a polygon, or `None` if it has no area or is not finite.
     pub(super) fn of(corners: &[Vec3]) -> Option<Self> {
         let first = corners.first()?.as_dvec3();
         let mut normal = DVec3::ZERO;
@@ -136,7 +136,7 @@ impl DominantPlane {
         })
     }
 
-    /// The corners laid flat, relative to the first.
+    /// The projected corners, relative to the first.
     pub(super) fn flatten(self, corners: &[Vec3]) -> impl Iterator<Item = Point> {
         let first = corners.first().copied().unwrap_or_default().as_dvec3();
         corners.iter().map(move |corner| {

@@ -2,26 +2,11 @@
 
 use std::time::{Duration, Instant};
 
+use fastrand::Rng;
 use glam::{DVec3, Vec2, Vec3};
-use proptest::prelude::*;
 
 use super::*;
-
-/// Numbers in [0, 1) with 24 bits, from a seed (xorshift64, Marsaglia 2003).
-struct Random(u64);
-
-impl Random {
-    fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
-    }
-
-    fn next(&mut self) -> f32 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 40) as f32 / 16_777_216.0
-    }
-}
+use crate::random_cases::random_cases;
 
 fn polar(turns: f64, radius: f64) -> Vec2 {
     let angle = turns * std::f64::consts::TAU;
@@ -29,19 +14,19 @@ fn polar(turns: f64, radius: f64) -> Vec2 {
 }
 
 /// Seen from the origin, every corner is visible: simple, and as concave as can be.
-fn star(count: usize, random: &mut Random) -> Vec<Vec2> {
-    let radius = |random: &mut Random| 0.05 + f64::from(random.next());
+fn star(count: usize, random: &mut Rng) -> Vec<Vec2> {
+    let radius = |random: &mut Rng| 0.05 + f64::from(random.f32());
     (0..count)
         .map(|i| polar(i as f64 / count as f64, radius(random)))
         .collect()
 }
 
 /// Teeth of random height on a spine: all edges along the axes, many corners on one line.
-fn comb(count: usize, random: &mut Random) -> Vec<Vec2> {
+fn comb(count: usize, random: &mut Rng) -> Vec<Vec2> {
     let mut corners = Vec::new();
     for tooth in 0..count.div_ceil(4) {
         let left = 2.0 * tooth as f32;
-        let height = 1.0 + (20.0 * random.next()).floor();
+        let height = 1.0 + (20.0 * random.f32()).floor();
         corners.extend([
             (left, 0.0),
             (left, height),
@@ -56,9 +41,9 @@ fn comb(count: usize, random: &mut Random) -> Vec<Vec2> {
 }
 
 /// A band that winds around the origin.
-fn spiral(count: usize, random: &mut Random) -> Vec<Vec2> {
+fn spiral(count: usize, random: &mut Rng) -> Vec<Vec2> {
     let half = count.div_ceil(2).max(3);
-    let pitch = 0.01 + 0.04 * f64::from(random.next());
+    let pitch = 0.01 + 0.04 * f64::from(random.f32());
     let turns = |i: usize| pitch * i as f64;
     let outwards = (0..half).map(|i| polar(turns(i), 1.0 + turns(i)));
     let back = (0..half).rev().map(|i| polar(turns(i), 1.5 + turns(i)));
@@ -66,7 +51,7 @@ fn spiral(count: usize, random: &mut Random) -> Vec<Vec2> {
 }
 
 /// A staircase whose every step has corners in the middle of its edges.
-fn staircase(count: usize, _: &mut Random) -> Vec<Vec2> {
+fn staircase(count: usize, _: &mut Rng) -> Vec<Vec2> {
     let steps = count.div_ceil(4);
     let mut corners: Vec<Vec2> = Vec::new();
     for step in 0..steps {
@@ -89,20 +74,16 @@ fn staircase(count: usize, _: &mut Random) -> Vec<Vec2> {
 }
 
 /// Any of them, either winding, beginning anywhere.
-fn simple_polygon() -> impl Strategy<Value = Vec<Vec2>> {
-    (any::<u64>(), 5_usize..200, 0..4, any::<bool>()).prop_map(
-        |(seed, count, kind, is_reversed)| {
-            let mut random = Random::new(seed);
-            let make = [star, comb, spiral, staircase][kind as usize];
-            let mut corners = make(count, &mut random);
-            if is_reversed {
-                corners.reverse();
-            }
-            let start = (seed % corners.len() as u64) as usize;
-            corners.rotate_left(start);
-            corners
-        },
-    )
+fn simple_polygon(random: &mut Rng) -> Vec<Vec2> {
+    let count = random.usize(5..200);
+    let make = [star, comb, spiral, staircase][random.usize(..4)];
+    let mut corners = make(count, random);
+    if random.bool() {
+        corners.reverse();
+    }
+    let start = random.usize(..corners.len());
+    corners.rotate_left(start);
+    corners
 }
 
 fn triangles_2d(corners: &[Vec2]) -> Vec<[u32; 3]> {
@@ -137,8 +118,8 @@ fn assert_covers(corners: &[Vec2], triangles: &[[u32; 3]]) {
 
     let low = corners.iter().copied().reduce(Vec2::min).unwrap();
     let high = corners.iter().copied().reduce(Vec2::max).unwrap();
-    let mut random = Random::new(corners.len() as u64);
-    let anywhere = |_| low + (high - low) * Vec2::new(random.next(), random.next());
+    let mut random = Rng::with_seed(corners.len() as u64);
+    let anywhere = |_| low + (high - low) * Vec2::new(random.f32(), random.f32());
     let points: Vec<Vec2> = (0..200).map(anywhere).collect();
     for &point in points.iter().chain(corners) {
         let covering = triangles
@@ -149,31 +130,37 @@ fn assert_covers(corners: &[Vec2], triangles: &[[u32; 3]]) {
     }
 }
 
-proptest! {
-    #[test]
-    fn triangles_cover_a_simple_polygon_once(corners in simple_polygon()) {
+#[test]
+fn triangles_cover_a_simple_polygon_once() {
+    random_cases(|random| {
+        let corners = simple_polygon(random);
         assert_covers(&corners, &triangles_2d(&corners));
-    }
+    });
+}
 
-    #[test]
-    fn quads_are_covered_once(seed: u64, is_reversed: bool) {
-        let mut random = Random::new(seed);
-        let mut corners = star(4, &mut random);
-        if is_reversed {
+#[test]
+fn quads_are_covered_once() {
+    random_cases(|random| {
+        let mut corners = star(4, random);
+        if random.bool() {
             corners.reverse();
         }
         assert_covers(&corners, &triangles_2d(&corners));
         let flat: Vec<Vec3> = corners.iter().map(|p| p.extend(7.0)).collect();
         assert_covers(&corners, &triangles_3d(&flat));
-    }
+    });
+}
 
-    /// On any plane the triangles' area vectors all point where the polygon's does, and sum to it.
-    #[test]
-    fn planes_in_space(corners in simple_polygon(), seed: u64) {
-        let mut random = Random::new(seed);
-        let mut axis = || Vec3::from_array([0; 3].map(|_| 2.0 * random.next() - 1.0));
+/// On any plane the triangles' area vectors all point where the polygon's does, and sum to it.
+#[test]
+fn planes_in_space() {
+    random_cases(|random| {
+        let corners = simple_polygon(random);
+        let mut axis = || Vec3::from_array([0; 3].map(|_| 2.0 * random.f32() - 1.0));
         let (origin, x, y) = (axis() * 10.0, axis(), axis());
-        prop_assume!(x.cross(y).length() > 0.1 * x.length() * y.length());
+        if x.cross(y).length() <= 0.1 * x.length() * y.length() {
+            return;
+        }
         let corners: Vec<Vec3> = corners.iter().map(|p| origin + x * p.x + y * p.y).collect();
         let doubled = |ring: &[Vec3]| -> DVec3 {
             let at = |i: usize| ring[i % ring.len()].as_dvec3() - ring[0].as_dvec3();
@@ -184,15 +171,23 @@ proptest! {
         let triangles = triangles_3d(&corners);
         for t in &triangles {
             let part = doubled(&t.map(|i| corners[i as usize]));
-            prop_assert!(part.dot(whole) >= -1e-5 * whole.length_squared());
+            assert!(part.dot(whole) >= -1e-5 * whole.length_squared());
             sum += part;
         }
-        prop_assert!((sum - whole).length() <= 1e-4 * whole.length(), "{sum} {whole}");
-    }
+        assert!(
+            (sum - whole).length() <= 1e-4 * whole.length(),
+            "{sum} {whole}"
+        );
+    });
+}
 
-    /// Anything at all: indices in range, no more than n − 2 triangles, no panic, no wait.
-    #[test]
-    fn hostile_corners(bits in prop::collection::vec(any::<[u32; 3]>(), 0..120), snap: bool) {
+/// Anything at all: indices in range, no more than n − 2 triangles, no panic, no wait.
+#[test]
+fn hostile_corners() {
+    random_cases(|random| {
+        let count = random.usize(..120);
+        let bits: Vec<[u32; 3]> = (0..count).map(|_| [0; 3].map(|_| random.u32(..))).collect();
+        let snap = random.bool();
         let corners: Vec<Vec3> = bits
             .iter()
             .map(|bits| match snap {
@@ -202,34 +197,43 @@ proptest! {
             .collect();
         let flat: Vec<Vec2> = corners.iter().map(|corner| corner.truncate()).collect();
         for triangles in [triangles_3d(&corners), triangles_2d(&flat)] {
-            prop_assert!(triangles.len() <= corners.len().saturating_sub(2));
-            prop_assert!(triangles.as_flattened().iter().all(|&i| (i as usize) < corners.len()));
-            prop_assert!(triangles.is_empty() == (corners.len() < 3));
+            assert!(triangles.len() <= corners.len().saturating_sub(2));
+            assert!(
+                triangles
+                    .as_flattened()
+                    .iter()
+                    .all(|&i| (i as usize) < corners.len())
+            );
+            assert!(triangles.is_empty() == (corners.len() < 3));
         }
         let _ = (is_convex_2d(&flat), signed_area_2d(&flat));
         for &point in &flat {
             let _ = point_in_polygon(point, &flat, FillRule::NonZero);
         }
-    }
+    });
+}
 
-    /// Convex polygons: corners of an ellipse, some repeated, some in the middle of edges.
-    #[test]
-    fn convex_polygons(count in 3_usize..60, seed: u64) {
-        let mut random = Random::new(seed);
+/// Convex polygons: corners of an ellipse, some repeated, some in the middle of edges.
+#[test]
+fn convex_polygons() {
+    random_cases(|random| {
+        let count = random.usize(3..60);
         // Corners on a coarse grid keep the middles of edges exact.
         let mut ring: Vec<Vec2> = Vec::new();
         for i in 0..count {
             let corner = (polar(i as f64 / count as f64, 1e5)).round() * 2.0;
-            if random.next() < 0.3 && let Some(&last) = ring.last() {
+            if random.f32() < 0.3
+                && let Some(&last) = ring.last()
+            {
                 ring.push((last + corner) * 0.5);
             }
             ring.push(corner);
         }
-        prop_assert!(is_convex_2d(&ring));
+        assert!(is_convex_2d(&ring));
         assert_covers(&ring, &triangles_2d(&ring));
         ring.push(ring[0]);
-        prop_assert!(is_convex_2d(&ring));
-    }
+        assert!(is_convex_2d(&ring));
+    });
 }
 
 #[test]
@@ -304,7 +308,7 @@ fn triangles_stay_themselves() {
 /// The far ends of f32: nothing overflows and nothing is lost.
 #[test]
 fn extreme_coordinates() {
-    let mut random = Random::new(5);
+    let mut random = Rng::with_seed(5);
     let shape = star(50, &mut random);
     for scale in [1e-38, 1e-20, 1e20, 3e38] {
         let scaled: Vec<Vec2> = shape.iter().map(|&p| p * scale).collect();
@@ -321,7 +325,7 @@ fn extreme_coordinates() {
 /// Polygons made to be slow: seconds without the guards.
 #[test]
 fn hostile_polygons_end_soon() {
-    let mut random = Random::new(11);
+    let mut random = Rng::with_seed(11);
     let zigzag = |i: usize| Vec2::new(i as f32 * [1.0, -1.0][i % 2], (i * i % 7919) as f32);
     let needle = |i: usize| Vec2::splat((i / 2) as f32) + [Vec2::ZERO, Vec2::new(3e4, -3e4)][i % 2];
     let polygons: [(&str, Vec<Vec2>); 5] = [
@@ -329,7 +333,7 @@ fn hostile_polygons_end_soon() {
         (
             "noise",
             (0..16_000)
-                .map(|_| Vec2::new(random.next(), random.next()))
+                .map(|_| Vec2::new(random.f32(), random.f32()))
                 .collect(),
         ),
         (
@@ -369,8 +373,8 @@ fn hostile_polygons_end_soon() {
 fn the_work_budget_runs_out() {
     let mut triangulator = Triangulator::new();
     triangulator.work_left = 5_000;
-    let small = star(60, &mut Random::new(1));
-    let large = star(70, &mut Random::new(1));
+    let small = star(60, &mut Rng::with_seed(1));
+    let large = star(70, &mut Rng::with_seed(1));
     let mut run = |corners: &[Vec2]| {
         let mut out = Vec::new();
         triangulator.triangulate_2d(corners, &mut out);

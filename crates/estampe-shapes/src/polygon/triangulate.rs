@@ -1,17 +1,17 @@
 //! Triangulation: by diagonal, by fan, by ear clipping.
 //!
-//! Ear clipping cuts a corner whose triangle contains no other corner, again and again (Meisters
-//! 1975); `earcut` finds the corners nearby through a z-order curve. Its worst time grows with n²
-//! for simple polygons (16,000 corners that are all needles: 0.3 s) but about with n^2.5 for those
-//! that cross themselves everywhere (16,000 corners: 25 s). Three guards keep hostile files from
+//! Ear clipping repeatedly cuts a corner whose triangle contains no other corner (Meisters 1975);
+//! `earcut` finds the corners nearby through a z-order curve. Its worst time grows with n² for
+//! simple polygons (16,000 corners that are all needles: 0.3 s) but about with n^2.5 for those that
+//! cross themselves everywhere (16,000 corners: 25 s). Three guards keep hostile files from
 //! stopping a reader:
 //!
-//! - polygons with many more crossings than corners become fans, which are no worse a picture;
+//! - polygons with many more crossings than corners become fans, which look no worse;
 //! - so do concave ones of more than [`Triangulator::MAX_CONCAVE_CORNERS`];
 //! - and all large concave ones once a [`Triangulator`] has spent [`Triangulator::WORK_BUDGET`].
 //!
 //! Rejected: sweeping into monotone pieces, O(n log n), which fails outright on the slightly
-//! self-crossing polygons that real files hold.
+//! self-crossing polygons that real files contain.
 
 use std::fmt;
 
@@ -25,9 +25,9 @@ use super::plane::{
 
 /// Appends the triangles of a polygon in space to `out`, as indices into `corners`.
 ///
-/// The winding is kept. The polygon need not be quite planar: it is judged along the axis to which
-/// its normal is closest. Fewer than three corners append nothing. See [the module](super) for
-/// what happens to which polygon; nothing panics.
+/// The winding is kept. The polygon need not be quite planar: it is projected along the axis that
+/// is closest to its normal. Fewer than three corners append nothing. [The module](super) lists the
+/// method for each kind of polygon; nothing panics.
 ///
 /// Allocates only for more than four corners; a [`Triangulator`] avoids even that.
 pub fn triangulate_3d(corners: &[Vec3], out: &mut Vec<[u32; 3]>) {
@@ -69,7 +69,8 @@ impl fmt::Debug for Triangulator {
 }
 
 impl Triangulator {
-    /// Concave polygons with more corners than this are not worth their time: they become fans.
+    /// Concave polygons with more corners than this become fans, because clipping them takes too
+    /// long.
     pub const MAX_CONCAVE_CORNERS: usize = 1 << 14;
 
     /// The sum of n² over the concave polygons of more than 64 corners that one triangulator clips
@@ -78,7 +79,7 @@ impl Triangulator {
     /// corners.
     pub const WORK_BUDGET: u64 = 1 << 33;
 
-    /// Concave polygons of up to this many corners are clipped whatever they look like.
+    /// Concave polygons of up to this many corners are always clipped.
     const SMALL: usize = 64;
 
     /// A triangulator without scratch memory yet.
@@ -141,7 +142,7 @@ impl Triangulator {
         if self.ears.is_empty() {
             return fan(count, 0, out);
         }
-        // earcut winds counter-clockwise, whatever it was given.
+        // earcut's output is counter-clockwise for either input winding.
         let triangles = self.ears.as_chunks::<3>().0.iter();
         if area < 0.0 {
             out.extend(triangles.map(|&[a, b, c]| [a, c, b]));
@@ -150,7 +151,7 @@ impl Triangulator {
         }
     }
 
-    /// Whether ear clipping `self.ring` ends in good time; counts it as work.
+    /// True if ear clipping `self.ring` ends in acceptable time; adds the work to the sum.
     fn is_worth_clipping(&mut self) -> bool {
         let count = self.ring.len();
         if count > Self::MAX_CONCAVE_CORNERS {
@@ -228,7 +229,8 @@ fn split_quad(first: Diagonal, second: Diagonal, out: &mut Vec<[u32; 3]>) {
         (true, true) => second.squared_length < first.squared_length,
         (false, true) => true,
         (true, false) => false,
-        // Crossing itself or without area: the less there is wound the wrong way, the better.
+        // The quad crosses itself or has no area: take the diagonal with less area of the wrong
+        // winding.
         (false, false) => second.smaller_area > first.smaller_area,
     };
     out.extend(if takes_second {
@@ -249,7 +251,7 @@ fn fan_apex(ring: &[Point]) -> Option<usize> {
 
 /// The triangles (apex, i, i + 1) around a ring of `count` corners.
 fn fan(count: usize, apex: usize, out: &mut Vec<[u32; 3]>) {
-    // Meshes index vertices by u32, so a face that outgrows it cannot be meant.
+    // Meshes index vertices by u32, so a larger face is invalid.
     let Ok(count) = u32::try_from(count) else {
         return;
     };

@@ -15,10 +15,10 @@
 //! 12–15    ╰───────╯  bottom 28–31
 //! ```
 //!
-//! The published axes have z up; here (x, y, z) becomes (x, z, −y). Every part is wrapped by images
-//! of its own: rim and body together four times around, as are the lid and the bottom; handle and
-//! spout once. The teapot is not a closed solid: the lid lies loose on the rim, and handle and
-//! spout run into the body.
+//! The published axes have z up; here (x, y, z) becomes (x, z, −y). The texture coordinates of each
+//! part cover whole images: rim and body together four times around, as are the lid and the bottom;
+//! handle and spout once. The teapot is not a closed solid: the lid rests on the rim unconnected,
+//! and handle and spout extend into the body.
 
 mod control_points;
 mod tessellate;

@@ -1,4 +1,4 @@
-//! The teapot's patches, cut into grids and joined.
+//! Tessellation of the teapot's patches into grids, joined at their seams.
 
 use std::collections::HashMap;
 
@@ -10,25 +10,25 @@ use crate::mesh::ShapeMesh;
 use crate::parametric::SurfacePoint;
 use crate::parametric::append_grid;
 
-/// Cells per patch and direction that show no corners in a picture of a thousand pixels.
+/// Cells per patch and direction at which an image of a thousand pixels shows no corners.
 pub const DEFAULT_CELLS: u32 = 16;
 
-/// Cells per patch and direction that are never exceeded: 32 patches of them are 2²³ triangles.
+/// The maximum number of cells per patch and direction: 32 patches of them are 2²³ triangles.
 const MAX_PATCH_CELLS: u32 = 362;
 
-/// Neighbouring patches are smooth where their normals agree to 2.5°; the data's seams are smooth
-/// to far less, its real edges differ by far more.
+/// Neighbouring patches are smooth where their normals agree to 2.5°. The data's seams are smooth
+/// to far less; its real edges differ by far more.
 const SMOOTH_COSINE: f32 = 0.999;
 
 /// Patches that share one image: a block of rows (along s) and columns (along t).
 struct Part {
     first: usize,
     columns: usize,
-    /// How many images lie side by side across the columns.
+    /// Number of images side by side across the columns.
     images: usize,
-    /// Where the rows of patches divide the image, by their lengths along the surface.
+    /// Positions at which the rows of patches divide the image, by their lengths along the surface.
     row_edges: &'static [f32],
-    /// Whether the image's top is at the last row, as on the spout, whose rows go upwards.
+    /// True if the image's top is at the last row, as on the spout, whose rows go upwards.
     is_upwards: bool,
 }
 
@@ -59,9 +59,9 @@ pub fn patch(index: usize) -> BicubicPatch {
     BicubicPatch { control }
 }
 
-/// The teapot with its bottom, `cells` × `cells` cells per patch (brought into 1 to 362).
+/// The teapot with its bottom, `cells` × `cells` cells per patch (clamped to 1..=362).
 ///
-/// Vertices of neighbouring patches are one wherever position, normal and texture coordinate agree.
+/// Neighbouring patches share a vertex where position, normal and texture coordinate agree.
 #[must_use]
 pub fn teapot(cells: u32) -> ShapeMesh {
     let cells = cells.clamp(1, MAX_PATCH_CELLS);
@@ -86,7 +86,7 @@ fn append_patch(mesh: &mut ShapeMesh, part: &Part, row: usize, column: usize, ce
     let u = u_end - u_width..u_end;
     let v = part.row_edges[row]..part.row_edges[row + 1];
 
-    // Seen from outside, the spout's rows go upwards: turn its grid half around.
+    // Seen from outside, the spout's rows go upwards: rotate its grid by half a turn.
     let uv = if part.is_upwards {
         Vec2::new(1.0 - u.end, 1.0 - v.end)..Vec2::new(1.0 - u.start, 1.0 - v.start)
     } else {
@@ -121,7 +121,7 @@ fn position_key(position: Vec3) -> [u32; 3] {
     position.to_array().map(f32::to_bits)
 }
 
-/// Gives the vertices at one position one normal, as far as theirs agree.
+/// Averages the normals of vertices at one position, if they agree within the limit.
 fn smooth_seams(mesh: &mut ShapeMesh) {
     let mut groups: HashMap<[u32; 3], Vec<usize>> = HashMap::new();
     for (vertex, &position) in mesh.positions.iter().enumerate() {
@@ -144,7 +144,7 @@ fn smooth_seams(mesh: &mut ShapeMesh) {
     }
 }
 
-/// Makes one vertex of those that agree in everything.
+/// Merges vertices that agree in all attributes.
 fn weld(loose: &ShapeMesh) -> ShapeMesh {
     let mut mesh = ShapeMesh::named(&loose.name);
     let mut known: HashMap<[u32; 8], u32> = HashMap::new();

@@ -11,6 +11,10 @@ pub struct Layers<const N: usize>(pub u8);
 
 /// One target.
 pub type Layers1 = Layers<1>;
+/// Two targets.
+pub type Layers2 = Layers<2>;
+/// Four targets.
+pub type Layers4 = Layers<4>;
 /// Three targets.
 pub type Layers3 = Layers<3>;
 /// As many as there can be.
@@ -61,6 +65,41 @@ impl<const N: usize> Shader for Layers<N> {
             }
         }
         out
+    }
+}
+
+/// [`Layers`] that discards stripes of the first value.
+#[derive(Debug, Clone, Copy)]
+pub struct CutLayers<const N: usize>(pub u8);
+
+/// One target.
+pub type CutLayers1 = CutLayers<1>;
+/// Two targets.
+pub type CutLayers2 = CutLayers<2>;
+/// Four targets.
+pub type CutLayers4 = CutLayers<4>;
+
+impl<const N: usize> Shader for CutLayers<N> {
+    type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
+    type Varyings<R: Real> = Vec4<R>;
+    const COLOR_TARGETS: usize = N;
+    const DISCARDS: bool = true;
+
+    #[inline(always)]
+    fn vertex<R: Real>(
+        &self,
+        _input: VertexIn<'_, R>,
+        (position, color): (Vec4<R>, Vec4<R>),
+    ) -> VertexOut<R, Vec4<R>> {
+        VertexOut::new(position, color)
+    }
+
+    #[inline(always)]
+    fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, color: Vec4<R>) -> FragmentOut<R> {
+        let kept = (color.x * 5.0).fract().gt(color.x.splat(0.35));
+        Layers::<N>(self.0)
+            .fragment(input, color)
+            .discard_unless(kept)
     }
 }
 

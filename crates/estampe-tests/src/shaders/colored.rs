@@ -12,7 +12,7 @@ estampe_types::shader! {
     impl Shader for Colored {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Vec4<R>;
-        const PASSES_COLOR: bool = true;
+        const COLOR_PASSTHROUGH: bool = true;
 
         fn vertex<R: Real>(
             &self,
@@ -36,7 +36,7 @@ estampe_types::shader! {
     impl Shader for Halved {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Vec4<R>;
-        const INDEPENDENT_FRAGMENTS: bool = true;
+        const NO_DERIVATIVES: bool = true;
 
         fn vertex<R: Real>(
             &self,
@@ -62,7 +62,7 @@ estampe_types::shader! {
     impl Shader for FlatColored {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Flat<Vec4<R>>;
-        const INDEPENDENT_FRAGMENTS: bool = true;
+        const NO_DERIVATIVES: bool = true;
 
         fn vertex<R: Real>(
             &self,

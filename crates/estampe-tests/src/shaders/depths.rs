@@ -23,7 +23,7 @@ estampe_types::shader! {
 
         fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, color: Vec4<R>) -> FragmentOut<R> {
             let kept = (color.x * 9.0).fract().gt(color.x.splat(0.4));
-            FragmentOut::color(color).keep_where(kept)
+            FragmentOut::color(color).discard_unless(kept)
         }
     }
 }
@@ -100,7 +100,7 @@ estampe_types::shader! {
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, color: Vec4<R>) -> FragmentOut<R> {
             let kept = (color.y * 5.0).fract().lt(color.x.splat(0.6));
-            with_given_depth(self.0, input.position, color).keep_where(kept)
+            with_given_depth(self.0, input.position, color).discard_unless(kept)
         }
     }
 }

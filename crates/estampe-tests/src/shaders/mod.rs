@@ -10,8 +10,8 @@ mod textured;
 mod vertex_input;
 
 pub use attachments::{
-    Crowded, GreaterDepth, HeldDepth, Layers, Layers1, Layers3, Layers8, LessDepth,
-    LogarithmicDepth, TwoColors,
+    Crowded, CutLayers, CutLayers1, CutLayers2, CutLayers4, GreaterDepth, HeldDepth, Layers,
+    Layers1, Layers2, Layers3, Layers4, Layers8, LessDepth, LogarithmicDepth, TwoColors,
 };
 pub use colored::{Colored, FlatColored, Halved, Sized, Uniform};
 pub use depths::{Cutout, CutoutDepth, DepthGiven, DepthOnly, GivenDepth};
@@ -87,8 +87,13 @@ test_shaders!(
     CutoutDepth,
     DepthOnly,
     Layers1,
+    Layers2,
     Layers3,
+    Layers4,
     Layers8,
+    CutLayers1,
+    CutLayers2,
+    CutLayers4,
     TwoColors,
     GreaterDepth,
     LessDepth,

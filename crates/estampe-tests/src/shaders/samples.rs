@@ -138,7 +138,7 @@ estampe_types::shader! {
             let kept = color.y.gt(color.x.splat(0.15));
             FragmentOut::color(bytes_of_int::<R>(input.coverage))
                 .with_sample_mask(mask)
-                .keep_where(kept)
+                .discard_unless(kept)
         }
     }
 }

@@ -24,11 +24,22 @@ pub(crate) fn decode(format: TextureFormat, block: &[u8], words: &mut [u32; MAX_
         F::Bc4RUnorm | F::Bc4RSnorm => {
             let mut to = [0.0; 16];
             bcdec_rs::bc4_float(block, &mut to, 4, format == F::Bc4RSnorm);
+            if format == F::Bc4RSnorm && has_both_ends_at_minus_one(block) {
+                to.fill(-1.0);
+            }
             floats(words, &to);
         }
         F::Bc5RgUnorm | F::Bc5RgSnorm => {
             let mut to = [0.0; 32];
             bcdec_rs::bc5_float(block, &mut to, 8, format == F::Bc5RgSnorm);
+            for (channel, block) in block.as_chunks::<8>().0.iter().enumerate() {
+                if format == F::Bc5RgSnorm && has_both_ends_at_minus_one(block) {
+                    to.iter_mut()
+                        .skip(channel)
+                        .step_by(2)
+                        .for_each(|x| *x = -1.0);
+                }
+            }
             floats(words, &to);
         }
         F::Bc6hRgbUfloat | F::Bc6hRgbFloat => {
@@ -50,6 +61,13 @@ pub(crate) fn decode(format: TextureFormat, block: &[u8], words: &mut [u32; MAX_
             }
         }
     }
+}
+
+/// Whether the ends of a snorm channel are −127 and −128: the only ones whose order as codes, which decides between the
+/// two ramps, is not that of their numbers, by which the library decides. With the first end the greater, all eight
+/// steps lie between two numbers −1.
+fn has_both_ends_at_minus_one(channel: &[u8]) -> bool {
+    channel.starts_with(&[-127_i8, -128].map(i8::cast_unsigned))
 }
 
 /// Sixteen texels of four bytes.

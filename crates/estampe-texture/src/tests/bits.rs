@@ -82,7 +82,7 @@ fn assert_same(got: [f32; 4], expected: [f32; 4], what: impl Fn() -> String) {
 /// Rows: F2, U3.
 #[test]
 fn packets_quads_and_fragments_give_the_bits_of_the_naive_text() {
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     for format in [TextureFormat::Rgba8Unorm, TextureFormat::Rgba8UnormSrgb] {
         for (width, height) in SIZES {
             let texture = std::sync::Arc::new(noise(width, height, format));
@@ -149,7 +149,7 @@ fn lanes_of_many_levels_keep_to_their_own() {
         noise(256, 256, TextureFormat::Rgba8Unorm),
         SamplerDescriptor::trilinear_repeat(),
     );
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     for _ in 0..50 {
         let mut lods = [0.0; LANES];
         for lod in &mut lods {
@@ -172,7 +172,7 @@ fn the_f32_sample_is_near_the_exact_one() {
         noise(64, 32, TextureFormat::Rgba8Unorm),
         SamplerDescriptor::trilinear_repeat(),
     );
-    let mut random = Random(23);
+    let mut random = Random::new(23);
     for _ in 0..2000 {
         let uv = [random.unit() * 4.0 - 2.0, random.unit() * 4.0 - 2.0];
         let d = Vec2::new(random.unit() * random.unit() * 0.3, 0.0);
@@ -194,7 +194,7 @@ fn a_texture_put_together_by_hand_cannot_harm() {
         height: side,
         offset: side,
     });
-    let random = &mut Random(3);
+    let random = &mut Random::new(3);
     for (levels, texels) in [(vec![], vec![]), (levels.to_vec(), vec![u32::MAX; 3])] {
         let texture = std::sync::Arc::new(Texture {
             format: TextureFormat::Rgba8Unorm,

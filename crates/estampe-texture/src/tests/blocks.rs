@@ -14,7 +14,8 @@ fn decode(format: F, block: &[u8]) -> Vec<u32> {
     texture.texels.to_vec()
 }
 
-/// A generator whose high byte is used.
+/// Blocks of the bytes of a linear congruential generator, whose high byte is used. The results of other decoders below
+/// are for these very bytes, so that they come from no library, which might give others some day.
 fn random_blocks(bytes: usize, count: usize) -> impl Iterator<Item = Vec<u8>> {
     let mut state = 1_u32;
     (0..count).map(move |_| {
@@ -127,6 +128,36 @@ fn bc1_to_bc5_follow_their_formulas() {
         let red = decode(F::Bc4RSnorm, &block[..8]);
         assert!((float(red[5]) - snorm(&block)[5]).abs() < 1e-6);
     }
+}
+
+/// The ends' codes are compared, not their numbers: −127 is above −128, though both are −1.
+///
+/// Rows: F2.
+#[test]
+fn signed_ends_are_compared_as_codes() {
+    // Steps 0 to 7, twice.
+    let steps = [0x88, 0xC6, 0xFA, 0x88, 0xC6, 0xFA];
+    let block = |ends: [i8; 2]| {
+        let mut block = [0; 8];
+        block[..2].copy_from_slice(&ends.map(i8::cast_unsigned));
+        block[2..].copy_from_slice(&steps);
+        block
+    };
+    let red = |ends| {
+        decode(F::Bc4RSnorm, &block(ends))[..8]
+            .iter()
+            .map(|&word| f32::from_bits(word))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(red([-127, -128]), [-1.0; 8], "eight steps from −1 to −1");
+    // Of ends that do not fall, the last two steps are −1 and 1.
+    let six = [-1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0];
+    assert_eq!(red([-128, -127]), six);
+    assert_eq!(red([-127, -127]), six);
+    let both = [block([-127, -127]), block([-127, -128])].concat();
+    let texels = decode(F::Bc5RgSnorm, &both);
+    assert_eq!(f32::from_bits(texels[14]), 1.0);
+    assert_eq!(f32::from_bits(texels[15]), -1.0);
 }
 
 /// FNV-1a of the bytes R, G, B, A of all texels of many blocks.
@@ -284,6 +315,8 @@ const ASTC_HASHES: [u64; 5] = [
     2_430_571_871_916_244_374,
 ];
 
+/// It asserts nothing: that decoding any bits ends without a panic, in a build that checks overflow, is what it tests.
+///
 /// Rows: F2.
 #[test]
 fn hostile_blocks_do_no_harm() {

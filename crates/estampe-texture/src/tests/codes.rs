@@ -1,12 +1,15 @@
 //! Codes of every format: what specifications say they stand for, and that numbers come back.
 
-use crate::decode::Decoder;
-use crate::encode::encode;
+use crate::view::border_unit;
+use estampe_format::TexelCodec;
 use estampe_types::{SampleType, TexelEncoding, TextureAspect, TextureFormat as F};
 
 fn decode(format: F, word: u32) -> [f32; 4] {
-    let decoder = Decoder::new(format, TextureAspect::All);
-    decoder.finish(decoder.unit(&[word, 0, 0, 0]))
+    TexelCodec::new(format).decode(&[word, 0, 0, 0])
+}
+
+fn encode(format: F, value: [f32; 4]) -> [u32; 4] {
+    TexelCodec::new(format).encode(value)
 }
 
 /// Rows: F2.
@@ -56,10 +59,13 @@ fn numbers_of_the_specifications() {
     assert_eq!(bits(F::R32Uint, 0x7FA0_0001), [0x7FA0_0001, 0, 0, 1]);
     assert_eq!(bits(F::Rgb10a2Uint, 0xC010_0403), [3, 1, 1, 3]);
     assert_eq!(bits(F::Stencil8, 0x1FE), [0xFE, 0, 0, 1]);
-    let stencil = Decoder::new(F::Depth24PlusStencil8, TextureAspect::Stencil);
-    assert_eq!(stencil.unit(&[0xAB00_0001])[0].to_bits(), 0xAB);
-    let stencil = Decoder::new(F::Depth32FloatStencil8, TextureAspect::Stencil);
-    assert_eq!(stencil.unit(&[0x3F80_0000, 0xFFFF_FF12])[0].to_bits(), 0x12);
+    let stencil = TexelCodec::of_aspect(F::Depth24PlusStencil8, TextureAspect::Stencil);
+    assert_eq!(stencil.units(&[0xAB00_0001])[0].to_bits(), 0xAB);
+    let stencil = TexelCodec::of_aspect(F::Depth32FloatStencil8, TextureAspect::Stencil);
+    assert_eq!(
+        stencil.units(&[0x3F80_0000, 0xFFFF_FF12])[0].to_bits(),
+        0x12
+    );
 }
 
 /// Rows: F2.
@@ -70,7 +76,7 @@ fn every_code_decodes_to_a_number_that_encodes_to_it() {
         if format.is_compressed() || !format.is_color() || format.is_bgra() {
             continue;
         }
-        let decoder = Decoder::new(format, TextureAspect::All);
+        let codec = TexelCodec::new(format);
         let mask: u32 = match format.block_bytes() {
             1 => 0xFF,
             2 => 0xFFFF,
@@ -80,13 +86,13 @@ fn every_code_decodes_to_a_number_that_encodes_to_it() {
         for code in 0..1_u32 << 16 {
             for word in [code | code << 16, code.wrapping_mul(0x9E37_79B1)] {
                 let words = [word & mask, word, !word, word.rotate_left(7)];
-                let words = &words[..decoder.words];
-                let value = decoder.finish(decoder.unit(words));
-                if decoder.sample_type == SampleType::Float && value.iter().any(|x| x.is_nan()) {
+                let words = &words[..codec.words()];
+                let value = codec.decode(words);
+                if codec.sample_type() == SampleType::Float && value.iter().any(|x| x.is_nan()) {
                     continue;
                 }
-                let again = encode(format, value);
-                let same_number = decoder.finish(decoder.unit(&again));
+                let again = codec.encode(value);
+                let same_number = codec.decode(&again);
                 assert_eq!(
                     same_number.map(f32::to_bits),
                     value.map(f32::to_bits),
@@ -97,7 +103,7 @@ fn every_code_decodes_to_a_number_that_encodes_to_it() {
                     format.encoding(),
                     E::Snorm8 | E::Snorm16 | E::SharedExponent
                 ) {
-                    assert_eq!(&again[..decoder.words], words, "{format:?}");
+                    assert_eq!(&again[..codec.words()], words, "{format:?}");
                 }
             }
         }
@@ -152,9 +158,9 @@ fn borders_are_exact() {
         if format.is_compressed() || format.is_bgra() {
             continue;
         }
-        let decoder = Decoder::new(format, TextureAspect::All);
-        let white = std::array::from_fn(|k| decoder.of_border(k, true));
-        let one = if decoder.is_integer() {
+        let codec = TexelCodec::new(format);
+        let white = std::array::from_fn(|k| border_unit(&codec, k, true));
+        let one = if codec.is_integer() {
             f32::from_bits(1)
         } else {
             1.0
@@ -166,6 +172,6 @@ fn borders_are_exact() {
                 0.0
             }
         });
-        assert_eq!(decoder.finish(white), wanted, "{format:?}");
+        assert_eq!(codec.finish(white), wanted, "{format:?}");
     }
 }

@@ -3,8 +3,8 @@
 use crate::{
     MipGeneration, Texture, TextureError, TextureFormat, create_texture, create_texture_with_levels,
 };
+use estampe_format::srgb::{self, LINEAR_FROM_SRGB};
 use estampe_types::Limits;
-use estampe_types::srgb::{LINEAR_FROM_SRGB, srgb_from_linear};
 
 fn full(width: u32, height: u32, format: TextureFormat, rgba: &[u8]) -> Texture {
     let limits = Limits::default();
@@ -70,8 +70,8 @@ fn srgb_boxes_are_means_of_light_and_alpha_is_not() {
         [255, 8, 200, 255],
     ];
     let texture = full(2, 2, TextureFormat::Rgba8UnormSrgb, rgba.as_flattened());
-    let half = srgb_from_linear(0.5);
-    let quarter = srgb_from_linear(LINEAR_FROM_SRGB[8] / 4.0);
+    let half = srgb::encode(0.5);
+    let quarter = srgb::encode(LINEAR_FROM_SRGB[8] / 4.0);
     assert_eq!(level(&texture, 1), [[half, quarter, 200, 128]]);
     assert_eq!(half, 188);
 }

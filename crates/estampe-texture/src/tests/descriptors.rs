@@ -1,11 +1,11 @@
 //! Textures of every dimension are made by their rules.
 
-use crate::decode::Decoder;
 use crate::{
     LevelData, Limits, MipGeneration, SampledView, SamplerDescriptor, Texture, TextureAspect,
     TextureDescriptor, TextureDimension, TextureError, TextureFormat, TextureView,
     TextureViewDescriptor, ViewDimension,
 };
+use estampe_format::TexelCodec;
 use estampe_types::SampleType;
 
 fn make(descriptor: TextureDescriptor) -> Result<Texture, TextureError> {
@@ -136,7 +136,7 @@ fn broken() -> Vec<Broken> {
     ]
 }
 
-/// Rows: F2, L.
+/// Rows: F2, N1.
 #[test]
 fn rules_that_are_broken_are_named() {
     for (descriptor, is_expected) in broken() {
@@ -345,7 +345,7 @@ fn views_of_textures_put_together_by_hand_cannot_harm() {
     use crate::{Coordinates, Lod};
     use estampe_types::{Quad, Vec3};
     let sides = [0, 1, 7, 16_384, u32::MAX];
-    let random = &mut super::Random(77);
+    let random = &mut super::Random::new(77);
     let mut views = 0;
     for round in 0..30_000_u32 {
         let pick = |random: &mut super::Random| sides[random.bits() as usize % sides.len()];
@@ -455,7 +455,7 @@ fn check_levels(format: TextureFormat, dimension: TextureDimension) {
     let [block_width, block_height] = format.block_size();
     let blocks = 13_u32.div_ceil(block_width) * 6_u32.div_ceil(block_height) * 3;
     // Noise whose floats are ordinary numbers.
-    let random = &mut super::Random(format.block_bytes() * 7);
+    let random = &mut super::Random::new(format.block_bytes() * 7);
     let mut bytes = random.bytes((blocks * format.block_bytes()) as usize);
     let channel = format.block_bytes() as usize / format.components();
     if format.block_bytes() >= 2 && !format.is_compressed() {
@@ -478,12 +478,12 @@ fn check_levels(format: TextureFormat, dimension: TextureDimension) {
         return;
     }
     let texture = made.unwrap_or_else(|error| panic!("{format:?}: {error}"));
-    let decoder = Decoder::new(texture.stored_format(), TextureAspect::All);
+    let codec = TexelCodec::new(texture.stored_format());
     let value = |level: usize, at: [usize; 3]| {
         let size = texture.levels[level];
         let index = (at[2] * size.height as usize + at[1]) * size.width as usize + at[0];
-        let begin = (size.offset as usize + index) * decoder.words;
-        decoder.finish(decoder.unit(&texture.texels[begin..begin + decoder.words]))
+        let begin = (size.offset as usize + index) * codec.words();
+        codec.decode(&texture.texels[begin..begin + codec.words()])
     };
     for level in 1..texture.levels.len() {
         let [width, height] = [0, 1].map(|k| {
@@ -539,7 +539,7 @@ fn a_depth_image_is_compared_the_same_as_a_texture() {
     use crate::{
         Coordinates, DepthTexture, FilterMode, Lod, sample_compare_level, texture_from_depth,
     };
-    let random = &mut super::Random(5);
+    let random = &mut super::Random::new(5);
     let rows: Vec<f32> = (0..37 * 70).map(|_| random.unit()).collect();
     let image = DepthTexture::from_rows(37, 70, &rows);
     let view = TextureView::of(texture_from_depth(&image).expect("not empty")).expect("a view");

@@ -6,6 +6,7 @@ mod blocks;
 mod codes;
 mod create;
 mod descriptors;
+mod gather;
 mod naive;
 mod several;
 mod values;
@@ -14,27 +15,31 @@ use crate::{MipGeneration, Sampled, SamplerDescriptor, Texture, TextureFormat, c
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_types::{Limits, Vec2, Vec4};
 
-/// A small generator of random numbers (Numerical Recipes' linear congruence).
-struct Random(u32);
+/// Random numbers from a seed.
+struct Random(fastrand::Rng);
 
 impl Random {
+    fn new(seed: u32) -> Self {
+        Self(fastrand::Rng::with_seed(seed.into()))
+    }
+
+    /// 24 bits.
     fn bits(&mut self) -> u32 {
-        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        self.0 >> 8
+        self.0.u32(..1 << 24)
     }
 
     /// In 0..1.
     fn unit(&mut self) -> f32 {
-        self.bits() as f32 / 16_777_216.0
+        self.0.f32()
     }
 
     fn bytes(&mut self, count: usize) -> Vec<u8> {
-        (0..count).map(|_| self.bits().to_le_bytes()[1]).collect()
+        (0..count).map(|_| self.0.u8(..)).collect()
     }
 }
 
 fn noise(width: u32, height: u32, format: TextureFormat) -> Texture {
-    let rgba = Random(width * 31 + height).bytes((width * height * 4) as usize);
+    let rgba = Random::new(width * 31 + height).bytes((width * height * 4) as usize);
     let limits = Limits::default();
     create_texture(width, height, format, &rgba, MipGeneration::Full, &limits).expect("valid")
 }

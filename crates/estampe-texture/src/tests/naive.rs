@@ -7,7 +7,7 @@
 )]
 
 use crate::{AddressMode, FilterMode, MipLevel, Sampled};
-use estampe_types::srgb::LINEAR_FROM_SRGB;
+use estampe_format::srgb::LINEAR_FROM_SRGB;
 
 fn max(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }

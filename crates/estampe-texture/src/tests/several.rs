@@ -66,7 +66,7 @@ fn several_at_once_are_those_alone() {
         of([64, 32], Rgba8UnormSrgb, trilinear),
         Sampled::new(moved, trilinear),
     ];
-    let random = &mut Random(77);
+    let random = &mut Random::new(77);
     for first in &textures {
         for second in &textures {
             for level in Level::all_available() {
@@ -89,7 +89,7 @@ fn several_at_once_are_those_alone() {
 #[test]
 fn alpha_that_is_left_out_is_one() {
     let rgba = |alpha: u8| -> Vec<u8> {
-        let mut bytes = Random(9).bytes(32 * 32 * 4);
+        let mut bytes = Random::new(9).bytes(32 * 32 * 4);
         for texel in bytes.chunks_exact_mut(4) {
             texel[3] = 255;
         }
@@ -107,7 +107,7 @@ fn alpha_that_is_left_out_is_one() {
     plain.is_opaque = false;
     let trilinear = SamplerDescriptor::trilinear_repeat();
     let textures = [texture, plain].map(|texture| Sampled::new(texture, trilinear));
-    let random = &mut Random(5);
+    let random = &mut Random::new(5);
     for level in Level::all_available() {
         for _ in 0..200 {
             let uv = place(random);

@@ -95,7 +95,7 @@ fn one_colour_stays_that_colour_exactly() {
     let texture = create_texture(21, 21, format, &rgba, MipGeneration::Full, &limits);
     let sampled = sampled(texture.expect("valid"), linear(AddressMode::Repeat));
     let expected = [17.0, 99.0, 200.0, 254.0].map(|c: f32| c * (1.0 / 255.0));
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     for _ in 0..500 {
         let uv = Vec2::new(random.unit() * 9.0 - 4.0, random.unit());
         assert_eq!(
@@ -163,7 +163,7 @@ fn fetching_reads_the_texel_and_stays_inside() {
         let place = sampled.texture().levels[level];
         let at = place.offset + y * place.width + x;
         let [r, g, b, a] = sampled.texture().texels[at as usize].to_le_bytes();
-        let linear = |c: u8| estampe_types::srgb::LINEAR_FROM_SRGB[usize::from(c)];
+        let linear = |c: u8| estampe_format::srgb::LINEAR_FROM_SRGB[usize::from(c)];
         let (x, y) = (x.cast_signed(), y.cast_signed());
         let got = array(sampled.texel_fetch::<f32>(x, y, level));
         let expected = [

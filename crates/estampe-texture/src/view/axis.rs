@@ -48,7 +48,33 @@ pub(crate) fn place(
             fraction: at - whole,
         };
     }
-    let at = Real::clamp(u * length - half, -FAR, FAR);
+    place_in_integers(u * length - half, count, mode, offset)
+}
+
+/// The two texels that gathering reads along an axis. Each wraps by itself, also at a clamped or mirrored edge, where
+/// filtering confines the coordinate instead: there both are the texel at the edge.
+#[inline]
+pub(crate) fn gathered(
+    u: f32,
+    (count, length): (i32, f32),
+    mode: AddressMode,
+    offset: i32,
+) -> [i32; 2] {
+    let place = match mode {
+        AddressMode::Repeat => place(u, (count, length), mode, FilterMode::Linear, offset),
+        _ => place_in_integers(u * length - 0.5, count, mode, offset),
+    };
+    place.texels
+}
+
+/// The place of a texel coordinate, whose whole part and the next one are moved by the offset, then wrapped.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "confined to whole numbers within ±2²⁴"
+)]
+#[inline]
+fn place_in_integers(at: f32, count: i32, mode: AddressMode, offset: i32) -> Place {
+    let at = Real::clamp(at, -FAR, FAR);
     let whole = at.floor();
     let first = (whole as i32).saturating_add(offset.clamp(-1024, 1024));
     Place {

@@ -14,7 +14,7 @@ impl TextureView {
     #[inline(always)]
     pub fn fetch<I: Int>(&self, [x, y, z]: [I; 3], level: I, sample: I) -> Vec4<I::Real> {
         let like = x.to_real();
-        like.outlined(
+        like.out_of_line(
             #[inline(always)]
             || {
                 let mut texels = [Answers::default(); 2];
@@ -67,6 +67,6 @@ impl TextureView {
         }
         let slice = self.base_layer.cast_signed() + z;
         let words = self.texel(plane, [x, y, slice], sample);
-        Some(self.decoder.finish(self.decoder.unit(words)))
+        Some(self.codec.decode(words))
     }
 }

@@ -1,9 +1,10 @@
-//! Gathering: one channel of the four texels that linear filtering of the base level would mix.
+//! Gathering: one channel of the four texels around a place in the base level.
 
 use super::SampledView;
+use super::axis;
 use super::coordinates::{Answers, Lanes, answer};
 use super::sample::{Channels, Tap};
-use estampe_types::{FilterMode, ViewDimension};
+use estampe_types::ViewDimension;
 
 /// From upper left, upper right, lower left, lower right to the order of shading languages: lower left, lower
 /// right, upper right, upper left.
@@ -13,10 +14,10 @@ impl SampledView {
     /// Gathers a channel for lanes, one after the other.
     #[inline(never)]
     pub(crate) fn gather_lanes(&self, lanes: &Lanes, channel: usize, texels: &mut Answers) {
-        let decoder = &self.view.decoder;
+        let codec = &self.view.codec;
         for lane in 0..lanes.count {
             let four = self.four(lanes, lane, &Channels);
-            let four = four.map(|unit| decoder.finish(unit)[channel & 3]);
+            let four = four.map(|unit| codec.finish(unit)[channel & 3]);
             answer(texels, lane, ORDER.map(|index| four[index]));
         }
     }
@@ -42,8 +43,9 @@ impl SampledView {
             return self.four_of_cube(plane, &spot, plane.sides[0], tap).0;
         }
         let [x, y] = [0, 1].map(|axis| {
-            self.place(plane, &spot, axis, FilterMode::Linear, lanes.offset)
-                .texels
+            let side = (plane.sides[axis], plane.size[axis]);
+            let mode = self.address_modes()[axis];
+            axis::gathered(spot.uvw[axis], side, mode, lanes.offset[axis])
         });
         [(x[0], y[0]), (x[1], y[0]), (x[0], y[1]), (x[1], y[1])]
             .map(|(x, y)| tap.of(self.unit(plane, [x, y, spot.layer()])))

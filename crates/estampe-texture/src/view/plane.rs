@@ -1,7 +1,7 @@
 //! Which part of a texture is seen, and as what.
 
 use crate::TextureError;
-use crate::decode::Decoder;
+use estampe_format::TexelCodec;
 use estampe_types::{
     Texture, TextureAspect, TextureDimension, TextureViewDescriptor, ViewDimension,
 };
@@ -34,7 +34,7 @@ pub struct TextureView {
     pub(crate) base_layer: u32,
     /// Layers, or cubes.
     pub(crate) layers: i32,
-    pub(crate) decoder: Decoder,
+    pub(crate) codec: TexelCodec,
     /// Whether it shows all of the texture.
     pub(crate) is_whole: bool,
 }
@@ -115,7 +115,7 @@ impl TextureView {
             dimension,
             base_layer: first,
             layers: layers.cast_signed(),
-            decoder: Decoder::new(texture.stored_format(), descriptor.aspect),
+            codec: TexelCodec::of_aspect(texture.stored_format(), descriptor.aspect),
             is_whole,
             texture,
         })
@@ -185,8 +185,8 @@ impl TextureView {
         let texel = row.saturating_mul(width).saturating_add(x as usize);
         let at = plane.offset.saturating_add(texel.saturating_mul(samples));
         let at = at.saturating_add(sample as usize);
-        let begin = at.saturating_mul(self.decoder.words);
-        let end = begin.saturating_add(self.decoder.words);
+        let begin = at.saturating_mul(self.codec.words());
+        let end = begin.saturating_add(self.codec.words());
         self.texture.texels.get(begin..end).unwrap_or_default()
     }
 }

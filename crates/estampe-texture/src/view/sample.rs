@@ -5,8 +5,9 @@ use super::coordinates::{Answers, Lanes, LodOfLanes, answer};
 use super::footprint::Footprint;
 use super::plane::Plane;
 use super::{SampledView, cube};
+use estampe_format::TexelCodec;
 use estampe_types::ViewDimension;
-use estampe_types::{BorderColor, FilterMode, Real};
+use estampe_types::{AddressMode, BorderColor, FilterMode, Real};
 
 /// A place in the texture: within one face of cubes, and with the slice that it is in.
 #[derive(Debug, Clone, Copy)]
@@ -55,7 +56,7 @@ impl SampledView {
     pub(crate) fn sample_lane(&self, lanes: &Lanes, lane: usize) -> [f32; 4] {
         let footprint = self.footprint(lanes, lane);
         let unit = self.probes(lanes, lane, &footprint, &Channels);
-        self.view.decoder.finish(unit)
+        self.view.codec.finish(unit)
     }
 
     /// λ with every bias, and the probes.
@@ -216,27 +217,32 @@ impl SampledView {
         filter: FilterMode,
         offset: [i32; 3],
     ) -> Place {
+        let side = (plane.sides[axis], plane.size[axis]);
+        let mode = self.address_modes()[axis];
+        axis::place(spot.uvw[axis], side, mode, filter, offset[axis])
+    }
+
+    /// How each axis is addressed.
+    pub(crate) fn address_modes(&self) -> [AddressMode; 3] {
         let sampler = &self.sampler;
-        let modes = [
+        [
             sampler.address_mode_u,
             sampler.address_mode_v,
             sampler.address_mode_w,
-        ];
-        let side = (plane.sides[axis], plane.size[axis]);
-        axis::place(spot.uvw[axis], side, modes[axis], filter, offset[axis])
+        ]
     }
 
     /// A texel in units; the border where one of its coordinates is −1.
     pub(crate) fn unit(&self, plane: &Plane, at: [i32; 3]) -> [f32; 4] {
-        let decoder = &self.view.decoder;
+        let codec = &self.view.codec;
         if at[0].min(at[1]).min(at[2]) < 0 {
             let color = self.sampler.border_color;
             let is_white = color == BorderColor::OpaqueWhite;
             let is_opaque = color != BorderColor::TransparentBlack;
             let ones = [is_white, is_white, is_white, is_opaque];
-            return std::array::from_fn(|k| decoder.of_border(k, ones[k]));
+            return std::array::from_fn(|k| border_unit(codec, k, ones[k]));
         }
-        decoder.unit(self.view.texel(plane, at, 0))
+        codec.units(self.view.texel(plane, at, 0))
     }
 
     /// One level of a cube; across its edges linear filtering goes on.
@@ -278,7 +284,7 @@ impl SampledView {
             let at = (x.0 + [0, 1, 0, 1][index], y.0 + [0, 0, 1, 1][index]);
             if let Some((face, x, y)) = cube::across(spot.face, at.0, at.1, n) {
                 *texel = tap.of(self.unit(plane, [x, y, spot.layer + face]));
-            } else if self.view.decoder.is_integer() {
+            } else if self.view.codec.is_integer() {
                 // Integers have no mean: the corner of this face.
                 let [x, y] = [at.0, at.1].map(|at| Ord::clamp(at, 0, n - 1));
                 *texel = tap.of(self.unit(plane, [x, y, spot.layer + spot.face]));
@@ -302,6 +308,18 @@ impl SampledView {
             four[missing] = sum.map(|channel| channel * (1.0 / 3.0));
         }
         (four, [x.1, y.1])
+    }
+}
+
+/// 0 or 1 of a channel, in units: what borders are made of. Channels that the format lacks stay as they are.
+pub(crate) fn border_unit(codec: &TexelCodec, channel: usize, is_one: bool) -> f32 {
+    if channel >= codec.components() {
+        return codec.missing()[channel];
+    }
+    match (is_one, codec.is_integer()) {
+        (false, _) => 0.0,
+        (true, true) => f32::from_bits(1),
+        (true, false) => (1.0 / codec.scale()[channel]).round(),
     }
 }
 

@@ -93,7 +93,7 @@ impl SampledView {
         lod: Lod<R>,
         offset: [i32; 3],
     ) -> Vec4<R> {
-        at.uvw.x.outlined(
+        at.uvw.x.out_of_line(
             #[inline(always)]
             || {
                 let mut colors = [Answers::default(); 2];
@@ -110,7 +110,7 @@ impl SampledView {
     /// left, lower right, upper right, upper left, v pointing down. 1D and 3D textures give zeros.
     #[inline(always)]
     pub fn gather<R: Real>(&self, at: Coordinates<R>, channel: usize, offset: [i32; 2]) -> Vec4<R> {
-        at.uvw.x.outlined(
+        at.uvw.x.out_of_line(
             #[inline(always)]
             || {
                 let mut texels = [Answers::default(); 2];
@@ -134,7 +134,7 @@ impl SampledView {
         lod: Lod<R>,
         offset: [i32; 2],
     ) -> R {
-        reference.outlined(
+        reference.out_of_line(
             #[inline(always)]
             || {
                 let mut answers = [Answers::default(); 2];
@@ -158,7 +158,7 @@ impl SampledView {
         reference: R,
         offset: [i32; 2],
     ) -> Vec4<R> {
-        reference.outlined(
+        reference.out_of_line(
             #[inline(always)]
             || {
                 let mut answers = [Answers::default(); 2];
@@ -195,10 +195,10 @@ fn check(view: &TextureView, sampler: &SamplerDescriptor) -> Result<(), TextureE
     if view.texture.shape.samples != 1 {
         return refuse("multisampled textures are not sampled: fetch their texels");
     }
-    if view.decoder.is_integer() && filters != [FilterMode::Nearest; 3] {
+    if view.codec.is_integer() && filters != [FilterMode::Nearest; 3] {
         return refuse("integers cannot be filtered: choose FilterMode::Nearest");
     }
-    if sampler.compare.is_some() && view.decoder.sample_type != SampleType::Depth {
+    if sampler.compare.is_some() && view.codec.sample_type() != SampleType::Depth {
         return refuse("a comparison sampler needs a texture of depths");
     }
     if sampler.compare.is_some() && view.dimension == ViewDimension::D3 {

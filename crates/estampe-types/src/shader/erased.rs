@@ -1,8 +1,8 @@
-//! A Rust shader behind the [`Program`] interface.
+//! Type erasure: a Rust shader behind the [`Program`] interface.
 
 use super::fragment::MAX_COLORS;
 use super::packets::{PacketSink, PacketSource, Packets};
-use super::pass_through::passes_color;
+use super::pass_through::color_passthrough;
 use super::{Attributes, Sampling, Varyings, scalar};
 use crate::{
     Bindings, FragmentBatch, FragmentIn, Interface, Pair, Program, Real, Shader, Vec4, VertexBatch,
@@ -10,14 +10,14 @@ use crate::{
 };
 use estampe_simd::{Bytes, Lanes, Level, Packet, SimdBase, dispatch, f32x16, i32x16, u32x16};
 
-/// A [`Shader`] whose type is erased: what a pipeline holds.
+/// A [`Shader`] whose type a pipeline need not know.
 pub struct ShaderProgram<T> {
     shader: T,
     interface: Interface,
 }
 
 impl<T: Shader> ShaderProgram<T> {
-    /// Wraps a shader.
+    /// Wraps a shader, and computes its interface from its constants and types.
     #[must_use]
     pub fn new(shader: T) -> Self {
         let mut interface = Interface {
@@ -28,7 +28,7 @@ impl<T: Shader> ShaderProgram<T> {
             writes_point_size: T::WRITES_POINT_SIZE,
             clip_distances: T::CLIP_DISTANCES,
             cull_distances: T::CULL_DISTANCES,
-            independent_fragments: T::INDEPENDENT_FRAGMENTS,
+            no_derivatives: T::NO_DERIVATIVES,
             per_sample: T::PER_SAMPLE,
             reads_coverage: T::READS_COVERAGE,
             writes_sample_mask: T::WRITES_SAMPLE_MASK,
@@ -40,7 +40,7 @@ impl<T: Shader> ShaderProgram<T> {
         T::Varyings::<f32>::modes(&mut interface.varyings);
         T::Varyings::<f32>::sampling(&mut interface.sampling);
         interface.per_sample |= interface.sampling.contains(&Sampling::Sample);
-        interface.passes_color = passes_color(&shader, &interface);
+        interface.color_passthrough = color_passthrough(&shader, &interface);
         Self { shader, interface }
     }
 
@@ -72,7 +72,7 @@ impl<T: Shader> Program for ShaderProgram<T> {
 
     fn run_fragments(&self, level: Level, bindings: &Bindings, batch: FragmentBatch<'_>) {
         dispatch!(@wide level, s => {
-            if T::LONG_CHAINS {
+            if T::PAIR_PACKETS {
                 self.fragments::<_, Pair<f32x16<_>>>(s, bindings, batch);
             } else {
                 self.fragments::<_, f32x16<_>>(s, bindings, batch);
@@ -115,7 +115,7 @@ impl<T: Shader> ShaderProgram<T> {
         }
     }
 
-    /// Shades one packet after the other, or two at a time.
+    /// Shades packets one after the other, or two at a time.
     #[inline(always)]
     fn fragments<S: Lanes, R: Packets<S>>(
         &self,
@@ -128,7 +128,7 @@ impl<T: Shader> ShaderProgram<T> {
         let outputs = self.interface.colors();
         let count = batch.coverage.len();
         for packet in (0..count).step_by(R::COUNT) {
-            // The last one without a partner is its own.
+            // A last packet without a partner is paired with itself.
             let second = (packet + R::COUNT - 1).min(count - 1);
             let packets = [packet, second];
             let zero = R::zero(simd);
@@ -152,7 +152,7 @@ impl<T: Shader> ShaderProgram<T> {
             let input = FragmentIn {
                 position,
                 front_facing: R::mask_of(simd, packets.map(|packet| batch.front_facing[packet])),
-                is_live: R::mask_of(simd, packets.map(|packet| batch.coverage[packet])),
+                is_helper: R::mask_of(simd, packets.map(|packet| !batch.coverage[packet])),
                 sample_index,
                 coverage: samples_covered,
                 bindings,
@@ -208,7 +208,8 @@ fn store_ints<S: Lanes>(value: i32x16<S>, to: &mut Packet<u32>) {
     bits.store_array(&mut to.0);
 }
 
-/// Writes a vector's scalars one after the other; those of each packet begin at its place.
+/// Stores the four components of a vector in consecutive packets, from `at[0]` on for the first
+/// packet and from `at[1]` on for the second.
 #[inline(always)]
 fn store_vec4<S: Lanes, R: Packets<S>>(value: Vec4<R>, at: [usize; 2], to: &mut [Packet<f32>]) {
     let Vec4 { x, y, z, w } = value;

@@ -1,43 +1,45 @@
-//! What a fragment shader is given and gives.
+//! Inputs and outputs of fragment shaders.
 
 use crate::{Bindings, Real, Vec4};
 use estampe_simd::Packet;
 
-/// The most colour targets that a shader can write.
+/// The maximum number of colour targets of a shader.
 pub(crate) const MAX_COLORS: usize = 8;
 
 /// The built-in inputs of a fragment shader.
 #[derive(Debug, Clone, Copy)]
 pub struct FragmentIn<'a, R: Real> {
-    /// Window-space x, y (pixel centres at ½), z and 1/w, if the shader says that it reads it.
+    /// Window-space x, y (pixel centres at ½), z and 1/w. Zero unless the shader sets
+    /// [`READS_POSITION`](crate::Shader::READS_POSITION).
     pub position: Vec4<R>,
-    /// Whether the triangle faces the viewer, also where only its edges or vertices are drawn; true for
-    /// primitives that were lines or points from the start.
+    /// True if the triangle is front-facing; in polygon modes this holds for its edges and vertices
+    /// too. Always true for line and point topologies.
     pub front_facing: R::Mask,
-    /// Whether the lane is a fragment; where not it is a helper, there for its neighbours' derivatives, and must not
-    /// store anything.
-    pub is_live: R::Mask,
-    /// The number of the sample that is shaded, if the shader is run [per sample](crate::Shader::PER_SAMPLE); 0
-    /// where not.
+    /// Helper invocations: lanes that the primitive does not cover, shaded for their neighbours'
+    /// derivatives alone. A helper's colours are dropped, and it must not store anything.
+    pub is_helper: R::Mask,
+    /// Index of the shaded sample if the shader runs [per sample](crate::Shader::PER_SAMPLE), else
+    /// 0.
     pub sample_index: R::Int,
-    /// Which samples of the pixel the primitive covers, bit by bit (of a shader that is run per sample: its own
-    /// alone), if the shader says that it [reads](crate::Shader::READS_COVERAGE) it; where not, 0.
+    /// Mask of the samples of the pixel that the primitive covers: bit i is sample i. A shader that
+    /// runs per sample sees its own sample only. Zero unless the shader sets
+    /// [`READS_COVERAGE`](crate::Shader::READS_COVERAGE).
     pub coverage: R::Int,
-    /// What the draw binds.
+    /// The resources that the draw binds.
     pub bindings: &'a Bindings,
-    /// Any number, to make constants from.
+    /// A number of the shader's kind, to make constants from; see [`FragmentIn::real`].
     pub zero: R,
 }
 
 impl<R: Real> FragmentIn<'_, R> {
-    /// A constant.
+    /// `value` in every lane.
     #[inline(always)]
     pub fn real(&self, value: f32) -> R {
         self.zero.splat(value)
     }
 }
 
-/// What a fragment shader gives.
+/// Outputs of a fragment shader.
 #[derive(Debug, Clone, Copy)]
 pub struct FragmentOut<R: Real> {
     pub(crate) colors: [Option<Vec4<R>>; MAX_COLORS],
@@ -48,7 +50,7 @@ pub struct FragmentOut<R: Real> {
 }
 
 impl<R: Real> FragmentOut<R> {
-    /// No colour: for depth alone.
+    /// No colour, for shaders that write depth alone or nothing.
     #[inline(always)]
     #[must_use]
     pub fn none() -> Self {
@@ -61,13 +63,14 @@ impl<R: Real> FragmentOut<R> {
         }
     }
 
-    /// A colour for target 0: linear RGBA; for targets of integers, their [bits](Real::to_bits).
+    /// A colour for target 0: linear RGBA. For integer targets, the [bits](Real::to_bits) of the
+    /// integers.
     #[inline(always)]
     pub fn color(rgba: Vec4<R>) -> Self {
         Self::none().with_color(0, rgba)
     }
 
-    /// A colour for target `index`, below `COLOR_TARGETS`.
+    /// Sets the colour of target `index`, which must be below `COLOR_TARGETS`.
     #[inline(always)]
     #[must_use]
     pub fn with_color(mut self, index: usize, rgba: Vec4<R>) -> Self {
@@ -75,7 +78,7 @@ impl<R: Real> FragmentOut<R> {
         self
     }
 
-    /// The second colour of dual-source blending; the shader must say `DUAL_SOURCE`.
+    /// Sets the second colour of dual-source blending. Requires `DUAL_SOURCE`.
     #[inline(always)]
     #[must_use]
     pub fn with_second_color(self, rgba: Vec4<R>) -> Self {
@@ -85,7 +88,7 @@ impl<R: Real> FragmentOut<R> {
         }
     }
 
-    /// Only these samples of each pixel are kept, bit by bit; the shader must say `WRITES_SAMPLE_MASK`.
+    /// Keeps only the samples whose bits are set. Requires `WRITES_SAMPLE_MASK`.
     #[inline(always)]
     #[must_use]
     pub fn with_sample_mask(self, samples: R::Int) -> Self {
@@ -95,7 +98,7 @@ impl<R: Real> FragmentOut<R> {
         }
     }
 
-    /// A depth in place of the interpolated one; the shader must declare `DEPTH_OUTPUT`.
+    /// Replaces the interpolated depth. Requires `DEPTH_OUTPUT`.
     #[inline(always)]
     #[must_use]
     pub fn with_depth(self, depth: R) -> Self {
@@ -105,10 +108,10 @@ impl<R: Real> FragmentOut<R> {
         }
     }
 
-    /// Only the lanes of the mask are kept; the shader must say `DISCARDS`.
+    /// Discards the lanes in which the mask is false. Requires `DISCARDS`.
     #[inline(always)]
     #[must_use]
-    pub fn keep_where(self, mask: R::Mask) -> Self {
+    pub fn discard_unless(self, mask: R::Mask) -> Self {
         let keep = match self.keep {
             Some(before) => before & mask,
             None => mask,
@@ -119,56 +122,59 @@ impl<R: Real> FragmentOut<R> {
         }
     }
 
-    /// The colour of a target, if one was given.
+    /// The colour of a target, if the shader set it.
     #[inline(always)]
     pub fn color_of(&self, index: usize) -> Option<Vec4<R>> {
         self.colors[index]
     }
 
-    /// The second colour, if one was given.
+    /// The second colour, if the shader set it.
     #[inline(always)]
     pub fn second_color(&self) -> Option<Vec4<R>> {
         self.second
     }
 
-    /// The samples to keep, if they were given.
+    /// The sample mask, if the shader set it.
     #[inline(always)]
     pub fn sample_mask(&self) -> Option<R::Int> {
         self.sample_mask
     }
 
-    /// The depth, if one was given.
+    /// The depth, if the shader set it.
     #[inline(always)]
     pub fn depth(&self) -> Option<R> {
         self.depth
     }
 
-    /// The lanes that are kept, if some may have been discarded.
+    /// The mask of lanes that are not discarded, or `None` if the shader never discards.
     #[inline(always)]
     pub fn kept(&self) -> Option<R::Mask> {
         self.keep
     }
 }
 
-/// Packets of fragments, structure of arrays: scalar `k` of packet `p` is element `p * scalars + k`.
+/// Packets of fragments, structure of arrays: scalar `k` of packet `p` is element `p * scalars +
+/// k`.
 #[derive(Debug, Default)]
 pub struct FragmentBatch<'a> {
     /// The varyings' scalars, interpolated.
     pub varyings: &'a [Packet<f32>],
-    /// Window x, y, z and 1/w; empty unless the interface says that it is read.
+    /// Window x, y, z and 1/w; empty unless `reads_position` is set in the interface.
     pub positions: &'a [Packet<f32>],
-    /// By packet: bit `i` says whether lane `i` is of a front-facing primitive.
+    /// By packet: bit `i` is set if lane `i` belongs to a front-facing primitive.
     pub front_facing: &'a [u16],
-    /// The sample that each packet is of; empty unless the interface says that fragments are shaded by sample.
+    /// Sample index of each packet; empty unless `per_sample` is set in the interface.
     pub sample_index: &'a [u32],
-    /// By packet and lane the samples that are covered; empty unless the interface says that they are read.
+    /// Covered samples by packet and lane; empty unless `reads_coverage` is set in the interface.
     pub samples_covered: &'a [Packet<u32>],
-    /// By packet, in and out: the lanes to shade; discarding clears a lane's bit.
+    /// In and out: by packet, the mask of lanes to shade. Discarding clears a lane's bit.
     pub coverage: &'a mut [u16],
-    /// Out: R, G, B, A of each target, then those of the second colour if there is one.
+    /// Out: R, G, B, A of each target, then R, G, B, A of the second colour if `dual_source` is
+    /// set.
     pub colors: &'a mut [Packet<f32>],
-    /// Out: depth by packet; empty unless the interface says that it is written.
+    /// Out: depth by packet; empty unless `depth_output` is set in the interface.
     pub depths: &'a mut [Packet<f32>],
-    /// Out: samples to keep, by packet and lane; empty unless the interface says that they are written.
+    /// Out: mask of kept samples by packet and lane; empty unless `writes_sample_mask` is set in
+    /// the interface.
     pub sample_masks: &'a mut [Packet<u32>],
 }

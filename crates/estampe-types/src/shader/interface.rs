@@ -1,6 +1,6 @@
-//! What a program reads and writes: all that the pipeline must know about it.
+//! The interface of a program: everything that the pipeline must know about its inputs and outputs.
 
-/// How a varying is carried from the vertices to a fragment.
+/// The interpolation of a varying over its primitive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Interpolation {
     /// Perspective-correct.
@@ -12,88 +12,94 @@ pub enum Interpolation {
     Flat,
 }
 
-/// Where in a pixel a varying is interpolated.
+/// The position in a pixel at which a varying is interpolated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Sampling {
-    /// At the centre, which may lie outside the primitive when there are several samples.
+    /// At the pixel centre, which may lie outside the primitive if there are several samples.
     #[default]
     Center,
-    /// At the centre if every sample is covered, else at the first covered sample: never outside the primitive.
+    /// At the centre if every sample is covered, else at the first covered sample; never outside
+    /// the primitive.
     Centroid,
-    /// At each sample: the fragment is shaded once for every sample.
+    /// At each sample: the fragment shader runs once per sample.
     Sample,
 }
 
-/// Whether a fragment shader writes its depth.
+/// Depth output of a fragment shader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum DepthOutput {
-    /// It does not: depth is interpolated, and tests run before the shader.
+    /// No output: depth is interpolated, and tests run before the shader.
     #[default]
     None,
-    /// It may write any depth: tests run after the shader.
+    /// Any depth: tests run after the shader.
     Any,
-    /// It writes depths not below the interpolated one (Vulkan's `DepthGreater`): a fragment that is in front only
-    /// of farther things is tested before the shader, too. A depth below is raised to the interpolated one.
+    /// Depths that are not below the interpolated one (Vulkan's `DepthGreater`). Fragments that
+    /// already fail a *less* test with the interpolated depth are rejected before the shader. A
+    /// depth below the interpolated one is raised to it.
     Greater,
-    /// It writes depths not above the interpolated one (`DepthLess`); one above is lowered to it.
+    /// Depths that are not above the interpolated one (`DepthLess`). A depth above it is lowered to
+    /// it.
     Less,
 }
 
-/// What goes into a program and comes out.
+/// Inputs and outputs of a program.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Interface {
-    /// How many numbers each vertex attribute has (1 to 4), by location.
+    /// Number of components (1 to 4) of each vertex attribute, by location.
     pub attributes: Vec<usize>,
-    /// How each scalar of the varyings is interpolated.
+    /// Interpolation of each scalar of the varyings.
     pub varyings: Vec<Interpolation>,
-    /// Where each scalar of the varyings is interpolated; those beyond the list's end at the centre.
+    /// Sampling position of each scalar of the varyings; scalars beyond the end of the list are
+    /// interpolated at the centre.
     pub sampling: Vec<Sampling>,
-    /// How many colour targets the fragments write.
+    /// Number of colour targets that fragments write.
     pub color_targets: usize,
-    /// Whether fragments may be discarded.
+    /// True if fragments may be discarded.
     pub discards: bool,
-    /// Whether fragments write depth.
+    /// Depth that fragments write.
     pub depth_output: DepthOutput,
-    /// Whether fragments read their position.
+    /// True if fragments read their window position.
     pub reads_position: bool,
-    /// Whether the fragments' one colour is the varyings' first four scalars as they are.
-    pub passes_color: bool,
-    /// Whether a fragment's colours depend on its own inputs alone: no derivatives, and so no textures whose
-    /// level of detail comes from them.
-    pub independent_fragments: bool,
-    /// Whether fragments are shaded once for each sample: they read the sample's number, or a varying at each
-    /// sample.
+    /// True if the only colour of fragments is the first four scalars of the varyings, unchanged.
+    pub color_passthrough: bool,
+    /// True if fragments take no derivatives, and sample no textures whose level of detail comes
+    /// from derivatives.
+    pub no_derivatives: bool,
+    /// True if fragments are shaded once per sample: they read the sample index, or a varying is
+    /// interpolated at each sample.
     pub per_sample: bool,
-    /// Whether fragments read which samples are covered.
+    /// True if fragments read the mask of covered samples.
     pub reads_coverage: bool,
-    /// Whether fragments write which samples are kept.
+    /// True if fragments write a sample mask.
     pub writes_sample_mask: bool,
-    /// Whether fragments store where others can see it, so that they must be shaded before they are tested.
+    /// True if fragments store to memory that other invocations or draws can see. They are then
+    /// shaded before the tests.
     pub stores: bool,
-    /// Whether fragments give a second colour for blending target 0, the only one.
+    /// True if fragments write a second colour for blending target 0, which is then the only
+    /// target.
     pub dual_source: bool,
-    /// Whether vertices set a point size.
+    /// True if vertices write a point size.
     pub writes_point_size: bool,
-    /// How many clip distances vertices give, at most 8.
+    /// Number of clip distances that vertices write, at most 8.
     pub clip_distances: usize,
-    /// How many cull distances vertices give, at most 8.
+    /// Number of cull distances that vertices write, at most 8.
     pub cull_distances: usize,
 }
 
 impl Interface {
-    /// Scalars of all attributes together.
+    /// Number of scalars of all attributes together.
     #[must_use]
     pub fn attribute_scalars(&self) -> usize {
         self.attributes.iter().sum()
     }
 
-    /// Clip and cull distances of a vertex.
+    /// Number of clip and cull distances of a vertex.
     #[must_use]
     pub fn distances(&self) -> usize {
         self.clip_distances + self.cull_distances
     }
 
-    /// How many colours a fragment gives: one for each target, and the second one of dual-source blending.
+    /// Number of colours of a fragment: one per target, and the second one of dual-source blending.
     #[must_use]
     pub fn colors(&self) -> usize {
         self.color_targets + usize::from(self.dual_source)

@@ -1,9 +1,9 @@
-//! How a shader is written in Rust, and the one interface behind which every shader runs.
+//! Shaders: the trait by which they are written in Rust, and the one interface by which all run.
 //!
-//! A shader is a plain value that implements [`Shader`]: two functions, generic over the number they
-//! compute with, so that the same text runs on one fragment and on sixteen. It owns its uniforms and
-//! shares its textures. [`ShaderProgram`] erases its type once, when a pipeline is made, into a
-//! [`Program`]: the interface that compiled text shaders implement too.
+//! A shader is a plain value that implements [`Shader`]: two functions that are generic over the
+//! number they compute with, so that the same source runs on one fragment and on sixteen. The value
+//! holds its uniforms and shares its textures. [`ShaderProgram`] erases its type once, when a
+//! pipeline is created, into a [`Program`], the interface that compiled text shaders implement too.
 
 mod erased;
 mod fragment;
@@ -54,65 +54,67 @@ use estampe_simd::Level;
 /// }
 /// ```
 pub trait Shader: Send + Sync + 'static {
-    /// What a vertex reads: location 0, 1, … in order; a number, a vector or a tuple of those.
+    /// Attributes that a vertex reads, at location 0, 1, … in order: a number, a vector or a tuple
+    /// of those.
     type Attributes<R: Real>: Attributes<R>;
-    /// What a vertex hands to the fragments: a number, a vector or a tuple of those; [`Flat`] and
-    /// [`NoPerspective`] around one choose its interpolation.
+    /// Values that a vertex passes to the fragments: a number, a vector or a tuple of those. The
+    /// wrappers [`Flat`], [`NoPerspective`], [`Centroid`] and [`PerSample`] choose the
+    /// interpolation.
     type Varyings<R: Real>: Varyings<R>;
 
-    /// How many colour targets the fragment writes.
+    /// Number of colour targets that the fragment writes.
     const COLOR_TARGETS: usize = 1;
-    /// Whether the fragment may discard.
+    /// Must be set if the fragment may discard.
     const DISCARDS: bool = false;
-    /// Whether the fragment writes its depth.
+    /// Depth that the fragment writes.
     const DEPTH_OUTPUT: DepthOutput = DepthOutput::None;
-    /// Whether the fragment reads [`FragmentIn::position`]; where not, it is zero.
+    /// If set, the fragment reads [`FragmentIn::position`]; otherwise that is zero.
     const READS_POSITION: bool = false;
-    /// Whether the fragment is shaded once for each sample, which it finds in [`FragmentIn::sample_index`]. So it is
-    /// in any case if a varying is [`PerSample`].
+    /// If set, the fragment is shaded once per sample, whose index is [`FragmentIn::sample_index`].
+    /// A [`PerSample`] varying has the same effect.
     const PER_SAMPLE: bool = false;
-    /// Whether the fragment reads [`FragmentIn::coverage`].
+    /// If set, the fragment reads [`FragmentIn::coverage`].
     const READS_COVERAGE: bool = false;
-    /// Whether the fragment says which samples it keeps: [`FragmentOut::with_sample_mask`].
+    /// If set, the fragment writes a sample mask: [`FragmentOut::with_sample_mask`].
     const WRITES_SAMPLE_MASK: bool = false;
-    /// Whether the fragment stores to [storage textures](crate::StorageTexture). It is then shaded wherever the
-    /// primitive covers it, hidden or not, and tested afterwards. Vertices must not store: lanes of a packet beyond
-    /// the last vertex are shaded too.
+    /// If set, the fragment stores to [storage textures](crate::StorageTexture). It is then shaded
+    /// wherever the primitive covers it, visible or not, and tested afterwards. Vertices must not
+    /// store: lanes of a packet beyond the last vertex are shaded too.
     const STORES: bool = false;
-    /// Whether the fragment gives a second colour for blending: [`FragmentOut::with_second_color`]. It then has one
-    /// target.
+    /// If set, the fragment writes a second colour for blending:
+    /// [`FragmentOut::with_second_color`]. It then has one target.
     const DUAL_SOURCE: bool = false;
-    /// Whether the fragment's colour is the first four scalars of its varyings as they are, and nothing
-    /// else: a pass-through shader, which the pipeline need not call. It is tried when the program is made;
-    /// one that does otherwise is called.
-    const PASSES_COLOR: bool = false;
-    /// Whether a fragment depends on its own inputs alone: the shader takes no derivatives, and samples no
-    /// texture whose level of detail comes from them. Fragments of small triangles are then shaded without
-    /// their quads. A shader that says so and takes derivatives gets those of strangers.
-    const INDEPENDENT_FRAGMENTS: bool = Self::PASSES_COLOR;
-    /// Whether the fragment's time goes by in long chains of operations each of which waits for the one before,
-    /// such as the steps of a ray. Fragments are then shaded two packets at a time ([`Pair`](crate::Pair)), so that
-    /// the two chains overlap. Both packets stay in a loop until the last lane of both is done; and a short
-    /// shader only runs out of registers that way.
-    const LONG_CHAINS: bool = false;
-    /// Whether the vertex sets a point size; where not, points are one pixel.
+    /// If set, the fragment only returns the first four scalars of its varyings as its colour. The
+    /// pipeline then need not call the shader. The claim is tested when the program is created; a
+    /// shader that fails the test is called as any other.
+    const COLOR_PASSTHROUGH: bool = false;
+    /// If set, the shader takes no derivatives, and samples no texture whose level of detail comes
+    /// from them. Fragments of several small triangles are then shaded in one packet without their
+    /// quads, and derivatives are undefined: neighbouring lanes may belong to other triangles.
+    const NO_DERIVATIVES: bool = Self::COLOR_PASSTHROUGH;
+    /// If set, fragments are shaded two packets at a time ([`Pair`](crate::Pair)). This pays for
+    /// long chains of operations that depend on each other, such as the steps of a ray, because the
+    /// chains of the two packets overlap. Both packets stay in a loop until the last lane of both
+    /// is done. A short shader only runs out of registers.
+    const PAIR_PACKETS: bool = false;
+    /// If set, the vertex writes a point size; otherwise points are one pixel wide.
     const WRITES_POINT_SIZE: bool = false;
 
-    /// How many clip distances the vertex gives ([`VertexOut::with_clip_distance`]), at most 8: primitives are cut
-    /// where one of them, interpolated, is negative.
+    /// Number of clip distances that the vertex writes ([`VertexOut::with_clip_distance`]), at most
+    /// 8. Primitives are clipped where an interpolated clip distance is negative.
     const CLIP_DISTANCES: usize = 0;
-    /// How many cull distances it gives ([`VertexOut::with_cull_distance`]), at most 8: a primitive is dropped
-    /// if one of them is negative at all of its vertices.
+    /// Number of cull distances that the vertex writes ([`VertexOut::with_cull_distance`]), at most
+    /// 8. A primitive is dropped if one cull distance is negative at all of its vertices.
     const CULL_DISTANCES: usize = 0;
 
-    /// One vertex: its clip-space position and varyings.
+    /// Shades one vertex: returns its clip-space position and varyings.
     fn vertex<R: Real>(
         &self,
         input: VertexIn<'_, R>,
         attributes: Self::Attributes<R>,
     ) -> VertexOut<R, Self::Varyings<R>>;
 
-    /// One fragment: its colours.
+    /// Shades one fragment: returns its colours.
     fn fragment<R: Real>(
         &self,
         input: FragmentIn<'_, R>,
@@ -120,18 +122,19 @@ pub trait Shader: Send + Sync + 'static {
     ) -> FragmentOut<R>;
 }
 
-/// A texture as a shader sees it: sampled at (u, v), level of detail from the quad's derivatives.
+/// A texture as a shader sees it: sampled at (u, v), with the level of detail from the quad's
+/// derivatives.
 pub trait Sample2d: Send + Sync {
     /// The filtered texel: linear values in 0..=1.
     fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R>;
 }
 
-/// A compiled shader: the one interface that the pipeline calls, a batch of packets at a time.
+/// A compiled shader: the interface that the pipeline calls, one batch of packets at a time.
 ///
-/// Implementations must not read or write beyond the batch's slices and must give the same bits at
-/// every level.
+/// Implementations must stay inside the batch's slices, and must give the same bits at every SIMD
+/// level.
 pub trait Program: Send + Sync + std::fmt::Debug {
-    /// What goes in and out.
+    /// The inputs and outputs of the program.
     fn interface(&self) -> &Interface;
     /// Shades packets of vertices.
     fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>);
@@ -139,7 +142,11 @@ pub trait Program: Send + Sync + std::fmt::Debug {
     fn run_fragments(&self, level: Level, bindings: &Bindings, batch: FragmentBatch<'_>);
 }
 
-/// Implements [`Shader`] with every function `#[inline(always)]`.
+/// Implements [`Shader`](trait@crate::Shader) with every function marked `#[inline(always)]`.
+///
+/// The sixteen-lane form of a function is compiled with SIMD instructions only if it is inlined
+/// into the function that selects the SIMD level. Generic helper functions outside the macro must
+/// be marked `#[inline(always)]` too: without it they run 5 to 14 times slower.
 #[macro_export]
 macro_rules! shader {
     (impl $(<$($generic:ident: $bound:path),*>)? Shader for $shader:ty { $($items:tt)* }) => {

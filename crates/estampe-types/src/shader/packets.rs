@@ -1,4 +1,5 @@
-//! How a batch's packets become the numbers that a shader computes with: one, or two at a time.
+//! Conversion between a batch's packets and the numbers that a shader computes with: one packet, or
+//! a pair.
 
 use super::{Sink, Source};
 use crate::{Pair, Real};
@@ -6,15 +7,15 @@ use estampe_simd::{Bytes, LANES, Lanes, Packet, SimdBase, f32x16, i32x16, mask32
 
 /// One packet or a pair of packets.
 pub(super) trait Packets<S: Lanes>: Real {
-    /// How many packets these are.
+    /// Number of packets.
     const COUNT: usize;
 
     fn zero(simd: S) -> Self;
     /// The next scalar of each packet.
     fn take(simd: S, left: &mut [&[Packet<f32>]; 2]) -> Self;
-    /// The packets; a single one twice.
+    /// Both packets; a single packet is returned twice.
     fn parts(self) -> [f32x16<S>; 2];
-    /// The lanes whose bits are set.
+    /// The mask whose lane i is bit i of each packet's bits.
     fn mask_of(simd: S, bits: [u16; 2]) -> Self::Mask;
     /// Integers from each packet's lanes.
     fn ints_of(simd: S, lanes: [[u32; LANES]; 2]) -> Self::Int;
@@ -104,7 +105,7 @@ fn next<S: Lanes>(simd: S, left: &mut &[Packet<f32>]) -> f32x16<S> {
             *left = rest;
             SimdBase::load_array_ref(simd, &first.0)
         }
-        // Never: the slice has as many packets as the type has scalars.
+        // Unreachable: the slice has as many packets as the type has scalars.
         None => SimdBase::splat(simd, 0.0),
     }
 }

@@ -1,14 +1,14 @@
-//! Whether a fragment shader does what it says: pass its colour on.
+//! Test of a shader's claim that it passes its colour through unchanged.
 
 use super::scalar;
 use crate::{Bindings, FragmentBatch, Interface, Shader};
 use estampe_simd::{LANES, Packet};
 
-/// Whether the shader says that it passes its colour on, and does so for sixteen colours. One that says so and
-/// does otherwise is run like any other.
-pub(super) fn passes_color<T: Shader>(shader: &T, interface: &Interface) -> bool {
+/// True if the shader sets `COLOR_PASSTHROUGH` and returns sixteen test colours unchanged. A shader
+/// that sets it and fails the test is run as any other.
+pub(super) fn color_passthrough<T: Shader>(shader: &T, interface: &Interface) -> bool {
     let scalars = interface.varyings.len();
-    if !T::PASSES_COLOR
+    if !T::COLOR_PASSTHROUGH
         || T::DISCARDS
         || T::READS_POSITION
         || interface.depth_output != super::DepthOutput::None
@@ -20,7 +20,7 @@ pub(super) fn passes_color<T: Shader>(shader: &T, interface: &Interface) -> bool
     {
         return false;
     }
-    // Different values in every lane and scalar, beyond 0..=1 too.
+    // Every lane and scalar has a different value; some are outside 0..=1.
     let mut varyings = vec![Packet([0.0; LANES]); scalars];
     let all = varyings.iter_mut().flat_map(|packet| &mut packet.0);
     all.zip(1u16..)
@@ -50,7 +50,7 @@ mod tests {
         impl Shader for Colored {
             type Attributes<R: Real> = Vec4<R>;
             type Varyings<R: Real> = Vec4<R>;
-            const PASSES_COLOR: bool = true;
+            const COLOR_PASSTHROUGH: bool = true;
 
             fn vertex<R: Real>(&self, _input: VertexIn<'_, R>, color: Vec4<R>) -> VertexOut<R, Vec4<R>> {
                 VertexOut::new(color, color)
@@ -67,7 +67,7 @@ mod tests {
     fn a_shader_that_says_so_and_does_not_is_run() {
         for is_honest in [true, false] {
             let program = ShaderProgram::new(Colored { is_honest });
-            assert_eq!(program.interface().passes_color, is_honest);
+            assert_eq!(program.interface().color_passthrough, is_honest);
         }
     }
 }

@@ -1,7 +1,7 @@
-//! The scalar level of a Rust shader: a packet as four quads of plain scalars.
+//! Scalar execution of a Rust shader: a packet is shaded as four quads of plain scalars.
 //!
-//! Sixteen lanes made of scalars would give the same bits, but one sampled texture took the compiler three
-//! minutes that way and takes it two seconds this way.
+//! Sixteen emulated lanes would give the same bits, but the compiler took three minutes for one
+//! sampled texture that way, and takes two seconds this way.
 
 use super::{Attributes, DepthOutput, Sink, Source, Varyings};
 use crate::{
@@ -78,14 +78,16 @@ pub(super) fn fragments<T: Shader>(
                 black
             };
             let front = batch.front_facing[packet] >> lane;
-            // As in the wide form: only shaders that declare it are told.
-            let told = batch.sample_index.get(packet).filter(|_| T::PER_SAMPLE);
-            let sample_index = told.copied().unwrap_or_default();
+            // As in the wide form, the input is set only for shaders that declare it.
+            let declared = batch.sample_index.get(packet).filter(|_| T::PER_SAMPLE);
+            let sample_index = declared.copied().unwrap_or_default();
             let front_facing = Quad([0, 1, 2, 3].map(|k| front >> k & 1 == 1));
             let input = FragmentIn {
                 position,
                 front_facing,
-                is_live: Quad([0, 1, 2, 3].map(|k| batch.coverage[packet] >> (lane + k) & 1 == 1)),
+                is_helper: Quad(
+                    [0, 1, 2, 3].map(|k| batch.coverage[packet] >> (lane + k) & 1 == 0),
+                ),
                 sample_index: Quad([sample_index.cast_signed(); QUAD]),
                 coverage: batch
                     .samples_covered

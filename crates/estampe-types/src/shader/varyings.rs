@@ -1,45 +1,45 @@
-//! Attributes and varyings as types: numbers, vectors and tuples, taken apart into scalars.
+//! Attributes and varyings as types: numbers, vectors and tuples, which are split into scalars.
 
 use super::Sampling;
 use crate::{Interpolation, Real, Vec2, Vec3, Vec4};
 
-/// Where scalars come from, in order.
+/// A source of scalars, in order.
 pub trait Source<R> {
     /// The next scalar.
     fn take(&mut self) -> R;
 }
 
-/// Where scalars go, in order.
+/// A destination of scalars, in order.
 pub trait Sink<R> {
     /// Accepts the next scalar.
     fn put(&mut self, value: R);
 }
 
-/// What a vertex shader reads: one location per element.
+/// The attributes that a vertex shader reads: one location per element.
 pub trait Attributes<R: Real>: Sized {
-    /// How many numbers each location has.
+    /// Appends the number of components of each location.
     fn components(out: &mut Vec<usize>);
-    /// Puts the value together.
+    /// Reads the value from its scalars.
     fn load(from: &mut impl Source<R>) -> Self;
 }
 
-/// What a vertex shader hands to the fragments.
+/// The varyings that a vertex shader passes to the fragments.
 pub trait Varyings<R: Real>: Sized {
-    /// How each scalar is interpolated.
+    /// Appends the interpolation of each scalar.
     fn modes(out: &mut Vec<Interpolation>);
-    /// Where in the pixel each scalar is interpolated: at the centre.
+    /// Appends the sampling position of each scalar; by default the centre.
     fn sampling(out: &mut Vec<Sampling>) {
         let mut modes = Vec::new();
         Self::modes(&mut modes);
         out.resize(out.len() + modes.len(), Sampling::Center);
     }
-    /// Puts the value together.
+    /// Reads the value from its scalars.
     fn load(from: &mut impl Source<R>) -> Self;
-    /// Takes the value apart.
+    /// Writes the value's scalars.
     fn store(self, to: &mut impl Sink<R>);
 }
 
-/// A varying that takes the provoking vertex's value.
+/// A varying that has the provoking vertex's value in the whole primitive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flat<T>(pub T);
 
@@ -47,11 +47,11 @@ pub struct Flat<T>(pub T);
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NoPerspective<T>(pub T);
 
-/// A varying that is interpolated at a place that the primitive covers: see [`Sampling::Centroid`].
+/// A varying that is interpolated at a covered position; see [`Sampling::Centroid`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Centroid<T>(pub T);
 
-/// A varying that is interpolated at each sample: see [`Sampling::Sample`].
+/// A varying that is interpolated at each sample; see [`Sampling::Sample`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PerSample<T>(pub T);
 
@@ -86,7 +86,7 @@ element! { Vec2<R>; 2; x y }
 element! { Vec3<R>; 3; x y z }
 element! { Vec4<R>; 4; x y z w }
 
-/// A single number; a wrapper because a type parameter cannot be told from a vector here.
+/// A single number. An array, because a bare type parameter would overlap with the vectors.
 impl<R: Real> Attributes<R> for [R; 1] {
     fn components(out: &mut Vec<usize>) {
         out.push(1);

@@ -1,4 +1,4 @@
-//! What a vertex shader is given and gives.
+//! Inputs and outputs of vertex shaders.
 
 use crate::{Bindings, Real, Vec4};
 use estampe_simd::Packet;
@@ -6,40 +6,40 @@ use estampe_simd::Packet;
 /// The built-in inputs of a vertex shader.
 #[derive(Debug, Clone, Copy)]
 pub struct VertexIn<'a, R: Real> {
-    /// Index of the vertex: from the index buffer, or counted.
+    /// Index of the vertex: from the index buffer, or counted from the draw's first element.
     pub vertex_index: R::Int,
     /// Index of the instance.
     pub instance_index: R::Int,
-    /// What the draw binds.
+    /// The resources that the draw binds.
     pub bindings: &'a Bindings,
-    /// Any number, to make constants from.
+    /// A number of the shader's kind, to make constants from; see [`VertexIn::real`].
     pub zero: R,
 }
 
 impl<R: Real> VertexIn<'_, R> {
-    /// A constant.
+    /// `value` in every lane.
     #[inline(always)]
     pub fn real(&self, value: f32) -> R {
         self.zero.splat(value)
     }
 }
 
-/// What a vertex shader gives.
+/// Outputs of a vertex shader.
 #[derive(Debug, Clone, Copy)]
 pub struct VertexOut<R, V> {
     /// Position in clip space: visible where −w ≤ x, y ≤ w and 0 ≤ z ≤ w.
     pub position: Vec4<R>,
-    /// What the fragments get, interpolated.
+    /// Values that are interpolated for the fragments.
     pub varyings: V,
     /// Width of a point in pixels, if the shader sets it.
     pub point_size: Option<R>,
-    /// How far inside each clip distance's plane the vertex is; 0 where the shader does not say.
+    /// Clip distances: positive inside the plane. Distances that the shader does not set are 0.
     pub clip_distances: [Option<R>; MAX_DISTANCES],
-    /// The same of cull distances.
+    /// Cull distances: positive inside the plane. Distances that the shader does not set are 0.
     pub cull_distances: [Option<R>; MAX_DISTANCES],
 }
 
-/// How many clip distances, and how many cull distances, a vertex may have.
+/// The maximum number of clip distances, and of cull distances, of a vertex.
 pub const MAX_DISTANCES: usize = 8;
 
 impl<R, V> VertexOut<R, V> {
@@ -55,7 +55,7 @@ impl<R, V> VertexOut<R, V> {
         }
     }
 
-    /// The same with a point size in pixels; the shader must say `WRITES_POINT_SIZE`.
+    /// Sets the point size, in pixels. Requires `WRITES_POINT_SIZE`.
     #[inline(always)]
     #[must_use]
     pub fn with_point_size(self, pixels: R) -> Self {
@@ -65,8 +65,8 @@ impl<R, V> VertexOut<R, V> {
         }
     }
 
-    /// The same with clip distance `index`, of as many as the shader says in `CLIP_DISTANCES`: primitives are cut
-    /// where it, interpolated, is negative.
+    /// Sets clip distance `index`, which must be below `CLIP_DISTANCES`. Primitives are clipped
+    /// where the interpolated distance is negative.
     #[inline(always)]
     #[must_use]
     pub fn with_clip_distance(mut self, index: usize, distance: R) -> Self {
@@ -76,8 +76,8 @@ impl<R, V> VertexOut<R, V> {
         self
     }
 
-    /// The same with cull distance `index`, of as many as the shader says in `CULL_DISTANCES`: a primitive is
-    /// dropped if one of them is negative at all of its vertices.
+    /// Sets cull distance `index`, which must be below `CULL_DISTANCES`. A primitive is dropped if
+    /// the distance is negative at all of its vertices.
     #[inline(always)]
     #[must_use]
     pub fn with_cull_distance(mut self, index: usize, distance: R) -> Self {
@@ -101,8 +101,8 @@ pub struct VertexBatch<'a> {
     pub positions: &'a mut [Packet<f32>],
     /// Out: the varyings' scalars.
     pub varyings: &'a mut [Packet<f32>],
-    /// Out: point size by packet; empty unless the interface says that it is written.
+    /// Out: point size by packet; empty unless `writes_point_size` is set in the interface.
     pub point_sizes: &'a mut [Packet<f32>],
-    /// Out: the clip distances that the interface names, then the cull distances; empty if it names none.
+    /// Out: the clip distances, then the cull distances; empty if the interface has none.
     pub distances: &'a mut [Packet<f32>],
 }

@@ -1,8 +1,8 @@
-//! How a fragment's colour and the stored one are combined.
+//! Blending and logic operations: the combination of a fragment's colour with the stored colour.
 
 use crate::format::TextureFormat;
 
-/// What a colour is multiplied by in blending.
+/// Factor by which a colour is multiplied in blending.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BlendFactor {
@@ -47,7 +47,7 @@ pub enum BlendFactor {
 }
 
 impl BlendFactor {
-    /// Whether it needs a second colour from the shader.
+    /// True if the factor requires a second colour from the shader.
     #[must_use]
     pub const fn is_dual_source(self) -> bool {
         matches!(
@@ -57,7 +57,7 @@ impl BlendFactor {
     }
 }
 
-/// How the two products of blending are combined.
+/// Operation that combines the two products of blending.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum BlendOperation {
     /// Source + destination.
@@ -67,20 +67,20 @@ pub enum BlendOperation {
     Subtract,
     /// Destination − source.
     ReverseSubtract,
-    /// The smaller, factors ignored.
+    /// The smaller one; the factors are ignored.
     Min,
-    /// The greater, factors ignored.
+    /// The greater one; the factors are ignored.
     Max,
 }
 
 /// Blending of colour or of alpha. The default replaces: source·1 + destination·0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct BlendComponent {
-    /// How the products are combined.
+    /// Operation that combines the two products.
     pub operation: BlendOperation,
-    /// What the fragment's value is multiplied by.
+    /// Factor of the fragment's value.
     pub src_factor: BlendFactor,
-    /// What the stored value is multiplied by.
+    /// Factor of the stored value.
     pub dst_factor: BlendFactor,
 }
 
@@ -105,7 +105,7 @@ impl Default for BlendComponent {
     }
 }
 
-/// How a fragment's colour is combined with the stored one. The default replaces.
+/// Blending of a colour target. The default replaces the stored colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct BlendState {
     /// For R, G and B.
@@ -129,7 +129,7 @@ impl BlendState {
         color: BlendComponent::OVER,
         alpha: BlendComponent::OVER,
     };
-    /// The sum, colour and alpha alike.
+    /// The sum, for both colour and alpha.
     pub const ADDITIVE: Self = {
         let sum = BlendComponent {
             operation: BlendOperation::Add,
@@ -143,9 +143,10 @@ impl BlendState {
     };
 }
 
-/// A bitwise operation of the fragment's value s and the stored one d, in place of blending: on unorm, snorm and
-/// integer formats the channels' bits are combined; on float and sRGB formats it does nothing and the fragment's
-/// value replaces. (Vulkan 1.3, "Logical Operations".)
+/// Bitwise operation on the fragment's value s and the stored value d, in place of blending. On
+/// unorm, snorm and integer formats it combines the bits of the channels. On float and sRGB formats
+/// it has no effect: the fragment's value replaces the stored one. (Vulkan 1.3, "Logical
+/// Operations".)
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum LogicOperation {
     /// 0
@@ -204,7 +205,7 @@ impl LogicOperation {
     ];
 }
 
-/// Which channels a draw may change: bit 0 R, 1 G, 2 B, 3 A. The default is all.
+/// Mask of the channels that a draw writes: bit 0 R, 1 G, 2 B, 3 A. The default is all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ColorWrites(pub u8);
 
@@ -228,9 +229,9 @@ impl Default for ColorWrites {
 pub struct ColorTargetState {
     /// The attachment's format.
     pub format: TextureFormat,
-    /// How colours are combined; `None` replaces, which is cheaper.
+    /// Blending; `None` replaces, which is cheaper.
     pub blend: Option<BlendState>,
-    /// Which channels change.
+    /// Mask of the channels that are written.
     pub write_mask: ColorWrites,
 }
 

@@ -1,4 +1,4 @@
-//! The depth and stencil tests.
+//! State of the depth and stencil tests.
 
 /// A comparison of a new value with the stored one: `new OP stored`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -23,7 +23,7 @@ pub enum CompareFunction {
 }
 
 impl CompareFunction {
-    /// Whether `new` passes against `stored`. With a NaN only `Always` and `NotEqual` pass.
+    /// True if `new` passes against `stored`. With a NaN only `Always` and `NotEqual` pass.
     #[must_use]
     pub fn passes(self, new: f32, stored: f32) -> bool {
         match self {
@@ -38,7 +38,7 @@ impl CompareFunction {
         }
     }
 
-    /// The same of stencil values.
+    /// True if the stencil value `new` passes against `stored`.
     #[must_use]
     pub const fn passes_stencil(self, new: u8, stored: u8) -> bool {
         match self {
@@ -54,74 +54,75 @@ impl CompareFunction {
     }
 }
 
-/// The depth test. There is no default: a pipeline either has one or has none.
+/// The depth test. There is no default: a pipeline without a depth test has no `DepthState`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DepthState {
-    /// Whether fragments that pass store their depth.
+    /// If set, fragments that pass store their depth.
     pub write_enabled: bool,
-    /// How a fragment's depth is compared with the stored one.
+    /// Comparison of a fragment's depth with the stored one.
     pub compare: CompareFunction,
 }
 
 impl DepthState {
-    /// Nearer fragments win and are stored: the common case.
+    /// Nearer fragments pass and store their depth: the common case.
     pub const LESS_WRITE: Self = Self {
         write_enabled: true,
         compare: CompareFunction::Less,
     };
-    /// Nearer fragments pass, nothing is stored: transparent things.
+    /// Nearer fragments pass and store no depth: for transparent surfaces.
     pub const LESS_READ: Self = Self {
         write_enabled: false,
         compare: CompareFunction::Less,
     };
 }
 
-/// What is added to the depth of every fragment of a triangle:
-/// `slope_scale · max(|∂z/∂x|, |∂z/∂y|) + constant · r`, confined by `clamp`. The unit r is the least difference
-/// that the depth format can tell: 2⁻ⁿ for n bits, and for floats 2^(e − 23) where e is the exponent of the
-/// triangle's greatest depth. (Vulkan 1.3, "Depth Bias Computation".) The default adds nothing.
+/// Depth bias: the value that is added to the depth of every fragment of a triangle, `slope_scale ·
+/// max(|∂z/∂x|, |∂z/∂y|) + constant · r`, limited by `clamp`. The unit r is the least difference
+/// that the depth format resolves: 2⁻ⁿ for n bits, and for floats 2^(e − 23) where e is the
+/// exponent of the triangle's greatest depth. (Vulkan 1.3, "Depth Bias Computation".) The default
+/// adds nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DepthBiasState {
-    /// How many units.
+    /// Constant bias, in units of r.
     pub constant: f32,
-    /// How many times the greatest slope.
+    /// Factor of the greatest slope.
     pub slope_scale: f32,
-    /// The greatest sum if positive, the least if negative; 0 confines nothing.
+    /// Greatest bias if positive, least bias if negative; 0 for no limit.
     pub clamp: f32,
 }
 
 impl DepthBiasState {
-    /// Whether it adds nothing.
+    /// True if the bias adds nothing.
     #[must_use]
     pub fn is_zero(&self) -> bool {
         self.constant == 0.0 && self.slope_scale == 0.0
     }
 }
 
-/// What becomes of a stencil value.
+/// Operation on a stored stencil value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum StencilOperation {
-    /// It stays.
+    /// Keeps the stored value.
     #[default]
     Keep,
-    /// It becomes 0.
+    /// Stores 0.
     Zero,
-    /// It becomes the reference.
+    /// Stores the reference.
     Replace,
-    /// Its bits are inverted.
+    /// Inverts the bits.
     Invert,
-    /// One more, at most 255.
+    /// Adds 1, up to 255.
     IncrementClamp,
-    /// One less, at least 0.
+    /// Subtracts 1, down to 0.
     DecrementClamp,
-    /// One more, 0 after 255.
+    /// Adds 1; 255 becomes 0.
     IncrementWrap,
-    /// One less, 255 after 0.
+    /// Subtracts 1; 0 becomes 255.
     DecrementWrap,
 }
 
 impl StencilOperation {
-    /// The new value before the write mask.
+    /// The result of the operation, before the write mask.
     #[must_use]
     pub const fn apply(self, stored: u8, reference: u8) -> u8 {
         match self {
@@ -137,20 +138,20 @@ impl StencilOperation {
     }
 }
 
-/// The stencil test of one face. The default always passes and keeps what is stored.
+/// The stencil test of one face. The default always passes and keeps the stored value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct StencilFaceState {
     /// `(reference & read_mask) OP (stored & read_mask)`.
     pub compare: CompareFunction,
-    /// Where the stencil test fails.
+    /// Operation if the stencil test fails.
     pub fail_op: StencilOperation,
-    /// Where it passes and the depth test fails.
+    /// Operation if the stencil test passes and the depth test fails.
     pub depth_fail_op: StencilOperation,
-    /// Where both pass.
+    /// Operation if both tests pass.
     pub pass_op: StencilOperation,
-    /// The bits that are compared.
+    /// Mask of the compared bits.
     pub read_mask: u8,
-    /// The bits that are written.
+    /// Mask of the written bits.
     pub write_mask: u8,
 }
 
@@ -167,13 +168,13 @@ impl Default for StencilFaceState {
     }
 }
 
-/// The stencil test: of triangles by the side that is seen, of lines and points as of front faces. The reference
-/// comes with the draw.
+/// The stencil test. Triangles use the test of the face that is seen; lines and points use `front`.
+/// The reference is part of the draw.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct StencilState {
-    /// Where the front is seen.
+    /// The test of front faces, lines and points.
     pub front: StencilFaceState,
-    /// Where the back is seen.
+    /// The test of back faces.
     pub back: StencilFaceState,
 }
 

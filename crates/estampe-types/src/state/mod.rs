@@ -1,5 +1,5 @@
-//! The states of a pipeline, in WebGPU's words and, beyond those, Vulkan's. Every value is plain data; every
-//! default is stated.
+//! State of a pipeline, in WebGPU's words and, beyond those, Vulkan's. Every value is plain data;
+//! every default is stated.
 
 mod blend;
 mod depth_stencil;

@@ -1,36 +1,39 @@
-//! How vertices become primitives, and what of those is drawn.
+//! Primitive state: assembly of vertices into primitives, culling and rasterization modes.
 
-/// How vertices are joined into primitives.
+/// Assembly of vertices into primitives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum PrimitiveTopology {
     /// Each vertex is a point.
     PointList,
     /// Each two vertices are a line.
     LineList,
-    /// Each vertex after the first ends a line that begins at the one before.
+    /// Each vertex after the first ends a line that begins at the previous vertex.
     LineStrip,
     /// A strip that is closed by a line from the last vertex to the first.
     LineLoop,
     /// Each three vertices are a triangle.
     #[default]
     TriangleList,
-    /// Each vertex after the second makes a triangle with the two before; every other one is turned
-    /// so that all face the same way. One of four vertices, (x₀, y₀), (x₀, y₁), (x₁, y₀), (x₁, y₁), fills a
-    /// rectangle exactly: every sample in it once.
+    /// Each vertex after the second makes a triangle with the two before; every second triangle is
+    /// turned so that all face the same way. A strip of the four vertices (x₀, y₀), (x₀, y₁), (x₁,
+    /// y₀), (x₁, y₁) fills a rectangle exactly: every sample in it is covered once.
     TriangleStrip,
-    /// Each vertex after the second makes a triangle with the one before and the first.
+    /// Each vertex after the second makes a triangle with the first and the previous vertex.
     TriangleFan,
-    /// Each four vertices are a line, the second to the third, with its neighbours' other ends around it.
+    /// Each four vertices are a line from the second to the third; the other two belong to
+    /// neighbouring lines.
     LineListAdjacency,
-    /// A line strip whose first and last vertices are neighbours only.
+    /// A line strip without its first and last vertex, which belong to neighbouring lines.
     LineStripAdjacency,
-    /// Each six vertices are a triangle (0, 2, 4); the odd ones are the vertices opposite its edges.
+    /// Each six vertices are a triangle (0, 2, 4); the odd ones are the vertices opposite its
+    /// edges.
     TriangleListAdjacency,
-    /// A triangle strip of the even vertices; the odd ones are the vertices opposite its outer edges.
+    /// A triangle strip of the even vertices; the odd ones are the vertices opposite its outer
+    /// edges.
     TriangleStripAdjacency,
 }
 
-/// Which winding, as seen in the window, is the front.
+/// Winding of front faces in the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum FrontFace {
     /// Counter-clockwise.
@@ -40,19 +43,19 @@ pub enum FrontFace {
     Cw,
 }
 
-/// Which triangles are dropped.
+/// Faces that are culled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum CullMode {
     /// None.
     #[default]
     None,
-    /// Those that face the viewer.
+    /// Front faces.
     Front,
-    /// Those that face away.
+    /// Back faces.
     Back,
 }
 
-/// How triangles are drawn.
+/// Rasterization of triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum PolygonMode {
     /// Filled.
@@ -64,8 +67,8 @@ pub enum PolygonMode {
     Point,
 }
 
-/// Which vertex of a primitive gives the values that are not interpolated. (Vulkan's
-/// `VK_EXT_provoking_vertex`, OpenGL's `glProvokingVertex`.)
+/// Vertex whose values flat varyings take. (Vulkan's `VK_EXT_provoking_vertex`, OpenGL's
+/// `glProvokingVertex`.)
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum ProvokingVertex {
     /// The first, as in Vulkan and WebGPU.
@@ -75,49 +78,50 @@ pub enum ProvokingVertex {
     Last,
 }
 
-/// What of a pixel a primitive must touch to cover it. (Vulkan's `VK_EXT_conservative_rasterization`.)
+/// Conservative rasterization. (Vulkan's `VK_EXT_conservative_rasterization`.)
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum ConservativeMode {
-    /// Its samples, as ever.
+    /// Ordinary coverage: the samples that lie inside the primitive.
     #[default]
     Disabled,
-    /// Any part of its area: no pixel that is touched is left out.
+    /// Every pixel that the primitive's area touches.
     Overestimate,
-    /// All of its area: no pixel is drawn that is not inside.
+    /// Only pixels that lie completely inside the primitive.
     Underestimate,
 }
 
-/// How a line becomes pixels. (Vulkan's `VK_EXT_line_rasterization`.)
+/// Rasterization of lines. (Vulkan's `VK_EXT_line_rasterization`.)
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum LineRasterization {
-    /// By the diamond-exit rule; wide ones are copies beside each other along the minor axis.
+    /// The diamond-exit rule. Wide lines are copies beside each other along the minor axis.
     #[default]
     Bresenham,
     /// The rectangle around the line.
     Rectangular,
-    /// The same, alpha multiplied by how much of each pixel is covered, in sixteenths: anti-aliased, if blended.
+    /// The rectangle around the line, with alpha multiplied by the covered part of each pixel, in
+    /// sixteenths. With blending, the line is anti-aliased.
     RectangularSmooth,
 }
 
-/// A pattern that leaves out parts of a line.
+/// A pattern that omits parts of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct LineStipple {
-    /// How many fragments each bit of the pattern stands for, 1..=256.
+    /// Number of fragments per bit of the pattern, 1..=256.
     pub factor: u16,
-    /// The lowest bit is the first; where a bit is 0 nothing is drawn.
+    /// The pattern, from the lowest bit on; fragments of zero bits are discarded.
     pub pattern: u16,
 }
 
-/// How lines are drawn. The default is one pixel wide, by the diamond-exit rule, not stippled.
+/// Line state. The default is one pixel wide, by the diamond-exit rule, not stippled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineState {
-    /// Width in pixels, above 0 and at most 64. Bresenham lines are as many pixels wide as this is when rounded,
-    /// half to even, but at least one.
+    /// Width in pixels, above 0 and at most 64. For Bresenham lines it is rounded, half to even,
+    /// and is at least one pixel.
     pub width: f32,
-    /// How they become pixels.
+    /// Rasterization mode.
     pub rasterization: LineRasterization,
-    /// What is left out, if anything. The pattern goes on along the lines of a strip or loop, and along the edges of a
-    /// triangle.
+    /// Stipple pattern, if any. It continues along the lines of a strip or loop, and along the
+    /// edges of a triangle.
     pub stipple: Option<LineStipple>,
 }
 
@@ -131,30 +135,32 @@ impl Default for LineState {
     }
 }
 
-/// How primitives are put together and drawn. The default is a triangle list, counter-clockwise front, nothing
-/// culled, filled.
+/// Assembly and rasterization of primitives. The default is a triangle list, counter-clockwise
+/// front faces, no culling, filled.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PrimitiveState {
-    /// How vertices are joined.
+    /// Assembly of vertices into primitives.
     pub topology: PrimitiveTopology,
-    /// Whether the greatest index of the index buffer's format ends a strip, loop, fan or list and begins another.
+    /// If set, the greatest index of the index buffer's format ends a strip, loop, fan or list and
+    /// begins another.
     pub primitive_restart: bool,
-    /// Which vertex gives the values that are not interpolated.
+    /// Vertex whose values flat varyings take.
     pub provoking_vertex: ProvokingVertex,
-    /// Which winding is the front.
+    /// Winding of front faces.
     pub front_face: FrontFace,
-    /// Which faces are dropped.
+    /// Faces that are culled.
     pub cull_mode: CullMode,
-    /// Filled, edges or vertices.
+    /// Filled triangles, edges or vertices.
     pub polygon_mode: PolygonMode,
-    /// Whether nothing is clipped at the depth range's ends; depth is clamped to the viewport's in any case. What
-    /// has w below 2⁻²⁰, such as all that lies behind the eye, is clipped. (WebGPU's `unclippedDepth`, Vulkan's
-    /// `depthClampEnable`.)
+    /// If set, primitives are not clipped at the ends of the depth range. Depth is clamped to the
+    /// viewport's range in any case. Vertices with w below 2⁻²⁰, among them all behind the eye, are
+    /// clipped. (WebGPU's `unclippedDepth`, Vulkan's `depthClampEnable`.)
     pub unclipped_depth: bool,
-    /// What of a pixel a triangle must touch to cover it.
+    /// Conservative rasterization of triangles.
     pub conservative: ConservativeMode,
-    /// How lines are drawn.
+    /// Line state.
     pub line: LineState,
-    /// Whether points are round: only samples within half their size of the centre are covered. Squares otherwise.
+    /// If set, points are discs: a sample is covered within half the point size of the centre.
+    /// Otherwise points are squares.
     pub round_points: bool,
 }

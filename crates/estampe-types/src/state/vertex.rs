@@ -1,40 +1,42 @@
-//! How vertex buffers lie.
+//! Layout of vertex buffers.
 
 use crate::format::VertexFormat;
 
-/// Whether a vertex buffer advances by vertex or by instance.
+/// Index by which a vertex buffer advances.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum VertexStepMode {
-    /// By vertex index.
+    /// The vertex index.
     #[default]
     Vertex,
-    /// By instance index.
+    /// The instance index.
     Instance,
 }
 
 /// One attribute of a vertex buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct VertexAttribute {
-    /// How it is stored.
+    /// Format in the buffer.
     pub format: VertexFormat,
     /// Bytes from the start of an element.
     pub offset: u32,
-    /// Which of the shader's attributes it feeds.
+    /// Location of the shader's attribute.
     pub shader_location: u32,
 }
 
-/// How the elements of a vertex buffer lie.
+/// Layout of the elements of a vertex buffer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct VertexBufferLayout {
-    /// Bytes from one element to the next, any number; 0 gives every vertex the same element. Default 0.
+    /// Stride: bytes from one element to the next, not necessarily aligned. With 0, every vertex
+    /// reads the same element. Default 0.
     pub array_stride: u32,
-    /// By vertex or by instance. Default by vertex.
+    /// Index by which the buffer advances. Default the vertex index.
     pub step_mode: VertexStepMode,
-    /// How many instances share an element, where it is by instance: instance i of a draw whose first one is f
-    /// reads element f + (i − f) / rate, rounded down; 0: all read element f. Default 1. (Vulkan's
+    /// Number of consecutive instances that share an element, for [`VertexStepMode::Instance`]:
+    /// instance i of a draw whose first instance is f reads element f + (i − f) / rate, rounded
+    /// down. With 0 all instances read element f. Default 1. (Vulkan's
     /// `VK_EXT_vertex_attribute_divisor`.)
     pub instance_step_rate: u32,
-    /// What an element holds.
+    /// Attributes of an element.
     pub attributes: Vec<VertexAttribute>,
 }
 
@@ -50,7 +52,7 @@ impl Default for VertexBufferLayout {
 }
 
 impl VertexBufferLayout {
-    /// Attributes one after the other without gaps, feeding locations 0, 1, … by vertex.
+    /// Attributes stored one after the other without gaps, for locations 0, 1, …, by vertex index.
     #[must_use]
     pub fn packed(formats: &[VertexFormat]) -> Self {
         let mut layout = Self::default();

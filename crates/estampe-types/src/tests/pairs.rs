@@ -1,4 +1,4 @@
-//! Pairs of packets: lanes, masks and tables, and shaders that run two packets at a time.
+//! Packet pairs: lanes, masks and tables, and shaders that run two packets at a time.
 
 use crate::shader::{DepthOutput, FragmentBatch, VertexOut};
 use crate::{
@@ -48,9 +48,9 @@ fn tables_are_read_by_both() {
     assert_eq!(index.gather(&table).lane(6), 49);
 }
 
-/// A shader that uses all inputs and gives all outputs, one packet or two at a time.
+/// A shader that uses all inputs and writes all outputs, one packet or two at a time.
 macro_rules! steps_towards_one {
-    ($name:ident, $long_chains:literal) => {
+    ($name:ident, $pair_packets:literal) => {
         struct $name;
         shader! {
             impl Shader for $name {
@@ -60,7 +60,7 @@ macro_rules! steps_towards_one {
                 const DISCARDS: bool = true;
                 const DEPTH_OUTPUT: DepthOutput = DepthOutput::Any;
                 const READS_POSITION: bool = true;
-                const LONG_CHAINS: bool = $long_chains;
+                const PAIR_PACKETS: bool = $pair_packets;
 
                 fn vertex<R: Real>(&self, input: VertexIn<'_, R>, at: Vec2<R>) -> VertexOut<R, Vec2<R>> {
                     VertexOut::new(Vec4::new(at.x, at.y, input.real(0.0), input.real(1.0)), at)
@@ -79,7 +79,7 @@ macro_rules! steps_towards_one {
                     FragmentOut::color(Vec4::new(x, at.x, at.y, second))
                         .with_color(1, input.position)
                         .with_depth(x * 0.25)
-                        .keep_where(second.gt(x - 0.7))
+                        .discard_unless(second.gt(x - 0.7))
                 }
             }
         }
@@ -88,7 +88,7 @@ macro_rules! steps_towards_one {
 steps_towards_one!(OneByOne, false);
 steps_towards_one!(ByPairs, true);
 
-/// What a program makes of some packets.
+/// The coverage and the output bits of a program for some packets.
 fn shade(program: &dyn Program, level: Level, count: usize) -> (Vec<u16>, Vec<u32>) {
     let numbers = |scalars: usize| -> Vec<Packet<f32>> {
         let number = |n: usize| (n * 7919 % 1009) as f32 / 1024.0 + 0.015_625;
@@ -127,7 +127,7 @@ fn shade(program: &dyn Program, level: Level, count: usize) -> (Vec<u16>, Vec<u3
 fn two_packets_at_a_time_give_the_bits_of_one() {
     let (one, two) = (ShaderProgram::new(OneByOne), ShaderProgram::new(ByPairs));
     for count in [0, 1, 2, 5] {
-        let expected = shade(&one, Level::scalar(), count);
+        let expected = shade(&one, Level::all_available()[0], count);
         for level in Level::all_available() {
             assert_eq!(
                 shade(&one, level, count),

@@ -1,18 +1,18 @@
-//! How a texture is sampled.
+//! Sampler state: addressing, filtering and level of detail.
 
 use crate::state::CompareFunction;
 
-/// How a coordinate outside 0..1 finds a texel.
+/// Addressing of texels for coordinates outside 0..1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum AddressMode {
-    /// The texel at the border.
+    /// The texel at the edge.
     #[default]
     ClampToEdge,
     /// The texture is tiled.
     Repeat,
     /// The texture is tiled, every other tile mirrored.
     MirrorRepeat,
-    /// The texture and its mirror image left of 0; beyond, the texel at the border. (Vulkan's
+    /// The texture and its mirror image left of 0; beyond these, the texel at the edge. (Vulkan's
     /// `MIRROR_CLAMP_TO_EDGE`.)
     MirrorOnce,
     /// The sampler's border colour.
@@ -20,16 +20,16 @@ pub enum AddressMode {
 }
 
 impl AddressMode {
-    /// Whether [`AddressMode::Repeat`], [`AddressMode::MirrorRepeat`] or [`AddressMode::ClampToEdge`], those of
-    /// WebGPU.
+    /// True for the modes of WebGPU: [`AddressMode::Repeat`], [`AddressMode::MirrorRepeat`] and
+    /// [`AddressMode::ClampToEdge`].
     #[must_use]
     pub const fn is_plain(self) -> bool {
         matches!(self, Self::ClampToEdge | Self::Repeat | Self::MirrorRepeat)
     }
 }
 
-/// What lies around a texture whose coordinates are clamped to the border. Channels that the format lacks read
-/// there too as 0, alpha as 1.
+/// Colour around a texture whose coordinates are clamped to the border. Channels that the format
+/// does not store read as 0 there too, alpha as 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum BorderColor {
     /// 0, 0, 0, 0.
@@ -41,7 +41,7 @@ pub enum BorderColor {
     OpaqueWhite,
 }
 
-/// How texels or mip levels are combined.
+/// Combination of texels or mip levels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum FilterMode {
     /// The nearest one.
@@ -51,32 +51,34 @@ pub enum FilterMode {
     Linear,
 }
 
-/// How a texture is sampled. The default is nearest and clamped, as in WebGPU.
+/// Sampler state. The default is nearest filtering, clamped to the edge, as in WebGPU.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SamplerDescriptor {
-    /// For u.
+    /// Addressing of u.
     pub address_mode_u: AddressMode,
-    /// For v.
+    /// Addressing of v.
     pub address_mode_v: AddressMode,
-    /// For the third coordinate of a 3D texture.
+    /// Addressing of the third coordinate of a 3D texture.
     pub address_mode_w: AddressMode,
-    /// When the level of detail is ≤ 0: a texel covers a pixel or more.
+    /// Filter if the level of detail is ≤ 0: a texel covers a pixel or more.
     pub mag_filter: FilterMode,
-    /// When the level of detail is > 0.
+    /// Filter if the level of detail is > 0.
     pub min_filter: FilterMode,
-    /// Between mip levels.
+    /// Combination of mip levels.
     pub mipmap_filter: FilterMode,
     /// The least level of detail. Default 0.
     pub lod_min_clamp: f32,
     /// The greatest level of detail. Default 32.
     pub lod_max_clamp: f32,
-    /// What is added to every level of detail before it is clamped (Vulkan's `mipLodBias`). Default 0.
+    /// Bias that is added to the level of detail before it is clamped (Vulkan's `mipLodBias`).
+    /// Default 0.
     pub lod_bias: f32,
-    /// How many times as long as wide a pixel's image in the texture is filtered: 1 to 16. Default 1.
+    /// Greatest anisotropy: the ratio of length to width up to which a pixel's footprint in the
+    /// texture is filtered, 1 to 16. Default 1.
     pub max_anisotropy: u16,
-    /// What [`AddressMode::ClampToBorder`] reads.
+    /// Colour for [`AddressMode::ClampToBorder`].
     pub border_color: BorderColor,
-    /// How a comparison sampler compares: `reference OP texel`. Default none.
+    /// Comparison of a comparison sampler: `reference OP texel`. Default none.
     pub compare: Option<CompareFunction>,
 }
 
@@ -100,7 +102,7 @@ impl Default for SamplerDescriptor {
 }
 
 impl SamplerDescriptor {
-    /// Linear in every direction and between levels, tiled.
+    /// Linear filtering within and between mip levels, repeated.
     #[must_use]
     pub fn trilinear_repeat() -> Self {
         Self {

@@ -1,33 +1,34 @@
-//! What a texture is beside its width and height, and how its texels lie in memory.
+//! Shape of a texture beside its width and height, and the layout of its texels in memory.
 
 use super::Texture;
 use crate::format::{TexelEncoding, TextureFormat};
 
-/// Along how many axes a texture is filtered.
+/// Number of axes along which a texture is filtered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum TextureDimension {
-    /// A row of texels.
+    /// One axis: a row of texels.
     D1,
-    /// An image, or several of one size: arrays, cubes, arrays of cubes.
+    /// Two axes: an image, or several of one size (arrays, cubes, arrays of cubes).
     #[default]
     D2,
-    /// A block of texels.
+    /// Three axes: a volume of texels.
     D3,
 }
 
-/// What a texture is beside its width and height.
+/// Shape of a texture beside its width and height.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct TextureShape {
-    /// Along how many axes it is filtered.
+    /// Number of axes along which the texture is filtered.
     pub dimension: TextureDimension,
-    /// The depth of a 3D texture's full size, halved from level to level; else how many layers each level has.
+    /// Depth of the full size of a 3D texture, which is halved from level to level. Otherwise the
+    /// number of layers.
     pub depth_or_layers: u32,
-    /// Samples of each texel: 1 unless it is multisampled.
+    /// Samples per texel: 1 unless the texture is multisampled.
     pub samples: u32,
 }
 
 impl Default for TextureShape {
-    /// One image with one sample a texel.
+    /// One 2D image with one sample per texel.
     fn default() -> Self {
         Self {
             dimension: TextureDimension::D2,
@@ -38,7 +39,7 @@ impl Default for TextureShape {
 }
 
 impl TextureShape {
-    /// How many slices a level has: its depth, or the layers.
+    /// Number of slices of a level: its depth, or the layers.
     #[must_use]
     pub fn slices(&self, level: usize) -> u32 {
         match self.dimension {
@@ -49,23 +50,24 @@ impl TextureShape {
 }
 
 impl Texture {
-    /// As what the texels lie in memory: blocks are decoded when a texture is made, and B is moved behind G.
+    /// Format in which the texels are stored in memory: compressed blocks are decoded when a
+    /// texture is created, and BGRA becomes RGBA.
     #[must_use]
     pub const fn stored_format(&self) -> TextureFormat {
         stored_format(self.format)
     }
 
-    /// Words of each sample of a texel: smaller formats fill the lower bits of one.
+    /// Words per sample of a texel; smaller formats fill the lower bits of one word.
     #[must_use]
     pub const fn words_per_texel(&self) -> usize {
         self.stored_format().block_bytes().div_ceil(4) as usize
     }
 }
 
-/// As what texels of a format lie in memory.
+/// Format in which texels of a format are stored in memory.
 ///
-/// What blocks of 8-bit colours decode to are such colours; those of one or two channels have more than 8 bits and
-/// become floats, those of half floats stay so.
+/// Compressed blocks of 8-bit colours are decoded to 8-bit colours. Blocks of one or two channels
+/// have more than 8 bits of precision and become floats. Blocks of half floats become half floats.
 pub(super) const fn stored_format(format: TextureFormat) -> TextureFormat {
     use TextureFormat as F;
     match format {

@@ -5,11 +5,12 @@ use crate::format::TextureFormat;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// A texture of one level that shaders load from and store to, texel by texel, all threads at once. Clones are the
-/// same texture. How shaders do it is `estampe-texture`'s.
+/// A texture of one level that shaders load from and store to, texel by texel, on all threads at
+/// once. Clones share the texels. The functions for shaders are in `estampe-texture`.
 ///
-/// Each texel is [`StorageTexture::words_per_texel`] words, which are stored one by one: where several fragments store
-/// to one texel, each word is one of theirs, and which is not specified, as in the specifications.
+/// Each texel is [`StorageTexture::words_per_texel`] words, which are stored one by one. If several
+/// fragments store to one texel, each word has the value of one of them; as in the specifications,
+/// it is undefined of which.
 #[derive(Clone)]
 pub struct StorageTexture {
     format: TextureFormat,
@@ -20,7 +21,7 @@ pub struct StorageTexture {
 }
 
 impl StorageTexture {
-    /// A texture of zeros, or `None` when memory is short.
+    /// A texture of zeros, or `None` if there is not enough memory.
     #[must_use]
     pub fn zeros(
         format: TextureFormat,
@@ -49,13 +50,13 @@ impl StorageTexture {
         Some(made)
     }
 
-    /// What the texels are.
+    /// Format of the texels.
     #[must_use]
     pub fn format(&self) -> TextureFormat {
         self.format
     }
 
-    /// What there is beside width and height.
+    /// Dimension, depth or layers, and samples.
     #[must_use]
     pub fn shape(&self) -> TextureShape {
         self.shape
@@ -73,7 +74,7 @@ impl StorageTexture {
         self.height
     }
 
-    /// Words of each texel, as of [`Texture`](super::Texture)s.
+    /// Words per texel, as in a [`Texture`](super::Texture).
     #[must_use]
     pub const fn words_per_texel(&self) -> usize {
         super::shape::stored_format(self.format)
@@ -81,12 +82,13 @@ impl StorageTexture {
             .div_ceil(4) as usize
     }
 
-    /// Where the words of texel (x, y) of a slice (a layer, or a depth) begin; `None` where there is none.
+    /// Index of the first word of texel (x, y) of a slice (a layer, or a depth); `None` outside the
+    /// texture.
     #[inline]
     #[must_use]
     pub fn index(&self, [x, y, slice]: [i32; 3]) -> Option<usize> {
         let [x, y, slice] = [x, y, slice].map(i32::cast_unsigned);
-        // Negative coordinates are beyond every side.
+        // A negative coordinate is beyond every side.
         if x >= self.width || y >= self.height || slice >= self.shape.depth_or_layers {
             return None;
         }
@@ -94,7 +96,7 @@ impl StorageTexture {
         Some((row * self.width as usize + x as usize) * self.words_per_texel())
     }
 
-    /// A word; 0 beyond the end.
+    /// Loads a word; 0 beyond the end.
     #[inline]
     #[must_use]
     pub fn load(&self, index: usize) -> u32 {
@@ -103,7 +105,7 @@ impl StorageTexture {
             .map_or(0, |word| word.load(Ordering::Relaxed))
     }
 
-    /// Stores a word; beyond the end nothing.
+    /// Stores a word; does nothing beyond the end.
     #[inline]
     pub fn store(&self, index: usize, word: u32) {
         if let Some(to) = self.words.get(index) {
@@ -111,13 +113,13 @@ impl StorageTexture {
         }
     }
 
-    /// How many words there are.
+    /// Number of words.
     #[must_use]
     pub fn len(&self) -> usize {
         self.words.len()
     }
 
-    /// Whether there are none.
+    /// True if there are no words.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.words.is_empty()

@@ -1,43 +1,45 @@
-//! As what, and how much of it, a texture is read.
+//! Texture views: how a texture's dimension, mip levels and layers are reinterpreted.
 
-/// As what a texture is read: WebGPU's `GPUTextureViewDimension`.
+/// Dimension of a view: WebGPU's `GPUTextureViewDimension`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum ViewDimension {
     /// A row of texels.
     D1,
-    /// One image; multisampled, if the texture is.
+    /// One image; multisampled if the texture is.
     D2,
-    /// Layers, each an image.
+    /// Layers, each of which is an image.
     D2Array,
     /// Six layers as the faces +X, −X, +Y, −Y, +Z, −Z of a cube around the origin.
     Cube,
     /// Cubes, six layers each.
     CubeArray,
-    /// A block of texels.
+    /// A volume of texels.
     D3,
 }
 
-/// Which part of a texture is seen. The default is all of it: an array if there are several layers.
+/// The part of a texture that a view shows. The default is the whole texture, as an array if it has
+/// several layers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TextureViewDescriptor {
-    /// As what it is read.
+    /// Dimension of the view. `None` is the texture's dimension; a 2D texture with several layers
+    /// becomes [`ViewDimension::D2Array`].
     pub dimension: Option<ViewDimension>,
-    /// The first level, which becomes level 0.
+    /// First level of the texture; it is level 0 of the view.
     pub base_mip_level: u32,
-    /// How many levels there are; `None`: the rest.
+    /// Number of levels; `None` for all remaining ones.
     pub mip_level_count: Option<u32>,
-    /// The first layer, which becomes layer 0.
+    /// First layer of the texture; it is layer 0 of the view.
     pub base_array_layer: u32,
-    /// How many layers there are, six for each cube; `None`: the rest, of D2 one, of Cube six.
+    /// Number of layers, six per cube. `None` for all remaining ones; for `D2` one, for `Cube` six.
     pub array_layer_count: Option<u32>,
-    /// Whether stencil is read where there is depth too.
+    /// Aspect of a depth-stencil format that is read.
     pub aspect: TextureAspect,
 }
 
-/// The half of a depth-stencil format that is read.
+/// Aspect of a depth-stencil format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum TextureAspect {
-    /// Colours, or depth where there is depth, else stencil.
+    /// Colour, or depth if the format has it, else stencil.
     #[default]
     All,
     /// Stencil values.

@@ -3,10 +3,10 @@
 use super::*;
 use crate::image::samples::{Random, disc, noise};
 
-/// A JPEG of one 8×8 block per component, each of one value, put together by hand.
+/// A JPEG of one 8×8 block per component, each of one value, assembled by hand.
 ///
-/// All quantisers are 8, so that the mean (DC) term is the value itself less 128; every other term is
-/// left out by an end-of-block code.
+/// All quantisers are 8, so that the mean (DC) term is the value itself less 128; every other term
+/// is omitted by an end-of-block code.
 fn flat_jpeg(values: &[u8], adobe_transform: Option<u8>) -> Vec<u8> {
     let count = values.len() as u8;
     let mut out = vec![0xff, 0xd8];
@@ -23,7 +23,8 @@ fn flat_jpeg(values: &[u8], adobe_transform: Option<u8>) -> Vec<u8> {
         .chain(components)
         .collect();
     push_segment(&mut out, 0xc0, &frame);
-    // Means: categories 0 to 11 in codes of 4 bits. Others: one code, the bit 0, for "end of block".
+    // Means: categories 0 to 11 in codes of 4 bits. Others: one code, the bit 0, for "end of
+    // block".
     let mut means = vec![0x00, 0, 0, 0, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
     means.extend(0..12);
     push_segment(&mut out, 0xc4, &means);
@@ -154,7 +155,7 @@ fn prefixes_and_random_damage_never_panic() {
         }
         assert!(decode(&file[..file.len() / 4], &limits).is_err());
     }
-    let mut random = Random(99);
+    let mut random = Random::new(99);
     for round in 0..6000 {
         let bytes = random.mutated(&files[round % files.len()]);
         if let Ok(image) = decode(&bytes, &limits) {

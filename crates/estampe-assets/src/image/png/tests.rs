@@ -1,4 +1,4 @@
-//! PNG of every colour type against files put together here, our writer, and damage.
+//! PNG of every colour type, read from files assembled by hand; our writer; and damaged files.
 
 use super::*;
 use crate::image::samples::{Random, disc, noise, opaque};
@@ -6,7 +6,7 @@ use crate::image::samples::{Random, disc, noise, opaque};
 /// Bits of the samples of one texel, most significant first.
 type Texel = Vec<u32>;
 
-/// A PNG file of the texels `at(x, y)`, stored without compression or filters, put together by hand.
+/// A PNG file of the texels `at(x, y)`, stored without compression or filters, assembled by hand.
 struct Fixture {
     color: u8,
     depth: u8,
@@ -218,7 +218,7 @@ fn one_colour_can_be_transparent() {
 
 #[test]
 fn what_is_written_reads_back() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     for width in (1..20).chain([127, 256, 300]) {
         let image = noise(width, 1 + random.below(7) as u32, random.next());
         for (alpha, kept) in [
@@ -260,7 +260,7 @@ fn the_same_picture_is_the_same_bytes_and_small() {
 #[test]
 fn every_prefix_is_refused_inside_the_file() {
     let bytes = encode_png(&noise(6, 6, 4), AlphaChannel::Always).expect("a valid image");
-    // Nothing but the end marker (12 bytes) and the check sum before it may be missing.
+    // Only the end marker (12 bytes) and the checksum before it may be missing.
     for len in 0..bytes.len() - 20 {
         let error = decode(&bytes[..len], &Limits::default()).expect_err("cut short");
         assert!(matches!(error, AssetError::Malformed(_)), "{len}: {error}");
@@ -298,7 +298,7 @@ fn random_damage_never_panics() {
         max_image_pixels: 1 << 16,
         ..Limits::default()
     };
-    let mut random = Random(77);
+    let mut random = Random::new(77);
     let mut grey = Fixture::new(0, 16, (9, 9));
     grey.interlaced = true;
     grey.transparency = vec![0, 2];
@@ -323,7 +323,7 @@ fn random_damage_never_panics() {
     }
 }
 
-/// Makes each chunk's check sum right, so that damage gets past it.
+/// Corrects each chunk's checksum, so that readers do not stop at it.
 fn mend_checksums(bytes: &mut [u8]) {
     let mut at = SIGNATURE.len();
     while let Some(head) = bytes.get(at..at + 8) {

@@ -1,4 +1,4 @@
-//! A TGA file to a picture.
+//! The TGA reader.
 
 use estampe_scene::Image;
 
@@ -10,10 +10,10 @@ use crate::image::fault::{allocate_texels, check_size, malformed};
 use crate::image::transform::{flip_horizontal, flip_vertical};
 use crate::{AssetError, Limits};
 
-/// Reads a TGA file of any kind that the module head names; the footer is optional.
+/// Reads a TGA file of any kind that the module documentation lists; the footer is optional.
 ///
 /// # Errors
-/// `Malformed` with a byte offset when the file is cut short, contradicts itself or uses a colour
+/// `Malformed` with a byte offset if the file is truncated, contradicts itself or uses a colour
 /// that its map lacks; `Unsupported` for types that no program writes; `LimitExceeded` before any
 /// texel is stored.
 pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
@@ -22,7 +22,7 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
     check_size(width, height, limits)?;
     let attributes = footer::attributes_type(bytes);
 
-    // Read the colour map, which other kinds of image may carry without using it.
+    // Read the colour map. Other kinds of image may contain one without using it.
     let map_start = HEADER_LEN + usize::from(header.id_len);
     let map_len = header.color_map.map_or(0, |map| {
         usize::from(map.len) * usize::from(map.entry_bits).div_ceil(8)
@@ -72,13 +72,13 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
     ))
 }
 
-/// Whether a file that no signature marks is worth decoding as TGA: it ends in the footer of TGA 2,
-/// or its header is one that this module reads.
+/// True if a file without a known signature is likely TGA: it ends in the footer of TGA 2, or its
+/// header is one that this module reads.
 pub(in crate::image) fn looks_like_tga(bytes: &[u8]) -> bool {
     footer::find(bytes).is_some() || Header::parse(bytes).is_ok()
 }
 
-/// Stores `color` as often as it stands.
+/// Stores `color` `times` times.
 #[inline]
 fn push(rgba: &mut Vec<u8>, color: [u8; 4], times: usize) {
     for _ in 0..times {
@@ -88,14 +88,14 @@ fn push(rgba: &mut Vec<u8>, color: [u8; 4], times: usize) {
 
 /// The colours of a mapped image.
 struct Palette {
-    /// The index that the first colour answers to.
+    /// The index of the first colour.
     first: usize,
     /// The colours, in index order.
     colors: Vec<[u8; 4]>,
 }
 
 impl Palette {
-    /// Reads the entries that `bytes` are made of.
+    /// Reads the entries from `bytes`.
     fn read(header: &Header, bytes: &[u8], attributes: Option<footer::AttributesType>) -> Self {
         let map = header
             .color_map
@@ -114,7 +114,7 @@ impl Palette {
         }
     }
 
-    /// The colour that the index `texel`, stored at byte `at`, refers to.
+    /// The colour of the index `texel`, which is stored at byte `at`.
     fn color(&self, at: usize, texel: &[u8]) -> Result<[u8; 4], AssetError> {
         let index = texel
             .iter()
@@ -136,7 +136,7 @@ impl Palette {
     }
 }
 
-/// The picture with its first row at the top and its first column at the left.
+/// The image with its first row at the top and its first column at the left.
 fn upright(image: Image, header: &Header) -> Image {
     let mut image = deinterleaved(image, usize::from(header.row_step));
     if header.right_to_left {

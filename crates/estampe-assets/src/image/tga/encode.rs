@@ -1,4 +1,4 @@
-//! A picture to a TGA file: true colour, top-left origin, run-length encoded unless asked.
+//! The TGA writer: true colour, top-left origin, run-length encoded by default.
 
 use estampe_scene::Image;
 
@@ -9,12 +9,12 @@ use crate::AssetError;
 use crate::image::AlphaChannel;
 use crate::image::fault::{check_texels, too_large};
 
-/// How a TGA file is written.
+/// Options of the TGA writer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TgaOptions {
-    /// Whether texels are run-length encoded. Default: true.
+    /// If set, texels are run-length encoded. Default: true.
     pub rle: bool,
-    /// Whether the file has 32 bits a texel instead of 24. Default: when a texel is not opaque.
+    /// Rule for 32 instead of 24 bits per texel. Default: if a texel is not opaque.
     pub alpha: AlphaChannel,
 }
 
@@ -30,7 +30,7 @@ impl Default for TgaOptions {
 /// Writes a TGA 2 file.
 ///
 /// # Errors
-/// `LimitExceeded` for sides over 65535, `Malformed` when the image's bytes are not its size's.
+/// `LimitExceeded` for sides over 65535, `Malformed` if the image's bytes do not fit its size.
 pub fn encode(image: &Image, options: TgaOptions) -> Result<Vec<u8>, AssetError> {
     check_texels(image)?;
     let (Ok(width), Ok(height)) = (u16::try_from(image.width), u16::try_from(image.height)) else {
@@ -65,10 +65,10 @@ pub fn encode(image: &Image, options: TgaOptions) -> Result<Vec<u8>, AssetError>
     Ok(out)
 }
 
-/// Appends a row in packets, which end with it as TGA 2 asks.
+/// Appends a row in packets that end with the row, as TGA 2 requires.
 ///
-/// Two equal texels already make a run: at 3 or 4 bytes a texel it is never longer than the same
-/// texels in a raw packet, even if that has to be reopened after.
+/// Two equal texels already make a run: at 3 or 4 bytes per texel it is never longer than the same
+/// texels in a raw packet, even if another raw packet must follow.
 fn push_packets(out: &mut Vec<u8>, row: &[[u8; 4]], texel_len: usize) {
     let mut rest = row;
     while let Some(first) = rest.first() {
@@ -98,7 +98,7 @@ fn push_packets(out: &mut Vec<u8>, row: &[[u8; 4]], texel_len: usize) {
     }
 }
 
-/// The low seven bits of a packet's head.
+/// The low seven bits of a packet's first byte.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "a packet stands for 1 to 128 texels"
@@ -111,7 +111,7 @@ fn count_bits(texels: usize) -> u8 {
     (texels - 1) as u8
 }
 
-/// Whether two texels are stored alike: alpha counts only where it is written.
+/// True if two texels are stored alike: alpha counts only if it is written.
 fn same(a: &[u8; 4], b: &[u8; 4], texel_len: usize) -> bool {
     a[..texel_len] == b[..texel_len]
 }

@@ -1,4 +1,4 @@
-//! The footer and extension area of TGA 2, as far as they say what alpha means.
+//! The footer and extension area of TGA 2, for the meaning of alpha.
 
 use super::header::HEADER_LEN;
 
@@ -11,14 +11,14 @@ const FOOTER_LEN: usize = 26;
 /// Offset of the attributes type in the extension area, whose length is at least one more.
 const ATTRIBUTES_TYPE_AT: usize = 494;
 
-/// What the extension area says about alpha (field 24).
+/// Meaning of alpha by the extension area (field 24).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum AttributesType {
-    /// 0, 1, 2: none, or data to be ignored or merely kept.
+    /// 0, 1, 2: no alpha, or data to ignore or to keep.
     Meaningless,
     /// 3: alpha.
     Alpha,
-    /// 4: alpha, by which the colours are multiplied already.
+    /// 4: alpha; the colours are premultiplied by it.
     PremultipliedAlpha,
 }
 
@@ -36,10 +36,10 @@ pub(super) fn find(bytes: &[u8]) -> Option<&[u8; FOOTER_LEN]> {
         .filter(|footer| footer.ends_with(SIGNATURE))
 }
 
-/// The attributes type, where a footer points at an extension area that lies inside the file.
+/// The attributes type, if a footer points to an extension area that lies inside the file.
 ///
-/// The area is optional, so a wrong offset is passed over rather than refused: the picture does not
-/// depend on it.
+/// The area is optional, so a wrong offset is ignored and no error: the colours do not depend on
+/// it.
 pub(super) fn attributes_type(bytes: &[u8]) -> Option<AttributesType> {
     let footer = find(bytes)?;
     let offset = u32::from_le_bytes([footer[0], footer[1], footer[2], footer[3]]) as usize;

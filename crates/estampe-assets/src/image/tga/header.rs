@@ -1,4 +1,4 @@
-//! The 18 bytes at the head of a TGA file, checked.
+//! The checked 18-byte header of a TGA file.
 
 use crate::AssetError;
 use crate::image::fault::{malformed, unsupported};
@@ -6,21 +6,21 @@ use crate::image::fault::{malformed, unsupported};
 /// Length of the header in bytes.
 pub(super) const HEADER_LEN: usize = 18;
 
-/// What a texel of the file holds.
+/// Contents of a stored texel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum TexelKind {
     /// An index into the colour map.
     Mapped,
-    /// Blue, green, red and perhaps alpha.
+    /// Blue, green, red and optionally alpha.
     TrueColor,
-    /// Brightness and perhaps alpha.
+    /// Brightness and optionally alpha.
     Grey,
 }
 
-/// Where the colour map lies in index space, and how wide its entries are.
+/// Index range and entry width of the colour map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct ColorMap {
-    /// The index that the first stored entry answers to.
+    /// The index of the first stored entry.
     pub(super) first: u16,
     /// The number of stored entries.
     pub(super) len: u16,
@@ -35,9 +35,9 @@ pub(super) struct Header {
     pub(super) id_len: u8,
     /// The colour map, which true-colour and grey files may carry too.
     pub(super) color_map: Option<ColorMap>,
-    /// What a texel holds.
+    /// Contents of a texel.
     pub(super) kind: TexelKind,
-    /// Whether the texels are run-length encoded.
+    /// True if the texels are run-length encoded.
     pub(super) is_rle: bool,
     /// Width in texels, at least 1.
     pub(super) width: u16,
@@ -45,13 +45,13 @@ pub(super) struct Header {
     pub(super) height: u16,
     /// Bits of a stored texel.
     pub(super) depth_bits: u8,
-    /// How many of those the file calls attribute (alpha) bits.
+    /// Number of attribute (alpha) bits per texel, by the file.
     pub(super) alpha_bits: u8,
-    /// Whether the first texel of a row is its rightmost.
+    /// True if the first texel of a row is its rightmost.
     pub(super) right_to_left: bool,
-    /// Whether the first row is the topmost.
+    /// True if the first row is the topmost.
     pub(super) top_to_bottom: bool,
-    /// 1, or 2 or 4 where rows are stored interleaved (0, 2, 4 … 1, 3, 5 …).
+    /// 1, or 2 or 4 if rows are stored interleaved (0, 2, 4 … 1, 3, 5 …).
     pub(super) row_step: u8,
 }
 
@@ -59,7 +59,7 @@ impl Header {
     /// Reads the header.
     ///
     /// # Errors
-    /// `Malformed` when it is cut short or contradicts itself, `Unsupported` for types and depths
+    /// `Malformed` if it is truncated or contradicts itself, `Unsupported` for types and depths
     /// that the format allows and no program writes.
     pub(super) fn parse(bytes: &[u8]) -> Result<Self, AssetError> {
         let Some(h) = bytes.first_chunk::<HEADER_LEN>() else {
@@ -111,7 +111,7 @@ impl Header {
         Ok(header)
     }
 
-    /// The rules that tie fields together.
+    /// Checks the rules that connect fields.
     fn check(&self) -> Result<(), AssetError> {
         if self.width == 0 || self.height == 0 {
             return Err(malformed(
@@ -142,7 +142,7 @@ impl Header {
         }
     }
 
-    /// Bytes of a stored texel: 15 bits take two.
+    /// Bytes of a stored texel; 15 bits take two.
     pub(super) fn texel_len(&self) -> usize {
         usize::from(self.depth_bits).div_ceil(8)
     }

@@ -1,7 +1,8 @@
-//! Truevision TGA, read and written (Truevision, *TGA File Format Specification, Version 2.0*, 1991).
+//! Truevision TGA, read and written (Truevision, *TGA File Format Specification, Version 2.0*,
+//! 1991).
 //!
 //! A file is a header of 18 bytes, an image ID, a colour map and the texels; a TGA 2 file ends in a
-//! footer that may point at an extension area:
+//! footer that may point to an extension area:
 //!
 //! ```text
 //!   byte  0  length of the image ID          byte 8, 10  origin on the screen (not used)
@@ -15,7 +16,8 @@
 //! ```
 //!
 //! Numbers are little-endian; texels are B, G, R, A. Types: 1 mapped, 2 true colour, 3 grey; 9, 10
-//! and 11 are the same run-length encoded. What is alpha is decided in one place, `AlphaUse`.
+//! and 11 are these three, run-length encoded. `AlphaUse` is the one place that decides about
+//! alpha.
 
 mod decode;
 mod encode;

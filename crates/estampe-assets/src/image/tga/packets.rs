@@ -1,16 +1,16 @@
 //! The stream of stored texels, raw or run-length encoded.
 //!
 //! A packet is a byte and texels: `0nnnnnnn` is followed by n + 1 texels, `1nnnnnnn` by one texel
-//! that stands n + 1 times. TGA 2 asks that packets end with their row and TGA 1 does not, so a
-//! packet may cross rows; one that reaches beyond the image is cut off there.
+//! that is repeated n + 1 times. TGA 2 requires that packets end with their row and TGA 1 does not,
+//! so a packet may cross rows; a packet that exceeds the image is cut off.
 
 use crate::AssetError;
 use crate::image::fault::malformed;
 
-/// The most texels that one packet stands for.
+/// The most texels of one packet.
 pub(super) const MAX_PACKET: usize = 128;
 
-/// How the texels lie in the file.
+/// Position and encoding of the texels in the file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stream {
     /// Offset of the first byte.
@@ -19,13 +19,13 @@ pub(super) struct Stream {
     pub(super) texel_len: usize,
     /// Texels in the image.
     pub(super) texels: usize,
-    /// Whether they come in packets.
+    /// True if the texels are in packets.
     pub(super) is_rle: bool,
 }
 
 impl Stream {
-    /// Refuses a stream that cannot hold the image however well it compresses, so that a few bytes
-    /// cannot make the caller allocate a large picture.
+    /// Refuses a stream that is too short for the image at any compression, so that a few bytes
+    /// cannot make the caller allocate a large image.
     ///
     /// # Errors
     /// `Malformed` at the end of the file.
@@ -44,11 +44,11 @@ impl Stream {
         Ok(())
     }
 
-    /// Hands every texel to `put` in file order, as (offset in the file, stored bytes, times it
-    /// stands); the times add up to the number of texels.
+    /// Calls `put` for every texel in file order, with (offset in the file, stored bytes,
+    /// repetitions). The repetitions add up to the number of texels.
     ///
     /// # Errors
-    /// `Malformed` when the file ends first, and what `put` refuses.
+    /// `Malformed` if the file ends first, and the errors of `put`.
     pub(super) fn for_each<F>(&self, bytes: &[u8], mut put: F) -> Result<(), AssetError>
     where
         F: FnMut(usize, &[u8], usize) -> Result<(), AssetError>,

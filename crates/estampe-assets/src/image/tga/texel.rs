@@ -1,15 +1,15 @@
-//! One stored texel or colour map entry to RGBA.
+//! Decoding of one stored texel or colour map entry to RGBA.
 
 use super::footer::AttributesType;
 
-/// How a colour is stored.
+/// Storage format of a colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum TexelFormat {
     /// One byte of brightness.
     Grey8,
     /// Brightness, alpha.
     GreyAlpha16,
-    /// Little-endian `ARRRRRGG GGGBBBBB`; the top bit is nothing, or alpha if the file says so.
+    /// Little-endian `ARRRRRGG GGGBBBBB`; the top bit is alpha if the file says so, else unused.
     Rgb5A1,
     /// B, G, R.
     Bgr24,
@@ -18,7 +18,7 @@ pub(super) enum TexelFormat {
 }
 
 impl TexelFormat {
-    /// The format of a colour of `bits`, if it is one.
+    /// The format of a colour of `bits`, if there is one.
     pub(super) fn of_color(bits: u8) -> Option<Self> {
         match bits {
             15 | 16 => Some(Self::Rgb5A1),
@@ -38,7 +38,7 @@ impl TexelFormat {
         }
     }
 
-    /// RGBA of the texel that `bytes`, of this format's length, hold.
+    /// RGBA of a texel; `bytes` has this format's length.
     #[inline]
     pub(super) fn rgba(self, bytes: &[u8], alpha_use: AlphaUse) -> [u8; 4] {
         let (rgb, alpha) = match (self, bytes) {
@@ -64,23 +64,23 @@ impl TexelFormat {
     }
 }
 
-/// What the alpha of a file is good for.
+/// Use of a file's alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum AlphaUse {
-    /// Nothing: every texel is opaque.
+    /// None: every texel is opaque.
     Opaque,
-    /// Coverage, apart from the colour.
+    /// Straight alpha.
     Straight,
-    /// Coverage that the colours are multiplied by.
+    /// Premultiplied alpha.
     Premultiplied,
 }
 
 impl AlphaUse {
-    /// Decides from the extension area, where there is one, and else from the descriptor.
+    /// Decides from the extension area if there is one, else from the descriptor.
     ///
-    /// The top bit of a 16-bit colour is alpha only where the extension area says so: it began as
-    /// the overlay bit of a frame grabber, files set it at random, and every reference decoder of
-    /// the conformance suite shows such a file opaque whatever its descriptor claims.
+    /// The top bit of a 16-bit colour is alpha only if the extension area says so: it was the
+    /// overlay bit of a frame grabber, files set it at random, and every reference decoder of the
+    /// conformance suite shows such a file opaque in spite of its descriptor.
     pub(super) fn decide(
         format: TexelFormat,
         descriptor_bits: u8,
@@ -109,7 +109,7 @@ fn unorm8_from_unorm5(word: u16) -> u8 {
     (((word & 31) * 255 + 15) / 31) as u8
 }
 
-/// `color` ÷ `alpha`, rounded; colours brighter than their alpha saturate, no alpha gives black.
+/// `color` ÷ `alpha`, rounded. Colours brighter than their alpha saturate; alpha 0 gives black.
 fn unmultiplied(color: u8, alpha: u8) -> u8 {
     let (color, alpha) = (u32::from(color), u32::from(alpha));
     (color * 255 + alpha / 2)

@@ -1,31 +1,31 @@
-//! The normal of every corner.
+//! Normals of corners, with creases.
 
 use super::faces::{Faces, PIECE};
 use super::unit_or_zero;
 use estampe_scene::{Mesh, Workers, pieces};
 use glam::Vec3;
 
-/// Points with more faces than this gather them into cells before pairing.
+/// Points with more faces than this group them into cells before pairs are compared.
 pub(super) const MAX_PAIRED: usize = 64;
 
-/// Which faces around a point go together.
+/// Rule by which faces around a point share a normal.
 #[derive(Debug)]
 pub(super) enum Grouping {
-    /// Those whose normals have at least this cosine.
+    /// Faces whose normals have at least this cosine.
     ByAngle {
         /// Cosine of the crease angle.
         cos_whole: f32,
         /// Cosine of half of it.
         cos_half: f32,
     },
-    /// Those with the same number, one for each triangle of all meshes; 0 goes with none.
+    /// Faces with the same number, one number for each triangle of all meshes; 0 shares with none.
     ByGroup(Vec<u32>),
 }
 
 impl Grouping {
     pub(super) fn by_angle(degrees: f32) -> Self {
         let whole_rad = degrees.clamp(0.0, 180.0).to_radians();
-        // Above 0, so that a sum of zero is near nothing.
+        // Above 0, so that a zero sum is within the angle of no face.
         let cos_half = libm::cosf(whole_rad * 0.5).max(f32::EPSILON);
         Self::ByAngle {
             cos_whole: libm::cosf(whole_rad),
@@ -48,15 +48,15 @@ impl Grouping {
 /// The normals of all corners of all meshes.
 #[derive(Debug)]
 pub(super) struct CornerNormals {
-    /// Point of each vertex; empty when no point is smooth.
+    /// Point of each vertex; empty if no point is smooth.
     point_of_vertex: Vec<u32>,
-    /// The one normal of each smooth point (and some normal for the others).
+    /// The single normal of each smooth point; arbitrary for other points.
     normals: Vec<Vec3>,
     /// Corners of the points that are not smooth, in order, with their normals.
     creased: Vec<(u32, Vec3)>,
 }
 
-/// The share of one mesh.
+/// The normals of one mesh.
 #[derive(Debug)]
 pub(super) struct MeshNormals<'a> {
     all: &'a CornerNormals,
@@ -65,7 +65,7 @@ pub(super) struct MeshNormals<'a> {
 }
 
 impl MeshNormals<'_> {
-    /// The point of each vertex of the mesh; `None` when no point is smooth.
+    /// The point of each vertex of the mesh; `None` if no point is smooth.
     pub(super) fn points(&self, vertex_count: usize) -> Option<&[u32]> {
         self.all
             .point_of_vertex
@@ -76,7 +76,7 @@ impl MeshNormals<'_> {
         self.all.normals[point as usize]
     }
 
-    /// Triangle, corner and normal of each corner of the mesh that cannot take its point's normal.
+    /// Triangle, corner and normal of each corner of the mesh that differs from its point's normal.
     pub(super) fn creased(
         &self,
         triangle_count: usize,
@@ -102,7 +102,7 @@ impl CornerNormals {
         }
     }
 
-    /// The normal of each vertex's point, where there is one mesh; empty when no point is smooth.
+    /// The normal of each vertex's point, if there is one mesh; empty if no point is smooth.
     pub(super) fn take_vertex_normals(&mut self) -> Vec<Vec3> {
         let mut normals = std::mem::take(&mut self.normals);
         for (vertex, &point) in self.point_of_vertex.iter().enumerate() {
@@ -126,7 +126,7 @@ impl CornerNormals {
         }
     }
 
-    /// Corners share normals as `grouping` says; `triangles` are triples of points.
+    /// Corners share normals by `grouping`; `triangles` are triples of points.
     pub(super) fn smooth(
         triangles: &[[u32; 3]],
         point_of_vertex: Vec<u32>,
@@ -152,10 +152,10 @@ impl CornerNormals {
     }
 }
 
-/// The unit sum of the weighted normals around each point.
+/// The normalised sum of the weighted normals around each point.
 ///
-/// Each thread has a range of points, for which it looks at all triangles: so the sums are in the
-/// triangles' order, whatever the threads.
+/// Each thread has a range of points and reads all triangles for it, so sums are in the order of
+/// the triangles for any number of threads.
 fn smooth_normals(
     triangles: &[[u32; 3]],
     point_count: usize,
@@ -173,7 +173,7 @@ fn smooth_normals(
         let first = index * range;
         for (triangle, face) in triangles.iter().zip(faces.iter()) {
             for &point in triangle {
-                // A point before the first wraps around to one beyond the last.
+                // A point before the first wraps around to an index beyond the last.
                 if let Some(sum) = sums.get_mut((point as usize).wrapping_sub(first)) {
                     *sum = (Vec3::from_array(*sum) + face.weighted()).to_array();
                 }
@@ -186,7 +186,7 @@ fn smooth_normals(
     sums.into_iter().map(Vec3::from_array).collect()
 }
 
-/// Which points have faces that do not all go together.
+/// Finds the points whose faces do not all share one normal.
 fn find_creased_points(
     triangles: &[[u32; 3]],
     normals: &[Vec3],
@@ -203,7 +203,7 @@ fn find_creased_points(
                 for (triangle, face) in triangles[range].iter().zip(faces) {
                     for &point in triangle {
                         let is_near = face.normal().dot(normals[point as usize]) >= cos_half;
-                        // A face without area goes with any.
+                        // A face without area shares with any other.
                         if !is_near && face.area() > 0.0 {
                             creased.push(point);
                         }
@@ -216,7 +216,8 @@ fn find_creased_points(
             }
         }
         Grouping::ByGroup(groups) => {
-            /// No face was seen yet. A triangle of a group with this number only costs time.
+            /// Marks points without a face so far. A smoothing group with this number only costs
+            /// time.
             const UNSEEN: u32 = u32::MAX;
             let mut group_of_point = vec![UNSEEN; normals.len()];
             for (triangle, &group) in triangles.iter().zip(groups) {
@@ -233,11 +234,11 @@ fn find_creased_points(
     is_creased
 }
 
-/// The corners at each creased point (compressed rows).
+/// The corners at each creased point (compressed sparse rows).
 struct CornersAround {
     /// Corners, point by point, ascending within a point.
     corners: Vec<u32>,
-    /// Where each point's corners end.
+    /// The end of each point's corners.
     ends: Vec<usize>,
 }
 
@@ -255,7 +256,7 @@ impl CornersAround {
         }
         let mut total = 0;
         for end in &mut ends {
-            // From now on, where the point's next corner goes; in the end, where they end.
+            // From here on the position of the point's next corner; finally the end of its corners.
             total += std::mem::replace(end, total);
         }
         let mut corners = vec![0; total];
@@ -277,7 +278,7 @@ impl CornersAround {
     }
 }
 
-/// Faces that count as one: a face, or a cell of faces with similar normals.
+/// Faces that are treated as one: a face, or a cell of faces with similar normals.
 #[derive(Debug, Clone, Copy, Default)]
 struct Bundle {
     /// Unit normal.
@@ -322,12 +323,12 @@ impl Fan {
         }
     }
 
-    /// For each bundle, the unit sum of all within the angle of it.
+    /// For each bundle, the normalised sum of all bundles within the angle.
     fn pair(&mut self, cos_whole: f32) {
         let bundles = &self.bundles;
         self.results.clear();
         self.results.extend(bundles.iter().map(|own| {
-            // A bundle without direction goes with all.
+            // A bundle without direction shares with all.
             let goes_with = |other: &Bundle| {
                 own.normal == Vec3::ZERO || own.normal.dot(other.normal) >= cos_whole
             };
@@ -338,7 +339,7 @@ impl Fan {
         }));
     }
 
-    /// Pairs cells of faces instead of faces.
+    /// Compares pairs of cells instead of pairs of faces.
     fn by_cells(
         &mut self,
         corners: &[u32],
@@ -358,7 +359,7 @@ impl Fan {
             normal: unit_or_zero(weighted),
             weighted,
         }));
-        // Empty cells are most of them, and pairing them would cost without use.
+        // Most cells are empty, and comparing them would waste time.
         let is_used = |bundle: &Bundle| bundle.normal != Vec3::ZERO;
         let used: Vec<usize> = (0..CELL_COUNT)
             .filter(|&i| is_used(&self.bundles[i]))
@@ -415,7 +416,8 @@ impl Fan {
 const CELLS_PER_SIDE: usize = 6;
 const CELL_COUNT: usize = 6 * CELLS_PER_SIDE * CELLS_PER_SIDE;
 
-/// The cell of a direction: which side of a cube it goes through, and where. About 15° wide.
+/// The cell of a direction: the side of a cube that it passes through, and the position there.
+/// About 15° wide.
 fn cell(normal: Vec3) -> usize {
     let size = normal.abs();
     let (side, major, u, v) = if size.x >= size.y && size.x >= size.z {

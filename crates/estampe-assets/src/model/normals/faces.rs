@@ -3,10 +3,12 @@
 use estampe_scene::{Bounds, Mesh, Workers};
 use glam::{DVec3, Vec3};
 
-/// What a triangle contributes to the normals around it: a unit normal, zero for a triangle without area;
-/// and its area in units of the square of the mesh's size, more than 0 unless the normal is zero.
+/// A triangle's contribution to the normals around it: a unit normal, zero for a triangle without
+/// area; and its area in units of the square of the mesh's size, more than 0 unless the normal is
+/// zero.
 ///
-/// Plain numbers, because a vector of them starts as zeroed memory that each thread is first to touch.
+/// Plain numbers, because a vector of them starts as zeroed memory that each thread is first to
+/// touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Face<'a>(&'a [f32; 4]);
 
@@ -56,7 +58,7 @@ pub(super) fn all(meshes: &[Mesh], workers: Workers) -> Faces {
     let bounds = meshes.iter().fold(Bounds::EMPTY, |all, mesh| {
         all.union(&Bounds::of(mesh.positions.iter().copied()))
     });
-    // A power of two, so that the size of the model changes no normal by a bit.
+    // A power of two, so that the size of the model changes no bit of a normal.
     let size = (f64::from(bounds.max.x) - f64::from(bounds.min.x))
         .max(f64::from(bounds.max.y) - f64::from(bounds.min.y))
         .max(f64::from(bounds.max.z) - f64::from(bounds.min.z));
@@ -96,7 +98,7 @@ fn face(a: DVec3, b: DVec3, c: DVec3, scale: f64) -> [f32; 4] {
         reason = "precision is to spare in a weight"
     )]
     let area = (doubled_area * scale) as f32;
-    // The smallest slivers weigh a little, so that they still have a normal when alone.
+    // The smallest slivers have a small weight, so that they still have a normal when alone.
     const LEAST: f32 = 1e-30;
     let normal = (cross * (1.0 / doubled_area)).as_vec3();
     [normal.x, normal.y, normal.z, area.max(LEAST)]

@@ -3,20 +3,20 @@
 //! ```text
 //! meshes -> points   (positions equal to the bit are one point, across all meshes)
 //!        -> faces    (unit normal and area of every triangle)
-//!        -> sums     (area-weighted, per point: all that a smooth surface needs)
-//!        -> creases  (points whose faces do not all go together: a normal per corner)
+//!        -> sums     (area-weighted, per point: sufficient for a smooth surface)
+//!        -> creases  (points whose faces do not all share a normal: a normal per corner)
 //!        -> split    (a vertex with several normals becomes several vertices)
 //! ```
 //!
-//! The normal of a corner is the sum of the area-weighted normals of those faces around its point that
-//! make no more than the crease angle with the corner's own face. (Rejected: growing groups over shared
-//! edges. It rounds a cone's tip away and needs to know edges, which soups of triangles lack.)
+//! The normal of a corner is the sum of the area-weighted normals of those faces around its point
+//! that make no more than the crease angle with the corner's own face. (Rejected: growing groups
+//! over shared edges. It rounds a cone's tip and requires edges, which triangle soups lack.)
 //!
-//! A point is smooth, and needs one sum only, when each face's normal lies within half the crease angle of
-//! the sum: any two of them are then within the whole of it. Only the other points pay for looking at pairs.
-//! With more than `creases::MAX_PAIRED` faces around a point, faces are first gathered into cells of
-//! similar direction, and pairs are made of cells; so the time stays linear in the number of triangles,
-//! even when all of them share one vertex.
+//! A point is smooth, and needs one sum only, if each face's normal lies within half the crease
+//! angle of the sum: any two of them are then within the whole angle. Only the other points pay for
+//! comparing pairs. With more than `creases::MAX_PAIRED` faces around a point, faces are first
+//! grouped into cells of similar direction, and pairs of cells are compared; so the time is linear
+//! in the number of triangles, even if all of them share one vertex.
 
 mod creases;
 mod faces;
@@ -28,18 +28,18 @@ use estampe_scene::{Mesh, Workers};
 use glam::Vec3;
 use std::borrow::Cow;
 
-/// Which faces a normal is shared by.
+/// Rule by which faces share a normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NormalMode<'a> {
-    /// Faces around a point that are within an angle of each other.
+    /// Faces around a point share a normal if they are within an angle of each other.
     CreaseAngle {
-        /// The largest angle between the normals of two faces that look like one surface, in degrees.
+        /// The largest angle between the normals of two faces of a smooth surface, in degrees.
         degrees: f32,
     },
-    /// None: each triangle has its own normal.
+    /// No sharing: each triangle has its own normal.
     Flat,
-    /// Faces around a point that have the same smoothing group, whatever their angle: one list for each mesh,
-    /// one number for each triangle. Group 0, and triangles beyond a list, are flat.
+    /// Faces around a point share a normal if they have the same smoothing group, at any angle: one
+    /// list per mesh, one number per triangle. Group 0, and triangles beyond a list, are flat.
     SmoothingGroups(&'a [Vec<u32>]),
 }
 
@@ -50,16 +50,16 @@ impl Default for NormalMode<'_> {
     }
 }
 
-/// Gives a normal to every corner of a triangle that has none.
+/// Computes the normal of every triangle corner that has none.
 ///
-/// Vertices that have a normal keep it. A vertex whose corners need different normals is split: copies of
-/// it, with all attributes, are appended. Smoothing goes across the borders of meshes where they share
+/// Vertices with a normal keep it. A vertex whose corners need different normals is split: copies
+/// of it, with all attributes, are appended. Smoothing crosses the borders of meshes that share
 /// positions. Triangles without area get their neighbours' normal, or (0, 0, 0).
 pub fn fill_missing(meshes: &mut [Mesh], mode: NormalMode<'_>) {
     fill_missing_by(meshes, mode, Workers::default());
 }
 
-/// [`fill_missing`] by these threads.
+/// [`fill_missing`] with these threads.
 pub(super) fn fill_missing_by(meshes: &mut [Mesh], mode: NormalMode<'_>, workers: Workers) {
     let lacks = |mesh: &Mesh| {
         !mesh.triangles.is_empty()
@@ -68,7 +68,7 @@ pub(super) fn fill_missing_by(meshes: &mut [Mesh], mode: NormalMode<'_>, workers
     if !meshes.iter().any(lacks) {
         return;
     }
-    // Sound indices are the invariant of `Mesh`; a broken one would be a fault of ours.
+    // `Mesh` guarantees valid indices; an invalid one is an error in this crate.
     let corner_total: usize = meshes.iter().map(|mesh| mesh.triangles.len() * 3).sum();
     assert!(
         u32::try_from(corner_total).is_ok(),
@@ -102,7 +102,7 @@ pub(super) fn fill_missing_by(meshes: &mut [Mesh], mode: NormalMode<'_>, workers
 
 /// Replaces all normals.
 ///
-/// As [`fill_missing`] on meshes whose normals were taken away; vertices that were split before stay split.
+/// Equals [`fill_missing`] on meshes without normals; vertices that were split before stay split.
 pub fn replace(meshes: &mut [Mesh], mode: NormalMode<'_>) {
     for mesh in &mut *meshes {
         mesh.normals = Vec::new();
@@ -110,9 +110,10 @@ pub fn replace(meshes: &mut [Mesh], mode: NormalMode<'_>) {
     fill_missing(meshes, mode);
 }
 
-/// The unit vector in the direction of `vector`, or zero where there is none (zero or not finite).
+/// The unit vector in the direction of `vector`, or zero if that is undefined (zero or not finite).
 ///
-/// In f64, where neither the square of the largest f32 overflows nor that of the smallest underflows.
+/// In f64, where neither the square of the largest f32 overflows nor that of the smallest
+/// underflows.
 #[must_use]
 pub fn unit_or_zero(vector: Vec3) -> Vec3 {
     let wide = vector.as_dvec3();
@@ -124,7 +125,7 @@ pub fn unit_or_zero(vector: Vec3) -> Vec3 {
     }
 }
 
-/// Empty when all are missing.
+/// Flags of the vertices without a normal; empty if all normals are missing.
 fn missing_normals(mesh: &Mesh) -> Vec<bool> {
     mesh.normals
         .iter()
@@ -132,7 +133,7 @@ fn missing_normals(mesh: &Mesh) -> Vec<bool> {
         .collect()
 }
 
-/// The point of each vertex, over all meshes: the first vertex that is there.
+/// The point of each vertex, over all meshes: the first vertex at its position.
 fn weld(meshes: &[Mesh], workers: Workers) -> Vec<u32> {
     let owned: Vec<Vec3>;
     let positions = match meshes {
@@ -159,7 +160,7 @@ fn corner_normals(meshes: &[Mesh], mode: NormalMode<'_>, workers: Workers) -> Co
     };
     let point_of_vertex = weld(meshes, workers);
     let triangles = match meshes {
-        // All vertices are points of their own: the usual mesh without texture coordinates.
+        // All vertices are separate points: the usual mesh without texture coordinates.
         [mesh]
             if (0..)
                 .zip(&point_of_vertex)
@@ -185,12 +186,12 @@ fn point_triangles(meshes: &[Mesh], point_of_vertex: &[u32]) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// Writes the normals into a mesh, splitting vertices where need be.
+/// Writes the normals into a mesh and splits vertices where necessary.
 fn apply(mesh: &mut Mesh, is_missing: &[bool], corners: &creases::MeshNormals<'_>) {
     let vertex_count = mesh.positions.len();
     let is_missing = |vertex: u32| is_missing.get(vertex as usize).copied().unwrap_or(true);
     mesh.normals.resize(vertex_count, Vec3::ZERO);
-    // Smooth points first: no triangle need be looked at for them.
+    // Smooth points first: they need no pass over the triangles.
     if let Some(points) = corners.points(vertex_count) {
         for (vertex, normal) in (0..).zip(&mut mesh.normals) {
             if is_missing(vertex) {
@@ -201,7 +202,7 @@ fn apply(mesh: &mut Mesh, is_missing: &[bool], corners: &creases::MeshNormals<'_
     split_creased(mesh, is_missing, corners);
 }
 
-/// Gives the corners of points that are not smooth their normals.
+/// Writes the normals of corners at points that are not smooth.
 fn split_creased(
     mesh: &mut Mesh,
     is_missing: impl Fn(u32) -> bool,
@@ -214,7 +215,7 @@ fn split_creased(
     mesh.normals.resize(vertex_count, Vec3::ZERO);
     let count = u32::try_from(vertex_count).expect("limits keep vertices below 2^32");
     let mut copies = VertexCopies::identity(count);
-    // The first normal that a vertex gets needs no copy.
+    // The first normal of a vertex needs no copy.
     let mut is_taken = vec![false; vertex_count];
     for (triangle, corner, normal) in corners.creased(mesh.triangles.len()) {
         let vertex = mesh.triangles[triangle][corner];

@@ -1,4 +1,4 @@
-//! From the contents of an OBJ file to meshes.
+//! Assembly of an OBJ file's contents to meshes.
 
 use super::elements::{ABSENT, Corner, Elements};
 use super::parts::{Part, Parts};
@@ -12,7 +12,7 @@ use estampe_scene::{Mesh, Scene, Surface, UpAxis};
 use glam::{Vec2, Vec3};
 use std::ops::Range;
 
-/// Makes the meshes and loads the materials.
+/// Builds the meshes and loads the materials.
 pub(super) fn assemble(mut contents: Contents<'_>, context: &mut Context<'_>) -> Parsed {
     convert_attributes(&mut contents);
     let uses: Vec<MaterialUse<'_>> = contents
@@ -30,7 +30,7 @@ pub(super) fn assemble(mut contents: Contents<'_>, context: &mut Context<'_>) ->
         && contents.elements.points.is_empty();
     if is_cloud && !contents.positions.is_empty() {
         context.warnings.add(context.name, None, || {
-            "nothing connects the vertices; they are taken as points".to_owned()
+            "the file has vertices and no elements; the vertices are drawn as points".to_owned()
         });
     }
     let parameter_points = std::mem::take(&mut contents.parameter_points);
@@ -60,7 +60,7 @@ pub(super) fn assemble(mut contents: Contents<'_>, context: &mut Context<'_>) ->
     }
 }
 
-/// Turns colours, texture coordinates and normals from the file's conventions to the scene's.
+/// Converts colours, texture coordinates and normals from the file's conventions to the scene's.
 fn convert_attributes(contents: &mut Contents<'_>) {
     // Some exporters write 0..255.
     let largest = contents
@@ -94,7 +94,7 @@ fn point_cloud(contents: Contents<'_>) -> Mesh {
     }
 }
 
-/// Whether the positions can be the vertices just as they are, in one mesh with one surface.
+/// True if the positions can be used as vertices unchanged, in one mesh with one surface.
 fn is_plain(contents: &Contents<'_>) -> bool {
     let Contents {
         elements, parts, ..
@@ -132,7 +132,7 @@ fn mesh_name<'a>(parts: &Parts<'a>, part: Part) -> &'a [u8] {
     }
 }
 
-/// Makes one mesh after the other.
+/// Builds one mesh after the other.
 struct Assembly<'a> {
     contents: &'a Contents<'a>,
     material_of_use: &'a [Option<usize>],
@@ -142,7 +142,7 @@ struct Assembly<'a> {
     attributes: Vec<[u32; 2]>,
     mesh: Mesh,
     smoothing_groups: Vec<u32>,
-    /// Meshes that are done, and their triangles' smoothing groups.
+    /// Finished meshes, and their triangles' smoothing groups.
     done: Vec<Mesh>,
     done_groups: Vec<Vec<u32>>,
 }
@@ -170,8 +170,8 @@ impl<'a> Assembly<'a> {
 
     fn meshes(mut self) -> (Vec<Mesh>, Vec<Vec<u32>>) {
         let elements = &self.contents.elements;
-        // Meshes, and materials in them, come in the order of their first element: parts are already
-        // numbered in that order.
+        // Meshes, and the materials inside them, are in the order of their first element; parts are
+        // already numbered in that order.
         let parts = &self.contents.parts.list;
         let mesh_keys: Vec<u32> = parts.iter().map(|&part| self.mesh_key(part)).collect();
         let rank = first_appearance(&mesh_keys);
@@ -330,7 +330,7 @@ impl<'a> Assembly<'a> {
     }
 }
 
-/// For each key, the place of its first appearance.
+/// For each key, the rank of its first appearance.
 fn first_appearance(keys: &[u32]) -> Vec<u32> {
     let mut places = std::collections::HashMap::new();
     let places = keys.iter().map(|&key| {
@@ -368,7 +368,7 @@ fn element_runs(parts: impl Iterator<Item = u32>) -> Vec<Run> {
     runs
 }
 
-/// Splits off the leading runs for which `holds`.
+/// Splits off the leading runs that satisfy `holds`.
 fn take_while<'a>(runs: &mut &'a [Run], holds: impl Fn(&Run) -> bool) -> &'a [Run] {
     let count = runs.iter().take_while(|run| holds(run)).count();
     let (taken, rest) = runs.split_at(count);

@@ -7,7 +7,7 @@ use crate::model::polygons::{Polygons, SPENT};
 use crate::{AssetError, Limits, Location};
 use glam::Vec3;
 
-/// Stands for "this corner has no such attribute".
+/// Marks an attribute that a corner does not have.
 pub(super) const ABSENT: u32 = u32::MAX;
 
 /// A corner of an element: indices from 0 into the file's positions, texture coordinates, normals.
@@ -26,21 +26,21 @@ pub(super) enum Kind {
     Points,
 }
 
-/// A corner as it is written, counted from 0, with negative indices resolved.
+/// A corner as written, counted from 0, with negative indices resolved.
 #[derive(Debug, Clone, Copy)]
 struct WrittenCorner {
-    /// Position, texture coordinate, normal; [`NOT_WRITTEN`], [`IMPOSSIBLE`], or an index from 0 that
-    /// may be too large.
+    /// Position, texture coordinate, normal; [`NOT_WRITTEN`], [`IMPOSSIBLE`], or an index from 0
+    /// that may be too large.
     indices: [i64; 3],
 }
 
 const NOT_WRITTEN: i64 = -1;
 const IMPOSSIBLE: i64 = -2;
 
-/// How many positions, texture coordinates and normals there are.
+/// Numbers of positions, texture coordinates and normals.
 pub(super) type Counts = [usize; 3];
 
-/// What an element belongs to.
+/// Part and smoothing group of an element.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Membership {
     /// Number of the part.
@@ -55,19 +55,19 @@ pub(super) struct Membership {
 pub(super) struct Elements {
     /// Positions of the triangles' corners.
     pub(super) triangles: Vec<[u32; 3]>,
-    /// Texture coordinates of the triangles' corners; empty while no corner has one.
+    /// Texture coordinates of the triangles' corners; empty until a corner has one.
     pub(super) triangle_uvs: Vec<[u32; 3]>,
-    /// Normals of the triangles' corners; empty while no corner has one.
+    /// Normals of the triangles' corners; empty until a corner has one.
     pub(super) triangle_normals: Vec<[u32; 3]>,
     /// Smoothing group of each triangle; empty while all are 0.
     pub(super) smoothing_groups: Vec<u32>,
-    /// Where a run of triangles of one part starts: first triangle, part.
+    /// Starts of the runs of triangles of one part: first triangle, part.
     pub(super) runs: Vec<(usize, u32)>,
     /// Segments, each with its part.
     pub(super) lines: Vec<(u32, [Corner; 2])>,
     /// Points, each with its part.
     pub(super) points: Vec<(u32, Corner)>,
-    /// Elements that refer to vertices further down.
+    /// Elements that refer to later vertices.
     deferred: Vec<Deferred>,
     scratch: Scratch,
 }
@@ -93,8 +93,8 @@ impl Elements {
         self.scratch.written.clear();
     }
 
-    /// Adds the corner that `text` starts with to the element; how many bytes it takes. `None` when it is
-    /// none of the four forms.
+    /// Adds the corner at the start of `text` to the element; returns its length in bytes. `None`
+    /// if it has none of the four forms.
     #[inline]
     pub(super) fn add_corner(&mut self, text: &[u8], counts: Counts) -> Option<usize> {
         let mut indices = [NOT_WRITTEN; 3];
@@ -120,12 +120,12 @@ impl Elements {
         ends.then_some(at)
     }
 
-    /// How many corners the element has so far.
+    /// Number of corners of the element so far.
     pub(super) fn corner_count(&self) -> usize {
         self.scratch.written.len()
     }
 
-    /// Ends an element: keeps it, or defers it if it refers to vertices further down.
+    /// Ends an element: keeps it, or defers it if it refers to later vertices.
     #[inline]
     pub(super) fn end(
         &mut self,
@@ -237,7 +237,7 @@ impl Elements {
         Ok(())
     }
 
-    /// Keeps a run's triangles, as if each face had been read here.
+    /// Keeps a run's triangles, as if each face were read here.
     pub(super) fn append(&mut self, run: &Run, part: u32, smoothing_group: u32) {
         let first = self.triangles.len();
         self.triangles.extend_from_slice(&run.triangles);
@@ -255,7 +255,7 @@ impl Elements {
         self.end_triangles(first, part, smoothing_group);
     }
 
-    /// Notes what the triangles from `first` on belong to.
+    /// Records the part and group of the triangles from `first` on.
     #[inline]
     fn end_triangles(&mut self, first: usize, part: u32, group: u32) {
         if self.runs.last().is_none_or(|&(_, last)| last != part) {
@@ -311,7 +311,8 @@ impl Elements {
     }
 }
 
-/// Appends an attribute of the triangle that follows `before` others, unless it and all before are absent.
+/// Appends an attribute of the triangle that follows `before` others, unless it and all before are
+/// absent.
 #[inline]
 pub(super) fn push_attribute(attributes: &mut Vec<[u32; 3]>, before: usize, indices: [u32; 3]) {
     if attributes.is_empty() {
@@ -338,7 +339,7 @@ fn append_attributes(
     attributes.resize(count, [ABSENT; 3]);
 }
 
-/// An index from 0; negative ones count back from the end of the `count` known so far.
+/// An index from 0; negative ones count back from the end of the `count` elements known so far.
 #[inline]
 fn from_zero(index: i64, count: usize) -> i64 {
     match index {
@@ -370,13 +371,13 @@ impl WrittenCorner {
                 Ok(small) if (small as usize) < counts[attribute] => resolved[attribute] = small,
                 _ => context.warnings.add(context.name, location, || {
                     let outcome = if attribute == 0 {
-                        "the element is left out"
+                        "the element is omitted"
                     } else {
                         "it is ignored"
                     };
                     let (name, count) = (NAMES[attribute], counts[attribute]);
                     let which = if index == IMPOSSIBLE {
-                        "its index is 0 or reaches before the first".to_owned()
+                        "its index is 0 or before the first".to_owned()
                     } else {
                         format!("number {} of {count}", index + 1)
                     };

@@ -3,18 +3,18 @@
 //! ```text
 //! lines -> reader    (statements; vertices, texture coordinates, normals in file order)
 //!       -> elements  (faces, lines, points: indices resolved, polygons split into triangles)
-//!       -> parts     (which object, group and material each run of triangles belongs to)
+//!       -> parts     (object, group and material of each run of triangles)
 //!       -> assemble  (one mesh per object; vertices split by texture coordinate and normal)
 //! ```
 //!
 //! A mesh is an object (`o`); in files without objects, a group (`g`). Inside a mesh, the triangles
-//! are sorted by material, so that each material is one surface however often `usemtl` alternates.
+//! are sorted by material, so that each material is one surface even if `usemtl` alternates.
 //!
-//! Of large files, plain lines are read ahead by several threads, see `plain`.
+//! In large files, several threads read plain lines ahead, see `plain`.
 //!
-//! Tolerance: a face that refers to a vertex that is not there is left out, a texture coordinate or
-//! normal that is not there is ignored, each with a warning that names the line. Indices may refer to
-//! vertices further down, though the format's description does not allow it.
+//! Tolerance: a face that refers to a missing vertex is omitted, and a missing texture coordinate
+//! or normal is ignored, each with a warning that names the line. Indices may refer to later
+//! vertices, though the format's description does not allow it.
 //!
 //! Source: "Object Files (.obj)", appendix B1 of the Advanced Visualizer manual, Wavefront 1995.
 

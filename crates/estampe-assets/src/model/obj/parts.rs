@@ -1,15 +1,15 @@
-//! Which object, group and material the elements belong to.
+//! Objects, groups and materials of the elements.
 
 use std::collections::HashMap;
 
-/// What a run of elements belongs to: indices of names.
+/// Object, group and material of a run of elements, as indices of names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Part {
-    /// Index into [`Parts::objects`]; 0 is what comes before the first `o`.
+    /// Index into [`Parts::objects`]; 0 for elements before the first `o`.
     pub(super) object: u32,
-    /// Index into [`Parts::groups`]; 0 is what comes before the first `g`.
+    /// Index into [`Parts::groups`]; 0 for elements before the first `g`.
     pub(super) group: u32,
-    /// Index into [`Parts::materials`]; 0 is what comes before the first `usemtl`.
+    /// Index into [`Parts::materials`]; 0 for elements before the first `usemtl`.
     pub(super) material: u32,
 }
 
@@ -23,11 +23,11 @@ pub(super) struct Parts<'a> {
     pub(super) list: Vec<Part>,
     numbers: HashMap<Part, u32>,
     current: Part,
-    /// The number of `current`, once an element asked for it.
+    /// The number of `current`, once an element has requested it.
     current_number: Option<u32>,
 }
 
-/// Different names, numbered in the order of their first use. Number 0 is the absent name.
+/// Distinct names, numbered in the order of their first use. Number 0 is the absent name.
 #[derive(Debug)]
 pub(super) struct Names<'a> {
     pub(super) list: Vec<&'a [u8]>,
@@ -86,7 +86,7 @@ impl<'a> Parts<'a> {
         self.current_number = None;
     }
 
-    /// Also tells whether the name is new.
+    /// Sets the material; returns true if its name is new.
     pub(super) fn use_material(&mut self, name: &'a [u8]) -> bool {
         let before = self.materials.list.len();
         self.current.material = self.materials.number(name);
@@ -94,7 +94,7 @@ impl<'a> Parts<'a> {
         self.materials.list.len() > before
     }
 
-    /// The number of the part that elements now belong to.
+    /// The number of the current part.
     #[inline]
     pub(super) fn current_number(&mut self) -> u32 {
         if let Some(number) = self.current_number {

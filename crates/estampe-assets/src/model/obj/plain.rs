@@ -1,11 +1,11 @@
 //! Plain lines, read ahead by several threads.
 //!
-//! Nearly all of a large file are lines of four forms: `v x y z`, `vt u v`, `vn x y z`, and `f` with three
-//! corners of indices from 1. What such a line says does not depend on the lines before it, so threads read
-//! runs of them; any other line, and any oddity, ends a run. The reader goes through the statements in order
-//! as ever, and where it stands at the start of a run it takes all of it at once, if the run's faces refer
-//! to vertices that are there by then and the limits allow it. Else it reads the lines itself: errors,
-//! warnings and the order of everything are its business alone.
+//! Nearly all lines of a large file have four forms: `v x y z`, `vt u v`, `vn x y z`, and `f` with
+//! three corners of indices from 1. Their meaning does not depend on the lines before them, so
+//! threads read runs of them; any other line, and any irregularity, ends a run. The reader
+//! processes the statements in order. At the start of a run it takes the whole run at once, if the
+//! run's faces refer to existing vertices and the limits allow it. Otherwise it reads the lines
+//! itself. Errors, warnings and the order of elements are therefore decided by the reader alone.
 
 use super::elements::{ABSENT, Counts, push_attribute};
 use super::reader::Contents;
@@ -16,26 +16,26 @@ use glam::{Vec2, Vec3};
 
 /// Bytes of a piece: a millisecond of work.
 const PIECE: usize = 1 << 20;
-/// Shorter runs are not worth their vectors.
+/// Shorter runs cost more than they save.
 const LEAST_LINES: u64 = 256;
 
 /// A run of plain lines.
 #[derive(Debug, Default)]
 pub(super) struct Run {
-    /// Where its first line starts.
+    /// Start of its first line.
     pub(super) start: usize,
-    /// Where its last line ends, before the line's end.
+    /// End of its last line, before the line end.
     pub(super) end: usize,
-    /// How many line ends are between.
+    /// Number of line ends in between.
     pub(super) line_ends: u64,
     pub(super) positions: Vec<Vec3>,
     pub(super) uvs: Vec<Vec2>,
     pub(super) normals: Vec<Vec3>,
     pub(super) triangles: Vec<[u32; 3]>,
-    /// As long as `triangles`, or empty when no corner has one.
+    /// As long as `triangles`, or empty if no corner has one.
     pub(super) triangle_uvs: Vec<[u32; 3]>,
     pub(super) triangle_normals: Vec<[u32; 3]>,
-    /// How many vertices of each kind there must be before the run.
+    /// Number of vertices of each kind that must exist before the run.
     needed: Counts,
 }
 
@@ -73,8 +73,8 @@ fn next_line(bytes: &[u8], at: usize) -> usize {
 }
 
 impl Run {
-    /// The run from the line at `start` up to the first that is not plain or starts at `limit` or later,
-    /// and where that line starts.
+    /// The run from the line at `start` up to the first line that is not plain or starts at `limit`
+    /// or later; also returns the start of that line.
     fn read(bytes: &[u8], start: usize, limit: usize) -> (Self, usize) {
         let mut run = Self {
             start,
@@ -99,14 +99,14 @@ impl Run {
         (run, next)
     }
 
-    /// Reads a plain line up to its end; leaves the run as it was if it is not plain.
+    /// Reads a plain line up to its end; leaves the run unchanged if the line is not plain.
     #[inline]
     fn read_line(&mut self, statements: &mut Statements<'_>) -> Option<()> {
         let text = statements.remaining();
         match *text.first_chunk()? {
             [b'v', b' '] => {
                 let position = Vec3::from_array(numbers(statements, 2)?);
-                // Others are worth a warning.
+                // Other values need a warning.
                 position.is_finite().then(|| self.positions.push(position))
             }
             [b'v', b't'] if text.get(2) == Some(&b' ') => {
@@ -158,7 +158,7 @@ impl Run {
         Some(())
     }
 
-    /// Whether the run can be taken after `contents` as it would be read line by line.
+    /// True if taking the run after `contents` gives the same result as reading it line by line.
     pub(super) fn fits(&self, counts: Counts, triangles: usize, most: (u64, u64)) -> bool {
         let own = [self.positions.len(), self.uvs.len(), self.normals.len()];
         let (max_vertices, max_triangles) = most;
@@ -180,7 +180,7 @@ impl Contents<'_> {
         }
     }
 
-    /// Takes memory for all runs at once: they are most of the file, or few.
+    /// Reserves memory for all runs at once: they are most of the file, or few.
     pub(super) fn reserve(&mut self, runs: &[Run]) {
         let sum = |count: fn(&Run) -> usize| runs.iter().map(count).sum();
         self.positions.reserve_exact(sum(|run| run.positions.len()));
@@ -196,14 +196,14 @@ impl Contents<'_> {
     }
 }
 
-/// Whether the statement ends here, without a comment, in the line in which it began.
+/// True if the statement ends here, without a comment, in the line in which it began.
 #[inline]
 fn ends(statements: &mut Statements<'_>, line: u64) -> bool {
     // A statement that goes on over a line's end has changed the number of the line.
     statements.is_at_end() && statements.line() == line && !statements.remaining().starts_with(b"#")
 }
 
-/// The numbers of a line after its keyword, as many as are wanted and no more.
+/// The numbers of a line after its keyword, exactly `N` of them.
 #[inline]
 fn numbers<const N: usize>(statements: &mut Statements<'_>, keyword: usize) -> Option<[f32; N]> {
     let line = statements.line();
@@ -231,7 +231,7 @@ fn plain_corner(text: &[u8]) -> Option<([u32; 3], usize)> {
             }
         }
         let (index, length) = parse_i64(text.get(at..)?)?;
-        // 0 and what counts from the end depend on what came before.
+        // 0 and indices from the end depend on earlier lines.
         *slot = u32::try_from(index.checked_sub(1)?).ok()?;
         if *slot == ABSENT {
             return None;

@@ -1,4 +1,4 @@
-//! The statements of an OBJ file, one after the other.
+//! The statement reader of OBJ.
 
 use super::elements::{Counts, Elements, Kind, Membership};
 use super::parts::Parts;
@@ -9,7 +9,7 @@ use crate::{AssetError, Limits, Location};
 use glam::{Vec2, Vec3};
 use std::collections::HashSet;
 
-/// Everything that an OBJ file says, in file order.
+/// The contents of an OBJ file, in file order.
 #[derive(Debug)]
 pub(super) struct Contents<'a> {
     pub(super) positions: Vec<Vec3>,
@@ -22,9 +22,9 @@ pub(super) struct Contents<'a> {
     pub(super) parameter_points: Vec<Vec3>,
     pub(super) elements: Elements,
     pub(super) parts: Parts<'a>,
-    /// The names that follow `mtllib`.
+    /// The names given by `mtllib`.
     pub(super) libraries: Vec<(&'a [u8], Location)>,
-    /// Where each material name was first used; parallel to `parts.materials`.
+    /// Location of the first use of each material name; parallel to `parts.materials`.
     pub(super) material_uses: Vec<Location>,
 }
 
@@ -33,7 +33,7 @@ struct Reader<'a, 'c, 'r> {
     contents: Contents<'a>,
     context: &'c mut Context<'r>,
     smoothing_group: u32,
-    /// Keywords that were warned about.
+    /// Keywords with a warning.
     reported: HashSet<&'a [u8]>,
     knows_a_statement: bool,
     /// Runs of plain lines further down, the next one last.
@@ -95,8 +95,8 @@ impl<'a> Reader<'a, '_, '_> {
         }
         if !self.knows_a_statement {
             return Err(AssetError::malformed(
-                "no statement of an OBJ file is in it",
-                "check that it is one, and that it is not empty",
+                "it contains no OBJ statement",
+                "check that it is an OBJ file and not empty",
             ));
         }
         let counts = self.counts();
@@ -108,11 +108,11 @@ impl<'a> Reader<'a, '_, '_> {
         elements.end_of_file(positions, counts, self.context)
     }
 
-    /// Takes the run of plain lines that starts here, if there is one and it can be.
+    /// Takes the run of plain lines that starts here, if there is one and it fits.
     #[inline]
     fn take_run(&mut self) -> bool {
         let at = self.statements.at();
-        // The start of a run that was passed was no start of a statement, or the run did not fit.
+        // A skipped start of a run was not the start of a statement, or the run did not fit.
         while self.runs.last().is_some_and(|run| run.start < at) {
             self.runs.pop();
         }
@@ -140,7 +140,7 @@ impl<'a> Reader<'a, '_, '_> {
         true
     }
 
-    /// Reads the statement after `keyword`; `false` when the keyword is not known.
+    /// Reads the statement after `keyword`; `false` if the keyword is not known.
     #[inline]
     fn read_statement(&mut self, keyword: &'a [u8]) -> Result<bool, AssetError> {
         match keyword {
@@ -205,7 +205,7 @@ impl<'a> Reader<'a, '_, '_> {
         let position = Vec3::new(numbers[0], numbers[1], numbers[2]);
         if !is_sound || !position.is_finite() {
             self.warn(|| {
-                "the vertex has not three finite coordinates; what uses it is left out".to_owned()
+                "the vertex does not have three finite coordinates; elements that use it are omitted".to_owned()
             });
         }
         let before = self.contents.positions.len();
@@ -235,7 +235,7 @@ impl<'a> Reader<'a, '_, '_> {
         Vec3::from_array(self.read_numbers([0.0; 3]))
     }
 
-    /// Up to three numbers; those that are missing, or are none, keep their default.
+    /// Up to three numbers; missing or invalid ones keep their default.
     #[inline]
     fn read_numbers(&mut self, mut numbers: [f32; 3]) -> [f32; 3] {
         for slot in &mut numbers {
@@ -243,7 +243,7 @@ impl<'a> Reader<'a, '_, '_> {
                 None => break,
                 Some(Some(number)) => *slot = number,
                 Some(None) => {
-                    self.warn(|| "a number was expected; its default is taken".to_owned());
+                    self.warn(|| "a number was expected; the default is used".to_owned());
                 }
             }
         }
@@ -260,7 +260,7 @@ impl<'a> Reader<'a, '_, '_> {
             let text = self.statements.remaining();
             let Some(length) = self.contents.elements.add_corner(text, counts) else {
                 self.statements.skip_statement();
-                return self.leave_out(location, "a corner is none of v, v/vt, v//vn, v/vt/vn");
+                return self.leave_out(location, "a corner is not one of v, v/vt, v//vn, v/vt/vn");
             };
             self.statements.advance(length);
             let count = self.contents.elements.corner_count() as u64;
@@ -292,7 +292,7 @@ impl<'a> Reader<'a, '_, '_> {
 
     #[cold]
     fn leave_out(&mut self, location: Location, fault: &str) -> Result<(), AssetError> {
-        let message = || format!("{fault}; the element is left out");
+        let message = || format!("{fault}; the element is omitted");
         self.context
             .warnings
             .add(self.context.name, location, message);
@@ -303,7 +303,7 @@ impl<'a> Reader<'a, '_, '_> {
     fn read_smoothing_group(&mut self) {
         let word = self.statements.word().unwrap_or(b"off");
         let number = crate::model::number::parse_i64(word).map(|(number, _)| number);
-        // Exporters also write `on`; a group's number means nothing but itself.
+        // Exporters also write `on`; a group's number has no meaning beyond equality.
         self.smoothing_group = match number {
             Some(number) => u32::try_from(number).unwrap_or(u32::MAX),
             None => u32::from(word.eq_ignore_ascii_case(b"on")),
@@ -331,11 +331,11 @@ impl<'a> Reader<'a, '_, '_> {
             .add(self.context.name, self.statements.location(), message);
     }
 
-    /// One warning per keyword that is not read, for the first thousand keywords.
+    /// Reports each unsupported keyword once, for the first thousand keywords.
     #[cold]
     fn report_keyword(&mut self, keyword: &'a [u8]) {
         const MAX_REPORTED: usize = 1000;
-        // Attributes that change nothing in a picture made of triangles.
+        // Attributes without effect on a mesh of triangles.
         const SILENT: [&[u8]; 10] = [
             b"bevel",
             b"c_interp",

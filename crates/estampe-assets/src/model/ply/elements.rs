@@ -10,7 +10,7 @@ use crate::{AssetError, Limits};
 use estampe_scene::Mesh;
 use glam::{Vec2, Vec3};
 
-/// What a property of a face is.
+/// Role of a property of a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Role {
     Vertices,
@@ -26,11 +26,11 @@ enum Role {
 pub(super) struct Elements {
     triangles: Vec<[u32; 3]>,
     lines: Vec<[u32; 2]>,
-    /// Texture coordinates of each triangle's corners; empty when the faces have none.
+    /// Texture coordinates of each triangle's corners; empty if the faces have none.
     corner_uvs: Vec<[Vec2; 3]>,
-    /// Linear colour of each triangle; empty when the faces have none.
+    /// Linear colour of each triangle; empty if the faces have none.
     colors: Vec<[f32; 4]>,
-    /// Texture of each triangle; empty when the faces have none.
+    /// Texture of each triangle; empty if the faces have none.
     textures: Vec<u32>,
     texture_count: usize,
     polygons: Polygons,
@@ -45,7 +45,7 @@ struct Face {
     color: [f64; 3],
     texture: u32,
     corners: Vec<Vec3>,
-    /// Why it is left out, if it is.
+    /// The reason why it is omitted, if it is.
     fault: Option<&'static str>,
 }
 
@@ -63,7 +63,7 @@ impl Elements {
         }
     }
 
-    /// Reads the faces; `false` when the file ends among them.
+    /// Reads the faces; `false` if the file ends among them.
     pub(super) fn read_faces<V: Values>(
         &mut self,
         values: &mut V,
@@ -124,13 +124,13 @@ impl Elements {
         Ok(true)
     }
 
-    /// Splits the face that was read into triangles.
+    /// Splits the current face into triangles.
     #[inline]
     fn keep_face<V: Values>(&mut self, values: &V, positions: &[Vec3], context: &mut Context<'_>) {
         let face = &mut self.face;
         if let Some(fault) = face.fault {
             context.warnings.add(context.name, values.location(), || {
-                format!("the face before here {fault}; it is left out")
+                format!("the face before here {fault}; it is omitted")
             });
             return;
         }
@@ -168,7 +168,8 @@ impl Elements {
         }
     }
 
-    /// Reads triangle strips: every vertex makes a triangle with the two before; −1 starts anew.
+    /// Reads triangle strips: every vertex makes a triangle with the two before; −1 starts a new
+    /// strip.
     pub(super) fn read_strips<V: Values>(
         &mut self,
         values: &mut V,
@@ -218,7 +219,8 @@ impl Elements {
             let Some(vertex) = vertex_index(index, vertex_count) else {
                 if index != -1.0 {
                     context.warnings.add(context.name, values.location(), || {
-                        "a strip names a vertex that does not exist; it starts anew".to_owned()
+                        "a strip refers to a vertex that does not exist; a new strip starts"
+                            .to_owned()
                     });
                 }
                 last = [NO_VERTEX; 2];
@@ -237,7 +239,7 @@ impl Elements {
         Ok(Ok(()))
     }
 
-    /// Reads edges; `false` when the file ends among them.
+    /// Reads edges; `false` if the file ends among them.
     pub(super) fn read_edges<V: Values>(
         &mut self,
         values: &mut V,
@@ -271,7 +273,7 @@ impl Elements {
             match segment.map(|index| vertex_index(index, positions.len())) {
                 [Some(start), Some(end)] => self.lines.push([start, end]),
                 _ => context.warnings.add(context.name, values.location(), || {
-                    "the edge before here names a vertex that does not exist; it is left out"
+                    "the edge before here refers to a vertex that does not exist; it is omitted"
                         .to_owned()
                 }),
             }
@@ -279,7 +281,7 @@ impl Elements {
         Ok(true)
     }
 
-    /// Puts everything into the mesh that has the vertices.
+    /// Moves everything into the mesh with the vertices.
     pub(super) fn into_mesh(mut self, mesh: &mut Mesh) {
         mesh.triangles = self.triangles;
         mesh.lines = self.lines;
@@ -303,7 +305,7 @@ impl Elements {
 }
 
 impl Face {
-    /// Reads one face. Its lists are read to their end even when it is left out.
+    /// Reads one face. Its lists are read to their end even if it is omitted.
     #[inline]
     fn read<V: Values>(
         &mut self,
@@ -326,7 +328,7 @@ impl Face {
                     }
                     values.next_indices(item, length, vertex_count, &mut self.vertices)?;
                     if self.vertices.contains(&NO_VERTEX) {
-                        self.fault = Some("names a vertex that does not exist");
+                        self.fault = Some("refers to a vertex that does not exist");
                     }
                     if length < 3 {
                         self.fault = Some("has fewer than three corners");

@@ -1,11 +1,11 @@
-//! The header: what the body holds, in which order and encoding.
+//! The header: elements, properties and encoding of the body.
 
 use crate::model::detect::is_ply;
 use crate::model::load::Context;
 use crate::model::textures::text_of_name;
 use crate::{AssetError, Limits, Location};
 
-/// How the body stores its values.
+/// Encoding of the body's values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Encoding {
     Ascii,
@@ -42,7 +42,7 @@ pub(super) struct Property {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Element {
     pub(super) name: String,
-    /// As announced; the body may well be shorter.
+    /// As stated; the body may be shorter.
     pub(super) count: u64,
     pub(super) properties: Vec<Property>,
 }
@@ -51,9 +51,9 @@ pub(super) struct Element {
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
-    /// The names that `comment TextureFile` gives.
+    /// The names given by `comment TextureFile`.
     pub(super) texture_files: Vec<(String, Location)>,
-    /// Where the body starts.
+    /// Start of the body, in bytes.
     pub(super) body_byte: usize,
     pub(super) body_line: u64,
 }
@@ -96,10 +96,10 @@ impl Element {
             .position(|property| names.contains(&property.name.as_str()))
     }
 
-    /// The fewest bytes that one of them can sensibly take in the body, lists being of three items.
+    /// The fewest plausible bytes of one element in the body, with three items per list.
     pub(super) fn least_bytes(&self, encoding: Encoding) -> usize {
         let least = |property: &Property| match (encoding, property.kind) {
-            // A digit and a blank each.
+            // A digit and a blank per value.
             (Encoding::Ascii, Kind::One(_)) => 2,
             (Encoding::Ascii, Kind::List { .. }) => 8,
             (_, Kind::One(scalar)) => scalar.len_bytes(),
@@ -113,7 +113,7 @@ impl Header {
     const MAX_ELEMENTS: u64 = 256;
     const MAX_PROPERTIES: u64 = 1024;
 
-    /// Reads the header that `bytes` start with.
+    /// Reads the header at the start of `bytes`.
     pub(super) fn read(bytes: &[u8], context: &Context<'_>) -> Result<Self, AssetError> {
         if !is_ply(bytes) {
             return Err(AssetError::malformed(
@@ -140,7 +140,7 @@ impl Header {
             let mut words = text.split_ascii_whitespace();
             let location = Location::Line(lines.line);
             let malformed = |what: String| {
-                AssetError::malformed(what, "export the model again, or mend the header")
+                AssetError::malformed(what, "export the model again, or correct the header")
                     .at(location)
             };
             match words.next() {
@@ -150,7 +150,7 @@ impl Header {
                     return Ok(header);
                 }
                 Some("end_header") => {
-                    return Err(malformed("the header names no format".to_owned()));
+                    return Err(malformed("the header has no format".to_owned()));
                 }
                 Some("format") => {
                     has_format = true;
@@ -183,19 +183,19 @@ impl Header {
                 Some("property") => {
                     let property = read_property(&mut words).map_err(malformed)?;
                     let Some(element) = header.elements.last_mut() else {
-                        return Err(malformed("a property stands before any element".to_owned()));
+                        return Err(malformed("a property precedes all elements".to_owned()));
                     };
                     element.properties.push(property);
                     let count = element.properties.len() as u64;
                     Limits::check("properties", count, Self::MAX_PROPERTIES)?;
                 }
-                // `obj_info`, and whatever else may come.
+                // `obj_info`, and unknown lines.
                 _ => {}
             }
         }
         Err(AssetError::malformed(
             "the header has no `end_header`",
-            "check that the file is whole",
+            "check that the file is complete",
         )
         .at(Location::Line(lines.line)))
     }
@@ -240,7 +240,7 @@ fn read_property<'a>(words: &mut impl Iterator<Item = &'a str>) -> Result<Proper
 struct Lines<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// Number of the line given last.
+    /// Number of the last returned line.
     line: u64,
 }
 
@@ -251,8 +251,8 @@ impl<'a> Lines<'a> {
             .iter()
             .position(|&byte| byte == b'\n' || byte == b'\r')?;
         let is_pair = rest[length..].starts_with(b"\r\n");
-        // A binary body may start with a byte that looks like LF: CR LF counts as one end only if the
-        // first line ended so too.
+        // A binary body may start with a byte that looks like LF: CR LF counts as one end only if
+        // the first line ended so too.
         let is_pair = is_pair && (self.line == 0 || self.ends_with_pairs());
         self.at += length + 1 + usize::from(is_pair);
         self.line += 1;

@@ -2,19 +2,21 @@
 //!
 //! ```text
 //! header   (elements: name, count, properties)
-//! values   (the body as a stream of scalars, in the announced encoding)
+//! values   (the body as a stream of scalars, in the stated encoding)
 //!       -> vertices -> faces, triangle strips, edges -> split -> mesh
 //! ```
 //!
-//! Known: `vertex` (`x y z`, `nx ny nz`, `s t | u v | texture_u texture_v`, `red green blue alpha`),
-//! `face` (`vertex_indices | vertex_index`, `texcoord`, `texnumber`, colours), `tristrips`, `edge`, and
-//! `comment TextureFile`. Other elements and properties are read over. A file of vertices only is a
-//! cloud of points.
+//! Known: `vertex` (`x y z`, `nx ny nz`, `s t | u v | texture_u texture_v`, `red green blue
+//! alpha`), `face` (`vertex_indices | vertex_index`, `texcoord`, `texnumber`, colours),
+//! `tristrips`, `edge`, and `comment TextureFile`. Other elements and properties are skipped. A
+//! file of vertices only is a cloud of points.
 //!
-//! Damage: a vertex that is cut off is an error, since faces would mean nothing; faces that are cut off
-//! leave those before, with a warning. Faces whose indices do not exist are left out with a warning.
+//! Damage: truncated vertices are an error, because faces would have no meaning; truncated faces
+//! leave the faces before, with a warning. Faces with indices that do not exist are omitted with a
+//! warning.
 //!
-//! Source: G. Turk, "The PLY Polygon File Format", 1994; the elements' names as MeshLab and Blender write them.
+//! Source: G. Turk, "The PLY Polygon File Format", 1994; the elements' names as MeshLab and Blender
+//! write them.
 
 mod elements;
 mod header;
@@ -77,7 +79,7 @@ fn read_body<V: Values>(
         if !is_whole {
             context.warnings.add(context.name, values.location(), || {
                 format!(
-                    "the file ends within its `{}` elements; what is whole is kept",
+                    "the file ends within its `{}` elements; complete ones are kept",
                     element.name
                 )
             });
@@ -87,7 +89,7 @@ fn read_body<V: Values>(
     if !has_vertices {
         return Err(AssetError::malformed(
             "it has no `vertex` element",
-            "check that the file holds a mesh or a cloud of points",
+            "check that the file has a mesh or a point cloud",
         ));
     }
     elements.into_mesh(&mut mesh);

@@ -1,17 +1,17 @@
-//! Attributes of corners and faces become attributes of vertices.
+//! Conversion of corner and face attributes to vertex attributes.
 
 use crate::model::vertex_copies::VertexCopies;
 use estampe_scene::{Mesh, Surface};
 use glam::Vec2;
 
-/// Attributes that triangles have, and vertices do not; each is empty, or as long as the triangles.
+/// Attributes per triangle corner; each is empty, or as long as the triangles.
 #[derive(Debug)]
 pub(super) struct Corners {
     pub(super) uvs: Vec<[Vec2; 3]>,
     pub(super) colors: Vec<[f32; 4]>,
 }
 
-/// Gives the mesh its surfaces by texture, and splits vertices whose corners differ.
+/// Creates the mesh's surfaces by texture, and splits vertices whose corners differ.
 pub(super) fn split(mesh: &mut Mesh, mut corners: Corners, textures: &[u32], texture_count: usize) {
     let count = mesh.triangles.len();
     if texture_count > 0 && count > 0 {

@@ -1,4 +1,4 @@
-//! Faces that are all triangles, in binary: rows of one length, which several threads read at once.
+//! Binary faces that are all triangles: rows of one length, which several threads read at once.
 
 use super::header::{Element, Kind, Scalar};
 use super::values::NO_VERTEX;
@@ -7,7 +7,7 @@ use estampe_scene::Workers;
 /// The length 3 as a byte, and three indices.
 pub(super) const ROW_BYTES: usize = 13;
 
-/// Whether the element has just a list of indices, its length in one byte and its items in four.
+/// True if the element is just a list of indices, its length in one byte and its items in four.
 pub(super) fn can_be_rows(element: &Element) -> bool {
     let is_index = |item| matches!(item, Scalar::I32 | Scalar::U32);
     match element.properties.as_slice() {
@@ -19,9 +19,10 @@ pub(super) fn can_be_rows(element: &Element) -> bool {
     }
 }
 
-/// The triangles of the first `count` rows, up to the first that is no triangle of existing vertices.
+/// The triangles of the first `count` rows, up to the first row that is not a triangle of existing
+/// vertices.
 ///
-/// `index` decodes an index. Memory is taken for rows that are there only.
+/// `index` decodes an index. Memory is allocated only for rows that exist.
 pub(super) fn read(
     bytes: &[u8],
     count: u64,
@@ -60,7 +61,7 @@ pub(super) fn read(
     let mut sound = 0;
     for good in good_rows {
         sound += good;
-        // Only whole pieces are followed by others.
+        // Only complete pieces are followed by others.
         if good < PIECE {
             break;
         }

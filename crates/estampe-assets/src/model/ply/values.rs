@@ -7,18 +7,18 @@ use crate::model::statements::Statements;
 use crate::{AssetError, Location};
 use estampe_scene::Workers;
 
-/// Why a value could not be read.
+/// The reason why a value could not be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fault {
     /// The file ends here.
     End,
-    /// Something else stands where a number should.
+    /// The text is not a number.
     NoNumber,
-    /// A list of less than no items.
+    /// A list with a negative length.
     NegativeLength,
 }
 
-/// Stands for an index that names no vertex.
+/// Marks an index that is not the index of a vertex.
 pub(super) const NO_VERTEX: u32 = u32::MAX;
 
 /// The index, if it is one of `count` vertices.
@@ -30,15 +30,16 @@ pub(super) fn vertex_index(index: f64, count: usize) -> Option<u32> {
     is_vertex.then_some(index as u32)
 }
 
-/// Reads values one after the other. All types fit f64 exactly.
+/// A reader of values, one after the other. All types fit f64 exactly.
 pub(super) trait Values: Sized + Send {
     /// The next value.
     fn next(&mut self, scalar: Scalar) -> Result<f64, Fault>;
 
-    /// Moves over `count` values.
+    /// Skips `count` values.
     fn skip(&mut self, count: u64, scalar: Scalar) -> Result<(), Fault>;
 
-    /// Appends `count` indices to `out`: those below `vertex_count`, and [`NO_VERTEX`] for others.
+    /// Appends `count` indices to `out`; those that are not below `vertex_count` become
+    /// [`NO_VERTEX`].
     #[inline]
     fn next_indices(
         &mut self,
@@ -54,9 +55,9 @@ pub(super) trait Values: Sized + Send {
         Ok(())
     }
 
-    /// Readers of the next `count` rows of `row_bytes`, which are moved over, with `rows_each` rows for each
-    /// reader but the last; `None`, with nothing moved, where the encoding has no rows of one length, or
-    /// not all of them are there.
+    /// Readers of the next `count` rows of `row_bytes`, which are skipped, with `rows_each` rows
+    /// per reader except the last. `None`, with nothing skipped, if the encoding has no rows of
+    /// constant length, or the file is too short.
     fn take_rows(
         &mut self,
         _count: u64,
@@ -66,8 +67,8 @@ pub(super) trait Values: Sized + Send {
         None
     }
 
-    /// Reads and moves over the faces up to the first that is no plain triangle, as far as the encoding
-    /// knows their rows' length; the element must be one that [`triangle_rows::can_be_rows`].
+    /// Reads and skips faces up to the first that is not a plain triangle, if the encoding has rows
+    /// of known length; the element must satisfy [`triangle_rows::can_be_rows`].
     fn take_triangles(
         &mut self,
         _count: u64,
@@ -77,13 +78,13 @@ pub(super) trait Values: Sized + Send {
         Vec::new()
     }
 
-    /// Called after each element: in ASCII, each has a line of its own.
+    /// Called after each element: in ASCII, each element is a line.
     fn end_row(&mut self);
 
-    /// Where the next value is.
+    /// Location of the next value.
     fn location(&self) -> Location;
 
-    /// How many bytes are left.
+    /// Number of remaining bytes.
     fn len_bytes(&self) -> usize;
 
     fn encoding(&self) -> Encoding;
@@ -103,7 +104,7 @@ pub(super) trait Values: Sized + Send {
         Ok(length as u64)
     }
 
-    /// Moves over a property.
+    /// Skips a property.
     fn skip_property(&mut self, kind: Kind) -> Result<(), Fault> {
         match kind {
             Kind::One(scalar) => self.skip(1, scalar),
@@ -114,7 +115,7 @@ pub(super) trait Values: Sized + Send {
         }
     }
 
-    /// Moves over an element that means nothing here; `false` when the file ends in it.
+    /// Skips an unknown element; `false` if the file ends in it.
     fn skip_element(&mut self, element: &Element) -> Result<bool, AssetError> {
         if element.properties.is_empty() {
             return Ok(true);
@@ -139,18 +140,18 @@ pub(super) trait Values: Sized + Send {
         }
     }
 
-    /// The fault as the user sees it.
+    /// The error for the user.
     fn error(&self, fault: Fault) -> AssetError {
         let (what, advice) = match fault {
-            Fault::End => ("the file ends too early", "check that it is whole"),
+            Fault::End => ("the file ends too early", "check that the file is complete"),
             Fault::NoNumber => ("a number was expected", "export the model again"),
             Fault::NegativeLength => ("a list has a negative length", "export the model again"),
         };
         AssetError::malformed(what, advice).at(self.location())
     }
 
-    /// How many of `element` there can be: no more than announced, and no more than the bytes suffice for.
-    /// So much memory, and no more, may be taken in advance.
+    /// Upper bound of the number of `element`: at most the stated one, and at most what the bytes
+    /// suffice for. Memory for so many may be reserved.
     fn plausible_count(&self, element: &Element) -> usize {
         let least = element.least_bytes(self.encoding()).max(1);
         let possible = self.len_bytes() / least + 1;
@@ -186,7 +187,7 @@ impl Values for Ascii<'_> {
             && text.get(length).is_none_or(|&byte| byte <= b' ')
         {
             self.statements.advance(length);
-            // Nothing beyond 2^32 is meant anywhere.
+            // No value beyond 2^32 is meaningful.
             return Ok(value.clamp(-(1 << 40), 1 << 40) as f64);
         }
         let (value, length) = parse_f32(text).ok_or(Fault::NoNumber)?;
@@ -265,7 +266,7 @@ impl<const BIG: bool> Values for Binary<'_, BIG> {
         })
     }
 
-    /// All at once for the usual types: one check of the length, and no detour through f64.
+    /// The usual types are read at once: one check of the length, and no conversion through f64.
     #[inline]
     fn next_indices(
         &mut self,

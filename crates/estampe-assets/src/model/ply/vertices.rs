@@ -1,4 +1,4 @@
-//! The `vertex` element: positions and what goes with them.
+//! The `vertex` element: positions and their attributes.
 
 use super::header::{Element, Kind, Scalar};
 use super::values::{Fault, Values};
@@ -8,7 +8,7 @@ use crate::model::srgb::{linear_from_srgb, linear_from_srgb8};
 use estampe_scene::{Mesh, Workers};
 use glam::{Vec2, Vec3};
 
-/// The names of each slot of a row.
+/// The property names of each slot of a row.
 const SLOT_NAMES: [&[&str]; 12] = [
     &["x"],
     &["y"],
@@ -27,10 +27,10 @@ const NORMAL: usize = 3;
 const UV: usize = 6;
 const COLOR: usize = 8;
 const ALPHA: usize = 11;
-/// Where values go that mean nothing.
+/// The slot of values without a meaning.
 const NOWHERE: usize = SLOT_NAMES.len();
 
-/// How to read a row: for each property, its kind and the slot that it goes to.
+/// Plan for reading a row: for each property, its kind and its slot.
 struct Plan {
     steps: Vec<(Kind, usize)>,
     types: [Option<Scalar>; NOWHERE],
@@ -73,14 +73,14 @@ impl Plan {
         self.has(COLOR..ALPHA)
     }
 
-    /// The colour of a row that has one.
+    /// The colour of a row; the row must have one.
     fn color(&self, row: &[f64; NOWHERE + 1]) -> [f32; 4] {
         let rgb = [row[COLOR], row[COLOR + 1], row[COLOR + 2]];
         let alpha = self.types[ALPHA].map_or(1.0, |scalar| unit_value(row[ALPHA], scalar));
         color(rgb, self.types[COLOR].unwrap_or(Scalar::U8), alpha)
     }
 
-    /// The length of a row in binary; `None` when it has lists, or nothing.
+    /// The length of a row in binary; `None` if it has lists, or nothing.
     fn row_bytes(&self) -> Option<usize> {
         let bytes = self.steps.iter().map(|&(kind, _)| match kind {
             Kind::One(scalar) => Some(scalar.len_bytes()),
@@ -117,7 +117,7 @@ pub(super) fn read<V: Values>(
     if !plan.has(0..3) {
         return Err(AssetError::malformed(
             "the vertices have no `x`, `y`, `z`",
-            "check that the file holds a mesh or a cloud of points",
+            "check that the file has a mesh or a point cloud",
         ));
     }
     let rows = plan
@@ -154,7 +154,7 @@ pub(super) fn read<V: Values>(
 /// Rows of a piece: some hundred microseconds of work.
 const PIECE: usize = 1 << 14;
 
-/// Reads rows of one length by several threads; each reader has [`PIECE`] of them but the last.
+/// Reads rows of one length by several threads; each reader has [`PIECE`] rows except the last.
 fn read_at_once<V: Values>(plan: &Plan, readers: Vec<V>, mesh: &mut Mesh, workers: Workers) {
     let Some(row_bytes) = plan.row_bytes() else {
         return;
@@ -197,7 +197,7 @@ fn read_at_once<V: Values>(plan: &Plan, readers: Vec<V>, mesh: &mut Mesh, worker
             }
         },
     );
-    // The memory stays where it is: elements have the same size and alignment.
+    // The memory is reused: the elements have the same size and alignment.
     mesh.positions = positions.into_iter().map(Vec3::from_array).collect();
     mesh.normals = normals.into_iter().map(Vec3::from_array).collect();
     mesh.uvs = uvs.into_iter().map(Vec2::from_array).collect();
@@ -250,7 +250,7 @@ pub(super) fn color(rgb: [f64; 3], scalar: Scalar, alpha: f32) -> [f32; 4] {
     [r, g, b, alpha]
 }
 
-/// A value between 0 and 1: floats are already, integers are of 8 bits unless they are of 16.
+/// A value between 0 and 1: floats unchanged, u16 divided by 65535, other integers by 255.
 pub(super) fn unit_value(value: f64, scalar: Scalar) -> f32 {
     let largest = match scalar {
         Scalar::F32 | Scalar::F64 => 1.0,

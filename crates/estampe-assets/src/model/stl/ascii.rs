@@ -10,8 +10,8 @@
 //! endsolid [name]
 //! ```
 //!
-//! Keywords may be in upper case, lines may be joined, `endsolid` may be missing; several solids are
-//! several meshes.
+//! Keywords may be in upper case, lines may be joined, `endsolid` may be missing; several solids
+//! are several meshes.
 
 use super::joined;
 use crate::model::load::Context;
@@ -27,13 +27,13 @@ struct Reader<'a, 'c, 'r> {
     context: &'c mut Context<'r>,
     done: Vec<Mesh>,
     current: Option<Solid>,
-    /// Corners of the facet that is open.
+    /// Corners of the open facet.
     corners: Vec<Vec3>,
     polygons: Polygons,
     triangle_count: u64,
 }
 
-/// A solid that is being read.
+/// The open solid.
 struct Solid {
     name: String,
     triangles: Vec<[Vec3; 3]>,
@@ -63,7 +63,7 @@ pub(super) fn read(bytes: &[u8], context: &mut Context<'_>) -> Result<Vec<Mesh>,
         reader.read_word(word)?;
     }
     if !reader.corners.is_empty() {
-        reader.warn("the file ends within a facet; what there is of it is kept");
+        reader.warn("the file ends within a facet; its vertices so far are kept");
         reader.end_facet()?;
     }
     reader.end_solid();
@@ -129,7 +129,7 @@ impl<'a> Reader<'a, '_, '_> {
         }
         let position = Vec3::from_array(position);
         if !position.is_finite() {
-            self.warn("the vertex has not three finite coordinates; its facet is left out");
+            self.warn("the vertex does not have three finite coordinates; its facet is omitted");
         }
         let limit = self.context.limits.max_polygon_corners;
         Limits::check("corners of one facet", self.corners.len() as u64 + 1, limit)
@@ -141,7 +141,7 @@ impl<'a> Reader<'a, '_, '_> {
     fn end_facet(&mut self) -> Result<(), AssetError> {
         match *self.corners.as_slice() {
             [] => return Ok(()),
-            [_] | [_, _] => self.warn("the facet has fewer than three vertices; it is left out"),
+            [_] | [_, _] => self.warn("the facet has fewer than three vertices; it is omitted"),
             [a, b, c] => {
                 self.triangle_count += 1;
                 self.current
@@ -173,7 +173,7 @@ impl<'a> Reader<'a, '_, '_> {
         .map_err(|error| error.at(self.statements.location()))
     }
 
-    /// Keeps the open solid. Beyond the limit of meshes its triangles join the last one.
+    /// Keeps the open solid. Beyond the limit of meshes its triangles are joined to the last one.
     fn end_solid(&mut self) {
         let Some(solid) = self.current.take() else {
             return;

@@ -13,12 +13,12 @@ const HEADER_BYTES: usize = 84;
 const TRIANGLE_BYTES: usize = 50;
 type Record = [u8; TRIANGLE_BYTES];
 
-/// Reads the triangles that are there, be they more or fewer than announced.
+/// Reads the existing triangles, even if the header states more or fewer.
 pub(super) fn read(bytes: &[u8], context: &mut Context<'_>) -> Result<Mesh, AssetError> {
     let Some(announced_bytes) = binary_stl_length(bytes) else {
         return Err(AssetError::malformed(
             "it neither starts with `solid` nor is long enough to be a binary STL file",
-            "check that it is an STL file and that it is whole",
+            "check that it is an STL file and complete",
         )
         .at(Location::Byte(bytes.len() as u64)));
     };
@@ -27,8 +27,8 @@ pub(super) fn read(bytes: &[u8], context: &mut Context<'_>) -> Result<Mesh, Asse
     let announced = (announced_bytes - HEADER_BYTES as u64) / TRIANGLE_BYTES as u64;
     if records.is_empty() && announced > 0 {
         return Err(AssetError::malformed(
-            format!("{announced} triangles are announced and none is there"),
-            "check that the file is an STL file and that it is whole",
+            format!("the header states {announced} triangles and the file has none"),
+            "check that it is an STL file and complete",
         )
         .at(Location::Byte(bytes.len() as u64)));
     }
@@ -42,14 +42,14 @@ pub(super) fn read(bytes: &[u8], context: &mut Context<'_>) -> Result<Mesh, Asse
         context
             .warnings
             .add(context.name, Location::Byte(bytes.len() as u64), || {
-                format!("{announced} triangles are announced, the file ends after {count}")
+                format!("the header states {announced} triangles, the file ends after {count}")
             });
     } else if announced_bytes < bytes.len() as u64 {
         let extra = bytes.len() as u64 - announced_bytes;
         context
             .warnings
             .add(context.name, Location::Byte(announced_bytes), || {
-                format!("{extra} bytes follow the announced triangles; they are ignored")
+                format!("{extra} bytes follow the stated triangles; they are ignored")
             });
     }
 
@@ -89,7 +89,7 @@ fn attribute(record: &Record) -> u16 {
     u16::from_le_bytes([record[48], record[49]])
 }
 
-/// How attributes mean colours.
+/// Colour convention of the attributes.
 #[derive(Debug, Clone, Copy)]
 enum Colors {
     VisCam,
@@ -99,7 +99,7 @@ enum Colors {
 impl Colors {
     const VALID: u16 = 1 << 15;
 
-    /// `None` when the attributes hold no colours.
+    /// `None` if the attributes are not colours.
     fn of(header: &[u8], records: &[Record]) -> Option<Self> {
         let marked = header[..80]
             .windows(10)
@@ -109,7 +109,8 @@ impl Colors {
                 default: [r, g, b, a],
             });
         }
-        // Without a mark the attributes could be anything; colours have bit 15, what has none is 0.
+        // Without a mark the attributes could have any meaning; colours have bit 15, and triangles
+        // without a colour have 0.
         let mut attributes = records.iter().map(attribute);
         let is_plausible = attributes.all(|value| value == 0 || value & Self::VALID != 0);
         let first = records.first().map(attribute)?;

@@ -1,8 +1,8 @@
 //! STL, binary and ASCII.
 //!
-//! A file is a soup of triangles: three positions each, nothing shared. Positions equal to the bit are
-//! joined, so that normals can be smooth. The file's own normals are not used: they say nothing that
-//! the corners do not, and in many files they are zero or wrong.
+//! A file is a triangle soup: three positions per triangle, nothing shared. Positions equal to the
+//! bit are joined, so that normals can be smooth. The file's own normals are not used: they follow
+//! from the corners, and in many files they are zero or wrong.
 //!
 //! Binary: 80 bytes of any text, the number of triangles (u32, little-endian), then 50 bytes each:
 //!
@@ -11,19 +11,20 @@
 //! | normal | corner | corner | corner | u16 |      f32 little-endian
 //! ```
 //!
-//! The last two bytes are "attributes". Two programs put colours there, in opposite order:
+//! The last two bytes are "attributes". Two programs store colours there, in opposite order:
 //!
 //! | bits         | 15                   | 14–10 | 9–5   | 4–0  |
 //! |--------------|----------------------|-------|-------|------|
 //! | VisCAM       | 1: has a colour      | red   | green | blue |
 //! | Magics       | 0: has a colour      | blue  | green | red  |
 //!
-//! Magics announces itself by `COLOR=` and the default colour (RGBA bytes) in the first 80 bytes.
+//! Magics marks its files by `COLOR=` and the default colour (RGBA bytes) in the first 80 bytes.
 //!
 //! Many binary files start with `solid`, as ASCII ones do. A file is binary if its length fits its
 //! number of triangles, else ASCII if it starts with `solid` or `facet`, else a damaged binary.
 //!
-//! Source: M. Burns, "Automated Fabrication", 1993, §6.5; Wikipedia, "STL (file format)", for colours.
+//! Source: M. Burns, "Automated Fabrication", 1993, §6.5; Wikipedia, "STL (file format)", for
+//! colours.
 
 mod ascii;
 mod binary;
@@ -54,7 +55,7 @@ pub(super) fn parse(bytes: &[u8], context: &mut Context<'_>) -> Result<Parsed, A
     })
 }
 
-/// Whether the first word is that of an ASCII file, and no byte 0 follows soon: text has none.
+/// True if the first word is that of an ASCII file, and no byte 0 follows soon: text has none.
 fn starts_as_ascii(bytes: &[u8]) -> bool {
     let text = bytes
         .strip_prefix(b"\xef\xbb\xbf")
@@ -68,10 +69,10 @@ fn starts_as_ascii(bytes: &[u8]) -> bool {
     (starts_with(b"solid") || starts_with(b"facet")) && !head.contains(&0)
 }
 
-/// Joins equal corners of a soup of triangles; corners with different tags stay apart.
+/// Joins equal corners of a triangle soup; corners with different tags stay separate.
 ///
-/// `corner` gives the position and the tag of one of `3 * triangle_count` corners. Vertices are in the order
-/// in which they first appear; the second result is the tag of each.
+/// `corner` returns the position and the tag of one of `3 * triangle_count` corners. Vertices are
+/// in the order of their first appearance; the second result is the tag of each.
 fn joined(
     name: String,
     triangle_count: usize,
@@ -101,7 +102,7 @@ fn joined(
             tags.push(tag);
             u32::try_from(tags.len() - 1).expect("limits keep corners below 2^32")
         } else {
-            // That of an earlier corner is the vertex's number already.
+            // An earlier corner already has the vertex's number.
             vertices[first]
         };
     }

@@ -1,4 +1,4 @@
-//! Normals that files leave out.
+//! Computation of missing normals.
 
 use crate::model::normals::{self, NormalMode};
 use crate::model::weld::{first_equals, key};
@@ -149,7 +149,7 @@ fn smoothing_groups_overrule_angles() {
     let mut meshes = [cube()];
     normals::fill_missing(&mut meshes, NormalMode::SmoothingGroups(&none));
     assert_eq!(meshes[0].positions.len(), 24);
-    // Bottom and top are groups of their own, the four walls are one.
+    // Bottom and top are separate groups, the four walls are one.
     let walls = [vec![2, 2, 3, 3, 1, 1, 1, 1, 1, 1, 1, 1]];
     let mut meshes = [cube()];
     normals::fill_missing(&mut meshes, NormalMode::SmoothingGroups(&walls));
@@ -251,7 +251,7 @@ fn a_vertex_shared_by_all_triangles_takes_no_quadratic_time() {
     normals::fill_missing(&mut meshes, NormalMode::default());
     assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
     let [mesh] = meshes;
-    // What is a cell of directions is still near the face's own direction.
+    // A cell of directions is still near the face's own direction.
     for &triangle in mesh.triangles.iter().step_by(100) {
         let own = face_normal(&mesh, triangle);
         assert!(mesh.normals[triangle[0] as usize].dot(own) > 0.3);
@@ -270,7 +270,7 @@ fn welding_tells_positions_apart() {
         key(zero, 1),
     ];
     let special = [0, 0, 2, 3, 3, 2];
-    // Different ones, then the same again.
+    // Different ones, then the same ones again.
     let count = 50_000_u16;
     for _ in 0..2 {
         keys.extend((0..count).map(|i| key(Vec3::new(f32::from(i), 1.0, 2.0), 0)));

@@ -1,7 +1,8 @@
-//! Numbers: as the standard library rounds them.
+//! Numbers are rounded as by the standard library.
 
 use crate::model::number::{parse_f32, parse_i64};
 use crate::model::srgb::{linear_from_srgb, linear_from_srgb8};
+use fastrand::Rng;
 
 fn assert_as_standard(text: &str) {
     let expected: f32 = text.parse().unwrap();
@@ -12,18 +13,6 @@ fn assert_as_standard(text: &str) {
         expected.to_bits(),
         "{text}: {value:e}, not {expected:e}"
     );
-}
-
-/// xorshift64*.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        self.0.wrapping_mul(0x2545_f491_4f6c_dd1d)
-    }
 }
 
 #[test]
@@ -71,22 +60,22 @@ fn decimals_are_rounded_as_by_the_standard_library() {
 
 #[test]
 fn random_decimals_are_rounded_as_by_the_standard_library() {
-    let mut random = Random(1);
+    let mut random = Rng::with_seed(1);
     for _ in 0..200_000 {
-        let bits = u32::try_from(random.next() >> 32).unwrap();
+        let bits = random.u32(..);
         let value = f32::from_bits(bits);
         if value.is_finite() {
             assert_as_standard(&format!("{value}"));
             assert_as_standard(&format!("{value:e}"));
             assert_as_standard(&format!("{value:.6}"));
         }
-        let whole = random.next() >> (random.next() % 64);
-        let exponent = (random.next() % 90) as i64 - 50;
+        let whole = random.u64(..) >> random.u32(..64);
+        let exponent = random.i64(-50..40);
         assert_as_standard(&format!("{whole}e{exponent}"));
         assert_as_standard(&format!(
             "{}.{}",
             whole % 100_000,
-            random.next() % 1_000_000_000
+            random.u32(..1_000_000_000)
         ));
     }
 }
@@ -94,9 +83,9 @@ fn random_decimals_are_rounded_as_by_the_standard_library() {
 /// Points midway between two floats, and their neighbours in the last of 20 digits.
 #[test]
 fn midpoints_are_rounded_as_by_the_standard_library() {
-    let mut random = Random(2);
+    let mut random = Rng::with_seed(2);
     for _ in 0..20_000 {
-        let bits = 0x3f80_0000 + u32::try_from(random.next() % 0x0100_0000).unwrap();
+        let bits = 0x3f80_0000 + random.u32(..0x0100_0000);
         let [low, high] = [bits, bits + 1].map(|bits| f64::from(f32::from_bits(bits)));
         let middle = format!("{:.30}", f64::midpoint(low, high));
         assert_as_standard(&middle);

@@ -1,10 +1,10 @@
-//! A model opens regular files below its own folder, and nothing else.
+//! A model opens regular files below its own folder only.
 
 use crate::model::{Folder, NoResources, ResourceError, Resources};
 use std::fs;
 use std::path::PathBuf;
 
-/// A fresh folder that is removed in the end, holding `model/inner/Wood 1.png` and `secret.txt`.
+/// A temporary folder with `model/inner/Wood 1.png` and `secret.txt`.
 struct Scratch(PathBuf);
 
 impl Scratch {

@@ -1,4 +1,4 @@
-//! The command end to end, on files in a folder of its own.
+//! The command end to end, on files in a temporary folder.
 
 use std::fs;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::*;
 
-/// A folder that goes away with its test.
+/// A folder that is removed after its test.
 struct Folder(PathBuf);
 
 impl Folder {

@@ -1,12 +1,12 @@
 //! The colour spaces of FLIP: sRGB, linear light, YCxCz and Hunt-adjusted L*a*b*.
 //!
-//! Values relative to white: X, Y and Z are each divided by the white point's, D65 at the chromaticity
-//! (0.31271, 0.32902). The matrix follows from the primaries of sRGB (IEC 61966-2-1) and that white;
-//! it is worked out once in f64.
+//! Values are relative to white: X, Y and Z are each divided by the white point's, D65 at the
+//! chromaticity (0.31271, 0.32902). The matrix follows from the primaries of sRGB (IEC 61966-2-1)
+//! and that white; it is computed once in f64.
 
 /// Exponent of the final colour difference (the paper's q_c).
 const COLOR_EXPONENT: f32 = 0.7;
-/// The share of the largest difference (p_c) that is mapped to [`KNEE_TO`] (p_t).
+/// The fraction of the largest difference (p_c) that is mapped to [`KNEE_TO`] (p_t).
 const KNEE_FROM: f32 = 0.4;
 const KNEE_TO: f32 = 0.95;
 
@@ -16,7 +16,7 @@ pub(super) type Xyz = [f32; 3];
 /// Luminance and two opponent axes, linear in light: 116 Y − 16, 500 (X − Y), 200 (Y − Z).
 pub(super) type YCxCz = [f32; 3];
 
-/// L*, and a* and b* weakened in the dark.
+/// L*, and a* and b* reduced in the dark.
 pub(super) type HuntLab = [f32; 3];
 
 /// The conversions, with their tables.
@@ -49,7 +49,7 @@ impl Colors {
         colors
     }
 
-    /// An sRGB texel over a ground of one grey, as YCxCz.
+    /// An sRGB texel over a grey background, as YCxCz.
     pub(super) fn ycxcz(&self, [r, g, b, alpha]: [u8; 4], ground: u8) -> YCxCz {
         // Straight alpha mixes the encoded values, as viewers and browsers do.
         let over = |value: u8| {
@@ -61,7 +61,7 @@ impl Colors {
         [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
     }
 
-    /// A filtered YCxCz colour, brought back into the gamut, as Hunt-adjusted L*a*b*.
+    /// A filtered YCxCz colour, clamped to the gamut, as Hunt-adjusted L*a*b*.
     pub(super) fn hunt_lab(&self, [luma, cx, cz]: YCxCz) -> HuntLab {
         let y = (luma + 16.0) / 116.0;
         let rgb = multiply(
@@ -74,8 +74,8 @@ impl Colors {
         ))
     }
 
-    /// The colour difference ΔE in [0, 1]: HyAB to the power q_c, then a knee that gives the lower 40 %
-    /// of its range 95 % of the scale.
+    /// The colour difference ΔE in [0, 1]: HyAB to the power q_c, then a knee that gives the lower
+    /// 40 % of its range 95 % of the scale.
     pub(super) fn difference(&self, a: HuntLab, b: HuntLab) -> f32 {
         let distance = hyab(a, b);
         if distance == 0.0 {

@@ -1,9 +1,9 @@
-//! The feature difference ΔF: edges and points that one picture has and the other lacks.
+//! The feature difference ΔF: edges and points that one image has and the other lacks.
 
 /// Edge and point strength of a pixel.
 pub(super) type Features = [f32; 2];
 
-/// The strengths from the two derivatives of either order.
+/// The strengths, from the derivatives of edges and points in x and y.
 #[inline]
 pub(super) fn strengths(edge: [f32; 2], point: [f32; 2]) -> Features {
     [edge, point].map(|[x, y]| (x * x + y * y).sqrt())

@@ -2,22 +2,23 @@
 
 use std::f64::consts::PI;
 
-/// The kernels of one picture axis, each of 2 · [`Kernels::reach`] + 1 taps.
+/// The kernels for one image axis, each of 2 · [`Kernels::reach`] + 1 taps.
 #[derive(Debug)]
 pub(super) struct Kernels {
     /// Taps on either side of the middle.
     pub(super) reach: usize,
     /// Contrast sensitivity of the luminance axis.
     pub(super) luminance: Vec<f32>,
-    /// … of the red-green axis.
+    /// Contrast sensitivity of the red-green axis.
     pub(super) red_green: Vec<f32>,
-    /// … of the blue-yellow axis: a narrow and a wide Gaussian with the weight of each.
+    /// Contrast sensitivity of the blue-yellow axis: a narrow and a wide Gaussian with their
+    /// weights.
     pub(super) blue_yellow: [(Vec<f32>, f32); 2],
     /// The Gaussian of the feature detectors.
     pub(super) smooth: Vec<f32>,
-    /// Its first derivative.
+    /// The first derivative of the Gaussian.
     pub(super) edge: Vec<f32>,
-    /// Its second derivative.
+    /// The second derivative of the Gaussian.
     pub(super) point: Vec<f32>,
 }
 
@@ -104,8 +105,8 @@ fn balanced(taps: Vec<f64>) -> Vec<f32> {
         .collect()
 }
 
-/// Filters a row: `out[x] = Σ taps[k] · padded[x + k]`, where `padded` holds the row with the reach of
-/// the kernel on both sides.
+/// Filters a row: `out[x] = Σ taps[k] · padded[x + k]`, where `padded` holds the row with the reach
+/// of the kernel on both sides.
 #[inline]
 pub(super) fn along_row(padded: &[f32], taps: &[f32], out: &mut [f32]) {
     out.fill(0.0);
@@ -114,8 +115,8 @@ pub(super) fn along_row(padded: &[f32], taps: &[f32], out: &mut [f32]) {
     }
 }
 
-/// Filters down the columns into row `y`: `out[x] = Σ taps[k] · plane[y + k][x]`, where `plane` holds
-/// the rows with the reach of the kernel above and below.
+/// Filters down the columns into row `y`: `out[x] = Σ taps[k] · plane[y + k][x]`, where `plane`
+/// holds the rows with the reach of the kernel above and below.
 #[inline]
 pub(super) fn down_columns(plane: &[f32], y: usize, taps: &[f32], out: &mut [f32]) {
     out.fill(0.0);

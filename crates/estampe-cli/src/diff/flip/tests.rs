@@ -1,5 +1,5 @@
-//! FLIP against the paper's formulas written out once more, in f64 and without any shortcut, and
-//! against what the paper promises.
+//! FLIP compared with a direct f64 implementation of the paper's formulas, and with the paper's
+//! stated properties.
 
 use std::f64::consts::PI;
 
@@ -140,7 +140,7 @@ mod oracle {
         line().map(|j| line().map(|i| f(i, j)).sum::<f64>()).sum()
     }
 
-    /// What is seen of a pixel: Hunt-adjusted L*a*b* after contrast sensitivity.
+    /// The perceived colour of a pixel: Hunt-adjusted L*a*b* after contrast sensitivity.
     fn seen(picture: &Picture, at: (i64, i64)) -> V3 {
         let reach = (3.0 * (0.04 / (2.0 * PI * PI)).sqrt() * PPD).ceil() as i64;
         let parameters = [
@@ -213,13 +213,15 @@ mod oracle {
     }
 }
 
-fn noise(width: u32, height: u32, mut state: u32, step: u32) -> Image {
+fn noise(width: u32, height: u32, seed: u64, step: u32) -> Image {
+    let mut random = fastrand::Rng::with_seed(seed);
+    let mut texel_rgb = [0; 3];
     let mut image = Image::filled(width, height, [0, 0, 0, 255]);
     for (i, texel) in image.rgba.as_chunks_mut::<4>().0.iter_mut().enumerate() {
         if (i as u32).is_multiple_of(step) {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            texel_rgb = [0; 3].map(|_| random.u8(..));
         }
-        let [_, r, g, b] = state.to_le_bytes();
+        let [r, g, b] = texel_rgb;
         *texel = [r, g, b, 255];
     }
     image
@@ -335,7 +337,7 @@ fn the_eye_blurs_fine_dither_away() {
 
 #[test]
 fn tiles_leave_no_seams() {
-    // Wider and taller than a tile: the far corner equals the same corner of a picture that starts later.
+    // Wider and taller than a tile: the far corner equals the same corner of a cropped image.
     let (width, height) = (TILE_WIDTH as u32 + 50, TILE_HEIGHT as u32 + 40);
     let (a, b) = (noise(width, height, 1, 3), noise(width, height, 2, 3));
     let part = |image: &Image, left: u32, top: u32| {
@@ -365,13 +367,13 @@ fn tiles_leave_no_seams() {
 fn alpha_counts_over_the_worse_of_two_grounds() {
     let clear = Image::filled(40, 30, [255, 255, 255, 0]);
     let white = plain([255; 3]);
-    // Over white they are the same, over black they are black and white.
+    // Over white the images are the same; over black they are black and white.
     let value = mean(&clear, &white);
     assert!(
         (value - mean(&plain([0; 3]), &white)).abs() < 1e-6,
         "{value}"
     );
-    // The colour under no alpha is never seen.
+    // A colour with alpha 0 is invisible.
     let other = Image::filled(40, 30, [9, 8, 7, 0]);
     assert_eq!(mean(&clear, &other), 0.0);
 }

@@ -1,4 +1,4 @@
-//! A tile of one picture on its way through FLIP: from texels to L*a*b* and features.
+//! A tile of one image, processed from texels to L*a*b* and features.
 
 use estampe_scene::Image;
 
@@ -6,18 +6,19 @@ use super::color::{Colors, HuntLab};
 use super::features::{self, Features};
 use super::kernel::{Kernels, along_row, down_columns};
 
-/// Size of a tile in pixels. With its surroundings and seven planes it stays within a second-level cache.
+/// Size of a tile in pixels. With its surroundings and seven planes it stays within a second-level
+/// cache.
 pub(super) const TILE_WIDTH: usize = 256;
 pub(super) const TILE_HEIGHT: usize = 64;
 
-/// What sees the pictures: colour spaces, and the filters at one distance from the screen.
+/// Colour spaces and filters for one viewing distance.
 #[derive(Debug)]
 pub(super) struct Observer {
     pub(super) kernels: Kernels,
     pub(super) colors: Colors,
 }
 
-/// The pixels that a tile covers, clipped to the picture.
+/// The pixels of a tile, clipped to the image.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Area {
     pub(super) left: usize,
@@ -35,7 +36,7 @@ pub(super) struct Tile {
     row_filtered: RowFiltered,
     /// A row of each quantity, filtered along both axes.
     filtered: [Vec<f32>; 8],
-    /// The colours that are seen, row by row.
+    /// The perceived colours, row by row.
     pub(super) colors: Vec<HuntLab>,
     /// The strengths of edges and points, row by row.
     pub(super) features: Vec<Features>,
@@ -53,8 +54,8 @@ struct RowFiltered {
 }
 
 impl Tile {
-    /// Computes `colors` and `features` of an area of `image`, shown over a ground of one grey.
-    /// Beyond its border the picture goes on with its outermost pixels.
+    /// Computes `colors` and `features` of an area of `image` over a grey background. Outside the
+    /// image, the border pixels are repeated.
     pub(super) fn fill(&mut self, image: &Image, area: Area, ground: u8, observer: &Observer) {
         self.filter_rows(image, area, ground, observer);
         self.colors.clear();
@@ -113,7 +114,7 @@ impl Tile {
         }
     }
 
-    /// Filters row `y` along the columns and turns it into colours and features.
+    /// Filters row `y` along the columns and computes its colours and features.
     fn finish_row(&mut self, y: usize, width: usize, observer: &Observer) {
         let Observer { kernels, colors } = observer;
         let planes = &self.row_filtered;

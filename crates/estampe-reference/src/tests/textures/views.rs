@@ -1,5 +1,6 @@
 //! Views: what specifications and textbooks say of cubes, anisotropy, borders, offsets, gathering and comparing.
 
+use crate::tests::Random;
 use crate::texture::cube;
 use crate::texture::view::{ReferenceView, Sample};
 use estampe_types::state::CompareFunction;
@@ -86,24 +87,18 @@ fn whole(value: f64) -> i64 {
     value as i64
 }
 
-/// A generator of numbers in 0..1 (Numerical Recipes).
-fn unit(state: &mut u32) -> f32 {
-    *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-    (*state >> 8) as f32 / 16_777_216.0
-}
-
 /// Rows: F2.
 #[test]
 fn blocks_of_texels_are_near_the_exact_mean() {
     let sides = [8_u32, 4, 16];
-    let mut state = 5;
+    let mut random = Random::new(5);
     let tiled = SamplerDescriptor {
         address_mode_w: AddressMode::Repeat,
         ..SamplerDescriptor::trilinear_repeat()
     };
     let mut noise = Vec::new();
     let block = view(ViewDimension::D3, sides, 2, tiled, |_, _| {
-        noise.push(unit(&mut state));
+        noise.push(random.unit());
         noise[noise.len() - 1]
     });
     let texel = |level: usize, x: [i64; 3]| {
@@ -114,8 +109,8 @@ fn blocks_of_texels_are_near_the_exact_mean() {
         f64::from(noise[usize::try_from(index).expect("inside")])
     };
     for _ in 0..500 {
-        let uvw = [0; 3].map(|_| unit(&mut state) * 4.0 - 2.0);
-        let lod = unit(&mut state);
+        let uvw = [0; 3].map(|_| random.unit() * 4.0 - 2.0);
+        let lod = random.unit();
         let of_level = |level: usize| {
             let q = [0, 1, 2].map(|k| f64::from(uvw[k]) * f64::from(sides[k] >> level) - 0.5);
             let mut sum = 0.0;
@@ -177,16 +172,16 @@ fn cubes_show_what_lies_in_their_direction() {
             smooth(direction(face, centre(x), centre(y)))
         },
     );
-    let mut state = 9;
+    let mut random = Random::new(9);
     let mut beyond_edges = 0;
     for round in 0..6000 {
-        let mut v = [0; 3].map(|_| unit(&mut state) * 2.0 - 1.0);
+        let mut v = [0; 3].map(|_| random.unit() * 2.0 - 1.0);
         if round % 2 == 0 {
             // Near an edge, or near a corner.
             let axis = round / 2 % 3;
-            v[axis] = v[(axis + 1) % 3] * (1.0 + (unit(&mut state) - 0.5) * 0.1);
+            v[axis] = v[(axis + 1) % 3] * (1.0 + (random.unit() - 0.5) * 0.1);
             if round % 4 == 0 {
-                v[(axis + 2) % 3] = v[axis] * (1.0 + (unit(&mut state) - 0.5) * 0.1);
+                v[(axis + 2) % 3] = v[axis] * (1.0 + (random.unit() - 0.5) * 0.1);
             }
         }
         let face = cube::face(v);
@@ -233,10 +228,10 @@ fn every_texel_beyond_an_edge_has_a_neighbor_that_has_it() {
 /// Rows: F2.
 #[test]
 fn a_cubes_derivatives_are_those_of_its_coordinates() {
-    let mut state = 3;
+    let mut random = Random::new(3);
     for _ in 0..1000 {
-        let v = [0; 3].map(|_| unit(&mut state) * 2.0 - 1.0);
-        let d = [0; 3].map(|_| unit(&mut state) * 2.0 - 1.0);
+        let v = [0; 3].map(|_| random.unit() * 2.0 - 1.0);
+        let d = [0; 3].map(|_| random.unit() * 2.0 - 1.0);
         let face = cube::face(v);
         let major = cube::on_face(face, v)[2];
         if major < 0.2 {
@@ -376,6 +371,28 @@ fn gathering_goes_around_from_the_lower_left() {
     assert_eq!(square.gather(&centre, 0), [10.0, 11.0, 1.0, 0.0]);
     assert_eq!(square.gather(&centre, 1), [0.0; 4]);
     assert_eq!(square.gather(&centre, 3), [1.0; 4]);
+}
+
+/// Rows: F2.
+#[test]
+fn gathered_texels_wrap_each_by_itself() {
+    let gathered = |mode, u| {
+        let sampler = SamplerDescriptor {
+            address_mode_u: mode,
+            ..linear()
+        };
+        let row = view(ViewDimension::D2, [4, 1, 1], 1, sampler, |_, [x, _, _]| {
+            x as f32
+        });
+        row.gather(&at([u, 0.5, 0.0], 0.0), 0)
+    };
+    // Vulkan, Texel Gathering: i₀ = ⌊u − ½⌋ and i₁ = i₀ + 1, each wrapped (u in texels).
+    use AddressMode as A;
+    assert_eq!(gathered(A::ClampToEdge, 0.0), [0.0; 4]);
+    assert_eq!(gathered(A::ClampToEdge, 1.0), [3.0; 4]);
+    assert_eq!(gathered(A::MirrorRepeat, 0.0), [0.0; 4]);
+    assert_eq!(gathered(A::MirrorRepeat, 1.5), [2.0, 1.0, 1.0, 2.0]);
+    assert_eq!(gathered(A::Repeat, 0.0), [3.0, 0.0, 0.0, 3.0]);
 }
 
 /// Rows: F2.

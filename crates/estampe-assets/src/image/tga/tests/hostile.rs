@@ -1,4 +1,4 @@
-//! Damage of every kind ends in an error or a picture.
+//! Damaged files give an error or an image.
 
 use super::Fixture;
 use crate::error::Location;
@@ -42,7 +42,8 @@ fn every_prefix_is_located_or_complete() {
         let whole = decode(&file, &limits).expect("a valid file");
         for len in 0..file.len() {
             match decode(&file[..len], &limits) {
-                // Only what follows the texels is missing. Without the extension area alpha may differ.
+                // Only the bytes after the texels are missing. Without the extension area, alpha
+                // may differ.
                 Ok(image) => assert_eq!((image.width, image.height), (whole.width, whole.height)),
                 Err(AssetError::Malformed(fault)) => {
                     assert_eq!(fault.location, Some(Location::Byte(len as u64)), "{fault}");
@@ -84,7 +85,7 @@ fn random_damage_never_panics() {
         max_image_pixels: 1 << 20,
         ..Limits::default()
     };
-    let mut random = Random(0xdead_beef);
+    let mut random = Random::new(0xdead_beef);
     let mut read = 0;
     for round in 0..12_000 {
         let bytes = random.mutated(&files[round % files.len()]);

@@ -1,4 +1,4 @@
-//! What is written is TGA as its specification draws it, and reads back as it was.
+//! Written files conform to the TGA specification and are read back unchanged.
 
 use estampe_scene::Image;
 
@@ -78,7 +78,7 @@ fn alpha_is_written_when_needed_or_asked() {
 
 #[test]
 fn pictures_of_all_sizes_read_back() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     let sizes = (1..12).chain([126, 127, 128, 129, 130, 255, 256, 257, 300]);
     for width in sizes {
         let height = 1 + random.below(5) as u32;
@@ -94,7 +94,7 @@ fn pictures_of_all_sizes_read_back() {
 
 #[test]
 fn packets_end_with_their_row_and_never_grow_a_row_by_much() {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     for width in [1, 2, 127, 128, 129, 256, 391] {
         let image = opaque(noise(width, 3, random.next()));
         let bytes = written(&image, TgaOptions::default());

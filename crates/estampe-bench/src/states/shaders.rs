@@ -1,0 +1,300 @@
+//! The loads' shaders: a surface gives a fragment's colour, an output says what becomes of it.
+//!
+//! No shader here promises anything that a compiler would have to find out (`COLOR_PASSTHROUGH`, `NO_DERIVATIVES`):
+//! what is measured is what any program gets.
+
+use super::texture_views::{Lookup, ViewTexture};
+use estampe::texture::Sampled;
+use estampe::{
+    Attributes, FragmentIn, FragmentOut, Int, Program, Real, ShaderProgram, Varyings, Vec2, Vec3,
+    Vec4, VertexIn, VertexOut,
+};
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+/// Where a fragment's colour comes from.
+#[expect(clippy::large_enum_variant, reason = "one value for each pipeline")]
+#[derive(Debug, Clone)]
+pub(super) enum SurfaceKind {
+    /// The vertex colour.
+    Tint,
+    /// The vertex colour, in integers.
+    IntegerTint,
+    /// The vertex colour, on points three pixels wide.
+    PointTint,
+    /// A texture of the common kind times the vertex colour.
+    Texture(Sampled),
+    /// A view of another texture times the vertex colour.
+    View(ViewTexture),
+}
+
+/// What becomes of a fragment's colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum OutputKind {
+    /// It goes to so many targets, 1 to 4.
+    Targets(usize),
+    /// It goes to a target of integers, as 0..=127.
+    Integers,
+    /// It goes to one target where its alpha is not small.
+    Discard,
+    /// It goes to one target with a second colour, its alpha.
+    DualSource,
+}
+
+/// The program of a surface and an output. Only vertex colours go to targets of integers.
+pub(super) fn program(surface: &SurfaceKind, output: OutputKind) -> Arc<dyn Program> {
+    match (surface, output) {
+        (SurfaceKind::Tint, OutputKind::Integers) => shaded::<_, Integers>(Tint),
+        (SurfaceKind::Tint, _) => with_output(Tint, output),
+        (SurfaceKind::IntegerTint, _) => shaded::<_, Targets<1>>(IntegerTint),
+        (SurfaceKind::PointTint, _) => shaded::<_, Targets<1>>(PointTint),
+        (SurfaceKind::Texture(texture), _) => with_output(TextureTint(texture.clone()), output),
+        (SurfaceKind::View(view), _) => shaded::<_, Targets<1>>(ViewTint(view.clone())),
+    }
+}
+
+fn with_output<S: Surface>(surface: S, output: OutputKind) -> Arc<dyn Program> {
+    match output {
+        OutputKind::Targets(2) => shaded::<_, Targets<2>>(surface),
+        OutputKind::Targets(3) => shaded::<_, Targets<3>>(surface),
+        OutputKind::Targets(4) => shaded::<_, Targets<4>>(surface),
+        OutputKind::Targets(_) | OutputKind::Integers => shaded::<_, Targets<1>>(surface),
+        OutputKind::Discard => shaded::<_, Discard>(surface),
+        OutputKind::DualSource => shaded::<_, DualSource>(surface),
+    }
+}
+
+fn shaded<S: Surface, O: Output>(surface: S) -> Arc<dyn Program> {
+    Arc::new(ShaderProgram::new(Shaded(surface, PhantomData::<O>)))
+}
+
+/// A surface with an output.
+struct Shaded<S, O>(S, PhantomData<O>);
+
+estampe::shader! {
+    impl<S: Surface, O: Output> Shader for Shaded<S, O> {
+        type Attributes<R: Real> = S::Attributes<R>;
+        type Varyings<R: Real> = S::Varyings<R>;
+        const COLOR_TARGETS: usize = O::TARGETS;
+        const DISCARDS: bool = O::DISCARDS;
+        const DUAL_SOURCE: bool = O::DUAL_SOURCE;
+        const WRITES_POINT_SIZE: bool = S::POINT_SIZE_PX.is_some();
+
+        fn vertex<R: Real>(
+            &self,
+            input: VertexIn<'_, R>,
+            attributes: S::Attributes<R>,
+        ) -> VertexOut<R, S::Varyings<R>> {
+            let (position, varyings) = S::vertex(attributes);
+            let out = VertexOut::new(position.point(), varyings);
+            match S::POINT_SIZE_PX {
+                Some(size) => out.with_point_size(input.real(size)),
+                None => out,
+            }
+        }
+
+        fn fragment<R: Real>(
+            &self,
+            _input: FragmentIn<'_, R>,
+            varyings: S::Varyings<R>,
+        ) -> FragmentOut<R> {
+            O::out(self.0.color(varyings))
+        }
+    }
+}
+
+/// Where a fragment's colour comes from.
+trait Surface: Send + Sync + 'static {
+    type Attributes<R: Real>: Attributes<R>;
+    type Varyings<R: Real>: Varyings<R>;
+    const POINT_SIZE_PX: Option<f32> = None;
+
+    /// The position in NDC and what the fragments get.
+    fn vertex<R: Real>(attributes: Self::Attributes<R>) -> (Vec3<R>, Self::Varyings<R>);
+    fn color<R: Real>(&self, varyings: Self::Varyings<R>) -> Vec4<R>;
+}
+
+/// A little darker than the vertex colour, so that the shader does not pass it on as it is.
+#[inline(always)]
+fn tinted<R: Real>(color: Vec4<R>) -> Vec4<R> {
+    Vec4::new(color.x * 0.875, color.y * 0.9375, color.z, color.w)
+}
+
+struct Tint;
+
+impl Surface for Tint {
+    type Attributes<R: Real> = (Vec3<R>, Vec4<R>);
+    type Varyings<R: Real> = Vec4<R>;
+
+    #[inline(always)]
+    fn vertex<R: Real>((position, color): (Vec3<R>, Vec4<R>)) -> (Vec3<R>, Vec4<R>) {
+        (position, color)
+    }
+
+    #[inline(always)]
+    fn color<R: Real>(&self, color: Vec4<R>) -> Vec4<R> {
+        tinted(color)
+    }
+}
+
+struct IntegerTint;
+
+impl Surface for IntegerTint {
+    type Attributes<R: Real> = (Vec3<R>, Vec4<R>);
+    type Varyings<R: Real> = Vec4<R>;
+
+    #[inline(always)]
+    fn vertex<R: Real>((position, codes): (Vec3<R>, Vec4<R>)) -> (Vec3<R>, Vec4<R>) {
+        let unorm = |code: R| code.to_bits().to_real() * (1.0 / 255.0);
+        let color = Vec4::new(
+            unorm(codes.x),
+            unorm(codes.y),
+            unorm(codes.z),
+            unorm(codes.w),
+        );
+        (position, color)
+    }
+
+    #[inline(always)]
+    fn color<R: Real>(&self, color: Vec4<R>) -> Vec4<R> {
+        tinted(color)
+    }
+}
+
+struct PointTint;
+
+impl Surface for PointTint {
+    type Attributes<R: Real> = (Vec3<R>, Vec4<R>);
+    type Varyings<R: Real> = Vec4<R>;
+    const POINT_SIZE_PX: Option<f32> = Some(3.0);
+
+    #[inline(always)]
+    fn vertex<R: Real>((position, color): (Vec3<R>, Vec4<R>)) -> (Vec3<R>, Vec4<R>) {
+        (position, color)
+    }
+
+    #[inline(always)]
+    fn color<R: Real>(&self, color: Vec4<R>) -> Vec4<R> {
+        tinted(color)
+    }
+}
+
+struct TextureTint(Sampled);
+
+impl Surface for TextureTint {
+    type Attributes<R: Real> = (Vec3<R>, Vec4<R>, Vec2<R>);
+    type Varyings<R: Real> = (Vec4<R>, Vec2<R>);
+
+    #[inline(always)]
+    fn vertex<R: Real>(
+        (position, color, uv): (Vec3<R>, Vec4<R>, Vec2<R>),
+    ) -> (Vec3<R>, (Vec4<R>, Vec2<R>)) {
+        (position, (color, uv))
+    }
+
+    #[inline(always)]
+    fn color<R: Real>(&self, (color, uv): (Vec4<R>, Vec2<R>)) -> Vec4<R> {
+        self.0.sample(uv) * color
+    }
+}
+
+struct ViewTint(ViewTexture);
+
+impl Surface for ViewTint {
+    type Attributes<R: Real> = (Vec3<R>, Vec4<R>, Vec2<R>);
+    type Varyings<R: Real> = (Vec4<R>, Vec2<R>);
+
+    #[inline(always)]
+    fn vertex<R: Real>(
+        (position, color, uv): (Vec3<R>, Vec4<R>, Vec2<R>),
+    ) -> (Vec3<R>, (Vec4<R>, Vec2<R>)) {
+        (position, (color, uv))
+    }
+
+    #[inline(always)]
+    fn color<R: Real>(&self, (color, uv): (Vec4<R>, Vec2<R>)) -> Vec4<R> {
+        self.0.sample(uv) * color
+    }
+}
+
+impl ViewTexture {
+    /// The texel at (u, v), in whatever coordinates the view takes.
+    #[inline(always)]
+    fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
+        self.view.sample(match self.lookup {
+            Lookup::Image => estampe::texture::Coordinates::d2(uv),
+            Lookup::Layer(layer) => {
+                estampe::texture::Coordinates::d2_array(uv, uv.x.splat_int(layer))
+            }
+            // The positive z face and a part of its four neighbours.
+            Lookup::Direction => {
+                let across = |t: R| (t - 0.5) * 2.25;
+                let direction = Vec3::new(across(uv.x), across(uv.y), uv.x.splat(1.0));
+                estampe::texture::Coordinates::cube(direction)
+            }
+        })
+    }
+}
+
+/// What becomes of a fragment's colour.
+trait Output: Send + Sync + 'static {
+    const TARGETS: usize = 1;
+    const DISCARDS: bool = false;
+    const DUAL_SOURCE: bool = false;
+
+    fn out<R: Real>(color: Vec4<R>) -> FragmentOut<R>;
+}
+
+struct Targets<const N: usize>;
+
+impl<const N: usize> Output for Targets<N> {
+    const TARGETS: usize = N;
+
+    #[inline(always)]
+    fn out<R: Real>(color: Vec4<R>) -> FragmentOut<R> {
+        let mut out = FragmentOut::none();
+        let mut index = 0;
+        while index < N {
+            out = out.with_color(index, color);
+            index += 1;
+        }
+        out
+    }
+}
+
+struct Integers;
+
+impl Output for Integers {
+    #[inline(always)]
+    fn out<R: Real>(color: Vec4<R>) -> FragmentOut<R> {
+        let code = |channel: R| (channel * 127.0).to_int_within_range().to_real_bits();
+        FragmentOut::color(Vec4::new(
+            code(color.x),
+            code(color.y),
+            code(color.z),
+            code(color.w),
+        ))
+    }
+}
+
+struct Discard;
+
+impl Output for Discard {
+    const DISCARDS: bool = true;
+
+    #[inline(always)]
+    fn out<R: Real>(color: Vec4<R>) -> FragmentOut<R> {
+        FragmentOut::color(color).discard_unless(color.w.gt(color.w.splat(1.0 / 16.0)))
+    }
+}
+
+struct DualSource;
+
+impl Output for DualSource {
+    const DUAL_SOURCE: bool = true;
+
+    #[inline(always)]
+    fn out<R: Real>(color: Vec4<R>) -> FragmentOut<R> {
+        FragmentOut::color(color).with_second_color(Vec4::repeat(color.w))
+    }
+}

@@ -1,0 +1,162 @@
+//! Bins: the entries of a chunk, sorted by the tiles that they touch.
+
+use estampe_simd::Lane;
+
+/// What a bin entry names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum BinEntry {
+    /// Those triangles of a packet whose lanes are in the mask, in lane order.
+    Triangles { packet: u32, lanes: u16 },
+    /// A line.
+    Line(u32),
+    /// A point.
+    Point(u32),
+}
+
+// There is an entry for each packet and tile.
+const _: () = assert!(size_of::<BinEntry>() == 8);
+
+/// Entries sorted by tile.
+#[derive(Debug, Default)]
+pub(crate) struct Bins {
+    /// As written: (tile, entry) in submission order.
+    unsorted: Vec<(u32, BinEntry)>,
+    /// Sorted by tile; the entries of a tile in submission order.
+    sorted: Vec<BinEntry>,
+    /// Where the entries of tile `first_tile + i` begin in `sorted`; one more than there are tiles.
+    starts: Vec<u32>,
+    first_tile: u32,
+    /// Where the entries begin that may be merged: those of the packet that is being binned.
+    mergeable_from: usize,
+}
+
+impl Bins {
+    pub(crate) fn clear(&mut self) {
+        self.unsorted.clear();
+        self.sorted.clear();
+        self.starts.clear();
+        self.mergeable_from = 0;
+    }
+
+    pub(crate) fn push(&mut self, tile: u32, entry: BinEntry) {
+        self.unsorted.push((tile, entry));
+    }
+
+    /// Keeps [`Bins::push_lane`] from merging into the entries so far.
+    #[inline(always)]
+    pub(crate) fn end_packet(&mut self) {
+        self.mergeable_from = self.unsorted.len();
+    }
+
+    /// Adds one triangle of a packet to a tile: to the packet's entry for that tile if there is one
+    /// since [`Bins::end_packet`].
+    #[inline(always)]
+    pub(crate) fn push_lane(&mut self, tile: u32, packet: u32, lane: Lane) {
+        let bit = lane.bit();
+        for (at, entry) in self.unsorted[self.mergeable_from..].iter_mut().rev() {
+            if let (true, BinEntry::Triangles { lanes, .. }) = (*at == tile, entry) {
+                *lanes |= bit;
+                return;
+            }
+        }
+        self.unsorted
+            .push((tile, BinEntry::Triangles { packet, lanes: bit }));
+    }
+
+    /// Sorts the entries by tile, stably, by counting: linear in entries and in touched tiles'
+    /// span.
+    pub(crate) fn sort(&mut self) {
+        let tiles = self.unsorted.iter().map(|(tile, _)| *tile);
+        let (Some(first), Some(last)) = (tiles.clone().min(), tiles.max()) else {
+            return;
+        };
+        self.first_tile = first;
+        self.starts.resize((last - first) as usize + 2, 0);
+        for (tile, _) in &self.unsorted {
+            self.starts[(tile - first) as usize + 1] += 1;
+        }
+        for at in 1..self.starts.len() {
+            self.starts[at] += self.starts[at - 1];
+        }
+        self.sorted.resize(self.unsorted.len(), BinEntry::Point(0));
+        // Each start is advanced while its tile is filled, then all are moved back by one tile.
+        for (tile, entry) in &self.unsorted {
+            let start = &mut self.starts[(tile - first) as usize];
+            self.sorted[*start as usize] = *entry;
+            *start += 1;
+        }
+        for at in (1..self.starts.len()).rev() {
+            self.starts[at] = self.starts[at - 1];
+        }
+        self.starts[0] = 0;
+    }
+
+    /// The entries of a tile, in submission order.
+    #[inline]
+    pub(crate) fn of_tile(&self, tile: u32) -> &[BinEntry] {
+        let Some(at) = tile.checked_sub(self.first_tile).map(|at| at as usize) else {
+            return &[];
+        };
+        match (self.starts.get(at), self.starts.get(at + 1)) {
+            (Some(&from), Some(&to)) => &self.sorted[from as usize..to as usize],
+            _ => &[],
+        }
+    }
+
+    /// The tiles that have entries.
+    pub(super) fn tiles(&self) -> impl Iterator<Item = u32> {
+        let starts = self.starts.windows(2);
+        let all = (self.first_tile..).zip(starts);
+        all.filter(|(_, ends)| ends[0] < ends[1])
+            .map(|(tile, _)| tile)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_come_back_by_tile_in_order() {
+        let mut bins = Bins::default();
+        for (index, tile) in (0..).zip([7, 3, 7, 9, 3, 7]) {
+            bins.push(tile, BinEntry::Line(index));
+        }
+        bins.sort();
+        let lines = |tile| -> Vec<u32> {
+            let line = |entry: &BinEntry| match entry {
+                BinEntry::Line(line) => *line,
+                other => panic!("{other:?} is not a line"),
+            };
+            bins.of_tile(tile).iter().map(line).collect()
+        };
+        assert_eq!(lines(3), [1, 4]);
+        assert_eq!(lines(7), [0, 2, 5]);
+        assert_eq!(lines(9), [3]);
+        for tile in [0, 2, 4, 8, 10, u32::MAX] {
+            assert!(bins.of_tile(tile).is_empty(), "tile {tile}");
+        }
+    }
+
+    #[test]
+    fn lanes_merge_only_until_the_packet_ends() {
+        let mut bins = Bins::default();
+        bins.push_lane(1, 0, Lane::new(0));
+        bins.push_lane(2, 0, Lane::new(1));
+        bins.push_lane(1, 0, Lane::new(2));
+        bins.end_packet();
+        bins.push_lane(1, 0, Lane::new(3));
+        bins.sort();
+        let expected = [
+            BinEntry::Triangles {
+                packet: 0,
+                lanes: 0b101,
+            },
+            BinEntry::Triangles {
+                packet: 0,
+                lanes: 0b1000,
+            },
+        ];
+        assert_eq!(bins.of_tile(1), expected);
+    }
+}

@@ -1,0 +1,287 @@
+//! Chunks: what one worker of the geometry side gives to the tiles.
+//!
+//! *In* primitives that are set up · *Out* for each tile, its primitives in submission order ·
+//! *Space* window.
+//!
+//! A [`Chunk`] holds *runs*: each is a sub-draw, or part of one, and its primitives. Several small
+//! draws share a chunk, so that its fixed costs (sorting bins, indexing tiles) are paid once for
+//! many draws. Primitives of two runs never share a packet. Runs follow one another in submission
+//! order, and so do the entries of a tile.
+
+use super::bins::{BinEntry, Bins};
+use super::primitives::{LinePrimitive, PointPrimitive, TrianglePacket};
+use crate::statistics::Statistics;
+
+/// The primitives of one sub-draw in a chunk: from these first ones on up to those of the next run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ChunkRun {
+    /// The sub-draw's number in its batch.
+    pub(crate) sub_draw: u32,
+    first_packet: u32,
+    first_line: u32,
+    first_point: u32,
+}
+
+impl ChunkRun {
+    /// Whether the run begins at or before the primitive of an entry.
+    #[inline]
+    fn begins_by(&self, entry: BinEntry) -> bool {
+        match entry {
+            BinEntry::Triangles { packet, .. } => self.first_packet <= packet,
+            BinEntry::Line(line) => self.first_line <= line,
+            BinEntry::Point(point) => self.first_point <= point,
+        }
+    }
+}
+
+/// Packets of triangles whose memory outlives the chunk's contents: a packet is 1.3 KB, and to fill
+/// it with zeros before it is written would cost as much as writing it.
+#[derive(Debug, Default)]
+pub(crate) struct TrianglePackets {
+    memory: Vec<TrianglePacket>,
+    len: usize,
+}
+
+impl TrianglePackets {
+    /// Adds a packet whose contents are stale: the caller writes every field.
+    #[inline(always)]
+    pub(crate) fn push_stale(&mut self) -> &mut TrianglePacket {
+        if self.len == self.memory.len() {
+            self.memory.push(TrianglePacket::EMPTY);
+        }
+        self.len += 1;
+        &mut self.memory[self.len - 1]
+    }
+
+    fn clear(&mut self) {
+        self.len = 0;
+    }
+}
+
+impl std::ops::Deref for TrianglePackets {
+    type Target = [TrianglePacket];
+
+    #[inline(always)]
+    fn deref(&self) -> &[TrianglePacket] {
+        &self.memory[..self.len]
+    }
+}
+
+/// Primitives of one or several sub-draws, set up and binned.
+#[derive(Debug, Default)]
+pub(crate) struct Chunk {
+    runs: Vec<ChunkRun>,
+    pub(crate) triangles: TrianglePackets,
+    pub(crate) lines: Vec<LinePrimitive>,
+    pub(crate) points: Vec<PointPrimitive>,
+    /// Varyings of the vertices that clipping made, one after the other. The numbers of a run's
+    /// vertices count in vertices of that run's size: see [`Chunk::align_clipped_varyings`].
+    pub(crate) clipped_varyings: Vec<f32>,
+    pub(crate) bins: Bins,
+    pub(crate) statistics: Statistics,
+}
+
+impl Chunk {
+    /// Forgets the contents and keeps the memory.
+    pub(crate) fn clear(&mut self) {
+        self.runs.clear();
+        self.triangles.clear();
+        self.lines.clear();
+        self.points.clear();
+        self.clipped_varyings.clear();
+        self.bins.clear();
+        self.statistics = Statistics::default();
+    }
+
+    /// Begins the run of a sub-draw: primitives added from now on are that sub-draw's.
+    pub(crate) fn begin_run(&mut self, sub_draw: u32) {
+        let [first_packet, first_line, first_point] =
+            [self.triangles.len(), self.lines.len(), self.points.len()].map(number);
+        self.runs.push(ChunkRun {
+            sub_draw,
+            first_packet,
+            first_line,
+            first_point,
+        });
+    }
+
+    /// Fills the clipped varyings up to a whole number of vertices of `stride` scalars, and says
+    /// how many: the number of the first vertex that the run at hand makes by clipping.
+    pub(crate) fn align_clipped_varyings(&mut self, stride: usize) -> u32 {
+        let vertices = self.clipped_varyings.len().checked_div(stride).unwrap_or(0);
+        if vertices * stride == self.clipped_varyings.len() || stride == 0 {
+            return number(vertices);
+        }
+        let vertices = vertices + 1;
+        self.clipped_varyings.resize(vertices * stride, 0.0);
+        number(vertices)
+    }
+
+    /// The runs that have entries for a tile, in submission order, each with its sub-draw's number.
+    #[inline]
+    pub(crate) fn runs_of_tile(&self, tile: u32) -> RunsOfTile<'_> {
+        RunsOfTile {
+            runs: &self.runs,
+            entries: self.bins.of_tile(tile),
+        }
+    }
+}
+
+/// How many elements a list of a chunk has. A chunk is cut long before it has 2³² of anything.
+#[inline(always)]
+pub(crate) fn number(len: usize) -> u32 {
+    debug_assert!(
+        u32::try_from(len).is_ok(),
+        "a chunk's list of {len} elements"
+    );
+    u32::try_from(len).unwrap_or(u32::MAX)
+}
+
+/// See [`Chunk::runs_of_tile`].
+#[derive(Debug, Clone)]
+pub(crate) struct RunsOfTile<'c> {
+    /// The run of the first entry, or one before it; and all later ones.
+    runs: &'c [ChunkRun],
+    /// The tile's entries that are left.
+    entries: &'c [BinEntry],
+}
+
+impl<'c> Iterator for RunsOfTile<'c> {
+    type Item = (u32, &'c [BinEntry]);
+
+    #[inline]
+    fn next(&mut self) -> Option<Self::Item> {
+        let first = *self.entries.first()?;
+        let begun = self.runs.partition_point(|run| run.begins_by(first));
+        debug_assert!(begun > 0, "{first:?} belongs to no run");
+        self.runs = &self.runs[begun.saturating_sub(1)..];
+        let (run, later) = self.runs.split_first()?;
+        let len = match later.first() {
+            Some(next) => self
+                .entries
+                .partition_point(|entry| !next.begins_by(*entry)),
+            None => self.entries.len(),
+        };
+        let (entries, rest) = self.entries.split_at(len);
+        self.entries = rest;
+        Some((run.sub_draw, entries))
+    }
+}
+
+/// For each tile the chunks that have entries for it, in order. A frame can have hundreds of chunks
+/// of which hardly any reaches a given tile: asking each chunk took longer than drawing.
+#[derive(Debug, Default)]
+pub(crate) struct ChunkIndex {
+    /// Where each tile's chunks begin; one more than there are tiles.
+    starts: Vec<u32>,
+    chunks: Vec<u32>,
+}
+
+impl ChunkIndex {
+    /// Sorts a draw batch's chunks by the tiles of a target.
+    pub(crate) fn build(&mut self, tiles: usize, chunks: &[Chunk]) {
+        self.starts.clear();
+        self.starts.resize(tiles + 2, 0);
+        // Counted two places further on, so that after the sums place i + 1 is where tile i is
+        // filled next.
+        for tile in chunks.iter().flat_map(|chunk| chunk.bins.tiles()) {
+            self.starts[tile as usize + 2] += 1;
+        }
+        for at in 1..self.starts.len() {
+            self.starts[at] += self.starts[at - 1];
+        }
+        let all = self.starts.last().map_or(0, |all| *all as usize);
+        self.chunks.resize(all, 0);
+        for (number, chunk) in (0..).zip(chunks) {
+            for tile in chunk.bins.tiles() {
+                let next = &mut self.starts[tile as usize + 1];
+                self.chunks[*next as usize] = number;
+                *next += 1;
+            }
+        }
+    }
+
+    /// The numbers of the chunks that have entries for a tile.
+    pub(crate) fn of_tile(&self, tile: u32) -> &[u32] {
+        let at = tile as usize;
+        match (self.starts.get(at), self.starts.get(at + 1)) {
+            (Some(&from), Some(&to)) => &self.chunks[from as usize..to as usize],
+            _ => &[],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tiles_entries_come_run_by_run() {
+        let mut chunk = Chunk::default();
+        let triangles = |packet| BinEntry::Triangles { packet, lanes: 1 };
+        chunk.begin_run(7);
+        for packet in 0..3 {
+            chunk.triangles.push_stale();
+            chunk.bins.push(packet % 2, triangles(packet));
+        }
+        // A run of which nothing is left.
+        chunk.begin_run(8);
+        chunk.begin_run(9);
+        chunk.triangles.push_stale();
+        chunk.bins.push(0, triangles(3));
+        chunk.begin_run(10);
+        chunk.points.push(PointPrimitive::default());
+        chunk.bins.push(0, BinEntry::Point(0));
+        chunk.begin_run(11);
+        chunk.points.push(PointPrimitive::default());
+        chunk.bins.push(0, BinEntry::Point(1));
+        chunk.triangles.push_stale();
+        chunk.bins.push(1, triangles(4));
+        chunk.bins.sort();
+        let runs = |tile| -> Vec<(u32, Vec<BinEntry>)> {
+            let runs = chunk.runs_of_tile(tile);
+            runs.map(|(sub_draw, entries)| (sub_draw, entries.to_vec()))
+                .collect()
+        };
+        let expected = vec![
+            (7, vec![triangles(0), triangles(2)]),
+            (9, vec![triangles(3)]),
+            (10, vec![BinEntry::Point(0)]),
+            (11, vec![BinEntry::Point(1)]),
+        ];
+        assert_eq!(runs(0), expected);
+        assert_eq!(runs(1), [(7, vec![triangles(1)]), (11, vec![triangles(4)])]);
+        assert!(runs(2).is_empty());
+    }
+
+    #[test]
+    fn clipped_vertices_are_numbered_in_their_runs_size() {
+        let mut chunk = Chunk::default();
+        assert_eq!(chunk.align_clipped_varyings(3), 0);
+        chunk.clipped_varyings.extend([1.0; 9]);
+        assert_eq!(chunk.align_clipped_varyings(3), 3);
+        assert_eq!(chunk.align_clipped_varyings(0), 0);
+        assert_eq!(chunk.align_clipped_varyings(4), 3);
+        assert_eq!(chunk.clipped_varyings.len(), 12);
+    }
+
+    #[test]
+    fn an_index_names_each_tiles_chunks_in_order() {
+        let chunk = |tiles: &[u32]| {
+            let mut chunk = Chunk::default();
+            for &tile in tiles {
+                chunk.bins.push(tile, BinEntry::Point(0));
+            }
+            chunk.bins.sort();
+            chunk
+        };
+        let chunks = [chunk(&[3, 1]), chunk(&[]), chunk(&[0, 1, 1]), chunk(&[3])];
+        let mut index = ChunkIndex::default();
+        // Twice, because its memory is used again.
+        for _ in 0..2 {
+            index.build(4, &chunks);
+            let found = [0, 1, 2, 3, 4].map(|tile| index.of_tile(tile).to_vec());
+            assert_eq!(found, [vec![2], vec![0, 2], vec![], vec![0, 3], vec![]]);
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! The boundary between geometry and tiles: the plain data that both sides name.
+//!
+//! Geometry sets primitives up and writes them to [`chunk`]s, tiles read the chunks in order, and
+//! nothing flows back. A chunk holds [`primitives`] and their [`bins`]. [`pixel_rect`],
+//! [`sample_rect`], [`plane`] and [`transpose`] are the values and the one operation that both
+//! sides use. No module here names a stage.
+
+pub(crate) mod pixel_rect;
+
+pub(crate) mod sample_rect;
+
+pub(crate) mod plane;
+
+pub(crate) mod transpose;
+
+pub(crate) mod primitives;
+
+pub(crate) mod bins;
+
+pub(crate) mod chunk;

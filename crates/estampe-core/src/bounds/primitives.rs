@@ -1,0 +1,99 @@
+//! Primitives that geometry has set up, as the tile side reads them.
+//!
+//! Triangles lie in packets of sixteen, structure of arrays; lines and points, which are few, lie
+//! one by one.
+
+use super::plane::PlanePacket;
+use estampe_simd::LANES;
+
+/// A vertex of a sub-draw: an index into its shaded vertices or, with [`VertexRef::CLIPPED`] set,
+/// into the vertices of the chunk that clipping made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct VertexRef(pub(crate) u32);
+
+impl VertexRef {
+    /// The bit that tells vertices made by clipping.
+    pub(crate) const CLIPPED: u32 = 1 << 31;
+}
+
+/// Up to sixteen triangles, set up: vertices 0, 1, 2 sorted by (y, x).
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub(crate) struct TrianglePacket {
+    /// Snapped positions in 1/256 pixel.
+    pub(crate) x: [[i32; LANES]; 3],
+    pub(crate) y: [[i32; LANES]; 3],
+    /// Where the varyings are.
+    pub(crate) vertex: [[VertexRef; LANES]; 3],
+    /// The vertex that flat varyings come from.
+    pub(crate) provoking: [VertexRef; LANES],
+    /// 1/w at the three vertices.
+    pub(crate) iw_at: [[f32; LANES]; 3],
+    /// Depth.
+    pub(crate) z: PlanePacket,
+    /// 1/w.
+    pub(crate) iw: PlanePacket,
+    /// 65536 ÷ doubled signed area in 1/256 pixel².
+    pub(crate) r: [f32; LANES],
+    /// Bit by lane: the triangle is clockwise in sorted order (its doubled area is positive).
+    pub(crate) clockwise: u16,
+    /// Bit by lane: it faces the viewer.
+    pub(crate) front: u16,
+    /// Bit by lane: the three 1/w are equal in bits.
+    pub(crate) equal_w: u16,
+    /// How many lanes are used.
+    pub(crate) len: u16,
+}
+
+impl TrianglePacket {
+    pub(crate) const EMPTY: Self = Self {
+        x: [[0; LANES]; 3],
+        y: [[0; LANES]; 3],
+        vertex: [[VertexRef(0); LANES]; 3],
+        provoking: [VertexRef(0); LANES],
+        iw_at: [[0.0; LANES]; 3],
+        z: PlanePacket::ZERO,
+        iw: PlanePacket::ZERO,
+        r: [0.0; LANES],
+        clockwise: 0,
+        front: 0,
+        equal_w: 0,
+        len: 0,
+    };
+}
+
+/// A line's or point's end: where it is in the window, and where its varyings are.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct WindowVertex {
+    /// Snapped position in 1/256 pixel.
+    pub(crate) x: i32,
+    pub(crate) y: i32,
+    pub(crate) z: f32,
+    pub(crate) iw: f32,
+    pub(crate) vertex: VertexRef,
+}
+
+/// A line, from its first to its second end.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LinePrimitive {
+    pub(crate) ends: [WindowVertex; 2],
+    pub(crate) provoking: VertexRef,
+    pub(crate) front: bool,
+    /// How many fragments of its strip lie before it, where a stipple pattern counts them.
+    pub(crate) stipple: u32,
+}
+
+/// A point.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct PointPrimitive {
+    pub(crate) center: WindowVertex,
+    /// The vertex that flat varyings come from: another one where the point is a triangle's corner.
+    pub(crate) provoking: VertexRef,
+    /// Half its side in 1/256 pixel.
+    pub(crate) half: i32,
+    pub(crate) front: bool,
+}
+
+// Geometry writes a packet for as few as two triangles and tiles read it again: its size is a cost
+// of every draw.
+const _: () = assert!(size_of::<TrianglePacket>() == 21 * 64);

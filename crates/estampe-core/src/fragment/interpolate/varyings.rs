@@ -1,0 +1,182 @@
+//! The varyings of vertices, and the planes of a triangle's varyings.
+
+use super::planes::pixels;
+use crate::bounds::plane::Plane;
+use crate::bounds::primitives::{TrianglePacket, VertexRef};
+use crate::bounds::transpose::components_of_f32;
+use estampe_simd::{LANES, Lanes, SimdBase, f32x4, f32x16};
+use estampe_types::Interpolation;
+
+/// The varyings of a draw's vertices.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct VaryingSource<'a> {
+    /// Of the item's vertices.
+    pub(crate) shaded: &'a [f32],
+    /// Of the chunk's own, made by clipping.
+    pub(crate) clipped: &'a [f32],
+    /// How each scalar is interpolated.
+    pub(crate) modes: &'a [Interpolation],
+}
+
+impl<'a> VaryingSource<'a> {
+    #[inline(always)]
+    pub(crate) fn of(&self, vertex: VertexRef) -> &'a [f32] {
+        let n = self.modes.len();
+        let (from, number) = if vertex.0 & VertexRef::CLIPPED == 0 {
+            (self.shaded, vertex.0)
+        } else {
+            (self.clipped, vertex.0 & !VertexRef::CLIPPED)
+        };
+        &from[number as usize * n..][..n]
+    }
+
+    /// Four scalars of sixteen vertices, from scalar `at` on; of vertices with fewer than four, all
+    /// of them and whatever follows. There must be two at least.
+    #[inline(always)]
+    pub(crate) fn four_of<S: Lanes>(
+        &self,
+        s: S,
+        vertices: &[u32; LANES],
+        at: usize,
+    ) -> [f32x16<S>; 4] {
+        let n = self.modes.len();
+        // Only the last vertex of a list may have fewer than four scalars from there on.
+        let (mut end, mut clipped_end) = ([0.0; 4], [0.0; 4]);
+        for (end, list) in [(&mut end, self.shaded), (&mut clipped_end, self.clipped)] {
+            if let Some(last) = list.last_chunk::<2>()
+                && n == 2
+            {
+                end[..2].copy_from_slice(last);
+            } else if let Some(last) = list.last_chunk::<3>() {
+                end[..3].copy_from_slice(last);
+            }
+        }
+        let mut rows = [&end; LANES];
+        for (row, &vertex) in rows.iter_mut().zip(vertices) {
+            let (from, end) = if vertex & VertexRef::CLIPPED == 0 {
+                (self.shaded, &end)
+            } else {
+                (self.clipped, &clipped_end)
+            };
+            let first = (vertex & !VertexRef::CLIPPED) as usize * n + at;
+            let found = from.get(first..).and_then(<[f32]>::first_chunk);
+            *row = found.unwrap_or(end);
+        }
+        components_of_f32(s, &rows)
+    }
+}
+
+/// Planes of a triangle's varyings: scalar `k` is `origin[k]`, `dx[k]`, `dy[k]`.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct VaryingPlanes<'a> {
+    pub(super) origin: &'a [f32],
+    dx: &'a [f32],
+    dy: &'a [f32],
+}
+
+impl<'a> VaryingPlanes<'a> {
+    /// Numbers that the planes of `scalars` varyings take.
+    #[inline(always)]
+    pub(crate) fn size(scalars: usize) -> usize {
+        scalars * 3
+    }
+
+    /// What [`set_planes`] wrote.
+    #[inline(always)]
+    pub(crate) fn new(numbers: &'a [f32]) -> Self {
+        let n = numbers.len() / 3;
+        let (origin, rest) = numbers.split_at(n);
+        let (dx, rest) = rest.split_at(n);
+        Self {
+            origin,
+            dx,
+            dy: &rest[..n],
+        }
+    }
+
+    /// How many there are.
+    #[inline(always)]
+    pub(super) fn len(&self) -> usize {
+        self.origin.len()
+    }
+
+    /// The plane of scalar `k`.
+    #[inline(always)]
+    pub(crate) fn of(&self, k: usize) -> Plane {
+        Plane {
+            origin: self.origin[k],
+            dx: self.dx[k],
+            dy: self.dy[k],
+        }
+    }
+}
+
+/// Writes the planes of a lane's triangle to [`VaryingPlanes::size`] numbers.
+#[inline(always)]
+pub(crate) fn set_planes<S: Lanes>(
+    s: S,
+    out: &mut [f32],
+    (packet, lane): (&TrianglePacket, usize),
+    source: &VaryingSource<'_>,
+    all_smooth: bool,
+) {
+    let vertex = |corner: usize| source.of(packet.vertex[corner][lane]);
+    let (a0, a1, a2) = (vertex(0), vertex(1), vertex(2));
+    let n = source.modes.len();
+    let (origin, rest) = out.split_at_mut(n);
+    let (dx, dy) = rest.split_at_mut(n);
+    let dy = &mut dy[..n];
+    let iw = [
+        packet.iw_at[0][lane],
+        packet.iw_at[1][lane],
+        packet.iw_at[2][lane],
+    ];
+    let perspective = packet.equal_w >> lane & 1 == 0;
+    let difference = |of: &[[i32; LANES]; 3], corner: usize| pixels(of[corner][lane] - of[0][lane]);
+    let (dx1, dy1) = (difference(&packet.x, 1), difference(&packet.y, 1));
+    let (dx2, dy2) = (difference(&packet.x, 2), difference(&packet.y, 2));
+    let r = packet.r[lane];
+    // Four scalars at a time where all are treated alike.
+    let fours = if all_smooth { n - n % 4 } else { 0 };
+    let splat = |value: f32| <f32x4<S> as SimdBase<S>>::splat(s, value);
+    for k in (0..fours).step_by(4) {
+        let four = k..k + 4;
+        let mut p = [
+            f32x4::from_slice(s, &a0[four.clone()]),
+            f32x4::from_slice(s, &a1[four.clone()]),
+            f32x4::from_slice(s, &a2[four.clone()]),
+        ];
+        if perspective {
+            p = [
+                p[0] * splat(iw[0]),
+                p[1] * splat(iw[1]),
+                p[2] * splat(iw[2]),
+            ];
+        }
+        let (e1, e2) = (p[1] - p[0], p[2] - p[0]);
+        p[0].store_slice(&mut origin[four.clone()]);
+        ((e1 * splat(dy2) - e2 * splat(dy1)) * splat(r)).store_slice(&mut dx[four.clone()]);
+        ((e2 * splat(dx1) - e1 * splat(dx2)) * splat(r)).store_slice(&mut dy[four]);
+    }
+    for k in fours..n {
+        // The factor of modes without perspective is 1, and a product with 1 changes nothing.
+        let by_w = perspective && source.modes[k] == Interpolation::Smooth;
+        let w = if by_w { iw } else { [1.0; 3] };
+        let (p0, p1, p2) = (a0[k] * w[0], a1[k] * w[1], a2[k] * w[2]);
+        let (e1, e2) = (p1 - p0, p2 - p0);
+        origin[k] = p0;
+        dx[k] = (e1 * dy2 - e2 * dy1) * r;
+        dy[k] = (e2 * dx1 - e1 * dx2) * r;
+    }
+    if all_smooth {
+        return;
+    }
+    if source.modes.contains(&Interpolation::Flat) {
+        let provoking = source.of(packet.provoking[lane]);
+        for (k, &value) in provoking.iter().enumerate().take(n) {
+            if source.modes[k] == Interpolation::Flat {
+                (origin[k], dx[k], dy[k]) = (value, 0.0, 0.0);
+            }
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! Filled triangles, sixteen at a time: the loop of the geometry side.
+//!
+//! *In* the primitives of a run · *Out* triangles in a chunk's packets, binned · *Space* window.
+//!
+//! ```text
+//!     assemble ──▶ classify ──┬──▶ (culled: most of a closed mesh)
+//!                             ├──▶ set up, in order ◀──┐
+//!                             └──▶ clip detour ────────┘ pieces, in the triangle's place
+//! ```
+//!
+//! One group is assembled before the last one is classified: vectors cannot be loaded from what was
+//! just stored lane by lane, and meanwhile there is something to do.
+
+use super::clip_detour::ClipDetour;
+use super::cull::{Classified, TriangleGroup, WindowTriangles, classify};
+use super::groups::PrimitiveGroups;
+use super::run::RunWork;
+use super::setup::{Setup, SetupLanes};
+use super::shaded_vertices::PackedVertex;
+use estampe_simd::{LANES, Lane, Lanes, SimdBase, u32x16};
+
+/// Draws the triangles of a run.
+#[inline(always)]
+pub(super) fn draw<S: Lanes>(
+    s: S,
+    work: &RunWork<'_>,
+    setup: &mut Setup<'_>,
+    groups: &mut [TriangleGroup; 2],
+    clip: &mut ClipDetour,
+) {
+    let window = work.vertices.window;
+    let mut primitives = PrimitiveGroups::new(&work.elements, work.instance, work.primitives);
+    let [mut group, mut ahead] = groups.each_mut();
+    let mut coming = assemble(&mut primitives, window, ahead);
+    let mut culled = 0;
+    while let Some(count) = coming {
+        std::mem::swap(&mut group, &mut ahead);
+        coming = assemble(&mut primitives, window, ahead);
+
+        let active = u16::MAX >> (LANES - count);
+        let triangles = WindowTriangles::new(s, group);
+        let classified = classify(s, work.plan, &triangles, active);
+        let kept = classified.visible | classified.clipped;
+        culled += (active & !kept).count_ones();
+        if kept == 0 {
+            continue;
+        }
+        let lanes = SetupLanes {
+            vertices: vertices_of(s, group),
+            doubled_area: classified.doubled_area,
+        };
+        let mut submit = Submission {
+            work,
+            setup,
+            group,
+            triangles: &triangles,
+            lanes: &lanes,
+        };
+        let visible = submit.clip_in_order(s, &classified, clip);
+        submit.set_up(s, visible);
+    }
+    setup.chunk.statistics.primitives_culled += u64::from(culled);
+}
+
+/// Assembles the next group and reads where its vertices are; none at the end.
+#[inline(always)]
+fn assemble(
+    primitives: &mut PrimitiveGroups<'_>,
+    window: &[PackedVertex],
+    group: &mut TriangleGroup,
+) -> Option<usize> {
+    let count = primitives.next_group(&mut group.vertices)?;
+    group.read_positions(window);
+    Some(count)
+}
+
+/// The vertices of sixteen triangles, corner by corner.
+#[inline(always)]
+fn vertices_of<S: Lanes>(s: S, group: &TriangleGroup) -> [u32x16<S>; 3] {
+    let mut vertices = [<u32x16<S> as SimdBase<S>>::splat(s, 0); 3];
+    for (corner, vertices) in vertices.iter_mut().enumerate() {
+        let mut lanes = [0; LANES];
+        for (lane, to) in lanes.iter_mut().enumerate() {
+            *to = group.vertices[lane][corner];
+        }
+        *vertices = u32x16::load_array(s, lanes);
+    }
+    vertices
+}
+
+/// A group on its way to set-up.
+struct Submission<'a, 'b, 'c, S: Lanes> {
+    work: &'a RunWork<'b>,
+    setup: &'a mut Setup<'c>,
+    group: &'a TriangleGroup,
+    triangles: &'a WindowTriangles<S>,
+    lanes: &'a SetupLanes<S>,
+}
+
+impl<S: Lanes> Submission<'_, '_, '_, S> {
+    /// Clips the triangles that need it, and sets up those before the last of them, so that all
+    /// keep their order. The visible ones that are left are the caller's.
+    #[inline(always)]
+    fn clip_in_order(&mut self, s: S, classified: &Classified<S>, clip: &mut ClipDetour) -> u16 {
+        let mut visible = classified.visible;
+        for lane in Lane::all_of(classified.clipped) {
+            let before = visible & (lane.bit() - 1);
+            visible &= !before;
+            self.set_up(s, before);
+            clip.draw_triangle(self.work, lane.of(&self.group.vertices), self.setup);
+        }
+        visible
+    }
+
+    /// Sets up the triangles of some lanes.
+    #[inline(always)]
+    fn set_up(&mut self, s: S, lanes: u16) {
+        if lanes != 0 {
+            self.setup.push_lanes(s, self.triangles, self.lanes, lanes);
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! The geometry plan: a draw's state, resolved once into what the geometry stages read.
+
+use super::depth_bias::DepthBias;
+use super::facing::Facing;
+use super::line_style::LineStyle;
+use super::viewport::ViewportTransform;
+use crate::bounds::pixel_rect::PixelRect;
+use crate::bounds::sample_rect::SampleRect;
+use crate::layout::TileGrid;
+use crate::pipeline::primitive_kind::{PrimitiveKind, kind_of};
+use estampe_types::TextureFormat;
+use estampe_types::state::{DepthBiasState, PolygonMode, PrimitiveState, Viewport};
+
+/// What a draw's geometry depends on besides its vertices. Each value stands here and nowhere else.
+#[derive(Debug, Clone)]
+pub(crate) struct GeometryPlan {
+    pub(crate) kind: PrimitiveKind,
+    pub(crate) polygon_mode: PolygonMode,
+    pub(crate) transform: ViewportTransform,
+    /// The pixels of which a sample may change: viewport ∩ scissor ∩ target.
+    pub(crate) rect: PixelRect,
+    /// The viewport's samples, where an edge of the viewport goes through pixels of the rectangle.
+    pub(crate) cut_samples: Option<SampleRect>,
+    /// The least and the greatest offset inside a pixel that coverage looks at, in 1/256 pixel: of
+    /// its samples, or of its square where coverage is conservative.
+    pub(crate) sample_range: [i32; 2],
+    pub(crate) facing: Facing,
+    /// None where nothing is added to depths.
+    pub(crate) depth_bias: Option<DepthBias>,
+    pub(crate) line_style: LineStyle,
+    /// The tiles that primitives are binned to.
+    pub(crate) grid: TileGrid,
+}
+
+/// What [`GeometryPlan::new`] needs to know of a render target.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TargetGeometry {
+    pub(crate) grid: TileGrid,
+    pub(crate) depth_stencil: Option<TextureFormat>,
+    /// Scissor ∩ target.
+    pub(crate) rect: PixelRect,
+    /// The least and the greatest offset of a sample's position inside its pixel, in 1/256 pixel.
+    pub(crate) position_range: [i32; 2],
+    /// See [`GeometryPlan::sample_range`].
+    pub(crate) sample_range: [i32; 2],
+}
+
+impl GeometryPlan {
+    /// The plan of a pipeline's primitive state and depth bias in a viewport.
+    pub(crate) fn new(
+        state: &PrimitiveState,
+        bias: &DepthBiasState,
+        viewport: &Viewport,
+        target: TargetGeometry,
+    ) -> Self {
+        let samples = SampleRect::new(viewport);
+        let [any, all] = samples.any_and_all(target.position_range);
+        let (rect, whole_pixels) = (any.intersection(target.rect), all.intersection(target.rect));
+        Self {
+            kind: kind_of(state.topology),
+            polygon_mode: state.polygon_mode,
+            transform: ViewportTransform::new(viewport, state.unclipped_depth),
+            rect,
+            cut_samples: (rect != whole_pixels).then_some(samples),
+            sample_range: target.sample_range,
+            facing: Facing::new(state),
+            depth_bias: DepthBias::new(bias, target.depth_stencil),
+            line_style: LineStyle::new(&state.line),
+            grid: target.grid,
+        }
+    }
+
+    /// Whether primitives are filled triangles, not lines or points.
+    pub(crate) fn fills_triangles(&self) -> bool {
+        self.kind == PrimitiveKind::Triangles && self.polygon_mode == PolygonMode::Fill
+    }
+
+    /// Whether there is one sample for each pixel, at its centre.
+    pub(crate) fn samples_centers(&self) -> bool {
+        self.sample_range == [128; 2]
+    }
+}

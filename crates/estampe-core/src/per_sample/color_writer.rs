@@ -1,0 +1,360 @@
+//! The way of colours into attachments: blending (O5) or a logic operation (O6), write masks (O7),
+//! encoding (O8).
+//!
+//! *In* a batch of shaded packets · *Out* one colour attachment · *Precision* f32, the format's
+//! rounding · *Spec* WebGPU §Blend State; Vulkan §Blending, §Logical Operations.
+//!
+//! A batch is written packet by packet, in order, because later packets may lie on earlier ones.
+//! The loop is compiled for RGBA8 and BGRA8 that replace or blend by a common equation, and once
+//! for everything else: there the format and the equation are matched for each packet, which costs
+//! a predicted branch. A copy of the loop for each of ten families of formats and three kinds of
+//! equations was five times as much code and took the compiler a minute.
+
+use super::blend::{AnyBlend, AnyEquation, BlendInputs, BlendKernel, ColorLanes, Replace};
+use super::logic::combine;
+use crate::fragment::place::{MaskedWords, PacketLayout};
+use crate::fragment::queue::ShadedBatch;
+use crate::pipeline::color_target::{ColorTarget, Equation, MAX_WORDS};
+use estampe_format::attachment::Family;
+use estampe_format::{AttachmentCodec, PacketCodec, TexelCodec, with_codec};
+use estampe_simd::{LANES, Lanes, Level, Packet, Select, SimdBase, dispatch, f32x16, u32x16};
+
+/// The way of colours into one attachment.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ColorWriter<'a> {
+    pub(crate) target: &'a ColorTarget,
+    /// The target's number.
+    pub(crate) index: usize,
+    /// The draw's blend constant.
+    pub(crate) constant: [f32; 4],
+}
+
+impl ColorWriter<'_> {
+    /// Writes a batch of shaded packets.
+    pub(crate) fn write_batch(
+        &self,
+        level: Level,
+        batch: &ShadedBatch<'_>,
+        stored: &mut [[u32; LANES]],
+    ) {
+        dispatch!(level, s => self.write_lanes(s, level, batch, stored));
+    }
+
+    #[inline(always)]
+    fn write_lanes<S: Lanes>(
+        &self,
+        s: S,
+        level: Level,
+        batch: &ShadedBatch<'_>,
+        stored: &mut [[u32; LANES]],
+    ) {
+        let (writer, index) = (self.target, self.index);
+        match (writer.codec.family(), &writer.equation) {
+            (Family::Rgba8(codec), Equation::Replace) if const { !S::IS_SCALAR } => {
+                let codec = Common(codec);
+                Target {
+                    writer,
+                    codec,
+                    index,
+                }
+                .write(s, Replace, batch, stored);
+            }
+            (Family::Rgba8(codec), Equation::Over(over)) if const { !S::IS_SCALAR } => {
+                let codec = Common(codec);
+                Target {
+                    writer,
+                    codec,
+                    index,
+                }
+                .write(s, *over, batch, stored);
+            }
+            (_, equation) => {
+                let codec = writer.codec;
+                let constant = [
+                    clamp_one(self.constant[0], codec.range()),
+                    clamp_one(self.constant[1], codec.range()),
+                    clamp_one(self.constant[2], codec.range()),
+                    clamp_one(self.constant[3], codec.range()),
+                ];
+                let kernel = match equation {
+                    Equation::Replace => AnyEquation::Replace,
+                    Equation::Over(over) => AnyEquation::Over(*over),
+                    Equation::Any(state) => AnyEquation::Any(AnyBlend {
+                        level,
+                        state,
+                        constant,
+                    }),
+                };
+                Target {
+                    writer,
+                    codec,
+                    index,
+                }
+                .write(s, kernel, batch, stored);
+            }
+        }
+    }
+
+    /// Appends the words of each packet's texels.
+    pub(crate) fn encode_batch(
+        &self,
+        level: Level,
+        batch: &ShadedBatch<'_>,
+        texels: &mut Vec<[u32; LANES]>,
+    ) {
+        dispatch!(level, s => self.encode_lanes(s, batch, texels));
+    }
+
+    #[inline(always)]
+    fn encode_lanes<S: Lanes>(
+        &self,
+        s: S,
+        batch: &ShadedBatch<'_>,
+        texels: &mut Vec<[u32; LANES]>,
+    ) {
+        let words = AttachmentCodec::words(&self.target.codec);
+        for packet in batch.packets() {
+            let texel =
+                TexelAccess::encode(self.target.codec, s, load(s, packet.color(self.index)));
+            for word in texel.iter().take(words) {
+                texels.push(word.to_array());
+            }
+        }
+    }
+}
+
+/// Sixteen texels of a format, between words and numbers.
+trait TexelAccess<S: Lanes>: Copy {
+    /// Words of a texel.
+    fn words(self) -> usize;
+    fn decode(self, s: S, words: [u32x16<S>; MAX_WORDS]) -> ColorLanes<S>;
+    fn encode(self, s: S, color: ColorLanes<S>) -> [u32x16<S>; MAX_WORDS];
+}
+
+/// A codec that the compiler knows.
+#[derive(Clone, Copy)]
+struct Common<C>(C);
+
+impl<S: Lanes, C: PacketCodec<S>> TexelAccess<S> for Common<C> {
+    #[inline(always)]
+    fn words(self) -> usize {
+        C::WORDS
+    }
+    #[inline(always)]
+    fn decode(self, s: S, words: [u32x16<S>; MAX_WORDS]) -> ColorLanes<S> {
+        self.0.decode(s, words)
+    }
+    #[inline(always)]
+    fn encode(self, s: S, color: ColorLanes<S>) -> [u32x16<S>; MAX_WORDS] {
+        self.0.encode(s, color)
+    }
+}
+
+impl<S: Lanes> TexelAccess<S> for AttachmentCodec {
+    #[inline(always)]
+    fn words(self) -> usize {
+        Self::words(&self)
+    }
+    #[inline(always)]
+    fn decode(self, s: S, words: [u32x16<S>; MAX_WORDS]) -> ColorLanes<S> {
+        if const { S::IS_SCALAR } {
+            return decode_by_lane(s, self, words);
+        }
+        with_codec!(self, codec => codec.decode(s, words))
+    }
+    #[inline(always)]
+    fn encode(self, s: S, color: ColorLanes<S>) -> [u32x16<S>; MAX_WORDS] {
+        if const { S::IS_SCALAR } {
+            return encode_by_lane(s, self, color);
+        }
+        with_codec!(self, codec => codec.encode(s, color))
+    }
+}
+
+/// Decoding texel by texel: sixteen scalar lanes of every codec take the compiler too long.
+#[inline(always)]
+fn decode_by_lane<S: Lanes>(
+    s: S,
+    codec: AttachmentCodec,
+    words: [u32x16<S>; MAX_WORDS],
+) -> ColorLanes<S> {
+    let words = [
+        words[0].to_array(),
+        words[1].to_array(),
+        words[2].to_array(),
+        words[3].to_array(),
+    ];
+    let [r, g, b, a] = decode_texels(codec, &words);
+    let load = |channel: [f32; LANES]| f32x16::load_array(s, channel);
+    [load(r), load(g), load(b), load(a)]
+}
+
+/// [`decode_by_lane`], the other way.
+#[inline(always)]
+fn encode_by_lane<S: Lanes>(
+    s: S,
+    codec: AttachmentCodec,
+    [r, g, b, a]: ColorLanes<S>,
+) -> [u32x16<S>; MAX_WORDS] {
+    let color = [r.to_array(), g.to_array(), b.to_array(), a.to_array()];
+    let [first, second, third, fourth] = encode_texels(codec, &color);
+    let load = |words: [u32; LANES]| u32x16::load_array(s, words);
+    [load(first), load(second), load(third), load(fourth)]
+}
+
+#[inline(never)]
+fn decode_texels(codec: AttachmentCodec, words: &[[u32; LANES]; MAX_WORDS]) -> [[f32; LANES]; 4] {
+    let codec = TexelCodec::new(codec.format());
+    let mut color = [[0.0; LANES]; 4];
+    for lane in 0..LANES {
+        let texel = words.map(|word| word[lane]);
+        for (channel, value) in color.iter_mut().zip(codec.decode(&texel)) {
+            channel[lane] = value;
+        }
+    }
+    color
+}
+
+#[inline(never)]
+fn encode_texels(codec: AttachmentCodec, color: &[[f32; LANES]; 4]) -> [[u32; LANES]; MAX_WORDS] {
+    let codec = TexelCodec::new(codec.format());
+    let mut words = [[0; LANES]; MAX_WORDS];
+    for lane in 0..LANES {
+        let value = color.map(|channel| channel[lane]);
+        for (word, bits) in words.iter_mut().zip(codec.encode(value)) {
+            word[lane] = bits;
+        }
+    }
+    words
+}
+
+/// A target of a batch.
+struct Target<'a, C> {
+    writer: &'a ColorTarget,
+    codec: C,
+    index: usize,
+}
+
+impl<C: Copy> Target<'_, C> {
+    #[inline(always)]
+    fn write<S: Lanes>(
+        &self,
+        s: S,
+        kernel: impl BlendKernel,
+        batch: &ShadedBatch<'_>,
+        stored: &mut [[u32; LANES]],
+    ) where
+        C: TexelAccess<S>,
+    {
+        let layout = PacketLayout {
+            samples: batch.samples,
+            words: self.codec.words(),
+        };
+        let range = self.writer.codec.range();
+        let zero = <u32x16<S> as SimdBase<S>>::splat(s, 0);
+        for packet in batch.packets() {
+            let mut inputs = BlendInputs {
+                source: load(s, packet.color(self.index)),
+                second: [SimdBase::splat(s, 0.0); 4],
+                stored: [SimdBase::splat(s, 0.0); 4],
+            };
+            if kernel.reads_stored() {
+                inputs.source = clamp(s, inputs.source, range);
+                if let Some(second) = packet.second() {
+                    inputs.second = clamp(s, load(s, second), range);
+                }
+            }
+            let mut encoded = None;
+            for (sample, &mask) in packet.masks.iter().enumerate() {
+                if mask == 0 {
+                    continue;
+                }
+                let mut old = [zero; MAX_WORDS];
+                for (word, old) in old.iter_mut().enumerate().take(layout.words) {
+                    *old = packet.place.load(s, stored, layout, [sample, word]);
+                }
+                // All samples are replaced by the same texel.
+                let mut new = match encoded {
+                    Some(words) if !kernel.reads_stored() => words,
+                    _ => {
+                        if kernel.reads_stored() {
+                            inputs.stored = self.codec.decode(s, old);
+                        }
+                        self.codec.encode(s, kernel.blend(s, &inputs))
+                    }
+                };
+                encoded = Some(new);
+                self.mask_words(s, &mut new, &old);
+                for word in 0..layout.words {
+                    let values = MaskedWords {
+                        new: new[word],
+                        old: old[word],
+                        mask,
+                    };
+                    packet
+                        .place
+                        .store(s, values, stored, layout, [sample, word]);
+                }
+            }
+        }
+    }
+
+    /// Applies the logic operation and the write mask. Both work bit by bit, so they need no
+    /// channels.
+    #[inline(always)]
+    fn mask_words<S: Lanes>(
+        &self,
+        s: S,
+        new: &mut [u32x16<S>; MAX_WORDS],
+        old: &[u32x16<S>; MAX_WORDS],
+    ) {
+        if self.writer.logic.is_none() && self.writer.writes_all {
+            return;
+        }
+        for (word, (new, old)) in new.iter_mut().zip(old).enumerate() {
+            if let Some(operation) = self.writer.logic {
+                *new = combine(operation, *new, *old);
+            }
+            let writable = <u32x16<S> as SimdBase<S>>::splat(s, self.writer.writable[word]);
+            *new = (*new & writable) | (*old & !writable);
+        }
+    }
+}
+
+#[inline(always)]
+fn load<S: Lanes>(s: S, color: &[Packet<f32>; 4]) -> ColorLanes<S> {
+    let load = |packet: &Packet<f32>| f32x16::load_array_ref(s, &packet.0);
+    let [r, g, b, a] = color;
+    [load(r), load(g), load(b), load(a)]
+}
+
+/// Colours in a format's range; NaN is 0.
+#[inline(always)]
+fn clamp<S: Lanes>(s: S, color: ColorLanes<S>, range: Option<[f32; 2]>) -> ColorLanes<S> {
+    let Some([low, high]) = range else {
+        return color;
+    };
+    let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+    let mut clamped = color;
+    for value in &mut clamped {
+        // The maximum with 0 is 0 where the other operand is NaN; with a negative number it is that
+        // number.
+        let number = if low < 0.0 {
+            value.simd_eq(*value).select(*value, splat(0.0))
+        } else {
+            *value
+        };
+        *value = s.min_f32(s.max_f32(number, splat(low)), splat(high));
+    }
+    clamped
+}
+
+/// A number in a format's range; NaN is 0.
+fn clamp_one(value: f32, range: Option<[f32; 2]>) -> f32 {
+    let Some([low, high]) = range else {
+        return value;
+    };
+    let value = if value.is_nan() { 0.0 } else { value };
+    let above = if value > low { value } else { low };
+    if above < high { above } else { high }
+}

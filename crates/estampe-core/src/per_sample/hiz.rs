@@ -1,0 +1,303 @@
+//! Hierarchical z (HiZ): the least and the greatest depth of each block of 16×16 pixels, to reject
+//! or accept blocks.
+//!
+//! The range of a primitive's depths in a block is exact, not estimated: the plane's formula is
+//! monotone in X and in Y, rounding included, so its least value over the block is its value at one
+//! corner, computed in the same way; clamping and rounding to fixed point are monotone too. Ranges
+//! of stored depths are refreshed lazily: a block that was written is scanned when the next large
+//! triangle asks. (Greene, Kass and Miller 1993.)
+
+use super::compare::{orders, prefers_less};
+use super::sample_tests::SampleTests;
+use crate::bounds::plane::Plane;
+use crate::fragment::interpolate::{DepthPlane, PlaneOrigin, evaluate};
+use crate::raster::{SampleSet, TileShape};
+use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, SimdBase, dispatch, f32x16};
+use estampe_types::state::CompareFunction;
+
+/// Ranges of the stored depths of a tile's blocks.
+#[derive(Debug, Clone)]
+pub(crate) struct HierarchicalZ {
+    least: [f32; LANES],
+    greatest: [f32; LANES],
+    /// Blocks whose ranges are out of date, one bit each.
+    stale: u16,
+}
+
+/// The blocks in which a triangle is hidden or certain to pass, one bit each.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BlockClasses {
+    /// No sample can pass.
+    pub(crate) hidden: u16,
+    /// Every covered sample passes.
+    pub(crate) certain: u16,
+    /// The triangle's least and greatest depth, were it to cover the block.
+    least: [f32; LANES],
+    greatest: [f32; LANES],
+}
+
+impl BlockClasses {
+    /// The same for all blocks, nothing being known of depths.
+    pub(crate) fn of_all(hidden: u16, certain: u16) -> Self {
+        Self {
+            hidden,
+            certain,
+            least: [0.0; LANES],
+            greatest: [1.0; LANES],
+        }
+    }
+}
+
+impl Default for HierarchicalZ {
+    fn default() -> Self {
+        Self {
+            least: [0.0; LANES],
+            greatest: [0.0; LANES],
+            stale: u16::MAX,
+        }
+    }
+}
+
+impl HierarchicalZ {
+    /// Begins a tile whose depths are all `cleared`, or unknown.
+    pub(crate) fn begin(&mut self, cleared: Option<f32>) {
+        let depth = cleared.unwrap_or_default();
+        self.least = [depth; LANES];
+        self.greatest = [depth; LANES];
+        self.stale = if cleared.is_some() { 0 } else { u16::MAX };
+    }
+
+    /// Notes that blocks were written.
+    #[inline(always)]
+    pub(crate) fn invalidate(&mut self, blocks: u16) {
+        self.stale |= blocks;
+    }
+
+    /// Classifies the blocks of a tile for a triangle that is tested in the way of `tests`. Where
+    /// order does not decide between equal depths, `or_equal` says that those may pass, or not,
+    /// whatever the comparison.
+    pub(crate) fn classify<const N: usize>(
+        &mut self,
+        level: Level,
+        look: &HizQuery<'_, N>,
+        or_equal: bool,
+        stored: &[[f32; LANES]],
+    ) -> BlockClasses {
+        let compare = match look.tests.depth.map(|state| state.compare) {
+            Some(CompareFunction::Less) if or_equal => CompareFunction::LessEqual,
+            Some(CompareFunction::Greater) if or_equal => CompareFunction::GreaterEqual,
+            Some(CompareFunction::Never) if look.tests.early_failure_is_final() => {
+                return BlockClasses::of_all(u16::MAX, 0);
+            }
+            Some(CompareFunction::Never) => return BlockClasses::of_all(0, 0),
+            None
+            | Some(CompareFunction::Equal | CompareFunction::NotEqual | CompareFunction::Always) => {
+                return BlockClasses::of_all(0, 0);
+            }
+            Some(other) => other,
+        };
+        dispatch!(level, s => self.classify_lanes::<_, N>(s, look, (compare, or_equal), stored))
+    }
+
+    /// Whether no sample of a triangle can pass anywhere in the tile. A quick look at the plane's
+    /// nearest corner, for the many that something in front hides; false where bounds are out of
+    /// date.
+    #[inline]
+    pub(crate) fn hides<const N: usize>(&self, look: &HizQuery<'_, N>, or_equal: bool) -> bool {
+        let Some(compare) = look.tests.depth.map(|state| state.compare) else {
+            return false;
+        };
+        if self.stale != 0 || !orders(compare) {
+            return false;
+        }
+        let side = look.tile.side();
+        let is_less = prefers_less(compare);
+        let DepthPlane { origin, z } = &look.plane;
+        let positions = look.samples.subpixels();
+        let nearest = |slope: f32, axis: usize, tile: i32, origin: f32| {
+            let sample = if (slope >= 0.0) == is_less {
+                least_offset(&positions, axis)
+            } else {
+                (side - 1) as f32 + greatest_offset(&positions, axis)
+            };
+            (tile as f32 + sample) - origin
+        };
+        let (tile_x, tile_y) = (look.tile.x, look.tile.y);
+        let x = nearest(z.dx, 0, tile_x, origin.x);
+        let y = nearest(z.dy, 1, tile_y, origin.y);
+        let [low, high] = look.tests.stored.range;
+        let depth = z.origin + (x * z.dx + y * z.dy);
+        // As lanes are clamped: NaN becomes the lower end.
+        let depth = if depth > low { depth } else { low };
+        let depth = if depth < high { depth } else { high };
+        let depth = look.tests.stored.format.stored(depth);
+        let strict = or_equal
+            || matches!(
+                compare,
+                CompareFunction::LessEqual | CompareFunction::GreaterEqual
+            );
+        let blocks = (side / 16 * (side / 16)) as usize;
+        if is_less {
+            let mut all = self.greatest.iter().take(blocks);
+            all.all(|&stored| depth > stored || !strict && depth == stored)
+        } else {
+            let mut all = self.least.iter().take(blocks);
+            all.all(|&stored| depth < stored || !strict && depth == stored)
+        }
+    }
+
+    #[inline(always)]
+    fn classify_lanes<S: Lanes, const N: usize>(
+        &mut self,
+        s: S,
+        look: &HizQuery<'_, N>,
+        (compare, or_equal): (CompareFunction, bool),
+        stored: &[[f32; LANES]],
+    ) -> BlockClasses {
+        self.refresh(s, look.samples.count(), stored);
+        let tests = look.tests;
+        let least = tests.stored.of(s, extreme(s, look, true));
+        let greatest = tests.stored.of(s, extreme(s, look, false));
+        let stored_least = f32x16::load_array_ref(s, &self.least);
+        let stored_greatest = f32x16::load_array_ref(s, &self.greatest);
+        let (hidden, mut certain) = match compare {
+            CompareFunction::Less => (
+                least.simd_ge(stored_greatest),
+                greatest.simd_lt(stored_least),
+            ),
+            CompareFunction::LessEqual => (
+                least.simd_gt(stored_greatest),
+                greatest.simd_le(stored_least),
+            ),
+            CompareFunction::Greater => (
+                greatest.simd_le(stored_least),
+                least.simd_gt(stored_greatest),
+            ),
+            _ => (
+                greatest.simd_lt(stored_least),
+                least.simd_ge(stored_greatest),
+            ),
+        };
+        if or_equal {
+            certain = if prefers_less(compare) {
+                greatest.simd_lt(stored_least)
+            } else {
+                least.simd_gt(stored_greatest)
+            };
+        }
+        BlockClasses {
+            // A hidden triangle may still change stencil values; stencil and depth bounds make
+            // nothing certain.
+            hidden: if tests.early_failure_is_final() {
+                s.bits_of_mask(hidden)
+            } else {
+                0
+            },
+            certain: if tests.is_depth_alone() {
+                s.bits_of_mask(certain)
+            } else {
+                0
+            },
+            least: least.to_array(),
+            greatest: greatest.to_array(),
+        }
+    }
+
+    /// Notes that blocks hold nothing but the depths of a triangle that was classified.
+    #[inline(always)]
+    pub(crate) fn replace(&mut self, blocks: u16, classes: &BlockClasses) {
+        self.stale &= !blocks;
+        let mut left = blocks;
+        while left != 0 {
+            let block = left.trailing_zeros() as usize % LANES;
+            left &= left - 1;
+            self.least[block] = classes.least[block];
+            self.greatest[block] = classes.greatest[block];
+        }
+    }
+
+    /// Scans the blocks that are out of date.
+    #[inline(always)]
+    fn refresh<S: Lanes>(&mut self, s: S, samples: usize, stored: &[[f32; LANES]]) {
+        let blocks = stored.chunks_exact(LANES * samples);
+        for (block, lines) in blocks.enumerate() {
+            if self.stale >> block & 1 == 0 {
+                continue;
+            }
+            let (mut least, mut greatest) = (
+                <f32x16<S> as SimdBase<S>>::splat(s, f32::INFINITY),
+                <f32x16<S> as SimdBase<S>>::splat(s, f32::NEG_INFINITY),
+            );
+            for line in lines {
+                let value = f32x16::load_array_ref(s, line);
+                least = s.min_f32(value, least);
+                greatest = s.max_f32(value, greatest);
+            }
+            let (least, greatest) = (least.to_array(), greatest.to_array());
+            self.least[block] = least.into_iter().fold(f32::INFINITY, f32::min);
+            self.greatest[block] = greatest.into_iter().fold(f32::NEG_INFINITY, f32::max);
+        }
+        self.stale = 0;
+    }
+}
+
+/// A triangle in a tile, as hierarchical z looks at it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct HizQuery<'a, const N: usize> {
+    pub(crate) tests: &'a SampleTests,
+    pub(crate) plane: DepthPlane,
+    pub(crate) tile: TileShape,
+    pub(crate) samples: SampleSet<N>,
+}
+
+/// The least (or greatest) depth of a triangle's plane over the samples of each of sixteen blocks.
+#[inline(always)]
+fn extreme<S: Lanes, const N: usize>(s: S, look: &HizQuery<'_, N>, least: bool) -> f32x16<S> {
+    let Plane { dx, dy, .. } = look.plane.z;
+    let PlaneOrigin { x: x0, y: y0 } = look.plane.origin;
+    let positions = look.samples.subpixels();
+    // The corner at which the plane is least: the first sample where it rises, the last where it
+    // falls.
+    let corner = |slope: f32, axis: usize| {
+        if (slope >= 0.0) == least {
+            least_offset(&positions, axis)
+        } else {
+            15.0 + greatest_offset(&positions, axis)
+        }
+    };
+    let (tile_x, tile_y) = (look.tile.x, look.tile.y);
+    let x = distance(s, &LANE_X, (tile_x, corner(dx, 0)), x0);
+    let y = distance(s, &LANE_Y, (tile_y, corner(dy, 1)), y0);
+    evaluate(s, &look.plane.z, [x, y])
+}
+
+/// The least offset of a sample in its pixel, on an axis.
+#[inline(always)]
+fn least_offset<const N: usize>(positions: &[[i32; 2]; N], axis: usize) -> f32 {
+    let offsets = positions.iter().map(|position| position[axis]);
+    offsets.fold(256, i32::min) as f32 * (1.0 / 256.0)
+}
+
+/// The greatest offset of a sample in its pixel, on an axis.
+#[inline(always)]
+fn greatest_offset<const N: usize>(positions: &[[i32; 2]; N], axis: usize) -> f32 {
+    let offsets = positions.iter().map(|position| position[axis]);
+    offsets.fold(0, i32::max) as f32 * (1.0 / 256.0)
+}
+
+/// The distance of each block's column (or row) at an offset from a plane's origin.
+#[inline(always)]
+fn distance<S: Lanes>(
+    s: S,
+    lanes: &[u8; LANES],
+    (tile, offset): (i32, f32),
+    origin: f32,
+) -> f32x16<S> {
+    let mut starts = [0.0; LANES];
+    for (start, lane) in starts.iter_mut().zip(lanes) {
+        *start = (tile + i32::from(*lane) * 16) as f32;
+    }
+    // Positions are multiples of 1/256 below 2¹⁶: every sum is exact.
+    let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+    (f32x16::load_array(s, starts) + splat(offset)) - splat(origin)
+}

@@ -1,0 +1,344 @@
+//! The state of a draw: an untrusted descriptor, validated once into an immutable pipeline.
+
+pub(crate) mod color_target;
+mod error;
+pub(crate) mod primitive_kind;
+mod stage_key;
+
+pub use error::PipelineError;
+pub(crate) use stage_key::StageKey;
+
+use color_target::ColorTarget;
+use estampe_types::shader::MAX_DISTANCES;
+use estampe_types::state::{
+    BlendFactor, BlendState, ColorTargetState, DepthBiasState, DepthState, LineState, LineStipple,
+    LogicOperation, PrimitiveState, StencilState, VertexBufferLayout,
+};
+use estampe_types::{
+    Interface, Limits, Program, Shader, ShaderProgram, TextureFormat, VertexFormat,
+};
+use std::sync::Arc;
+
+/// What a pipeline is made of.
+#[derive(Debug, Clone)]
+pub struct RenderPipelineDescriptor {
+    /// The vertex and fragment shader.
+    pub program: Arc<dyn Program>,
+    /// How each vertex buffer of a draw lies. Default none.
+    pub vertex_buffers: Vec<VertexBufferLayout>,
+    /// Topology, facing, culling. Default a triangle list, nothing culled.
+    pub primitive: PrimitiveState,
+    /// The depth test, or none. Default less, written.
+    pub depth: Option<DepthState>,
+    /// The stencil test, or none. Default none.
+    pub stencil: Option<StencilState>,
+    /// What is added to the depth of triangles. Default nothing.
+    pub depth_bias: DepthBiasState,
+    /// Samples per pixel: 1, 2, 4, 8 or 16. Default 1.
+    pub samples: u32,
+    /// The samples that may change, bit by bit. Default all.
+    pub sample_mask: u32,
+    /// Whether the alpha of target 0 says how many of a fragment's samples are kept. Default no.
+    pub alpha_to_coverage: bool,
+    /// Whether fragments are shaded once for each sample, whatever the shader says. Default no.
+    pub sample_shading: bool,
+    /// A logic operation in place of blending, for all targets. Default none.
+    pub logic_operation: Option<LogicOperation>,
+    /// The colour targets. Default one `Rgba8Unorm`, replaced.
+    pub targets: Vec<ColorTargetState>,
+}
+
+impl RenderPipelineDescriptor {
+    /// The defaults, for a Rust shader.
+    pub fn new(shader: impl Shader) -> Self {
+        Self::with_program(Arc::new(ShaderProgram::new(shader)))
+    }
+
+    /// The defaults, for any program.
+    #[must_use]
+    pub fn with_program(program: Arc<dyn Program>) -> Self {
+        Self {
+            program,
+            vertex_buffers: Vec::new(),
+            primitive: PrimitiveState::default(),
+            depth: Some(DepthState::LESS_WRITE),
+            stencil: None,
+            depth_bias: DepthBiasState::default(),
+            samples: 1,
+            sample_mask: u32::MAX,
+            alpha_to_coverage: false,
+            sample_shading: false,
+            logic_operation: None,
+            targets: vec![TextureFormat::Rgba8Unorm.into()],
+        }
+    }
+}
+
+/// How an attribute is decoded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Decoding {
+    Float32,
+    Unorm8,
+    Unorm16,
+    /// Anything else, and what several instances share: fetched out of the way of common
+    /// attributes.
+    Rare,
+}
+
+/// Where one attribute of the shader comes from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct AttributeSource {
+    /// Index into the draw's vertex buffers.
+    pub(crate) buffer: usize,
+    pub(crate) attribute: estampe_types::state::VertexAttribute,
+    pub(crate) stride: u32,
+    pub(crate) per_instance: bool,
+    /// Instances that share an element; 0: all of them.
+    pub(crate) step_rate: u32,
+    /// Components of the format.
+    pub(crate) components: usize,
+    pub(crate) decoding: Decoding,
+}
+
+/// A validated, immutable pipeline; cheap to clone.
+#[derive(Debug, Clone)]
+pub struct RenderPipeline {
+    inner: Arc<Inner>,
+}
+
+#[derive(Debug)]
+struct Inner {
+    descriptor: RenderPipelineDescriptor,
+    attributes: Vec<AttributeSource>,
+    key: StageKey,
+    color_targets: Vec<ColorTarget>,
+}
+
+impl RenderPipeline {
+    /// Validates a descriptor.
+    ///
+    /// # Errors
+    /// [`PipelineError`] names the first rule that it breaks.
+    pub fn new(
+        descriptor: &RenderPipelineDescriptor,
+        limits: &Limits,
+    ) -> Result<Self, PipelineError> {
+        let interface = descriptor.program.interface();
+        check_targets(descriptor, interface, limits)?;
+        check_interface(interface, limits)?;
+        check_lines(&descriptor.primitive.line)?;
+        let attributes = attribute_sources(descriptor, interface, limits)?;
+        let color_target = |target| ColorTarget::new(target, descriptor.logic_operation);
+        let color_targets: Vec<_> = descriptor.targets.iter().map(color_target).collect();
+        let key = StageKey::new(descriptor, interface, &color_targets);
+        Ok(Self {
+            inner: Arc::new(Inner {
+                descriptor: descriptor.clone(),
+                attributes,
+                key,
+                color_targets,
+            }),
+        })
+    }
+
+    /// What it was made of.
+    #[must_use]
+    pub fn descriptor(&self) -> &RenderPipelineDescriptor {
+        &self.inner.descriptor
+    }
+
+    pub(crate) fn program(&self) -> &dyn Program {
+        &*self.inner.descriptor.program
+    }
+
+    pub(crate) fn interface(&self) -> &Interface {
+        self.program().interface()
+    }
+
+    pub(crate) fn attributes(&self) -> &[AttributeSource] {
+        &self.inner.attributes
+    }
+
+    pub(crate) fn key(&self) -> &StageKey {
+        &self.inner.key
+    }
+
+    /// The colour targets' facts.
+    pub(crate) fn color_targets(&self) -> &[ColorTarget] {
+        &self.inner.color_targets
+    }
+
+    /// Whether two are clones of one pipeline.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.inner, &other.inner)
+    }
+}
+
+fn check_targets(
+    descriptor: &RenderPipelineDescriptor,
+    interface: &Interface,
+    limits: &Limits,
+) -> Result<(), PipelineError> {
+    if !matches!(descriptor.samples, 1 | 2 | 4 | 8 | 16) {
+        return Err(PipelineError::SampleCount(descriptor.samples));
+    }
+    let count = descriptor.targets.len();
+    if count > limits.max_color_attachments as usize {
+        return Err(PipelineError::TooManyTargets {
+            count,
+            limit: limits.max_color_attachments,
+        });
+    }
+    if interface.color_targets != count {
+        return Err(PipelineError::TargetCount {
+            shader: interface.color_targets,
+            pipeline: count,
+        });
+    }
+    for (index, target) in descriptor.targets.iter().enumerate() {
+        let format = target.format;
+        if !format.is_renderable() {
+            return Err(PipelineError::NotRenderable { index, format });
+        }
+        let Some(blend) = &target.blend else {
+            continue;
+        };
+        if !format.is_blendable() {
+            return Err(PipelineError::NotBlendable { index, format });
+        }
+        if uses_second_color(blend) && !interface.dual_source {
+            return Err(PipelineError::NoSecondColor(index));
+        }
+    }
+    if interface.dual_source && count != 1 {
+        return Err(PipelineError::DualSourceTargets(count));
+    }
+    Ok(())
+}
+
+fn check_lines(state: &LineState) -> Result<(), PipelineError> {
+    if !(state.width > 0.0 && state.width <= 64.0) {
+        return Err(PipelineError::LineWidth(state.width.to_string()));
+    }
+    match state.stipple {
+        Some(LineStipple { factor, .. }) if !(1..=256).contains(&factor) => {
+            Err(PipelineError::StippleFactor(factor))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_interface(interface: &Interface, limits: &Limits) -> Result<(), PipelineError> {
+    let count = interface.attributes.len();
+    if count > limits.max_vertex_attributes as usize {
+        return Err(PipelineError::TooManyAttributes {
+            count,
+            limit: limits.max_vertex_attributes,
+        });
+    }
+    let count = interface.clip_distances.max(interface.cull_distances);
+    if count > MAX_DISTANCES {
+        let limit = MAX_DISTANCES;
+        return Err(PipelineError::TooManyDistances { count, limit });
+    }
+    let count = interface.varyings.len();
+    if count > limits.max_inter_stage_scalars as usize {
+        return Err(PipelineError::TooManyVaryings {
+            count,
+            limit: limits.max_inter_stage_scalars,
+        });
+    }
+    Ok(())
+}
+
+fn attribute_sources(
+    descriptor: &RenderPipelineDescriptor,
+    interface: &Interface,
+    limits: &Limits,
+) -> Result<Vec<AttributeSource>, PipelineError> {
+    let count = descriptor.vertex_buffers.len();
+    if count > limits.max_vertex_buffers as usize {
+        return Err(PipelineError::TooManyVertexBuffers {
+            count,
+            limit: limits.max_vertex_buffers,
+        });
+    }
+    let mut sources = vec![None; interface.attributes.len()];
+    for (buffer, layout) in descriptor.vertex_buffers.iter().enumerate() {
+        let stride = layout.array_stride;
+        let limit = limits.max_vertex_buffer_array_stride;
+        if stride > limit {
+            return Err(PipelineError::StrideTooLarge {
+                buffer,
+                stride,
+                limit,
+            });
+        }
+        for attribute in &layout.attributes {
+            let location = attribute.shader_location;
+            let end = u64::from(attribute.offset) + attribute.format.size_bytes() as u64;
+            let element = if stride == 0 { limit } else { stride };
+            if end > u64::from(element) {
+                let stride = element;
+                return Err(PipelineError::AttributeBeyondStride {
+                    buffer,
+                    location,
+                    end,
+                    stride,
+                });
+            }
+            let count = sources.len();
+            let source = sources
+                .get_mut(location as usize)
+                .ok_or(PipelineError::LocationUnknown { location, count })?;
+            if source.is_some() {
+                return Err(PipelineError::LocationTwice(location));
+            }
+            let per_instance = layout.step_mode == estampe_types::state::VertexStepMode::Instance;
+            *source = Some(AttributeSource {
+                buffer,
+                attribute: *attribute,
+                stride,
+                per_instance,
+                step_rate: layout.instance_step_rate,
+                components: attribute.format.components(),
+                decoding: if per_instance && layout.instance_step_rate != 1 {
+                    Decoding::Rare
+                } else {
+                    decoding(attribute.format)
+                },
+            });
+        }
+    }
+    let found = |(location, source): (usize, Option<AttributeSource>)| {
+        source.ok_or(PipelineError::LocationMissing(location))
+    };
+    sources.into_iter().enumerate().map(found).collect()
+}
+
+/// How an attribute of a format is decoded, if it does not step.
+fn decoding(format: VertexFormat) -> Decoding {
+    match format {
+        VertexFormat::Float32
+        | VertexFormat::Float32x2
+        | VertexFormat::Float32x3
+        | VertexFormat::Float32x4 => Decoding::Float32,
+        VertexFormat::Unorm8x2 | VertexFormat::Unorm8x4 => Decoding::Unorm8,
+        VertexFormat::Unorm16x2 | VertexFormat::Unorm16x4 => Decoding::Unorm16,
+        _ => Decoding::Rare,
+    }
+}
+
+fn uses_second_color(blend: &BlendState) -> bool {
+    factors(blend).iter().any(|factor| factor.is_dual_source())
+}
+
+fn factors(blend: &BlendState) -> [BlendFactor; 4] {
+    let BlendState { color, alpha } = blend;
+    [
+        color.src_factor,
+        color.dst_factor,
+        alpha.src_factor,
+        alpha.dst_factor,
+    ]
+}

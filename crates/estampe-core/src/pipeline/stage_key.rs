@@ -1,0 +1,128 @@
+//! The facts of a pipeline that select code: derived once, so that nothing downstream looks at the
+//! state again.
+
+use super::RenderPipelineDescriptor;
+use super::color_target::ColorTarget;
+use super::primitive_kind::{PrimitiveKind, kind_of};
+use estampe_types::shader::{DepthOutput, Sampling};
+use estampe_types::state::{
+    CompareFunction, ConservativeMode, DepthState, LineRasterization, PolygonMode,
+    StencilOperation, StencilState,
+};
+use estampe_types::{Interface, Interpolation};
+
+/// The state that selects code, reduced: nothing in it changes from fragment to fragment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct StageKey {
+    /// The depth test; `None` where everything passes and nothing is written.
+    pub(crate) depth: Option<DepthState>,
+    /// The stencil test; `None` where everything passes and nothing is written.
+    pub(crate) stencil: Option<StencilState>,
+    /// All tests are made, and their results written, before the shader runs.
+    pub(crate) tests_early: bool,
+    /// A sample's colour is that of the last filled triangle that passes its tests there.
+    pub(crate) is_opaque: bool,
+    /// Fragments have colours.
+    pub(crate) has_colors: bool,
+    /// The fragments' colour depends on the primitive alone, so it is shaded once for each.
+    pub(crate) uniform_over_primitive: bool,
+    /// A fragment's one colour depends on its own varyings alone.
+    pub(crate) fragments_are_independent: bool,
+    /// The fragments' one colour is their first four scalars, so that the program need not be
+    /// called.
+    pub(crate) color_passthrough: bool,
+    /// Blocks that a filled triangle covers whole may be blended from the planes of its colour.
+    pub(crate) blends_blocks: bool,
+    /// Packets may hold quads of several triangles.
+    pub(crate) shares_packets: bool,
+    /// Fragments are shaded once for each sample.
+    pub(crate) per_sample: bool,
+    /// The alpha of target 0 selects samples.
+    pub(crate) alpha_to_coverage: bool,
+    /// Shading depends on the samples that were covered before any test.
+    pub(crate) keeps_coverage: bool,
+    /// The samples that may change, bit by bit; `None` for all.
+    pub(crate) sample_mask: Option<u32>,
+}
+
+impl StageKey {
+    pub(super) fn new(
+        descriptor: &RenderPipelineDescriptor,
+        interface: &Interface,
+        targets: &[ColorTarget],
+    ) -> Self {
+        let samples = descriptor.samples;
+        let all_samples = u32::MAX >> (32 - samples.clamp(1, 32));
+        let sample_mask =
+            Some(descriptor.sample_mask).filter(|mask| mask & all_samples != all_samples);
+        let is_integer = |target: &ColorTarget| target.codec.is_integer();
+        let alpha_to_coverage =
+            descriptor.alpha_to_coverage && targets.first().is_some_and(|first| !is_integer(first));
+        let per_sample = samples > 1 && (descriptor.sample_shading || interface.per_sample);
+        let has_centroids =
+            samples > 1 && interface.sampling.iter().any(|at| *at != Sampling::Center);
+        let tests_early = !interface.discards
+            && !interface.stores
+            && interface.depth_output == DepthOutput::None
+            && !alpha_to_coverage
+            && !interface.writes_sample_mask;
+        let primitive = &descriptor.primitive;
+        let fills_triangles = kind_of(primitive.topology) == PrimitiveKind::Triangles
+            && primitive.polygon_mode == PolygonMode::Fill;
+        let keeps_coverage = interface.reads_coverage || has_centroids;
+        let is_shaded_by_pixel = !per_sample && !interface.per_sample && !keeps_coverage;
+        let shares_packets = fills_triangles && is_shaded_by_pixel;
+        let smooth_lines = primitive.line.rasterization == LineRasterization::RectangularSmooth;
+        // A program of a caller's own may claim more than it has, and smooth lines scale alpha
+        // after shading.
+        let color_passthrough = interface.color_passthrough
+            && !smooth_lines
+            && tests_early
+            && is_shaded_by_pixel
+            && interface.color_targets == 1
+            && !interface.dual_source
+            && interface.varyings.len() >= 4;
+        let flat = interface
+            .varyings
+            .iter()
+            .all(|mode| *mode == Interpolation::Flat);
+        let is_plain = shares_packets
+            && tests_early
+            && sample_mask.is_none()
+            && !interface.dual_source
+            && primitive.conservative == ConservativeMode::Disabled;
+        Self {
+            depth: descriptor
+                .depth
+                .filter(|depth| depth.write_enabled || depth.compare != CompareFunction::Always),
+            stencil: descriptor.stencil.filter(|state| !does_nothing(state)),
+            tests_early,
+            is_opaque: is_plain && targets.iter().all(ColorTarget::replaces),
+            has_colors: !targets.is_empty(),
+            uniform_over_primitive: flat && !interface.reads_position,
+            fragments_are_independent: interface.no_derivatives
+                && !interface.reads_position
+                && interface.color_targets == 1,
+            color_passthrough,
+            blends_blocks: is_plain
+                && color_passthrough
+                && interface.varyings[..4] == [Interpolation::Smooth; 4]
+                && targets.first().is_some_and(ColorTarget::is_source_over),
+            shares_packets,
+            per_sample,
+            alpha_to_coverage,
+            keeps_coverage,
+            sample_mask,
+        }
+    }
+}
+
+/// Whether a stencil state tests nothing and writes nothing: then it is no stencil test.
+fn does_nothing(state: &StencilState) -> bool {
+    [state.front, state.back].iter().all(|face| {
+        // Where everything passes, the operation of failing does not happen.
+        let keeps =
+            face.depth_fail_op == StencilOperation::Keep && face.pass_op == StencilOperation::Keep;
+        face.compare == CompareFunction::Always && (keeps || face.write_mask == 0)
+    })
+}

@@ -1,0 +1,165 @@
+//! The chunk plan: which chunk takes which primitives of a batch.
+//!
+//! Chunks are cut by the draws alone, never by the number of threads, and tiles read them in order,
+//! so that an image does not depend on the number of threads. Small sub-draws share a chunk, large
+//! ones take several.
+
+use super::sub_draw::SubDraw;
+
+/// Primitives of a chunk at most, but for stippled strips, which are not cut.
+const CHUNK_PRIMITIVES: u32 = 4096;
+
+/// Sub-draws of a chunk at most: each costs about as much as the geometry of 64 triangles.
+const CHUNK_RUNS: usize = 64;
+
+/// Primitives of one sub-draw that go into one chunk.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ChunkPart {
+    /// The sub-draw's number in the batch.
+    pub(crate) sub_draw: u32,
+    /// The primitives, counted over all instances; half-open.
+    pub(crate) primitives: [u32; 2],
+}
+
+/// The parts of all chunks of a batch.
+#[derive(Debug, Default)]
+pub(crate) struct ChunkPlan {
+    parts: Vec<ChunkPart>,
+    /// For each chunk the end of its parts, which begin where those of the chunk before end.
+    ends: Vec<usize>,
+}
+
+impl ChunkPlan {
+    /// Divides the primitives of a batch's sub-draws.
+    pub(crate) fn build(&mut self, sub_draws: &[SubDraw<'_>]) {
+        self.parts.clear();
+        self.ends.clear();
+        let mut open = OpenChunk::default();
+        for (number, sub_draw) in (0..).zip(sub_draws) {
+            let total = sub_draw.total_primitives();
+            debug_assert!(
+                u32::try_from(total).is_ok(),
+                "a batch's budget is far below 2³²"
+            );
+            let total = u32::try_from(total).unwrap_or(u32::MAX);
+            let size = sub_draw
+                .uncut_primitives()
+                .unwrap_or(CHUNK_PRIMITIVES)
+                .max(1);
+            self.add(number, total, size, &mut open);
+        }
+        self.close(&mut open);
+    }
+
+    /// Adds a sub-draw that is cut into parts of `size` primitives, unless it fits into the open
+    /// chunk whole.
+    fn add(&mut self, sub_draw: u32, total: u32, size: u32, open: &mut OpenChunk) {
+        let is_full = open.runs == CHUNK_RUNS;
+        if is_full || open.primitives.saturating_add(total) > CHUNK_PRIMITIVES {
+            self.close(open);
+        }
+        let mut from = 0;
+        while from < total {
+            let to = from.saturating_add(size).min(total);
+            self.parts.push(ChunkPart {
+                sub_draw,
+                primitives: [from, to],
+            });
+            open.primitives = open.primitives.saturating_add(to - from);
+            open.runs += 1;
+            from = to;
+            if from < total {
+                self.close(open);
+            }
+        }
+    }
+
+    /// Ends a chunk, if it has parts.
+    fn close(&mut self, open: &mut OpenChunk) {
+        if open.runs > 0 {
+            self.ends.push(self.parts.len());
+        }
+        *open = OpenChunk::default();
+    }
+
+    /// How many chunks there are.
+    pub(crate) fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// The parts of each chunk, in order.
+    pub(crate) fn chunks(&self) -> impl Iterator<Item = &[ChunkPart]> {
+        let mut from = 0;
+        self.ends.iter().map(move |&to| {
+            let parts = &self.parts[from..to];
+            from = to;
+            parts
+        })
+    }
+}
+
+/// How much the chunk that is being planned has.
+#[derive(Debug, Default)]
+struct OpenChunk {
+    primitives: u32,
+    runs: usize,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan(sub_draws: &[(u32, u32)]) -> Vec<Vec<(u32, [u32; 2])>> {
+        let (mut plan, mut open) = (ChunkPlan::default(), OpenChunk::default());
+        for (number, &(total, size)) in (0..).zip(sub_draws) {
+            plan.add(number, total, size, &mut open);
+        }
+        plan.close(&mut open);
+        let parts = |parts: &[ChunkPart]| {
+            let part = |part: &ChunkPart| (part.sub_draw, part.primitives);
+            parts.iter().map(part).collect()
+        };
+        assert_eq!(plan.chunks().count(), plan.len());
+        plan.chunks().map(parts).collect()
+    }
+
+    #[test]
+    fn small_sub_draws_share_a_chunk_and_large_ones_take_several() {
+        let chunks = plan(&[
+            (10, 4096),
+            (4000, 4096),
+            (90, 4096),
+            (9000, 4096),
+            (5, 4096),
+        ]);
+        let expected = [
+            vec![(0, [0, 10]), (1, [0, 4000])],
+            vec![(2, [0, 90])],
+            vec![(3, [0, 4096])],
+            vec![(3, [4096, 8192])],
+            vec![(3, [8192, 9000]), (4, [0, 5])],
+        ];
+        assert_eq!(chunks, expected);
+    }
+
+    #[test]
+    fn a_chunk_has_a_limited_number_of_runs() {
+        let chunks = plan(&vec![(2, 4096); CHUNK_RUNS * 2 + 1]);
+        let sizes: Vec<usize> = chunks.iter().map(Vec::len).collect();
+        assert_eq!(sizes, [CHUNK_RUNS, CHUNK_RUNS, 1]);
+    }
+
+    #[test]
+    fn uncut_primitives_are_one_part() {
+        let chunks = plan(&[(1, 4096), (30_000, 10_000), (7, 4096)]);
+        let expected = [
+            vec![(0, [0, 1])],
+            vec![(1, [0, 10_000])],
+            vec![(1, [10_000, 20_000])],
+            vec![(1, [20_000, 30_000])],
+            vec![(2, [0, 7])],
+        ];
+        assert_eq!(chunks, expected);
+        assert!(plan(&[]).is_empty());
+    }
+}

@@ -1,0 +1,76 @@
+//! Draw batches: sub-draws that are processed together.
+
+use super::draw_state::DrawState;
+use super::sub_draw::SubDraw;
+use crate::attachment::RenderTarget;
+use crate::commands::Draw;
+use crate::geometry::plan::GeometryPlan;
+use crate::geometry::shaded_vertices::VertexSpan;
+
+/// Sub-draws in submission order, and the states that they share.
+#[derive(Debug, Default)]
+pub(crate) struct DrawBatch<'a> {
+    pub(crate) states: Vec<DrawState<'a>>,
+    pub(crate) sub_draws: Vec<SubDraw<'a>>,
+    /// Primitives of the draws that are in no sub-draw, because they have no extent.
+    pub(crate) invisible_primitives: u64,
+}
+
+impl<'a> DrawBatch<'a> {
+    /// Empties the batch.
+    pub(super) fn clear(&mut self) {
+        self.states.clear();
+        self.sub_draws.clear();
+        self.invisible_primitives = 0;
+    }
+
+    /// The number of a draw's state, which is resolved unless the last one is the same; `None`
+    /// where the draw would draw nothing.
+    pub(super) fn state_of(&mut self, draw: &Draw<'a>, target: &RenderTarget) -> Option<u32> {
+        if !self.states.last().is_some_and(|last| last.is_of(draw)) {
+            self.states.push(DrawState::resolve(draw, target)?);
+        }
+        let last = self.states.len() - 1;
+        debug_assert!(
+            u32::try_from(last).is_ok(),
+            "a state for each sub-draw at most"
+        );
+        Some(u32::try_from(last).unwrap_or(u32::MAX))
+    }
+
+    /// Adds a sub-draw, after whose vertices lie those of the one before.
+    pub(super) fn push(&mut self, mut sub_draw: SubDraw<'a>) {
+        let interface = sub_draw.draw.pipeline.interface();
+        let last = self.sub_draws.last();
+        let after = last.map_or_else(VertexSpan::default, |last| last.span.following());
+        sub_draw.span = VertexSpan {
+            count: sub_draw.total_vertices(),
+            varying_scalars: interface.varyings.len(),
+            // Filled triangles compute them again for the few vertices that need clipping.
+            keeps_clip_positions: !self.state(&sub_draw).geometry.fills_triangles(),
+            has_point_sizes: interface.writes_point_size,
+            ..after
+        };
+        self.sub_draws.push(sub_draw);
+    }
+
+    /// A sub-draw's state.
+    pub(crate) fn state(&self, sub_draw: &SubDraw<'_>) -> &DrawState<'a> {
+        &self.states[sub_draw.state as usize]
+    }
+
+    /// A sub-draw's geometry plan.
+    pub(crate) fn plan(&self, sub_draw: &SubDraw<'_>) -> &GeometryPlan {
+        &self.state(sub_draw).geometry
+    }
+
+    /// The places of the sub-draws' vertices.
+    pub(crate) fn spans(&self) -> impl Iterator<Item = &VertexSpan> + Clone {
+        self.sub_draws.iter().map(|sub_draw| &sub_draw.span)
+    }
+
+    /// Vertices of all sub-draws.
+    pub(crate) fn total_vertices(&self) -> usize {
+        self.spans().map(|span| span.count).sum()
+    }
+}

@@ -1,0 +1,374 @@
+//! The draw cursor: cuts a pass's draws into batches of sub-draws.
+
+use super::draw_batch::DrawBatch;
+use super::index_range::{
+    MAX_WHOLE_ELEMENTS, element_count, is_splittable, is_stippled_strip, list_vertices, part_of,
+    restart_source, vertex_range, visible_elements,
+};
+use super::sub_draw::{Instances, SubDraw};
+use crate::attachment::RenderTarget;
+use crate::commands::Draw;
+use crate::geometry::assembly::primitive_count;
+use crate::geometry::restart::{RestartCursor, RestartSource};
+use crate::schedule::Executor;
+use std::ops::Range;
+
+/// Vertices or primitives that a batch holds before it is drawn.
+const BATCH_BUDGET: usize = 2_000_000;
+
+/// Primitives of a sub-draw at most: a larger draw becomes several. Even, so that a strip's parts
+/// begin on triangles that are not turned.
+const SUB_DRAW_PRIMITIVES: u32 = 1_000_000;
+
+/// How far a pass's draws have been cut into batches.
+#[derive(Debug)]
+pub(crate) struct DrawCursor<'a> {
+    draws: std::slice::Iter<'a, Draw<'a>>,
+    /// The draw that is being cut.
+    current: Option<OpenDraw<'a>>,
+}
+
+/// A draw, and which of its primitives and instances are left.
+#[derive(Debug)]
+struct OpenDraw<'a> {
+    draw: &'a Draw<'a>,
+    /// The elements of an instance that can show anything.
+    elements: u32,
+    /// The primitives of the others.
+    invisible_primitives: u32,
+    /// The primitives that are left in the instance at hand.
+    primitives: Range<u32>,
+    instances: Range<u32>,
+    /// Where indices may restart primitives: how far these were looked for in the instance at hand.
+    restart: RestartCursor,
+}
+
+impl<'a> DrawCursor<'a> {
+    pub(crate) fn new(draws: &'a [Draw<'a>]) -> Self {
+        Self {
+            draws: draws.iter(),
+            current: None,
+        }
+    }
+
+    /// Cuts the next batch; false when no draws are left.
+    pub(crate) fn next_batch(
+        &mut self,
+        executor: &Executor,
+        target: &RenderTarget,
+        batch: &mut DrawBatch<'a>,
+    ) -> bool {
+        batch.clear();
+        let (mut vertices, mut primitives) = (0, 0);
+        while vertices < BATCH_BUDGET && primitives < BATCH_BUDGET {
+            let Some(mut open) = self.current.take().or_else(|| self.next_draw()) else {
+                break;
+            };
+            let Some(state) = batch.state_of(open.draw, target) else {
+                continue;
+            };
+            batch.invisible_primitives += open.take_invisible();
+            let mut sub_draw = open.take(executor);
+            sub_draw.state = state;
+            if sub_draw.total_primitives() > 0 {
+                vertices += sub_draw.total_vertices();
+                primitives += sub_draw.total_primitives();
+                batch.push(sub_draw);
+            }
+            if !open.is_done() {
+                self.current = Some(open);
+            }
+        }
+        !batch.sub_draws.is_empty()
+    }
+
+    /// The next draw of at least one primitive.
+    fn next_draw(&mut self) -> Option<OpenDraw<'a>> {
+        loop {
+            let draw = self.draws.next()?;
+            let topology = draw.pipeline.descriptor().primitive.topology;
+            let all = primitive_count(topology, element_count(draw));
+            let elements = visible_elements(draw);
+            let primitives = 0..primitive_count(topology, elements);
+            if all == 0 || draw.instances.is_empty() {
+                continue;
+            }
+            return Some(OpenDraw {
+                draw,
+                elements,
+                invisible_primitives: all - primitives.end,
+                primitives,
+                instances: draw.instances.clone(),
+                restart: RestartCursor::default(),
+            });
+        }
+    }
+}
+
+impl<'a> OpenDraw<'a> {
+    fn is_done(&self) -> bool {
+        self.instances.is_empty()
+    }
+
+    /// The primitives of all instances that cannot show anything; 0 when asked again.
+    fn take_invisible(&mut self) -> u64 {
+        let instances = u64::from(self.instances.end - self.instances.start);
+        u64::from(std::mem::take(&mut self.invisible_primitives)) * instances
+    }
+
+    /// Takes the next sub-draw off: many instances of a small draw, or part of one instance of a
+    /// large one.
+    fn take(&mut self, executor: &Executor) -> SubDraw<'a> {
+        let draw = self.draw;
+        if let Some(source) = restart_source(draw) {
+            return self.take_restarted(&source);
+        }
+        let topology = draw.pipeline.descriptor().primitive.topology;
+        let whole = self.elements;
+        let all = primitive_count(topology, whole);
+        if all > SUB_DRAW_PRIMITIVES && is_splittable(draw) {
+            let count = (self.primitives.end - self.primitives.start).min(SUB_DRAW_PRIMITIVES);
+            let elements = part_of(topology, self.primitives.start, count, whole);
+            let part = self.sub_draw(executor, elements, 1);
+            self.primitives.start += count;
+            if self.primitives.is_empty() {
+                self.primitives.start = 0;
+                self.instances.start += 1;
+            }
+            return part;
+        }
+        let left = self.instances.end - self.instances.start;
+        let instances = (SUB_DRAW_PRIMITIVES / all.max(1)).clamp(1, left);
+        let sub_draw = self.sub_draw(executor, [0, whole], instances);
+        let sub_draw = sub_draw.within_budget(BATCH_BUDGET);
+        self.instances.start += sub_draw.instances;
+        sub_draw
+    }
+
+    /// Takes the next sub-draw off where indices may restart primitives.
+    fn take_restarted(&mut self, source: &RestartSource<'_>) -> SubDraw<'a> {
+        let is_first = self.restart.is_at_start();
+        let is_whole = is_stippled_strip(self.draw);
+        let mut begins = Vec::new();
+        let limit = if is_whole {
+            MAX_WHOLE_ELEMENTS
+        } else {
+            SUB_DRAW_PRIMITIVES
+        };
+        let mut corners = self.restart.take(source, limit, &mut begins);
+        if !is_whole {
+            begins.clear();
+        }
+        let is_done = self.restart.is_done(source);
+        debug_assert!(
+            corners.len() <= limit as usize + 1,
+            "the limit, and a loop's last line"
+        );
+        let primitives = u32::try_from(corners.len()).unwrap_or(u32::MAX);
+        let left = self.instances.end - self.instances.start;
+        let count = if is_first && is_done {
+            (SUB_DRAW_PRIMITIVES / primitives.max(1)).clamp(1, left)
+        } else {
+            1
+        };
+        let instances = Instances {
+            first: self.instances.start,
+            count,
+        };
+        let range = list_vertices(&mut corners);
+        let mut sub_draw = SubDraw::new(self.draw, [0, 0], primitives, instances, range);
+        let listed = sub_draw.listed_mut();
+        listed.restarted = Some(corners);
+        listed.line_restarts = begins;
+        let sub_draw = sub_draw.within_budget(BATCH_BUDGET);
+        if is_done {
+            self.restart = RestartCursor::default();
+            self.instances.start += sub_draw.instances;
+        }
+        sub_draw
+    }
+
+    /// The sub-draw of some elements (first and count, from the draw's first on) of the next
+    /// instances.
+    fn sub_draw(
+        &self,
+        executor: &Executor,
+        [first, count]: [u32; 2],
+        instances: u32,
+    ) -> SubDraw<'a> {
+        let first = self.draw.elements.start.saturating_add(first);
+        let range = vertex_range(executor, self.draw, first, count);
+        let topology = self.draw.pipeline.descriptor().primitive.topology;
+        let instances = Instances {
+            first: self.instances.start,
+            count: instances,
+        };
+        let primitives = primitive_count(topology, count);
+        SubDraw::new(self.draw, [first, count], primitives, instances, range)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::attachment::RenderTargetDescriptor;
+    use crate::pipeline::{RenderPipeline, RenderPipelineDescriptor};
+    use estampe_types::shader::VertexOut;
+    use estampe_types::state::{PrimitiveTopology, Viewport};
+    use estampe_types::{Buffer, FragmentIn, FragmentOut, IndexFormat, Limits, Vec2, VertexIn};
+
+    /// A shader of two floats as varyings.
+    struct Plain;
+
+    estampe_types::shader! {
+        impl Shader for Plain {
+            type Attributes<R: Real> = ();
+            type Varyings<R: Real> = Vec2<R>;
+
+            fn vertex<R: Real>(&self, input: VertexIn<'_, R>, _: ()) -> VertexOut<R, Vec2<R>> {
+                let zero = input.real(0.0);
+                let nowhere = Vec2::new(zero, zero);
+                VertexOut::new(estampe_types::Vec4::new(zero, zero, zero, zero), nowhere)
+            }
+
+            fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, _: Vec2<R>) -> FragmentOut<R> {
+                let zero = input.real(0.0);
+                FragmentOut::color(estampe_types::Vec4::new(zero, zero, zero, zero))
+            }
+        }
+    }
+
+    fn pipeline(topology: PrimitiveTopology, samples: u32) -> RenderPipeline {
+        let mut descriptor = RenderPipelineDescriptor::new(Plain);
+        descriptor.primitive.topology = topology;
+        descriptor.samples = samples;
+        RenderPipeline::new(&descriptor, &Limits::default()).unwrap()
+    }
+
+    /// Cuts draws into batches and hands each to `check`, with its number; says how many there are.
+    fn cut(draws: &[Draw<'_>], mut check: impl FnMut(usize, &DrawBatch<'_>)) -> usize {
+        let target = RenderTargetDescriptor::new(40, 30);
+        let target = RenderTarget::new(&target, &Limits::default()).unwrap();
+        let executor = Executor::new(1).unwrap();
+        let (mut cursor, mut batch) = (DrawCursor::new(draws), DrawBatch::default());
+        let mut batches = 0;
+        while cursor.next_batch(&executor, &target, &mut batch) {
+            let (mut vertex, mut varying) = (0, 0);
+            for span in batch.spans() {
+                assert_eq!((span.first, span.first_varying), (vertex, varying));
+                vertex += span.count;
+                varying += span.count * 2;
+            }
+            check(batches, &batch);
+            batches += 1;
+        }
+        batches
+    }
+
+    #[test]
+    fn draws_of_one_state_share_it() {
+        let (fits, other) = (
+            pipeline(PrimitiveTopology::TriangleList, 1),
+            pipeline(PrimitiveTopology::TriangleList, 4),
+        );
+        let plain = Draw::new(&fits, 0..6);
+        let blended = Draw {
+            blend_constant: [-0.0; 4],
+            ..plain.clone()
+        };
+        let viewport = |x| Draw {
+            viewport: Some(Viewport {
+                x,
+                ..Viewport::of_target(40, 30)
+            }),
+            ..plain.clone()
+        };
+        let draws = [
+            plain.clone(),
+            blended,
+            viewport(0.0),
+            viewport(-0.0),
+            Draw::new(&other, 0..6),
+            Draw::new(&fits, 0..2),
+            plain,
+        ];
+        let batches = cut(&draws, |_, batch| {
+            let states = batch.sub_draws.iter().map(|sub_draw| sub_draw.state);
+            // A blend constant belongs to the draw. The fifth draw does not fit the target, and the
+            // sixth has no triangle.
+            assert_eq!(states.collect::<Vec<_>>(), [0, 0, 1, 2, 3]);
+            assert_eq!(batch.states.len(), 4);
+        });
+        assert_eq!(batches, 1);
+    }
+
+    #[test]
+    fn a_large_draw_becomes_several_sub_draws_in_several_batches() {
+        let strips = pipeline(PrimitiveTopology::TriangleStrip, 1);
+        let draws = [Draw::new(&strips, 5..2_500_007)];
+        let mut elements = Vec::new();
+        let batches = cut(&draws, |number, batch| {
+            for sub_draw in &batch.sub_draws {
+                elements.push((number, sub_draw.elements, sub_draw.primitives));
+            }
+        });
+        // A strip's part repeats the two vertices before it.
+        let expected = [
+            (0, [5, 1_000_002], 1_000_000),
+            (0, [1_000_005, 1_000_002], 1_000_000),
+            (1, [2_000_005, 500_002], 500_000),
+        ];
+        assert_eq!((batches, elements), (2, expected.to_vec()));
+    }
+
+    #[test]
+    fn many_instances_are_cut_between_two_of_them() {
+        let lists = pipeline(PrimitiveTopology::TriangleList, 1);
+        let draws = [Draw {
+            instances: 7..250_007,
+            ..Draw::new(&lists, 0..30)
+        }];
+        let mut instances = Vec::new();
+        let _ = cut(&draws, |_, batch| {
+            for sub_draw in &batch.sub_draws {
+                assert_eq!((sub_draw.primitives, sub_draw.vertices), (10, 30));
+                instances
+                    .push(sub_draw.first_instance..sub_draw.first_instance + sub_draw.instances);
+            }
+        });
+        // Two million vertices are a batch's budget: 66,666 instances of thirty.
+        let expected = [
+            7..66_673,
+            66_673..133_339,
+            133_339..200_005,
+            200_005..250_007,
+        ];
+        assert_eq!(instances, expected);
+    }
+
+    #[test]
+    fn elements_beyond_the_index_buffer_are_left_out_and_counted() {
+        let lists = pipeline(PrimitiveTopology::TriangleList, 1);
+        let points = pipeline(PrimitiveTopology::PointList, 1);
+        let buffer = Buffer::from_bytes(&[0; 20]);
+        let draw = |pipeline, elements| Draw {
+            indices: Some((&buffer, IndexFormat::Uint16)),
+            ..Draw::new(pipeline, elements)
+        };
+        let draws = [
+            draw(&lists, 0..12),
+            Draw {
+                instances: 0..2,
+                ..draw(&lists, 4..304)
+            },
+            draw(&points, 0..300),
+        ];
+        let batches = cut(&draws, |_, batch| {
+            let primitives = batch.sub_draws.iter().map(|sub_draw| sub_draw.primitives);
+            // Six of the ten indices are left from the fourth one on; six more elements complete a primitive.
+            assert!(primitives.eq([4, 4, 300]));
+            assert_eq!(batch.invisible_primitives, 2 * 96);
+        });
+        assert_eq!(batches, 1);
+    }
+}

@@ -1,0 +1,120 @@
+//! The state of draws, resolved: what a pipeline, viewport, scissor and blend constant come to on a
+//! target.
+//!
+//! Programs change state less often than they draw: neighbouring draws share one [`DrawState`], so
+//! that a draw that differs in its bindings or vertices alone costs a comparison.
+
+use crate::attachment::RenderTarget;
+use crate::bounds::pixel_rect::PixelRect;
+use crate::commands::Draw;
+use crate::geometry::plan::{GeometryPlan, TargetGeometry};
+use crate::pipeline::RenderPipeline;
+use crate::raster::conservative::sample_range;
+use estampe_types::state::{ConservativeMode, ScissorRect, Viewport};
+
+/// State that draws of a batch have in common.
+#[derive(Debug, Clone)]
+pub(crate) struct DrawState<'a> {
+    key: StateKey<'a>,
+    pub(crate) geometry: GeometryPlan,
+}
+
+/// What a state was resolved from.
+#[derive(Debug, Clone)]
+struct StateKey<'a> {
+    pipeline: &'a RenderPipeline,
+    viewport: Option<Viewport>,
+    scissor: Option<ScissorRect>,
+}
+
+impl<'a> DrawState<'a> {
+    /// The state of a draw on a target; `None` where nothing would be drawn: the pipeline is not
+    /// made for such a target, the viewport is not valid, or no pixel lies in viewport, scissor and
+    /// target.
+    pub(crate) fn resolve(draw: &Draw<'a>, target: &RenderTarget) -> Option<Self> {
+        if !fits(target, draw) {
+            return None;
+        }
+        let (width, height) = (target.width(), target.height());
+        let viewport = draw.viewport.unwrap_or(Viewport::of_target(width, height));
+        if !is_valid(&viewport) {
+            return None;
+        }
+        let descriptor = draw.pipeline.descriptor();
+        let primitive = &descriptor.primitive;
+        let samples = target.samples() as usize;
+        let on_target = TargetGeometry {
+            grid: target.grid(),
+            depth_stencil: target.depth_stencil_format(),
+            rect: PixelRect::of_target(draw.scissor, width, height),
+            position_range: sample_range(samples, ConservativeMode::Disabled),
+            sample_range: sample_range(samples, primitive.conservative),
+        };
+        let geometry = GeometryPlan::new(primitive, &descriptor.depth_bias, &viewport, on_target);
+        if geometry.rect.is_empty() {
+            return None;
+        }
+        Some(Self {
+            key: StateKey {
+                pipeline: draw.pipeline,
+                viewport: draw.viewport,
+                scissor: draw.scissor,
+            },
+            geometry,
+        })
+    }
+
+    /// Whether a draw on the same target has this state.
+    pub(crate) fn is_of(&self, draw: &Draw<'_>) -> bool {
+        let key = &self.key;
+        std::ptr::eq(key.pipeline, draw.pipeline)
+            && key.scissor == draw.scissor
+            && key.viewport.map(bits) == draw.viewport.map(bits)
+    }
+}
+
+/// A viewport's numbers as bits, because the sign of zero shows in depths.
+fn bits(viewport: Viewport) -> [u32; 6] {
+    let Viewport {
+        x,
+        y,
+        width,
+        height,
+        min_depth,
+        max_depth,
+    } = viewport;
+    [x, y, width, height, min_depth, max_depth].map(f32::to_bits)
+}
+
+/// Whether a draw's pipeline is made for such a target.
+fn fits(target: &RenderTarget, draw: &Draw<'_>) -> bool {
+    let descriptor = draw.pipeline.descriptor();
+    let formats = descriptor.targets.iter().map(|target| target.format);
+    let depth_fits = target.has_depth() || draw.pipeline.key().depth.is_none();
+    let stencil_fits = target.has_stencil() || descriptor.stencil.is_none();
+    descriptor.samples == target.samples()
+        && formats.eq(target.color_formats().iter().copied())
+        && depth_fits
+        && stencil_fits
+}
+
+/// A viewport that the arithmetic can stand: finite, with area, its depths in 0..=1.
+fn is_valid(viewport: &Viewport) -> bool {
+    let Viewport {
+        x,
+        y,
+        width,
+        height,
+        min_depth,
+        max_depth,
+    } = *viewport;
+    let range = -32_768.0..=32_767.0;
+    range.contains(&x)
+        && range.contains(&y)
+        && width > 0.0
+        && height > 0.0
+        && width <= 32_768.0
+        && height <= 32_768.0
+        && (0.0..=1.0).contains(&min_depth)
+        && (0.0..=1.0).contains(&max_depth)
+}

@@ -1,0 +1,343 @@
+//! The elements of a draw: how many there are, where they may be cut, and the range of vertices
+//! that they name.
+
+use crate::commands::Draw;
+use crate::geometry::assembly::{raw_index, vertex_index};
+use crate::geometry::restart::RestartSource;
+use crate::schedule::Executor;
+use estampe_types::state::PrimitiveTopology;
+use estampe_types::{Buffer, IndexFormat};
+
+/// Elements of a fan, loop or stippled strip at most: what is beyond is not drawn. Memory for a
+/// draw is bounded by it.
+pub(super) const MAX_WHOLE_ELEMENTS: u32 = 1 << 24;
+
+/// How much larger than its number of elements a draw's range of indices may be; beyond, vertices
+/// are shaded once for each element.
+const SPARSE_FACTOR: u64 = 4;
+
+/// The vertices of one instance of a sub-draw.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct IndexRange {
+    /// The first vertex index.
+    pub(super) first: u32,
+    pub(super) count: u32,
+    /// The vertex index of each element in place of the range, where the range is sparse.
+    pub(super) sparse: Option<Vec<u32>>,
+}
+
+/// A draw's elements, if its indices may restart primitives.
+pub(super) fn restart_source<'a>(draw: &Draw<'a>) -> Option<RestartSource<'a>> {
+    let state = &draw.pipeline.descriptor().primitive;
+    let (buffer, format) = draw.indices.filter(|_| state.primitive_restart)?;
+    let count = draw.elements.end.saturating_sub(draw.elements.start);
+    Some(RestartSource {
+        topology: state.topology,
+        provoking: state.provoking_vertex,
+        buffer,
+        format,
+        base_vertex: draw.base_vertex,
+        elements: [draw.elements.start, count],
+    })
+}
+
+/// Replaces the vertex indices of listed primitives by numbers in the range that is returned.
+pub(super) fn list_vertices(corners: &mut [[u32; 3]]) -> IndexRange {
+    let all = corners.as_flattened_mut();
+    let (Some(&least), Some(&greatest)) = (all.iter().min(), all.iter().max()) else {
+        return IndexRange::dense(0, 0);
+    };
+    if let Some(range) = IndexRange::if_dense([least, greatest], all.len() as u64) {
+        all.iter_mut().for_each(|vertex| *vertex -= least);
+        return range;
+    }
+    let sparse: Vec<u32> = all.to_vec();
+    for (number, vertex) in (0..).zip(all) {
+        *vertex = number;
+    }
+    IndexRange::listed(sparse)
+}
+
+impl IndexRange {
+    fn dense(first: u32, count: u32) -> Self {
+        Self {
+            first,
+            count,
+            sparse: None,
+        }
+    }
+
+    /// The range from the least to the greatest of some indices, unless it is sparse.
+    fn if_dense([least, greatest]: [u32; 2], indices: u64) -> Option<Self> {
+        let span = u64::from(greatest - least) + 1;
+        let is_dense = span <= indices * SPARSE_FACTOR;
+        let count = u32::try_from(span).ok().filter(|_| is_dense)?;
+        Some(Self::dense(least, count))
+    }
+
+    fn listed(sparse: Vec<u32>) -> Self {
+        debug_assert!(
+            u32::try_from(sparse.len()).is_ok(),
+            "a draw's elements are 32-bit numbers"
+        );
+        Self {
+            first: 0,
+            count: u32::try_from(sparse.len()).unwrap_or(u32::MAX),
+            sparse: Some(sparse),
+        }
+    }
+}
+
+/// How many elements a draw has. Fans, loops and stippled strips cannot be cut into sub-draws, so
+/// that they end at [`MAX_WHOLE_ELEMENTS`].
+pub(super) fn element_count(draw: &Draw<'_>) -> u32 {
+    let count = draw.elements.end.saturating_sub(draw.elements.start);
+    if is_splittable(draw) {
+        count
+    } else {
+        count.min(MAX_WHOLE_ELEMENTS)
+    }
+}
+
+/// Elements of a primitive at most.
+const PRIMITIVE_ELEMENTS: u32 = 6;
+
+/// How many of a draw's elements can show anything, of those that [`element_count`] counts.
+///
+/// Elements beyond the index buffer's end are all the same vertex, so that triangles and lines
+/// between them have no extent, whatever the shader does. A draw of 2³² indices over a small buffer
+/// thus ends at once. Points are not left out, because they are drawn, over one another. Neither
+/// are line loops, whose last line closes the loop, and draws with primitive restart, whose
+/// primitives nobody counts before they are assembled.
+pub(super) fn visible_elements(draw: &Draw<'_>) -> u32 {
+    let count = element_count(draw);
+    let state = &draw.pipeline.descriptor().primitive;
+    let is_counted = match state.topology {
+        PrimitiveTopology::PointList | PrimitiveTopology::LineLoop => false,
+        _ => !state.primitive_restart,
+    };
+    let Some((buffer, format)) = draw.indices.filter(|_| is_counted) else {
+        return count;
+    };
+    let index_bytes = match format {
+        IndexFormat::Uint8 => 1,
+        IndexFormat::Uint16 => 2,
+        IndexFormat::Uint32 => 4,
+    };
+    let stored = buffer.len_bytes().div_ceil(index_bytes);
+    let stored = u32::try_from(stored).unwrap_or(u32::MAX);
+    let left = stored.saturating_sub(draw.elements.start);
+    // A primitive with one element in the buffer is kept whole.
+    count.min(left.saturating_add(PRIMITIVE_ELEMENTS))
+}
+
+/// Whether a run of a draw's primitives is a run of elements of the same topology, drawn like any
+/// other.
+pub(super) fn is_splittable(draw: &Draw<'_>) -> bool {
+    let topology = draw.pipeline.descriptor().primitive.topology;
+    !matches!(
+        topology,
+        PrimitiveTopology::TriangleFan | PrimitiveTopology::LineLoop
+    ) && !is_stippled_strip(draw)
+}
+
+/// Whether each line of a topology goes on where the one before ended.
+pub(super) fn is_line_strip(topology: PrimitiveTopology) -> bool {
+    matches!(
+        topology,
+        PrimitiveTopology::LineStrip
+            | PrimitiveTopology::LineLoop
+            | PrimitiveTopology::LineStripAdjacency
+    )
+}
+
+pub(super) fn is_stippled_strip(draw: &Draw<'_>) -> bool {
+    let state = &draw.pipeline.descriptor().primitive;
+    state.line.stipple.is_some() && is_line_strip(state.topology)
+}
+
+/// The elements (first, count) of `count` primitives from `first` on. Draws are cut at even
+/// primitives, so that a strip's parts begin on triangles that are not turned.
+pub(super) fn part_of(topology: PrimitiveTopology, first: u32, count: u32, whole: u32) -> [u32; 2] {
+    use PrimitiveTopology as T;
+    let [each, more] = match topology {
+        T::PointList => [1, 0],
+        T::LineList => [2, 0],
+        T::LineStrip => [1, 1],
+        T::TriangleList => [3, 0],
+        T::TriangleStrip => [1, 2],
+        T::LineListAdjacency => [4, 0],
+        T::LineStripAdjacency => [1, 3],
+        T::TriangleListAdjacency => [6, 0],
+        T::TriangleStripAdjacency => [2, 4],
+        T::LineLoop | T::TriangleFan => return [0, whole],
+    };
+    [first * each, count * each + more]
+}
+
+/// The vertices that `count` elements from `first` on name.
+pub(super) fn vertex_range(
+    executor: &Executor,
+    draw: &Draw<'_>,
+    first: u32,
+    count: u32,
+) -> IndexRange {
+    let Some((buffer, format)) = draw.indices else {
+        return IndexRange::dense(first, count);
+    };
+    if count == 0 {
+        return IndexRange::dense(0, 0);
+    }
+    let index = |element: u32| {
+        let at = first as usize + element as usize;
+        vertex_index(buffer, format, at, draw.base_vertex)
+    };
+    let base = draw.base_vertex;
+    let of_buffer = extremes_in_buffer(executor, buffer, format, [first, count]);
+    let of_buffer = of_buffer.and_then(|[least, greatest]| {
+        // A sum that wraps around changes the order.
+        Some([
+            least.checked_add_signed(base)?,
+            greatest.checked_add_signed(base)?,
+        ])
+    });
+    let extremes = of_buffer.unwrap_or_else(|| {
+        let wider =
+            |[least, greatest]: [u32; 2], index: u32| [least.min(index), greatest.max(index)];
+        (0..count).map(index).fold([u32::MAX, 0], wider)
+    });
+    IndexRange::if_dense(extremes, u64::from(count))
+        .unwrap_or_else(|| IndexRange::listed((0..count).map(index).collect()))
+}
+
+/// Indices that one worker looks through at a time.
+const INDEX_CHUNK: usize = 1 << 16;
+
+/// The least and the greatest of the indices of `count` elements from `first` on, in loops that
+/// become SIMD code; `None` where the buffer does not hold all of them, or they are bytes.
+fn extremes_in_buffer(
+    executor: &Executor,
+    buffer: &Buffer,
+    format: IndexFormat,
+    [first, count]: [u32; 2],
+) -> Option<[u32; 2]> {
+    let (from, to) = (first as usize, first as usize + count as usize);
+    match format {
+        IndexFormat::Uint8 => None,
+        IndexFormat::Uint32 => {
+            let words = buffer.words().get(from..to)?;
+            extremes(executor, words, extremes_of_words)
+        }
+        IndexFormat::Uint16 => {
+            let whole = buffer.words().get(from.div_ceil(2)..to / 2)?;
+            let halves = extremes(executor, whole, extremes_of_halves);
+            let [mut least, mut greatest] = halves.unwrap_or([u32::MAX, 0]);
+            // The first one where it is the upper half of a word, and the last one where it is the
+            // lower.
+            let upper = (!from.is_multiple_of(2)).then_some(from);
+            let lower = (!to.is_multiple_of(2)).then(|| to - 1);
+            for at in [upper, lower].into_iter().flatten() {
+                let index = raw_index(buffer, format, at);
+                (least, greatest) = (least.min(index), greatest.max(index));
+            }
+            Some([least, greatest])
+        }
+    }
+}
+
+fn extremes_of_words(words: &[u32]) -> [u32; 2] {
+    let (mut least, mut greatest) = (u32::MAX, 0);
+    for &word in words {
+        least = least.min(word);
+        greatest = greatest.max(word);
+    }
+    [least, greatest]
+}
+
+fn extremes_of_halves(words: &[u32]) -> [u32; 2] {
+    let (mut least, mut greatest) = (u32::MAX, 0);
+    for &word in words {
+        let (low, high) = (word & 0xFFFF, word >> 16);
+        least = least.min(low).min(high);
+        greatest = greatest.max(low).max(high);
+    }
+    [least, greatest]
+}
+
+/// The least and the greatest number in some words. A million triangles have 12 MB of indices,
+/// which one thread alone reads no faster than memory gives them to it.
+fn extremes(
+    executor: &Executor,
+    words: &[u32],
+    of_part: fn(&[u32]) -> [u32; 2],
+) -> Option<[u32; 2]> {
+    if words.is_empty() {
+        return None;
+    }
+    if words.len() <= INDEX_CHUNK {
+        return Some(of_part(words));
+    }
+    let mut parts: [(&[u32], [u32; 2]); 64] = [(&[], [u32::MAX, 0]); 64];
+    let each = words.len().div_ceil(parts.len());
+    let mut used = 0;
+    for (part, words) in parts.iter_mut().zip(words.chunks(each)) {
+        part.0 = words;
+        used += 1;
+    }
+    executor.for_each_alone(&mut parts[..used], |(words, found)| *found = of_part(words));
+    let wider = |a: [u32; 2], b: [u32; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+    parts.iter().map(|part| part.1).reduce(wider)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use estampe_types::Buffer;
+
+    /// The extremes by the definition.
+    fn slowly(buffer: &Buffer, format: IndexFormat, [first, count]: [u32; 2]) -> [u32; 2] {
+        let indices = (first..first + count).map(|at| raw_index(buffer, format, at as usize));
+        [indices.clone().min().unwrap(), indices.max().unwrap()]
+    }
+
+    #[test]
+    fn extremes_in_lanes_are_those_of_each_index() {
+        let executor = Executor::new(2).unwrap();
+        let mut state = 1u32;
+        let mut byte = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 24) as u8
+        };
+        for len in [40, 43, 600_000] {
+            let bytes: Vec<u8> = (0..len).map(|_| byte()).collect();
+            let buffer = Buffer::from_bytes(&bytes);
+            for format in [IndexFormat::Uint16, IndexFormat::Uint32] {
+                let all = u32::try_from(buffer.words().len()).unwrap();
+                let all = if format == IndexFormat::Uint16 {
+                    all * 2
+                } else {
+                    all
+                };
+                for range in [[0, all], [1, all - 1], [3, 4], [2, 1], [3, 1], [0, all - 1]] {
+                    let found = extremes_in_buffer(&executor, &buffer, format, range);
+                    assert_eq!(found, Some(slowly(&buffer, format, range)), "{range:?}");
+                }
+                let beyond = extremes_in_buffer(&executor, &buffer, format, [1, all + 2]);
+                assert_eq!(beyond, None);
+            }
+        }
+    }
+
+    #[test]
+    fn a_sparse_range_becomes_a_list() {
+        let mut corners = [[10, 11, 12], [12, 11, 13]];
+        assert_eq!(list_vertices(&mut corners), IndexRange::dense(10, 4));
+        assert_eq!(corners, [[0, 1, 2], [2, 1, 3]]);
+        let mut corners = [[7, u32::MAX, 0]];
+        assert_eq!(
+            list_vertices(&mut corners),
+            IndexRange::listed(vec![7, u32::MAX, 0])
+        );
+        assert_eq!(corners, [[0, 1, 2]]);
+    }
+}

@@ -1,0 +1,174 @@
+//! Sub-draws: the pieces that draws are cut into.
+
+use super::index_range::{IndexRange, is_line_strip, is_stippled_strip};
+use crate::commands::Draw;
+use crate::geometry::assembly::ElementSource;
+use crate::geometry::groups::InstanceSize;
+use crate::geometry::plan::GeometryPlan;
+use crate::geometry::run::RunWork;
+use crate::geometry::shaded_vertices::{SubDrawVertices, VertexSpan};
+use crate::geometry::shading::VertexSource;
+use estampe_simd::Level;
+use estampe_types::Bindings;
+
+/// Bindings of draws that have none.
+static NO_BINDINGS: Bindings = Bindings { groups: Vec::new() };
+
+/// A draw, or part of one: a range of vertices that is shaded once, and the primitives between
+/// them.
+#[derive(Debug, Clone)]
+pub(crate) struct SubDraw<'a> {
+    pub(crate) draw: &'a Draw<'a>,
+    pub(crate) bindings: &'a Bindings,
+    /// The number of its state in the batch.
+    pub(crate) state: u32,
+    /// Its vertices in those of the batch.
+    pub(crate) span: VertexSpan,
+    /// Elements of one instance: first, and how many.
+    pub(super) elements: [u32; 2],
+    pub(super) first_instance: u32,
+    pub(super) instances: u32,
+    /// Vertices of one instance: first index, and how many.
+    pub(super) first_vertex: u32,
+    pub(super) vertices: u32,
+    /// Primitives of one instance.
+    pub(super) primitives: u32,
+    /// Lists of vertices, which few draws need.
+    listed: Option<Box<ListedVertices>>,
+}
+
+/// Vertices that are named one by one.
+#[derive(Debug, Clone, Default)]
+pub(super) struct ListedVertices {
+    /// The vertex index of each element, where the range of indices is sparse.
+    sparse: Option<Vec<u32>>,
+    /// The vertices of each primitive of an instance, where indices may restart primitives.
+    pub(super) restarted: Option<Vec<[u32; 3]>>,
+    /// Those of them that begin a strip of stippled lines, ascending.
+    pub(super) line_restarts: Vec<u32>,
+}
+
+/// The instances of a sub-draw.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Instances {
+    pub(super) first: u32,
+    pub(super) count: u32,
+}
+
+impl<'a> SubDraw<'a> {
+    /// A sub-draw of `primitives` primitives in each instance. Its span is not placed in a batch
+    /// yet.
+    pub(super) fn new(
+        draw: &'a Draw<'a>,
+        elements: [u32; 2],
+        primitives: u32,
+        instances: Instances,
+        range: IndexRange,
+    ) -> Self {
+        let listed = range.sparse.map(|sparse| {
+            Box::new(ListedVertices {
+                sparse: Some(sparse),
+                ..ListedVertices::default()
+            })
+        });
+        Self {
+            draw,
+            bindings: draw.bindings.unwrap_or(&NO_BINDINGS),
+            state: 0,
+            span: VertexSpan::default(),
+            elements,
+            first_instance: instances.first,
+            instances: instances.count,
+            first_vertex: range.first,
+            vertices: range.count,
+            primitives,
+            listed,
+        }
+    }
+
+    /// The sub-draw's lists of vertices.
+    pub(super) fn listed_mut(&mut self) -> &mut ListedVertices {
+        self.listed.get_or_insert_default()
+    }
+
+    /// Drops instances beyond a budget of vertices, but for the first one: a triangle can have a
+    /// dozen vertices, in each of a million instances.
+    pub(super) fn within_budget(mut self, vertices: usize) -> Self {
+        let most = vertices / (self.vertices as usize).max(1);
+        let most = u32::try_from(most).unwrap_or(u32::MAX).max(1);
+        self.instances = self.instances.min(most);
+        self
+    }
+
+    /// Vertices of all instances.
+    pub(crate) fn total_vertices(&self) -> usize {
+        (self.vertices as usize).saturating_mul(self.instances as usize)
+    }
+
+    /// Primitives of all instances.
+    pub(crate) fn total_primitives(&self) -> usize {
+        (self.primitives as usize).saturating_mul(self.instances as usize)
+    }
+
+    /// Primitives of one instance if a chunk may not cut these: the pattern of each line of a
+    /// stippled strip goes on where that of the one before ended.
+    pub(super) fn uncut_primitives(&self) -> Option<u32> {
+        is_stippled_strip(self.draw).then_some(self.primitives)
+    }
+
+    /// Where the vertices come from.
+    pub(crate) fn vertex_source(&self) -> VertexSource<'_> {
+        VertexSource {
+            pipeline: self.draw.pipeline,
+            buffers: self.draw.vertex_buffers,
+            bindings: self.bindings,
+            first_vertex: self.first_vertex,
+            count: self.vertices,
+            first_instance: self.first_instance,
+            base_instance: self.draw.instances.start,
+            instances: self.instances,
+            sparse: self
+                .listed
+                .as_deref()
+                .and_then(|list| list.sparse.as_deref()),
+        }
+    }
+
+    /// The work of assembling some primitives, counted over all instances, under a plan.
+    pub(crate) fn run_work<'w>(
+        &'w self,
+        level: Level,
+        plan: &'w GeometryPlan,
+        vertices: SubDrawVertices<'w>,
+        primitives: [u32; 2],
+    ) -> RunWork<'w> {
+        let state = &self.draw.pipeline.descriptor().primitive;
+        let listed = self.listed.as_deref();
+        RunWork {
+            level,
+            plan,
+            elements: ElementSource {
+                topology: state.topology,
+                provoking: state.provoking_vertex,
+                restarted: listed.and_then(|list| list.restarted.as_deref()),
+                elements: self.elements[1],
+                indices: self.draw.indices.filter(|_| listed.is_none()),
+                first_element: self.elements[0],
+                first_vertex: self.first_vertex,
+                base_vertex: self.draw.base_vertex,
+            },
+            vertices,
+            source: self.vertex_source(),
+            is_line_strip: is_line_strip(state.topology),
+            line_restarts: listed.map_or(&[], |list| &list.line_restarts),
+            instance: InstanceSize {
+                vertices: self.vertices,
+                primitives: self.primitives,
+            },
+            primitives,
+        }
+    }
+}
+
+// There is one for each draw of a batch.
+const _: () = assert!(size_of::<SubDraw<'_>>() <= 144);

@@ -1,0 +1,157 @@
+//! The plan of a sub-draw on the tile side: its state, resolved once.
+
+use crate::bounds::pixel_rect::PixelRect;
+use crate::bounds::sample_rect::SampleRect;
+use crate::commands::Draw;
+use crate::depth_format::{DepthFormat, StoredDepth};
+use crate::geometry::line_style::LineStyle;
+use crate::per_sample::sample_tests::SampleTests;
+use crate::per_sample::stencil::StencilTest;
+use crate::pipeline::RenderPipeline;
+use crate::tile_path::{PathFacts, TilePath};
+use estampe_simd::Level;
+use estampe_types::shader::DepthOutput;
+use estampe_types::state::CompareFunction;
+use estampe_types::{Bindings, Interpolation};
+
+/// When samples are tested (O9).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TestTiming {
+    /// Before shading, results written: nothing that the shader does can change them.
+    Early,
+    /// After shading; samples that fail the depth test before are dropped, because they would fail
+    /// after, too.
+    RejectEarly,
+    /// After shading.
+    Late,
+}
+
+/// A sub-draw as its tiles need it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TilePlan<'a> {
+    pub(crate) pipeline: &'a RenderPipeline,
+    pub(crate) bindings: &'a Bindings,
+    /// The varyings of its vertices.
+    pub(crate) varyings: &'a [f32],
+    /// Where pixels may change.
+    pub(crate) rect: PixelRect,
+    /// The viewport's samples, where its edges go through pixels.
+    pub(crate) cut_samples: Option<SampleRect>,
+    pub(crate) path: TilePath,
+    pub(crate) tests: SampleTests,
+    pub(crate) timing: TestTiming,
+    pub(crate) blend_constant: [f32; 4],
+    pub(crate) line_style: &'a LineStyle,
+    /// The occlusion query that counts its samples.
+    pub(crate) query: Option<u32>,
+    /// Whether every varying is smooth.
+    pub(crate) all_smooth: bool,
+}
+
+/// What a plan takes from the target and the pass.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TargetFacts {
+    pub(crate) level: Level,
+    pub(crate) samples: usize,
+    pub(crate) depth_format: DepthFormat,
+    pub(crate) has_depth: bool,
+    pub(crate) has_queries: bool,
+}
+
+/// What a plan takes from geometry.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlannedGeometry<'a> {
+    pub(crate) bindings: &'a Bindings,
+    pub(crate) varyings: &'a [f32],
+    pub(crate) rect: PixelRect,
+    pub(crate) cut_samples: Option<SampleRect>,
+    pub(crate) depth_range: [f32; 2],
+    pub(crate) line_style: &'a LineStyle,
+}
+
+impl<'a> TilePlan<'a> {
+    pub(crate) fn new(
+        draw: &'a Draw<'a>,
+        geometry: &PlannedGeometry<'a>,
+        target: &TargetFacts,
+    ) -> Self {
+        let pipeline = draw.pipeline;
+        let key = pipeline.key();
+        let tests = SampleTests {
+            bounds: draw.depth_bounds.filter(|_| target.has_depth),
+            stencil: key.stencil.map(|state| StencilTest {
+                state,
+                reference: draw.stencil_reference,
+            }),
+            depth: key.depth,
+            stored: StoredDepth {
+                range: geometry.depth_range,
+                format: target.depth_format,
+            },
+        };
+        let query = draw.occlusion_query.filter(|_| target.has_queries);
+        let tests_depth_alone = tests.is_depth_alone() && query.is_none();
+        let modes = &pipeline.interface().varyings;
+        Self {
+            pipeline,
+            bindings: geometry.bindings,
+            varyings: geometry.varyings,
+            rect: geometry.rect,
+            cut_samples: geometry.cut_samples,
+            path: TilePath::choose(
+                pipeline,
+                &PathFacts {
+                    samples: target.samples,
+                    level: target.level,
+                    tests_depth_alone,
+                    cuts_samples: geometry.cut_samples.is_some(),
+                },
+            ),
+            timing: timing(pipeline, &tests),
+            tests,
+            blend_constant: draw.blend_constant,
+            line_style: geometry.line_style,
+            query,
+            all_smooth: modes.iter().all(|mode| *mode == Interpolation::Smooth),
+        }
+    }
+
+    /// Whether the order of submission matters for depth alone, between equal depths: nothing else
+    /// is written or counted before shading.
+    pub(crate) fn tests_depth_alone(&self) -> bool {
+        self.tests.is_depth_alone() && self.query.is_none()
+    }
+
+    /// Whether fragments of two plans may share a call of the program.
+    pub(crate) fn shades_like(&self, other: &Self) -> bool {
+        std::ptr::eq(self.bindings, other.bindings)
+            && self.pipeline.is_same(other.pipeline)
+            && self.tests.stored.range == other.tests.stored.range
+    }
+}
+
+fn timing(pipeline: &RenderPipeline, tests: &SampleTests) -> TestTiming {
+    let interface = pipeline.interface();
+    if pipeline.key().tests_early {
+        return TestTiming::Early;
+    }
+    let compare = tests.depth.map(|state| state.compare);
+    // A declared direction of the shader's depth is away from where more pass.
+    let is_final = match interface.depth_output {
+        DepthOutput::None => true,
+        DepthOutput::Greater => matches!(
+            compare,
+            Some(CompareFunction::Less | CompareFunction::LessEqual)
+        ),
+        DepthOutput::Less => matches!(
+            compare,
+            Some(CompareFunction::Greater | CompareFunction::GreaterEqual)
+        ),
+        DepthOutput::Any => false,
+    };
+    if is_final && !interface.stores && tests.early_failure_is_final() {
+        TestTiming::RejectEarly
+    } else {
+        TestTiming::Late
+    }
+}

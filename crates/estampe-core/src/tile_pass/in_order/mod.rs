@@ -1,0 +1,306 @@
+//! The in-order path: primitive by primitive, in the order of submission, with any state.
+//!
+//! For every primitive the stages are called in order: coverage, hierarchical z, early tests,
+//! fragments. Packets of many primitives are queued and shaded together; late tests and colours
+//! follow in the order of the queue.
+//!
+//! ```text
+//!   coverage ─▶ early tests ─▶ queue ─▶ shader ─▶ late tests ─▶ colours
+//!      └─ whole blocks, blended from planes (`blocks`)
+//! ```
+
+/// Enters the SIMD level in code that is generic over `N`, the number of samples: the scalar level
+/// is compiled for [`MAX_SAMPLES`](crate::raster::MAX_SAMPLES) alone, which serves any number,
+/// because it takes the compiler so long.
+macro_rules! dispatch_samples {
+    ($n:expr, $level:expr, $simd:ident => $op:expr) => {
+        if const { $n == crate::raster::MAX_SAMPLES } {
+            estampe_simd::dispatch!($level, $simd => $op)
+        } else {
+            estampe_simd::dispatch!(@wide $level, $simd => $op,
+                scalar => unreachable!("the scalar level draws tiles of any number of samples"))
+        }
+    };
+}
+
+mod blocks;
+mod flush;
+mod shade;
+mod tests;
+
+use super::{HIZ_PACKETS, TileJob, TileScratch, TileWork};
+use crate::bounds::bins::BinEntry;
+use crate::bounds::primitives::{LinePrimitive, PointPrimitive, TrianglePacket};
+use crate::fragment::interpolate::{
+    DepthPlane, LineInterpolant, LineOrPoint, PlaneOrigin, PointInterpolant, TriangleInterpolant,
+    VaryingPlanes, VaryingSource, set_planes,
+};
+use crate::per_sample::hiz::{BlockClasses, HizQuery};
+use crate::plan::tile_plan::TestTiming;
+use crate::raster::conservative::ConservativeTriangle;
+use crate::raster::triangle::TileTriangle;
+use crate::raster::{CoverageList, SampleSet, line, point};
+use crate::tile_path::TilePath;
+use estampe_simd::Lanes;
+use estampe_types::state::ConservativeMode;
+use shade::PendingQuads;
+
+/// Memory of one worker.
+#[derive(Debug)]
+pub(super) struct InOrderScratch<const N: usize> {
+    list: CoverageList<N>,
+    /// The list before early tests, where shading depends on it.
+    covered: CoverageList<N>,
+    /// Planes of one triangle's varyings.
+    planes: Vec<f32>,
+    pending: PendingQuads,
+}
+
+impl<const N: usize> Default for InOrderScratch<N> {
+    fn default() -> Self {
+        Self {
+            list: CoverageList::default(),
+            covered: CoverageList::default(),
+            planes: Vec::new(),
+            pending: PendingQuads::default(),
+        }
+    }
+}
+
+/// Draws the tile's primitives of one run of a chunk.
+pub(super) fn draw<const N: usize>(
+    work: &TileWork<'_>,
+    entries: &[BinEntry],
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    dispatch_samples!(N, work.level, s => draw_entries(s, work, entries, job, scratch));
+}
+
+#[inline(always)]
+fn draw_entries<S: Lanes, const N: usize>(
+    s: S,
+    work: &TileWork<'_>,
+    entries: &[BinEntry],
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    let plan = work.plan;
+    let pipeline = plan.pipeline;
+    let samples = SampleSet::new(work.samples);
+    let range = plan.tests.stored.range;
+    let tests_late = plan.timing != TestTiming::Early && !plan.tests.is_empty();
+    scratch
+        .queue
+        .configure(pipeline, samples, range, tests_late);
+    scratch.in_order.list.set_samples(samples);
+    let scalars = pipeline.interface().varyings.len();
+    let mut planes = std::mem::take(&mut scratch.in_order.planes);
+    planes.resize(VaryingPlanes::size(scalars), 0.0);
+    let mut drawing = InOrder {
+        work,
+        samples,
+        source: work.varyings(),
+        conservative: pipeline.descriptor().primitive.conservative,
+        uses_hiz: plan.timing != TestTiming::Late,
+        blends_blocks: plan.path == TilePath::InOrderBlocks,
+        shares_packets: plan.path != TilePath::InOrderPackets,
+        passed: 0,
+        planes,
+        smooth: None,
+        job,
+        scratch,
+    };
+    for entry in entries {
+        match *entry {
+            BinEntry::Triangles { packet, mut lanes } => {
+                let packet = &work.chunk.triangles[packet as usize];
+                while lanes != 0 {
+                    let lane = lanes.trailing_zeros() as usize;
+                    lanes &= lanes - 1;
+                    drawing.triangle(s, packet, lane);
+                }
+            }
+            BinEntry::Line(number) => drawing.line(&work.chunk.lines[number as usize]),
+            BinEntry::Point(number) => drawing.point(&work.chunk.points[number as usize]),
+        }
+    }
+    drawing.flush();
+    let (passed, planes) = (drawing.passed, std::mem::take(&mut drawing.planes));
+    scratch.in_order.planes = planes;
+    if let (Some(queries), Some(query)) = (work.queries, plan.query) {
+        queries.add(query, passed);
+    }
+}
+
+/// A run being drawn into a tile.
+struct InOrder<'a, 'j, 't, const N: usize> {
+    work: &'a TileWork<'a>,
+    samples: SampleSet<N>,
+    source: VaryingSource<'a>,
+    conservative: ConservativeMode,
+    /// Whether blocks that hierarchical z rejects are left out.
+    uses_hiz: bool,
+    /// Whether whole blocks of triangles without perspective are blended from their planes.
+    blends_blocks: bool,
+    /// Whether quads of several triangles share packets.
+    shares_packets: bool,
+    /// Samples that passed all tests, where a query counts them.
+    passed: u64,
+    /// Planes of the triangle at hand.
+    planes: Vec<f32>,
+    /// The line at hand, if it is a smooth one.
+    smooth: Option<LineInterpolant<'a>>,
+    job: &'j mut TileJob<'t>,
+    scratch: &'j mut TileScratch<N>,
+}
+
+impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
+    #[inline(always)]
+    fn triangle<S: Lanes>(&mut self, s: S, packet: &TrianglePacket, lane: usize) {
+        let (plan, front) = (self.work.plan, packet.front >> lane & 1 == 1);
+        let plane = DepthPlane::new(packet, lane);
+        let blends_blocks = self.blends_blocks && packet.equal_w >> lane & 1 == 1;
+        let Some(coverage) = self.cover(s, (packet, lane), &plane, blends_blocks) else {
+            return;
+        };
+        let mut interpolant = TriangleInterpolant {
+            origin: PlaneOrigin::new(packet, lane),
+            z: plane.z,
+            iw: packet.iw.lane(lane),
+            equal_w: packet.equal_w >> lane & 1 == 1,
+            planes: VaryingPlanes::default(),
+            modes: self.source.modes,
+            all_smooth: plan.all_smooth,
+        };
+        let is_visible = self.test_early(s, &interpolant, front);
+        if !is_visible && coverage.whole == 0 {
+            return;
+        }
+        // Moved out for the calls, because the interpolant borrows them.
+        let mut planes = std::mem::take(&mut self.planes);
+        set_planes(
+            s,
+            &mut planes,
+            (packet, lane),
+            &self.source,
+            plan.all_smooth,
+        );
+        interpolant.planes = VaryingPlanes::new(&planes);
+        // Whole blocks are blended with one sample only.
+        if const { N == 1 } && coverage.whole != 0 {
+            self.blend_blocks(&interpolant, coverage);
+        }
+        // The scalar level has no code for quads that share packets: it takes the compiler too
+        // long.
+        if const { !S::IS_SCALAR } && self.shares_packets {
+            self.queue_quads(s, &interpolant, front);
+        } else {
+            self.queue_packets(s, &interpolant, front);
+        }
+        self.planes = planes;
+    }
+
+    /// Lists the packets that a triangle covers, less those that hierarchical z rejects. `None` if
+    /// it covers nothing.
+    #[inline(always)]
+    fn cover<S: Lanes>(
+        &mut self,
+        s: S,
+        (packet, lane): (&TrianglePacket, usize),
+        plane: &DepthPlane,
+        blends_blocks: bool,
+    ) -> Option<WholeBlocks> {
+        let TileWork {
+            shape,
+            rect,
+            is_whole,
+            blocks,
+            level,
+            ..
+        } = *self.work;
+        let list = &mut self.scratch.in_order.list;
+        list.clear();
+        if self.conservative != ConservativeMode::Disabled {
+            let mode = self.conservative;
+            ConservativeTriangle::new(packet, lane, shape, &rect, mode).cover(list);
+            return Some(WholeBlocks::default());
+        }
+        let triangle = TileTriangle::<N>::new(packet, lane, shape, &rect, self.samples)?;
+        let mut classes = BlockClasses::of_all(0, 0);
+        if self.uses_hiz && triangle.packets() > HIZ_PACKETS {
+            let look = HizQuery {
+                tests: &self.work.plan.tests,
+                plane: *plane,
+                tile: shape,
+                samples: self.samples,
+            };
+            classes = self
+                .scratch
+                .hiz
+                .classify(level, &look, false, self.job.depth);
+            if classes.hidden == u16::MAX {
+                return None;
+            }
+        }
+        let blocks = if blends_blocks { blocks } else { 0 };
+        let list = &mut self.scratch.in_order.list;
+        let whole = triangle.cover(s, shape, classes.hidden, blocks, list);
+        if !is_whole {
+            list.clip(&rect);
+        }
+        Some(WholeBlocks {
+            whole,
+            certain: classes.certain,
+        })
+    }
+
+    /// Lines and points enter the SIMD level one by one: they are few, and their code is kept out
+    /// of the loop over triangles.
+    fn line(&mut self, line: &'a LinePrimitive) {
+        let TileWork { shape, rect, .. } = self.work;
+        let list = &mut self.scratch.in_order.list;
+        list.clear();
+        let style = self.work.plan.line_style;
+        line::cover(line, style, *shape, rect, list);
+        let interpolant = LineInterpolant::new(line, style, self.source);
+        if style.is_smooth() {
+            self.smooth = Some(interpolant);
+        }
+        let interpolant = LineOrPoint::Line(interpolant);
+        self.enter_covered(&interpolant, line.front);
+        if style.is_smooth() {
+            // Alpha is scaled by the coverage of this line alone.
+            self.flush();
+            self.smooth = None;
+        }
+    }
+
+    fn point(&mut self, point: &PointPrimitive) {
+        let TileWork { shape, rect, .. } = self.work;
+        let list = &mut self.scratch.in_order.list;
+        list.clear();
+        let is_round = self.work.plan.pipeline.descriptor().primitive.round_points;
+        point::cover(point, is_round, *shape, rect, list);
+        let interpolant = PointInterpolant {
+            point,
+            source: self.source,
+        };
+        let interpolant = LineOrPoint::Point(interpolant);
+        self.enter_covered(&interpolant, point.front);
+    }
+}
+
+impl<const N: usize> InOrder<'_, '_, '_, N> {
+    fn enter_covered(&mut self, interpolant: &LineOrPoint<'_>, front: bool) {
+        dispatch_samples!(N, self.work.level, s => self.covered(s, interpolant, front));
+    }
+}
+
+/// Blocks of 16×16 pixels that a triangle covers whole, one bit each.
+#[derive(Debug, Clone, Copy, Default)]
+struct WholeBlocks {
+    whole: u16,
+    /// Blocks in which every sample passes the depth test.
+    certain: u16,
+}

@@ -1,0 +1,222 @@
+//! The tests of the in-order path: before shading, and after it (O9).
+
+use super::InOrder;
+use crate::fragment::interpolate::Interpolant;
+use crate::fragment::place::Place;
+use crate::fragment::queue::{LatePacket, depth_after_shading};
+use crate::per_sample::sample_tests::{SampleTests, StoredSamples};
+use crate::plan::tile_plan::TestTiming;
+use crate::raster::packet_origin;
+use crate::tile_pass::TileJob;
+use estampe_simd::{LANES, Lanes, Packet, SimdBase, f32x16};
+
+impl<const N: usize> InOrder<'_, '_, '_, N> {
+    /// Drops the samples that the sample mask excludes and those that fail before shading; false
+    /// when nothing is left.
+    #[inline(always)]
+    pub(super) fn test_early<S: Lanes>(
+        &mut self,
+        s: S,
+        interpolant: &impl Interpolant<S>,
+        front: bool,
+    ) -> bool {
+        let (plan, key) = (self.work.plan, self.work.plan.pipeline.key());
+        let scratch = &mut self.scratch.in_order;
+        if let Some(cut) = &plan.cut_samples {
+            let (shape, samples) = (self.work.shape, self.samples);
+            let mut pixels = [shape.local(&plan.rect); N];
+            for (pixels, at) in pixels.iter_mut().zip(samples.subpixels()) {
+                *pixels = shape.local(&cut.pixels_of(at));
+            }
+            scratch.list.clip_samples(&pixels);
+        }
+        if let Some(mask) = key.sample_mask {
+            scratch.list.keep_samples(mask);
+        }
+        if key.keeps_coverage {
+            scratch.covered.clone_from(&scratch.list);
+        }
+        match plan.timing {
+            TestTiming::Late => {}
+            TestTiming::Early if plan.tests.is_empty() => self.count_passed(),
+            TestTiming::Early => {
+                self.run_early::<S, true>(s, interpolant, front);
+                self.count_passed();
+            }
+            TestTiming::RejectEarly => self.run_early::<S, false>(s, interpolant, front),
+        }
+        !self.scratch.in_order.list.items().is_empty()
+    }
+
+    /// Tests the list; with `WRITES` values are written, else samples that fail are dropped only.
+    #[inline(always)]
+    fn run_early<S: Lanes, const WRITES: bool>(
+        &mut self,
+        s: S,
+        interpolant: &impl Interpolant<S>,
+        front: bool,
+    ) {
+        let tests = &self.work.plan.tests;
+        let (shape, samples) = (self.work.shape, self.samples);
+        let (offsets, count) = (samples.offsets(), samples.count());
+        let front = if front { u16::MAX } else { 0 };
+        let TileJob { depth, stencil, .. } = &mut *self.job;
+        let mut touched = 0;
+        self.scratch.in_order.list.retain(
+            #[inline(always)]
+            |item| {
+                let packet = usize::from(item.packet);
+                let (x, y) = packet_origin(u32::from(item.packet));
+                let pixel = [shape.x + x, shape.y + y];
+                for (sample, mask) in item.masks.iter_mut().enumerate().take(count) {
+                    let new = interpolant.depth(s, pixel, offsets[sample]);
+                    let new = tests.stored.of(s, new);
+                    let line = packet * count + sample;
+                    let stored_depth = depth.get_mut(line);
+                    if WRITES {
+                        let stored = StoredSamples {
+                            depth: stored_depth,
+                            stencil: stencil.get_mut(line),
+                        };
+                        *mask = tests.run(s, new, *mask, front, stored);
+                    } else {
+                        *mask &= tests.would_pass(s, new, stored_depth);
+                    }
+                }
+                touched |= 1u16 << ((packet >> 4) & 15);
+            },
+        );
+        if WRITES && tests.writes_depth() {
+            self.scratch.hiz.invalidate(touched);
+        }
+    }
+
+    /// Counts the samples of the list for an occlusion query.
+    #[inline(always)]
+    fn count_passed(&mut self) {
+        if self.work.plan.query.is_some() {
+            let items = self.scratch.in_order.list.items().iter();
+            self.passed += items.map(|item| item.count()).sum::<u64>();
+        }
+    }
+
+    /// Alpha to coverage, the shader's sample mask, and the tests after shading, of all queued
+    /// packets.
+    #[inline(always)]
+    pub(super) fn test_late<S: Lanes>(&mut self, s: S) {
+        let plan = self.work.plan;
+        let count = self.samples.count();
+        let alpha_to_coverage = plan.pipeline.key().alpha_to_coverage;
+        let is_late = plan.timing != TestTiming::Early;
+        let mut written = 0;
+        for mut packet in self.scratch.queue.late_packets() {
+            if alpha_to_coverage && let Some(alpha) = packet.alpha {
+                keep_by_alpha(s, alpha, &mut packet.masks[..count]);
+            }
+            if let Some(kept) = packet.sample_mask {
+                keep_by_mask(kept, &mut packet.masks[..count]);
+            }
+            if !is_late {
+                continue;
+            }
+            if !plan.tests.is_empty() {
+                run_late(s, &plan.tests, &mut packet, count, self.job);
+                written |= blocks_of(packet.place);
+            }
+            if plan.query.is_some() {
+                let counts = packet.masks.iter().map(|mask| u64::from(mask.count_ones()));
+                self.passed += counts.sum::<u64>();
+            }
+        }
+        if plan.tests.writes_depth() {
+            self.scratch.hiz.invalidate(written);
+        }
+    }
+}
+
+/// Tests one shaded packet.
+#[inline(always)]
+fn run_late<S: Lanes, const N: usize>(
+    s: S,
+    tests: &SampleTests,
+    packet: &mut LatePacket<'_, N>,
+    samples: usize,
+    job: &mut TileJob<'_>,
+) {
+    for sample in 0..samples {
+        let lanes = packet.masks[sample];
+        if lanes == 0 {
+            continue;
+        }
+        let interpolated = f32x16::load_array_ref(s, &packet.depths[sample].0);
+        let depth = depth_after_shading(s, interpolated, packet.depth_out, tests.stored.range);
+        let new = tests.stored.format.stored_lanes(s, depth);
+        let place = packet.place;
+        packet.masks[sample] = match place {
+            Place::Packet(number) => {
+                let line = usize::from(number) * samples + sample;
+                let stored = StoredSamples {
+                    depth: job.depth.get_mut(line),
+                    stencil: job.stencil.get_mut(line),
+                };
+                tests.run(s, new, lanes, packet.front, stored)
+            }
+            Place::Quads(_) => {
+                let mut depth =
+                    (!job.depth.is_empty()).then(|| place.gather(job.depth, samples, sample));
+                let mut stencil =
+                    (!job.stencil.is_empty()).then(|| place.gather(job.stencil, samples, sample));
+                let stored = StoredSamples {
+                    depth: depth.as_mut(),
+                    stencil: stencil.as_mut(),
+                };
+                let passed = tests.run(s, new, lanes, packet.front, stored);
+                if let Some(depth) = &depth {
+                    place.scatter(depth, lanes, job.depth, samples, sample);
+                }
+                if let Some(stencil) = &stencil {
+                    place.scatter(stencil, lanes, job.stencil, samples, sample);
+                }
+                passed
+            }
+        };
+    }
+}
+
+/// Keeps the first of the samples, as many as alpha says: ⌊alpha·samples + ½⌋.
+#[inline(always)]
+fn keep_by_alpha<S: Lanes>(s: S, alpha: &Packet<f32>, masks: &mut [u16]) {
+    let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+    let alpha = s.min_f32(
+        s.max_f32(f32x16::load_array_ref(s, &alpha.0), splat(0.0)),
+        splat(1.0),
+    );
+    let kept = s.floor_f32(alpha * masks.len() as f32 + 0.5);
+    for (sample, mask) in (0u8..).zip(masks) {
+        *mask &= s.bits_of_mask(splat(f32::from(sample)).simd_lt(kept));
+    }
+}
+
+/// Keeps the samples that the shader keeps.
+#[inline(always)]
+fn keep_by_mask(kept: &Packet<u32>, masks: &mut [u16]) {
+    for (sample, mask) in masks.iter_mut().enumerate() {
+        for lane in 0..LANES {
+            if kept.0[lane] >> sample & 1 == 0 {
+                *mask &= !(1 << lane);
+            }
+        }
+    }
+}
+
+/// The blocks of 16×16 pixels in which a packet's fragments lie, one bit each.
+#[inline(always)]
+fn blocks_of(place: Place) -> u16 {
+    match place {
+        Place::Packet(packet) => 1 << (packet >> 4 & 15),
+        Place::Quads(places) => {
+            let blocks = places.map(|place| 1 << (place >> 6 & 15));
+            blocks.into_iter().fold(0, |all, block| all | block)
+        }
+    }
+}

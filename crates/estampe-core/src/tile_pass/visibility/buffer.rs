@@ -1,0 +1,115 @@
+//! The visibility buffer of one tile: which triangle each sample shows, by its id.
+
+use super::shortcuts::SinglePrimitiveBlocks;
+use crate::bounds::bins::BinEntry;
+use crate::plan::tile_plan::TilePlan;
+use crate::raster::MAX_PACKETS;
+use estampe_simd::LANES;
+use std::ops::Range;
+
+/// The bit of ids that name a shaded fragment rather than a triangle.
+pub(super) const SHADED: u32 = 1 << 31;
+
+/// A triangle of a run. Its visibility id is its place in the run.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TriangleRef {
+    /// Number of the chunk in the pass.
+    pub(super) chunk: u32,
+    /// Number of the packet in the chunk.
+    pub(super) packet: u32,
+    /// Number of the sub-draw in the pass.
+    pub(super) sub_draw: u32,
+    pub(super) lane: u8,
+}
+
+/// Triangles of a run whose fragments may share calls of the program.
+#[derive(Debug, Clone)]
+pub(super) struct ShadingGroup {
+    /// Their visibility ids.
+    pub(super) ids: Range<u32>,
+    /// The sub-draw of the first of them, which stands for the state of all.
+    pub(super) sub_draw: u32,
+}
+
+/// A run of triangles in one tile.
+#[derive(Debug)]
+pub(super) struct VisibilityBuffer<const N: usize> {
+    pub(super) triangles: Vec<TriangleRef>,
+    pub(super) groups: Vec<ShadingGroup>,
+    /// By packet and sample: the lanes that hold an id in place of a colour.
+    pub(super) unresolved: Box<[[u16; N]; MAX_PACKETS]>,
+    /// Blocks that show one triangle at every sample, whose ids are not written.
+    pub(super) single: SinglePrimitiveBlocks,
+    /// The ids of targets whose first texel is not one word: by packet and sample.
+    pub(super) ids: Box<[[u32; LANES]; MAX_PACKETS]>,
+}
+
+impl<const N: usize> Default for VisibilityBuffer<N> {
+    fn default() -> Self {
+        Self {
+            triangles: Vec::new(),
+            groups: Vec::new(),
+            unresolved: Box::new([[0; N]; MAX_PACKETS]),
+            single: SinglePrimitiveBlocks::default(),
+            ids: Box::new([[0; LANES]; MAX_PACKETS]),
+        }
+    }
+}
+
+impl<const N: usize> VisibilityBuffer<N> {
+    /// Numbers the triangles of a chunk, in the order of submission; gives the first id.
+    #[expect(clippy::cast_possible_truncation, reason = "a lane is below 16")]
+    pub(super) fn add(
+        &mut self,
+        [chunk, sub_draw]: [u32; 2],
+        entries: &[BinEntry],
+        plans: &[TilePlan<'_>],
+    ) -> u32 {
+        let first = self.next_id();
+        for entry in entries {
+            let BinEntry::Triangles { packet, mut lanes } = *entry else {
+                unreachable!("lines and points are drawn in order");
+            };
+            while lanes != 0 {
+                let lane = lanes.trailing_zeros() as u8;
+                lanes &= lanes - 1;
+                self.triangles.push(TriangleRef {
+                    chunk,
+                    packet,
+                    sub_draw,
+                    lane,
+                });
+            }
+        }
+        let end = self.next_id();
+        match self.groups.last_mut() {
+            Some(group)
+                if group.sub_draw == sub_draw
+                    || plans[group.sub_draw as usize].shades_like(&plans[sub_draw as usize]) =>
+            {
+                group.ids.end = end;
+            }
+            _ => self.groups.push(ShadingGroup {
+                ids: first..end,
+                sub_draw,
+            }),
+        }
+        first
+    }
+
+    /// The id of the next triangle.
+    fn next_id(&self) -> u32 {
+        // A run has at most as many triangles as a draw batch and clipping's pieces: far below 2³¹.
+        let next = u32::try_from(self.triangles.len()).unwrap_or(SHADED);
+        debug_assert!(next < SHADED, "ids have 31 bits");
+        next
+    }
+
+    /// Ends the run.
+    pub(super) fn clear(&mut self) {
+        self.triangles.clear();
+        self.groups.clear();
+        self.unresolved.fill([0; N]);
+        self.single = SinglePrimitiveBlocks::default();
+    }
+}

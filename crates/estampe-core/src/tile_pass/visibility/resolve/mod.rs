@@ -1,0 +1,408 @@
+//! The end of a run: every visible sample is shaded once, by the triangle that it shows.
+//!
+//! A packet that shows one triangle is shaded whole; of others each triangle's quads are shaded in
+//! packets that they share with those of other triangles and places. Draws that share a pipeline
+//! and bindings are shaded together.
+
+mod early;
+mod per_primitive;
+mod visible;
+
+use super::buffer::ShadingGroup;
+use super::quads::Quads;
+use super::rasterize::storage_of;
+use super::shortcuts::PrimitiveTexels;
+use super::writer::IdStorage;
+use super::{ONLY_WIDE, VisibilityScratch};
+use crate::fragment::queue::PrimitivePacket;
+use crate::plan::tile_plan::TilePlan;
+use crate::raster::{Covered, MAX_PACKETS, packet_origin};
+use crate::tile_pass::{TileJob, TilePass, TileScratch, write_colors};
+use early::write_cross_triangle;
+use estampe_simd::{LANES, Lanes, SimdBase, dispatch, u32x16};
+use estampe_types::Interpolation;
+use visible::VisibleTriangle;
+
+/// No place in a list.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Packets of a tile, one bit each.
+type PacketSet = [u64; MAX_PACKETS / 64];
+
+/// Memory of the resolve.
+#[derive(Debug)]
+pub(super) struct ResolveScratch<const N: usize> {
+    /// By visibility id: the triangle's place in `visible`.
+    visible_of: Vec<u32>,
+    visible: Vec<VisibleTriangle>,
+    planes: Vec<f32>,
+    quads: Quads<N>,
+    /// By shading group: the packets that show its triangles.
+    packets: Vec<PacketSet>,
+    texels: PrimitiveTexels,
+}
+
+impl<const N: usize> Default for ResolveScratch<N> {
+    fn default() -> Self {
+        Self {
+            visible_of: Vec::new(),
+            visible: Vec::new(),
+            planes: Vec::new(),
+            quads: Quads::default(),
+            packets: Vec::new(),
+            texels: PrimitiveTexels::default(),
+        }
+    }
+}
+
+/// Resolves the run, if there is one, and ends it.
+pub(in crate::tile_pass) fn resolve<const N: usize>(
+    pass: &TilePass<'_>,
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    let VisibilityScratch {
+        buffer,
+        resolve,
+        cross,
+        ..
+    } = &mut scratch.visibility;
+    let Some(first) = buffer.groups.first() else {
+        return;
+    };
+    let plan = &pass.plans[first.sub_draw as usize];
+    let storage = storage_of(plan);
+    if storage != IdStorage::None {
+        scratch.statistics.visibility_runs += 1;
+        resolve.visible.clear();
+        resolve.planes.clear();
+        resolve.texels.clear();
+        resolve.visible_of.clear();
+        resolve.visible_of.resize(buffer.triangles.len(), NONE);
+        resolve.quads.begin_run(buffer.triangles.len());
+        let words = plan.pipeline.color_targets()[0].codec.words();
+        if !cross.words().is_empty() {
+            dispatch!(@wide pass.level, s => write_cross_triangle(s, (storage, words), job, scratch),
+                scalar => unreachable!("{ONLY_WIDE}"));
+        }
+        let groups = std::mem::take(&mut scratch.visibility.buffer.groups);
+        let mut resolver = Resolver::new(pass, storage, job, scratch);
+        dispatch!(@wide pass.level, s => resolver.find_packets(s, &groups),
+            scalar => unreachable!("{ONLY_WIDE}"));
+        for (number, group) in groups.iter().enumerate() {
+            resolver.group(group, number);
+        }
+        scratch.visibility.buffer.groups = groups;
+    }
+    scratch.visibility.buffer.clear();
+    scratch.visibility.cross.clear();
+}
+
+/// The ids of a tile.
+#[inline(always)]
+fn ids_of<'a>(
+    storage: IdStorage,
+    job: &'a TileJob<'_>,
+    buffer: &'a [[u32; LANES]; MAX_PACKETS],
+) -> &'a [[u32; LANES]] {
+    if storage == IdStorage::Attachment {
+        job.colors[0]
+    } else {
+        buffer
+    }
+}
+
+/// A run being resolved.
+struct Resolver<'a, 'j, 't, const N: usize> {
+    pass: &'a TilePass<'a>,
+    storage: IdStorage,
+    /// The state of the group at hand.
+    plan: &'a TilePlan<'a>,
+    /// How each scalar of the varyings is interpolated.
+    modes: &'a [Interpolation],
+    /// The tile's first pixel.
+    origin: [i32; 2],
+    /// Packets of the tile.
+    packets: usize,
+    job: &'j mut TileJob<'t>,
+    scratch: &'j mut TileScratch<N>,
+}
+
+impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
+    fn new(
+        pass: &'a TilePass<'a>,
+        storage: IdStorage,
+        job: &'j mut TileJob<'t>,
+        scratch: &'j mut TileScratch<N>,
+    ) -> Self {
+        let (x, y) = pass.grid.tile_origin(job.tile);
+        Self {
+            pass,
+            storage,
+            plan: &pass.plans[0],
+            modes: &[],
+            origin: [x.cast_signed(), y.cast_signed()],
+            packets: pass.grid.tile_pixels() / LANES,
+            job,
+            scratch,
+        }
+    }
+
+    /// Finds the packets that show triangles of each group.
+    #[inline(always)]
+    fn find_packets<S: Lanes>(&mut self, s: S, groups: &[ShadingGroup]) {
+        let mut sets = std::mem::take(&mut self.scratch.visibility.resolve.packets);
+        sets.clear();
+        if let [_] = groups {
+            sets.push([u64::MAX; MAX_PACKETS / 64]);
+        } else {
+            sets.resize(groups.len(), [0; MAX_PACKETS / 64]);
+            for packet in 0..MAX_PACKETS {
+                let buffer = &self.scratch.visibility.buffer;
+                let mut add = |id: u32| {
+                    // The buffer's groups are `groups`, moved out.
+                    let group = groups.partition_point(|group| group.ids.end <= id);
+                    sets[group][packet / 64] |= 1 << (packet % 64);
+                    group
+                };
+                if let Some(id) = buffer.single.of_packet(packet) {
+                    add(id);
+                    continue;
+                }
+                let mut left = buffer.unresolved[packet];
+                while left != [0; N] {
+                    let id = self.first_id(packet, &left);
+                    let group = &groups[add(id)];
+                    for (sample, left) in left.iter_mut().enumerate() {
+                        if *left != 0 {
+                            *left &= !self.lanes_in(s, packet * N + sample, group);
+                        }
+                    }
+                }
+            }
+        }
+        self.scratch.visibility.resolve.packets = sets;
+    }
+
+    /// The lanes of a line of ids that belong to a group.
+    #[inline(always)]
+    fn lanes_in<S: Lanes>(&self, s: S, line: usize, group: &ShadingGroup) -> u16 {
+        let ids = u32x16::load_array_ref(s, &self.ids()[line]);
+        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+        let inside = ids.simd_ge(splat(group.ids.start)) & ids.simd_lt(splat(group.ids.end));
+        s.bits_of_mask(inside)
+    }
+
+    /// The lanes of a line of ids that hold an id.
+    #[inline(always)]
+    fn lanes_of<S: Lanes>(&self, s: S, line: usize, id: u32) -> u16 {
+        let ids = u32x16::load_array_ref(s, &self.ids()[line]);
+        s.bits_of_mask(ids.simd_eq(<u32x16<S> as SimdBase<S>>::splat(s, id)))
+    }
+
+    #[inline(always)]
+    fn ids(&self) -> &[[u32; LANES]] {
+        ids_of(self.storage, self.job, &self.scratch.visibility.buffer.ids)
+    }
+
+    /// The id at the first of some samples of a packet; there must be one.
+    #[inline(always)]
+    fn first_id(&self, packet: usize, samples: &[u16; N]) -> u32 {
+        let mut id = 0;
+        for (sample, lanes) in samples.iter().enumerate().rev() {
+            if *lanes != 0 {
+                id = self.ids()[packet * N + sample][lanes.trailing_zeros() as usize % LANES];
+            }
+        }
+        id
+    }
+
+    /// Shades the samples that show a group's triangles.
+    fn group(&mut self, group: &ShadingGroup, number: usize) {
+        let packets = self.scratch.visibility.resolve.packets[number];
+        if packets == [0; MAX_PACKETS / 64] {
+            return;
+        }
+        self.plan = &self.pass.plans[group.sub_draw as usize];
+        self.modes = &self.plan.pipeline.interface().varyings;
+        self.scratch.visibility.resolve.quads.begin_group();
+        self.scratch.queue.configure(
+            self.plan.pipeline,
+            self.pass.sample_set(),
+            self.plan.tests.stored.range,
+            false,
+        );
+        let level = self.pass.level;
+        dispatch!(@wide level, s => self.packets(s, group, packets),
+            scalar => unreachable!("{ONLY_WIDE}"));
+        if !self.scratch.visibility.resolve.quads.triangles.is_empty() {
+            dispatch!(@wide level, s => self.quads(s),
+                scalar => unreachable!("{ONLY_WIDE}"));
+        }
+        self.flush();
+    }
+
+    /// Queues the visible samples of a group, packet by packet.
+    #[inline(always)]
+    fn packets<S: Lanes>(&mut self, s: S, group: &ShadingGroup, packets: PacketSet) {
+        let per_primitive = self.plan.pipeline.key().uniform_over_primitive;
+        for (from, mut packets) in (0..).step_by(64).zip(packets) {
+            while packets != 0 {
+                let number = from + packets.trailing_zeros() as usize;
+                packets &= packets - 1;
+                let single = self.scratch.visibility.buffer.single.of_packet(number);
+                if let (Some(id), true) = (single, per_primitive)
+                    && group.ids.contains(&id)
+                {
+                    self.fill_block(s, id, number);
+                    packets &= !(0xFFFF << (number % 64));
+                    continue;
+                }
+                let mut left = match single {
+                    Some(id) if group.ids.contains(&id) => [u16::MAX; N],
+                    Some(_) => continue,
+                    None => self.take_unresolved(s, number, group),
+                };
+                while left != [0; N] {
+                    let (id, covered) = match single {
+                        Some(id) => (id, std::mem::replace(&mut left, [0; N])),
+                        None => self.take_first(s, number, &mut left),
+                    };
+                    #[expect(clippy::cast_possible_truncation, reason = "a tile has 256 packets")]
+                    let packet = number as u16;
+                    let covered = Covered {
+                        packet,
+                        masks: covered,
+                    };
+                    if per_primitive {
+                        self.fill(s, id, &covered);
+                    } else {
+                        self.queue(s, id, &covered);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Takes the samples of a packet that show the group's triangles.
+    #[inline(always)]
+    fn take_unresolved<S: Lanes>(&mut self, s: S, packet: usize, group: &ShadingGroup) -> [u16; N] {
+        let mut taken = self.scratch.visibility.buffer.unresolved[packet];
+        for (sample, taken) in taken.iter_mut().enumerate() {
+            if *taken != 0 {
+                *taken &= self.lanes_in(s, packet * N + sample, group);
+            }
+        }
+        let unresolved = &mut self.scratch.visibility.buffer.unresolved[packet];
+        for (unresolved, taken) in unresolved.iter_mut().zip(taken) {
+            *unresolved &= !taken;
+        }
+        taken
+    }
+
+    /// The first triangle that some samples of a packet show, and where; these are taken out.
+    #[inline(always)]
+    fn take_first<S: Lanes>(&self, s: S, packet: usize, left: &mut [u16; N]) -> (u32, [u16; N]) {
+        let id = self.first_id(packet, left);
+        let mut masks = [0; N];
+        for (sample, (mask, left)) in masks.iter_mut().zip(left).enumerate() {
+            if *left != 0 {
+                *mask = self.lanes_of(s, packet * N + sample, id) & *left;
+                *left &= !*mask;
+            }
+        }
+        (id, masks)
+    }
+
+    /// Queues a triangle's part of a packet if no quad of it is empty; otherwise notes its quads.
+    #[inline(always)]
+    fn queue<S: Lanes>(&mut self, s: S, id: u32, covered: &Covered<N>) {
+        let any = covered.any();
+        let quads = (any | any >> 1 | any >> 2 | any >> 3) & 0x1111;
+        if quads != 0x1111 {
+            let resolve = &mut self.scratch.visibility.resolve;
+            resolve.quads.add(id, *covered, quads);
+            return;
+        }
+        let visible = self.visible(s, id);
+        if self.scratch.queue.is_full() {
+            self.flush();
+        }
+        self.push(s, visible, covered);
+    }
+
+    /// Queues a packet of a visible triangle.
+    #[inline(always)]
+    fn push<S: Lanes>(&mut self, s: S, visible: usize, covered: &Covered<N>) {
+        let (x, y) = packet_origin(u32::from(covered.packet));
+        let pixel = [self.origin[0] + x, self.origin[1] + y];
+        let TileScratch {
+            queue, visibility, ..
+        } = &mut *self.scratch;
+        let (triangle, front) = visibility
+            .resolve
+            .interpolant(visible, self.modes, self.plan);
+        let packet = PrimitivePacket {
+            alive: *covered,
+            covered: covered.masks,
+            pixel,
+            front,
+            sample: None,
+        };
+        queue.push(s, &triangle, &packet);
+    }
+
+    /// Queues the quads that were noted, triangle by triangle.
+    #[inline(always)]
+    fn quads<S: Lanes>(&mut self, s: S) {
+        let origin = self.origin;
+        for at in 0..self.scratch.visibility.resolve.quads.triangles.len() {
+            let id = self.scratch.visibility.resolve.quads.triangles[at];
+            let visible = self.visible(s, id);
+            let mut next = self.scratch.visibility.resolve.quads.begin(id);
+            while next != NONE {
+                let resolve = &self.scratch.visibility.resolve;
+                let (quads, count, rest) = resolve.quads.four(next, origin);
+                next = rest;
+                if self.scratch.queue.is_full() {
+                    self.flush();
+                }
+                let TileScratch {
+                    queue, visibility, ..
+                } = &mut *self.scratch;
+                let resolve = &visibility.resolve;
+                let (triangle, front) = resolve.interpolant(visible, self.modes, self.plan);
+                if count == quads.len() {
+                    queue.push_four_quads(s, &triangle, &quads, front);
+                    continue;
+                }
+                queue.interpolate_quads(s, &triangle, &quads);
+                for (at, quad) in quads.iter().enumerate().take(count) {
+                    if self.scratch.queue.is_full_of_quads() {
+                        self.flush();
+                    }
+                    let TileScratch {
+                        queue, visibility, ..
+                    } = &mut *self.scratch;
+                    let resolve = &visibility.resolve;
+                    let (triangle, front) = resolve.interpolant(visible, self.modes, self.plan);
+                    queue.push_quad(s, &triangle, (at, quad), front);
+                }
+            }
+        }
+    }
+
+    /// Shades the queued packets and stores their colours.
+    fn flush(&mut self) {
+        let queue = &mut self.scratch.queue;
+        if queue.is_empty() {
+            return;
+        }
+        let level = self.pass.level;
+        let fragments = queue.shade(level, self.plan.pipeline, self.plan.bindings);
+        self.scratch.statistics.fragments_shaded += fragments;
+        let batch = queue.batch();
+        write_colors(self.plan, level, &batch, &mut self.job.colors);
+        queue.clear();
+    }
+}

@@ -1,0 +1,91 @@
+//! Triangles that have one colour: shaded once for each tile, and stored without a shader call.
+
+use super::Resolver;
+use crate::raster::Covered;
+use crate::tile_pass::TileScratch;
+use estampe_simd::{LANES, Lanes, Select, SimdBase, u32x16};
+
+impl<const N: usize> Resolver<'_, '_, '_, N> {
+    /// Stores the one texel of a triangle in the block of 16×16 pixels that begins with a packet.
+    #[inline(always)]
+    pub(super) fn fill_block<S: Lanes>(&mut self, s: S, id: u32, first_packet: usize) {
+        let visible = self.texels_of(s, id);
+        self.scratch.statistics.fragments_shaded += 256;
+        let targets = self.plan.pipeline.color_targets();
+        let resolve = &self.scratch.visibility.resolve;
+        let texels = resolve.texels.get(visible, targets.len());
+        for (texel, stored) in texels.unwrap_or_default().iter().zip(&mut self.job.colors) {
+            let words = stored.len() / self.packets;
+            let lines = &mut stored[first_packet * words..][..LANES * words];
+            for (word, bits) in texel.iter().enumerate().take(words / N) {
+                let value = <u32x16<S> as SimdBase<S>>::splat(s, *bits);
+                for line in lines.iter_mut().skip(word).step_by(words / N) {
+                    value.store_array(line);
+                }
+            }
+        }
+    }
+
+    /// Stores the one texel of a triangle in the lanes of a packet.
+    #[inline(always)]
+    pub(super) fn fill<S: Lanes>(&mut self, s: S, id: u32, covered: &Covered<N>) {
+        let visible = self.texels_of(s, id);
+        self.scratch.statistics.fragments_shaded += u64::from(covered.any().count_ones());
+        let targets = self.plan.pipeline.color_targets();
+        let resolve = &self.scratch.visibility.resolve;
+        let texels = resolve.texels.get(visible, targets.len());
+        for (texel, stored) in texels.unwrap_or_default().iter().zip(&mut self.job.colors) {
+            let words = stored.len() / self.packets / N;
+            for (sample, mask) in covered.masks.iter().enumerate() {
+                let line = (usize::from(covered.packet) * N + sample) * words;
+                for (stored, word) in stored[line..].iter_mut().zip(texel).take(words) {
+                    let old = u32x16::load_array_ref(s, stored);
+                    let new = <u32x16<S> as SimdBase<S>>::splat(s, *word);
+                    let new = s.mask_from_bits(*mask).select(new, old);
+                    new.store_array(stored);
+                }
+            }
+        }
+    }
+
+    /// The place in `visible` of a triangle that has one colour, whose texels are known afterwards.
+    #[inline(always)]
+    fn texels_of<S: Lanes>(&mut self, s: S, id: u32) -> usize {
+        let visible = self.visible(s, id);
+        let targets = self.plan.pipeline.color_targets().len();
+        let resolve = &self.scratch.visibility.resolve;
+        if resolve.texels.get(visible, targets).is_none() {
+            self.shade_primitive(s, visible);
+        }
+        visible
+    }
+
+    /// Shades one packet of a triangle that has one colour, and keeps its texels.
+    #[inline(always)]
+    fn shade_primitive<S: Lanes>(&mut self, s: S, visible: usize) {
+        debug_assert!(self.scratch.queue.is_empty(), "one packet is shaded alone");
+        let any = Covered {
+            packet: 0,
+            masks: [u16::MAX; N],
+        };
+        self.push(s, visible, &any);
+        self.keep_primitive(visible);
+    }
+
+    /// Shades the one queued packet, and keeps its first lane's texels.
+    fn keep_primitive(&mut self, visible: usize) {
+        let TileScratch {
+            queue, visibility, ..
+        } = &mut *self.scratch;
+        queue.shade(self.pass.level, self.plan.pipeline, self.plan.bindings);
+        let packet = queue.batch().packets().next();
+        let packet = packet.expect("a packet was queued");
+        let targets = self.plan.pipeline.color_targets().iter().enumerate();
+        let texels = targets.map(|(index, target)| {
+            let color = packet.color(index).each_ref().map(|channel| channel.0[0]);
+            target.texel(color)
+        });
+        visibility.resolve.texels.set(visible, texels);
+        queue.clear();
+    }
+}

@@ -1,0 +1,88 @@
+//! Visible triangles: their planes are made when the first of their samples is met.
+
+use super::{NONE, ResolveScratch, Resolver};
+use crate::bounds::plane::Plane;
+use crate::fragment::interpolate::{
+    PlaneOrigin, TriangleInterpolant, VaryingPlanes, VaryingSource, set_planes,
+};
+use crate::plan::tile_plan::TilePlan;
+use crate::tile_pass::visibility::VisibilityScratch;
+use estampe_simd::Lanes;
+use estampe_types::Interpolation;
+
+/// A visible triangle: the values that its fragments are interpolated from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct VisibleTriangle {
+    origin: PlaneOrigin,
+    z: Plane,
+    iw: Plane,
+    equal_w: bool,
+    front: bool,
+    /// Where its varyings' planes begin.
+    planes: u32,
+}
+
+impl<const N: usize> Resolver<'_, '_, '_, N> {
+    /// Where a triangle is in `visible`; its planes are made when it is first met.
+    #[inline(always)]
+    pub(super) fn visible<S: Lanes>(&mut self, s: S, id: u32) -> usize {
+        let VisibilityScratch {
+            buffer, resolve, ..
+        } = &mut self.scratch.visibility;
+        let at = id as usize;
+        if resolve.visible_of[at] != NONE {
+            return resolve.visible_of[at] as usize;
+        }
+        let reference = buffer.triangles[at];
+        let chunk = &self.pass.chunks[reference.chunk as usize];
+        let plan = &self.pass.plans[reference.sub_draw as usize];
+        let lane = usize::from(reference.lane);
+        let packet = &chunk.triangles[reference.packet as usize];
+        let place = resolve.visible.len();
+        // Fewer than there are ids, which have 31 bits.
+        resolve.visible_of[at] = u32::try_from(place).unwrap_or(NONE);
+        let from = resolve.planes.len();
+        let size = VaryingPlanes::size(self.modes.len());
+        resolve.planes.resize(from + size, 0.0);
+        resolve.visible.push(VisibleTriangle {
+            origin: PlaneOrigin::new(packet, lane),
+            z: packet.z.lane(lane),
+            iw: packet.iw.lane(lane),
+            equal_w: packet.equal_w >> lane & 1 == 1,
+            front: packet.front >> lane & 1 == 1,
+            planes: u32::try_from(from).unwrap_or(NONE),
+        });
+        let source = VaryingSource {
+            shaded: plan.varyings,
+            clipped: &chunk.clipped_varyings,
+            modes: self.modes,
+        };
+        let planes = &mut resolve.planes[from..];
+        set_planes(s, planes, (packet, lane), &source, plan.all_smooth);
+        place
+    }
+}
+
+impl<const N: usize> ResolveScratch<N> {
+    /// A visible triangle's interpolant, and whether it faces the viewer.
+    #[inline(always)]
+    pub(super) fn interpolant<'a>(
+        &'a self,
+        place: usize,
+        modes: &'a [Interpolation],
+        plan: &TilePlan<'_>,
+    ) -> (TriangleInterpolant<'a>, bool) {
+        let visible = &self.visible[place];
+        let size = VaryingPlanes::size(modes.len());
+        let interpolant = TriangleInterpolant {
+            origin: visible.origin,
+            z: visible.z,
+            iw: visible.iw,
+            equal_w: visible.equal_w,
+            planes: VaryingPlanes::new(&self.planes[visible.planes as usize..][..size]),
+            modes,
+            all_smooth: plan.all_smooth,
+        };
+        (interpolant, visible.front)
+    }
+}

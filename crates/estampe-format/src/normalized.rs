@@ -1,0 +1,112 @@
+//! Normalised integers: unorm codes stand for 0..=1, snorm codes for −1..=1.
+//!
+//! `most` is the greatest code: 2ⁿ − 1 of a unorm channel with n bits, 2ⁿ⁻¹ − 1 of a snorm channel.
+//! A code is ⌊x·most + ½⌋, two operations in f32. n is at most 16, so x·most + ½ is below 2¹⁷ in
+//! magnitude: it fits an i32, and conversions between the two are exact.
+
+use estampe_simd::{Lanes, Select, SimdBase, SimdCvtFloat, SimdCvtTruncate, f32x16, i32x16};
+
+/// Confines a number to 0..=1; NaN gives 0.
+#[inline(always)]
+#[must_use]
+pub fn saturate(value: f32) -> f32 {
+    let positive = if value > 0.0 { value } else { 0.0 };
+    if positive < 1.0 { positive } else { 1.0 }
+}
+
+/// [`saturate`] of sixteen lanes.
+#[inline(always)]
+pub fn saturate_lanes<S: Lanes>(s: S, value: f32x16<S>) -> f32x16<S> {
+    let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
+    let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
+    s.min_f32(s.max_f32(value, zero), one)
+}
+
+/// The unorm code of a number, 0..=most.
+#[inline(always)]
+#[must_use]
+pub fn encode_unorm(value: f32, most: f32) -> i32 {
+    floor_to_int(saturate(value) * most + 0.5)
+}
+
+/// [`encode_unorm`] of sixteen lanes.
+#[inline(always)]
+pub fn encode_unorm_lanes<S: Lanes>(s: S, value: f32x16<S>, most: f32) -> i32x16<S> {
+    code_of_positive(saturate_lanes(s, value) * most)
+}
+
+/// The nearest codes of numbers in code units, at least 0 and less than 2³¹: ⌊x + ½⌋.
+///
+/// Truncation is the floor of what is not negative.
+#[inline(always)]
+pub fn code_of_positive<S: Lanes>(value: f32x16<S>) -> i32x16<S> {
+    i32x16::truncate_from(value + 0.5)
+}
+
+/// The snorm code of a number, −most..=most; NaN gives 0.
+#[inline(always)]
+#[must_use]
+pub fn encode_snorm(value: f32, most: f32) -> i32 {
+    let value = if value.is_nan() { 0.0 } else { value };
+    let above = if value > -1.0 { value } else { -1.0 };
+    let confined = if above < 1.0 { above } else { 1.0 };
+    floor_to_int(confined * most + 0.5)
+}
+
+/// [`encode_snorm`] of sixteen lanes.
+#[inline(always)]
+pub fn encode_snorm_lanes<S: Lanes>(s: S, value: f32x16<S>, most: f32) -> i32x16<S> {
+    let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+    let number = value.simd_eq(value).select(value, splat(0.0));
+    let confined = s.min_f32(s.max_f32(number, splat(-1.0)), splat(1.0));
+    code_of_signed(s, confined * most)
+}
+
+/// The nearest codes of numbers in code units, in −2³⁰..2³⁰: ⌊x + ½⌋.
+#[inline(always)]
+pub fn code_of_signed<S: Lanes>(s: S, value: f32x16<S>) -> i32x16<S> {
+    // Truncation is the floor, or one more where it went up.
+    let sum = value + 0.5;
+    let truncated = i32x16::truncate_from(sum);
+    let splat = |value| <i32x16<S> as SimdBase<S>>::splat(s, value);
+    let is_above = f32x16::float_from(truncated).simd_gt(sum);
+    truncated + is_above.select(splat(-1), splat(0))
+}
+
+/// The number of a unorm code: `code·unit`, `unit` being 1/most rounded to f32.
+#[inline(always)]
+#[must_use]
+pub fn decode_unorm(code: i32, unit: f32) -> f32 {
+    code as f32 * unit
+}
+
+/// [`decode_unorm`] of sixteen lanes.
+#[inline(always)]
+pub fn decode_unorm_lanes<S: Lanes>(code: i32x16<S>, unit: f32) -> f32x16<S> {
+    f32x16::float_from(code) * unit
+}
+
+/// The number of a snorm code: `max(code·unit, −1)`, `unit` being 1/most rounded to f32.
+#[inline(always)]
+#[must_use]
+pub fn decode_snorm(code: i32, unit: f32) -> f32 {
+    let value = code as f32 * unit;
+    if value > -1.0 { value } else { -1.0 }
+}
+
+/// [`decode_snorm`] of sixteen lanes.
+#[inline(always)]
+pub fn decode_snorm_lanes<S: Lanes>(s: S, code: i32x16<S>, unit: f32) -> f32x16<S> {
+    let least = <f32x16<S> as SimdBase<S>>::splat(s, -1.0);
+    s.max_f32(f32x16::float_from(code) * unit, least)
+}
+
+/// ⌊x⌋ of a number that fits an i32.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "codes have at most 16 bits"
+)]
+#[inline(always)]
+fn floor_to_int(value: f32) -> i32 {
+    value.floor() as i32
+}

@@ -1,0 +1,458 @@
+//! Filtering sixteen lanes at once.
+//!
+//! The same as `sample` does lane by lane, for the formats of [`PacketFormat`] in every dimension, with every
+//! filter. It is entered with arrays and chooses its instructions itself, so it is compiled once, in this
+//! crate, and not into every shader.
+//!
+//! A lane whose texels are not all within its level, where that needs more than a wrapped index (a border, an offset,
+//! a cube's edge), is done again by `sample`: there are few of them.
+
+mod face;
+mod footprint;
+mod places;
+
+pub(crate) use super::packet_texel::PacketFormat;
+
+use super::SampledView;
+use super::coordinates::{Answers, Lanes, LodOfLanes, answer};
+use super::packet_texel::{OTHERS, RGBA8, RGBA8_SRGB, RGBA16F, passes};
+use super::plane::Plane;
+use estampe_simd::{
+    Bytes, LANES, Lanes as SimdLanes, Level, SimdBase, dispatch, f32x16, i32x16, u32x16,
+};
+use estampe_types::state::CompareFunction;
+use estampe_types::{FilterMode, Int, Real, ViewDimension};
+use places::{Places, Spots};
+
+impl SampledView {
+    /// Samples or compares sixteen lanes; `false` where it cannot, and nothing is done.
+    #[inline(always)]
+    pub(crate) fn sample_packet(
+        &self,
+        lanes: &Lanes,
+        answers: &mut Answers,
+        compares: bool,
+    ) -> bool {
+        let Some(format) = self.packets else {
+            return false;
+        };
+        if lanes.count != LANES {
+            return false;
+        }
+        let compares = compares.then(|| self.sampler.compare.unwrap_or(CompareFunction::Never));
+        let packet = Packet {
+            of: self,
+            format,
+            lanes,
+            compares,
+        };
+        // One channel is all that is compared, and that many formats have.
+        let again = if compares.is_some() || format.components == 1 {
+            packet.enter::<1, OTHERS>(self.level, answers)
+        } else {
+            match format.kind() {
+                RGBA8 => packet.enter::<4, RGBA8>(self.level, answers),
+                RGBA8_SRGB => packet.enter::<4, RGBA8_SRGB>(self.level, answers),
+                RGBA16F => packet.enter::<4, RGBA16F>(self.level, answers),
+                _ => packet.enter::<4, OTHERS>(self.level, answers),
+            }
+        };
+        let Some(again) = again else {
+            return false;
+        };
+        for lane in 0..LANES {
+            if again >> lane & 1 == 1 {
+                let channels = if compares.is_some() {
+                    self.compare_lane(lanes, lane)
+                } else {
+                    self.sample_lane(lanes, lane)
+                };
+                answer(answers, lane, channels);
+            }
+        }
+        true
+    }
+}
+
+/// A packet and what is asked of it.
+struct Packet<'a> {
+    of: &'a SampledView,
+    format: PacketFormat,
+    lanes: &'a Lanes,
+    compares: Option<CompareFunction>,
+}
+
+/// A mip level, and how it is read.
+struct OfLevel<'a> {
+    plane: &'a Plane,
+    filter: FilterMode,
+    /// The lanes that count.
+    lanes: u32,
+}
+
+impl Packet<'_> {
+    /// Samples the packet at a level; gives the lanes that are to be done again. The scalar level has no packets.
+    fn enter<const C: usize, const KIND: u8>(
+        &self,
+        level: Level,
+        answers: &mut Answers,
+    ) -> Option<u32> {
+        dispatch!(@wide level, s => {
+            Some(self.sample::<_, C, KIND>(s, answers))
+        }, scalar => None)
+    }
+
+    #[inline(always)]
+    fn load<R: Real>(like: R, from: &[f32; LANES]) -> R {
+        like.with_lanes(
+            #[inline(always)]
+            |lane| from[lane],
+        )
+    }
+
+    /// A given derivative.
+    #[inline(always)]
+    fn gradient<R: Real>(&self, like: R, first: usize) -> [R; 3] {
+        [
+            Self::load(like, &self.lanes.gradients[first]),
+            Self::load(like, &self.lanes.gradients[first + 1]),
+            Self::load(like, &self.lanes.gradients[first + 2]),
+        ]
+    }
+
+    /// Samples the packet; gives the lanes that are to be done again.
+    #[inline(always)]
+    fn sample<S: SimdLanes, const C: usize, const KIND: u8>(
+        &self,
+        s: S,
+        answers: &mut Answers,
+    ) -> u32 {
+        let like: f32x16<S> = SimdBase::splat(s, 0.0);
+        let sampler = &self.of.sampler;
+        let at = [
+            Self::load(like, &self.lanes.at[0]),
+            Self::load(like, &self.lanes.at[1]),
+            Self::load(like, &self.lanes.at[2]),
+        ];
+        let value = Self::load(like, &self.lanes.value);
+        let (lod, bias, probes, step) = match self.lanes.lod {
+            LodOfLanes::Level => (value, like, like.splat(1.0), [like; 3]),
+            LodOfLanes::Bias => {
+                let first = of_quad(at, 0);
+                let d = [minus(of_quad(at, 1), first), minus(of_quad(at, 2), first)];
+                let (lod, probes, step) = self.footprint(first, d);
+                (lod, value, probes, step)
+            }
+            LodOfLanes::Gradients => {
+                let d = [self.gradient(like, 0), self.gradient(like, 3)];
+                let (lod, probes, step) = self.footprint(at, d);
+                (lod, like, probes, step)
+            }
+        };
+        let lod = lod + Real::clamp(bias + sampler.lod_bias, -16.0, 15.99);
+        // Comparisons make one probe.
+        let is_anisotropic = sampler.max_anisotropy > 1 && self.compares.is_none();
+        let probes = if is_anisotropic {
+            probes
+        } else {
+            like.splat(1.0)
+        };
+        let mut again = 0;
+        let mut sum = [like; C];
+        let mut probe = 1.0;
+        loop {
+            let counts = probes.ge(like.splat(probe));
+            let active = u32::from(s.bits_of_mask(counts));
+            if active == 0 {
+                break;
+            }
+            let mut uvw = at;
+            let several = probes.gt(like.splat(1.0));
+            if is_anisotropic {
+                let t = like.splat(probe) / (probes + 1.0) - 0.5;
+                for k in 0..3 {
+                    uvw[k] = Real::select(several, at[k] + step[k] * t, at[k]);
+                }
+            }
+            let spots = self.spots(uvw);
+            let color = self.levels::<S, C, KIND>(s, &spots, (lod, active), &mut again);
+            for k in 0..C {
+                let added = if probe == 1.0 {
+                    color[k]
+                } else {
+                    sum[k] + color[k]
+                };
+                sum[k] = Real::select(counts, added, sum[k]);
+            }
+            probe += 1.0;
+            if !is_anisotropic {
+                break;
+            }
+        }
+        self.finish(sum, probes, answers);
+        again
+    }
+
+    /// Weighs the probes' sum, brings it to numbers and stores it.
+    #[inline(always)]
+    fn finish<R: Real, const C: usize>(&self, sum: [R; C], probes: R, answers: &mut Answers) {
+        let several = probes.gt(probes.splat(1.0));
+        let weight = probes.splat(1.0) / probes;
+        let scale = self.of.view.codec.scale();
+        let mut k = 0;
+        while k < C {
+            let mut color = sum[k];
+            if self.compares.is_none() {
+                if self.of.sampler.max_anisotropy > 1 {
+                    color = R::select(several, color * weight, color);
+                }
+                color = color * scale[k];
+            }
+            for (lane, to) in answers[k].iter_mut().enumerate() {
+                *to = color.lane(lane);
+            }
+            k += 1;
+        }
+        if C == 1 {
+            answers[1] = [0.0; LANES];
+            answers[2] = [0.0; LANES];
+            let alpha = if self.compares.is_some() { 0.0 } else { 1.0 };
+            answers[3] = [alpha; LANES];
+        }
+    }
+
+    /// One level of each lane, or the mixture of two, for the active lanes: once for every level among them.
+    #[inline(always)]
+    fn levels<S: SimdLanes, const C: usize, const KIND: u8>(
+        &self,
+        s: S,
+        spots: &Spots<f32x16<S>>,
+        (lod, active): (f32x16<S>, u32),
+        again: &mut u32,
+    ) -> [f32x16<S>; C] {
+        let (sampler, planes) = (&self.of.sampler, &self.of.view.planes);
+        let zero: f32x16<S> = SimdBase::splat(s, 0.0);
+        let lod = Real::clamp(lod, sampler.lod_min_clamp, sampler.lod_max_clamp);
+        let is_minified = lod.gt(zero);
+        let last = planes.len() - 1;
+        let within = Real::clamp(lod, 0.0, last as f32);
+        let (level, fraction) = match sampler.mipmap_filter {
+            FilterMode::Nearest => (s.floor_f32(within + 0.5), zero),
+            FilterMode::Linear => (s.floor_f32(within), within - s.floor_f32(within)),
+        };
+        let is_mixed = u32::from(s.bits_of_mask(fraction.gt(zero)));
+        let level = level.to_int_within_range();
+        // What a lane reads: 2·level, and 1 more where it is minified.
+        let one = Int::splat(level, 1);
+        let key = (level + level) | Int::select(is_minified, one, Int::splat(level, 0));
+        let mut color = [zero; C];
+        let mut left = active;
+        while left != 0 {
+            let first = Int::lane(key, left.trailing_zeros() as usize);
+            let mask = key.eq(Int::splat(key, first));
+            let lanes = u32::from(s.bits_of_mask(mask)) & left;
+            let filter = if first & 1 == 0 {
+                sampler.mag_filter
+            } else {
+                sampler.min_filter
+            };
+            let at = (first >> 1).cast_unsigned() as usize;
+            let steps = if lanes & is_mixed == 0 { 1 } else { 2 };
+            let mut of_key = [zero; C];
+            for step in 0..steps {
+                let level = OfLevel {
+                    plane: &planes[(at + step).min(last)],
+                    filter,
+                    lanes: lanes & if step == 0 { u32::MAX } else { is_mixed },
+                };
+                let texels = self.texels::<S, C, KIND>(s, &level, spots, again);
+                for k in 0..C {
+                    let mixed = of_key[k] + (texels[k] - of_key[k]) * fraction;
+                    of_key[k] = if step == 0 {
+                        texels[k]
+                    } else {
+                        Real::select(fraction.gt(zero), mixed, of_key[k])
+                    };
+                }
+            }
+            for k in 0..C {
+                color[k] = Real::select(mask, of_key[k], color[k]);
+            }
+            left &= !lanes;
+        }
+        color
+    }
+
+    /// One level, nearest or linear; adds the lanes that cannot be done here to `again`.
+    #[inline(always)]
+    fn texels<S: SimdLanes, const C: usize, const KIND: u8>(
+        &self,
+        s: S,
+        level: &OfLevel<'_>,
+        spots: &Spots<f32x16<S>>,
+        again: &mut u32,
+    ) -> [f32x16<S>; C] {
+        let like = spots.at[0];
+        let axes = match self.of.view.dimension {
+            ViewDimension::D1 => 1,
+            ViewDimension::D3 => 3,
+            _ => 2,
+        };
+        let OfLevel { plane, filter, .. } = *level;
+        let mut outside = 0;
+        let x = self.places(plane, spots, 0, filter, &mut outside);
+        let y = if axes > 1 {
+            self.places(plane, spots, 1, filter, &mut outside)
+        } else {
+            Places::fixed(Int::splat(spots.slice, 0), like)
+        };
+        let z = if axes > 2 {
+            self.places(plane, spots, 2, filter, &mut outside)
+        } else {
+            Places::fixed(spots.slice, like)
+        };
+        *again |= outside & level.lanes;
+        let is_linear = filter == FilterMode::Linear;
+        let count = |axis: usize| if is_linear && axes > axis { 2 } else { 1 };
+        let counts = [count(0), count(1)];
+        let is_square = counts == [2, 2] && {
+            let one = Int::splat(x.texels[0], 1);
+            let next = (x.texels[0] + one).eq(x.texels[1]) & (y.texels[0] + one).eq(y.texels[1]);
+            !u32::from(s.bits_of_mask(next)) & level.lanes == 0
+        };
+        let [width, height, _] = plane.sides;
+        let (width, height) = (
+            Int::splat(spots.slice, width),
+            Int::splat(spots.slice, height),
+        );
+        let reference = if self.compares.is_some() {
+            self.reference(like)
+        } else {
+            like
+        };
+        // Loops, so that the long code of a texel exists once.
+        let mut images = [[like; C]; 2];
+        for (slice, image) in images.iter_mut().enumerate().take(count(2)) {
+            let first = z.texels[slice] * height;
+            let rows = [(first + y.texels[0]) * width, (first + y.texels[1]) * width];
+            let image_places = [
+                rows[0] + x.texels[0],
+                rows[0] + x.texels[1],
+                rows[1] + x.texels[0],
+                rows[1] + x.texels[1],
+            ];
+            let words = self.words(s, plane, image_places, is_square, counts);
+            let mut four = [[like; C]; 4];
+            for (corner, units) in four.iter_mut().enumerate() {
+                if corner % 2 < counts[0] && corner / 2 < counts[1] {
+                    self.missing(units);
+                    self.format.units::<S, C, KIND>(s, words[corner], units);
+                    if let Some(function) = self.compares {
+                        units[0] = passes(function, reference, units[0]);
+                    }
+                }
+            }
+            let [a, b, c, d] = four;
+            let rows = [
+                mix([a, b], x.fraction, is_linear),
+                mix([c, d], x.fraction, is_linear),
+            ];
+            *image = mix(rows, y.fraction, counts[1] == 2);
+        }
+        mix(images, z.fraction, count(2) == 2)
+    }
+
+    /// The words of the texels at up to four places of a level, left and right of the upper row, then of the lower.
+    ///
+    /// Where they are neighbours in memory, words are read as squares: that takes half as long as gathering each.
+    #[inline(always)]
+    fn words<S: SimdLanes>(
+        &self,
+        s: S,
+        plane: &Plane,
+        places: [i32x16<S>; 4],
+        is_square: bool,
+        [columns, rows]: [usize; 2],
+    ) -> [[u32x16<S>; 4]; 4] {
+        let texels = &self.of.view.texture.texels[..];
+        let size = self.format.words;
+        let begin = Int::splat(places[0], plane.begin_words(size));
+        let mut words = [[SimdBase::splat(s, 0); 4]; 4];
+        if size == 1 && is_square {
+            let width = plane.sides[0].cast_unsigned();
+            let square = s.gather_square(texels, (places[0] + begin).bitcast(), width);
+            for (words, word) in words.iter_mut().zip(square) {
+                words[0] = word;
+            }
+            return words;
+        }
+        for corner in 0..4 {
+            if corner % 2 >= columns || corner / 2 >= rows {
+                continue;
+            }
+            let index: u32x16<S> = (places[corner] * Int::splat(places[0], size) + begin).bitcast();
+            match size {
+                1 => words[corner][0] = s.gather(texels, index),
+                // Four words that follow each other: of one texel, or of two neighbours.
+                2 if is_square && corner % 2 == 0 => {
+                    let [a, b, c, d] = s.gather_square(texels, index, 2);
+                    [words[corner][0], words[corner][1]] = [a, b];
+                    [words[corner + 1][0], words[corner + 1][1]] = [c, d];
+                }
+                2 if is_square => {}
+                2 => {
+                    let next = index + <u32x16<S> as SimdBase<S>>::splat(s, 1);
+                    words[corner][0] = s.gather(texels, index);
+                    words[corner][1] = s.gather(texels, next);
+                }
+                _ => words[corner] = s.gather_square(texels, index, 2),
+            }
+        }
+        words
+    }
+
+    /// What channels that the format lacks read as.
+    #[inline(always)]
+    fn missing<R: Real, const C: usize>(&self, units: &mut [R; C]) {
+        let mut k = self.format.components;
+        while k < C {
+            units[k] = units[k].splat(if k == 3 { 1.0 } else { 0.0 });
+            k += 1;
+        }
+    }
+
+    /// What texels are compared with.
+    #[inline(always)]
+    fn reference<R: Real>(&self, like: R) -> R {
+        let reference = Self::load(like, &self.lanes.reference);
+        if self.format.is_fixed_depth() {
+            reference.saturate()
+        } else {
+            reference
+        }
+    }
+}
+
+/// Coordinates of one fragment of each quad.
+#[inline(always)]
+fn of_quad<R: Real>([x, y, z]: [R; 3], index: u8) -> [R; 3] {
+    [x.quad_lane(index), y.quad_lane(index), z.quad_lane(index)]
+}
+
+#[inline(always)]
+fn minus<R: Real>([a, b, c]: [R; 3], [x, y, z]: [R; 3]) -> [R; 3] {
+    [a - x, b - y, c - z]
+}
+
+/// `a + (b − a)·t` of each channel, or a alone.
+#[inline(always)]
+fn mix<R: Real, const C: usize>([a, b]: [[R; C]; 2], t: R, is_linear: bool) -> [R; C] {
+    if !is_linear {
+        return a;
+    }
+    let mut mixed = a;
+    for k in 0..C {
+        mixed[k] = a[k] + (b[k] - a[k]) * t;
+    }
+    mixed
+}

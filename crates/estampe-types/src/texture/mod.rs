@@ -1,0 +1,197 @@
+//! Textures as plain data, their views and sampler state. `estampe-texture` samples them.
+
+mod sampler;
+mod shape;
+mod storage;
+mod view;
+
+pub use sampler::{AddressMode, BorderColor, FilterMode, SamplerDescriptor};
+pub use shape::{TextureDimension, TextureShape};
+pub use storage::StorageTexture;
+pub use view::{TextureAspect, TextureViewDescriptor, ViewDimension};
+
+use crate::format::TextureFormat;
+use crate::morton::spread;
+use crate::{Lines, depth_minmax};
+use std::sync::Arc;
+
+/// A texture with its mip levels; immutable and shared by reference.
+///
+/// Texels are stored level by level; in each level slice by slice (the layers of an array, six
+/// faces per cube, or the depths of a 3D texture); in each slice row by row from the top; in each
+/// row texel by texel; in each texel sample by sample. A sample takes [`Texture::words_per_texel`]
+/// words, which hold the bytes of [`Texture::stored_format`] from the lowest on.
+#[derive(Debug, Clone)]
+pub struct Texture {
+    /// Format with which the texture was created.
+    pub format: TextureFormat,
+    /// The levels, the full size first. Each side is half that of the level before, rounded down,
+    /// at least 1.
+    pub levels: Vec<MipLevel>,
+    /// The texels of all levels. Formats with four 8-bit channels have R in the low byte of each
+    /// word.
+    pub texels: Arc<[u32]>,
+    /// True if alpha is 255 in every texel, so that samplers may skip it; `false` is always
+    /// correct.
+    pub is_opaque: bool,
+    /// Dimension, depth or layers, and samples. The default is one 2D image with one sample per
+    /// texel.
+    pub shape: TextureShape,
+}
+
+/// One level of a texture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MipLevel {
+    /// Width in texels.
+    pub width: u32,
+    /// Height in texels.
+    pub height: u32,
+    /// Number of texels stored before this level, all samples and slices counted.
+    pub offset: u32,
+}
+
+/// Side of a storage block of a [`DepthTexture`], in texels.
+pub(crate) const BLOCK: usize = 64;
+
+/// A depth texture for comparisons in shaders, such as a shadow map: a copy of a depth attachment's
+/// contents. Cheap to clone.
+///
+/// It is stored as attachments are, so that an attachment is sampled in place: 64×64 storage blocks
+/// in row order, and Morton order inside a block (bit i of x is bit 2i, bit i of y is bit 2i + 1).
+/// The depth min/max of each 4×4 texels is stored row by row; it decides most samples of a shadow
+/// map.
+#[derive(Debug, Clone, Default)]
+pub struct DepthTexture {
+    width: u32,
+    height: u32,
+    depths: Arc<Lines<f32>>,
+    bounds: Arc<Vec<u32>>,
+}
+
+impl DepthTexture {
+    /// Scale by which depths are multiplied before they are stored in [`DepthTexture::bounds`].
+    pub const BOUND_SCALE: f32 = 32_768.0;
+
+    /// The greatest width and height, in texels.
+    pub const MAX_SIDE: u32 = 16_384;
+
+    /// A texture from depths row by row from the top, clamped to 0..=1; NaN becomes 0. The texture
+    /// is empty if the number of depths is not width times height, or if a side exceeds
+    /// [`DepthTexture::MAX_SIDE`].
+    #[must_use]
+    pub fn from_rows(width: u32, height: u32, rows: &[f32]) -> Self {
+        if rows.len() as u64 != u64::from(width) * u64::from(height)
+            || rows.is_empty()
+            || width.max(height) > Self::MAX_SIDE
+        {
+            return Self::default();
+        }
+        let blocks = [width, height].map(|side| (side as usize).div_ceil(BLOCK));
+        let mut depths = vec![0.0; blocks[0] * blocks[1] * BLOCK * BLOCK];
+        for (y, row) in (0..).zip(rows.chunks(width as usize)) {
+            for (x, depth) in (0..).zip(row) {
+                let clamped = if *depth > 0.0 { depth.min(1.0) } else { 0.0 };
+                depths[storage_index(x, y, blocks[0])] = clamped;
+            }
+        }
+        let mut bounds = vec![0; Self::bounds_len(width, height)];
+        let stride = Self::bounds_stride(width);
+        for (row, depths) in depths.chunks(blocks[0] * BLOCK * BLOCK).enumerate() {
+            let first = row * stride * (BLOCK / 4);
+            Self::bound(depths, &mut bounds[first..][..stride * (BLOCK / 4)]);
+        }
+        Self::from_storage(
+            (width, height),
+            Arc::new(Lines::from(depths)),
+            Arc::new(bounds),
+        )
+    }
+
+    /// A texture from depths in storage order, all in 0..=1, and their bounds. The texture is empty
+    /// if the lengths do not fit the size.
+    #[must_use]
+    pub fn from_storage(
+        (width, height): (u32, u32),
+        depths: Arc<Lines<f32>>,
+        bounds: Arc<Vec<u32>>,
+    ) -> Self {
+        let stored =
+            Self::bounds_stride(width) * 16 * (height as usize).next_multiple_of(BLOCK) / 4;
+        let len = Self::bounds_len(width, height);
+        if width == 0
+            || height == 0
+            || width.max(height) > Self::MAX_SIDE
+            || depths.len() != stored
+            || bounds.len() != len
+        {
+            return Self::default();
+        }
+        Self {
+            width,
+            height,
+            depths,
+            bounds,
+        }
+    }
+
+    /// Width in texels; 0 if the texture is empty.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height in texels; 0 if the texture is empty.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// The depth of a texel; 0 outside the texture.
+    #[must_use]
+    pub fn texel(&self, x: u32, y: u32) -> f32 {
+        if x >= self.width || y >= self.height {
+            return 0.0;
+        }
+        let index = storage_index(x, y, (self.width as usize).div_ceil(BLOCK));
+        let depth = self.depths.get(index);
+        depth.copied().unwrap_or_default()
+    }
+
+    /// The depths in storage order, all in 0..=1.
+    #[must_use]
+    pub fn depths(&self) -> &[f32] {
+        &self.depths
+    }
+
+    /// Depth min/max of each 4×4 texels, row by row, [`DepthTexture::bounds_stride`] words per row,
+    /// in units of 1/[`DepthTexture::BOUND_SCALE`]: the least depth rounded down in the low half of
+    /// a word, the greatest rounded up in the high half. One more word follows the last, so that
+    /// pairs can be read.
+    #[must_use]
+    pub fn bounds(&self) -> &[u32] {
+        &self.bounds
+    }
+
+    /// Words per row of the bounds of a texture, given its width in texels.
+    #[must_use]
+    pub fn bounds_stride(width: u32) -> usize {
+        (width as usize).next_multiple_of(BLOCK) / 4
+    }
+
+    /// Words of the bounds of a texture, given its size in texels.
+    #[must_use]
+    pub fn bounds_len(width: u32, height: u32) -> usize {
+        Self::bounds_stride(width) * ((height as usize).next_multiple_of(BLOCK) / 4) + 1
+    }
+
+    /// Computes the bounds of one row of storage blocks: sixteen rows of words.
+    pub fn bound(depths: &[f32], bounds: &mut [u32]) {
+        depth_minmax::of_blocks(depths, bounds);
+    }
+}
+
+/// The index in storage order of texel (x, y) of a depth texture that is `blocks` blocks wide.
+fn storage_index(x: u32, y: u32, blocks: usize) -> usize {
+    let block = y as usize / BLOCK * blocks + x as usize / BLOCK;
+    block * BLOCK * BLOCK + (spread(x) | spread(y) << 1) as usize
+}

@@ -1,0 +1,239 @@
+//! Crate edges: which crate may use which, and behind which crates an outside dependency lives.
+//!
+//! The tables restate ARCHITECTURE.md's. Every crate and every outside dependency must have a row:
+//! a new one is a decision, not an accident.
+
+use toml::{Table, Value};
+
+use crate::packages::{Package, Packages};
+use crate::{Finding, Repository};
+
+/// Which of our crates each of our crates may use, in the order in which data flows.
+const CRATES: &[(&str, &[&str])] = &[
+    ("estampe-simd", &[]),
+    ("estampe-types", &["estampe-simd"]),
+    ("estampe-format", &["estampe-types", "estampe-simd"]),
+    (
+        "estampe-texture",
+        &["estampe-types", "estampe-simd", "estampe-format"],
+    ),
+    (
+        "estampe-core",
+        &["estampe-types", "estampe-simd", "estampe-format"],
+    ),
+    (
+        "estampe",
+        &[
+            "estampe-types",
+            "estampe-simd",
+            "estampe-texture",
+            "estampe-core",
+        ],
+    ),
+    ("estampe-shapes", &[]),
+    ("estampe-scene", &[]),
+    ("estampe-assets", &["estampe-scene", "estampe-shapes"]),
+    ("estampe-renderer", &["estampe", "estampe-scene"]),
+    ("estampe-cli", LIBRARIES),
+    // The oracle is a second opinion: it shares the types of the interface and no algorithm.
+    ("estampe-reference", &["estampe-types"]),
+    ("estampe-tests", LIBRARIES),
+    ("estampe-bench", LIBRARIES),
+    ("xtask", &[]),
+];
+
+/// What a program may be built from.
+const LIBRARIES: &[&str] = &[
+    "estampe-simd",
+    "estampe-types",
+    "estampe-format",
+    "estampe-texture",
+    "estampe-core",
+    "estampe",
+    "estampe-shapes",
+    "estampe-scene",
+    "estampe-assets",
+    "estampe-renderer",
+];
+
+/// Which of our crates the tests and examples of a crate may use besides.
+const TESTS: &[(&str, &[&str])] = &[
+    ("estampe-renderer", &["estampe-shapes"]),
+    // All of this crate is tests.
+    ("estampe-tests", &["estampe-reference"]),
+];
+
+/// Which crates may use a dependency from outside.
+enum Users {
+    /// Every crate: the dependency is small and has no influence on a picture.
+    Any,
+    /// These crates.
+    Only(&'static [&'static str]),
+}
+
+/// One row per dependency from outside.
+const OUTSIDE: &[(&str, Users)] = &[
+    // Threads belong to the scheduler of the pipeline (see also the stage order).
+    ("rayon", Users::Only(&["estampe-core"])),
+    // The one implementation of the lanes.
+    ("fearless_simd", Users::Only(&["estampe-simd"])),
+    // Matrices and vectors of applications. Lane code computes what reaches a pixel.
+    (
+        "glam",
+        Users::Only(&[
+            "estampe-types",
+            "estampe-shapes",
+            "estampe-scene",
+            "estampe-assets",
+            "estampe-renderer",
+            "estampe-cli",
+        ]),
+    ),
+    // Blocks of compressed textures, decoded when a texture is made.
+    ("bcdec_rs", Users::Only(&["estampe-texture"])),
+    ("earcut", Users::Only(&["estampe-shapes"])),
+    // File formats: all other crates see decoded images.
+    ("png", Users::Only(&["estampe-assets", "estampe-bench"])),
+    ("zune-jpeg", Users::Only(&["estampe-assets"])),
+    ("jpeg-encoder", Users::Only(&["estampe-assets"])),
+    // CPU time of the process.
+    ("rustix", Users::Only(&["estampe-bench"])),
+    // Command lines.
+    (
+        "clap",
+        Users::Only(&["estampe-cli", "estampe-bench", "xtask"]),
+    ),
+    ("indicatif", Users::Only(&["estampe-cli", "estampe-bench"])),
+    ("serde", Users::Only(&["estampe-bench", "estampe-tests"])),
+    (
+        "serde_json",
+        Users::Only(&["estampe-cli", "estampe-bench", "estampe-tests"]),
+    ),
+    // The checks of the repository.
+    ("cargo_metadata", Users::Only(&["xtask"])),
+    ("object", Users::Only(&["xtask"])),
+    ("proc-macro2", Users::Only(&["xtask"])),
+    ("pulldown-cmark", Users::Only(&["xtask"])),
+    ("rustc-demangle", Users::Only(&["xtask"])),
+    ("spdx", Users::Only(&["xtask"])),
+    ("toml", Users::Only(&["xtask"])),
+    ("libm", Users::Any),
+    ("thiserror", Users::Any),
+    ("fastrand", Users::Any),
+];
+
+/// The licence of each of our crates.
+const LICENSE: &str = "MIT OR Apache-2.0";
+
+/// The features that keep the pictures the same on every platform, in place of the default ones.
+const REQUIRED_FEATURES: &[(&str, &[&str], &str)] = &[(
+    "glam",
+    &["libm", "scalar-math"],
+    "its SIMD types round differently from platform to platform",
+)];
+
+/// Checks the packages of the workspace against the tables.
+#[must_use]
+pub fn check_edges(repository: &Repository) -> Vec<Finding> {
+    let packages = match Packages::of(repository) {
+        Ok(packages) => packages.workspace,
+        Err(cause) => return vec![Finding::error("Cargo.toml", 0, cause.to_string())],
+    };
+    let mut findings = check_packages(&packages);
+    for package in &packages {
+        let path = package.folder.join("Cargo.toml");
+        let inherits = repository
+            .file(&path)
+            .is_some_and(|file| inherits_lints(&file.text));
+        if !inherits {
+            findings.push(Finding::error(
+                path,
+                0,
+                "`lints.workspace = true` is missing",
+            ));
+        }
+    }
+    findings
+}
+
+fn check_packages(packages: &[Package]) -> Vec<Finding> {
+    let mut findings: Vec<Finding> = packages
+        .iter()
+        .flat_map(|package| {
+            let path = package.folder.join("Cargo.toml");
+            objections(package)
+                .into_iter()
+                .map(move |message| Finding::error(&path, 0, message))
+        })
+        .collect();
+    for (name, _) in CRATES {
+        if !packages.iter().any(|package| package.name == *name) {
+            let message = format!("the table has a row for `{name}`, which does not exist");
+            findings.push(Finding::error(file!(), 0, message));
+        }
+    }
+    findings
+}
+
+fn objections(package: &Package) -> Vec<String> {
+    let name = package.name.as_str();
+    let mut objections = Vec::new();
+    if package.folder.file_name() != Some(name.as_ref()) {
+        objections.push(format!("`{name}` must be in a folder of its name"));
+    }
+    if package.license.as_deref() != Some(LICENSE) {
+        objections.push("`license.workspace = true` is missing".to_owned());
+    }
+    let Some((_, uses)) = CRATES.iter().find(|(row, _)| *row == name) else {
+        objections.push(format!("`{name}` has no row in the table of {}", file!()));
+        return objections;
+    };
+    let tests_use = TESTS.iter().find(|(row, _)| *row == name);
+    let tests_use = tests_use.map_or(&[][..], |(_, tests_use)| tests_use);
+    for dependency in &package.dependencies {
+        let used = dependency.package.as_str();
+        let may_use = if CRATES.iter().any(|(row, _)| *row == used) {
+            let is_for_tests = dependency.is_dev || name == "estampe-tests";
+            // A crate's examples and tests may name the crate itself.
+            uses.contains(&used) || is_for_tests && tests_use.contains(&used) || used == name
+        } else {
+            match OUTSIDE.iter().find(|(row, _)| *row == used) {
+                Some((_, Users::Any)) => true,
+                Some((_, Users::Only(users))) => users.contains(&name),
+                None => {
+                    objections.push(format!(
+                        "`{used}` has no row among the outside dependencies of {}: say there which \
+                         crates may use it",
+                        file!()
+                    ));
+                    continue;
+                }
+            }
+        };
+        if !may_use {
+            objections.push(format!(
+                "`{name}` may not use `{used}`: see ARCHITECTURE.md"
+            ));
+        }
+        for (_, required, reason) in REQUIRED_FEATURES.iter().filter(|(row, ..)| *row == used) {
+            let has = |feature: &&str| dependency.features.iter().any(|found| found == feature);
+            if dependency.has_default_features || !required.iter().all(has) {
+                objections.push(format!(
+                    "`{used}` needs the features {} in place of the default ones: {reason}",
+                    required.join(", ")
+                ));
+            }
+        }
+    }
+    objections
+}
+
+/// Whether the manifest says `lints.workspace = true`, which `cargo metadata` does not tell.
+fn inherits_lints(manifest: &str) -> bool {
+    let table: Table = manifest.parse().unwrap_or_default();
+    let lints = table.get("lints").and_then(|lints| lints.get("workspace"));
+    lints.and_then(Value::as_bool) == Some(true)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,50 @@
+//! The programs whose machine code is checked: built as users build them, but with their symbols.
+
+use cargo_metadata::Message;
+use std::ffi::OsString;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// The packages whose programs are checked.
+const PACKAGES: &[&str] = &["estampe-bench", "estampe-cli"];
+
+/// The profile of the workspace's `Cargo.toml` that is `release` with symbols.
+const PROFILE: &str = "symbols";
+
+/// The cargo that runs this program, or the one on the path.
+pub(crate) fn cargo() -> OsString {
+    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
+}
+
+/// Builds the programs, with symbols that show generic arguments, and returns their paths. A target
+/// folder of their own keeps ordinary builds valid, whose flags differ.
+pub(crate) fn build(root: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
+    let mut command = Command::new(cargo());
+    command
+        .current_dir(root)
+        .args(["build", "--profile", PROFILE, "--locked", "--bins"])
+        .args(["--message-format", "json-render-diagnostics"])
+        .arg("--target-dir")
+        .arg(root.join("target/asm"))
+        .env("CARGO_ENCODED_RUSTFLAGS", "-Csymbol-mangling-version=v0")
+        .stdout(Stdio::piped());
+    for package in PACKAGES {
+        command.args(["--package", package]);
+    }
+    let mut child = command.spawn()?;
+    let messages = child.stdout.take().expect("standard output is piped");
+    let mut programs = Vec::new();
+    for message in Message::parse_stream(BufReader::new(messages)) {
+        if let Message::CompilerArtifact(artifact) = message? {
+            programs.extend(artifact.executable.map(PathBuf::from));
+        }
+    }
+    if !child.wait()?.success() {
+        return Err("the programs do not build".into());
+    }
+    if programs.is_empty() {
+        return Err(format!("none of {} has a program", PACKAGES.join(", ")).into());
+    }
+    Ok(programs)
+}
