@@ -5,7 +5,7 @@
 //! comparing codes.
 
 use estampe_format::depth::FixedDepth;
-use estampe_simd::{Lanes, SimdBase, f32x16};
+use estampe_simd::{Lanes, SimdBase, f32x16, outline};
 use estampe_types::TextureFormat;
 
 /// The precision of a depth attachment.
@@ -43,8 +43,10 @@ impl DepthFormat {
 /// Depth clamped to the viewport's range; NaN becomes its lower end.
 #[inline(always)]
 pub(crate) fn clamp_depth<S: Lanes>(s: S, depth: f32x16<S>, [low, high]: [f32; 2]) -> f32x16<S> {
-    let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
-    s.min_f32(s.max_f32(depth, splat(low)), splat(high))
+    outline!(s, {
+        let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+        s.min_f32(s.max_f32(depth, splat(low)), splat(high))
+    })
 }
 
 /// The depths of a draw as they are compared and stored.

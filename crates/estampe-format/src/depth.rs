@@ -1,7 +1,7 @@
 //! Fixed-point depth: stored as the f32 nearest to code ÷ (2ⁿ − 1), so that comparing numbers is
 //! comparing codes.
 
-use estampe_simd::{Lanes, Select, SimdBase, SimdFloat, f32x16};
+use estampe_simd::{Lanes, Select, SimdBase, SimdFloat, f32x16, outline};
 use estampe_types::{TexelEncoding, TextureFormat};
 
 /// A depth format of 16 or 24 bits.
@@ -37,11 +37,13 @@ impl FixedDepth {
     /// integers are no numbers. −0 keeps its sign.
     #[inline(always)]
     pub fn stored_lanes<S: Lanes>(self, s: S, depth: f32x16<S>) -> f32x16<S> {
-        const INTEGERS: f32 = 8_388_608.0;
-        let product = depth * self.most;
-        let rounded = ((product + INTEGERS) - INTEGERS).copysign(product);
-        let integers = <f32x16<S> as SimdBase<S>>::splat(s, INTEGERS);
-        product.simd_lt(integers).select(rounded, product) / self.most
+        outline!(s, {
+            const INTEGERS: f32 = 8_388_608.0;
+            let product = depth * self.most;
+            let rounded = ((product + INTEGERS) - INTEGERS).copysign(product);
+            let integers = <f32x16<S> as SimdBase<S>>::splat(s, INTEGERS);
+            product.simd_lt(integers).select(rounded, product) / self.most
+        })
     }
 
     /// The number of a code.

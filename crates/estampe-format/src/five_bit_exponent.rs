@@ -7,7 +7,7 @@
 //!     number  m·2^(−14 − MANTISSA)    (1 + m/2^MANTISSA)·2^(e − 15)
 //! ```
 
-use estampe_simd::{Bytes, Lanes, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
+use estampe_simd::{Bytes, Lanes, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, outline, u32x16};
 
 /// The code of infinity.
 pub(crate) const fn infinity(mantissa: u32) -> u32 {
@@ -83,19 +83,21 @@ pub(crate) fn decode<const MANTISSA: u32>(code: u32) -> f32 {
 /// [`decode`] of sixteen lanes.
 #[inline(always)]
 pub(crate) fn decode_lanes<S: Lanes, const MANTISSA: u32>(s: S, code: u32x16<S>) -> f32x16<S> {
-    let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
-    let moved = code << (23 - MANTISSA);
-    let signed: i32x16<S> = code.bitcast();
-    let bound = |value: u32| <i32x16<S> as SimdBase<S>>::splat(s, value.cast_signed());
-    // Denormal codes are converted, not multiplied as bits: processors are slow with denormal f32.
-    let least = f32::from_bits(least_bits(MANTISSA));
-    let denormal: u32x16<S> = (f32x16::float_from(signed) * least).bitcast();
-    let normal = moved + splat(112 << 23);
-    let finite = signed
-        .simd_lt(bound(1 << MANTISSA))
-        .select(denormal, normal);
-    signed
-        .simd_lt(bound(infinity(MANTISSA)))
-        .select(finite, moved | splat(0x7F80_0000))
-        .bitcast()
+    outline!(s, {
+        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+        let moved = code << (23 - MANTISSA);
+        let signed: i32x16<S> = code.bitcast();
+        let bound = |value: u32| <i32x16<S> as SimdBase<S>>::splat(s, value.cast_signed());
+        // Denormal codes are converted, not multiplied as bits: processors are slow with denormal f32.
+        let least = f32::from_bits(least_bits(MANTISSA));
+        let denormal: u32x16<S> = (f32x16::float_from(signed) * least).bitcast();
+        let normal = moved + splat(112 << 23);
+        let finite = signed
+            .simd_lt(bound(1 << MANTISSA))
+            .select(denormal, normal);
+        signed
+            .simd_lt(bound(infinity(MANTISSA)))
+            .select(finite, moved | splat(0x7F80_0000))
+            .bitcast()
+    })
 }

@@ -1,7 +1,7 @@
 //! 16-bit floats (IEEE 754 binary16): to nearest, ties to even; denormals are kept.
 
 use crate::five_bit_exponent as magnitude;
-use estampe_simd::{Bytes, Lanes, Select, SimdBase, f32x16, u32x16};
+use estampe_simd::{Bytes, Lanes, Select, SimdBase, f32x16, outline, u32x16};
 
 /// The half float of every NaN.
 const NAN: u32 = 0x7E00;
@@ -21,12 +21,14 @@ pub fn encode(value: f32) -> u32 {
 /// [`encode`] of sixteen lanes, in the low 16 bits of each.
 #[inline(always)]
 pub fn encode_lanes<S: Lanes>(s: S, value: f32x16<S>) -> u32x16<S> {
-    let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
-    let bits: u32x16<S> = value.bitcast();
-    let nearest = magnitude::encode_lanes::<S, 10>(s, bits & splat(0x7FFF_FFFF));
-    let infinity = splat(magnitude::infinity(10));
-    let number = nearest.min(infinity) | ((bits >> 16) & splat(0x8000));
-    value.simd_eq(value).select(number, splat(NAN))
+    outline!(s, {
+        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+        let bits: u32x16<S> = value.bitcast();
+        let nearest = magnitude::encode_lanes::<S, 10>(s, bits & splat(0x7FFF_FFFF));
+        let infinity = splat(magnitude::infinity(10));
+        let number = nearest.min(infinity) | ((bits >> 16) & splat(0x8000));
+        value.simd_eq(value).select(number, splat(NAN))
+    })
 }
 
 /// A half float's number, exactly; a NaN keeps its sign, and its mantissa moves up.
@@ -40,8 +42,10 @@ pub fn decode(half: u32) -> f32 {
 /// [`decode`] of sixteen lanes, the low 16 bits of each.
 #[inline(always)]
 pub fn decode_lanes<S: Lanes>(s: S, half: u32x16<S>) -> f32x16<S> {
-    let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
-    let magnitude = magnitude::decode_lanes::<S, 10>(s, half & splat(0x7FFF));
-    let bits: u32x16<S> = magnitude.bitcast();
-    (bits | ((half & splat(0x8000)) << 16)).bitcast()
+    outline!(s, {
+        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+        let magnitude = magnitude::decode_lanes::<S, 10>(s, half & splat(0x7FFF));
+        let bits: u32x16<S> = magnitude.bitcast();
+        (bits | ((half & splat(0x8000)) << 16)).bitcast()
+    })
 }

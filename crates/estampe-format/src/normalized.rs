@@ -4,7 +4,9 @@
 //! A code is ⌊x·most + ½⌋, two operations in f32. n is at most 16, so x·most + ½ is below 2¹⁷ in
 //! magnitude: it fits an i32, and conversions between the two are exact.
 
-use estampe_simd::{Lanes, Select, SimdBase, SimdCvtFloat, SimdCvtTruncate, f32x16, i32x16};
+use estampe_simd::{
+    Lanes, Select, SimdBase, SimdCvtFloat, SimdCvtTruncate, f32x16, i32x16, outline,
+};
 
 /// Confines a number to 0..=1; NaN gives 0.
 #[inline(always)]
@@ -32,7 +34,7 @@ pub fn encode_unorm(value: f32, most: f32) -> i32 {
 /// [`encode_unorm`] of sixteen lanes.
 #[inline(always)]
 pub fn encode_unorm_lanes<S: Lanes>(s: S, value: f32x16<S>, most: f32) -> i32x16<S> {
-    code_of_positive(saturate_lanes(s, value) * most)
+    outline!(s, { code_of_positive(saturate_lanes(s, value) * most) })
 }
 
 /// The nearest codes of numbers in code units, at least 0 and less than 2³¹: ⌊x + ½⌋.
@@ -56,21 +58,25 @@ pub fn encode_snorm(value: f32, most: f32) -> i32 {
 /// [`encode_snorm`] of sixteen lanes.
 #[inline(always)]
 pub fn encode_snorm_lanes<S: Lanes>(s: S, value: f32x16<S>, most: f32) -> i32x16<S> {
-    let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
-    let number = value.simd_eq(value).select(value, splat(0.0));
-    let confined = s.min_f32(s.max_f32(number, splat(-1.0)), splat(1.0));
-    code_of_signed(s, confined * most)
+    outline!(s, {
+        let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+        let number = value.simd_eq(value).select(value, splat(0.0));
+        let confined = s.min_f32(s.max_f32(number, splat(-1.0)), splat(1.0));
+        code_of_signed(s, confined * most)
+    })
 }
 
 /// The nearest codes of numbers in code units, in −2³⁰..2³⁰: ⌊x + ½⌋.
 #[inline(always)]
 pub fn code_of_signed<S: Lanes>(s: S, value: f32x16<S>) -> i32x16<S> {
-    // Truncation is the floor, or one more where it went up.
-    let sum = value + 0.5;
-    let truncated = i32x16::truncate_from(sum);
-    let splat = |value| <i32x16<S> as SimdBase<S>>::splat(s, value);
-    let is_above = f32x16::float_from(truncated).simd_gt(sum);
-    truncated + is_above.select(splat(-1), splat(0))
+    outline!(s, {
+        // Truncation is the floor, or one more where it went up.
+        let sum = value + 0.5;
+        let truncated = i32x16::truncate_from(sum);
+        let splat = |value| <i32x16<S> as SimdBase<S>>::splat(s, value);
+        let is_above = f32x16::float_from(truncated).simd_gt(sum);
+        truncated + is_above.select(splat(-1), splat(0))
+    })
 }
 
 /// The number of a unorm code: `code·unit`, `unit` being 1/most rounded to f32.

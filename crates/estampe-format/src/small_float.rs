@@ -5,7 +5,7 @@
 //! denormals are kept.
 
 use crate::five_bit_exponent as magnitude;
-use estampe_simd::{Bytes, Lanes, Select, SimdBase, f32x16, i32x16, u32x16};
+use estampe_simd::{Bytes, Lanes, Select, SimdBase, f32x16, i32x16, outline, u32x16};
 
 /// The code of every NaN: infinity's with the highest bit of the mantissa.
 const fn nan(mantissa: u32) -> u32 {
@@ -32,15 +32,17 @@ pub fn encode<const MANTISSA: u32>(value: f32) -> u32 {
 /// [`encode`] of sixteen lanes.
 #[inline(always)]
 pub fn encode_lanes<S: Lanes, const MANTISSA: u32>(s: S, value: f32x16<S>) -> u32x16<S> {
-    let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
-    // 0 of negative numbers, whose bits are negative as integers; of NaN anything.
-    let bits: i32x16<S> = value.bitcast();
-    let positive = bits.max(<i32x16<S> as SimdBase<S>>::splat(s, 0)).bitcast();
-    let infinity = magnitude::infinity(MANTISSA);
-    let finite = magnitude::encode_lanes::<S, MANTISSA>(s, positive).min(splat(infinity - 1));
-    let infinite = <f32x16<S> as SimdBase<S>>::splat(s, f32::INFINITY);
-    let number = value.simd_eq(infinite).select(splat(infinity), finite);
-    value.simd_eq(value).select(number, splat(nan(MANTISSA)))
+    outline!(s, {
+        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+        // 0 of negative numbers, whose bits are negative as integers; of NaN anything.
+        let bits: i32x16<S> = value.bitcast();
+        let positive = bits.max(<i32x16<S> as SimdBase<S>>::splat(s, 0)).bitcast();
+        let infinity = magnitude::infinity(MANTISSA);
+        let finite = magnitude::encode_lanes::<S, MANTISSA>(s, positive).min(splat(infinity - 1));
+        let infinite = <f32x16<S> as SimdBase<S>>::splat(s, f32::INFINITY);
+        let number = value.simd_eq(infinite).select(splat(infinity), finite);
+        value.simd_eq(value).select(number, splat(nan(MANTISSA)))
+    })
 }
 
 /// An unsigned float's number, exactly; a NaN's mantissa moves up.

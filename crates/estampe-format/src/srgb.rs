@@ -4,7 +4,7 @@
 //! machine: x^2.4 = x²·(x²)^(1/5), the fifth root by Newton's method.
 
 use estampe_simd::{
-    Bytes, Lanes, Select, SimdBase, SimdCvtTruncate, bits_of, f32x16, i32x16, u32x16,
+    Bytes, Lanes, Select, SimdBase, SimdCvtTruncate, bits_of, f32x16, i32x16, outline, u32x16,
 };
 use std::sync::LazyLock;
 
@@ -49,12 +49,14 @@ pub fn encode(linear: f32) -> u8 {
 /// of a value is that of its bucket's start, or one more if the value reaches the next threshold.
 #[inline(always)]
 pub fn encode_lanes<S: Lanes>(s: S, linear: f32x16<S>) -> u32x16<S> {
-    let tables = &*ENCODE;
-    let bucket: u32x16<S> = i32x16::truncate_from(linear * BUCKETS as f32).bitcast();
-    let start = s.gather(&tables.start, bucket);
-    let next: f32x16<S> = s.gather(bits_of(&tables.next), start).bitcast();
-    let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
-    start + linear.simd_ge(next).select(splat(1), splat(0))
+    outline!(s, {
+        let tables = &*ENCODE;
+        let bucket: u32x16<S> = i32x16::truncate_from(linear * BUCKETS as f32).bitcast();
+        let start = s.gather(&tables.start, bucket);
+        let next: f32x16<S> = s.gather(bits_of(&tables.next), start).bitcast();
+        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+        start + linear.simd_ge(next).select(splat(1), splat(0))
+    })
 }
 
 /// The linear value of an sRGB code.

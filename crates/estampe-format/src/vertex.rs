@@ -3,7 +3,7 @@
 //! *Spec* WebGPU, Vertex Formats. Integers arrive as bits.
 
 use crate::{half, integer};
-use estampe_simd::{Bytes, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
+use estampe_simd::{Bytes, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, outline, u32x16};
 use estampe_types::{VertexEncoding, VertexFormat};
 
 /// Reads the numbers of one vertex format.
@@ -94,25 +94,27 @@ impl VertexCodec {
         words: &[u32x16<S>; 4],
         component: usize,
     ) -> f32x16<S> {
-        let Place { word, shift, bits } = self.place(component);
-        // The code in the highest bits; from there it comes down with or without its sign.
-        let unused = 32 - bits;
-        let top = words[word & 3] << (unused - shift);
-        let signed: i32x16<S> = top.bitcast();
-        match self.encoding {
-            VertexEncoding::Unorm => {
-                let code: i32x16<S> = (top >> unused).bitcast();
-                f32x16::float_from(code) * unorm_unit(bits)
+        outline!(s, {
+            let Place { word, shift, bits } = self.place(component);
+            // The code in the highest bits; from there it comes down with or without its sign.
+            let unused = 32 - bits;
+            let top = words[word & 3] << (unused - shift);
+            let signed: i32x16<S> = top.bitcast();
+            match self.encoding {
+                VertexEncoding::Unorm => {
+                    let code: i32x16<S> = (top >> unused).bitcast();
+                    f32x16::float_from(code) * unorm_unit(bits)
+                }
+                VertexEncoding::Snorm => {
+                    let least = <f32x16<S> as SimdBase<S>>::splat(s, -1.0);
+                    let value = f32x16::float_from(signed >> unused) * snorm_unit(bits);
+                    s.max_f32(value, least)
+                }
+                VertexEncoding::Sint => (signed >> unused).bitcast(),
+                VertexEncoding::Float if bits == 16 => half::decode_lanes(s, top >> unused),
+                VertexEncoding::Float | VertexEncoding::Uint => (top >> unused).bitcast(),
             }
-            VertexEncoding::Snorm => {
-                let least = <f32x16<S> as SimdBase<S>>::splat(s, -1.0);
-                let value = f32x16::float_from(signed >> unused) * snorm_unit(bits);
-                s.max_f32(value, least)
-            }
-            VertexEncoding::Sint => (signed >> unused).bitcast(),
-            VertexEncoding::Float if bits == 16 => half::decode_lanes(s, top >> unused),
-            VertexEncoding::Float | VertexEncoding::Uint => (top >> unused).bitcast(),
-        }
+        })
     }
 }
 

@@ -14,6 +14,13 @@ pub trait Lanes: Simd {
     /// The SIMD level of the token.
     fn as_level(self) -> Level;
 
+    /// Runs `work`; at the scalar level as a function of its own. See [`outline!`](crate::outline!).
+    #[doc(hidden)]
+    #[inline(always)]
+    fn outline<R>(self, work: impl FnOnce() -> R) -> R {
+        work()
+    }
+
     /// `a < b ? a : b` in each lane: `b` if either is NaN, and of two zeros `b`.
     #[inline(always)]
     fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
@@ -108,9 +115,48 @@ impl Lanes for fearless_simd::Fallback {
         Level::Scalar(self)
     }
 
-    #[inline(always)]
+    #[inline(never)]
+    fn outline<R>(self, work: impl FnOnce() -> R) -> R {
+        work()
+    }
+
+    #[inline(never)]
+    fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
+        a.simd_lt(b).select(a, b)
+    }
+
+    #[inline(never)]
+    fn max_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
+        a.simd_gt(b).select(a, b)
+    }
+
+    #[inline(never)]
+    fn floor_f32(self, a: f32x16<Self>) -> f32x16<Self> {
+        a.floor()
+    }
+
+    #[inline(never)]
     fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
         crate::gather::by_lane(self, table, index)
+    }
+
+    #[inline(never)]
+    fn gather_square(self, table: &[u32], index: u32x16<Self>, stride: u32) -> [u32x16<Self>; 4] {
+        crate::gather::square_by_lane(self, table, index, stride)
+    }
+
+    #[inline(never)]
+    fn mask_from_bits(self, bits: u16) -> mask32x16<Self> {
+        mask32x16::from_bitmask(self, u64::from(bits))
+    }
+
+    #[inline(never)]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a mask of 16 lanes has 16 bits"
+    )]
+    fn bits_of_mask(self, mask: mask32x16<Self>) -> u16 {
+        mask.to_bitmask() as u16
     }
 }
 

@@ -19,7 +19,10 @@ fn an_earlier_stage_may_be_named() {
         "use super::assembly::Primitive;\nuse crate::geometry::cull::Facing;\nuse self::x::Y;";
     assert_eq!(messages_of("geometry/clip", clip), [""; 0]);
     assert_eq!(
-        messages_of("raster/edge", "use crate::tiles::Tile; use super::Block;"),
+        messages_of(
+            "raster/edge",
+            "use crate::bounds::bins::BinEntry; use super::Block;"
+        ),
         [""; 0]
     );
     assert_eq!(
@@ -37,11 +40,11 @@ fn a_later_stage_may_not() {
     );
     assert!(found[0].contains("`geometry::setup::Setup`"));
     assert_eq!(
-        messages_of("tiles", "fn f() { crate::raster::run() }").len(),
+        messages_of("bounds", "fn f() { crate::raster::run() }").len(),
         1
     );
     assert_eq!(
-        messages_of("geometry/mod", "use crate::raster::Tiles;").len(),
+        messages_of("geometry/mod", "use crate::raster::Coverage;").len(),
         1
     );
     assert_eq!(
@@ -53,7 +56,7 @@ fn a_later_stage_may_not() {
 #[test]
 fn a_re_export_does_not_hide_a_later_stage() {
     for (module, source) in [
-        ("tiles", "use crate::Coverage;"),
+        ("bounds", "use crate::Coverage;"),
         ("geometry/fetch", "use super::SetupPrimitive;"),
         ("geometry/fetch", "use crate::geometry::*;"),
     ] {
@@ -103,9 +106,9 @@ fn a_module_without_a_row_has_the_layer_of_its_folder() {
 fn comments_strings_and_tests_are_free() {
     let source = "//! See [`crate::raster`].\nfn f() { g(\"crate::raster::x\") }\n\
                   #[cfg(test)]\nmod tests { use crate::raster::Edge; use rayon::Scope; }";
-    assert_eq!(messages_of("tiles", source), [""; 0]);
+    assert_eq!(messages_of("bounds", source), [""; 0]);
     assert_eq!(
-        messages_of("tiles/tests", "use crate::attachment::A;"),
+        messages_of("bounds/tests", "use crate::attachment::A;"),
         [""; 0]
     );
 }

@@ -18,7 +18,9 @@
 
 use super::resolve::{MAX_PACKET, Mean};
 use crate::layout::TileGrid;
-use estampe_simd::{Bytes, LANES, Lanes, Level, SimdBase, dispatch, f64x2, u8x16, u16x8, u32x4};
+use estampe_simd::{
+    Bytes, LANES, Lanes, Level, SimdBase, dispatch, f64x2, outline, u8x16, u16x8, u32x4,
+};
 
 /// Columns, and rows, that are written together.
 const SQUARE: usize = 16;
@@ -61,16 +63,18 @@ impl StoredTexels<'_> {
         packet: usize,
         scratch: &'s mut [u32; MAX_PACKET],
     ) -> &'s [u32] {
-        let elements = LANES * self.words_each;
-        let stored = &self.words[packet * elements * self.samples..][..elements * self.samples];
-        match &self.selection {
-            Selection::Sample(sample) => &stored[sample * elements..][..elements],
-            Selection::Mean(mean) => {
-                let texels = &mut scratch[..elements];
-                mean.write(s, stored, texels);
-                texels
+        outline!(s, {
+            let elements = LANES * self.words_each;
+            let stored = &self.words[packet * elements * self.samples..][..elements * self.samples];
+            match &self.selection {
+                Selection::Sample(sample) => &stored[sample * elements..][..elements],
+                Selection::Mean(mean) => {
+                    let texels = &mut scratch[..elements];
+                    mean.write(s, stored, texels);
+                    texels
+                }
             }
-        }
+        })
     }
 }
 
@@ -188,41 +192,43 @@ fn write_rows<S: Lanes, const WORDS: usize, const BYTES: usize>(
     packets: [&[u32]; 4],
     to: [&mut [u8]; PACKET_SIDE],
 ) {
-    // Words that are not stored as a whole wait for those of the other packets.
-    let mut narrow = [[u32x4::splat(s, 0); 4]; PACKET_SIDE];
-    let mut packet = 0;
-    while packet < 4 {
-        let mut planes = [[u32x4::splat(s, 0); PACKET_SIDE]; WORDS];
-        let mut word = 0;
-        while word < WORDS {
-            planes[word] = rows_of_plane(s, &packets[packet][word * LANES..][..LANES]);
-            word += 1;
-        }
-        let mut row = 0;
-        while row < PACKET_SIDE {
-            if BYTES < 4 {
-                narrow[row][packet] = planes[0][row];
-            } else {
-                let mut words = [u32x4::splat(s, 0); WORDS];
-                let mut word = 0;
-                while word < WORDS {
-                    words[word] = planes[word][row];
-                    word += 1;
-                }
-                let size = PACKET_SIDE * BYTES;
-                write_whole(words, &mut to[row][packet * size..][..size]);
+    outline!(s, {
+        // Words that are not stored as a whole wait for those of the other packets.
+        let mut narrow = [[u32x4::splat(s, 0); 4]; PACKET_SIDE];
+        let mut packet = 0;
+        while packet < 4 {
+            let mut planes = [[u32x4::splat(s, 0); PACKET_SIDE]; WORDS];
+            let mut word = 0;
+            while word < WORDS {
+                planes[word] = rows_of_plane(s, &packets[packet][word * LANES..][..LANES]);
+                word += 1;
             }
-            row += 1;
+            let mut row = 0;
+            while row < PACKET_SIDE {
+                if BYTES < 4 {
+                    narrow[row][packet] = planes[0][row];
+                } else {
+                    let mut words = [u32x4::splat(s, 0); WORDS];
+                    let mut word = 0;
+                    while word < WORDS {
+                        words[word] = planes[word][row];
+                        word += 1;
+                    }
+                    let size = PACKET_SIDE * BYTES;
+                    write_whole(words, &mut to[row][packet * size..][..size]);
+                }
+                row += 1;
+            }
+            packet += 1;
         }
-        packet += 1;
-    }
-    if BYTES < 4 {
-        let mut row = 0;
-        while row < PACKET_SIDE {
-            write_narrow::<S, BYTES>(narrow[row], &mut to[row][..SQUARE * BYTES]);
-            row += 1;
+        if BYTES < 4 {
+            let mut row = 0;
+            while row < PACKET_SIDE {
+                write_narrow::<S, BYTES>(narrow[row], &mut to[row][..SQUARE * BYTES]);
+                row += 1;
+            }
         }
-    }
+    })
 }
 
 /// The four rows of one word of a packet's texels.

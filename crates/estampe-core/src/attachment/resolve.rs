@@ -7,7 +7,7 @@ use super::RenderTarget;
 use crate::layout::texel_words;
 use crate::pipeline::color_target::MAX_WORDS;
 use estampe_format::{AttachmentCodec, PacketCodec, with_codec};
-use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16, u32x16};
+use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16, outline, u32x16};
 use estampe_types::srgb::{LINEAR_FROM_SRGB, srgb_from_linear};
 use estampe_types::{TexelEncoding, TextureFormat};
 
@@ -174,40 +174,44 @@ fn mean_of<S: Lanes, C: PacketCodec<S>>(
 /// integers, two channels at a time in halves of 16 bits. Sixteen samples sum up to 4,088 at most.
 #[inline(always)]
 fn mean_unorm<S: Lanes>(s: S, samples: &[u32], samples_log2: u32) -> u32x16<S> {
-    let halves = u32x16::splat(s, 0x00FF_00FF);
-    let rounding = u32x16::splat(s, ((1 << samples_log2) >> 1) * 0x0001_0001);
-    let (mut even, mut odd) = (rounding, rounding);
-    for sample in samples.as_chunks::<LANES>().0 {
-        let sample = u32x16::load_array_ref(s, sample);
-        even += sample & halves;
-        odd += (sample >> 8) & halves;
-    }
-    ((even >> samples_log2) & halves) | (((odd >> samples_log2) & halves) << 8)
+    outline!(s, {
+        let halves = u32x16::splat(s, 0x00FF_00FF);
+        let rounding = u32x16::splat(s, ((1 << samples_log2) >> 1) * 0x0001_0001);
+        let (mut even, mut odd) = (rounding, rounding);
+        for sample in samples.as_chunks::<LANES>().0 {
+            let sample = u32x16::load_array_ref(s, sample);
+            even += sample & halves;
+            odd += (sample >> 8) & halves;
+        }
+        ((even >> samples_log2) & halves) | (((odd >> samples_log2) & halves) << 8)
+    })
 }
 
 /// The means of sixteen pixels' four samples in sRGB: linear for colour, alpha as it is. Most packets lie inside a
 /// primitive, and their samples are equal.
 #[inline(always)]
 fn mean_srgb<S: Lanes>(s: S, samples: &[u32], pixels: &mut [u32]) {
-    let (a, b) = (&samples[..LANES], &samples[LANES..][..LANES]);
-    let (c, d) = (
-        &samples[2 * LANES..][..LANES],
-        &samples[3 * LANES..][..LANES],
-    );
-    let first = u32x16::from_slice(s, a);
-    let unlike = (first ^ u32x16::from_slice(s, b))
-        | (first ^ u32x16::from_slice(s, c))
-        | (first ^ u32x16::from_slice(s, d));
-    let is_equal = unlike.simd_eq(u32x16::splat(s, 0));
-    if s.bits_of_mask(is_equal) == u16::MAX {
-        first.store_slice(&mut pixels[..LANES]);
-        return;
-    }
-    let alpha = mean_unorm(s, samples, 2) & u32x16::splat(s, 0xFF00_0000);
-    alpha.store_slice(&mut pixels[..LANES]);
-    for (lane, pixel) in pixels.iter_mut().enumerate() {
-        *pixel |= mean_srgb_colors([a[lane], b[lane], c[lane], d[lane]]);
-    }
+    outline!(s, {
+        let (a, b) = (&samples[..LANES], &samples[LANES..][..LANES]);
+        let (c, d) = (
+            &samples[2 * LANES..][..LANES],
+            &samples[3 * LANES..][..LANES],
+        );
+        let first = u32x16::from_slice(s, a);
+        let unlike = (first ^ u32x16::from_slice(s, b))
+            | (first ^ u32x16::from_slice(s, c))
+            | (first ^ u32x16::from_slice(s, d));
+        let is_equal = unlike.simd_eq(u32x16::splat(s, 0));
+        if s.bits_of_mask(is_equal) == u16::MAX {
+            first.store_slice(&mut pixels[..LANES]);
+            return;
+        }
+        let alpha = mean_unorm(s, samples, 2) & u32x16::splat(s, 0xFF00_0000);
+        alpha.store_slice(&mut pixels[..LANES]);
+        for (lane, pixel) in pixels.iter_mut().enumerate() {
+            *pixel |= mean_srgb_colors([a[lane], b[lane], c[lane], d[lane]]);
+        }
+    })
 }
 
 /// The mean of four sRGB pixels' colours, without alpha.

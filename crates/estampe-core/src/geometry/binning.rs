@@ -10,7 +10,7 @@ use super::plan::GeometryPlan;
 use crate::bounds::bins::{BinEntry, Bins};
 use crate::bounds::chunk::{Chunk, number};
 use crate::bounds::primitives::{LinePrimitive, PointPrimitive, TrianglePacket};
-use estampe_simd::{LANES, Lane, Lanes, SimdBase, i32x16};
+use estampe_simd::{LANES, Lane, Lanes, SimdBase, i32x16, outline};
 
 /// A half-open range of tiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,53 +58,55 @@ pub(crate) fn bin_packet<S: Lanes>(
     positions: [[i32x16<S>; 3]; 2],
     chunk: &mut Chunk,
 ) {
-    let ranges = TileRanges::new(s, plan, positions);
-    let Some((last, others)) = chunk.triangles.split_last() else {
-        unreachable!("a packet was just set up");
-    };
-    let packet = number(others.len());
-    let bins = &mut chunk.bins;
-    bins.end_packet();
-    let used = u16::MAX >> (LANES - usize::from(last.len).min(LANES));
-    let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
-    let (columns, rows) = (ranges.x1 - ranges.x0, ranges.y1 - ranges.y0);
-    let single = s.bits_of_mask((columns | rows).simd_eq(splat(0))) & used;
-    let mut rest = single;
-    if single != used {
-        let tiles = (columns + splat(1)) * (rows + splat(1));
-        let many = s.bits_of_mask(tiles.simd_gt(splat(FEW_TILES))) & used;
-        if many != 0 {
-            // One by one, because triangles must not be merged across these.
-            rest = 0;
+    outline!(s, {
+        let ranges = TileRanges::new(s, plan, positions);
+        let Some((last, others)) = chunk.triangles.split_last() else {
+            unreachable!("a packet was just set up");
+        };
+        let packet = number(others.len());
+        let bins = &mut chunk.bins;
+        bins.end_packet();
+        let used = u16::MAX >> (LANES - usize::from(last.len).min(LANES));
+        let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
+        let (columns, rows) = (ranges.x1 - ranges.x0, ranges.y1 - ranges.y0);
+        let single = s.bits_of_mask((columns | rows).simd_eq(splat(0))) & used;
+        let mut rest = single;
+        if single != used {
+            let tiles = (columns + splat(1)) * (rows + splat(1));
+            let many = s.bits_of_mask(tiles.simd_gt(splat(FEW_TILES))) & used;
+            if many != 0 {
+                // One by one, because triangles must not be merged across these.
+                rest = 0;
+            }
         }
-    }
-    let (left, top) = (ranges.x0.to_array(), ranges.y0.to_array());
-    let one_by_one = used & !rest;
-    while let Some(lane) = Lane::first_of(rest) {
-        let (x, y) = (lane.of(&left), lane.of(&top));
-        let shares = ranges.x0.simd_eq(splat(x)) & ranges.y0.simd_eq(splat(y));
-        let lanes = s.bits_of_mask(shares) & rest;
-        rest &= !lanes;
-        let tile = plan.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
-        bins.push(tile, BinEntry::Triangles { packet, lanes });
-    }
-    if one_by_one != 0 {
-        let (right, bottom) = (ranges.x1.to_array(), ranges.y1.to_array());
-        for lane in Lane::all_of(one_by_one) {
-            let range = TileRange {
-                x0: lane.of(&left),
-                y0: lane.of(&top),
-                x1: lane.of(&right) + 1,
-                y1: lane.of(&bottom) + 1,
-            };
-            let triangle = PacketLane {
-                triangles: last,
-                packet,
-                lane,
-            };
-            bin_lane(plan, triangle, range, bins);
+        let (left, top) = (ranges.x0.to_array(), ranges.y0.to_array());
+        let one_by_one = used & !rest;
+        while let Some(lane) = Lane::first_of(rest) {
+            let (x, y) = (lane.of(&left), lane.of(&top));
+            let shares = ranges.x0.simd_eq(splat(x)) & ranges.y0.simd_eq(splat(y));
+            let lanes = s.bits_of_mask(shares) & rest;
+            rest &= !lanes;
+            let tile = plan.grid.tile_at(x.cast_unsigned(), y.cast_unsigned());
+            bins.push(tile, BinEntry::Triangles { packet, lanes });
         }
-    }
+        if one_by_one != 0 {
+            let (right, bottom) = (ranges.x1.to_array(), ranges.y1.to_array());
+            for lane in Lane::all_of(one_by_one) {
+                let range = TileRange {
+                    x0: lane.of(&left),
+                    y0: lane.of(&top),
+                    x1: lane.of(&right) + 1,
+                    y1: lane.of(&bottom) + 1,
+                };
+                let triangle = PacketLane {
+                    triangles: last,
+                    packet,
+                    lane,
+                };
+                bin_lane(plan, triangle, range, bins);
+            }
+        }
+    })
 }
 
 /// One triangle of a packet.

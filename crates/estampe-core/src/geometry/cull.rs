@@ -10,7 +10,7 @@
 
 use super::plan::GeometryPlan;
 use super::shaded_vertices::{NEEDS_CLIPPING, PackedVertex};
-use estampe_simd::{Bytes, LANES, Lane, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16};
+use estampe_simd::{Bytes, LANES, Lane, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, outline};
 
 /// Sixteen assembled triangles: the vertices that they join, and where these lie in the window.
 #[derive(Debug, Default)]
@@ -65,11 +65,13 @@ impl<S: Lanes> WindowTriangles<S> {
 
 #[inline(always)]
 fn xy_of<S: Lanes>(s: S, words: &[u64; LANES]) -> [i32x16<S>; 2] {
-    let (mut low, mut high) = (s.splat_u64x8(0), s.splat_u64x8(0));
-    low.as_mut_slice().copy_from_slice(&words[..LANES / 2]);
-    high.as_mut_slice().copy_from_slice(&words[LANES / 2..]);
-    let (x, y) = s.deinterleave_u32x16(low.bitcast(), high.bitcast());
-    [x.bitcast(), y.bitcast()]
+    outline!(s, {
+        let (mut low, mut high) = (s.splat_u64x8(0), s.splat_u64x8(0));
+        low.as_mut_slice().copy_from_slice(&words[..LANES / 2]);
+        high.as_mut_slice().copy_from_slice(&words[LANES / 2..]);
+        let (x, y) = s.deinterleave_u32x16(low.bitcast(), high.bitcast());
+        [x.bitcast(), y.bitcast()]
+    })
 }
 
 /// Sixteen classified triangles, as masks of lanes. Triangles in neither mask are culled.
@@ -130,45 +132,47 @@ fn cull<S: Lanes>(
     WindowTriangles { x, y }: &WindowTriangles<S>,
     active: u16,
 ) -> (CullMasks, i32x16<S>) {
-    let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
-    // A vertex that needs clipping has the least x there is.
-    let (x_min, x_max) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
-    let (y_min, y_max) = (y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2]));
-    let clipped = s.bits_of_mask(x_min.simd_eq(splat(NEEDS_CLIPPING)));
-    let unclipped = active & !clipped;
+    outline!(s, {
+        let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
+        // A vertex that needs clipping has the least x there is.
+        let (x_min, x_max) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
+        let (y_min, y_max) = (y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2]));
+        let clipped = s.bits_of_mask(x_min.simd_eq(splat(NEEDS_CLIPPING)));
+        let unclipped = active & !clipped;
 
-    // The box's sample centres: a column is inside when some sample of it can be.
-    let [first, last] = plan.sample_range.map(splat);
-    let column = [(x_min - last + 255) >> 8, (x_max - first) >> 8];
-    let row = [(y_min - last + 255) >> 8, (y_max - first) >> 8];
-    let rect = plan.rect;
-    let holds_samples = column[0].simd_le(column[1])
-        & row[0].simd_le(row[1])
-        & column[1].simd_ge(splat(rect.x0))
-        & column[0].simd_lt(splat(rect.x1))
-        & row[1].simd_ge(splat(rect.y0))
-        & row[0].simd_lt(splat(rect.y1));
-    let holds_samples = s.bits_of_mask(holds_samples) & unclipped;
+        // The box's sample centres: a column is inside when some sample of it can be.
+        let [first, last] = plan.sample_range.map(splat);
+        let column = [(x_min - last + 255) >> 8, (x_max - first) >> 8];
+        let row = [(y_min - last + 255) >> 8, (y_max - first) >> 8];
+        let rect = plan.rect;
+        let holds_samples = column[0].simd_le(column[1])
+            & row[0].simd_le(row[1])
+            & column[1].simd_ge(splat(rect.x0))
+            & column[0].simd_lt(splat(rect.x1))
+            & row[1].simd_ge(splat(rect.y0))
+            & row[0].simd_lt(splat(rect.y1));
+        let holds_samples = s.bits_of_mask(holds_samples) & unclipped;
 
-    let limit = splat(1 << 15);
-    let is_small = (x_max - x_min).simd_lt(limit) & (y_max - y_min).simd_lt(limit);
-    let is_small = s.bits_of_mask(is_small);
+        let limit = splat(1 << 15);
+        let is_small = (x_max - x_min).simd_lt(limit) & (y_max - y_min).simd_lt(limit);
+        let is_small = s.bits_of_mask(is_small);
 
-    // Below 2¹⁵ each product is below 2³⁰ in magnitude, so the difference fits 32 bits.
-    let area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
-    let clockwise = s.bits_of_mask(area.simd_gt(splat(0)));
-    let counter_clockwise = s.sign_bits(area);
-    let mut kept = 0;
-    if !plan.facing.drops_clockwise {
-        kept |= clockwise;
-    }
-    if !plan.facing.drops_counter_clockwise {
-        kept |= counter_clockwise;
-    }
-    let masks = CullMasks {
-        small: holds_samples & is_small & kept,
-        large: holds_samples & !is_small,
-        clipped: active & clipped,
-    };
-    (masks, area)
+        // Below 2¹⁵ each product is below 2³⁰ in magnitude, so the difference fits 32 bits.
+        let area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+        let clockwise = s.bits_of_mask(area.simd_gt(splat(0)));
+        let counter_clockwise = s.sign_bits(area);
+        let mut kept = 0;
+        if !plan.facing.drops_clockwise {
+            kept |= clockwise;
+        }
+        if !plan.facing.drops_counter_clockwise {
+            kept |= counter_clockwise;
+        }
+        let masks = CullMasks {
+            small: holds_samples & is_small & kept,
+            large: holds_samples & !is_small,
+            clipped: active & clipped,
+        };
+        (masks, area)
+    })
 }

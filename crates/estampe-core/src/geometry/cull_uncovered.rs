@@ -7,7 +7,7 @@
 //! themselves. The tile would find that out, too, after they were set up, written and read again:
 //! `small_tris` took 19.8 ms with this test, 22.2 without.
 
-use estampe_simd::{Lanes, Select, SimdBase, i32x16};
+use estampe_simd::{Lanes, Select, SimdBase, i32x16, outline};
 
 /// The lanes of triangles that cover no sample although their box holds samples, in at most two
 /// columns and two rows of pixels; for one sample a pixel. The test is skipped, and the mask empty,
@@ -19,45 +19,47 @@ pub(crate) fn cull_uncovered<S: Lanes>(
     [y0, y1, y2]: [i32x16<S>; 3],
     kept: u16,
 ) -> u16 {
-    let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
-    let (pixel, zero) = (splat(256), splat(0));
-    let (x_min, x_max) = (x0.min(x1).min(x2), x0.max(x1).max(x2));
-    // The first sample of the box, and how far its end is.
-    let (x, y) = (first_sample(s, x_min), first_sample(s, y0));
-    let (across, down) = (x_max - x, y2 - y);
-    let two = splat(512);
-    let tiny = s.bits_of_mask(across.simd_lt(two) & down.simd_lt(two)) & kept;
-    if tiny.count_ones() * 2 < kept.count_ones() {
-        return 0;
-    }
-    let columns = s.bits_of_mask(across.simd_ge(pixel));
-    let rows = s.bits_of_mask(down.simd_ge(pixel));
+    outline!(s, {
+        let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
+        let (pixel, zero) = (splat(256), splat(0));
+        let (x_min, x_max) = (x0.min(x1).min(x2), x0.max(x1).max(x2));
+        // The first sample of the box, and how far its end is.
+        let (x, y) = (first_sample(s, x_min), first_sample(s, y0));
+        let (across, down) = (x_max - x, y2 - y);
+        let two = splat(512);
+        let tiny = s.bits_of_mask(across.simd_lt(two) & down.simd_lt(two)) & kept;
+        if tiny.count_ones() * 2 < kept.count_ones() {
+            return 0;
+        }
+        let columns = s.bits_of_mask(across.simd_ge(pixel));
+        let rows = s.bits_of_mask(down.simd_ge(pixel));
 
-    // Twice the areas that the sample and each edge span: of a clockwise triangle all are positive
-    // inside, of another all are negative. A sample on an edge belongs to those that the fill rule
-    // says: it is inside a clockwise triangle of which it is on the top (level) or left edge (2→0),
-    // and inside another of which it is on the left one (0→1 or 1→2, not level). With 1 taken from
-    // what is not level, inside is where all signs are equal: signs cannot all be those of the
-    // other orientation, because the areas' sum is the triangle's.
-    let bias = |from: i32x16<S>, to: i32x16<S>| from.simd_eq(to).select(zero, splat(-1));
-    let (to_x0, to_y0) = (x - x0, y - y0);
-    let a = [y0 - y1, y1 - y2, y2 - y0];
-    let b = [x1 - x0, x2 - x1, x0 - x2];
-    let upper_left = [
-        a[0] * to_x0 + b[0] * to_y0 + bias(y0, y1),
-        a[1] * (x - x1) + b[1] * (y - y1) + bias(y1, y2),
-        a[2] * to_x0 + b[2] * to_y0,
-    ];
-    let mut covered = inside(s, upper_left);
-    if columns & tiny != 0 {
-        covered |= inside(s, right_of(upper_left, a)) & columns;
-    }
-    if rows & tiny != 0 {
-        let lower_left = right_of(upper_left, b);
-        covered |= inside(s, lower_left) & rows;
-        covered |= inside(s, right_of(lower_left, a)) & rows & columns;
-    }
-    tiny & !covered
+        // Twice the areas that the sample and each edge span: of a clockwise triangle all are positive
+        // inside, of another all are negative. A sample on an edge belongs to those that the fill rule
+        // says: it is inside a clockwise triangle of which it is on the top (level) or left edge (2→0),
+        // and inside another of which it is on the left one (0→1 or 1→2, not level). With 1 taken from
+        // what is not level, inside is where all signs are equal: signs cannot all be those of the
+        // other orientation, because the areas' sum is the triangle's.
+        let bias = |from: i32x16<S>, to: i32x16<S>| from.simd_eq(to).select(zero, splat(-1));
+        let (to_x0, to_y0) = (x - x0, y - y0);
+        let a = [y0 - y1, y1 - y2, y2 - y0];
+        let b = [x1 - x0, x2 - x1, x0 - x2];
+        let upper_left = [
+            a[0] * to_x0 + b[0] * to_y0 + bias(y0, y1),
+            a[1] * (x - x1) + b[1] * (y - y1) + bias(y1, y2),
+            a[2] * to_x0 + b[2] * to_y0,
+        ];
+        let mut covered = inside(s, upper_left);
+        if columns & tiny != 0 {
+            covered |= inside(s, right_of(upper_left, a)) & columns;
+        }
+        if rows & tiny != 0 {
+            let lower_left = right_of(upper_left, b);
+            covered |= inside(s, lower_left) & rows;
+            covered |= inside(s, right_of(lower_left, a)) & rows & columns;
+        }
+        tiny & !covered
+    })
 }
 
 /// The first centre of a pixel at or behind a position.
@@ -80,7 +82,7 @@ fn right_of<S: Lanes>(values: [i32x16<S>; 3], steps: [i32x16<S>; 3]) -> [i32x16<
 /// The lanes whose three signs are equal.
 #[inline(always)]
 fn inside<S: Lanes>(s: S, [a, b, c]: [i32x16<S>; 3]) -> u16 {
-    !s.sign_bits(a | b | c) | s.sign_bits(a & b & c)
+    outline!(s, { !s.sign_bits(a | b | c) | s.sign_bits(a & b & c) })
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ use crate::bounds::primitives::{VertexRef, WindowVertex};
 use crate::bounds::transpose::components_of;
 use estampe_simd::{
     Bytes, LANES, Lane, Lanes, Level, Select, SimdBase, SimdCvtFloat, dispatch, f32x16, i32x16,
-    u32x16,
+    outline, u32x16,
 };
 
 /// Triangles that wait for their packet to be full: at most fifteen, and sixteen that join them.
@@ -109,38 +109,40 @@ impl<'a> Setup<'a> {
         triangles: &SetupLanes<S>,
         kept: u16,
     ) {
-        let area = triangles.doubled_area;
-        let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
-        let provoking = triangles.vertices[0];
-        let front = <u32x16<S> as SimdBase<S>>::splat(s, FRONT);
-        let is_front = if self.plan.facing.clockwise_is_front {
-            area.simd_gt(zero)
-        } else {
-            area.simd_lt(zero)
-        };
-        let provoking = is_front.select(provoking | front, provoking);
+        outline!(s, {
+            let area = triangles.doubled_area;
+            let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
+            let provoking = triangles.vertices[0];
+            let front = <u32x16<S> as SimdBase<S>>::splat(s, FRONT);
+            let is_front = if self.plan.facing.clockwise_is_front {
+                area.simd_gt(zero)
+            } else {
+                area.simd_lt(zero)
+            };
+            let provoking = is_front.select(provoking | front, provoking);
 
-        let mut order = Order {
-            x: window.x,
-            y: window.y,
-            vertex: triangles.vertices,
-        };
-        let first = order.exchange::<0, 1>();
-        let second = order.exchange::<1, 2>();
-        let third = order.exchange::<0, 1>();
-        let odd = first ^ second ^ third;
-        let mut kept = kept;
-        if self.plan.samples_centers() {
-            let uncovered = cull_uncovered(s, order.x, order.y, kept);
-            kept &= !uncovered;
-            self.chunk.statistics.primitives_culled += u64::from(uncovered.count_ones());
-        }
-        let area = odd.select(-area, area);
-        self.waiting
-            .append(s, order.vertex, provoking, area.bitcast(), kept);
-        if self.waiting.len >= LANES {
-            self.emit();
-        }
+            let mut order = Order {
+                x: window.x,
+                y: window.y,
+                vertex: triangles.vertices,
+            };
+            let first = order.exchange::<0, 1>(s);
+            let second = order.exchange::<1, 2>(s);
+            let third = order.exchange::<0, 1>(s);
+            let odd = first ^ second ^ third;
+            let mut kept = kept;
+            if self.plan.samples_centers() {
+                let uncovered = cull_uncovered(s, order.x, order.y, kept);
+                kept &= !uncovered;
+                self.chunk.statistics.primitives_culled += u64::from(uncovered.count_ones());
+            }
+            let area = odd.select(-area, area);
+            self.waiting
+                .append(s, order.vertex, provoking, area.bitcast(), kept);
+            if self.waiting.len >= LANES {
+                self.emit();
+            }
+        })
     }
 
     /// Adds one triangle whose vertices are in the order given and whose area is not 0.
@@ -223,7 +225,7 @@ impl<'a> Setup<'a> {
             r: <f32x16<S> as SimdBase<S>>::splat(s, 65_536.0) / area,
         };
         edges.r.store_array(&mut packet.r);
-        edges.plane(z0, z1, z2, &mut packet.z);
+        edges.plane(s, z0, z1, z2, &mut packet.z);
         if let Some(bias) = &self.plan.depth_bias {
             bias.apply(&mut packet.z, &[z1.to_array(), z2.to_array()]);
         }
@@ -232,7 +234,7 @@ impl<'a> Setup<'a> {
         w0.store_array(&mut packet.iw_at[0]);
         w1.store_array(&mut packet.iw_at[1]);
         w2.store_array(&mut packet.iw_at[2]);
-        edges.plane(w0, w1, w2, &mut packet.iw);
+        edges.plane(s, w0, w1, w2, &mut packet.iw);
 
         bin_packet(s, self.plan, [[x0, x1, x2], [y0, y1, y2]], self.chunk);
     }
@@ -240,21 +242,23 @@ impl<'a> Setup<'a> {
     /// x, y, depth and 1/w of sixteen vertices, as bits.
     #[inline(always)]
     fn read<S: Lanes>(&self, s: S, vertices: &[u32; LANES]) -> [u32x16<S>; 4] {
-        // Unused lanes hold vertices of triangles that waited before, perhaps of another run: any
-        // will do, or zeros.
-        let mut records = [&[0; 4]; LANES];
-        for (record, &vertex) in records.iter_mut().zip(vertices) {
-            let found = if vertex & VertexRef::CLIPPED == 0 {
-                self.window.get(vertex as usize)
-            } else {
-                let number = (vertex & !VertexRef::CLIPPED).wrapping_sub(self.first_clipped);
-                self.clipped.get(number as usize)
-            };
-            if let Some(found) = found {
-                *record = found;
+        outline!(s, {
+            // Unused lanes hold vertices of triangles that waited before, perhaps of another run: any
+            // will do, or zeros.
+            let mut records = [&[0; 4]; LANES];
+            for (record, &vertex) in records.iter_mut().zip(vertices) {
+                let found = if vertex & VertexRef::CLIPPED == 0 {
+                    self.window.get(vertex as usize)
+                } else {
+                    let number = (vertex & !VertexRef::CLIPPED).wrapping_sub(self.first_clipped);
+                    self.clipped.get(number as usize)
+                };
+                if let Some(found) = found {
+                    *record = found;
+                }
             }
-        }
-        components_of(s, &records)
+            components_of(s, &records)
+        })
     }
 }
 
@@ -268,18 +272,23 @@ struct Order<S: Lanes> {
 impl<S: Lanes> Order<S> {
     /// Puts two vertices in order; true where they changed places. Equal ones keep theirs.
     #[inline(always)]
-    fn exchange<const A: usize, const B: usize>(&mut self) -> <i32x16<S> as SimdBase<S>>::Mask {
-        let (xa, xb) = (self.x[A], self.x[B]);
-        let (ya, yb) = (self.y[A], self.y[B]);
-        let (va, vb) = (self.vertex[A], self.vertex[B]);
-        let swap = ya.simd_gt(yb) | (ya.simd_eq(yb) & xa.simd_gt(xb));
-        self.x[A] = swap.select(xb, xa);
-        self.x[B] = swap.select(xa, xb);
-        self.y[A] = swap.select(yb, ya);
-        self.y[B] = swap.select(ya, yb);
-        self.vertex[A] = swap.select(vb, va);
-        self.vertex[B] = swap.select(va, vb);
-        swap
+    fn exchange<const A: usize, const B: usize>(
+        &mut self,
+        s: S,
+    ) -> <i32x16<S> as SimdBase<S>>::Mask {
+        outline!(s, {
+            let (xa, xb) = (self.x[A], self.x[B]);
+            let (ya, yb) = (self.y[A], self.y[B]);
+            let (va, vb) = (self.vertex[A], self.vertex[B]);
+            let swap = ya.simd_gt(yb) | (ya.simd_eq(yb) & xa.simd_gt(xb));
+            self.x[A] = swap.select(xb, xa);
+            self.x[B] = swap.select(xa, xb);
+            self.y[A] = swap.select(yb, ya);
+            self.y[B] = swap.select(ya, yb);
+            self.vertex[A] = swap.select(vb, va);
+            self.vertex[B] = swap.select(va, vb);
+            swap
+        })
     }
 }
 
@@ -384,11 +393,13 @@ struct Edges<S: Lanes> {
 
 impl<S: Lanes> Edges<S> {
     #[inline(always)]
-    fn plane(&self, p0: f32x16<S>, p1: f32x16<S>, p2: f32x16<S>, out: &mut PlanePacket) {
-        let (e1, e2) = (p1 - p0, p2 - p0);
-        p0.store_array(&mut out.origin);
-        ((e1 * self.dy2 - e2 * self.dy1) * self.r).store_array(&mut out.dx);
-        ((e2 * self.dx1 - e1 * self.dx2) * self.r).store_array(&mut out.dy);
+    fn plane(&self, s: S, p0: f32x16<S>, p1: f32x16<S>, p2: f32x16<S>, out: &mut PlanePacket) {
+        outline!(s, {
+            let (e1, e2) = (p1 - p0, p2 - p0);
+            p0.store_array(&mut out.origin);
+            ((e1 * self.dy2 - e2 * self.dy1) * self.r).store_array(&mut out.dx);
+            ((e2 * self.dx1 - e1 * self.dx2) * self.r).store_array(&mut out.dy);
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 //! *In* clip-space vertices · *Out* snapped window positions, depth and 1/w · *Precision* f32, then
 //! 1/256 pixel · *Spec* Vulkan §Coordinate Transformations; `docs/NUMERICS.md`.
 
-use estampe_simd::{Lanes, Select, SimdBase, f32x16, i32x16, mask32x16};
+use estampe_simd::{Lanes, Select, SimdBase, f32x16, i32x16, mask32x16, outline};
 use estampe_types::state::Viewport;
 
 /// The least window coordinate that needs no clipping, in pixels.
@@ -100,37 +100,39 @@ impl ViewportTransform {
         s: S,
         [x, y, z, w]: [f32x16<S>; 4],
     ) -> ProjectedLanes<S> {
-        let splat = |value: f32| <f32x16<S> as SimdBase<S>>::splat(s, value);
-        let iw = splat(1.0) / w;
-        let xw = (x * iw) * splat(self.scale[0]) + splat(self.offset[0]);
-        let yw = (y * iw) * splat(self.scale[1]) + splat(self.offset[1]);
-        let mut zw = (z * iw) * splat(self.scale[2]) + splat(self.offset[2]);
-        let zero = splat(0.0);
-        let (low, high) = (splat(GUARD_MIN), splat(GUARD_MAX));
-        // An infinite w has a finite inverse, but the vertex is not finite.
-        let infinity = splat(f32::INFINITY);
-        let in_depth = if self.unclipped_depth {
-            zw = s.min_f32(s.max_f32(zw, splat(-FARTHEST)), splat(FARTHEST));
-            let magnitude = s.max_f32(z, -z);
-            w.simd_ge(splat(LEAST_W)) & magnitude.simd_lt(infinity)
-        } else {
-            z.simd_ge(zero) & z.simd_le(w) & w.simd_gt(zero)
-        };
-        let inside = in_depth
-            & w.simd_lt(infinity)
-            & iw.simd_lt(infinity)
-            & xw.simd_ge(low)
-            & xw.simd_le(high)
-            & yw.simd_ge(low)
-            & yw.simd_le(high);
-        let (x, y) = (snap_lanes(s, xw), snap_lanes(s, yw));
-        ProjectedLanes {
-            x,
-            y,
-            z: zw,
-            iw,
-            inside,
-        }
+        outline!(s, {
+            let splat = |value: f32| <f32x16<S> as SimdBase<S>>::splat(s, value);
+            let iw = splat(1.0) / w;
+            let xw = (x * iw) * splat(self.scale[0]) + splat(self.offset[0]);
+            let yw = (y * iw) * splat(self.scale[1]) + splat(self.offset[1]);
+            let mut zw = (z * iw) * splat(self.scale[2]) + splat(self.offset[2]);
+            let zero = splat(0.0);
+            let (low, high) = (splat(GUARD_MIN), splat(GUARD_MAX));
+            // An infinite w has a finite inverse, but the vertex is not finite.
+            let infinity = splat(f32::INFINITY);
+            let in_depth = if self.unclipped_depth {
+                zw = s.min_f32(s.max_f32(zw, splat(-FARTHEST)), splat(FARTHEST));
+                let magnitude = s.max_f32(z, -z);
+                w.simd_ge(splat(LEAST_W)) & magnitude.simd_lt(infinity)
+            } else {
+                z.simd_ge(zero) & z.simd_le(w) & w.simd_gt(zero)
+            };
+            let inside = in_depth
+                & w.simd_lt(infinity)
+                & iw.simd_lt(infinity)
+                & xw.simd_ge(low)
+                & xw.simd_le(high)
+                & yw.simd_ge(low)
+                & yw.simd_le(high);
+            let (x, y) = (snap_lanes(s, xw), snap_lanes(s, yw));
+            ProjectedLanes {
+                x,
+                y,
+                z: zw,
+                iw,
+                inside,
+            }
+        })
     }
 }
 

@@ -16,8 +16,10 @@ use crate::fragment::place::{MaskedWords, PacketLayout};
 use crate::fragment::queue::ShadedBatch;
 use crate::pipeline::color_target::{ColorTarget, Equation, MAX_WORDS};
 use estampe_format::attachment::Family;
-use estampe_format::{AttachmentCodec, PacketCodec, TexelCodec, with_codec};
-use estampe_simd::{LANES, Lanes, Level, Packet, Select, SimdBase, dispatch, f32x16, u32x16};
+use estampe_format::{AttachmentCodec, PacketCodec, with_codec};
+use estampe_simd::{
+    LANES, Lanes, Level, Packet, Select, SimdBase, dispatch, f32x16, outline, u32x16,
+};
 
 /// The way of colours into one attachment.
 #[derive(Debug, Clone, Copy)]
@@ -157,75 +159,12 @@ impl<S: Lanes> TexelAccess<S> for AttachmentCodec {
     }
     #[inline(always)]
     fn decode(self, s: S, words: [u32x16<S>; MAX_WORDS]) -> ColorLanes<S> {
-        if const { S::IS_SCALAR } {
-            return decode_by_lane(s, self, words);
-        }
-        with_codec!(self, codec => codec.decode(s, words))
+        outline!(s, with_codec!(self, codec => codec.decode(s, words)))
     }
     #[inline(always)]
     fn encode(self, s: S, color: ColorLanes<S>) -> [u32x16<S>; MAX_WORDS] {
-        if const { S::IS_SCALAR } {
-            return encode_by_lane(s, self, color);
-        }
-        with_codec!(self, codec => codec.encode(s, color))
+        outline!(s, with_codec!(self, codec => codec.encode(s, color)))
     }
-}
-
-/// Decoding texel by texel: sixteen scalar lanes of every codec take the compiler too long.
-#[inline(always)]
-fn decode_by_lane<S: Lanes>(
-    s: S,
-    codec: AttachmentCodec,
-    words: [u32x16<S>; MAX_WORDS],
-) -> ColorLanes<S> {
-    let words = [
-        words[0].to_array(),
-        words[1].to_array(),
-        words[2].to_array(),
-        words[3].to_array(),
-    ];
-    let [r, g, b, a] = decode_texels(codec, &words);
-    let load = |channel: [f32; LANES]| f32x16::load_array(s, channel);
-    [load(r), load(g), load(b), load(a)]
-}
-
-/// [`decode_by_lane`], the other way.
-#[inline(always)]
-fn encode_by_lane<S: Lanes>(
-    s: S,
-    codec: AttachmentCodec,
-    [r, g, b, a]: ColorLanes<S>,
-) -> [u32x16<S>; MAX_WORDS] {
-    let color = [r.to_array(), g.to_array(), b.to_array(), a.to_array()];
-    let [first, second, third, fourth] = encode_texels(codec, &color);
-    let load = |words: [u32; LANES]| u32x16::load_array(s, words);
-    [load(first), load(second), load(third), load(fourth)]
-}
-
-#[inline(never)]
-fn decode_texels(codec: AttachmentCodec, words: &[[u32; LANES]; MAX_WORDS]) -> [[f32; LANES]; 4] {
-    let codec = TexelCodec::new(codec.format());
-    let mut color = [[0.0; LANES]; 4];
-    for lane in 0..LANES {
-        let texel = words.map(|word| word[lane]);
-        for (channel, value) in color.iter_mut().zip(codec.decode(&texel)) {
-            channel[lane] = value;
-        }
-    }
-    color
-}
-
-#[inline(never)]
-fn encode_texels(codec: AttachmentCodec, color: &[[f32; LANES]; 4]) -> [[u32; LANES]; MAX_WORDS] {
-    let codec = TexelCodec::new(codec.format());
-    let mut words = [[0; LANES]; MAX_WORDS];
-    for lane in 0..LANES {
-        let value = color.map(|channel| channel[lane]);
-        for (word, bits) in words.iter_mut().zip(codec.encode(value)) {
-            word[lane] = bits;
-        }
-    }
-    words
 }
 
 /// A target of a batch.

@@ -12,7 +12,7 @@ use super::sample_tests::SampleTests;
 use crate::bounds::plane::Plane;
 use crate::fragment::interpolate::{DepthPlane, PlaneOrigin, evaluate};
 use crate::raster::{SampleSet, TileShape};
-use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, SimdBase, dispatch, f32x16};
+use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, SimdBase, dispatch, f32x16, outline};
 use estampe_types::state::CompareFunction;
 
 /// Ranges of the stored depths of a tile's blocks.
@@ -253,22 +253,24 @@ pub(crate) struct HizQuery<'a, const N: usize> {
 /// The least (or greatest) depth of a triangle's plane over the samples of each of sixteen blocks.
 #[inline(always)]
 fn extreme<S: Lanes, const N: usize>(s: S, look: &HizQuery<'_, N>, least: bool) -> f32x16<S> {
-    let Plane { dx, dy, .. } = look.plane.z;
-    let PlaneOrigin { x: x0, y: y0 } = look.plane.origin;
-    let positions = look.samples.subpixels();
-    // The corner at which the plane is least: the first sample where it rises, the last where it
-    // falls.
-    let corner = |slope: f32, axis: usize| {
-        if (slope >= 0.0) == least {
-            least_offset(&positions, axis)
-        } else {
-            15.0 + greatest_offset(&positions, axis)
-        }
-    };
-    let (tile_x, tile_y) = (look.tile.x, look.tile.y);
-    let x = distance(s, &LANE_X, (tile_x, corner(dx, 0)), x0);
-    let y = distance(s, &LANE_Y, (tile_y, corner(dy, 1)), y0);
-    evaluate(s, &look.plane.z, [x, y])
+    outline!(s, {
+        let Plane { dx, dy, .. } = look.plane.z;
+        let PlaneOrigin { x: x0, y: y0 } = look.plane.origin;
+        let positions = look.samples.subpixels();
+        // The corner at which the plane is least: the first sample where it rises, the last where it
+        // falls.
+        let corner = |slope: f32, axis: usize| {
+            if (slope >= 0.0) == least {
+                least_offset(&positions, axis)
+            } else {
+                15.0 + greatest_offset(&positions, axis)
+            }
+        };
+        let (tile_x, tile_y) = (look.tile.x, look.tile.y);
+        let x = distance(s, &LANE_X, (tile_x, corner(dx, 0)), x0);
+        let y = distance(s, &LANE_Y, (tile_y, corner(dy, 1)), y0);
+        evaluate(s, &look.plane.z, [x, y])
+    })
 }
 
 /// The least offset of a sample in its pixel, on an axis.

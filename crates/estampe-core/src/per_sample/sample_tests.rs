@@ -8,7 +8,7 @@
 use super::compare::compare;
 use super::stencil::StencilTest;
 use crate::depth_format::StoredDepth;
-use estampe_simd::{LANES, Lanes, Select, SimdBase, f32x16, u8x16};
+use estampe_simd::{LANES, Lanes, Select, SimdBase, f32x16, outline, u8x16};
 use estampe_types::state::{CompareFunction, DepthState};
 
 /// All tests of a draw, where the target has the attachments that they need.
@@ -60,30 +60,34 @@ impl SampleTests {
         front: u16,
         stored: StoredSamples<'_>,
     ) -> u16 {
-        let old = match &stored.depth {
-            Some(depth) => f32x16::load_array_ref(s, depth),
-            None => new,
-        };
-        if let (Some(range), Some(_)) = (self.bounds, &stored.depth) {
-            lanes &= inside(s, old, range);
-        }
-        let depth_test = self.depth.filter(|_| stored.depth.is_some());
-        let nearer = match depth_test {
-            Some(state) => s.bits_of_mask(compare(state.compare, new, old)),
-            None => u16::MAX,
-        };
-        let passed = match (&self.stencil, stored.stencil) {
-            (Some(test), Some(stencil)) => test_stencil(s, test, [lanes, nearer, front], stencil),
-            _ => lanes & nearer,
-        };
-        if let (Some(depth), true) = (
-            stored.depth,
-            depth_test.is_some_and(|state| state.write_enabled),
-        ) && passed != 0
-        {
-            s.mask_from_bits(passed).select(new, old).store_array(depth);
-        }
-        passed
+        outline!(s, {
+            let old = match &stored.depth {
+                Some(depth) => f32x16::load_array_ref(s, depth),
+                None => new,
+            };
+            if let (Some(range), Some(_)) = (self.bounds, &stored.depth) {
+                lanes &= inside(s, old, range);
+            }
+            let depth_test = self.depth.filter(|_| stored.depth.is_some());
+            let nearer = match depth_test {
+                Some(state) => s.bits_of_mask(compare(state.compare, new, old)),
+                None => u16::MAX,
+            };
+            let passed = match (&self.stencil, stored.stencil) {
+                (Some(test), Some(stencil)) => {
+                    test_stencil(s, test, [lanes, nearer, front], stencil)
+                }
+                _ => lanes & nearer,
+            };
+            if let (Some(depth), true) = (
+                stored.depth,
+                depth_test.is_some_and(|state| state.write_enabled),
+            ) && passed != 0
+            {
+                s.mask_from_bits(passed).select(new, old).store_array(depth);
+            }
+            passed
+        })
     }
 
     /// The lanes that the depth test would let pass as things stand; nothing is written.
@@ -94,13 +98,15 @@ impl SampleTests {
         new: f32x16<S>,
         stored: Option<&mut [f32; LANES]>,
     ) -> u16 {
-        match (self.depth, stored) {
-            (Some(state), Some(stored)) => {
-                let stored = f32x16::load_array_ref(s, stored);
-                s.bits_of_mask(compare(state.compare, new, stored))
+        outline!(s, {
+            match (self.depth, stored) {
+                (Some(state), Some(stored)) => {
+                    let stored = f32x16::load_array_ref(s, stored);
+                    s.bits_of_mask(compare(state.compare, new, stored))
+                }
+                _ => u16::MAX,
             }
-            _ => u16::MAX,
-        }
+        })
     }
 
     /// [`SampleTests::run`] of one sample.

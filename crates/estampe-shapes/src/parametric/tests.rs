@@ -195,7 +195,7 @@ fn builtin_shapes_by_name() {
     let error = "bunny".parse::<BuiltinShape>().unwrap_err();
     assert_eq!(
         error.to_string(),
-        "there is no built-in model \"bunny\"; there are teapot, sphere, torus, cube and plane"
+        "no built-in model is called \"bunny\"; there are teapot, sphere, torus, cube and plane"
     );
 }
 

@@ -6,7 +6,9 @@ use crate::bounds::primitives::LinePrimitive;
 use crate::geometry::line_style::{
     LineAxis, LineRectangle, LineShape, LineStyle, along, length_squared,
 };
-use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x16, i32x16};
+use estampe_simd::{
+    LANE_X, LANE_Y, LANES, Lanes, Packet, SimdBase, SimdCvtFloat, f32x16, i32x16, outline,
+};
 use estampe_types::Interpolation;
 
 /// A line.
@@ -79,19 +81,21 @@ impl<'a> LineInterpolant<'a> {
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "coordinates are below 2²⁴")]
     fn fraction<S: Lanes>(&self, s: S, [x, y]: [i32; 2]) -> f32x16<S> {
-        let (pixel, lanes) = if self.axis.x_major {
-            (x, &LANE_X)
-        } else {
-            (y, &LANE_Y)
-        };
-        let mut steps = [0; LANES];
-        for (step, lane) in steps.iter_mut().zip(lanes) {
-            *step = i32::from(*lane) * 256;
-        }
-        let first = pixel * 256 + 128 - self.axis.start[0] as i32;
-        let along = i32x16::load_array(s, steps) + <i32x16<S> as SimdBase<S>>::splat(s, first);
-        let delta = <f32x16<S> as SimdBase<S>>::splat(s, self.axis.delta[0] as f32);
-        f32x16::float_from(along) / delta
+        outline!(s, {
+            let (pixel, lanes) = if self.axis.x_major {
+                (x, &LANE_X)
+            } else {
+                (y, &LANE_Y)
+            };
+            let mut steps = [0; LANES];
+            for (step, lane) in steps.iter_mut().zip(lanes) {
+                *step = i32::from(*lane) * 256;
+            }
+            let first = pixel * 256 + 128 - self.axis.start[0] as i32;
+            let along = i32x16::load_array(s, steps) + <i32x16<S> as SimdBase<S>>::splat(s, first);
+            let delta = <f32x16<S> as SimdBase<S>>::splat(s, self.axis.delta[0] as f32);
+            f32x16::float_from(along) / delta
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 use super::PixelOffsets;
 use crate::bounds::plane::Plane;
 use crate::bounds::primitives::TrianglePacket;
-use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, SimdBase, f32x16};
+use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, SimdBase, f32x16, outline};
 
 /// Columns (or rows) of a packet's lanes.
 #[inline(always)]
@@ -102,8 +102,10 @@ pub(super) fn pixels(subpixels: i32) -> f32 {
 /// A plane's value at sixteen pixels.
 #[inline(always)]
 pub(crate) fn evaluate<S: Lanes>(s: S, plane: &Plane, [dx, dy]: [f32x16<S>; 2]) -> f32x16<S> {
-    let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
-    splat(plane.origin) + (dx * splat(plane.dx) + dy * splat(plane.dy))
+    outline!(s, {
+        let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+        splat(plane.origin) + (dx * splat(plane.dx) + dy * splat(plane.dy))
+    })
 }
 
 /// A plane over a block of 16×16 pixels: its packets' four columns and four rows share their

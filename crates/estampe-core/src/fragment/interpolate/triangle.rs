@@ -5,7 +5,7 @@ use super::varyings::VaryingPlanes;
 use super::{Interpolant, PixelOffsets};
 use crate::bounds::plane::Plane;
 use crate::fragment::quad::QUAD;
-use estampe_simd::{LANES, Lanes, Packet, Select, SimdBase, f32x4, f32x16};
+use estampe_simd::{LANES, Lanes, Packet, Select, SimdBase, f32x4, f32x16, outline};
 use estampe_types::Interpolation;
 
 /// A triangle.
@@ -64,33 +64,35 @@ impl TriangleInterpolant<'_> {
         distances: [f32x16<S>; 2],
         out: &mut [Packet<f32>],
     ) {
-        let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
-        let n = out.len().min(self.planes.len());
-        let planes = self.planes;
-        // Not from the plane, whose sum would turn −0 into 0.
-        let is_flat = |k: usize| !self.all_smooth && self.modes[k] == Interpolation::Flat;
-        if self.equal_w {
+        outline!(s, {
+            let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
+            let n = out.len().min(self.planes.len());
+            let planes = self.planes;
+            // Not from the plane, whose sum would turn −0 into 0.
+            let is_flat = |k: usize| !self.all_smooth && self.modes[k] == Interpolation::Flat;
+            if self.equal_w {
+                for (k, packet) in out.iter_mut().enumerate().take(n) {
+                    if is_flat(k) {
+                        packet.0 = [planes.origin[k]; LANES];
+                        continue;
+                    }
+                    evaluate(s, &planes.of(k), distances).store_array(&mut packet.0);
+                }
+                return;
+            }
+            let w = one / evaluate(s, &self.iw, distances);
             for (k, packet) in out.iter_mut().enumerate().take(n) {
                 if is_flat(k) {
                     packet.0 = [planes.origin[k]; LANES];
                     continue;
                 }
-                evaluate(s, &planes.of(k), distances).store_array(&mut packet.0);
+                let mut value = evaluate(s, &planes.of(k), distances);
+                if self.all_smooth || self.modes[k] == Interpolation::Smooth {
+                    value *= w;
+                }
+                value.store_array(&mut packet.0);
             }
-            return;
-        }
-        let w = one / evaluate(s, &self.iw, distances);
-        for (k, packet) in out.iter_mut().enumerate().take(n) {
-            if is_flat(k) {
-                packet.0 = [planes.origin[k]; LANES];
-                continue;
-            }
-            let mut value = evaluate(s, &planes.of(k), distances);
-            if self.all_smooth || self.modes[k] == Interpolation::Smooth {
-                value *= w;
-            }
-            value.store_array(&mut packet.0);
-        }
+        })
     }
 
     /// The distances of four quads' pixels' centres from the planes' origin, given their first

@@ -17,7 +17,7 @@ use super::place::Place;
 use crate::depth_format::clamp_depth;
 use crate::pipeline::RenderPipeline;
 use crate::raster::{Covered, SampleSet};
-use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, Packet, SimdBase};
+use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, Packet, SimdBase, outline};
 use estampe_types::shader::{DepthOutput, Sampling};
 use estampe_types::{Bindings, FragmentBatch};
 
@@ -203,73 +203,76 @@ impl<const N: usize> FragmentQueue<N> {
         interpolant: &impl Interpolant<S>,
         packet: &PrimitivePacket<N>,
     ) {
-        let (pixel, sample) = (packet.pixel, packet.sample);
-        let front = if packet.front { u16::MAX } else { 0 };
-        let slot = self.begin(
-            Place::Packet(packet.alive.packet),
-            packet.alive.masks,
-            front,
-        );
-        let mut at = [0.5; 2];
-        if let Some(sample) = sample {
-            let number = usize::from(sample) % N;
-            self.sample_of[slot] = Some(sample);
-            self.coverage[slot] = packet.alive.masks[number];
-            at = self.samples.offsets()[number];
-        }
-        let out = &mut self.varyings[slot * self.scalars..][..self.scalars];
-        if sample.is_some() {
-            if !out.is_empty() {
-                interpolant.varyings_in(s, pixel, &PixelOffsets::all(at), out);
+        outline!(s, {
+            let (pixel, sample) = (packet.pixel, packet.sample);
+            let front = if packet.front { u16::MAX } else { 0 };
+            let slot = self.begin(
+                Place::Packet(packet.alive.packet),
+                packet.alive.masks,
+                front,
+            );
+            let mut at = [0.5; 2];
+            if let Some(sample) = sample {
+                let number = usize::from(sample) % N;
+                self.sample_of[slot] = Some(sample);
+                self.coverage[slot] = packet.alive.masks[number];
+                at = self.samples.offsets()[number];
             }
-        } else {
-            if !out.is_empty() {
-                interpolant.varyings(s, pixel, out);
-            }
-            if !self.sampling.is_empty() {
-                let places = centroids(&packet.covered, self.samples);
-                interpolant.varyings_in(s, pixel, &places, &mut self.spare);
-                for ((out, spare), sampling) in out.iter_mut().zip(&self.spare).zip(&self.sampling)
-                {
-                    if *sampling == Sampling::Centroid {
-                        *out = *spare;
+            let out = &mut self.varyings[slot * self.scalars..][..self.scalars];
+            if sample.is_some() {
+                if !out.is_empty() {
+                    interpolant.varyings_in(s, pixel, &PixelOffsets::all(at), out);
+                }
+            } else {
+                if !out.is_empty() {
+                    interpolant.varyings(s, pixel, out);
+                }
+                if !self.sampling.is_empty() {
+                    let places = centroids(&packet.covered, self.samples);
+                    interpolant.varyings_in(s, pixel, &places, &mut self.spare);
+                    for ((out, spare), sampling) in
+                        out.iter_mut().zip(&self.spare).zip(&self.sampling)
+                    {
+                        if *sampling == Sampling::Centroid {
+                            *out = *spare;
+                        }
                     }
                 }
             }
-        }
-        if self.needs.position {
-            let [x, y, z, w] = &mut self.positions[slot];
-            let lanes = |base: i32, lanes: &[u8; LANES], offset: f32| {
-                let mut places = [0.0; LANES];
-                for (place, lane) in places.iter_mut().zip(lanes) {
-                    *place = (base + i32::from(*lane)) as f32 + offset;
-                }
-                places
-            };
-            x.0 = lanes(pixel[0], &LANE_X, at[0]);
-            y.0 = lanes(pixel[1], &LANE_Y, at[1]);
-            let depth = interpolant.depth(s, pixel, at);
-            clamp_depth(s, depth, self.needs.depth_range).store_array(&mut z.0);
-            let inverse_w = if sample.is_some() {
-                interpolant.inverse_w_at(s, pixel, &PixelOffsets::all(at))
-            } else {
-                interpolant.inverse_w(s, pixel)
-            };
-            inverse_w.store_array(&mut w.0);
-        }
-        if self.needs.sample_index {
-            self.sample_index[slot] = sample.map_or(0, u32::from);
-        }
-        if self.needs.coverage {
-            self.samples_covered[slot] = covered_bits(&packet.covered, sample);
-        }
-        if self.needs.depth {
-            let depths = &mut self.depths[slot * N..][..self.samples.count()];
-            for (depth, offset) in depths.iter_mut().zip(self.samples.offsets()) {
-                let value = interpolant.depth(s, pixel, offset);
-                clamp_depth(s, value, self.needs.depth_range).store_array(&mut depth.0);
+            if self.needs.position {
+                let [x, y, z, w] = &mut self.positions[slot];
+                let lanes = |base: i32, lanes: &[u8; LANES], offset: f32| {
+                    let mut places = [0.0; LANES];
+                    for (place, lane) in places.iter_mut().zip(lanes) {
+                        *place = (base + i32::from(*lane)) as f32 + offset;
+                    }
+                    places
+                };
+                x.0 = lanes(pixel[0], &LANE_X, at[0]);
+                y.0 = lanes(pixel[1], &LANE_Y, at[1]);
+                let depth = interpolant.depth(s, pixel, at);
+                clamp_depth(s, depth, self.needs.depth_range).store_array(&mut z.0);
+                let inverse_w = if sample.is_some() {
+                    interpolant.inverse_w_at(s, pixel, &PixelOffsets::all(at))
+                } else {
+                    interpolant.inverse_w(s, pixel)
+                };
+                inverse_w.store_array(&mut w.0);
             }
-        }
+            if self.needs.sample_index {
+                self.sample_index[slot] = sample.map_or(0, u32::from);
+            }
+            if self.needs.coverage {
+                self.samples_covered[slot] = covered_bits(&packet.covered, sample);
+            }
+            if self.needs.depth {
+                let depths = &mut self.depths[slot * N..][..self.samples.count()];
+                for (depth, offset) in depths.iter_mut().zip(self.samples.offsets()) {
+                    let value = interpolant.depth(s, pixel, offset);
+                    clamp_depth(s, value, self.needs.depth_range).store_array(&mut depth.0);
+                }
+            }
+        })
     }
 
     /// Queues a packet whose lanes are fragments of several triangles; gives where its varyings go.
