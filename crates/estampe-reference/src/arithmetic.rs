@@ -1,4 +1,5 @@
-//! The few operations of NUMERICS.md that Rust spells differently.
+//! Minimum, maximum, clamping and rounding as NUMERICS.md defines them, where Rust's functions
+//! differ.
 
 /// `a < b ? a : b`: b where either is NaN. (`f32::min` would give the number.)
 #[must_use]
@@ -12,13 +13,13 @@ pub fn max(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// `max(low)`, then `min(high)`: NaN gives `low`.
+/// `max(low)`, then `min(high)`; NaN gives `low`.
 #[must_use]
 pub fn clamp(value: f32, low: f32, high: f32) -> f32 {
     min(max(value, low), high)
 }
 
-/// Nearest integer, ties to even. Values beyond an `i32` give its ends, NaN gives 0.
+/// The nearest integer, ties to even. It saturates at the ends of `i32`; NaN gives 0.
 #[must_use]
 #[expect(
     clippy::cast_possible_truncation,
@@ -28,7 +29,7 @@ pub fn round_half_even(value: f32) -> i32 {
     value.round_ties_even() as i32
 }
 
-/// ⌊a ÷ b⌋ of integers, b ≠ 0.
+/// ⌊a ÷ b⌋ of integers; b is not 0.
 #[must_use]
 pub fn floor_div(a: i128, b: i128) -> i128 {
     let (quotient, remainder) = (a / b, a % b);

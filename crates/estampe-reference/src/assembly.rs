@@ -1,8 +1,8 @@
-//! Primitive assembly: which vertices make which point, line or triangle.
+//! Primitive assembly: from positions in the vertex stream to points, lines and triangles.
 //!
 //! In · Out: a topology and a number of vertices · primitives as positions in the vertex stream.
-//! Spec: docs/PIPELINE.md row A1; the order within strips and fans is Vulkan's, so that of a triangle the provoking
-//! vertex stands first, where that is the first one:
+//! Spec: docs/PIPELINE.md row A1. The order within strips and fans is Vulkan's, with the provoking
+//! vertex first. With the first-vertex convention that is:
 //!
 //! ```text
 //! strip   0───2───4        triangle 0 = (0, 1, 2)     triangle 1 = (1, 3, 2): turned
@@ -14,25 +14,28 @@
 //!         1───0
 //! ```
 //!
-//! Where it is the last one (Vulkan's table of provoking vertices, `VK_EXT_provoking_vertex`), a triangle's corners
-//! are turned, without changing the winding, until it stands first: (2, 0, 1), (3, 2, 1), (4, 2, 3) of the
-//! strip, (2, 0, 1), (3, 0, 2) of the fan. Lines keep their direction.
+//! With the last-vertex convention (Vulkan's table of provoking vertices,
+//! `VK_EXT_provoking_vertex`) a triangle's corners are rotated, which keeps the winding, until the
+//! provoking vertex is first: (2, 0, 1), (3, 2, 1), (4, 2, 3) of the strip, (2, 0, 1), (3, 0, 2) of
+//! the fan. Lines keep their direction.
 
 use estampe_types::state::{PrimitiveTopology, ProvokingVertex};
 use std::ops::Range;
 
-/// A primitive whose corners are positions in the vertex stream; of a triangle the first is the provoking one.
+/// A primitive whose corners are positions in the vertex stream. The first corner of a triangle is
+/// its provoking vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Primitive {
     /// One vertex.
     Point(u32),
-    /// From the first to the second.
+    /// From the first position to the second.
     Line([u32; 2]),
-    /// In this winding.
+    /// The corners in this winding.
     Triangle([u32; 3]),
 }
 
-/// The primitives of `count` vertices, in order. Vertices left over make none; a loop needs two.
+/// The primitives of `count` vertices, in order. Vertices that do not complete a primitive are
+/// dropped; a line loop needs two vertices.
 pub fn primitives(topology: PrimitiveTopology, count: u32) -> impl Iterator<Item = Primitive> {
     use PrimitiveTopology as T;
     let number = match topology {
@@ -68,7 +71,8 @@ pub fn primitives(topology: PrimitiveTopology, count: u32) -> impl Iterator<Item
     })
 }
 
-/// The corners of a triangle of a topology, begun with the provoking one; `index` is its number.
+/// The corners of a triangle, rotated so that its provoking vertex is first; `index` is the
+/// triangle's number in the topology.
 #[must_use]
 pub fn turned(
     topology: PrimitiveTopology,
@@ -81,14 +85,15 @@ pub fn turned(
         return [a, b, c];
     }
     match topology {
-        // The fan's own vertex, the first of all, stands last.
+        // The fan's centre vertex is last in (1, 2, 0).
         T::TriangleFan => [b, c, a],
         T::TriangleStrip | T::TriangleStripAdjacency if index % 2 == 1 => [b, c, a],
         _ => [c, a, b],
     }
 }
 
-/// The runs of positions among `count` between which `is_restart` holds.
+/// The ranges of positions below `count` that are separated by positions for which `is_restart`
+/// holds.
 #[must_use]
 pub fn runs(count: u32, is_restart: impl Fn(u32) -> bool) -> Vec<Range<u32>> {
     let mut runs = Vec::new();

@@ -1,19 +1,19 @@
-//! Blending.
+//! Blending of one sample's colour with the attachment's.
 //!
-//! In · Out: colours of source, second source, constant and destination · the blended colour. Precision: f32 in the
-//! order of NUMERICS.md, *Per-sample operations*.
+//! In · Out: source, second source, constant and destination colours · the blended colour.
+//! Precision: f32 in the order of NUMERICS.md, *Per-sample operations*.
 
 use crate::arithmetic::{max, min};
 use estampe_types::state::{BlendComponent, BlendFactor, BlendOperation, BlendState};
 
-/// What enters blending: linear colours.
+/// The inputs of the blend equation: linear colours.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlendInputs {
     /// The fragment's colour.
     pub source: [f32; 4],
-    /// The fragment's second colour.
+    /// The fragment's second colour, for dual-source blending.
     pub second: [f32; 4],
-    /// The draw's constant.
+    /// The draw's blend constant.
     pub constant: [f32; 4],
     /// The stored colour.
     pub destination: [f32; 4],
@@ -70,7 +70,7 @@ fn factor(which: BlendFactor, channel: usize, inputs: &BlendInputs) -> f32 {
         F::OneMinusSrc1 => 1.0 - second[channel],
         F::Src1Alpha => second[3],
         F::OneMinusSrc1Alpha => 1.0 - second[3],
-        // The enumeration is open; every factor that there is stands above.
+        // The enum is non-exhaustive; all of its factors are matched above.
         _ => 1.0,
     }
 }

@@ -1,8 +1,8 @@
 //! Integer lines (Bresenham 1965): the classic scan conversion, for overlays and for teaching.
 //!
-//! Both ends are drawn. The loop plots, then steps; on a tie (the line passes exactly between two
-//! pixels) the minor coordinate stays. The tie is judged from the end with the lesser major
-//! coordinate, so that a line and its reverse are the same pixels.
+//! Both end pixels are drawn. The loop plots, then steps; on a tie (the line passes exactly between
+//! two pixels) the minor coordinate stays. Ties are decided as seen from the end with the lesser
+//! major coordinate, so that a line and its reverse cover the same pixels.
 //!
 //! ```text
 //!   e = 2·(k·Δminor − m·Δmajor): twice the distance of the line from pixel (k, m), times Δmajor
@@ -11,23 +11,24 @@
 //!
 //! Pipeline lines, which are half-open and have sub-pixel ends, are in [`line`](mod@crate::line).
 
-/// The pixels of a line, from its start to its end.
+/// An iterator over the pixels of a line, from its start to its end.
 #[derive(Debug, Clone)]
 pub struct Line {
     next: Option<[i64; 2]>,
     left: u64,
     /// 0 where |Δx| ≥ |Δy|, else 1.
     major: usize,
-    /// |Δ| along the major and the minor axis.
+    /// |Δ| along the major and along the minor axis.
     length: [i64; 2],
-    /// −1 or 1 along x and y.
+    /// The step along x and along y: −1 or 1.
     step: [i64; 2],
-    /// Against the canonical direction a tie steps, because in it the tie stayed.
+    /// Whether a tie steps: set if the line runs from the greater to the lesser major coordinate.
     tie_steps: bool,
     error: i64,
 }
 
-/// The line from one pixel to another. No coordinates overflow.
+/// The line from one pixel to another. Any two pixels are allowed: the arithmetic is in 64 bits and
+/// cannot overflow.
 #[must_use]
 pub fn line(from: [i32; 2], to: [i32; 2]) -> Line {
     let delta = [0, 1].map(|axis| i64::from(to[axis]) - i64::from(from[axis]));

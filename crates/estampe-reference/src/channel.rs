@@ -1,36 +1,38 @@
-//! One channel of a texel: the code that is stored, and the number that it stands for.
+//! Encoding and decoding of one channel of a texel.
 //!
-//! In · Out: numbers as shaders give them · codes. Precision: f32 in the order of NUMERICS.md, *Formats*.
+//! A *code* is a channel's encoded value: the bits that are stored. In · Out: the numbers that
+//! shaders write · codes. Precision: f32 in the order of NUMERICS.md, *Formats*.
 
 use crate::arithmetic::{clamp, max, min};
 use crate::small_float::{half_code, half_value, unsigned_code, unsigned_value};
 use crate::srgb;
 use estampe_types::{TexelEncoding, TextureFormat};
 
-/// How a channel's code is read.
+/// The encoding of a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Channel {
-    /// The format lacks it: stores are ignored, it reads as this number.
+    /// The format lacks the channel: stores are ignored, loads give this number.
     Missing(u8),
-    /// So many bits over 0..=1.
+    /// Unsigned normalised, of this many bits: 0 to 1.
     Unorm(u32),
-    /// 8 bits over 0..=1, finer where dark.
+    /// sRGB in 8 bits: 0 to 1.
     Srgb,
-    /// So many bits, two's complement, over −1..=1.
+    /// Signed normalised, two's complement of this many bits: −1 to 1.
     Snorm(u32),
-    /// An unsigned integer of so many bits.
+    /// An unsigned integer of this many bits.
     Uint(u32),
-    /// A signed integer of so many bits, two's complement.
+    /// A signed integer, two's complement of this many bits.
     Sint(u32),
-    /// A half float.
+    /// A 16-bit float.
     Half,
-    /// An unsigned float with so many bits of mantissa.
+    /// An unsigned float with 5 bits of exponent and this many bits of mantissa.
     SmallFloat(u32),
-    /// A float.
+    /// A 32-bit float.
     Float,
 }
 
-/// The channels R, G, B, A of a format that can be drawn into; of any other nothing is stored.
+/// The channels R, G, B, A of a renderable format. Of a format that is not renderable, all are
+/// missing.
 #[must_use]
 pub fn channels(format: TextureFormat) -> [Channel; 4] {
     use TexelEncoding as E;
@@ -63,7 +65,7 @@ pub fn channels(format: TextureFormat) -> [Channel; 4] {
 }
 
 impl Channel {
-    /// How many bits its code has.
+    /// The number of bits of a code; 0 for a missing channel.
     #[must_use]
     pub fn bits(self) -> u32 {
         match self {
@@ -76,14 +78,16 @@ impl Channel {
         }
     }
 
-    /// The code without what does not fit.
+    /// The lowest [`bits`](Self::bits) bits of a code.
     #[must_use]
     pub fn cut(self, code: u32) -> u32 {
         let above = 32 - self.bits();
         code.checked_shl(above).map_or(0, |high| high >> above)
     }
 
-    /// What a blended format confines colours to before it blends them.
+    /// A colour channel limited to the range of the format, as blending does with its inputs: 0..=1
+    /// for unorm and sRGB, −1..=1 for snorm, unchanged otherwise. NaN becomes 0 where there is a
+    /// range.
     #[must_use]
     pub fn confine(self, value: f32) -> f32 {
         let or_zero = |value: f32| if value.is_nan() { 0.0 } else { value };
@@ -94,7 +98,7 @@ impl Channel {
         }
     }
 
-    /// The code of a number; of an integer channel, whose number is given as its bits.
+    /// The code of a number. For an integer channel `value` holds the integer as bits.
     #[must_use]
     pub fn encode(self, value: f32) -> u32 {
         match self {
@@ -121,7 +125,7 @@ impl Channel {
         }
     }
 
-    /// The number of a code. Integers have none: 0.
+    /// The number that a code stands for; 0 for integer channels, which have none.
     #[must_use]
     pub fn decode(self, code: u32) -> f32 {
         match self {
@@ -139,7 +143,8 @@ impl Channel {
         }
     }
 
-    /// The code that a clear stores.
+    /// The code that a clear to `value` stores. For integer channels `value` is truncated to an
+    /// integer.
     #[must_use]
     #[expect(
         clippy::cast_possible_truncation,
@@ -154,7 +159,7 @@ impl Channel {
         }
     }
 
-    /// The code that stands for the samples of one pixel.
+    /// The resolved code of one pixel's samples.
     pub fn resolve(self, samples: impl ExactSizeIterator<Item = u32>) -> u32 {
         let inverse_count = 1.0 / samples.len() as f32;
         let mut samples = samples;
@@ -181,14 +186,15 @@ impl Channel {
         }
     }
 
-    /// A code of two's complement as a signed number.
+    /// The signed integer of a code in two's complement.
     fn signed(self, code: u32) -> i32 {
         let above = 32 - self.bits();
         (code << above).cast_signed() >> above
     }
 }
 
-/// A depth as an attachment can hold it: the nearest multiple of 1/(2ⁿ − 1), ties to even; in float formats itself.
+/// A depth rounded to the attachment's format: to the nearest multiple of 1/(2ⁿ − 1), ties to even,
+/// in unorm formats; unchanged in float formats.
 #[must_use]
 pub fn quantised_depth(format: TextureFormat, depth: f32) -> f32 {
     let steps = match format.encoding() {
@@ -199,13 +205,13 @@ pub fn quantised_depth(format: TextureFormat, depth: f32) -> f32 {
     (depth * steps).round_ties_even() / steps
 }
 
-/// A depth confined to what viewports may have: NaN gives 0.
+/// The depth that a clear stores: clamped to 0..=1 and rounded to the format; NaN gives 0.
 #[must_use]
 pub fn clear_depth(format: TextureFormat, depth: f32) -> f32 {
     quantised_depth(format, min(max(depth, 0.0), 1.0))
 }
 
-/// 2ⁿ − 1, exact.
+/// 2ⁿ − 1, exactly.
 fn greatest(bits: u32) -> f32 {
     (u32::MAX >> (32 - bits)) as f32
 }

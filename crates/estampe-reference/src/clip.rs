@@ -1,30 +1,30 @@
 //! Clipping in clip space, before the division (Sutherland and Hodgman 1974).
 //!
-//! In · Out: clip vertices · clip vertices, none of which needs a division by zero. Precision: f32 in
-//! the order of NUMERICS.md; a crossing is always computed from the inside vertex towards the outside
+//! In · Out: clip vertices · clip vertices whose w has a finite reciprocal. Precision: f32 in the
+//! order of NUMERICS.md. A crossing is always computed from the inside vertex towards the outside
 //! one, so that two triangles that share an edge get the same bits.
 //!
 //! ```text
 //!  inside │ outside        d_in ≥ 0 > d_out
 //!    a●───┼──────●b        t = d_in ÷ (d_in − d_out)
-//!   d_in  │    d_out       crossing = a + (b − a)·t, near and far then set z onto the plane
+//!   d_in  │    d_out       crossing = a + (b − a)·t; near and far then set z onto the plane
 //! ```
 
 use crate::ClipVertex;
 use crate::viewport::{GUARD_BAND_MAX, GUARD_BAND_MIN, LEAST_W, ViewportTransform};
 
-/// A plane that clips.
+/// A clip plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Plane {
     /// z ≥ 0.
     Near,
     /// z ≤ w.
     Far,
-    /// w ≥ [`LEAST_W`], where depth is not clipped.
+    /// w ≥ [`LEAST_W`]; in use if depth is not clipped.
     Eye,
-    /// Clip distance k is not negative.
+    /// Clip distance k ≥ 0.
     Distance(usize),
-    /// A window coordinate is at least `SIDE_MIN`: `coordinate·scale + reach·w ≥ 0`.
+    /// The window coordinate is at least `SIDE_MIN`: `coordinate·scale + reach·w ≥ 0`.
     Least {
         /// 0 for x, 1 for y.
         axis: usize,
@@ -33,7 +33,7 @@ pub enum Plane {
         /// `ox + 8193` or `oy + 8193`.
         reach: f32,
     },
-    /// A window coordinate is at most `SIDE_MAX`: `reach·w − coordinate·scale ≥ 0`.
+    /// The window coordinate is at most `SIDE_MAX`: `reach·w − coordinate·scale ≥ 0`.
     Greatest {
         /// 0 for x, 1 for y.
         axis: usize,
@@ -44,17 +44,19 @@ pub enum Plane {
     },
 }
 
-/// Where the sides clip, in pixels: one outside the guard band. An edge whose ends are both within the
-/// band is then never cut, so two triangles that share it agree, whichever of them leaves the band.
+/// The left and top clip planes in window coordinates: one pixel outside the guard band. An edge
+/// whose ends are both within the band is then never cut, so two triangles that share it agree if
+/// one of them leaves the band.
 pub const SIDE_MIN: f32 = GUARD_BAND_MIN - 1.0;
-/// The same on the right and at the bottom.
+/// The right and bottom clip planes in window coordinates: one pixel outside the guard band.
 pub const SIDE_MAX: f32 = GUARD_BAND_MAX + 1.0;
 
 impl Plane {
     /// The planes that clip depth.
     pub const DEPTH: [Self; 2] = [Self::Near, Self::Far];
 
-    /// The planes that clip always, in order; the sides clip only beyond the guard band.
+    /// The planes that clip every primitive, in order. The sides clip only primitives that leave
+    /// the guard band.
     #[must_use]
     pub fn always(viewport: &ViewportTransform, clip_distances: usize) -> Vec<Self> {
         let depth: &[Self] = if viewport.unclipped_depth {
@@ -66,7 +68,7 @@ impl Plane {
         depth.iter().copied().chain(distances).collect()
     }
 
-    /// Left, right, top and bottom, in the order in which they clip.
+    /// The left, right, top and bottom planes, in the order in which they clip.
     #[must_use]
     pub fn sides(viewport: &ViewportTransform) -> [Self; 4] {
         let (scale, offset) = (viewport.scale, viewport.offset);
@@ -83,7 +85,7 @@ impl Plane {
         [least(0), greatest(0), least(1), greatest(1)]
     }
 
-    /// How far inside a vertex is, times w or more; negative outside.
+    /// The signed distance of a vertex to the plane, scaled: positive inside, negative outside.
     #[must_use]
     pub fn distance(self, vertex: &ClipVertex) -> f32 {
         let position = vertex.position;
@@ -98,7 +100,8 @@ impl Plane {
         }
     }
 
-    /// Sets the coordinate that this plane bounds exactly onto it; the sides bound no single one.
+    /// Sets the coordinate that this plane bounds to its exact value. The sides bound a sum of two
+    /// coordinates: nothing is set.
     fn set(self, vertex: &mut ClipVertex) {
         let position = &mut vertex.position;
         match self {
@@ -114,7 +117,7 @@ impl Plane {
         self.distance(vertex) >= 0.0
     }
 
-    /// Where the edge from an inside to an outside vertex crosses the plane.
+    /// The point at which the edge from an inside to an outside vertex crosses the plane.
     #[must_use]
     pub fn crossing(self, inside: &ClipVertex, outside: &ClipVertex) -> ClipVertex {
         let d_in = self.distance(inside);
@@ -133,14 +136,15 @@ impl Plane {
     }
 }
 
-/// How far a position is inside each of the six sides of the view volume.
+/// The signed distances of a clip-space position to the six planes of the view volume, in the order
+/// x ≥ −w, x ≤ w, y ≥ −w, y ≤ w, z ≥ 0, z ≤ w; negative outside.
 #[must_use]
 pub fn view_volume_distances([x, y, z, w]: [f32; 4]) -> [f32; 6] {
     [x + w, w - x, y + w, w - y, z, w - z]
 }
 
-/// Whether a position can be divided and lies between the near and the far plane, or where depth is not clipped has
-/// enough w.
+/// Whether 1/w of a position is positive and finite, and the position is inside the depth planes:
+/// near and far, or w ≥ [`LEAST_W`] if depth is not clipped.
 #[must_use]
 pub fn is_inside([_, _, z, w]: [f32; 4], viewport: &ViewportTransform) -> bool {
     let is_in_depth = if viewport.unclipped_depth {
@@ -151,7 +155,7 @@ pub fn is_inside([_, _, z, w]: [f32; 4], viewport: &ViewportTransform) -> bool {
     is_in_depth && w > 0.0 && (1.0 / w).is_finite()
 }
 
-/// Whether a primitive is dropped because all of its vertices are negative in one cull distance.
+/// Whether a primitive is culled by distance: one cull distance is negative at all of its vertices.
 #[must_use]
 pub fn is_distant(vertices: &[ClipVertex]) -> bool {
     let distances = vertices
@@ -160,7 +164,8 @@ pub fn is_distant(vertices: &[ClipVertex]) -> bool {
     (0..distances).any(|k| vertices.iter().all(|vertex| vertex.cull_distances[k] < 0.0))
 }
 
-/// Whether it is inside and its window coordinates fit the rasterizer's fixed point.
+/// Whether a position is inside the depth planes and its window coordinates fit the rasterizer's
+/// fixed point.
 #[must_use]
 pub fn is_within_guard_band(position: [f32; 4], viewport: &ViewportTransform) -> bool {
     let window = viewport.window(position);
@@ -168,18 +173,19 @@ pub fn is_within_guard_band(position: [f32; 4], viewport: &ViewportTransform) ->
     is_inside(position, viewport) && band.contains(&window.x) && band.contains(&window.y)
 }
 
-/// What the clip test says of a primitive.
+/// The result of the clip test of a primitive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ClipTest {
-    /// All of it is drawn as it is.
+    /// The primitive is drawn unclipped.
     Accept,
-    /// Nothing of it is seen, or it is not made of numbers.
+    /// The primitive is dropped: it is outside one plane with all of its vertices, or not all of
+    /// its numbers are finite.
     Drop,
     /// It must be clipped.
     Clip,
 }
 
-/// The clip test of a line or triangle.
+/// Classifies a line or triangle.
 #[must_use]
 pub fn test(vertices: &[ClipVertex], viewport: &ViewportTransform) -> ClipTest {
     let positions = || vertices.iter().map(|vertex| vertex.position);
@@ -202,7 +208,8 @@ pub fn test(vertices: &[ClipVertex], viewport: &ViewportTransform) -> ClipTest {
     ClipTest::Clip
 }
 
-/// Clips a triangle: the fan that is left of it; none, itself, or up to seven.
+/// Clips a triangle and cuts the result into a fan: at most seven triangles, and one more for each
+/// clip distance. The winding is kept.
 #[must_use]
 pub fn clip_triangle(
     vertices: &[ClipVertex; 3],
@@ -215,7 +222,8 @@ pub fn clip_triangle(
     }
 }
 
-/// Clips a polygon by near and far and the clip distances, then, if it leaves the guard band, by the sides around it.
+/// Clips a polygon by the depth planes and the clip distances, then, if it leaves the guard band,
+/// by the sides around it.
 #[must_use]
 pub fn clip_polygon(vertices: &[ClipVertex], viewport: &ViewportTransform) -> Vec<ClipVertex> {
     let mut polygon = vertices.to_vec();
@@ -230,7 +238,7 @@ pub fn clip_polygon(vertices: &[ClipVertex], viewport: &ViewportTransform) -> Ve
     polygon
 }
 
-/// One pass of Sutherland and Hodgman's loop.
+/// Clips a polygon by one plane: one pass of Sutherland and Hodgman's loop.
 #[must_use]
 pub fn clip_polygon_by(plane: Plane, polygon: &[ClipVertex]) -> Vec<ClipVertex> {
     let mut kept = Vec::new();
@@ -248,7 +256,7 @@ pub fn clip_polygon_by(plane: Plane, polygon: &[ClipVertex]) -> Vec<ClipVertex> 
     kept
 }
 
-/// Clips a line: the part that is left of it, in the same direction.
+/// Clips a line: its inside part, in the same direction, or `None`.
 #[must_use]
 pub fn clip_line(line: &[ClipVertex; 2], viewport: &ViewportTransform) -> Option<[ClipVertex; 2]> {
     match test(line, viewport) {
@@ -285,7 +293,7 @@ pub fn clip_line_by(plane: Plane, [start, end]: [ClipVertex; 2]) -> Option<[Clip
     }
 }
 
-/// Whether a point is drawn: its centre must lie in the view volume, and no clip distance be negative.
+/// Whether a point is drawn: its centre lies in the view volume, and no clip distance is negative.
 #[must_use]
 pub fn keeps_point(vertex: &ClipVertex, viewport: &ViewportTransform) -> bool {
     let [x, y, _, w] = vertex.position;
@@ -307,7 +315,8 @@ fn needs_sides(vertices: &[ClipVertex], viewport: &ViewportTransform) -> bool {
     vertices.iter().any(leaves)
 }
 
-/// Cuts a polygon into (0, 1, 2), (0, 2, 3), …; triangles that cannot be divided by w are dropped.
+/// Cuts a polygon into (0, 1, 2), (0, 2, 3), …; triangles with a vertex whose 1/w is not finite are
+/// dropped.
 fn fan(polygon: &[ClipVertex]) -> Vec<[ClipVertex; 3]> {
     let triangle = |k: usize| [&polygon[0], &polygon[k], &polygon[k + 1]].map(Clone::clone);
     (1..polygon.len().saturating_sub(1))

@@ -1,18 +1,18 @@
 //! The eight comparison functions.
 //!
-//! In · Out: a function and two values · whether the first passes against the second. Exact. Spec: WebGPU,
-//! `GPUCompareFunction`; Vulkan 1.3, `VkCompareOp`.
+//! In · Out: a function and two values · whether the first passes against the second. Exact. Spec:
+//! WebGPU, `GPUCompareFunction`; Vulkan 1.3, `VkCompareOp`.
 
 use estampe_types::state::CompareFunction;
 use std::cmp::Ordering;
 
-/// Whether `new` passes against `stored`. Only `Always` and `NotEqual` pass where a value is NaN.
+/// Whether `new` passes against `stored`. If either is NaN, only `Always` and `NotEqual` pass.
 #[must_use]
 pub fn passes<T: PartialOrd>(function: CompareFunction, new: T, stored: T) -> bool {
     use CompareFunction as F;
     let order = new.partial_cmp(&stored);
     match order {
-        // Not ordered, as of a NaN.
+        // Unordered: one of them is NaN.
         None => matches!(function, F::NotEqual | F::Always),
         Some(Ordering::Less) => {
             matches!(function, F::Less | F::LessEqual | F::NotEqual | F::Always)

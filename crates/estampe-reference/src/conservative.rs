@@ -1,22 +1,26 @@
-//! Conservative rasterization: the pixels that a triangle touches, or those that it fills.
+//! Conservative rasterization: the pixels that a triangle touches (overestimate) or fills
+//! (underestimate).
 //!
-//! In · Out: three snapped positions · quads whose covered pixels have all their samples. Precision: exact. Spec:
-//! NUMERICS.md, *Conservative rasterization*; after Hasselgren, Akenine-Möller and Ohlsson (GPU Gems 2, chapter 42).
+//! In · Out: three snapped positions · quads whose covered pixels have all their samples set.
+//! Precision: exact. Spec: NUMERICS.md, *Conservative rasterization*; after Hasselgren,
+//! Akenine-Möller and Ohlsson (GPU Gems 2, chapter 42).
 //!
 //! ```text
-//!   A pixel's closed square and a closed triangle meet unless a line parts them, and if one does, then one along
-//!   a side of either does: a side of the square (their boxes are apart) or an edge of the triangle, outside of
-//!   which even the innermost corner of the square lies.
+//!   A pixel's closed square and a closed triangle are disjoint exactly if a line separates them,
+//!   and then one that is parallel to a side of either: a side of the square (the bounding boxes
+//!   are disjoint), or an edge of the triangle, outside of which even the innermost corner of the
+//!   square lies.
 //! ```
 
 use crate::raster::{Edge, QuadCoverage, all_samples, cover_pixels, edges, extent};
 use crate::viewport::PixelBounds;
 use estampe_types::state::ConservativeMode;
 
-/// A pixel's width in 1/256 pixel.
+/// The width of a pixel in 1/256 pixel.
 const PIXEL: i64 = 256;
 
-/// The quads of which a triangle touches or fills a pixel. The mode `Disabled` covers nothing here.
+/// The quads with pixels that the triangle touches or fills, as the mode says. `Disabled` covers
+/// nothing here.
 #[must_use]
 pub fn triangle(
     corners: [[i32; 2]; 3],
@@ -28,7 +32,7 @@ pub fn triangle(
         return Vec::new();
     };
     let extent = extent(corners);
-    // A square that begins a pixel before the box touches it.
+    // Widen the box by a pixel: a square that begins a pixel before the box may still touch it.
     let widened = extent.map(|[low, high]| [low - PIXEL, high]);
     cover_pixels(widened, bounds, |pixel| {
         let is_covered = match mode {
@@ -40,7 +44,7 @@ pub fn triangle(
     })
 }
 
-/// The corners of a pixel's square.
+/// The corners of a pixel's square, in 1/256 pixel.
 fn square([i, j]: [i64; 2]) -> [[i64; 2]; 4] {
     let (x, y) = (i * PIXEL, j * PIXEL);
     [

@@ -1,13 +1,15 @@
-//! Depth bias: what is added to the depth of a triangle.
+//! Depth bias: the offset that is added to a triangle's depth.
 //!
-//! In · Out: a triangle's depth plane and depths · an offset. Precision: f32 in the order of NUMERICS.md. Spec: Vulkan,
-//! "Depth Bias Computation".
+//! In · Out: a triangle's depth plane and depths · an offset. Precision: f32 in the order of
+//! NUMERICS.md. Spec: Vulkan, "Depth Bias Computation".
 
 use crate::arithmetic::{max, min};
 use crate::setup::SortedTriangle;
 use estampe_types::state::DepthBiasState;
 
-/// The offset of a triangle's depths. `unit` is that of a fixed-point depth attachment.
+/// The offset of a triangle's depth; 0 if it is not finite. `unit` is the least difference of two
+/// depths in a fixed-point attachment; `None` takes it from the triangle's greatest depth, as for
+/// float formats.
 #[must_use]
 pub fn offset(state: &DepthBiasState, unit: Option<f32>, triangle: &SortedTriangle) -> f32 {
     let [a, b, c] = triangle.vertices.each_ref().map(|vertex| vertex.z);
@@ -26,11 +28,11 @@ pub fn offset(state: &DepthBiasState, unit: Option<f32>, triangle: &SortedTriang
     }
 }
 
-/// 2^(e − 23), e being the exponent of a depth; denormal depths have e = −126.
+/// 2^(e − 23), where e is the exponent of a depth; denormal depths have e = −126.
 #[must_use]
 pub fn float_unit(depth: f32) -> f32 {
     let exponent = (depth.to_bits() >> 23).max(1);
-    // 2^(exponent − 127 − 23), by exact halvings from 2^(exponent − 127).
+    // 2^(exponent − 127 − 23), by exact halvings of 2^(exponent − 127).
     let mut unit = f32::from_bits(exponent << 23);
     for _ in 0..23 {
         unit *= 0.5;

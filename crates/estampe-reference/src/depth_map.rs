@@ -1,6 +1,7 @@
-//! Depth comparison, texel by texel.
+//! Sampling of a depth image with comparison, as for shadow maps.
 //!
-//! In · Out: (u, v) and a reference · 0..=1. Precision: f32 in the order of NUMERICS.md, *Textures*.
+//! In · Out: (u, v) and a reference depth · the filtered result of four comparisons, 0..=1.
+//! Precision: f32 in the order of NUMERICS.md, *Textures*.
 
 use crate::arithmetic::{clamp, max, min};
 
@@ -11,12 +12,13 @@ pub struct DepthMap {
     pub width: u32,
     /// Height in texels.
     pub height: u32,
-    /// Width times height depths; those of an image without texels read as 0.
+    /// Width × height depths, from the top row on. Missing elements read as 0.
     pub rows: Vec<f32>,
 }
 
 impl DepthMap {
-    /// How much of the four texels around (u, v) is not below the reference.
+    /// The bilinear mixture of `reference <= depth` over the four texels around (u, v); coordinates
+    /// are clamped to the edge.
     #[must_use]
     pub fn sample_compare_level(&self, [u, v]: [f32; 2], reference: f32) -> f32 {
         let (columns, fx) = axis(u, self.width);
@@ -34,7 +36,7 @@ impl DepthMap {
     }
 }
 
-/// The two texels of one axis, and how far between them.
+/// The two texels of one axis, and the weight of the second.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

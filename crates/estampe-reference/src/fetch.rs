@@ -1,8 +1,8 @@
-//! Vertex fetch: which vertex it is, and its attributes from the buffers.
+//! Vertex fetch: the index of a vertex, and its attributes from the vertex buffers.
 //!
 //! In · Out: buffers and indices · four numbers per location. Spec: NUMERICS.md, *Vertex fetch*;
-//! WebGPU, "vertex processing". What lies beyond a buffer's end reads as zeros. Integers are handed on as the
-//! bits of numbers.
+//! WebGPU, "vertex processing". Bytes beyond a buffer's end read as zeros. Integers are passed on
+//! as the bits of f32.
 
 use crate::arithmetic::max;
 use estampe_types::state::{VertexBufferLayout, VertexStepMode};
@@ -14,7 +14,7 @@ pub fn index(format: IndexFormat, buffer: &Buffer, position: u32, base_vertex: i
     raw_index(format, buffer, position).wrapping_add_signed(base_vertex)
 }
 
-/// Element `position` of an index buffer, as it is stored.
+/// Element `position` of an index buffer, without the base vertex.
 #[must_use]
 pub fn raw_index(format: IndexFormat, buffer: &Buffer, position: u32) -> u32 {
     let at = |width: usize| (position as usize).saturating_mul(width);
@@ -25,7 +25,7 @@ pub fn raw_index(format: IndexFormat, buffer: &Buffer, position: u32) -> u32 {
     }
 }
 
-/// The element that an instance reads of a buffer that steps by instance.
+/// The element of an instance-stepped buffer that an instance reads.
 #[must_use]
 pub fn instance_element(instance: u32, first_instance: u32, step_rate: u32) -> u32 {
     match step_rate {
@@ -34,7 +34,7 @@ pub fn instance_element(instance: u32, first_instance: u32, step_rate: u32) -> u
     }
 }
 
-/// The attribute at a location: from the first layout that names it, zeros if none does.
+/// The attribute at a location: from the first layout that names it; zeros if none does.
 #[must_use]
 pub fn attribute(
     buffers: &[(VertexBufferLayout, Buffer)],
@@ -61,7 +61,7 @@ pub fn attribute(
     [0.0; 4]
 }
 
-/// The numbers at a byte offset, filled up with (0, 0, 0, 1).
+/// The attribute at a byte offset, decoded; missing components are (0, 0, 0, 1).
 #[must_use]
 pub fn decode(format: VertexFormat, buffer: &Buffer, offset: usize) -> [f32; 4] {
     use VertexFormat as F;
@@ -88,7 +88,7 @@ pub fn decode(format: VertexFormat, buffer: &Buffer, offset: usize) -> [f32; 4] 
         F::Uint16 | F::Uint16x2 | F::Uint16x4 => f32::from_bits(short(k).into()),
         F::Sint8 | F::Sint8x2 | F::Sint8x4 => signed(byte(k).cast_signed().into()),
         F::Sint16 | F::Sint16x2 | F::Sint16x4 => signed(short(k).cast_signed().into()),
-        // 32-bit integers are bits already.
+        // 32-bit integers are passed on as bits.
         F::Uint32 | F::Uint32x2 | F::Uint32x3 | F::Uint32x4 => f32::from_bits(word(k)),
         F::Sint32 | F::Sint32x2 | F::Sint32x3 | F::Sint32x4 => f32::from_bits(word(k)),
         other => unreachable!("vertex format {other:?} has no reader"),
@@ -112,7 +112,7 @@ pub fn half(code: u16) -> f32 {
     let sign = u32::from(code >> 15) << 31;
     let (exponent, mantissa) = (u32::from(code >> 10 & 0x1F), u32::from(code & 0x3FF));
     match exponent {
-        // Multiples of 2⁻²⁴.
+        // Denormal: a multiple of 2⁻²⁴.
         0 => f32::from_bits((mantissa as f32 / 16_777_216.0).to_bits() | sign),
         0x1F => f32::from_bits(sign | 0x7F80_0000 | mantissa << 13),
         _ => f32::from_bits(sign | (exponent + 112) << 23 | mantissa << 13),
@@ -127,7 +127,7 @@ fn word_at(buffer: &Buffer, offset: usize) -> u32 {
     u32::from_le_bytes([0, 1, 2, 3].map(|k| byte_at(buffer, offset.saturating_add(k))))
 }
 
-/// A byte of a buffer, which lies in little-endian words; zero beyond the end.
+/// A byte of a buffer, which holds little-endian words; zero beyond the end.
 fn byte_at(buffer: &Buffer, offset: usize) -> u8 {
     if offset >= buffer.len_bytes() {
         return 0;

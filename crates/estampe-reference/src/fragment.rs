@@ -1,9 +1,9 @@
-//! Fragments: interpolation over a primitive, and the shader's fragment function on a 2×2 quad.
+//! Fragments: interpolation over a primitive, and the fragment shader on a 2×2 quad.
 //!
-//! In · Out: a primitive's surface and a quad · four colours and depths. Precision: f32 in the order
-//! of NUMERICS.md. The shader runs with `R = Quad`, so that it has true derivatives; lanes that the
-//! primitive does not cover are evaluated all the same. Where in its pixel each lane is evaluated:
-//! *Multisampling* of NUMERICS.md.
+//! In · Out: a primitive's interpolants and a quad · four colours and depths. Precision: f32 in the
+//! order of NUMERICS.md. The shader runs with `R = Quad`, so that its derivatives are exact
+//! differences; helper invocations run as well. The point of the pixel at which each lane is
+//! evaluated: NUMERICS.md, *Multisampling*.
 
 use crate::arithmetic::{max, min};
 use crate::raster::{QuadCoverage, all_samples, sample_positions};
@@ -13,23 +13,27 @@ use estampe_types::shader::{
 };
 use estampe_types::{Bindings, Quad, Real, Vec4};
 
-/// What varies over a primitive, at any place of the window.
+/// The interpolants of a primitive: depth, 1/w and varyings at any pixel of the window.
 pub trait Surface {
-    /// Depth at a sample of a pixel (in 1/16 pixel), before it is confined to the viewport's range.
+    /// Depth at a sample position (in 1/16 pixel) of a pixel, before it is clamped to the
+    /// viewport's range.
     fn depth(&self, pixel: [u32; 2], sample: [u8; 2]) -> f32;
     /// 1/w at the pixel's centre.
     fn inverse_w(&self, pixel: [u32; 2]) -> f32;
     /// The varyings' scalars at the pixel's centre.
     fn varyings(&self, pixel: [u32; 2]) -> Vec<f32>;
-    /// 1/w at a place in the pixel, in 1/16 pixel. Lines and points have one for the pixel.
+    /// 1/w at a position in the pixel, in 1/16 pixel. Lines and points have one value for the whole
+    /// pixel.
     fn inverse_w_at(&self, pixel: [u32; 2], _place: [u8; 2]) -> f32 {
         self.inverse_w(pixel)
     }
-    /// The varyings' scalars at a place in the pixel, in 1/16 pixel. Lines and points have one set for the pixel.
+    /// The varyings' scalars at a position in the pixel, in 1/16 pixel. Lines and points have one
+    /// set for the whole pixel.
     fn varyings_at(&self, pixel: [u32; 2], _place: [u8; 2]) -> Vec<f32> {
         self.varyings(pixel)
     }
-    /// What the alpha of every colour is multiplied by, if by anything.
+    /// A factor for the alpha of every colour, if the primitive has one: the coverage of smooth
+    /// lines.
     fn alpha(&self, _pixel: [u32; 2]) -> Option<f32> {
         None
     }
@@ -38,25 +42,25 @@ pub trait Surface {
 /// A pixel's centre, in 1/16 pixel from its corner.
 pub const CENTER: [u8; 2] = [8, 8];
 
-/// A sample's place in the window, in pixels: f32(i) + X/16, exact.
+/// A sample's position in the window, in pixels: f32(i) + X/16, exact.
 #[must_use]
 pub fn sample_window(pixel: [u32; 2], sample: [u8; 2]) -> [f32; 2] {
     [0, 1].map(|axis| pixel[axis] as f32 + f32::from(sample[axis]) / 16.0)
 }
 
-/// The surface of a triangle.
+/// The interpolants of a triangle.
 #[derive(Debug, Clone)]
 pub struct TriangleSurface {
-    /// Depth, before it is confined to the viewport's range.
+    /// The plane of depth, before it is clamped to the viewport's range.
     pub depth: Plane,
     inverse_w: Plane,
     varyings: Vec<Varying>,
 }
 
-/// How one scalar is found at a pixel.
+/// The interpolation of one scalar.
 #[derive(Debug, Clone, Copy)]
 enum Varying {
-    /// The plane of A·(1/w), to be multiplied by w.
+    /// The plane of A·(1/w); its value is multiplied by w.
     OverW(Plane),
     /// The plane of A itself.
     Affine(Plane),
@@ -65,7 +69,7 @@ enum Varying {
 }
 
 impl TriangleSurface {
-    /// Sets up the planes of a triangle; `flat` are the provoking vertex's varyings.
+    /// Computes the planes of a triangle; `flat` holds the provoking vertex's varyings.
     #[must_use]
     pub fn new(triangle: &SortedTriangle, modes: &[Interpolation], flat: &[f32]) -> Self {
         let [a, b, c] = &triangle.vertices;
@@ -124,38 +128,39 @@ impl Surface for TriangleSurface {
     }
 }
 
-/// A fragment after its shader.
+/// A fragment after the fragment shader.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fragment {
-    /// A colour for each target that the shader has.
+    /// One colour for each target that the shader writes.
     pub colors: Vec<[f32; 4]>,
-    /// The second colour of dual-source blending; zeros where the shader gives none.
+    /// The second colour of dual-source blending; zeros if the shader writes none.
     pub second: [f32; 4],
-    /// The depth that the shader writes, confined to the viewport's range, if it does.
+    /// The depth that the shader writes, clamped to the viewport's range; `None` if it writes none.
     pub depth: Option<f32>,
-    /// The samples that the shader keeps; all where it does not say.
+    /// The shader's sample mask; all ones if it writes none.
     pub sample_mask: u16,
-    /// Whether it was discarded.
+    /// Whether the shader discarded it.
     pub is_discarded: bool,
 }
 
-/// A quad that a shader is run on.
+/// A quad for one run of the fragment shader.
 #[derive(Debug, Clone, Copy)]
 pub struct Invocation {
     /// The upper left pixel.
     pub origin: [u32; 2],
-    /// The samples of each lane's pixel that the primitive covers and the sample mask leaves.
+    /// For each lane, the samples of its pixel that the primitive covers and that the sample mask
+    /// keeps.
     pub coverage: [u16; 4],
-    /// Samples of a pixel.
+    /// Samples per pixel.
     pub samples: u32,
-    /// The sample that is shaded; `None` where shading is by pixel.
+    /// The sample that is shaded; `None` if shading is per pixel.
     pub sample: Option<u32>,
-    /// Whether the primitive faces the viewer.
+    /// Whether the primitive is front facing.
     pub front_facing: bool,
 }
 
 impl Invocation {
-    /// The samples of a lane that the shader's answer counts for.
+    /// The samples of a lane that receive this invocation's output.
     #[must_use]
     pub fn samples_of(&self, lane: usize) -> u16 {
         match self.sample {
@@ -164,7 +169,7 @@ impl Invocation {
         }
     }
 
-    /// Where varyings of a sampling are evaluated in a lane's pixel, in 1/16 pixel.
+    /// The position in a lane's pixel at which varyings of a sampling are evaluated, in 1/16 pixel.
     fn place(&self, lane: usize, sampling: Sampling) -> [u8; 2] {
         let positions = sample_positions(self.samples);
         if let Some(sample) = self.sample {
@@ -181,7 +186,7 @@ impl Invocation {
     }
 }
 
-/// Shades the four fragments of a quad. `clamp_depth` confines a depth to the viewport's range.
+/// Shades the four fragments of a quad. `clamp_depth` clamps a depth to the viewport's range.
 pub fn shade_quad<S: Shader>(
     shader: &S,
     bindings: &Bindings,
@@ -192,7 +197,7 @@ pub fn shade_quad<S: Shader>(
     let lanes = [0, 1, 2, 3];
     let pixels = lanes.map(|lane| QuadCoverage::pixel(invocation.origin, lane));
 
-    // The window position, for shaders that say that they read it.
+    // Window positions, only for shaders that declare that they read them.
     let position = lanes.map(|lane| {
         let (pixel, place) = (pixels[lane], invocation.place(lane, Sampling::Center));
         let [x, y] = sample_window(pixel, place);
@@ -221,7 +226,7 @@ pub fn shade_quad<S: Shader>(
         zero: Quad([0.0; 4]),
     };
 
-    // Interpolate, each scalar at its own place.
+    // Interpolate each scalar at the position of its sampling.
     let mut samplings = Vec::new();
     S::Varyings::<f32>::sampling(&mut samplings);
     let mut varyings = QuadScalars {
@@ -230,7 +235,8 @@ pub fn shade_quad<S: Shader>(
             let (center, centroid) = (at(Sampling::Center), at(Sampling::Centroid));
             let scalar = |(k, sampling): (usize, &Sampling)| match sampling {
                 Sampling::Centroid => centroid[k],
-                // `Sample` makes shading go by sample, where all places are the same.
+                // A `Sample` varying makes shading run per sample; all positions are then that
+                // sample's.
                 Sampling::Center | Sampling::Sample => center[k],
             };
             let scalars: Vec<f32> = samplings.iter().enumerate().map(scalar).collect();
@@ -239,7 +245,7 @@ pub fn shade_quad<S: Shader>(
     };
     let output = shader.fragment(input, S::Varyings::load(&mut varyings));
 
-    // Take the answer apart by lanes.
+    // Split the shader's output into lanes.
     let color_at = |color: Option<Vec4<Quad>>, lane: usize| match color {
         Some(c) => [c.x, c.y, c.z, c.w].map(|channel| channel.lane(lane)),
         None => [0.0; 4],
@@ -264,7 +270,8 @@ pub fn shade_quad<S: Shader>(
     })
 }
 
-/// A fragment's depth at a sample: the interpolated one, or what the shader's makes of it.
+/// A fragment's depth at a sample: the interpolated depth, or the shader's, limited as its depth
+/// output declares.
 #[must_use]
 pub fn sample_depth(output: DepthOutput, written: Option<f32>, interpolated: f32) -> f32 {
     match (output, written) {
@@ -275,13 +282,13 @@ pub fn sample_depth(output: DepthOutput, written: Option<f32>, interpolated: f32
     }
 }
 
-/// Samples have 16 bits at most.
+/// The low 16 bits: pixels have at most 16 samples.
 fn low_bits(mask: i32) -> u16 {
     let [low, high, ..] = mask.to_le_bytes();
     u16::from_le_bytes([low, high])
 }
 
-/// Scalars of four lanes, handed to a shader together.
+/// The scalars of four lanes as a source of quads.
 struct QuadScalars {
     lanes: [std::vec::IntoIter<f32>; 4],
 }

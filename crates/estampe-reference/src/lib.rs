@@ -3,27 +3,30 @@
     clippy::self_named_module_files,
     reason = "folders that are being rewritten get their `mod.rs` then"
 )]
-//! The oracle: the pipeline once more, scalar and plain, written to be read and to be right.
+//! The oracle: a second implementation of the pipeline, scalar and unoptimised, against which the
+//! core is tested.
 //!
-//! It follows `docs/NUMERICS.md` operation for operation, has its own code for every stage
-//! (it may depend on `estampe-types` alone: see *What the core and the oracle share*), and never optimises: a vertex
-//! is shaded whenever a primitive names it, every sample of a triangle's box is tested against three edges in exact
-//! integers, every fragment goes through every step. What the fast path stores must equal what
-//! [`draw`] stores, bit for bit.
+//! It follows `docs/NUMERICS.md` operation for operation, has its own code for every stage (its
+//! only dependency is `estampe-types`: see *What the core and the oracle share*), and never
+//! optimises: a vertex is shaded whenever a primitive names it, every sample of a triangle's box is
+//! tested against three edges in exact integers, every fragment goes through every step. The core's
+//! attachments must equal those of [`draw`], bit for bit.
 //!
 //! ```text
-//! fetch ─▶ shading ─▶ assembly ─▶ clip ─▶ viewport ─▶ cull ─▶ setup ─▶ raster ─▶ fragment ─▶ per_sample ─▶ target
-//!                                                            (triangle, line, point)      │
-//!                                                                                      texture
+//! fetch ─▶ shading ─▶ assembly ─▶ clip ─▶ viewport ─▶ cull ─▶ setup ─▶ raster
+//!                                                                 (triangle, line, point)
+//!    raster ─▶ fragment ─▶ per_sample ─▶ target
+//!                │
+//!             texture
 //! ```
 //!
-//! Each stage is a file and takes the type that the one before gives:
+//! Each stage is a file and takes the type that the previous stage returns:
 //!
 //! | stage | takes | gives |
 //! |---|---|---|
 //! | [`fetch`] | buffers, vertex and instance index | attributes |
 //! | [`shading`] | attributes | [`ClipVertex`]: clip space |
-//! | [`assembly`] | how many vertices | [`Primitive`](assembly::Primitive)s |
+//! | [`assembly`] | a number of vertices | [`Primitive`](assembly::Primitive)s |
 //! | [`clip`] | clip vertices | clip vertices whose 1/w is finite |
 //! | [`viewport`] | clip vertices | [`WindowVertex`]: window space, snapped |
 //! | [`cull`] | snapped positions | facing |
@@ -32,32 +35,35 @@
 //! | [`fragment`] | planes at a quad | colours, depth |
 //! | [`per_sample`] with [`stencil`], [`blending`], [`logic`] | a fragment | the [`Target`] |
 //!
-//! Beside them: [`texture`] and [`depth_map`] (sampling), [`color`], [`channel`], [`srgb`] and [`small_float`] (codes
-//! and numbers), [`compare`] (comparison functions), [`line`](mod@line), [`rectangle`] and [`point`] (the other primitives), [`depth_bias`], [`conservative`]
-//! (triangles by touched pixels), [`bresenham`] (integer lines) and [`scan_conversion`] (triangles) as the classics
-//! have them,
-//! and [`exact`], the same formulas in f64 with bounds for the error of the f32 ones.
+//! Beside them: [`texture`] and [`depth_map`] (sampling), [`color`], [`channel`], [`srgb`] and
+//! [`small_float`] (encoding and decoding), [`compare`] (comparison functions), [`line`](mod@line),
+//! [`rectangle`] and [`point`] (the other primitives), [`depth_bias`], [`conservative`]
+//! (conservative rasterization), [`bresenham`] (integer lines) and [`scan_conversion`] (triangles)
+//! in the textbook forms, and [`exact`], the formulas in f64 with bounds for the error of the f32
+//! ones.
 //!
 //! # What the core and the oracle share
 //!
-//! Both read states, formats and shaders through `estampe-types`. Its plain data (descriptors, states and their enums)
-//! computes nothing. It has these functions too, and a fault in one of them is the same on both sides: comparing the
-//! core with the oracle cannot find it. A test with numbers of the specifications, or with results in f64, guards each.
+//! Both read states, formats and shaders through `estampe-types`. Its plain data (descriptors,
+//! states and their enums) computes nothing. It also has the functions below; a fault in one of
+//! them is the same on both sides, so comparing the core with the oracle cannot find it. A test
+//! with numbers of the specifications, or with results in f64, guards each.
 //!
 //! | shared | guarded by |
 //! |---|---|
-//! | facts of texture formats: `encoding`, `components`, `block_bytes`, `block_size`, `is_srgb`, `is_bgra`, `is_renderable`, `is_blendable`, `sample_type`, `has_depth`, `has_stencil`, `is_compressed` | `tests/shared/formats.rs`: a table of every format |
-//! | facts of vertex and index formats: `components`, `size_bytes`, `encoding`, `missing`, `restart` | `tests/shared/formats.rs`: a table of every format |
+//! | properties of texture formats: `encoding`, `components`, `block_bytes`, `block_size`, `is_srgb`, `is_bgra`, `is_renderable`, `is_blendable`, `sample_type`, `has_depth`, `has_stencil`, `is_compressed` | `tests/shared/formats.rs`: a table of every format |
+//! | properties of vertex and index formats: `components`, `size_bytes`, `encoding`, `missing`, `restart` | `tests/shared/formats.rs`: a table of every format |
 //! | the arithmetic of shaders: `Real` and `Int` of `f32` and `Quad`, derivatives included | `tests/shared/numbers.rs`, by hand; `all_kinds_agree` of `estampe-types` for the other lanes |
-//! | `maths`: `exp2`, `log2`, `sin`, `exp`, `pow`, `powi` | `estampe-types/src/tests.rs` and `tests/shared/numbers.rs`: error bounds against f64 |
+//! | `maths`: `exp2`, `log2`, `sin`, `exp`, `pow`, `powi` | `estampe-types/src/tests/mod.rs` and `tests/shared/numbers.rs`: error bounds against f64 |
 //! | `Vec2`, `Vec3`, `Vec4`, `Mat4` | `tests/shared/vectors.rs`, by hand, the order of sums included |
-//! | how attributes and varyings are taken apart and put together; `FragmentOut`, `VertexOut` | `tests/shared/layouts.rs`; `tests/drawing.rs` |
+//! | how attributes and varyings are split into scalars and assembled; `FragmentOut`, `VertexOut` | `tests/shared/layouts.rs`; `tests/drawing.rs` |
 //! | `Buffer::words`, and how bytes become words; `Bindings` | `tests/shared/layouts.rs`, by hand |
 //! | the layout of textures: `stored_format`, `words_per_texel`, `slices`; `StorageTexture::index` | `tests/shared/layouts.rs`, by hand |
 //!
-//! Comparison functions, stencil operations, the sRGB tables, and the reading of indices and attributes are the
-//! oracle's own. The tests of both sides also share the texels that `estampe-texture` makes of an image (decoded blocks,
-//! mip levels); its own tests have the specifications' numbers for those.
+//! The oracle has its own comparison functions, stencil operations, sRGB tables, and decoding of
+//! indices and attributes. The tests of both sides also share the decoded texels that
+//! `estampe-texture` makes of an image (decoded blocks, mip levels); its own tests have the
+//! specifications' numbers for those.
 
 pub mod arithmetic;
 pub mod assembly;

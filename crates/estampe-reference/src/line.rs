@@ -1,16 +1,17 @@
-//! Pipeline lines by Vulkan's Bresenham rule, one pixel wide or more.
+//! Bresenham lines of the pipeline, by Vulkan's rule, one pixel wide or more.
 //!
-//! In · Out: two window vertices · pixels, and a surface. Precision: coverage exact, the rest f32 in
-//! the order of NUMERICS.md, *Lines and points*.
+//! In · Out: two window vertices · pixels, and interpolants. Precision: coverage exact, the rest
+//! f32 in the order of NUMERICS.md, *Lines and points*.
 //!
 //! ```text
-//!   x-major:  for every column whose centre lies between the ends, the pixel in whose row the
+//!   x-major:  in every column whose centre lies between the ends, the pixel in whose row the
 //!             line is at that centre; the start is included, the end is not, so that the lines
 //!             of a strip share no pixel
 //! ```
 //!
-//! A line that is W whole pixels wide is moved by (W − 1)/2 pixels along its minor axis, against it; then W pixels are
-//! covered in each column, from that one on. Integer lines, whose both ends are drawn, are in [`bresenham`](crate::bresenham).
+//! A line that is W whole pixels wide is moved by −(W − 1)/2 pixels along its minor axis; then W
+//! pixels are covered in each column, from there on. Integer lines, which draw both ends, are in
+//! [`bresenham`](crate::bresenham).
 
 use crate::WindowVertex;
 use crate::arithmetic::floor_div;
@@ -19,10 +20,10 @@ use crate::viewport::PixelBounds;
 use estampe_types::shader::Interpolation;
 use std::ops::Range;
 
-/// Centre of pixel 0, in 1/256 pixel.
+/// The centre of pixel 0, in 1/256 pixel.
 const HALF_PIXEL: i64 = 128;
 
-/// Where a line runs, and along which axis it is longer.
+/// A line between snapped positions, with its major axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LinePath {
     start: [i64; 2],
@@ -44,7 +45,8 @@ impl LinePath {
         }
     }
 
-    /// The same line so wide, in pixels: moved along its minor axis.
+    /// The line, widened to `width` pixels: moved along its minor axis by half of the additional
+    /// width.
     #[must_use]
     pub fn widened(mut self, width: i64) -> Self {
         let minor = 1 - self.major;
@@ -53,7 +55,7 @@ impl LinePath {
         self
     }
 
-    /// How many columns it covers.
+    /// The number of columns that it covers.
     #[must_use]
     pub fn length(&self) -> u32 {
         let columns = self.columns();
@@ -65,11 +67,11 @@ impl LinePath {
         self.end[axis] - self.start[axis]
     }
 
-    /// Columns (of a y-major line: rows) whose centre c lies in the half-open range:
-    /// `start ≤ c < end` where the line runs forward, `end < c ≤ start` where it runs back.
+    /// The columns (rows, if the line is y-major) whose centre c lies in the half-open range:
+    /// `start ≤ c < end` if the line runs forward, `end < c ≤ start` if it runs back.
     fn columns(&self) -> Range<i64> {
         let (start, end) = (self.start[self.major], self.end[self.major]);
-        // The first column whose centre is at or after a place.
+        // The first column whose centre is at or after a coordinate.
         let at_or_after = |place: i64| (place - HALF_PIXEL + 255).div_euclid(256);
         if start < end {
             at_or_after(start)..at_or_after(end)
@@ -78,7 +80,7 @@ impl LinePath {
         }
     }
 
-    /// The pixel of a column: where the line is at its centre, exactly.
+    /// The pixel of a column: the row in which the line is at the column's centre, exactly.
     fn pixel(&self, column: i64) -> [i64; 2] {
         let minor = 1 - self.major;
         let along = 256 * column + HALF_PIXEL - self.start[self.major];
@@ -95,15 +97,15 @@ impl LinePath {
         }
     }
 
-    /// The pixels inside `bounds`, from the start on.
+    /// The pixels inside `bounds`, in order from the start.
     #[must_use]
     pub fn pixels(&self, bounds: &PixelBounds) -> Vec<[u32; 2]> {
         let columns = self.wide_pixels(1, bounds);
         columns.into_iter().map(|(_, pixel)| pixel).collect()
     }
 
-    /// The pixels inside `bounds` of a line so many pixels wide, from the start on, each with the number of its
-    /// column, counted from the start.
+    /// The pixels inside `bounds` of a line that is `width` pixels wide, in order from the start,
+    /// each with the number of its column, counted from the start.
     #[must_use]
     pub fn wide_pixels(&self, width: i64, bounds: &PixelBounds) -> Vec<(u32, [u32; 2])> {
         let limits = [&bounds.x, &bounds.y][self.major];
@@ -132,7 +134,8 @@ impl LinePath {
         pixels
     }
 
-    /// How far along the line a pixel's centre is, on the major axis: 0 at the start, 1 at the end.
+    /// The position of a pixel's centre along the line, on the major axis: 0 at the start, 1 at the
+    /// end.
     #[must_use]
     pub fn fraction(&self, pixel: [u32; 2]) -> f32 {
         let along = 256 * i64::from(pixel[self.major]) + HALF_PIXEL - self.start[self.major];
@@ -140,14 +143,14 @@ impl LinePath {
     }
 }
 
-/// What varies along a line.
+/// The interpolants of a line.
 #[derive(Debug, Clone, Copy)]
 pub struct LineSurface<'a> {
-    /// Where it runs.
+    /// The line between the snapped ends.
     pub path: LinePath,
-    /// Its start and end.
+    /// Its start and end vertices.
     pub ends: [&'a WindowVertex; 2],
-    /// How each scalar of the varyings is interpolated.
+    /// The interpolation of each scalar of the varyings.
     pub modes: &'a [Interpolation],
     /// The provoking vertex's varyings.
     pub flat: &'a [f32],
@@ -171,7 +174,7 @@ impl Surface for LineSurface<'_> {
     }
 }
 
-/// The varyings at a fraction of the way between two ends.
+/// The varyings at a fraction between two ends.
 #[must_use]
 pub fn mix_ends(
     [a, b]: [&WindowVertex; 2],

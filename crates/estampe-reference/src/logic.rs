@@ -1,11 +1,12 @@
-//! Logic operations.
+//! Logic operations on encoded values.
 //!
 //! In · Out: the codes of source and destination · the new code. Exact.
 
 use crate::channel::Channel;
 use estampe_types::state::LogicOperation;
 
-/// Combines the bits of a source and a stored code, beyond the channel's width too.
+/// Combines the bits of a source and of a stored code. Bits beyond the channel's width are combined
+/// too; the caller drops them.
 #[must_use]
 pub fn combine(operation: LogicOperation, s: u32, d: u32) -> u32 {
     use LogicOperation as L;
@@ -29,7 +30,7 @@ pub fn combine(operation: LogicOperation, s: u32, d: u32) -> u32 {
     }
 }
 
-/// Whether logic operations concern the attachment that has this as its red channel: not where it holds floats or
+/// Whether logic operations apply to an attachment with this red channel: not if it is float or
 /// sRGB.
 #[must_use]
 pub fn concerns(red: Channel) -> bool {

@@ -1,7 +1,7 @@
 //! Per-sample operations on one sample at a time: depth bounds, stencil, depth, then colour.
 //!
-//! In · Out: a fragment's sample · the target's stored values. Precision: f32 in the order of NUMERICS.md,
-//! *Per-sample operations*, whose steps 5 to 9 these are; [`kept_samples`] is steps 3 and 4.
+//! In · Out: a fragment's sample · the target's stored values. Precision: f32 in the order of
+//! NUMERICS.md, *Per-sample operations*: steps 5 to 9; [`kept_samples`] is steps 3 and 4.
 
 use crate::arithmetic::clamp;
 use crate::blending::{BlendInputs, blend};
@@ -13,7 +13,7 @@ use crate::{State, Target, TargetState, compare, logic, stencil};
 use estampe_types::TextureFormat;
 use estampe_types::state::ColorWrites;
 
-/// Which samples of its pixel a fragment keeps, as far as it says so itself: alpha to coverage and its sample mask.
+/// The samples of its pixel that a fragment keeps: its sample mask and alpha to coverage.
 #[must_use]
 pub fn kept_samples(fragment: &Fragment, state: &State, target: &Target) -> u16 {
     let mut kept = fragment.sample_mask;
@@ -25,7 +25,8 @@ pub fn kept_samples(fragment: &Fragment, state: &State, target: &Target) -> u16 
     kept
 }
 
-/// The first ⌊alpha·N + ½⌋ of N samples; alpha is confined to 0..=1, NaN counts as 0.
+/// Alpha to coverage: the first ⌊alpha·N + ½⌋ of N samples; alpha is clamped to 0..=1, NaN counts
+/// as 0.
 #[must_use]
 #[expect(
     clippy::cast_possible_truncation,
@@ -37,7 +38,8 @@ pub fn alpha_coverage(alpha: f32, samples: u32) -> u16 {
     (0..count).fold(0, |mask, sample| mask | 1 << sample)
 }
 
-/// Tests and stores one sample of a fragment: whether it passed.
+/// Tests one sample of a fragment, stores its results, and returns whether it passed. `index` is
+/// the sample's element in the attachments, see [`Target::index`].
 pub fn store_sample(
     target: &mut Target,
     index: usize,
@@ -93,7 +95,7 @@ fn store_color(
     state: &State,
     fragment: &Fragment,
 ) {
-    // Without a colour of the shader's nothing is stored.
+    // An attachment for which the shader writes no colour keeps its value.
     let Some(&source) = fragment.colors.get(attachment) else {
         return;
     };
@@ -105,7 +107,7 @@ fn store_color(
     target.color[at] = masked(of_target.write_mask, new, stored);
 }
 
-/// The new codes: by a logic operation, by blending, or the source's own.
+/// The new codes of an attachment: by a logic operation, by blending, or the source's own.
 fn combined(
     format: TextureFormat,
     state: &State,
@@ -139,8 +141,8 @@ fn combined(
     }
 }
 
-/// A colour confined as the encoding of the format's channels confines it. A channel that the format lacks is confined
-/// as red is: alpha is a factor in formats without alpha too.
+/// A colour clamped to the range of the format's channels. A channel that the format lacks is
+/// clamped as red is, because alpha is a factor in formats without alpha too.
 fn confined(channels: [Channel; 4], color: [f32; 4]) -> [f32; 4] {
     std::array::from_fn(|k| match channels[k] {
         Channel::Missing(_) => channels[0].confine(color[k]),
@@ -148,7 +150,7 @@ fn confined(channels: [Channel; 4], color: [f32; 4]) -> [f32; 4] {
     })
 }
 
-/// The new codes in the channels that may change, the stored ones in the others.
+/// The new codes in the channels of the write mask, the stored codes in the others.
 #[must_use]
 pub fn masked(mask: ColorWrites, new: Codes, stored: Codes) -> Codes {
     std::array::from_fn(|channel| {

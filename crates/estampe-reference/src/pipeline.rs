@@ -1,4 +1,4 @@
-//! A draw: the stages, one after the other, on one primitive at a time.
+//! A draw: every primitive goes through all stages before the next one begins.
 
 use crate::assembly::{Primitive, primitives, runs, turned};
 use crate::clip::{clip_line, clip_triangle, is_distant, keeps_point};
@@ -27,47 +27,49 @@ use std::ops::Range;
 pub struct State {
     /// Topology, facing, culling, polygon mode.
     pub primitive: PrimitiveState,
-    /// The depth test; `None` neither tests nor writes.
+    /// The depth test; `None` neither tests nor writes depth.
     pub depth: Option<DepthState>,
-    /// What is added to the depth of triangles.
+    /// Depth bias of triangles.
     pub depth_bias: DepthBiasState,
-    /// The unit of its constant in a fixed-point depth attachment; `None` in a float one.
+    /// The least difference of two depths of a fixed-point depth attachment, the unit of the bias
+    /// constant; `None` for a float attachment.
     pub depth_bias_unit: Option<f32>,
-    /// The stencil test; `None` neither tests nor writes.
+    /// The stencil test; `None` neither tests nor writes stencil.
     pub stencil: Option<StencilState>,
-    /// What front and back are compared with.
+    /// The stencil references of front and back.
     pub stencil_reference: [u8; 2],
-    /// The least and the greatest stored depth over which something is drawn; `None`: any.
+    /// The depth-bounds test: the least and the greatest stored depth at which samples pass; `None`
+    /// disables it.
     pub depth_bounds: Option<[f32; 2]>,
-    /// The samples that may change, bit by bit.
+    /// The sample mask: bit s enables sample s.
     pub sample_mask: u32,
-    /// Whether alpha says how many of a fragment's samples are kept.
+    /// Whether alpha to coverage is on.
     pub alpha_to_coverage: bool,
-    /// Whether fragments are shaded by sample, whatever the shader says.
+    /// Whether shading is per sample, even if the shader does not require it.
     pub sample_shading: bool,
-    /// A logic operation in place of blending.
+    /// A logic operation, in place of blending.
     pub logic_operation: Option<LogicOperation>,
-    /// How colours are combined, by target; targets beyond the list are replaced.
+    /// Blending and write masks, by target; targets beyond the list are replaced.
     pub targets: Vec<TargetState>,
     /// The constant of [`BlendFactor::Constant`](estampe_types::state::BlendFactor::Constant).
     pub blend_constant: [f32; 4],
-    /// Where NDC lands.
+    /// The viewport, in pixels of the target.
     pub viewport: Viewport,
-    /// Outside this nothing is drawn.
+    /// The scissor rectangle, in pixels of the target.
     pub scissor: ScissorRect,
 }
 
-/// How a target's colours are combined. The default replaces all channels.
+/// The blending and the write mask of a target. The default replaces all channels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TargetState {
-    /// Blending; `None` replaces.
+    /// Blending; `None` replaces the stored colour.
     pub blend: Option<BlendState>,
-    /// Which channels change.
+    /// The channels that are written.
     pub write_mask: ColorWrites,
 }
 
 impl State {
-    /// Filled triangles over a whole target: no culling, no depth test, no blending.
+    /// State for filled triangles over a whole target: no culling, no depth test, no blending.
     #[must_use]
     pub fn new(width: u32, height: u32) -> Self {
         Self {
@@ -102,25 +104,25 @@ impl State {
     }
 }
 
-/// What is drawn.
+/// The parameters and buffers of a draw.
 #[derive(Debug, Clone)]
 pub struct Draw<'a> {
-    /// Vertex buffers and how they lie.
+    /// Vertex buffers with their layouts.
     pub buffers: &'a [(VertexBufferLayout, Buffer)],
     /// The index buffer, if the draw has one.
     pub indices: Option<(IndexFormat, &'a Buffer)>,
-    /// Which vertices, or which elements of the index buffer.
+    /// The range of vertices, or of elements of the index buffer.
     pub vertices: Range<u32>,
-    /// Which instances, drawn one after the other.
+    /// The range of instances, drawn one after the other.
     pub instances: Range<u32>,
-    /// Added to each index; without an index buffer it is not used.
+    /// Added to each index; without an index buffer it has no effect.
     pub base_vertex: i32,
-    /// What shaders read besides.
+    /// The shader's uniforms, textures and storage textures.
     pub bindings: &'a Bindings,
 }
 
 impl Draw<'_> {
-    /// The index of the vertex at a position of the range, counted from its start.
+    /// The index of the vertex at a position in the range, counted from the range's start.
     #[must_use]
     pub fn vertex_index(&self, position: u32) -> u32 {
         let element = self.vertices.start.wrapping_add(position);
@@ -130,7 +132,8 @@ impl Draw<'_> {
         }
     }
 
-    /// Whether the index at a position of the range is the greatest of its format, which restarts primitives.
+    /// Whether the index at a position in the range is the greatest of its format, which restarts
+    /// primitives.
     #[must_use]
     pub fn is_restart(&self, position: u32) -> bool {
         let element = self.vertices.start.wrapping_add(position);
@@ -145,17 +148,17 @@ impl Draw<'_> {
     }
 }
 
-/// How much of everything a draw was.
+/// Statistics of a draw.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Counts {
-    /// Primitives put together.
+    /// Assembled primitives.
     pub primitives: u64,
-    /// Points, lines and triangles that reached the rasterizer: after clipping and culling; in
+    /// Points, lines and triangles that reached the rasterizer, after clipping and culling. In
     /// polygon modes line and point, the lines and points.
     pub rasterized: u64,
-    /// Fragments shaded, by pixel or by sample; helper lanes not counted.
+    /// Fragment shader invocations, per pixel or per sample, without helper invocations.
     pub fragments: u64,
-    /// Samples covered.
+    /// Covered samples.
     pub samples_covered: u64,
     /// Samples that passed every test.
     pub samples_passed: u64,
@@ -163,10 +166,12 @@ pub struct Counts {
 
 /// Draws into a target.
 ///
-/// A draw whose viewport, scissor and target have no pixel in common is none: nothing of it is counted.
+/// A draw whose viewport, scissor and target have no pixel in common does nothing: none of it is
+/// counted.
 ///
-/// It cannot fail: indices out of range and short buffers read zeros, and what is not a number is
-/// dropped or stored as NUMERICS.md says. A draw takes as long as its ranges ask for.
+/// It cannot fail: indices out of range and short buffers read as zeros, and NaN and infinity are
+/// dropped or stored as NUMERICS.md says. Its time is proportional to the vertex and instance
+/// ranges, however large.
 pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Draw<'_>) -> Counts {
     if !is_drawable(&state.viewport) {
         return Counts::default();
@@ -210,7 +215,7 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
     pass.counts
 }
 
-/// What every primitive of a draw needs.
+/// The state that all primitives of a draw share.
 struct Pass<'a, S> {
     target: &'a mut Target,
     shader: &'a S,
@@ -221,22 +226,23 @@ struct Pass<'a, S> {
     viewport_samples: ViewportSamples,
     modes: Vec<Interpolation>,
     is_by_sample: bool,
-    /// How much of the stipple pattern the lines of the strip have taken: columns, of rectangles 1/65536 pixels.
+    /// The length of the stipple pattern that the preceding lines of the strip have used: in
+    /// columns for Bresenham lines, in 1/65536 pixel for rectangular ones.
     stipple: u64,
     counts: Counts,
 }
 
-/// The triangle that a line or point is part of, in polygon modes line and point.
+/// In polygon modes line and point, the triangle to which a line or point belongs.
 #[derive(Clone, Copy)]
 struct Parent<'a> {
     face: Face,
     flat: &'a [f32],
-    /// What is added to depth.
+    /// The depth bias.
     bias: Option<f32>,
 }
 
 impl<S: Shader> Pass<'_, S> {
-    /// Draws the primitives of `count` vertices that no restart parts.
+    /// Draws the primitives of `count` consecutive vertices without a restart between them.
     fn run(&mut self, count: u32, shade: impl Fn(u32) -> ClipVertex) {
         let PrimitiveState {
             topology,
@@ -284,8 +290,8 @@ impl<S: Shader> Pass<'_, S> {
             match mode {
                 PolygonMode::Fill if is_culled => {}
                 PolygonMode::Fill => self.filled(placed, face, &flat),
-                // The first piece with an area stands for the facing of the whole triangle, whose
-                // edges and vertices are then clipped on their own.
+                // The first piece with an area gives the facing of the whole triangle; its edges
+                // and vertices are then clipped separately.
                 PolygonMode::Line | PolygonMode::Point => {
                     if !is_culled {
                         let bias = SortedTriangle::new(placed).and_then(|piece| self.bias(&piece));
@@ -299,7 +305,7 @@ impl<S: Shader> Pass<'_, S> {
         }
     }
 
-    /// What is added to the depth of a triangle, if anything.
+    /// The depth bias of a triangle; `None` if the state has none.
     fn bias(&self, triangle: &SortedTriangle) -> Option<f32> {
         let state = &self.state.depth_bias;
         let offset = || depth_bias::offset(state, self.state.depth_bias_unit, triangle);
@@ -358,7 +364,7 @@ impl<S: Shader> Pass<'_, S> {
         }
     }
 
-    /// Draws a line as columns of pixels.
+    /// Draws a Bresenham line: columns of pixels.
     fn columns(&mut self, ends: [&WindowVertex; 2], flat: &[f32], face: Face) {
         let [start, end] = ends.map(|end| end.snapped);
         let path = LinePath::new(start, end);
@@ -392,7 +398,7 @@ impl<S: Shader> Pass<'_, S> {
         self.fragments(&quads, &surface, face);
     }
 
-    /// Draws a line as a rectangle.
+    /// Draws a rectangular line.
     fn rectangle(&mut self, ends: [&WindowVertex; 2], flat: &[f32], face: Face) {
         let [start, end] = ends.map(|end| end.snapped);
         let line = self.state.primitive.line;
@@ -446,7 +452,7 @@ impl<S: Shader> Pass<'_, S> {
         self.fragments(&quads, &surface, face_of(parent));
     }
 
-    /// Shades quads and hands their samples to the per-sample operations.
+    /// Shades quads, per pixel or per sample.
     fn fragments(&mut self, quads: &[QuadCoverage], surface: &impl Surface, face: Face) {
         let samples = self.target.samples;
         let inside = self.viewport_samples.clone();
@@ -483,7 +489,8 @@ impl<S: Shader> Pass<'_, S> {
         }
     }
 
-    /// Runs the shader once on a quad, unless there is nothing to shade, and stores what it gives.
+    /// Runs the fragment shader once on a quad, unless no sample of it is covered, and passes the
+    /// results to the per-sample operations.
     fn shade(&mut self, invocation: &Invocation, surface: &impl Surface, face: Face) {
         let kept = [0, 1, 2, 3].map(|lane| invocation.samples_of(lane));
         if kept == [0; 4] {
@@ -522,12 +529,12 @@ impl<S: Shader> Pass<'_, S> {
     }
 }
 
-/// Lines and points show their front, unless they outline a triangle that does not.
+/// The facing of a line or point: front, or that of its parent triangle.
 fn face_of(parent: Option<Parent<'_>>) -> Face {
     parent.map_or(Face::Front, |parent| parent.face)
 }
 
-/// A vertex with the depth that it has as part of a triangle.
+/// A vertex with the parent triangle's depth bias added.
 fn moved(vertex: WindowVertex, parent: Option<Parent<'_>>) -> WindowVertex {
     match parent.and_then(|parent| parent.bias) {
         Some(bias) => WindowVertex {
@@ -538,13 +545,13 @@ fn moved(vertex: WindowVertex, parent: Option<Parent<'_>>) -> WindowVertex {
     }
 }
 
-/// Whether each line of a topology goes on where the one before ended.
+/// Whether each line of a topology begins at the end of the previous one.
 fn is_line_strip(topology: PrimitiveTopology) -> bool {
     use PrimitiveTopology as T;
     matches!(topology, T::LineStrip | T::LineLoop | T::LineStripAdjacency)
 }
 
-/// How many pixels the columns of a line of a width have: ⌊w + ½⌋, at least 1.
+/// The number of pixels in a column of a line of this width: ⌊w + ½⌋, at least 1.
 fn whole_width(width: f32) -> i64 {
     let halves = f64::from(width) * 2.0;
     // ⌊w + ½⌋ is the greatest n with 2n − 1 ≤ 2w.
@@ -555,7 +562,7 @@ fn whole_width(width: f32) -> i64 {
         .into()
 }
 
-/// Whether a stipple pattern shows the fragment of this number.
+/// Whether a stipple pattern draws fragment `number` of the line.
 fn shows(stipple: Option<LineStipple>, number: u64) -> bool {
     stipple.is_none_or(|LineStipple { factor, pattern }| {
         let bit = number / u64::from(factor) % 16;

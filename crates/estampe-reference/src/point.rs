@@ -1,6 +1,6 @@
 //! Points: squares around a snapped position, or the discs in them.
 //!
-//! In · Out: one window vertex and a size · quads of covered samples, and a surface. Precision:
+//! In · Out: one window vertex and a size · quads of covered samples, and interpolants. Precision:
 //! coverage exact. Spec: NUMERICS.md, *Lines and points*.
 
 use crate::WindowVertex;
@@ -9,16 +9,17 @@ use crate::fragment::Surface;
 use crate::raster::{self, QuadCoverage};
 use crate::viewport::PixelBounds;
 
-/// Least and greatest width of a point, in pixels.
+/// The least and the greatest width of a point, in pixels.
 const SIZES: [f32; 2] = [1.0, 1024.0];
 
-/// Half a point's width, in 1/256 pixel. NaN counts as the least size.
+/// Half of a point's width, in 1/256 pixel; the width is clamped to `SIZES`. NaN counts as the
+/// least size.
 #[must_use]
 pub fn half_width_subpixel(size: f32) -> i32 {
     round_half_even(clamp(size, SIZES[0], SIZES[1]) * 128.0)
 }
 
-/// The quads that a point covers anything of: samples in the half-open square.
+/// The quads with samples inside the half-open square of a point.
 #[must_use]
 pub fn cover(center: [i32; 2], size: f32, bounds: &PixelBounds, samples: u32) -> Vec<QuadCoverage> {
     let half = i64::from(half_width_subpixel(size));
@@ -29,8 +30,8 @@ pub fn cover(center: [i32; 2], size: f32, bounds: &PixelBounds, samples: u32) ->
     })
 }
 
-/// The quads that a round point covers anything of: samples of the square that are no farther from the centre than
-/// half its width.
+/// The quads with samples inside a round point: those of the square whose distance from the centre
+/// is at most half of its width.
 #[must_use]
 pub fn cover_round(
     center: [i32; 2],
@@ -48,14 +49,14 @@ pub fn cover_round(
     })
 }
 
-/// A point's surface: everywhere the vertex.
+/// The interpolants of a point: the vertex's values, constant.
 #[derive(Debug, Clone, Copy)]
 pub struct PointSurface<'a> {
     /// The vertex.
     pub vertex: &'a WindowVertex,
     /// The provoking vertex's varyings.
     pub flat: &'a [f32],
-    /// How each scalar of the varyings is interpolated.
+    /// The interpolation of each scalar of the varyings.
     pub modes: &'a [estampe_types::Interpolation],
 }
 

@@ -1,21 +1,22 @@
-//! Rasterization of triangles: which samples they cover, in exact integers.
+//! Rasterization of triangles: the samples that they cover, in exact integers.
 //!
-//! In · Out: three snapped positions · quads of covered samples. Precision: exact. Spec: NUMERICS.md,
-//! *Coverage*; the edge functions are Pineda's (1988), the tie rule is Direct3D's top-left rule.
+//! In · Out: three snapped positions · quads of covered samples. Precision: exact. Spec:
+//! NUMERICS.md, *Coverage*; the edge functions are Pineda's (1988), the tie rule is Direct3D's
+//! top-left rule.
 //!
 //! ```text
 //!   y down:   a ───▶ b      E(x, y) = (bx − ax)·(y − ay) − (by − ay)·(x − ax)
 //!                  +        is positive below a left-to-right edge: on its inside
 //! ```
 //!
-//! The rejected alternative, barycentric weights in floating point, leaves holes and double hits along
-//! shared edges wherever a weight that should be 0 is rounded to either side.
+//! The rejected alternative, barycentric weights in floating point, leaves holes and double hits
+//! along shared edges where a weight that should be 0 is rounded to either side.
 
 use crate::cull::doubled_area;
 use crate::viewport::PixelBounds;
 
-/// Where the samples of a pixel lie, in 1/16 pixel: Vulkan's and Direct3D's standard positions. Of a number of
-/// samples that there is not, as of one: the centre.
+/// The sample positions in a pixel, in 1/16 pixel: Vulkan's and Direct3D's standard positions. One
+/// sample, and every number without standard positions, is at the centre.
 #[must_use]
 pub fn sample_positions(samples: u32) -> &'static [[u8; 2]] {
     match samples {
@@ -61,18 +62,18 @@ pub fn all_samples(samples: u32) -> u16 {
         .fold(0, |mask, _| mask << 1 | 1)
 }
 
-/// A sample in 1/256 pixel.
+/// The position of a sample in 1/256 pixel.
 #[must_use]
 pub fn sample_subpixel(pixel: [i64; 2], sample: [u8; 2]) -> [i64; 2] {
     [0, 1].map(|axis| 256 * pixel[axis] + 16 * i64::from(sample[axis]))
 }
 
-/// A 2×2 quad of pixels and what a primitive covers of it.
+/// A 2×2 quad of pixels and the samples that a primitive covers in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct QuadCoverage {
     /// The upper left pixel; both coordinates are even.
     pub origin: [u32; 2],
-    /// Bit s of element `lane` says whether sample s of that pixel is covered. Lanes run left top,
+    /// Bit s of element `lane` is set if sample s of that pixel is covered. The lanes are left top,
     /// right top, left bottom, right bottom.
     pub samples: [u16; 4],
 }
@@ -105,16 +106,16 @@ impl Edge {
         }
     }
 
-    /// E: positive inside. Coordinates stay below 2²³ in size, differences below 2²⁴, so no product
-    /// exceeds 2⁴⁸.
+    /// E: positive inside. |coordinates| < 2²³, so differences are below 2²⁴ and no product exceeds
+    /// 2⁴⁸.
     #[must_use]
     pub fn function(&self, [x, y]: [i64; 2]) -> i64 {
         let ([ax, ay], [bx, by]) = (self.a, self.b);
         (bx - ax) * (y - ay) - (by - ay) * (x - ax)
     }
 
-    /// Whether a point on the edge itself belongs to the triangle: on a *top* edge (horizontal, the
-    /// inside below) or a *left* edge (the inside to the right).
+    /// Whether points on the edge itself belong to the triangle: the edge is a *top* edge
+    /// (horizontal, with the inside below) or a *left* edge (the inside is to the right).
     #[must_use]
     pub fn is_top_or_left(&self) -> bool {
         let ([ax, ay], [bx, by]) = (self.a, self.b);
@@ -123,7 +124,7 @@ impl Edge {
         is_top || is_left
     }
 
-    /// Whether a point is on the inside.
+    /// Whether the edge covers a point: it is inside, or on the edge and the edge is top or left.
     #[must_use]
     pub fn covers(&self, point: [i64; 2]) -> bool {
         let e = self.function(point);
@@ -131,7 +132,8 @@ impl Edge {
     }
 }
 
-/// The edges of a triangle in the direction that makes its inside positive; `None` without area.
+/// The edges of a triangle, in the direction that makes its inside positive; `None` if it has no
+/// area.
 #[must_use]
 pub fn edges([a, b, c]: [[i32; 2]; 3]) -> Option<[Edge; 3]> {
     let [a, b, c] = match doubled_area([a, b, c]) {
@@ -142,7 +144,7 @@ pub fn edges([a, b, c]: [[i32; 2]; 3]) -> Option<[Edge; 3]> {
     Some([Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)])
 }
 
-/// The box of a triangle: least and greatest x, then y.
+/// The bounding box of a triangle: for x, then y, the least and the greatest coordinate.
 #[must_use]
 pub fn extent(corners: [[i32; 2]; 3]) -> [[i64; 2]; 2] {
     [0, 1].map(|axis| {
@@ -154,7 +156,7 @@ pub fn extent(corners: [[i32; 2]; 3]) -> [[i64; 2]; 2] {
     })
 }
 
-/// The quads of which a triangle covers anything, row by row.
+/// The quads with samples that a triangle covers, row by row.
 #[must_use]
 pub fn triangle(corners: [[i32; 2]; 3], bounds: &PixelBounds, samples: u32) -> Vec<QuadCoverage> {
     let Some(edges) = edges(corners) else {
@@ -165,8 +167,8 @@ pub fn triangle(corners: [[i32; 2]; 3], bounds: &PixelBounds, samples: u32) -> V
     })
 }
 
-/// The quads with samples for which `covers` holds, among the pixels of `bounds` that a box touches.
-/// The box is least and greatest x, then y, in 1/256 pixel.
+/// The quads with samples for which `covers` holds, among the pixels of `bounds` that a box
+/// touches. The box is the least and the greatest x, then y, in 1/256 pixel.
 #[must_use]
 pub fn cover(
     extent: [[i64; 2]; 2],
@@ -183,7 +185,8 @@ pub fn cover(
     })
 }
 
-/// The quads of which `mask_of` a pixel is not empty, among the pixels of `bounds` that a box touches.
+/// The quads with a pixel whose mask by `mask_of` is not 0, among the pixels of `bounds` that a box
+/// touches. The box is the least and the greatest x, then y, in 1/256 pixel.
 #[must_use]
 pub fn cover_pixels(
     extent: [[i64; 2]; 2],

@@ -1,13 +1,14 @@
-//! Rectangular lines: the rectangle around a line, and how much of a pixel it covers.
+//! Rectangular lines: coverage of the rectangle around a line, by samples or, for smooth lines, in
+//! sixteenths as alpha.
 //!
-//! In · Out: two snapped positions and a width · quads of covered samples, and a surface. Precision: the corners are
-//! rounded to 1/256 pixel, the rest of the coverage is exact. Spec: NUMERICS.md, *Lines and points*; Vulkan,
-//! "Rectangular lines".
+//! In · Out: two snapped positions and a width · quads of covered samples, and interpolants.
+//! Precision: the corners are rounded to 1/256 pixel, the rest of the coverage is exact. Spec:
+//! NUMERICS.md, *Lines and points*; Vulkan, "Rectangular lines".
 //!
 //! ```text
-//!   a − h ────────────▶ b − h        h = (−Δy, Δx) · half the width ÷ the length, rounded: across the line
-//!     ▲       a ──▶ b     │          (y down: h points below a line that runs to the right)
-//!   a + h ◀──────────── b + h
+//!   a − h ────────────▶ b − h     h = (−Δy, Δx) · half the width ÷ the length, rounded
+//!     ▲       a ──▶ b     │       (across the line; y down: h points below a line that runs to
+//!   a + h ◀──────────── b + h     the right)
 //! ```
 
 use crate::WindowVertex;
@@ -18,7 +19,7 @@ use crate::raster::{self, Edge, QuadCoverage, sample_subpixel};
 use crate::viewport::PixelBounds;
 use estampe_types::shader::Interpolation;
 
-/// A line and the rectangle around it.
+/// A line and its rectangle.
 #[derive(Debug, Clone, Copy)]
 pub struct LineRectangle {
     start: [i32; 2],
@@ -28,7 +29,7 @@ pub struct LineRectangle {
 }
 
 impl LineRectangle {
-    /// The rectangle of a width in pixels. It covers nothing where it has no area.
+    /// The rectangle of a line with a width in pixels. It covers nothing if it has no area.
     #[must_use]
     pub fn new(start: [i32; 2], end: [i32; 2], width: f32) -> Self {
         let delta = [0, 1].map(|axis: usize| end[axis] - start[axis]);
@@ -55,7 +56,7 @@ impl LineRectangle {
             .is_some_and(|edges| edges.iter().all(|edge| edge.covers(point)))
     }
 
-    /// How many of a pixel's sixteen points, a grid of four by four, are inside.
+    /// The number of a pixel's sixteen points, a grid of four by four, that are inside.
     #[must_use]
     pub fn sixteenths(&self, pixel: [i64; 2]) -> u8 {
         let places = [2, 6, 10, 14];
@@ -68,13 +69,14 @@ impl LineRectangle {
         inside
     }
 
-    /// The quads of which it covers samples.
+    /// The quads with samples inside the rectangle.
     #[must_use]
     pub fn cover(&self, bounds: &PixelBounds, samples: u32) -> Vec<QuadCoverage> {
         raster::cover(self.extent(), bounds, samples, |point| self.covers(point))
     }
 
-    /// The quads of which it touches pixels: one of the sixteen points is enough for all of a pixel's samples.
+    /// The quads with pixels that have at least one of the sixteen points inside; all samples of
+    /// these pixels are covered.
     #[must_use]
     pub fn cover_smooth(&self, bounds: &PixelBounds, samples: u32) -> Vec<QuadCoverage> {
         raster::cover(self.extent(), bounds, samples, |[x, y]| {
@@ -90,7 +92,7 @@ impl LineRectangle {
         })
     }
 
-    /// The product of the way from the start to a point with the way to the end, and the latter's square. Exact.
+    /// With s the start, e the end and p the point: (p − s)·(e − s) and (e − s)·(e − s). Exact.
     fn along(&self, point: [i64; 2]) -> [i64; 2] {
         let way = [0, 1].map(|axis: usize| i64::from(self.end[axis]) - i64::from(self.start[axis]));
         let to = [0, 1].map(|axis: usize| point[axis] - i64::from(self.start[axis]));
@@ -100,14 +102,15 @@ impl LineRectangle {
         ]
     }
 
-    /// How far along the line the point of it that is nearest to a sample is: 0 at the start, 1 at the end.
+    /// The position along the line of its point nearest to a sample: 0 at the start, 1 at the end.
     #[must_use]
     pub fn fraction(&self, pixel: [u32; 2], sample: [u8; 2]) -> f32 {
         let [product, square] = self.along(sample_subpixel(pixel.map(i64::from), sample));
         product as f32 / square as f32
     }
 
-    /// How far along the line a pixel's centre is, in 1/65536 pixel, rounded down; 0 before the start.
+    /// The distance from the start to a pixel's centre along the line, in 1/65536 pixel, rounded
+    /// down; 0 before the start.
     #[must_use]
     #[expect(
         clippy::cast_possible_truncation,
@@ -120,7 +123,7 @@ impl LineRectangle {
         (f64::from(subpixels) * 256.0) as u64
     }
 
-    /// The line's length in 1/65536 pixel, half to even.
+    /// The line's length in 1/65536 pixel, rounded to nearest, ties to even.
     #[must_use]
     #[expect(
         clippy::cast_possible_truncation,
@@ -138,18 +141,18 @@ fn length(start: [i32; 2], end: [i32; 2]) -> f32 {
     (dx * dx + dy * dy).sqrt()
 }
 
-/// What varies along a rectangular line.
+/// The interpolants of a rectangular line.
 #[derive(Debug, Clone, Copy)]
 pub struct RectangleSurface<'a> {
-    /// Where it is.
+    /// The line's rectangle.
     pub rectangle: LineRectangle,
     /// Its start and end.
     pub ends: [&'a WindowVertex; 2],
-    /// How each scalar of the varyings is interpolated.
+    /// The interpolation of each scalar of the varyings.
     pub modes: &'a [Interpolation],
     /// The provoking vertex's varyings.
     pub flat: &'a [f32],
-    /// Whether alpha is multiplied by what is covered.
+    /// Whether alpha is multiplied by coverage.
     pub is_smooth: bool,
 }
 

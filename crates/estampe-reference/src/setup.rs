@@ -1,26 +1,27 @@
-//! Triangle set-up: sorted vertices and the planes of what varies over the triangle.
+//! Triangle set-up: sorted vertices and the planes of depth, 1/w and varyings.
 //!
-//! In · Out: three window vertices · planes that give a value at any point of the window.
+//! In · Out: three window vertices · planes, which give a value at any point of the window.
 //! Precision: f32 in the order of NUMERICS.md, *Planes*; positions are exact.
 
 use crate::WindowVertex;
 use crate::cull::doubled_area;
 
-/// A triangle whose vertices stand in the order of (y, x): whatever follows does not depend on the
-/// order in which they were given.
+/// A triangle with its vertices sorted by (y, x), so that later stages do not depend on their given
+/// order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SortedTriangle {
-    /// The vertices, the uppermost first, of equally high ones the leftmost.
+    /// The vertices, the uppermost first; of equal y, the leftmost first.
     pub vertices: [WindowVertex; 3],
-    /// Their doubled area with its sign, in (1/256 pixel)²; never 0.
+    /// Twice their signed area, in (1/256 pixel)²; not 0.
     pub doubled_area: i64,
 }
 
 impl SortedTriangle {
-    /// Sorts; `None` where the triangle has no area.
+    /// Sorts the vertices; `None` if the triangle has no area.
     #[must_use]
     pub fn new(mut vertices: [WindowVertex; 3]) -> Option<Self> {
-        // Stable: of equal positions (which have no area anyway) the earlier given stays first.
+        // The sort is stable: of equal positions (which have no area anyway) the first given stays
+        // first.
         vertices.sort_by_key(|vertex| [vertex.snapped[1], vertex.snapped[0]]);
         let doubled_area = doubled_area([0, 1, 2].map(|k: usize| vertices[k].snapped));
         (doubled_area != 0).then_some(Self {
@@ -62,16 +63,16 @@ impl SortedTriangle {
     }
 }
 
-/// A value that is affine in the window.
+/// A value that is affine in window x and y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
-    /// Where it is `value`: the first sorted vertex, in pixels.
+    /// The point at which it is `value`: the first sorted vertex, in pixels.
     pub origin: [f32; 2],
-    /// Its value there.
+    /// The value at `origin`.
     pub value: f32,
-    /// ∂/∂x, per pixel.
+    /// ∂/∂x, in values per pixel.
     pub per_x: f32,
-    /// ∂/∂y, per pixel.
+    /// ∂/∂y, in values per pixel.
     pub per_y: f32,
 }
 

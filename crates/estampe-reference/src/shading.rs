@@ -1,26 +1,27 @@
-//! Vertex shading: the shader's vertex function on one vertex at a time, with `R = f32`.
+//! Vertex shading: runs the vertex shader on one vertex at a time, with `R = f32`.
 //!
 //! In · Out: vertex and instance index · a vertex in clip space.
 
 use crate::{Draw, fetch};
 use estampe_types::shader::{Attributes, Shader, Sink, Source, Varyings, VertexIn};
 
-/// A vertex after its shader.
+/// The outputs of the vertex shader.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClipVertex {
     /// x, y, z, w in clip space.
     pub position: [f32; 4],
     /// The scalars of the varyings, in order.
     pub varyings: Vec<f32>,
-    /// Width of a point, in pixels.
+    /// The width of a point, in pixels.
     pub point_size: f32,
-    /// How far inside the shader's own planes it is.
+    /// The clip distances; negative outside.
     pub clip_distances: Vec<f32>,
-    /// Negative at all vertices of a primitive, one of these drops it.
+    /// The cull distances: a primitive is dropped if one of them is negative at all of its
+    /// vertices.
     pub cull_distances: Vec<f32>,
 }
 
-/// Fetches and shades the vertex at `position` of the draw's range: counted from its start.
+/// Fetches and shades the vertex at `position` in the draw's range, counted from the range's start.
 pub fn shade_vertex<S: Shader>(
     shader: &S,
     draw: &Draw<'_>,
@@ -62,7 +63,7 @@ pub fn shade_vertex<S: Shader>(
     }
 }
 
-/// Distances; those that the shader did not give are 0.
+/// The distances; 0 for those that the shader did not write.
 fn given(distances: &[Option<f32>]) -> Vec<f32> {
     distances
         .iter()
@@ -70,7 +71,7 @@ fn given(distances: &[Option<f32>]) -> Vec<f32> {
         .collect()
 }
 
-/// Numbers handed to a shader one after the other; zeros once they are spent.
+/// A source of scalars for a shader, in order; zeros after the last.
 struct Scalars(std::vec::IntoIter<f32>);
 
 impl Source<f32> for Scalars {
@@ -79,7 +80,7 @@ impl Source<f32> for Scalars {
     }
 }
 
-/// Numbers that a shader gave.
+/// The scalars that a shader wrote, in order.
 struct Collected(Vec<f32>);
 
 impl Sink<f32> for Collected {

@@ -1,21 +1,24 @@
-//! Floats of 16, 11 and 10 bits: 5 bits of exponent, 10, 6 or 5 of mantissa.
+//! Encoding and decoding of floats of 16, 11 and 10 bits: 5 bits of exponent, 10, 6 or 5 of
+//! mantissa.
 //!
-//! In · Out: f32 numbers · codes. Precision: to nearest, ties to even; decoding is exact. Spec: NUMERICS.md, *Formats*;
+//! In · Out: f32 numbers · codes. Precision: to nearest, ties to even; decoding is exact. Spec:
+//! NUMERICS.md, *Formats*; IEEE 754 binary16; Khronos Data Format Specification 1.3, chapter 11
+//! (the unsigned ones).
 //! IEEE 754 binary16; Khronos Data Format Specification 1.3, chapter 11 (the unsigned ones).
 //!
 //! ```text
 //!   exponent field 0       mantissa · 2^(−14 − bits)                      denormals
 //!   exponent field e       (2^bits + mantissa) · 2^(e − 15 − bits)
-//!   exponent field 31      infinite (mantissa 0) or not a number
+//!   exponent field 31      infinity (mantissa 0) or NaN
 //! ```
 
-/// Least exponent of a normal number; denormals have the same unit.
+/// The least exponent of a normal number; denormals are multiples of the same unit.
 const LEAST_EXPONENT: i32 = -14;
 
-/// The exponent field of what is not finite.
+/// The exponent field of infinity and NaN.
 const NOT_FINITE: u32 = 31;
 
-/// The code of a half float.
+/// Encodes a half float.
 #[must_use]
 pub fn half_code(value: f32) -> u32 {
     if value.is_nan() {
@@ -31,7 +34,7 @@ pub fn half_code(value: f32) -> u32 {
     sign | magnitude
 }
 
-/// The number of a half float.
+/// Decodes a half float.
 #[must_use]
 pub fn half_value(code: u32) -> f32 {
     let magnitude = value_of(code & 0x7FFF, 10);
@@ -42,7 +45,7 @@ pub fn half_value(code: u32) -> f32 {
     }
 }
 
-/// The code of an unsigned float with so many bits of mantissa: 6 or 5.
+/// Encodes an unsigned float with 6 or 5 bits of mantissa.
 #[must_use]
 pub fn unsigned_code(value: f32, mantissa_bits: u32) -> u32 {
     let infinite = NOT_FINITE << mantissa_bits;
@@ -57,16 +60,17 @@ pub fn unsigned_code(value: f32, mantissa_bits: u32) -> u32 {
     }
 }
 
-/// The number of an unsigned float.
+/// Decodes an unsigned float with 6 or 5 bits of mantissa.
 #[must_use]
 pub fn unsigned_value(code: u32, mantissa_bits: u32) -> f32 {
     value_of(code, mantissa_bits)
 }
 
-/// The code of a finite number ≥ 0, as if there were no greatest exponent.
+/// The code of a finite number ≥ 0, as if the exponent field were unlimited.
 ///
-/// With the number's exponent e, but at least the least one, the number is q units of 2^(e − bits); q has a bit more
-/// than the mantissa, which the exponent field swallows: a q that was rounded up to 2^(bits + 1) carries into it.
+/// With the number's exponent e, but at least the least one, the number is q units of 2^(e − bits).
+/// q has one bit more than the mantissa; adding it to the exponent field makes that bit part of the
+/// exponent, so a q that was rounded up to 2^(bits + 1) carries into it correctly.
 fn rounded(value: f32, mantissa_bits: u32) -> u32 {
     let bits = i32::try_from(mantissa_bits).expect("at most 10");
     let exponent = exponent_of(value).max(LEAST_EXPONENT);
@@ -93,7 +97,7 @@ fn value_of(code: u32, mantissa_bits: u32) -> f32 {
     }
 }
 
-/// ⌊log₂ value⌋ of a normal number; −127 of smaller ones.
+/// ⌊log₂ value⌋ of a normal number; −127 for denormals and 0.
 fn exponent_of(value: f32) -> i32 {
     i32::try_from(value.to_bits() >> 23 & 0xFF).expect("8 bits") - 127
 }

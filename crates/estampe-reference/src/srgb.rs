@@ -2,31 +2,33 @@
 //!
 //! In · Out: 8-bit codes · linear values. Precision: NUMERICS.md, *Formats*.
 //!
-//! An encoded value e above 0.04045 stands for s^2.4 with s = (e + 0.055) ÷ 1.055. No power is computed: x = s^2.4
-//! exactly where x⁵ = s¹², and both sides are products of f64. The tables are found by bisection over the numbers that
-//! f32 has. The products err by less than 20 · 2⁻⁵³, relative; neighbours in f32 differ by 2⁻²⁴, so that their fifth
-//! powers differ by at least 5 · 2⁻²⁴: a wrong decision needs a boundary within a hundred-millionth of a number of f32.
+//! An encoded value e above 0.04045 decodes to s^2.4 with s = (e + 0.055) ÷ 1.055. No power is
+//! computed: x = s^2.4 exactly where x⁵ = s¹², and both sides are products of f64. The tables are
+//! found by bisection over the f32 numbers. The relative error of the products is below 20 · 2⁻⁵³;
+//! neighbouring f32 differ by 2⁻²⁴, so their fifth powers differ by at least 5 · 2⁻²⁴: a wrong
+//! decision needs a boundary within a hundred-millionth of an f32.
 
 use std::sync::LazyLock;
 
-/// Up to this encoded value the function is a straight line.
+/// The function is linear up to this encoded value.
 const LINE_ENDS: f64 = 0.040_45;
 
-/// The linear value of each code, to the nearest f32.
+/// The linear value of each code, as the nearest f32.
 static LINEAR: LazyLock<[f32; 256]> =
     LazyLock::new(|| std::array::from_fn(|code| nearest(code as f64 / 255.0)));
 
-/// Threshold k is the least f32 whose code is k + 1: the first at or above the linear value of (k + ½) ÷ 255.
+/// Threshold k is the least f32 that encodes to k + 1: the first at or above the linear value of (k
+/// + ½) ÷ 255.
 pub static THRESHOLDS: LazyLock<[f32; 255]> =
     LazyLock::new(|| std::array::from_fn(|code| first_at_or_above((code as f64 + 0.5) / 255.0)));
 
-/// The linear value of a code, of which the low 8 bits count.
+/// The linear value of a code; only its low 8 bits are used.
 #[must_use]
 pub fn linear(code: u32) -> f32 {
     LINEAR[code as usize & 0xFF]
 }
 
-/// The code of a linear value: how many thresholds are at or below it, counted one by one. NaN gives 0.
+/// The code of a linear value: the number of thresholds at or below it. NaN gives 0.
 #[must_use]
 pub fn code(linear: f32) -> u8 {
     let below = THRESHOLDS
@@ -36,14 +38,14 @@ pub fn code(linear: f32) -> u8 {
     u8::try_from(below).expect("there are 255 thresholds")
 }
 
-/// The f32 nearest to what an encoded value stands for.
+/// The f32 nearest to the linear value of `encoded`.
 fn nearest(encoded: f64) -> f32 {
     let above = first_at_or_above(encoded);
     if above == 0.0 {
         return above;
     }
     let below = above.next_down();
-    // The middle of two neighbours in f32 is exact in f64.
+    // The midpoint of two neighbouring f32 is exact in f64.
     let middle = f64::midpoint(below.into(), above.into());
     if is_at_or_above(middle, encoded) {
         below
@@ -52,9 +54,9 @@ fn nearest(encoded: f64) -> f32 {
     }
 }
 
-/// The least f32 in 0..=1 that is not below what an encoded value in 0..=1 stands for.
+/// The least f32 in 0..=1 that is at or above the linear value of `encoded`, which is in 0..=1.
 fn first_at_or_above(encoded: f64) -> f32 {
-    // Non-negative numbers of f32 are in the order of their bits.
+    // Non-negative f32 are ordered as their bits are.
     let (mut first, mut last) = (0.0_f32.to_bits(), 1.0_f32.to_bits());
     while first < last {
         let middle = first.midpoint(last);
@@ -67,7 +69,7 @@ fn first_at_or_above(encoded: f64) -> f32 {
     f32::from_bits(first)
 }
 
-/// Whether a linear value is not below what an encoded one stands for.
+/// Whether `linear` is at or above the linear value of `encoded`.
 fn is_at_or_above(linear: f64, encoded: f64) -> bool {
     if encoded <= LINE_ENDS {
         return linear * 12.92 >= encoded;

@@ -1,22 +1,22 @@
-//! The stencil test.
+//! The stencil test and the stencil operations.
 //!
-//! In · Out: the state of one face, reference, stored value · what passed and what is stored then. Exact.
-//! Spec: Vulkan 1.3, "Stencil Test"; WebGPU, `GPUStencilOperation`.
+//! In · Out: the state of one face, reference, stored value · the result of the test and the new
+//! value. Exact. Spec: Vulkan 1.3, "Stencil Test"; WebGPU, `GPUStencilOperation`.
 
 use crate::compare;
 use estampe_types::state::{StencilFaceState, StencilOperation};
 
-/// The greatest value of 8 bits of stencil.
+/// The greatest 8-bit stencil value.
 const GREATEST: i32 = 255;
 
-/// Whether a stored value passes: `(reference & read_mask) OP (stored & read_mask)`.
+/// Whether the test passes: `(reference & read_mask) OP (stored & read_mask)`.
 #[must_use]
 pub fn passes(face: &StencilFaceState, reference: u8, stored: u8) -> bool {
     let [new, old] = [reference, stored].map(|value| value & face.read_mask);
     compare::passes(face.compare, new, old)
 }
 
-/// What is stored after the tests, of which the depth test counts only where stencil passes.
+/// The new stencil value. The depth test's result matters only if the stencil test passed.
 #[must_use]
 pub fn updated(
     face: &StencilFaceState,
@@ -34,7 +34,8 @@ pub fn updated(
     (new & face.write_mask) | (stored & !face.write_mask)
 }
 
-/// The value that an operation makes, before the write mask: computed as a whole number, then brought back to 8 bits.
+/// The result of an operation before the write mask: computed as an integer, then clamped or
+/// wrapped to 8 bits.
 #[must_use]
 pub fn operated(operation: StencilOperation, reference: u8, stored: u8) -> u8 {
     use StencilOperation as O;

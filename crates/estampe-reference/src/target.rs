@@ -1,46 +1,48 @@
-//! What is drawn into: colour attachments, depth and stencil.
+//! The target: colour attachments, depth and stencil.
 
 use crate::channel::{clear_depth, quantised_depth};
 use crate::color::{self, Codes};
 use crate::raster::sample_positions;
 use estampe_types::TextureFormat;
 
-/// The largest width and height.
+/// The greatest width and height, in pixels.
 const MAX_DIMENSION: u32 = 16_384;
 
 /// Attachments of one size and one number of samples per pixel.
 ///
-/// In each, sample s of pixel (x, y) is element `(y * width + x) * samples + s`: see [`Target::index`].
+/// In each of them, sample s of pixel (x, y) is element `(y * width + x) * samples + s`: see
+/// [`Target::index`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Target {
     /// Width in pixels.
     pub width: u32,
     /// Height in pixels.
     pub height: u32,
-    /// Samples of a pixel: 1, 2, 4, 8 or 16.
+    /// Samples per pixel: 1, 2, 4, 8 or 16.
     pub samples: u32,
-    /// What the colours of each attachment are.
+    /// The format of each colour attachment.
     pub color_formats: Vec<TextureFormat>,
-    /// What holds depth, stencil or both, if anything.
+    /// The format of the depth-stencil attachment, if there is one.
     pub depth_stencil: Option<TextureFormat>,
-    /// The stored codes R, G, B, A: all samples of attachment 0, then all of attachment 1, and so on.
+    /// The stored codes R, G, B, A: all samples of attachment 0, then all of attachment 1, and so
+    /// on.
     pub color: Vec<Codes>,
-    /// The stored depths, in every format as f32; empty where there are none.
+    /// The stored depths, as f32 in every format; empty without a depth attachment.
     pub depth: Vec<f32>,
-    /// The stored stencil values; empty where there are none.
+    /// The stored stencil values; empty without a stencil attachment.
     pub stencil: Vec<u8>,
 }
 
 impl Target {
-    /// One colour attachment and a float depth, of zeros and depth 1.
+    /// One colour attachment of zeros and a float depth attachment of 1.
     #[must_use]
     pub fn new(width: u32, height: u32, samples: u32, color_format: TextureFormat) -> Self {
         let depth = Some(TextureFormat::Depth32Float);
         Self::with_attachments([width, height], samples, &[color_format], depth)
     }
 
-    /// Attachments of zeros and depth 1. Sizes beyond 16384 are cut to it; a number of samples that there is not
-    /// means 1.
+    /// Attachments of zeros, with depth 1. Sizes are limited to 16384; numbers of samples other
+    /// than 1, 2, 4, 8 and 16 are taken as 1.
     #[must_use]
     pub fn with_attachments(
         size: [u32; 2],
@@ -64,7 +66,8 @@ impl Target {
         }
     }
 
-    /// Sets every sample to a colour (linear RGBA, converted as a store is) and a depth (confined to 0..=1).
+    /// Sets every sample to a colour (linear RGBA, encoded as a store does) and a depth (clamped to
+    /// 0..=1).
     pub fn clear(&mut self, color: [f32; 4], depth: f32) {
         for index in 0..self.color_formats.len() {
             self.clear_color(index, color.map(f64::from));
@@ -72,14 +75,15 @@ impl Target {
         self.clear_depth(depth);
     }
 
-    /// Sets every sample of a colour attachment.
+    /// Sets every sample of a colour attachment to a colour (linear RGBA; integers for integer
+    /// formats).
     pub fn clear_color(&mut self, attachment: usize, color: [f64; 4]) {
         let codes = color::clear_codes(self.color_formats[attachment], color);
         let range = self.plane(attachment);
         self.color[range].fill(codes);
     }
 
-    /// Sets every depth: confined to 0..=1, and to what the format can hold.
+    /// Sets every depth: clamped to 0..=1 and rounded to the format.
     pub fn clear_depth(&mut self, depth: f32) {
         if let Some(format) = self.depth_stencil {
             self.depth.fill(clear_depth(format, depth));
@@ -91,14 +95,14 @@ impl Target {
         self.stencil.fill(stencil);
     }
 
-    /// Where sample `sample` of pixel (x, y) stands in [`Target::depth`], [`Target::stencil`] and, of attachment 0,
-    /// [`Target::color`].
+    /// The index of sample `sample` of pixel (x, y) in [`Target::depth`], [`Target::stencil`] and,
+    /// for attachment 0, [`Target::color`].
     #[must_use]
     pub fn index(&self, [x, y]: [u32; 2], sample: u32) -> usize {
         (y as usize * self.width as usize + x as usize) * self.samples as usize + sample as usize
     }
 
-    /// What the depth attachment makes of a depth; itself where there is none.
+    /// A depth as the depth attachment stores it; unchanged without a depth attachment.
     #[must_use]
     pub fn quantised(&self, depth: f32) -> f32 {
         match self.depth_stencil {
@@ -107,7 +111,7 @@ impl Target {
         }
     }
 
-    /// One texel per pixel of an attachment, row by row: the mean of its samples.
+    /// The resolved attachment, row by row: for each pixel the mean of its samples.
     #[must_use]
     pub fn resolve(&self, attachment: usize) -> Vec<Codes> {
         let format = self.color_formats[attachment];
@@ -130,13 +134,13 @@ impl Target {
             .collect()
     }
 
-    /// How many samples an attachment has.
+    /// The number of samples of an attachment.
     #[must_use]
     pub fn len(&self) -> usize {
         self.width as usize * self.height as usize * self.samples as usize
     }
 
-    /// Whether it has no samples.
+    /// Whether the target has no samples.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0

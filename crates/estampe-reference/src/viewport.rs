@@ -1,7 +1,7 @@
-//! Perspective division and viewport: from clip space to the window, snapped to 1/256 pixel.
+//! Perspective division and viewport: from clip space to window space, snapped to 1/256 pixel.
 //!
-//! In · Out: clip vertices · window vertices. Space: y up to y down. Spec: NUMERICS.md, *From clip
-//! space to the window*.
+//! In · Out: clip vertices · window vertices. Space: clip space, y up, to window space, y down.
+//! Spec: NUMERICS.md, *From clip space to the window*.
 
 use crate::ClipVertex;
 use crate::arithmetic::{clamp, max, min, round_half_even};
@@ -9,13 +9,13 @@ use crate::raster::sample_positions;
 use estampe_types::state::{ScissorRect, Viewport};
 use std::ops::Range;
 
-/// Least window coordinate that is not clipped, in pixels.
+/// The least window coordinate inside the guard band, in pixels.
 pub const GUARD_BAND_MIN: f32 = -8192.0;
-/// Greatest window coordinate that is not clipped, in pixels.
+/// The greatest window coordinate inside the guard band, in pixels.
 pub const GUARD_BAND_MAX: f32 = 24_575.0;
 
-/// Where window coordinates are clamped before they are snapped. Clipped vertices lie up to a pixel
-/// outside the guard band, give or take their rounding.
+/// The least window coordinate of a snapped vertex. Clipped vertices lie up to a pixel outside the
+/// guard band, plus or minus their rounding.
 const SNAPPED_MIN: f32 = GUARD_BAND_MIN - 2.0;
 const SNAPPED_MAX: f32 = GUARD_BAND_MAX + 2.0;
 
@@ -26,19 +26,19 @@ pub struct ViewportTransform {
     pub scale: [f32; 3],
     /// `ox`, `oy`, `oz`.
     pub offset: [f32; 3],
-    /// The lesser and the greater end of the depth range.
+    /// The least and the greatest depth of the viewport.
     pub depth_range: [f32; 2],
-    /// Whether depth is not clipped.
+    /// Whether depth is clamped and not clipped.
     pub unclipped_depth: bool,
 }
 
-/// The least w that is not clipped where depth is not: 2⁻²⁰.
+/// The least w of a position if depth is not clipped: 2⁻²⁰.
 pub const LEAST_W: f32 = 1.0 / 1_048_576.0;
 
-/// Where depth is not clipped, that of a vertex is confined to so much on either side of 0: 2²⁴.
+/// If depth is not clipped, the depth of vertices is clamped to this magnitude: 2²⁴.
 pub const FARTHEST: f32 = 16_777_216.0;
 
-/// Whether a viewport draws at all: its numbers are ones that the arithmetic was made for.
+/// Whether a viewport draws: its numbers are within the limits of the arithmetic.
 #[must_use]
 pub fn is_drawable(viewport: &Viewport) -> bool {
     let v = viewport;
@@ -48,12 +48,12 @@ pub fn is_drawable(viewport: &Viewport) -> bool {
     [are_places, are_sizes, are_depths] == [[true; 2]; 3]
 }
 
-/// A position in the window: pixels, y down; depth; and 1/w.
+/// A position in window space, before snapping.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WindowPosition {
-    /// In pixels from the left.
+    /// Pixels from the left edge.
     pub x: f32,
-    /// In pixels from the top.
+    /// Pixels from the top edge, downwards.
     pub y: f32,
     /// Depth.
     pub z: f32,
@@ -61,21 +61,21 @@ pub struct WindowPosition {
     pub inverse_w: f32,
 }
 
-/// A vertex in the window.
+/// A vertex in window space, snapped.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindowVertex {
     /// x and y in 1/256 pixel.
     pub snapped: [i32; 2],
-    /// Depth, not yet clamped.
+    /// Depth, not clamped to the viewport's range.
     pub z: f32,
     /// 1 ÷ w of clip space.
     pub inverse_w: f32,
-    /// The scalars of the varyings, in order, as the shader gave them.
+    /// The scalars of the varyings, in order, as the shader wrote them.
     pub varyings: Vec<f32>,
 }
 
 impl ViewportTransform {
-    /// The constants of a viewport, each rounded once or as written.
+    /// The scale and offset of a viewport; depth is clipped.
     #[must_use]
     pub fn new(viewport: &Viewport) -> Self {
         let v = viewport;
@@ -88,7 +88,7 @@ impl ViewportTransform {
         }
     }
 
-    /// The same, clipping depth or not.
+    /// The transform with depth clipping off (`true`) or on.
     #[must_use]
     pub fn with_unclipped_depth(self, unclipped_depth: bool) -> Self {
         Self {
@@ -116,8 +116,8 @@ impl ViewportTransform {
         }
     }
 
-    /// Places a vertex that came through clipping: window position, confined to two pixels around
-    /// the guard band (which changes no vertex within it), snapped.
+    /// Transforms and snaps a vertex after clipping. x and y are clamped to two pixels around the
+    /// guard band, which changes no vertex inside the band.
     #[must_use]
     pub fn place(&self, vertex: &ClipVertex) -> WindowVertex {
         let position = self.window(vertex.position);
@@ -130,7 +130,7 @@ impl ViewportTransform {
         }
     }
 
-    /// Confines a depth to the viewport's range.
+    /// Clamps a depth to the viewport's range.
     #[must_use]
     pub fn clamp_depth(&self, depth: f32) -> f32 {
         clamp(depth, self.depth_range[0], self.depth_range[1])
@@ -143,7 +143,7 @@ pub fn snap(pixels: f32) -> i32 {
     round_half_even(pixels * 256.0)
 }
 
-/// A rectangle of pixels.
+/// A rectangle of pixels, half-open.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PixelBounds {
     /// Columns.
@@ -153,8 +153,9 @@ pub struct PixelBounds {
 }
 
 impl PixelBounds {
-    /// Viewport ∩ scissor ∩ target: the pixels that a draw may touch. The viewport's columns and rows are those in which
-    /// samples may lie inside; which of them do is for [`ViewportSamples`] to say.
+    /// Viewport ∩ scissor ∩ target: the pixels that a draw may write. The columns and rows of the
+    /// viewport are those in which samples may be inside; [`ViewportSamples`] decides for each
+    /// sample.
     #[must_use]
     pub fn new(
         viewport: &Viewport,
@@ -168,7 +169,8 @@ impl PixelBounds {
         let axis = |start: f32, extent: f32, first: u32, count: u32, size: u32| {
             let (start, extent) = (f64::from(start), f64::from(extent));
             let end = start + extent;
-            // The last sample of the first column is inside, and so is the first one of the last column.
+            // Keep the first column if its last sample is inside, and the last column if its first
+            // sample is.
             let low = start.floor() + f64::from(u8::from(start.floor() + most < start));
             let high = end.floor() + f64::from(u8::from(end.floor() + least < end));
             let low = whole(low).max(first);
@@ -196,7 +198,7 @@ impl PixelBounds {
     }
 }
 
-/// A whole number of pixels, at least 0.
+/// A non-negative number of pixels as an integer.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -206,7 +208,7 @@ fn whole(edge: f64) -> u32 {
     edge as u32
 }
 
-/// The samples of a viewport: those whose positions it contains, its left and top edges included.
+/// The samples inside a viewport: those whose positions it contains, left and top edges included.
 #[derive(Debug, Clone)]
 pub struct ViewportSamples {
     x: Range<f64>,
@@ -214,7 +216,7 @@ pub struct ViewportSamples {
 }
 
 impl ViewportSamples {
-    /// The samples of a viewport.
+    /// The samples inside `viewport`.
     #[must_use]
     pub fn new(viewport: &Viewport) -> Self {
         let axis = |start: f32, extent: f32| f64::from(start)..f64::from(start) + f64::from(extent);
@@ -227,7 +229,7 @@ impl ViewportSamples {
     /// Whether a position in 1/256 pixel lies inside.
     #[must_use]
     pub fn contains(&self, [x, y]: [i64; 2]) -> bool {
-        // Positions in a target are far below 2⁵³.
+        // Exact: positions in a target are far below 2⁵³.
         let pixels = |subpixels: i64| subpixels as f64 / 256.0;
         self.x.contains(&pixels(x)) && self.y.contains(&pixels(y))
     }

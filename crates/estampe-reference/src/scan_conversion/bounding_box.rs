@@ -1,14 +1,14 @@
-//! Bounding box: every pixel of the box is tested by its barycentric weights.
+//! Scan conversion by bounding box: each pixel of the box is tested by its barycentric weights.
 //!
 //! ```text
-//!   weight of c at p:  (b − a) × (p − a) ÷ ((b − a) × (c − a)), and so on around the triangle;
+//!   weight of c at p:  (b − a) × (p − a) ÷ ((b − a) × (c − a)), cyclically for the other two;
 //!   p lies inside where no weight is negative
 //! ```
 
 use super::{CENTER, Corner, PIXEL, pixel_at_or_after};
 use crate::viewport::PixelBounds;
 
-/// As it is printed: whole coordinates, weights in f32, all edges.
+/// The textbook form: whole coordinates, weights in f32, all edges.
 #[must_use]
 pub fn printed(corners: [[i32; 2]; 3]) -> Vec<[i32; 2]> {
     let cross = |a: [i32; 2], b: [i32; 2], p: [i32; 2]| {
@@ -35,11 +35,12 @@ pub fn printed(corners: [[i32; 2]; 3]) -> Vec<[i32; 2]> {
     pixels
 }
 
-/// With centres at ½ and the top-left rule; corners in 1/256 pixel.
+/// The repaired form: centres at ½, the top-left rule; corners in 1/256 pixel.
 #[must_use]
 pub fn repaired(corners: [[i32; 2]; 3], bounds: &PixelBounds) -> Vec<[u32; 2]> {
     let [a, b, c] = corners.map(|corner| corner.map(i64::from));
-    // Wound so that the area, and with it every weight inside, is positive.
+    // Reverse the winding if needed, so that the area, and with it every weight inside, is
+    // positive.
     let [a, b, c] = match cross(a, b, c) {
         0 => return Vec::new(),
         area if area > 0 => [a, b, c],
@@ -72,7 +73,8 @@ fn cross(a: Corner, b: Corner, p: Corner) -> i64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
 
-/// Whether the triangle, which lies below an edge to the right and right of an edge upwards, owns the edge's points.
+/// Whether points on the edge belong to the triangle: it lies below a left-to-right edge or right
+/// of an upward edge.
 fn is_top_or_left(from: Corner, to: Corner) -> bool {
     let runs_right = from[1] == to[1] && from[0] < to[0];
     let runs_up = to[1] < from[1];

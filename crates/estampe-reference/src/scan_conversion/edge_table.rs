@@ -1,7 +1,7 @@
-//! Edge table: each edge is walked alone and notes, in each row it meets, the least and the greatest x; then rows are
-//! filled.
+//! Scan conversion by edge table: each edge is walked separately and records, in each row that it
+//! meets, the least and the greatest x; then the rows are filled.
 //!
-//! It fills any convex polygon, because a row meets its border in two places.
+//! It fills any convex polygon, because a row meets its border in two points.
 
 use super::{fill, first_column, rows};
 use crate::viewport::PixelBounds;
@@ -16,7 +16,7 @@ fn note(table: &mut Table, row: i64, x: i64) {
     *greatest = (*greatest).max(x);
 }
 
-/// As it is printed: whole coordinates, edges with both their ends, places rounded to the nearest pixel.
+/// The textbook form: whole coordinates, edges with both ends, x rounded to the nearest pixel.
 #[must_use]
 pub fn printed(corners: [[i32; 2]; 3]) -> Vec<[i32; 2]> {
     let [a, b, c] = corners.map(|corner| corner.map(i64::from));
@@ -43,7 +43,7 @@ pub fn printed(corners: [[i32; 2]; 3]) -> Vec<[i32; 2]> {
     table.into_iter().flat_map(row).collect()
 }
 
-/// With centres at ½ and the top-left rule; corners in 1/256 pixel.
+/// The repaired form: centres at ½, the top-left rule; corners in 1/256 pixel.
 #[must_use]
 pub fn repaired(corners: [[i32; 2]; 3], bounds: &PixelBounds) -> Vec<[u32; 2]> {
     let [a, b, c] = corners.map(|corner| corner.map(i64::from));

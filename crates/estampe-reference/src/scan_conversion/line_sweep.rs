@@ -1,4 +1,5 @@
-//! Line sweep: corners sorted by y, then from row to row between the long side and the two short ones.
+//! Scan conversion by line sweep: corners sorted by y, then rows between the long side and the two
+//! short ones.
 //!
 //! ```text
 //!        0          long side 0─2, short sides 0─1 and 1─2
@@ -11,7 +12,8 @@
 use super::{fill, first_column, rows};
 use crate::viewport::PixelBounds;
 
-/// As it is printed: whole coordinates, rows and columns with both ends, places along the sides cut to whole pixels.
+/// The textbook form: whole coordinates, rows and columns with both ends, x along the sides
+/// truncated to whole pixels.
 #[must_use]
 pub fn printed(mut corners: [[i32; 2]; 3]) -> Vec<[i32; 2]> {
     corners.sort_by_key(|corner| corner[1]);
@@ -42,7 +44,7 @@ pub fn printed(mut corners: [[i32; 2]; 3]) -> Vec<[i32; 2]> {
     pixels
 }
 
-/// With centres at ½ and the top-left rule; corners in 1/256 pixel.
+/// The repaired form: centres at ½, the top-left rule; corners in 1/256 pixel.
 #[must_use]
 pub fn repaired(corners: [[i32; 2]; 3], bounds: &PixelBounds) -> Vec<[u32; 2]> {
     let mut corners = corners.map(|corner| corner.map(i64::from));

@@ -1,20 +1,21 @@
 //! The classic scan conversions of a triangle, each in two forms.
 //!
-//! In · Out: three corners · pixels, row by row. *Printed* is what courses print: corners at pixels, whose centres have
-//! whole coordinates; all edges are drawn, so neighbours share their border. *Repaired* takes corners in 1/256 pixel,
-//! puts centres at ½ and keeps the top-left rule, exactly: it covers the very pixels that [`raster`](crate::raster)
-//! covers with one sample. Spec: docs/PIPELINE.md row R2.
+//! In · Out: three corners · pixels, row by row. *Printed* is the textbook form: corners at pixels,
+//! whose centres have whole coordinates; all edges are drawn, so neighbours share their border.
+//! *Repaired* takes corners in 1/256 pixel, puts centres at ½ and keeps the top-left rule, exactly:
+//! it covers the same pixels as [`raster`](crate::raster) with one sample. Spec: docs/PIPELINE.md
+//! row R2.
 //!
 //! | file | idea | repaired by |
 //! |---|---|---|
-//! | [`line_sweep`] | sort by y; walk down the long side and the two short ones | rows by their centres, half-open; the sides' places as fractions |
-//! | [`edge_table`] | each edge notes in each row the least and greatest x | the first column at or behind the edge, half-open |
+//! | [`line_sweep`] | sort by y; walk down the long side and the two short ones | rows by their centres, half-open; x of the sides as fractions |
+//! | [`edge_table`] | each edge records the least and greatest x of each row | the first column at or right of the edge, half-open |
 //! | [`bounding_box`] | test all pixels of the box by barycentric weights | weights as integers; zero only on top and left edges |
-//! | [`scanline`] | the edges' equations, stepped from pixel to pixel | integers, and one less for edges that own no points |
+//! | [`scanline`] | the edges' equations, stepped from pixel to pixel | integers, minus 1 for edges that are neither top nor left |
 //!
-//! The repairs are the same each time: a triangle owns the points on its top and left edges and no others. A row
-//! whose centre is y therefore belongs to the edges with y_top ≤ y < y_bottom, and in it the centres x with
-//! x_left ≤ x < x_right.
+//! The repair is the same in all four: points on top and left edges belong to the triangle, points
+//! on other edges do not. So a row whose centre is y meets the edges with y_top ≤ y < y_bottom, and
+//! its pixels are those with centres x_left ≤ x < x_right.
 
 pub mod bounding_box;
 pub mod edge_table;
@@ -25,16 +26,16 @@ use crate::arithmetic::floor_div;
 use crate::viewport::PixelBounds;
 use std::ops::Range;
 
-/// A pixel's centre in 1/256 pixel from its corner.
+/// The distance from a pixel's corner to its centre, in 1/256 pixel.
 const CENTER: i64 = 128;
 
-/// A pixel's width in 1/256 pixel.
+/// The width of a pixel in 1/256 pixel.
 const PIXEL: i64 = 256;
 
-/// A corner in 1/256 pixel, widened.
+/// A corner in 1/256 pixel, in 64 bits so that products fit.
 type Corner = [i64; 2];
 
-/// The first pixel whose centre is at or after a place along an axis.
+/// The first pixel whose centre is at or after a coordinate.
 fn pixel_at_or_after(place: i64) -> i64 {
     (place - CENTER).div_euclid(PIXEL) + i64::from((place - CENTER).rem_euclid(PIXEL) != 0)
 }
@@ -47,8 +48,8 @@ fn rows(top: i64, bottom: i64, bounds: &PixelBounds) -> Range<i64> {
 
 /// The first column whose centre is at or right of an edge, in the row whose centre is y.
 ///
-/// The edge is at `x = ax + (y − ay)·(bx − ax)/(by − ay)`; the column is ⌈(x − ½ pixel) / pixel⌉, as a fraction
-/// of integers. The edge is not horizontal.
+/// The edge has `x = ax + (y − ay)·(bx − ax)/(by − ay)`; the column is ⌈(x − ½ pixel) / pixel⌉, as
+/// a fraction of integers. The edge must not be horizontal.
 fn first_column(a: Corner, b: Corner, row: i64) -> i64 {
     let [a, b] = [a, b].map(|corner| corner.map(i128::from));
     let y = i128::from(row * PIXEL + CENTER);

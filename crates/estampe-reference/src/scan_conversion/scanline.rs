@@ -1,4 +1,5 @@
-//! Scan line with edge equations: three numbers that are stepped from pixel to pixel and from row to row.
+//! Scan conversion by edge equations: three values that are stepped from pixel to pixel and from
+//! row to row.
 //!
 //! ```text
 //!   E(x, y) = A·x + B·y + C,   A = ay − by,   B = bx − ax,   C = −(A·ax + B·ay)
@@ -27,8 +28,9 @@ impl Equation {
         self.a * x + self.b * y + self.c
     }
 
-    /// One less for an edge that owns no points: there, 0 is outside. An edge owns its points when the triangle is
-    /// right of it (A > 0, it runs up) or below it (A = 0 and B > 0).
+    /// The equation with the fill rule: minus 1 if points on the edge do not belong to the
+    /// triangle, so that 0 becomes negative. They belong to it if the triangle is right of the edge
+    /// (A > 0, the edge runs up) or below it (A = 0 and B > 0).
     fn owning(self) -> Self {
         let owns = self.a > 0 || self.a == 0 && self.b > 0;
         Self {
@@ -38,7 +40,8 @@ impl Equation {
     }
 }
 
-/// The equations of a triangle, wound so that inside is positive; `None` without area.
+/// The edge equations of a triangle, wound so that its inside is positive; `None` if it has no
+/// area.
 fn equations([a, b, c]: [Corner; 3]) -> Option<[Equation; 3]> {
     let area = Equation::new(a, b).at(c);
     let [a, b, c] = match area {
@@ -49,7 +52,8 @@ fn equations([a, b, c]: [Corner; 3]) -> Option<[Equation; 3]> {
     Some([[a, b], [b, c], [c, a]].map(|[from, to]| Equation::new(from, to)))
 }
 
-/// Steps through a box of pixels, from the pixel `first`, whose centre is at `center`.
+/// The pixels of a box that are inside, found by stepping from the pixel `first`, whose centre is
+/// at `center`.
 fn sweep(
     equations: [Equation; 3],
     first: [i64; 2],
@@ -76,7 +80,7 @@ fn sweep(
     pixels
 }
 
-/// As it is printed: whole coordinates, all edges.
+/// The textbook form: whole coordinates, all edges.
 #[must_use]
 pub fn printed(corners: [[i32; 2]; 3]) -> Vec<[i32; 2]> {
     let corners = corners.map(|corner| corner.map(i64::from));
@@ -92,7 +96,8 @@ pub fn printed(corners: [[i32; 2]; 3]) -> Vec<[i32; 2]> {
     pixels.into_iter().map(|pixel| pixel.map(narrow)).collect()
 }
 
-/// With centres at ½ and the top-left rule; corners in 1/256 pixel. It steps through all pixels of the bounds.
+/// The repaired form: centres at ½, the top-left rule; corners in 1/256 pixel. It steps through all
+/// pixels of the bounds.
 #[must_use]
 pub fn repaired(corners: [[i32; 2]; 3], bounds: &PixelBounds) -> Vec<[u32; 2]> {
     let Some(equations) = equations(corners.map(|corner| corner.map(i64::from))) else {

@@ -1,4 +1,4 @@
-//! The f64 form bounds the f32 one on random triangles.
+//! The error bounds of `exact`: f32 results lie within them on random triangles.
 
 use super::*;
 use crate::exact::{self, Triangle};
@@ -39,7 +39,8 @@ fn window_positions_lie_within_their_bounds() {
         for (bounded, value) in exact.into_iter().zip(computed) {
             assert!(bounded.holds(value), "{value} against {bounded:?}");
         }
-        // The bound says something: a hundredth of the snapping grid; snapping adds half of that.
+        // The bound is not vacuous: a hundredth of the snapping grid; snapping adds half of the
+        // grid.
         assert!(exact[0].error < 1.0 / 25_600.0);
         let snapped = f64::from(snap(window.x)) / 256.0;
         assert!((snapped - exact[0].value).abs() <= 1.0 / 512.0 + exact[0].error);
@@ -74,7 +75,7 @@ fn depth_and_varyings_lie_within_their_bounds() {
         };
         let surface = TriangleSurface::new(&sorted, &modes, &[]);
         for quad in raster::triangle(sorted.corners(), &target_bounds, 1) {
-            // Helper lanes too.
+            // All lanes, helper invocations included.
             for lane in 0..4 {
                 let pixel = QuadCoverage::pixel(quad.origin, lane);
                 let at = sample_window(pixel, CENTER).map(f64::from);
@@ -93,7 +94,7 @@ fn depth_and_varyings_lie_within_their_bounds() {
             }
         }
     }
-    // The bounds say something: slivers apart they are small.
+    // The bounds are not vacuous: except for slivers they are small.
     assert!(fragments > 20_000, "{fragments}");
     assert!(
         f64::from(tight) > 0.97 * f64::from(fragments),

@@ -1,4 +1,4 @@
-//! Clipping: inside, area, shared crossings, what is dropped, culling and facing.
+//! Clipping, face culling and facing: positions, areas, shared crossings, dropped primitives.
 
 use super::*;
 use crate::clip::{
@@ -15,20 +15,20 @@ fn transform() -> ViewportTransform {
     ViewportTransform::new(&viewport())
 }
 
-/// A vertex with x and y within `reach`, z within 3.
+/// A vertex with |x|, |y| ≤ `reach` and |z| ≤ 3.
 fn random_vertex(random: &mut Random, reach: f32) -> ClipVertex {
     let w = random.range(0.25, 4.0);
     let [x, y, z] = [reach, reach, 3.0].map(|reach| random.range(-reach, reach));
     clip_vertex([x, y, z, w], &[random.unit(), random.unit()])
 }
 
-/// Every plane that clips under [`viewport`], in order.
+/// All planes of [`viewport`], in the order in which they clip.
 fn planes() -> Vec<Plane> {
     [&Plane::DEPTH[..], &Plane::sides(&transform())].concat()
 }
 
-/// Sutherland and Hodgman again, in f64, on positions alone. Window coordinates of the 64 pixels are
-/// 32·x/w + 32 and 32 − 32·y/w.
+/// Sutherland and Hodgman's algorithm in f64, on positions only. Window coordinates of the 64
+/// pixels are 32·x/w + 32 and 32 − 32·y/w.
 fn clip_f64(mut polygon: Vec<[f64; 4]>) -> Vec<[f64; 4]> {
     let (low, high) = (f64::from(SIDE_MIN), f64::from(SIDE_MAX));
     let normals = [
@@ -62,7 +62,8 @@ fn clipped_polygons_lie_inside_and_keep_their_area() {
     let mut random = Random::new(11);
     let (mut clipped, mut by_sides) = (0, 0);
     for round in 0..4000 {
-        // NDC −257..767 lies within the guard band: the second reach meets all of its sides.
+        // NDC −257..767 lies within the guard band: vertices of the second reach leave it on all
+        // sides.
         let reach = [3.0, 3000.0][round % 2];
         let triangle: Vec<_> = (0..3).map(|_| random_vertex(&mut random, reach)).collect();
         let mut polygon = triangle.clone();
@@ -72,7 +73,8 @@ fn clipped_polygons_lie_inside_and_keep_their_area() {
         }
         clipped += usize::from(polygon.len() > 3);
 
-        // Inside to 4 ulp of the largest terms of the distances: reach·w or x·scale, 24544·4 at most.
+        // Inside to 4 ulp of the largest terms of the distances: reach·w or x·scale, 24544·4 at
+        // most.
         for vertex in &polygon {
             for plane in planes() {
                 let size = if reach > 3.0 { 24_544.0 * 4.0 } else { 4.0 };
@@ -102,8 +104,8 @@ fn neighbours_share_their_clipped_vertices_to_the_bit() {
         let reach = [3.0, 1500.0][round % 2];
         let [a, b, c, d]: [ClipVertex; 4] =
             std::array::from_fn(|_| random_vertex(&mut random, reach));
-        // The crossings of edge ab: vertices of both clipped triangles that no other edge makes are
-        // found as the intersection, which must hold what clipping the edge as a line gives.
+        // The crossings of edge ab are the vertices that both clipped triangles have: no other edge
+        // makes them. They must include the ends that clipping the edge as a line gives.
         let left = clip_polygon(&[a.clone(), b.clone(), c], &transform());
         let right = clip_polygon(&[d, b.clone(), a.clone()], &transform());
         let edge = [[a.clone(), b.clone()], [b, a]].map(|ends| clip_line(&ends, &transform()));
@@ -141,12 +143,12 @@ fn what_is_not_a_number_or_not_in_sight_is_dropped() {
             assert!(with(1, axis, value).is_empty(), "{value} on axis {axis}");
         }
     }
-    // Behind the eye, and w = 0 where the division would fail.
+    // Behind the eye, and w = 0, where the division would fail.
     let behind = seen.map(|[x, y, _, _]| clip_vertex([x, y, -1.0, -1.0], &[]));
     assert!(clip_triangle(&behind, &transform()).is_empty());
     let zeros = [[0.0; 4]; 3].map(|p| clip_vertex(p, &[]));
     assert!(clip_triangle(&zeros, &transform()).is_empty());
-    // All beyond the left plane, and beyond the guard band.
+    // Beyond the left plane with all vertices, and beyond the guard band.
     let left = seen.map(|[x, y, z, w]| clip_vertex([x - 3000.0, y, z, w], &[]));
     assert!(clip_triangle(&left, &transform()).is_empty());
 }
@@ -160,7 +162,7 @@ fn a_triangle_inside_the_guard_band_is_kept_whole() {
     ];
     let kept = clip_triangle(&wide.map(|p| clip_vertex(p, &[])), &transform());
     assert_eq!(kept.len(), 1);
-    // Beyond the guard band it is cut to one pixel around it.
+    // Beyond the guard band it is cut one pixel outside the band.
     let wider = wide.map(|[x, y, z, w]| clip_vertex([x * 1000.0, y * 1000.0, z, w], &[]));
     let kept = clip_triangle(&wider, &transform());
     assert_eq!(kept.len(), 2, "the upper half of the square");
@@ -182,8 +184,8 @@ fn an_edge_within_the_guard_band_has_no_crack_where_one_of_its_triangles_leaves_
     let mut random = Random::new(77);
     let bounds = PixelBounds { x: 0..64, y: 0..64 };
     for round in 0..300 {
-        // Edge ab crosses the view, c lies far above the band, d below the view but within the band;
-        // all edges but ab pass outside the view.
+        // Edge ab crosses the view, c lies far above the band, d below the view but within the
+        // band; all edges except ab pass outside the view.
         let a = [random.range(-3.0, -1.1), random.range(-1.0, 1.0)];
         let b = [random.range(1.1, 3.0), random.range(-1.0, 1.0)];
         let (c, d) = ([random.range(-9.0, 9.0), 3000.0], [0.0, -60.0]);
@@ -271,7 +273,7 @@ fn the_clip_space_test_agrees_with_the_snapped_one_beyond_snapping() {
     let mut random = Random::new(13);
     let (mut agreed, mut behind) = (0, 0);
     for _ in 0..3000 {
-        // Vertices before and behind the eye, near plane at w = ¼ (z = w − ¼ scaled).
+        // Vertices in front of and behind the eye; near plane at w = ¼ (z = w − ¼, scaled).
         let triangle: [ClipVertex; 3] = std::array::from_fn(|_| {
             let w = random.range(-1.0, 3.0);
             let mut across = || random.range(-1.0, 1.0);
@@ -282,7 +284,7 @@ fn the_clip_space_test_agrees_with_the_snapped_one_beyond_snapping() {
         assert!(bound < 1e-13);
         for piece in clip_triangle(&triangle, &transform()) {
             let area = doubled_area(piece.each_ref().map(|v| transform().place(v).snapped));
-            // Pieces of a few subpixels may turn over when they are snapped.
+            // Snapping may reverse the winding of pieces of a few subpixels.
             if area.abs() > 20_000 {
                 assert_eq!(area < 0, determinant > 0.0);
                 agreed += 1;
@@ -317,7 +319,7 @@ fn bounds_are_the_pixels_whose_centres_lie_inside() {
     assert!(cut.y.is_empty());
 }
 
-/// How far inside a plane through the view volume a position is: what a shader computes.
+/// The clip distance of a plane through the view volume, as a shader computes it.
 fn plane_distance(normal: [f32; 4], p: [f32; 4]) -> f32 {
     p[0] * normal[0] + p[1] * normal[1] + p[2] * normal[2] + p[3] * normal[3]
 }
@@ -348,7 +350,8 @@ fn what_clip_distances_leave_lies_inside_and_keeps_its_area() {
             exact = clip_f64_by(normal.map(f64::from), &exact);
         }
         clipped += usize::from(!polygon.is_empty() && polygon.len() != 3);
-        // Coordinates are at most 4 and four terms of a distance at most 4 each: to 4 ulp of their sum.
+        // Coordinates are at most 4 and four terms of a distance at most 4 each: to 4 ulp of their
+        // sum.
         let bound = 4.0 * 16.0 * f32::EPSILON;
         for vertex in &polygon {
             for (k, &normal) in normals.iter().enumerate() {
@@ -358,11 +361,12 @@ fn what_clip_distances_leave_lies_inside_and_keeps_its_area() {
             }
         }
         let mine: Vec<_> = polygon.iter().map(|v| v.position.map(f64::from)).collect();
-        // A plane that a corner touches may cut it off in one arithmetic alone, and what is left of a sliver
-        // has no area: only polygons of the same shape are compared, and all but a few are.
+        // A plane through a corner may cut it off in only one of the two arithmetics, and the
+        // clipped sliver has no area. So only polygons with equally many vertices are compared,
+        // which are nearly all.
         if mine.len() == exact.len() && !mine.is_empty() {
             let difference = (ndc_area(&mine) - ndc_area(&exact)).abs();
-            // Divided by w ≥ ¼, and moved along cuts at an angle that may be small.
+            // Divided by w ≥ ¼, and moved along cuts at a possibly small angle.
             assert!(
                 difference <= 64.0 * 4.0 * f64::from(bound),
                 "{difference:e}"
@@ -372,7 +376,7 @@ fn what_clip_distances_leave_lies_inside_and_keeps_its_area() {
     assert!(clipped > 400, "only {clipped} triangles had to be clipped");
 }
 
-/// One pass of the loop in f64.
+/// One pass of Sutherland and Hodgman's loop in f64.
 fn clip_f64_by(normal: [f64; 4], polygon: &[[f64; 4]]) -> Vec<[f64; 4]> {
     let distance = |p: &[f64; 4]| (0..4).map(|k| p[k] * normal[k]).sum::<f64>();
     let mut kept = Vec::new();
@@ -428,7 +432,7 @@ fn cull_distances_drop_what_is_wholly_outside_one() {
 #[test]
 fn without_depth_clipping_w_is_clipped_instead() {
     let open = transform().with_unclipped_depth(true);
-    // Far beyond near and far: whole.
+    // Far beyond near and far: not clipped.
     let far = [
         [0.0, 0.0, -9.0, 1.0],
         [1.0, 0.0, 70.0, 1.0],
@@ -436,7 +440,7 @@ fn without_depth_clipping_w_is_clipped_instead() {
     ]
     .map(|p| clip_vertex(p, &[]));
     assert_eq!(clip_triangle(&far, &open), std::slice::from_ref(&far));
-    // Through the eye: cut at the least w, which is set.
+    // Through the eye: cut at the least w, to which w is set.
     let eye = [
         [0.0, 0.0, 0.5, 1.0],
         [0.1, 0.0, 0.5, -1.0],
@@ -448,7 +452,7 @@ fn without_depth_clipping_w_is_clipped_instead() {
     let least = crate::viewport::LEAST_W;
     assert!(pieces.iter().flatten().all(|v| v.position[3] >= least));
     assert!(keeps_point(&far[1], &open) && !keeps_point(&far[1], &transform()));
-    // Depths beyond all bounds stay numbers.
+    // Huge depths stay finite.
     let z = open.window([0.0, 0.0, f32::MAX, least]).z;
     assert_eq!(z, crate::viewport::FARTHEST);
 }

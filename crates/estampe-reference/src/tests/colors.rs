@@ -1,4 +1,4 @@
-//! Codes, blending, write masks, resolve.
+//! Colours: encoding, blending, write masks and resolve.
 
 use super::*;
 use crate::blending::{BlendInputs, blend};
@@ -48,14 +48,14 @@ fn srgb_tables_are_the_formula_in_f64() {
     };
     for code in 0..=255_u32 {
         let (got, exact) = (srgb::linear(code), decoded(f64::from(code) / 255.0));
-        // The nearest number of f32: no neighbour is nearer.
+        // The nearest f32: neither neighbour is nearer.
         let error = |value: f32| (f64::from(value) - exact).abs();
         assert!(error(got) <= error(got.next_up()), "{code}");
         assert!(error(got) <= error(got.next_down()), "{code}");
         assert_eq!(u32::from(srgb::code(got)), code);
     }
     for code in 0..255_u8 {
-        // The least number of f32 whose code is the next one.
+        // The least f32 that encodes to the next code.
         let boundary = decoded((f64::from(code) + 0.5) / 255.0);
         let mut first = boundary as f32;
         if f64::from(first) < boundary {
@@ -191,7 +191,7 @@ fn a_draw_blends_masks_and_decodes_srgb() {
     assert_eq!(target.color[0], [expected, expected, untouched, 255]);
     assert_eq!(masked(ColorWrites::NONE, [1; 4], [2; 4]), [2; 4]);
 
-    // Sources are confined before they are blended: 5 counts as 1, NaN as 0.
+    // Sources are clamped before blending: 5 counts as 1, NaN as 0.
     let state = State {
         targets: vec![TargetState {
             blend: Some(BlendState {

@@ -1,4 +1,4 @@
-//! Conservative coverage against another way to tell whether a square and a triangle meet.
+//! Conservative coverage, compared with another intersection test of square and triangle.
 
 use super::*;
 use crate::conservative;
@@ -25,7 +25,8 @@ fn segments_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
         || lies_on(d, a, b)
 }
 
-/// Whether a square and a triangle have a point in common: a corner of one in the other, or borders that cross.
+/// Whether a square and a triangle have a point in common: a corner of one lies in the other, or
+/// their borders cross.
 fn meet(corners: [Point; 3], square: [Point; 4]) -> bool {
     let sides_of = |p: Point| {
         let [a, b, c] = corners;
@@ -98,7 +99,7 @@ fn touched_and_filled_pixels_are_those_of_another_method() {
             }
         }
         assert_eq!(over, wanted, "{corners:?}");
-        // What is filled is covered, and what is covered is touched.
+        // Filled pixels are covered, and covered pixels are touched.
         let at_centres = covered(&triangle(corners, &bounds, 1));
         let strict = covered(&triangle(corners, &bounds, 16));
         assert!(
@@ -128,7 +129,8 @@ fn a_corner_that_is_touched_counts_and_every_sample_is_covered() {
     let over = conservative::triangle(corners, M::Overestimate, &bounds, 16);
     let rows = covered(&over);
     let in_row = |y: u32| rows.iter().filter(|pixel| pixel[1] == y).count();
-    // The corner (3, 1) touches pixels up to column 3 in rows 0 and 1; the long side passes through (2, 2).
+    // The corner (3, 1) touches pixels up to column 3 in rows 0 and 1; the long side passes through
+    // (2, 2).
     assert_eq!([0, 1, 2, 3, 4].map(in_row), [4, 4, 3, 2, 0]);
     assert!(
         over.iter()

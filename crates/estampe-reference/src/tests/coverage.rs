@@ -1,4 +1,4 @@
-//! Coverage: the fill rule, watertightness, independence of order.
+//! Triangle coverage: fill rule, watertightness, independence of the order of vertices.
 
 use super::*;
 use crate::raster::{Edge, triangle};
@@ -11,7 +11,7 @@ fn bounds(width: u32, height: u32) -> PixelBounds {
     }
 }
 
-/// How often each sample is covered.
+/// The number of triangles that cover each sample.
 fn hits(triangles: &[[[i32; 2]; 3]], width: u32, height: u32, samples: u32) -> Vec<u32> {
     let mut hits = vec![0; (width * height * samples) as usize];
     for &corners in triangles {
@@ -38,7 +38,7 @@ fn top_and_left_edges_keep_their_samples_and_others_do_not() {
     let covered = hits(&[[a, b, c], [a, c, d]], 3, 3, 1);
     assert_eq!(covered, [1, 1, 0, 1, 1, 0, 0, 0, 0]);
 
-    // The rule itself, edge by edge: the triangle is clockwise in y-down coordinates (D > 0).
+    // The fill rule of each edge: the triangle is clockwise in y-down coordinates (D > 0).
     assert!(Edge::new([0, 0], [9, 0]).is_top_or_left(), "top");
     assert!(!Edge::new([9, 9], [0, 9]).is_top_or_left(), "bottom");
     assert!(Edge::new([0, 9], [0, 0]).is_top_or_left(), "left");
@@ -97,8 +97,8 @@ fn random_triangulation(random: &mut Random, cell: i32, jitter: u32) -> Vec<[[i3
 #[test]
 fn a_planar_triangulation_covers_each_sample_once() {
     let mut random = Random::new(1);
-    // Cells of many pixels, of one, and of less than one; jitter keeps every cell convex. With a
-    // jitter of 1 all vertices lie on pixel corners, with an offset of half a pixel on samples.
+    // Cells of many pixels, of one, and of less than one; the jitter keeps every cell convex. With
+    // a jitter of 1 all vertices lie on pixel corners, with an offset of half a pixel on samples.
     for (cell, jitter) in [(3000, 900), (256, 70), (97, 25), (512, 1)] {
         for shift in [0, 128] {
             let mut triangles = random_triangulation(&mut random, cell, jitter);
@@ -179,7 +179,7 @@ fn degenerate_triangles_cover_nothing_and_huge_ones_do_not_overflow() {
 /// Rows: A2, R1.
 #[test]
 fn a_closed_mesh_shows_each_sample_as_many_fronts_as_backs() {
-    /// Adds 1/255 to red for each hit.
+    /// Adds 1/255 to red for each covered sample.
     struct Count;
     estampe_types::shader! {
         impl Shader for Count {

@@ -1,4 +1,5 @@
-//! Pipeline lines against Vulkan's diamond-exit rule, taken literally, and wide, rectangular and stippled lines.
+//! Pipeline lines against Vulkan's diamond-exit rule, computed literally; wide, rectangular and
+//! stippled lines; points.
 
 use super::*;
 use crate::line::LinePath;
@@ -7,11 +8,11 @@ use crate::viewport::PixelBounds;
 
 const EVERYWHERE: PixelBounds = PixelBounds { x: 0..64, y: 0..64 };
 
-/// So many parts of 1/256 pixel are one: fine enough for the rule's perturbation of ε and ε².
+/// Subdivisions of 1/256 pixel, fine enough for the rule's perturbation of ε and ε².
 const SCALE: i128 = 1 << 24;
 
-/// The fragments of the diamond-exit rule: those whose diamond |x − xf| + |y − yf| < ½ the segment meets, but for
-/// the one that its end lies in. The ends are moved by (−ε, −ε²). Exact.
+/// The fragments of the diamond-exit rule: those whose diamond |x − xf| + |y − yf| < ½ the segment
+/// meets, except the one that contains its end. The ends are moved by (−ε, −ε²). Exact.
 fn diamonds(from: [i32; 2], to: [i32; 2]) -> Vec<[i64; 2]> {
     let perturbed =
         |[x, y]: [i32; 2]| [i128::from(x) * SCALE - (1 << 12), i128::from(y) * SCALE - 1];
@@ -39,7 +40,8 @@ fn diamonds(from: [i32; 2], to: [i32; 2]) -> Vec<[i64; 2]> {
 
 /// Whether a segment meets an open square.
 fn meets(a: [i128; 2], b: [i128; 2], center: [i128; 2], half: i128) -> bool {
-    // The open interval of t in which the segment is inside, as fractions with positive denominators.
+    // The open interval of t in which the segment is inside, as fractions with positive
+    // denominators.
     let (mut low, mut high) = ((-1, 1), (2, 1));
     let less = |p: (i128, i128), q: (i128, i128)| p.0 * q.1 < q.0 * p.1;
     for k in 0..2 {
@@ -60,7 +62,7 @@ fn meets(a: [i128; 2], b: [i128; 2], center: [i128; 2], half: i128) -> bool {
 }
 
 fn random_end(random: &mut Random) -> [i32; 2] {
-    // On any 1/256 pixel, or on centres and corners.
+    // Ends on multiples of 1/256 pixel, or on centres and corners only.
     let step = [1, 1, 128][random.below(3) as usize];
     [0, 1].map(|_| (random.below(40 * 256) as i32 + 12 * 256) / step * step)
 }
@@ -77,7 +79,7 @@ fn lines_between_centres_are_those_of_the_diamond_exit_rule() {
         let mut ideal = diamonds(from, to);
         mine.sort_unstable();
         ideal.sort_unstable();
-        // Where the line passes half-way between two centres both are as near; elsewhere all agree.
+        // If the line passes half-way between two centres, both are as near; otherwise all agree.
         let [dx, dy] = [0, 1].map(|k: usize| i64::from((to[k] - from[k]).abs() / 256));
         let (longer, shorter) = (Ord::max(dx, dy), Ord::min(dx, dy));
         let has_ties = (0..longer).any(|step| (2 * step * shorter) % (2 * longer) == longer);
@@ -97,7 +99,7 @@ fn lines_between_any_ends_keep_vulkans_rules() {
         let (from, to) = (random_end(&mut random), random_end(&mut random));
         let mine = LinePath::new(from, to).pixels(&EVERYWHERE);
         let ideal = diamonds(from, to);
-        // 1. No fragment is more than one pixel from one of the diamond-exit rule.
+        // 1. No fragment is more than one pixel away from one of the diamond-exit rule.
         for pixel in &mine {
             let is_near =
                 |other: &[i64; 2]| (0..2).all(|k| (i64::from(pixel[k]) - other[k]).abs() <= 1);
@@ -106,8 +108,9 @@ fn lines_between_any_ends_keep_vulkans_rules() {
                 "{from:?} to {to:?}"
             );
         }
-        // 2. Their number differs by one at most; by one at each end where an end lies exactly on the edge of a
-        // diamond, where the rule's perturbation decides and ours does not perturb.
+        // 2. The numbers of fragments differ by at most one; by at most one at each end if an end
+        //    lies exactly on the edge of a diamond, where the rule's perturbation decides and the
+        //    pipeline does not perturb.
         let is_on_edge = |[x, y]: [i32; 2]| {
             let off = |at: i32| (at.rem_euclid(256) - 128).abs();
             off(x) + off(y) == 128
@@ -119,7 +122,7 @@ fn lines_between_any_ends_keep_vulkans_rules() {
         };
         let difference = mine.len().abs_diff(ideal.len());
         assert!(difference <= most, "{from:?} to {to:?}");
-        // 3. None share a column (of a y-major line: a row).
+        // 3. No two fragments share a column (of a y-major line: a row).
         let major = usize::from((to[1] - from[1]).abs() > (to[0] - from[0]).abs());
         let mut columns: Vec<_> = mine.iter().map(|pixel| pixel[major]).collect();
         columns.sort_unstable();
@@ -175,7 +178,7 @@ fn wide_lines_are_columns_around_the_thin_one() {
             .collect();
         rows.sort_unstable();
         rows.dedup();
-        // Odd widths lie evenly around the line; even ones have one more row above or below it.
+        // Odd widths lie evenly around the line; even ones have one more row below it.
         let first = 20 - width / 2 + i64::from(width % 2 == 0);
         let first_even = 20 - width / 2;
         let wanted: Vec<_> = (0..width).map(|row| first + row).collect();
@@ -188,7 +191,7 @@ fn wide_lines_are_columns_around_the_thin_one() {
     }
 }
 
-/// Draws white lines through places in pixels; which pixels of the target then are white.
+/// Draws white lines through points in pixels and returns the white pixels of the target.
 fn drawn(size: [u32; 2], primitive: PrimitiveState, places: &[[f32; 2]]) -> Vec<[u32; 2]> {
     let mut target = unorm(size[0], size[1], 1);
     let state = State {
@@ -256,17 +259,19 @@ fn stippled_rectangles_of_a_strip_carry_the_rest_of_a_pixel() {
         assert!(pixels.iter().all(|&[_, y]| y == 2));
         pixels.iter().map(|&[x, _]| x).collect::<Vec<_>>()
     };
-    // The pattern runs on over the strip as if it were one line, whatever the lengths of its parts: 2.4 pixels leave
-    // 0.6 of the third, and so on. Lengths rounded to pixels would show pixel 5 in place of 6.
+    // The pattern continues over the strip as over one line, whatever the lengths of its parts: 2.4
+    // pixels leave 0.6 of the third pixel for the next line, and so on. Lengths rounded to pixels
+    // would draw pixel 5 in place of 6.
     let strip = [0.0, 2.4, 4.8, 7.2, 7.3, 7.4, 20.0];
     let strip_of = PrimitiveTopology::LineStrip;
     let every_other: Vec<u32> = (0..20).step_by(2).collect();
     assert_eq!(shown(strip_of, 1, 0x5555, &strip), every_other);
     assert_eq!(shown(strip_of, 1, 0x5555, &[0.0, 20.0]), every_other);
-    // Bits of three pixels: 0 to 2, and from 6 on every other three.
+    // Each bit lasts three pixels: 0 to 2, and from 6 on every other three.
     let threes: Vec<u32> = (0..20).filter(|x| x / 3 % 2 == 0).collect();
     assert_eq!(shown(strip_of, 3, 0x5555, &strip), threes);
-    // Each line of a list begins anew: the second at 2.5, whose pixels 2 and 3 are ½ and 1½ from there.
+    // Each line of a list restarts the pattern: the second at 2.5, so its pixels 2 and 3 are ½ and
+    // 1½ from there.
     let list = [0.0, 2.5, 2.5, 6.0];
     let pixels = shown(PrimitiveTopology::LineList, 1, 0x5555, &list);
     assert_eq!(pixels, [0, 2, 4]);
@@ -275,7 +280,7 @@ fn stippled_rectangles_of_a_strip_carry_the_rest_of_a_pixel() {
 /// Rows: R3.
 #[test]
 fn rectangles_around_lines_have_the_lines_length_and_width() {
-    // Along an axis exactly; and no sample is covered twice by two that lie side by side.
+    // Exact along an axis; and two adjacent rectangles cover no sample twice.
     let rectangle = LineRectangle::new([0, 1024], [2560, 1024], 4.0);
     let pixels: u32 = rectangle
         .cover(&EVERYWHERE, 1)
@@ -320,7 +325,8 @@ fn rectangles_around_lines_have_the_lines_length_and_width() {
         let [dx, dy] = [0, 1].map(|k: usize| f64::from(to[k] - from[k]) / 256.0);
         let length = (dx * dx + dy * dy).sqrt();
         let area = length * f64::from(width);
-        // The number of samples differs from four times the area by what its outline may touch.
+        // The number of samples differs from four times the area by at most the samples near its
+        // outline.
         let slack = 4.0 * 1.5 * 2.0 * (length + f64::from(width)) + 8.0;
         assert!((f64::from(covered) - 4.0 * area).abs() <= slack);
     }
@@ -329,7 +335,8 @@ fn rectangles_around_lines_have_the_lines_length_and_width() {
 /// Rows: R4.
 #[test]
 fn a_strip_of_four_vertices_fills_a_rectangle_exactly() {
-    // Rectangles (row R4): every sample of the half-open rectangle once, none beside it.
+    // Rectangles (row R4): each sample of the half-open rectangle is covered once, and no other
+    // sample.
     let mut random = Random::new(89);
     for round in 0..400 {
         let samples = [1, 4][round % 2];
@@ -377,7 +384,8 @@ fn round_points_are_discs() {
             .map(|q| q.samples.iter().map(|m| u32::from(m & 1)).sum::<u32>())
             .sum::<u32>()
     };
-    // Of two by two pixels around a corner all centres are within 1 pixel; of four by four all but the corners.
+    // Of two by two pixels around a corner all centres are within 1 pixel; of four by four all
+    // except the corners.
     assert_eq!([2.0, 4.0].map(pixels), [4, 12]);
     for size in [9.0, 30.0, 60.0] {
         let area = std::f32::consts::PI * size * size / 4.0;

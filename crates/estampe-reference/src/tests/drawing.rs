@@ -1,4 +1,5 @@
-//! Whole draws into small targets.
+//! Whole draws into small targets: coverage, interpolation, depth, scissor, multisampling, depth
+//! bias.
 
 use super::*;
 
@@ -28,7 +29,7 @@ fn a_right_triangle_covers_what_the_top_left_rule_says() {
     assert_eq!(target.color[0], [255, 128, 64, 255]);
     assert_eq!(counts.fragments, 6);
 
-    // The other half takes exactly the rest: the hypotenuse is its left edge.
+    // The other half covers exactly the remaining pixels: the hypotenuse is its left edge.
     let mut other = unorm(4, 4, 1);
     let vertices =
         [(4.0, 4.0), (4.0, 0.0), (0.0, 4.0)].map(|(x, y)| (at(&other, x, y, 0.0), [1.0, 1.0, 1.0]));
@@ -75,7 +76,7 @@ fn the_nearer_triangle_wins_in_any_order_and_the_depth_is_stored() {
     }
 }
 
-/// Discards where the window x is below 2, writes x/8 as depth, and shows derivatives.
+/// Discards where the window x is below 2, writes x/8 as depth, and outputs derivatives.
 struct Probe;
 
 estampe_types::shader! {
@@ -165,7 +166,8 @@ fn the_scissor_and_the_viewport_confine() {
         }),
         ..State::new(8, 8)
     };
-    // Four times the viewport's size, z = 1: the guard band lets it pass, the bounds cut it.
+    // Four times the viewport's size, z = 1: it is not clipped, because the guard band contains it;
+    // the bounds cut it.
     let vertices =
         [[-4.0, 4.0], [-4.0, -12.0], [12.0, 4.0]].map(|[x, y]| ([x, y, 1.0, 1.0], [1.0; 3]));
     draw_plain(&mut target, &state, &vertices);
@@ -200,8 +202,8 @@ fn multisampling_covers_samples_and_shades_pixels_once() {
     assert_eq!(target.resolve(0)[0], [64; 4]); // 63.75
 }
 
-/// It asserts nothing: that it ends without a panic, in a build that checks overflow, is what it tests. The images of
-/// such input are compared with the core's in `estampe-tests`.
+/// It has no assertions: it tests that nothing panics in a build with overflow checks. The images
+/// of such input are compared with the core's in `estampe-tests`.
 #[test]
 fn nothing_hostile_panics() {
     let mut random = Random::new(51);
@@ -245,8 +247,8 @@ fn nothing_hostile_panics() {
 
 #[test]
 fn depth_bias_is_vulkans_sum_of_slope_and_constant() {
-    // Depth rises by 1/64 a pixel in x, and by half of that in y, from 1/4 at the corner; the greatest depth of the
-    // triangle, 5/8, lies in 0.5..1, where a float's last bit is 2⁻²⁴.
+    // Depth rises by 1/64 a pixel in x, and by half of that in y, from 1/4 at the corner; the
+    // greatest depth of the triangle, 5/8, lies in 0.5..1, where a float's last bit is 2⁻²⁴.
     let bias = |constant, slope_scale, clamp, unit| {
         let mut target = unorm(8, 8, 1);
         let corner = |x: f32, y: f32| (at(&target, x, y, 0.25 + x / 64.0 + y / 128.0), [0.0; 3]);
@@ -281,7 +283,7 @@ fn depth_bias_is_vulkans_sum_of_slope_and_constant() {
         0.25 + 3.5 / 64.0 + 2.5 / 128.0 + 0.01 - (0.25 + 3.5 / 64.0 + 2.5 / 128.0)
     );
     assert_eq!(bias(0.0, -2.0, 0.01, None), -2.0 / 64.0);
-    // What leaves the viewport's range is clamped.
+    // Depths outside the viewport's range are clamped.
     assert_eq!(
         bias(0.0, 1000.0, 0.0, None) + (0.25 + 3.5 / 64.0 + 2.5 / 128.0),
         1.0

@@ -1,4 +1,4 @@
-//! Codes of every channel and format, by hand.
+//! Codes of every channel and format, computed by hand.
 
 use super::*;
 use crate::channel::{Channel, channels, quantised_depth};
@@ -27,7 +27,7 @@ fn every_code_survives_decoding_and_encoding() {
     ] {
         (0..1 << channel.bits()).for_each(|code| survives(channel, code));
     }
-    // The least code of two's complement is −1 too, and comes back as the next.
+    // The least code of two's complement decodes to −1 too, and encodes to the next code.
     for bits in [8, 16] {
         let channel = Channel::Snorm(bits);
         let lowest = 1_u32 << (bits - 1);
@@ -93,7 +93,8 @@ fn small_floats_round_to_even() {
         (f32::NEG_INFINITY, 0xFC00),
         (f32::NAN, 0x7E00),
         (-0.0, 0x8000),
-        // 2⁻¹⁴ is the least normal number, 2⁻²⁴ the least of all; half of it goes to 0, one and a half to 2.
+        // 2⁻¹⁴ is the least normal number, 2⁻²⁴ the least denormal; half of it goes to 0, one and a
+        // half times to 2.
         (6.103_515_6e-5, 0x0400),
         (5.960_464_5e-8, 1),
         (2.980_232_2e-8, 0),
@@ -112,7 +113,7 @@ fn small_floats_round_to_even() {
         (-1.0, 0),
         (f32::NEG_INFINITY, 0),
         (-0.0, 0),
-        // 2⁻²⁰ is the least.
+        // 2⁻²⁰ is the least denormal.
         (9.536_743e-7, 1),
     ] {
         assert_eq!(eleven.encode(value), code, "{value}");
@@ -127,7 +128,7 @@ fn small_floats_round_to_even() {
         assert_eq!(ten.encode(value), code, "{value}");
     }
 
-    // No neighbour is nearer, and of two as near the even one was taken.
+    // No other value is nearer; between two equally near ones the even one is chosen.
     let mut random = Random::new(81);
     for _ in 0..20_000 {
         let value = f32::from_bits(random.next()).abs();
@@ -246,7 +247,7 @@ fn depths_are_multiples_of_the_formats_step() {
         below = depth;
     }
     assert_eq!(below, 1.0);
-    // What lies between two codes goes to the nearer.
+    // Depths between two codes go to the nearer one.
     assert_eq!(quantised_depth(F::Depth24Plus, 0.4 / 16_777_215.0), 0.0);
     assert_eq!(
         quantised_depth(F::Depth24Plus, 0.6 / 16_777_215.0),

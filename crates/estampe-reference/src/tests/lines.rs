@@ -1,4 +1,4 @@
-//! Integer lines, pipeline lines and points.
+//! Integer lines, pipeline lines, polygon modes and points.
 
 use super::*;
 use crate::line::LinePath;
@@ -25,7 +25,7 @@ fn integer_lines_draw_both_ends_in_every_octant() {
         let longest = Ord::max((to[0] - from[0]).abs(), (to[1] - from[1]).abs());
         assert_eq!(line.len(), longest as usize + 1);
 
-        // The same pixels the other way round.
+        // The reversed line covers the same pixels.
         let mut back = integer(to, from);
         back.reverse();
         assert_eq!(line, back);
@@ -41,20 +41,20 @@ fn integer_lines_draw_both_ends_in_every_octant() {
 /// Rows: R3.
 #[test]
 fn integer_lines_plot_then_step_and_ties_stay() {
-    // The course's mistake, steps before it plots, would give (0, 1)…(5, 6).
+    // A common mistake, stepping before plotting, would give (0, 1)…(5, 6).
     assert_eq!(integer([0, 0], [2, 2]), [[0, 0], [1, 1], [2, 2]]);
-    // At x = 1 the line is at exactly ½: it stays, whichever way it is drawn.
+    // At x = 1 the line is at exactly ½: it stays, in both directions.
     assert_eq!(integer([0, 0], [2, 1]), [[0, 0], [1, 0], [2, 1]]);
     assert_eq!(integer([2, 1], [0, 0]), [[2, 1], [1, 0], [0, 0]]);
     assert_eq!(integer([0, 0], [2, -1]), [[0, 0], [1, 0], [2, -1]]);
     assert_eq!(integer([0, 0], [1, 2]), [[0, 0], [0, 1], [1, 2]]);
     assert_eq!(integer([3, 3], [3, 3]), [[3, 3]]);
-    // The greatest lines do not overflow.
+    // The longest lines do not overflow.
     let mut far = bresenham::line([i32::MIN, i32::MAX], [i32::MAX, i32::MIN]);
     assert_eq!(far.nth(5), Some([i32::MIN + 5, i32::MAX - 5]));
 }
 
-/// Pixels of the pipeline line between two places in pixels.
+/// The pixels of the pipeline line between two points in pixels.
 fn pipeline(from: [f32; 2], to: [f32; 2]) -> Vec<[u32; 2]> {
     LinePath::new(from.map(viewport::snap), to.map(viewport::snap)).pixels(&EVERYWHERE)
 }
@@ -66,12 +66,12 @@ fn pipeline_lines_include_their_start_and_not_their_end() {
     assert_eq!(pipeline([3.5, 0.5], [0.5, 0.5]), [[3, 0], [2, 0], [1, 0]]);
     assert_eq!(pipeline([0.5, 0.5], [0.5, 2.5]), [[0, 0], [0, 1]]);
     assert_eq!(pipeline([1.5, 2.5], [1.5, 0.5]), [[1, 2], [1, 1]]);
-    // Equal extents are x-major; a row is the one that holds y at the column's centre.
+    // Equal extents are x-major; the row is the one that holds y at the column's centre.
     assert_eq!(pipeline([0.5, 0.5], [2.5, 2.5]), [[0, 0], [1, 1]]);
     assert_eq!(pipeline([0.25, 0.25], [2.25, 1.0]), [[0, 0], [1, 0]]);
     // y = 1 exactly at x = 1.5 belongs to row 1.
     assert_eq!(pipeline([0.5, 0.5], [2.5, 1.5]), [[0, 0], [1, 1]]);
-    // Too short to reach a centre, and of no length.
+    // Too short to reach a centre, and without length.
     assert_eq!(pipeline([0.6, 0.5], [1.4, 0.5]), [[0_u32; 2]; 0]);
     assert_eq!(pipeline([0.5, 0.5], [0.5, 0.5]), [[0_u32; 2]; 0]);
 }
@@ -218,10 +218,10 @@ fn points_are_half_open_squares() {
             .sum::<u16>(),
         16
     );
-    // Half a pixel's shift: samples, not pixels.
+    // Shifted by half a pixel it covers samples of several pixels.
     let shifted = cover(1.0, 0.5, 1.0, 4);
     assert_eq!(shifted[0].samples, [0b1010, 0b0101, 0, 0]);
-    // Sizes are confined; what is not a number is one pixel.
+    // Sizes are clamped; NaN is one pixel.
     assert_eq!(point::half_width_subpixel(f32::NAN), 128);
     assert_eq!(point::half_width_subpixel(0.0), 128);
     assert_eq!(point::half_width_subpixel(1e9), 1024 * 128);

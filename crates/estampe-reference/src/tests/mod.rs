@@ -1,4 +1,4 @@
-//! Hand-computed cases and properties of every rule.
+//! Tests of every rule, by hand-computed cases and by properties; what they have in common.
 
 mod bounds;
 mod clipping;
@@ -20,7 +20,7 @@ use crate::*;
 use estampe_types::state::*;
 use estampe_types::*;
 
-/// Random numbers from a seed, so that failures repeat.
+/// Random numbers from a seed, so that failures are reproducible.
 struct Random(fastrand::Rng);
 
 impl Random {
@@ -46,8 +46,8 @@ impl Random {
     }
 }
 
-/// Position (clip space) and a smooth, a no-perspective and a flat varying; the colour is
-/// (smooth, no-perspective, flat, 1).
+/// A shader with a smooth, a no-perspective and a flat varying; its colour is (smooth,
+/// no-perspective, flat, 1).
 struct Plain;
 
 estampe_types::shader! {
@@ -74,7 +74,7 @@ estampe_types::shader! {
     }
 }
 
-/// Clip position and three values of a vertex of [`Plain`].
+/// The clip position of a vertex of [`Plain`], and its three values.
 type Vertex = ([f32; 4], [f32; 3]);
 
 fn plain_layout() -> VertexBufferLayout {
@@ -121,7 +121,7 @@ fn draw_plain(target: &mut Target, state: &State, vertices: &[Vertex]) -> Counts
     draw_with(target, &Plain, state, vertices)
 }
 
-/// The clip position (w = 1) that a viewport over the whole target puts at a pixel place.
+/// The clip position (w = 1) of a point in pixels, with a viewport over the whole target.
 fn at(target: &Target, x: f32, y: f32, z: f32) -> [f32; 4] {
     let (width, height) = (target.width as f32, target.height as f32);
     [x / width * 2.0 - 1.0, 1.0 - y / height * 2.0, z, 1.0]

@@ -1,10 +1,11 @@
-//! Which samples are shaded where, and which are kept.
+//! Per-sample shading, centroids, and sample masks of shaders and state.
 
 use super::*;
 use crate::raster::sample_positions;
 use estampe_types::shader::{Centroid, PerSample};
 
-/// A triangle over everything, or its left part up to a column in pixels; the values are the window's x and y.
+/// Two triangles over the target's part left of `right`, in pixels; the values are the window's x
+/// and y.
 fn left_of(target: &Target, right: f32) -> Vec<Vertex> {
     let corner = |x: f32, y: f32| (at(target, x, y, 0.5), [x, y, 0.0]);
     let (top, bottom) = (-8.0, 16.0);
@@ -18,7 +19,7 @@ fn left_of(target: &Target, right: f32) -> Vec<Vertex> {
     vec![a, b, c, a, c, d]
 }
 
-/// Shows the sample's number, the coverage and where it is.
+/// Outputs the sample's number, the coverage and the position.
 struct BySample;
 
 estampe_types::shader! {
@@ -71,7 +72,7 @@ fn shading_by_sample_runs_at_each_sample() {
     }
 }
 
-/// Two varyings of the window's x: at the centre, and where the pixel is covered. Keeps the samples of a mask.
+/// Two varyings of the window's x: at the centre and at the centroid. Keeps the samples of a mask.
 struct Places;
 
 estampe_types::shader! {
@@ -116,12 +117,12 @@ fn centroids_lie_where_the_pixel_is_covered() {
         target.color[target.index([pixel, 0], sample)].map(f32::from_bits)
     };
     draw_with(&mut target, &Places, &state, &vertices);
-    // The state's mask leaves 1, 2, 3 of pixel 0 and 2 of pixel 1; the shader's then drops 3.
+    // The state's mask keeps 1, 2, 3 of pixel 0 and 2 of pixel 1; the shader's then drops 3.
     let [center, centroid, coverage, _] = read(&target, 1, 2);
     assert!((center - 1.5).abs() < 1e-5 && (centroid - 1.125).abs() < 1e-5);
     assert_eq!(coverage, 4.0);
     assert_eq!(read(&target, 0, 1)[2], 14.0);
-    // Not all samples are left, so the first of those that are is the place.
+    // Not all samples are kept, so the centroid is the first of the kept ones.
     assert!((read(&target, 0, 1)[1] - 0.875).abs() < 1e-5);
     for (pixel, sample) in [(0, 0), (0, 3), (1, 0), (1, 1), (1, 3), (2, 0)] {
         assert_eq!(
@@ -138,7 +139,7 @@ fn centroids_lie_where_the_pixel_is_covered() {
     assert_eq!((center, coverage), (centroid, 15.0));
 }
 
-/// A varying at each sample, beside one at the centre.
+/// A varying at each sample, and one at the centre.
 struct Interpolated;
 
 estampe_types::shader! {

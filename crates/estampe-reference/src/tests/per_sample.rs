@@ -1,4 +1,5 @@
-//! The order of the tests, stencil, logic operations, dual source, alpha to coverage.
+//! Per-sample operations: order of the tests, stencil, logic operations, dual-source blending,
+//! alpha to coverage.
 
 use super::*;
 use crate::cull::Face;
@@ -70,7 +71,7 @@ fn stencil_goes_by_what_fails_first() {
     );
     assert_eq!(store(Face::Front, 0.25, 0xF3, &state), (false, 0, 0.5, 0));
     assert_eq!(store(Face::Back, 0.25, 0x37, &state), (false, 0xC7, 0.5, 0));
-    // Outside the depth bounds not even the stencil changes; at their ends it does.
+    // Outside the depth bounds the stencil does not change either; at their ends it does.
     let bounded = |depth_bounds| State {
         depth_bounds: Some(depth_bounds),
         ..state.clone()
@@ -85,7 +86,7 @@ fn stencil_goes_by_what_fails_first() {
         untouched
     );
     assert_eq!(store(Face::Back, 0.25, 0x37, &bounded([0.5, 0.5])).1, 0xC7);
-    // Without a depth test depth passes, and is not written.
+    // Without a depth test, depth passes and is not written.
     let no_depth = State {
         depth: None,
         ..state.clone()
@@ -100,7 +101,7 @@ fn stencil_goes_by_what_fails_first() {
 #[test]
 fn comparisons_are_new_against_stored() {
     use CompareFunction as C;
-    // Against 5: 4, 5, 6 and what is not a number.
+    // Against 5: 4, 5, 6 and NaN.
     for (function, passes) in [
         (C::Never, [false, false, false, false]),
         (C::Less, [true, false, false, false]),
@@ -119,7 +120,7 @@ fn comparisons_are_new_against_stored() {
         for (new, passes) in [4_u8, 5, 6].into_iter().zip(passes) {
             assert_eq!(compare::passes(function, new, 5), passes, "{function:?}");
         }
-        // As if 200 were −56, it would be less.
+        // As a signed byte, 200 would be −56, which is less.
         let is_greater = compare::passes(function, 200_u8, 5);
         assert_eq!(is_greater, passes[2], "{function:?}");
     }
@@ -230,7 +231,7 @@ fn logic_operations_are_their_truth_tables() {
         stored_as(F::Rg16Uint, L::And, bits, 4080.0),
         [0x00F0, 0x00F0, 0, 0]
     );
-    // Floats and sRGB: neither the operation nor blending.
+    // Float and sRGB formats: neither the logic operation nor blending.
     assert_eq!(
         stored_as(F::R16Float, L::Clear, half, 1.0),
         [0x3800, 0, 0, 0]
@@ -277,7 +278,7 @@ fn the_second_colour_and_what_formats_confine() {
         blended(F::R32Float, 2.0, 0.25, 0.0, dual),
         2.0 * 0.25 + 0.5 * 0.75
     );
-    // Unorm confines the source (2 is 1) and the second colour (4 is 1); floats do not.
+    // Unorm clamps the source (2 to 1) and the second colour (4 to 1); float formats do not clamp.
     assert_eq!(blended(F::R8Unorm, 2.0, 4.0, 0.0, dual), 1.0);
     assert_eq!(
         blended(F::R32Float, 2.0, 4.0, 0.0, dual),

@@ -1,4 +1,4 @@
-//! The classic scan conversions against the coverage of the oracle.
+//! The classic scan conversions against the coverage of `raster`.
 
 use super::*;
 use crate::raster::{QuadCoverage, triangle};
@@ -37,7 +37,7 @@ fn repaired_forms_cover_what_the_rasterizer_covers() {
             x: random.below(5)..5 + random.below(40),
             y: random.below(5)..5 + random.below(40),
         };
-        // Anywhere, on ties (centres and pixels' sides), tiny, or far beyond.
+        // Corners anywhere, on ties (centres and pixel sides), tiny, or far outside.
         let step = [1, 128, 256, 16][round % 4];
         let reach: i32 = [12_000, 300, 3_000_000][round / 4 % 3];
         let origin = [0; 2].map(|_| random.below(10_000).cast_signed());
@@ -67,8 +67,9 @@ fn repaired_forms_cover_what_the_rasterizer_covers() {
 /// Rows: R2.
 #[test]
 fn printed_forms_draw_all_edges() {
-    // The square (0, 0) to (4, 4), cut along its diagonal: each half draws its whole border, 15 pixels, and so the 5
-    // of the diagonal twice, where the repaired forms of the 4×4 pixels between share 16 without a remainder.
+    // The square (0, 0) to (4, 4), cut along its diagonal: each half draws its whole border, 15
+    // pixels, and so the 5 of the diagonal are drawn twice; the repaired forms draw each of the 4×4
+    // pixels between once.
     let halves = [[[0, 0], [4, 0], [0, 4]], [[4, 0], [4, 4], [0, 4]]];
     for (name, printed) in PRINTED {
         let [one, other] = halves.map(|half| sorted(printed(half)));
@@ -93,8 +94,9 @@ fn printed_forms_draw_all_edges() {
 /// Rows: R2.
 #[test]
 fn printed_forms_agree_on_the_ladders_triangles() {
-    // Rung 4: of these the box and the scan line are the closed triangle; the sweep cuts its sides to whole pixels and
-    // the table rounds them, so that each end of a row may be a pixel farther out, and never farther in.
+    // Rung 4: of these triangles the box and the scan line are the closed triangle; the sweep
+    // truncates its sides to whole pixels and the table rounds them, so each end of a row may be a
+    // pixel farther out, and never farther in.
     let triangles = [
         [[10, 70], [50, 160], [70, 80]],
         [[180, 50], [150, 1], [70, 180]],

@@ -133,7 +133,7 @@ fn assembly_keeps_winding_and_puts_the_provoking_vertex_first() {
 /// Rows: V2.
 #[test]
 fn instances_advance_instance_buffers_and_are_drawn_in_order() {
-    // A quad of one pixel as an indexed strip, moved and coloured by instance.
+    // A quad of one pixel as an indexed strip, translated and coloured by instance.
     let mut per_instance = layout(VertexFormat::Float32x3, 28, 16, 1);
     per_instance.step_mode = VertexStepMode::Instance;
     let colors: Vec<f32> = [[0.0, 0.2, 0.2], [0.0, 0.4, 0.4], [0.0, 0.6, 0.6]]
@@ -287,7 +287,7 @@ fn the_provoking_vertices_are_those_of_vulkans_table() {
             let by = |mode| turned(topology, mode, i as usize, given);
             assert_eq!(by(P::First)[0], first(i), "{topology:?} {i}");
             assert_eq!(by(P::Last)[0], last(i), "{topology:?} {i}");
-            // The same winding.
+            // The winding is unchanged.
             let mut turning = given;
             turning.rotate_left(given.iter().position(|&v| v == last(i)).unwrap());
             assert_eq!(by(P::Last), turning, "{topology:?} {i}");

@@ -1,9 +1,9 @@
-//! Cube maps: faces by Vulkan's table, neighbours by searching.
+//! Cube maps: face selection by Vulkan's table, neighbouring texels across edges by search.
 //!
-//! In · Out: directions · a face, (s, t) in it, and texels. Spec: NUMERICS.md, *Textures*; Vulkan 1.3, *Cube Map
-//! Face Selection*.
+//! In · Out: directions · a face, (s, t) on it, and texels. Spec: NUMERICS.md, *Textures*; Vulkan
+//! 1.3, *Cube Map Face Selection*.
 
-/// The face that a direction meets: 0 to 5 for +x, −x, +y, −y, +z, −z.
+/// The face that a direction selects: 0 to 5 for +x, −x, +y, −y, +z, −z.
 #[must_use]
 pub fn face(direction: [f32; 3]) -> usize {
     let [x, y, z] = direction;
@@ -32,14 +32,14 @@ pub fn on_face(face: usize, [x, y, z]: [f32; 3]) -> [f32; 3] {
     }
 }
 
-/// Where a direction meets a face.
+/// (s, t) of a direction on a face, 0 to 1 across the face.
 #[must_use]
 pub fn coordinates(face: usize, direction: [f32; 3]) -> [f32; 2] {
     let [sc, tc, rc] = on_face(face, direction);
     [sc, tc].map(|c| c / rc.abs() * 0.5 + 0.5)
 }
 
-/// How these change as the direction changes.
+/// The derivatives of (s, t) on a face if the direction's derivative is `change`.
 #[must_use]
 pub fn derivatives(face: usize, direction: [f32; 3], change: [f32; 3]) -> [f32; 2] {
     let [sc, tc, rc] = on_face(face, direction);
@@ -48,7 +48,7 @@ pub fn derivatives(face: usize, direction: [f32; 3], change: [f32; 3]) -> [f32; 
     [(sc, d_sc), (tc, d_tc)].map(|(c, d)| (m * d - c * d_rc) / (m * m) * 0.5)
 }
 
-/// The centre of texel (x, y), which may lie beyond the face, of a cube from −n to n.
+/// The centre of texel (x, y), which may lie outside the face, on a cube from −n to n.
 fn centre(face: usize, x: i64, y: i64, n: i64) -> [i64; 3] {
     let (s, t) = (2 * x + 1 - n, 2 * y + 1 - n);
     match face {
@@ -61,8 +61,9 @@ fn centre(face: usize, x: i64, y: i64, n: i64) -> [i64; 3] {
     }
 }
 
-/// The face and texel that lie nearest to texel (x, y) of a face, which is at most one beyond its edge; `None`
-/// beyond two edges. Every texel of the other faces' outermost rows is looked at.
+/// The face and texel nearest to texel (x, y) of face `of_face`. (x, y) is inside the face or one
+/// texel beyond one of its edges; `None` if it is beyond two edges. All texels of the other faces'
+/// outermost rows and columns are searched.
 #[must_use]
 pub fn neighbor(of_face: usize, x: i64, y: i64, n: i64) -> Option<(usize, i64, i64)> {
     let is_beyond = |at: i64| at < 0 || at >= n;

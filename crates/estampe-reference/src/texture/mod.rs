@@ -1,7 +1,8 @@
-//! Texture sampling, texel by texel.
+//! Sampling of 2D textures with mip levels, texel by texel; views of every dimension are in
+//! [`view`].
 //!
 //! In · Out: (u, v) of each lane · linear values 0..=1. Precision: f32 in the order of NUMERICS.md,
-//! *Textures*. The level of detail is one for each quad, from the derivatives at its first lane.
+//! *Textures*. Each quad has one level of detail, from the derivatives at its first lane.
 
 pub mod cube;
 pub mod texel;
@@ -18,21 +19,22 @@ use estampe_types::{
 };
 use std::sync::Arc;
 
-/// log₂(1 + t) ÷ t for t in 0..1, by powers of t: within 1.2·10⁻⁴ of log₂ once multiplied by t.
+/// A polynomial for log₂(1 + t) ÷ t, t in 0..1, by powers of t: times t it is within 1.2·10⁻⁴ of
+/// log₂.
 const LOG2: [f32; 4] = [1.438_725_7, -0.677_783_9, 0.321_188_8, -0.082_130_6];
 
-/// A texture and how it is sampled.
+/// A 2D texture and its sampler.
 #[derive(Debug, Clone)]
 pub struct ReferenceTexture {
     /// The texels.
     pub texture: Arc<Texture>,
-    /// Addressing and filtering.
+    /// Addressing, filtering and the range of λ.
     pub sampler: SamplerDescriptor,
 }
 
 impl Sample2d for ReferenceTexture {
     fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
-        // Two packets have thirty-two lanes; a lone fragment is its own quad.
+        // A packet pair has thirty-two lanes; a single fragment is its own quad.
         let mut texels = [[0.0; 4]; 32];
         let gradients = [uv.x.ddx(), uv.y.ddx(), uv.x.ddy(), uv.y.ddy()];
         for (lane, texel) in texels.iter_mut().enumerate().take(R::LANES) {
@@ -46,14 +48,14 @@ impl Sample2d for ReferenceTexture {
 }
 
 impl ReferenceTexture {
-    /// A texture and its sampler.
+    /// Pairs a texture with a sampler.
     #[must_use]
     pub fn new(texture: Arc<Texture>, sampler: SamplerDescriptor) -> Self {
         Self { texture, sampler }
     }
 
-    /// The level of detail from ∂u/∂x, ∂v/∂x, ∂u/∂y, ∂v/∂y: log₂ of how many texels a pixel spans,
-    /// confined to the sampler's range.
+    /// λ from ∂u/∂x, ∂v/∂x, ∂u/∂y, ∂v/∂y: log₂ of the number of texels that a pixel spans, clamped
+    /// to the sampler's range.
     #[must_use]
     pub fn lod(&self, [du_dx, dv_dx, du_dy, dv_dy]: [f32; 4]) -> f32 {
         let Some(base) = self.texture.levels.first() else {
@@ -72,7 +74,7 @@ impl ReferenceTexture {
         clamp(lod, self.sampler.lod_min_clamp, self.sampler.lod_max_clamp)
     }
 
-    /// The filtered value at (u, v) at a level of detail.
+    /// The filtered value at (u, v) with level of detail `lod`.
     #[must_use]
     pub fn sample_level(&self, uv: [f32; 2], lod: f32) -> [f32; 4] {
         let Some(last) = self.texture.levels.len().checked_sub(1) else {
@@ -95,7 +97,7 @@ impl ReferenceTexture {
             }
         };
 
-        // Codes become values at the very end.
+        // Scale to values last: filtering is in units of codes.
         let [r, g, b, a] = filtered;
         if self.texture.format.is_srgb() {
             [r, g, b, a * INVERSE_255]
@@ -104,7 +106,8 @@ impl ReferenceTexture {
         }
     }
 
-    /// One level, nearest or bilinear, in the units of [`texel`](Self::texel).
+    /// The filtered value of one mip level, nearest or bilinear, in the units of
+    /// [`texel`](Self::texel).
     fn filter(&self, level: f32, [u, v]: [f32; 2], filter: FilterMode) -> [f32; 4] {
         let index = usize::try_from(whole(level)).unwrap_or_default();
         let Some(level) = self.texture.levels.get(index) else {
@@ -127,7 +130,7 @@ impl ReferenceTexture {
         }
     }
 
-    /// A texel in the units in which it is filtered: codes 0..=255, but R, G and B of sRGB linear.
+    /// A texel in the units of filtering: codes 0..=255; R, G and B of sRGB formats linear, 0..=1.
     fn texel(&self, level: &MipLevel, x: u32, y: u32) -> [f32; 4] {
         let at = level.offset as usize + y as usize * level.width as usize + x as usize;
         let word = self.texture.texels.get(at).copied().unwrap_or_default();
@@ -149,7 +152,7 @@ fn nearest(mode: AddressMode, coordinate: f32, size: u32) -> u32 {
     address(mode, whole(position.floor()), size)
 }
 
-/// The two texels whose centres a coordinate lies between, and how far it is from the first.
+/// The two texels whose centres surround a coordinate, and the weight of the second.
 fn linear(mode: AddressMode, coordinate: f32, size: u32) -> ([u32; 2], f32) {
     let position = confined(mode, tiled(mode, coordinate) * size as f32 - 0.5, size);
     let floor = position.floor();
@@ -160,7 +163,7 @@ fn linear(mode: AddressMode, coordinate: f32, size: u32) -> ([u32; 2], f32) {
     )
 }
 
-/// A coordinate brought into the first tile.
+/// A coordinate after repetition: in 0..=1 with `Repeat` and `MirrorRepeat`, unchanged otherwise.
 fn tiled(mode: AddressMode, u: f32) -> f32 {
     match mode {
         AddressMode::ClampToEdge | AddressMode::MirrorOnce | AddressMode::ClampToBorder => u,
@@ -169,7 +172,7 @@ fn tiled(mode: AddressMode, u: f32) -> f32 {
     }
 }
 
-/// A position in texels; without tiling it stays between the first texel and the last.
+/// A position in texels, clamped between the first and the last texel unless the mode is `Repeat`.
 fn confined(mode: AddressMode, position: f32, size: u32) -> f32 {
     match mode {
         AddressMode::Repeat => position,
@@ -177,7 +180,7 @@ fn confined(mode: AddressMode, position: f32, size: u32) -> f32 {
     }
 }
 
-/// The texel that an integer coordinate finds.
+/// The texel of an integer coordinate after wrapping.
 fn address(mode: AddressMode, at: i64, size: u32) -> u32 {
     let size = i64::from(size.max(1));
     let found = match mode {
@@ -188,7 +191,7 @@ fn address(mode: AddressMode, at: i64, size: u32) -> u32 {
 }
 
 /// log₂ of a number ≥ 0 from its bits: the exponent field, and a polynomial in the mantissa field.
-/// Zero has the exponent −127; what is not a number counts as zero.
+/// 0 gives −127; NaN counts as 0.
 fn log2(value: f32) -> f32 {
     let bits = if value >= 0.0 { value.to_bits() } else { 0 };
     let exponent = (bits >> 23) as f32 - 127.0;
@@ -197,7 +200,7 @@ fn log2(value: f32) -> f32 {
     (((a3 * t + a2) * t + a1) * t + a0) * t + exponent
 }
 
-/// A whole number as an integer.
+/// An integral f32 as an integer.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "texel coordinates and levels are far below 2³²"

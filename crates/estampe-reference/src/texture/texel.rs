@@ -1,22 +1,23 @@
-//! One texel of any format, from its bits.
+//! Decoding of one texel of any format.
 //!
-//! In · Out: the bytes of a stored texel · channels in *units* (codes of unorm and snorm, else numbers, of integers
-//! their bits) and what units are multiplied by. Spec: NUMERICS.md, *Textures*.
+//! In · Out: the words of a stored texel · channels in *units* and the factor of a unit. Units are
+//! codes for unorm and snorm, the number otherwise, and the bits of integers. Spec: NUMERICS.md,
+//! *Textures*.
 
 use crate::srgb;
 use estampe_types::{SampleType, TexelEncoding, TextureAspect, TextureFormat};
 
-/// How the texels of a stored format are read.
+/// A decoder for the texels of a stored format.
 #[derive(Debug, Clone, Copy)]
 pub struct TexelReader {
-    /// As what they are stored.
+    /// The format in which the texels are stored.
     pub format: TextureFormat,
-    /// Whether the stencil of a depth format is read.
+    /// The aspect of a depth-stencil format that is read.
     pub aspect: TextureAspect,
 }
 
 impl TexelReader {
-    /// Whether it gives integers.
+    /// Whether the channels are integers.
     #[must_use]
     pub fn is_integer(&self) -> bool {
         let kind = self.format.sample_type();
@@ -24,7 +25,7 @@ impl TexelReader {
             || self.aspect == TextureAspect::Stencil && self.format.has_stencil()
     }
 
-    /// The factor of each channel.
+    /// The factor that turns each channel's units into values.
     #[must_use]
     pub fn factors(&self) -> [f32; 4] {
         use TexelEncoding as E;
@@ -44,7 +45,7 @@ impl TexelReader {
         })
     }
 
-    /// The number 1 in units; of integers the integer.
+    /// The number 1 in a channel's units; for integers, the bits of the integer 1.
     #[must_use]
     pub fn one(&self, channel: usize) -> f32 {
         use TexelEncoding as E;
@@ -65,7 +66,7 @@ impl TexelReader {
         }
     }
 
-    /// The four channels of a texel.
+    /// The four channels of a texel, in units.
     #[must_use]
     pub fn units(&self, words: &[u32]) -> [f32; 4] {
         std::array::from_fn(|channel| {
@@ -81,7 +82,7 @@ impl TexelReader {
 
     fn channel(&self, words: &[u32], channel: usize) -> f32 {
         use TexelEncoding as E;
-        // At most 32 bits from bit `first` on; no field straddles two words.
+        // At most 32 bits, from bit `first` on; no field crosses a word boundary.
         let field = |first: usize, count: u32| {
             let word = words.get(first / 32).copied().unwrap_or_default();
             let shifted = u64::from(word) >> (first % 32);
@@ -131,7 +132,7 @@ impl TexelReader {
     }
 }
 
-/// A float of five bits of exponent: exactly, in f64.
+/// A float with 5 bits of exponent, decoded exactly in f64.
 fn small_float(code: u32, mantissa_bits: u32, is_signed: bool) -> f32 {
     let mantissa = code & ((1 << mantissa_bits) - 1);
     let exponent = (code >> mantissa_bits & 31).cast_signed();

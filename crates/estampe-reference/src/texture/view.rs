@@ -1,7 +1,7 @@
-//! Sampling any texture, texel by texel.
+//! Sampling of texture views of every dimension and format, texel by texel.
 //!
-//! In · Out: coordinates of one lane, or derivatives of a quad · filtered values, answers of comparisons, gathered or
-//! fetched texels. Precision: f32 in the order of NUMERICS.md, *Textures*.
+//! In · Out: coordinates of one lane, or derivatives of a quad · filtered values, results of
+//! comparisons, gathered or fetched texels. Precision: f32 in the order of NUMERICS.md, *Textures*.
 
 use super::cube;
 use super::texel::TexelReader;
@@ -15,45 +15,45 @@ use estampe_types::{
 };
 use std::sync::Arc;
 
-/// A part of a texture, and how it is sampled.
+/// A texture view and its sampler.
 #[derive(Debug, Clone)]
 pub struct ReferenceView {
     /// The texture.
     pub texture: Arc<Texture>,
-    /// As what it is read.
+    /// The dimension of the view.
     pub dimension: ViewDimension,
-    /// The first level and how many there are.
+    /// The first mip level and the number of levels.
     pub levels: [usize; 2],
-    /// The first layer and how many there are (six for each cube).
+    /// The first layer and the number of layers (six for each cube).
     pub layers: [u32; 2],
-    /// Whether stencil is read.
+    /// The aspect of a depth-stencil texture that is read.
     pub aspect: TextureAspect,
-    /// Addressing, filtering and comparing.
+    /// Addressing, filtering and comparison.
     pub sampler: SamplerDescriptor,
 }
 
-/// Where and at which level a lane samples.
+/// The coordinates, level of detail and footprint of one lane's sample.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample {
-    /// u, v, w, or the direction.
+    /// (u, v, w), or the direction for cubes.
     pub at: [f32; 3],
-    /// The layer, or cube.
+    /// The array layer, or the number of the cube.
     pub layer: i32,
-    /// λ with its bias, not yet clamped.
+    /// λ with its bias, before it is clamped.
     pub lod: f32,
-    /// How many probes there are.
+    /// The number of anisotropic probes.
     pub probes: u16,
-    /// The derivative along which they lie.
+    /// The derivative of the coordinates along which the probes are placed.
     pub step: [f32; 3],
-    /// In texels.
+    /// The offset in texels.
     pub offset: [i32; 3],
-    /// What texels are compared with; `None` gives their channels.
+    /// The reference of a comparison; `None` returns the texels' channels.
     pub reference: Option<f32>,
 }
 
 impl Sample2d for ReferenceView {
     fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
-        // Two packets have thirty-two lanes; a lone fragment is its own quad.
+        // A packet pair has thirty-two lanes; a single fragment is its own quad.
         let mut texels = [[0.0; 4]; 32];
         let gradients = [uv.x.ddx(), uv.y.ddx(), uv.x.ddy(), uv.y.ddy()];
         for (lane, texel) in texels.iter_mut().enumerate().take(R::LANES) {
@@ -77,7 +77,7 @@ impl Sample2d for ReferenceView {
 }
 
 impl ReferenceView {
-    /// All of a texture of one image.
+    /// The 2D view of all mip levels of a texture's first layer.
     #[must_use]
     pub fn of_image(texture: Arc<Texture>, sampler: SamplerDescriptor) -> Self {
         Self {
@@ -102,7 +102,7 @@ impl ReferenceView {
         matches!(self.dimension, Cube | CubeArray)
     }
 
-    /// Width, height and depth of a level of the view.
+    /// Width, height and depth of a mip level of the view, in texels.
     fn sides(&self, level: usize) -> [u32; 3] {
         let of_level = &self.texture.levels[self.levels[0] + level];
         let depth = match self.texture.shape.dimension {
@@ -112,7 +112,7 @@ impl ReferenceView {
         [of_level.width, of_level.height, depth]
     }
 
-    /// How many layers, or cubes, coordinates choose from.
+    /// The number of layers, or of cubes.
     fn layer_count(&self) -> u32 {
         if self.is_cube() {
             self.layers[1] / 6
@@ -121,8 +121,8 @@ impl ReferenceView {
         }
     }
 
-    /// λ without bias, the number of probes, and the derivative along which they lie, from the coordinates'
-    /// derivatives along x and y at `at`.
+    /// λ without bias, the number of probes, and the derivative along which they are placed, from
+    /// the coordinates and their derivatives along x and y.
     #[must_use]
     pub fn footprint(&self, at: [f32; 3], dx: [f32; 3], dy: [f32; 3]) -> (f32, u16, [f32; 3]) {
         use ViewDimension::{D1, D3};
@@ -156,13 +156,14 @@ impl ReferenceView {
         (0.5 * log2(larger / (eta * eta)), probes, step)
     }
 
-    /// λ with the biases.
+    /// λ plus the sampler's and the shader's bias, whose sum is clamped to −16..=15.99.
     #[must_use]
     pub fn biased(&self, lod: f32, shader_bias: f32) -> f32 {
         lod + clamp(self.sampler.lod_bias + shader_bias, -16.0, 15.99)
     }
 
-    /// The filtered value, or the filtered answers in the first channel.
+    /// The filtered value; with a reference, the filtered results of the comparisons in the first
+    /// channel.
     #[must_use]
     pub fn sample(&self, sample: &Sample) -> [f32; 4] {
         let mut sum = [0.0; 4];
@@ -199,7 +200,7 @@ impl ReferenceView {
         })
     }
 
-    /// One probe: one level or two.
+    /// One probe: the mixture of one or two mip levels.
     fn mixture(&self, sample: &Sample) -> [f32; 4] {
         let sampler = &self.sampler;
         let lod = clamp(sample.lod, sampler.lod_min_clamp, sampler.lod_max_clamp);
@@ -223,13 +224,13 @@ impl ReferenceView {
         }
     }
 
-    /// The texture's layer of the sample; the face +x of cubes.
+    /// The texture layer of a sample; for cubes, that of the face +x.
     fn slice(&self, layer: i32) -> i64 {
         let layer = i64::from(layer).clamp(0, i64::from(self.layer_count()) - 1);
         i64::from(self.layers[0]) + layer * if self.is_cube() { 6 } else { 1 }
     }
 
-    /// One level.
+    /// The filtered value of one mip level, in units.
     fn filtered(&self, level: usize, filter: FilterMode, sample: &Sample) -> [f32; 4] {
         if self.is_cube() {
             return self.filtered_cube(level, filter, sample);
@@ -239,7 +240,7 @@ impl ReferenceView {
             ViewDimension::D3 => 3,
             _ => 2,
         };
-        // Nearest is linear filtering of which the first texel alone counts.
+        // Nearest is linear filtering with only the first texel.
         let places: [_; 3] = std::array::from_fn(|k| {
             if k < axes {
                 self.place(level, k, filter, sample)
@@ -274,7 +275,7 @@ impl ReferenceView {
         }
     }
 
-    /// The two texels along an axis, `None` the border, and how far between them.
+    /// The two texels along an axis, `None` for the border, and the weight of the second.
     fn place(
         &self,
         level: usize,
@@ -296,7 +297,8 @@ impl ReferenceView {
         self.place_in_integers(level, axis, filter, sample)
     }
 
-    /// The same with each of the two texels wrapped by itself: what offsets, borders and gathering need.
+    /// As [`place`](Self::place), but each of the two texels is wrapped separately: for offsets,
+    /// borders and gathering.
     fn place_in_integers(
         &self,
         level: usize,
@@ -334,7 +336,7 @@ impl ReferenceView {
         }
     }
 
-    /// One level of a cube.
+    /// The filtered value of one mip level of a cube, in units.
     fn filtered_cube(&self, level: usize, filter: FilterMode, sample: &Sample) -> [f32; 4] {
         if filter == FilterMode::Linear {
             let (four, [fx, fy]) = self.four_of_cube(level, sample);
@@ -348,7 +350,7 @@ impl ReferenceView {
         self.answer(level, [texel[0], texel[1], Some(slice)], sample.reference)
     }
 
-    /// The four texels around a direction, and how far between them.
+    /// The four texels around a direction, and the weights of the second column and row.
     fn four_of_cube(&self, level: usize, sample: &Sample) -> ([[f32; 4]; 4], [f32; 2]) {
         let face = cube::face(sample.at);
         let n = self.sides(level)[0];
@@ -381,7 +383,8 @@ impl ReferenceView {
         )
     }
 
-    /// A texel in units, or how it compares; `None` is the border.
+    /// A texel in units, or the result of its comparison (0 or 1); a coordinate `None` selects the
+    /// border.
     fn answer(&self, level: usize, at: [Option<i64>; 3], reference: Option<f32>) -> [f32; 4] {
         let units = match at {
             [Some(x), Some(y), Some(slice)] => self.units(level, [x, y, slice], 0),
@@ -421,7 +424,7 @@ impl ReferenceView {
         })
     }
 
-    /// The texel that lies inside a level, in units.
+    /// A texel inside a mip level, in units.
     fn units(&self, level: usize, [x, y, slice]: [i64; 3], sample: i64) -> [f32; 4] {
         let of_level = &self.texture.levels[self.levels[0] + level];
         let [width, height] = [of_level.width, of_level.height].map(i64::from);
@@ -435,8 +438,9 @@ impl ReferenceView {
         self.reader().units(&words)
     }
 
-    /// One channel of the four texels around a place in the base level (or their answers, as the first channel):
-    /// c₀₁, c₁₁, c₁₀, c₀₀. Each wraps by itself.
+    /// One channel of the four texels around a point in the base level, or the results of their
+    /// comparisons, in the order c₀₁, c₁₁, c₁₀, c₀₀. Each texel wraps separately. Zeros for 1D and
+    /// 3D views.
     #[must_use]
     pub fn gather(&self, sample: &Sample, channel: usize) -> [f32; 4] {
         if matches!(self.dimension, ViewDimension::D1 | ViewDimension::D3) {
@@ -463,7 +467,8 @@ impl ReferenceView {
         [four[2], four[3], four[1], four[0]].map(value)
     }
 
-    /// A texel, zeros where there is none; `z` is the depth, or the layer (face of a cube).
+    /// A texel by integer coordinates; zeros outside. `z` is the depth slice, or the layer (six for
+    /// each cube).
     #[must_use]
     pub fn fetch(&self, [x, y, z]: [i32; 3], level: i32, sample: i32) -> [f32; 4] {
         use ViewDimension::{D1, D2, D3};

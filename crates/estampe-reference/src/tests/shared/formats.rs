@@ -1,9 +1,9 @@
-//! The facts of every format, written out by hand from WebGPU's "Texture Format Capabilities", "Vertex Formats" and
-//! "Packed Formats", and the Khronos Data Format Specification.
+//! The properties of every format, written by hand from WebGPU's "Texture Format Capabilities",
+//! "Vertex Formats" and "Packed Formats", and the Khronos Data Format Specification.
 
 use super::super::*;
 
-/// What the bits of a channel mean.
+/// The encoding of a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Unorm,
@@ -16,7 +16,7 @@ enum Kind {
 }
 use Kind::{Float, SharedExponent, Sint, Snorm, Uint, Unorm, UnsignedFloat};
 
-/// Name, kind, and the bits of each channel from R on.
+/// Name, kind, and the number of bits of each channel, R first.
 const COLORS: &[(&str, Kind, &[u32])] = &[
     ("r8unorm", Unorm, &[8]),
     ("r8snorm", Snorm, &[8]),
@@ -74,7 +74,7 @@ const DEPTHS: &[(&str, u32, u32, u32)] = &[
     ("depth32float-stencil8", 32, 8, 8),
 ];
 
-/// Name, channels and bytes of a block of 4×4 texels; whether an sRGB form of the name exists.
+/// Name, channels and bytes of a block of 4×4 texels; whether an sRGB variant exists.
 const BLOCKS: &[(&str, usize, u32, bool)] = &[
     ("bc1-rgba-unorm", 4, 8, true),
     ("bc2-rgba-unorm", 4, 16, true),
@@ -95,7 +95,7 @@ const BLOCKS: &[(&str, usize, u32, bool)] = &[
     ("eac-rg11snorm", 2, 16, false),
 ];
 
-/// The blocks of ASTC; each has 16 bytes.
+/// The block sizes of ASTC in texels; each block has 16 bytes.
 const ASTC: &[[u32; 2]] = &[
     [4, 4],
     [5, 4],
@@ -175,7 +175,7 @@ fn colour_formats_are_those_of_the_table() {
             _ => SampleType::Float,
         };
         assert_eq!(format.sample_type(), sample_type, "{name}");
-        // The channels that the oracle makes of these facts.
+        // The oracle's channels of this format.
         for (channel, &bits) in crate::channel::channels(format).iter().zip(bits) {
             let expected = if can_be_drawn_into { bits } else { 0 };
             assert_eq!(channel.bits(), expected, "{name}");
@@ -235,7 +235,7 @@ fn compressed_formats_are_those_of_the_table() {
         check(&format!("{name}-srgb"), [width, height], 4, 16);
         count += 2;
     }
-    // No format is without a row, and none is named twice.
+    // Every format has a row, and none has two.
     assert_eq!(
         TextureFormat::ALL.len(),
         COLORS.len() + DEPTHS.len() + count

@@ -1,4 +1,5 @@
-//! Buffers, bindings and textures as they lie in memory; attributes and varyings taken apart and put together.
+//! Memory layout of buffers, bindings and textures; splitting and assembly of attributes and
+//! varyings.
 
 use super::super::*;
 use estampe_types::shader::{Attributes, Sink, Source, Varyings};
@@ -17,7 +18,7 @@ fn buffers_are_bytes_in_little_endian_words() {
     assert_eq!(floats.words(), [0x3F80_0000, 0xC000_0000]);
     assert_eq!(Buffer::from_words(vec![7, 8]).words(), [7, 8]);
     assert_eq!(Buffer::from_bytes(&[]).words(), [0; 0]);
-    // The core's readers, and the oracle's: what lies beyond the end is zero.
+    // Both the core's readers and the oracle's give zero beyond the end.
     for (format, expected) in [
         (IndexFormat::Uint8, [1, 2, 9, 0]),
         (IndexFormat::Uint16, [0x0201, 0x0403, 0, 0]),
@@ -117,7 +118,7 @@ fn textures_are_stored_as_their_documentation_says() {
     let storage = StorageTexture::zeros(F::Rg32Float, (4, 3), TextureDimension::D2, 2);
     let storage = storage.expect("a little memory");
     assert_eq!(storage.len(), 4 * 3 * 2 * 2);
-    // (1·3 + 2)·4 + 3 texels lie before it, of two words each.
+    // (1·3 + 2)·4 + 3 texels precede it, of two words each.
     assert_eq!(storage.index([3, 2, 1]), Some(46));
     for outside in [[4, 0, 0], [0, 3, 0], [0, 0, 2], [-1, 0, 0]] {
         assert_eq!(storage.index(outside), None);

@@ -1,10 +1,11 @@
-//! The numbers that shaders compute with, one at a time and by quads, and the functions of `maths` that
-//! `estampe-types` does not bound itself.
+//! The arithmetic of shaders, for `f32` and `Quad`, and the functions of `maths` whose bounds
+//! `estampe-types` does not test.
 
 use super::super::*;
 use estampe_types::maths;
 
-/// A quad whose four values tell every wrong neighbour: left top, right top, left bottom, right bottom.
+/// A quad whose four values reveal every wrong neighbour: left top, right top, left bottom, right
+/// bottom.
 const CORNERS: Quad = Quad([1.0, 3.0, 7.0, 20.0]);
 
 /// Rows: R7.
@@ -17,7 +18,7 @@ fn derivatives_of_a_quad_by_hand() {
     assert_eq!(CORNERS.ddy_coarse().0, [6.0; 4]);
     let lanes = [0, 1, 2, 3].map(|lane: u8| CORNERS.quad_lane(lane).0);
     assert_eq!(lanes, [[1.0; 4], [3.0; 4], [7.0; 4], [20.0; 4]]);
-    // A lone number has no neighbours.
+    // A single number has no neighbours.
     assert_eq!([5.0_f32.ddx(), 5.0_f32.ddy()], [0.0; 2]);
     assert_eq!([5.0_f32.ddx_coarse(), 5.0_f32.ddy_coarse()], [0.0; 2]);
     assert_eq!(5.0_f32.quad_lane(3), 5.0);
@@ -49,7 +50,7 @@ fn same(got: f32, wanted: f32) {
     );
 }
 
-/// Checks an operation on two numbers, alone and in each place of a quad.
+/// Checks an operation on two numbers, alone and in each lane of a quad.
 fn check(a: f32, b: f32, lone: f32, quads: impl Fn(Quad, Quad) -> Quad, wanted: f32) {
     same(lone, wanted);
     for lane in 0..4 {
@@ -102,7 +103,7 @@ fn operations_on_numbers_are_ieee_754s() {
 #[test]
 fn operations_on_one_number_by_hand() {
     type Row = (f32, f32, i32, f32, f32);
-    // The number, its floor, the integer towards zero, confined to −0.5..=0.75, |x|.
+    // The number, its floor, its truncation, clamped to −0.5..=0.75, |x|.
     let rows: [Row; 10] = [
         (-2.5, -3.0, -2, -0.5, 2.5),
         (2.5, 2.0, 2, 0.75, 2.5),
@@ -135,7 +136,7 @@ fn operations_on_one_number_by_hand() {
     same(Real::fract(-2.25), 0.75);
     same(Real::saturate(f32::NAN), 0.0);
     same(Real::sqrt(2.0), std::f32::consts::SQRT_2);
-    // Masks: lane k is bit k; a selection takes each lane from its own side.
+    // Masks: lane k is bit k; a selection takes each lane from the chosen side.
     let mask = CORNERS.lt(Quad([2.0, 2.0, 8.0, 8.0]));
     assert_eq!(mask.0, [true, false, true, false]);
     assert_eq!(Quad::mask_bits(mask), 0b0101);
@@ -182,7 +183,7 @@ fn powers_lie_within_their_bounds() {
         for y in [-3.5_f32, -1.0, 0.0, 0.25, 1.0, 2.2, 5.0, 12.0] {
             let exact = libm::pow(f64::from(x), f64::from(y));
             let got = f64::from(maths::pow(x, y));
-            // The product's error as log₂ has it, times ln 2, and that of exp2.
+            // The error of log₂ in the product, times ln 2, and that of exp2.
             let logarithm = libm::log2(f64::from(x)).abs().max(1.0);
             let bound = 4e-7 * logarithm * f64::from(y).abs() + 3e-7;
             assert!((got - exact).abs() <= bound * exact, "{x}^{y} is not {got}");

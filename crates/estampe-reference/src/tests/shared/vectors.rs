@@ -1,4 +1,4 @@
-//! Vectors and matrices by hand. Numbers that are powers of two apart show the order of sums.
+//! Vectors and matrices, by hand. Numbers that are powers of two apart reveal the order of sums.
 
 use super::super::*;
 

@@ -1,4 +1,4 @@
-//! Sampling: addressing, filters, levels.
+//! Sampling of 2D textures: addressing, filters, level of detail.
 
 mod views;
 
@@ -6,7 +6,7 @@ use super::*;
 use estampe_types::shader::Sample2d;
 use std::sync::Arc;
 
-/// Red codes of each level; green is 255 minus red, blue 0, alpha 51.
+/// A texture with these red codes in each mip level; green is 255 minus red, blue 0, alpha 51.
 fn texture(
     format: TextureFormat,
     sizes: &[[u32; 2]],
@@ -46,7 +46,7 @@ fn sampler(mode: AddressMode, filter: FilterMode) -> SamplerDescriptor {
     }
 }
 
-/// Red as a code, of a row of four texels 0, 100, 200, 250.
+/// The sampled red, as a code, of a row of four texels 0, 100, 200, 250.
 fn red(mode: AddressMode, filter: FilterMode, u: f32) -> f32 {
     let row = texture(
         TextureFormat::Rgba8Unorm,
@@ -77,7 +77,7 @@ fn addresses_wrap_as_they_say() {
         let twice = texel.rem_euclid(8);
         near(MirrorRepeat, Ord::min(twice, 7 - twice));
     }
-    // The ends, and coordinates that are hardly numbers.
+    // The ends, and coordinates that are huge, infinite or NaN.
     assert_eq!(red(Repeat, FilterMode::Nearest, 1.0), 0.0);
     assert_eq!(red(Repeat, FilterMode::Nearest, -1e-10), 0.0);
     for u in [f32::NAN, f32::INFINITY, -f32::INFINITY, 3e38] {
@@ -156,7 +156,7 @@ fn the_level_follows_the_derivatives_of_the_quads_first_lane() {
         let uv = Vec2::new(Quad(quad.map(|p| p[0])), Quad(quad.map(|p| p[1])));
         mips.sample(uv).x.0.map(|red| red * 255.0)
     };
-    // One pixel is `texels` texels of the base level, in x and in y.
+    // One pixel spans `texels` texels of the base level, in x and in y.
     let even = |texels: f32| {
         [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|p| p.map(|k| k * texels / 4.0))
     };
@@ -173,11 +173,11 @@ fn the_level_follows_the_derivatives_of_the_quads_first_lane() {
     close(with(FilterMode::Linear, even(2.0)), 50.0);
     close(with(FilterMode::Linear, even(2.828_427)), 70.0); // λ = 1.5
     close(with(FilterMode::Linear, even(1e9)), 90.0);
-    // Only the first lane counts: the last one lies far away.
+    // Only the first lane counts: the last one is far away.
     let mut bent = even(0.5);
     bent[3] = [99.0, 99.0];
     close(with(FilterMode::Linear, bent), 10.0);
-    // No derivatives that are numbers: the base level.
+    // NaN derivatives give the base level.
     close(with(FilterMode::Linear, [[f32::NAN; 2]; 4]), 10.0);
 }
 

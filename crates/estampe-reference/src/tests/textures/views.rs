@@ -1,4 +1,5 @@
-//! Views: what specifications and textbooks say of cubes, anisotropy, borders, offsets, gathering and comparing.
+//! Texture views against specifications and textbooks: cubes, anisotropy, borders, offsets,
+//! gathering, comparison.
 
 use crate::tests::Random;
 use crate::texture::cube;
@@ -10,7 +11,7 @@ use estampe_types::{
 };
 use std::sync::Arc;
 
-/// A view of one-channel floats; `value` gives them by level and texel.
+/// A view of one-channel floats; `value` gives them by mip level and texel.
 fn view(
     dimension: ViewDimension,
     [width, height, slices]: [u32; 3],
@@ -134,7 +135,8 @@ fn blocks_of_texels_are_near_the_exact_mean() {
         let t = f64::from(lod);
         let exact = of_level(0) * (1.0 - t) + of_level(1) * t;
         let got = f64::from(block.sample(&at(uvw, lod))[0]);
-        // Positions are within 2⁻²² · 16 texels, of which a mean changes by at most 1 each, in three axes.
+        // Positions are within 2⁻²² · 16 texels; per texel of error the mean changes by at most 1,
+        // in each of three axes.
         assert!(
             (got - exact).abs() < 3e-5,
             "{got} is not {exact} at {uvw:?}"
@@ -142,8 +144,8 @@ fn blocks_of_texels_are_near_the_exact_mean() {
     }
 }
 
-/// A cube whose texels hold a smooth function of their direction shows that function everywhere: a face in the
-/// wrong place, turned, or joined to the wrong edge would show.
+/// A cube whose texels hold a smooth function of their direction gives that function in every
+/// direction. A face in the wrong position, rotated, or joined to the wrong edge would be found.
 /// Rows: F2.
 #[test]
 fn cubes_show_what_lies_in_their_direction() {
@@ -153,7 +155,7 @@ fn cubes_show_what_lies_in_their_direction() {
         let [x, y, z] = direction.map(|x| x / length);
         x + 2.0 * y + 3.0 * z + x * y - 2.0 * y * z
     };
-    // The direction of (s, t) on a face, from OpenGL's table read backwards.
+    // The direction of (s, t) on a face: the inverse of OpenGL's table.
     let direction = |face: u32, s: f32, t: f32| match face {
         0 => [1.0, -t, -s],
         1 => [-1.0, -t, s],
@@ -189,7 +191,8 @@ fn cubes_show_what_lies_in_their_direction() {
         let margin = 0.5 / N as f32;
         let is_near = |s: f32| s < margin || s > 1.0 - margin;
         beyond_edges += u32::from(is_near(s) || is_near(t));
-        // Half a texel (1/24) of the function's slope, at most 4 or so, where edges bend the grid.
+        // Half a texel (1/24) times the function's slope, about 4 at most, where edges bend the
+        // grid.
         let (got, wanted) = (cube.sample(&at(v, 0.0))[0], smooth(v));
         assert!(
             (got - wanted).abs() < 0.06,
@@ -255,7 +258,7 @@ fn a_cubes_derivatives_are_those_of_its_coordinates() {
 /// Rows: F2.
 #[test]
 fn anisotropic_probes_keep_what_isotropic_filtering_blurs() {
-    // Rows of 0 and 1: seen at a grazing angle along the rows.
+    // Rows of 0 and 1, viewed at a grazing angle along the rows.
     let levels = 7;
     let rows = |max_anisotropy| {
         let sampler = SamplerDescriptor {
@@ -285,15 +288,15 @@ fn anisotropic_probes_keep_what_isotropic_filtering_blurs() {
     };
     assert_eq!(color(&rows(1)), (4.0, 1, 0.5));
     assert_eq!(color(&rows(16)), (0.0, 16, 1.0));
-    // Half the probes: a level higher.
+    // Half the number of probes: λ is greater by 1.
     assert_eq!(color(&rows(8)), (1.0, 8, 0.5));
-    // A round footprint has one probe, and so has none at all.
+    // A round footprint has one probe, and so no anisotropy.
     let round = rows(16).footprint([0.0; 3], along, [0.0, 0.25, 0.0]);
     assert_eq!((round.0, round.1), (4.0, 1));
     assert_eq!(rows(16).footprint([0.0; 3], [0.0; 3], [0.0; 3]).1, 1);
-    // An infinitely thin one has as many as there may be.
+    // An infinitely thin footprint has the greatest number of probes.
     assert_eq!(rows(16).footprint([0.0; 3], along, [0.0; 3]).1, 16);
-    // Probes lie evenly around the coordinates: of a ramp they give its middle.
+    // Probes are placed evenly around the coordinates: of a ramp they give its middle.
     let ramp = view(ViewDimension::D2, [64, 1, 1], 1, linear(), |_, [x, ..]| {
         x as f32
     });
@@ -324,7 +327,7 @@ fn borders_mirrors_and_offsets_find_their_texels() {
         };
         row.sample(&sample)
     };
-    // Of texel k, by Vulkan's table, with texels 0 to 3.
+    // Texel k, by Vulkan's table, with texels 0 to 3.
     for k in -9_i32..9 {
         let expected = |mode| match mode {
             Repeat => Some(k.rem_euclid(4)),
@@ -340,10 +343,10 @@ fn borders_mirrors_and_offsets_find_their_texels() {
             let wanted = expected(mode).map_or(1.0, |texel| 10.0 + texel as f32);
             let u = (k as f32 + 0.5) / 4.0;
             let white = BorderColor::OpaqueWhite;
-            // The format has red alone: green and blue stay 0, alpha 1.
+            // The format has only red: green and blue stay 0, alpha 1.
             let wanted = [wanted, 0.0, 0.0, 1.0];
             assert_eq!(row(mode, white, u, 0), wanted, "{mode:?} {k}");
-            // The same by offset from texel 1.
+            // The same texel by an offset from texel 1.
             assert_eq!(row(mode, white, 1.5 / 4.0, k - 1), wanted, "{mode:?} {k}");
         }
     }
