@@ -84,13 +84,12 @@ pub fn powi<R: Real>(x: R, n: u32) -> R {
     result
 }
 
-/// 1.5·2²³: a number within ±2²² plus this is rounded to the nearest integer, ties to even, which
-/// then stands in the low bits of the sum.
+/// 1.5·2²³: adding it to a number within ±2²² rounds the number to the nearest integer, ties to
+/// even, in the low bits of the sum.
 const ROUNDING: f32 = 12_582_912.0;
 
-/// sin x of an angle in radians, within 1.5·10⁻⁷ for |x| ≤ 2048. Beyond, the error grows as the
-/// distance between neighbouring numbers does. Any finite x gives a number in −1..=1, all others
-/// NaN.
+/// sin x of an angle in radians, within 1.5·10⁻⁷ for |x| ≤ 2048. Beyond, the error grows with the
+/// distance between neighbouring f32. Finite x give numbers in −1..=1, infinity and NaN give NaN.
 ///
 /// x = k·π + r with k the nearest integer to x/π, |r| ≤ π/2; sin x = (−1)^k·sin r. π is subtracted
 /// in two parts (Cody and Waite 1980), the first of which has so few bits that k times it is exact.
@@ -113,8 +112,8 @@ pub fn sin<R: Real>(x: R) -> R {
     (sine.to_bits() ^ (rounded.to_bits() << 31)).to_real_bits()
 }
 
-/// eˣ, within 1.5·10⁻⁷ times its value where that is a normal number. Gives 0 below 2⁻¹⁵⁰, infinity
-/// beyond f32's range, and NaN for NaN.
+/// eˣ, with a relative error of at most 1.5·10⁻⁷ where it is a normal number. Gives 0 below 2⁻¹⁵⁰,
+/// infinity beyond f32's range, and NaN for NaN.
 ///
 /// x = k·ln 2 + r with k the nearest integer to x/ln 2, |r| ≤ ½·ln 2. ln 2 is subtracted in two
 /// parts, the first of which has so few bits that k times it is exact. eʳ = 1 + r + r²·p(r), where

@@ -137,8 +137,8 @@ pub trait Real:
         work()
     }
 
-    /// The SIMD level of packets, with which code that is compiled once for all shaders goes on; `None` of a lone
-    /// fragment and of a quad.
+    /// The SIMD level of packets, at which code that is compiled once for all shaders is entered;
+    /// `None` for a single fragment and for a quad.
     #[inline(always)]
     fn level(self) -> Option<Level> {
         None

@@ -168,8 +168,8 @@ impl Default for StencilFaceState {
     }
 }
 
-/// The stencil test. Triangles use the test of the face that is seen; lines and points use `front`.
-/// The reference is part of the draw.
+/// The stencil test. Triangles use the test of the face towards the viewer; lines and points use
+/// `front`. The reference is part of the draw.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct StencilState {
     /// The test of front faces, lines and points.

@@ -115,8 +115,8 @@ pub struct LineStipple {
 /// Line state. The default is one pixel wide, by the diamond-exit rule, not stippled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineState {
-    /// Width in pixels, above 0 and at most 64. For Bresenham lines it is rounded, half to even,
-    /// and is at least one pixel.
+    /// Width in pixels, above 0 and at most 64. For Bresenham lines it is rounded to ⌊w + ½⌋, and
+    /// is at least one pixel.
     pub width: f32,
     /// Rasterization mode.
     pub rasterization: LineRasterization,

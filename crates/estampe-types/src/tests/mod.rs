@@ -163,7 +163,7 @@ fn exp_is_as_exact_as_it_says() {
         } else if exact >= least {
             assert!((got - exact).abs() < 1.5e-7 * exact, "exp({x}): {got:e}");
         } else {
-            // One step of the subnormal numbers.
+            // The distance between subnormal numbers.
             assert!((got - exact).abs() < 1.5e-45, "exp({x}): {got:e}");
         }
     }

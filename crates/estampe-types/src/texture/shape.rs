@@ -1,4 +1,4 @@
-//! Shape of a texture beside its width and height, and the layout of its texels in memory.
+//! Shape of a texture besides its width and height, and the layout of its texels in memory.
 
 use super::Texture;
 use crate::format::{TexelEncoding, TextureFormat};
@@ -15,7 +15,7 @@ pub enum TextureDimension {
     D3,
 }
 
-/// Shape of a texture beside its width and height.
+/// Shape of a texture besides its width and height.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct TextureShape {
     /// Number of axes along which the texture is filtered.

@@ -9,8 +9,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// once. Clones share the texels. The functions for shaders are in `estampe-texture`.
 ///
 /// Each texel is [`StorageTexture::words_per_texel`] words, which are stored one by one. If several
-/// fragments store to one texel, each word has the value of one of them; as in the specifications,
-/// it is undefined of which.
+/// fragments store to one texel, each word has the value of one of them; which one is undefined, as
+/// in the specifications.
 #[derive(Clone)]
 pub struct StorageTexture {
     format: TextureFormat,
