@@ -55,7 +55,7 @@ fn read_rest(
 #[cfg(unix)]
 fn read_parts(file: &File, expected: u64, limits: &Limits) -> Option<Vec<u8>> {
     use std::os::unix::fs::FileExt;
-    /// A millisecond of work.
+    /// Bytes of a part: about a millisecond of work.
     const PART: usize = 1 << 20;
     let len = usize::try_from(expected).ok()?;
     if len <= PART || expected > limits.max_file_bytes || !file.metadata().ok()?.is_file() {

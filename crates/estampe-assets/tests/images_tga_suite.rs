@@ -8,8 +8,9 @@ mod shared_data {
     use std::fs;
     use std::path::{Path, PathBuf};
 
-    /// The reference of a TGA file: `NAME.tga.png`, or `SIZE_KIND.png` for `SIZE_KIND_ORIGIN_CODING.tga`; the
-    /// mapped `ucm8` shows the picture of the true-colour `utc24`.
+    /// The reference of a TGA file: `NAME.tga.png`, or `SIZE_KIND.png` for
+    /// `SIZE_KIND_ORIGIN_CODING.tga`; for the mapped `ucm8`, the reference of the true-colour
+    /// `utc24`, which has the same image.
     fn reference_of(tga: &Path) -> Option<PathBuf> {
         let name = tga.file_name()?.to_str()?;
         let stem = tga.file_stem()?.to_str()?;

@@ -1,4 +1,4 @@
-//! Files of models: what is in them, and what an absent file is.
+//! Model files from outside the repository: their contents, and errors for missing files.
 
 use estampe_assets::{AssetError, Limits, load_model};
 use std::path::Path;
@@ -30,7 +30,7 @@ mod shared_data {
         path
     }
 
-    /// Vertices (different in position), triangles, lines, points, meshes, materials, images, warnings.
+    /// Different positions, triangles, lines, points, meshes, materials, images, warnings.
     type Counts = [usize; 8];
 
     fn counts(loaded: &Loaded) -> Counts {
@@ -92,10 +92,11 @@ mod shared_data {
         }
     }
 
-    /// Different positions, triangles, lines and points, as other readers count them.
+    /// The counts of different positions, triangles, lines, points and meshes agree with other
+    /// readers'.
     #[test]
     #[ignore = "needs ../shared/data/models"]
-    fn known_files_hold_what_is_known_of_them() {
+    fn known_files_have_the_expected_counts() {
         let folder = folder();
         let known: [(&str, [usize; 5]); 18] = [
             ("african_head/african_head.obj", [1258, 2492, 0, 0, 1]),
@@ -123,10 +124,11 @@ mod shared_data {
         }
     }
 
-    /// Their own normals stay; those that are made agree with the files' own faces.
+    /// Normals of the file are kept, computed ones are on the front side of their faces, and those
+    /// of spheres are radial.
     #[test]
     #[ignore = "needs ../shared/data/models"]
-    fn suzanne_keeps_her_normals_and_the_bunny_gets_some() {
+    fn normals_agree_with_the_faces() {
         let folder = folder();
         let load = |name: &str| load_model(&folder.join(name), None, &Limits::default()).unwrap();
         for name in [

@@ -1,7 +1,7 @@
-//! Damaged and hostile files: every truncation and thousands of random mutations end in a sound scene or
-//! in an error.
+//! Damaged and hostile model files: every truncation and thousands of random mutations give a valid
+//! scene or an error.
 //!
-//! The count of mutations is 2,000 of each kind for each file, or `ESTAMPE_MUTATIONS`.
+//! There are 2,000 mutations of each kind for each file, or `ESTAMPE_MUTATIONS` if it is set.
 
 use estampe_assets::model::{NoResources, ResourceError, Resources};
 use estampe_assets::{Limits, ModelFormat, parse_model};
@@ -10,12 +10,12 @@ use fastrand::Rng;
 use std::collections::HashMap;
 use std::path::Path;
 
-/// A small file of each kind; those of OBJ come with their libraries.
+/// A small file of each format; OBJ files come with their material libraries.
 struct Fixture {
     name: &'static str,
     format: ModelFormat,
     bytes: Vec<u8>,
-    /// The side file that is mutated instead of the model, if it is.
+    /// The side file that is mutated in place of the model, if any.
     side_file: Option<&'static str>,
 }
 
@@ -158,7 +158,7 @@ impl Resources for Files {
     }
 }
 
-/// Small, so that a mutation cannot ask for much.
+/// Small limits, so that a mutation cannot require much memory.
 fn limits() -> Limits {
     Limits {
         max_image_pixels: 1 << 16,
@@ -167,7 +167,8 @@ fn limits() -> Limits {
     }
 }
 
-/// Reads `bytes` in the fixture's place; a scene must be sound. Whether there was one.
+/// Reads `bytes` in place of the fixture's file and checks the scene. Returns true if there was
+/// one.
 fn read(fixture: &Fixture, bytes: &[u8]) -> bool {
     let mut files = Files(HashMap::from([
         ("a.mtl", MTL.as_bytes().to_vec()),
@@ -194,7 +195,7 @@ fn read(fixture: &Fixture, bytes: &[u8]) -> bool {
     }
 }
 
-/// What every scene promises.
+/// Checks the properties that every scene has.
 fn check(scene: &Scene) {
     for mesh in &scene.meshes {
         check_mesh(mesh, scene.materials.len());
@@ -259,14 +260,14 @@ fn check_mesh(mesh: &Mesh, material_count: usize) {
 enum Mutation {
     FlipBit,
     SetByte,
-    /// A byte that means something in a text.
+    /// Sets a byte to a character with a meaning in text formats.
     SetMeaningful,
-    /// Four bytes that are a special number.
+    /// Sets four bytes to a special number.
     SetWord,
     Remove,
     Insert,
     Repeat,
-    /// Digits become many digits.
+    /// Repeats digits many times.
     Enlarge,
 }
 
@@ -357,7 +358,7 @@ fn every_mutation_ends_well() {
         for mutation in MUTATIONS {
             for round in 0..count {
                 let mut bytes = fixture.bytes.clone();
-                // Mostly one mutation, which gets far; sometimes many.
+                // Mostly one mutation, which gets past the first checks; sometimes many.
                 for _ in 0..=(round % 8) / 2 * random.usize(..3) {
                     mutate(&mut bytes, mutation, &mut random);
                 }

@@ -1,4 +1,4 @@
-//! OBJ and MTL: the meaning of the statements.
+//! OBJ and MTL: the effect of every statement, tolerated errors, limits.
 
 use estampe_assets::model::{NoResources, ResourceError, Resources};
 use estampe_assets::{AssetError, Limits, Loaded, Location, ModelFormat, parse_model};
@@ -6,7 +6,7 @@ use estampe_scene::{AlphaMode, Mesh};
 use glam::{Vec2, Vec3};
 use std::collections::HashMap;
 
-/// Side files in memory.
+/// Side files, by name.
 #[derive(Default)]
 struct Files(HashMap<&'static str, Vec<u8>>);
 
@@ -106,7 +106,7 @@ fn vertices_may_follow_the_faces_that_use_them() {
 }
 
 #[test]
-fn faces_with_impossible_indices_are_left_out_and_told() {
+fn faces_with_impossible_indices_are_omitted_with_a_warning() {
     let loaded = read(&format!(
         "{SQUARE}f 1 2 9\nf 0 1 2\nf -5 1 2\nf 1 2 3\nf 1/7 2 3\n"
     ));
@@ -132,7 +132,7 @@ fn faces_with_impossible_indices_are_left_out_and_told() {
 }
 
 #[test]
-fn malformed_corners_and_short_faces_are_left_out() {
+fn malformed_corners_and_short_faces_are_omitted() {
     let loaded = read(&format!("{SQUARE}f 1 2 x\nf 1 2 3q\nf 1 2\nf\nf 1 2 3\n"));
     assert_eq!(loaded.scene.meshes[0].triangles.len(), 1);
     assert_eq!(loaded.warning_count, 4);
@@ -225,7 +225,7 @@ fn every_way_to_end_lines_reads_the_same() {
 }
 
 #[test]
-fn coordinates_that_are_no_numbers_drop_their_faces_only() {
+fn non_finite_coordinates_drop_only_their_faces() {
     let loaded = read(
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 1e999 0 0\nv 1 x 0\nv 1\nf 1 2 3\n\
          f 1 2 4\nf 1 2 5\nf 1 2 6\nf 1 2 7\nl 1 2 4\np 4\n",
@@ -243,7 +243,7 @@ fn coordinates_that_are_no_numbers_drop_their_faces_only() {
 }
 
 #[test]
-fn objects_are_meshes_and_groups_are_where_there_are_none() {
+fn meshes_are_objects_or_else_groups() {
     let faces = |a: &str, b: &str| format!("{SQUARE}{a}\nf 1 2 3\n{b}\nf 1 3 4\n{a}\nf 1 2 4\n");
     let names = |text: &str| {
         let meshes = read(text).scene.meshes;
@@ -291,7 +291,7 @@ fn materials_become_one_surface_each() {
 }
 
 #[test]
-fn what_is_missing_of_materials_is_told_where_it_is_asked_for() {
+fn missing_materials_are_reported_where_they_are_used() {
     let files = Files::default().with("b.mtl", b"newmtl x\nKd spectral a.rfl\nmap_Kd gone.png\n");
     let text = format!("{SQUARE}mtllib a.mtl b.mtl\nusemtl x\nf 1 2 3\nusemtl y\nf 1 3 4\n");
     let loaded = read_with(&text, &files);
@@ -308,7 +308,7 @@ fn what_is_missing_of_materials_is_told_where_it_is_asked_for() {
 }
 
 #[test]
-fn textures_are_loaded_once_and_their_alpha_is_judged() {
+fn textures_are_loaded_once_and_their_alpha_is_classified() {
     let opaque = tga([[1, 2, 3, 255], [4, 5, 6, 255]]);
     let mask = tga([[1, 2, 3, 255], [4, 5, 6, 0]]);
     let glass = tga([[1, 2, 3, 255], [4, 5, 6, 100]]);
@@ -414,7 +414,7 @@ fn side_files_are_bounded() {
 }
 
 #[test]
-fn smoothing_groups_decide_where_there_are_any() {
+fn smoothing_groups_override_the_crease_angle() {
     // Two squares at a right angle.
     let shape = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 0 1 1\n";
     let count = |faces: &str| mesh(&format!("{shape}{faces}")).positions.len();
@@ -430,7 +430,7 @@ fn smoothing_groups_decide_where_there_are_any() {
 }
 
 #[test]
-fn warnings_are_bounded_and_unknown_statements_told_once() {
+fn warnings_are_bounded_and_unknown_statements_reported_once() {
     let text = format!(
         "{SQUARE}{}f 1 2 3\n",
         "nonsense 1 2\ncurv 0 1 1 2\nvw 1 2\n".repeat(500)
@@ -442,7 +442,7 @@ fn warnings_are_bounded_and_unknown_statements_told_once() {
 }
 
 #[test]
-fn what_is_no_obj_is_an_error() {
+fn files_that_are_not_obj_are_errors() {
     let fails = |bytes: &[u8]| {
         let limits = Limits::default();
         parse_model(bytes, ModelFormat::Obj, "a.obj", &NoResources, &limits).unwrap_err()
@@ -529,10 +529,10 @@ fn hostile_sharing_takes_no_quadratic_time() {
     assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
 }
 
-/// Plain lines of large files are read ahead, by several threads; a blank at the start makes a line
-/// not plain and has no other effect.
+/// Plain lines of large files are read ahead by several threads. A blank at the start of a line
+/// makes it not plain and has no other effect.
 #[test]
-fn plain_lines_mean_the_same_read_ahead() {
+fn plain_lines_read_ahead_give_the_same_model() {
     let rows = 14_000_u32;
     let mut text = String::from("# large\nmtllib none.mtl\no first\n");
     for row in 0..rows {
@@ -578,7 +578,7 @@ fn plain_lines_mean_the_same_read_ahead() {
         }
     }
     assert!(text.len() > 2 << 20, "several pieces: {}", text.len());
-    // Comments and continued lines stay as they are.
+    // Comments and continued lines are kept.
     let lines = text.split_inclusive('\n');
     let odd: String = lines.flat_map(|line| [" ", line]).collect();
     let parse = |text: &str, limits: &Limits| {
@@ -603,7 +603,7 @@ fn plain_lines_mean_the_same_read_ahead() {
         assert_eq!((ahead.len(), expected.len()), (2, 2));
         for (ahead, expected) in ahead.iter().zip(&expected) {
             assert_eq!(ahead.name, expected.name);
-            // One of them is not a number, which equals nothing.
+            // Compare bits: one of the values is NaN, which equals nothing.
             let bits = |mesh: &Mesh| -> Vec<[u32; 3]> {
                 let positions = mesh.positions.iter();
                 positions.map(|p| p.to_array().map(f32::to_bits)).collect()

@@ -1,4 +1,4 @@
-//! PLY: the encodings, the elements and the attributes.
+//! PLY: encodings, elements, attributes, damaged files.
 
 use estampe_assets::model::{NoResources, ResourceError, Resources};
 use estampe_assets::{AssetError, Limits, Loaded, Location, ModelFormat, parse_model};
@@ -32,7 +32,7 @@ fn ascii(elements: &str, rows: &str) -> Vec<u8> {
 
 const FACES: &str = "property list uchar int vertex_indices\n";
 
-/// The same mesh with every property of vertices, lists before and after, in a binary encoding.
+/// A square with every property of vertices, and lists before and after, in a binary encoding.
 fn binary(big: bool, line_end: &str) -> Vec<u8> {
     let name = if big {
         "binary_big_endian"
@@ -124,7 +124,7 @@ fn ascii_faces_of_any_size_are_read() {
 }
 
 #[test]
-fn points_only_is_no_error() {
+fn files_with_only_points_are_read() {
     let cloud = mesh(&ascii("", ""));
     assert_eq!(cloud.points, [0, 1, 2, 3]);
     assert!(cloud.normals.is_empty());
@@ -170,7 +170,7 @@ fn corners_and_faces_may_have_attributes() {
     assert_eq!(mesh.colors.len(), 5);
 }
 
-/// Every name is a file: one white pixel.
+/// Resources in which every name is a file of one white pixel.
 struct WhitePixels;
 
 impl Resources for WhitePixels {
@@ -208,7 +208,7 @@ fn textures_are_named_in_comments() {
 }
 
 #[test]
-fn damaged_faces_are_left_out_and_damaged_vertices_are_errors() {
+fn damaged_faces_are_omitted_and_damaged_vertices_are_errors() {
     let faces = format!("element face 4\n{FACES}");
     let loaded = try_read(&ascii(&faces, "3 0 1 9\n2 0 1\n3 0 -1 2\n3 0 1 2\n")).unwrap();
     assert_eq!(loaded.scene.meshes[0].triangles.len(), 1);
@@ -236,7 +236,7 @@ fn damaged_faces_are_left_out_and_damaged_vertices_are_errors() {
 }
 
 #[test]
-fn hostile_announcements_cost_nothing() {
+fn hostile_counts_allocate_no_memory() {
     let header = |elements: &str| {
         format!("ply\nformat binary_little_endian 1.0\n{elements}end_header\n").into_bytes()
     };

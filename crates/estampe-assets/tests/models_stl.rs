@@ -1,4 +1,4 @@
-//! STL, binary and ASCII.
+//! STL, binary and ASCII: geometry, colours, damaged files, detection of the format.
 
 use estampe_assets::model::NoResources;
 use estampe_assets::{AssetError, Limits, Loaded, Location, ModelFormat, parse_model};
@@ -45,7 +45,7 @@ const FACET: &str = "facet normal 0 0 nan\n outer loop\n  vertex 0 0 0\n  vertex
                      vertex 0 1e0 0\n endloop\nendfacet\n";
 
 #[test]
-fn binary_corners_are_joined_and_normals_made() {
+fn binary_corners_are_joined_and_get_normals() {
     let loaded = read(&binary(b"solid not ASCII at all", &[0; 4], 4));
     assert_eq!(loaded.warnings, []);
     assert_eq!(loaded.scene.up, UpAxis::Z);
@@ -68,7 +68,7 @@ fn binary_corners_are_joined_and_normals_made() {
 }
 
 #[test]
-fn wrong_numbers_of_triangles_are_told() {
+fn wrong_numbers_of_triangles_are_warnings() {
     let loaded = read(&binary(b"", &[0; 2], 4));
     assert_eq!(loaded.scene.meshes[0].triangles.len(), 2);
     assert_eq!(loaded.warnings[0].location, Some(Location::Byte(184)));
@@ -98,7 +98,7 @@ fn both_conventions_of_colour_are_read() {
     let loaded = read(&binary(b"", &[red, red, 0, red], 4));
     let colors = &loaded.scene.meshes[0].colors;
     assert!(colors.contains(&[1.0, 0.0, 0.0, 1.0]) && colors.contains(&[1.0; 4]));
-    // In Magics' order the same bits are blue, and bit 15 means the default.
+    // In Magics' order the same bits are blue, and bit 15 selects the default colour.
     let loaded = read(&binary(
         b"COLOR=\xff\x00\x00\xff",
         &[31 << 10, 1 << 15, 0, 0],
@@ -177,7 +177,7 @@ fn solids_are_meshes() {
 }
 
 #[test]
-fn odd_facets_are_told() {
+fn odd_facets_are_warnings() {
     let vertex = |count: usize| "vertex 1 2 3\n".repeat(count);
     let text = format!(
         "solid\nfacet\n{}endfacet\nfacet\nvertex 0 x 0\n{}endfacet\nbogus 1\n",
@@ -207,7 +207,7 @@ fn odd_facets_are_told() {
 }
 
 #[test]
-fn formats_are_told_by_their_content() {
+fn formats_are_detected_by_content() {
     let format = |bytes: &[u8]| ModelFormat::from_content(bytes);
     assert_eq!(
         format(&binary(b"v 1 2 3", &[0; 4], 4)),

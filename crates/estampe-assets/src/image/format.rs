@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_picture_is_named() {
+    fn other_files_are_errors_that_name_their_format() {
         let limits = Limits::default();
         let message = |bytes: &[u8]| decode(bytes, &limits).expect_err("no picture").to_string();
         assert!(message(b"").contains("byte 0: the image file is empty"));
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn images_that_contradict_themselves_are_not_written() {
+    fn invalid_images_are_not_written() {
         let missing = Image {
             width: 2,
             height: 2,

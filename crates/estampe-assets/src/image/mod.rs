@@ -6,9 +6,9 @@
 //!   Image --transform-------> Image            (flips, nearest scaling)
 //! ```
 //!
-//! PNG uses the `png` crate and JPEG the `image` crate; TGA is implemented here. Every reader
-//! checks the size in an image's header against [`Limits`](crate::Limits) before it allocates.
-//! Every writer uses fixed settings, so that the same image always gives the same bytes.
+//! PNG uses the `png` crate, JPEG `zune-jpeg` and `jpeg-encoder`; TGA is implemented here. Every
+//! reader checks the size in an image's header against [`Limits`](crate::Limits) before it
+//! allocates. Every writer uses fixed settings, so that the same image always gives the same bytes.
 
 mod fault;
 mod format;

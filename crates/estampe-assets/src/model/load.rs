@@ -94,7 +94,7 @@ pub fn load_model(
 /// Reads a model from `bytes`; `name` is its name in messages.
 ///
 /// # Errors
-/// `Malformed` if nothing usable is left of the file, `Unsupported` for unsupported formats, and
+/// `Malformed` if the file has no usable element, `Unsupported` for unsupported formats, and
 /// `LimitExceeded` for more than `limits` allow. A side file that is missing, forbidden or broken
 /// is a warning.
 pub fn parse_model(

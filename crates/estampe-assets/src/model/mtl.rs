@@ -8,7 +8,7 @@
 //! If both are present, `d` overrides `Tr`. `Tr 1` alone would make the material invisible; old
 //! exporters use it for opaque materials, so it is read as opaque, with a warning. A texture whose
 //! `Kd` is missing or black is drawn as if `Kd` were white, because black would hide the texture,
-//! which is never the intention.
+//! which nobody intends.
 //!
 //! Source: "MTL material format (Lightwave, OBJ)", Wavefront 1995; P. Bourke's copy.
 

@@ -71,7 +71,8 @@ fn take_digits(text: &[u8], at: &mut usize, mantissa: &mut u64) -> usize {
 /// The exponent whose `e` is at `*at`; 0, with `*at` unmoved, when no digits follow.
 #[cold]
 fn take_exponent(text: &[u8], at: &mut usize) -> i64 {
-    /// Beyond every float even with a million digits before the point; the sum cannot overflow.
+    /// Exceeds every float, even with a million digits before the point; sums with it cannot
+    /// overflow.
     const LARGEST: i64 = 1 << 40;
     let sign = text.get(*at + 1);
     let first = *at + 1 + usize::from(matches!(sign, Some(b'-' | b'+')));

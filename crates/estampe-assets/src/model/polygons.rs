@@ -14,9 +14,9 @@ pub(super) struct Polygons {
 
 impl Polygons {
     /// Beyond this much work polygons become fans: ear clipping is quadratic for hostile ones, and
-    /// a file can have many.
+    /// a file can have many of them.
     const MAX_WORK: u64 = 1 << 32;
-    /// Polygons up to here are not counted.
+    /// Polygons with at most this many corners are not counted.
     const SMALL_CORNERS: usize = 64;
 
     /// The triangles of a polygon, as indices into `corners`. Also returns true if it is only a fan

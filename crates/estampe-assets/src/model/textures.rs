@@ -168,8 +168,8 @@ fn brightness(rgb: [u8; 3]) -> u8 {
     u8::try_from((sum + 1) / 3).expect("a mean of bytes is a byte")
 }
 
-/// Classifies an alpha channel: all 255 is opaque, 0 and 255 a mask, all else blends. All 0 is what
-/// some programs write into an unused channel; it becomes opaque.
+/// Classifies an alpha channel: all 255 is opaque, 0 and 255 a mask, all else blends. All 0 becomes
+/// opaque: some programs write it into an unused channel.
 fn classify_alpha(image: &mut Image) -> AlphaMode {
     let texels = image.rgba.as_chunks_mut::<4>().0;
     if texels.iter().all(|texel| texel[3] == 255) {

@@ -30,14 +30,14 @@ pub(super) fn first_equals(
     workers: Workers,
 ) -> Vec<u32> {
     const TABLES: usize = 8;
-    /// Some hundred microseconds of work.
+    /// Keys of a piece: some hundred microseconds of work.
     const PIECE: usize = 1 << 15;
     let number = |index: usize| u32::try_from(index).expect("limits keep corners below 2^32");
     let tables = if count <= PIECE { 1 } else { TABLES };
     let dealt = workers.map(pieces(count, PIECE), |range| {
         let mut lists = vec![Vec::with_capacity(range.len() * 5 / (4 * tables)); tables];
         for index in range {
-            // The low bits choose the table, the high ones the place in it.
+            // The low bits select the table, the high ones the slot in it.
             let table = usize::try_from(hash(key(index)) % 8).unwrap_or(0) % tables;
             lists[table].push(number(index));
         }

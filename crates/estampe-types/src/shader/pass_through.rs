@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shader_that_says_so_and_does_not_is_run() {
+    fn a_false_passthrough_claim_is_detected() {
         for is_honest in [true, false] {
             let program = ShaderProgram::new(Colored { is_honest });
             assert_eq!(program.interface().color_passthrough, is_honest);

@@ -1,4 +1,4 @@
-//! JPEG: what we write, grey and four-ink files, and damage.
+//! JPEG: written files, hand-made files with one, three and four components, and damaged files.
 
 use super::*;
 use crate::image::samples::{Random, disc, noise};
@@ -103,7 +103,7 @@ fn three_components_are_ycbcr_unless_the_file_says_rgb() {
 
 #[test]
 fn four_inks_become_colours() {
-    // Adobe stores inks inverted: 255 is none. Colour = ink · black.
+    // Adobe stores inks inverted: 255 is no ink. Colour = ink · black.
     check_flat(&flat_jpeg(&[255, 0, 0, 255], Some(0)), [255, 0, 0, 255]);
     check_flat(
         &flat_jpeg(&[200, 100, 50, 255], Some(0)),
@@ -118,7 +118,7 @@ fn four_inks_become_colours() {
 }
 
 #[test]
-fn what_is_written_reads_back_nearly() {
+fn written_jpegs_read_back_nearly() {
     let image = disc(100, 60);
     let mut sizes = Vec::new();
     for (quality, most) in [(50, 6.0), (90, 2.5), (100, 1.5)] {

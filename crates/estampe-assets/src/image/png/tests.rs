@@ -217,7 +217,7 @@ fn one_colour_can_be_transparent() {
 }
 
 #[test]
-fn what_is_written_reads_back() {
+fn written_files_read_back() {
     let mut random = Random::new(2);
     for width in (1..20).chain([127, 256, 300]) {
         let image = noise(width, 1 + random.below(7) as u32, random.next());

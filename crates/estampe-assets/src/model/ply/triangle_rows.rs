@@ -30,7 +30,7 @@ pub(super) fn read(
     index: impl Fn([u8; 4]) -> u32 + Sync,
     workers: Workers,
 ) -> Vec<[u32; 3]> {
-    /// Some hundred microseconds of work.
+    /// Rows of a piece: some hundred microseconds of work.
     const PIECE: usize = 1 << 14;
     let decode = |row: &[u8; ROW_BYTES]| -> Option<[u32; 3]> {
         let &[3, ref corners @ ..] = row else {

@@ -28,7 +28,7 @@ fn cube() -> Mesh {
     }
 }
 
-/// A tube around the z axis of `sides` flat sides, open at both ends.
+/// A tube around the z axis with `sides` flat sides, open at both ends.
 fn tube(sides: u32) -> Mesh {
     let positions = (0..sides * 2).map(|i| {
         let angle = (i / 2) as f32 / sides as f32 * std::f32::consts::TAU;
@@ -97,7 +97,7 @@ fn positions_equal_to_the_bit_are_one_point_even_across_meshes() {
     let whole = tube(16);
     let mut smooth = [whole.clone()];
     normals::fill_missing(&mut smooth, NormalMode::default());
-    // The same surface as a soup in two meshes; one has negative zeros.
+    // The same surface as a triangle soup in two meshes; one has negative zeros.
     let soup = |triangles: &[[u32; 3]]| Mesh {
         positions: triangles
             .iter()
@@ -127,7 +127,7 @@ fn positions_equal_to_the_bit_are_one_point_even_across_meshes() {
 }
 
 #[test]
-fn flat_gives_each_triangle_its_own() {
+fn flat_mode_gives_each_triangle_its_own_normal() {
     let mut meshes = [tube(16)];
     normals::replace(&mut meshes, NormalMode::Flat);
     let [mesh] = meshes;
@@ -157,7 +157,7 @@ fn smoothing_groups_overrule_angles() {
 }
 
 #[test]
-fn normals_of_the_file_stay() {
+fn normals_of_the_file_are_kept() {
     let mut meshes = [cube()];
     let strange = Vec3::new(0.6, 0.8, 0.0);
     meshes[0].normals = vec![strange; 8];
@@ -198,7 +198,7 @@ fn the_larger_face_weighs_more() {
 }
 
 #[test]
-fn size_does_not_matter() {
+fn the_size_of_a_model_does_not_change_its_normals() {
     let mut reference = [cube()];
     normals::fill_missing(&mut reference, NormalMode::default());
     for exponent in [-100, -60, -20, 60, 120] {
@@ -232,7 +232,7 @@ fn triangles_without_area_do_no_harm() {
     assert_eq!(meshes[0].normals, [Vec3::ZERO; 3]);
 }
 
-/// Linear time: with all pairs, this would be 10^11 steps.
+/// The time is linear: with all pairs of faces, it would be 10^11 steps.
 #[test]
 fn a_vertex_shared_by_all_triangles_takes_no_quadratic_time() {
     let count = 300_000_u32;
@@ -259,7 +259,7 @@ fn a_vertex_shared_by_all_triangles_takes_no_quadratic_time() {
 }
 
 #[test]
-fn welding_tells_positions_apart() {
+fn welding_keeps_different_positions_separate() {
     let zero = Vec3::ZERO;
     let mut keys = vec![
         key(zero, 0),
@@ -270,7 +270,7 @@ fn welding_tells_positions_apart() {
         key(zero, 1),
     ];
     let special = [0, 0, 2, 3, 3, 2];
-    // Different ones, then the same ones again.
+    // Different positions, then the same positions again.
     let count = 50_000_u16;
     for _ in 0..2 {
         keys.extend((0..count).map(|i| key(Vec3::new(f32::from(i), 1.0, 2.0), 0)));

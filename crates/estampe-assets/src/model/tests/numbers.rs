@@ -95,7 +95,7 @@ fn midpoints_are_rounded_as_by_the_standard_library() {
 }
 
 #[test]
-fn names_of_values_are_known() {
+fn named_values_are_numbers() {
     for text in [
         "nan",
         "NaN",

@@ -85,7 +85,7 @@ fn nothing_outside_is_opened() {
 
 #[cfg(unix)]
 #[test]
-fn links_that_leave_the_folder_and_what_is_no_file_are_refused() {
+fn links_that_leave_the_folder_and_special_files_are_refused() {
     use std::os::unix::fs::symlink;
     let scratch = Scratch::new("links");
     let model = scratch.0.join("model");

@@ -104,7 +104,7 @@ fn random_damage_never_panics() {
 }
 
 #[test]
-fn wrong_extension_offsets_are_passed_over() {
+fn wrong_extension_offsets_are_ignored() {
     let mut file = Fixture {
         attributes: Some(0),
         ..Fixture::new(2, 32, (1, 1), &[1, 2, 3, 4])

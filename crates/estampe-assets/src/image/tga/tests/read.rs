@@ -55,7 +55,7 @@ fn the_top_bit_of_16_is_alpha_only_where_the_extension_area_says_so() {
 }
 
 #[test]
-fn alpha_of_32_bits_counts_as_far_as_the_file_says() {
+fn alpha_of_32_bits_follows_the_attributes_type() {
     let mut fixture = Fixture::new(2, 32, (2, 1), &[1, 2, 3, 0, 40, 60, 80, 128]);
     let opaque = [[3, 2, 1, 255], [80, 60, 40, 255]];
     let straight = [[3, 2, 1, 0], [80, 60, 40, 128]];
@@ -141,7 +141,7 @@ fn colours_that_the_map_lacks_are_located() {
 }
 
 #[test]
-fn the_image_id_and_an_unused_map_are_passed_over() {
+fn the_image_id_and_an_unused_map_are_skipped() {
     let mut fixture = Fixture::new(2, 24, (1, 1), &[0, 255, 0]);
     fixture.id = vec![0xaa; 255];
     check(&fixture, &[GREEN]);
