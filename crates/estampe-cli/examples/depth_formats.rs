@@ -210,7 +210,7 @@ mod tests {
 
     /// Rows: D1, F1.
     #[test]
-    fn reversed_and_logarithmic_depth_tell_what_fixed_point_does_not() {
+    fn reversed_and_logarithmic_depth_are_finer_than_fixed_point() {
         let device = Device::new(&DeviceDescriptor::default()).expect("threads can be had");
         let wrong = METHODS.map(|method| {
             let pixels = panel(&device, method).expect("it is small");

@@ -1,4 +1,4 @@
-//! A case: what is drawn into one target.
+//! Test cases: a target and the draws into it.
 
 use crate::geometry::{Vertex, vertex_buffer, vertex_layout};
 use crate::{Random, TestShader};
@@ -10,81 +10,82 @@ use estampe_types::{Bindings, Buffer, IndexFormat, TextureFormat};
 use std::fmt::Write;
 use std::ops::Range;
 
-/// A target and all that is drawn into it.
+/// A target and the draws into it.
 #[derive(Debug, Clone)]
 pub struct Case {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// 1, 2, 4, 8 or 16.
+    /// Samples per pixel: 1, 2, 4, 8 or 16.
     pub samples: u32,
-    /// The first colour attachment's, if there is one.
+    /// Format of the first colour attachment; `None` for a target without colour.
     pub format: Option<TextureFormat>,
-    /// Linear.
+    /// Clear colour of all colour attachments, linear.
     pub clear_color: [f32; 4],
-    /// In 0..=1.
+    /// Clear depth, in 0..=1.
     pub clear_depth: f32,
-    /// In order.
+    /// The draws of both passes, in order.
     pub draws: Vec<CaseDraw>,
-    /// The first draw of a second pass, which keeps what the first one drew.
+    /// Index of the second pass's first draw; that pass loads what the first one stored.
     pub second_pass: usize,
-    /// Those of the colour attachments after the first.
+    /// Formats of the colour attachments after the first.
     pub more_formats: Vec<TextureFormat>,
-    /// Of depth and stencil.
+    /// Format of the depth-stencil attachment, if there is one.
     pub depth_stencil: Option<TextureFormat>,
-    /// What the stencil is cleared to.
+    /// Clear value of stencil.
     pub clear_stencil: u8,
 }
 
 /// One draw.
 #[derive(Debug, Clone)]
 pub struct CaseDraw {
-    /// The program.
+    /// The vertex and fragment shader.
     pub shader: TestShader,
-    /// Buffers and how they lie.
+    /// Vertex buffers with their layouts.
     pub buffers: Vec<(VertexBufferLayout, Buffer)>,
-    /// Indices, if there are any.
+    /// The index buffer, if there is one.
     pub indices: Option<(IndexFormat, Buffer)>,
-    /// Elements or vertices.
+    /// Range of vertices, or of elements of the index buffer.
     pub elements: Range<u32>,
-    /// Instances.
+    /// Range of instances.
     pub instances: Range<u32>,
-    /// Added to indices.
+    /// Added to each index.
     pub base_vertex: i32,
     /// Topology, facing, culling, polygon mode.
     pub primitive: PrimitiveState,
     /// The depth test.
     pub depth: Option<DepthState>,
-    /// What is added to the depth of triangles.
+    /// Depth bias of triangles.
     pub depth_bias: DepthBiasState,
-    /// Blending.
+    /// Blending of the first colour attachment; `None` replaces.
     pub blend: Option<BlendState>,
-    /// Its constant.
+    /// The blend constant.
     pub blend_constant: [f32; 4],
-    /// The channels that change.
+    /// The written channels of the first colour attachment.
     pub write_mask: ColorWrites,
-    /// `None`: the whole target.
+    /// The viewport; `None` is the whole target.
     pub viewport: Option<Viewport>,
-    /// `None`: the whole target.
+    /// The scissor rectangle; `None` is the whole target.
     pub scissor: Option<ScissorRect>,
-    /// What the shader reads besides.
+    /// The shader's uniforms and textures.
     pub bindings: Bindings,
     /// The stencil test.
     pub stencil: Option<StencilState>,
-    /// What front and back are compared with.
+    /// The stencil references of front and back.
     pub stencil_reference: [u8; 2],
-    /// The stored depths over which something is drawn.
+    /// The depth-bounds test: least and greatest stored depth.
     pub depth_bounds: Option<[f32; 2]>,
-    /// The samples that may change.
+    /// The sample mask.
     pub sample_mask: u32,
-    /// Whether alpha says how many samples are kept.
+    /// Whether alpha to coverage is on.
     pub alpha_to_coverage: bool,
-    /// Whether shading is by sample in any case.
+    /// Whether shading is per sample, even if the shader does not require it.
     pub sample_shading: bool,
-    /// In place of blending.
+    /// A logic operation, in place of blending.
     pub logic_operation: Option<LogicOperation>,
-    /// Blending and write mask of the colour attachments after the first; by default as of the first.
+    /// Blending and write mask of the colour attachments after the first; those beyond the list are
+    /// as the first.
     pub more_targets: Vec<(Option<BlendState>, ColorWrites)>,
-    /// Whether the samples that pass are counted.
+    /// Whether passed samples are counted (an occlusion query).
     pub is_counted: bool,
 }
 
@@ -113,7 +114,7 @@ impl Case {
         self.format.into_iter().chain(more).collect()
     }
 
-    /// A target of a random, usually small size and a random number of samples.
+    /// A target of a random size, usually small, and a random number of samples.
     #[must_use]
     pub fn random_target(random: &mut Random) -> Self {
         let sizes = [[64, 64], [33, 20], [19, 21], [63, 65], [1, 1], [70, 5]];
@@ -121,14 +122,14 @@ impl Case {
         Self::new(size, random.pick(&[1, 4]))
     }
 
-    /// The two passes' draws.
+    /// The draws of the first and of the second pass.
     #[must_use]
     pub fn passes(&self) -> [&[CaseDraw]; 2] {
         let (first, second) = self.draws.split_at(self.second_pass.min(self.draws.len()));
         [first, second]
     }
 
-    /// The case in words, for whoever has to find out.
+    /// The case as text, for failure messages.
     #[must_use]
     pub fn describe(&self) -> String {
         let mut text = format!(
@@ -151,7 +152,7 @@ impl Case {
 }
 
 impl CaseDraw {
-    /// Triangles of vertices with the standard layout.
+    /// A draw of a triangle list of vertices with the standard layout.
     #[must_use]
     pub fn new(shader: impl Into<TestShader>, vertices: &[Vertex]) -> Self {
         Self {

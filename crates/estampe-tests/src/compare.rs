@@ -1,4 +1,4 @@
-//! Draws cases on both sides, and makes a small one of what fails.
+//! Draws cases with the oracle and the fast path, compares the images, and shrinks failing cases.
 
 use crate::Random;
 use crate::case::Case;
@@ -8,21 +8,22 @@ use crate::oracle::{self, Image};
 use estampe::{Device, Statistics, TilePath};
 use estampe_types::state::PrimitiveTopology;
 
-/// How often a failing case is made smaller, at most.
+/// The greatest number of attempts to shrink a failing case.
 const SHRINK_STEPS: usize = 400;
 
-/// Draws `count` random cases of a topic on both sides.
+/// Draws `count` random cases of a topic with the oracle and the fast path.
 ///
 /// # Panics
-/// Where an image differs; the message names the seed and describes a smaller case that differs too.
+/// If an image differs; the message has the seed and describes a smaller case that differs too.
 pub fn check(topic: &str, count: u64, make: impl Fn(&mut Random) -> Case) {
     check_paths(topic, count, ExpectedPaths::default(), make);
 }
 
-/// Draws `count` random cases of a topic on both sides; together they must have taken some paths.
+/// Draws `count` random cases of a topic with the oracle and the fast path; together they must have
+/// taken `paths`.
 ///
 /// # Panics
-/// Where an image differs, as [`check`] does; where a path was never taken.
+/// If an image differs, as in [`check`], or if one of the paths was never taken.
 pub fn check_paths(
     topic: &str,
     count: u64,
@@ -61,13 +62,13 @@ pub fn check_paths(
         "{topic}: {empty} of {cases} cases show nothing"
     );
     eprintln!("{topic}: {}", described(&statistics));
-    // One seed alone need not take every path.
+    // A single seed need not take every path.
     if only.is_none() {
         paths.assert_reached(topic, &statistics);
     }
 }
 
-/// The paths of a topic's primitives, for those who choose which paths a topic must take.
+/// The numbers of primitives on each tile path, to choose the expected paths of a topic by.
 fn described(statistics: &Statistics) -> String {
     let taken = TilePath::ALL
         .into_iter()
@@ -76,10 +77,10 @@ fn described(statistics: &Statistics) -> String {
     words.collect::<Vec<_>>().join("; ")
 }
 
-/// A topic of so few cases may show nothing.
+/// With so few cases, all images of a topic may be plain.
 const FEW: u64 = 8;
 
-/// Whether all pixels are alike, in an image of more than one.
+/// Whether all pixels of an image are equal; false for a single pixel.
 fn is_of_one_piece(image: &Image) -> bool {
     let is_all_one = |values: &Vec<u8>| values.iter().all(|value| *value == values[0]);
     let is_same_stencil = image.stored.stencils.iter().all(is_all_one);
@@ -91,20 +92,21 @@ fn is_of_one_piece(image: &Image) -> bool {
     count > 1 && is_same_depth && pixels.all(|pixel| Some(pixel) == first)
 }
 
-/// Draws one large case on both sides, at every level.
+/// Draws one large case with the oracle and with the fast path at every SIMD level.
 ///
 /// # Panics
-/// Where an image differs.
+/// If an image differs.
 pub fn check_some(topic: &str, case: &Case) {
     if let Err(difference) = compare(case, &some_devices(1), &mut Statistics::default()) {
         panic!("{topic}: {difference}\n{}", case.describe());
     }
 }
 
-/// Draws one case on both sides, at every level and number of threads, and gives the image.
+/// Draws one case with the oracle, and with the fast path at every SIMD level and number of
+/// threads; returns the image.
 ///
 /// # Panics
-/// Where an image differs.
+/// If an image differs.
 pub fn check_one(topic: &str, case: &Case) -> Image {
     match compare(case, &all_devices(), &mut Statistics::default()) {
         Ok(image) => image,
@@ -112,8 +114,8 @@ pub fn check_one(topic: &str, case: &Case) -> Image {
     }
 }
 
-/// The image, or how that of the first device whose image is not the oracle's differs from it. The devices' counts are
-/// added to the statistics.
+/// The oracle's image, or a description of how the image of the first device that disagrees differs
+/// from it. The devices' counts are added to `statistics`.
 fn compare(case: &Case, devices: &[&Device], statistics: &mut Statistics) -> Result<Image, String> {
     let wanted = oracle::draw(case);
     for device in devices {
@@ -158,7 +160,7 @@ fn difference(case: &Case, device: &Device, got: &Image, wanted: &Image) -> Stri
     )
 }
 
-/// The case without whatever can go while it still fails, and how it fails.
+/// The smallest case found, by repeated [`smaller_cases`], that still fails, and its difference.
 fn shrunk(mut case: Case, devices: &[&Device], mut how: String) -> (Case, String) {
     let mut steps = 0;
     'again: loop {
@@ -193,7 +195,7 @@ fn smaller_cases(case: &Case) -> Vec<Case> {
         let step = match draw.primitive.topology {
             T::TriangleList => 3,
             T::LineList => 2,
-            // Of a strip's triangles every other one is turned.
+            // Remove two triangles at a time: every other one of a strip has the opposite winding.
             T::TriangleStrip => 2,
             _ => 1,
         };

@@ -1,18 +1,18 @@
 //! The tile paths that the cases of a topic must have drawn on.
 //!
-//! The core chooses among several paths for the triangles of a tile. Equal images do not show which one drew: a topic
-//! that is for one path would still pass if the core never chose that path. So a topic names its paths, and fails
-//! where none of its cases reached one of them.
+//! The core chooses among several paths for the triangles of a tile. Equal images do not show which
+//! path drew: a topic about one path would still pass if the core never chose that path. So a topic
+//! names its paths, and fails if none of its cases reached one of them.
 
 use crate::fast_path;
 use estampe::{Level, Statistics, TilePath};
 
-/// Whether a path exists at a SIMD level: the scalar level draws in order, by packets.
+/// Whether a path exists at a SIMD level: the scalar level has only the in-order path.
 fn exists_at(path: TilePath, level: Level) -> bool {
     !level.is_scalar() || path == TilePath::InOrderPackets
 }
 
-/// The paths of a topic: each must be taken by at least one case on at least one device.
+/// The paths of a topic: at least one case must take each of them on at least one device.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ExpectedPaths(pub &'static [TilePath]);
 
@@ -20,10 +20,10 @@ impl ExpectedPaths {
     /// Every path.
     pub const ALL: Self = Self(&TilePath::ALL);
 
-    /// Checks the statistics of all cases of a topic, added up.
+    /// Checks the sum of the statistics of all cases of a topic.
     ///
     /// # Panics
-    /// Where a path was never taken, though a device of the tests has it.
+    /// If a path was never taken, though one of the devices has it.
     pub fn assert_reached(self, topic: &str, statistics: &Statistics) {
         for path in self.0 {
             let devices = fast_path::all_devices();

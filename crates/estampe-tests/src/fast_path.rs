@@ -1,4 +1,4 @@
-//! The image that the fast path draws of a case, on one of the test's devices.
+//! The fast path's image of a case, on one of the tests' devices.
 
 use crate::case::{Case, CaseDraw};
 use crate::oracle::Image;
@@ -11,10 +11,10 @@ use estampe_types::TextureFormat;
 use estampe_types::state::ColorTargetState;
 use std::sync::LazyLock;
 
-/// The numbers of threads: one, an even division, and more than this machine may have.
+/// Numbers of threads: one, an even division, and more than this machine may have.
 const THREADS: [usize; 3] = [1, 2, 7];
 
-/// A device for every level and number of threads; those of one level stand together.
+/// A device for every SIMD level and number of threads, sorted by level.
 static DEVICES: LazyLock<Vec<Device>> = LazyLock::new(|| {
     let device = |level: Level, threads: usize| {
         Device::new(&DeviceDescriptor {
@@ -30,13 +30,14 @@ static DEVICES: LazyLock<Vec<Device>> = LazyLock::new(|| {
         .collect()
 });
 
-/// Every level at every number of threads.
+/// The devices of every SIMD level at every number of threads.
 #[must_use]
 pub fn all_devices() -> Vec<&'static Device> {
     DEVICES.iter().collect()
 }
 
-/// Every level, and every number of threads, but not all pairs; which ones changes with `turn`.
+/// One device of every SIMD level; the numbers of threads differ from level to level and rotate
+/// with `turn`.
 #[must_use]
 pub fn some_devices(turn: u64) -> Vec<&'static Device> {
     let levels = DEVICES.chunks(THREADS.len());
@@ -47,22 +48,22 @@ pub fn some_devices(turn: u64) -> Vec<&'static Device> {
         .collect()
 }
 
-/// What a device is called.
+/// The name of a device, for messages: its SIMD level and number of threads.
 #[must_use]
 pub fn name(device: &Device) -> String {
     format!("{} × {} threads", device.level().name(), device.threads())
 }
 
-/// What a device drew of a case, and what it did for that.
+/// The image and statistics of a case on one device.
 #[derive(Debug)]
 pub struct Drawn {
-    /// What must agree with the oracle.
+    /// The part that must agree with the oracle.
     pub image: Image,
-    /// Counts of all passes.
+    /// Statistics of all passes.
     pub statistics: Statistics,
 }
 
-/// Draws a case. A state that the API refuses is a fault of the test.
+/// Draws a case. A state that the API refuses is a fault of the test, and panics.
 #[must_use]
 pub fn draw(device: &Device, case: &Case) -> Drawn {
     let [width, height] = case.size;
@@ -116,7 +117,7 @@ pub fn draw(device: &Device, case: &Case) -> Drawn {
     Drawn { image, statistics }
 }
 
-/// Draws some draws, of which the first has a number in the case.
+/// Draws a pass; `first` is the index of its first draw in the case.
 fn draw_pass(
     device: &Device,
     target: &mut RenderTarget,

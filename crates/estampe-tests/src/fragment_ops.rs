@@ -1,21 +1,24 @@
-//! Cases of blending, write mask, depth and stencil, one a line, in the form of `fragment-ops-2000.jsonl`: values that
-//! the reference fragment processor of KhronosGroup/VK-GL-CTS computed, or our oracle: see `crates/estampe-tests/data/README.md`.
+//! Recorded results of blending, write mask, depth and stencil on one sample, one case per line.
+//!
+//! The form is that of `fragment-ops-2000.jsonl`. The results were computed by the reference
+//! fragment processor of KhronosGroup/VK-GL-CTS, or by the oracle: see
+//! `crates/estampe-tests/data/README.md`.
 //!
 //! A line is an object of numbers and lists of numbers:
 //!
-//! | key | is |
+//! | key | value |
 //! |---|---|
 //! | `blend` | 0 or 1 |
 //! | `rgb`, `a` | equation, source factor, destination factor |
-//! | `const` | the constant colour |
+//! | `const` | the blend constant |
 //! | `mask` | the write mask R, G, B, A |
 //! | `depth` | test on, function, write on |
 //! | `st` | test on, function, reference, compare mask, operation on stencil fail, on depth fail, on pass, write mask |
-//! | `src`, `dst` | the fragment's colour, the stored one |
+//! | `src`, `dst` | the fragment's colour, the stored colour |
 //! | `z`, `s` | the fragment's and the stored depth; the stored stencil value |
-//! | `out`, `outz`, `outs` | what is stored then: RGBA8, depth, stencil |
+//! | `out`, `outz`, `outs` | the results: RGBA8, depth, stencil |
 //!
-//! Enumerations count from 0 in OpenGL's order, which the tables below have.
+//! Enumerations are numbered from 0 in OpenGL's order, that of the tables below.
 
 use crate::Random;
 use crate::case::{Case, CaseDraw};
@@ -80,34 +83,34 @@ pub const OPERATIONS: [StencilOperation; 8] = [
     StencilOperation::Invert,
 ];
 
-/// One line.
+/// One case: state, inputs and result.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FragmentOp {
     /// Blending.
     pub blend: Option<BlendState>,
-    /// Its constant.
+    /// The blend constant.
     pub constant: [f32; 4],
-    /// The channels that change.
+    /// The written channels.
     pub write_mask: ColorWrites,
     /// The depth test.
     pub depth: Option<DepthState>,
-    /// The stencil test, of the side that is drawn.
+    /// The stencil test of the drawn side.
     pub stencil: Option<StencilFaceState>,
-    /// What it compares with.
+    /// The stencil reference.
     pub reference: u8,
     /// The fragment's colour.
     pub source: [f32; 4],
-    /// The stored one.
+    /// The stored colour.
     pub destination: [f32; 4],
-    /// The fragment's depth and the stored one.
+    /// The fragment's depth and the stored depth.
     pub depths: [f32; 2],
     /// The stored stencil value.
     pub stored_stencil: u8,
-    /// What is stored then.
+    /// The stored values afterwards.
     pub result: Stored,
 }
 
-/// What a pixel holds.
+/// The stored values of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stored {
     /// RGBA8.
@@ -119,7 +122,7 @@ pub struct Stored {
 }
 
 impl FragmentOp {
-    /// Reads a line; `None` if it is not one.
+    /// Reads a line; `None` if it is not a case.
     #[must_use]
     pub fn parse(line: &str) -> Option<Self> {
         let [blend] = numbers(line, "blend")?;
@@ -182,7 +185,7 @@ impl FragmentOp {
         })
     }
 
-    /// A random one, without its result.
+    /// A random case; its result is not computed.
     pub fn random(random: &mut Random) -> Self {
         let mut component = || BlendComponent {
             operation: random.pick(&EQUATIONS),
@@ -227,7 +230,7 @@ impl FragmentOp {
         }
     }
 
-    /// Writes a line. What is switched off is written as zeros.
+    /// Writes the case as a line. State that is switched off is written as zeros.
     #[must_use]
     pub fn line(&self) -> String {
         let mut text = String::from("{");
@@ -290,7 +293,7 @@ impl FragmentOp {
         text
     }
 
-    /// One pixel, on which it is done by a triangle over it.
+    /// A case with a target of one pixel, on which a triangle executes the operations.
     #[must_use]
     pub fn case(&self) -> Case {
         let mut case = Case::new([1, 1], 1);
@@ -314,7 +317,7 @@ impl FragmentOp {
         case
     }
 
-    /// Whether a result is right: blended channels may be off by one, all else may not be off.
+    /// Whether a result is accepted: blended channels may differ by one, all others must be equal.
     #[must_use]
     pub fn accepts(&self, got: Stored) -> bool {
         let most = u8::from(self.blend.is_some());
@@ -323,7 +326,7 @@ impl FragmentOp {
     }
 }
 
-/// The numbers under a key: a list of so many, or one.
+/// The numbers under a key: a list of `N`, or a single number if `N` is 1.
 fn numbers<const N: usize>(line: &str, key: &str) -> Option<[f64; N]> {
     let (_, after) = line.split_once(&format!("\"{key}\":"))?;
     let list = match after.strip_prefix('[') {

@@ -1,7 +1,9 @@
-//! Coverage of triangles that share edges: each sample exactly once, through the public API.
+//! Random watertightness test: triangles that share edges cover each sample exactly once, through
+//! the public API.
 //!
-//! A batch is several [meshes](crate::shared_edges) over one target, each of which covers every pixel once. Their hits
-//! are added up by additive blending, one code each, so that each sample must end with as many as there are meshes.
+//! A batch is several [meshes](crate::shared_edges) over one target, each of which covers every
+//! pixel once. Additive blending adds one code per hit, so each sample must end with a code equal
+//! to the number of meshes.
 
 use crate::Random;
 use crate::fast_path;
@@ -17,13 +19,14 @@ use estampe_types::{Buffer, FragmentIn, FragmentOut, TextureFormat, Vec4, Vertex
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// Meshes of a batch at most: their hits fit into 8 bits, if some are hit twice too.
+/// The greatest number of meshes in a batch: their hits fit into 8 bits, with room for some double
+/// hits.
 const MESHES: u32 = 100;
 
-/// Triangles of a batch, about: beyond this it is closed.
+/// The number of triangles at which a batch is closed.
 const TRIANGLES: usize = 40_000;
 
-/// Adds one code of 8 bits wherever it is.
+/// Adds one 8-bit code to every covered sample.
 #[derive(Debug, Clone, Copy)]
 struct Hit;
 
@@ -47,7 +50,7 @@ estampe_types::shader! {
     }
 }
 
-/// What was tried.
+/// The number of batches and triangles drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Batches drawn.
@@ -62,12 +65,12 @@ struct Batch {
     size: [u32; 2],
     samples: u32,
     meshes: Vec<(Kind, Vec<[Corner; 3]>)>,
-    /// The w of all vertices of each mesh, or 0 where each has its own.
+    /// The w of all vertices of each mesh.
     ws: Vec<f32>,
 }
 
-/// Draws batches until the time is up, from a seed on, one at least; each batch is the next seed. All processors
-/// work.
+/// Draws batches until the time is up, at least one; the first has seed `first_seed`, and each
+/// further one the next seed. All processors work.
 ///
 /// # Errors
 /// A sample that was not hit once, with the seed of its batch and the mesh.
@@ -109,9 +112,9 @@ pub fn run(time: Duration, first_seed: u64) -> Result<Tally, String> {
     })
 }
 
-/// The devices of a worker, with pipelines and targets, which take longer to make than to draw with.
+/// A worker's devices, and their pipelines and targets, which take longer to create than to use.
 struct Fuzzer {
-    /// Scalar first.
+    /// The scalar SIMD level first.
     devices: Vec<Device>,
     kept: Vec<Kept>,
 }
@@ -140,7 +143,7 @@ impl Fuzzer {
         }
     }
 
-    /// Which device draws the batch of a seed: the first and slowest one in sixteen times.
+    /// The device that draws the batch of a seed: the scalar, slowest one for every sixteenth seed.
     fn device_of(&self, seed: u64) -> usize {
         let others = self.devices.len() as u64 - 1;
         if others == 0 || seed.is_multiple_of(16) {
@@ -150,7 +153,7 @@ impl Fuzzer {
         }
     }
 
-    /// Draws the batch of a seed; how many triangles it has.
+    /// Draws the batch of a seed and returns its number of triangles.
     fn batch(&mut self, seed: u64) -> Result<u64, String> {
         let mut random = Random::new("fuzz/raster", seed);
         let batch = Batch::random(&mut random);
@@ -165,7 +168,7 @@ impl Fuzzer {
                 .map(|(_, triangles)| triangles.len() as u64);
             return Ok(counts.sum());
         };
-        // Which of the meshes is it?
+        // Find out which of the meshes is wrong, if one is wrong on its own.
         let alone = meshes.iter().find_map(|&number| {
             let wrong = wrong_sample(device, kept, &batch, &[number])?;
             Some((number, wrong))
@@ -194,7 +197,7 @@ impl Fuzzer {
         })
     }
 
-    /// Where what a batch needs is kept.
+    /// The index in `kept` of the target and pipeline of this size; they are created if necessary.
     fn kept(&mut self, device: usize, size: [u32; 2], samples: u32) -> usize {
         let is_it =
             |kept: &Kept| kept.device == device && kept.size == size && kept.samples == samples;
@@ -257,7 +260,7 @@ impl Batch {
         }
     }
 
-    /// Clip positions of some meshes.
+    /// Clip-space positions of some meshes' triangles.
     fn positions(&self, meshes: &[usize]) -> Buffer {
         let mut scalars = Vec::new();
         for &number in meshes {
@@ -270,7 +273,8 @@ impl Batch {
         Buffer::from_f32s(&scalars)
     }
 
-    /// How often each pixel's samples are to be hit by some meshes; `None` where a mesh ends.
+    /// The expected number of hits of each pixel's samples by some meshes; `None` where a mesh need
+    /// not cover the pixel.
     fn wanted(&self, meshes: &[usize]) -> Vec<Option<u8>> {
         let [width, height] = self.size;
         let mut wanted = vec![Some(0); width as usize * height as usize];
@@ -289,7 +293,7 @@ impl Batch {
     }
 }
 
-/// A sample that was hit other than it should be.
+/// A sample with a wrong number of hits.
 #[derive(Debug, Clone, Copy)]
 struct Wrong {
     pixel: [u32; 2],
@@ -301,7 +305,7 @@ struct Wrong {
     wanted: u8,
 }
 
-/// Draws some meshes, and looks for a sample that they do not hit once each.
+/// Draws some meshes and looks for a sample that they do not hit once each.
 fn wrong_sample(
     device: &Device,
     kept: &mut Kept,
@@ -342,7 +346,7 @@ fn wrong_sample(
     })
 }
 
-/// Triangles whose boxes touch a pixel, a few.
+/// Some of the triangles whose boxes touch a pixel.
 fn around(triangles: &[[Corner; 3]], pixel: [u32; 2]) -> Vec<[Corner; 3]> {
     let touches = |triangle: &&[Corner; 3]| {
         (0..2).all(|axis| {
@@ -358,7 +362,7 @@ fn around(triangles: &[[Corner; 3]], pixel: [u32; 2]) -> Vec<[Corner; 3]> {
 mod tests {
     use super::*;
 
-    /// A grid over a small target, drawn with some samples.
+    /// A grid mesh over a small target with this many samples.
     fn grid(samples: u32) -> Batch {
         let mut random = Random::new("fuzz/self", 3);
         let size = [16, 16];
@@ -397,7 +401,7 @@ mod tests {
                 "{samples} samples: a triangle drawn twice"
             );
         }
-        // A shared vertex that moved for one of its triangles alone, by 1/4 pixel.
+        // One triangle's copy of a shared vertex is moved by 1/4 pixel.
         let mut torn = grid(4);
         for triangle in &mut torn.meshes[0].1 {
             triangle[0][0] += 64;

@@ -1,4 +1,4 @@
-//! Random vertices and triangles, from the harmless to the hostile.
+//! Random vertices and triangles, from ordinary to hostile.
 
 use crate::Random;
 use estampe_types::state::{VertexAttribute, VertexBufferLayout, VertexStepMode};
@@ -9,11 +9,11 @@ use estampe_types::{Buffer, VertexFormat};
 pub struct Vertex {
     /// Location 0, in clip space.
     pub position: [f32; 4],
-    /// Location 1: what the shaders make of it.
+    /// Location 1: the shaders' inputs, such as a colour.
     pub values: [f32; 4],
 }
 
-/// Two times four floats: position and values.
+/// The standard layout: position and values, four floats each.
 #[must_use]
 pub fn vertex_layout() -> VertexBufferLayout {
     let attribute = |shader_location, offset| VertexAttribute {
@@ -29,14 +29,15 @@ pub fn vertex_layout() -> VertexBufferLayout {
     }
 }
 
-/// The bytes of vertices.
+/// A vertex buffer of the standard layout.
 #[must_use]
 pub fn vertex_buffer(vertices: &[Vertex]) -> Buffer {
     let scalars = |vertex: &Vertex| [vertex.position, vertex.values].concat();
     Buffer::from_f32s(&vertices.iter().flat_map(scalars).collect::<Vec<_>>())
 }
 
-/// The clip position that a viewport over the whole target puts at a place in pixels and a depth.
+/// The clip-space position of a point in pixels with this depth and w, for a viewport over the
+/// whole target.
 #[must_use]
 pub fn clip_at([width, height]: [u32; 2], [x, y]: [f32; 2], z: f32, w: f32) -> [f32; 4] {
     let (width, height) = (width as f32, height as f32);
@@ -48,35 +49,35 @@ pub fn clip_at([width, height]: [u32; 2], [x, y]: [f32; 2], z: f32, w: f32) -> [
     ]
 }
 
-/// What triangles are like.
+/// The size, shape or position of random triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Style {
-    /// Below two pixels.
+    /// Smaller than two pixels.
     Tiny,
     /// A few pixels.
     Small,
     /// As large as the target.
     Large,
-    /// Around the ends of the guard band.
+    /// Reaching to the ends of the guard band.
     Huge,
-    /// To the end of f32.
+    /// Up to the end of f32's range.
     Gigantic,
     /// Thinner than a pixel.
     Sliver,
-    /// Without area, or nearly.
+    /// Without area, or nearly so.
     Degenerate,
-    /// On multiples of a half or sixteenth of a pixel: every tie of the fill rule.
+    /// Vertices on multiples of a half or sixteenth of a pixel: every tie of the fill rule.
     OnGrid,
-    /// Through the near and far planes.
+    /// Through the near and the far plane.
     AcrossDepths,
-    /// Before and behind the eye.
+    /// In front of and behind the eye.
     AroundEye,
-    /// With what is not a number, and what is hardly one.
+    /// With NaN, infinite, denormal and huge coordinates.
     Hostile,
 }
 
 impl Style {
-    /// All of them.
+    /// Every style.
     pub const ALL: [Self; 11] = [
         Self::Tiny,
         Self::Small,
@@ -92,7 +93,7 @@ impl Style {
     ];
 }
 
-/// Vertices' values, sometimes beyond 0..1.
+/// Random values of a vertex, sometimes outside 0..1.
 pub fn values(random: &mut Random) -> [f32; 4] {
     if random.once_in(4) {
         random.four(-1.0, 2.0)
@@ -101,7 +102,7 @@ pub fn values(random: &mut Random) -> [f32; 4] {
     }
 }
 
-/// The w of three vertices: all 1, all the same, or of three different ones.
+/// The w of three vertices: all 1, all equal, or three different ones.
 pub fn three_ws(random: &mut Random) -> [f32; 3] {
     match random.below(4) {
         0 => [1.0; 3],
@@ -111,7 +112,7 @@ pub fn three_ws(random: &mut Random) -> [f32; 3] {
     }
 }
 
-/// Three vertices in a style, for a target of a size.
+/// Three vertices of a style, for a target of this size.
 pub fn triangle(random: &mut Random, style: Style, size: [u32; 2]) -> [Vertex; 3] {
     let mut positions = match style {
         Style::Hostile => hostile(random, size),
@@ -143,7 +144,7 @@ pub fn triangle(random: &mut Random, style: Style, size: [u32; 2]) -> [Vertex; 3
             })
         }
     };
-    // Neighbours in a mesh share vertices; here two of a triangle may.
+    // As neighbours in a mesh share vertices, two of one triangle may be equal here.
     if style == Style::Degenerate && random.once_in(2) {
         positions[random.below(3) as usize] = positions[random.below(3) as usize];
     }
@@ -153,7 +154,7 @@ pub fn triangle(random: &mut Random, style: Style, size: [u32; 2]) -> [Vertex; 3
     })
 }
 
-/// Three places in pixels.
+/// Three points in pixels.
 fn places(random: &mut Random, style: Style, [width, height]: [u32; 2]) -> [[f32; 2]; 3] {
     let (width, height) = (width as f32, height as f32);
     let center = [
@@ -205,7 +206,7 @@ fn places(random: &mut Random, style: Style, [width, height]: [u32; 2]) -> [[f32
     }
 }
 
-/// A reach that ends somewhere around the guard band.
+/// A distance that ends somewhere around the guard band.
 fn random_reach(center: [f32; 2]) -> f32 {
     if center[0] < center[1] {
         9000.0
@@ -224,7 +225,7 @@ fn hostile(random: &mut Random, size: [u32; 2]) -> [[f32; 4]; 3] {
     positions
 }
 
-/// Triangles of a style, one after the other.
+/// A list of `count` triangles of a style.
 pub fn triangles(random: &mut Random, style: Style, size: [u32; 2], count: u32) -> Vec<Vertex> {
     (0..count)
         .flat_map(|_| triangle(random, style, size))

@@ -1,19 +1,21 @@
 #![forbid(unsafe_code)]
-//! Whole-pipeline tests: the fast path (`estampe`) against the oracle (`estampe-reference`), bit for bit.
+//! Whole-pipeline tests: the fast path (`estampe`) against the oracle (`estampe-reference`), bit
+//! for bit.
 //!
-//! A [`Case`] is what is drawn into one target: random, from a seed. [`check`] draws cases with the
-//! oracle and with the fast path at every SIMD level and at 1, 2 and 7 threads, and compares the bytes of
-//! the colours and the bits of the depths; of a case that fails it makes a smaller one and prints it.
+//! A [`Case`] is a target and the draws into it, random from a seed. [`check`] draws cases with the
+//! oracle, and with the fast path at every SIMD level and at 1, 2 and 7 threads. It compares the
+//! bytes of the colours and the bits of the depths, and shrinks and prints a case that fails.
 //!
 //! ```text
 //!   seed ─▶ random ─▶ geometry ─▶ case ─┬▶ oracle ────┐
-//!                       shaders ────────┘             ├▶ compare ─▶ equal, or a smaller case in words
+//!                       shaders ────────┘             ├▶ compare ─▶ equal, or a smaller case
 //!                                       └▶ fast_path ─┘
 //! ```
 //!
-//! The topics are the files of `tests`. A topic can name the [tile paths](ExpectedPaths) that its cases must reach. Two environment variables change a run: `ESTAMPE_TEST_FACTOR=20`
-//! draws twenty times as many cases, each on every level at every number of threads;
-//! `ESTAMPE_TEST_SEED=7` draws only the case of that seed.
+//! The topics are the files of `tests`. A topic can name the [tile paths](ExpectedPaths) that its
+//! cases must reach. Two environment variables change a run: `ESTAMPE_TEST_FACTOR=20` draws twenty
+//! times as many cases, each on every level at every number of threads; `ESTAMPE_TEST_SEED=7` draws
+//! only the case of that seed.
 
 pub mod case;
 pub mod compare;

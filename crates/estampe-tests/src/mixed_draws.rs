@@ -1,7 +1,8 @@
 //! Random draws of different pipelines over the same pixels of one target.
 //!
-//! A renderer's pass has draws that test depth in different ways, blend, discard, mark and test the stencil, and often
-//! draw the same triangles again. [`Mixture`] says which kinds of draws a case has; [`Mixture::case`] makes one.
+//! A pass of a renderer has draws that test depth in different ways, blend, discard, write and test
+//! the stencil, and often draw the same triangles again. [`Mixture`] describes the draws of a case;
+//! [`Mixture::case`] makes one.
 
 use crate::geometry::{Style, Vertex, triangles};
 use crate::shaders::{
@@ -16,7 +17,7 @@ use estampe_types::state::{
 };
 use estampe_types::{SampleType, TextureFormat};
 
-/// All comparison functions, those that order depths more often.
+/// All comparison functions; those that order depths occur more often.
 const COMPARISONS: [CompareFunction; 12] = [
     CompareFunction::Less,
     CompareFunction::Less,
@@ -55,23 +56,23 @@ const FACTORS: [BlendFactor; 9] = [
     BlendFactor::Constant,
 ];
 
-/// Depths of which whole triangles have one, so that many samples of different draws are equal.
+/// Depths for whole triangles, so that many samples of different draws are equal.
 const DEPTHS: [f32; 6] = [0.0, 0.25, 0.5, 0.500_001, 0.75, 1.0];
 
-/// What the draws of a case are made of.
+/// The target and the kinds of draws of a case.
 #[derive(Debug, Clone)]
 pub struct Mixture {
-    /// Of the colour attachments; none is a target without colour.
+    /// Formats of the colour attachments; none for a target without colour.
     pub formats: Vec<TextureFormat>,
-    /// Of depth and stencil.
+    /// Format of the depth-stencil attachment, if there is one.
     pub depth_stencil: Option<TextureFormat>,
-    /// Samples of a pixel.
+    /// Samples per pixel.
     pub samples: u32,
-    /// What the triangles are like.
+    /// Styles of the triangles.
     pub styles: Vec<Style>,
-    /// How many triangles a draw has at most.
+    /// The greatest number of triangles per draw.
     pub triangles: u32,
-    /// How many draws a case has.
+    /// The number of draws.
     pub draws: u32,
 }
 
@@ -93,10 +94,10 @@ impl Mixture {
         }
     }
 
-    /// A case of such draws.
+    /// A random case of such draws.
     ///
     /// # Panics
-    /// With more than four formats: no shader has so many colours.
+    /// With more than four formats: no shader has that many colours.
     pub fn case(&self, random: &mut Random) -> Case {
         let sizes = [[64, 64], [33, 20], [70, 41], [130, 66], [19, 21]];
         let mut case = Case::new(random.pick(&sizes), self.samples);
@@ -108,7 +109,8 @@ impl Mixture {
         case.clear_stencil = random.pick(&[0, 0, 1, 2, 0xFF]);
         let mut before: Option<Vec<Vertex>> = None;
         for _ in 0..self.draws {
-            // A third of the draws draws the triangles before it again: their depths are equal to the bit.
+            // A third of the draws repeats the triangles of the previous one: their depths are
+            // equal to the bit.
             let vertices = match before.take() {
                 Some(vertices) if random.once_in(3) => vertices,
                 _ => self.vertices(random, case.size),
@@ -138,7 +140,7 @@ impl Mixture {
         vertices
     }
 
-    /// One draw of a pipeline of its own.
+    /// One draw with a pipeline of its own.
     pub fn draw(&self, random: &mut Random, case: &Case, vertices: &[Vertex]) -> CaseDraw {
         let mut draw = CaseDraw::new(self.shader(random), vertices);
         let has = |what: fn(TextureFormat) -> bool| self.depth_stencil.is_some_and(what);
@@ -187,7 +189,7 @@ impl Mixture {
         }
     }
 
-    /// Blending and write masks: often none, often the common ones.
+    /// Sets blending and write masks: often none, often the common ones.
     fn set_targets(&self, random: &mut Random, draw: &mut CaseDraw) {
         let mut state = |format: TextureFormat| {
             let blend = match random.below(6) {
@@ -212,7 +214,7 @@ impl Mixture {
     }
 }
 
-/// A shader of one colour that is no integer.
+/// A shader with one colour of floats.
 fn shader_of_one(random: &mut Random) -> TestShader {
     match random.below(10) {
         0 | 1 => Cutout.into(),
@@ -251,7 +253,8 @@ fn depth(random: &mut Random) -> DepthState {
     }
 }
 
-/// What programs do with a stencil: mark where something is drawn, draw where it is marked, count faces, or anything.
+/// A common use of stencil (write a mark where something is drawn, draw where it is marked, count
+/// faces), or a random one.
 fn stencil(random: &mut Random) -> StencilState {
     let keep = StencilFaceState::default();
     match random.below(5) {
@@ -320,7 +323,7 @@ fn set_primitives(random: &mut Random, draw: &mut CaseDraw) {
     }
 }
 
-/// Sometimes a scissor or a viewport that is a part of the target.
+/// Sometimes sets a scissor or a viewport that is a part of the target.
 fn set_window(random: &mut Random, [width, height]: [u32; 2], draw: &mut CaseDraw) {
     if random.once_in(3) {
         let (x, y) = (random.below(width), random.below(height));

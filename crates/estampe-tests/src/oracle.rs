@@ -1,24 +1,24 @@
-//! The image that the oracle draws of a case.
+//! The oracle's image of a case.
 
 use crate::case::{Case, CaseDraw};
 use crate::readback::{self, Stored};
 use estampe_reference::{Counts, Draw, State, Target, TargetState, color};
 use estampe_types::TextureFormat;
 
-/// What both sides must agree on.
+/// The results that must agree.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Image {
-    /// How many there are.
+    /// The number of pixels.
     pub pixels: usize,
     /// RGBA, rows from the top, resolved; empty without a colour attachment.
     pub color: Vec<u8>,
     /// The bits of the first sample's depths, rows from the top.
     pub depth: Vec<u32>,
-    /// What every sample of every attachment holds: see [`readback`].
+    /// The contents of every sample of every attachment: see [`readback`].
     pub stored: Stored,
-    /// Primitives that the draws name.
+    /// Assembled primitives of all draws.
     pub primitives: u64,
-    /// Of each draw that counts samples, in order, how many passed.
+    /// The number of passed samples of each draw that counts them, in order.
     pub counts: Vec<u64>,
 }
 
@@ -53,7 +53,7 @@ pub fn target(case: &Case) -> Target {
     drawn(case).0
 }
 
-/// The target, the counts of the draws that count, and the primitives of all.
+/// The target, the sample counts of the draws that count, and the primitives of all draws.
 fn drawn(case: &Case) -> (Target, Vec<u64>, u64) {
     let formats = case.formats();
     let mut target =

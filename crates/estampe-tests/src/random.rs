@@ -1,11 +1,11 @@
-//! Pseudo-random numbers that repeat from a seed.
+//! Pseudo-random numbers, reproducible from a topic and a seed.
 
-/// Random numbers of a topic and a seed.
+/// The random numbers of a topic and a seed.
 #[derive(Debug, Clone)]
 pub struct Random(fastrand::Rng);
 
 impl Random {
-    /// The stream of a topic and a seed.
+    /// The sequence of a topic and a seed.
     #[must_use]
     pub fn new(topic: &str, seed: u64) -> Self {
         // FNV-1a, so that two topics do not draw the same cases.
@@ -21,12 +21,12 @@ impl Random {
         self.0.u32(..)
     }
 
-    /// In 0..1.
+    /// A number in 0..1.
     pub fn unit(&mut self) -> f32 {
         self.0.f32()
     }
 
-    /// In low..high.
+    /// A number in low..high.
     pub fn range(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * self.unit()
     }
@@ -61,7 +61,7 @@ impl Random {
         std::array::from_fn(|_| self.range(low, high))
     }
 
-    /// Numbers that programs stumble over.
+    /// A number that programs often treat wrongly: NaN, ±∞, huge, denormal, ±0, or an ordinary one.
     pub fn odd_number(&mut self) -> f32 {
         self.pick(&[
             f32::NAN,

@@ -1,4 +1,4 @@
-//! What every sample of every attachment holds, as both sides give it.
+//! The contents of every sample of every attachment, in one form for the oracle and the fast path.
 
 use crate::case::Case;
 use estampe::{Device, RenderTarget, RenderTargetDescriptor};
@@ -16,9 +16,9 @@ pub fn is_read_as_color(format: TextureFormat) -> bool {
 /// The contents of a target.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Stored {
-    /// Rows of texels: of attachment 0 its samples in order, then of attachment 1, and so on.
+    /// Rows of texels, for each attachment and each of its samples, attachment 0 first.
     pub texels: Vec<Vec<u8>>,
-    /// Rows of resolved texels by attachment, of targets with several samples.
+    /// Rows of resolved texels of each attachment, if the target is multisampled.
     pub resolved: Vec<Vec<u8>>,
     /// The bits of the depths, by sample.
     pub depths: Vec<Vec<u32>>,
@@ -27,7 +27,7 @@ pub struct Stored {
 }
 
 impl Stored {
-    /// Where this differs first from what it should be, in words.
+    /// A description of the first difference from `wanted`; `None` if they are equal.
     #[must_use]
     pub fn difference(&self, wanted: &Self, case: &Case) -> Option<String> {
         let (samples, pixels) = (case.samples as usize, case.size[0] * case.size[1]);
@@ -86,7 +86,7 @@ impl Stored {
     }
 }
 
-/// Reads a target.
+/// Reads back a target.
 #[must_use]
 pub fn stored(device: &Device, target: &RenderTarget) -> Stored {
     let samples = target.samples();

@@ -1,33 +1,34 @@
-//! Random meshes that cover a rectangle of pixels, each point of it once: triangles that share edges.
+//! Random meshes that cover each point of a rectangle once: triangles that share edges.
 //!
-//! Corners are chosen in 1/256 pixel, so that the window is given the very integers it would snap to, and every triangle
-//! is checked in integers to be turned one way or to have no area. Such triangles, whose outer border runs around the
-//! rectangle once, cover each point inside exactly once: on an edge or a vertex, the one to which the fill rule gives it.
+//! Corners are chosen in 1/256 pixel, so that snapping in the window reproduces these integers
+//! exactly. Every triangle is checked in integers: it has the common winding or no area. Such
+//! triangles, whose outer border runs around the rectangle once, cover each point inside exactly
+//! once; a point on an edge or a vertex belongs to the triangle that the fill rule selects.
 
 use crate::Random;
 
 /// A corner in 1/256 pixel.
 pub type Corner = [i32; 2];
 
-/// How a mesh is made.
+/// The construction of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// Triangles around one vertex.
     Fan,
-    /// Triangles between two lines, above and below, or left and right.
+    /// Triangles between two lines, above and below or left and right of the rectangle.
     Strip,
-    /// Squares of a pixel or more, shaken, cut along either diagonal.
+    /// Jittered squares of a pixel or more, cut along either diagonal.
     Grid,
-    /// Squares of less than a pixel, shaken.
+    /// Jittered squares smaller than a pixel.
     FineGrid,
-    /// A square, cut into three at a point of a triangle, again and again: slivers.
+    /// A square of which triangles are repeatedly split into three at a point: slivers.
     Cuts,
-    /// Triangles around one vertex, far beyond the guard band: they are clipped.
+    /// Triangles around one vertex, far outside the guard band: they are clipped.
     Huge,
 }
 
 impl Kind {
-    /// All of them.
+    /// Every construction.
     pub const ALL: [Self; 6] = [
         Self::Fan,
         Self::Strip,
@@ -38,13 +39,13 @@ impl Kind {
     ];
 }
 
-/// How far outside the rectangle a mesh ends at least: 2 pixels.
+/// The least distance by which a mesh extends beyond the rectangle: 2 pixels.
 const MARGIN: i32 = 512;
 
-/// A mesh's triangles over a rectangle of so many pixels from (0, 0) on.
+/// A mesh's triangles over a rectangle of `size` pixels from (0, 0) on.
 ///
 /// # Panics
-/// If a mesh is not what it should be: a fault of this module.
+/// If a triangle is reversed or the mesh is empty: a fault of this module.
 pub fn mesh(random: &mut Random, kind: Kind, size: [u32; 2]) -> Vec<[Corner; 3]> {
     let size = size.map(|pixels| i32::try_from(pixels * 256).expect("a small target"));
     let triangles = match kind {
@@ -57,7 +58,7 @@ pub fn mesh(random: &mut Random, kind: Kind, size: [u32; 2]) -> Vec<[Corner; 3]>
         }
         Kind::FineGrid => {
             let cell = random.pick(&[16, 32, 50, 64, 128, 200]);
-            // Half a row of a thousand squares is as good as a whole one.
+            // A part of the rectangle suffices: fewer squares of the same size.
             let size = size.map(|along| along.min(cell * 180));
             grid(random, size, cell)
         }
@@ -76,7 +77,8 @@ pub fn mesh(random: &mut Random, kind: Kind, size: [u32; 2]) -> Vec<[Corner; 3]>
     triangles
 }
 
-/// The pixels that a mesh covers for sure, of a rectangle: all, or of the finest grids a part.
+/// The size of the rectangle of pixels that a mesh surely covers: all, or for the finest grids a
+/// part.
 #[must_use]
 pub fn covered(kind: Kind, size: [u32; 2], triangles: &[[Corner; 3]]) -> [u32; 2] {
     if kind != Kind::FineGrid {
@@ -84,13 +86,13 @@ pub fn covered(kind: Kind, size: [u32; 2], triangles: &[[Corner; 3]]) -> [u32; 2
     }
     [0, 1].map(|axis| {
         let far = triangles.iter().flatten().map(|corner| corner[axis]).max();
-        // The last column and row of corners are shaken by less than a pixel.
+        // The last column and row of corners are jittered by less than a pixel.
         let whole = far.map_or(0, |far| far.div_euclid(256) - 2);
         u32::try_from(whole).unwrap_or(0).min(size[axis])
     })
 }
 
-/// Twice the area, positive where the corners run clockwise as seen.
+/// Twice the area, positive where the corners run clockwise on the image.
 fn doubled_area([a, b, c]: [Corner; 3]) -> i64 {
     let minus = |p: Corner, q: Corner| [0, 1].map(|k| i64::from(p[k]) - i64::from(q[k]));
     let ([dx1, dy1], [dx2, dy2]) = (minus(b, a), minus(c, a));
@@ -103,13 +105,14 @@ fn between(random: &mut Random, low: i32, high: i32) -> i32 {
     low + i32::try_from(random.below(count)).expect("below a difference of i32")
 }
 
-/// Where ties lie: whole pixels, centres, sample positions, or anywhere.
+/// Moves a coordinate to a possible tie: whole pixels, centres, sample positions, or leaves it.
 fn on_step(random: &mut Random, at: i32) -> i32 {
     let step = random.pick(&[1, 1, 16, 128, 256]);
     at.div_euclid(step) * step
 }
 
-/// A vertex inside, and a ring around the rectangle, its corners in order of their angles: clockwise as seen.
+/// A vertex inside, and a ring around the rectangle with its corners in the order of their angles,
+/// clockwise on the image.
 fn fan(random: &mut Random, size: [i32; 2], is_huge: bool) -> Vec<[Corner; 3]> {
     let center = size.map(|along| {
         let at = between(random, 0, along);
@@ -122,18 +125,19 @@ fn fan(random: &mut Random, size: [i32; 2], is_huge: bool) -> Vec<[Corner; 3]> {
         3 + random.below(300)
     };
     let mut ring: Vec<Corner> = Vec::new();
-    // Around a square: each side in turn, at places in order, so that angles are.
+    // Around a square, side by side, at ordered positions, so that the angles are in order.
     let sides = count.div_ceil(4).max(1);
     for side in 0..4 {
         let mut along: Vec<i32> = (0..sides)
             .map(|_| between(random, -reach, reach - 1))
             .collect();
-        // The square's own corner keeps the rectangle inside.
+        // The square's own corner keeps the rectangle inside the ring.
         along.push(-reach);
         along.sort_unstable();
         along.dedup();
         if is_huge {
-            // Clipping moves corners by fractions of a pixel: near ones might change their order.
+            // Clipping moves corners by fractions of a pixel, which might change the order of close
+            // ones.
             along.dedup_by(|next, last| *next - *last < reach / 8);
         }
         for at in along {
@@ -143,7 +147,7 @@ fn fan(random: &mut Random, size: [i32; 2], is_huge: bool) -> Vec<[Corner; 3]> {
                 2 => [-at, reach],
                 _ => [-reach, -at],
             };
-            // Farther out in the same direction, exactly.
+            // Move the corner farther out in exactly the same direction.
             let most = (if is_huge { 1 << 28 } else { 1 << 20 }) / reach;
             let factor = between(random, 1, most.max(1));
             let factor = if random.once_in(2) { factor } else { 1 };
@@ -155,7 +159,7 @@ fn fan(random: &mut Random, size: [i32; 2], is_huge: bool) -> Vec<[Corner; 3]> {
         .collect()
 }
 
-/// Two lines of vertices, before and behind the rectangle, joined by a zigzag.
+/// Two lines of vertices, on opposite sides of the rectangle, connected by a zigzag.
 fn strip(random: &mut Random, size: [i32; 2]) -> Vec<[Corner; 3]> {
     let is_turned = random.once_in(2);
     let [width, height] = if is_turned { [size[1], size[0]] } else { size };
@@ -193,7 +197,7 @@ fn strip(random: &mut Random, size: [i32; 2]) -> Vec<[Corner; 3]> {
         triangles.push(triangle);
     }
     if is_turned {
-        // Mirrored at the diagonal, and so turned over: the other way round.
+        // Mirroring at the diagonal reverses the winding, so the corners are reversed too.
         let mirrored = |[x, y]: Corner| [y, x];
         for triangle in &mut triangles {
             let [p, q, r] = triangle.map(mirrored);
@@ -203,7 +207,7 @@ fn strip(random: &mut Random, size: [i32; 2]) -> Vec<[Corner; 3]> {
     triangles
 }
 
-/// Squares, each corner shaken by at most a quarter of a side, which turns no triangle over.
+/// Squares, each corner jittered by at most a quarter of a side, which reverses no triangle.
 fn grid(random: &mut Random, size: [i32; 2], cell: i32) -> Vec<[Corner; 3]> {
     let [columns, rows] = size.map(|along| (along + 2 * MARGIN) / cell + 3);
     let step = random.pick(&[1, 1, 16, 128]);
@@ -236,7 +240,8 @@ fn grid(random: &mut Random, size: [i32; 2], cell: i32) -> Vec<[Corner; 3]> {
     triangles
 }
 
-/// Two triangles over all, then again and again a triangle is cut into three at a point inside it or on its border.
+/// Two triangles over the whole rectangle; then triangles are repeatedly split into three at a
+/// point inside or on the border.
 fn cuts(random: &mut Random, size: [i32; 2]) -> Vec<[Corner; 3]> {
     let [left, top] = [0; 2].map(|_: i32| -between(random, 1, 3000));
     let [right, bottom] = size.map(|along| along + between(random, 1, 3000));
@@ -258,8 +263,9 @@ fn cuts(random: &mut Random, size: [i32; 2]) -> Vec<[Corner; 3]> {
         let [x, y] = [0, 1].map(|axis| inside(axis, s, t));
         let point = [on_step(random, x), on_step(random, y)];
         let parts = [[p, q, point], [q, r, point], [r, p, point]];
-        // Rounding may have left the triangle; on its border a part has no area, and the neighbour beyond, whose edge
-        // is still whole, meets two edges on the same line.
+        // Rounding may have moved the point outside the triangle. For a point on the border one
+        // part has no area; the neighbour beyond keeps its whole edge and meets two edges on the
+        // same line.
         if parts.iter().all(|part| doubled_area(*part) >= 0) {
             triangles.swap_remove(at);
             triangles.extend(parts);

@@ -1,4 +1,5 @@
-//! Several targets of different formats, integers, and two colours for one target.
+//! Several colour attachments of different formats, integer attachments, dual-source blending,
+//! targets without colour.
 
 use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::{Colored, DepthOnly, Layers, TwoColors};
@@ -50,7 +51,7 @@ fn renderable() -> Vec<TextureFormat> {
     all.filter(|format| format.is_renderable()).collect()
 }
 
-/// The targets of integers, bit by bit.
+/// A mask of the attachments with integer formats.
 fn integers(formats: &[TextureFormat]) -> u8 {
     let is_integer = |format: &TextureFormat| format.sample_type() != SampleType::Float;
     let bits = formats.iter().enumerate();
@@ -59,14 +60,14 @@ fn integers(formats: &[TextureFormat]) -> u8 {
     })
 }
 
-/// A case of so many attachments, with some draws, each target blended and masked in its own way.
+/// A case of `count` attachments and some draws, with blending and write masks per attachment.
 fn layers(random: &mut Random, count: usize, blended: bool) -> Case {
     let formats = renderable();
     let mut case = Case::random_target(random);
     case.samples = random.pick(&[1, 1, 2, 4]);
     let mut chosen: Vec<_> = (0..count).map(|_| random.pick(&formats)).collect();
     if blended {
-        // A blended pipeline may not have integers where it blends: most are numbers.
+        // A pipeline may not blend integer attachments: most formats here are not integers.
         let blendable: Vec<_> = formats
             .iter()
             .copied()
@@ -174,8 +175,8 @@ fn two_sources() {
 
 /// Rows: O5, O8.
 #[test]
-fn numbers_that_are_hardly_numbers() {
-    // Of integers a NaN's bits would count, which processors choose.
+fn nan_infinite_and_huge_numbers() {
+    // Integers would show a NaN's bits, which depend on the processor.
     let blendable: Vec<_> = renderable()
         .into_iter()
         .filter(|f| f.is_blendable())
@@ -191,7 +192,7 @@ fn numbers_that_are_hardly_numbers() {
         for _ in 0..3 {
             let mut vertices = triangles(random, Style::Large, case.size, 3);
             for triangle in vertices.chunks_mut(3) {
-                // The same at all corners, so that it is not lost in what is between.
+                // The same at all corners, so that interpolation does not lose it.
                 let values = [0; 4].map(|_| match random.below(3) {
                     0 => random.odd_number(),
                     1 => random.range(-1e5, 1e5),

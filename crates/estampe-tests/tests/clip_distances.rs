@@ -1,4 +1,4 @@
-//! Clip and cull distances, and depth that is not clipped.
+//! Clip and cull distances, and unclipped depth.
 
 use estampe_tests::geometry::{Style, Vertex, triangles};
 use estampe_tests::shaders::{
@@ -81,7 +81,7 @@ fn every_topology_and_polygon_mode_is_clipped_and_culled_by_distances() {
 
 /// Rows: A3.
 #[test]
-fn distances_that_are_hardly_numbers() {
+fn nan_infinite_and_huge_distances() {
     check("clip_distances/hostile", 120, |random| {
         let mut case = Case::random_target(random);
         let mut vertices = triangles(random, Style::Large, case.size, 6);

@@ -118,7 +118,7 @@ fn srgb_targets() {
 /// Rows: O5.
 #[test]
 fn overlapping_primitives_blend_in_order() {
-    // More packets than one call shades, of many primitives in the same place.
+    // More packets than one call of the shader takes, of many overlapping primitives.
     check("colors/order", 10, |random| {
         let mut case = Case::new([40, 36], random.pick(&[1, 4]));
         let vertices = triangles(random, Style::Small, case.size, 60);
@@ -144,7 +144,7 @@ fn overlapping_primitives_blend_in_order() {
 /// Rows: O8.
 #[test]
 fn srgb_codes_change_at_the_oracles_thresholds() {
-    // A point for each threshold and the number of f32 before it.
+    // One point for each threshold, and one for the f32 just below it.
     let size = [32, 16];
     let values = THRESHOLDS.iter().flat_map(|&at| [at.next_down(), at]);
     let vertices: Vec<_> = (0_u16..)
@@ -173,7 +173,7 @@ fn srgb_codes_change_at_the_oracles_thresholds() {
 /// Rows: O5, O8.
 #[test]
 fn every_code_survives_blending_with_nothing() {
-    // s·0 + d·1 gives back each stored code, in both formats.
+    // s·0 + d·1 gives each stored code again, in both formats.
     for format in [TextureFormat::Rgba8Unorm, TextureFormat::Rgba8UnormSrgb] {
         let keep = BlendComponent {
             operation: BlendOperation::Add,

@@ -33,7 +33,7 @@ fn target(random: &mut Random) -> Case {
     case
 }
 
-/// Large and small triangles, some of them parallel to the window or twice the same.
+/// Large and small triangles, some of them parallel to the window, some drawn twice.
 fn draw_with(random: &mut Random, case: &Case, shader: impl Into<TestShader>) -> CaseDraw {
     let mut vertices = Vec::new();
     for _ in 0..4 {
@@ -45,7 +45,7 @@ fn draw_with(random: &mut Random, case: &Case, shader: impl Into<TestShader>) ->
         ]);
         let mut some = triangles(random, style, case.size, 1);
         if random.once_in(3) {
-            // The same plane again, from another vertex on: equal depths to the bit.
+            // The same plane, beginning with another vertex: depths equal to the bit.
             let mut again = some.clone();
             again.rotate_left(1);
             again.iter_mut().for_each(|vertex| vertex.values.reverse());
@@ -132,7 +132,7 @@ fn shaders_that_write_depth() {
 
 /// Rows: F1, O4.
 #[test]
-fn given_depths_that_are_not_numbers() {
+fn nan_infinite_and_huge_written_depths() {
     check("depth/output_odd", 20, |random| {
         let mut case = target(random);
         let mut draw = draw_with(random, &case, DepthGiven(GivenDepth::Value));
@@ -169,7 +169,7 @@ fn targets_with_depth_alone() {
 /// Rows: O4, O9.
 #[test]
 fn whole_blocks_are_hidden_only_where_nothing_passes() {
-    // Many large triangles over a target of several tiles: what hierarchical depth leaves out.
+    // Many large triangles over a target of several tiles: hierarchical z rejects blocks.
     check("depth/hierarchy", 8, |random| {
         let mut case = Case::new([140, 75], random.pick(&[1, 4]));
         let is_nearer_less = random.once_in(2);

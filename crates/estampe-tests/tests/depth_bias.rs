@@ -55,7 +55,7 @@ fn every_kind_of_bias_and_triangle() {
                 PrimitiveTopology::TriangleList,
                 PrimitiveTopology::TriangleList,
                 PrimitiveTopology::TriangleStrip,
-                // Neither lines nor points of their own are moved.
+                // Line and point topologies have no depth bias.
                 PrimitiveTopology::LineList,
                 PrimitiveTopology::PointList,
             ]);
@@ -97,7 +97,7 @@ fn every_kind_of_bias_and_triangle() {
 /// Rows: A5, D1.
 #[test]
 fn coplanar_triangles_are_told_apart_by_one_unit() {
-    // Drawn twice with less: the second time shows only with a bias towards the viewer.
+    // Drawn twice with `Less`: the second draw is visible only with a bias towards the viewer.
     for (constant, is_seen) in [(0.0, false), (-1.0, true), (1.0, false)] {
         let random = &mut estampe_tests::Random::new("depth_bias/coplanar", 1);
         let mut case = Case::new([32, 32], 1);

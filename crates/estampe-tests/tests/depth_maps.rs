@@ -1,4 +1,4 @@
-//! Depth comparison at every level against the oracle, bit for bit.
+//! Depth comparison of `DepthTexture` at every SIMD level against the oracle, bit for bit.
 
 use estampe_reference::depth_map::DepthMap;
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
@@ -8,7 +8,7 @@ use estampe_types::{Quad, Vec2};
 
 const TAPS: usize = 9;
 
-/// Sixteen fragments: u, v, reference.
+/// Sixteen fragments: u, v, reference depth.
 type Packet = [[f32; LANES]; 3];
 
 #[inline(always)]
@@ -27,7 +27,7 @@ fn wide<S: Lanes>(
     ]
 }
 
-/// The same by quads and by single fragments.
+/// The comparison with quads and with single fragments.
 fn narrow(map: &DepthTexture, [u, v, reference]: &Packet, taps: &[[f32; 2]; TAPS]) {
     for first in (0..LANES).step_by(4) {
         let quad =
@@ -68,7 +68,7 @@ fn check(image: &DepthMap, packet: &Packet, taps: &[[f32; 2]; TAPS]) {
     narrow(&map, packet, taps);
 }
 
-/// 3×3 samples, this many texels apart.
+/// The offsets of 3×3 samples, this many texels apart.
 fn taps(image: &DepthMap, apart: f32) -> [[f32; 2]; TAPS] {
     std::array::from_fn(|index| {
         let step = |k: usize, size: u32| (k as f32 - 1.0) * apart / size.max(1) as f32;
@@ -109,7 +109,7 @@ fn random_places_of_rough_and_smooth_images() {
             std::array::from_fn(|_| match axis {
                 0 => u + random.unit() * spread,
                 1 => v + random.unit() * spread,
-                // A depth of the image, itself or nearly.
+                // A depth of the image, exactly or nearly.
                 _ => {
                     let exact = image.rows[random.index(image.rows.len())];
                     exact
@@ -126,7 +126,7 @@ fn random_places_of_rough_and_smooth_images() {
 }
 
 #[test]
-fn places_and_references_that_are_hardly_numbers() {
+fn nan_infinite_and_huge_coordinates_and_references() {
     for seed in 0..100 {
         let mut random = Random::new("odd depth maps", seed);
         let image = image(&mut random, 0.1);

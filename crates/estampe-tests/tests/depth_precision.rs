@@ -1,4 +1,5 @@
-//! Depth formats under the mappings that people use: reversed, infinite, logarithmic; and depths that shaders promise.
+//! Depth formats with reversed, infinite and logarithmic depth mappings, and with limited depth
+//! outputs of shaders.
 
 use estampe_tests::geometry::{Style, Vertex, triangles};
 use estampe_tests::shaders::{Colored, HeldDepth, LogarithmicDepth};
@@ -21,13 +22,13 @@ fn depth_state(random: &mut Random, compare: &[CompareFunction]) -> DepthState {
     }
 }
 
-/// Two nearly coplanar walls, and triangles in between, seen in perspective from near to far.
+/// Two nearly coplanar walls and triangles between them, in perspective from near to far.
 fn walls(random: &mut Random, clip_depth: impl Fn(f32) -> f32) -> Vec<Vertex> {
     let mut vertices = Vec::new();
     for _ in 0..6 {
         let distance = random.pick(&[0.02, 0.5, 3.0, 40.0, 900.0]) * random.range(0.9, 1.1);
         for _ in 0..3 {
-            // Almost parallel to the screen, a hair apart.
+            // Almost parallel to the window, slightly apart.
             let w = distance * random.range(1.0, 1.0001);
             let place = [random.range(-1.5, 1.5), random.range(-1.5, 1.5)];
             vertices.push(Vertex {
@@ -113,7 +114,7 @@ fn logarithmic_depth_is_a_shaders_output() {
 
 /// Rows: F1, O4, O9.
 #[test]
-fn promised_depths() {
+fn depths_with_declared_limits() {
     use CompareFunction as C;
     check("depth_precision/promised", 60, |random| {
         let mut case = target(random);

@@ -1,5 +1,6 @@
-//! Blending, write mask, depth and stencil of one sample, against the results of the reference fragment processor of
-//! KhronosGroup/VK-GL-CTS: 200 cases always, all 2,000 where the file is there (`cargo test -- --ignored`).
+//! Blending, write mask, depth and stencil of one sample, against the results of the reference
+//! fragment processor of KhronosGroup/VK-GL-CTS: 200 cases always, all 2,000 if the file exists
+//! (`cargo test -- --ignored`).
 
 use estampe::Device;
 use estampe_reference::Target;
@@ -9,7 +10,7 @@ use estampe_tests::{Random, oracle};
 use estampe_types::TextureFormat;
 use std::path::{Path, PathBuf};
 
-/// How many of them the oracle's own file has.
+/// The number of cases in the oracle's own file.
 const OWN: u64 = 200;
 
 fn lines(path: &Path) -> Vec<FragmentOp> {
@@ -22,14 +23,14 @@ fn lines(path: &Path) -> Vec<FragmentOp> {
     parsed.collect()
 }
 
-/// A file of this crate's data.
+/// The path of a file in this crate's data.
 fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("data")
         .join(name)
 }
 
-/// The sample of the cases of others, which is part of the project.
+/// The sample of VK-GL-CTS's cases that is part of the repository.
 fn sample() -> Vec<FragmentOp> {
     lines(&data("cts-fragment-ops-sample.jsonl"))
 }
@@ -62,7 +63,7 @@ fn check(cases: &[FragmentOp], result: impl Fn(&FragmentOp) -> Stored) {
 
 /// Rows: O3, O4, O5, O7.
 #[test]
-fn the_oracle_agrees_with_the_reference_processor_of_others() {
+fn the_oracle_agrees_with_vk_gl_cts() {
     check(&sample(), oracle_of);
 }
 
@@ -78,7 +79,7 @@ fn fast_path_of(device: &Device, case: &FragmentOp) -> Stored {
 
 /// Rows: O3, O4, O5, O7, U3.
 #[test]
-fn every_level_agrees_with_the_reference_processor_of_others() {
+fn every_simd_level_agrees_with_vk_gl_cts() {
     for device in some_devices(0) {
         check(&sample(), |case| fast_path_of(device, case));
     }
@@ -137,10 +138,11 @@ fn the_sample_has_every_value() {
     });
 }
 
-/// A detector of changes, not a proof: the oracle itself computed the results with which it is compared. Where it
-/// fails, the oracle's arithmetic has changed; if that was meant, `ESTAMPE_WRITE_DATA` writes the file again.
+/// Detects changes and proves nothing: the oracle itself computed the expected results. If it
+/// fails, the oracle's arithmetic has changed; if that was intended, `ESTAMPE_WRITE_DATA` writes
+/// the file again.
 #[test]
-fn the_oracle_computes_what_it_did_when_its_file_was_written() {
+fn the_oracle_reproduces_its_recorded_results() {
     let path = data("oracle-fragment-ops.jsonl");
     let computed: Vec<_> = (0..OWN)
         .map(|seed| {
@@ -165,10 +167,10 @@ fn the_oracle_computes_what_it_did_when_its_file_was_written() {
 mod shared_data {
     use super::*;
 
-    /// All of the cases from which the sample is taken.
+    /// All of VK-GL-CTS's cases.
     #[test]
     #[ignore = "needs ../shared/data/fragment-ops-2000.jsonl"]
-    fn all_cases_of_others_agree() {
+    fn all_cases_of_vk_gl_cts_agree() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
         let cases = lines(&root.join("shared/data/fragment-ops-2000.jsonl"));
         assert_eq!(cases.len(), 2000);

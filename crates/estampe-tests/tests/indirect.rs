@@ -1,4 +1,4 @@
-//! Draws whose ranges stand in a buffer.
+//! Indirect draws: draws whose parameters are in a buffer.
 
 use estampe::{
     Buffer, Device, DeviceDescriptor, Draw, IndexFormat, RenderPass, RenderPipeline,
@@ -37,12 +37,12 @@ fn image(device: &Device, draw: Draw<'_>) -> Vec<u8> {
 
 /// Rows: V2.
 #[test]
-fn a_buffer_says_what_is_drawn() {
+fn parameters_are_read_from_the_buffer() {
     let (device, random) = (device(), &mut Random::new("indirect", 1));
     let pipeline = pipeline(&device);
     let buffers = [vertex_buffer(&triangles(random, Style::Large, [40, 40], 6))];
     let indices = Buffer::from_words((0..18).rev().collect::<Vec<u32>>());
-    // Read where the offset says, also where it is no multiple of four.
+    // The parameters are read at the offset, which need not be a multiple of four.
     for shift in [0, 4, 7] {
         let parameters = |words: &[u32]| {
             let mut bytes = vec![0xAB; shift];
@@ -80,7 +80,7 @@ fn a_buffer_says_what_is_drawn() {
 
 /// Rows: V2.
 #[test]
-fn hostile_numbers_are_cut_to_the_limit() {
+fn hostile_counts_are_limited() {
     let device = device();
     let pipeline = pipeline(&device);
     let numbers = [0, 1, 3, 1 << 20, 1 << 27, u32::MAX - 1, u32::MAX];

@@ -1,5 +1,5 @@
-//! The longest targets, the most attributes, buffers and varyings. (Corners of the largest targets:
-//! `crates/estampe/tests/large_targets.rs`.)
+//! The greatest width and height, and the greatest numbers of attributes, buffers and varyings.
+//! (Corners of the largest targets: `crates/estampe/tests/large_targets.rs`.)
 
 use estampe_tests::geometry::{Style, Vertex, clip_at, triangles};
 use estampe_tests::shaders::{Colored, Crowded};
@@ -13,7 +13,7 @@ fn the_longest_sides() {
         let mut random = Random::new("limits/sides", u64::from(size[0]));
         let mut case = Case::new(size, 1);
         let mut vertices = triangles(&mut random, Style::Large, size, 3);
-        // At both ends.
+        // Points at both ends.
         let ends = [[0.0, 0.0], size.map(|side| side as f32)];
         for [x, y] in ends {
             for [dx, dy] in [[-3.0, -3.0], [-3.0, 3.5], [3.5, -3.0]] {

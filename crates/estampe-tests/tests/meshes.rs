@@ -1,4 +1,4 @@
-//! Meshes: shared edges, perspective, planes that cut, and what must hold of any triangulation.
+//! Meshes: shared edges, perspective, clipping, and invariants of every triangulation.
 
 use estampe_tests::geometry::{Vertex, clip_at, values};
 use estampe_tests::shaders::{Colored, Probe, Uniform};
@@ -23,7 +23,7 @@ fn with_indices(shader: impl Into<TestShader>, vertices: &[Vertex], indices: &[u
     }
 }
 
-/// A wavy grid that lies flat before, under and behind the eye.
+/// A wavy, nearly level grid in front of, below and behind the eye.
 fn perspective_grid(random: &mut Random, n: u32) -> Vec<Vertex> {
     let (near, far) = (0.1, 20.0);
     let [turn, height, reach] = [
@@ -88,7 +88,7 @@ fn ridged_grids_of_small_triangles() {
     });
 }
 
-/// A case in which every sample counts, one unit a hit, what covers it.
+/// A case in which additive blending adds one unit to a sample for each triangle that covers it.
 fn counting(size: [u32; 2], samples: u32, mut draw: CaseDraw, unit: [f32; 8]) -> Case {
     let group = BindGroup {
         entries: vec![(
@@ -119,8 +119,9 @@ fn a_planar_triangulation_covers_each_sample_once() {
         let random = &mut Random::new("meshes/once", seed);
         let size = random.pick(&[[48, 48], [65, 37], [130, 20]]);
         let (width, height) = (size[0] as f32, size[1] as f32);
-        // The outer ring lies outside the target, at times far beyond the guard band; inner vertices
-        // are moved by less than a quarter of a cell, which folds none, often onto pixel centres.
+        // The outer ring of vertices lies outside the target, sometimes far outside the guard band.
+        // Inner vertices are moved by less than a quarter of a cell, which reverses no triangle,
+        // often onto pixel centres.
         let n = random.pick(&[3, 6, 12]);
         let out = random.pick(&[5.0, 9000.0, 90_000.0]);
         let grid = random.pick(&[2.0, 256.0]);
@@ -163,8 +164,8 @@ fn of_a_closed_mesh_every_sample_has_as_many_front_as_back_hits() {
     for seed in 0..12 {
         let random = &mut Random::new("meshes/closed", seed);
         let size = random.pick(&[[48, 48], [65, 37]]);
-        // A sphere of n × n vertices whose last column is the first, and whose rows end in poles, pulled
-        // about at random: it may fold and pierce itself.
+        // A sphere of n × n vertices, displaced at random: it may fold and intersect itself. Its
+        // last column is the first, and its first and last row are poles.
         let n = 9;
         let folded = random.pick(&[0.0, 0.6]);
         let around: Vec<_> = (0..n * n)
@@ -179,7 +180,7 @@ fn of_a_closed_mesh_every_sample_has_as_many_front_as_back_hits() {
         let scale = random.pick(&[0.5, 1.2, 40.0]);
         let vertices: Vec<_> = (0..n * n)
             .map(|at| {
-                // Columns 0 and 8, and all vertices of a pole, are one vertex.
+                // Columns 0 and 8 are one, and all vertices of a pole are one vertex.
                 let row = at / n;
                 let same = match row {
                     0 => 0,
@@ -199,7 +200,7 @@ fn of_a_closed_mesh_every_sample_has_as_many_front_as_back_hits() {
         let unit = [UNIT, 0.0, 0.0, 0.0, 0.0, UNIT, 0.0, 0.0];
         let samples = random.pick(&[1, 4]);
         let image = check_one("meshes/closed", &counting(size, samples, draw, unit));
-        // The mean of four samples rounds front and back alike.
+        // The mean of four samples rounds fronts and backs equally.
         let mut hits = 0;
         for pixel in image.color.chunks(4) {
             assert_eq!(pixel[0], pixel[1], "seed {seed}: front and back hits");
@@ -209,13 +210,13 @@ fn of_a_closed_mesh_every_sample_has_as_many_front_as_back_hits() {
     }
 }
 
-/// The radius of a ring of a ball of nine rows.
+/// The radius of a row of the sphere.
 fn ring(row: u32, n: u32) -> f32 {
     let rise = row as f32 / (n - 1) as f32 * 2.0 - 1.0;
     (1.0 - rise * rise).sqrt()
 }
 
-/// Eight directions: the cosine of multiples of 45°.
+/// The cosine of a multiple of 45°.
 fn octant(step: u32) -> f32 {
     let half = std::f32::consts::FRAC_1_SQRT_2;
     [1.0, half, 0.0, -half, -1.0, -half, 0.0, half][step as usize % 8]
@@ -256,7 +257,8 @@ fn the_order_of_a_triangles_vertices_changes_nothing() {
 /// Rows: A3, R1.
 #[test]
 fn two_triangles_of_which_one_leaves_the_guard_band_share_their_edge() {
-    // The edge lies within the band and crosses the view; one neighbour reaches far beyond the band.
+    // The edge lies within the band and crosses the view; one triangle reaches far outside the
+    // band.
     for seed in 0..24 {
         let random = &mut Random::new("meshes/crack", seed);
         let a = [random.range(-3.0, -1.1), random.range(-1.0, 1.0)];

@@ -1,5 +1,6 @@
-//! Many draws of different pipelines over the same pixels in one pass: opaque, blended, discarding, with every depth
-//! comparison and stencil operation, in every format of colour and depth.
+//! Many draws with different pipelines over the same pixels in one pass: opaque, blended,
+//! discarding, with every depth comparison and stencil operation, in every format of colour and
+//! depth.
 
 use estampe::TilePath;
 use estampe_tests::geometry::Style;
@@ -7,7 +8,7 @@ use estampe_tests::mixed_draws::Mixture;
 use estampe_tests::{ExpectedPaths, check, check_paths};
 use estampe_types::TextureFormat as F;
 
-/// What programs draw into most often.
+/// The most common colour formats.
 const COMMON: [F; 5] = [
     F::Bgra8Unorm,
     F::Bgra8UnormSrgb,
@@ -126,7 +127,7 @@ fn no_depth_at_all() {
 
 /// Rows: R1, O3, O4, D1.
 #[test]
-fn crowds_of_small_triangles() {
+fn many_small_triangles() {
     check("mixed/small", 40, |random| {
         let (format, depth) = (random.pick(&COMMON), random.pick(&DEPTHS));
         let samples = random.pick(&[1, 1, 4]);

@@ -1,4 +1,4 @@
-//! Several draws with different pipelines in one pass, and passes that load what was there.
+//! Several draws with different pipelines in one pass, and passes that load the previous contents.
 
 use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::{
@@ -93,7 +93,7 @@ fn many_pipelines_in_one_pass_and_in_two() {
 /// Rows: U3.
 #[test]
 fn more_primitives_than_a_chunk_holds() {
-    // Several chunks of 4096 primitives, which workers make and tiles read in order.
+    // Several chunks of 4096 primitives, made by several workers and read by the tiles in order.
     check("passes/chunks", 2, |random| {
         let mut case = Case::new([70, 66], random.pick(&[1, 4]));
         let vertices = triangles(random, Style::Tiny, case.size, 3000);
@@ -107,7 +107,7 @@ fn more_primitives_than_a_chunk_holds() {
             draw.depth = None;
             draw.blend = Some(BlendState::ALPHA_BLENDING);
             if topology == PrimitiveTopology::TriangleStrip {
-                // Neighbours of a strip of strangers are large.
+                // A strip through unrelated triangles has large triangles between them.
                 draw.elements = 0..60;
                 draw.instances = 0..20;
             }
@@ -119,9 +119,9 @@ fn more_primitives_than_a_chunk_holds() {
 
 /// Rows: V2, U3.
 #[test]
-fn more_primitives_than_an_item_or_a_wave_holds() {
-    // A million primitives make a sub-draw, two million a batch; cut strips keep their winding. The whole
-    // takes half a minute, so only longer runs do it.
+fn more_primitives_than_a_sub_draw_or_a_draw_batch_holds() {
+    // A sub-draw has a million primitives, a draw batch two million. Strips keep their winding
+    // across a cut. All of this takes half a minute, so only longer runs do it.
     if std::env::var_os("ESTAMPE_TEST_FACTOR").is_none() {
         return;
     }
@@ -143,7 +143,7 @@ fn more_primitives_than_an_item_or_a_wave_holds() {
         draw.depth = None;
         draw.blend = Some(BlendState::ALPHA_BLENDING);
         case.draws.push(draw.clone());
-        // The second draw begins in the batch that the first one ends in.
+        // The second draw begins in the draw batch in which the first one ends.
         draw.elements = 0..30;
         draw.instances = 0..50_000;
         case.draws.push(draw);

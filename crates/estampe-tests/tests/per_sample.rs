@@ -1,4 +1,4 @@
-//! Per-sample operations with any state (O2–O10, R6, R8, D1), one after the other and all together.
+//! Per-sample operations with random state (O2–O10, R6, R8, D1), each on its own and all together.
 
 use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::{Colored, Cutout, DepthGiven, FlatColored, GivenDepth};
@@ -32,7 +32,7 @@ const OPERATIONS: [StencilOperation; 8] = [
     StencilOperation::DecrementWrap,
 ];
 
-/// Factors of one source and a constant.
+/// The factors without a second source colour.
 const FACTORS: [BlendFactor; 15] = [
     BlendFactor::Zero,
     BlendFactor::One,
@@ -117,7 +117,7 @@ fn stencil(random: &mut Random, case: &mut Case, draw: &mut CaseDraw) {
     }
 }
 
-/// Overlapping triangles, large and small, of both windings; sometimes lines and points.
+/// Overlapping triangles, large and small, of both windings; sometimes lines or points.
 fn draw(random: &mut Random, case: &Case, shader: impl Into<TestShader>) -> CaseDraw {
     let mut vertices = Vec::new();
     for _ in 0..4 {
@@ -156,7 +156,7 @@ fn shader(random: &mut Random) -> TestShader {
     }
 }
 
-/// Cases of four draws, each changed by `set`.
+/// Checks cases of four draws, each modified by `set`.
 fn cases(topic: &str, count: u64, set: impl Fn(&mut Random, &mut Case, &mut CaseDraw)) {
     check(topic, count, |random| {
         let mut case = Case::random_target(random);

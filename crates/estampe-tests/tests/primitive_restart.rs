@@ -1,4 +1,4 @@
-//! Primitive restart, and which vertex provokes.
+//! Primitive restart and provoking vertices.
 
 use estampe_tests::geometry::{Vertex, clip_at, values};
 use estampe_tests::shaders::{FlatColored, Indexed, Probe, Scalar};
@@ -52,7 +52,7 @@ fn bytes(format: IndexFormat, indices: &[u32]) -> Vec<u8> {
     bytes.flat_map(|four| four[..width].to_vec()).collect()
 }
 
-/// Indices of which some are the greatest of their format.
+/// Indices, some of which are the greatest of their format.
 fn indexed(random: &mut Random, draw: &mut CaseDraw, count: u32) {
     let format = random.pick(&[IndexFormat::Uint8, IndexFormat::Uint16, IndexFormat::Uint32]);
     let rarity = random.pick(&[2, 5, 9]);
@@ -144,7 +144,7 @@ fn instances_whose_vertices_are_far_apart() {
 
 /// Rows: V2, A1.
 #[test]
-fn more_primitives_than_an_item_holds() {
+fn more_primitives_than_a_sub_draw_holds() {
     // Over a million points, lines and triangles of one strip, fan and loop, with restarts.
     for topology in [
         PrimitiveTopology::TriangleFan,
@@ -158,7 +158,7 @@ fn more_primitives_than_an_item_holds() {
         let restarts = [5, 900_000, 1_000_003];
         let index = |at| match restarts.contains(&at) {
             true => u32::MAX,
-            // Hardly any of them has an area.
+            // Nearly all of them have no area.
             false => at / 50_000 % 20,
         };
         let indices: Vec<_> = (0..1_050_000).map(index).collect();

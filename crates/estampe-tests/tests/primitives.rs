@@ -5,7 +5,7 @@ use estampe_tests::shaders::{Colored, FlatColored, Probe, Scalar, Sized};
 use estampe_tests::{Case, CaseDraw, Random, TestShader, check};
 use estampe_types::state::{CullMode, DepthState, FrontFace, PolygonMode, PrimitiveTopology};
 
-/// Vertices here and there, some on pixel centres and corners, some far off.
+/// Scattered vertices, some on pixel centres and corners, some far away.
 fn scattered(random: &mut Random, size: [u32; 2], count: u32) -> Vec<Vertex> {
     let style = random.pick(&[
         Style::Small,

@@ -1,4 +1,5 @@
-//! Shaders that know of samples: shading by sample, centroids, coverage in and out; at every number of samples.
+//! Per-sample shading, centroids, coverage and sample masks in shaders, with every number of
+//! samples.
 
 use estampe::TilePath;
 use estampe_tests::geometry::{Style, triangles};
@@ -12,7 +13,7 @@ use estampe_types::state::{
     PrimitiveTopology,
 };
 
-/// Some draws of a shader, into few pixels of many samples.
+/// Some draws of a shader into a small target with many samples.
 fn case(random: &mut Random, shader: impl Fn(&mut Random) -> TestShader) -> Case {
     let mut case = Case::random_target(random);
     case.samples = random.pick(&[1, 2, 4, 8, 16, 4, 8]);

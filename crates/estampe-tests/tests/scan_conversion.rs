@@ -1,4 +1,4 @@
-//! The classic scan conversions, repaired, against what the fast path draws.
+//! The repaired classic scan conversions of the oracle against the coverage of the fast path.
 
 use estampe_reference::scan_conversion::{bounding_box, edge_table, line_sweep, scanline};
 use estampe_reference::viewport::{PixelBounds, ViewportTransform, snap};
@@ -23,7 +23,7 @@ fn the_classics_cover_what_the_pipeline_draws() {
             Style::OnGrid,
             Style::Degenerate,
         ]);
-        // In front of the eye and not beyond the guard band, so that nothing is clipped.
+        // In front of the eye and inside the guard band, so that nothing is clipped.
         let mut vertices = triangle(&mut random, style, case.size);
         for vertex in &mut vertices {
             vertex.values = [1.0; 4];

@@ -1,4 +1,4 @@
-//! Triangles that share edges cover each sample once. A second of what `cargo xtask fuzz raster` does for long.
+//! Triangles that share edges cover each sample once: one second of `cargo xtask fuzz raster`.
 
 use std::time::Duration;
 

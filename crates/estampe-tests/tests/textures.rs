@@ -1,4 +1,5 @@
-//! Sampling inside the pipeline: derivatives of real quads, helper lanes, every filter and mode.
+//! Sampling inside the pipeline: derivatives across quads, helper invocations, every filter and
+//! address mode.
 
 use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::TexturedShader;
@@ -64,7 +65,7 @@ fn textured_case(random: &mut Random, style: Style, scales: &[f32]) -> Case {
     case
 }
 
-/// A texture of any format of numbers, and a sampler with all that it can have.
+/// A texture of any float or normalised format, and a random sampler.
 fn any_texture(random: &mut Random) -> (Arc<Texture>, SamplerDescriptor) {
     let all = TextureFormat::ALL.iter().copied();
     let formats: Vec<_> = all
@@ -148,7 +149,7 @@ fn perspective_towards_the_horizon() {
 
 /// Rows: F2.
 #[test]
-fn coordinates_that_are_hardly_numbers() {
+fn nan_infinite_and_huge_coordinates() {
     check("textures/odd", 30, |random| {
         let mut case = textured_case(random, Style::Large, &[1.0, 1e6, 1e20, 1e38]);
         let mut vertices = triangles(random, Style::Large, case.size, 5);

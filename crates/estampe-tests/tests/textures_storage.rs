@@ -1,4 +1,4 @@
-//! Storage textures: what is stored is loaded, sampled and read back; masks, borders, threads.
+//! Storage textures: stores, loads, sampling and readback; write masks, borders, threads.
 
 #![expect(
     clippy::cast_possible_truncation,
@@ -76,7 +76,7 @@ fn is_storable(format: TextureFormat) -> bool {
         && format.encoding() != TexelEncoding::SharedExponent
 }
 
-/// How far from a number its code may be, at most: half a step, of numbers around ±4.
+/// The greatest error of a stored number: half a step of the format, for numbers around ±4.
 fn step(format: TextureFormat, channel: usize, value: f32) -> f32 {
     use TexelEncoding as E;
     let relative = value.abs().max(1e-4);
@@ -92,7 +92,7 @@ fn step(format: TextureFormat, channel: usize, value: f32) -> f32 {
     }
 }
 
-/// The number that a format is to hold of a value: confined to its range.
+/// The value clamped to the format's range.
 fn confined(format: TextureFormat, value: f32) -> f32 {
     use TexelEncoding as E;
     match format.encoding() {
@@ -105,7 +105,7 @@ fn confined(format: TextureFormat, value: f32) -> f32 {
 
 /// Rows: F2.
 #[test]
-fn what_is_stored_is_loaded_and_read_back() {
+fn stored_texels_are_loaded_and_read_back() {
     for (number, &format) in TextureFormat::ALL.iter().enumerate() {
         if !is_storable(format) {
             let refused = create_storage_texture(
@@ -151,7 +151,8 @@ fn what_is_stored_is_loaded_and_read_back() {
                 for first in (0..LANES).step_by(4) {
                     store(&quads, Quad([0.0; 4]), (&places, &values, mask), first);
                 }
-                // Lanes store in order here, though nothing promises it.
+                // Lanes store in order in this implementation, though the API does not guarantee
+                // it.
                 for lane in 0..LANES {
                     let [x, y, z] = [0, 1, 2].map(|k| places[k][lane]);
                     let is_there =
@@ -223,7 +224,7 @@ fn check_contents(
 
 /// Rows: F2.
 #[test]
-fn given_bytes_are_kept() {
+fn uploaded_bytes_are_kept() {
     let bytes: Vec<u8> = (0..4 * 3 * 2 * 4).collect();
     for format in [TextureFormat::Bgra8Unorm, TextureFormat::Rg16Sint] {
         let descriptor = TextureDescriptor {
@@ -241,7 +242,7 @@ fn given_bytes_are_kept() {
         let bindings = Bindings {
             groups: vec![(group.into(), 0)],
         };
-        // What is bound is the same texture, not a copy.
+        // The binding is the same texture, not a copy.
         let found = bindings.storage_texture(0, 3).expect("bound");
         storage_store::<f32>(found, true, [1, 0, 0], Vec4::repeat(0.0));
         assert_eq!(storage_bytes(&texture)[4..8], [0; 4]);

@@ -1,4 +1,4 @@
-//! Texels of every format: uploads with padded rows and images, and fetching, also where there is nothing.
+//! Texels of every format: uploads with padded rows and images, and fetching, inside and outside.
 
 #![expect(
     clippy::cast_possible_truncation,
@@ -15,8 +15,8 @@ use estampe_types::{
 };
 use std::sync::Arc;
 
-/// A texture of a format with several levels and slices or with samples, from padded rows; and whether each byte
-/// of the format came to its place.
+/// A texture of a format with several mip levels and slices, or with samples, uploaded from padded
+/// rows. Checks that each byte arrives at its position.
 fn texture(random: &mut Random, format: TextureFormat) -> (Arc<Texture>, ViewDimension) {
     let is_flat = format.is_compressed() || format.has_depth() || format.has_stencil();
     let (dimension, view) = match random.below(if is_flat { 2 } else { 4 }) {

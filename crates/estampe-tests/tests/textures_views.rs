@@ -1,5 +1,5 @@
-//! Every dimension, format, sampler and function of texture views against the oracle: bits, at every SIMD level and
-//! for every kind of number.
+//! Texture views of every dimension, format and sampler, with every sampling function, against the
+//! oracle: equal bits at every SIMD level and for every kind of number.
 
 #![expect(
     clippy::cast_possible_truncation,
@@ -21,7 +21,7 @@ use estampe_types::{
 };
 use std::sync::Arc;
 
-/// What is asked of a view.
+/// The sampling functions of a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Function {
     Sample,
@@ -34,13 +34,13 @@ enum Function {
     GatherCompare,
 }
 
-/// The lanes of a packet.
+/// The arguments of a sampling function, for the lanes of a packet.
 #[derive(Clone, Debug)]
 struct Ask {
     function: Function,
     at: [[f32; LANES]; 3],
     layer: [i32; LANES],
-    /// Bias or level.
+    /// The bias, or the level of detail.
     value: [f32; LANES],
     gradients: [[f32; LANES]; 6],
     reference: [f32; LANES],
@@ -49,7 +49,7 @@ struct Ask {
 
 type Answers = [[f32; 4]; LANES];
 
-/// Numbers of some kind, made of the lanes from one on.
+/// A kind of number that can be built from the lanes from `first` on.
 trait Kind: Real {
     fn real(self, from: &[f32; LANES], first: usize) -> Self;
     fn int(self, from: &[i32; LANES], first: usize) -> Self::Int;
@@ -131,7 +131,7 @@ fn ask<R: Kind>(view: &SampledView, ask: &Ask, like: R, first: usize, answers: &
     }
 }
 
-/// What the fast path answers at a level.
+/// The fast path's results for a packet at a SIMD level.
 fn packets(level: Level, view: &SampledView, question: &Ask) -> Answers {
     #[inline(always)]
     fn wide<S: Lanes>(simd: S, view: &SampledView, question: &Ask) -> Answers {
@@ -143,7 +143,8 @@ fn packets(level: Level, view: &SampledView, question: &Ask) -> Answers {
     dispatch!(level, s => wide(s, view, question))
 }
 
-/// What the oracle answers for a lane, with derivatives of its quad or (`is_alone`) none.
+/// The oracle's result for a lane, with its quad's derivatives, or without derivatives if
+/// `is_alone`.
 fn oracle(view: &ReferenceView, ask: &Ask, lane: usize, is_alone: bool) -> [f32; 4] {
     let at_lane = |lane: usize| [0, 1, 2].map(|k| ask.at[k][lane]);
     let quad = if is_alone { lane } else { lane & !3 };
@@ -186,7 +187,7 @@ fn oracle(view: &ReferenceView, ask: &Ask, lane: usize, is_alone: bool) -> [f32;
     }
 }
 
-/// Bits, all NaNs alike: their payloads are the processor's choice.
+/// The bits, with one pattern for all NaNs: their payloads depend on the processor.
 fn bits(channels: [f32; 4]) -> [u32; 4] {
     channels.map(|x| if x.is_nan() { 0x7FC0_0000 } else { x.to_bits() })
 }
@@ -224,7 +225,7 @@ fn texture(
         depth_or_layers: slices,
         samples: 1,
     };
-    // Every level its own noise: levels must not be mistaken for each other.
+    // Different noise in each mip level, so that no level can be mistaken for another.
     let levels: Vec<Vec<u8>> = (0..descriptor.mip_level_count as usize)
         .map(|level| {
             let [block_width, block_height] = format.block_size();
@@ -239,7 +240,7 @@ fn texture(
     Arc::new(made.expect("a valid texture"))
 }
 
-/// Bytes of so many blocks; floats are mostly of ordinary size.
+/// Random bytes of this many blocks; floats are mostly of ordinary magnitude.
 fn noise(random: &mut Random, format: TextureFormat, blocks: usize) -> Vec<u8> {
     use estampe_types::TexelEncoding as E;
     let count = blocks * format.block_bytes() as usize;
@@ -326,7 +327,7 @@ fn question(random: &mut Random, function: Function, view: &TextureView) -> Ask 
             if with_odd && random.once_in(8) {
                 random.odd_number()
             } else if random.once_in(6) {
-                // Between texels, on edges and corners.
+                // Between texels, on edges and on corners.
                 (random.below(33) as f32 - 16.0) / 8.0
             } else {
                 origin + random.range(-spread, spread)
@@ -346,7 +347,7 @@ fn question(random: &mut Random, function: Function, view: &TextureView) -> Ask 
             if with_odd && random.once_in(9) {
                 random.odd_number()
             } else if random.once_in(3) {
-                // One level alone.
+                // Exactly one mip level.
                 random.below(4) as f32
             } else {
                 random.range(-2.0, 6.0)
@@ -367,7 +368,7 @@ fn question(random: &mut Random, function: Function, view: &TextureView) -> Ask 
     }
 }
 
-/// Asks both sides the same.
+/// Compares the fast path's results with the oracle's.
 fn check(view: &SampledView, reference: &ReferenceView, question: &Ask) {
     let compares = !matches!(
         question.function,
@@ -565,8 +566,9 @@ fn comparisons_with_every_function() {
 
 /// Rows: F2.
 #[test]
-fn the_common_kind_is_the_same_as_every_other() {
-    // `SampledView` hands these over to `Sampled`; the oracle of views knows nothing of that.
+fn common_2d_views_equal_the_oracle() {
+    // `SampledView` passes these views to `Sampled`; the oracle samples all views with the same
+    // code.
     let formats = [
         TextureFormat::Rgba8Unorm,
         TextureFormat::Bgra8UnormSrgb,
@@ -579,7 +581,7 @@ fn the_common_kind_is_the_same_as_every_other() {
             shape: estampe_types::TextureShape::default(),
             ..Texture::clone(&texture)
         };
-        // The first layer alone, with its levels where they are.
+        // The first layer with its first mip level.
         let texture = Arc::new(Texture {
             levels: texture.levels[..1].to_vec(),
             ..texture
@@ -608,8 +610,8 @@ fn the_common_kind_is_the_same_as_every_other() {
 }
 
 #[test]
-fn a_level_without_weight_does_not_show() {
-    // Beside lanes that mix both levels: ∞ times 0 would be no number.
+fn a_mip_level_of_weight_zero_has_no_effect() {
+    // In lanes beside some that mix two levels: ∞ times a weight of 0 would be NaN.
     let bytes = [0.5_f32; 16].map(f32::to_le_bytes);
     let (one, infinity) = (
         [1.0_f32; 4].map(f32::to_le_bytes),

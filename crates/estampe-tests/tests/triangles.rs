@@ -1,4 +1,4 @@
-//! Random triangles of every style: coverage, depth and what is interpolated over them.
+//! Random triangles of every style: coverage, depth and interpolated values.
 
 use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::{Colored, FlatColored, Probe};

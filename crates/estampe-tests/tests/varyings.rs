@@ -1,4 +1,4 @@
-//! What fragments are given: every mode of interpolation, position, facing and derivatives.
+//! Inputs of fragments: every interpolation, position, facing and derivatives.
 
 use estampe_tests::geometry::{Style, triangles, vertex_buffer};
 use estampe_tests::shaders::{Probe, Scalar};
@@ -55,7 +55,7 @@ scalars! {
 
 /// Rows: R5.
 #[test]
-fn values_that_are_hardly_numbers() {
+fn nan_infinite_and_huge_values() {
     check("varyings/odd", 40, |random| {
         let mut case = Case::random_target(random);
         let mut vertices = triangles(random, Style::Large, case.size, 6);

@@ -1,4 +1,4 @@
-//! Vertex fetch: instances, indices of every width, formats, and buffers that end too soon.
+//! Vertex fetch: instances, indices of every width, formats, and buffers that are too short.
 
 use estampe_tests::geometry::{
     Style, Vertex, clip_at, triangles, values, vertex_buffer, vertex_layout,
@@ -25,7 +25,7 @@ fn small_vertices(random: &mut Random, size: [u32; 2], count: u32) -> Vec<Vertex
         .collect()
 }
 
-/// The third attribute of [`Indexed`], from a buffer of its own.
+/// The third attribute of [`Indexed`], in a buffer of its own.
 fn shifts(
     random: &mut Random,
     step_mode: VertexStepMode,
@@ -86,8 +86,8 @@ fn instances() {
 
 /// Rows: V2.
 #[test]
-fn many_instances_of_a_draw_that_fills_no_group() {
-    // Lanes that a group of sixteen does not use once gathered the instances' first vertices until they
+fn many_instances_of_a_draw_that_fills_no_packet() {
+    // Unused lanes of a packet once accumulated the instances' first vertices until they
     // overflowed.
     let random = &mut Random::new("vertex_input/many", 1);
     let mut case = Case::new([2, 2], 1);
@@ -102,9 +102,9 @@ fn many_instances_of_a_draw_that_fills_no_group() {
 
 /// Rows: V2.
 #[test]
-fn instances_of_more_vertices_than_a_wave_holds() {
-    // Twelve vertices each, so that memory would be short before primitives are many; the step rate counts across
-    // the cut.
+fn instances_of_more_vertices_than_a_draw_batch_holds() {
+    // Twelve vertices each, so that the bound on vertices ends a draw batch before the bound on
+    // primitives does; the step rate counts across the cut.
     let random = &mut Random::new("vertex_input/waves", 1);
     let mut case = Case::new([3, 3], 1);
     let mut draw = indexed_draw(random, &case);
@@ -148,7 +148,7 @@ fn indices_of_every_width() {
         let mut case = Case::random_target(random);
         let mut draw = indexed_draw(random, &case);
         let format = random.pick(&[IndexFormat::Uint8, IndexFormat::Uint16, IndexFormat::Uint32]);
-        // Few of 20 vertices; or some far off: a sparse range, and beyond the buffers' ends.
+        // Few of 20 vertices, or some far away: a sparse range, also beyond the buffers' ends.
         let far = random.pick(&[0, 0, 21, 200, 70_000, u32::MAX]);
         let mut indices: Vec<_> = (0..18).map(|_| random.below(20)).collect();
         if far > 0 {
@@ -157,7 +157,7 @@ fn indices_of_every_width() {
             }
         }
         let mut bytes = index_bytes(format, &indices);
-        // The buffer ends before the draw does, at times within an index.
+        // The buffer ends before the draw, sometimes within an index.
         if random.once_in(3) {
             bytes.truncate(random.index(bytes.len()));
         }
@@ -196,7 +196,7 @@ fn vertex_buffers_that_end_too_soon() {
             .iter()
             .flat_map(|word| word.to_le_bytes())
             .collect();
-        // At any byte: within a vertex, an attribute, a number.
+        // Cut at any byte: within a vertex, an attribute or a number.
         let kept = random.index(whole.len() + 1);
         let mut draw = CaseDraw::new(Probe::random(random), &vertices);
         draw.buffers = vec![(vertex_layout(), Buffer::from_bytes(&whole[..kept]))];
@@ -213,7 +213,7 @@ fn formats_strides_and_offsets() {
         let vertices = triangles(random, Style::Small, case.size, 8);
         let mut draw = CaseDraw::new(Formats(random.below(10) as usize), &vertices);
         draw.buffers[0].0.attributes.truncate(1);
-        // Four attributes in one buffer, aligned or not, with room between them.
+        // Four attributes in one buffer, aligned or not, with gaps between them.
         let mut offset = random.pick(&[0, 0, 4, 1, 2, 3]);
         let mut attributes = Vec::new();
         for shader_location in 1..5 {
@@ -249,7 +249,7 @@ fn formats_strides_and_offsets() {
 
 /// Rows: V2.
 #[test]
-fn draws_of_nothing() {
+fn empty_draws() {
     check("vertex_input/nothing", 6, |random| {
         let mut case = Case::random_target(random);
         let vertices = triangles(random, Style::Large, case.size, 1);

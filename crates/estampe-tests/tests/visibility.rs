@@ -1,5 +1,5 @@
-//! What is seen of many opaque triangles in one place: shading is put off until that is known, large triangles
-//! are seen front to back and small ones sixteen at a time, and ties of depth go by the order of drawing.
+//! The visibility path: many opaque triangles over each other, large and small, whose equal depths
+//! are resolved by the order of drawing.
 
 use estampe::TilePath;
 use estampe_tests::geometry::{Style, Vertex, triangles};
@@ -23,7 +23,7 @@ fn shader(random: &mut Random) -> TestShader {
     }
 }
 
-/// Puts whole triangles at one of a few depths, so that many are equal to the bit.
+/// Sets whole triangles to one of a few depths, so that many depths are equal to the bit.
 fn quantize(random: &mut Random, vertices: &mut [Vertex]) {
     for triangle in vertices.chunks_exact_mut(3) {
         if random.once_in(4) {
@@ -36,7 +36,7 @@ fn quantize(random: &mut Random, vertices: &mut [Vertex]) {
     }
 }
 
-/// A draw whose comparison orders depths, or sometimes any.
+/// A draw whose comparison orders depths; sometimes with any comparison.
 fn opaque(random: &mut Random, vertices: &[Vertex]) -> CaseDraw {
     let mut draw = CaseDraw::new(shader(random), vertices);
     draw.depth = match random.below(8) {
@@ -96,7 +96,7 @@ fn large_triangles_over_each_other() {
 
 /// Rows: R1, O4, U3.
 #[test]
-fn crowds_of_small_triangles() {
+fn many_small_triangles() {
     check_paths(
         "visibility/small",
         24,
@@ -144,7 +144,7 @@ fn opaque_and_blended_draws_in_turn() {
                 quantize(random, &mut vertices);
                 if random.once_in(2) {
                     for vertex in &mut vertices {
-                        // One alpha all over, in 0..1 with all the rest.
+                        // The same alpha everywhere, and all values in 0..1.
                         vertex.values = vertex.values.map(|value| value.clamp(0.0, 1.0));
                         vertex.values[3] = 0.25;
                         vertex.position[3] = 1.0;

@@ -1,4 +1,4 @@
-//! Viewports, scissors and targets of odd sizes.
+//! Viewports, scissor rectangles, and targets of odd sizes.
 
 use estampe_tests::geometry::{Style, Vertex, triangles};
 use estampe_tests::shaders::{Colored, Probe, Sized};
@@ -16,7 +16,7 @@ fn random_viewport(random: &mut Random, size: [u32; 2]) -> Viewport {
     let depths = [[0.0, 1.0], [1.0, 0.0], [0.25, 0.5], [0.9, 0.1], [0.5, 0.5]];
     let [min_depth, max_depth] = random.pick(&depths);
     let (x, y, w, h) = match random.below(4) {
-        // Partly outside, anywhere.
+        // Partly outside the target.
         0 => (
             random.range(-width, width),
             random.range(-height, height),
@@ -30,14 +30,14 @@ fn random_viewport(random: &mut Random, size: [u32; 2]) -> Viewport {
             random.below(4 * size[0]) as f32 * 0.25 + 0.25,
             random.below(2 * size[1]) as f32 * 0.5 + 0.5,
         ),
-        // Far off, or much larger than the target.
+        // Far outside, or much larger than the target.
         2 => (
             random.range(-30_000.0, 100.0),
             random.range(-30_000.0, 100.0),
             random.range(1.0, 32_768.0),
             random.range(1.0, 32_768.0),
         ),
-        // Sums that f32 would round: the edge of a pixel's centre, just missed.
+        // Sums that f32 would round: edges just beside a pixel's centre.
         _ => (
             random.pick(&[0.1, 0.3, -1e-6, 1e-9]),
             random.pick(&[0.7, 1.0 / 3.0, -0.25]),
@@ -100,7 +100,7 @@ fn viewports() {
 /// Rows: A4.
 #[test]
 fn viewports_beyond_their_limits_draw_nothing() {
-    // Few enough that all may be empty: a valid number may come out, too.
+    // With so few cases all may be empty: a random number may also be valid.
     for seed in 0..40 {
         let random = &mut Random::new("window/invalid", seed);
         let mut case = Case::new([20, 20], 1);
@@ -151,8 +151,9 @@ fn viewports_cut_pixels_by_their_samples() {
     });
 }
 
-/// A viewport that begins at x = 10.6 and ends at y = 7.3. Of the four samples, at x = 0.375, 0.875, 0.125 and 0.625 and
-/// y = 0.125, 0.375, 0.625 and 0.875 in their pixel, column 10 keeps the second and the fourth, row 7 the first.
+/// A viewport that begins at x = 10.6 and ends at y = 7.3. The four samples of a pixel are at x =
+/// 0.375, 0.875, 0.125 and 0.625 and y = 0.125, 0.375, 0.625 and 0.875: column 10 keeps the second
+/// and the fourth, row 7 the first.
 ///
 /// Rows: A4, R6.
 #[test]

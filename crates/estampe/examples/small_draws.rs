@@ -1,8 +1,10 @@
-//! Many small draws: 10,000 draws of one quad each, of one pipeline, with 16 bytes of bindings of their own.
+//! Many small draws: 10,000 draws of one quad each, with one pipeline and 16 bytes of bindings per
+//! draw.
 //!
-//! `cargo run --release -p estampe --example small_draws -- [frames] [draws|instances]` prints the time that a quad
-//! takes on each side of the tiles, on one thread. With `instances` the same quads are the instances of a single
-//! draw. Under `valgrind --tool=callgrind` the difference between two counts of frames is the cost of a frame.
+//! `cargo run --release -p estampe --example small_draws -- [frames] [draws|instances]` prints the
+//! time per quad before and in the tiles, on one thread. With `instances` the same quads are the
+//! instances of a single draw. Under `valgrind --tool=callgrind` the difference between two numbers
+//! of frames is the cost of a frame.
 
 #![expect(clippy::print_stdout, reason = "the program prints what it measured")]
 
@@ -17,7 +19,7 @@ use std::sync::Arc;
 
 const QUADS: u32 = 10_000;
 
-/// A quad that stands where 16 bytes of its draw's bindings say.
+/// A quad whose position is in 16 bytes of its draw's bindings.
 struct Placed;
 
 estampe::shader! {
@@ -39,7 +41,7 @@ estampe::shader! {
     }
 }
 
-/// The same quad, placed by an attribute of its instance.
+/// The same quad, whose position is an attribute stepped by instance.
 struct Instanced;
 
 estampe::shader! {
@@ -69,7 +71,8 @@ estampe::shader! {
     }
 }
 
-/// Where quad `number` stands: x, y, depth and scale. Neighbours in the list are far apart in the window.
+/// The position of quad `number`: x, y, depth and scale. Neighbours in the list are far apart in
+/// the window.
 fn place(number: u32) -> [f32; 4] {
     let random = |salt: u32| {
         let hash = (number * 4 + salt).wrapping_mul(0x9E37_79B9);

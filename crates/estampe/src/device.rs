@@ -122,9 +122,9 @@ impl Device {
         self.context.resolve(from, into);
     }
 
-    /// A colour attachment's texels in the format's own bytes, row by row from the top; several samples are resolved
-    /// to their mean. It is what [`RenderTarget::read_color`] gives, by all of the device's threads. Beyond the last
-    /// attachment it is empty.
+    /// A colour attachment's texels in the format's own bytes, row by row from the top; several
+    /// samples are resolved to their mean. It equals [`RenderTarget::read_color`], but uses all of
+    /// the device's threads. Empty if the target has no attachment `index`.
     #[must_use]
     pub fn read_color(&self, target: &RenderTarget, index: usize) -> Vec<u8> {
         let mut image = vec![0; target.color_len_bytes(index)];
@@ -134,11 +134,12 @@ impl Device {
         }
     }
 
-    /// [`Device::read_color`] into memory of [`RenderTarget::color_len_bytes`]. Memory that is used again is several
-    /// times as fast as new memory, whose pages the system has to make first.
+    /// [`Device::read_color`] into memory of [`RenderTarget::color_len_bytes`] bytes. Reused memory
+    /// is written several times as fast as new memory, whose pages the system first has to map.
     ///
     /// # Errors
-    /// [`ReadbackError`] beyond the last attachment, or when the memory has another length; nothing is written then.
+    /// [`ReadbackError`] if the target has no attachment `index`, or the memory has another length;
+    /// nothing is written then.
     pub fn read_color_into(
         &self,
         target: &RenderTarget,

@@ -97,7 +97,7 @@ fn a_texture_outlives_its_target_and_is_not_drawn_over() {
 }
 
 #[test]
-fn there_is_none_without_depth_or_with_samples() {
+fn there_is_no_texture_without_depth_or_with_several_samples() {
     let device = Device::new(&DeviceDescriptor::default()).unwrap();
     for descriptor in [
         RenderTargetDescriptor {

@@ -38,7 +38,7 @@ impl Program for Claimant {
 }
 
 #[test]
-fn it_is_called_like_any_other() {
+fn a_false_passthrough_claim_has_no_effect() {
     for level in Level::all_available() {
         let device = Device::new(&DeviceDescriptor {
             threads: 1,

@@ -1,4 +1,4 @@
-//! Draws of 2³² indices over a small buffer end at once, and show what the buffer holds.
+//! Draws of 2³² indices over a small buffer end at once, and draw the contents of the buffer.
 
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{BlendState, PrimitiveTopology, VertexBufferLayout};
@@ -74,7 +74,8 @@ fn elements_beyond_the_index_buffer_show_nothing_and_take_no_time() {
             (2, IndexFormat::Uint8),
             (100, IndexFormat::Uint32),
         ] {
-            // Thirty elements are more than the buffer holds, and few enough to be drawn one by one.
+            // Thirty elements are more than the buffer holds, and few enough to be drawn one by
+            // one.
             let (few, _) = picture(first..first + 30, format);
             let (all, primitives) = picture(first..u32::MAX, format);
             assert!(few == all, "{topology:?} {first} {format:?}");

@@ -1,5 +1,5 @@
-//! The limits of every device: WebGPU's guaranteed numbers of attributes, varyings and layers, no
-//! more.
+//! The limits of every device: WebGPU's guaranteed numbers of attributes, varyings and layers are
+//! supported, and one more is an error.
 
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{PrimitiveTopology, VertexBufferLayout};
@@ -74,7 +74,8 @@ fn descriptor() -> RenderPipelineDescriptor {
 /// Rows: N1, V2.
 #[test]
 fn sixteen_attributes_and_sixteen_varyings() {
-    // Attribute k of every vertex is 2⁻⁸ · 2^(k mod 4) in its channel k / 4: every one counts.
+    // Attribute k of every vertex is 2⁻⁸ · 2^(k mod 4) in its channel k / 4, so every one changes
+    // the colour.
     let value = |attribute: usize, channel: usize| {
         if attribute / 4 == channel {
             (1 << (attribute % 4)) as f32 / 256.0
@@ -92,7 +93,7 @@ fn sixteen_attributes_and_sixteen_varyings() {
         Buffer::from_f32s(&numbers(0)),
         Buffer::from_f32s(&numbers(8)),
     ];
-    // `mixed` weighs by 1, ½, ½, ¼, and again.
+    // `mixed` has the weights 1, ½, ½, ¼, repeated.
     let weights = [1.0, 0.5, 0.5, 0.25];
     let expected = [0, 1, 2, 3].map(|channel: usize| {
         let sum: f32 = (0..4)

@@ -1,4 +1,4 @@
-//! Primitive state that a pipeline refuses, by the rule that it breaks.
+//! Primitive state that a pipeline refuses, and the rule that the error names.
 
 use estampe::state::{LineState, LineStipple};
 use estampe::{

@@ -1,5 +1,5 @@
-//! Resolving gives the same picture as reading the samples back, and refuses targets that do not
-//! fit.
+//! Resolving gives the same image as reading the samples back, and targets that do not fit are
+//! refused.
 
 use estampe::{
     Device, DeviceDescriptor, Draw, FragmentIn, FragmentOut, Int, RenderPipelineDescriptor,
@@ -82,7 +82,7 @@ fn a_resolved_picture_is_the_one_that_is_read_back() {
                 let mut memory = vec![0xA5; image.color_len_bytes(0)];
                 device.read_color_into(&image, 0, &mut memory).unwrap();
                 assert!(memory == expected, "{format:?} {size:?}");
-                // Some pixel is partly covered, so that there is something to resolve.
+                // Some pixel is partly covered, so resolving changes something.
                 let colors = expected.as_chunks::<4>().0;
                 let shades: std::collections::BTreeSet<_> = colors.iter().collect();
                 assert!(size.0 == 1 || shades.len() > 100, "{}", shades.len());
@@ -92,7 +92,7 @@ fn a_resolved_picture_is_the_one_that_is_read_back() {
 }
 
 #[test]
-fn targets_that_do_not_fit_are_left_alone() {
+fn targets_that_do_not_fit_are_not_written() {
     let device = Device::new(&DeviceDescriptor::default()).unwrap();
     let unorm = TextureFormat::Rgba8Unorm;
     let samples = drawn(&device, unorm, (70, 40));

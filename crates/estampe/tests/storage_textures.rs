@@ -1,4 +1,5 @@
-//! Fragments that store to a texture: all covered fragments store, helper invocations do not.
+//! Fragment shaders that store to a texture: all covered fragments store, helper invocations do
+//! not.
 
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{DepthState, VertexBufferLayout};
@@ -88,7 +89,7 @@ fn drawn(level: Level, threads: usize, clear_depth: f32) -> [Vec<u8>; 2] {
 
 /// Rows: F2, O9.
 #[test]
-fn what_is_covered_is_stored_whether_it_is_seen_or_not() {
+fn covered_fragments_store_even_if_invisible() {
     let [seen, _] = drawn(Level::best(), 1, 1.0);
     let white = |pixels: &[u8]| pixels.iter().filter(|&&byte| byte == 255).count();
     assert!(white(&seen) > 500);

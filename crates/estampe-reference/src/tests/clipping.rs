@@ -126,7 +126,7 @@ fn neighbours_share_their_clipped_vertices_to_the_bit() {
 }
 
 #[test]
-fn what_is_not_a_number_or_not_in_sight_is_dropped() {
+fn non_finite_and_invisible_triangles_are_dropped() {
     let seen = [
         [0.0, 0.0, 0.5, 1.0],
         [0.5, 0.0, 0.5, 1.0],
@@ -326,7 +326,7 @@ fn plane_distance(normal: [f32; 4], p: [f32; 4]) -> f32 {
 
 /// Rows: A3.
 #[test]
-fn what_clip_distances_leave_lies_inside_and_keeps_its_area() {
+fn triangles_clipped_by_distances_lie_inside_and_keep_their_area() {
     let random = &mut Random::new(29);
     let mut clipped = 0;
     for _ in 0..3000 {

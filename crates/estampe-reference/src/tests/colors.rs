@@ -11,7 +11,7 @@ const SRGB: TextureFormat = TextureFormat::Rgba8UnormSrgb;
 
 /// Rows: O8.
 #[test]
-fn unorm_codes_round_half_up_and_confine() {
+fn unorm_codes_round_half_up_and_clamp() {
     let unorm_code = |value| Channel::Unorm(8).encode(value);
     assert_eq!(unorm_code(0.5), 128);
     assert_eq!(unorm_code(f32::NAN), 0);

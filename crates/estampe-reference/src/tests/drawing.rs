@@ -143,7 +143,7 @@ fn shaders_discard_write_depth_and_see_derivatives_and_position() {
 
 /// Rows: A4, O2.
 #[test]
-fn the_scissor_and_the_viewport_confine() {
+fn the_scissor_and_the_viewport_limit_drawing() {
     let mut target = unorm(8, 8, 1);
     let state = State {
         viewport: Viewport {

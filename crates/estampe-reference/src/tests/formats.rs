@@ -155,7 +155,7 @@ fn small_floats_round_to_even() {
 
 /// Rows: O8.
 #[test]
-fn integers_are_bits_confined_to_their_range() {
+fn integers_are_clamped_to_their_range() {
     let of = |bits: u32| f32::from_bits(bits);
     assert_eq!(Channel::Uint(8).encode(of(300)), 255);
     assert_eq!(Channel::Uint(8).encode(of(u32::MAX)), 255);

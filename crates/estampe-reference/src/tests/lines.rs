@@ -140,7 +140,7 @@ fn lines_interpolate_depth_and_varyings() {
 
 /// Rows: A5.
 #[test]
-fn polygon_modes_draw_edges_and_vertices_of_what_is_not_culled() {
+fn polygon_modes_draw_edges_and_vertices_of_unculled_triangles() {
     let image = |polygon_mode, cull_mode| {
         let mut target = unorm(8, 8, 1);
         let state = State {

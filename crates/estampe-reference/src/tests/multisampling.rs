@@ -167,7 +167,7 @@ estampe_types::shader! {
 
 /// Rows: R6, R7.
 #[test]
-fn one_sampled_varying_makes_all_go_by_sample() {
+fn one_per_sample_varying_makes_shading_per_sample() {
     let mut target = Target::new(2, 2, 8, TextureFormat::Rgba32Float);
     let vertices = left_of(&target, 9.0);
     draw_with(&mut target, &Interpolated, &State::new(2, 2), &vertices);

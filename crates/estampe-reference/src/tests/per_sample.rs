@@ -33,7 +33,7 @@ const OPERATIONS: StencilFaceState = StencilFaceState {
 
 /// Rows: O3, O4.
 #[test]
-fn stencil_goes_by_what_fails_first() {
+fn stencil_operations_depend_on_the_first_failing_test() {
     let state = State {
         depth: Some(DepthState::LESS_WRITE),
         stencil: Some(StencilState {
@@ -244,7 +244,7 @@ fn logic_operations_are_their_truth_tables() {
 
 /// Rows: O5, F1.
 #[test]
-fn the_second_colour_and_what_formats_confine() {
+fn the_second_colour_and_clamping_by_format() {
     let blended =
         |format: F, source: f32, second: f32, constant: f32, component: BlendComponent| {
             let mut target = pixel(format, F::Depth32Float);
@@ -326,7 +326,7 @@ fn alpha_keeps_the_first_samples() {
 
 /// Rows: F1.
 #[test]
-fn declared_depths_are_held_to_their_word() {
+fn declared_depth_limits_are_enforced() {
     use DepthOutput as D;
     for (output, low, high) in [
         (D::Any, 0.2, 0.8),

@@ -18,7 +18,7 @@ fn layout(format: VertexFormat, stride: u32, offset: u32, location: u32) -> Vert
 
 /// Rows: V2.
 #[test]
-fn formats_are_filled_up_with_0_0_0_1() {
+fn missing_components_are_0_0_0_1() {
     let floats = Buffer::from_f32s(&[1.5, -2.0, 3.0, 4.0]);
     let decode = |format, buffer: &Buffer| fetch::decode(format, buffer, 0);
     assert_eq!(decode(VertexFormat::Float32, &floats), [1.5, 0.0, 0.0, 1.0]);
@@ -51,7 +51,7 @@ fn formats_are_filled_up_with_0_0_0_1() {
 
 /// Rows: V2.
 #[test]
-fn what_is_not_there_reads_zeros() {
+fn missing_data_reads_zeros() {
     let buffers = [(
         layout(VertexFormat::Float32x4, 16, 8, 3),
         Buffer::from_f32s(&[1.0; 7]),

@@ -1,5 +1,5 @@
 #![forbid(unsafe_code)]
-//! Long runs of the random tests whose cases cost little: `cargo xtask fuzz raster --seconds 60`.
+//! Command-line entry of the random tests for long runs: `cargo xtask fuzz raster --seconds 60`.
 
 use std::process::ExitCode;
 use std::time::Duration;

@@ -1,11 +1,12 @@
-//! Shaders of several targets, of integers, and of two colours for one.
+//! Shaders for several targets, integer targets, dual-source blending, limited depth outputs and
+//! many varyings.
 
 use super::bytes_of;
 use estampe_types::shader::{DepthOutput, VertexOut};
 use estampe_types::{FragmentIn, FragmentOut, Int, Real, Shader, Vec4, VertexIn};
 
-/// So many targets, each with a colour of its own: of the targets whose bit is set integers, as bits; of the
-/// others numbers.
+/// Writes `N` targets, each with a different colour: integers, as bits, to the targets whose bit is
+/// set; numbers to the others.
 #[derive(Debug, Clone, Copy)]
 pub struct Layers<const N: usize>(pub u8);
 
@@ -17,10 +18,10 @@ pub type Layers2 = Layers<2>;
 pub type Layers4 = Layers<4>;
 /// Three targets.
 pub type Layers3 = Layers<3>;
-/// As many as there can be.
+/// Eight targets, the greatest number.
 pub type Layers8 = Layers<8>;
 
-/// Integers around the ends of every format's range, from a number.
+/// Integers around the ends of every format's range, computed from a number.
 #[inline(always)]
 fn integer<R: Real>(value: R) -> R {
     let near = (value * 300.0).to_int();
@@ -59,7 +60,7 @@ impl<const N: usize> Shader for Layers<N> {
             } else {
                 turned
             };
-            // The last of eight is given none: zeros are stored.
+            // No colour is set for the last of eight targets: zeros are stored.
             if target < 7 {
                 out = out.with_color(target, given);
             }
@@ -103,7 +104,7 @@ impl<const N: usize> Shader for CutLayers<N> {
     }
 }
 
-/// Two colours for one target.
+/// Two colours for one target: dual-source blending.
 #[derive(Debug, Clone, Copy)]
 pub struct TwoColors;
 
@@ -128,7 +129,8 @@ estampe_types::shader! {
     }
 }
 
-/// A depth that is declared to lie behind the interpolated one (`true`) or before it, or that does not keep the word.
+/// Declares depths that are not below (`true`) or not above (`false`) the interpolated one, and
+/// writes depths on both sides of it, which must be clamped.
 #[derive(Debug, Clone, Copy)]
 pub struct HeldDepth<const GREATER: bool>;
 
@@ -163,7 +165,7 @@ impl<const GREATER: bool> Shader for HeldDepth<GREATER> {
     }
 }
 
-/// Logarithmic depth, log₂(1 + w) ÷ log₂(1 + far): the depth that the shader writes; far is the number it holds.
+/// Writes logarithmic depth, log₂(1 + w) ÷ log₂(1 + far); the field is far.
 #[derive(Debug, Clone, Copy)]
 pub struct LogarithmicDepth(pub f32);
 
@@ -196,7 +198,8 @@ estampe_types::shader! {
 /// Four vectors of four numbers.
 type Sixteen<R> = (Vec4<R>, Vec4<R>, Vec4<R>, Vec4<R>);
 
-/// As many attributes and varyings as there may be: 16 of four numbers each. The first attribute is the position.
+/// The greatest numbers of attributes and varyings: 16 of four numbers each. The first attribute is
+/// the position.
 #[derive(Debug, Clone, Copy)]
 pub struct Crowded;
 

@@ -1,10 +1,10 @@
-//! Shaders whose colour is what vertices say, and points of any size.
+//! Shaders whose colour comes from the vertices or from uniforms, and points of any size.
 
 use super::bytes_of;
 use estampe_types::shader::VertexOut;
 use estampe_types::{Flat, FragmentIn, FragmentOut, Vec4, VertexIn};
 
-/// The colour is a smooth varying; nothing else is read.
+/// The colour is a smooth varying: colour passthrough.
 #[derive(Debug, Clone, Copy)]
 pub struct Colored;
 
@@ -28,7 +28,8 @@ estampe_types::shader! {
     }
 }
 
-/// Half of a smooth varying, of an independent fragment; turned round on back faces.
+/// The colour is half of a smooth varying, with its components reversed on back faces; it takes no
+/// derivatives.
 #[derive(Debug, Clone, Copy)]
 pub struct Halved;
 
@@ -54,7 +55,7 @@ estampe_types::shader! {
     }
 }
 
-/// The colour is the provoking vertex's: the same all over a primitive.
+/// The colour is the provoking vertex's: flat over the primitive.
 #[derive(Debug, Clone, Copy)]
 pub struct FlatColored;
 
@@ -83,8 +84,8 @@ estampe_types::shader! {
     }
 }
 
-/// The colour is that of group 0, binding 0, at byte 0 for front faces and 16 for back faces; without
-/// varyings.
+/// The colour is that of group 0, binding 0, at byte 0 for front faces and at byte 16 for back
+/// faces; there are no varyings.
 #[derive(Debug, Clone, Copy)]
 pub struct Uniform;
 
@@ -109,7 +110,7 @@ estampe_types::shader! {
     }
 }
 
-/// Points whose size is this factor times the fourth value; `None` declares a size and gives none.
+/// Points whose size is this factor times the fourth value; `None` declares a size and writes none.
 #[derive(Debug, Clone, Copy)]
 pub struct Sized(pub Option<f32>);
 

@@ -28,14 +28,14 @@ estampe_types::shader! {
     }
 }
 
-/// Which depth a shader gives.
+/// The depth that a shader writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GivenDepth {
     /// The fourth value, which may lie anywhere.
     Value,
-    /// The interpolated one, changed.
+    /// The interpolated depth, scaled and shifted.
     Moved,
-    /// None after all: the interpolated one serves.
+    /// None, although the shader declares one: the interpolated depth is used.
     Nothing,
 }
 
@@ -105,7 +105,7 @@ estampe_types::shader! {
     }
 }
 
-/// Writes no colour: for a target that has depth alone.
+/// Writes no colour: for a target with depth only.
 #[derive(Debug, Clone, Copy)]
 pub struct DepthOnly;
 

@@ -4,16 +4,16 @@ use super::bytes_of;
 use estampe_types::shader::VertexOut;
 use estampe_types::{Flat, FragmentIn, FragmentOut, NoPerspective, Vec4, VertexIn};
 
-/// What fragments show of the vertices' values.
+/// The varyings from which the shown value is chosen.
 type Shown<R> = (Vec4<R>, NoPerspective<[R; 1]>, Flat<[R; 1]>);
 
-/// Two clip and two cull distances: the four values less a shift. The colour is one of a smooth, an affine and a flat
-/// varying, depth, and which side is seen.
+/// Two clip and two cull distances: the four values minus a shift. The colour has the bits of a
+/// smooth, an affine or a flat varying, of depth, or of the facing.
 #[derive(Debug, Clone, Copy)]
 pub struct Distant {
-    /// What is taken off.
+    /// Subtracted from each value.
     pub shift: f32,
-    /// What is shown.
+    /// The shown value: 0 smooth, 1 affine, 2 flat, 3 depth, 4 facing, else the fourth value.
     pub shown: u32,
 }
 
@@ -56,8 +56,8 @@ estampe_types::shader! {
     }
 }
 
-/// Eight clip and eight cull distances, mixtures of the values; point sizes; one distance is declared and not
-/// given.
+/// Eight clip and eight cull distances, mixtures of the values; point sizes. One distance is
+/// declared and not written.
 #[derive(Debug, Clone, Copy)]
 pub struct ManyDistances(pub f32);
 

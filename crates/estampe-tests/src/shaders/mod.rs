@@ -1,4 +1,4 @@
-//! The shaders of the tests: each shows something that both sides must compute alike.
+//! The shaders of the tests: each writes a value that both sides must compute equally.
 
 mod attachments;
 mod colored;
@@ -25,14 +25,14 @@ use estampe_reference::{Counts, Draw, State, Target};
 use estampe_types::{Int, Program, Real, ShaderProgram, Vec4};
 use std::sync::Arc;
 
-/// The 32 bits of a number as the four bytes of a colour, so that a unorm target shows the last bit. A
-/// NaN, whose payload processors choose, shows as 0.
+/// The 32 bits of a number as the four bytes of a colour, so that a unorm target shows the last
+/// bit. A NaN, whose payload depends on the processor, becomes 0.
 #[inline(always)]
 pub fn bytes_of<R: Real>(value: R) -> Vec4<R> {
     bytes_of_int::<R>(R::select(value.eq(value), value, value.splat(0.0)).to_bits())
 }
 
-/// The same of an integer.
+/// The 32 bits of an integer as the four bytes of a colour.
 #[inline(always)]
 pub fn bytes_of_int<R: Real>(bits: R::Int) -> Vec4<R> {
     let byte = |shift: u32| ((bits >> shift) & bits.splat(0xFF)).to_real() * (1.0 / 255.0);
@@ -41,7 +41,7 @@ pub fn bytes_of_int<R: Real>(bits: R::Int) -> Vec4<R> {
 
 macro_rules! test_shaders {
     ($($name:ident),+) => {
-        /// Any of the shaders.
+        /// Any of the test shaders.
         #[derive(Debug, Clone)]
         pub enum TestShader {
             $(#[doc = concat!("[`", stringify!($name), "`].")] $name($name),)+
@@ -56,7 +56,7 @@ macro_rules! test_shaders {
         })+
 
         impl TestShader {
-            /// The shader as the fast path wants it.
+            /// The shader as a program of the fast path.
             #[must_use]
             pub fn program(&self) -> Arc<dyn Program> {
                 match self {

@@ -1,11 +1,11 @@
-//! A shader that shows the bits of one of its inputs.
+//! A shader that outputs the bits of one of its inputs.
 
 use super::bytes_of;
 use crate::Random;
 use estampe_types::shader::VertexOut;
 use estampe_types::{Flat, FragmentIn, FragmentOut, NoPerspective, Vec2, Vec4, VertexIn};
 
-/// What a fragment can show.
+/// The inputs that [`Probe`] can show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scalar {
     /// A smooth varying.
@@ -24,20 +24,20 @@ pub enum Scalar {
     InverseW,
     /// Fine derivative of a smooth varying in x.
     Ddx,
-    /// The same in y.
+    /// Fine derivative of a smooth varying in y.
     Ddy,
     /// Coarse derivative of a varying that is linear in the window.
     DdxCoarse,
-    /// The same in y.
+    /// Coarse derivative of a varying that is linear in the window, in y.
     DdyCoarse,
-    /// How depth rises along x.
+    /// The derivative of depth in x.
     DepthSlope,
-    /// 1 where the primitive faces the viewer, else 0.
+    /// 1 if the primitive is front facing, else 0.
     FrontFacing,
 }
 
 impl Scalar {
-    /// All of them.
+    /// Every input.
     pub const ALL: [Self; 13] = [
         Self::Smooth,
         Self::NoPerspective,
@@ -55,12 +55,12 @@ impl Scalar {
     ];
 }
 
-/// Shows the bits of a scalar.
+/// Outputs the bits of an input.
 #[derive(Debug, Clone, Copy)]
 pub struct Probe(pub Scalar);
 
 impl Probe {
-    /// Of a random scalar.
+    /// Probes a random input.
     pub fn random(random: &mut Random) -> Self {
         Self(random.pick(&Scalar::ALL))
     }

@@ -1,4 +1,5 @@
-//! Shaders that know of the samples of a pixel.
+//! Shaders that read or write per-sample inputs and outputs: sample index, coverage, sample mask,
+//! centroids.
 
 use super::{bytes_of, bytes_of_int};
 use crate::Random;
@@ -8,7 +9,7 @@ use estampe_types::{
     VertexIn,
 };
 
-/// What is shown.
+/// The shown value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shown {
     /// The first varying.
@@ -17,9 +18,10 @@ pub enum Shown {
     Ddx,
     /// Its derivative in y.
     Ddy,
-    /// The second varying, which is linear in the window and at the pixel's centre unless shading is by sample.
+    /// The second varying: linear in the window, evaluated at the pixel's centre unless shading is
+    /// per sample.
     Second,
-    /// The samples that are covered, and the number of the one that is shaded.
+    /// The coverage and the index of the shaded sample.
     Samples,
     /// Window x.
     X,
@@ -30,7 +32,7 @@ pub enum Shown {
 }
 
 impl Shown {
-    /// One of them.
+    /// A random one.
     pub fn random(random: &mut Random) -> Self {
         random.pick(&[
             Self::Varying,
@@ -110,10 +112,11 @@ sampled! {
     "Shaded by sample because it reads the sample's number; the varying is declared centroid." BySample Centroid true;
 }
 
-/// Keeps the samples of a mask, which is made of the first value, and shows the coverage; discards some.
+/// Writes a sample mask computed from the first value, and shows the coverage; discards some
+/// fragments.
 #[derive(Debug, Clone, Copy)]
 pub struct Masking {
-    /// Added to the mask's bits.
+    /// Bits that are added to the mask.
     pub always: u16,
 }
 

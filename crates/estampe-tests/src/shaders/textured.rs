@@ -1,4 +1,5 @@
-//! A shader over any texture, so that each side brings its own sampling.
+//! A shader over any texture type, so that the oracle and the fast path each use their own
+//! sampling.
 
 use super::bytes_of;
 use estampe_reference::texture::ReferenceView;
@@ -15,16 +16,16 @@ use std::sync::Arc;
 pub trait TexelSource: Sample2d + 'static {}
 impl<T: Sample2d + 'static> TexelSource for T {}
 
-/// A 2D texture, sampled by each side's own code.
+/// A 2D texture; the oracle and the fast path each sample it with their own code.
 #[derive(Debug, Clone)]
 pub struct TexturedShader {
     /// The texels.
     pub texture: Arc<Texture>,
-    /// How they are sampled.
+    /// The sampler.
     pub sampler: SamplerDescriptor,
-    /// Which channel shows its bits; `None` shows the colour.
+    /// The channel whose bits are shown; `None` shows the colour.
     pub channel: Option<usize>,
-    /// Whether it is a view, which takes every format and sampler.
+    /// Whether the fast path samples a view (any format and sampler) and not a [`Sampled`] texture.
     pub is_view: bool,
 }
 
@@ -56,12 +57,12 @@ impl TexturedShader {
     }
 }
 
-/// The texture at the first two values; or the bits of one of its channels.
+/// Samples the texture at the first two values and shows the colour, or the bits of one channel.
 #[derive(Debug, Clone)]
 pub struct Textured<T> {
     /// The texture.
     pub texels: T,
-    /// Which channel shows its bits; `None` shows the colour.
+    /// The channel whose bits are shown; `None` shows the colour.
     pub channel: Option<usize>,
 }
 

@@ -1,11 +1,11 @@
-//! Shaders that show what the vertex stage was given.
+//! Shaders that show the inputs of the vertex stage.
 
 use super::bytes_of_int;
 use estampe_types::shader::VertexOut;
 use estampe_types::{Flat, FragmentIn, FragmentOut, Vec2, Vec3, Vec4, VertexIn};
 
-/// Adds a third attribute (an instance's, say) to the position, and shows the low bytes of the vertex and
-/// instance index, and values.
+/// Adds a third attribute (for example one stepped by instance) to the position. Shows the low
+/// bytes of the vertex and the instance index, and a value.
 #[derive(Debug, Clone, Copy)]
 pub struct Indexed;
 
@@ -21,7 +21,7 @@ estampe_types::shader! {
         ) -> VertexOut<R, Self::Varyings<R>> {
             let vertex = bytes_of_int::<R>(input.vertex_index);
             let instance = bytes_of_int::<R>(input.instance_index);
-            // A high byte is seen too: the indices may wrap.
+            // The highest byte is shown too, because indices may wrap.
             let shown = Vec4::new(vertex.x, vertex.y, instance.x, vertex.w);
             VertexOut::new(position + shift, (Flat(shown), [values.x]))
         }
@@ -36,8 +36,8 @@ estampe_types::shader! {
     }
 }
 
-/// Shows the bits of one of ten numbers of four attributes of 4, 2, 3 and 1 components; location 0 is the
-/// position.
+/// Shows the bits of one of ten numbers of four attributes with 4, 2, 3 and 1 components; location
+/// 0 is the position.
 #[derive(Debug, Clone, Copy)]
 pub struct Formats(pub usize);
 
@@ -62,7 +62,7 @@ estampe_types::shader! {
             _input: FragmentIn<'_, R>,
             Flat([shown]): Flat<[R; 1]>,
         ) -> FragmentOut<R> {
-            // Integers, too, whatever number their bits would be.
+            // As integers: exact also if the bits are those of a NaN.
             FragmentOut::color(bytes_of_int::<R>(shown.to_bits()))
         }
     }

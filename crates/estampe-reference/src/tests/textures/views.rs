@@ -148,7 +148,7 @@ fn blocks_of_texels_are_near_the_exact_mean() {
 /// direction. A face in the wrong position, rotated, or joined to the wrong edge would be found.
 /// Rows: F2.
 #[test]
-fn cubes_show_what_lies_in_their_direction() {
+fn cubes_sample_their_direction() {
     const N: u32 = 24;
     let smooth = |direction: [f32; 3]| {
         let length = direction.map(|x| x * x).iter().sum::<f32>().sqrt();
@@ -400,7 +400,7 @@ fn gathered_texels_wrap_each_by_itself() {
 
 /// Rows: F2.
 #[test]
-fn comparisons_are_mixed_not_depths() {
+fn comparisons_are_filtered_not_depths() {
     let with = |function, reference| {
         let sampler = SamplerDescriptor {
             compare: Some(function),
