@@ -1,12 +1,12 @@
-//! What the system says about time spent: by this process, by each of its threads, by the whole machine.
+//! CPU time of this process, of each of its threads, and of the whole machine, from `/proc`.
 //!
-//! Where the system does not say (other systems than Linux), the answers are zero.
+//! On systems other than Linux all times are zero.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::time::Duration;
 
-/// User and system time of this process, all threads together.
+/// User and system time of this process, summed over all threads.
 #[must_use]
 pub fn process_cpu_time() -> Duration {
     #[cfg(unix)]
@@ -37,15 +37,15 @@ pub fn thread_cpu_times() -> BTreeMap<String, Duration> {
         .collect()
 }
 
-/// Time that all of the machine's cores were busy since it started, in steps of 10 ms.
+/// Busy time of the machine since it started, summed over its cores, in steps of 10 ms.
 #[must_use]
 pub fn machine_busy_time() -> Duration {
     let text = fs::read_to_string("/proc/stat").unwrap_or_default();
     busy_time_of(text.lines().next().unwrap_or_default())
 }
 
-/// The busy time in the first line of `/proc/stat` (proc_stat(5)): `cpu user nice system idle iowait irq
-/// softirq steal …` in ticks of 10 ms, of which idle and iowait are idleness.
+/// The busy time in the first line of `/proc/stat` (proc_stat(5)): `cpu user nice system idle
+/// iowait irq softirq steal …` in ticks of 10 ms; idle and iowait do not count as busy.
 fn busy_time_of(line: &str) -> Duration {
     let ticks = line
         .split_whitespace()

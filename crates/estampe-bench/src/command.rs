@@ -1,4 +1,4 @@
-//! The command line: what to draw, how, and where the results go.
+//! The command line of `estampe-bench`, and its tasks.
 
 use crate::frame::{FrameSize, PreparedScene};
 use crate::measure::{Effort, measure};
@@ -17,9 +17,9 @@ use std::time::{Duration, Instant};
 
 /// Times estampe on the scenes of peerbench.
 ///
-/// A frame is recorded, drawn and stored to memory anew each time; nothing of the one before is used.
-/// Exit codes: 0 done, 1 a picture differs too much from the other renderer's, 2 wrong usage, 3 a file
-/// cannot be read or written.
+/// A frame is recorded, drawn and stored to memory anew each time; nothing of the previous one is
+/// reused. Exit codes: 0 done, 1 a picture differs too much from the other renderer's, 2 wrong
+/// usage, 3 a file cannot be read or written.
 #[derive(Debug, Parser)]
 #[command(
     name = "estampe-bench",
@@ -27,7 +27,7 @@ use std::time::{Duration, Instant};
     args_conflicts_with_subcommands = true
 )]
 pub struct Arguments {
-    /// What else to do
+    /// Another task, instead of timing the scenes
     #[command(subcommand)]
     pub task: Option<Task>,
     /// Scenes to draw, separated by commas [default: all]
@@ -41,25 +41,25 @@ pub struct Arguments {
         default_value = "1280x720"
     )]
     pub sizes: Vec<FrameSize>,
-    /// Threads that draw; 0: one for each processor
+    /// Threads that draw; 0: one per processor
     #[arg(long, default_value_t = 0)]
     pub threads: usize,
     /// SIMD level: auto, scalar, sse2, avx2 or avx512
     #[arg(long, default_value = "auto")]
     pub simd: String,
-    /// Frames to measure, at least
+    /// The least number of frames to measure
     #[arg(long, default_value_t = 15)]
     pub frames: usize,
-    /// Seconds to measure, at least
+    /// The least number of seconds to measure
     #[arg(long, default_value_t = 0.6)]
     pub seconds: f64,
-    /// How often a measurement that other processes disturbed is repeated
+    /// Repetitions of a measurement that other processes disturbed
     #[arg(long, default_value_t = 2)]
     pub retries: usize,
     /// Write the results to this file
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
-    /// What the results are called
+    /// The name of the results
     #[arg(long, default_value = "estampe")]
     pub label: String,
     /// Write each scene's last frame to DIR/SCENE_WxH.png
@@ -68,36 +68,36 @@ pub struct Arguments {
     /// Compare each scene's last frame with DIR/SCENE_WxH.png
     #[arg(long, value_name = "DIR")]
     pub compare: Option<PathBuf>,
-    /// Measure the stages one by one instead of the scenes
+    /// Measure each stage on its own, instead of the scenes
     #[arg(long)]
     pub stages: bool,
-    /// Measure how cost grows with triangles, pixels and cores instead of the scenes, and write
+    /// Measure how cost grows with triangles, pixels and cores, instead of the scenes, and write
     /// DIR/GROWTH.md and its plots in DIR/images: two minutes
     #[arg(long, value_name = "DIR", conflicts_with = "stages")]
     pub growth: Option<PathBuf>,
 }
 
-/// What the command does besides timing ourselves.
+/// A task of the command besides timing our own scenes.
 #[derive(Debug, Subcommand)]
 pub enum Task {
     /// Compares estampe with lavapipe, scene by scene
     Compare(CompareArguments),
     /// Writes the models on which PERFORMANCE.md measures the whole process
     Models {
-        /// The folder that they are written to
+        /// The folder in which they are written
         #[arg(value_name = "DIR")]
         folder: PathBuf,
     },
-    /// Measures what each state of the pipeline costs
+    /// Measures the cost of each state of the pipeline
     States(StatesArguments),
 }
 
-/// Whether the pictures were as they should be.
+/// The result of comparing pictures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
-    /// All that were compared agree.
+    /// All compared pictures agree, or none were compared.
     Agreement,
-    /// Some do not.
+    /// Some pictures differ by more than the gate.
     Difference,
 }
 
@@ -120,7 +120,7 @@ impl Arguments {
         }
     }
 
-    /// The scenes that were asked for; to be compared, only those that the other renderer's client has.
+    /// The requested scenes; for a comparison, only those that `peerbench` has.
     fn scenes(&self) -> Result<Vec<&'static SceneEntry>, BenchError> {
         let (asked, is_offered): (_, fn(&SceneEntry) -> bool) = match &self.task {
             Some(Task::Compare(compare)) => (&compare.scenes, |entry| entry.is_peers),
@@ -147,10 +147,10 @@ impl Arguments {
     }
 }
 
-/// Does what the command line says; tables go to `out`.
+/// Executes the command line; tables are written to `out`.
 ///
 /// # Errors
-/// [`BenchError`]: wrong usage, or a file.
+/// [`BenchError`]: wrong usage, or a file that cannot be read or written.
 pub fn run(arguments: &Arguments, out: &mut impl Write) -> Result<Outcome, BenchError> {
     let scenes = arguments.scenes()?;
     match &arguments.task {
@@ -328,7 +328,7 @@ mod tests {
         let json: serde_json::Value = serde_json::from_str(&json).unwrap();
         assert_eq!(json["results"][1]["beyond"], 0.0);
 
-        // A picture of something else is a difference.
+        // The picture of another scene is a difference.
         std::fs::copy(
             folder.join("clear_40x30.png"),
             folder.join("fill_40x30.png"),

@@ -1,19 +1,20 @@
-//! Tables in PERFORMANCE.md: each between two marks, which stay.
+//! Generated sections of PERFORMANCE.md, each between two marks, which are kept.
 
 use crate::BenchError;
 use crate::provenance::repository;
 use std::path::{Path, PathBuf};
 
-/// PERFORMANCE.md of the repository.
+/// The path of PERFORMANCE.md in the repository.
 #[must_use]
 pub fn default_document() -> PathBuf {
     repository().join("PERFORMANCE.md")
 }
 
-/// Puts a section between the marks `<!-- NAME: begin -->` and `<!-- NAME: end -->` of a document.
+/// Replaces the text between the marks `<!-- NAME: begin -->` and `<!-- NAME: end -->` of a
+/// document.
 ///
 /// # Errors
-/// When the file cannot be read or written, or has no marks.
+/// If the file cannot be read or written, or has no such marks.
 pub fn update(path: &Path, name: &str, section: &str) -> Result<(), BenchError> {
     let file_error = |source| BenchError::File {
         path: path.to_owned(),
@@ -46,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_is_between_the_marks_changes() {
+    fn only_the_text_between_the_marks_changes() {
         let [begin, end] = marks("it");
         let [other_begin, other_end] = marks("other");
         let other = format!("{other_begin}\nother\n{other_end}");

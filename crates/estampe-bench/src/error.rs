@@ -1,32 +1,32 @@
-//! What can go wrong in a benchmark.
+//! Errors of the benchmarks.
 
 use estampe::{DeviceError, LevelError, PipelineError, TargetError};
 use std::path::PathBuf;
 
-/// Why a benchmark stopped.
+/// The reason why a benchmark stopped.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum BenchError {
-    /// There is no scene of that name.
+    /// No scene has this name.
     #[error("no scene is named '{name}'; the scenes are {known}")]
     UnknownScene {
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// What there is.
+        /// The names of all scenes.
         known: String,
     },
-    /// There is no state of that name.
+    /// No state has this name.
     #[error("no state and no group of states is named '{name}'; the states are {known}")]
     UnknownState {
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// What there is.
+        /// The names of all states.
         known: String,
     },
     /// The SIMD level cannot be used.
     #[error(transparent)]
     Level(#[from] LevelError),
-    /// There is no device.
+    /// The device cannot be created.
     #[error(transparent)]
     Device(#[from] DeviceError),
     /// A scene's pipeline was refused.
@@ -41,25 +41,25 @@ pub enum BenchError {
     /// A file cannot be read or written.
     #[error("{path}: {source}")]
     File {
-        /// Which file.
+        /// The file's path.
         path: PathBuf,
-        /// What the system says.
+        /// The system's message.
         source: std::io::Error,
     },
-    /// A picture or another file does not hold what it should.
+    /// A picture or another file has unexpected contents.
     #[error("{path}: {reason}")]
     Picture {
-        /// Which file.
+        /// The file's path.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The unexpected contents.
         reason: String,
     },
-    /// Something that a comparison needs is not there.
+    /// A requirement of the comparison is missing.
     #[error("{what}; {remedy}")]
     Missing {
-        /// What.
+        /// The missing requirement.
         what: String,
-        /// What to do about it.
+        /// Advice for the user.
         remedy: String,
     },
     /// Another program failed.
@@ -67,13 +67,13 @@ pub enum BenchError {
     Command {
         /// Its command line.
         command: String,
-        /// How it ended, and what it said.
+        /// How it ended, and its output.
         reason: String,
     },
 }
 
 impl BenchError {
-    /// Whether the command line is at fault.
+    /// Whether the command line is at fault, and not a file or the system.
     #[must_use]
     pub fn is_usage(&self) -> bool {
         matches!(

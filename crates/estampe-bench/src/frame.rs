@@ -1,4 +1,5 @@
-//! One frame of a scene: record the passes, render, resolve, and colour and depth lie in memory.
+//! One frame of a scene: record the passes, render them, resolve; colour and depth are then in
+//! memory.
 
 use crate::BenchError;
 use crate::scene::{CLEAR_COLOR, Scene, SceneDraw, shadow};
@@ -28,7 +29,7 @@ impl std::fmt::Display for FrameSize {
 impl std::str::FromStr for FrameSize {
     type Err = String;
 
-    /// Reads `WxH`.
+    /// Parses `WxH`.
     fn from_str(text: &str) -> Result<Self, String> {
         let numbers = text
             .split_once('x')
@@ -40,27 +41,27 @@ impl std::str::FromStr for FrameSize {
     }
 }
 
-/// A scene on a device: everything that is made once.
+/// A scene with its resources on a device, created once for many frames.
 #[derive(Debug)]
 pub struct PreparedScene<'d> {
     device: &'d Device,
     resources: Resources,
-    /// The pass before the frame's, if there is one.
+    /// The depth-map pass before the frame's pass, if the scene has one.
     depth_map: Option<(RenderTarget, Vec<PreparedDraw>)>,
     draws: Vec<PreparedDraw>,
     target: RenderTarget,
-    /// What the samples are resolved to, if there are several.
+    /// The target of the resolve, if the scene is multisampled.
     resolved: Option<RenderTarget>,
 }
 
-/// What draws refer to.
+/// The buffers and bindings to which draws refer.
 #[derive(Debug)]
 struct Resources {
     pipelines: Vec<RenderPipeline>,
     buffers: Vec<Buffer>,
-    /// Which buffer is bound at each draw's dynamic offset.
+    /// The index of the buffer that is bound at each draw's dynamic offset.
     uniforms: Option<usize>,
-    /// Group 0, where it is the same in every frame.
+    /// Group 0, if it is the same in every frame.
     bind_group: Arc<BindGroup>,
 }
 
@@ -70,20 +71,20 @@ struct PreparedDraw {
     elements: Range<u32>,
 }
 
-/// What one frame took.
+/// Times of one frame.
 #[derive(Debug, Clone, Copy)]
 pub struct FrameTimes {
-    /// Recording the draws.
+    /// Time to record the draws.
     pub recording: Duration,
-    /// What the passes did.
+    /// Statistics of all passes.
     pub statistics: Statistics,
 }
 
 impl<'d> PreparedScene<'d> {
-    /// Makes the scene's pipelines, buffers and targets, of that size.
+    /// Creates the scene's pipelines, buffers and targets for frames of this size.
     ///
     /// # Errors
-    /// [`BenchError`] when the size is beyond the device's limits.
+    /// [`BenchError`] if the size exceeds the device's limits.
     pub fn new(device: &'d Device, scene: &Scene, size: FrameSize) -> Result<Self, BenchError> {
         let prepared = |draws: &[SceneDraw]| -> Vec<PreparedDraw> {
             let draws = draws.iter().map(|draw| PreparedDraw {
@@ -124,7 +125,7 @@ impl<'d> PreparedScene<'d> {
         })
     }
 
-    /// Draws a frame anew: nothing of the one before is used.
+    /// Records and draws a frame; nothing of the previous frame is reused.
     pub fn draw(&mut self) -> FrameTimes {
         let (device, resources) = (self.device, &self.resources);
         let mut times = FrameTimes {
@@ -165,19 +166,19 @@ impl<'d> PreparedScene<'d> {
         self.device.read_color(self.picture(), 0)
     }
 
-    /// How many bytes [`Self::read_color`] gives.
+    /// The number of bytes of [`Self::read_color`].
     #[must_use]
     pub fn color_len_bytes(&self) -> usize {
         self.picture().color_len_bytes(0)
     }
 
-    /// [`Self::read_color`] into memory of [`Self::color_len_bytes`], by the device's threads.
+    /// [`Self::read_color`] into memory of [`Self::color_len_bytes`], on the device's threads.
     pub fn read_color_into(&self, image: &mut [u8]) {
         let read = self.device.read_color_into(self.picture(), 0, image);
         debug_assert_eq!(read, Ok(()), "memory of color_len_bytes");
     }
 
-    /// The target that holds the frame with one sample a pixel.
+    /// The target that holds the frame with one sample per pixel.
     fn picture(&self) -> &RenderTarget {
         self.resolved.as_ref().unwrap_or(&self.target)
     }
@@ -205,7 +206,7 @@ impl Resources {
         Ok(resources)
     }
 
-    /// Group 0: the uniforms, and the depth map where there is one.
+    /// Group 0: the uniforms, and the depth map if there is one.
     fn group(&self, depth_map: Option<DepthTexture>) -> Arc<BindGroup> {
         let uniforms = self.uniforms.map(|index| Binding::Buffer {
             buffer: self.buffers[index].clone(),

@@ -1,20 +1,23 @@
 #![forbid(unsafe_code)]
-//! Benchmarks: the scenes of `peerbench`, drawn natively, timed as it times lavapipe and SwiftShader, and
-//! compared with their pictures; and the cost of each stage.
+//! Benchmarks: the scenes of `peerbench`, drawn natively and timed in the same way as lavapipe and
+//! SwiftShader, with a comparison of the pictures; and the costs of stages, states and growing
+//! loads.
 //!
 //! ```sh
-//! cargo run --release -p estampe-bench -- --scenes fill,mid_tris --sizes 1280x720 --threads 2 --json ours.json
+//! cargo run --release -p estampe-bench -- \
+//!     --scenes fill,mid_tris --sizes 1280x720 --threads 2 --json ours.json
 //! ```
 //!
-//! * [`generate`] makes the scenes' data, bit for bit as `peerbench` does: the fingerprint says so;
+//! * [`generate`] makes the scenes' data, equal to `peerbench`'s bit for bit, as their fingerprints
+//!   prove;
 //! * [`scene`] has one file per scene: its data, its shader, its pipeline;
-//! * [`frame`] draws a scene once; [`measure`] draws it often and takes the time by the [`clock`];
+//! * [`frame`] draws a scene once; [`measure`] draws it many times and measures with the [`clock`];
 //! * [`picture`] writes, reads and compares pictures; [`report`] writes tables and JSON;
-//! * [`stages`] has loads that stress one stage each; [`states`] says what each state of the pipeline costs;
-//!   [`growth`] says how cost grows with triangles, pixels and cores;
-//! * `models` writes the files on which the whole process, `estampe render`, is measured;
-//! * [`versus`] runs us and lavapipe in turn; [`document`] puts tables into PERFORMANCE.md, under a line of
-//!   [`provenance`];
+//! * [`stages`] has loads that stress one stage each; [`states`] measures the cost of each state of
+//!   the pipeline; [`growth`] measures how cost grows with triangles, pixels and cores;
+//! * `models` writes the files with which the whole process, `estampe render`, is measured;
+//! * [`versus`] runs estampe and lavapipe in turn; [`document`] writes tables into PERFORMANCE.md,
+//!   under a line of [`provenance`];
 //! * [`command`] is the command line.
 
 pub mod clock;

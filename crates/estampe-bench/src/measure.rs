@@ -1,22 +1,22 @@
-//! Drawing a scene often and taking the time: medians, because other processes disturb the mean.
+//! Timing of scenes over many frames, by medians, because other processes disturb the mean.
 //!
-//! As `peerbench` does it: two frames and 0.15 s of warm-up; then at least so many frames and so many
-//! seconds. A measurement that other processes disturbed by more than a tenth of a core is repeated, and the
-//! least disturbed counts.
+//! The procedure is `peerbench`'s: two frames and 0.15 s of warm-up, then a least number of frames
+//! and of seconds. A measurement that other processes disturbed by more than a tenth of a core is
+//! repeated, and the least disturbed one counts.
 
 use crate::clock;
 use crate::frame::{FrameTimes, PreparedScene};
 use estampe::Statistics;
 use std::time::{Duration, Instant};
 
-/// How long to measure.
+/// The length of a measurement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// At least so many frames.
+    /// The least number of frames.
     pub frames: usize,
-    /// And for at least so long.
+    /// The least time.
     pub time: Duration,
-    /// How often a disturbed measurement is repeated.
+    /// The greatest number of repetitions of a disturbed measurement.
     pub retries: usize,
 }
 
@@ -31,16 +31,16 @@ impl Default for Effort {
     }
 }
 
-/// More frames than this are not drawn, however short they are.
+/// The greatest number of frames, even if they are short.
 const MAX_FRAMES: usize = 1000;
 const WARM_UP: Duration = Duration::from_millis(150);
 const MAX_WARM_UP_FRAMES: usize = 50;
-/// How often reading back is measured.
+/// The number of measured readbacks.
 const READBACKS: usize = 15;
-/// Cores' worth of other processes' work that counts as a disturbance.
+/// Work of other processes, in cores, that counts as a disturbance.
 const DISTURBED_CORES: f64 = 0.1;
 
-/// What a frame takes, in milliseconds.
+/// Times of a frame, in milliseconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timing {
     /// Wall time, median.
@@ -53,23 +53,25 @@ pub struct Timing {
     pub cpu_ms: f64,
     /// CPU time of all threads, least.
     pub cpu_min_ms: f64,
-    /// CPU time of the busiest thread, mean: no schedule can be faster.
+    /// CPU time of the busiest thread, mean: a lower bound for every schedule.
     pub busiest_thread_ms: f64,
-    /// The geometry side, median.
+    /// The geometry stages, median.
     pub geometry_ms: f64,
-    /// The tile side, median.
+    /// The tiles, median.
     pub raster_ms: f64,
-    /// How many frames were measured.
+    /// The number of measured frames.
     pub frames: usize,
     /// The first frame.
     pub first_ms: f64,
-    /// Cores' worth of work that other processes did meanwhile.
+    /// Work of other processes during the measurement, in cores.
     pub other_cores: f64,
-    /// De-tiling colour to rows in memory that is used again, by the device's threads, median; no part of the frame.
+    /// Conversion of the colour tiles to rows in reused memory, on the device's threads, median;
+    /// not part of the frame.
     pub readback_ms: f64,
-    /// Copying as many bytes from rows to rows by one thread, median: the rate that de-tiling is held against.
+    /// A copy of as many bytes from rows to rows on one thread, median, for comparison with the
+    /// conversion.
     pub copy_ms: f64,
-    /// What a frame did; its times are the last frame's.
+    /// Statistics of the last frame.
     pub statistics: Statistics,
 }
 
@@ -154,7 +156,8 @@ fn measure_once(scene: &mut PreparedScene<'_>, effort: Effort) -> Timing {
     }
 }
 
-/// De-tiling colour to rows, and copying as many bytes, in turn. The first time takes memory from the system.
+/// Converting the colour tiles to rows, and copying as many bytes, in turn. The first time takes
+/// memory from the system.
 fn measure_readback(scene: &PreparedScene<'_>) -> [f64; 2] {
     let mut image = vec![0; scene.color_len_bytes()];
     scene.read_color_into(&mut image);
@@ -178,7 +181,7 @@ fn ms(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
-/// The middle value, or the mean of the two in the middle; 0 of nothing.
+/// The median: the middle value, or the mean of the two in the middle; 0 if there are no values.
 pub(crate) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let middle = values.len() / 2;

@@ -1,17 +1,18 @@
 //! Models for measuring the whole process, `estampe render` from file to file: one torus in two
 //! sizes, as binary STL, as indexed binary PLY and as OBJ.
 //!
-//! The bytes are the same on every machine: the angles' sines come from `libm`, computed in f64 and
-//! rounded once.
+//! The bytes are the same on every machine: sines come from `libm`, are computed in f64 and rounded
+//! once.
 
 use std::f64::consts::TAU;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-/// A torus whose tube has half the radius of its ring, around the y axis.
+/// A torus around the y axis whose tube has half the radius of its ring.
 ///
-/// Vertices lie in rows around the ring, `ring` rows of `tube`; each cell between them is two triangles.
+/// Vertices lie in `ring` rows of `tube` vertices around the ring; each cell between them is two
+/// triangles.
 #[derive(Debug, Clone, Copy)]
 struct Torus {
     ring: u32,
@@ -30,8 +31,8 @@ const LARGE: Torus = Torus {
     tube: 706,
 };
 
-/// Writes `torus-70k.stl`, `torus-1m.ply` and `torus-1m.obj` into a folder and creates it where it is
-/// missing.
+/// Writes `torus-70k.stl`, `torus-1m.ply` and `torus-1m.obj` into a folder, which is created if it
+/// is missing.
 ///
 /// # Errors
 /// The folder or a file cannot be written.
@@ -75,21 +76,22 @@ impl Torus {
         (rounded(position), rounded(normal))
     }
 
-    /// The two triangles of a cell, counter-clockwise from outside: rows and columns of their corners.
-    /// Those beyond the last row or column are the first again.
+    /// The two triangles of a cell, counter-clockwise from outside, as rows and columns of their
+    /// corners. A row or column beyond the last stands for the first.
     fn triangles(row: u32, column: u32) -> [[(u32, u32); 3]; 2] {
         let [a, b] = [(row, column), (row + 1, column)];
         let [c, d] = [(row, column + 1), (row + 1, column + 1)];
         [[a, c, b], [b, c, d]]
     }
 
-    /// The number of a vertex, where those beyond the last are the first.
+    /// The index of a vertex; a row or column beyond the last stands for the first.
     fn index(self, (row, column): (u32, u32)) -> u32 {
         row % self.ring * self.tube + column % self.tube
     }
 }
 
-/// Header, count, and per triangle a normal (zero: readers make their own), three corners, no attribute.
+/// Header, count, and for each triangle a zero normal (readers compute normals), three corners, no
+/// attribute.
 fn write_stl(torus: Torus, out: &mut impl Write) -> io::Result<()> {
     let mut header = [b' '; 80];
     header[..13].copy_from_slice(b"estampe torus");
@@ -130,7 +132,7 @@ fn write_ply(torus: Torus, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Positions, texture coordinates and normals; texture coordinates have a seam, the others have none.
+/// Positions, texture coordinates and normals; only the texture coordinates have a seam.
 fn write_obj(torus: Torus, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "# estampe torus\no torus")?;
     for (row, column) in torus.cells() {
@@ -172,7 +174,7 @@ fn write_floats(values: [f32; 3], out: &mut impl Write) -> io::Result<()> {
 mod tests {
     use super::{LARGE, SMALL, Torus, write_obj, write_ply, write_stl};
 
-    /// Small enough to look at.
+    /// A torus small enough to be checked by hand.
     const TINY: Torus = Torus { ring: 3, tube: 4 };
 
     #[test]

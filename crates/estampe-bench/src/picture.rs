@@ -1,4 +1,4 @@
-//! Pictures as PNG files, and how two renderers' pictures differ.
+//! Pictures as PNG files, and the differences of two renderers' pictures.
 
 use crate::BenchError;
 use crate::frame::FrameSize;
@@ -34,10 +34,10 @@ impl Picture {
         file.flush().map_err(|source| file_error(path, source))
     }
 
-    /// Reads a PNG of 8-bit RGBA, such as `peerbench` writes.
+    /// Reads a PNG of 8-bit RGBA, the format that `peerbench` writes.
     ///
     /// # Errors
-    /// When the file cannot be read or holds something else.
+    /// If the file cannot be read or has another format.
     pub fn read_png(path: &Path) -> Result<Self, BenchError> {
         let refuse = |reason: String| BenchError::Picture {
             path: path.to_owned(),
@@ -71,14 +71,14 @@ fn file_error(path: &Path, source: std::io::Error) -> BenchError {
     }
 }
 
-/// How two pictures of one size differ.
+/// The difference of two pictures of one size.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Difference {
-    /// How many pixels they have.
+    /// The number of pixels.
     pub pixels: u64,
-    /// How many differ at all.
+    /// The number of pixels that differ at all.
     pub differing: u64,
-    /// How many differ by more than [`Difference::TOLERANCE`] in some channel.
+    /// The number of pixels that differ by more than [`Difference::TOLERANCE`] in some channel.
     pub beyond: u64,
     /// The largest difference of a channel.
     pub max: u8,
@@ -87,13 +87,14 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Differences up to this are of rounding: of interpolation, filtering and blending.
+    /// The greatest difference that is attributed to rounding: of interpolation, filtering and
+    /// blending.
     pub const TOLERANCE: u8 = 8;
-    /// Pictures with at most this share of pixels beyond the tolerance count as the same: the pixels on
-    /// edges and between mip levels, where renderers may choose.
+    /// Pictures with at most this share of pixels beyond the tolerance count as the same: these are
+    /// pixels on edges and between mip levels, where the specifications leave a choice.
     pub const GATE: f64 = 0.005;
 
-    /// Compares two pictures; `None` when their sizes differ.
+    /// Compares two pictures; `None` if their sizes differ.
     #[must_use]
     pub fn between(a: &Picture, b: &Picture) -> Option<Self> {
         if a.size != b.size || a.rgba.len() != b.rgba.len() {

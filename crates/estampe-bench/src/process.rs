@@ -1,13 +1,13 @@
-//! Running other programs.
+//! Execution of other programs.
 
 use crate::BenchError;
 use std::ffi::OsStr;
 use std::process::Command;
 
-/// Runs a command to its end; gives what it printed.
+/// Runs a command to its end and returns its standard output.
 ///
 /// # Errors
-/// [`BenchError::Command`] when it cannot be run or fails.
+/// [`BenchError::Command`] if it cannot be run or fails.
 pub(crate) fn run(command: &mut Command) -> Result<String, BenchError> {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
     let words: Vec<_> = words.map(OsStr::to_string_lossy).collect();
@@ -29,7 +29,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_fails_says_which_command() {
+    fn errors_name_the_command() {
         let error = run(Command::new("command-of-nowhere").arg("x")).unwrap_err();
         assert!(error.to_string().starts_with("command-of-nowhere x: "));
     }

@@ -1,4 +1,4 @@
-//! What was measured, when, and on what: the first line of every table.
+//! Date, processor and versions of a measurement: the first line of every table.
 
 use crate::process::run;
 use std::path::{Path, PathBuf};
@@ -11,21 +11,21 @@ pub fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// What was measured, on what.
+/// Date, processor and versions of a measurement.
 #[derive(Debug, Clone, Default)]
 pub struct Versions {
     /// The day, as 2026-11-21.
     pub date: String,
-    /// The processor's name and how many cores there are.
+    /// The processor's name and the number of its cores.
     pub processor: String,
-    /// Our version and commit.
+    /// Version and commit of estampe.
     pub estampe: String,
-    /// The compiler's.
+    /// Version of the compiler.
     pub rustc: String,
 }
 
 impl Versions {
-    /// Asks the system.
+    /// Determines the versions and the machine of this process.
     #[must_use]
     pub fn here() -> Self {
         let since = SystemTime::now().duration_since(UNIX_EPOCH);
@@ -50,7 +50,7 @@ impl Versions {
     }
 }
 
-/// The first processor's name in `/proc/cpuinfo`, and how many there are.
+/// The first processor's name in `/proc/cpuinfo`, and the number of processors.
 fn processor(cpuinfo: &str) -> String {
     let field = |line: &str| {
         Some(
@@ -68,7 +68,7 @@ fn processor(cpuinfo: &str) -> String {
     }
 }
 
-/// The date of a day since 1970-01-01, as 2026-11-21, by the Gregorian calendar.
+/// The date of a day since 1970-01-01 in the form 2026-11-21, by the Gregorian calendar.
 fn date_of(days: u64) -> String {
     let (mut year, mut left) = (1970, days);
     let is_leap = |year: u64| {

@@ -1,4 +1,4 @@
-//! Results as `peerbench` gives them: JSON with one scene a line, and a table.
+//! Reports in `peerbench`'s form: JSON with one scene per line, and a table.
 
 use crate::frame::FrameSize;
 use crate::measure::Timing;
@@ -8,18 +8,19 @@ use estampe::Device;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// What one run measured.
+/// The results of one run.
 #[derive(Debug, Clone)]
 pub struct Report {
-    /// What the run is called.
+    /// The name of the run.
     pub label: String,
-    /// Who drew: SIMD level and threads.
+    /// SIMD level and threads.
     pub driver: String,
-    /// One row a scene and size, in the order drawn.
+    /// One row per scene and size, in the order of drawing.
     pub rows: Vec<Row>,
 }
 
-/// One scene at one size. The names are `peerbench`'s, to `other_cores`; times in milliseconds.
+/// One scene at one size. The names up to `other_cores` are `peerbench`'s; times are in
+/// milliseconds.
 #[derive(Debug, Clone, Serialize)]
 pub struct Row {
     /// The scene's name.
@@ -36,7 +37,7 @@ pub struct Row {
     pub median_ms: f64,
     /// Wall time of a frame, least.
     pub min_ms: f64,
-    /// Recording, median.
+    /// Recording the draws, median.
     pub encode_ms: f64,
     /// CPU time of the process, median.
     pub cpu_ms: f64,
@@ -46,25 +47,26 @@ pub struct Row {
     pub busiest_thread_ms: f64,
     /// Frames measured.
     pub frames: usize,
-    /// Making pipelines, buffers and targets.
+    /// Creation of pipelines, buffers and targets.
     pub setup_ms: f64,
     /// The first frame.
     pub first_ms: f64,
-    /// Cores' worth of other processes' work.
+    /// Work of other processes, in cores.
     pub other_cores: f64,
-    /// De-tiling colour to rows: not part of the frame.
+    /// Conversion of the colour tiles to rows; not part of the frame.
     pub readback_ms: f64,
-    /// Copying as many bytes by one thread.
+    /// A copy of as many bytes on one thread.
     pub copy_ms: f64,
-    /// The geometry side, median.
+    /// The geometry stages, median.
     pub geometry_ms: f64,
-    /// The tile side, median.
+    /// The tiles, median.
     pub raster_ms: f64,
     /// Fragments shaded.
     pub fragments: u64,
-    /// Runs of triangles, tile by tile, whose shading was put off until all were seen.
+    /// Runs of opaque triangles in tiles that were drawn by the visibility path.
     pub visibility_runs: u64,
-    /// The share of pixels, 0..=1, that differ from the other renderer's by more than the tolerance.
+    /// The share of pixels, 0..=1, that differ from the other renderer's by more than the
+    /// tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub beyond: Option<f64>,
 }
@@ -99,7 +101,7 @@ impl Row {
         }
     }
 
-    /// The line of the table.
+    /// The row as a line of the table.
     #[must_use]
     pub fn line(&self) -> String {
         let size = format!("{}x{}", self.w, self.h);
@@ -125,7 +127,7 @@ impl Row {
     }
 }
 
-/// The heads of the table's columns.
+/// The header of the table.
 #[must_use]
 pub fn header() -> String {
     let mut line = format!("{:<15}{:>10}", "scene", "size");
@@ -139,7 +141,7 @@ pub fn header() -> String {
     line
 }
 
-/// One line on how a picture differs from another renderer's.
+/// One line about the difference of a picture from another renderer's.
 #[must_use]
 pub fn comparison(name: &str, difference: &Difference) -> String {
     let verdict = if difference.passes() {
@@ -193,7 +195,7 @@ fn json<T: Serialize>(value: &T) -> String {
     serde_json::to_string(value).expect("strings and numbers always serialize")
 }
 
-/// Four decimals: a tenth of a microsecond.
+/// A number rounded to four decimals: a tenth of a microsecond, in milliseconds.
 fn rounded(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }

@@ -1,9 +1,9 @@
-//! Loads that stress one stage each, through the public API: the cost of a vertex, of a triangle by its
-//! size, and of a fragment by what happens to it.
+//! Loads that stress one stage each, through the public API: the cost of a vertex, of a triangle by
+//! its size, and of a fragment by the operations on it.
 //!
-//! Triangles come as grids of square cells, two triangles each, that fill the frame; cells of a third of a
-//! pixel mostly vanish before binning, cells of 64 pixels are all raster. The statistics of a pass separate
-//! the geometry side from the tile side.
+//! Triangles are grids of square cells, two triangles each, that fill the frame. Cells of a third
+//! of a pixel are mostly culled before binning; cells of 64 pixels cost mostly rasterization. The
+//! statistics of a pass separate geometry from tiles.
 
 use crate::BenchError;
 use crate::frame::{FrameSize, PreparedScene};
@@ -19,13 +19,13 @@ use estampe::{
     Vec3, Vec4, VertexFormat, VertexIn, VertexOut,
 };
 
-/// The frame that the loads are made for.
+/// The frame size of the loads.
 pub const SIZE: FrameSize = FrameSize {
     width: 1280,
     height: 720,
 };
 
-/// Layers over each other: instance i lies at z = first + i·step.
+/// Layers over each other: instance i is at z = first + i·step.
 #[derive(Debug, Clone, Copy)]
 struct Layers {
     count: u32,
@@ -53,12 +53,12 @@ impl Layers {
     };
 }
 
-/// A colour that the primitive has as a whole.
+/// A flat colour per primitive.
 struct FlatLayers(Layers);
-/// A colour that is interpolated.
+/// An interpolated colour.
 struct SmoothLayers(Layers);
 
-/// The position in clip space of an instance's vertex.
+/// The clip-space position of an instance's vertex.
 macro_rules! layer_position {
     ($input:ident, $layers:expr, $position:ident) => {{
         let z = $input.instance_index.to_real() * $layers.step + $layers.first;
@@ -108,10 +108,10 @@ estampe::shader! {
     }
 }
 
-/// One load and what it stresses.
+/// A load and its purpose.
 #[derive(Debug)]
 pub struct Load {
-    /// What it stresses.
+    /// The stressed operation, for the table.
     pub purpose: &'static str,
     scene: Scene,
 }
@@ -120,14 +120,14 @@ impl Load {
     /// Measures the load.
     ///
     /// # Errors
-    /// [`BenchError`] when the device refuses the frame's size.
+    /// [`BenchError`] if the device refuses the frame's size.
     pub fn measure(&self, device: &Device, effort: Effort) -> Result<Timing, BenchError> {
         let mut prepared = PreparedScene::new(device, &self.scene, SIZE)?;
         Ok(measure(&mut prepared, effort))
     }
 }
 
-/// The loads, from the first stage to the last. They are made one by one: some are large.
+/// The loads, in pipeline order. They are created one by one, because some are large.
 pub fn loads() -> impl Iterator<Item = Load> {
     let grids = [
         ("triangles of 0.06 px", 1.0 / 3.0),
@@ -160,7 +160,7 @@ pub fn loads() -> impl Iterator<Item = Load> {
         .chain([DRAWS_OF_500, DRAWS_OF_2].into_iter().map(many_draws))
 }
 
-/// Points outside the view volume: fetched, shaded, dropped.
+/// Points outside the view volume: fetched, shaded and dropped.
 fn vertices() -> Load {
     let grid = Grid {
         origin_px: [-4.0 * f64::from(SIZE.width), 0.0],
@@ -235,7 +235,7 @@ fn smooth_blended() -> Load {
     )
 }
 
-/// A logic operation that copies: the picture of what replaces, on the path for rare states.
+/// A logic operation that copies: the same picture as without it, in a rarely used state.
 fn copied(layers: Layers) -> RenderPipelineDescriptor {
     RenderPipelineDescriptor {
         logic_operation: Some(LogicOperation::Copy),
@@ -284,13 +284,13 @@ fn general_triangles() -> Load {
     )
 }
 
-/// A purpose, how many draws, and how many cells each draw's patch has on a side.
+/// Purpose, number of draws, and cells along a side of each draw's patch.
 type ManyDraws = (&'static str, u32, u32);
 
 const DRAWS_OF_500: ManyDraws = ("1900 draws of 512 triangles", 1900, 16);
 const DRAWS_OF_2: ManyDraws = ("10000 draws of 2 triangles", 10_000, 1);
 
-/// Draws of a small mesh each, their patches beside each other: what a draw costs.
+/// Draws of small meshes, whose patches are beside each other: the cost of a draw.
 fn many_draws((purpose, draws, cells): ManyDraws) -> Load {
     let patch = |number: u32| Grid {
         columns: cells,
@@ -351,21 +351,21 @@ fn load(
     Load { purpose, scene }
 }
 
-/// Square cells in the window, of two triangles each, their inner corners moved at random.
+/// Square cells in window space, of two triangles each, with inner corners moved at random.
 #[derive(Debug, Clone, Copy)]
 struct Grid {
     columns: u32,
     rows: u32,
     cell_px: [f64; 2],
-    /// Where the first column and the first row begin.
+    /// Left and top edge of the grid.
     origin_px: [f64; 2],
 }
 
 impl Grid {
-    /// The most cells of a row: a square grid of them has a million triangles.
+    /// The greatest number of cells per row: a square grid of these has a million triangles.
     const MAX_CELLS: f64 = 708.0;
 
-    /// As many cells of a size as the frame takes, a million triangles at most.
+    /// A grid of cells of this size that fills the frame, with a million triangles at most.
     fn of(cell_px: f64) -> Self {
         #[expect(
             clippy::cast_possible_truncation,
@@ -397,7 +397,7 @@ impl Grid {
             for column in 0..=self.columns {
                 let hash = hash32(row * 65_536 + column);
                 let [red, green, blue, alpha] = hash.to_le_bytes();
-                // Corners on the border stay, so that the grid fills its rectangle.
+                // Corners on the border are not moved, so that the grid fills its rectangle.
                 let is_inner = |at: u32, count: u32| f64::from(u8::from(at > 0 && at < count));
                 let moved = |bits: u8| (f64::from(bits) / 255.0 - 0.5) * 0.5;
                 let x = f64::from(column) + moved(red) * is_inner(column, self.columns);
@@ -414,7 +414,7 @@ impl Grid {
         vertices.into_bytes()
     }
 
-    /// Two counter-clockwise triangles a cell.
+    /// Two counter-clockwise triangles per cell.
     fn triangles(&self) -> Vec<u8> {
         let width = self.columns + 1;
         let mut indices = LittleEndian::default();
@@ -438,11 +438,11 @@ impl Grid {
     }
 }
 
-/// The heads of the table's columns. Times are wall time, nanoseconds for one vertex, primitive or fragment.
+/// The header of the table. Times are wall time, in nanoseconds per vertex, primitive or fragment.
 pub const HEADER: &str = "load                           primitives    binned   fragments     ms  \
                           geometry   raster  geo/vertex  geo/prim  ras/prim  ras/fragment";
 
-/// A load's line of the table.
+/// A load's line in the table.
 #[must_use]
 pub fn line(purpose: &str, timing: &Timing) -> String {
     let counts = timing.statistics;

@@ -41,7 +41,7 @@ fn every_level_and_thread_count_gives_the_same_bytes() {
 }
 
 #[test]
-fn a_scene_is_seen() {
+fn scenes_draw_pixels() {
     let device = Device::new(&DeviceDescriptor::default()).unwrap();
     let background = CLEAR_COLOR.map(|channel| (channel * 255.0).round().to_bits());
     for entry in ALL {
@@ -50,7 +50,8 @@ fn a_scene_is_seen() {
         let is_background =
             |pixel: &&[u8; 4]| pixel.map(|channel| f32::from(channel).to_bits()) == background;
         let seen = pixels.iter().filter(|pixel| !is_background(pixel)).count();
-        // How much of the frame each scene covers: full-screen quads, a sphere, a torus, a heap.
+        // The covered share of the frame of each scene: full-screen quads, a sphere, a torus, many
+        // quads.
         let expected = match entry.name {
             "clear" => 0..=0,
             "fill" | "fill_front" | "fill_draws" | "blend" | "heavy_fs" => {
@@ -86,7 +87,7 @@ fn a_scene_in_more_draws_is_the_same_picture() {
 }
 
 #[test]
-fn a_frame_owes_nothing_to_the_one_before() {
+fn a_frame_does_not_depend_on_the_previous_one() {
     let device = Device::new(&DeviceDescriptor::default()).unwrap();
     for entry in ALL {
         let scene = entry.make(Detail::Reduced, SIZE);

@@ -1,4 +1,4 @@
-//! Numbers as little-endian bytes: the one place where binary64 becomes binary32.
+//! Little-endian encoding of numbers: the one place where binary64 becomes binary32.
 
 use super::Matrix;
 
@@ -9,7 +9,7 @@ pub struct LittleEndian {
 }
 
 impl LittleEndian {
-    /// Nothing yet, with room for `len_bytes`.
+    /// An empty buffer with capacity for `len_bytes`.
     #[must_use]
     pub fn with_capacity(len_bytes: usize) -> Self {
         Self {
@@ -48,12 +48,12 @@ impl LittleEndian {
         self.bytes.resize(len_bytes as usize, 0);
     }
 
-    /// Appends bytes as they are.
+    /// Appends bytes unchanged.
     pub fn raw(&mut self, values: &[u8]) {
         self.bytes.extend(values);
     }
 
-    /// What was written.
+    /// The written bytes.
     #[must_use]
     pub fn into_bytes(self) -> Vec<u8> {
         self.bytes

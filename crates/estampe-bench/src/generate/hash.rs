@@ -1,4 +1,4 @@
-//! Random-looking numbers from integers.
+//! Pseudo-random numbers from integers, by hashing.
 
 /// Chris Wellons' *lowbias32*: every input bit reaches every output bit with a bias below 0.2.
 #[must_use]

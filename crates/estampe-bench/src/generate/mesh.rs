@@ -1,4 +1,4 @@
-//! Grids of triangles: a sphere, a torus, quads.
+//! Triangle meshes on grids: a sphere, a torus, quads.
 
 use super::{LittleEndian, hash32, sin_cos_turns};
 
@@ -7,7 +7,7 @@ use super::{LittleEndian, hash32, sin_cos_turns};
 pub struct IndexedMesh {
     /// The vertices.
     pub vertices: Vec<u8>,
-    /// The indices, three a triangle.
+    /// The indices, 32 bits each, three per triangle.
     pub indices: Vec<u8>,
 }
 
@@ -60,9 +60,10 @@ impl Cell {
 
 /// A sphere of meridians and parallels with a bumpy surface, from the +y pole down.
 ///
-/// `radius(theta, phi)` takes turns: theta from 0 at the upper pole to ½, phi around the y axis. A vertex
-/// has its position and the unit sphere's normal (3 floats each) and a colour (4 bytes): 28 bytes. Cells at
-/// a pole are one triangle, so there are `2·segments·(rings − 1)`.
+/// `radius(theta, phi)` takes angles in turns: theta from 0 at the upper pole to ½, phi around the
+/// y axis. A vertex has its position and the unit sphere's normal (3 floats each) and a colour (4
+/// bytes): 28 bytes. Cells at a pole are one triangle, so there are `2·segments·(rings − 1)`
+/// triangles.
 #[must_use]
 pub fn uv_sphere(segments: u32, rings: u32, radius: impl Fn(f64, f64) -> f64) -> IndexedMesh {
     let width = segments + 1;
@@ -77,7 +78,7 @@ pub fn uv_sphere(segments: u32, rings: u32, radius: impl Fn(f64, f64) -> f64) ->
             let radius = radius(theta, phi);
             vertices.reals(&normal.map(|component| component * radius));
             vertices.reals(&normal);
-            // The seam's two columns of vertices share their colours.
+            // The two columns of vertices at the seam have the same colours.
             let noise = hash32(segment % segments * 7919 + ring).to_le_bytes();
             let [red, green, blue] = [0, 1, 2].map(|k| tinted(normal[k], noise_bits(noise, k)));
             vertices.raw(&[red, green, blue, 255]);

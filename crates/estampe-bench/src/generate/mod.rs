@@ -1,15 +1,16 @@
-//! The data of the scenes, made from nothing: meshes, textures and matrices that every renderer under
-//! comparison gets bit for bit.
+//! Procedural data of the scenes: meshes, textures and matrices, equal to the bit for all compared
+//! renderers.
 //!
-//! The numbers follow `peerbench`'s definition, in code of our own; [`Fingerprint`] proves that they agree:
+//! The numbers follow `peerbench`'s definition, in separate code; [`Fingerprint`] proves that they
+//! agree:
 //!
-//! * real arithmetic is binary64 with `+ − × ÷ √` alone, in a fixed order, and is rounded to binary32
-//!   once, when a number is stored ([`LittleEndian::reals`]);
+//! * real arithmetic is binary64 with `+ − × ÷ √` alone, in a fixed order, and is rounded to
+//!   binary32 once, when a number is stored ([`LittleEndian::reals`]);
 //! * sine and cosine are a series of our own ([`sin_cos_turns`]), because libraries differ;
-//! * texels are integers, but for normals, which follow the first rule; each mip level is the rounded
-//!   mean of 2×2 texels of the one before.
+//! * texels are integers, except normals, which follow the first rule; each mip level is the
+//!   rounded mean of 2×2 texels of the previous one.
 //!
-//! So the order of operations in these files is part of the definition: do not tidy it.
+//! So the order of operations in these files is part of the definition and must not be changed.
 
 mod bytes;
 mod fingerprint;

@@ -1,4 +1,4 @@
-//! Value noise that tiles, in integers.
+//! Tileable value noise in integers.
 
 use super::hash32;
 
@@ -17,9 +17,9 @@ pub(super) fn fractal_noise(x: u32, y: u32, size: u32, seed: u32) -> u32 {
     (octave(16, 0) * 4 + octave(64, 1) * 2 + octave(256, 2)) / 7
 }
 
-/// Random bytes at the corners of square cells, bilinear between.
+/// Random bytes at the corners of square cells, interpolated bilinearly.
 struct Lattice {
-    /// Cells along each side, after which the noise repeats.
+    /// Cells along each side; the noise repeats after them.
     cells: u32,
     /// A cell's side in texels.
     cell_size: u32,
@@ -34,7 +34,7 @@ impl Lattice {
             self.corner(column, row) * (self.cell_size - right)
                 + self.corner(column + 1, row) * right
         };
-        // The division between the two directions rounds: it is part of the definition.
+        // The rounding of the division between the two directions is part of the definition.
         let (upper, lower) = (along(row) / self.cell_size, along(row + 1) / self.cell_size);
         (upper * (self.cell_size - down) + lower * down) / self.cell_size
     }

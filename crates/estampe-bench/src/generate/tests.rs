@@ -1,4 +1,4 @@
-//! The generators, one by one; the scenes' fingerprints are compared in `tests/fingerprints.rs`.
+//! Tests of each generator; the scenes' fingerprints are compared in `tests/fingerprints.rs`.
 
 use super::*;
 use std::f64::consts::TAU;

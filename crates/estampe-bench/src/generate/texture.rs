@@ -1,4 +1,4 @@
-//! Square textures that tile, with their mip levels.
+//! Square tileable textures with their mip levels.
 
 use super::noise::fractal_noise;
 use super::normalize;
@@ -12,7 +12,7 @@ pub struct MipChain {
     pub levels: Vec<Vec<u8>>,
 }
 
-/// Two colours in squares, 16 to a side, darkened by noise. `size` is a power of two, at least 256.
+/// Two colours in squares, 16 per side, darkened by noise. `size` is a power of two, at least 256.
 #[must_use]
 pub fn diffuse_texture(size: u32, seed: u32) -> MipChain {
     const EVEN: [u32; 3] = [255, 208, 144];
@@ -27,8 +27,8 @@ pub fn diffuse_texture(size: u32, seed: u32) -> MipChain {
     })
 }
 
-/// Tangent-space normals of the same noise as a height field: (−8∂x, −8∂y, 64) normalised, with ∂ the
-/// difference of a texel's neighbours; stored as ⌊n·127.5 + 128⌋.
+/// Tangent-space normals of the same noise as a height field: (−8∂x, −8∂y, 64) normalised, where ∂
+/// is the difference of a texel's neighbours; stored as ⌊n·127.5 + 128⌋.
 #[must_use]
 pub fn normal_texture(size: u32, seed: u32) -> MipChain {
     let mut heights = Vec::with_capacity((size * size) as usize);
@@ -55,7 +55,7 @@ pub fn normal_texture(size: u32, seed: u32) -> MipChain {
 }
 
 impl MipChain {
-    /// The first level from a function of the texel, the others by halving.
+    /// All mip levels: the first from a function of the texel, the others by halving.
     fn below(size: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Self {
         let mut first = Vec::with_capacity((size * size * 4) as usize);
         for y in 0..size {
@@ -73,7 +73,7 @@ impl MipChain {
     }
 }
 
-/// The level below one of that side: each texel the mean of four, rounded half up.
+/// The next mip level of one with this side: each texel is the mean of four, rounded half up.
 fn halved(texels: &[u8], side: usize) -> Vec<u8> {
     let mut below = Vec::with_capacity(texels.len() / 4);
     for rows in texels.chunks_exact(side * 8) {
@@ -96,7 +96,7 @@ fn halved(texels: &[u8], side: usize) -> Vec<u8> {
     below
 }
 
-/// A number that is at most 255.
+/// A number of at most 255 as a byte.
 fn byte(value: u32) -> u8 {
     u8::try_from(value).expect("the mean or a share of bytes is a byte")
 }

@@ -1,4 +1,4 @@
-//! Vectors and matrices in binary64; column vectors, so `mul(a, b)` applies `b` first.
+//! Vectors and matrices in binary64, for column vectors.
 
 use super::sin_cos_turns;
 
@@ -31,7 +31,7 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// The matrix that changes nothing.
+    /// The identity matrix.
     pub const IDENTITY: Self = Self {
         columns: [
             [1.0, 0.0, 0.0, 0.0],
@@ -49,7 +49,7 @@ impl Matrix {
         matrix
     }
 
-    /// Makes everything `factor` times as large.
+    /// Uniform scaling by `factor`.
     #[must_use]
     pub fn scaling(factor: f64) -> Self {
         let mut matrix = Self::IDENTITY;
@@ -59,7 +59,7 @@ impl Matrix {
         matrix
     }
 
-    /// Turns about the x axis, y towards z.
+    /// Rotation about the x axis, from y towards z.
     #[must_use]
     pub fn rotation_x(turns: f64) -> Self {
         let (sine, cosine) = sin_cos_turns(turns);
@@ -69,7 +69,7 @@ impl Matrix {
         matrix
     }
 
-    /// Turns about the y axis, z towards x.
+    /// Rotation about the y axis, from z towards x.
     #[must_use]
     pub fn rotation_y(turns: f64) -> Self {
         let (sine, cosine) = sin_cos_turns(turns);
@@ -79,7 +79,8 @@ impl Matrix {
         matrix
     }
 
-    /// `self · first`: `first` is applied first. Each element's products are summed in order.
+    /// The product `self · first`, which applies `first` first. Each element's products are summed
+    /// in order.
     #[must_use]
     pub fn times(&self, first: &Self) -> Self {
         let a = &self.columns;
@@ -107,7 +108,7 @@ pub fn look_at(eye: Vector, target: Vector, up: Vector) -> Matrix {
     }
 }
 
-/// Clip from view, z from 0 at `near` to w at `far`; the angle of view is the vertical one.
+/// Clip from view, z from 0 at `near` to w at `far`; `view_turns` is the vertical angle of view.
 #[must_use]
 pub fn perspective(view_turns: f64, aspect: f64, near: f64, far: f64) -> Matrix {
     let (sine, cosine) = sin_cos_turns(view_turns * 0.5);
@@ -123,8 +124,8 @@ pub fn perspective(view_turns: f64, aspect: f64, near: f64, far: f64) -> Matrix 
     }
 }
 
-/// Clip from view without perspective: x and y from −`half_side` to `half_side`, z from 0 at `near` to 1 at
-/// `far`.
+/// Clip from view without perspective: x and y from −`half_side` to `half_side`, z from 0 at `near`
+/// to 1 at `far`.
 #[must_use]
 pub fn orthographic(half_side: f64, near: f64, far: f64) -> Matrix {
     let depth = near - far;

@@ -1,4 +1,4 @@
-//! Sine and cosine, the same on every machine.
+//! Sine and cosine with the same bits on every machine.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ const SINE: [f64; 6] = [
     39_916_800.0,
     6_227_020_800.0,
 ];
-/// The same for the cosine: 2!, 4!, … 14!.
+/// Denominators of the cosine's Taylor series after the first term: 2!, 4!, … 14!.
 const COSINE: [f64; 7] = [
     2.0,
     24.0,
@@ -24,8 +24,8 @@ const COSINE: [f64; 7] = [
 
 /// Sine and cosine of an angle in turns (1 is the full circle).
 ///
-/// The angle is reduced exactly to ±⅛ turn around a multiple of a quarter; there the series' next
-/// terms are below 10⁻¹².
+/// The angle is reduced exactly to ±⅛ turn around a multiple of a quarter; there the first omitted
+/// terms of the series are below 10⁻¹².
 #[must_use]
 pub fn sin_cos_turns(turns: f64) -> (f64, f64) {
     let quarter = (turns * 4.0 + 0.5).floor();
@@ -33,7 +33,7 @@ pub fn sin_cos_turns(turns: f64) -> (f64, f64) {
     let square = angle_rad * angle_rad;
     let sine = angle_rad * alternating_series(&SINE, square);
     let cosine = alternating_series(&COSINE, square);
-    // Turn by as many quarters as were taken off.
+    // Rotate back by the quarters that were subtracted.
     match quarter.rem_euclid(4.0) {
         0.0 => (sine, cosine),
         1.0 => (cosine, -sine),
@@ -47,7 +47,7 @@ fn alternating_series(denominators: &[f64], x: f64) -> f64 {
     let mut sum = 0.0;
     for (index, &denominator) in denominators.iter().enumerate().rev() {
         let sign = if index % 2 == 0 { -1.0 } else { 1.0 };
-        // x·0 of the first round adds nothing: the sum starts at the last coefficient itself.
+        // In the first round x·0 adds nothing: the sum starts with the last coefficient.
         sum = sign / denominator + x * sum;
     }
     1.0 + x * sum

@@ -1,5 +1,6 @@
-//! Frames of so many pixels: a fan of sixteen triangles from the middle to the border, which covers each pixel
-//! once, nearer in the middle than at the border; shaded per vertex, per fragment, or only cleared.
+//! Frames by number of pixels: a fan of sixteen triangles from the centre to the border covers each
+//! pixel once, nearer in the centre than at the border. The work per pixel is clearing only,
+//! Gouraud shading, or lighting per fragment.
 
 use super::gouraud;
 use crate::frame::FrameSize;
@@ -10,7 +11,7 @@ use estampe::{
     VertexOut, maths,
 };
 
-/// The sides of the frames that are measured: powers of two from 64 to 8192.
+/// The sides of the measured frames, in pixels: powers of two from 64 to 8192.
 pub const SIDES: [u32; 8] = [64, 128, 256, 512, 1024, 2048, 4096, 8192];
 
 /// A square frame.
@@ -22,22 +23,22 @@ pub fn square(side: u32) -> FrameSize {
     }
 }
 
-/// What is done with each pixel.
+/// The work per pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Work {
     /// Colour and depth are cleared.
     Clear,
-    /// Besides, the fan's colours are interpolated.
+    /// As `Clear`, and the fan's colours are interpolated.
     Gouraud,
-    /// Besides, the fan is lit per fragment (Blinn 1977).
+    /// As `Clear`, and the fan is lit per fragment (Blinn 1977).
     BlinnPhong,
 }
 
-/// What is measured.
+/// The measured kinds of work.
 pub const WORKS: [Work; 3] = [Work::Clear, Work::Gouraud, Work::BlinnPhong];
 
 impl Work {
-    /// What it is called.
+    /// The name in tables and plots.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -47,7 +48,7 @@ impl Work {
         }
     }
 
-    /// The scene that does it, for a frame of any size.
+    /// The scene with this work, for a frame of any size.
     #[must_use]
     pub fn scene(self) -> Scene {
         let pipeline = match self {
@@ -81,7 +82,7 @@ estampe::shader! {
             input: VertexIn<'_, R>,
             (position, color): (Vec3<R>, Vec4<R>),
         ) -> VertexOut<R, (Vec3<R>, Vec3<R>, Vec3<R>)> {
-            // w = 1 + z: the border is farther than the middle.
+            // w = 1 + z: the border is farther away than the centre.
             let w = position.z + input.real(1.0);
             let clip = Vec4::new(position.x * w, position.y * w, position.z * w, w);
             let half = Vec3::repeat(input.real(0.5));
@@ -104,7 +105,7 @@ estampe::shader! {
     }
 }
 
-/// Vertices and indices of the fan: the middle, then the border, counter-clockwise with y up.
+/// Vertices and indices of the fan: the centre, then the border, counter-clockwise with y up.
 fn fan() -> Vec<Vec<u8>> {
     let mut vertices = LittleEndian::default();
     let mut indices = LittleEndian::default();

@@ -1,17 +1,19 @@
-//! A straight line through measurements: what a frame costs without anything in it, and what each thing adds.
+//! Least-squares line through measurements: the fixed cost of a frame, and the cost of each element
+//! in it.
 
 /// `cost = fixed + each · count`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
-    /// The cost of nothing.
+    /// The cost of an empty frame.
     pub fixed: f64,
-    /// The cost of one.
+    /// The cost of one element.
     pub each: f64,
 }
 
 impl Line {
-    /// The line with the least squares of *relative* errors: counts span decades, and so do costs, so that
-    /// absolute errors would be those of the largest count alone. `None` with fewer than two counts.
+    /// The line with the least squares of *relative* errors: counts and costs span decades, so
+    /// absolute errors would be dominated by the largest count. `None` with fewer than two
+    /// different counts.
     ///
     /// With weights w = 1/y²: minimise Σ w·(a + b·x − y)².
     #[must_use]
@@ -26,14 +28,14 @@ impl Line {
             wxy += weight * x * y;
         }
         let determinant = w * wxx - wx * wx;
-        // Of one count alone it is zero, or what rounding makes of zero.
+        // With a single count it is zero, except for rounding.
         (determinant > 1e-9 * w * wxx).then(|| Self {
             fixed: (wxx * wy - wx * wxy) / determinant,
             each: (w * wxy - wx * wy) / determinant,
         })
     }
 
-    /// The line's cost of so many.
+    /// The line's cost of `count` elements.
     #[must_use]
     pub fn at(&self, count: f64) -> f64 {
         self.fixed + self.each * count
@@ -64,7 +66,7 @@ mod tests {
 
     #[test]
     fn errors_count_relatively() {
-        // Off by a tenth at both ends: the small end pulls as much as the large one.
+        // Off by a tenth at both ends: both ends have the same weight.
         let points = [[1.0, 1.1], [10.0, 10.0], [1e6, 0.9e6]];
         let line = Line::through(&points).unwrap();
         assert!(line.deviation(&points) < 0.11, "{line:?}");

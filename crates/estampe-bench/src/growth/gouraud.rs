@@ -1,4 +1,4 @@
-//! Gouraud shading (1971): the vertices' colours, interpolated. Opaque, depth test *less* with writes.
+//! Gouraud shading (1971): vertex colours, interpolated. Opaque, depth test *less* with writes.
 
 use crate::scene::vertex_layout;
 use estampe::{

@@ -1,4 +1,5 @@
-//! What each job of a frame costs, and what so many cores would make of it.
+//! Costs of the jobs of a frame, and the frame time on a given number of cores that follows from
+//! them.
 
 use super::simulation::{WakeUp, makespan_ns};
 use crate::BenchError;
@@ -7,16 +8,16 @@ use crate::scene::Scene;
 use estampe::{Device, Level};
 use std::time::{Duration, Instant};
 
-/// What the jobs of a phase are.
+/// The kind of the jobs of a phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JobKind {
-    /// Shading runs of vertices.
+    /// Shading of runs of vertices.
     Vertices,
-    /// Assembling, culling, setting up and binning runs of primitives.
+    /// Assembly, culling, set-up and binning of chunks of primitives.
     Chunks,
-    /// Drawing tiles.
+    /// Drawing of tiles.
     Tiles,
-    /// Anything else: extremes of indices, resolving, bounds of depth maps.
+    /// All others: extremes of indices, resolving, depth min/max.
     Others,
 }
 
@@ -24,7 +25,7 @@ impl JobKind {
     /// The kinds in the order of a frame.
     pub const ALL: [Self; 4] = [Self::Vertices, Self::Chunks, Self::Tiles, Self::Others];
 
-    /// What the core's Rust type says.
+    /// The kind that the job's Rust type in the core stands for.
     fn of(job_type: &str) -> Self {
         let name = job_type.split('<').next().unwrap_or_default();
         match name.rsplit("::").next().unwrap_or_default() {
@@ -35,7 +36,7 @@ impl JobKind {
         }
     }
 
-    /// What the jobs are called.
+    /// The name of the kind, in the plural.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -46,7 +47,7 @@ impl JobKind {
         }
     }
 
-    /// What one is called that has no other beside it.
+    /// The name of a single job of the kind.
     #[must_use]
     pub fn name_of_one(self) -> &'static str {
         match self {
@@ -58,43 +59,44 @@ impl JobKind {
     }
 }
 
-/// A list of independent jobs.
+/// The costs of a phase: a list of independent jobs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PhaseCosts {
-    /// What they are.
+    /// The kind of its jobs.
     pub kind: JobKind,
-    /// What each costs on one core.
+    /// The time of each job on one core, in nanoseconds.
     pub jobs_ns: Vec<u64>,
 }
 
-/// What the parts of a frame cost on one core.
+/// The costs of the parts of a frame on one core.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FrameCosts {
-    /// What can be shared, in order.
+    /// The parallel phases, in order.
     pub phases: Vec<PhaseCosts>,
-    /// What cannot: recording, and the parts between the phases.
+    /// The time of the serial parts in nanoseconds: recording, and the parts between the phases.
     pub serial_ns: u64,
 }
 
-/// What stops a frame from being drawn any faster by so many cores, each a share of its time.
+/// The parts of the frame time on a number of cores that are not parallel work, each as a share of
+/// the time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Limits {
     /// The serial parts.
     pub serial: f64,
     /// Waking helpers.
     pub wake_up: f64,
-    /// Cores that wait for the last job, by kind.
+    /// Idle time of cores that wait for the last job, by kind.
     pub waiting: Vec<(JobKind, f64)>,
 }
 
-/// Frames that are recorded: each job's median counts.
+/// The number of recorded frames; each job's median counts.
 const FRAMES: usize = 9;
 
 impl FrameCosts {
-    /// Records a scene's frames.
+    /// Records a scene's frames on one thread.
     ///
     /// # Errors
-    /// [`BenchError`] when the device refuses the frame's size.
+    /// [`BenchError`] if the device refuses the frame's size.
     pub fn record(level: Level, scene: &Scene, size: FrameSize) -> Result<Self, BenchError> {
         let device = Device::profiling(level);
         let mut prepared = PreparedScene::new(&device, scene, size)?;
@@ -124,7 +126,7 @@ impl FrameCosts {
         Ok(Self::median_of(&frames))
     }
 
-    /// The median of each job and of the serial parts; frames are alike.
+    /// The median of each job and of the serial parts over frames with equal jobs.
     fn median_of(frames: &[Self]) -> Self {
         let Some(first) = frames.first() else {
             return Self {
@@ -143,7 +145,7 @@ impl FrameCosts {
         costs
     }
 
-    /// What the frame would take so many cores.
+    /// The frame time on this many cores, in nanoseconds.
     #[must_use]
     pub fn on_cores_ns(&self, cores: usize, wake_up: WakeUp) -> u64 {
         let phases = self.phases.iter();
@@ -151,14 +153,14 @@ impl FrameCosts {
         self.serial_ns + shared.sum::<u64>()
     }
 
-    /// How many times as fast as one core.
+    /// The ratio of the frame times on one core and on this many.
     #[must_use]
     pub fn speed_up(&self, cores: usize, wake_up: WakeUp) -> f64 {
         let alone = self.on_cores_ns(1, wake_up) as f64;
         alone / self.on_cores_ns(cores, wake_up).max(1) as f64
     }
 
-    /// What stops so many cores.
+    /// The parts of the frame time on this many cores that are not parallel work.
     #[must_use]
     pub fn limits(&self, cores: usize, wake_up: WakeUp) -> Limits {
         let total = self.on_cores_ns(cores, wake_up).max(1) as f64;
@@ -178,7 +180,7 @@ impl FrameCosts {
         }
     }
 
-    /// How many jobs of a kind there are, and the largest one's share of all their cost.
+    /// The number of jobs of a kind, and the largest job's share of their total cost.
     #[must_use]
     pub fn largest(&self, kind: JobKind) -> (usize, f64) {
         let phases = self.phases.iter().filter(|phase| phase.kind == kind);
@@ -190,14 +192,14 @@ impl FrameCosts {
 }
 
 impl WakeUp {
-    /// Measures how long this machine takes to call a thread that sleeps: median of many calls.
+    /// Measures the time to wake a sleeping thread on this machine: the median of many calls.
     #[must_use]
     pub fn measure() -> Self {
         const CALLS: usize = 201;
         let (to_helper, calls) = std::sync::mpsc::sync_channel::<Instant>(1);
         let (from_helper, answers) = std::sync::mpsc::sync_channel::<Duration>(1);
         let helper = std::thread::spawn(move || {
-            // Ends when the caller has hung up.
+            // Ends when the caller has dropped its sender.
             while let Ok(called) = calls.recv() {
                 if from_helper.send(called.elapsed()).is_err() {
                     break;
@@ -218,7 +220,7 @@ impl WakeUp {
             }
         }
         drop(to_helper);
-        // It has no result, and a panic in it was printed already.
+        // The thread has no result, and its panic was printed already.
         let _ = helper.join();
         Self {
             call_ns: median(call),
@@ -231,7 +233,7 @@ fn nanoseconds(time: &Duration) -> u64 {
     u64::try_from(time.as_nanos()).unwrap_or(u64::MAX)
 }
 
-/// The upper one of the values in the middle; 0 of nothing.
+/// The upper median; 0 if there are no values.
 fn median(mut values: Vec<u64>) -> u64 {
     values.sort_unstable();
     values.get(values.len() / 2).copied().unwrap_or_default()
@@ -272,7 +274,7 @@ mod tests {
         let frame = costs(0, &[(JobKind::Tiles, vec![100, 10, 10, 10, 10])]);
         let limits = frame.limits(5, FREE);
         assert_eq!(frame.on_cores_ns(5, FREE), 100);
-        // 140 ns of work by 5 cores are 28 ns of these 100.
+        // 140 ns of work on 5 cores are 28 ns of these 100.
         assert!((limits.waiting[2].1 - 0.72).abs() < 1e-9, "{limits:?}");
         assert_eq!(frame.largest(JobKind::Tiles), (5, 100.0 / 140.0));
     }

@@ -1,7 +1,8 @@
-//! How much memory a frame takes: what the system says is resident before and after.
+//! Memory per triangle and per pixel: the process's resident memory before and after drawing.
 //!
-//! All data and devices are made first and live to the end: an allocator that has nothing to use again asks the
-//! system for whatever it gives. A device keeps its memory too, so that a larger frame adds what it has more.
+//! All data and devices are created first and kept to the end: an allocator without free memory of
+//! its own has to request new memory from the system. A device keeps its memory too, so that a
+//! larger frame adds only the difference.
 
 use super::fans::{Work, square};
 use super::meshes::{CLASSES, SizeClass, mesh};
@@ -10,36 +11,36 @@ use crate::frame::PreparedScene;
 use crate::stages::SIZE;
 use estampe::{Device, DeviceDescriptor, Level};
 
-/// Bytes of a size class.
+/// Memory of the triangles of a size class.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TriangleMemory {
-    /// Which class.
+    /// The size class.
     pub class: SizeClass,
-    /// Bytes for each triangle, as long as a frame fits into one draw batch.
+    /// Bytes per triangle, for frames that fit into one draw batch.
     pub each: f64,
 }
 
-/// What was measured, in bytes.
+/// The measurements, in bytes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Memory {
     /// By size class.
     pub triangles: Vec<TriangleMemory>,
-    /// What a million triangles of the smallest class take.
+    /// A frame of a million triangles of the smallest class.
     pub one_million: f64,
-    /// What four million take, which are several waves.
+    /// A frame of four million triangles, which are several draw batches.
     pub four_millions: f64,
-    /// For each pixel of a target of RGBA8 and 32-bit depth.
+    /// Each pixel of a target of RGBA8 and 32-bit depth.
     pub pixel: f64,
 }
 
-/// Colour and depth of a pixel.
+/// Bytes of a pixel's colour and depth.
 const PIXEL_BYTES: f64 = 8.0;
 
 impl Memory {
-    /// Measures; `None` where the system does not say.
+    /// Measures; `None` if the system does not report resident memory.
     ///
     /// # Errors
-    /// [`BenchError`] when there is no device.
+    /// [`BenchError`] if a device cannot be created.
     pub fn measure(level: Level) -> Result<Option<Self>, BenchError> {
         const FEW: u32 = 10;
         const MILLION: u32 = 1_000_000;
@@ -92,14 +93,14 @@ fn one_thread(level: Level) -> Result<Device, BenchError> {
     })?)
 }
 
-/// What the device takes more after drawing a mesh; its target is not counted.
+/// The memory by which the device grows when it draws a mesh, without its target.
 fn growth_of(scene: &mut PreparedScene<'_>) -> f64 {
-    // The target's memory is touched by the first frame; rows of tiles are whole.
+    // The first frame touches the target's memory; rows of tiles are complete.
     let target = f64::from(SIZE.width * SIZE.height.next_multiple_of(64)) * PIXEL_BYTES;
     resident_by_drawing(scene) - target
 }
 
-/// How much more is resident after drawing.
+/// The increase of resident memory by drawing.
 fn resident_by_drawing(scene: &mut PreparedScene<'_>) -> f64 {
     let before = resident_bytes().unwrap_or_default();
     scene.draw();
@@ -107,12 +108,12 @@ fn resident_by_drawing(scene: &mut PreparedScene<'_>) -> f64 {
     resident_bytes().unwrap_or_default() - before
 }
 
-/// Memory of this process that is resident.
+/// Resident memory of this process.
 fn resident_bytes() -> Option<f64> {
     field_bytes(&std::fs::read_to_string("/proc/self/status").ok()?, "VmRSS")
 }
 
-/// A field of `/proc/self/status` (proc_pid_status(5)), which is in units of 1024 bytes.
+/// A field of `/proc/self/status` (proc_pid_status(5)) in bytes; the file has units of 1024 bytes.
 fn field_bytes(status: &str, name: &str) -> Option<f64> {
     let line = status.lines().find_map(|line| line.strip_prefix(name))?;
     let number = line.trim_start_matches(':').split_whitespace().next()?;

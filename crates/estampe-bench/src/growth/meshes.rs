@@ -1,44 +1,44 @@
-//! Meshes of so many triangles of so large a size: grids of square cells, two triangles each, with a vertex per
-//! corner and an index buffer, as real meshes have them.
+//! Meshes by number and size of triangles: grids of square cells, two triangles each, with shared
+//! vertices and an index buffer, as real meshes have them.
 //!
-//! A mesh that does not fit into the frame has several layers over each other, each as large as the next and in
-//! the middle of the frame, the farthest first: no triangle is hidden by what came before, so that each costs what
-//! a visible one costs, however many there are.
+//! A mesh that does not fit into the frame has several layers over each other, of equal size and in
+//! the middle of the frame, the farthest first. No triangle is hidden by an earlier one, so each
+//! costs as much as a visible one, however many there are.
 
 use super::gouraud;
 use crate::generate::{LittleEndian, hash32};
 use crate::scene::Scene;
 use crate::stages::SIZE;
 
-/// A size of triangles.
+/// A size class of triangles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SizeClass {
-    /// What it is called.
+    /// The name in tables and plots.
     pub name: &'static str,
     /// The mean area of a triangle, in pixels.
     pub area_px: f64,
 }
 
 impl SizeClass {
-    /// How many triangles cover the frame once.
+    /// The number of triangles that cover the frame once.
     #[must_use]
     pub fn of_one_layer(self) -> u32 {
         let [columns, rows] = self.most_cells();
         columns * rows * 2
     }
 
-    /// The side of a cell of two triangles.
+    /// The side of a cell of two triangles, in pixels.
     fn cell_px(self) -> f64 {
         (2.0 * self.area_px).sqrt()
     }
 
-    /// Cells in a row and a column of the frame.
+    /// The greatest numbers of columns and rows of cells in the frame.
     fn most_cells(self) -> [u32; 2] {
         [SIZE.width, SIZE.height].map(|side| whole(f64::from(side) / self.cell_px()))
     }
 }
 
-/// A number of cells, at least one.
+/// A number of cells as an integer, at least one.
 fn whole(number: f64) -> u32 {
     #[expect(
         clippy::cast_possible_truncation,
@@ -49,7 +49,7 @@ fn whole(number: f64) -> u32 {
     whole.max(1)
 }
 
-/// The sizes that are measured.
+/// The measured size classes.
 pub const CLASSES: [SizeClass; 3] = [
     SizeClass {
         name: "1 px",
@@ -65,7 +65,7 @@ pub const CLASSES: [SizeClass; 3] = [
     },
 ];
 
-/// The numbers of triangles that are measured: half decades from 10² to 10⁷.
+/// The measured numbers of triangles: half decades from 10² to 10⁷.
 pub const COUNTS: [u32; 11] = [
     100, 316, 1000, 3162, 10_000, 31_623, 100_000, 316_228, 1_000_000, 3_162_278, 10_000_000,
 ];
@@ -100,7 +100,7 @@ impl Layers {
         let cells = triangles.div_ceil(2);
         let count = cells.div_ceil(most_columns * most_rows);
         let each = cells.div_ceil(count);
-        // As wide for its height as the frame is.
+        // The same aspect ratio as the frame.
         let aspect = f64::from(SIZE.width) / f64::from(SIZE.height);
         let columns = whole((f64::from(each) * aspect).sqrt().ceil()).min(most_columns);
         Self {
@@ -111,7 +111,7 @@ impl Layers {
         }
     }
 
-    /// Vertices of a layer.
+    /// The number of vertices of a layer.
     fn corners(&self) -> usize {
         (self.columns as usize + 1) * (self.rows as usize + 1)
     }
@@ -124,7 +124,7 @@ impl Layers {
             for column in 0..=self.columns {
                 let hash = hash32(seed ^ (row * 4096 + column));
                 let [red, green, blue, _] = hash.to_le_bytes();
-                // Up to a quarter of a cell off, so that no two triangles are alike.
+                // Moved by up to a quarter of a cell, so that no two triangles are equal.
                 let moved = |bits: u8| (f64::from(bits) / 255.0 - 0.5) * 0.5;
                 let x_px = (f64::from(column) + moved(red) - middle[0]) * self.cell_px;
                 let y_px = (f64::from(row) + moved(green) - middle[1]) * self.cell_px;
@@ -138,7 +138,7 @@ impl Layers {
         }
     }
 
-    /// Two counter-clockwise triangles a cell, `most` at most; says how many.
+    /// Appends two counter-clockwise triangles per cell, at most `most`; returns their number.
     fn append_triangles(&self, layer: u32, most: u32, indices: &mut LittleEndian) -> u32 {
         let width = self.columns + 1;
         let first = layer * width * (self.rows + 1);

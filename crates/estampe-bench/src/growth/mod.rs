@@ -1,10 +1,11 @@
-//! How cost grows: frame time against triangles, against pixels, and what more cores would give.
+//! Growth of cost: frame time by triangles and by pixels, and the speed-up by more cores.
 //!
-//! * [`meshes`] are frames of so many triangles of so large a size; [`fans`] frames of so many pixels;
-//! * [`series`] measures them, [`fit`] lays a line through them, [`plot`] draws them;
-//! * [`memory`] asks the system what a triangle and a pixel take;
-//! * [`jobs`] records what each job of a scene's frame costs, [`simulation`] gives them to more cores;
-//! * [`mod@section`] writes it all down.
+//! * [`meshes`] makes frames by number and size of triangles; [`fans`] makes frames by number of
+//!   pixels;
+//! * [`series`] measures them, [`fit`] fits lines to them, [`plot`] draws them;
+//! * [`memory`] measures the memory of a triangle and of a pixel;
+//! * [`jobs`] records the costs of a scene's jobs, [`simulation`] schedules them on more cores;
+//! * [`mod@section`] writes the results as Markdown.
 
 pub mod fans;
 pub mod fit;
@@ -32,16 +33,17 @@ use series::{Cost, Series};
 use simulation::WakeUp;
 use std::path::Path;
 
-/// Colours of the classes, in order: distinct in hue and in lightness.
+/// Colours of the curves, in order: distinct in hue and in lightness.
 const COLORS: [&str; 3] = ["#1b6ca8", "#d1495b", "#2e8b57"];
 
-/// Measures everything, and writes the section to `folder/GROWTH.md` and its plots to `folder/images`.
+/// Measures everything, and writes the section to `folder/GROWTH.md` and its plots to
+/// `folder/images`.
 ///
 /// # Errors
-/// [`BenchError`]: no device, or a file that cannot be written.
+/// [`BenchError`]: no device can be created, or a file cannot be written.
 pub fn run(folder: &Path, level: Level) -> Result<String, BenchError> {
     let progress = Progress::new();
-    // First, while the process has no free memory of its own to use again.
+    // First, while the process has no free memory that it could reuse.
     progress.step("memory");
     let memory = Memory::measure(level)?;
     let devices = devices(level)?;
@@ -80,7 +82,7 @@ pub fn run(folder: &Path, level: Level) -> Result<String, BenchError> {
     Ok(text)
 }
 
-/// A device of one thread, and one of as many as there are processors.
+/// A device of one thread, and one with a thread per processor.
 fn devices(level: Level) -> Result<Vec<Device>, BenchError> {
     let device = |threads| {
         Device::new(&DeviceDescriptor {
@@ -97,7 +99,7 @@ fn devices(level: Level) -> Result<Vec<Device>, BenchError> {
     })
 }
 
-/// What a frame takes each of the devices.
+/// The cost of a frame on each of the devices.
 fn costs_of(
     devices: &[Device],
     scene: &Scene,
@@ -111,7 +113,7 @@ fn costs_of(
     devices.iter().map(cost).collect()
 }
 
-/// One series for each device.
+/// An empty series for each device.
 fn empty_series(devices: &[Device], name: &'static str) -> Vec<Series> {
     let series = devices.iter().map(|device| Series {
         name,
@@ -183,7 +185,7 @@ fn pixel_plot(results: &Results) -> Plot {
     }
 }
 
-/// A colour for each name, dashes for more threads than one.
+/// Curves with a colour for each name, dashed for more than one thread.
 fn curves(series: &[Series]) -> Vec<Curve> {
     let mut names: Vec<&str> = Vec::new();
     let curve = |one: &Series| {
@@ -201,7 +203,7 @@ fn curves(series: &[Series]) -> Vec<Curve> {
     series.iter().map(curve).collect()
 }
 
-/// What the system calls the processor.
+/// The system's name of the processor.
 fn processor() -> String {
     let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let name = text
@@ -222,7 +224,7 @@ fn write(path: &Path, text: &str) -> Result<(), BenchError> {
     std::fs::write(path, text).map_err(file)
 }
 
-/// A bar on a terminal: the measurement takes a minute or two.
+/// A progress bar on a terminal: the measurement takes a minute or two.
 struct Progress {
     bar: ProgressBar,
 }
@@ -240,7 +242,7 @@ impl Progress {
         Self { bar }
     }
 
-    /// The next step begins.
+    /// Starts the next step.
     fn step(&self, name: &'static str) {
         self.bar.inc(1);
         self.bar.set_message(name);

@@ -1,18 +1,18 @@
-//! Plots as SVG (W3C, Scalable Vector Graphics 1.1): both axes logarithmic, so that what grows in
-//! proportion is a straight line of slope 1, whatever its unit costs.
+//! Plots as SVG (W3C, Scalable Vector Graphics 1.1). Both axes are logarithmic, so that growth in
+//! proportion is a straight line of slope 1, whatever the cost of an element.
 
 use std::fmt::Write as _;
 
-/// A plot of curves over the same axes.
+/// A plot of curves with common axes.
 #[derive(Debug, Clone)]
 pub struct Plot {
-    /// What stands above it.
+    /// The title above the plot.
     pub title: String,
-    /// What x is, with its unit.
+    /// The label of the x axis, with its unit.
     pub x_label: String,
-    /// What y is, with its unit.
+    /// The label of the y axis, with its unit.
     pub y_label: String,
-    /// Where x is marked, and with what; from the first to the last of them is the axis.
+    /// The ticks of the x axis with their labels; the axis extends from the first to the last.
     pub x_ticks: Vec<(f64, String)>,
     /// The curves, in the order of the legend.
     pub curves: Vec<Curve>,
@@ -21,26 +21,26 @@ pub struct Plot {
 /// One curve.
 #[derive(Debug, Clone)]
 pub struct Curve {
-    /// What the legend calls it.
+    /// The name in the legend.
     pub name: String,
-    /// A colour of SVG.
+    /// The colour, in SVG's notation.
     pub color: &'static str,
     /// Whether the line is dashed.
     pub is_dashed: bool,
-    /// Its points, x and y positive.
+    /// The points (x, y); both coordinates are positive.
     pub points: Vec<[f64; 2]>,
 }
 
 const WIDTH: f64 = 800.0;
 const HEIGHT: f64 = 520.0;
-/// Around the axes: left, top, right, bottom.
+/// Margins around the axes: left, top, right, bottom.
 const MARGINS: [f64; 4] = [78.0, 44.0, 24.0, 62.0];
-/// Between two lines of the legend.
+/// Distance between two lines of the legend.
 const LINE_HEIGHT: f64 = 20.0;
-/// How far below the lowest curve the reference of slope 1 runs.
+/// Factor between the lowest curve and the reference line of slope 1.
 const BELOW: f64 = 0.35;
 
-/// Where numbers lie: powers of ten at both ends of an axis, and how long that is on paper.
+/// A logarithmic axis: powers of ten at both ends, and the length in the drawing.
 #[derive(Debug, Clone, Copy)]
 struct Axis {
     first_log: f64,
@@ -57,7 +57,7 @@ impl Axis {
 }
 
 impl Plot {
-    /// The plot as a file's text; without ticks or points there is nothing but its frame.
+    /// The plot as SVG text; without ticks or points only the frame is drawn.
     #[must_use]
     pub fn to_svg(&self) -> String {
         let [left, top, right, bottom] = MARGINS;
@@ -130,7 +130,7 @@ impl Plot {
         text(out, [20.0, up], &turned, &self.y_label);
     }
 
-    /// A line of slope 1 below all curves: what is parallel to it grows in proportion.
+    /// Draws a line of slope 1 below all curves: parallel curves grow in proportion.
     fn reference(&self, out: &mut String, x: &Axis, y: &Axis) {
         let points = self.curves.iter().flat_map(|curve| &curve.points);
         let lowest = points.map(|[x, y]| y / x).fold(f64::INFINITY, f64::min) * BELOW;
@@ -217,7 +217,7 @@ fn text(out: &mut String, [x, y]: [f64; 2], style: &str, words: &str) {
     );
 }
 
-/// A power of ten as people write it: 0.01, 1, 1000.
+/// A power of ten in decimal notation: 0.01, 1, 1000.
 fn decimal(value: f64) -> String {
     let places = (-libm::log10(value)).max(0.0).round();
     #[expect(
@@ -253,7 +253,7 @@ mod tests {
     #[test]
     fn points_lie_where_their_logarithms_are() {
         let svg = plot(vec![[100.0, 0.01], [1000.0, 0.1], [10_000.0, 1.0]]);
-        // From corner to corner, and the middle in the middle.
+        // From corner to corner, and the middle is in the middle.
         let [left, top, right, bottom] = MARGINS;
         let (low, high) = (HEIGHT - bottom, top);
         let points = format!(

@@ -1,4 +1,4 @@
-//! The results as a section in Markdown.
+//! The results of the growth measurements as Markdown.
 
 use super::fans::SIDES;
 use super::jobs::{FrameCosts, JobKind};
@@ -9,34 +9,34 @@ use super::simulation::WakeUp;
 use std::fmt::Write as _;
 use std::ops::RangeBounds;
 
-/// All that was measured.
+/// All results.
 #[derive(Debug, Clone)]
 pub struct Results {
-    /// Who drew: SIMD level and processor.
+    /// SIMD level and processor.
     pub driver: String,
-    /// Frame time by triangles: for each size class, by one thread and by all.
+    /// Frame time by number of triangles: for each size class, on one thread and on all.
     pub triangles: Vec<Series>,
-    /// Frame time by pixels: for each kind of work, by one thread and by all.
+    /// Frame time by number of pixels: for each kind of work, on one thread and on all.
     pub pixels: Vec<Series>,
-    /// Memory, where the system says.
+    /// Memory; `None` if the system does not report it.
     pub memory: Option<Memory>,
-    /// Each scene's costs, and its speed-up by all threads as measured.
+    /// Each scene's name, costs, and measured speed-up by all threads.
     pub scenes: Vec<(&'static str, FrameCosts, f64)>,
-    /// What it takes to wake a thread.
+    /// The time to wake a thread.
     pub wake_up: WakeUp,
-    /// How many threads "all" are.
+    /// The number of all threads.
     pub threads: usize,
 }
 
-/// Pixels whose colours and depths, 8 MiB, fit into most processors' caches.
+/// A number of pixels whose colours and depths, 8 MiB, fit into most processors' caches.
 const IN_CACHE: f64 = 1024.0 * 1024.0;
-/// Pixels whose colours and depths, 32 MiB, are written to memory by each frame.
+/// A number of pixels whose colours and depths, 32 MiB, are written to memory by each frame.
 const BEYOND_CACHE: f64 = 2048.0 * 2048.0;
 
-/// The numbers of cores that are simulated.
+/// The simulated numbers of cores.
 const CORES: [usize; 4] = [2, 8, 16, 64];
 
-/// The section.
+/// The section's text.
 #[must_use]
 pub fn section(results: &Results) -> String {
     let mut out = String::new();
@@ -103,7 +103,7 @@ fn fit_heads(unit: &str, out: &mut String) {
     );
 }
 
-/// Slopes, fixed cost and deviation of the counts in a range.
+/// Appends slope, fixed cost and deviation of a series, over the counts in a range.
 fn fit(series: &Series, name: &str, counts: &impl RangeBounds<f64>, out: &mut String) {
     let cpu = series.fit(counts, |cost: &Cost| cost.cpu_ms);
     let wall = series.fit(counts, |cost: &Cost| cost.wall_ms);
@@ -121,7 +121,7 @@ fn fit(series: &Series, name: &str, counts: &impl RangeBounds<f64>, out: &mut St
     }
 }
 
-/// One row a count, one column a series.
+/// Appends a table with a row per count and a column per series.
 fn costs(series: &[Series], heads: &[String], unit: &str, out: &mut String) {
     let _ = write!(out, "| {unit} |");
     for one in series {
@@ -205,7 +205,7 @@ fn cores(results: &Results, out: &mut String) {
     }
 }
 
-/// What stops 64 cores that are awake: the two largest parts of their time that are not work.
+/// The two largest parts of the time on 64 awake cores that are not parallel work, in words.
 fn obstacles(frame: &FrameCosts) -> String {
     let limits = frame.limits(64, WakeUp::default());
     let mut shares = vec![(limits.serial, "serial parts".to_owned())];
@@ -237,7 +237,7 @@ fn threads(count: usize) -> String {
     format!("{count} thread{}", if count == 1 { "" } else { "s" })
 }
 
-/// Three significant digits.
+/// A number with three significant digits.
 fn significant(value: f64) -> String {
     if value >= 100.0 {
         format!("{value:.0}")
@@ -250,7 +250,7 @@ fn significant(value: f64) -> String {
     }
 }
 
-/// A count as a power of ten, with its factor √10 where it is half a decade.
+/// A count as a power of ten, times √10 for half decades.
 #[must_use]
 pub fn superscript(count: f64) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];

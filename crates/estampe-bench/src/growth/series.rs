@@ -1,4 +1,4 @@
-//! Series of measurements: the same kind of frame with more and more in it.
+//! Series of measurements: frames of one kind with growing numbers of elements.
 
 use super::fit::Line;
 use crate::clock::process_cpu_time;
@@ -7,10 +7,10 @@ use crate::measure::median;
 use std::ops::RangeBounds;
 use std::time::{Duration, Instant};
 
-/// What a frame takes, in milliseconds.
+/// The cost of a frame, in milliseconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cost {
-    /// How many triangles or pixels.
+    /// The number of triangles or pixels.
     pub count: f64,
     /// Wall time, median.
     pub wall_ms: f64,
@@ -18,30 +18,31 @@ pub struct Cost {
     pub cpu_ms: f64,
 }
 
-/// Frames of one kind, drawn by so many threads.
+/// The costs of frames of one kind, on one number of threads.
 #[derive(Debug, Clone)]
 pub struct Series {
-    /// What kind.
+    /// The name of the kind.
     pub name: &'static str,
-    /// How many threads.
+    /// The number of threads.
     pub threads: usize,
-    /// What they took, by count.
+    /// The costs, by count.
     pub costs: Vec<Cost>,
 }
 
-/// How many frames are drawn to take a median: for so long, between so many.
+/// The time for which frames are drawn to take a median, within limits of their number.
 const TIME: Duration = Duration::from_millis(250);
 const FEWEST: usize = 5;
 const MOST: usize = 400;
-/// Frames of this length and longer are drawn three times, after one to warm up.
+/// Frames that take this long are drawn three times, after one to warm up.
 const LONG: Duration = Duration::from_millis(400);
-/// Frames of this length and longer are drawn once, after one to warm up: so long a time is a mean by itself.
+/// Frames that take this long are drawn once, after one to warm up: over such a time disturbances
+/// average out.
 const VERY_LONG: Duration = Duration::from_secs(2);
 
 impl Cost {
-    /// Measures a frame that has `count` of something.
+    /// Measures a frame with `count` elements.
     pub fn measure(scene: &mut PreparedScene<'_>, count: f64) -> Self {
-        // The first frame allocates, and the second still finds cold caches.
+        // The first frame allocates, and the second still has cold caches.
         let start = Instant::now();
         scene.draw();
         let first = start.elapsed();
@@ -71,7 +72,7 @@ impl Cost {
 }
 
 impl Series {
-    /// (count, ms) of the counts in a range.
+    /// (count, ms) for the counts in a range.
     #[must_use]
     pub fn points(&self, counts: &impl RangeBounds<f64>, ms: fn(&Cost) -> f64) -> Vec<[f64; 2]> {
         let costs = self.costs.iter();
@@ -79,7 +80,7 @@ impl Series {
         costs.map(|cost| [cost.count, ms(cost)]).collect()
     }
 
-    /// The line through the counts in a range, and how far the farthest is from it.
+    /// The line through the counts in a range, and its largest relative error.
     #[must_use]
     pub fn fit(&self, counts: &impl RangeBounds<f64>, ms: fn(&Cost) -> f64) -> Option<(Line, f64)> {
         let points = self.points(counts, ms);

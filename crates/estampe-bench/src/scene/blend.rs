@@ -1,8 +1,9 @@
 //! `blend`: 32 full-screen quads blended source-over with straight alpha; depth test *less* without
 //! writes at z = ½ against 1, so that every fragment passes.
 //!
-//! Corner k of quad i has the hash of 2000 + 4·i + k as its colour, interpolated; the quad's alpha byte is
-//! 32 plus six bits of the hash of 3000 + i. A vertex is its position (3 floats) and colour (4 bytes).
+//! Corner k of quad i has the hash of 2000 + 4·i + k as its colour, interpolated; the quad's alpha
+//! byte is 32 plus six bits of the hash of 3000 + i. A vertex has a position (3 floats) and a
+//! colour (4 bytes).
 
 use super::{Scene, vertex_layout};
 use crate::generate::{LittleEndian, QUAD_CORNERS, hash32, quad_indices};
@@ -14,7 +15,7 @@ use estampe::{
 
 const QUADS: u32 = 32;
 
-/// The vertices' colours, interpolated.
+/// Outputs the interpolated vertex colour.
 struct VertexColor;
 
 estampe::shader! {

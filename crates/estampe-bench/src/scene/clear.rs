@@ -1,4 +1,4 @@
-//! `clear`: colour and depth are cleared and stored, nothing is drawn: the fixed cost of a frame.
+//! `clear`: clears and stores colour and depth without draws: the fixed cost of a frame.
 
 use super::Scene;
 

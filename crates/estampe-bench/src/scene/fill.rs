@@ -1,9 +1,9 @@
-//! `fill`, `fill_front` and `fill_draws`: 32 full-screen opaque quads in flat colours, depth test *less* with
-//! writes, in one draw; `fill_draws` is `fill` as a draw for each quad.
+//! `fill`, `fill_front` and `fill_draws`: 32 full-screen opaque quads in flat colours, depth test
+//! *less* with writes, in one draw; `fill_draws` is `fill` with one draw per quad.
 //!
-//! Quad i lies at z = (i + 1)/33; its colour is the hash of 1000 + i. Drawn from the farthest, every
-//! fragment passes; drawn from the nearest, only the first quad's do. A vertex is its position (3 floats)
-//! and colour (4 bytes).
+//! Quad i is at z = (i + 1)/33; its colour is the hash of 1000 + i. In `fill`, drawn from the
+//! farthest on, every fragment passes; in `fill_front`, drawn from the nearest on, only those of
+//! the first quad. A vertex has a position (3 floats) and a colour (4 bytes).
 
 use super::{Scene, vertex_layout};
 use crate::generate::{LittleEndian, QUAD_CORNERS, hash32, quad_indices};
@@ -14,7 +14,7 @@ use estampe::{
 
 const QUADS: u32 = 32;
 
-/// The vertex's colour, the same all over the triangle.
+/// Outputs the provoking vertex's colour.
 struct FlatColor;
 
 estampe::shader! {

@@ -1,8 +1,9 @@
-//! `heavy_fs`: a full-screen quad whose fragments trace a ray through a field of rounded boxes, warped by
-//! sines: at most 64 steps, lanes leave when they hit or are too far; hits are shaded with four octaves of
-//! value noise.
+//! `heavy_fs`: a full-screen quad whose fragments trace a ray through a field of rounded boxes,
+//! warped by sines.
 //!
-//! The uniform is the frame's size in pixels, and two zeros. A vertex is its position (2 floats).
+//! A ray has at most 64 steps; it ends when it hits or is too long. Hits are shaded with four
+//! octaves of value noise. The uniform is the frame's size in pixels, and two zeros. A vertex is
+//! its position (2 floats).
 
 use super::{Scene, uniforms, vertex_layout};
 use crate::frame::FrameSize;
@@ -12,9 +13,9 @@ use estampe::{
     VertexIn, VertexOut, maths,
 };
 
-/// Steps of a ray at most.
+/// The greatest number of steps of a ray.
 const STEPS: u32 = 64;
-/// A ray this close has hit.
+/// A ray this close to a surface has hit it.
 const HIT_DISTANCE: f32 = 0.001;
 /// A ray this long hits nothing.
 const FAR: f32 = 24.0;
@@ -57,10 +58,12 @@ estampe::shader! {
     }
 }
 
-/// How far each lane's ray goes, and whether it hits. A packet goes on until its last lane is done.
+/// The length of each lane's ray, and whether it hits. A packet continues until its last lane is
+/// done.
 ///
-/// A lane that has hit stays where it is, so its step stays near. One that is too far goes on, as nobody asks
-/// any more how far: so that lanes that are done need no mask, for which every step would have to wait.
+/// A lane that has hit stays in place, so its next step is small again. A lane that is too far
+/// continues, which does no harm, because its distance is not used. So lanes that are done need no
+/// mask, on which every step would depend.
 #[inline(always)]
 fn trace<R: Real>(eye: Vec3<R>, ray: Vec3<R>) -> (R, R::Mask) {
     let mut distance = eye.x.splat(0.0);
@@ -85,7 +88,7 @@ fn distance_to_boxes<R: Real>(p: Vec3<R>) -> R {
     (Vec3::new(x, y, z).length() - 0.12) * 0.8
 }
 
-/// How far a coordinate lies beyond the side of the nearest box.
+/// The distance by which a coordinate is outside the nearest box.
 #[inline(always)]
 fn outside_box<R: Real>(w: R) -> R {
     let cell = (w * 0.5 + 0.5).floor();
@@ -95,7 +98,7 @@ fn outside_box<R: Real>(w: R) -> R {
 /// Lambert's cosine law and noise at a point of a surface.
 #[inline(always)]
 fn surface_color<R: Real>(p: Vec3<R>) -> Vec3<R> {
-    // The distance's gradient from four corners of a tetrahedron.
+    // The gradient of the distance, from the four corners of a tetrahedron.
     let (near, far) = (0.001, -0.001);
     let mut gradient = Vec3::repeat(p.x.splat(0.0));
     for corner in [
@@ -113,7 +116,7 @@ fn surface_color<R: Real>(p: Vec3<R>) -> Vec3<R> {
     Vec3::new(p.x.splat(0.9), noise * 0.4 + 0.55, noise * 0.6 + 0.3) * light
 }
 
-/// Four octaves of noise, each turned and twice as fine.
+/// Four octaves of noise, each rotated and twice as fine as the previous one.
 #[inline(always)]
 fn layered_noise<R: Real>(mut p: Vec2<R>) -> R {
     let mut sum = p.x.splat(0.0);
@@ -126,7 +129,7 @@ fn layered_noise<R: Real>(mut p: Vec2<R>) -> R {
     sum
 }
 
-/// A random value at each whole point, smooth between them.
+/// Random values at integer points, interpolated smoothly.
 #[inline(always)]
 fn value_noise<R: Real>(p: Vec2<R>) -> R {
     let (left, upper) = (p.x.floor(), p.y.floor());
@@ -150,7 +153,7 @@ fn mix<R: Real>(a: R, b: R, t: R) -> R {
     a + (b - a) * t
 }
 
-/// A number in 0..1 for a whole point.
+/// A pseudo-random number in 0..1 for an integer point.
 #[inline(always)]
 fn unit_hash<R: Real>(x: R::Int, y: R::Int) -> R {
     let times = |value: R::Int, by: u32| value.wrapping_mul(value.splat(by.cast_signed()));

@@ -1,11 +1,11 @@
-//! `instances`: 2,000 draws of a sphere of 500 triangles, Lambert per fragment, back faces culled; each
-//! draw has a dynamic offset into one uniform buffer.
+//! `instances`: 2,000 draws of a sphere of 500 triangles, Lambert per fragment, back faces culled;
+//! each draw has a dynamic offset into one uniform buffer.
 //!
-//! Sphere n stands in column n mod 50 and row n / 50 of a grid, at a random depth, turned and coloured at
-//! random. The uniforms are the matrix that takes the model to clip space and the colour, 80 bytes each
+//! Sphere n is in column n mod 50 and row n / 50 of a grid, with random depth, rotation and colour.
+//! The uniforms are the matrix from object to clip space and the colour, 80 bytes at a stride of
 //! 256.
 //!
-//! `many_draws`: each sphere as five draws of 100 triangles, the same picture.
+//! `many_draws`: each sphere as five draws of 100 triangles, with the same picture.
 
 use super::{ASPECT, Detail, Scene, SceneDraw, vertex_layout};
 use crate::generate::{LittleEndian, Matrix, look_at, perspective, unit_hash, uv_sphere};
@@ -14,14 +14,14 @@ use estampe::{
     FragmentIn, FragmentOut, RenderPipelineDescriptor, Vec3, VertexFormat, VertexIn, VertexOut,
 };
 
-/// Bytes from one draw's uniforms to the next one's.
+/// Bytes between the uniforms of consecutive draws.
 const UNIFORM_STRIDE: u32 = 256;
-/// Where the colour lies in them.
+/// Offset of the colour in the uniforms, in bytes.
 const COLOR_OFFSET: u32 = 64;
-/// Towards the light, in the model's own space: the spheres' normals are not turned.
+/// Direction towards the light, in object space: the spheres' normals are not rotated.
 const TOWARDS_LIGHT: [f32; 3] = [0.48, 0.64, 0.6];
 
-/// Lambert's cosine law on a colour that each draw binds.
+/// Lambert's cosine law with a colour from the draw's uniforms.
 struct Lambert;
 
 estampe::shader! {
@@ -56,7 +56,7 @@ pub(super) fn many_draws(detail: Detail) -> Scene {
     of_parts("many_draws", detail, 5)
 }
 
-/// The spheres, each in so many draws.
+/// The spheres, each in this many draws.
 fn of_parts(name: &'static str, detail: Detail, parts: u32) -> Scene {
     let (columns, rows) = detail.of((50, 40), (10, 8));
     // Fewer spheres are larger and farther apart.

@@ -1,8 +1,8 @@
-//! `mid_tris`: a torus of 69,696 triangles, Blinn-Phong per fragment with a diffuse and a tangent-space
-//! normal map, trilinear; back faces culled.
+//! `mid_tris`: a torus of 69,696 triangles, Blinn-Phong per fragment with a diffuse and a
+//! tangent-space normal map, trilinear; back faces culled.
 //!
-//! The uniforms are two matrices (clip and world from object), the eye's position and the direction
-//! towards the light, in world space, four floats each.
+//! The uniforms are two matrices (clip from object, world from object), the eye's position and the
+//! direction towards the light, both in world space, four floats each.
 
 use super::{ASPECT, Detail, Scene, uniforms, upload, vertex_layout};
 use crate::generate::{
@@ -16,9 +16,9 @@ use estampe::{
     VertexIn, VertexOut, maths,
 };
 
-/// Where the camera is; it looks at the origin.
+/// The camera's position in world space; it looks at the origin.
 const EYE: [f64; 3] = [0.0, 2.0, 2.3];
-/// Seeds both textures, so that bumps and colours agree.
+/// Seed of both textures, so that bumps and colours agree.
 pub(super) const NOISE_SEED: u32 = 11;
 
 /// Blinn-Phong (Blinn 1977) with a normal map.
@@ -35,7 +35,7 @@ estampe::shader! {
     impl Shader for NormalMapped {
         // Position, normal, tangent with handedness, texture coordinate.
         type Attributes<R: Real> = (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>);
-        // The same in world space.
+        // The same values in world space.
         type Varyings<R: Real> = (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>);
 
         fn vertex<R: Real>(
@@ -63,7 +63,7 @@ estampe::shader! {
             let (one, two) = (Vec3::repeat(input.real(1.0)), input.real(2.0));
             let bump = mapped * two - one;
 
-            // Turn the mapped normal from tangent space to world space.
+            // Transform the mapped normal from tangent space to world space.
             let n = normal.normalize();
             let t = tangent.xyz().normalize();
             let b = n.cross(t) * tangent.w;
@@ -127,17 +127,17 @@ fn scene(name: &'static str, detail: Detail, samples: u32) -> Scene {
     Scene::of_one_draw(name, buffers, vec![diffuse, normals], pipeline)
 }
 
-/// How the torus stands.
+/// The torus's position and rotation.
 pub(super) fn world_from_object() -> Matrix {
     Matrix::rotation_x(0.06).times(&Matrix::rotation_y(0.1))
 }
 
-/// Where the light comes from.
+/// The unit direction towards the light, in world space.
 pub(super) fn towards_light() -> Vector {
     normalize([0.5, 1.0, 0.3])
 }
 
-/// Clip from object, world from object: 128 bytes.
+/// Appends clip from object and world from object: 128 bytes.
 pub(super) fn append_matrices(bytes: &mut LittleEndian, world_from_object: &Matrix) {
     let clip_from_view = perspective(0.125, ASPECT, 0.1, 10.0);
     let view_from_world = look_at(EYE, [0.0; 3], [0.0, 1.0, 0.0]);
@@ -146,7 +146,7 @@ pub(super) fn append_matrices(bytes: &mut LittleEndian, world_from_object: &Matr
     bytes.matrix(world_from_object);
 }
 
-/// Eye and light: 32 bytes.
+/// Appends eye and light: 32 bytes.
 pub(super) fn append_lighting(bytes: &mut LittleEndian) {
     bytes.reals(&EYE);
     bytes.reals(&[1.0]);

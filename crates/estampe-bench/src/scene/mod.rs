@@ -1,11 +1,11 @@
-//! The scenes of `peerbench`, drawn natively: data from [`generate`](crate::generate), and shaders in
-//! Rust that compute what the scenes' WGSL computes.
+//! The scenes of `peerbench`, drawn natively: data from [`generate`](crate::generate), and shaders
+//! in Rust that compute the same as the scenes' WGSL.
 //!
 //! | scene | work | triangles |
 //! |---|---|---:|
 //! | clear | colour and depth cleared | 0 |
 //! | fill | 32 full-screen opaque quads, back to front | 64 |
-//! | fill_front | the same front to back: one visible, 31 rejected | 64 |
+//! | fill_front | fill, front to back: one visible, 31 rejected | 64 |
 //! | blend | 32 full-screen alpha-blended Gouraud quads | 64 |
 //! | small_tris | bumpy sphere, Gouraud, back faces culled | 998,000 |
 //! | mid_tris | torus, Blinn-Phong, diffuse and normal map, trilinear | 69,696 |
@@ -40,23 +40,23 @@ use estampe::state::{VertexAttribute, VertexBufferLayout};
 use estampe::{RenderPipelineDescriptor, VertexFormat};
 use std::ops::Range;
 
-/// What every frame is cleared to: whole steps of 1/255, so that no renderer meets a tie.
+/// The clear colour of every frame, in multiples of 1/255, so that no renderer has to round a tie.
 pub const CLEAR_COLOR: [f32; 4] = [26.0 / 255.0, 51.0 / 255.0, 77.0 / 255.0, 1.0];
 
-/// Width over height for which the scenes' cameras are made, whatever the frame's size.
+/// The aspect ratio (width ÷ height) of the scenes' cameras, for frames of any size.
 const ASPECT: f64 = 16.0 / 9.0;
 
-/// How much geometry and texture a scene has.
+/// The amount of geometry and texture of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detail {
-    /// As the definition says: only this can be compared with other renderers.
+    /// As `peerbench` defines it: only this can be compared with other renderers.
     Full,
-    /// A hundredth of the triangles and texels: for tests of small frames.
+    /// A hundredth of the triangles and texels, for tests with small frames.
     Reduced,
 }
 
 impl Detail {
-    /// One of two sizes.
+    /// Selects one of two values.
     fn of<T>(self, full: T, reduced: T) -> T {
         match self {
             Self::Full => full,
@@ -68,47 +68,47 @@ impl Detail {
 /// A frame's worth of data, pipelines and draws.
 #[derive(Debug)]
 pub struct Scene {
-    /// Its name, as on the command line.
+    /// The name on the command line.
     pub name: &'static str,
-    /// Vertex, index and uniform data, in the order in which they were made.
+    /// Vertex, index and uniform data, in the order of generation.
     pub buffers: Vec<Vec<u8>>,
-    /// Textures, in the order in which they were made.
+    /// Textures, in the order of generation.
     pub textures: Vec<MipChain>,
     /// Samples per pixel.
     pub samples: u32,
-    /// What the draws choose from.
+    /// The pipelines of the draws.
     pub pipelines: Vec<RenderPipelineDescriptor>,
-    /// The buffer that draws bind as binding 0 of group 0, at their dynamic offset.
+    /// Index of the buffer that draws bind as binding 0 of group 0, at their dynamic offset.
     pub uniforms: Option<usize>,
-    /// What is drawn first, and bound beside the uniforms.
+    /// A depth map that is drawn first and bound beside the uniforms.
     pub depth_map: Option<DepthMap>,
-    /// What a frame draws, in order.
+    /// The draws of a frame, in order.
     pub draws: Vec<SceneDraw>,
 }
 
-/// A pass before the frame's, into a square image of depth alone.
+/// A pass before the frame's, into a square target with depth only.
 #[derive(Debug, Clone)]
 pub struct DepthMap {
-    /// Its side in pixels.
+    /// The side in pixels.
     pub size: u32,
-    /// What it draws, in order.
+    /// The draws, in order.
     pub draws: Vec<SceneDraw>,
 }
 
-/// One indexed draw: positions in the scene's lists.
+/// An indexed draw, as indices into the scene's lists.
 #[derive(Debug, Clone, Copy)]
 pub struct SceneDraw {
-    /// Which pipeline.
+    /// Index of the pipeline.
     pub pipeline: usize,
-    /// Which buffer holds the vertices.
+    /// Index of the vertex buffer.
     pub vertices: usize,
-    /// Which buffer holds the indices, 32 bits each.
+    /// Index of the index buffer, 32 bits per index.
     pub indices: usize,
-    /// Which of them, the end excluded; `None`: all.
+    /// Half-open range of the indices; `None` is all.
     pub elements: Option<[u32; 2]>,
-    /// How many instances.
+    /// The number of instances.
     pub instances: u32,
-    /// Where its uniforms begin, in bytes.
+    /// Offset of its uniforms, in bytes.
     pub dynamic_offset: u32,
 }
 
@@ -146,7 +146,7 @@ impl Scene {
         }
     }
 
-    /// How many triangles a frame submits, if they are in lists.
+    /// The number of triangles that a frame submits, for triangle lists.
     #[must_use]
     pub fn triangles(&self) -> u64 {
         let triangles = |draw: &SceneDraw| {
@@ -157,7 +157,7 @@ impl Scene {
         self.draws.iter().chain(depth_map).map(triangles).sum()
     }
 
-    /// Which indices a draw has.
+    /// The range of a draw's indices.
     #[must_use]
     pub fn elements(&self, draw: &SceneDraw) -> Range<u32> {
         let words = self.buffers[draw.indices].len() / 4;
@@ -166,7 +166,7 @@ impl Scene {
         first..end
     }
 
-    /// The scene's one draw cut into so many, whose numbers of indices are the same.
+    /// The scene with its single draw cut into this many, with equally many indices each.
     fn cut_into(mut self, draws: u32) -> Self {
         let whole = self.draws[0];
         let each = self.elements(&whole).end / draws;
@@ -178,8 +178,8 @@ impl Scene {
         self
     }
 
-    /// FNV-1a of all buffers' bytes, then of all textures' levels: equal to `peerbench`'s when the data
-    /// are.
+    /// FNV-1a of the bytes of all buffers, then of all textures' levels. It equals `peerbench`'s if
+    /// the data are equal.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         let mut fingerprint = Fingerprint::default();
@@ -193,12 +193,12 @@ impl Scene {
     }
 }
 
-/// A scene's name and what makes it.
+/// A scene's name and generator.
 #[derive(Debug, Clone, Copy)]
 pub struct SceneEntry {
-    /// Its name, as on the command line.
+    /// The name on the command line.
     pub name: &'static str,
-    /// Whether `peerbench` has it, so that it can be compared.
+    /// Whether `peerbench` has the scene, so that it can be compared.
     pub is_peers: bool,
     make: fn(Detail, FrameSize) -> Scene,
 }
@@ -210,7 +210,7 @@ impl SceneEntry {
         (self.make)(detail, size)
     }
 
-    /// The scene of that name.
+    /// The scene with this name.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Self> {
         ALL.iter().find(|entry| entry.name == name)

@@ -1,9 +1,9 @@
-//! `quad_draws`: 10,000 draws of a small quad, each with its own place and colour in one uniform buffer: what a draw
-//! costs. `peerbench` does not have it.
+//! `quad_draws`: 10,000 draws of a small quad, each with a position and colour in one uniform
+//! buffer: the cost of a draw. It is not in `peerbench`.
 //!
-//! Quad n stands in column n mod 100 and row n / 100 of a grid over the frame, at a random depth and of a random size. The
-//! uniforms are the matrix that takes the quad to clip space and the colour, 80 bytes each 256. A vertex is its
-//! position (2 floats).
+//! Quad n is in column n mod 100 and row n / 100 of a grid over the frame, with random depth and
+//! size. The uniforms are the matrix from object to clip space and the colour, 80 bytes at a stride
+//! of 256. A vertex is its position (2 floats).
 
 use super::{Detail, Scene, SceneDraw, vertex_layout};
 use crate::generate::{LittleEndian, Matrix, QUAD_CORNERS, quad_indices, unit_hash};
@@ -12,12 +12,12 @@ use estampe::{
     VertexOut,
 };
 
-/// Bytes from one draw's uniforms to the next one's.
+/// Bytes between the uniforms of consecutive draws.
 const UNIFORM_STRIDE: u32 = 256;
-/// Where the colour lies in them.
+/// Offset of the colour in the uniforms, in bytes.
 const COLOR_OFFSET: u32 = 64;
 
-/// The colour that each draw binds.
+/// Outputs the colour of the draw's uniforms.
 struct BoundColor;
 
 estampe::shader! {

@@ -1,9 +1,9 @@
-//! `shadow`: the torus of `mid_tris` is drawn into a depth map as the light sees it, 2048²; then torus and
-//! ground are lit by Blinn-Phong, where the light reaches them: 3×3 comparisons with the map.
+//! `shadow`: the torus of `mid_tris` is drawn into a depth map of 2048² from the light; then torus
+//! and ground are lit by Blinn-Phong, with shadows from 3×3 comparisons with the map.
 //!
-//! The ground is a quad of 8 × 8 units below the torus. The uniforms are three matrices (clip, world and
-//! the light's clip space from object), the eye's position and the direction towards the light, 224 bytes
-//! each 256: the torus' and the ground's.
+//! The ground is a quad of 8 × 8 units below the torus. The uniforms are three matrices (clip,
+//! world and the light's clip space from object), the eye's position and the direction towards the
+//! light: 224 bytes at a stride of 256, for the torus and for the ground.
 
 use super::{DepthMap, Detail, Scene, SceneDraw, mid_tris, upload, vertex_layout};
 use crate::generate::{
@@ -16,19 +16,19 @@ use estampe::{
     VertexOut, maths,
 };
 
-/// Bytes from the torus' uniforms to the ground's.
+/// Bytes between the torus's and the ground's uniforms.
 const UNIFORM_STRIDE: u32 = 256;
 const CLIP_FROM_OBJECT: u32 = 0;
 const WORLD_FROM_OBJECT: u32 = 64;
 const LIGHT_FROM_OBJECT: u32 = 128;
 const EYE: u32 = 192;
 const TOWARDS_LIGHT: u32 = 208;
-/// Where the map is bound, in group 0.
+/// The binding of the depth map in group 0.
 pub(crate) const DEPTH_MAP: u32 = 1;
-/// What is this much farther from the light than the map says is still lit.
+/// The distance by which a fragment may be behind the map's depth and still be lit.
 const DEPTH_BIAS: f32 = 0.004;
 
-/// Depth as the light sees it.
+/// Writes depth as seen from the light.
 struct LightDepth;
 
 estampe::shader! {
@@ -51,14 +51,14 @@ estampe::shader! {
 /// Blinn-Phong (Blinn 1977) with a diffuse and a shadow map.
 struct Shadowed {
     diffuse_map: Sampled,
-    /// The nine samples of the map, (u, v) from the middle one.
+    /// Offsets of the nine samples of the map, in (u, v), from the middle one.
     taps: [[f32; 2]; 9],
 }
 
 estampe::shader! {
     impl Shader for Shadowed {
         type Attributes<R: Real> = (Vec3<R>, Vec3<R>, Vec2<R>); // position, normal, texture coordinate
-        // Position and normal in world space, texture coordinate, place in the map and depth.
+        // Position and normal in world space, texture coordinate, (u, v) in the map and depth.
         type Varyings<R: Real> = (Vec3<R>, Vec3<R>, Vec2<R>, Vec3<R>);
 
         fn vertex<R: Real>(
@@ -70,7 +70,7 @@ estampe::shader! {
             let world_from_object = matrix(WORLD_FROM_OBJECT);
             let position_world = world_from_object.transform_point(position).xyz();
             let normal_world = world_from_object.transform_vector(normal);
-            // Orthographic: w is 1.
+            // The light's projection is orthographic: w is 1.
             let in_light = matrix(LIGHT_FROM_OBJECT).transform_point(position);
             let in_map = Vec3::new(
                 in_light.x * 0.5 + 0.5,
@@ -101,7 +101,7 @@ estampe::shader! {
                 }
                 None => input.zero,
             };
-            // Beyond the map nothing is in shadow.
+            // Outside the map nothing is in shadow.
             let (zero, one) = (input.zero, input.real(1.0));
             let before = in_map.x.lt(zero) | in_map.y.lt(zero);
             let beyond = in_map.x.gt(one) | in_map.y.gt(one);
@@ -114,7 +114,7 @@ estampe::shader! {
     }
 }
 
-/// A vector of the draw's uniforms, at an offset in bytes.
+/// A vector in the draw's uniforms, at an offset in bytes.
 #[inline(always)]
 fn bound_vector<R: Real>(input: &FragmentIn<'_, R>, offset: u32) -> Vec3<R> {
     Vec3::uniform(input.zero, input.bindings.f32s::<3>(0, 0, offset))

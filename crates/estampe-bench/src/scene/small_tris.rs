@@ -1,8 +1,8 @@
-//! `small_tris`: a bumpy sphere of 998,000 triangles, most smaller than a pixel, Gouraud colours, back
-//! faces culled.
+//! `small_tris`: a bumpy sphere of 998,000 triangles, most smaller than a pixel, Gouraud shading,
+//! back faces culled.
 //!
-//! 1000 meridians, 500 parallels; the radius is 1 + 0.05·sin(8θ)·sin(6φ) in turns. The uniform is the
-//! matrix that takes the model to clip space.
+//! It has 1000 meridians and 500 parallels; the radius is 1 + 0.05·sin(8θ)·sin(6φ) in turns. The
+//! uniform is the matrix from object to clip space.
 
 use super::{ASPECT, Detail, Scene, uniforms, vertex_layout};
 use crate::generate::{LittleEndian, Matrix, look_at, perspective, sin_cos_turns, uv_sphere};
@@ -12,7 +12,7 @@ use estampe::{
     VertexOut,
 };
 
-/// The vertices' colours, interpolated, on a model in perspective.
+/// Outputs interpolated vertex colours of a model in perspective.
 struct Gouraud {
     clip_from_object: Mat4,
 }

@@ -1,11 +1,11 @@
-//! `textured`: 16 tilted quads over each other, the farthest first, with one texture of 2048², trilinear
-//! and tiled; depth test *less*, nothing culled.
+//! `textured`: 16 tilted quads over each other, the farthest first, with one texture of 2048²,
+//! trilinear and repeated; depth test *less*, no culling.
 //!
-//! Each quad is 8 × 8 units, at a random tilt and place at a distance from 12 to 5. Positions are rounded
-//! to binary32 in view space; the uniform is the projection. A vertex is its position (3 floats) and
-//! texture coordinate (2), which runs from 0 to 3.
+//! Each quad is 8 × 8 units, with random tilt and position, at a distance from 12 to 5. Positions
+//! are rounded to binary32 in view space; the uniform is the projection. A vertex has a position (3
+//! floats) and a texture coordinate (2), which runs from 0 to 3.
 //!
-//! `textured_draws`: the same as a draw for each quad.
+//! `textured_draws` is `textured` with one draw per quad.
 
 use super::{ASPECT, Detail, Scene, uniforms, upload, vertex_layout};
 use crate::generate::{
@@ -19,7 +19,7 @@ use estampe::{
 
 const QUADS: u32 = 16;
 
-/// A texture, as it is.
+/// Outputs the texture.
 struct Textured {
     clip_from_view: Mat4,
     texture: Sampled,
@@ -81,7 +81,7 @@ fn of_name(name: &'static str, detail: Detail) -> Scene {
     Scene::of_one_draw(name, buffers, vec![texture], pipeline)
 }
 
-/// Where a quad stands before the camera.
+/// A quad's position and tilt in front of the camera.
 fn view_from_object(quad: u32) -> Matrix {
     let centred = |k: u32| unit_hash(4000 + 4 * quad + k) - 0.5;
     let distance = 12.0 - 7.0 * f64::from(quad) / 15.0;

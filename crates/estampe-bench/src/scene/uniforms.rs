@@ -1,4 +1,5 @@
-//! Uniforms read back from the bytes that the fingerprint covers, so that shaders use those very numbers.
+//! Uniforms read from the bytes that the fingerprint covers, so that shaders use exactly these
+//! numbers.
 
 use estampe::Mat4;
 

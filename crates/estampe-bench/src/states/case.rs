@@ -1,4 +1,4 @@
-//! A load in a state, on a device: everything that a frame needs.
+//! A load in a state, with all of its resources on a device.
 
 use super::Load;
 use super::geometry::{Geometry, layout};
@@ -26,7 +26,7 @@ struct Setup {
     output: OutputKind,
     vertex_color: VertexFormat,
     has_uv: bool,
-    /// Its program, vertex buffers and topology are set in the end.
+    /// The pipeline; its program, vertex buffers and topology are set last.
     pipeline: RenderPipelineDescriptor,
     target: RenderTargetDescriptor,
     scissor: Option<ScissorRect>,
@@ -172,7 +172,7 @@ impl Setup {
     }
 }
 
-/// One pair of factors for colour and alpha.
+/// Blending with the same pair of factors for colour and alpha.
 fn both(src_factor: BlendFactor, dst_factor: BlendFactor) -> BlendState {
     let component = BlendComponent {
         operation: BlendOperation::Add,
@@ -185,7 +185,7 @@ fn both(src_factor: BlendFactor, dst_factor: BlendFactor) -> BlendState {
     }
 }
 
-/// Most of the target; its edges lie inside tiles and packets.
+/// A rectangle of most of the target, whose edges are inside tiles and packets.
 fn inner_rect(size: FrameSize) -> ScissorRect {
     let (x, y) = ((size.width / 16) | 1, (size.height / 16) | 1);
     ScissorRect {
@@ -196,7 +196,7 @@ fn inner_rect(size: FrameSize) -> ScissorRect {
     }
 }
 
-/// A load in a state, ready to be drawn as often as one likes.
+/// A load in a state, ready to be drawn repeatedly.
 #[derive(Debug)]
 pub(super) struct Case<'d> {
     device: &'d Device,
@@ -213,10 +213,10 @@ pub(super) struct Case<'d> {
 }
 
 impl<'d> Case<'d> {
-    /// A load as the baseline has it, or changed by a state.
+    /// A load in the baseline state, or changed by a state.
     ///
     /// # Errors
-    /// [`BenchError`] when the device refuses the pipeline or the target.
+    /// [`BenchError`] if the device refuses the pipeline or the target.
     pub(super) fn new(
         device: &'d Device,
         load: Load,
@@ -259,7 +259,8 @@ impl<'d> Case<'d> {
         })
     }
 
-    /// How many fragments the primitives have inside the scissor rectangle, whatever becomes of them.
+    /// The number of fragments of the primitives inside the scissor rectangle, whether they pass
+    /// the tests or not.
     fn count_fragments(&self, setup: &Setup) -> Result<u64, BenchError> {
         let size = (self.target.width(), self.target.height());
         let plain =
@@ -304,19 +305,19 @@ impl<'d> Case<'d> {
         self.device.render(&mut self.target, &pass);
     }
 
-    /// Samples that passed in all frames drawn so far, if they are counted.
+    /// The number of samples that passed in all frames so far, if they are counted.
     fn samples_passed(&self) -> u64 {
         self.queries
             .as_ref()
             .map_or(0, |queries| queries.samples_passed(0))
     }
 
-    /// Fragments of a frame.
+    /// Fragments per frame.
     pub(super) fn fragments(&self) -> u64 {
         self.fragments
     }
 
-    /// Primitives of a frame.
+    /// Primitives per frame.
     pub(super) fn primitives(&self) -> u32 {
         self.primitives
     }
@@ -351,7 +352,7 @@ mod tests {
             .collect()
     }
 
-    /// A draw whose pipeline does not fit its target draws nothing, and would seem fast.
+    /// A draw whose pipeline does not fit its target draws nothing, and would appear fast.
     #[test]
     fn every_state_is_drawn_with_each_of_its_loads() {
         let (device, pictures) = (device(), Pictures::new());
@@ -410,11 +411,11 @@ mod tests {
         assert_eq!(count(Load::Fill, Some("16-samples")), pixels * 8);
         assert_eq!(count(Load::Textured, Some("no-depth")), pixels);
         assert_eq!(count(Load::Text, None), 7 * 3 * 140);
-        // Cells of 4×4 fill all but the last row of pixels.
+        // Cells of 4×4 pixels fill all except the last row of pixels.
         assert_eq!(count(Load::Tris8, None), pixels - u64::from(SIZE.width));
         // From column 5 to 70, row 3 to 41.
         assert_eq!(count(Load::Blend, Some("scissor")), 66 * 39 * 8);
-        // Moved ends make lines a little shorter or longer than 8 pixels.
+        // Moved ends make lines slightly shorter or longer than 8 pixels.
         let of_lines = count(Load::Tris8, Some("lines"));
         assert!((760..=824).contains(&of_lines), "{of_lines}");
     }

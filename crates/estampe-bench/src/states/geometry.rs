@@ -1,4 +1,4 @@
-//! The vertices and indices of the loads, and how a vertex lies in its buffer.
+//! Vertices and indices of the loads, and the layout of a vertex.
 
 use super::Load;
 use crate::frame::FrameSize;
@@ -6,18 +6,18 @@ use crate::generate::{LittleEndian, QUAD_CORNERS, hash32, quad_indices};
 use estampe::VertexFormat;
 use estampe::state::{PrimitiveTopology, VertexBufferLayout};
 
-/// Quads over each other in the loads `fill` and `blend`.
+/// The number of quads over each other in the loads `fill` and `blend`.
 const LAYERS: u32 = 8;
-/// Side of a cell of two triangles of 8 pixels each.
+/// Side in pixels of a cell of two triangles of 8 pixels each.
 const CELL_PX: u32 = 4;
 /// Width and height of a glyph's quad.
 pub(super) const GLYPH_PX: [u32; 2] = [10, 14];
-/// Glyphs in a row of their texture, and how many rows there are.
+/// Glyphs per row of their texture, and number of rows.
 pub(super) const GLYPHS: [u32; 2] = [24, 16];
 /// Side of the textures.
 pub(super) const TEXTURE_SIDE: u32 = 512;
 
-/// A vertex before it is encoded.
+/// A vertex before encoding.
 #[derive(Debug, Clone, Copy)]
 struct Vertex {
     /// In NDC.
@@ -36,7 +36,7 @@ pub(super) struct Geometry {
 }
 
 impl Geometry {
-    /// What a load draws into a target of that size.
+    /// The geometry of a load for a target of this size.
     pub(super) fn of(load: Load, size: FrameSize) -> Self {
         match load {
             Load::Fill | Load::Blend => layers(),
@@ -46,7 +46,7 @@ impl Geometry {
         }
     }
 
-    /// Lines of eight columns and four rows instead of the triangles.
+    /// Lines of eight columns and four rows, in place of the triangles.
     pub(super) fn lines(size: FrameSize) -> Self {
         let grid = Grid::new(size);
         let mut indices = LittleEndian::default();
@@ -93,7 +93,7 @@ impl Geometry {
         self.index_count() / each
     }
 
-    /// The vertices as bytes, as [`layout`] says.
+    /// The vertices' bytes, in the layout of [`layout`].
     pub(super) fn encoded(&self, color: VertexFormat, has_uv: bool) -> Vec<u8> {
         let mut bytes = LittleEndian::default();
         for vertex in &self.vertices {
@@ -107,14 +107,14 @@ impl Geometry {
     }
 }
 
-/// Position, colour in a format, and in textured loads the texture coordinate.
+/// The layout: position, colour in a format, and for textured loads the texture coordinate.
 pub(super) fn layout(color: VertexFormat, has_uv: bool) -> VertexBufferLayout {
     let formats = [VertexFormat::Float32x3, color, VertexFormat::Float32x2];
     VertexBufferLayout::packed(if has_uv { &formats } else { &formats[..2] })
 }
 
-/// A colour of 8 bits a channel in one of the vertex formats that states name. Of floats of 16 bits c/256, which is
-/// exact; of signed formats half of the code's bits.
+/// A colour of 8 bits per channel in one of the vertex formats of the states. 16-bit floats hold
+/// c/256, exactly; signed formats have the codes c >> 1 and c << 7, which stand for nearly c/255.
 fn encoded_color(color: [u8; 4], format: VertexFormat) -> Vec<u8> {
     let words = color.map(u16::from);
     let of_words = |words: [u16; 4]| words.iter().flat_map(|word| word.to_le_bytes()).collect();
@@ -146,7 +146,8 @@ fn encoded_color(color: [u8; 4], format: VertexFormat) -> Vec<u8> {
     }
 }
 
-/// The half float of c/256, which is exact: the leading bit is the exponent, the others are the mantissa.
+/// The half float of c/256, which is exact: the leading bit gives the exponent, the others the
+/// mantissa.
 pub(super) fn half_of_256th(code: u8) -> u16 {
     if code == 0 {
         return 0;
@@ -157,14 +158,14 @@ pub(super) fn half_of_256th(code: u8) -> u16 {
     u16::try_from(bits).expect("an exponent below 16 and ten bits of mantissa")
 }
 
-/// A rectangle of the target and what it shows.
+/// A rectangle of the target with its texture coordinates and colours.
 struct Quad {
-    /// In NDC: left, bottom, right, top.
+    /// Left, bottom, right, top in NDC.
     bounds: [f64; 4],
     z: f64,
     /// Texture coordinates of the left top and the right bottom corner.
     uv: [[f64; 2]; 2],
-    /// Where the corners' colours come from.
+    /// Seed of the corners' colours.
     seed: u32,
 }
 
@@ -206,7 +207,7 @@ fn whole_target() -> Quad {
     }
 }
 
-/// The farthest first.
+/// The full-screen quads, the farthest first.
 fn layers() -> Geometry {
     quads((0..LAYERS).map(|layer| Quad {
         z: 1.0 - f64::from(layer + 1) / f64::from(LAYERS + 1),
@@ -215,7 +216,7 @@ fn layers() -> Geometry {
     }))
 }
 
-/// Glyphs on whole pixels, texel for pixel, as text is drawn.
+/// Glyphs on whole pixels, one texel per pixel, as text is usually drawn.
 fn glyphs(size: FrameSize) -> impl Iterator<Item = Quad> {
     let [width, height] = GLYPH_PX;
     let (columns, rows) = (size.width / width, size.height / height);
@@ -246,7 +247,7 @@ fn glyphs(size: FrameSize) -> impl Iterator<Item = Quad> {
     })
 }
 
-/// Square cells all over the target.
+/// Square cells over the whole target.
 struct Grid {
     columns: u32,
     rows: u32,
@@ -264,7 +265,7 @@ impl Grid {
         row * (self.columns + 1) + column
     }
 
-    /// Corners, those inside moved at random by up to a quarter of a cell.
+    /// The corners; inner ones are moved at random by up to a quarter of a cell.
     fn vertices(&self, size: FrameSize) -> Vec<Vertex> {
         let moved = |bits: u8, at: u32, count: u32| {
             let is_inside = at > 0 && at < count;

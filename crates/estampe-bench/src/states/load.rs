@@ -1,22 +1,24 @@
-//! The loads: what is drawn, whatever the state is.
+//! The loads: geometry, shading and blending with which the states are measured.
 
 use clap::ValueEnum;
 use serde::Serialize;
 
-/// What a state is measured with.
+/// A load with which states are measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, ValueEnum, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Load {
-    /// Eight full-screen opaque quads in smooth colours, back to front, so that every fragment passes the depth test.
+    /// Eight full-screen opaque quads in smooth colours, back to front: every fragment passes the
+    /// depth test.
     Fill,
     /// The same quads, blended by their alpha; depth is tested and not written.
     Blend,
     /// Opaque triangles of 8 pixels in smooth colours, beside each other.
     Tris8,
-    /// One full-screen opaque quad: a texture, bilinear at about one texel a pixel, times the vertex colour.
+    /// One full-screen opaque quad: a texture, bilinear at about one texel per pixel, times the
+    /// vertex colour.
     Textured,
-    /// Quads of 10×14 pixels beside each other, each a glyph of a texture times the vertex colour, blended as
-    /// premultiplied alpha; depth is tested and not written.
+    /// Quads of 10×14 pixels beside each other, each with a glyph of a texture times the vertex
+    /// colour, blended as premultiplied alpha; depth is tested and not written.
     Text,
 }
 
@@ -30,7 +32,7 @@ impl Load {
         Self::Text,
     ];
 
-    /// Its name, as on the command line.
+    /// The name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -42,7 +44,7 @@ impl Load {
         }
     }
 
-    /// Whether fragments are blended with what is stored.
+    /// Whether fragments are blended with the stored colour.
     #[must_use]
     pub const fn is_blended(self) -> bool {
         matches!(self, Self::Blend | Self::Text)

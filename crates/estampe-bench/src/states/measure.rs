@@ -1,49 +1,49 @@
-//! Timing a state against its baseline: frames of the two in turn, so that whatever else the machine does disturbs
-//! both alike.
+//! Timing of a state against its baseline: frames of both in turn, so that disturbances by other
+//! processes affect both equally.
 
 use super::case::Case;
 use crate::clock;
 use crate::measure::median;
 use std::time::{Duration, Instant};
 
-/// How long a state is measured with a load.
+/// The length of the measurement of a state with a load.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Effort {
-    /// At least so many pairs of frames.
+    /// The least number of pairs of frames.
     pairs: usize,
-    /// And for at least so long.
+    /// The least time.
     time: Duration,
 }
 
 impl Effort {
-    /// For a table that is kept.
+    /// For published tables.
     pub(super) const THOROUGH: Self = Self {
         pairs: 7,
         time: Duration::from_millis(250),
     };
-    /// For a look.
+    /// For a quick look.
     pub(super) const QUICK: Self = Self {
         pairs: 3,
         time: Duration::from_millis(10),
     };
 }
 
-/// More pairs than this are not drawn, however short the frames are.
+/// The greatest number of pairs, even if the frames are short.
 const MAX_PAIRS: usize = 101;
 
-/// What a frame costs.
+/// The cost of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cost {
     /// CPU time of a frame in nanoseconds, median.
     pub(super) frame_ns: f64,
-    /// That time over the baseline's, each frame's beside the frame before it, median. It is by fragment where the
-    /// two have different numbers of fragments.
+    /// The median, over pairs of frames, of the state's CPU time divided by the baseline's. It is
+    /// per fragment if the numbers of fragments differ.
     pub(super) ratio: f64,
 }
 
 /// Measures a state and its baseline in turn.
 pub(super) fn measure(baseline: &mut Case<'_>, state: &mut Case<'_>, effort: Effort) -> Cost {
-    // The first frame takes memory from the system.
+    // The first frames take memory from the system.
     baseline.draw();
     state.draw();
     let start = Instant::now();
@@ -55,7 +55,7 @@ pub(super) fn measure(baseline: &mut Case<'_>, state: &mut Case<'_>, effort: Eff
     cost(&pairs, fragments(baseline) / fragments(state))
 }
 
-/// The cost from times of [baseline, state]; a state's time counts `scale` times.
+/// The cost from pairs of times [baseline, state]; the ratio is multiplied by `scale`.
 fn cost(pairs: &[[f64; 2]], scale: f64) -> Cost {
     let ratios = pairs
         .iter()

@@ -1,17 +1,18 @@
-//! What each state of the pipeline costs: every format, test and kind of blending beside the baseline, which is
-//! RGBA8 and 32-bit float depth with one sample.
+//! The cost of each state of the pipeline: every format, test and kind of blending compared with
+//! the baseline, which is RGBA8 and 32-bit float depth with one sample.
 //!
 //! ```sh
 //! cargo run --release -p estampe-bench -- states
 //! ```
 //!
-//! A state is measured with every load that it makes sense with. A frame in the state and one of the baseline are drawn
-//! in turn, on the calling thread alone; what counts is CPU time, and the median of the ratios of neighbours.
+//! A state is measured with every load to which it applies. A frame in the state and one in the
+//! baseline are drawn in turn, on the calling thread alone. The result is CPU time, and the median
+//! of the ratios of consecutive frames.
 //!
-//! * [`Load`]s are what is drawn, their vertices in `geometry`, their textures in `texture_views`, their shaders in
+//! * [`Load`]s say what is drawn: vertices in `geometry`, textures in `texture_views`, shaders in
 //!   `shaders`;
-//! * [`State`]s are changes of the baseline; `case` puts both together;
-//! * [`table`] makes the table of PERFORMANCE.md and the JSON.
+//! * [`State`]s are changes of the baseline; `case` combines both;
+//! * [`table`] writes the table of PERFORMANCE.md and the JSON.
 
 mod case;
 mod geometry;
@@ -38,7 +39,7 @@ use std::path::PathBuf;
 use table::Row;
 use texture_views::Pictures;
 
-/// The size of the frames: some hundred pairs of a state and a load take minutes at this size.
+/// The size of the frames: at this size, some hundred pairs of a state and a load take minutes.
 pub const SIZE: FrameSize = FrameSize {
     width: 640,
     height: 360,
@@ -46,7 +47,7 @@ pub const SIZE: FrameSize = FrameSize {
 
 /// Measures every state of the pipeline and writes the table of PERFORMANCE.md.
 ///
-/// The table is written when everything is measured: not with --quick, --states or --loads.
+/// The table is written if everything was measured: not with --quick, --states or --loads.
 #[derive(Debug, Args)]
 pub struct StatesArguments {
     /// States or groups of states to measure, separated by commas [default: all]
@@ -58,19 +59,19 @@ pub struct StatesArguments {
     /// SIMD level: auto, scalar, sse2, avx2 or avx512
     #[arg(long, default_value = "auto")]
     pub simd: String,
-    /// Few frames, and PERFORMANCE.md is left as it is
+    /// Measure few frames, and leave PERFORMANCE.md unchanged
     #[arg(long)]
     pub quick: bool,
     /// Write the results to this file
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
-    /// The document that gets the table [default: PERFORMANCE.md of the repository]
+    /// The document in which the table is written [default: PERFORMANCE.md of the repository]
     #[arg(long, value_name = "FILE")]
     pub document: Option<PathBuf>,
 }
 
 impl StatesArguments {
-    /// The states that were asked for.
+    /// The requested states.
     fn states(&self) -> Result<Vec<State>, BenchError> {
         let all = State::all();
         let is_meant =
@@ -95,16 +96,16 @@ impl StatesArguments {
         Load::ALL.into_iter().filter(is_wanted).collect()
     }
 
-    /// Whether everything is measured thoroughly, so that the table may be kept.
+    /// Whether everything is measured thoroughly, so that the table may be published.
     fn is_complete(&self) -> bool {
         !self.quick && self.states.is_empty() && self.loads.is_empty()
     }
 }
 
-/// Measures the states; the table goes to `out` too.
+/// Measures the states; the table is written to `out` too.
 ///
 /// # Errors
-/// [`BenchError`]: wrong usage, or a file.
+/// [`BenchError`]: wrong usage, or a file that cannot be written.
 pub fn run(arguments: &StatesArguments, out: &mut impl Write) -> Result<(), BenchError> {
     let (states, loads) = (arguments.states()?, arguments.loads());
     let device = Device::new(&DeviceDescriptor {
@@ -171,7 +172,7 @@ fn measure_all(
     Ok(rows)
 }
 
-/// Three decimals.
+/// A number rounded to three decimals.
 fn rounded(value: f64) -> f64 {
     (value * 1e3).round() / 1e3
 }
@@ -215,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn the_document_gets_complete_tables_alone() {
+    fn only_complete_tables_are_written_to_the_document() {
         assert!(parsed("states").is_complete());
         for line in [
             "states --quick",
@@ -227,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_measures_what_was_asked_for() {
+    fn a_run_measures_the_requested_states() {
         let path = std::env::temp_dir().join(format!("estampe-states-{}.json", std::process::id()));
         let line = format!(
             "states --quick --states points,rgba8unorm --loads tris8,textured --json {}",

@@ -1,7 +1,7 @@
-//! The loads' shaders: a surface gives a fragment's colour, an output says what becomes of it.
+//! The loads' shaders: a surface computes a fragment's colour, an output writes it.
 //!
-//! No shader here promises anything that a compiler would have to find out (`COLOR_PASSTHROUGH`, `NO_DERIVATIVES`):
-//! what is measured is what any program gets.
+//! The shaders make no declarations that a compiler would have to prove (`COLOR_PASSTHROUGH`,
+//! `NO_DERIVATIVES`), so the measured cost is that of any program.
 
 use super::texture_views::{Lookup, ViewTexture};
 use estampe::texture::Sampled;
@@ -12,36 +12,36 @@ use estampe::{
 use std::marker::PhantomData;
 use std::sync::Arc;
 
-/// Where a fragment's colour comes from.
+/// The source of a fragment's colour.
 #[expect(clippy::large_enum_variant, reason = "one value for each pipeline")]
 #[derive(Debug, Clone)]
 pub(super) enum SurfaceKind {
     /// The vertex colour.
     Tint,
-    /// The vertex colour, in integers.
+    /// The vertex colour as integers.
     IntegerTint,
     /// The vertex colour, on points three pixels wide.
     PointTint,
-    /// A texture of the common kind times the vertex colour.
+    /// A texture of the common kind (8-bit RGBA, 2D) times the vertex colour.
     Texture(Sampled),
-    /// A view of another texture times the vertex colour.
+    /// A texture view of another kind times the vertex colour.
     View(ViewTexture),
 }
 
-/// What becomes of a fragment's colour.
+/// The use of a fragment's colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum OutputKind {
-    /// It goes to so many targets, 1 to 4.
+    /// Written to this many targets, 1 to 4.
     Targets(usize),
-    /// It goes to a target of integers, as 0..=127.
+    /// Written to a target of integers, as 0..=127.
     Integers,
-    /// It goes to one target where its alpha is not small.
+    /// Written to one target, if its alpha is not small.
     Discard,
-    /// It goes to one target with a second colour, its alpha.
+    /// Written to one target with a second colour: the alpha.
     DualSource,
 }
 
-/// The program of a surface and an output. Only vertex colours go to targets of integers.
+/// The program of a surface and an output. Integer targets take vertex colours only.
 pub(super) fn program(surface: &SurfaceKind, output: OutputKind) -> Arc<dyn Program> {
     match (surface, output) {
         (SurfaceKind::Tint, OutputKind::Integers) => shaded::<_, Integers>(Tint),
@@ -68,7 +68,7 @@ fn shaded<S: Surface, O: Output>(surface: S) -> Arc<dyn Program> {
     Arc::new(ShaderProgram::new(Shaded(surface, PhantomData::<O>)))
 }
 
-/// A surface with an output.
+/// A surface combined with an output.
 struct Shaded<S, O>(S, PhantomData<O>);
 
 estampe::shader! {
@@ -103,18 +103,18 @@ estampe::shader! {
     }
 }
 
-/// Where a fragment's colour comes from.
+/// The source of a fragment's colour.
 trait Surface: Send + Sync + 'static {
     type Attributes<R: Real>: Attributes<R>;
     type Varyings<R: Real>: Varyings<R>;
     const POINT_SIZE_PX: Option<f32> = None;
 
-    /// The position in NDC and what the fragments get.
+    /// The position in NDC and the varyings.
     fn vertex<R: Real>(attributes: Self::Attributes<R>) -> (Vec3<R>, Self::Varyings<R>);
     fn color<R: Real>(&self, varyings: Self::Varyings<R>) -> Vec4<R>;
 }
 
-/// A little darker than the vertex colour, so that the shader does not pass it on as it is.
+/// Slightly darker than the vertex colour, so that the shader is no colour passthrough.
 #[inline(always)]
 fn tinted<R: Real>(color: Vec4<R>) -> Vec4<R> {
     Vec4::new(color.x * 0.875, color.y * 0.9375, color.z, color.w)
@@ -218,7 +218,7 @@ impl Surface for ViewTint {
 }
 
 impl ViewTexture {
-    /// The texel at (u, v), in whatever coordinates the view takes.
+    /// The texel at (u, v), with the coordinates that the view requires.
     #[inline(always)]
     fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
         self.view.sample(match self.lookup {
@@ -226,7 +226,7 @@ impl ViewTexture {
             Lookup::Layer(layer) => {
                 estampe::texture::Coordinates::d2_array(uv, uv.x.splat_int(layer))
             }
-            // The positive z face and a part of its four neighbours.
+            // The face +z and parts of its four neighbours.
             Lookup::Direction => {
                 let across = |t: R| (t - 0.5) * 2.25;
                 let direction = Vec3::new(across(uv.x), across(uv.y), uv.x.splat(1.0));
@@ -236,7 +236,7 @@ impl ViewTexture {
     }
 }
 
-/// What becomes of a fragment's colour.
+/// The use of a fragment's colour.
 trait Output: Send + Sync + 'static {
     const TARGETS: usize = 1;
     const DISCARDS: bool = false;

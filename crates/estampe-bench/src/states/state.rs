@@ -1,4 +1,5 @@
-//! The states: each changes one thing of the baseline, which is RGBA8 and 32-bit float depth with one sample.
+//! The states: each changes one property of the baseline, which is RGBA8 and 32-bit float depth
+//! with one sample.
 
 use super::Load;
 use super::texture_views::ViewKind;
@@ -17,22 +18,22 @@ pub(super) const BASELINE_VERTEX_COLOR: VertexFormat = VertexFormat::Unorm8x4;
 pub enum Group {
     /// The format of the colour target.
     Color,
-    /// The format of the depth attachment, tests of depth and stencil.
+    /// The format of the depth attachment, depth and stencil tests.
     DepthStencil,
-    /// Samples of a pixel and which of them are written.
+    /// Samples per pixel and sample masks.
     Samples,
-    /// How colours are combined with what is stored, and in how many targets.
+    /// Blending, and the number of targets.
     Blending,
-    /// What primitives and fragments are drawn.
+    /// Topology and discarded fragments.
     Primitives,
     /// The format of vertex colours.
     Vertices,
-    /// What the texture is.
+    /// The format and shape of the texture.
     Textures,
 }
 
 impl Group {
-    /// Its name, as on the command line and in the table.
+    /// The name on the command line and in the table.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -47,40 +48,40 @@ impl Group {
     }
 }
 
-/// One change of the baseline, and what it is called.
+/// A named change of the baseline.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
-    /// Its name, as on the command line.
+    /// The name on the command line.
     pub name: String,
-    /// Which section of the table it is in.
+    /// The section of the table.
     pub group: Group,
     pub(super) change: Change,
 }
 
-/// What is changed.
+/// A change of the baseline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Change {
     /// The colour target has this format.
     ColorFormat(TextureFormat),
     /// The depth attachment has this format, or there is none.
     DepthFormat(Option<TextureFormat>),
-    /// A stencil test that always passes and keeps what is stored.
+    /// A stencil test that always passes and keeps the stored value.
     StencilKeep,
     /// A stencil test that compares, passes and increments.
     StencilIncrement,
-    /// Fragments are drawn where the stored depth is in 0..=1, which it always is.
+    /// A depth-bounds test with 0..=1, which every stored depth passes.
     DepthBounds,
-    /// Samples of a pixel.
+    /// This many samples per pixel.
     Samples(u32),
-    /// Alpha says which of four samples are kept.
+    /// Alpha to coverage with four samples.
     AlphaToCoverage,
-    /// Two of four samples may change.
+    /// A sample mask of two of four samples.
     SampleMask,
-    /// So many targets of the baseline's format get the same colour.
+    /// This many targets of the baseline's format with the same colour.
     Targets(usize),
     /// Blending as premultiplied alpha.
     Premultiplied,
-    /// Blending by a constant's alpha.
+    /// Blending by the constant's alpha.
     ConstantAlpha,
     /// Blending by the fragment's second colour.
     DualSource,
@@ -90,7 +91,7 @@ pub(super) enum Change {
     Discard,
     /// An occlusion query counts samples.
     OcclusionQuery,
-    /// A scissor rectangle that is not aligned to anything.
+    /// A scissor rectangle whose edges are not aligned to tiles or packets.
     Scissor,
     /// Lines of 8 pixels instead of triangles.
     Lines,
@@ -103,7 +104,8 @@ pub(super) enum Change {
 }
 
 impl State {
-    /// Every state, in the order of reports. Of colour and depth formats there are all that can be drawn into.
+    /// Every state, in the order of reports. It includes all renderable colour formats and all
+    /// depth formats.
     #[must_use]
     pub fn all() -> Vec<Self> {
         let colors = TextureFormat::ALL.iter().filter(|f| f.is_renderable());
@@ -165,7 +167,7 @@ impl State {
         }
     }
 
-    /// Whether the state makes sense with a load; where not, the table says so.
+    /// Whether the state applies to a load; the table has a dash if not.
     #[must_use]
     pub fn applies_to(&self, load: Load) -> bool {
         match self.change {
@@ -173,10 +175,10 @@ impl State {
                 let is_integer = format.sample_type() != SampleType::Float;
                 !(is_integer && (load.is_blended() || load.is_textured()))
             }
-            // What they do to colours is done instead of blending.
+            // These replace blending.
             Change::LogicXor | Change::AlphaToCoverage => !load.is_blended(),
             Change::ConstantAlpha | Change::DualSource => load.is_blended(),
-            // Text is.
+            // The load `text` is premultiplied already.
             Change::Premultiplied => matches!(load, Load::Blend | Load::Textured),
             Change::Lines | Change::Points | Change::VertexColor(_) => load == Load::Tris8,
             Change::View(kind) => match kind.dimension {
@@ -188,7 +190,7 @@ impl State {
     }
 }
 
-/// One format of each group that is decoded in its own manner.
+/// The vertex formats, one of each group with a common decoder.
 fn vertex_formats() -> impl Iterator<Item = State> {
     let formats = [
         ("vertex-float32x4", VertexFormat::Float32x4),

@@ -1,4 +1,4 @@
-//! The results: a list for programs, a table for people.
+//! The results as JSON and as a Markdown table.
 
 use super::state::{Group, State};
 use super::{Load, SIZE};
@@ -6,18 +6,18 @@ use crate::provenance::Versions;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// What a fragment of a load costs in a state.
+/// The cost per fragment of a load in a state.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
     /// The state's name.
     pub state: String,
     /// The load.
     pub load: Load,
-    /// CPU time in nanoseconds for each fragment of the load's primitives, hidden ones too.
+    /// CPU time in nanoseconds per fragment of the load's primitives, hidden ones included.
     pub ns: f64,
-    /// That time over the baseline's.
+    /// That time divided by the baseline's.
     pub ratio: f64,
-    /// CPU time in nanoseconds for each triangle, line or point; of the load `tris8` alone.
+    /// CPU time in nanoseconds per triangle, line or point; only for the load `tris8`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ns_per_triangle: Option<f64>,
 }
@@ -45,7 +45,7 @@ pub fn section(states: &[State], rows: &[Row], level: &str, versions: &Versions)
     )
 }
 
-/// The table: a line for each state, a column for each load.
+/// The table: a line per state, a column per load.
 #[must_use]
 pub fn markdown(states: &[State], rows: &[Row]) -> String {
     let mut text = "| state |".to_owned();
@@ -69,7 +69,7 @@ pub fn markdown(states: &[State], rows: &[Row]) -> String {
     text
 }
 
-/// What stands where a state makes no sense with a load.
+/// The cell of a state that does not apply to a load.
 const LEFT_OUT: &str = "–";
 
 fn cell(state: &State, load: Load, rows: &[Row]) -> String {
@@ -83,7 +83,7 @@ fn cell(state: &State, load: Load, rows: &[Row]) -> String {
         .unwrap_or_default()
 }
 
-/// Three significant digits down to hundredths.
+/// A number with three significant digits, but at most two decimals.
 fn three_digits(value: f64) -> String {
     match value {
         100.0.. => format!("{value:.0}"),
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn the_table_says_what_was_measured_and_what_makes_no_sense() {
+    fn the_table_marks_states_that_do_not_apply() {
         let states = State::all();
         let named = |name: &str| {
             states

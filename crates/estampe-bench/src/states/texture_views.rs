@@ -1,4 +1,5 @@
-//! The textures of the textured loads: the common kind, and the same picture in other formats and shapes.
+//! The textures of the textured loads: the common kind, and the same picture in other formats and
+//! shapes.
 
 use super::Load;
 use super::geometry::{GLYPH_PX, GLYPHS, TEXTURE_SIDE, half_of_256th};
@@ -10,35 +11,35 @@ use estampe::texture::{
 };
 use estampe::{FilterMode, Limits, SamplerDescriptor, TextureFormat};
 
-/// A texture that is not of the common kind, or not read as such.
+/// A texture format or shape other than the common kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct ViewKind {
     pub(super) format: TextureFormat,
     pub(super) dimension: ViewDimension,
 }
 
-/// A view and how its coordinates are made from (u, v).
+/// A view and the conversion of (u, v) to its coordinates.
 #[derive(Debug, Clone)]
 pub(super) struct ViewTexture {
     pub(super) view: SampledView,
     pub(super) lookup: Lookup,
 }
 
-/// How coordinates are made from (u, v).
+/// The conversion of (u, v) to coordinates.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Lookup {
-    /// They are.
+    /// (u, v) unchanged.
     Image,
-    /// In this layer.
+    /// (u, v) in this layer.
     Layer(i32),
     /// A direction.
     Direction,
 }
 
-/// Layers of the array.
+/// The number of layers of the array.
 const LAYERS: u32 = 4;
 
-/// The pictures of the textured loads in RGBA8, row by row, made once.
+/// The pictures of the textured loads in RGBA8, row by row, created once.
 #[derive(Debug)]
 pub(super) struct Pictures {
     surface: Vec<u8>,
@@ -71,7 +72,8 @@ impl Pictures {
         Ok(Sampled::new(texture, bilinear()))
     }
 
-    /// The load's picture in another format or shape: in each layer and on each face the same.
+    /// The load's picture in another format or shape; each layer and each face has the same
+    /// picture.
     pub(super) fn view(&self, load: Load, kind: ViewKind) -> Result<ViewTexture, BenchError> {
         let layers = match kind.dimension {
             ViewDimension::Cube => 6,
@@ -118,7 +120,7 @@ fn bilinear() -> SamplerDescriptor {
     }
 }
 
-/// RGBA8 in the bytes of one of the formats that states name.
+/// RGBA8 converted to one of the formats of the states.
 fn converted(rgba: &[u8], format: TextureFormat) -> Vec<u8> {
     let texels = rgba.as_chunks::<4>().0.iter();
     match format {
@@ -134,7 +136,7 @@ fn converted(rgba: &[u8], format: TextureFormat) -> Vec<u8> {
     }
 }
 
-/// Rings of different sizes, anti-aliased and premultiplied: about as much ink as letters have.
+/// Rings of different sizes, anti-aliased and premultiplied, with about as much ink as letters.
 fn glyphs() -> Vec<u8> {
     let [width, height] = GLYPH_PX;
     let mut rgba = vec![0; (TEXTURE_SIDE * TEXTURE_SIDE * 4) as usize];

@@ -1,4 +1,4 @@
-//! How fast the machine itself could be, as `limits` of `peerbench` measures it.
+//! Lower bounds of frame times on this machine, from rates that `limits` of `peerbench` measures.
 
 use crate::BenchError;
 use crate::frame::FrameSize;
@@ -6,7 +6,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Measured rates by name; empty where none were measured.
+/// Measured rates by name; empty if none were measured.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Limits {
     rates: BTreeMap<String, f64>,
@@ -19,14 +19,14 @@ struct Rate {
     value: f64,
 }
 
-/// Layers of fill and blend.
+/// The number of layers of fill and blend.
 const LAYERS: f64 = 32.0;
 
 impl Limits {
     /// Reads the file that `limits --out` writes.
     ///
     /// # Errors
-    /// When it cannot be read or is something else.
+    /// If it cannot be read or has another format.
     pub fn read(path: &Path) -> Result<Self, BenchError> {
         let text = std::fs::read_to_string(path).map_err(|source| BenchError::File {
             path: path.to_owned(),
@@ -46,7 +46,7 @@ impl Limits {
         })
     }
 
-    /// The least time in milliseconds that a frame of a scene can take, where one thing bounds it.
+    /// The least time in milliseconds of a frame of a scene, if it has a single bound.
     ///
     /// | scene | bound |
     /// |---|---|
@@ -65,7 +65,7 @@ impl Limits {
     ) -> Option<f64> {
         let pixels = f64::from(size.width) * f64::from(size.height);
         let threads = format!(", {cores} thread(s)");
-        // Gigabytes, or texels, a second are millions a millisecond.
+        // 1 GB/s, or 10⁹ texels per second, is 10⁶ per millisecond.
         let fill = |what: &str| Some(self.rates.get(&format!("fill {what}{threads}"))? * 1e6);
         let gathered = |texels: f64| {
             let of_one = self.rates.get("gather AVX2, 16 KiB (L1), 1 thread")?;
@@ -111,7 +111,7 @@ mod tests {
         assert_eq!(of("blend"), Some(1.0));
         assert_eq!(of("textured"), Some(0.5));
         assert_eq!(of("mid_tris"), Some(1.0));
-        // Not measured, and not bounded by one thing.
+        // One rate is not measured, and one scene has no single bound.
         assert_eq!(of("fill"), None);
         assert_eq!(of("heavy_fs"), None);
         assert!(Limits::from_json("{}").is_err());

@@ -1,13 +1,14 @@
-//! The comparison with lavapipe: both renderers on the same scenes in one session, scene by scene in turn.
+//! The comparison with lavapipe: both renderers draw the same scenes in one session, scene by scene
+//! in turn.
 //!
 //! ```sh
 //! cargo run --release -p estampe-bench -- compare
 //! ```
 //!
-//! * [`peer`] finds or builds `peerbench`, and runs it and ourselves, pinned to one or two cores;
-//! * [`results`] reads what either wrote, and chooses among rounds;
-//! * [`limits`] says how fast the machine itself could be;
-//! * [`table`] makes the tables, [`section`] the section of PERFORMANCE.md that they stand in.
+//! * [`peer`] finds or builds `peerbench`, and runs it and estampe, pinned to one or two cores;
+//! * [`results`] reads the results of both, and selects among rounds;
+//! * [`limits`] has lower bounds of frame times on the machine;
+//! * [`table`] makes the tables, [`section`] the section of PERFORMANCE.md that contains them.
 
 pub mod limits;
 pub mod peer;
@@ -28,13 +29,13 @@ use std::io::Write;
 use std::path::PathBuf;
 use table::{Line, Table};
 
-/// Core counts that are compared.
+/// The compared numbers of cores.
 const CORES: [usize; 2] = [1, 2];
 
 /// Compares estampe with lavapipe and writes the tables of PERFORMANCE.md.
 ///
-/// Needs Linux with Debian's packages mesa-vulkan-drivers and libvulkan1, and the peer's client, peerbench,
-/// in ../shared/peerbench.
+/// Needs Linux with Debian's packages mesa-vulkan-drivers and libvulkan1, and the peer's client,
+/// peerbench, in ../shared/peerbench.
 #[derive(Debug, Args)]
 pub struct CompareArguments {
     /// Scenes to draw, separated by commas [default: all]
@@ -48,21 +49,21 @@ pub struct CompareArguments {
         default_value = "1280x720,1920x1080"
     )]
     pub sizes: Vec<FrameSize>,
-    /// Few frames, one round, no limits, and PERFORMANCE.md is left as it is
+    /// Measure few frames in one round without limits, and leave PERFORMANCE.md unchanged
     #[arg(long)]
     pub quick: bool,
     /// A built peerbench, with its limits beside it [default: built from ../shared/peerbench]
     #[arg(long, value_name = "FILE")]
     pub peerbench: Option<PathBuf>,
-    /// The document that gets the tables [default: PERFORMANCE.md of the repository]
+    /// The document in which the tables are written [default: PERFORMANCE.md of the repository]
     #[arg(long, value_name = "FILE")]
     pub document: Option<PathBuf>,
 }
 
-/// Runs the comparison; the tables go to `out` too. Says whether all pictures agree.
+/// Runs the comparison; the tables are written to `out` too. Returns whether all pictures agree.
 ///
 /// # Errors
-/// [`BenchError`] when something is missing or fails.
+/// [`BenchError`] if a requirement is missing or a run fails.
 pub fn run(
     arguments: &CompareArguments,
     scenes: &[&'static str],

@@ -1,4 +1,4 @@
-//! Who is run, and how: ourselves and `peerbench` on lavapipe, on the same cores.
+//! Runs of estampe and of `peerbench` on lavapipe, on the same cores.
 
 use super::limits::Limits;
 use super::results::RunResults;
@@ -9,10 +9,10 @@ use crate::provenance::repository;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Where Vulkan's loader finds drivers.
+/// The folder in which Vulkan's loader looks for drivers.
 const DRIVERS: &str = "/usr/share/vulkan/icd.d";
 
-/// How long each run measures.
+/// The length of each run.
 #[derive(Debug, Clone, Copy)]
 pub struct Effort {
     frames: u32,
@@ -21,13 +21,13 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// For tables that are kept.
+    /// For published tables.
     pub const THOROUGH: Self = Self {
         frames: 15,
         seconds: 0.5,
         retries: 2,
     };
-    /// For a look.
+    /// For a quick look.
     pub const QUICK: Self = Self {
         frames: 3,
         seconds: 0.1,
@@ -35,21 +35,21 @@ impl Effort {
     };
 }
 
-/// Everything that a comparison needs, found.
+/// The paths that a comparison needs.
 #[derive(Debug)]
 pub struct Session {
     peerbench: PathBuf,
     /// Lavapipe's driver file.
     lavapipe: PathBuf,
-    /// Where results and pictures go.
+    /// The folder of results and pictures.
     folder: PathBuf,
 }
 
 impl Session {
-    /// Finds what is needed, and builds `peerbench` where it is not given.
+    /// Finds the requirements, and builds `peerbench` if no build is given.
     ///
     /// # Errors
-    /// [`BenchError::Missing`] says what to install.
+    /// [`BenchError::Missing`] with the package to install.
     pub fn new(peerbench: Option<&Path>) -> Result<Self, BenchError> {
         let root = repository();
         let missing = |what: String, remedy: &str| BenchError::Missing {
@@ -83,10 +83,10 @@ impl Session {
         })
     }
 
-    /// Draws a scene ourselves.
+    /// Draws a scene with estampe.
     ///
     /// # Errors
-    /// When the run fails.
+    /// If the run fails.
     pub fn run_ours(
         &self,
         scene: &str,
@@ -107,10 +107,10 @@ impl Session {
         RunResults::read(&json)
     }
 
-    /// Has lavapipe draw a scene.
+    /// Draws a scene with lavapipe.
     ///
     /// # Errors
-    /// When the run fails.
+    /// If the run fails.
     pub fn run_peer(
         &self,
         scene: &str,
@@ -124,7 +124,7 @@ impl Session {
         command.env("VK_DRIVER_FILES", &self.lavapipe);
         command.env("VK_ICD_FILENAMES", &self.lavapipe);
         command.env("LP_NUM_THREADS", cores.to_string());
-        // First frames include compiling, and no layer stands between.
+        // No shader cache, so first frames include compilation, and no layers.
         command.env("MESA_SHADER_CACHE_DISABLE", "true");
         command.env("NODEVICE_SELECT", "1");
         command.env("XDG_RUNTIME_DIR", &self.folder);
@@ -132,7 +132,7 @@ impl Session {
         RunResults::read(&self.folder.join("lavapipe.json"))
     }
 
-    /// Our picture and lavapipe's of a scene.
+    /// The paths of estampe's and lavapipe's picture of a scene.
     #[must_use]
     pub fn pictures(&self, scene: &str, size: FrameSize) -> [PathBuf; 2] {
         let name = format!("{scene}_{size}.png");
@@ -142,7 +142,7 @@ impl Session {
     /// Measures the limits of the machine.
     ///
     /// # Errors
-    /// When the run fails.
+    /// If the run fails.
     pub fn limits(&self) -> Result<Limits, BenchError> {
         let json = self.folder.join("limits.json");
         let program = self.peerbench.with_file_name("limits");
@@ -151,7 +151,7 @@ impl Session {
     }
 }
 
-/// The first lavapipe driver file of a folder.
+/// The first lavapipe driver file in a folder.
 fn lavapipe_driver(folder: &Path) -> Option<PathBuf> {
     let files = std::fs::read_dir(folder).ok()?.flatten();
     let mut drivers: Vec<PathBuf> = files
@@ -162,7 +162,7 @@ fn lavapipe_driver(folder: &Path) -> Option<PathBuf> {
     drivers.into_iter().next()
 }
 
-/// Builds `peerbench` from a copy of its sources: they are read-only, and cargo writes a lock file.
+/// Builds `peerbench` from a copy of its sources, which are read-only; cargo writes a lock file.
 fn build_peerbench(root: &Path) -> Result<PathBuf, BenchError> {
     let sources = root.join("../shared/peerbench");
     if !sources.join("Cargo.toml").is_file() {
@@ -213,7 +213,7 @@ fn create_folder(path: &Path) -> Result<(), BenchError> {
     })
 }
 
-/// A program on the first so many cores, with the options that both understand.
+/// A program pinned to the first cores, with the options that both programs understand.
 fn pinned(
     program: &Path,
     cores: usize,
@@ -238,7 +238,7 @@ mod tests {
     use std::ffi::OsStr;
 
     #[test]
-    fn a_missing_client_is_said_to_be_missing() {
+    fn a_missing_client_is_an_error() {
         let error = Session::new(Some(Path::new("/no/peerbench"))).unwrap_err();
         assert!(matches!(error, BenchError::Missing { .. }), "{error}");
     }

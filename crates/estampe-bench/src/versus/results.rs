@@ -1,24 +1,24 @@
-//! What a run wrote, ours or the peer's: the same JSON.
+//! Results of a run of estampe or of `peerbench`, which have the same JSON form.
 
 use crate::BenchError;
 use crate::frame::FrameSize;
 use serde::Deserialize;
 use std::path::Path;
 
-/// Rounds that other processes disturbed this little more than the least disturbed one, in cores' worth of
-/// work, count as equals.
+/// Rounds whose disturbance by other processes, in cores, exceeds the least one by at most this
+/// count as equally disturbed.
 const SAME_DISTURBANCE: f64 = 0.05;
 
 /// A run of some scenes.
 #[derive(Debug, Clone, Deserialize)]
 pub struct RunResults {
-    /// Who drew.
+    /// The renderer: driver, SIMD level, threads.
     pub driver: String,
-    /// Scene by scene.
+    /// The results, scene by scene.
     pub results: Vec<Measured>,
 }
 
-/// A scene at a size.
+/// The measurement of a scene at a size.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Measured {
     /// The scene's name.
@@ -33,19 +33,19 @@ pub struct Measured {
     pub median_ms: f64,
     /// CPU time of a frame, all threads, median, in milliseconds.
     pub cpu_ms: f64,
-    /// Cores' worth of work that other processes did meanwhile.
+    /// Work of other processes, in cores.
     pub other_cores: f64,
-    /// De-tiling to rows, in milliseconds; the peer stores rows anyway.
+    /// Conversion of tiles to rows, in milliseconds; `peerbench` stores rows anyway.
     #[serde(default)]
     pub readback_ms: f64,
     /// Copying as many bytes by one thread, in milliseconds.
     #[serde(default)]
     pub copy_ms: f64,
-    /// Fragments shaded; 0 where the renderer does not count.
+    /// Shaded fragments; 0 if the renderer does not count them.
     #[serde(default)]
     pub fragments: u64,
-    /// Runs of opaque triangles that were shaded after all of them had been seen, so that what later ones hide
-    /// was not.
+    /// Runs of opaque triangles in tiles that were drawn by the visibility path, which shades no
+    /// hidden fragments.
     #[serde(default)]
     pub visibility_runs: u64,
 }
@@ -54,7 +54,7 @@ impl RunResults {
     /// Reads a file.
     ///
     /// # Errors
-    /// When it cannot be read or is something else.
+    /// If it cannot be read or has another format.
     pub fn read(path: &Path) -> Result<Self, BenchError> {
         let text = std::fs::read_to_string(path).map_err(|source| BenchError::File {
             path: path.to_owned(),
@@ -67,7 +67,7 @@ impl RunResults {
     }
 }
 
-/// Of several rounds the one that counts: among the least disturbed the fastest.
+/// Selects one of several rounds: the fastest of the least disturbed ones.
 #[must_use]
 pub fn choose(runs: &[RunResults], scene: &str, size: FrameSize) -> Option<Measured> {
     let rounds: Vec<&Measured> = runs

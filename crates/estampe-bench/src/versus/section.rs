@@ -4,7 +4,7 @@ use super::table::Table;
 use crate::provenance::Versions;
 use std::fmt::Write as _;
 
-/// The section: what was compared, and the tables.
+/// The section: the compared renderers, and the tables.
 #[must_use]
 pub fn section(tables: &[Table], driver: &str, versions: &Versions) -> String {
     let mut text = format!(

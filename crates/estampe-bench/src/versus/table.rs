@@ -1,36 +1,36 @@
-//! A table for each frame size and number of cores.
+//! A Markdown table for each frame size and number of cores.
 
 use super::results::Measured;
 use crate::frame::FrameSize;
 use crate::picture::Difference;
 use std::fmt::Write as _;
 
-/// The scenes at one size on so many cores.
+/// The scenes at one size on one number of cores.
 #[derive(Debug, Clone)]
 pub struct Table {
     /// The frame's size.
     pub size: FrameSize,
-    /// How many cores.
+    /// The number of cores.
     pub cores: usize,
-    /// One line a scene.
+    /// A line per scene.
     pub lines: Vec<Line>,
 }
 
-/// A scene, drawn by both.
+/// A scene, drawn by both renderers.
 #[derive(Debug, Clone)]
 pub struct Line {
-    /// Our measurement.
+    /// The measurement of estampe.
     pub ours: Measured,
-    /// The peer's.
+    /// The measurement of the peer.
     pub theirs: Measured,
-    /// How the pictures differ.
+    /// The difference of the pictures.
     pub difference: Difference,
-    /// The least time that the machine allows, in milliseconds, where one thing bounds it.
+    /// The least time that the machine allows, in milliseconds, if the scene has a single bound.
     pub limit: Option<f64>,
 }
 
 impl Line {
-    /// How many times as long the peer takes.
+    /// The peer's time divided by ours.
     #[must_use]
     pub fn ratio(&self) -> f64 {
         self.theirs.median_ms / self.ours.median_ms
@@ -80,7 +80,7 @@ impl Line {
 }
 
 impl Table {
-    /// A table without lines.
+    /// An empty table.
     #[must_use]
     pub fn new(size: FrameSize, cores: usize) -> Self {
         Self {
@@ -90,10 +90,10 @@ impl Table {
         }
     }
 
-    /// The geometric mean of the ratios; 1 of none.
+    /// The geometric mean of the ratios; 1 if there are none.
     #[must_use]
     pub fn mean_ratio(&self) -> f64 {
-        // The n-th root of a product of numbers near 1, by Newton's method: no logarithm is needed.
+        // The n-th root of the product by bisection: no logarithm is needed.
         let product: f64 = self.lines.iter().map(Line::ratio).product();
         root(product, self.lines.len())
     }
@@ -122,7 +122,7 @@ fn root(value: f64, n: usize) -> f64 {
     if power == 0 || !value.is_finite() || value <= 0.0 {
         return 1.0;
     }
-    // The root lies between 1 and the value; halving is enough for a table.
+    // The root lies between 1 and the value; bisection is precise enough for a table.
     let (mut low, mut high) = (value.min(1.0), value.max(1.0));
     for _ in 0..100 {
         let middle = (low + high) * 0.5;
@@ -135,7 +135,7 @@ fn root(value: f64, n: usize) -> f64 {
     low
 }
 
-/// Three digits or so.
+/// A time in milliseconds with about three digits.
 fn milliseconds(value: f64) -> String {
     let decimals = match value {
         v if v < 1.0 => 3,
@@ -209,7 +209,7 @@ pub(super) mod tests {
         let text = table.markdown();
         assert!(text.starts_with("### 64x48, 2 cores\n\n| scene |"));
         assert!(text.ends_with("| geometric mean | | | | | **4.00** | | | | |\n"));
-        // Every row has as many cells as the head.
+        // Every row has as many cells as the header.
         let cells = |line: &str| line.matches('|').count();
         assert!(text.lines().skip(2).all(|line| cells(line) == 11));
         assert!((root(0.001, 3) - 0.1).abs() < 1e-9);
