@@ -374,7 +374,7 @@ mod tests {
     }
 
     #[test]
-    fn sources_and_destinations_are_told_apart() {
+    fn sources_and_destinations_are_parsed() {
         assert_eq!(
             Source::from(std::ffi::OsString::from("-")),
             Source::StandardInput

@@ -142,7 +142,7 @@ fn an_old_picture_survives_a_failure() {
 }
 
 #[test]
-fn failures_are_told_to_programs_too() {
+fn failures_are_reported_as_json_too() {
     let run = estampe_fed("render - --format ply -o x.png --json", &[], b"ply\n");
     assert_eq!(run.code, 1);
     let report: serde_json::Value = serde_json::from_slice(&run.out).expect("one object");
@@ -173,7 +173,7 @@ fn quiet_is_quiet_and_warnings_are_few() {
 }
 
 #[test]
-fn help_and_versions_teach() {
+fn help_has_examples_limits_and_exit_codes() {
     let run = estampe("--version", &[]);
     let version = String::from_utf8_lossy(&run.out).into_owned();
     assert!(
@@ -197,7 +197,7 @@ fn help_and_versions_teach() {
 }
 
 #[test]
-fn info_counts_what_is_there() {
+fn info_counts_the_contents_of_a_model() {
     let folder = Folder::new();
     let model = folder.with_file("m.obj", TETRAHEDRON);
     let run = estampe("info {} --json", &[&model]);

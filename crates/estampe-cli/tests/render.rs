@@ -193,7 +193,7 @@ fn formats_follow_the_name_and_transparency_is_straight() {
 }
 
 #[test]
-fn options_do_what_they_say() {
+fn options_have_their_documented_effect() {
     let picture = |words: &str| {
         let run = estampe(
             &format!("render builtin:cube -o - -q --size 80x60 {words}"),

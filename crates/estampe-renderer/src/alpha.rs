@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_divided_as_they_are() {
+    fn linear_values_are_divided_by_alpha() {
         let mut rgba = vec![64, 32, 0, 128];
         straighten(&mut rgba, Encoding::Linear);
         assert_eq!(rgba, [128, 64, 0, 128]);

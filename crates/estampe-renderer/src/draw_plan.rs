@@ -204,7 +204,8 @@ impl Planner<'_> {
 
     /// The triangles' vertex indices, unchanged.
     fn index_buffer(&self, mesh: &Mesh) -> Buffer {
-        /// Some hundred microseconds of work: touching new memory costs more than copying.
+        /// Indices of a piece: some hundred microseconds of work, because touching new memory costs
+        /// more than copying.
         const PIECE: usize = 1 << 16;
         let corners = mesh.triangles.as_flattened();
         let mut words = vec![0; corners.len()];

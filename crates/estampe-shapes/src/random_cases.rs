@@ -1,11 +1,11 @@
-//! Properties that hold for random input: tests run them on streams of random numbers that repeat.
+//! Runs a property test on random numbers from many seeds, reproducibly.
 
 use fastrand::Rng;
 
-/// How many streams there are.
+/// The number of seeds.
 const CASES: u64 = 256;
 
-/// Runs a test on the streams of many seeds. Where it fails, the seed is printed.
+/// Runs a test with the random numbers of many seeds. If it fails, the seed is printed.
 pub(crate) fn random_cases(test: impl Fn(&mut Rng)) {
     for seed in 0..CASES {
         let _printed = SeedOfPanic(seed);
@@ -13,7 +13,7 @@ pub(crate) fn random_cases(test: impl Fn(&mut Rng)) {
     }
 }
 
-/// Prints its seed when it is dropped by a panic.
+/// Prints its seed if it is dropped by a panic.
 struct SeedOfPanic(u64);
 
 impl Drop for SeedOfPanic {

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //!   two files --command--> two images --compare--> exact counts, maximum and mean per channel
-//!                                     --flip-----> perceived difference of each pixel --heatmap--> image
+//!                                     --flip-----> perceived difference of each pixel
+//!   perceived difference --heatmap--> image
 //! ```
 //!
 //! The exact numbers decide the result (`--max`); FLIP measures the perceived difference.

@@ -56,7 +56,7 @@ impl Cloud {
 
 impl From<&[DVec3]> for Cloud {
     fn from(points: &[DVec3]) -> Self {
-        /// Some hundred microseconds of work.
+        /// Points of a piece: some hundred microseconds of work.
         const PIECE: usize = 1 << 15;
         Self {
             pieces: pieces(points.len(), PIECE)

@@ -191,7 +191,7 @@ fn up_may_point_anywhere() {
 }
 
 #[test]
-fn nothing_and_next_to_nothing_can_be_looked_at() {
+fn empty_and_degenerate_models_have_cameras() {
     let lines_of_sight = [DVec3::ZERO, DVec3::Z * 0.5];
     for points in [
         &[][..],

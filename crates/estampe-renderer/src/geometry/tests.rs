@@ -54,7 +54,7 @@ fn models_of_any_size_fill_the_cube() {
 }
 
 #[test]
-fn far_from_the_origin_nothing_is_lost() {
+fn models_far_from_the_origin_keep_their_precision() {
     let corners = [Vec3::new(1e7, 0.0, 0.0), Vec3::new(1e7 + 4.0, 1.0, 0.0)];
     let space = space_of(&scene_of(&corners, &[0, 1]));
     assert_eq!(space.unit_from_object(corners[0]).x, -1.0);
@@ -125,7 +125,7 @@ fn transparent_triangles_go_back_to_front_in_runs() {
 }
 
 #[test]
-fn normals_that_contradict_the_winding_are_noticed() {
+fn normals_that_contradict_the_winding_are_detected() {
     let mut mesh = Mesh {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::ONE],
         normals: vec![Vec3::Z; 4],

@@ -58,8 +58,8 @@ impl StreamData {
         element: impl Fn(T) -> [f32; N] + Sync,
         workers: Workers,
     ) -> Self {
-        /// Some hundred microseconds of work: touching new memory costs more than the writes
-        /// themselves.
+        /// Vertices of a piece: some hundred microseconds of work, because touching new memory
+        /// costs more than the writes themselves.
         const PIECE: usize = 1 << 14;
         let mut words = vec![0; values.len() * N];
         let parts = words.chunks_mut(PIECE * N).zip(values.chunks(PIECE));

@@ -129,7 +129,7 @@ fn vertices_carry_the_light_of_both_sides() {
 }
 
 #[test]
-fn the_studio_leaves_nothing_dark_and_burns_nothing_out() {
+fn the_default_lights_leave_nothing_dark_or_overexposed() {
     let lights = Lights::studio(super::lighting::DEFAULT_AMBIENT);
     let to_eye = Vec3::new(0.0, 0.0, 1.0);
     let seen: Vec<f32> = (0..1000u16)

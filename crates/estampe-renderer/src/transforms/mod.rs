@@ -1,7 +1,8 @@
 //! Transforms between the spaces of the pipeline, computed in f64.
 //!
 //! ```text
-//! object --affine--> world --view--> view (eye) --projection--> clip --÷w--> NDC --viewport--> window
+//! object --affine--> world --view--> view (eye) --projection--> clip --÷w--> NDC
+//! NDC --viewport--> window
 //! ```
 //!
 //! Matrices act on column vectors and are named `to_from`, so that adjacent names in a product

@@ -84,7 +84,7 @@ fn products_do_not_commute_and_points_are_not_vectors() {
 }
 
 #[test]
-fn the_plane_has_the_same_forms() {
+fn transforms_in_the_plane_have_the_same_forms() {
     let p = DVec3::new(2.0, 1.0, 1.0);
     assert_eq!(
         affine::scale_2d(DVec2::new(2.0, 3.0)) * p,

@@ -10,7 +10,7 @@ fn points(random: &mut Rng) -> [DVec3; 4] {
     [0; 4].map(|_| DVec3::new(axis(), axis(), axis()))
 }
 
-/// A parameter with room on both sides, in 0.1..0.9.
+/// A parameter away from both ends, in 0.1..0.9.
 fn inner(random: &mut Rng) -> f64 {
     0.1 + random.f64() * 0.8
 }
@@ -47,7 +47,7 @@ fn derivatives_are_the_limits_of_differences() {
     });
 }
 
-/// Walked backwards, a curve has the same bits.
+/// Traversed backwards, a curve has the same bits.
 #[test]
 fn curves_are_symmetric() {
     random_cases(|random| {
@@ -60,7 +60,7 @@ fn curves_are_symmetric() {
     });
 }
 
-/// An edge of a patch is the curve over its control points, whatever the rest is.
+/// An edge of a patch is the curve over its control points, whatever the other control points are.
 #[test]
 fn patches_end_in_their_edges() {
     random_cases(|random| {
@@ -110,7 +110,8 @@ fn patch_derivatives() {
     });
 }
 
-/// Where a row is drawn together into a point, the normal is the limit of those beside it.
+/// If all control points of a row are equal, the normal there is the limit of the normals beside
+/// it.
 #[test]
 fn the_normal_of_a_pole_is_a_limit() {
     let tip = DVec3::Z * 2.0;

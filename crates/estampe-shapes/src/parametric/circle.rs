@@ -4,9 +4,9 @@ use std::f64::consts::FRAC_PI_2;
 
 /// (cos, sin) of an angle in turns, exact at every multiple of a quarter turn.
 ///
-/// The angle is first reduced, exactly, to the nearest quarter turn and a rest of at most an
-/// eighth. A full circle therefore ends with the bits it began with, which multiples of a rounded π
-/// do not. Angles beyond 2⁵⁰ turns have no fraction left and count as zero.
+/// The angle is first reduced, exactly, to the nearest quarter turn and a remainder of at most an
+/// eighth. A full circle therefore ends with the bits with which it began, which multiples of a
+/// rounded π do not. Angles beyond 2⁵⁰ turns have no fraction left and count as zero.
 #[must_use]
 pub fn cos_sin_turns(turns: f64) -> (f64, f64) {
     let turns = turns - libm::floor(turns);

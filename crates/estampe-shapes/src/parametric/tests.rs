@@ -10,8 +10,8 @@ use crate::BuiltinShape;
 use crate::mesh::ShapeMesh;
 use crate::random_cases::random_cases;
 
-/// What every mesh here keeps: sizes, ranges, unit normals on the side that the winding shows, images that
-/// are not mirrored.
+/// The invariants of every mesh: sizes, ranges, unit normals on the front side of the triangles,
+/// images that are not mirrored.
 fn assert_sound(mesh: &ShapeMesh, smallest_cosine: f32) {
     let count = mesh.positions.len();
     assert!(count > 0 && mesh.normals.len() == count && mesh.uvs.len() == count);
@@ -35,7 +35,7 @@ fn assert_sound(mesh: &ShapeMesh, smallest_cosine: f32) {
     }
 }
 
-/// Every edge has its opposite, by the bits of positions; returns V − E + F.
+/// Every edge has its opposite, compared by the bits of positions; returns V − E + F.
 fn euler_characteristic_of_closed(mesh: &ShapeMesh) -> i64 {
     let mut points = HashMap::new();
     let mut edges = HashMap::new();
@@ -98,7 +98,7 @@ fn the_plane_faces_up() {
     assert_eq!(plane.uvs[23], Vec2::ONE);
 }
 
-/// Where the images lie: the middle faces +Z, u grows to the right.
+/// Position of the images: the middle faces +Z, u grows to the right.
 #[test]
 fn images_face_the_front() {
     for mesh in [sphere(1.0, 8, 4), torus(1.0, 0.25, 8, 4)] {
@@ -111,7 +111,7 @@ fn images_face_the_front() {
 }
 
 #[test]
-fn any_grid_is_sound() {
+fn any_grid_is_valid() {
     random_cases(|random| {
         let (a, b) = (random.u32(..40), random.u32(..40));
         let sphere = sphere(1.0, a, b);
@@ -134,7 +134,7 @@ fn cosine_and_sine() {
     });
 }
 
-/// Any function whatever: indices in range, no panic.
+/// Surfaces from arbitrary functions: indices are in range, and nothing panics.
 #[test]
 fn hostile_surfaces() {
     random_cases(|random| {
@@ -199,7 +199,7 @@ fn builtin_shapes_by_name() {
     );
 }
 
-/// The same bits on every machine: a change here is a change of every picture.
+/// The same bits on every machine: if this fails, every picture changes.
 #[test]
 fn bits_are_fixed() {
     let fingerprint = |mesh: &ShapeMesh| {

@@ -13,13 +13,13 @@
 //!       0────1
 //! ```
 //!
-//! | corners | what happens |
+//! | corners | triangulation |
 //! |---|---|
 //! | 3 | the triangle itself |
 //! | 4 | the shorter of the diagonals that lie inside |
 //! | more, convex | a fan |
 //! | more, concave | ear clipping (the `earcut` crate), on the plane's dominant axes |
-//! | without area, not finite, or crossing itself everywhere | a fan, however it may look |
+//! | without area, not finite, or crossing itself everywhere | a fan, which may overlap itself |
 //!
 //! All predicates are computed in f64 from f32 coordinates relative to the first corner.
 

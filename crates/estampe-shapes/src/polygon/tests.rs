@@ -13,7 +13,7 @@ fn polar(turns: f64, radius: f64) -> Vec2 {
     glam::DVec2::new(libm::cos(angle) * radius, libm::sin(angle) * radius).as_vec2()
 }
 
-/// Seen from the origin, every corner is visible: simple, and as concave as can be.
+/// A star-shaped polygon: every corner is visible from the origin. It is simple and very concave.
 fn star(count: usize, random: &mut Rng) -> Vec<Vec2> {
     let radius = |random: &mut Rng| 0.05 + f64::from(random.f32());
     (0..count)
@@ -21,7 +21,7 @@ fn star(count: usize, random: &mut Rng) -> Vec<Vec2> {
         .collect()
 }
 
-/// Teeth of random height on a spine: all edges along the axes, many corners on one line.
+/// Teeth of random height on a common base: all edges parallel to the axes, many collinear corners.
 fn comb(count: usize, random: &mut Rng) -> Vec<Vec2> {
     let mut corners = Vec::new();
     for tooth in 0..count.div_ceil(4) {
@@ -50,7 +50,7 @@ fn spiral(count: usize, random: &mut Rng) -> Vec<Vec2> {
     back.chain(outwards).rev().collect()
 }
 
-/// A staircase whose every step has corners in the middle of its edges.
+/// A staircase with additional corners in the middle of every edge.
 fn staircase(count: usize, _: &mut Rng) -> Vec<Vec2> {
     let steps = count.div_ceil(4);
     let mut corners: Vec<Vec2> = Vec::new();
@@ -73,7 +73,7 @@ fn staircase(count: usize, _: &mut Rng) -> Vec<Vec2> {
     corners
 }
 
-/// Any of them, either winding, beginning anywhere.
+/// A random one of these, of either winding, with a random first corner.
 fn simple_polygon(random: &mut Rng) -> Vec<Vec2> {
     let count = random.usize(5..200);
     let make = [star, comb, spiral, staircase][random.usize(..4)];
@@ -98,7 +98,8 @@ fn triangles_3d(corners: &[Vec3]) -> Vec<[u32; 3]> {
     out
 }
 
-/// Areas, winding, count, and that every one of many points is covered as often as it should be.
+/// Checks areas, winding, number, and that each of many points is covered the right number of
+/// times.
 fn assert_covers(corners: &[Vec2], triangles: &[[u32; 3]]) {
     assert_eq!(triangles.len(), corners.len() - 2);
     let area = signed_area_2d(corners);
@@ -151,7 +152,8 @@ fn quads_are_covered_once() {
     });
 }
 
-/// On any plane the triangles' area vectors all point where the polygon's does, and sum to it.
+/// On any plane the area vectors of the triangles have the direction of the polygon's, and sum to
+/// it.
 #[test]
 fn planes_in_space() {
     random_cases(|random| {
@@ -181,7 +183,7 @@ fn planes_in_space() {
     });
 }
 
-/// Anything at all: indices in range, no more than n − 2 triangles, no panic, no wait.
+/// Arbitrary corners: indices are in range, at most n − 2 triangles, no panic, bounded time.
 #[test]
 fn hostile_corners() {
     random_cases(|random| {
@@ -250,13 +252,14 @@ fn convexity_of_known_shapes() {
     for other in [arrow, bow_tie, spike, line, pentagram.clone(), Vec::new()] {
         assert!(!is_convex_2d(&other), "{other:?}");
     }
-    // The heart of a pentagram has been wound around twice.
+    // The boundary winds twice around the middle of a pentagram.
     assert!(point_in_polygon(Vec2::ZERO, &pentagram, FillRule::NonZero));
     assert!(!point_in_polygon(Vec2::ZERO, &pentagram, FillRule::EvenOdd));
     assert!((signed_area_2d(&square) - 1.0).abs() < 1e-12);
 }
 
-/// Every starting corner and both windings of a concave quad: the diagonal starts at the reflex corner.
+/// Every first corner and both windings of a concave quad: the diagonal starts at the reflex
+/// corner.
 #[test]
 fn concave_quads_take_the_inner_diagonal() {
     let arrow = [(0.0, 0.0), (2.0, 1.0), (0.0, 2.0), (0.5, 1.0)].map(Vec2::from);
@@ -305,7 +308,7 @@ fn triangles_stay_themselves() {
     assert_eq!(triangles_3d(&[Vec3::ONE; 7]).len(), 5);
 }
 
-/// The far ends of f32: nothing overflows and nothing is lost.
+/// The extremes of f32: no overflow and no loss of precision.
 #[test]
 fn extreme_coordinates() {
     let mut random = Rng::with_seed(5);
@@ -322,7 +325,7 @@ fn extreme_coordinates() {
     assert!((area / signed_area_2d(&large) - 1.0).abs() < 1e-9);
 }
 
-/// Polygons made to be slow: seconds without the guards.
+/// Polygons constructed to be slow: without the guards they take seconds.
 #[test]
 fn hostile_polygons_end_soon() {
     let mut random = Rng::with_seed(11);

@@ -1,10 +1,10 @@
 //! Newell's published table: points and patches, numbers as printed.
 //!
-//! The table is data, kept as it was published: z is up, points are counted from 1. Points 205,
-//! 206, 216 and 223 lie 0.002 beside the knob's tip, point 204, and belong to no patch.
+//! The table is kept as published: z is up, points are counted from 1. Points 205, 206, 216 and 223
+//! lie 0.002 beside the knob's tip, point 204, and belong to no patch.
 //!
-//! Every round of the body is four quarters over (r, 0) (r, 0.56 r) (0.56 r, r) (0, r), a little
-//! rounder than the best circle (0.5523); only the knob was rounded to 0.45 for 0.448.
+//! Every circle of the body is four quarters over (r, 0) (r, 0.56 r) (0.56 r, r) (0, r), slightly
+//! rounder than the best circle (0.5523); only in the knob 0.448 was rounded to 0.45.
 
 /// The control points of each patch, counted from 1: four rows of four.
 ///

@@ -27,8 +27,8 @@ fn the_table_is_complete() {
     assert!(used.iter().all(|point| (1..=306).contains(point)));
 }
 
-/// Newell's pot is symmetric about the plane through handle and spout, but for the quarters of its
-/// rounds it is also symmetric about the other one.
+/// All points are symmetric about the plane through handle and spout. Those of rim, body, knob, lid
+/// and bottom are also symmetric about the perpendicular plane, and under exchange of x and y.
 #[test]
 fn the_points_are_symmetric() {
     let bits = |p: [f64; 3]| p.map(|x| (x + 0.0).to_bits());
@@ -88,11 +88,11 @@ fn by_position(mesh: &ShapeMesh) -> (Vec<Vec3>, Vec<[usize; 3]>) {
     )
 }
 
-/// The border circle on which an edge lies, where nothing is attached: rim, lid, both ends of
-/// handle and spout.
+/// The name of the border circle on which an edge lies: rim, lid, both ends of handle and spout,
+/// where nothing is attached.
 fn border_name(a: Vec3, b: Vec3) -> Option<&'static str> {
     let both = |holds: &dyn Fn(Vec3) -> bool| holds(a) && holds(b);
-    // The rounds are not quite circles: 0.56 bulges by half a percent.
+    // The circles are not exact: with 0.56 the radius is up to half a percent too large.
     let round = |p: Vec3, radius: f32| (p.with_y(0.0).length() / radius - 1.0).abs() < 0.01;
     if both(&|p| p.y == 2.4 && round(p, 1.4)) {
         Some("rim")
@@ -174,7 +174,7 @@ fn triangles_have_extent_and_face_their_normals() {
 }
 
 #[test]
-fn the_outside_is_outside() {
+fn normals_point_outwards() {
     // Body: away from the axis.
     for index in 4..12 {
         let (position, normal) = at(index, HALF, HALF);
@@ -214,7 +214,7 @@ fn the_outside_is_outside() {
     assert!(rim.y > 0.9 && rim_position.y > 2.45, "{rim_position} {rim}");
 }
 
-/// The normal of a seam is one normal: shading shows no patch borders.
+/// The normals of a seam are equal, so that shading shows no patch borders.
 #[test]
 fn seams_are_smooth() {
     let mesh = teapot(DEFAULT_CELLS);
@@ -252,7 +252,7 @@ fn images_are_not_mirrored_and_stay_in_range() {
 mod shared_data {
     use super::*;
 
-    /// A second source: the common OBJ of the teapot is the same surface in steps of a tenth.
+    /// A second source: the widely used OBJ of the teapot is the same surface in steps of a tenth.
     #[test]
     #[ignore = "needs ../shared/data/models/teapot.obj"]
     fn agrees_with_the_common_obj() {
@@ -283,7 +283,8 @@ mod shared_data {
     }
 }
 
-/// `ESTAMPE_DUMP=FILE.obj cargo test -p estampe-shapes dump -- --ignored`: the mesh, to look at.
+/// `ESTAMPE_DUMP=FILE.obj cargo test -p estampe-shapes dump -- --ignored` writes the mesh for
+/// inspection.
 #[test]
 #[ignore = "writes a file for people"]
 fn dump() {

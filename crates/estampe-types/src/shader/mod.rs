@@ -46,7 +46,11 @@ use estampe_simd::Level;
 ///             VertexOut::new(self.clip_from_object.transform_point(position), normal)
 ///         }
 ///
-///         fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, normal: Vec3<R>) -> FragmentOut<R> {
+///         fn fragment<R: Real>(
+///             &self,
+///             _input: FragmentIn<'_, R>,
+///             normal: Vec3<R>,
+///         ) -> FragmentOut<R> {
 ///             let light = normal.normalize().dot_uniform(self.towards_light).saturate();
 ///             FragmentOut::color(Vec3::repeat(light).point())
 ///         }

@@ -91,7 +91,7 @@ fn the_same_picture_in_two_formats_is_identical() {
 }
 
 #[test]
-fn the_limit_decides_the_verdict() {
+fn the_limit_decides_the_result() {
     let folder = Folder::new();
     let a = folder.picture("a.png", &grey());
     let b = folder.picture("b.png", &nearly_grey());
@@ -198,7 +198,7 @@ fn the_heat_map_is_bright_where_the_pictures_differ() {
 }
 
 #[test]
-fn what_cannot_be_read_or_written_is_named() {
+fn unreadable_and_unwritable_files_are_named() {
     let folder = Folder::new();
     let a = folder.picture("a.png", &grey());
     let missing = folder.0.join("missing.png");

@@ -9,7 +9,7 @@ use super::*;
 const PPD: f64 = PIXELS_PER_DEGREE;
 
 mod oracle {
-    //! Kernels in two dimensions, straight sums, the published matrix.
+    //! Kernels in two dimensions, direct sums, the published matrix.
 
     use super::{Image, PI, PPD};
 
