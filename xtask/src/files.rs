@@ -25,19 +25,9 @@ const COMMENT_COLUMNS: usize = 100;
 
 /// The folders whose comments do not comply with [`COMMENT_COLUMNS`] yet.
 const WIDE_COMMENTS: &[&str] = &[
-    "crates/estampe",
-    "crates/estampe-assets",
-    "crates/estampe-bench",
-    "crates/estampe-cli",
     "crates/estampe-core",
-    "crates/estampe-reference",
-    "crates/estampe-renderer",
-    "crates/estampe-scene",
-    "crates/estampe-shapes",
     "crates/estampe-simd",
-    "crates/estampe-tests",
     "crates/estampe-texture",
-    "crates/estampe-types",
 ];
 
 /// The crates with unsafe code: they `deny` it, and only these modules of theirs expect it.
