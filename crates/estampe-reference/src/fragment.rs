@@ -135,7 +135,8 @@ pub struct Fragment {
     pub colors: Vec<[f32; 4]>,
     /// The second colour of dual-source blending; zeros if the shader writes none.
     pub second: [f32; 4],
-    /// The depth that the shader writes, clamped to the viewport's range; `None` if it writes none.
+    /// The depth that the shader writes, clamped to the viewport's range; `None` if it declares no
+    /// depth output.
     pub depth: Option<f32>,
     /// The shader's sample mask; all ones if it writes none.
     pub sample_mask: u16,

@@ -35,7 +35,7 @@ pub enum GivenDepth {
     Value,
     /// The interpolated depth, scaled and shifted.
     Moved,
-    /// None, although the shader declares one: the interpolated depth is used.
+    /// None, although the shader declares one: the window position's z is used.
     Nothing,
 }
 
