@@ -8,7 +8,7 @@
 //! to right: `Depth16Unorm`, `Depth24Plus`, `Depth32Float` with reversed z and an infinite far
 //! plane, and `Depth16Unorm` again with logarithmic depth, which the fragment shader writes.
 
-#![expect(clippy::print_stdout, reason = "an example talks to who runs it")]
+#![expect(clippy::print_stdout, reason = "examples print their results")]
 
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{CompareFunction, DepthState, PrimitiveTopology, VertexBufferLayout};
@@ -211,7 +211,7 @@ mod tests {
     /// Rows: D1, F1.
     #[test]
     fn reversed_and_logarithmic_depth_are_finer_than_fixed_point() {
-        let device = Device::new(&DeviceDescriptor::default()).expect("threads can be had");
+        let device = Device::new(&DeviceDescriptor::default()).expect("the system starts threads");
         let wrong = METHODS.map(|method| {
             let pixels = panel(&device, method).expect("it is small");
             pixels_of_the_lower(&pixels)

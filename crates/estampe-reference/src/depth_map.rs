@@ -40,7 +40,7 @@ impl DepthMap {
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "confined to the image's whole numbers"
+    reason = "clamped to the image's texel coordinates"
 )]
 fn axis(coordinate: f32, size: u32) -> ([usize; 2], f32) {
     let last = max(size as f32 - 1.0, 0.0);

@@ -24,7 +24,7 @@ fn device() -> Device {
         threads: 1,
         ..DeviceDescriptor::default()
     };
-    Device::new(&descriptor).expect("one thread is always there")
+    Device::new(&descriptor).expect("the calling thread exists")
 }
 
 fn small(shading: Shading) -> RenderOptions {
@@ -133,14 +133,14 @@ fn broken_scenes_are_drawn_without_their_invalid_parts() {
     };
     for shading in SHADINGS {
         for scene in [broken(), Scene::default()] {
-            render(&scene, &small(shading), &device).expect("a scene is never at fault");
+            render(&scene, &small(shading), &device).expect("every scene can be drawn");
             options = RenderOptions {
                 shading,
                 width: 7,
                 height: 9,
                 ..options
             };
-            render(&scene, &options, &device).expect("a scene is never at fault");
+            render(&scene, &options, &device).expect("every scene can be drawn");
         }
     }
 }
@@ -196,7 +196,7 @@ fn odd_cameras_give_images() {
                 camera,
                 ..small(Shading::Phong)
             };
-            render(&broken(), &options, &device).expect("a camera is never at fault");
+            render(&broken(), &options, &device).expect("every camera can be used");
         }
     }
 }

@@ -22,7 +22,7 @@ static DEVICES: LazyLock<Vec<Device>> = LazyLock::new(|| {
             level,
             limits: Limits::default(),
         })
-        .expect("the system gives a few threads")
+        .expect("the system starts a few threads")
     };
     let levels = Level::all_available().into_iter();
     levels

@@ -297,11 +297,11 @@ impl Batch {
 #[derive(Debug, Clone, Copy)]
 struct Wrong {
     pixel: [u32; 2],
-    #[expect(dead_code, reason = "it is for whoever reads the message")]
+    #[expect(dead_code, reason = "only the Debug output reads it")]
     sample: u32,
-    #[expect(dead_code, reason = "it is for whoever reads the message")]
+    #[expect(dead_code, reason = "only the Debug output reads it")]
     hits: u8,
-    #[expect(dead_code, reason = "it is for whoever reads the message")]
+    #[expect(dead_code, reason = "only the Debug output reads it")]
     wanted: u8,
 }
 

@@ -30,7 +30,7 @@ estampe::shader! {
 /// Draws points at pixels' centres and, with a scissor, a rectangle over the whole target into the
 /// pixel beside the last corner. Returns the white pixels and their depths.
 fn drawn(width: u32, height: u32) -> Result<Vec<([u32; 2], f32)>, TargetError> {
-    let device = Device::new(&DeviceDescriptor::default()).expect("threads can be had");
+    let device = Device::new(&DeviceDescriptor::default()).expect("the system starts threads");
     let (right, bottom) = (width - 1, height - 1);
     let corners = [[0, 0], [right, 0], [0, bottom], [right, bottom]];
     // Exact: sides are powers of two.
@@ -131,7 +131,7 @@ fn corners_of_the_longest_sides() {
 /// Rows: N1.
 #[test]
 fn a_side_too_long_is_an_error_that_names_the_limit() {
-    let device = Device::new(&DeviceDescriptor::default()).expect("threads can be had");
+    let device = Device::new(&DeviceDescriptor::default()).expect("the system starts threads");
     let refused = device.create_render_target(&RenderTargetDescriptor::new(16_385, 16));
     let message = refused.expect_err("too wide").to_string();
     assert!(

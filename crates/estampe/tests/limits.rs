@@ -106,7 +106,7 @@ fn sixteen_attributes_and_sixteen_varyings() {
             level,
             ..DeviceDescriptor::default()
         });
-        let device = device.expect("threads can be had");
+        let device = device.expect("the system starts threads");
         let pipeline = device
             .create_render_pipeline(&descriptor())
             .expect("within the limits");
@@ -132,7 +132,7 @@ fn one_more_is_an_error_that_names_the_limit() {
             limits,
             ..DeviceDescriptor::default()
         });
-        let device = device.expect("threads can be had");
+        let device = device.expect("the system starts threads");
         let refused = device.create_render_pipeline(&descriptor());
         refused.expect_err("beyond the limits")
     };

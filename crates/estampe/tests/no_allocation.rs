@@ -103,7 +103,7 @@ impl Scene {
             threads,
             ..DeviceDescriptor::default()
         })
-        .expect("two threads can be had");
+        .expect("the system starts two threads");
         let pipeline = |cull_mode| {
             let mut descriptor = RenderPipelineDescriptor::new(Colored);
             descriptor.samples = samples;

@@ -56,7 +56,7 @@ fn device(threads: usize, level: Level) -> Device {
         level,
         ..DeviceDescriptor::default()
     };
-    Device::new(&descriptor).expect("one or two threads can be had")
+    Device::new(&descriptor).expect("the system starts one or two threads")
 }
 
 /// Rows: F1, O5, O7, O8.

@@ -51,7 +51,7 @@ fn drawn(level: Level, threads: usize, clear_depth: f32) -> [Vec<u8>; 2] {
         level,
         ..DeviceDescriptor::default()
     });
-    let device = device.expect("two threads can be had");
+    let device = device.expect("the system starts two threads");
     let [width, height] = SIZE;
     let format = TextureFormat::Rgba8Unorm;
     let descriptor = TextureDescriptor::new_2d(width, height, format);
