@@ -44,8 +44,9 @@ pub fn machine_busy_time() -> Duration {
     busy_time_of(text.lines().next().unwrap_or_default())
 }
 
-/// The busy time in the first line of `/proc/stat` (proc_stat(5)): `cpu user nice system idle
-/// iowait irq softirq steal …` in ticks of 10 ms; idle and iowait do not count as busy.
+/// The busy time in the first line of `/proc/stat` (proc_stat(5)), which is
+/// `cpu user nice system idle iowait irq softirq steal …` in ticks of 10 ms; idle and iowait do not
+/// count as busy.
 fn busy_time_of(line: &str) -> Duration {
     let ticks = line
         .split_whitespace()

@@ -7,9 +7,9 @@ use crate::arithmetic::{max, min};
 use crate::setup::SortedTriangle;
 use estampe_types::state::DepthBiasState;
 
-/// The offset of a triangle's depth; 0 if it is not finite. `unit` is the least difference of two
-/// depths in a fixed-point attachment; `None` takes it from the triangle's greatest depth, as for
-/// float formats.
+/// The offset of a triangle's depth; 0 if it is not finite. `unit` is the unit of the bias constant
+/// for fixed-point depths; `None` computes it from the triangle's greatest depth, as for float
+/// depths.
 #[must_use]
 pub fn offset(state: &DepthBiasState, unit: Option<f32>, triangle: &SortedTriangle) -> f32 {
     let [a, b, c] = triangle.vertices.each_ref().map(|vertex| vertex.z);

@@ -150,9 +150,9 @@ impl Triangle {
         }
     }
 
-    /// The plane through values at the corners. From the vertices' values to the result of `p₀ +
-    /// ((X − x₀)·∂p/∂x + (Y − y₀)·∂p/∂y)` no term is rounded more than ten times: e, its product,
-    /// their difference, D, r, the product with r, X − x₀, its product, the two sums.
+    /// The plane through values at the corners. From the vertices' values to the result of
+    /// `p₀ + ((X − x₀)·∂p/∂x + (Y − y₀)·∂p/∂y)` no term is rounded more than ten times: e, its
+    /// product, their difference, D, r, the product with r, X − x₀, its product, the two sums.
     fn plane(&self, values: [Bounded; 3], [x, y]: [f64; 2]) -> Bounded {
         let [origin, b, c] = self.corners;
         let [dx1, dy1] = [b[0] - origin[0], b[1] - origin[1]];

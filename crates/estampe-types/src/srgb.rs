@@ -18,8 +18,8 @@ pub static LINEAR_FROM_SRGB: LazyLock<[f32; 256]> = LazyLock::new(|| {
 pub static LINEAR_BITS_FROM_SRGB: LazyLock<[u32; 256]> =
     LazyLock::new(|| LINEAR_FROM_SRGB.map(f32::to_bits));
 
-/// Threshold `k` is the least f32 that is encoded as `k + 1`: the linear value of the boundary `(k
-/// + ½) / 255` between two codes, rounded up.
+/// Threshold `k` is the least f32 that is encoded as `k + 1`: the linear value of the boundary
+/// `(k + ½) / 255` between two codes, rounded up.
 pub static THRESHOLDS: LazyLock<[f32; 255]> = LazyLock::new(|| {
     let mut table = [0.0; 255];
     for (code, value) in (0u32..).zip(&mut table) {

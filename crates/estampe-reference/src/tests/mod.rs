@@ -1,4 +1,5 @@
-//! Tests of every rule, by hand-computed cases and by properties; what they have in common.
+//! Tests of every rule, by hand-computed cases and by properties, and the shader and functions that
+//! they share.
 
 mod bounds;
 mod clipping;

@@ -32,8 +32,8 @@ pub fn window_from_ndc(v: &ViewportRectangle) -> DMat4 {
     )
 }
 
-/// The teaching form: y up and pixel centres at integers, so that NDC (−1, −1) is (−½, −½) and (1,
-/// 1) is (width − ½, height − ½); z is unchanged.
+/// The teaching form: y up and pixel centres at integers, so that NDC (−1, −1) is (−½, −½) and
+/// NDC (1, 1) is (width − ½, height − ½); z is unchanged.
 #[must_use]
 pub fn window_from_ndc_teaching(width: f64, height: f64) -> DMat4 {
     DMat4::from_cols(
