@@ -1,8 +1,8 @@
 //! Fragments: interpolation over a primitive, and the fragment shader on a 2×2 quad.
 //!
 //! In · Out: a primitive's interpolants and a quad · four colours and depths. Precision: f32 in the
-//! order of NUMERICS.md. The shader runs with `R = Quad`, so that its derivatives are
-//! differences between lanes; helper invocations run as well. The point of the pixel at which each lane is
+//! order of NUMERICS.md. The shader runs with `R = Quad`, so that its derivatives are differences
+//! between lanes; helper invocations run as well. The point of the pixel at which each lane is
 //! evaluated: NUMERICS.md, *Multisampling*.
 
 use crate::arithmetic::{max, min};

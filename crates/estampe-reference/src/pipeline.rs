@@ -31,8 +31,8 @@ pub struct State {
     pub depth: Option<DepthState>,
     /// Depth bias of triangles.
     pub depth_bias: DepthBiasState,
-    /// The unit of the bias constant: 2⁻ⁿ for a fixed-point depth attachment of n bits; `None` for a
-    /// float attachment.
+    /// The unit of the bias constant: 2⁻ⁿ for a fixed-point depth attachment of n bits; `None` for
+    /// a float attachment.
     pub depth_bias_unit: Option<f32>,
     /// The stencil test; `None` neither tests nor writes stencil.
     pub stencil: Option<StencilState>,

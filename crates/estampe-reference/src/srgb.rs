@@ -17,8 +17,8 @@ const LINE_ENDS: f64 = 0.040_45;
 static LINEAR: LazyLock<[f32; 256]> =
     LazyLock::new(|| std::array::from_fn(|code| nearest(code as f64 / 255.0)));
 
-/// Threshold k is the least f32 that encodes to k + 1: the first f32 at or above the linear value of
-/// (k + ½) ÷ 255.
+/// Threshold k is the least f32 that encodes to k + 1: the first f32 at or above the linear value
+/// of the code boundary (k + ½) ÷ 255.
 pub static THRESHOLDS: LazyLock<[f32; 255]> =
     LazyLock::new(|| std::array::from_fn(|code| first_at_or_above((code as f64 + 0.5) / 255.0)));
 
