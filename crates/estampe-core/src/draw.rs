@@ -308,7 +308,7 @@ impl Context {
             _ => {
                 self.executor
                     .for_each(&mut jobs, &memory.tiles_many, |job, scratch| {
-                        tile_pass::draw_many_samples(&pass, job, scratch);
+                        tile_pass::draw(&pass, job, scratch);
                     });
                 take_statistics(&mut memory.tiles_many, &mut statistics);
             }

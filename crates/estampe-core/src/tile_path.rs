@@ -54,7 +54,7 @@ impl TilePath {
         // level draws in order, which gives the same bits. Viewports that cut pixels are too rare
         // for code of their own.
         let is_common = !draw.level.is_scalar() && !draw.cuts_samples;
-        if is_common && key.is_opaque && matches!(samples, 1 | 4) {
+        if is_common && key.is_opaque {
             return Self::choose_visibility(key, samples);
         }
         if is_common && key.blends_blocks && samples == 1 && draw.tests_depth_alone {

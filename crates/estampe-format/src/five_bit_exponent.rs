@@ -88,7 +88,8 @@ pub(crate) fn decode_lanes<S: Lanes, const MANTISSA: u32>(s: S, code: u32x16<S>)
         let moved = code << (23 - MANTISSA);
         let signed: i32x16<S> = code.bitcast();
         let bound = |value: u32| <i32x16<S> as SimdBase<S>>::splat(s, value.cast_signed());
-        // Denormal codes are converted, not multiplied as bits: processors are slow with denormal f32.
+        // Denormal codes are converted, not multiplied as bits: processors are slow with denormal
+        // f32.
         let least = f32::from_bits(least_bits(MANTISSA));
         let denormal: u32x16<S> = (f32x16::float_from(signed) * least).bitcast();
         let normal = moved + splat(112 << 23);

@@ -109,8 +109,8 @@ impl Channel {
             }
             Self::Srgb => u32::from(srgb::code(value)),
             Self::Snorm(bits) => {
-                let scaled = self.confine(value) * greatest(bits - 1) + 0.5;
-                self.cut(whole(scaled).cast_unsigned())
+                let scaled = self.confine(value) * greatest(bits - 1);
+                self.cut(whole(scaled.round_ties_even()).cast_unsigned())
             }
             Self::Uint(bits) => value.to_bits().min(u32::MAX >> (32 - bits)),
             Self::Sint(bits) => {
@@ -177,7 +177,7 @@ impl Channel {
             Self::Snorm(bits) => {
                 let least = -greatest(bits - 1);
                 let mean = mean_of(&|code| max(self.signed(code) as f32, least));
-                self.cut(whole(mean + 0.5).cast_unsigned())
+                self.cut(whole(mean.round_ties_even()).cast_unsigned())
             }
             _ => {
                 let mean = mean_of(&|code| self.decode(code));

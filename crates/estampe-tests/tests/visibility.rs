@@ -51,11 +51,12 @@ fn opaque(random: &mut Random, vertices: &[Vertex]) -> CaseDraw {
         }),
     };
     draw.primitive.cull_mode = random.pick(&[CullMode::None, CullMode::None, CullMode::Back]);
+    draw.is_counted = random.once_in(3);
     draw
 }
 
 fn target(random: &mut Random, size: [u32; 2]) -> Case {
-    let mut case = Case::new(size, random.pick(&[1, 1, 4]));
+    let mut case = Case::new(size, random.pick(&[1, 1, 1, 4, 4, 2, 8, 16]));
     case.clear_depth = random.pick(&[1.0, 0.0, 0.5]);
     case.clear_color = random.four(0.0, 1.0);
     case

@@ -33,10 +33,14 @@ fn an_earlier_stage_may_be_named() {
 
 #[test]
 fn a_later_stage_may_not() {
-    let found = messages_of("geometry/clip", "\nuse super::{assembly::A, setup::Setup};");
+    let found = messages_of(
+        "geometry/fetch",
+        "\nuse super::{assembly::A, setup::Setup};",
+    );
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(
-        found[0].starts_with("error: crates/estampe-core/src/geometry/clip.rs:2: `geometry::clip`")
+        found[0]
+            .starts_with("error: crates/estampe-core/src/geometry/fetch.rs:2: `geometry::fetch`")
     );
     assert!(found[0].contains("`geometry::setup::Setup`"));
     assert_eq!(

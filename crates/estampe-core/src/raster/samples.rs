@@ -69,6 +69,16 @@ impl<const N: usize> SampleSet<N> {
         }
     }
 
+    /// The masks of a packet whose samples are all covered.
+    #[inline(always)]
+    pub(crate) fn whole(self) -> [u16; N] {
+        let mut masks = [u16::MAX; N];
+        if N == MAX_SAMPLES {
+            masks[self.count()..].fill(0);
+        }
+        masks
+    }
+
     /// Offsets of the samples in their pixel, in 1/256 pixel. Places beyond the set's repeat the
     /// first sample, so that extremes over the array are extremes over the set.
     #[inline(always)]

@@ -21,7 +21,7 @@ use crate::layout::TileGrid;
 use crate::per_sample::color_writer::ColorWriter;
 use crate::per_sample::hiz::HierarchicalZ;
 use crate::plan::tile_plan::TilePlan;
-use crate::raster::{MAX_SAMPLES, SampleSet, TileShape};
+use crate::raster::{SampleSet, TileShape};
 use crate::statistics::Statistics;
 use crate::tile_path::TilePath;
 use estampe_simd::{LANES, Level};
@@ -74,7 +74,7 @@ pub(crate) struct TileScratch<const N: usize> {
     pub(crate) statistics: Statistics,
 }
 
-/// Draws a tile of 1 or 4 samples.
+/// Draws a tile.
 pub(crate) fn draw<const N: usize>(
     pass: &TilePass<'_>,
     job: &mut TileJob<'_>,
@@ -94,23 +94,6 @@ pub(crate) fn draw<const N: usize>(
         }
     }
     visibility::resolve(pass, job, scratch);
-}
-
-/// Draws a tile of 2, 8 or 16 samples, or of any number at the scalar level: the visibility path is
-/// not compiled for these.
-pub(crate) fn draw_many_samples(
-    pass: &TilePass<'_>,
-    job: &mut TileJob<'_>,
-    scratch: &mut TileScratch<MAX_SAMPLES>,
-) {
-    begin(pass, job, scratch);
-    for &number in pass.chunk_index.of_tile(job.tile) {
-        for (sub_draw, entries) in pass.chunks[number as usize].runs_of_tile(job.tile) {
-            let work = TileWork::new(pass, [number, sub_draw], job.tile);
-            scratch.count(work.plan.path, entries);
-            in_order::draw(&work, entries, job, scratch);
-        }
-    }
 }
 
 fn begin<const N: usize>(pass: &TilePass<'_>, job: &mut TileJob<'_>, scratch: &mut TileScratch<N>) {

@@ -2,7 +2,7 @@
 
 use super::PacketCodec;
 use crate::layout;
-use crate::normalized::{code_of_positive, code_of_signed, encode_snorm_lanes, encode_unorm_lanes};
+use crate::normalized::{code_of_positive, encode_snorm_lanes, encode_unorm_lanes};
 use estampe_simd::{Bytes, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
 use estampe_types::{TexelEncoding, TextureFormat};
 
@@ -162,9 +162,19 @@ impl<S: Lanes, const WORDS: usize> PacketCodec<S> for Normalized<WORDS> {
     #[inline(always)]
     fn encode_units(self, s: S, means: [f32x16<S>; 4]) -> [u32x16<S>; 4] {
         if self.is_signed {
-            self.pack(s, means, |mean, _| code_of_signed(s, mean))
+            self.pack(
+                s,
+                means,
+                #[inline(always)]
+                |mean, _| s.round_to_i32(mean),
+            )
         } else {
-            self.pack(s, means, |mean, _| code_of_positive(mean))
+            self.pack(
+                s,
+                means,
+                #[inline(always)]
+                |mean, _| code_of_positive(mean),
+            )
         }
     }
 }

@@ -172,7 +172,7 @@ fn every_texel_is_encoded_again_as_it_was() {
 }
 
 #[test]
-fn means_of_codes_are_rounded_up_from_a_half() {
+fn means_are_rounded_to_the_nearest_code() {
     let means = |value: f32| [[value; LANES]; 4];
     for level in Level::all_available() {
         for (format, mean, expected) in [
@@ -180,9 +180,11 @@ fn means_of_codes_are_rounded_up_from_a_half() {
             (TextureFormat::Bgra8Unorm, 1.25, 0x0101_0101),
             (TextureFormat::R8Unorm, 254.5, 0xFF),
             (TextureFormat::Rg16Unorm, 65_534.5, 0xFFFF_FFFF),
-            (TextureFormat::Rgba8Snorm, -1.5, 0xFFFF_FFFF),
+            (TextureFormat::Rgba8Snorm, -1.5, 0xFEFE_FEFE),
+            (TextureFormat::Rgba8Snorm, -0.5, 0),
             (TextureFormat::Rgba8Snorm, -1.75, 0xFEFE_FEFE),
             (TextureFormat::R16Snorm, -32_766.5, 0x8002),
+            (TextureFormat::R16Snorm, -32_765.5, 0x8002),
         ] {
             let codec = AttachmentCodec::new(format);
             let words = encoded_units(level, codec, means(mean));

@@ -160,9 +160,9 @@ fn normalized_numbers_are_rounded_alike() {
         }
     }
     assert_eq!(
-        normalized::encode_snorm(-0.5 / 127.0, 127.0),
-        0,
-        "half rounds up"
+        [0.5, 1.5, -0.5, -1.5].map(|codes| normalized::encode_snorm(codes / 127.0, 127.0)),
+        [0, 2, 0, -2],
+        "ties go to even codes"
     );
     assert_eq!(normalized::encode_unorm(f32::NAN, 255.0), 0);
     assert_eq!(normalized::encode_snorm(f32::NAN, 127.0), 0);

@@ -42,7 +42,7 @@ fn every_code_survives_decoding_and_encoding() {
 
 /// Rows: O8.
 #[test]
-fn normalised_numbers_round_half_up() {
+fn normalised_numbers_round_to_the_nearest_code() {
     let all = |channel: Channel, pairs: &[(f32, u32)]| {
         for &(value, code) in pairs {
             assert_eq!(channel.encode(value), code, "{channel:?} of {value}");
@@ -58,12 +58,13 @@ fn normalised_numbers_round_half_up() {
         &[(0.5, 512), (0.2499, 256), (1.0, 1023)],
     );
     all(Channel::Unorm(2), &[(0.5, 2), (0.166, 0), (0.167, 1)]);
-    // ½·127 + ½ = 64; −½·127 + ½ = −63; −127 is 0x81.
+    // ½·127 = 63.5 is 64, −63.5 is −64: ties to even; −127 is 0x81.
     all(
         Channel::Snorm(8),
         &[
             (0.5, 64),
-            (-0.5, 0xC1),
+            (-0.5, 0xC0),
+            (2.5 / 127.0, 2),
             (-1.0, 0x81),
             (-7.0, 0x81),
             (f32::NAN, 0),
@@ -261,7 +262,7 @@ fn each_kind_of_channel_resolves_in_its_own_way() {
     let pair = |format, one: u32, other: u32| resolve(format, &[[one; 4], [other; 4]])[0];
     assert_eq!(pair(F::R16Unorm, 3, 6), 5); // 4.5 + ½
     assert_eq!(pair(F::R8Snorm, 0x80, 0x81), 0x81); // −128 counts as −127
-    assert_eq!(pair(F::R8Snorm, 0xFF, 0xFE), 0xFF); // ⌊−1.5 + ½⌋ = −1
+    assert_eq!(pair(F::R8Snorm, 0xFF, 0xFE), 0xFE); // −1.5 is −2, the even one
     assert_eq!(pair(F::R16Float, 0x3C00, 0x4000), 0x3E00); // 1, 2: 1.5
     assert_eq!(pair(F::Rg11b10Ufloat, 0x3C0, 0x400), 0x3E0);
     assert_eq!(

@@ -41,7 +41,7 @@ pub(super) struct VisibilityBuffer<const N: usize> {
     /// Blocks that show one triangle at every sample, whose ids are not written.
     pub(super) single: SinglePrimitiveBlocks,
     /// The ids of targets whose first texel is not one word: by packet and sample.
-    pub(super) ids: Box<[[u32; LANES]; MAX_PACKETS]>,
+    pub(super) ids: Box<[[u32; LANES]]>,
 }
 
 impl<const N: usize> Default for VisibilityBuffer<N> {
@@ -51,8 +51,18 @@ impl<const N: usize> Default for VisibilityBuffer<N> {
             groups: Vec::new(),
             unresolved: Box::new([[0; N]; MAX_PACKETS]),
             single: SinglePrimitiveBlocks::default(),
-            ids: Box::new([[0; LANES]; MAX_PACKETS]),
+            ids: vec![[0; LANES]; most_lines(N)].into(),
         }
+    }
+}
+
+/// Lines of sixteen ids that a tile has at most: of one sample it is 64×64 pixels large, of several
+/// 32×32.
+const fn most_lines(samples: usize) -> usize {
+    if samples == 1 {
+        MAX_PACKETS
+    } else {
+        MAX_PACKETS / 4 * samples
     }
 }
 

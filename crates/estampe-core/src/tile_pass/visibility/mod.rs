@@ -81,6 +81,7 @@ pub(super) fn add<const N: usize>(
     if visibility.buffer.triangles.len() > MAX_RUN || visibility.cross.texels() > MAX_RUN {
         resolve(pass, job, scratch);
     }
+    scratch.visibility.list.set_samples(pass.sample_set());
     let plan = work.plan;
     if plan.path == TilePath::VisibilityCrossTriangle {
         scratch.queue.configure(

@@ -31,7 +31,7 @@ pub(super) fn rasterize<const N: usize>(
     let path = work.plan.path;
     let mut pass = Rasterizer {
         work,
-        samples: SampleSet::new(N),
+        samples: pass.sample_set(),
         order,
         storage: storage_of(work.plan),
         crosses_triangles: path == TilePath::VisibilityCrossTriangle,
@@ -182,12 +182,15 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
         if !is_whole {
             list.clip(&rect);
         }
-        // Without a test everything passes. A query counts sample by sample.
+        // Without a test everything passes.
         let certain = match plan.tests.depth {
-            _ if !plan.tests_depth_alone() => 0,
+            _ if !plan.tests.is_depth_alone() => 0,
             Some(_) => whole & classes.certain,
             None => whole,
         };
+        if plan.query.is_some() {
+            self.passed += u64::from(certain.count_ones()) * 256 * self.samples.count() as u64;
+        }
         let others = whole & !certain;
         let touched = blocks_of(others, list.items().iter().map(|item| item.packet));
         let triangle = VisibilityTriangle {

@@ -36,7 +36,8 @@ impl Numbering for ByTriangle {
 impl<const N: usize> Rasterizer<'_, '_, '_, N> {
     /// Small triangles of a packet; `entry` is all of its lanes and their first id.
     pub(super) fn small(&mut self, packet: &TrianglePacket, lanes: u16, entry: (u16, u32)) {
-        if lanes == 0 {
+        // Small triangles are found where a pixel has one sample.
+        if const { N != 1 } || lanes == 0 {
             return;
         }
         let (plan, level) = (self.work.plan, self.work.level);

@@ -108,6 +108,12 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         }
     }
 
+    /// Where the depths and ids of a packet's sample are stored.
+    #[inline(always)]
+    fn line_of(&self, packet: usize, sample: usize) -> usize {
+        packet * self.samples.count() + sample
+    }
+
     /// Adds a triangle in whole blocks of 16×16 pixels and in a list of packets. `in_order` says
     /// that all triangles come in the order of submission.
     pub(super) fn triangle(
@@ -155,7 +161,7 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         for item in list {
             let (x, y) = packet_origin(u32::from(item.packet));
             let pixel = [self.tile.x + x, self.tile.y + y];
-            for (sample, &offset) in offsets.iter().enumerate() {
+            for (sample, &offset) in offsets.iter().enumerate().take(self.samples.count()) {
                 let distances = plane.origin.distances(s, pixel, offset);
                 let z = self.tests.stored.of(s, evaluate(s, &plane.z, distances));
                 let at = [usize::from(item.packet), sample];
@@ -179,7 +185,8 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         while blocks != 0 {
             let block = blocks.trailing_zeros();
             blocks &= blocks - 1;
-            for (sample, &offset) in self.samples.offsets().iter().enumerate() {
+            let offsets = self.samples.offsets();
+            for (sample, &offset) in offsets.iter().enumerate().take(self.samples.count()) {
                 let depths = self.block_depths(s, &triangle.plane, block, offset);
                 for packet in 0..LANES {
                     let z = self.block_depth(s, &depths, packet, needs_clamp);
@@ -242,11 +249,12 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         while blocks != 0 {
             let block = blocks.trailing_zeros();
             blocks &= blocks - 1;
-            for (sample, &offset) in self.samples.offsets().iter().enumerate() {
+            let offsets = self.samples.offsets();
+            for (sample, &offset) in offsets.iter().enumerate().take(self.samples.count()) {
                 let depths = self.block_depths(s, &triangle.plane, block, offset);
                 for packet in 0..LANES {
                     let z = self.block_depth(s, &depths, packet, needs_clamp);
-                    let line = (block as usize * LANES + packet) * N + sample;
+                    let line = self.line_of(block as usize * LANES + packet, sample);
                     z.store_array(&mut self.depth[line]);
                 }
             }
@@ -263,7 +271,7 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         lanes: u16,
         triangle: &VisibilityTriangle,
     ) {
-        let line = packet * N + sample;
+        let line = self.line_of(packet, sample);
         let unresolved = &mut self.unresolved[packet % MAX_PACKETS][sample];
         let passes = match (KIND, self.tests.depth, self.depth.get_mut(line)) {
             (test_kind::LESS, _, Some(stored)) => {
@@ -317,8 +325,9 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
             blocks &= blocks - 1;
             let id = <u32x16<S> as SimdBase<S>>::splat(s, ids[block]);
             for packet in block * LANES..(block + 1) * LANES {
-                self.unresolved[packet] = [u16::MAX; N];
-                for line in &mut self.ids[packet * N..(packet + 1) * N] {
+                self.unresolved[packet] = self.samples.whole();
+                let first = self.line_of(packet, 0);
+                for line in &mut self.ids[first..][..self.samples.count()] {
                     id.store_array(line);
                 }
             }

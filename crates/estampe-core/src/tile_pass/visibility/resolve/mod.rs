@@ -16,7 +16,7 @@ use super::writer::IdStorage;
 use super::{ONLY_WIDE, VisibilityScratch};
 use crate::fragment::queue::PrimitivePacket;
 use crate::plan::tile_plan::TilePlan;
-use crate::raster::{Covered, MAX_PACKETS, packet_origin};
+use crate::raster::{Covered, MAX_PACKETS, SampleSet, packet_origin};
 use crate::tile_pass::{TileJob, TilePass, TileScratch, write_colors};
 use early::write_cross_triangle;
 use estampe_simd::{LANES, Lanes, SimdBase, dispatch, u32x16};
@@ -103,7 +103,7 @@ pub(in crate::tile_pass) fn resolve<const N: usize>(
 fn ids_of<'a>(
     storage: IdStorage,
     job: &'a TileJob<'_>,
-    buffer: &'a [[u32; LANES]; MAX_PACKETS],
+    buffer: &'a [[u32; LANES]],
 ) -> &'a [[u32; LANES]] {
     if storage == IdStorage::Attachment {
         job.colors[0]
@@ -124,6 +124,7 @@ struct Resolver<'a, 'j, 't, const N: usize> {
     origin: [i32; 2],
     /// Packets of the tile.
     packets: usize,
+    samples: SampleSet<N>,
     job: &'j mut TileJob<'t>,
     scratch: &'j mut TileScratch<N>,
 }
@@ -143,6 +144,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
             modes: &[],
             origin: [x.cast_signed(), y.cast_signed()],
             packets: pass.grid.tile_pixels() / LANES,
+            samples: pass.sample_set(),
             job,
             scratch,
         }
@@ -175,13 +177,19 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     let group = &groups[add(id)];
                     for (sample, left) in left.iter_mut().enumerate() {
                         if *left != 0 {
-                            *left &= !self.lanes_in(s, packet * N + sample, group);
+                            *left &= !self.lanes_in(s, self.line_of(packet, sample), group);
                         }
                     }
                 }
             }
         }
         self.scratch.visibility.resolve.packets = sets;
+    }
+
+    /// Where the ids of a packet's sample are stored.
+    #[inline(always)]
+    fn line_of(&self, packet: usize, sample: usize) -> usize {
+        packet * self.samples.count() + sample
     }
 
     /// The lanes of a line of ids that belong to a group.
@@ -211,7 +219,8 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         let mut id = 0;
         for (sample, lanes) in samples.iter().enumerate().rev() {
             if *lanes != 0 {
-                id = self.ids()[packet * N + sample][lanes.trailing_zeros() as usize % LANES];
+                id = self.ids()[self.line_of(packet, sample)]
+                    [lanes.trailing_zeros() as usize % LANES];
             }
         }
         id
@@ -228,7 +237,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         self.scratch.visibility.resolve.quads.begin_group();
         self.scratch.queue.configure(
             self.plan.pipeline,
-            self.pass.sample_set(),
+            self.samples,
             self.plan.tests.stored.range,
             false,
         );
@@ -259,7 +268,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     continue;
                 }
                 let mut left = match single {
-                    Some(id) if group.ids.contains(&id) => [u16::MAX; N],
+                    Some(id) if group.ids.contains(&id) => self.samples.whole(),
                     Some(_) => continue,
                     None => self.take_unresolved(s, number, group),
                 };
@@ -290,7 +299,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         let mut taken = self.scratch.visibility.buffer.unresolved[packet];
         for (sample, taken) in taken.iter_mut().enumerate() {
             if *taken != 0 {
-                *taken &= self.lanes_in(s, packet * N + sample, group);
+                *taken &= self.lanes_in(s, self.line_of(packet, sample), group);
             }
         }
         let unresolved = &mut self.scratch.visibility.buffer.unresolved[packet];
@@ -307,7 +316,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         let mut masks = [0; N];
         for (sample, (mask, left)) in masks.iter_mut().zip(left).enumerate() {
             if *left != 0 {
-                *mask = self.lanes_of(s, packet * N + sample, id) & *left;
+                *mask = self.lanes_of(s, self.line_of(packet, sample), id) & *left;
                 *left &= !*mask;
             }
         }

@@ -15,11 +15,12 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
         let resolve = &self.scratch.visibility.resolve;
         let texels = resolve.texels.get(visible, targets.len());
         for (texel, stored) in texels.unwrap_or_default().iter().zip(&mut self.job.colors) {
-            let words = stored.len() / self.packets;
-            let lines = &mut stored[first_packet * words..][..LANES * words];
-            for (word, bits) in texel.iter().enumerate().take(words / N) {
+            let of_packet = stored.len() / self.packets;
+            let lines = &mut stored[first_packet * of_packet..][..LANES * of_packet];
+            let words = of_packet / self.samples.count();
+            for (word, bits) in texel.iter().enumerate().take(words) {
                 let value = <u32x16<S> as SimdBase<S>>::splat(s, *bits);
-                for line in lines.iter_mut().skip(word).step_by(words / N) {
+                for line in lines.iter_mut().skip(word).step_by(words) {
                     value.store_array(line);
                 }
             }
@@ -35,9 +36,10 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
         let resolve = &self.scratch.visibility.resolve;
         let texels = resolve.texels.get(visible, targets.len());
         for (texel, stored) in texels.unwrap_or_default().iter().zip(&mut self.job.colors) {
-            let words = stored.len() / self.packets / N;
-            for (sample, mask) in covered.masks.iter().enumerate() {
-                let line = (usize::from(covered.packet) * N + sample) * words;
+            let samples = self.samples.count();
+            let words = stored.len() / self.packets / samples;
+            for (sample, mask) in covered.masks.iter().enumerate().take(samples) {
+                let line = (usize::from(covered.packet) * samples + sample) * words;
                 for (stored, word) in stored[line..].iter_mut().zip(texel).take(words) {
                     let old = u32x16::load_array_ref(s, stored);
                     let new = <u32x16<S> as SimdBase<S>>::splat(s, *word);
@@ -66,7 +68,7 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
         debug_assert!(self.scratch.queue.is_empty(), "one packet is shaded alone");
         let any = Covered {
             packet: 0,
-            masks: [u16::MAX; N],
+            masks: self.samples.whole(),
         };
         self.push(s, visible, &any);
         self.keep_primitive(visible);
