@@ -2,7 +2,7 @@
 //! different packets.
 
 use super::quad::{QUAD, QUADS};
-use estampe_simd::{LANES, Lanes, SimdBase, u32x4, u32x16};
+use estampe_simd::{LANES, Lanes, Select, SimdBase, u32x4, u32x16};
 
 /// The place of sixteen fragments in their tile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,7 +73,7 @@ impl Place {
         }
     }
 
-    /// Stores the lanes of a mask; `old` is what [`Place::load`] gave.
+    /// Stores the lanes of a mask.
     #[inline(always)]
     pub(crate) fn store<S: Lanes>(
         self,
@@ -83,12 +83,12 @@ impl Place {
         layout: PacketLayout,
         [sample, word]: [usize; 2],
     ) {
-        let MaskedWords { new, old, mask } = values;
+        let MaskedWords { new, mask } = values;
         match self {
             Self::Packet(packet) => {
-                let line = layout.line(usize::from(packet), sample, word);
-                let selected = estampe_simd::Select::select(s.mask_from_bits(mask), new, old);
-                selected.store_array(&mut stored[line]);
+                let line = &mut stored[layout.line(usize::from(packet), sample, word)];
+                let old = u32x16::load_array_ref(s, line);
+                s.mask_from_bits(mask).select(new, old).store_array(line);
             }
             // Two quads of one place may hold different lanes, so each is stored over what is there
             // by then.
@@ -160,7 +160,6 @@ impl Place {
 #[derive(Clone, Copy)]
 pub(crate) struct MaskedWords<S: Lanes> {
     pub(crate) new: u32x16<S>,
-    pub(crate) old: u32x16<S>,
     pub(crate) mask: u16,
 }
 

@@ -191,6 +191,7 @@ impl<C: Copy> Target<'_, C> {
         };
         let range = self.writer.codec.range();
         let zero = <u32x16<S> as SimdBase<S>>::splat(s, 0);
+        let reads_stored = kernel.reads_stored() || self.combines_words();
         for packet in batch.packets() {
             let mut inputs = BlendInputs {
                 source: load(s, packet.color(self.index)),
@@ -209,8 +210,10 @@ impl<C: Copy> Target<'_, C> {
                     continue;
                 }
                 let mut old = [zero; MAX_WORDS];
-                for (word, old) in old.iter_mut().enumerate().take(layout.words) {
-                    *old = packet.place.load(s, stored, layout, [sample, word]);
+                if reads_stored {
+                    for (word, old) in old.iter_mut().enumerate().take(layout.words) {
+                        *old = packet.place.load(s, stored, layout, [sample, word]);
+                    }
                 }
                 // All samples are replaced by the same texel.
                 let mut new = match encoded {
@@ -224,18 +227,20 @@ impl<C: Copy> Target<'_, C> {
                 };
                 encoded = Some(new);
                 self.mask_words(s, &mut new, &old);
-                for word in 0..layout.words {
-                    let values = MaskedWords {
-                        new: new[word],
-                        old: old[word],
-                        mask,
-                    };
+                for (word, &new) in new.iter().enumerate().take(layout.words) {
+                    let values = MaskedWords { new, mask };
                     packet
                         .place
                         .store(s, values, stored, layout, [sample, word]);
                 }
             }
         }
+    }
+
+    /// Whether stored words are combined with new ones after blending.
+    #[inline(always)]
+    fn combines_words(&self) -> bool {
+        self.writer.logic.is_some() || !self.writer.writes_all
     }
 
     /// Applies the logic operation and the write mask. Both work bit by bit, so they need no
@@ -247,7 +252,7 @@ impl<C: Copy> Target<'_, C> {
         new: &mut [u32x16<S>; MAX_WORDS],
         old: &[u32x16<S>; MAX_WORDS],
     ) {
-        if self.writer.logic.is_none() && self.writer.writes_all {
+        if !self.combines_words() {
             return;
         }
         for (word, (new, old)) in new.iter_mut().zip(old).enumerate() {

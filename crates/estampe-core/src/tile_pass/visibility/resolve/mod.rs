@@ -120,6 +120,8 @@ struct Resolver<'a, 'j, 't, const N: usize> {
     plan: &'a TilePlan<'a>,
     /// How each scalar of the varyings is interpolated.
     modes: &'a [Interpolation],
+    /// Whether the run has one group: every sample that is left shows it.
+    is_only_group: bool,
     /// The tile's first pixel.
     origin: [i32; 2],
     /// Packets of the tile.
@@ -142,6 +144,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
             storage,
             plan: &pass.plans[0],
             modes: &[],
+            is_only_group: false,
             origin: [x.cast_signed(), y.cast_signed()],
             packets: pass.grid.tile_pixels() / LANES,
             samples: pass.sample_set(),
@@ -155,7 +158,8 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
     fn find_packets<S: Lanes>(&mut self, s: S, groups: &[ShadingGroup]) {
         let mut sets = std::mem::take(&mut self.scratch.visibility.resolve.packets);
         sets.clear();
-        if let [_] = groups {
+        self.is_only_group = groups.len() == 1;
+        if self.is_only_group {
             sets.push([u64::MAX; MAX_PACKETS / 64]);
         } else {
             sets.resize(groups.len(), [0; MAX_PACKETS / 64]);
@@ -297,6 +301,10 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
     #[inline(always)]
     fn take_unresolved<S: Lanes>(&mut self, s: S, packet: usize, group: &ShadingGroup) -> [u16; N] {
         let mut taken = self.scratch.visibility.buffer.unresolved[packet];
+        if self.is_only_group {
+            self.scratch.visibility.buffer.unresolved[packet] = [0; N];
+            return taken;
+        }
         for (sample, taken) in taken.iter_mut().enumerate() {
             if *taken != 0 {
                 *taken &= self.lanes_in(s, self.line_of(packet, sample), group);
