@@ -2,9 +2,9 @@
 //!
 //! A hardware gather reads any address; clamping the indices to the table first makes it sound for
 //! any input, at the cost of one instruction. Squares of four elements are read by loads of eight
-//! bytes instead: two gathers of pairs, or four of elements, were measured to take longer on Zen 4,
-//! and half of the processors have no gather at all. For single elements the gather is faster. This
-//! module has the crate's only `unsafe` code.
+//! bytes instead, and four neighbours by loads of sixteen: two gathers of pairs, or four of elements,
+//! were measured to take longer on Zen 4, and half of the processors have no gather at all. For
+//! single elements the gather is faster. This module has the crate's only `unsafe` code.
 
 use crate::LANES;
 use fearless_simd::{Simd, SimdBase, u32x16};
@@ -63,6 +63,33 @@ pub(crate) fn square_by_lane<S: Simd>(
     ]
 }
 
+/// The last index for which it and the next three are valid, or `None` if the table is too short.
+#[inline(always)]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "cut to 32 bits just before"
+)]
+fn last_four(table: &[u32]) -> Option<u32> {
+    let last = table.len().checked_sub(4)?;
+    Some(last.min(u32::MAX as usize) as u32)
+}
+
+/// [`Lanes::gather_four`](crate::Lanes::gather_four) by four gathers.
+#[inline(always)]
+pub(crate) fn four_by_lane<S: Simd>(simd: S, table: &[u32], index: u32x16<S>) -> [u32x16<S>; 4] {
+    let Some(last) = last_four(table) else {
+        return [u32x16::splat(simd, 0); 4];
+    };
+    let index = index.min(u32x16::splat(simd, last));
+    let mut four = [index; 4];
+    let mut k = 0;
+    while k < 4 {
+        four[k] = by_lane(simd, &table[k..], index);
+        k += 1;
+    }
+    four
+}
+
 /// One load per lane, for SIMD levels without a gather instruction.
 #[inline(always)]
 pub(crate) fn by_lane<S: Simd>(simd: S, table: &[u32], index: u32x16<S>) -> u32x16<S> {
@@ -79,14 +106,18 @@ pub(crate) fn by_lane<S: Simd>(simd: S, table: &[u32], index: u32x16<S>) -> u32x
 }
 
 #[cfg(target_arch = "x86_64")]
-pub(crate) use x86::{avx2, avx512, lookup_avx512, square_avx2, square_avx512, square_sse2};
+pub(crate) use x86::{
+    avx2, avx512, four_avx2, four_avx512, four_sse2, square_avx2, square_avx512, square_sse2,
+};
 
 #[cfg(target_arch = "x86_64")]
 #[expect(unsafe_code, reason = "the gather intrinsics take a raw pointer")]
 mod x86 {
-    use super::{last_index, last_square};
+    use super::{last_four, last_index, last_square};
     use crate::LANES;
-    use core::arch::x86_64::{__m128i, _mm_castpd_si128, _mm_set_pd, _mm_setzero_si128};
+    use core::arch::x86_64::{
+        __m128i, _mm_castpd_si128, _mm_loadu_si128, _mm_set_pd, _mm_setzero_si128,
+    };
     use fearless_simd::x86::{Avx2, Avx512, Sse2};
     use fearless_simd::{Simd, SimdBase, SimdCombine, SimdInto, SimdSplit, u32x4, u32x8, u32x16};
 
@@ -109,60 +140,6 @@ mod x86 {
         kernel(simd, table, index.min(u32x16::splat(simd, last)))
     }
 
-    /// [`Lanes::lookup`](crate::Lanes::lookup) by permutations: eight of 32 elements each, from which the index's
-    /// highest three bits choose. Sixteen loads of one element take two to three times as long.
-    #[inline(always)]
-    pub(crate) fn lookup_avx512(
-        simd: Avx512,
-        table: &[u32; 256],
-        index: u32x16<Avx512>,
-    ) -> u32x16<Avx512> {
-        fearless_simd::kernel!(
-            #[inline(always)]
-            fn of_32(
-                simd: Avx512,
-                low: u32x16<Avx512>,
-                index: u32x16<Avx512>,
-                high: u32x16<Avx512>,
-            ) -> u32x16<Avx512> {
-                use core::arch::x86_64::*;
-                _mm512_permutex2var_epi32(low.into(), index.into(), high.into()).simd_into(simd)
-            }
-        );
-        fearless_simd::kernel!(
-            #[inline(always)]
-            fn choose(
-                simd: Avx512,
-                clear: u32x16<Avx512>,
-                set: u32x16<Avx512>,
-                index: u32x16<Avx512>,
-                bit: u32x16<Avx512>,
-            ) -> u32x16<Avx512> {
-                use core::arch::x86_64::*;
-                let is_set = _mm512_test_epi32_mask(index.into(), bit.into());
-                _mm512_mask_blend_epi32(is_set, clear.into(), set.into()).simd_into(simd)
-            }
-        );
-        let mut found = [u32x16::splat(simd, 0); 8];
-        let (rows, _) = table.as_chunks::<16>();
-        let mut k = 0;
-        while k < 8 {
-            let low = u32x16::load_array_ref(simd, &rows[2 * k]);
-            let high = u32x16::load_array_ref(simd, &rows[2 * k + 1]);
-            found[k] = of_32(simd, low, index, high);
-            k += 1;
-        }
-        let bit = |value| u32x16::splat(simd, value);
-        let [a, b, c, d, e, f, g, h] = found;
-        let a = choose(simd, a, b, index, bit(32));
-        let c = choose(simd, c, d, index, bit(32));
-        let e = choose(simd, e, f, index, bit(32));
-        let g = choose(simd, g, h, index, bit(32));
-        let a = choose(simd, a, c, index, bit(64));
-        let e = choose(simd, e, g, index, bit(64));
-        choose(simd, a, e, index, bit(128))
-    }
-
     #[inline(always)]
     pub(crate) fn avx2(simd: Avx2, table: &[u32], index: u32x16<Avx2>) -> u32x16<Avx2> {
         let Some(last) = last_index(table) else {
@@ -183,8 +160,17 @@ mod x86 {
         kernel(simd, table, low).combine(kernel(simd, table, high))
     }
 
-    /// The squares of sixteen lanes, each in 128 bits: left and right of the upper row, then of the
-    /// lower.
+    /// The indices as scalars, which go through memory on purpose: extracting lanes from registers
+    /// made AVX2's trilinear samples take a quarter longer, and AVX-512's no shorter.
+    #[inline(always)]
+    fn scalars<S: Simd>(index: u32x16<S>) -> [u32; LANES] {
+        std::hint::black_box(index.to_array())
+    }
+
+    /// Pairs of neighbours: two lanes in each 128 bits.
+    type Pairs = [__m128i; LANES / 2];
+
+    /// The two rows of the squares of sixteen lanes.
     ///
     /// Unsafe, because checks cost too much: one per lane and row, of indices that were clamped
     /// just before, made the whole no faster than gathers.
@@ -194,35 +180,85 @@ mod x86 {
         table: &[u32],
         index: u32x16<S>,
         stride: u32,
-    ) -> Option<[__m128i; LANES]> {
+    ) -> Option<[Pairs; 2]> {
         let last = last_square(table, stride)?;
-        // The indices go through memory on purpose: extracting lanes from registers made AVX2's
-        // trilinear samples take a quarter longer, and AVX-512's no shorter.
-        let index = index.min(u32x16::splat(simd, last)).to_array();
-        let index = std::hint::black_box(index);
+        let index = scalars(index.min(u32x16::splat(simd, last)));
         let upper = table.as_ptr();
         let lower = upper.wrapping_add(stride as usize);
         // SAFETY: SSE2 is x86-64's baseline.
-        let mut squares = [unsafe { _mm_setzero_si128() }; LANES];
+        let mut rows = [[unsafe { _mm_setzero_si128() }; LANES / 2]; 2];
+        let mut pair = 0;
+        while pair < LANES / 2 {
+            let [a, b] = [index[2 * pair] as usize, index[2 * pair + 1] as usize];
+            // SAFETY: `a` is at most `last`, so `a + 1` is in the table, and all eight bytes are
+            // inside.
+            let a_upper = unsafe { upper.wrapping_add(a).cast::<u64>().read_unaligned() };
+            // SAFETY: the same of `b`.
+            let b_upper = unsafe { upper.wrapping_add(b).cast::<u64>().read_unaligned() };
+            // SAFETY: `a` is at most `last`, so `a + stride + 1` is in the table, and all eight
+            // bytes are inside.
+            let a_lower = unsafe { lower.wrapping_add(a).cast::<u64>().read_unaligned() };
+            // SAFETY: the same of `b`.
+            let b_lower = unsafe { lower.wrapping_add(b).cast::<u64>().read_unaligned() };
+            rows[0][pair] = joined(a_upper, b_upper);
+            rows[1][pair] = joined(a_lower, b_lower);
+            pair += 1;
+        }
+        Some(rows)
+    }
+
+    /// Two times eight bytes side by side.
+    #[inline(always)]
+    fn joined(low: u64, high: u64) -> __m128i {
+        // As f64, because the compiler then emits a load and a load with insertion; moves keep all
+        // bits. SAFETY: SSE2 is x86-64's baseline.
+        let both = unsafe { _mm_set_pd(f64::from_bits(high), f64::from_bits(low)) };
+        // SAFETY: as above.
+        unsafe { _mm_castpd_si128(both) }
+    }
+
+    /// Four neighbours for each of sixteen lanes. Unsafe for the same reason as [`squares`].
+    #[inline(always)]
+    fn fours<S: Simd>(simd: S, table: &[u32], index: u32x16<S>) -> Option<[__m128i; LANES]> {
+        let last = last_four(table)?;
+        let index = scalars(index.min(u32x16::splat(simd, last)));
+        let base = table.as_ptr();
+        // SAFETY: SSE2 is x86-64's baseline.
+        let mut fours = [unsafe { _mm_setzero_si128() }; LANES];
         let mut lane = 0;
         while lane < LANES {
-            let at = index[lane] as usize;
-            let (upper, lower) = (upper.wrapping_add(at), lower.wrapping_add(at));
-            // SAFETY: `at` is at most `last`, so `at + 1` is in the table, and all eight bytes are
-            // inside.
-            let upper = unsafe { upper.cast::<u64>().read_unaligned() };
-            // SAFETY: `at` is at most `last`, so `at + stride + 1` is in the table, and all eight
-            // bytes are inside.
-            let lower = unsafe { lower.cast::<u64>().read_unaligned() };
-            // As f64, because the compiler then emits a load and a load with insertion; moves keep
-            // all bits. SAFETY: SSE2 is x86-64's baseline.
-            let square = unsafe { _mm_set_pd(f64::from_bits(lower), f64::from_bits(upper)) };
-            // SAFETY: as above.
-            squares[lane] = unsafe { _mm_castpd_si128(square) };
+            let at = base.wrapping_add(index[lane] as usize);
+            // SAFETY: the index is at most `last`, so the next three are in the table, too, and all
+            // sixteen bytes are inside.
+            fours[lane] = unsafe { _mm_loadu_si128(at.cast()) };
             lane += 1;
         }
-        Some(squares)
+        Some(fours)
     }
+
+    fearless_simd::kernel!(
+        #[inline(always)]
+        fn join_512(
+            simd: Avx512,
+            a: __m128i,
+            b: __m128i,
+            c: __m128i,
+            d: __m128i,
+        ) -> u32x16<Avx512> {
+            use core::arch::x86_64::*;
+            let low = _mm256_inserti128_si256::<1>(_mm256_castsi128_si256(a), b);
+            let high = _mm256_inserti128_si256::<1>(_mm256_castsi128_si256(c), d);
+            _mm512_inserti64x4::<1>(_mm512_castsi256_si512(low), high).simd_into(simd)
+        }
+    );
+
+    fearless_simd::kernel!(
+        #[inline(always)]
+        fn join_256(simd: Avx2, a: __m128i, b: __m128i) -> u32x8<Avx2> {
+            use core::arch::x86_64::*;
+            _mm256_inserti128_si256::<1>(_mm256_castsi128_si256(a), b).simd_into(simd)
+        }
+    );
 
     #[inline(always)]
     pub(crate) fn square_avx512(
@@ -231,25 +267,111 @@ mod x86 {
         index: u32x16<Avx512>,
         stride: u32,
     ) -> [u32x16<Avx512>; 4] {
-        let Some(squares) = squares(simd, table, index, stride) else {
+        let Some(rows) = squares(simd, table, index, stride) else {
             return [u32x16::splat(simd, 0); 4];
         };
         // The functions are small, because a long one would not be inlined.
         fearless_simd::kernel!(
             #[inline(always)]
-            fn join(
+            fn divide(
                 simd: Avx512,
-                a: __m128i,
-                b: __m128i,
-                c: __m128i,
-                d: __m128i,
-            ) -> u32x16<Avx512> {
+                first: u32x16<Avx512>,
+                second: u32x16<Avx512>,
+            ) -> [u32x16<Avx512>; 2] {
                 use core::arch::x86_64::*;
-                let low = _mm256_inserti128_si256::<1>(_mm256_castsi128_si256(a), b);
-                let high = _mm256_inserti128_si256::<1>(_mm256_castsi128_si256(c), d);
-                _mm512_inserti64x4::<1>(_mm512_castsi256_si512(low), high).simd_into(simd)
+                let a = _mm512_castsi512_ps(first.into());
+                let b = _mm512_castsi512_ps(second.into());
+                let left = _mm512_castps_si512(_mm512_shuffle_ps::<0x88>(a, b));
+                let right = _mm512_castps_si512(_mm512_shuffle_ps::<0xDD>(a, b));
+                [left.simd_into(simd), right.simd_into(simd)]
             }
         );
+        let [[a, b, c, d, e, f, g, h], [i, j, k, l, m, n, o, p]] = rows;
+        let upper = [join_512(simd, a, c, e, g), join_512(simd, b, d, f, h)];
+        let lower = [join_512(simd, i, k, m, o), join_512(simd, j, l, n, p)];
+        let [left, right] = divide(simd, upper[0], upper[1]);
+        let [lower_left, lower_right] = divide(simd, lower[0], lower[1]);
+        [left, right, lower_left, lower_right]
+    }
+
+    #[inline(always)]
+    pub(crate) fn square_avx2(
+        simd: Avx2,
+        table: &[u32],
+        index: u32x16<Avx2>,
+        stride: u32,
+    ) -> [u32x16<Avx2>; 4] {
+        let Some(rows) = squares(simd, table, index, stride) else {
+            return [u32x16::splat(simd, 0); 4];
+        };
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn divide(simd: Avx2, first: u32x8<Avx2>, second: u32x8<Avx2>) -> [u32x8<Avx2>; 2] {
+                use core::arch::x86_64::*;
+                let a = _mm256_castsi256_ps(first.into());
+                let b = _mm256_castsi256_ps(second.into());
+                let left = _mm256_castps_si256(_mm256_shuffle_ps::<0x88>(a, b));
+                let right = _mm256_castps_si256(_mm256_shuffle_ps::<0xDD>(a, b));
+                [left.simd_into(simd), right.simd_into(simd)]
+            }
+        );
+        let mut four = [u32x16::splat(simd, 0); 4];
+        let mut row = 0;
+        while row < 2 {
+            let [a, b, c, d, e, f, g, h] = rows[row];
+            let [left, right] = divide(simd, join_256(simd, a, c), join_256(simd, b, d));
+            let [left_2, right_2] = divide(simd, join_256(simd, e, g), join_256(simd, f, h));
+            four[2 * row] = left.combine(left_2);
+            four[2 * row + 1] = right.combine(right_2);
+            row += 1;
+        }
+        four
+    }
+
+    #[inline(always)]
+    pub(crate) fn square_sse2(
+        simd: Sse2,
+        table: &[u32],
+        index: u32x16<Sse2>,
+        stride: u32,
+    ) -> [u32x16<Sse2>; 4] {
+        let Some(rows) = squares(simd, table, index, stride) else {
+            return [u32x16::splat(simd, 0); 4];
+        };
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn divide(simd: Sse2, first: __m128i, second: __m128i) -> [u32x4<Sse2>; 2] {
+                use core::arch::x86_64::*;
+                let (a, b) = (_mm_castsi128_ps(first), _mm_castsi128_ps(second));
+                let left = _mm_castps_si128(_mm_shuffle_ps::<0x88>(a, b));
+                let right = _mm_castps_si128(_mm_shuffle_ps::<0xDD>(a, b));
+                [left.simd_into(simd), right.simd_into(simd)]
+            }
+        );
+        let mut four = [u32x16::splat(simd, 0); 4];
+        let mut row = 0;
+        while row < 2 {
+            let [a, b, c, d, e, f, g, h] = rows[row];
+            let [a, b] = divide(simd, a, b);
+            let [c, d] = divide(simd, c, d);
+            let [e, f] = divide(simd, e, f);
+            let [g, h] = divide(simd, g, h);
+            four[2 * row] = a.combine(c).combine(e.combine(g));
+            four[2 * row + 1] = b.combine(d).combine(f.combine(h));
+            row += 1;
+        }
+        four
+    }
+
+    #[inline(always)]
+    pub(crate) fn four_avx512(
+        simd: Avx512,
+        table: &[u32],
+        index: u32x16<Avx512>,
+    ) -> [u32x16<Avx512>; 4] {
+        let Some(fours) = fours(simd, table, index) else {
+            return [u32x16::splat(simd, 0); 4];
+        };
         fearless_simd::kernel!(
             #[inline(always)]
             fn transpose(simd: Avx512, rows: [u32x16<Avx512>; 4]) -> [u32x16<Avx512>; 4] {
@@ -269,30 +391,17 @@ mod x86 {
         let mut rows = [u32x16::splat(simd, 0); 4];
         let mut k = 0;
         while k < 4 {
-            let [a, b] = [squares[k], squares[k + 4]];
-            rows[k] = join(simd, a, b, squares[k + 8], squares[k + 12]);
+            rows[k] = join_512(simd, fours[k], fours[k + 4], fours[k + 8], fours[k + 12]);
             k += 1;
         }
         transpose(simd, rows)
     }
 
     #[inline(always)]
-    pub(crate) fn square_avx2(
-        simd: Avx2,
-        table: &[u32],
-        index: u32x16<Avx2>,
-        stride: u32,
-    ) -> [u32x16<Avx2>; 4] {
-        let Some(squares) = squares(simd, table, index, stride) else {
+    pub(crate) fn four_avx2(simd: Avx2, table: &[u32], index: u32x16<Avx2>) -> [u32x16<Avx2>; 4] {
+        let Some(fours) = fours(simd, table, index) else {
             return [u32x16::splat(simd, 0); 4];
         };
-        fearless_simd::kernel!(
-            #[inline(always)]
-            fn join(simd: Avx2, a: __m128i, b: __m128i) -> u32x8<Avx2> {
-                use core::arch::x86_64::*;
-                _mm256_inserti128_si256::<1>(_mm256_castsi128_si256(a), b).simd_into(simd)
-            }
-        );
         fearless_simd::kernel!(
             #[inline(always)]
             fn transpose(simd: Avx2, rows: [u32x8<Avx2>; 4]) -> [u32x8<Avx2>; 4] {
@@ -312,8 +421,8 @@ mod x86 {
         let mut rows = [[u32x8::splat(simd, 0); 4]; 2];
         let mut k = 0;
         while k < 4 {
-            rows[0][k] = join(simd, squares[k], squares[k + 4]);
-            rows[1][k] = join(simd, squares[k + 8], squares[k + 12]);
+            rows[0][k] = join_256(simd, fours[k], fours[k + 4]);
+            rows[1][k] = join_256(simd, fours[k + 8], fours[k + 12]);
             k += 1;
         }
         let [a, b, c, d] = transpose(simd, rows[0]);
@@ -322,13 +431,8 @@ mod x86 {
     }
 
     #[inline(always)]
-    pub(crate) fn square_sse2(
-        simd: Sse2,
-        table: &[u32],
-        index: u32x16<Sse2>,
-        stride: u32,
-    ) -> [u32x16<Sse2>; 4] {
-        let Some(squares) = squares(simd, table, index, stride) else {
+    pub(crate) fn four_sse2(simd: Sse2, table: &[u32], index: u32x16<Sse2>) -> [u32x16<Sse2>; 4] {
+        let Some(fours) = fours(simd, table, index) else {
             return [u32x16::splat(simd, 0); 4];
         };
         fearless_simd::kernel!(
@@ -347,7 +451,7 @@ mod x86 {
             }
         );
         let mut parts = [[u32x4::splat(simd, 0); 4]; 4];
-        let (rows, _) = squares.as_chunks::<4>();
+        let (rows, _) = fours.as_chunks::<4>();
         let mut k = 0;
         while k < 4 {
             parts[k] = transpose(simd, rows[k]);

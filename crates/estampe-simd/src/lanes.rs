@@ -1,6 +1,6 @@
 //! The extension trait of level tokens: operations beyond the methods of the vector types.
 
-use crate::Level;
+use crate::{ByteTable, Level};
 use fearless_simd::{
     Select, Simd, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, SimdMask, f32x16, i32x16,
     mask32x16, u32x16,
@@ -68,6 +68,24 @@ pub trait Lanes: Simd {
     #[inline(always)]
     fn gather_square(self, table: &[u32], index: u32x16<Self>, stride: u32) -> [u32x16<Self>; 4] {
         crate::gather::square_by_lane(self, table, index, stride)
+    }
+
+    /// `table[index]` and the next three elements in each lane. If any of the four is beyond the end,
+    /// the last four are read; a table with fewer than four elements reads as zeros.
+    #[inline(always)]
+    fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {
+        crate::gather::four_by_lane(self, table, index)
+    }
+
+    /// The table's elements for the lowest three bytes of each lane.
+    #[inline(always)]
+    fn lookup_three(self, table: &ByteTable, words: u32x16<Self>) -> [u32x16<Self>; 3] {
+        let byte = u32x16::splat(self, 0xFF);
+        [
+            self.gather(&table.elements, words & byte),
+            self.gather(&table.elements, (words >> 8) & byte),
+            self.gather(&table.elements, (words >> 16) & byte),
+        ]
     }
 
     /// A mask from its low 16 bits: bit `i` is lane `i`.
@@ -203,6 +221,10 @@ mod x86 {
         ) -> [u32x16<Self>; 4] {
             crate::gather::square_sse2(self, table, index, stride)
         }
+        #[inline(always)]
+        fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {
+            crate::gather::four_sse2(self, table, index)
+        }
     }
 
     impl Lanes for Avx2 {
@@ -231,6 +253,10 @@ mod x86 {
         ) -> [u32x16<Self>; 4] {
             crate::gather::square_avx2(self, table, index, stride)
         }
+        #[inline(always)]
+        fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {
+            crate::gather::four_avx2(self, table, index)
+        }
     }
 
     impl Lanes for Avx512 {
@@ -252,7 +278,7 @@ mod x86 {
         }
         #[inline(always)]
         fn lookup(self, table: &[u32; 256], index: u32x16<Self>) -> u32x16<Self> {
-            crate::gather::lookup_avx512(self, table, index)
+            crate::lookup::avx512(self, table, index)
         }
         #[inline(always)]
         fn gather_square(
@@ -262,6 +288,14 @@ mod x86 {
             stride: u32,
         ) -> [u32x16<Self>; 4] {
             crate::gather::square_avx512(self, table, index, stride)
+        }
+        #[inline(always)]
+        fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {
+            crate::gather::four_avx512(self, table, index)
+        }
+        #[inline(always)]
+        fn lookup_three(self, table: &ByteTable, words: u32x16<Self>) -> [u32x16<Self>; 3] {
+            crate::lookup::three_avx512(self, table, words)
         }
     }
 }

@@ -217,6 +217,28 @@ macro_rules! dispatch {
             _ => $scalar,
         }
     };
+    // The same, where what the expression uses is moved into it: two references are then passed in registers, and
+    // not by way of memory.
+    (@wide_move $level:expr, $simd:ident => $op:expr, scalar => $scalar:expr) => {
+        match $level {
+            #[cfg(target_arch = "x86_64")]
+            $crate::Level::Sse2(token) => $crate::dispatch!(@enter_move token, $simd => $op),
+            #[cfg(target_arch = "x86_64")]
+            $crate::Level::Avx2(token) => $crate::dispatch!(@enter_move token, $simd => $op),
+            #[cfg(target_arch = "x86_64")]
+            $crate::Level::Avx512(token) => $crate::dispatch!(@enter_move token, $simd => $op),
+            #[cfg(target_arch = "aarch64")]
+            $crate::Level::Neon(token) => $crate::dispatch!(@enter_move token, $simd => $op),
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            $crate::Level::Simd128(token) => $crate::dispatch!(@enter_move token, $simd => $op),
+            #[allow(unreachable_patterns, reason = "reached by the scalar level, where it is built in")]
+            _ => $scalar,
+        }
+    };
+    (@enter_move $token:ident, $simd:ident => $op:expr) => {{
+        let $simd = $token;
+        $crate::token::Simd::vectorize($simd, #[inline(always)] move || $op)
+    }};
     (@enter $token:ident, $simd:ident => $op:expr) => {{
         let $simd = $token;
         $crate::token::Simd::vectorize($simd, #[inline(always)] || $op)

@@ -25,6 +25,9 @@ mod gather;
 mod index;
 mod lanes;
 mod level;
+#[cfg(target_arch = "x86_64")]
+mod lookup;
+mod table;
 
 pub use fearless_simd::{
     Bytes, ExtractToken, Select, Simd, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, SimdInt,
@@ -35,6 +38,7 @@ pub use gather::bits_of;
 pub use index::{Lane, LanesOf, PacketIndex};
 pub use lanes::Lanes;
 pub use level::{Level, LevelError};
+pub use table::ByteTable;
 
 /// Number of lanes of a packet: 4×4 pixels.
 pub const LANES: usize = 16;

@@ -151,6 +151,75 @@ fn every_element_is_looked_up() {
 }
 
 #[inline(always)]
+fn three_looked_up<S: Lanes>(s: S, table: &ByteTable, words: [u32; LANES]) -> [[u32; LANES]; 3] {
+    let [a, b, c] = s.lookup_three(table, u32x16::load_array(s, words));
+    [a.to_array(), b.to_array(), c.to_array()]
+}
+
+#[test]
+fn every_element_is_looked_up_by_each_of_three_bytes() {
+    let table = ByteTable::new(std::array::from_fn(|at| {
+        (at as u32).wrapping_mul(0x9E37_79B9)
+    }));
+    for level in Level::all_available() {
+        for first in 0..256 {
+            let words: [u32; LANES] =
+                std::array::from_fn(|lane| (first + lane as u32 * 37).wrapping_mul(0x0103_0501));
+            let got = dispatch!(level, s => three_looked_up(s, &table, words));
+            for (byte, got) in got.into_iter().enumerate() {
+                let expected = words.map(|word| table.get(word.to_le_bytes()[byte]));
+                assert_eq!(got, expected, "{level:?} byte {byte}");
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn fours<S: Lanes>(s: S, table: &[u32], index: [u32; LANES]) -> [[u32; LANES]; 4] {
+    let [a, b, c, d] = s.gather_four(table, u32x16::load_array(s, index));
+    [a.to_array(), b.to_array(), c.to_array(), d.to_array()]
+}
+
+#[test]
+fn four_neighbours_stay_inside_the_table() {
+    let index = [
+        0,
+        1,
+        2,
+        3,
+        4,
+        5,
+        31,
+        32,
+        33,
+        34,
+        1 << 30,
+        1 << 31,
+        u32::MAX,
+        u32::MAX - 3,
+        12,
+        7,
+    ];
+    for len in [0, 1, 3, 4, 5, 8, 37] {
+        let table: Box<[u32]> = (0..len).map(|i| i * 3 + 1).collect();
+        for level in Level::all_available() {
+            let got = dispatch!(level, s => fours(s, &table, index));
+            for (lane, at) in index.into_iter().enumerate() {
+                let expected = match table.len().checked_sub(4) {
+                    Some(last) => {
+                        let at = (at as usize).min(last);
+                        [table[at], table[at + 1], table[at + 2], table[at + 3]]
+                    }
+                    None => [0; 4],
+                };
+                let got = got.map(|word| word[lane]);
+                assert_eq!(got, expected, "{level:?} {at} of {len}");
+            }
+        }
+    }
+}
+
+#[inline(always)]
 fn squares<S: Lanes>(s: S, table: &[u32], index: [u32; LANES], stride: u32) -> [[u32; LANES]; 4] {
     let [a, b, c, d] = s.gather_square(table, u32x16::load_array(s, index), stride);
     [a.to_array(), b.to_array(), c.to_array(), d.to_array()]
