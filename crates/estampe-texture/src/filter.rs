@@ -1,6 +1,6 @@
 //! Mip levels, sampled: the nearest texel, or the weighted mean of four, of one level or two.
 
-use crate::texel::{Corners, OPAQUE, mix, unpack};
+use crate::texel::{Corners, Number, OPAQUE, finish, linear, mix, unpack};
 use crate::wrap::{Place, place, tile};
 use estampe_types::{AddressMode, FilterMode, Int, MipLevel, Real, Texture, Vec2, Vec3, Vec4};
 
@@ -58,7 +58,7 @@ struct Footprint<R: Real> {
     y: Place<R>,
 }
 
-impl<R: Real> Footprint<R> {
+impl<R: Number> Footprint<R> {
     #[inline(always)]
     fn new(level: Level, wrapped: Vec2<R>, modes: [AddressMode; 2], filter: FilterMode) -> Self {
         Self {
@@ -119,21 +119,22 @@ impl<R: Real> Footprint<R> {
 
 /// The level's colour at a wrapped coordinate, in the units of [`texel`](crate::texel).
 #[inline(always)]
-pub(crate) fn sample_level<R: Real>(
+pub(crate) fn sample_level<R: Number>(
     texture: &Texture,
     level: Level,
     wrapped: Vec2<R>,
     modes: [AddressMode; 2],
-    filter: FilterMode,
+    (filter, is_srgb): (FilterMode, bool),
 ) -> Vec4<R> {
-    let is_srgb = texture.format.is_srgb();
     let at = Footprint::new(level, wrapped, modes, filter);
     if filter == FilterMode::Linear {
         return at.mean(at.corners(&texture.texels), is_srgb);
     }
     let x = tile(at.x.texel, level.width);
     let y = tile(at.y.texel, level.height);
-    unpack(level.index(x, y).gather(&texture.texels), is_srgb)
+    let word = level.index(x, y).gather(&texture.texels);
+    let linear = if is_srgb { Some(linear(word)) } else { None };
+    unpack(word, linear)
 }
 
 /// Where a linearly filtered sample lies when all texels of all lanes are inside their levels.
@@ -144,7 +145,7 @@ pub(crate) struct Inside<R: Real> {
     fraction: R,
 }
 
-impl<R: Real> Inside<R> {
+impl<R: Number> Inside<R> {
     /// Of one level or, where the weight of the next one is not 0 in every lane, of two. `None` where a lane's
     /// texels lie across a border.
     #[inline(always)]
@@ -177,30 +178,32 @@ impl<R: Real> Inside<R> {
         })
     }
 
-    /// The colour of a unorm8 texture there, in the units of [`texel`](crate::texel). Where alpha is 255
-    /// everywhere, a quarter of the arithmetic is left out.
+    /// The colour of a texture there, 0..1. Where alpha is 255 everywhere, a quarter of unorm8's arithmetic is left
+    /// out.
     ///
     /// Both levels' texels are under way before the first is used: a packet's chain of dependent
     /// operations is so long that one level after the other took a fifth more time.
     #[inline(always)]
-    pub(crate) fn color(&self, texture: &Texture) -> Vec4<R> {
+    pub(crate) fn color(&self, texture: &Texture, is_srgb: bool) -> Vec4<R> {
         let texels = &texture.texels[..];
         let of_fine = self.fine.corners_inside(texels);
         let Some(coarse) = &self.coarse else {
-            return self.fine.mean(of_fine, false);
+            return finish(self.fine.mean(of_fine, is_srgb), is_srgb);
         };
         let of_coarse = coarse.corners_inside(texels);
-        if texture.is_opaque {
+        let color = if is_srgb {
+            let fine = self.fine.mean(of_fine, true);
+            mix_colors(fine, coarse.mean(of_coarse, true), self.fraction)
+        } else if texture.is_opaque {
             let fine = self.fine.mean_of_colors(of_fine);
             let coarse = coarse.mean_of_colors(of_coarse);
             let alpha = self.fraction.splat(OPAQUE);
-            return fine.mix(coarse, self.fraction).extend(alpha);
-        }
-        mix_colors(
-            self.fine.mean(of_fine, false),
-            coarse.mean(of_coarse, false),
-            self.fraction,
-        )
+            fine.mix(coarse, self.fraction).extend(alpha)
+        } else {
+            let fine = self.fine.mean(of_fine, false);
+            mix_colors(fine, coarse.mean(of_coarse, false), self.fraction)
+        };
+        finish(color, is_srgb)
     }
 }
 

@@ -3,9 +3,8 @@
 use crate::filter::{Inside, Level, mix_colors, sample_level};
 use crate::lod::{level_of_detail, rho2};
 use crate::mixed::Mixed;
-use crate::request::Request;
-use crate::texel::{finish, unpack};
-use crate::view::{Answers, packed, requests};
+use crate::texel::{Number, finish, linear_of_any, unpack};
+use crate::view::{Answers, by_sixteen, packed};
 use crate::wrap::wrap;
 use estampe_simd::LANES;
 use estampe_types::shader::Sample2d;
@@ -33,8 +32,10 @@ pub struct Sampled {
     pub(crate) lod_range: [f32; 2],
     /// The finer level at both.
     level_range: [i32; 2],
-    /// Whether it is the common case, unorm8 that is filtered linearly near and far.
-    is_linear_unorm: bool,
+    /// Whether it is the common case: unorm8 or sRGB, filtered linearly near and far.
+    is_linear: bool,
+    /// Whether the texture's format is sRGB.
+    pub(crate) is_srgb: bool,
     /// Whether the levels are laid out as `create_texture` does it, so that size and number determine them.
     is_regular: bool,
     /// The smallest level.
@@ -73,7 +74,8 @@ impl Sampled {
             level_range: lod_range.map(|lod| mixture(lod, sampler.mipmap_filter).0.to_int()),
             is_regular: is_regular(&texture.levels),
             last_level: last,
-            is_linear_unorm: is_linear && texture.format == TextureFormat::Rgba8Unorm,
+            is_srgb: texture.format.is_srgb(),
+            is_linear: is_linear && is_rgba8(texture.format),
             texture,
             sampler,
         }
@@ -105,16 +107,15 @@ impl Sampled {
     /// detail and the texels' places are found once for all.
     #[inline(always)]
     pub fn sample_all<R: Real, const N: usize>(textures: [&Self; N], uv: Vec2<R>) -> [Vec4<R>; N] {
-        let mut answers = [[Answers::default(); N]; 2];
-        for (index, answers) in answers.iter_mut().enumerate().take(requests::<R>()) {
-            let request = Request::new(uv, None, index * LANES);
-            Self::sample_all_lanes(&textures, &request, answers);
+        let mut answers = [Answers::default(); N];
+        Self::sample_all_lanes(&textures, uv, 0, &mut answers);
+        let mut others = answers;
+        if R::LANES > LANES {
+            Self::sample_all_lanes(&textures, uv, LANES, &mut others);
         }
         let mut colors = [Vec4::repeat(uv.x); N];
-        let mut index = 0;
-        while index < N {
-            colors[index] = packed(uv.x, &[answers[0][index], answers[1][index]]);
-            index += 1;
+        for ((color, first), second) in colors.iter_mut().zip(&answers).zip(&others) {
+            *color = packed(uv.x, [first, second]);
         }
         colors
     }
@@ -122,11 +123,11 @@ impl Sampled {
     /// Samples sixteen lanes at a time, by code that is not compiled into the shader.
     #[inline(always)]
     fn request<R: Real>(&self, uv: Vec2<R>, lod: Option<R>) -> Vec4<R> {
-        let mut answers = [Answers::default(); 2];
-        for (index, answers) in answers.iter_mut().enumerate().take(requests::<R>()) {
-            self.sample_lanes(&Request::new(uv, lod, index * LANES), answers);
-        }
-        packed(uv.x, &answers)
+        by_sixteen(
+            uv.x,
+            #[inline(always)]
+            |first| self.sample_lanes(uv, lod, first),
+        )
     }
 
     /// The colour at (u, v), level of detail from the given derivatives of (u, v) along x and y.
@@ -147,16 +148,21 @@ impl Sampled {
         let level = self.levels[level.min(MAX_LEVELS - 1)];
         let x = x.max(x.splat(0)).min(x.splat(level.width - 1));
         let y = y.max(y.splat(0)).min(y.splat(level.height - 1));
-        let is_srgb = self.texture.format.is_srgb();
+        let is_srgb = self.is_srgb;
         let word = level.index(x, y).gather(&self.texture.texels);
-        finish(unpack(word, is_srgb), is_srgb)
+        let linear = if is_srgb {
+            Some(linear_of_any(word))
+        } else {
+            None
+        };
+        finish(unpack(word, linear), is_srgb)
     }
 
     /// Whether samples of both lie at the same place, and are common enough for the fast path.
     #[inline(always)]
     pub(crate) fn is_like(&self, other: &Self) -> bool {
-        self.is_linear_unorm
-            && other.is_linear_unorm
+        self.is_linear
+            && other.is_linear
             && self.is_regular
             && other.is_regular
             && self.levels[0].size == other.levels[0].size
@@ -186,31 +192,39 @@ impl Sampled {
 
     /// The colour at a level of detail; `guess` is the finer level, most probably.
     #[inline(always)]
-    pub(crate) fn sample_at<R: Real>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Vec4<R> {
+    pub(crate) fn sample_at<R: Number>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Vec4<R> {
         if let Some(inside) = self.inside(uv, lod, guess) {
-            return finish(inside.color(&self.texture), false);
+            return inside.color(&self.texture, self.is_srgb);
         }
-        lod.out_of_line(
-            #[inline(always)]
-            || match self.mixed(uv, lod) {
-                Some(mixed) => finish(mixed.color(&self.texture), false),
-                None => self.sample_anywhere(uv, lod),
-            },
-        )
+        self.sample_outside(uv, lod)
+    }
+
+    /// The colour where [`Self::inside`] has none.
+    #[inline(always)]
+    pub(crate) fn sample_outside<R: Number>(&self, uv: Vec2<R>, lod: R) -> Vec4<R> {
+        match self.mixed(uv, lod) {
+            Some(mixed) => mixed.color(&self.texture, self.is_srgb),
+            None => self.sample_anywhere(uv, lod),
+        }
     }
 
     /// (u, v) in the first tile.
     #[inline(always)]
     fn wrapped<R: Real>(&self, uv: Vec2<R>) -> Vec2<R> {
         let [mode_u, mode_v] = self.address_modes();
+        // One branch for the most common modes.
+        if [mode_u, mode_v] == [AddressMode::Repeat; 2] {
+            let mode = AddressMode::Repeat;
+            return Vec2::new(wrap(uv.x, mode), wrap(uv.y, mode));
+        }
         Vec2::new(wrap(uv.x, mode_u), wrap(uv.y, mode_v))
     }
 
-    /// Where the sample lies in the common case, and the fast one: linear filtering of unorm8, all lanes of one
+    /// Where the sample lies in the common case, and the fast one: linear filtering, all lanes of one
     /// level and none at a border. `None` where it is another.
     #[inline(always)]
-    pub(crate) fn inside<R: Real>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Option<Inside<R>> {
-        if !self.is_linear_unorm {
+    pub(crate) fn inside<R: Number>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Option<Inside<R>> {
+        if !self.is_linear {
             return None;
         }
         let within = lod.clamp(self.lod_range[0], self.lod_range[1]);
@@ -228,11 +242,8 @@ impl Sampled {
 
     /// Where the sample lies in the next common case: lanes of one level or of two neighbouring ones, repeated.
     #[inline(always)]
-    pub(crate) fn mixed<R: Real>(&self, uv: Vec2<R>, lod: R) -> Option<Mixed<R>> {
-        if R::LANES == 1
-            || !self.is_linear_unorm
-            || self.address_modes() != [AddressMode::Repeat; 2]
-        {
+    pub(crate) fn mixed<R: Number>(&self, uv: Vec2<R>, lod: R) -> Option<Mixed<R>> {
+        if R::LANES == 1 || !self.is_linear || self.address_modes() != [AddressMode::Repeat; 2] {
             return None;
         }
         let within = lod.clamp(self.lod_range[0], self.lod_range[1]);
@@ -252,7 +263,7 @@ impl Sampled {
     /// Any case: samples the whole packet once for every level among its lanes, and picks the lanes
     /// together.
     #[inline(always)]
-    pub(crate) fn sample_anywhere<R: Real>(&self, uv: Vec2<R>, lod: R) -> Vec4<R> {
+    pub(crate) fn sample_anywhere<R: Number>(&self, uv: Vec2<R>, lod: R) -> Vec4<R> {
         let sampler = &self.sampler;
         let lod = lod.clamp(sampler.lod_min_clamp, sampler.lod_max_clamp);
         let is_minified = lod.gt(lod.splat(0.0));
@@ -277,7 +288,8 @@ impl Sampled {
             for step in 0..2 {
                 let level = self.levels[((first >> 1) as usize + step) % MAX_LEVELS];
                 let modes = self.address_modes();
-                let next = sample_level(&self.texture, level, wrapped, modes, filter);
+                let next =
+                    sample_level(&self.texture, level, wrapped, modes, (filter, self.is_srgb));
                 if step == 0 {
                     of_key = next;
                     if sampler.mipmap_filter == FilterMode::Nearest {
@@ -291,8 +303,16 @@ impl Sampled {
             // The first lane left is always in the mask, so this ends.
             left &= !R::mask_bits(mask);
         }
-        finish(color, self.texture.format.is_srgb())
+        finish(color, self.is_srgb)
     }
+}
+
+/// Whether texels are words of four unorm bytes, of sRGB or not.
+pub(crate) fn is_rgba8(format: TextureFormat) -> bool {
+    matches!(
+        format,
+        TextureFormat::Rgba8Unorm | TextureFormat::Rgba8UnormSrgb
+    )
 }
 
 /// Whether each level is half the one before and begins where that one ends.

@@ -4,10 +4,10 @@
 //! until the pass has ended). A store takes the lanes that are to store: helper lanes and discarded fragments must
 //! not.
 
-use crate::view::{Answers, answer, packed, put, put_ints, requests};
+use crate::view::{Answers, answer, by_sixteen, packet, packet_of_ints};
 use crate::{LevelData, MipGeneration, TextureDescriptor, TextureError};
 use estampe_format::TexelCodec;
-use estampe_simd::LANES;
+use estampe_simd::{LANES, Packet};
 use estampe_types::{
     Int, Limits, Real, StorageTexture, TexelEncoding, Texture, TextureFormat, Vec4,
 };
@@ -71,13 +71,11 @@ pub fn storage_load<I: Int>(texture: &StorageTexture, at: [I; 3]) -> Vec4<I::Rea
     like.out_of_line(
         #[inline(always)]
         || {
-            let mut texels = [Answers::default(); 2];
-            let requests = requests::<I::Real>();
-            for (index, texels) in texels.iter_mut().enumerate().take(requests) {
-                let places = Places::new(at, index * LANES, u32::MAX);
-                load_lanes(texture, &places, texels);
-            }
-            packed(like, &texels)
+            by_sixteen(
+                like,
+                #[inline(always)]
+                |first| load_lanes(texture, &Places::new(at, first, u32::MAX)),
+            )
         },
     )
 }
@@ -94,14 +92,14 @@ pub fn storage_store<R: Real>(
     value.x.out_of_line(
         #[inline(always)]
         || {
-            for index in 0..requests::<R>() {
-                let first = index * LANES;
+            for first in (0..R::LANES).step_by(LANES) {
                 let places = Places::new(at, first, R::mask_bits(mask) >> first);
-                let mut texels = Answers::default();
-                put(value.x, first, &mut texels[0]);
-                put(value.y, first, &mut texels[1]);
-                put(value.z, first, &mut texels[2]);
-                put(value.w, first, &mut texels[3]);
+                let texels = [
+                    packet(value.x, first),
+                    packet(value.y, first),
+                    packet(value.z, first),
+                    packet(value.w, first),
+                ];
                 store_lanes(texture, &places, &texels);
             }
         },
@@ -110,7 +108,7 @@ pub fn storage_store<R: Real>(
 
 /// The texels of sixteen lanes, or fewer.
 struct Places {
-    at: [[i32; LANES]; 3],
+    at: [Packet<i32>; 3],
     count: usize,
     /// The lanes that count.
     mask: u32,
@@ -119,24 +117,25 @@ struct Places {
 impl Places {
     #[inline(always)]
     fn new<I: Int>([x, y, slice]: [I; 3], first: usize, mask: u32) -> Self {
-        let mut places = Self {
-            at: [[0; LANES]; 3],
+        Self {
+            at: [
+                packet_of_ints(x, first),
+                packet_of_ints(y, first),
+                packet_of_ints(slice, first),
+            ],
             count: <I::Real as Real>::LANES.min(LANES),
             mask,
-        };
-        put_ints(x, first, &mut places.at[0]);
-        put_ints(y, first, &mut places.at[1]);
-        put_ints(slice, first, &mut places.at[2]);
-        places
+        }
     }
 
     fn of_lane(&self, lane: usize) -> [i32; 3] {
-        self.at.map(|of_lanes| of_lanes[lane])
+        self.at.each_ref().map(|of_lanes| of_lanes.0[lane])
     }
 }
 
 #[inline(never)]
-fn load_lanes(texture: &StorageTexture, places: &Places, texels: &mut Answers) {
+fn load_lanes(texture: &StorageTexture, places: &Places) -> Answers {
+    let mut texels = Answers::default();
     let codec = TexelCodec::new(stored(texture));
     for lane in 0..places.count {
         if let Some(index) = texture.index(places.of_lane(lane)) {
@@ -144,9 +143,10 @@ fn load_lanes(texture: &StorageTexture, places: &Places, texels: &mut Answers) {
             for (k, word) in words.iter_mut().enumerate().take(codec.words()) {
                 *word = texture.load(index + k);
             }
-            answer(texels, lane, codec.decode(&words));
+            answer(&mut texels, lane, codec.decode(&words));
         }
     }
+    texels
 }
 
 #[inline(never)]
@@ -157,7 +157,7 @@ fn store_lanes(texture: &StorageTexture, places: &Places, texels: &Answers) {
             continue;
         }
         if let Some(index) = texture.index(places.of_lane(lane)) {
-            let texel = texels.map(|of_lanes| of_lanes[lane]);
+            let texel = texels.each_ref().map(|of_lanes| of_lanes.0[lane]);
             for (k, word) in codec
                 .encode(texel)
                 .into_iter()

@@ -4,9 +4,10 @@
 //! and third as codes c, its second and fourth as 256·c, sRGB's colours as linear values. [`finish`]
 //! brings all of them to 0..1.
 
-use estampe_format::srgb;
-use estampe_simd::bits_of;
-use estampe_types::{Int, Real, Vec3, Vec4};
+use estampe_format::srgb::LINEAR_FROM_SRGB;
+use estampe_simd::{ByteTable, Bytes, ExtractToken, Lanes, bits_of, i32x16, u32x16};
+use estampe_types::{Int, Quad, Real, Vec3, Vec4};
+use std::sync::LazyLock;
 
 /// 2²³ as f32: the bits below are its mantissa, so `MAGIC | c` is 2²³ + c for c < 2²³.
 const MAGIC: i32 = 0x4B00_0000;
@@ -15,6 +16,46 @@ const MAGIC_REAL: f32 = 8_388_608.0;
 /// 1/255 rounded, and the same for channels in units of 1/256 code: exact, a power of two apart.
 const UNIT: f32 = 1.0 / 255.0;
 const UNIT_256: f32 = UNIT / 256.0;
+
+/// The bits of the linear value of each 8-bit sRGB code.
+static LINEAR: LazyLock<ByteTable> =
+    LazyLock::new(|| ByteTable::new(LINEAR_FROM_SRGB.map(f32::to_bits)));
+
+/// Stored texels of four bytes.
+pub(crate) trait Texels: Int {
+    /// The table's elements for the lowest three bytes.
+    fn lookup_three(self, table: &ByteTable) -> [Self::Real; 3];
+}
+
+/// Numbers for whose lanes texels are read.
+pub(crate) trait Number: Real<Int: Texels> {}
+
+impl<R: Real<Int: Texels>> Number for R {}
+
+impl<S: Lanes> Texels for i32x16<S> {
+    #[inline(always)]
+    fn lookup_three(self, table: &ByteTable) -> [Self::Real; 3] {
+        let words: u32x16<S> = self.bitcast();
+        let [r, g, b] = self.token().lookup_three(table, words);
+        [r.bitcast(), g.bitcast(), b.bitcast()]
+    }
+}
+
+impl Texels for i32 {
+    #[inline(always)]
+    fn lookup_three(self, table: &ByteTable) -> [f32; 3] {
+        let [r, g, b, _] = self.to_le_bytes();
+        [r, g, b].map(|code| f32::from_bits(table.get(code)))
+    }
+}
+
+impl Texels for Quad<i32> {
+    #[inline(always)]
+    fn lookup_three(self, table: &ByteTable) -> [Quad; 3] {
+        let four = self.0.map(|word| word.lookup_three(table));
+        [0, 1, 2].map(|k| Quad(four.map(|channels| channels[k])))
+    }
+}
 
 /// One channel of one texel, plus 2²³.
 #[inline(always)]
@@ -36,13 +77,19 @@ pub(crate) struct Corners<I> {
     pub(crate) lower: [I; 2],
 }
 
-impl<I: Int> Corners<I> {
+impl<I: Texels> Corners<I> {
     /// The weighted mean of the four, in the units of this module.
     #[inline(always)]
     pub(crate) fn mean(self, fx: I::Real, fy: I::Real, is_srgb: bool) -> Vec4<I::Real> {
         if is_srgb {
             return self.mean_of_srgb(fx, fy);
         }
+        self.mean_of_unorm(fx, fy)
+    }
+
+    /// The same of unorm8.
+    #[inline(always)]
+    pub(crate) fn mean_of_unorm(&self, fx: I::Real, fy: I::Real) -> Vec4<I::Real> {
         let high = self.shifted();
         Vec4::new(
             self.mean_of_bytes(0xFF, fx, fy),
@@ -81,25 +128,18 @@ impl<I: Int> Corners<I> {
         )
     }
 
-    /// The mean with R, G and B decoded; a loop, because its many gathers are long code on processors
-    /// without such an instruction.
+    /// The mean with R, G and B decoded.
     #[inline(always)]
     fn mean_of_srgb(self, fx: I::Real, fy: I::Real) -> Vec4<I::Real> {
-        let table = bits_of(&*srgb::LINEAR_FROM_SRGB);
-        let mut colors = [fx; 3];
-        let ([mut a, mut b], [mut c, mut d]) = (self.upper, self.lower);
-        for color in &mut colors {
-            let upper = mix(decoded(a, table), decoded(b, table), fx);
-            let lower = mix(decoded(c, table), decoded(d, table), fx);
-            *color = mix(upper, lower, fy);
-            (a, b, c, d) = (a >> 8, b >> 8, c >> 8, d >> 8);
-        }
-        let alpha = Self {
-            upper: [a << 8, b << 8],
-            lower: [c << 8, d << 8],
-        };
-        let [x, y, z] = colors;
-        Vec4::new(x, y, z, alpha.mean_of_bytes(0xFF00, fx, fy))
+        let ([a, b], [c, d]) = (self.upper, self.lower);
+        let (a, b, c, d) = (linear(a), linear(b), linear(c), linear(d));
+        let alpha = self.shifted();
+        Vec4::new(
+            mix(mix(a[0], b[0], fx), mix(c[0], d[0], fx), fy),
+            mix(mix(a[1], b[1], fx), mix(c[1], d[1], fx), fy),
+            mix(mix(a[2], b[2], fx), mix(c[2], d[2], fx), fy),
+            alpha.mean_of_bytes(0xFF00, fx, fy),
+        )
     }
 }
 
@@ -110,29 +150,33 @@ fn mean_of_bytes<I: Int>([left, right]: [I; 2], mask: i32, f: I::Real) -> I::Rea
     (left - MAGIC_REAL) + (right - left) * f
 }
 
-/// The linear value of the sRGB code in the lowest byte.
-#[inline(always)]
-fn decoded<I: Int>(word: I, table: &[u32]) -> I::Real {
-    (word & word.splat(0xFF)).gather(table).to_real_bits()
-}
-
 /// Alpha 255 in the units of this module: what any mean of such texels is, for differences of 0 add nothing.
 pub(crate) const OPAQUE: f32 = 65_280.0;
 
-/// One texel in the units of this module.
+/// The linear values of a texel's sRGB codes.
 #[inline(always)]
-pub(crate) fn unpack<I: Int>(word: I, is_srgb: bool) -> Vec4<I::Real> {
+pub(crate) fn linear<I: Texels>(word: I) -> [I::Real; 3] {
+    word.lookup_three(&LINEAR)
+}
+
+/// [`linear`] for numbers of which no more is known.
+#[inline(always)]
+pub(crate) fn linear_of_any<I: Int>(word: I) -> [I::Real; 3] {
+    let table = bits_of(&*LINEAR_FROM_SRGB);
+    let byte = word.splat(0xFF);
+    [
+        (word & byte).gather(table).to_real_bits(),
+        (word >> 8 & byte).gather(table).to_real_bits(),
+        (word >> 16 & byte).gather(table).to_real_bits(),
+    ]
+}
+
+/// One texel in the units of this module; of sRGB, with its linear values.
+#[inline(always)]
+pub(crate) fn unpack<I: Int>(word: I, linear: Option<[I::Real; 3]>) -> Vec4<I::Real> {
     let high = word >> 16;
     let w = biased(high, 0xFF00) - MAGIC_REAL;
-    if is_srgb {
-        let table = bits_of(&*srgb::LINEAR_FROM_SRGB);
-        let mut colors = [w; 3];
-        let mut word = word;
-        for color in &mut colors {
-            *color = decoded(word, table);
-            word = word >> 8;
-        }
-        let [x, y, z] = colors;
+    if let Some([x, y, z]) = linear {
         return Vec4::new(x, y, z, w);
     }
     Vec4::new(

@@ -38,21 +38,24 @@ impl SampledView {
 
     /// Compares lanes, sixteen at once where it can; the answers stand in the first channel.
     #[inline(never)]
-    pub(crate) fn compare_lanes(&self, lanes: &Lanes, answers: &mut Answers) {
-        if !self.sample_packet(lanes, answers, true) {
-            for lane in 0..lanes.count {
-                answer(answers, lane, self.compare_lane(lanes, lane));
-            }
+    pub(crate) fn compare_lanes(&self, lanes: &Lanes<'_>) -> Answers {
+        if let Some(answers) = self.sample_packet(lanes, true) {
+            return answers;
         }
+        let mut answers = Answers::default();
+        for lane in 0..lanes.count {
+            answer(&mut answers, lane, self.compare_lane(lanes, lane));
+        }
+        answers
     }
 
     /// Compares one lane.
-    pub(crate) fn compare_lane(&self, lanes: &Lanes, lane: usize) -> [f32; 4] {
+    pub(crate) fn compare_lane(&self, lanes: &Lanes<'_>, lane: usize) -> [f32; 4] {
         let footprint = super::footprint::Footprint {
             probes: 1,
             ..self.footprint(lanes, lane)
         };
-        let comparison = self.comparison(lanes.reference[lane]);
+        let comparison = self.comparison(lanes.reference.0[lane]);
         self.probes(lanes, lane, &footprint, &comparison)
     }
 }

@@ -1,6 +1,6 @@
 //! Where a shader reads a texture: the lanes' coordinates, and how the level of detail is found.
 
-use estampe_simd::LANES;
+use estampe_simd::{LANES, Packet};
 use estampe_types::{Int, Real, Vec2, Vec3, Vec4};
 
 /// A texture coordinate: as many components as the view's dimension wants, and a layer of arrays.
@@ -70,26 +70,32 @@ pub enum Lod<R: Real> {
     Gradients(Vec3<R>, Vec3<R>),
 }
 
-/// What sixteen lanes, or fewer, get: channel by channel.
-pub(crate) type Answers = [[f32; LANES]; 4];
+/// What sixteen lanes, or fewer, get: channel by channel. Each channel is a cache line, so that a register of
+/// sixteen lanes is stored and loaded at once.
+pub(crate) type Answers = [Packet<f32>; 4];
 
-/// The same as arrays: a request that code which knows no lanes can fulfil. Of a pair of packets it is one.
-#[derive(Debug)]
-pub(crate) struct Lanes {
+/// The same as packets: a request that code which knows no lanes can fulfil. Of a pair of packets it is one.
+///
+/// Packets that a request does not have are [`ZEROS`], so that nothing is stored for them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Lanes<'a> {
     /// How many lanes there are.
     pub(crate) count: usize,
-    pub(crate) at: [[f32; LANES]; 3],
-    pub(crate) layer: [i32; LANES],
+    pub(crate) at: &'a [Packet<f32>; 3],
+    pub(crate) layer: &'a Packet<i32>,
     pub(crate) lod: LodOfLanes,
     /// The bias, or the level.
-    pub(crate) value: [f32; LANES],
+    pub(crate) value: &'a Packet<f32>,
     /// Along x, then along y.
-    pub(crate) gradients: [[f32; LANES]; 6],
+    pub(crate) gradients: &'a [Packet<f32>; 6],
     /// What is compared with.
-    pub(crate) reference: [f32; LANES],
+    pub(crate) reference: &'a Packet<f32>,
     /// In texels.
     pub(crate) offset: [i32; 3],
 }
+
+/// What a request does not have.
+static ZEROS: [Packet<f32>; 6] = [Packet([0.0; LANES]); 6];
 
 /// Which of the numbers of [`Lanes`] count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,61 +105,70 @@ pub(crate) enum LodOfLanes {
     Gradients,
 }
 
-impl Lanes {
-    /// The lanes from `first` on.
+impl Lanes<'_> {
+    /// Calls `ask` with the lanes from `first` on.
     #[inline(always)]
-    pub(crate) fn new<R: Real>(
+    pub(crate) fn with<R: Real, T>(
         at: &Coordinates<R>,
         lod: &Lod<R>,
-        offset: [i32; 3],
+        (reference, offset): (Option<R>, [i32; 3]),
         first: usize,
-    ) -> Self {
-        let mut lanes = Self {
+        ask: impl FnOnce(&Lanes<'_>) -> T,
+    ) -> T {
+        let layer = packet_of_ints(at.layer, first);
+        let at = [
+            packet(at.uvw.x, first),
+            packet(at.uvw.y, first),
+            packet(at.uvw.z, first),
+        ];
+        let (values, derivatives, references);
+        let mut lanes = Lanes {
             count: if R::LANES < LANES { R::LANES } else { LANES },
-            at: [[0.0; LANES]; 3],
-            layer: [0; LANES],
-            lod: match lod {
-                Lod::Implicit | Lod::Bias(_) => LodOfLanes::Bias,
-                Lod::Level(_) => LodOfLanes::Level,
-                Lod::Gradients(..) => LodOfLanes::Gradients,
-            },
-            value: [0.0; LANES],
-            gradients: [[0.0; LANES]; 6],
-            reference: [0.0; LANES],
+            at: &at,
+            layer: &layer,
+            lod: LodOfLanes::Bias,
+            value: &ZEROS[0],
+            gradients: &ZEROS,
+            reference: &ZEROS[0],
             offset,
         };
-        put(at.uvw.x, first, &mut lanes.at[0]);
-        put(at.uvw.y, first, &mut lanes.at[1]);
-        put(at.uvw.z, first, &mut lanes.at[2]);
-        put_ints(at.layer, first, &mut lanes.layer);
         match lod {
             Lod::Implicit => {}
-            Lod::Bias(value) | Lod::Level(value) => put(*value, first, &mut lanes.value),
+            Lod::Bias(value) | Lod::Level(value) => {
+                values = packet(*value, first);
+                lanes.value = &values;
+                if let Lod::Level(_) = lod {
+                    lanes.lod = LodOfLanes::Level;
+                }
+            }
             Lod::Gradients(dx, dy) => {
-                put(dx.x, first, &mut lanes.gradients[0]);
-                put(dx.y, first, &mut lanes.gradients[1]);
-                put(dx.z, first, &mut lanes.gradients[2]);
-                put(dy.x, first, &mut lanes.gradients[3]);
-                put(dy.y, first, &mut lanes.gradients[4]);
-                put(dy.z, first, &mut lanes.gradients[5]);
+                derivatives = [
+                    packet(dx.x, first),
+                    packet(dx.y, first),
+                    packet(dx.z, first),
+                    packet(dy.x, first),
+                    packet(dy.y, first),
+                    packet(dy.z, first),
+                ];
+                lanes.gradients = &derivatives;
+                lanes.lod = LodOfLanes::Gradients;
             }
         }
-        lanes
-    }
-
-    #[inline(always)]
-    pub(crate) fn set_reference<R: Real>(&mut self, reference: R, first: usize) {
-        put(reference, first, &mut self.reference);
+        if let Some(reference) = reference {
+            references = packet(reference, first);
+            lanes.reference = &references;
+        }
+        ask(&lanes)
     }
 
     /// A lane's coordinates.
     pub(crate) fn at(&self, lane: usize) -> [f32; 3] {
-        [self.at[0][lane], self.at[1][lane], self.at[2][lane]]
+        [self.at[0].0[lane], self.at[1].0[lane], self.at[2].0[lane]]
     }
 
     /// A lane's derivatives, along x and along y.
     pub(crate) fn gradients(&self, lane: usize) -> [[f32; 3]; 2] {
-        let [a, b, c, d, e, f] = self.gradients.map(|of_lanes| of_lanes[lane]);
+        let [a, b, c, d, e, f] = self.gradients.each_ref().map(|of_lanes| of_lanes.0[lane]);
         [[a, b, c], [d, e, f]]
     }
 
@@ -167,55 +182,70 @@ impl Lanes {
         if self.count < 4 {
             return [[0.0; 3]; 2];
         }
-        [1, 2].map(|other| std::array::from_fn(|k| self.at[k][first + other] - self.at[k][first]))
+        [1, 2]
+            .map(|other| std::array::from_fn(|k| self.at[k].0[first + other] - self.at[k].0[first]))
     }
-}
-
-/// How many requests of sixteen lanes a number takes.
-#[inline(always)]
-pub(crate) const fn requests<R: Real>() -> usize {
-    R::LANES.div_ceil(LANES)
 }
 
 /// Sixteen lanes from one on, or all there are.
 #[inline(always)]
-pub(crate) fn put<R: Real>(value: R, first: usize, to: &mut [f32; LANES]) {
+pub(crate) fn packet<R: Real>(value: R, first: usize) -> Packet<f32> {
+    let mut lanes = Packet::default();
     let count = if R::LANES < LANES { R::LANES } else { LANES };
-    for (lane, to) in to.iter_mut().enumerate().take(count) {
+    for (lane, to) in lanes.0.iter_mut().enumerate().take(count) {
         *to = value.lane(first + lane);
     }
+    lanes
 }
 
 /// The same of integers.
 #[inline(always)]
-pub(crate) fn put_ints<I: Int>(value: I, first: usize, to: &mut [i32; LANES]) {
-    let lanes = <I::Real as Real>::LANES;
-    let count = if lanes < LANES { lanes } else { LANES };
-    for (lane, to) in to.iter_mut().enumerate().take(count) {
+pub(crate) fn packet_of_ints<I: Int>(value: I, first: usize) -> Packet<i32> {
+    let mut lanes = Packet::default();
+    let all = <I::Real as Real>::LANES;
+    let count = if all < LANES { all } else { LANES };
+    for (lane, to) in lanes.0.iter_mut().enumerate().take(count) {
         *to = value.lane(first + lane);
+    }
+    lanes
+}
+
+/// The lanes of a packet from one on as a number.
+#[inline(always)]
+pub(crate) fn load<R: Real>(like: R, from: &Packet<f32>, first: usize) -> R {
+    like.with_lanes(
+        #[inline(always)]
+        |lane| from.0[first + lane],
+    )
+}
+
+/// Asks for sixteen lanes at a time, from a lane on, until each lane of a number has an answer.
+#[inline(always)]
+pub(crate) fn by_sixteen<R: Real>(like: R, ask: impl Fn(usize) -> Answers) -> Vec4<R> {
+    let first = ask(0);
+    if R::LANES > LANES {
+        packed(like, [&first, &ask(LANES)])
+    } else {
+        packed(like, [&first, &first])
     }
 }
 
-/// Lanes' four numbers as a vector.
+/// The four numbers of each lane as a vector.
 #[inline(always)]
-pub(crate) fn packed<R: Real>(like: R, answers: &[Answers; 2]) -> Vec4<R> {
+pub(crate) fn packed<R: Real>(like: R, answers: [&Answers; 2]) -> Vec4<R> {
     Vec4::new(
-        like.with_lanes(
-            #[inline(always)]
-            |lane| answers[lane / LANES][0][lane % LANES],
-        ),
-        like.with_lanes(
-            #[inline(always)]
-            |lane| answers[lane / LANES][1][lane % LANES],
-        ),
-        like.with_lanes(
-            #[inline(always)]
-            |lane| answers[lane / LANES][2][lane % LANES],
-        ),
-        like.with_lanes(
-            #[inline(always)]
-            |lane| answers[lane / LANES][3][lane % LANES],
-        ),
+        channel(like, answers, 0),
+        channel(like, answers, 1),
+        channel(like, answers, 2),
+        channel(like, answers, 3),
+    )
+}
+
+#[inline(always)]
+fn channel<R: Real>(like: R, answers: [&Answers; 2], channel: usize) -> R {
+    like.with_lanes(
+        #[inline(always)]
+        |lane| answers[lane / LANES][channel].0[lane % LANES],
     )
 }
 
@@ -223,6 +253,6 @@ pub(crate) fn packed<R: Real>(like: R, answers: &[Answers; 2]) -> Vec4<R> {
 #[inline(always)]
 pub(crate) fn answer(answers: &mut Answers, lane: usize, channels: [f32; 4]) {
     for (of_channel, channel) in answers.iter_mut().zip(channels) {
-        of_channel[lane] = channel;
+        of_channel.0[lane] = channel;
     }
 }

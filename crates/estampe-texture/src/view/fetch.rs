@@ -1,8 +1,8 @@
 //! Texels by their whole coordinates, without a sampler.
 
 use super::TextureView;
-use super::coordinates::{Answers, answer, packed, put_ints, requests};
-use estampe_simd::LANES;
+use super::coordinates::{Answers, answer, by_sixteen, packet_of_ints};
+use estampe_simd::{LANES, Packet};
 use estampe_types::{Int, Real, Vec4, ViewDimension};
 
 impl TextureView {
@@ -17,29 +17,32 @@ impl TextureView {
         like.out_of_line(
             #[inline(always)]
             || {
-                let mut texels = [Answers::default(); 2];
-                let requests = requests::<I::Real>();
-                for (index, texels) in texels.iter_mut().enumerate().take(requests) {
-                    let first = index * LANES;
-                    let mut places = [[0; LANES]; 5];
-                    put_ints(x, first, &mut places[0]);
-                    put_ints(y, first, &mut places[1]);
-                    put_ints(z, first, &mut places[2]);
-                    put_ints(level, first, &mut places[3]);
-                    put_ints(sample, first, &mut places[4]);
-                    self.fetch_lanes(&places, <I::Real as Real>::LANES.min(LANES), texels);
-                }
-                packed(like, &texels)
+                by_sixteen(
+                    like,
+                    #[inline(always)]
+                    |first| {
+                        let places = [
+                            packet_of_ints(x, first),
+                            packet_of_ints(y, first),
+                            packet_of_ints(z, first),
+                            packet_of_ints(level, first),
+                            packet_of_ints(sample, first),
+                        ];
+                        self.fetch_lanes(&places, <I::Real as Real>::LANES.min(LANES))
+                    },
+                )
             },
         )
     }
 
     #[inline(never)]
-    fn fetch_lanes(&self, places: &[[i32; LANES]; 5], count: usize, texels: &mut Answers) {
+    fn fetch_lanes(&self, places: &[Packet<i32>; 5], count: usize) -> Answers {
+        let mut texels = Answers::default();
         for lane in 0..count {
-            let place = places.map(|of_lanes| of_lanes[lane]);
-            answer(texels, lane, self.fetch_one(place).unwrap_or_default());
+            let place = places.each_ref().map(|of_lanes| of_lanes.0[lane]);
+            answer(&mut texels, lane, self.fetch_one(place).unwrap_or_default());
         }
+        texels
     }
 
     fn fetch_one(&self, [x, y, z, level, sample]: [i32; 5]) -> Option<[f32; 4]> {

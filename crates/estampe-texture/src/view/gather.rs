@@ -13,32 +13,36 @@ const ORDER: [usize; 4] = [2, 3, 1, 0];
 impl SampledView {
     /// Gathers a channel for lanes, one after the other.
     #[inline(never)]
-    pub(crate) fn gather_lanes(&self, lanes: &Lanes, channel: usize, texels: &mut Answers) {
+    pub(crate) fn gather_lanes(&self, lanes: &Lanes<'_>, channel: usize) -> Answers {
+        let mut texels = Answers::default();
         let codec = &self.view.codec;
         for lane in 0..lanes.count {
             let four = self.four(lanes, lane, &Channels);
             let four = four.map(|unit| codec.finish(unit)[channel & 3]);
-            answer(texels, lane, ORDER.map(|index| four[index]));
+            answer(&mut texels, lane, ORDER.map(|index| four[index]));
         }
+        texels
     }
 
     /// Gathers answers of a comparison.
     #[inline(never)]
-    pub(crate) fn gather_compare_lanes(&self, lanes: &Lanes, answers: &mut Answers) {
+    pub(crate) fn gather_compare_lanes(&self, lanes: &Lanes<'_>) -> Answers {
+        let mut answers = Answers::default();
         for lane in 0..lanes.count {
-            let comparison = self.comparison(lanes.reference[lane]);
+            let comparison = self.comparison(lanes.reference.0[lane]);
             let four = self.four(lanes, lane, &comparison);
-            answer(answers, lane, ORDER.map(|index| four[index][0]));
+            answer(&mut answers, lane, ORDER.map(|index| four[index][0]));
         }
+        answers
     }
 
     /// The four texels around a lane's coordinates: upper left, upper right, lower left, lower right.
-    fn four(&self, lanes: &Lanes, lane: usize, tap: &impl Tap) -> [[f32; 4]; 4] {
+    fn four(&self, lanes: &Lanes<'_>, lane: usize, tap: &impl Tap) -> [[f32; 4]; 4] {
         if matches!(self.view.dimension, ViewDimension::D1 | ViewDimension::D3) {
             return [[0.0; 4]; 4];
         }
         let plane = &self.view.planes[0];
-        let spot = self.spot(lanes.at(lane), lanes.layer[lane]);
+        let spot = self.spot(lanes.at(lane), lanes.layer.0[lane]);
         if self.view.is_cube() {
             return self.four_of_cube(plane, &spot, plane.sides[0], tap).0;
         }

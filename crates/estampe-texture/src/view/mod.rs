@@ -21,7 +21,7 @@ mod plane;
 mod sample;
 mod sampled_view;
 
-pub(crate) use coordinates::{Answers, answer, packed, put, put_ints, requests};
+pub(crate) use coordinates::{Answers, answer, by_sixteen, load, packed, packet, packet_of_ints};
 pub use coordinates::{Coordinates, Lod};
 pub use plane::TextureView;
 #[cfg(test)]

@@ -44,26 +44,29 @@ impl Tap for Channels {
 impl SampledView {
     /// Samples lanes: sixteen at once where it can, else one after the other.
     #[inline(never)]
-    pub(crate) fn sample_lanes(&self, lanes: &Lanes, colors: &mut Answers) {
-        if !self.sample_packet(lanes, colors, false) {
-            for lane in 0..lanes.count {
-                answer(colors, lane, self.sample_lane(lanes, lane));
-            }
+    pub(crate) fn sample_lanes(&self, lanes: &Lanes<'_>) -> Answers {
+        if let Some(colors) = self.sample_packet(lanes, false) {
+            return colors;
         }
+        let mut colors = Answers::default();
+        for lane in 0..lanes.count {
+            answer(&mut colors, lane, self.sample_lane(lanes, lane));
+        }
+        colors
     }
 
     /// Samples one lane.
-    pub(crate) fn sample_lane(&self, lanes: &Lanes, lane: usize) -> [f32; 4] {
+    pub(crate) fn sample_lane(&self, lanes: &Lanes<'_>, lane: usize) -> [f32; 4] {
         let footprint = self.footprint(lanes, lane);
         let unit = self.probes(lanes, lane, &footprint, &Channels);
         self.view.codec.finish(unit)
     }
 
     /// λ with every bias, and the probes.
-    pub(crate) fn footprint(&self, lanes: &Lanes, lane: usize) -> Footprint {
+    pub(crate) fn footprint(&self, lanes: &Lanes<'_>, lane: usize) -> Footprint {
         let (view, sampler) = (&self.view, &self.sampler);
         let mut footprint = match lanes.lod {
-            LodOfLanes::Level => Footprint::of_level(lanes.value[lane]),
+            LodOfLanes::Level => Footprint::of_level(lanes.value.0[lane]),
             LodOfLanes::Bias => {
                 let first = lanes.first_of_quad(lane);
                 Footprint::new(view, sampler, lanes.at(first), lanes.differences(first))
@@ -73,7 +76,7 @@ impl SampledView {
             }
         };
         let bias = match lanes.lod {
-            LodOfLanes::Bias => sampler.lod_bias + lanes.value[lane],
+            LodOfLanes::Bias => sampler.lod_bias + lanes.value.0[lane],
             LodOfLanes::Level | LodOfLanes::Gradients => sampler.lod_bias,
         };
         footprint.lod += Real::clamp(bias, -16.0, 15.99);
@@ -83,7 +86,7 @@ impl SampledView {
     /// The mean of the probes along the footprint, in units.
     pub(crate) fn probes(
         &self,
-        lanes: &Lanes,
+        lanes: &Lanes<'_>,
         lane: usize,
         footprint: &Footprint,
         tap: &impl Tap,
@@ -99,7 +102,7 @@ impl SampledView {
                     *at += step * t;
                 }
             }
-            let spot = self.spot(uvw, lanes.layer[lane]);
+            let spot = self.spot(uvw, lanes.layer.0[lane]);
             let color = self.levels(&spot, footprint.lod, lanes.offset, tap);
             sum = if probe == 1 {
                 color

@@ -1,13 +1,14 @@
 //! A view with a sampler, as a shader holds it.
 
 use super::TextureView;
-use super::coordinates::{Answers, Coordinates, Lanes, Lod, packed, requests};
+use super::coordinates::{Coordinates, Lanes, Lod, by_sixteen};
 use super::packet::PacketFormat;
+use crate::sampled::is_rgba8;
 use crate::{Sampled, TextureError};
-use estampe_simd::{LANES, Level};
+use estampe_simd::Level;
 use estampe_types::ViewDimension;
 use estampe_types::shader::Sample2d;
-use estampe_types::{FilterMode, Real, SampleType, SamplerDescriptor, Texture, TextureFormat};
+use estampe_types::{FilterMode, Real, SampleType, SamplerDescriptor, Texture};
 use estampe_types::{Vec2, Vec4};
 
 /// A view of any texture and how it is sampled. Cheap to clone.
@@ -93,15 +94,18 @@ impl SampledView {
         lod: Lod<R>,
         offset: [i32; 3],
     ) -> Vec4<R> {
-        at.uvw.x.out_of_line(
+        by_sixteen(
+            at.uvw.x,
             #[inline(always)]
-            || {
-                let mut colors = [Answers::default(); 2];
-                for (index, colors) in colors.iter_mut().enumerate().take(requests::<R>()) {
-                    let lanes = Lanes::new(&at, &lod, offset, index * LANES);
-                    self.sample_lanes(&lanes, colors);
-                }
-                packed(at.uvw.x, &colors)
+            |first| {
+                Lanes::with(
+                    &at,
+                    &lod,
+                    (None, offset),
+                    first,
+                    #[inline(always)]
+                    |lanes| self.sample_lanes(lanes),
+                )
             },
         )
     }
@@ -113,13 +117,21 @@ impl SampledView {
         at.uvw.x.out_of_line(
             #[inline(always)]
             || {
-                let mut texels = [Answers::default(); 2];
-                for (index, texels) in texels.iter_mut().enumerate().take(requests::<R>()) {
-                    let offset = [offset[0], offset[1], 0];
-                    let lanes = Lanes::new(&at, &Lod::Implicit, offset, index * LANES);
-                    self.gather_lanes(&lanes, channel, texels);
-                }
-                packed(at.uvw.x, &texels)
+                let more = (None, [offset[0], offset[1], 0]);
+                by_sixteen(
+                    at.uvw.x,
+                    #[inline(always)]
+                    |first| {
+                        Lanes::with(
+                            &at,
+                            &Lod::Implicit,
+                            more,
+                            first,
+                            #[inline(always)]
+                            |lanes| self.gather_lanes(lanes, channel),
+                        )
+                    },
+                )
             },
         )
     }
@@ -137,14 +149,22 @@ impl SampledView {
         reference.out_of_line(
             #[inline(always)]
             || {
-                let mut answers = [Answers::default(); 2];
-                for (index, answers) in answers.iter_mut().enumerate().take(requests::<R>()) {
-                    let offset = [offset[0], offset[1], 0];
-                    let mut lanes = Lanes::new(&at, &lod, offset, index * LANES);
-                    lanes.set_reference(reference, index * LANES);
-                    self.compare_lanes(&lanes, answers);
-                }
-                packed(reference, &answers).x
+                let more = (Some(reference), [offset[0], offset[1], 0]);
+                by_sixteen(
+                    reference,
+                    #[inline(always)]
+                    |first| {
+                        Lanes::with(
+                            &at,
+                            &lod,
+                            more,
+                            first,
+                            #[inline(always)]
+                            |lanes| self.compare_lanes(lanes),
+                        )
+                    },
+                )
+                .x
             },
         )
     }
@@ -161,14 +181,21 @@ impl SampledView {
         reference.out_of_line(
             #[inline(always)]
             || {
-                let mut answers = [Answers::default(); 2];
-                for (index, answers) in answers.iter_mut().enumerate().take(requests::<R>()) {
-                    let offset = [offset[0], offset[1], 0];
-                    let mut lanes = Lanes::new(&at, &Lod::Implicit, offset, index * LANES);
-                    lanes.set_reference(reference, index * LANES);
-                    self.gather_compare_lanes(&lanes, answers);
-                }
-                packed(reference, &answers)
+                let more = (Some(reference), [offset[0], offset[1], 0]);
+                by_sixteen(
+                    reference,
+                    #[inline(always)]
+                    |first| {
+                        Lanes::with(
+                            &at,
+                            &Lod::Implicit,
+                            more,
+                            first,
+                            #[inline(always)]
+                            |lanes| self.gather_compare_lanes(lanes),
+                        )
+                    },
+                )
             },
         )
     }
@@ -209,12 +236,7 @@ fn check(view: &TextureView, sampler: &SamplerDescriptor) -> Result<(), TextureE
 
 /// Whether [`Sampled`] gives the same, and faster.
 fn is_common(view: &TextureView, sampler: &SamplerDescriptor) -> bool {
-    let stored = view.texture.stored_format();
-    let is_rgba8 = matches!(
-        stored,
-        TextureFormat::Rgba8Unorm | TextureFormat::Rgba8UnormSrgb
-    );
-    is_rgba8
+    is_rgba8(view.texture.stored_format())
         && view.dimension == ViewDimension::D2
         && view.is_whole
         && sampler.address_mode_u.is_plain()

@@ -14,7 +14,7 @@ mod places;
 pub(crate) use super::packet_texel::PacketFormat;
 
 use super::SampledView;
-use super::coordinates::{Answers, Lanes, LodOfLanes, answer};
+use super::coordinates::{Answers, Lanes, LodOfLanes, answer, load, packet};
 use super::packet_texel::{OTHERS, RGBA8, RGBA8_SRGB, RGBA16F, passes};
 use super::plane::Plane;
 use estampe_simd::{
@@ -25,19 +25,12 @@ use estampe_types::{FilterMode, Int, Real, ViewDimension};
 use places::{Places, Spots};
 
 impl SampledView {
-    /// Samples or compares sixteen lanes; `false` where it cannot, and nothing is done.
+    /// Samples or compares sixteen lanes; `None` where it cannot.
     #[inline(always)]
-    pub(crate) fn sample_packet(
-        &self,
-        lanes: &Lanes,
-        answers: &mut Answers,
-        compares: bool,
-    ) -> bool {
-        let Some(format) = self.packets else {
-            return false;
-        };
+    pub(crate) fn sample_packet(&self, lanes: &Lanes<'_>, compares: bool) -> Option<Answers> {
+        let format = self.packets?;
         if lanes.count != LANES {
-            return false;
+            return None;
         }
         let compares = compares.then(|| self.sampler.compare.unwrap_or(CompareFunction::Never));
         let packet = Packet {
@@ -47,18 +40,15 @@ impl SampledView {
             compares,
         };
         // One channel is all that is compared, and that many formats have.
-        let again = if compares.is_some() || format.components == 1 {
-            packet.enter::<1, OTHERS>(self.level, answers)
+        let (mut answers, again) = if compares.is_some() || format.components == 1 {
+            packet.enter::<1, OTHERS>(self.level)?
         } else {
             match format.kind() {
-                RGBA8 => packet.enter::<4, RGBA8>(self.level, answers),
-                RGBA8_SRGB => packet.enter::<4, RGBA8_SRGB>(self.level, answers),
-                RGBA16F => packet.enter::<4, RGBA16F>(self.level, answers),
-                _ => packet.enter::<4, OTHERS>(self.level, answers),
-            }
-        };
-        let Some(again) = again else {
-            return false;
+                RGBA8 => packet.enter::<4, RGBA8>(self.level),
+                RGBA8_SRGB => packet.enter::<4, RGBA8_SRGB>(self.level),
+                RGBA16F => packet.enter::<4, RGBA16F>(self.level),
+                _ => packet.enter::<4, OTHERS>(self.level),
+            }?
         };
         for lane in 0..LANES {
             if again >> lane & 1 == 1 {
@@ -67,10 +57,10 @@ impl SampledView {
                 } else {
                     self.sample_lane(lanes, lane)
                 };
-                answer(answers, lane, channels);
+                answer(&mut answers, lane, channels);
             }
         }
-        true
+        Some(answers)
     }
 }
 
@@ -78,7 +68,7 @@ impl SampledView {
 struct Packet<'a> {
     of: &'a SampledView,
     format: PacketFormat,
-    lanes: &'a Lanes,
+    lanes: &'a Lanes<'a>,
     compares: Option<CompareFunction>,
 }
 
@@ -92,49 +82,33 @@ struct OfLevel<'a> {
 
 impl Packet<'_> {
     /// Samples the packet at a level; gives the lanes that are to be done again. The scalar level has no packets.
-    fn enter<const C: usize, const KIND: u8>(
-        &self,
-        level: Level,
-        answers: &mut Answers,
-    ) -> Option<u32> {
+    fn enter<const C: usize, const KIND: u8>(&self, level: Level) -> Option<(Answers, u32)> {
         dispatch!(@wide level, s => {
-            Some(self.sample::<_, C, KIND>(s, answers))
+            Some(self.sample::<_, C, KIND>(s))
         }, scalar => None)
-    }
-
-    #[inline(always)]
-    fn load<R: Real>(like: R, from: &[f32; LANES]) -> R {
-        like.with_lanes(
-            #[inline(always)]
-            |lane| from[lane],
-        )
     }
 
     /// A given derivative.
     #[inline(always)]
     fn gradient<R: Real>(&self, like: R, first: usize) -> [R; 3] {
         [
-            Self::load(like, &self.lanes.gradients[first]),
-            Self::load(like, &self.lanes.gradients[first + 1]),
-            Self::load(like, &self.lanes.gradients[first + 2]),
+            load(like, &self.lanes.gradients[first], 0),
+            load(like, &self.lanes.gradients[first + 1], 0),
+            load(like, &self.lanes.gradients[first + 2], 0),
         ]
     }
 
     /// Samples the packet; gives the lanes that are to be done again.
     #[inline(always)]
-    fn sample<S: SimdLanes, const C: usize, const KIND: u8>(
-        &self,
-        s: S,
-        answers: &mut Answers,
-    ) -> u32 {
+    fn sample<S: SimdLanes, const C: usize, const KIND: u8>(&self, s: S) -> (Answers, u32) {
         let like: f32x16<S> = SimdBase::splat(s, 0.0);
         let sampler = &self.of.sampler;
         let at = [
-            Self::load(like, &self.lanes.at[0]),
-            Self::load(like, &self.lanes.at[1]),
-            Self::load(like, &self.lanes.at[2]),
+            load(like, &self.lanes.at[0], 0),
+            load(like, &self.lanes.at[1], 0),
+            load(like, &self.lanes.at[2], 0),
         ];
-        let value = Self::load(like, &self.lanes.value);
+        let value = load(like, self.lanes.value, 0);
         let (lod, bias, probes, step) = match self.lanes.lod {
             LodOfLanes::Level => (value, like, like.splat(1.0), [like; 3]),
             LodOfLanes::Bias => {
@@ -189,13 +163,13 @@ impl Packet<'_> {
                 break;
             }
         }
-        self.finish(sum, probes, answers);
-        again
+        (self.finish(sum, probes), again)
     }
 
     /// Weighs the probes' sum, brings it to numbers and stores it.
     #[inline(always)]
-    fn finish<R: Real, const C: usize>(&self, sum: [R; C], probes: R, answers: &mut Answers) {
+    fn finish<R: Real, const C: usize>(&self, sum: [R; C], probes: R) -> Answers {
+        let mut answers = Answers::default();
         let several = probes.gt(probes.splat(1.0));
         let weight = probes.splat(1.0) / probes;
         let scale = self.of.view.codec.scale();
@@ -208,17 +182,13 @@ impl Packet<'_> {
                 }
                 color = color * scale[k];
             }
-            for (lane, to) in answers[k].iter_mut().enumerate() {
-                *to = color.lane(lane);
-            }
+            answers[k] = packet(color, 0);
             k += 1;
         }
-        if C == 1 {
-            answers[1] = [0.0; LANES];
-            answers[2] = [0.0; LANES];
-            let alpha = if self.compares.is_some() { 0.0 } else { 1.0 };
-            answers[3] = [alpha; LANES];
+        if C == 1 && self.compares.is_none() {
+            answers[3].0 = [1.0; LANES];
         }
+        answers
     }
 
     /// One level of each lane, or the mixture of two, for the active lanes: once for every level among them.
@@ -395,7 +365,7 @@ impl Packet<'_> {
                 1 => words[corner][0] = s.gather(texels, index),
                 // Four words that follow each other: of one texel, or of two neighbours.
                 2 if is_square && corner % 2 == 0 => {
-                    let [a, b, c, d] = s.gather_square(texels, index, 2);
+                    let [a, b, c, d] = s.gather_four(texels, index);
                     [words[corner][0], words[corner][1]] = [a, b];
                     [words[corner + 1][0], words[corner + 1][1]] = [c, d];
                 }
@@ -405,7 +375,7 @@ impl Packet<'_> {
                     words[corner][0] = s.gather(texels, index);
                     words[corner][1] = s.gather(texels, next);
                 }
-                _ => words[corner] = s.gather_square(texels, index, 2),
+                _ => words[corner] = s.gather_four(texels, index),
             }
         }
         words
@@ -424,7 +394,7 @@ impl Packet<'_> {
     /// What texels are compared with.
     #[inline(always)]
     fn reference<R: Real>(&self, like: R) -> R {
-        let reference = Self::load(like, &self.lanes.reference);
+        let reference = load(like, self.lanes.reference, 0);
         if self.format.is_fixed_depth() {
             reference.saturate()
         } else {

@@ -3,8 +3,10 @@
 use super::Packet;
 use super::face::Face;
 use crate::view::axis::FAR;
+use crate::view::coordinates::load;
 use crate::view::plane::Plane;
 use crate::wrap::{place, tile, wrap};
+use estampe_simd as simd;
 use estampe_types::{AddressMode, FilterMode, Int, Real};
 
 /// Coordinates of all lanes, as far as they do not depend on the level.
@@ -37,14 +39,11 @@ impl Packet<'_> {
     #[inline(always)]
     pub(super) fn spots<R: Real>(&self, at: [R; 3]) -> Spots<R> {
         let view = &self.of.view;
-        let layer = Self::load(
-            at[0],
-            &self
-                .lanes
-                .layer
-                .map(|layer| f32::from_bits(layer.cast_unsigned())),
-        );
-        let layer = layer.to_bits();
+        let mut layers = simd::Packet::default();
+        for (to, layer) in layers.0.iter_mut().zip(self.lanes.layer.0) {
+            *to = f32::from_bits(layer.cast_unsigned());
+        }
+        let layer = load(at[0], &layers, 0).to_bits();
         let layer = layer.max(layer.splat(0)).min(layer.splat(view.layers - 1));
         let base = layer.splat(view.base_layer.cast_signed());
         if view.is_cube() {
