@@ -132,7 +132,9 @@ impl<I: Texels> Corners<I> {
     #[inline(always)]
     fn mean_of_srgb(self, fx: I::Real, fy: I::Real) -> Vec4<I::Real> {
         let ([a, b], [c, d]) = (self.upper, self.lower);
-        let (a, b, c, d) = (linear(a), linear(b), linear(c), linear(d));
+        let table = &*LINEAR;
+        let (a, b) = (a.lookup_three(table), b.lookup_three(table));
+        let (c, d) = (c.lookup_three(table), d.lookup_three(table));
         let alpha = self.shifted();
         Vec4::new(
             mix(mix(a[0], b[0], fx), mix(c[0], d[0], fx), fy),

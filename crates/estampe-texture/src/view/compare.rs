@@ -39,12 +39,11 @@ impl SampledView {
     /// Compares lanes, sixteen at once where it can; the answers stand in the first channel.
     #[inline(never)]
     pub(crate) fn compare_lanes(&self, lanes: &Lanes<'_>) -> Answers {
-        if let Some(answers) = self.sample_packet(lanes, true) {
-            return answers;
-        }
         let mut answers = Answers::default();
-        for lane in 0..lanes.count {
-            answer(&mut answers, lane, self.compare_lane(lanes, lane));
+        if !self.sample_packet(lanes, &mut answers, true) {
+            for lane in 0..lanes.count {
+                answer(&mut answers, lane, self.compare_lane(lanes, lane));
+            }
         }
         answers
     }

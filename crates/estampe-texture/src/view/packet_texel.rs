@@ -60,12 +60,13 @@ impl PacketFormat {
         )
     }
 
-    /// Texels' channels in units, from their words; those that the format lacks are left as they are.
+    /// Texels' channels in units, from their words; those that the format lacks are anything. Loops have a constant
+    /// length, so that channels stay in registers.
     #[inline(always)]
     pub(super) fn units<S: Lanes, const C: usize, const KIND: u8>(
         self,
         s: S,
-        words: [u32x16<S>; 4],
+        words: &[u32x16<S>; 4],
         units: &mut [f32x16<S>; C],
     ) {
         match KIND {
@@ -92,11 +93,11 @@ impl PacketFormat {
     fn units_of_others<S: Lanes, const C: usize>(
         self,
         s: S,
-        words: [u32x16<S>; 4],
+        words: &[u32x16<S>; 4],
         all: &mut [f32x16<S>; C],
     ) {
         use TexelEncoding as E;
-        let units = all.iter_mut().take(self.components);
+        let units = all.iter_mut();
         let pair = |k: usize| words[k / 2 % 4] >> [0, 16][k % 2];
         let most = |value: f32| <f32x16<S> as SimdBase<S>>::splat(s, value);
         match self.encoding {

@@ -44,15 +44,12 @@ impl Tap for Channels {
 impl SampledView {
     /// Samples lanes: sixteen at once where it can, else one after the other.
     #[inline(never)]
-    pub(crate) fn sample_lanes(&self, lanes: &Lanes<'_>) -> Answers {
-        if let Some(colors) = self.sample_packet(lanes, false) {
-            return colors;
+    pub(crate) fn sample_lanes(&self, lanes: &Lanes<'_>, colors: &mut Answers) {
+        if !self.sample_packet(lanes, colors, false) {
+            for lane in 0..lanes.count {
+                answer(colors, lane, self.sample_lane(lanes, lane));
+            }
         }
-        let mut colors = Answers::default();
-        for lane in 0..lanes.count {
-            answer(&mut colors, lane, self.sample_lane(lanes, lane));
-        }
-        colors
     }
 
     /// Samples one lane.

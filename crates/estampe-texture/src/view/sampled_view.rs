@@ -1,7 +1,7 @@
 //! A view with a sampler, as a shader holds it.
 
 use super::TextureView;
-use super::coordinates::{Coordinates, Lanes, Lod, by_sixteen};
+use super::coordinates::{Answers, Coordinates, Lanes, Lod, by_sixteen};
 use super::packet::PacketFormat;
 use crate::sampled::is_rgba8;
 use crate::{Sampled, TextureError};
@@ -23,6 +23,8 @@ pub struct SampledView {
     common: Option<Sampled>,
     /// How sixteen lanes read texels at once, where they can.
     pub(crate) packets: Option<PacketFormat>,
+    /// Whether texels are filtered linearly and found by wrapped coordinates in one image of each level.
+    pub(crate) is_simple: bool,
     /// With which instructions they do.
     pub(crate) level: Level,
 }
@@ -50,6 +52,7 @@ impl SampledView {
         });
         Ok(Self {
             packets: PacketFormat::new(&view),
+            is_simple: is_simple(&view, &sampler),
             level: Level::best(),
             view,
             sampler,
@@ -104,7 +107,11 @@ impl SampledView {
                     (None, offset),
                     first,
                     #[inline(always)]
-                    |lanes| self.sample_lanes(lanes),
+                    |lanes| {
+                        let mut colors = Answers::default();
+                        self.sample_lanes(lanes, &mut colors);
+                        colors
+                    },
                 )
             },
         )
@@ -232,6 +239,14 @@ fn check(view: &TextureView, sampler: &SamplerDescriptor) -> Result<(), TextureE
         return refuse("3D textures are not compared");
     }
     Ok(())
+}
+
+fn is_simple(view: &TextureView, sampler: &SamplerDescriptor) -> bool {
+    let is_flat = matches!(view.dimension, ViewDimension::D2 | ViewDimension::D2Array);
+    let is_plain = sampler.address_mode_u.is_plain() && sampler.address_mode_v.is_plain();
+    (view.is_cube() || is_flat && is_plain)
+        && [sampler.mag_filter, sampler.min_filter] == [FilterMode::Linear; 2]
+        && sampler.max_anisotropy <= 1
 }
 
 /// Whether [`Sampled`] gives the same, and faster.

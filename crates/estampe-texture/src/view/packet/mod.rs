@@ -9,6 +9,7 @@
 
 mod face;
 mod footprint;
+mod inside;
 mod places;
 
 pub(crate) use super::packet_texel::PacketFormat;
@@ -25,12 +26,19 @@ use estampe_types::{FilterMode, Int, Real, ViewDimension};
 use places::{Places, Spots};
 
 impl SampledView {
-    /// Samples or compares sixteen lanes; `None` where it cannot.
+    /// Samples or compares sixteen lanes; `false` where it cannot, and nothing is done.
     #[inline(always)]
-    pub(crate) fn sample_packet(&self, lanes: &Lanes<'_>, compares: bool) -> Option<Answers> {
-        let format = self.packets?;
+    pub(crate) fn sample_packet(
+        &self,
+        lanes: &Lanes<'_>,
+        answers: &mut Answers,
+        compares: bool,
+    ) -> bool {
+        let Some(format) = self.packets else {
+            return false;
+        };
         if lanes.count != LANES {
-            return None;
+            return false;
         }
         let compares = compares.then(|| self.sampler.compare.unwrap_or(CompareFunction::Never));
         let packet = Packet {
@@ -38,17 +46,21 @@ impl SampledView {
             format,
             lanes,
             compares,
+            is_simple: self.is_simple && compares.is_none() && lanes.offset == [0; 3],
         };
         // One channel is all that is compared, and that many formats have.
-        let (mut answers, again) = if compares.is_some() || format.components == 1 {
-            packet.enter::<1, OTHERS>(self.level)?
+        let again = if compares.is_some() || format.components == 1 {
+            packet.enter::<1, OTHERS>(self.level, answers)
         } else {
             match format.kind() {
-                RGBA8 => packet.enter::<4, RGBA8>(self.level),
-                RGBA8_SRGB => packet.enter::<4, RGBA8_SRGB>(self.level),
-                RGBA16F => packet.enter::<4, RGBA16F>(self.level),
-                _ => packet.enter::<4, OTHERS>(self.level),
-            }?
+                RGBA8 => packet.enter::<4, RGBA8>(self.level, answers),
+                RGBA8_SRGB => packet.enter::<4, RGBA8_SRGB>(self.level, answers),
+                RGBA16F => packet.enter::<4, RGBA16F>(self.level, answers),
+                _ => packet.enter::<4, OTHERS>(self.level, answers),
+            }
+        };
+        let Some(again) = again else {
+            return false;
         };
         for lane in 0..LANES {
             if again >> lane & 1 == 1 {
@@ -57,10 +69,10 @@ impl SampledView {
                 } else {
                     self.sample_lane(lanes, lane)
                 };
-                answer(&mut answers, lane, channels);
+                answer(answers, lane, channels);
             }
         }
-        Some(answers)
+        true
     }
 }
 
@@ -70,6 +82,8 @@ struct Packet<'a> {
     format: PacketFormat,
     lanes: &'a Lanes<'a>,
     compares: Option<CompareFunction>,
+    /// Whether it may be of the common case, as far as view, sampler and request tell.
+    is_simple: bool,
 }
 
 /// A mip level, and how it is read.
@@ -82,9 +96,13 @@ struct OfLevel<'a> {
 
 impl Packet<'_> {
     /// Samples the packet at a level; gives the lanes that are to be done again. The scalar level has no packets.
-    fn enter<const C: usize, const KIND: u8>(&self, level: Level) -> Option<(Answers, u32)> {
-        dispatch!(@wide level, s => {
-            Some(self.sample::<_, C, KIND>(s))
+    fn enter<const C: usize, const KIND: u8>(
+        &self,
+        level: Level,
+        answers: &mut Answers,
+    ) -> Option<u32> {
+        dispatch!(@wide_move level, s => {
+            Some(self.sample::<_, C, KIND>(s, answers))
         }, scalar => None)
     }
 
@@ -100,7 +118,11 @@ impl Packet<'_> {
 
     /// Samples the packet; gives the lanes that are to be done again.
     #[inline(always)]
-    fn sample<S: SimdLanes, const C: usize, const KIND: u8>(&self, s: S) -> (Answers, u32) {
+    fn sample<S: SimdLanes, const C: usize, const KIND: u8>(
+        &self,
+        s: S,
+        answers: &mut Answers,
+    ) -> u32 {
         let like: f32x16<S> = SimdBase::splat(s, 0.0);
         let sampler = &self.of.sampler;
         let at = [
@@ -109,13 +131,18 @@ impl Packet<'_> {
             load(like, &self.lanes.at[2], 0),
         ];
         let value = load(like, self.lanes.value, 0);
+        let one = like.splat(1.0);
         let (lod, bias, probes, step) = match self.lanes.lod {
-            LodOfLanes::Level => (value, like, like.splat(1.0), [like; 3]),
+            LodOfLanes::Level => (value, like, one, [like; 3]),
             LodOfLanes::Bias => {
                 let first = of_quad(at, 0);
-                let d = [minus(of_quad(at, 1), first), minus(of_quad(at, 2), first)];
-                let (lod, probes, step) = self.footprint(first, d);
-                (lod, value, probes, step)
+                if sampler.max_anisotropy <= 1 {
+                    (self.lod_of_quads(first, at), value, one, [like; 3])
+                } else {
+                    let d = [minus(of_quad(at, 1), first), minus(of_quad(at, 2), first)];
+                    let (lod, probes, step) = self.footprint(first, d);
+                    (lod, value, probes, step)
+                }
             }
             LodOfLanes::Gradients => {
                 let d = [self.gradient(like, 0), self.gradient(like, 3)];
@@ -124,6 +151,9 @@ impl Packet<'_> {
             }
         };
         let lod = lod + Real::clamp(bias + sampler.lod_bias, -16.0, 15.99);
+        if self.is_simple && self.inside::<S, C, KIND>(s, &self.spots(at), lod, answers) {
+            return 0;
+        }
         // Comparisons make one probe.
         let is_anisotropic = sampler.max_anisotropy > 1 && self.compares.is_none();
         let probes = if is_anisotropic {
@@ -163,13 +193,13 @@ impl Packet<'_> {
                 break;
             }
         }
-        (self.finish(sum, probes), again)
+        self.finish(sum, probes, answers);
+        again
     }
 
     /// Weighs the probes' sum, brings it to numbers and stores it.
     #[inline(always)]
-    fn finish<R: Real, const C: usize>(&self, sum: [R; C], probes: R) -> Answers {
-        let mut answers = Answers::default();
+    fn finish<R: Real, const C: usize>(&self, sum: [R; C], probes: R, answers: &mut Answers) {
         let several = probes.gt(probes.splat(1.0));
         let weight = probes.splat(1.0) / probes;
         let scale = self.of.view.codec.scale();
@@ -188,7 +218,6 @@ impl Packet<'_> {
         if C == 1 && self.compares.is_none() {
             answers[3].0 = [1.0; LANES];
         }
-        answers
     }
 
     /// One level of each lane, or the mixture of two, for the active lanes: once for every level among them.
@@ -315,8 +344,8 @@ impl Packet<'_> {
             let mut four = [[like; C]; 4];
             for (corner, units) in four.iter_mut().enumerate() {
                 if corner % 2 < counts[0] && corner / 2 < counts[1] {
+                    self.format.units::<S, C, KIND>(s, &words[corner], units);
                     self.missing(units);
-                    self.format.units::<S, C, KIND>(s, words[corner], units);
                     if let Some(function) = self.compares {
                         units[0] = passes(function, reference, units[0]);
                     }
@@ -384,10 +413,10 @@ impl Packet<'_> {
     /// What channels that the format lacks read as.
     #[inline(always)]
     fn missing<R: Real, const C: usize>(&self, units: &mut [R; C]) {
-        let mut k = self.format.components;
-        while k < C {
-            units[k] = units[k].splat(if k == 3 { 1.0 } else { 0.0 });
-            k += 1;
+        for (k, unit) in units.iter_mut().enumerate() {
+            if k >= self.format.components {
+                *unit = unit.splat(if k == 3 { 1.0 } else { 0.0 });
+            }
         }
     }
 

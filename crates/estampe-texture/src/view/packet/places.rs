@@ -69,7 +69,7 @@ impl Packet<'_> {
 
     /// How an axis is addressed; of cubes it is not asked.
     #[inline(always)]
-    fn mode(&self, axis: usize) -> AddressMode {
+    pub(super) fn mode(&self, axis: usize) -> AddressMode {
         let sampler = &self.of.sampler;
         match axis {
             0 => sampler.address_mode_u,

@@ -1,0 +1,229 @@
+//! The common case of a packet: linear filtering, all lanes of one level (or between two), all texels inside.
+//!
+//! Then neither borders nor faces nor levels are told apart lane by lane, and the texels of a lane are neighbours in
+//! memory. Arithmetic is that of the other cases, in the same order, so the bits are the same.
+
+use super::Packet;
+use super::places::Spots;
+use crate::filter::mix_colors;
+use crate::texel::{Corners, finish};
+use crate::view::coordinates::{Answers, packet};
+use crate::view::packet_texel::{RGBA8, RGBA8_SRGB, RGBA16F};
+use crate::view::plane::Plane;
+use crate::wrap::{Place, place};
+use estampe_simd::{Bytes, Lanes as SimdLanes, SimdBase, f32x16, i32x16, u32x16};
+use estampe_types::{FilterMode, Int, Real, Vec4, ViewDimension};
+
+/// The first texel of each lane's square and how far the sample is from it.
+struct Square<'a, R: Real> {
+    plane: &'a Plane,
+    x: Place<R>,
+    y: Place<R>,
+}
+
+impl Packet<'_> {
+    /// Samples a packet, if it is of the common case; else `false`.
+    #[inline(always)]
+    pub(super) fn inside<S: SimdLanes, const C: usize, const KIND: u8>(
+        &self,
+        s: S,
+        spots: &Spots<f32x16<S>>,
+        lod: f32x16<S>,
+        answers: &mut Answers,
+    ) -> bool {
+        let (sampler, planes) = (&self.of.sampler, &self.of.view.planes);
+        let last = planes.len() - 1;
+        let lod = Real::clamp(lod, sampler.lod_min_clamp, sampler.lod_max_clamp);
+        let within = Real::clamp(lod, 0.0, last as f32);
+        let zero: f32x16<S> = SimdBase::splat(s, 0.0);
+        let (level, fraction) = match sampler.mipmap_filter {
+            FilterMode::Nearest => (s.floor_f32(within + 0.5), zero),
+            FilterMode::Linear => (s.floor_f32(within), within - s.floor_f32(within)),
+        };
+        let first = Int::lane(level.to_int_within_range(), 0);
+        if f32x16::any(!level.eq(zero.splat(first as f32))) {
+            return false;
+        }
+        let at = first.cast_unsigned() as usize;
+        let Some(fine) = self.square(spots, &planes[at.min(last)]) else {
+            return false;
+        };
+        let is_mixed = f32x16::any(fraction.gt(zero));
+        let coarse = if is_mixed {
+            let coarse = self.square(spots, &planes[(at + 1).min(last)]);
+            if coarse.is_none() {
+                return false;
+            }
+            coarse
+        } else {
+            None
+        };
+        if KIND == RGBA8 || KIND == RGBA8_SRGB {
+            let is_srgb = KIND == RGBA8_SRGB;
+            let of_fine = self.corners(s, spots, &fine);
+            let color = match &coarse {
+                // Both levels' texels are under way before the first is used.
+                Some(coarse) => {
+                    let of_coarse = self.corners(s, spots, coarse);
+                    let fine = of_fine.mean(fine.x.fraction, fine.y.fraction, is_srgb);
+                    let coarse = of_coarse.mean(coarse.x.fraction, coarse.y.fraction, is_srgb);
+                    mix_colors(fine, coarse, fraction)
+                }
+                None => of_fine.mean(fine.x.fraction, fine.y.fraction, is_srgb),
+            };
+            let Vec4 { x, y, z, w } = finish(color, is_srgb);
+            *answers = [packet(x, 0), packet(y, 0), packet(z, 0), packet(w, 0)];
+            return true;
+        }
+        let mut color = [zero; C];
+        // A loop, so that the long code of texels exists once.
+        for step in 0..2 {
+            let square = match (step, &coarse) {
+                (0, _) => &fine,
+                (_, Some(coarse)) => coarse,
+                (_, None) => break,
+            };
+            let next = self.mean::<S, C, KIND>(s, spots, square);
+            for k in 0..C {
+                color[k] = if step == 0 {
+                    next[k]
+                } else {
+                    let mixed = color[k] + (next[k] - color[k]) * fraction;
+                    Real::select(fraction.gt(zero), mixed, color[k])
+                };
+            }
+        }
+        self.finish(color, zero.splat(1.0), answers);
+        true
+    }
+
+    /// Where the samples lie in a level, if all texels are inside.
+    #[inline(always)]
+    fn square<'a, R: Real>(&self, spots: &Spots<R>, plane: &'a Plane) -> Option<Square<'a, R>> {
+        let x = self.place_inside(spots, plane, 0);
+        let y = self.place_inside(spots, plane, 1);
+        let outside =
+            x.texel.is_outside(plane.sides[0] - 1) | y.texel.is_outside(plane.sides[1] - 1);
+        if R::any(outside) {
+            return None;
+        }
+        Some(Square { plane, x, y })
+    }
+
+    /// The place along one axis, where no texel is outside; anywhere else its texel is outside, too.
+    #[inline(always)]
+    fn place_inside<R: Real>(&self, spots: &Spots<R>, plane: &Plane, axis: usize) -> Place<R> {
+        let (at, length) = (spots.at[axis], plane.size[axis]);
+        if !self.of.view.is_cube() {
+            return place(at, length, self.mode(axis), FilterMode::Linear);
+        }
+        let at = (at * length - 0.5).clamp(-0.5, length - 0.5);
+        let whole = at.floor();
+        Place {
+            texel: whole.to_int_within_range(),
+            fraction: at - whole,
+        }
+    }
+
+    /// The index of each lane's first texel among the texture's words.
+    #[inline(always)]
+    fn first_words<R: Real>(&self, spots: &Spots<R>, square: &Square<'_, R>) -> R::Int {
+        let [width, height, _] = square.plane.sides;
+        let words = self.format.words;
+        let x = square.x.texel;
+        let row = square.y.texel * x.splat(width) + x;
+        let begin = x.splat(square.plane.begin_words(words));
+        let image = width.wrapping_mul(height);
+        let texel = if self.of.view.dimension == ViewDimension::D2 {
+            let base = self.of.view.base_layer.cast_signed();
+            row + x.splat(base.wrapping_mul(image))
+        } else {
+            row + spots.slice * x.splat(image)
+        };
+        texel * x.splat(words) + begin
+    }
+
+    /// The four texels of a word.
+    #[inline(always)]
+    fn corners<S: SimdLanes>(
+        &self,
+        s: S,
+        spots: &Spots<f32x16<S>>,
+        square: &Square<'_, f32x16<S>>,
+    ) -> Corners<i32x16<S>> {
+        let index: u32x16<S> = self.first_words(spots, square).bitcast();
+        let texels = &self.of.view.texture.texels[..];
+        let width = square.plane.sides[0].cast_unsigned();
+        let [a, b, c, d] = s.gather_square(texels, index, width);
+        Corners {
+            upper: [a.bitcast(), b.bitcast()],
+            lower: [c.bitcast(), d.bitcast()],
+        }
+    }
+
+    /// The weighted mean of four texels of any format, in units.
+    #[inline(always)]
+    fn mean<S: SimdLanes, const C: usize, const KIND: u8>(
+        &self,
+        s: S,
+        spots: &Spots<f32x16<S>>,
+        square: &Square<'_, f32x16<S>>,
+    ) -> [f32x16<S>; C] {
+        let texels = &self.of.view.texture.texels[..];
+        let width = square.plane.sides[0].cast_unsigned();
+        let index: u32x16<S> = self.first_words(spots, square).bitcast();
+        let mut words = [[<u32x16<S> as SimdBase<S>>::splat(s, 0); 4]; 4];
+        let size = match KIND {
+            RGBA16F => 2,
+            _ => self.format.words,
+        };
+        match size {
+            1 => {
+                let square = s.gather_square(texels, index, width);
+                for k in 0..4 {
+                    words[k][0] = square[k];
+                }
+            }
+            2 => {
+                let [a, b, c, d] = s.gather_four(texels, index);
+                let [e, f, g, h] = s.gather_four(texels, after(s, index, 2 * width));
+                for (texel, two) in words.iter_mut().zip([[a, b], [c, d], [e, f], [g, h]]) {
+                    [texel[0], texel[1]] = two;
+                }
+            }
+            _ => {
+                words[0] = s.gather_four(texels, index);
+                words[1] = s.gather_four(texels, after(s, index, 4));
+                words[2] = s.gather_four(texels, after(s, index, 4 * width));
+                words[3] = s.gather_four(texels, after(s, index, 4 * width + 4));
+            }
+        }
+        let mut four = [[spots.at[0]; C]; 4];
+        for corner in 0..4 {
+            if size == 4 {
+                // Four words are four 32-bit floats.
+                for k in 0..C {
+                    four[corner][k] = words[corner][k].bitcast();
+                }
+                continue;
+            }
+            self.format
+                .units::<S, C, KIND>(s, &words[corner], &mut four[corner]);
+            self.missing(&mut four[corner]);
+        }
+        let (fx, fy) = (square.x.fraction, square.y.fraction);
+        let mut mean = four[0];
+        for k in 0..C {
+            let upper = four[0][k] + (four[1][k] - four[0][k]) * fx;
+            let lower = four[2][k] + (four[3][k] - four[2][k]) * fx;
+            mean[k] = upper + (lower - upper) * fy;
+        }
+        mean
+    }
+}
+
+/// Indices so many words on.
+#[inline(always)]
+fn after<S: SimdLanes>(s: S, index: u32x16<S>, words: u32) -> u32x16<S> {
+    index + <u32x16<S> as SimdBase<S>>::splat(s, words)
+}
