@@ -162,6 +162,7 @@ fn main() {
             if only.as_ref().is_some_and(|only| only != level.name()) {
                 continue;
             }
+            let view = view.clone().at_level(level);
             let (mut best, mut sum) = (0.0, 0.0);
             for tile_y in (0..FRAME[1]).step_by(TILE) {
                 let mut best_of_row = f64::INFINITY;
