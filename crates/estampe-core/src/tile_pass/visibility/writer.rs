@@ -8,6 +8,7 @@
 
 use super::ONLY_WIDE;
 use super::buffer::VisibilityBuffer;
+use crate::depth_format::StoredDepth;
 use crate::fragment::interpolate::{DepthPlane, PlaneBlock, evaluate};
 use crate::per_sample::compare::prefers_less;
 use crate::per_sample::sample_tests::{SampleTests, StoredSamples};
@@ -189,7 +190,7 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
             for (sample, &offset) in offsets.iter().enumerate().take(self.samples.count()) {
                 let depths = self.block_depths(s, &triangle.plane, block, offset);
                 for packet in 0..LANES {
-                    let z = self.block_depth(s, &depths, packet, needs_clamp);
+                    let z = block_depth(s, self.tests.stored, &depths, packet, needs_clamp);
                     let at = [block as usize * LANES + packet, sample];
                     self.packet::<S, KIND>(s, at, z, u16::MAX, triangle);
                 }
@@ -208,23 +209,6 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         let (x, y) = packet_origin(block * 16);
         let pixel = [self.tile.x + x, self.tile.y + y];
         PlaneBlock::new(s, &plane.origin, &plane.z, pixel, offset)
-    }
-
-    /// A packet's depths as they are stored.
-    #[inline(always)]
-    fn block_depth<S: Lanes>(
-        &self,
-        s: S,
-        depths: &PlaneBlock<S>,
-        packet: usize,
-        needs_clamp: bool,
-    ) -> f32x16<S> {
-        let z = depths.at(packet);
-        if needs_clamp {
-            self.tests.stored.of(s, z)
-        } else {
-            self.tests.stored.format.stored_lanes(s, z)
-        }
     }
 
     /// Writes a triangle's depths to blocks in which all of its samples pass.
@@ -252,10 +236,14 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
             let offsets = self.samples.offsets();
             for (sample, &offset) in offsets.iter().enumerate().take(self.samples.count()) {
                 let depths = self.block_depths(s, &triangle.plane, block, offset);
+                let stored = self.tests.stored;
+                // From the sample's first line on, a packet's lines apart.
+                let first = self.line_of(block as usize * LANES, sample);
+                let (lines, step) = (&mut self.depth[first..], self.samples.count());
+                let lines = &mut lines[..(LANES - 1) * step + 1];
                 for packet in 0..LANES {
-                    let z = self.block_depth(s, &depths, packet, needs_clamp);
-                    let line = self.line_of(block as usize * LANES + packet, sample);
-                    z.store_array(&mut self.depth[line]);
+                    let z = block_depth(s, stored, &depths, packet, needs_clamp);
+                    z.store_array(&mut lines[packet * step]);
                 }
             }
         }
@@ -332,6 +320,23 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
                 }
             }
         }
+    }
+}
+
+/// The depths of a block's packet as they are stored.
+#[inline(always)]
+fn block_depth<S: Lanes>(
+    s: S,
+    stored: StoredDepth,
+    depths: &PlaneBlock<S>,
+    packet: usize,
+    needs_clamp: bool,
+) -> f32x16<S> {
+    let z = depths.at(packet);
+    if needs_clamp {
+        stored.of(s, z)
+    } else {
+        stored.format.stored_lanes(s, z)
     }
 }
 

@@ -18,10 +18,17 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
             let of_packet = stored.len() / self.packets;
             let lines = &mut stored[first_packet * of_packet..][..LANES * of_packet];
             let words = of_packet / self.samples.count();
-            for (word, bits) in texel.iter().enumerate().take(words) {
-                let value = <u32x16<S> as SimdBase<S>>::splat(s, *bits);
-                for line in lines.iter_mut().skip(word).step_by(words) {
+            let splat = |word| <u32x16<S> as SimdBase<S>>::splat(s, word);
+            if words == 1 {
+                let value = splat(texel[0]);
+                for line in lines {
                     value.store_array(line);
+                }
+            } else {
+                for lines in lines.chunks_exact_mut(words) {
+                    for (line, word) in lines.iter_mut().zip(texel) {
+                        splat(*word).store_array(line);
+                    }
                 }
             }
         }
