@@ -26,6 +26,7 @@ fn samples() -> Vec<f32> {
 }
 
 mod pairs;
+mod vectors;
 
 type Unary = (&'static str, fn(f32) -> f32, fn(Quad) -> Quad);
 

@@ -1,5 +1,7 @@
 //! Small vectors of [`Real`] numbers with the usual operators.
 
+mod swizzles;
+
 use crate::Real;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -170,13 +172,5 @@ impl<R: Real> Vec3<R> {
     #[must_use]
     pub fn reflect(self, n: Self) -> Self {
         self - n * (n.dot(self) * 2.0)
-    }
-}
-
-impl<R: Real> Vec4<R> {
-    /// The first three components.
-    #[inline(always)]
-    pub fn xyz(self) -> Vec3<R> {
-        Vec3::new(self.x, self.y, self.z)
     }
 }
