@@ -7,8 +7,8 @@
 //! * [`buffer`], [`texture`], [`bindings`]: data that shaders read, and how a draw binds it;
 //! * [`mod@shader`]: the trait by which a shader is written in Rust, and the one interface
 //!   ([`Program`]) that Rust shaders and compiled text shaders share;
-//! * [`Real`] and the small vectors [`Vec2`], [`Vec3`], [`Vec4`], [`Mat4`]: arithmetic that is
-//!   written once and runs on one fragment, on a 2×2 quad, or on sixteen lanes.
+//! * [`Real`], the vectors [`Vec2`], [`Vec3`], [`Vec4`], [`Mat4`], and [`maths`], the functions of WGSL: arithmetic that is written once and runs on one
+//!   fragment, on a 2×2 quad, or on sixteen lanes; [`operand`] says what can be combined.
 //!
 //! The conventions (spaces, rounding, order of operations) are in `docs/NUMERICS.md`.
 
@@ -16,11 +16,13 @@ pub mod bindings;
 pub mod buffer;
 mod depth_minmax;
 pub mod format;
+mod int;
 mod limits;
 mod lines;
 pub mod maths;
 mod matrix;
 pub mod morton;
+pub mod operand;
 mod pair;
 mod quad;
 mod real;
@@ -36,12 +38,14 @@ pub use buffer::Buffer;
 pub use format::{
     IndexFormat, SampleType, TexelEncoding, TextureFormat, VertexEncoding, VertexFormat,
 };
+pub use int::Int;
 pub use limits::Limits;
 pub use lines::Lines;
 pub use matrix::Mat4;
+pub use operand::Operand;
 pub use pair::Pair;
 pub use quad::Quad;
-pub use real::{Int, Real};
+pub use real::Real;
 pub use shader::{
     Attributes, Centroid, Flat, FragmentBatch, FragmentIn, FragmentOut, Interface, Interpolation,
     NoPerspective, PerSample, Program, Sampling, Shader, ShaderProgram, Varyings, VertexBatch,
@@ -52,7 +56,7 @@ pub use texture::{
     StorageTexture, Texture, TextureAspect, TextureDimension, TextureShape, TextureViewDescriptor,
     ViewDimension,
 };
-pub use vector::{Vec2, Vec3, Vec4};
+pub use vector::{Vec2, Vec3, Vec4, vec2, vec3, vec4};
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,7 @@
 //! Packet pairs: two packets as one number.
 
-use crate::{Int, Real};
+use crate::operand::join_number;
+use crate::{Int, Operand, Real};
 use estampe_simd::Level;
 use std::ops::{
     Add, AddAssign, BitAnd, BitOr, BitXor, Div, DivAssign, Mul, MulAssign, Neg, Not, Shl, Shr, Sub,
@@ -23,6 +24,23 @@ macro_rules! operators {
             fn $method(&mut self, other: Self) {
                 self.0.$method(other.0);
                 self.1.$method(other.1);
+            }
+        }
+        impl<T: $trait<f32>> $trait<f32> for Pair<T> {
+            #[inline(always)]
+            fn $method(&mut self, other: f32) {
+                self.0.$method(other);
+                self.1.$method(other);
+            }
+        }
+    )*};
+    (left $($trait:ident $method:ident;)*) => {$(
+        // By `splat`: a bound `f32: Add<R>` here would send the compiler from pair to pair.
+        impl<R: Real> $trait<Pair<R>> for f32 {
+            type Output = Pair<R>;
+            #[inline(always)]
+            fn $method(self, other: Pair<R>) -> Pair<R> {
+                $trait::$method(Real::splat(other, self), other)
             }
         }
     )*};
@@ -48,6 +66,7 @@ macro_rules! operators {
 operators! { Add add; Sub sub; Mul mul; Div div; BitAnd bitand; BitOr bitor; BitXor bitxor; }
 operators! { f32 => Add add; Sub sub; Mul mul; Div div; }
 operators! { u32 => Shl shl; Shr shr; }
+operators! { left Add add; Sub sub; Mul mul; Div div; }
 operators! { assign AddAssign add_assign; SubAssign sub_assign; MulAssign mul_assign; DivAssign div_assign; }
 
 impl<T: Neg<Output = T>> Neg for Pair<T> {
@@ -66,11 +85,20 @@ impl<T: Not<Output = T>> Not for Pair<T> {
     }
 }
 
+join_number! { [R: Real] Pair<R> }
+
 /// Implements methods that call the same method on both halves.
 macro_rules! both {
     (with_other $($name:ident -> $out:ty;)*) => {$(
         #[inline(always)]
         fn $name(self, other: Self) -> $out {
+            Pair(self.0.$name(other.0), self.1.$name(other.1))
+        }
+    )*};
+    (with_operand $($name:ident -> $out:ty;)*) => {$(
+        #[inline(always)]
+        fn $name(self, other: impl Operand<Self>) -> $out {
+            let other = other.operand(self);
             Pair(self.0.$name(other.0), self.1.$name(other.1))
         }
     )*};
@@ -105,7 +133,7 @@ impl<R: Real> Real for Pair<R> {
         ddy_coarse() -> Self;
         quad_lane(index: u8) -> Self;
     }
-    both! { with_other
+    both! { with_operand
         min -> Self;
         max -> Self;
         lt -> Pair<R::Mask>;

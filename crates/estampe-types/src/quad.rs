@@ -1,6 +1,7 @@
 //! Four fragments of a 2×2 quad as plain scalars.
 
-use crate::{Int, Real};
+use crate::operand::join_number;
+use crate::{Int, Operand, Real};
 use std::ops::{
     Add, AddAssign, BitAnd, BitOr, BitXor, Div, DivAssign, Mul, MulAssign, Neg, Not, Shl, Shr, Sub,
     SubAssign,
@@ -52,9 +53,22 @@ macro_rules! with_scalar {
                 $trait::$method(self, Quad([other; 4]))
             }
         }
+        impl $trait<Quad> for f32 {
+            type Output = Quad;
+            #[inline(always)]
+            fn $method(self, other: Quad) -> Quad {
+                $trait::$method(Quad([self; 4]), other)
+            }
+        }
         impl $assign for Quad {
             #[inline(always)]
             fn $assign_method(&mut self, other: Self) {
+                *self = $trait::$method(*self, other);
+            }
+        }
+        impl $assign<f32> for Quad {
+            #[inline(always)]
+            fn $assign_method(&mut self, other: f32) {
                 *self = $trait::$method(*self, other);
             }
         }
@@ -95,6 +109,8 @@ impl Shr<u32> for Quad<i32> {
     }
 }
 
+join_number! { [] Quad }
+
 impl Real for Quad {
     type Mask = Quad<bool>;
     type Int = Quad<i32>;
@@ -126,24 +142,24 @@ impl Real for Quad {
         self.each(f32::floor)
     }
     #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        self.zip(other, Real::min)
+    fn min(self, other: impl Operand<Self>) -> Self {
+        self.zip(other.operand(self), Real::min)
     }
     #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        self.zip(other, Real::max)
+    fn max(self, other: impl Operand<Self>) -> Self {
+        self.zip(other.operand(self), Real::max)
     }
     #[inline(always)]
-    fn lt(self, other: Self) -> Quad<bool> {
-        self.zip(other, |a, b| a < b)
+    fn lt(self, other: impl Operand<Self>) -> Quad<bool> {
+        self.zip(other.operand(self), |a, b| a < b)
     }
     #[inline(always)]
-    fn le(self, other: Self) -> Quad<bool> {
-        self.zip(other, |a, b| a <= b)
+    fn le(self, other: impl Operand<Self>) -> Quad<bool> {
+        self.zip(other.operand(self), |a, b| a <= b)
     }
     #[inline(always)]
-    fn eq(self, other: Self) -> Quad<bool> {
-        self.zip(other, |a, b| a == b)
+    fn eq(self, other: impl Operand<Self>) -> Quad<bool> {
+        self.zip(other.operand(self), |a, b| a == b)
     }
     #[inline(always)]
     fn select(mask: Quad<bool>, yes: Self, no: Self) -> Self {
@@ -308,24 +324,26 @@ impl Real for f32 {
         }
     }
     #[inline(always)]
-    fn min(self, other: Self) -> Self {
+    fn min(self, other: impl Operand<Self>) -> Self {
+        let other = other.operand(self);
         if self < other { self } else { other }
     }
     #[inline(always)]
-    fn max(self, other: Self) -> Self {
+    fn max(self, other: impl Operand<Self>) -> Self {
+        let other = other.operand(self);
         if self > other { self } else { other }
     }
     #[inline(always)]
-    fn lt(self, other: Self) -> bool {
-        self < other
+    fn lt(self, other: impl Operand<Self>) -> bool {
+        self < other.operand(self)
     }
     #[inline(always)]
-    fn le(self, other: Self) -> bool {
-        self <= other
+    fn le(self, other: impl Operand<Self>) -> bool {
+        self <= other.operand(self)
     }
     #[inline(always)]
-    fn eq(self, other: Self) -> bool {
-        self == other
+    fn eq(self, other: impl Operand<Self>) -> bool {
+        self == other.operand(self)
     }
     #[inline(always)]
     fn select(mask: bool, yes: Self, no: Self) -> Self {

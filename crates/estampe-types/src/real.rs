@@ -1,10 +1,11 @@
 //! The numbers that shaders compute with.
 
+use crate::operand::{Implied, Join, LeftOfReal, Operand, ScaleVectors};
+use crate::{Int, maths};
 use estampe_simd::Level;
 use std::fmt::Debug;
 use std::ops::{
-    Add, AddAssign, BitAnd, BitOr, BitXor, Div, DivAssign, Mul, MulAssign, Neg, Not, Shl, Shr, Sub,
-    SubAssign,
+    Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign,
 };
 
 /// Real numbers in f32 arithmetic: one (`f32`), the four of a 2×2 quad ([`Quad`](crate::Quad)), the
@@ -12,7 +13,51 @@ use std::ops::{
 ///
 /// Each operation acts on every lane alone and gives the same bits for every implementation.
 /// Constants are made from an existing number, because sixteen lanes need the token of their SIMD
-/// level: `x.splat(0.5)`, or an `f32` on the right of an operator: `x * 0.5 + 1.0`.
+/// level. An `f32` may be an operand on either side, and an argument of most methods: `1.0 - x *
+/// 0.5`, `x.max(0.0)`, `x.lt(0.5)`. Elsewhere, `x.splat(0.5)` is the constant in every lane.
+///
+/// # Conditions
+///
+/// A comparison gives a [mask](Real::Mask): a boolean in each lane. Rust's `if`, `&&` and `||` take
+/// one `bool`, and `<` and `==` give one, so the compiler refuses them for lanes: "expected `bool`,
+/// found associated type `<R as Real>::Mask`", "binary operation `<` cannot be applied to type `R`".
+/// Compute both branches, and let [`Real::select`] choose in each lane:
+///
+/// ```
+/// use estampe_types::Real;
+///
+/// /// Instead of `if x < 0.0 { -x } else { x * 2.0 }`.
+/// fn fold<R: Real>(x: R) -> R {
+///     R::select(x.lt(0.0), -x, x * 2.0)
+/// }
+/// assert_eq!(fold(-3.0), 3.0);
+/// ```
+///
+/// ```compile_fail
+/// # use estampe_types::Real;
+/// fn fold<R: Real>(x: R) -> R {
+///     if x.lt(0.0) { -x } else { x * 2.0 } // write R::select(x.lt(0.0), -x, x * 2.0)
+/// }
+/// ```
+///
+/// Masks are combined by `&`, `|` and `!`. [`Real::any`] and [`Real::all`] give one boolean for all
+/// lanes, for example to leave a loop.
+///
+/// # Functions
+///
+/// The functions of [`maths`] are methods too; their documentation calls `self` x. In code that is
+/// not generic, `f32`'s own methods of the same names come first: `x.sin()` of an `f32` is the
+/// system's sine, and `x.clamp(a, b)` keeps NaN. The functions of [`maths`] are always ours.
+///
+/// # Associated types
+///
+/// The operators with an `f32` on the left are implied by a bound `R: Real` of a type parameter. A
+/// trait of your own with `type Number: Real` must restate them, as [`Int`] does.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a number that shaders compute with",
+    note = "numbers are `R: Real`, `f32`, `Quad` and packets; write constants as `f32` (`2.0`, not \
+            `2`)"
+)]
 pub trait Real:
     Copy
     + Debug
@@ -31,8 +76,17 @@ pub trait Real:
     + SubAssign
     + MulAssign
     + DivAssign
+    + AddAssign<f32>
+    + SubAssign<f32>
+    + MulAssign<f32>
+    + DivAssign<f32>
+    + Join<Self, Joined = Self>
+    + Join<f32, Joined = Self>
+    + ScaleVectors
+    + Implied<f32, Is = f32>
+    + Implied<f32, Is: LeftOfReal<Self>>
 {
-    /// A boolean in each lane.
+    /// A boolean in each lane. It cannot be the condition of an `if`: see [`Real::select`].
     type Mask: Copy
         + Debug
         + BitAnd<Output = Self::Mask>
@@ -68,26 +122,26 @@ pub trait Real:
     fn floor(self) -> Self;
     /// `self < other ? self : other`: `other` where either is NaN.
     #[must_use]
-    fn min(self, other: Self) -> Self;
+    fn min(self, other: impl Operand<Self>) -> Self;
     /// `self > other ? self : other`: `other` where either is NaN.
     #[must_use]
-    fn max(self, other: Self) -> Self;
+    fn max(self, other: impl Operand<Self>) -> Self;
 
     /// True in the lanes where `self < other`.
-    fn lt(self, other: Self) -> Self::Mask;
+    fn lt(self, other: impl Operand<Self>) -> Self::Mask;
     /// True in the lanes where `self <= other`.
-    fn le(self, other: Self) -> Self::Mask;
+    fn le(self, other: impl Operand<Self>) -> Self::Mask;
     /// True in the lanes where `self == other`.
-    fn eq(self, other: Self) -> Self::Mask;
+    fn eq(self, other: impl Operand<Self>) -> Self::Mask;
     /// True in the lanes where `self > other`.
     #[inline(always)]
-    fn gt(self, other: Self) -> Self::Mask {
-        other.lt(self)
+    fn gt(self, other: impl Operand<Self>) -> Self::Mask {
+        other.operand(self).lt(self)
     }
     /// True in the lanes where `self >= other`.
     #[inline(always)]
-    fn ge(self, other: Self) -> Self::Mask {
-        other.le(self)
+    fn ge(self, other: impl Operand<Self>) -> Self::Mask {
+        other.operand(self).le(self)
     }
 
     /// `yes` in the lanes of the mask, `no` in the others.
@@ -95,6 +149,11 @@ pub trait Real:
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// True if the mask is true in any lane.
     fn any(mask: Self::Mask) -> bool;
+    /// True if the mask is true in every lane.
+    #[inline(always)]
+    fn all(mask: Self::Mask) -> bool {
+        !Self::any(!mask)
+    }
     /// The mask as bits: lane `i` is bit `i`.
     fn mask_bits(mask: Self::Mask) -> u32;
 
@@ -153,8 +212,7 @@ pub trait Real:
     /// `self` clamped to `low..=high`: `max(low)` then `min(high)`; NaN gives `low`.
     #[inline(always)]
     #[must_use]
-    fn clamp(self, low: f32, high: f32) -> Self {
-        let (low, high) = (self.splat(low), self.splat(high));
+    fn clamp(self, low: impl Operand<Self>, high: impl Operand<Self>) -> Self {
         self.max(low).min(high)
     }
 
@@ -171,73 +229,13 @@ pub trait Real:
     fn fract(self) -> Self {
         self - self.floor()
     }
-}
 
-/// A 32-bit integer in each lane. Overflow wraps in packets, but a single `i32` panics in debug
-/// builds, so code must not overflow.
-pub trait Int:
-    Copy
-    + Debug
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + BitAnd<Output = Self>
-    + BitOr<Output = Self>
-    + BitXor<Output = Self>
-    + Shl<u32, Output = Self>
-    + Shr<u32, Output = Self>
-{
-    /// The real number with the same lanes.
-    type Real: Real<Int = Self, Mask = Self::Mask>;
-    /// A boolean in each lane.
-    type Mask: Copy;
-
-    /// `value` in every lane.
-    #[must_use]
-    fn splat(self, value: i32) -> Self;
-    /// The product modulo 2³², for hashes.
-    #[must_use]
-    fn wrapping_mul(self, other: Self) -> Self;
-    /// Shifts right and fills with zeros, as for unsigned numbers; `by` is below 32.
-    #[must_use]
-    fn shr_unsigned(self, by: u32) -> Self;
-    /// The nearest real number, ties to even.
-    fn to_real(self) -> Self::Real;
-    /// The real number that has these bits.
-    fn to_real_bits(self) -> Self::Real;
-    /// The smaller one, signed.
-    #[must_use]
-    fn min(self, other: Self) -> Self;
-    /// The greater one, signed.
-    #[must_use]
-    fn max(self, other: Self) -> Self;
-    /// True in the lanes where `self < other`, signed.
-    fn lt(self, other: Self) -> Self::Mask;
-    /// True in the lanes where `self == other`.
-    fn eq(self, other: Self) -> Self::Mask;
-    /// True in the lanes where `self` is outside `0..count`; `count` is not negative.
-    fn is_outside(self, count: i32) -> Self::Mask;
-    /// `yes` in the lanes of the mask, `no` in the others.
-    #[must_use]
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// `table[self]`, the index read as unsigned. An index beyond the end gives the last element;
-    /// an empty table gives 0.
-    #[must_use]
-    fn gather(self, table: &[u32]) -> Self;
-    /// `table[self]`, `table[self + 1]`, `table[self + stride]` and `table[self + stride + 1]`: two
-    /// neighbours in one row and the two below them. If any of the four is beyond the end, each of
-    /// the four may be any element of the table, or 0.
+    /// `self + (other − self)·t`.
     #[inline(always)]
     #[must_use]
-    fn gather_square(self, table: &[u32], stride: i32) -> [Self; 4] {
-        let (one, below) = (self.splat(1), self + self.splat(stride));
-        [
-            self.gather(table),
-            (self + one).gather(table),
-            below.gather(table),
-            (below + one).gather(table),
-        ]
+    fn mix(self, other: impl Operand<Self>, t: impl Operand<Self>) -> Self {
+        self + (other.operand(self) - self) * t.operand(self)
     }
-    /// One lane's value; `index` is below the number of lanes.
-    fn lane(self, index: usize) -> i32;
+
+    maths::with_functions! { methods_of_real }
 }

@@ -1,10 +1,13 @@
 //! [`Real`] and [`Int`] for a packet of sixteen lanes.
 
-use crate::{Int, Real};
+use crate::operand::join_number;
+use crate::{Int, Operand, Real};
 use estampe_simd::{
     Bytes, LANES, Lanes, Level, Select, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat,
     SimdMask, f32x16, i32x16, mask32x16, u32x16,
 };
+
+join_number! { [S: Lanes] f32x16<S> }
 
 impl<S: Lanes> Real for f32x16<S> {
     type Mask = mask32x16<S>;
@@ -37,24 +40,24 @@ impl<S: Lanes> Real for f32x16<S> {
         token(self).floor_f32(self)
     }
     #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        token(self).min_f32(self, other)
+    fn min(self, other: impl Operand<Self>) -> Self {
+        token(self).min_f32(self, other.operand(self))
     }
     #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        token(self).max_f32(self, other)
+    fn max(self, other: impl Operand<Self>) -> Self {
+        token(self).max_f32(self, other.operand(self))
     }
     #[inline(always)]
-    fn lt(self, other: Self) -> mask32x16<S> {
-        self.simd_lt(other)
+    fn lt(self, other: impl Operand<Self>) -> mask32x16<S> {
+        self.simd_lt(other.operand(self))
     }
     #[inline(always)]
-    fn le(self, other: Self) -> mask32x16<S> {
-        self.simd_le(other)
+    fn le(self, other: impl Operand<Self>) -> mask32x16<S> {
+        self.simd_le(other.operand(self))
     }
     #[inline(always)]
-    fn eq(self, other: Self) -> mask32x16<S> {
-        self.simd_eq(other)
+    fn eq(self, other: impl Operand<Self>) -> mask32x16<S> {
+        self.simd_eq(other.operand(self))
     }
     #[inline(always)]
     fn select(mask: mask32x16<S>, yes: Self, no: Self) -> Self {

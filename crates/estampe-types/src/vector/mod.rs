@@ -1,9 +1,17 @@
-//! Small vectors of [`Real`] numbers with the usual operators.
+//! Small vectors of [`Real`] numbers, with the operators, functions and swizzles of GLSL and WGSL.
+//!
+//! `v * w` is component-wise, and a number or an `f32` on either side applies to every component:
+//! `2.0 * v`, `v + light`, `1.0 - v`. [`vec2()`], [`vec3()`] and [`vec4()`] make vectors of numbers
+//! and constants; see [`vec3()`] for vectors of constants alone.
 
+mod functions;
+mod operators;
 mod swizzles;
 
-use crate::Real;
-use std::ops::{Add, Div, Mul, Neg, Sub};
+pub(crate) use operators::left_of_vectors;
+
+use crate::operand::Join;
+use crate::{Operand, Real};
 
 macro_rules! vector {
     ($(#[$doc:meta])* $name:ident $n:literal: $($field:ident)+) => {
@@ -34,81 +42,6 @@ macro_rules! vector {
             pub fn repeat(value: R) -> Self {
                 Self { $($field: value),+ }
             }
-
-            /// Inner product, summed from the first component on.
-            #[inline(always)]
-            pub fn dot(self, other: Self) -> R {
-                let products = self * other;
-                vector!(@sum products $($field)+)
-            }
-
-            /// Inner product with a vector that is the same in every lane.
-            #[inline(always)]
-            pub fn dot_uniform(self, other: impl Into<[f32; $n]>) -> R {
-                self.dot(Self::uniform(self.x, other))
-            }
-
-            /// Euclidean length: √(v·v).
-            #[inline(always)]
-            pub fn length(self) -> R {
-                self.dot(self).sqrt()
-            }
-
-            /// The vector times 1 ÷ √(v·v). The zero vector gives NaN.
-            #[inline(always)]
-            #[must_use]
-            pub fn normalize(self) -> Self {
-                let one = self.x.splat(1.0);
-                self * (one / self.length())
-            }
-
-            /// Each component by [`Real::min`].
-            #[inline(always)]
-            #[must_use]
-            pub fn min(self, other: Self) -> Self {
-                Self { $($field: self.$field.min(other.$field)),+ }
-            }
-
-            /// Each component by [`Real::max`].
-            #[inline(always)]
-            #[must_use]
-            pub fn max(self, other: Self) -> Self {
-                Self { $($field: self.$field.max(other.$field)),+ }
-            }
-
-            /// `self + (other − self)·t`.
-            #[inline(always)]
-            #[must_use]
-            pub fn mix(self, other: Self, t: R) -> Self {
-                self + (other - self) * t
-            }
-
-            /// `yes` in the lanes of the mask, `no` in the others.
-            #[inline(always)]
-            pub fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
-                Self { $($field: R::select(mask, yes.$field, no.$field)),+ }
-            }
-        }
-
-        vector!(@binary $name Add add + $($field)+);
-        vector!(@binary $name Sub sub - $($field)+);
-        vector!(@binary $name Mul mul * $($field)+);
-        vector!(@binary $name Div div / $($field)+);
-
-        impl<R: Real> Mul<R> for $name<R> {
-            type Output = Self;
-            #[inline(always)]
-            fn mul(self, by: R) -> Self {
-                Self { $($field: self.$field * by),+ }
-            }
-        }
-
-        impl<R: Real> Neg for $name<R> {
-            type Output = Self;
-            #[inline(always)]
-            fn neg(self) -> Self {
-                Self { $($field: -self.$field),+ }
-            }
         }
 
         impl<R> From<[R; $n]> for $name<R> {
@@ -117,14 +50,11 @@ macro_rules! vector {
                 Self { $($field),+ }
             }
         }
-    };
-    (@sum $v:ident $first:ident $($rest:ident)*) => { $v.$first $(+ $v.$rest)* };
-    (@binary $name:ident $trait:ident $method:ident $op:tt $($field:ident)+) => {
-        impl<R: Real> $trait for $name<R> {
-            type Output = Self;
+
+        impl<R> From<$name<R>> for [R; $n] {
             #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Self { $($field: self.$field $op other.$field),+ }
+            fn from(v: $name<R>) -> Self {
+                [$(v.$field),+]
             }
         }
     };
@@ -143,34 +73,84 @@ vector! {
     Vec4 4: x y z w
 }
 
-impl<R: Real> Vec3<R> {
-    /// Cross product.
-    #[inline(always)]
-    #[must_use]
-    pub fn cross(self, other: Self) -> Self {
-        Self {
-            x: self.y * other.z - self.z * other.y,
-            y: self.z * other.x - self.x * other.z,
-            z: self.x * other.y - self.y * other.x,
-        }
-    }
+/// The kind of number that two operands give; see [`Join`].
+type Joined<A, B> = <A as Join<B>>::Joined;
 
+/// The vector of two components, each a number or an `f32` constant; see [`vec3()`].
+#[inline(always)]
+pub fn vec2<A: Join<B>, B>(x: A, y: B) -> Vec2<Joined<A, B>> {
+    let (x, y) = x.join(y);
+    Vec2 { x, y }
+}
+
+/// The vector of three components, each a number or an `f32` constant.
+///
+/// If one component is a number `R`, this is a `Vec3<R>`. If all are constants it is a `Vec3<f32>`,
+/// which can be an operand of any vector or number. Where a function wants a `Vec3<R>`, write
+/// [`Vec3::uniform`].
+///
+/// ```
+/// use estampe_types::{Real, Vec3, vec3};
+///
+/// fn shade<R: Real>(light: R, normal: Vec3<R>) -> Vec3<R> {
+///     let warm = light * vec3(1.0, 0.9, 0.7);
+///     warm + vec3(0.0, 0.1, 0.2) * (1.0 - light) + vec3(0.0, normal.y, 0.0)
+/// }
+/// assert_eq!(shade(1.0, Vec3::new(0.0, 0.5, 0.0)), Vec3::new(1.0, 1.4, 0.7));
+/// ```
+///
+/// [`Vec3::new`] stays a `const fn` of three components of one kind. It cannot accept both kinds:
+/// the kind of `Vec3::new(x, y, z).length()` is inferred from the arguments, and with conversions
+/// there would be none to infer it from.
+#[inline(always)]
+pub fn vec3<A, B, C>(x: A, y: B, z: C) -> Vec3<Joined<Joined<A, B>, C>>
+where
+    A: Join<B, Joined: Join<C>>,
+    C: Copy,
+{
+    let (x, y) = x.join(y);
+    let (x, last) = x.join(z);
+    let (y, _) = y.join(z);
+    Vec3 { x, y, z: last }
+}
+
+/// The vector of four components, each a number or an `f32` constant; see [`vec3()`].
+#[inline(always)]
+pub fn vec4<A, B, C, D>(x: A, y: B, z: C, w: D) -> Vec4<Joined<Joined<A, B>, Joined<C, D>>>
+where
+    A: Join<B, Joined: Join<Joined<C, D>>>,
+    C: Join<D>,
+{
+    let (x, y) = x.join(y);
+    let (z, w) = z.join(w);
+    let (first, third) = x.join(z);
+    let (second, fourth) = y.join(w);
+    Vec4 {
+        x: first,
+        y: second,
+        z: third,
+        w: fourth,
+    }
+}
+
+impl<R: Real> Vec2<R> {
+    /// Appends a third component.
+    #[inline(always)]
+    pub fn extend(self, z: impl Operand<R>) -> Vec3<R> {
+        Vec3::new(self.x, self.y, z.operand(self.x))
+    }
+}
+
+impl<R: Real> Vec3<R> {
     /// Appends a fourth component.
     #[inline(always)]
-    pub fn extend(self, w: R) -> Vec4<R> {
-        Vec4::new(self.x, self.y, self.z, w)
+    pub fn extend(self, w: impl Operand<R>) -> Vec4<R> {
+        Vec4::new(self.x, self.y, self.z, w.operand(self.x))
     }
 
     /// The homogeneous point (x, y, z, 1).
     #[inline(always)]
     pub fn point(self) -> Vec4<R> {
-        self.extend(self.x.splat(1.0))
-    }
-
-    /// The direction `self` mirrored at the plane with unit normal `n`: v − n·2(n·v).
-    #[inline(always)]
-    #[must_use]
-    pub fn reflect(self, n: Self) -> Self {
-        self - n * (n.dot(self) * 2.0)
+        self.extend(1.0)
     }
 }

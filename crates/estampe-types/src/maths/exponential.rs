@@ -1,6 +1,6 @@
-//! Transcendental functions of [`Real`] numbers by our own polynomials. They give the same bits on
-//! every machine, which the system's functions do not.
+//! Exponential functions, logarithms and powers.
 
+use super::rounding::ROUNDING;
 use crate::{Int, Real};
 
 /// 2ˣ, within 2 ulp for x in −126..128. Gives 0 below 2⁻¹²⁶, infinity above 2¹²⁸, and NaN for NaN.
@@ -8,7 +8,7 @@ use crate::{Int, Real};
 /// x = i + f with i = floor(x + ½), |f| ≤ ½. 2^f is its Taylor series (terms up to f⁷, remainder
 /// below 2⁻²⁷); 2^i is made of exponent bits, in two factors so that i = 128 does not wrap.
 #[inline(always)]
-pub fn exp2<R: Real>(x: R) -> R {
+pub(crate) fn exp2<R: Real>(x: R) -> R {
     let clamped = x.clamp(-127.0, 129.0);
     let whole = (clamped + 0.5).floor();
     let f = clamped - whole;
@@ -39,7 +39,21 @@ fn power_of_two<R: Real>(i: R::Int) -> R {
 /// x = 2^e·m with m in √½..√2; log₂ m = 2/ln 2 · artanh(s), s = (m − 1)/(m + 1), by its series in
 /// s².
 #[inline(always)]
-pub fn log2<R: Real>(x: R) -> R {
+pub(crate) fn log2<R: Real>(x: R) -> R {
+    let (s, e) = split(x);
+    let s2 = s * s;
+    let mut sum = s2 * 0.320_598_9 + 0.412_198_6;
+    sum = sum * s2 + 0.577_078_04;
+    sum = sum * s2 + 0.961_796_7;
+    sum = sum * s2 + 2.885_39;
+    let normal = sum * s + e.to_real();
+    with_special_logarithms(x, normal)
+}
+
+/// (s, e) with x = 2^e·m, m in √½..√2, and s = (m − 1) ÷ (m + 1); of 1 where x is not positive and
+/// normal.
+#[inline(always)]
+fn split<R: Real>(x: R) -> (R, R::Int) {
     // The series holds for positive normal numbers only; all others are replaced at the end.
     let regular = x.ge(x.splat(f32::MIN_POSITIVE)) & x.le(x.splat(f32::MAX));
     let bits = R::select(regular, x, x.splat(1.0)).to_bits();
@@ -47,12 +61,12 @@ pub fn log2<R: Real>(x: R) -> R {
     let e = ((bits + bits.splat(0x3F80_0000 - 0x3F35_04F3)) >> 23) - bits.splat(127);
     let m = (bits - (e << 23)).to_real_bits();
     let s = (m - 1.0) / (m + 1.0);
-    let s2 = s * s;
-    let mut sum = s2 * 0.320_598_9 + 0.412_198_6;
-    sum = sum * s2 + 0.577_078_04;
-    sum = sum * s2 + 0.961_796_7;
-    sum = sum * s2 + 2.885_39;
-    let normal = sum * s + e.to_real();
+    (s, e)
+}
+
+/// A logarithm of x: `normal` if x is positive and normal.
+#[inline(always)]
+fn with_special_logarithms<R: Real>(x: R, normal: R) -> R {
     let infinite = R::select(x.eq(x.splat(f32::INFINITY)), x, normal);
     let tiny = R::select(
         x.lt(x.splat(f32::MIN_POSITIVE)),
@@ -65,14 +79,14 @@ pub fn log2<R: Real>(x: R) -> R {
 /// x^y = 2^(y·log₂ x) for x ≥ 0, with the relative error of log₂ times y; 0^y = 0 for y > 0 and
 /// x^0 = 1. Negative x gives NaN.
 #[inline(always)]
-pub fn pow<R: Real>(x: R, y: R) -> R {
+pub(crate) fn pow<R: Real>(x: R, y: R) -> R {
     let zero = x.splat(0.0);
     R::select(y.eq(zero), x.splat(1.0), exp2(y * log2(x)))
 }
 
 /// xⁿ by repeated squaring, from the lowest bit of n on.
 #[inline(always)]
-pub fn powi<R: Real>(x: R, n: u32) -> R {
+pub(crate) fn powi<R: Real>(x: R, n: u32) -> R {
     let (mut result, mut base, mut left) = (x.splat(1.0), x, n);
     while left != 0 {
         if left & 1 == 1 {
@@ -84,33 +98,8 @@ pub fn powi<R: Real>(x: R, n: u32) -> R {
     result
 }
 
-/// 1.5·2²³: adding it to a number within ±2²² rounds the number to the nearest integer, ties to
-/// even, in the low bits of the sum.
-const ROUNDING: f32 = 12_582_912.0;
-
-/// sin x of an angle in radians, within 1.5·10⁻⁷ for |x| ≤ 2048. Beyond, the error grows with the
-/// distance between neighbouring f32. Finite x give numbers in −1..=1, infinity and NaN give NaN.
-///
-/// x = k·π + r with k the nearest integer to x/π, |r| ≤ π/2; sin x = (−1)^k·sin r. π is subtracted
-/// in two parts (Cody and Waite 1980), the first of which has so few bits that k times it is exact.
-/// sin r = r + r³·p(r²), where p is the minimax polynomial of degree 3 (error 5·10⁻⁹). Its upper
-/// and lower half are evaluated side by side, because the latency of sines limits programs more
-/// than their throughput.
-#[inline(always)]
-pub fn sin<R: Real>(x: R) -> R {
-    const PI_PARTS: [f32; 2] = [3.140_625, 9.676_536e-4];
-    let rounded = x * std::f32::consts::FRAC_1_PI + ROUNDING;
-    let k = rounded - ROUNDING;
-    let r = x - k * PI_PARTS[0] - k * PI_PARTS[1];
-    // If x is too large for a remainder, r is clamped. In this order of operands NaN stays NaN.
-    let r = r.splat(-2.0).max(r.splat(2.0).min(r));
-    let r2 = r * r;
-    let upper = r2 * 2.599_903_4e-6 - 1.980_654_8e-4;
-    let lower = r2 * 8.333_016e-3 - 1.666_665_7e-1;
-    let sine = (upper * (r2 * r2) + lower) * (r2 * r) + r;
-    // The lowest bit of k flips the sign.
-    (sine.to_bits() ^ (rounded.to_bits() << 31)).to_real_bits()
-}
+/// ln 2 in two parts.
+const LN_2_PARTS: [f32; 2] = [0.693_359_4, -2.121_944_4e-4];
 
 /// eˣ, with a relative error of at most 1.5·10⁻⁷ where it is a normal number. Gives 0 below 2⁻¹⁵⁰,
 /// infinity beyond f32's range, and NaN for NaN.
@@ -120,10 +109,15 @@ pub fn sin<R: Real>(x: R) -> R {
 /// p is the minimax polynomial of degree 4 (error 3·10⁻⁹); 2^k is made of exponent bits, in two
 /// factors.
 #[inline(always)]
-pub fn exp<R: Real>(x: R) -> R {
-    const LN_2_PARTS: [f32; 2] = [0.693_359_4, -2.121_944_4e-4];
+pub(crate) fn exp<R: Real>(x: R) -> R {
     // In this order of operands NaN stays NaN.
     let x = x.splat(-104.0).max(x.splat(89.0).min(x));
+    exp_times_power(x, 0)
+}
+
+/// eˣ·2^shift for x in −104..=90, as [`exp`] explains.
+#[inline(always)]
+fn exp_times_power<R: Real>(x: R, shift: i32) -> R {
     let rounded = x * std::f32::consts::LOG2_E + ROUNDING;
     let k = rounded - ROUNDING;
     let r = x - k * LN_2_PARTS[0] - k * LN_2_PARTS[1];
@@ -132,7 +126,7 @@ pub fn exp<R: Real>(x: R) -> R {
     sum = sum * r + 1.666_652e-1;
     sum = sum * r + 4.999_999_4e-1;
     let power = sum * (r * r) + r + 1.0;
-    let k = rounded.to_bits() - rounded.splat_int(0x4B40_0000);
+    let k = rounded.to_bits() - rounded.splat_int(0x4B40_0000 - shift);
     let half = k >> 1;
     power * power_of_two::<R>(half) * power_of_two::<R>(k - half)
 }
