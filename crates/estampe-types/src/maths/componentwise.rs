@@ -107,7 +107,7 @@ super::with_functions! { trait_componentwise }
 mod of_numbers {
     //! The functions of two numbers.
 
-    pub(super) use super::scalar::{modulo, pow, remainder};
+    pub(super) use super::scalar::{atan2, modulo, pow, remainder};
     use crate::Real;
 
     #[inline(always)]

@@ -50,6 +50,21 @@ pub(crate) fn log2<R: Real>(x: R) -> R {
     with_special_logarithms(x, normal)
 }
 
+/// ln x, within 2 ulp for positive normal x. Other numbers are as in [`log2`].
+///
+/// x = 2^e·m as in [`log2`]; ln m = 2·artanh(s) = t + t·s²·p(s²) with t = 2s, where p is the
+/// minimax polynomial of degree 2 (relative error of ln m 8·10⁻¹⁰). ln 2 is in two parts, the first
+/// of which has so few bits that e times it is exact.
+#[inline(always)]
+pub(crate) fn log<R: Real>(x: R) -> R {
+    let (s, e) = split(x);
+    let e = e.to_real();
+    let (s2, t) = (s * s, s + s);
+    let series = ((s2 * 0.149_354_68 + 0.199_887_87) * s2 + 0.333_333_88) * s2;
+    let normal = (e * LN_2_PARTS[0] + t) + (t * series + e * LN_2_PARTS[1]);
+    with_special_logarithms(x, normal)
+}
+
 /// (s, e) with x = 2^e·m, m in √½..√2, and s = (m − 1) ÷ (m + 1); of 1 where x is not positive and
 /// normal.
 #[inline(always)]
@@ -113,6 +128,13 @@ pub(crate) fn exp<R: Real>(x: R) -> R {
     // In this order of operands NaN stays NaN.
     let x = x.splat(-104.0).max(x.splat(89.0).min(x));
     exp_times_power(x, 0)
+}
+
+/// eˣ ÷ 2, which is finite for x up to 89.4.
+#[inline(always)]
+pub(crate) fn half_exp<R: Real>(x: R) -> R {
+    let x = x.splat(-104.0).max(x.splat(90.0).min(x));
+    exp_times_power(x, -1)
 }
 
 /// eˣ·2^shift for x in −104..=90, as [`exp`] explains.

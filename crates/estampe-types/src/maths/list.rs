@@ -36,12 +36,33 @@ macro_rules! with_functions {
                 /// grows with the distance between neighbouring f32. Finite x give at most ±(1 +
                 /// 2⁻²³), infinity and NaN give NaN.
                 sin
+                /// Cosine of an angle in radians, within 1.5·10⁻⁷ for |x| ≤ 2048. Beyond, the error
+                /// grows with the distance between neighbouring f32. Finite x give numbers in
+                /// −1..=1, infinity and NaN give NaN.
+                cos
+                /// Tangent of an angle in radians: sin x ÷ cos x, within 9 ulp for |x| ≤ π.
+                tan
+                /// Arc sine in radians, −π/2..=π/2, within 2.5 ulp. NaN beyond −1..=1.
+                asin
+                /// Arc cosine in radians, 0..=π, within 1.5 ulp. NaN beyond −1..=1.
+                acos
+                /// Arc tangent in radians, −π/2..=π/2, within 2 ulp.
+                atan
+                /// Hyperbolic sine, within 2 ulp. Infinite beyond ±89.4.
+                sinh
+                /// Hyperbolic cosine, within 2 ulp. Infinite beyond ±89.4.
+                cosh
+                /// Hyperbolic tangent, within 1.5 ulp, in −1..=1.
+                tanh
                 /// eˣ, with a relative error of at most 1.5·10⁻⁷ where it is a normal number. Gives
                 /// 0 below 2⁻¹⁵⁰, infinity beyond f32's range, and NaN for NaN.
                 exp
                 /// 2ˣ, within 2 ulp for x in −126..128. Gives 0 below 2⁻¹²⁶, infinity above 2¹²⁸,
                 /// and NaN for NaN.
                 exp2
+                /// Natural logarithm, within 2 ulp for positive normal numbers. Zeros and positive
+                /// subnormals give −∞, negative numbers and NaN give NaN, infinity gives infinity.
+                log
                 /// Logarithm to base 2, within 3 ulp for positive normal numbers. Zeros and
                 /// positive subnormals give −∞, negative numbers and NaN give NaN, infinity gives
                 /// infinity.
@@ -55,6 +76,9 @@ macro_rules! with_functions {
                 /// x^y = 2^(y·log₂ x) for x ≥ 0, with the relative error of log₂ times y; 0^y = 0
                 /// for y > 0 and x^0 = 1. Negative x gives NaN.
                 pow(x, y)
+                /// The angle of the point (x, y) in radians, −π..=π, within 2 ulp. Signed zeros and
+                /// infinities are as in IEEE 754.
+                atan2(y, x)
                 /// WGSL's `x % y`: x − y·trunc(x ÷ y), which has the sign of x.
                 remainder(x, y)
                 /// GLSL's `mod(x, y)`: x − y·floor(x ÷ y), which has the sign of y.

@@ -23,6 +23,8 @@ mod componentwise;
 mod exponential;
 mod free;
 mod geometric;
+mod hyperbolic;
+mod inverse_trigonometric;
 pub(crate) mod list;
 mod rounding;
 mod trigonometric;
@@ -33,7 +35,9 @@ pub use geometric::*;
 pub(crate) use list::with_functions;
 pub(crate) mod scalar {
     //! The functions of one number, from which all others are made.
-    pub(crate) use super::exponential::{exp, exp2, log2, pow, powi};
+    pub(crate) use super::exponential::{exp, exp2, log, log2, pow, powi};
+    pub(crate) use super::hyperbolic::{cosh, sinh, tanh};
+    pub(crate) use super::inverse_trigonometric::{acos, asin, atan, atan2};
     pub(crate) use super::rounding::{ceil, inverse_sqrt, modulo, remainder, round, sign, trunc};
-    pub(crate) use super::trigonometric::{degrees, radians, sin};
+    pub(crate) use super::trigonometric::{cos, degrees, radians, sin, tan};
 }

@@ -74,6 +74,8 @@ macro_rules! agrees {
     }};
 }
 
+mod functions;
+mod kinds;
 mod vectors;
 
 #[test]
