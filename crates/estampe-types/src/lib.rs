@@ -7,7 +7,8 @@
 //! * [`buffer`], [`texture`], [`bindings`]: data that shaders read, and how a draw binds it;
 //! * [`mod@shader`]: the trait by which a shader is written in Rust, and the one interface
 //!   ([`Program`]) that Rust shaders and compiled text shaders share;
-//! * [`Real`], the vectors [`Vec2`], [`Vec3`], [`Vec4`], [`Mat4`], and [`maths`], the functions of WGSL: arithmetic that is written once and runs on one
+//! * [`Real`], the vectors [`Vec2`], [`Vec3`], [`Vec4`], the matrices [`Mat2`], [`Mat3`], [`Mat4`],
+//!   and [`maths`], the functions of WGSL: arithmetic that is written once and runs on one
 //!   fragment, on a 2×2 quad, or on sixteen lanes; [`operand`] says what can be combined.
 //!
 //! The conventions (spaces, rounding, order of operations) are in `docs/NUMERICS.md`.
@@ -41,7 +42,7 @@ pub use format::{
 pub use int::Int;
 pub use limits::Limits;
 pub use lines::Lines;
-pub use matrix::Mat4;
+pub use matrix::{Mat2, Mat3, Mat4};
 pub use operand::Operand;
 pub use pair::Pair;
 pub use quad::Quad;

@@ -46,8 +46,9 @@ pub use estampe_texture as texture;
 pub use estampe_types::shader::{DepthOutput, Interpolation, Sample2d, Sampling, VertexOut};
 pub use estampe_types::{
     AddressMode, Attributes, BindGroup, Binding, Bindings, Buffer, Centroid, DepthTexture,
-    FilterMode, Flat, FragmentIn, FragmentOut, IndexFormat, Int, Limits, Mat4, MipLevel,
-    NoPerspective, PerSample, Program, Quad, Real, SampleType, SamplerDescriptor, Shader,
-    ShaderProgram, TexelEncoding, Texture, TextureFormat, Varyings, Vec2, Vec3, Vec4,
-    VertexEncoding, VertexFormat, VertexIn, maths, shader, srgb, state,
+    FilterMode, Flat, FragmentIn, FragmentOut, IndexFormat, Int, Limits, Mat2, Mat3, Mat4,
+    MipLevel, NoPerspective, Operand, PerSample, Program, Quad, Real, SampleType,
+    SamplerDescriptor, Shader, ShaderProgram, TexelEncoding, Texture, TextureFormat, Varyings,
+    Vec2, Vec3, Vec4, VertexEncoding, VertexFormat, VertexIn, maths, operand, shader, srgb, state,
+    vec2, vec3, vec4,
 };

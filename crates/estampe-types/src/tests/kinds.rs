@@ -77,4 +77,11 @@ fn kinds_agree_on_vectors() {
         let w = sin(v) + exp(v) * atan(v) - smoothstep(0.0, 1.0, v) + mix(v, 1.0, 0.3);
         w.saturate().dot(v.wzyx()) + clamp(v, -0.5, 0.5).length()
     });
+    agrees!("matrices", x => {
+        let m = Mat3::from_columns(vec3(x, 0.0, 1.0), vec3(0.5, x, 0.2), vec3(0.1, 0.2, x));
+        let rotation = Mat4::rotation([1.0, 2.0, 3.0], 0.7);
+        let v = rotation.to_mat3() * m * m.transpose() * vec3(x, 1.0, 2.0);
+        let p = rotation.transform_point(v) + rotation * v.extend(0.5);
+        p.dot(vec4(1.0, 2.0, 3.0, 4.0)) + m.determinant()
+    });
 }

@@ -76,6 +76,7 @@ macro_rules! agrees {
 
 mod functions;
 mod kinds;
+mod matrices;
 mod vectors;
 
 #[test]
