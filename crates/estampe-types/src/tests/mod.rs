@@ -74,6 +74,7 @@ macro_rules! agrees {
     }};
 }
 
+mod bits;
 mod functions;
 mod kinds;
 mod matrices;
