@@ -39,15 +39,29 @@ mod pairs;
 
 type Unary = (&'static str, fn(f32) -> f32, fn(Quad) -> Quad);
 
-/// Runs one generic function with all kinds of numbers.
+/// Runs one generic function with all kinds of numbers. `no emulated lanes` leaves out packets at
+/// the scalar level, where shaders run on quads: a packet of a long function takes a minute to
+/// compile.
 macro_rules! agrees {
-    ($name:literal, $x:ident => $body:expr) => {{
+    ($name:literal, $x:ident => $body:expr) => {
+        agrees! { $name, true, $x => $body }
+    };
+    (no emulated lanes $name:literal, $x:ident => $body:expr) => {
+        agrees! { $name, false, $x => $body }
+    };
+    ($name:literal, $emulated:literal, $x:ident => $body:expr) => {{
         #[inline(always)]
         fn generic<R: Real>($x: R) -> R {
             $body
         }
         #[inline(always)]
-        fn wide<S: Lanes>(s: S, chunk: [f32; LANES]) -> [f32; LANES] {
+        fn wide<S: Lanes>(s: S, mut chunk: [f32; LANES]) -> [f32; LANES] {
+            if S::IS_SCALAR && !$emulated {
+                for x in &mut chunk {
+                    *x = generic(*x);
+                }
+                return chunk;
+            }
             generic(f32x16::load_array(s, chunk)).to_array()
         }
         let pair = |a, b| generic(Pair(Quad([a; 4]), Quad([b; 4])));
