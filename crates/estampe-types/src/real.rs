@@ -20,8 +20,8 @@ use std::ops::{
 ///
 /// A comparison gives a [mask](Real::Mask): a boolean in each lane. Rust's `if`, `&&` and `||` take
 /// one `bool`, and `<` and `==` give one, so the compiler refuses them for lanes: "expected `bool`,
-/// found associated type `<R as Real>::Mask`", "binary operation `<` cannot be applied to type `R`".
-/// Compute both branches, and let [`Real::select`] choose in each lane:
+/// found associated type `<R as Real>::Mask`", "binary operation `<` cannot be applied to type
+/// `R`". Compute both branches, and let [`Real::select`] choose in each lane:
 ///
 /// ```
 /// use estampe_types::Real;

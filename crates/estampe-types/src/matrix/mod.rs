@@ -89,10 +89,10 @@ matrix! {
     ///
     /// # Conventions
     ///
-    /// Vectors are columns, `clip = clip_from_view * view_from_world * p_world`; a matrix is an array
-    /// of its columns, `m.0[column][row]`. Object, world and view space are right-handed, and the
-    /// camera looks down −z with y up. NDC has x to the right, y up, and z from 0 (near) to 1 (far);
-    /// functions whose name ends in `_gl` have OpenGL's z, −1 to 1.
+    /// Vectors are columns, `clip = clip_from_view * view_from_world * p_world`; a matrix is an
+    /// array of its columns, `m.0[column][row]`. Object, world and view space are right-handed, and
+    /// the camera looks down −z with y up. NDC has x to the right, y up, and z from 0 (near) to 1
+    /// (far); functions whose name ends in `_gl` have OpenGL's z, −1 to 1.
     ///
     /// ```
     /// use estampe_types::{Mat4, vec3};
@@ -106,8 +106,8 @@ matrix! {
     ///
     /// # Other libraries
     ///
-    /// glam, cgmath and nalgebra store columns too: `Mat4(m.to_cols_array_2d())` is the same matrix,
-    /// and `glam::Mat4::from_cols_array_2d(&m.0)` is the way back. An array of rows needs a
+    /// glam, cgmath and nalgebra store columns too: `Mat4(m.to_cols_array_2d())` is the same
+    /// matrix, and `glam::Mat4::from_cols_array_2d(&m.0)` is the way back. An array of rows needs a
     /// [`transpose`](Mat4::transpose).
     Mat4 of 4 Vec4: x 0 y 1 z 2 w 3; (0 1 2 3)
 }
