@@ -36,7 +36,7 @@ pub(crate) fn place<R: Real>(
 ) -> Place<R> {
     let mut at = wrapped * length;
     if filter == FilterMode::Linear {
-        at = at - 0.5;
+        at -= 0.5;
     }
     if mode != AddressMode::Repeat {
         at = at.clamp(0.0, length - 1.0);

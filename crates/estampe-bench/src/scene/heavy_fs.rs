@@ -108,7 +108,7 @@ fn surface_color<R: Real>(p: Vec3<R>) -> Vec3<R> {
         [near, near, near],
     ] {
         let corner = Vec3::uniform(p.x, corner);
-        gradient = gradient + corner * distance_to_boxes(p + corner);
+        gradient += corner * distance_to_boxes(p + corner);
     }
     let light = gradient.normalize().dot_uniform(TOWARDS_LIGHT);
     let light = light.max(p.x.splat(0.0)) * 0.85 + 0.15;

@@ -102,15 +102,15 @@ impl Lights {
         for light in &self.directional {
             let towards = Vec3::uniform(zero, light.towards);
             let n_dot_l = normal.dot(towards).max(zero);
-            diffuse = diffuse + Vec3::uniform(zero, light.color) * n_dot_l;
+            diffuse += Vec3::uniform(zero, light.color) * n_dot_l;
             if shines && light.highlight > 0.0 {
                 // r·v is symmetric: the reflected light towards the eye equals the reflected eye
                 // towards the light.
                 let r_dot_v = reflected_eye.dot(towards).saturate();
                 let power = maths::powi(r_dot_v, gloss.shininess) * light.highlight;
                 let lit = R::select(n_dot_l.gt(zero), power, zero);
-                added = added
-                    + Vec3::uniform(zero, light.color) * Vec3::uniform(zero, gloss.specular) * lit;
+                added +=
+                    Vec3::uniform(zero, light.color) * Vec3::uniform(zero, gloss.specular) * lit;
             }
         }
         Illumination { diffuse, added }

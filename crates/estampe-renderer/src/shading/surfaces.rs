@@ -145,7 +145,7 @@ estampe::shader! {
         ) -> FragmentOut<R> {
             let mut base = color * Vec4::uniform(input.zero, self.factor);
             if let Some(texture) = &self.texture {
-                base = base * texture.sample(uv);
+                base *= texture.sample(uv);
             }
             if self.alpha == Alpha::Ignored {
                 base.w = input.real(1.0);

@@ -210,7 +210,7 @@ impl Packet<'_> {
                 if self.of.sampler.max_anisotropy > 1 {
                     color = R::select(several, color * weight, color);
                 }
-                color = color * scale[k];
+                color *= scale[k];
             }
             answers[k] = packet(color, 0);
             k += 1;
