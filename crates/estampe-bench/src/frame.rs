@@ -155,7 +155,9 @@ impl<'d> PreparedScene<'d> {
             &mut times,
         );
         if let Some(resolved) = &mut self.resolved {
-            device.resolve(&self.target, resolved);
+            device
+                .resolve(&self.target, resolved)
+                .expect("the targets fit together");
         }
         times
     }
@@ -250,7 +252,9 @@ fn render(
         ..RenderPass::default()
     };
     times.recording += start.elapsed();
-    times.statistics += device.render(target, &pass);
+    times.statistics += device
+        .render(target, &pass)
+        .expect("the pipelines are made for the target");
 }
 
 #[cfg(test)]

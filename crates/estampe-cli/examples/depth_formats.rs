@@ -167,7 +167,7 @@ fn panel(device: &Device, method: Method) -> Result<Vec<u8>, Box<dyn Error>> {
             draws: &draws,
             ..RenderPass::default()
         },
-    );
+    )?;
     Ok(target.read_color(0))
 }
 

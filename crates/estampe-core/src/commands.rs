@@ -168,6 +168,12 @@ impl OcclusionQueries {
         }
     }
 
+    /// How many counters there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.counters.len()
+    }
+
     /// What a counter has counted in the passes drawn so far; 0 beyond the last one.
     #[must_use]
     pub fn samples_passed(&self, query: u32) -> u64 {

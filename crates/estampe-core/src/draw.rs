@@ -1,7 +1,7 @@
 //! The page on which the pipeline reads: what a draw is, and the order in which its stages run.
 
 use crate::attachment::resolve::ResolveJob;
-use crate::attachment::{ReadbackError, RenderTarget};
+use crate::attachment::{ReadbackError, RenderTarget, ResolveError};
 use crate::bounds::chunk::{Chunk, ChunkIndex};
 use crate::commands::{OcclusionQueries, RenderPass};
 use crate::geometry::chunk::{ChunkScratch, add_run};
@@ -12,6 +12,7 @@ use crate::plan::chunk_plan::{ChunkPart, ChunkPlan};
 use crate::plan::draw_batch::DrawBatch;
 use crate::plan::draw_cursor::DrawCursor;
 use crate::plan::draw_state::DrawState;
+use crate::plan::pass_check::{RenderPassError, check_pass};
 use crate::plan::sub_draw::SubDraw;
 use crate::plan::tile_plan::{PlannedGeometry, TargetFacts, TilePlan};
 use crate::profile::JobTimings;
@@ -123,10 +124,20 @@ impl Context {
         self.executor.threads()
     }
 
-    /// Draws a pass. It cannot fail: what a draw lacks reads as zeros, and a draw whose pipeline
-    /// does not fit the target (samples, formats, depth), or whose viewport is not finite, draws
-    /// nothing.
-    pub fn render(&self, target: &mut RenderTarget, pass: &RenderPass<'_>) -> Statistics {
+    /// Draws a pass. Buffers that a draw lacks read as zeros.
+    ///
+    /// # Errors
+    /// [`RenderPassError`] if a draw does not fit the target; nothing is drawn or cleared then.
+    pub fn render(
+        &self,
+        target: &mut RenderTarget,
+        pass: &RenderPass<'_>,
+    ) -> Result<Statistics, RenderPassError> {
+        check_pass(target, pass)?;
+        Ok(self.render_checked(target, pass))
+    }
+
+    fn render_checked(&self, target: &mut RenderTarget, pass: &RenderPass<'_>) -> Statistics {
         let mut memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
         let memory = &mut *memory;
         let mut statistics = Statistics::default();
@@ -166,12 +177,20 @@ impl Context {
     }
 
     /// Writes the mean of each pixel's samples to a target of one sample, of the same size and with
-    /// the same colour formats. Targets that do not fit together are left alone.
-    pub fn resolve(&self, from: &RenderTarget, into: &mut RenderTarget) {
-        let mut jobs = ResolveJob::all(from, into);
+    /// the same colour formats.
+    ///
+    /// # Errors
+    /// [`ResolveError`] if the targets do not fit together; nothing is written then.
+    pub fn resolve(
+        &self,
+        from: &RenderTarget,
+        into: &mut RenderTarget,
+    ) -> Result<(), ResolveError> {
+        let mut jobs = ResolveJob::all(from, into)?;
         let level = self.level;
         self.executor
             .for_each_alone(&mut jobs, |job| job.run(level));
+        Ok(())
     }
 
     /// A colour attachment's texels as [`RenderTarget::read_color_into`] gives them, by all threads.

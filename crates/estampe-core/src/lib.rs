@@ -23,8 +23,8 @@
 //! the window.
 //!
 //! Data flows one way: each stage owns the type that it gives, and the next one takes it. State is
-//! a value: a descriptor is validated once into a [`RenderPipeline`], and drawing cannot fail. Both
-//! sides of the boundary run in parallel: geometry in chunks cut by the draws, never by thread
+//! a value: a descriptor is validated once into a [`RenderPipeline`], a pass is checked before
+//! anything is drawn, and drawing cannot fail after that. Both sides of the boundary run in parallel: geometry in chunks cut by the draws, never by thread
 //! count, and tiles, each with its own slice of the attachments; so an image's bytes cannot depend
 //! on the number of threads. The conventions and the order of every operation are in
 //! `docs/NUMERICS.md`.
@@ -61,10 +61,13 @@ pub mod statistics;
 mod tile_pass;
 pub mod tile_path;
 
-pub use attachment::{ReadbackError, RenderTarget, RenderTargetDescriptor, TargetError};
+pub use attachment::{
+    ReadbackError, RenderTarget, RenderTargetDescriptor, ResolveError, TargetError,
+};
 pub use commands::{Draw, LoadOp, OcclusionQueries, RenderPass};
 pub use draw::Context;
 pub use pipeline::{PipelineError, RenderPipeline, RenderPipelineDescriptor};
+pub use plan::pass_check::RenderPassError;
 pub use schedule::ThreadError;
 pub use statistics::Statistics;
 pub use tile_path::{PathCounts, TilePath};

@@ -9,8 +9,8 @@ use crate::shading::wireframe::Wireframe;
 use crate::surface_pipelines::FrameStyle;
 use estampe::texture::TextureError;
 use estampe::{
-    Device, LoadOp, PipelineError, RenderPass, RenderTargetDescriptor, Statistics, TargetError,
-    TextureFormat,
+    Device, LoadOp, PipelineError, RenderPass, RenderPassError, RenderTargetDescriptor, Statistics,
+    TargetError, TextureFormat,
 };
 use estampe_scene::{Camera, Image, Scene, Workers};
 use std::sync::Arc;
@@ -43,7 +43,7 @@ pub struct FrameTimings {
 }
 
 /// Errors of [`render`].
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {
     /// The size is zero or too large.
@@ -73,6 +73,9 @@ pub enum RenderError {
     /// A texture cannot be created.
     #[error(transparent)]
     Texture(#[from] TextureError),
+    /// A draw does not fit the target.
+    #[error(transparent)]
+    Pass(#[from] RenderPassError),
 }
 
 /// Draws a scene.
@@ -115,7 +118,7 @@ pub fn render(
         draws: &draws,
         ..RenderPass::default()
     };
-    let statistics = device.render(&mut target, &pass);
+    let statistics = device.render(&mut target, &pass)?;
 
     let start = Instant::now();
     let mut rgba = device.read_color(&target, 0);

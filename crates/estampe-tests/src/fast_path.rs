@@ -157,7 +157,9 @@ fn draw_pass(
         draws: &commands,
         ..clear
     };
-    device.render(target, &pass)
+    device
+        .render(target, &pass)
+        .expect("a pass that fits its target")
 }
 
 fn pipeline(device: &Device, case: &Case, draw: &CaseDraw) -> RenderPipeline {

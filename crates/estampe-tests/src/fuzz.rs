@@ -322,14 +322,14 @@ fn wrong_sample(
             0..u32::try_from(count).expect("few triangles"),
         )
     }];
-    device.render(
-        &mut kept.target,
-        &RenderPass {
-            load_colors: vec![LoadOp::Clear([0.0; 4])],
-            draws: &draws,
-            ..RenderPass::default()
-        },
-    );
+    let pass = RenderPass {
+        load_colors: vec![LoadOp::Clear([0.0; 4])],
+        draws: &draws,
+        ..RenderPass::default()
+    };
+    device
+        .render(&mut kept.target, &pass)
+        .expect("the pipeline is made for the target");
     let wanted = batch.wanted(meshes);
     (0..batch.samples).find_map(|sample| {
         let texels = kept.target.read_texels(0, sample);

@@ -100,7 +100,9 @@ pub fn stored(device: &Device, target: &RenderTarget) -> Stored {
                 ..RenderTargetDescriptor::new(target.width(), target.height())
             })
             .expect("a target like one that there is");
-        device.resolve(target, &mut into);
+        device
+            .resolve(target, &mut into)
+            .expect("the targets fit together");
         resolved = attachments
             .clone()
             .map(|attachment| into.read_texels(attachment, 0))

@@ -31,7 +31,7 @@ fn image(device: &Device, draw: Draw<'_>) -> Vec<u8> {
         draws: &[draw],
         ..RenderPass::default()
     };
-    device.render(&mut target, &pass);
+    device.render(&mut target, &pass).unwrap();
     target.read_color(0)
 }
 

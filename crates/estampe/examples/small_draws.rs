@@ -116,7 +116,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 draws,
                 ..RenderPass::default()
             };
-            times += device.render(&mut target, &pass);
+            times += device.render(&mut target, &pass)?;
         }
     } else {
         let mut descriptor = RenderPipelineDescriptor::new(Placed);
@@ -147,7 +147,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 draws: &draws,
                 ..RenderPass::default()
             };
-            times += device.render(&mut target, &pass);
+            times += device.render(&mut target, &pass)?;
         }
     }
     let quads = f64::from(QUADS) * f64::from(frames.max(1));

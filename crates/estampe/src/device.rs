@@ -1,8 +1,9 @@
 //! The device: threads, a SIMD level and limits. It creates pipelines and targets, and draws.
 
 use crate::{
-    DepthTexture, Draw, Level, Limits, PipelineError, ReadbackError, RenderPass, RenderPipeline,
-    RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, Statistics, TargetError,
+    DepthTexture, Draw, Level, Limits, PipelineError, ReadbackError, RenderPass, RenderPassError,
+    RenderPipeline, RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, ResolveError,
+    Statistics, TargetError,
 };
 use estampe_core::Context;
 use estampe_core::profile::JobTimings;
@@ -95,17 +96,30 @@ impl Device {
         RenderTarget::new(descriptor, &self.limits)
     }
 
-    /// Draws a pass into a target. It cannot fail: resources that a draw does not bind read as
-    /// zeros, and a draw whose pipeline does not fit the target (samples, formats, depth) draws
-    /// nothing.
-    pub fn render(&self, target: &mut RenderTarget, pass: &RenderPass<'_>) -> Statistics {
+    /// Draws a pass into a target. Resources that a draw does not bind read as zeros.
+    ///
+    /// # Errors
+    /// [`RenderPassError`] names the draw that does not fit the target (samples, formats, depth,
+    /// stencil, viewport, occlusion query) and both sides; nothing is drawn or cleared then.
+    pub fn render(
+        &self,
+        target: &mut RenderTarget,
+        pass: &RenderPass<'_>,
+    ) -> Result<Statistics, RenderPassError> {
         self.context.render(target, pass)
     }
 
     /// Draws a pass that first clears the target: colours to transparent black, depth to 1, stencil
     /// to 0. A second call therefore shows only its own draws; use [`Device::render`] to keep the
     /// contents.
-    pub fn draw(&self, target: &mut RenderTarget, draws: &[Draw<'_>]) -> Statistics {
+    ///
+    /// # Errors
+    /// [`RenderPassError`], as of [`Device::render`].
+    pub fn draw(
+        &self,
+        target: &mut RenderTarget,
+        draws: &[Draw<'_>],
+    ) -> Result<Statistics, RenderPassError> {
         self.render(
             target,
             &RenderPass {
@@ -115,11 +129,17 @@ impl Device {
         )
     }
 
-    /// Multisample resolve: writes the mean of each pixel's samples to a target with one sample.
-    /// Nothing is written unless the targets have the same size and colour formats. Depth is not
-    /// resolved.
-    pub fn resolve(&self, from: &RenderTarget, into: &mut RenderTarget) {
-        self.context.resolve(from, into);
+    /// Multisample resolve: writes the mean of each pixel's samples to a target with one sample, of
+    /// the same size and colour formats. Depth is not resolved.
+    ///
+    /// # Errors
+    /// [`ResolveError`] names what the targets differ in; nothing is written then.
+    pub fn resolve(
+        &self,
+        from: &RenderTarget,
+        into: &mut RenderTarget,
+    ) -> Result<(), ResolveError> {
+        self.context.resolve(from, into)
     }
 
     /// A colour attachment's texels in the format's own bytes, row by row from the top; several

@@ -38,8 +38,8 @@ pub use device::{Device, DeviceDescriptor, DeviceError};
 pub use estampe_core::profile::JobTimings;
 pub use estampe_core::{
     Draw, LoadOp, OcclusionQueries, PathCounts, PipelineError, ReadbackError, RenderPass,
-    RenderPipeline, RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, Statistics,
-    TargetError, TilePath,
+    RenderPassError, RenderPipeline, RenderPipelineDescriptor, RenderTarget,
+    RenderTargetDescriptor, ResolveError, Statistics, TargetError, TilePath,
 };
 pub use estampe_simd::{Level, LevelError};
 pub use estampe_texture as texture;

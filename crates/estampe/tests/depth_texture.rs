@@ -44,7 +44,7 @@ fn draw(device: &Device, target: &mut RenderTarget) {
             ..RenderPipelineDescriptor::new(Slope)
         })
         .unwrap();
-    device.draw(target, &[Draw::new(&pipeline, 0..3)]);
+    device.draw(target, &[Draw::new(&pipeline, 0..3)]).unwrap();
 }
 
 fn rows(texture: &DepthTexture) -> Vec<f32> {

@@ -63,7 +63,7 @@ fn a_false_passthrough_claim_has_no_effect() {
                 draws: &draws,
                 ..RenderPass::default()
             };
-            device.render(&mut target, &pass);
+            device.render(&mut target, &pass).unwrap();
             assert!(
                 target.read_color(0).iter().all(|&byte| byte == 255),
                 "{level:?}"

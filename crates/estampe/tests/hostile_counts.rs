@@ -65,7 +65,7 @@ fn elements_beyond_the_index_buffer_show_nothing_and_take_no_time() {
                 draws: &draws,
                 ..RenderPass::default()
             };
-            let statistics = device.render(&mut target, &pass);
+            let statistics = device.render(&mut target, &pass).unwrap();
             (target.read_color(0), statistics.primitives_in)
         };
         for (first, format) in [

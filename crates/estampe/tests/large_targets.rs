@@ -74,13 +74,11 @@ fn drawn(width: u32, height: u32) -> Result<Vec<([u32; 2], f32)>, TargetError> {
         color_formats: vec![TextureFormat::R8Unorm],
         ..RenderTargetDescriptor::new(width, height)
     })?;
-    device.render(
-        &mut target,
-        &RenderPass {
-            draws: &draws,
-            ..RenderPass::default()
-        },
-    );
+    let pass = RenderPass {
+        draws: &draws,
+        ..RenderPass::default()
+    };
+    device.render(&mut target, &pass).expect("it fits");
     let texels = target.read_texels(0, 0);
     let depths = target.read_depth();
     let (rows, depths) = (texels.chunks(width as usize), depths.chunks(width as usize));

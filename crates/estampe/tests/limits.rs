@@ -117,7 +117,7 @@ fn sixteen_attributes_and_sixteen_varyings() {
             vertex_buffers: &buffers,
             ..Draw::new(&pipeline, 0..3)
         }];
-        device.draw(&mut target, &draws);
+        device.draw(&mut target, &draws).expect("it fits");
         for pixel in target.read_color(0).as_chunks::<4>().0 {
             assert_eq!(pixel.map(f32::from), expected, "{}", level.name());
         }

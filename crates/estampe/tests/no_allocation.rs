@@ -145,12 +145,12 @@ impl Scene {
             ..RenderPass::default()
         };
         for _ in 0..3 {
-            let statistics = self.device.render(&mut self.target, &pass);
+            let statistics = self.device.render(&mut self.target, &pass).unwrap();
             assert!(statistics.primitives_clipped > 0 && statistics.fragments_shaded > 0);
         }
         std::array::from_fn(|_| {
             let before = ALLOCATIONS.load(Ordering::Relaxed);
-            self.device.render(&mut self.target, &pass);
+            self.device.render(&mut self.target, &pass).unwrap();
             ALLOCATIONS.load(Ordering::Relaxed) - before
         })
     }

@@ -48,7 +48,9 @@ fn drawn(device: &Device, format: TextureFormat, size: (u32, u32)) -> RenderTarg
     let mut target = device
         .create_render_target(&descriptor(4, format, size))
         .unwrap();
-    device.draw(&mut target, &[Draw::new(&pipeline, 0..3)]);
+    device
+        .draw(&mut target, &[Draw::new(&pipeline, 0..3)])
+        .unwrap();
     target
 }
 
@@ -72,7 +74,7 @@ fn a_resolved_picture_is_the_one_that_is_read_back() {
                 let mut image = device
                     .create_render_target(&descriptor(1, format, size))
                     .unwrap();
-                device.resolve(&samples, &mut image);
+                device.resolve(&samples, &mut image).unwrap();
                 let expected = samples.read_color(0);
                 assert!(image.read_color(0) == expected, "{format:?} {size:?}");
                 assert!(
@@ -92,22 +94,37 @@ fn a_resolved_picture_is_the_one_that_is_read_back() {
 }
 
 #[test]
-fn targets_that_do_not_fit_are_not_written() {
+fn targets_that_do_not_fit_are_an_error() {
     let device = Device::new(&DeviceDescriptor::default()).unwrap();
     let unorm = TextureFormat::Rgba8Unorm;
     let samples = drawn(&device, unorm, (70, 40));
-    for other in [
-        descriptor(1, unorm, (70, 41)),
-        descriptor(1, TextureFormat::Rgba8UnormSrgb, (70, 40)),
-        descriptor(4, unorm, (70, 40)),
-        RenderTargetDescriptor {
-            color_formats: Vec::new(),
-            ..descriptor(1, unorm, (70, 40))
-        },
+    let without_colors = RenderTargetDescriptor {
+        color_formats: Vec::new(),
+        ..descriptor(1, unorm, (70, 40))
+    };
+    for (other, message) in [
+        (
+            descriptor(1, unorm, (70, 41)),
+            "resolving a target of 70x40 pixels into one of 70x41: they must have the same size",
+        ),
+        (
+            descriptor(1, TextureFormat::Rgba8UnormSrgb, (70, 40)),
+            "resolving the colour formats [rgba8unorm] into [rgba8unorm-srgb]: they must be the same",
+        ),
+        (
+            descriptor(4, unorm, (70, 40)),
+            "resolving a target of 4 samples into one of 4: the source must have several samples \
+             and the destination one",
+        ),
+        (
+            without_colors,
+            "resolving the colour formats [rgba8unorm] into []: they must be the same",
+        ),
     ] {
         let mut image = device.create_render_target(&other).unwrap();
         let before = image.read_color(0);
-        device.resolve(&samples, &mut image);
+        let error = device.resolve(&samples, &mut image).unwrap_err();
+        assert_eq!(error.to_string(), message);
         assert!(image.read_color(0) == before, "{other:?}");
     }
 }

@@ -92,7 +92,7 @@ fn each_target_has_its_own_format_blending_and_mask() {
                 draws: &draws,
                 ..RenderPass::default()
             };
-            let statistics = device.render(&mut target, &pass);
+            let statistics = device.render(&mut target, &pass).expect("it fits");
             assert_eq!(statistics.fragments_shaded, u64::from(width * height));
 
             // 0.5 is code 128 (floor(127.5 + ½)), in sRGB 188. Target 1's alpha is masked. Target 2

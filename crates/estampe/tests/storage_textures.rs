@@ -83,7 +83,7 @@ fn drawn(level: Level, threads: usize, clear_depth: f32) -> [Vec<u8>; 2] {
         draws: &draws,
         ..RenderPass::default()
     };
-    device.render(&mut target, &pass);
+    device.render(&mut target, &pass).expect("it fits");
     [target.read_color(0), storage_bytes(&texture)]
 }
 

@@ -302,7 +302,9 @@ impl<'d> Case<'d> {
             draws: std::slice::from_ref(&draw),
             ..RenderPass::default()
         };
-        self.device.render(&mut self.target, &pass);
+        self.device
+            .render(&mut self.target, &pass)
+            .expect("the pipeline is made for the target");
     }
 
     /// The number of samples that passed in all frames so far, if they are counted.

@@ -21,4 +21,6 @@ pub(crate) mod resolve;
 mod target;
 
 pub use readback::ReadbackError;
+pub use resolve::ResolveError;
+pub(crate) use target::format_names;
 pub use target::{RenderTarget, RenderTargetDescriptor, TargetError};

@@ -3,7 +3,7 @@
 //! Both targets are made of the same packets in the same order: packet i of the image is the mean of the
 //! samples' lines of packet i. So the work is one pass over memory, cut anywhere.
 
-use super::RenderTarget;
+use super::{RenderTarget, format_names};
 use crate::layout::texel_words;
 use crate::pipeline::color_target::MAX_WORDS;
 use estampe_format::{AttachmentCodec, PacketCodec, with_codec};
@@ -17,6 +17,69 @@ const JOB_PACKETS: usize = 256;
 /// Words of a packet's texels, at most.
 pub(super) const MAX_PACKET: usize = LANES * MAX_WORDS;
 
+/// The reason why targets cannot be resolved. Nothing has been written.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ResolveError {
+    /// The targets have different sizes.
+    #[error(
+        "resolving a target of {}x{} pixels into one of {}x{}: they must have the same size",
+        from[0], from[1], into[0], into[1]
+    )]
+    Size {
+        /// Width and height of the source in pixels.
+        from: [u32; 2],
+        /// Those of the destination.
+        into: [u32; 2],
+    },
+    /// The source has one sample, or the destination several.
+    #[error(
+        "resolving a target of {from} samples into one of {into}: the source must have several samples and the \
+         destination one"
+    )]
+    Samples {
+        /// Samples of the source.
+        from: u32,
+        /// Samples of the destination.
+        into: u32,
+    },
+    /// The targets have different colour formats.
+    #[error(
+        "resolving the colour formats [{}] into [{}]: they must be the same",
+        format_names(from),
+        format_names(into)
+    )]
+    ColorFormats {
+        /// Formats of the source.
+        from: Vec<TextureFormat>,
+        /// Formats of the destination.
+        into: Vec<TextureFormat>,
+    },
+}
+
+fn check(from: &RenderTarget, into: &RenderTarget) -> Result<(), ResolveError> {
+    let size = |target: &RenderTarget| [target.width(), target.height()];
+    if size(from) != size(into) {
+        return Err(ResolveError::Size {
+            from: size(from),
+            into: size(into),
+        });
+    }
+    if from.samples() == 1 || into.samples() != 1 {
+        return Err(ResolveError::Samples {
+            from: from.samples(),
+            into: into.samples(),
+        });
+    }
+    if from.color_formats() != into.color_formats() {
+        return Err(ResolveError::ColorFormats {
+            from: from.color_formats().to_vec(),
+            into: into.color_formats().to_vec(),
+        });
+    }
+    Ok(())
+}
+
 /// A run of packets for one worker.
 #[derive(Debug)]
 pub(crate) struct ResolveJob<'a> {
@@ -28,16 +91,12 @@ pub(crate) struct ResolveJob<'a> {
 }
 
 impl<'a> ResolveJob<'a> {
-    /// Cuts the resolving of a target's colours into jobs; none where the targets do not fit together.
-    pub(crate) fn all(from: &'a RenderTarget, into: &'a mut RenderTarget) -> Vec<Self> {
-        let (from_size, into_size) = ((from.width(), from.height()), (into.width(), into.height()));
-        let fits = from_size == into_size
-            && from.samples() > 1
-            && into.samples() == 1
-            && from.color_formats() == into.color_formats();
-        if !fits {
-            return Vec::new();
-        }
+    /// Cuts the resolving of a target's colours into jobs.
+    pub(crate) fn all(
+        from: &'a RenderTarget,
+        into: &'a mut RenderTarget,
+    ) -> Result<Vec<Self>, ResolveError> {
+        check(from, into)?;
         let count = from.samples() as usize;
         let attachments = from.colors.iter().zip(&mut into.colors);
         let attachments = attachments.zip(from.color_formats());
@@ -53,7 +112,7 @@ impl<'a> ResolveJob<'a> {
                     count,
                 })
         });
-        jobs.collect()
+        Ok(jobs.collect())
     }
 
     /// Resolves the job's packets.

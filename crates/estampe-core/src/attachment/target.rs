@@ -85,6 +85,12 @@ pub enum TargetError {
     },
 }
 
+/// The names of formats, separated by commas: for messages.
+pub(crate) fn format_names(formats: &[TextureFormat]) -> String {
+    let names: Vec<&str> = formats.iter().map(|format| format.name()).collect();
+    names.join(", ")
+}
+
 /// Colour and depth attachments of one size, cleared to zeros when made.
 #[derive(Debug, Clone)]
 pub struct RenderTarget {

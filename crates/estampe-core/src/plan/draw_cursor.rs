@@ -214,7 +214,7 @@ mod tests {
     use crate::attachment::RenderTargetDescriptor;
     use crate::pipeline::{RenderPipeline, RenderPipelineDescriptor};
     use estampe_types::shader::VertexOut;
-    use estampe_types::state::{PrimitiveTopology, Viewport};
+    use estampe_types::state::{PrimitiveTopology, ScissorRect, Viewport};
     use estampe_types::{Buffer, FragmentIn, FragmentOut, IndexFormat, Limits, Vec2, VertexIn};
 
     /// A shader of two floats as varyings.
@@ -267,10 +267,7 @@ mod tests {
 
     #[test]
     fn draws_of_one_state_share_it() {
-        let (fits, other) = (
-            pipeline(PrimitiveTopology::TriangleList, 1),
-            pipeline(PrimitiveTopology::TriangleList, 4),
-        );
+        let fits = pipeline(PrimitiveTopology::TriangleList, 1);
         let plain = Draw::new(&fits, 0..6);
         let blended = Draw {
             blend_constant: [-0.0; 4],
@@ -288,13 +285,21 @@ mod tests {
             blended,
             viewport(0.0),
             viewport(-0.0),
-            Draw::new(&other, 0..6),
+            Draw {
+                scissor: Some(ScissorRect {
+                    x: 40,
+                    y: 0,
+                    width: 5,
+                    height: 5,
+                }),
+                ..plain.clone()
+            },
             Draw::new(&fits, 0..2),
             plain,
         ];
         let batches = cut(&draws, |_, batch| {
             let states = batch.sub_draws.iter().map(|sub_draw| sub_draw.state);
-            // A blend constant belongs to the draw. The fifth draw does not fit the target, and the
+            // A blend constant belongs to the draw. No pixel is left of the fifth draw, and the
             // sixth has no triangle.
             assert_eq!(states.collect::<Vec<_>>(), [0, 0, 1, 2, 3]);
             assert_eq!(batch.states.len(), 4);

@@ -28,18 +28,11 @@ struct StateKey<'a> {
 }
 
 impl<'a> DrawState<'a> {
-    /// The state of a draw on a target; `None` where nothing would be drawn: the pipeline is not
-    /// made for such a target, the viewport is not valid, or no pixel lies in viewport, scissor and
-    /// target.
+    /// The state of a draw on a target that [it fits](super::pass_check); `None` if no pixel lies in
+    /// viewport, scissor and target.
     pub(crate) fn resolve(draw: &Draw<'a>, target: &RenderTarget) -> Option<Self> {
-        if !fits(target, draw) {
-            return None;
-        }
         let (width, height) = (target.width(), target.height());
         let viewport = draw.viewport.unwrap_or(Viewport::of_target(width, height));
-        if !is_valid(&viewport) {
-            return None;
-        }
         let descriptor = draw.pipeline.descriptor();
         let primitive = &descriptor.primitive;
         let samples = target.samples() as usize;
@@ -84,37 +77,4 @@ fn bits(viewport: Viewport) -> [u32; 6] {
         max_depth,
     } = viewport;
     [x, y, width, height, min_depth, max_depth].map(f32::to_bits)
-}
-
-/// Whether a draw's pipeline is made for such a target.
-fn fits(target: &RenderTarget, draw: &Draw<'_>) -> bool {
-    let descriptor = draw.pipeline.descriptor();
-    let formats = descriptor.targets.iter().map(|target| target.format);
-    let depth_fits = target.has_depth() || draw.pipeline.key().depth.is_none();
-    let stencil_fits = target.has_stencil() || descriptor.stencil.is_none();
-    descriptor.samples == target.samples()
-        && formats.eq(target.color_formats().iter().copied())
-        && depth_fits
-        && stencil_fits
-}
-
-/// A viewport that the arithmetic can stand: finite, with area, its depths in 0..=1.
-fn is_valid(viewport: &Viewport) -> bool {
-    let Viewport {
-        x,
-        y,
-        width,
-        height,
-        min_depth,
-        max_depth,
-    } = *viewport;
-    let range = -32_768.0..=32_767.0;
-    range.contains(&x)
-        && range.contains(&y)
-        && width > 0.0
-        && height > 0.0
-        && width <= 32_768.0
-        && height <= 32_768.0
-        && (0.0..=1.0).contains(&min_depth)
-        && (0.0..=1.0).contains(&max_depth)
 }

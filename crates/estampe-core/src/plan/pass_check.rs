@@ -1,0 +1,179 @@
+//! The checks of a pass before anything is drawn or cleared: whether its draws fit its target.
+
+use crate::attachment::{RenderTarget, format_names};
+use crate::commands::{Draw, RenderPass};
+use estampe_types::TextureFormat;
+use estampe_types::state::Viewport;
+
+/// The reason why a pass was refused. Its target is as it was.
+///
+/// Draws are numbered from 0, in the order of [`RenderPass::draws`].
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RenderPassError {
+    /// A pipeline was created for another number of samples.
+    #[error(
+        "draw {draw}: its pipeline has {pipeline} samples per pixel and the render target {target}; create \
+         the pipeline with `samples: {target}`"
+    )]
+    Samples {
+        /// The draw.
+        draw: usize,
+        /// The pipeline's samples.
+        pipeline: u32,
+        /// The target's.
+        target: u32,
+    },
+    /// A pipeline was created for other colour attachments.
+    #[error(
+        "draw {draw}: its pipeline writes the colour formats [{}] and the render target has [{}]; give the \
+         pipeline one target for each attachment, of the same format",
+        format_names(pipeline),
+        format_names(target)
+    )]
+    ColorFormats {
+        /// The draw.
+        draw: usize,
+        /// The pipeline's formats.
+        pipeline: Vec<TextureFormat>,
+        /// The target's.
+        target: Vec<TextureFormat>,
+    },
+    /// A pipeline tests depth, and the target has no depth attachment.
+    #[error(
+        "draw {draw}: its pipeline has a depth test and the render target has no depth attachment; create the \
+         target with a depth format or the pipeline without `depth`"
+    )]
+    NoDepth {
+        /// The draw.
+        draw: usize,
+    },
+    /// A pipeline tests stencil values, and the target has no stencil attachment.
+    #[error(
+        "draw {draw}: its pipeline has a stencil test and the render target has no stencil attachment; create \
+         the target with a stencil format or the pipeline without `stencil`"
+    )]
+    NoStencil {
+        /// The draw.
+        draw: usize,
+    },
+    /// A viewport that is empty, too large, not finite, or whose depths are outside 0..=1.
+    #[error(
+        "draw {draw}: the viewport is at ({}, {}), {}x{} pixels large, with depths {}..{}; its corner must be in \
+         -32768..=32767, its sides above 0 and at most 32768, its depths in 0..=1",
+        viewport.x, viewport.y, viewport.width, viewport.height, viewport.min_depth, viewport.max_depth
+    )]
+    Viewport {
+        /// The draw.
+        draw: usize,
+        /// Its viewport.
+        viewport: Viewport,
+    },
+    /// A draw names an occlusion query that the pass does not have.
+    #[error(
+        "draw {draw}: it counts samples for occlusion query {query} and the pass has {count} of them; set \
+         `RenderPass::occlusion_queries` to at least {} queries",
+        u64::from(*query) + 1
+    )]
+    OcclusionQuery {
+        /// The draw.
+        draw: usize,
+        /// The query that it names.
+        query: u32,
+        /// How many queries the pass has.
+        count: usize,
+    },
+    /// More load operations than colour attachments.
+    #[error(
+        "the pass has {given} colour load operations and the render target {attachments} colour attachments; \
+         drop those beyond"
+    )]
+    LoadColors {
+        /// How many operations there are.
+        given: usize,
+        /// How many attachments there are.
+        attachments: usize,
+    },
+}
+
+/// Checks that a pass can be drawn into a target.
+pub(crate) fn check_pass(
+    target: &RenderTarget,
+    pass: &RenderPass<'_>,
+) -> Result<(), RenderPassError> {
+    let (given, attachments) = (pass.load_colors.len(), target.color_formats().len());
+    if given > attachments {
+        return Err(RenderPassError::LoadColors { given, attachments });
+    }
+    let queries = pass.occlusion_queries.map_or(0, |queries| queries.count());
+    let mut draws = pass.draws.iter().enumerate();
+    draws.try_for_each(|(number, draw)| check_draw(target, queries, number, draw))
+}
+
+fn check_draw(
+    target: &RenderTarget,
+    queries: usize,
+    number: usize,
+    draw: &Draw<'_>,
+) -> Result<(), RenderPassError> {
+    let descriptor = draw.pipeline.descriptor();
+    if descriptor.samples != target.samples() {
+        return Err(RenderPassError::Samples {
+            draw: number,
+            pipeline: descriptor.samples,
+            target: target.samples(),
+        });
+    }
+    let formats = descriptor.targets.iter().map(|target| target.format);
+    if !formats.clone().eq(target.color_formats().iter().copied()) {
+        return Err(RenderPassError::ColorFormats {
+            draw: number,
+            pipeline: formats.collect(),
+            target: target.color_formats().to_vec(),
+        });
+    }
+    if draw.pipeline.key().depth.is_some() && !target.has_depth() {
+        return Err(RenderPassError::NoDepth { draw: number });
+    }
+    if descriptor.stencil.is_some() && !target.has_stencil() {
+        return Err(RenderPassError::NoStencil { draw: number });
+    }
+    match draw.viewport {
+        Some(viewport) if !is_valid(&viewport) => {
+            return Err(RenderPassError::Viewport {
+                draw: number,
+                viewport,
+            });
+        }
+        _ => {}
+    }
+    match draw.occlusion_query {
+        Some(query) if query as usize >= queries => Err(RenderPassError::OcclusionQuery {
+            draw: number,
+            query,
+            count: queries,
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// A viewport that the arithmetic can stand: finite, with area, its depths in 0..=1.
+fn is_valid(viewport: &Viewport) -> bool {
+    let Viewport {
+        x,
+        y,
+        width,
+        height,
+        min_depth,
+        max_depth,
+    } = *viewport;
+    let range = -32_768.0..=32_767.0;
+    range.contains(&x)
+        && range.contains(&y)
+        && width > 0.0
+        && height > 0.0
+        && width <= 32_768.0
+        && height <= 32_768.0
+        && (0.0..=1.0).contains(&min_depth)
+        && (0.0..=1.0).contains(&max_depth)
+}
