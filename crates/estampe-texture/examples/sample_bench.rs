@@ -1,9 +1,9 @@
-//! What a texture sample costs, in nanoseconds, at every SIMD level of this processor:
+//! Measures the time of a texture sample, in nanoseconds, at every SIMD level of this processor:
 //! `cargo run --release -p estampe-texture --example sample_bench [SIZE] [LEVEL] [CASE]`.
 //!
-//! A 1280×720 frame is covered once with a tilted, minified texture (2048×2048), tile by tile and packet
-//! by packet as the pipeline does it. Of each row of tiles the best of several times counts, because rows
-//! are short enough to be left alone by other processes now and then.
+//! A 1280×720 frame is covered once with a tilted, minified texture (2048×2048), tile by tile and
+//! packet by packet as the pipeline does it. The best of several times of each row of tiles counts:
+//! rows are so short that other processes do not interrupt all of them.
 
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_texture::{
@@ -15,8 +15,8 @@ use std::time::Instant;
 const FRAME: [usize; 2] = [1280, 704];
 const TILE: usize = 64;
 
-/// How far apart neighbouring pixels are in a row of the frame: from 4 texels of the base level at the
-/// top to 1 at the bottom, so that mip levels change.
+/// The distance of neighbouring pixels in a row of the frame: from 4 texels of the base level at
+/// the top to 1 at the bottom, so that mip levels change.
 fn scale(size: u32, y: f32) -> f32 {
     4.0 / (1.0 + y * 0.004) / size as f32
 }

@@ -1,7 +1,8 @@
-//! How long a sample of any texture takes: the general path, on one core.
+//! Measures the time of a sample of any texture, by the code of views, on one core.
 //!
-//! `cargo run --release -p estampe-texture --example view_bench [LEVEL] [CASE]`. Tiles of 64×64 pixels of a
-//! 640×320 frame are sampled packet by packet; the figure is the sum over the tile rows of the best of ten times.
+//! `cargo run --release -p estampe-texture --example view_bench [LEVEL] [CASE]`. Tiles of 64×64
+//! pixels of a 640×320 frame are sampled packet by packet; the figure is the sum over the tile rows
+//! of the best of ten times.
 
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_texture::{

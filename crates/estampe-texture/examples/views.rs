@@ -1,4 +1,5 @@
-//! What a sample of each kind of view costs: nanoseconds a packet of sixteen fragments, trilinear.
+//! Measures a trilinear sample of each kind of view, in nanoseconds per packet of sixteen
+//! fragments.
 //!
 //! `cargo run --release -p estampe-texture --example views`
 
@@ -16,7 +17,8 @@ use std::time::Instant;
 const SIDE: u32 = 256;
 /// Packets in a row of the image that is sampled.
 const PACKETS: usize = 64;
-/// How often each view's image is sampled; the least time counts, since others may use the machine.
+/// The number of times that each view's image is sampled; the least time counts, because other
+/// processes may use the processor.
 const ROUNDS: usize = 500;
 
 fn main() {
@@ -78,7 +80,8 @@ fn view(dimension: ViewDimension, format: TextureFormat) -> SampledView {
     let mut bytes =
         Vec::from_iter((0..bytes).map(|at| at.wrapping_mul(0x9E37_79B9).to_le_bytes()[3]));
     if format == TextureFormat::Rgba32Float {
-        // Numbers from ½ to 2: arithmetic with tiny ones, whose products are denormal, is slow on some processors.
+        // Numbers from ½ to 2: arithmetic with tiny ones, whose products are denormal, is slow on
+        // some processors.
         for number in bytes.chunks_exact_mut(4) {
             number[3] = 0x3F;
         }

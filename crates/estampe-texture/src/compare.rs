@@ -1,17 +1,17 @@
-//! Depth images, compared with a reference: shadow maps.
+//! Comparison of depth images with a reference depth, for shadow maps.
 //!
-//! A sample compares the four texels around (u, v) with the reference, *reference ≤ texel*, and mixes the
-//! answers, 1 or 0, as linear filtering mixes texels; borders are clamped. Filtering the answers rather
-//! than the depths is percentage-closer filtering (Reeves, Salesin and Cook 1987).
+//! A sample compares the four texels around (u, v) with the reference, *reference ≤ texel*, and
+//! filters the results, 1 or 0, linearly; coordinates are clamped to the edge. Filtering the
+//! results instead of the depths is percentage-closer filtering (Reeves, Salesin and Cook 1987).
 //!
 //! # Many samples at once
 //!
-//! Nearly everywhere all texels around a packet are lit, or all are in shadow; then the bounds of the two
-//! by two blocks of 4×4 texels that [`sample_compare_sum`] can meet decide the packet with two loads of a
-//! pair a lane, in place of four for each sample. The sum is the same: answers that are all 1 or all 0 stay
-//! so when they are mixed.
+//! In nearly all packets, all texels are lit or all are in shadow. Then the depth min/max of the
+//! 2×2 blocks of 4×4 texels that [`sample_compare_sum`] can reach decides the packet: that takes
+//! two loads of a pair of bounds per lane, instead of four loads for each sample. The sum is the
+//! same, because results that are all 1 or all 0 keep their value when they are filtered.
 //!
-//! Where that does not decide, samples in rows of three by three one texel apart share their texels: 16 are
+//! If the bounds do not decide, 3×3 samples one texel apart share their texels: 16 texels are
 //! compared instead of 36.
 
 use crate::texel::mix;
@@ -20,15 +20,16 @@ use estampe_simd::bits_of;
 use estampe_types::morton::spread_lanes;
 use estampe_types::{AddressMode, DepthTexture, FilterMode, Int, Real, Vec2};
 
-/// How much of the texels around (u, v) is not nearer than the reference, 0..=1: WebGPU's
-/// `textureSampleCompareLevel` with a linear, clamped *less-equal* sampler. An empty image reads as depth 0.
+/// The filtered share of the texels around (u, v) that pass *reference ≤ texel*, 0..=1: WebGPU's
+/// `textureSampleCompareLevel` with a linear, clamped *less-equal* sampler. An empty image reads as
+/// depth 0.
 #[inline(always)]
 pub fn sample_compare_level<R: Real>(texture: &DepthTexture, uv: Vec2<R>, reference: R) -> R {
     sample_compare_sum(texture, uv, &[[0.0; 2]], reference)
 }
 
-/// The sum of [`sample_compare_level`] at (u, v) + offset for each offset, in order. Divided by their
-/// number, it is a soft shadow.
+/// The sum of [`sample_compare_level`] at (u, v) + offset for each offset, in order. Divided by
+/// their number, it is a soft shadow.
 #[inline(always)]
 pub fn sample_compare_sum<R: Real, const N: usize>(
     texture: &DepthTexture,
@@ -52,13 +53,13 @@ pub fn sample_compare_sum<R: Real, const N: usize>(
     )
 }
 
-/// One fragment, for levels whose registers are narrow.
+/// The sum of one fragment, for SIMD levels with emulated lanes.
 #[inline(never)]
 fn sum_of_lane(map: &Map<'_>, uv: Vec2<f32>, offsets: &[[f32; 2]], reference: f32) -> f32 {
     map.sum(uv, offsets, reference)
 }
 
-/// A depth image as lane code needs it.
+/// A depth image as lane code reads it.
 struct Map<'a> {
     depths: &'a [u32],
     bounds: &'a [u32],
@@ -84,7 +85,7 @@ impl<'a> Map<'a> {
 
     #[inline(always)]
     fn sum<R: Real>(&self, uv: Vec2<R>, offsets: &[[f32; 2]], reference: R) -> R {
-        // One sample is as quick as its bounds.
+        // A single sample is as fast as a lookup of its bounds.
         if offsets.len() > 1
             && let Some(lit) = self.decided(uv, offsets, reference)
         {
@@ -102,7 +103,7 @@ impl<'a> Map<'a> {
         sum
     }
 
-    /// Which lanes are lit, if in each of them all samples' texels agree for certain.
+    /// The lit lanes, if the bounds decide every lane: all texels of its samples pass, or all fail.
     #[inline(always)]
     fn decided<R: Real>(&self, uv: Vec2<R>, offsets: &[[f32; 2]], reference: R) -> Option<R::Mask> {
         let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
@@ -112,7 +113,7 @@ impl<'a> Map<'a> {
                 high[axis] = high[axis].max(offset[axis]);
             }
         }
-        // Rounding keeps order, so every texel of every sample lies between these.
+        // Rounding is monotonic, so every texel of every sample lies between these.
         let x0 = axis(uv.x + low[0], self.width).texel;
         let y0 = axis(uv.y + low[1], self.height).texel;
         let x1 = axis(uv.x + high[0], self.width).texel;
@@ -121,10 +122,10 @@ impl<'a> Map<'a> {
         let x1 = (x1 + one).min(x0.splat(self.width - 1));
         let y1 = (y1 + one).min(x0.splat(self.height - 1));
         let (x0, x1, y0, y1) = (x0 >> 2, x1 >> 2, y0 >> 2, y1 >> 2);
-        // More than two blocks across or down.
+        // Lanes whose texels span more than two 4×4 blocks across or down.
         let wide = one.lt((x1 - x0).max(y1 - y0));
         let stride = x0.splat(self.stride);
-        // The right one of a pair may not be needed; then it can only hold the decision back.
+        // The right block of a pair may be unneeded; then it can only prevent a decision.
         let (upper, lower) = (y0 * stride + x0, y1 * stride + x0);
         let (a, b) = (upper.gather(self.bounds), (upper + one).gather(self.bounds));
         let (c, d) = (lower.gather(self.bounds), (lower + one).gather(self.bounds));
@@ -141,9 +142,10 @@ impl<'a> Map<'a> {
         Some(lit)
     }
 
-    /// The sum of three by three samples at (u, v) + (x of a column, y of a row), row by row, if in every lane
-    /// each sample's right texel is its right neighbour's left one, and its lower texel the upper one of the
-    /// sample below. A texel's answer is then asked for once; what is done with it is the same.
+    /// The sum of 3×3 samples at (u, v) + (x of a column, y of a row), row by row. `None` unless
+    /// neighbouring samples share texels in every lane: the right texel of a sample is the left
+    /// texel of the next one, and its lower texel is the upper texel of the sample below. Each
+    /// texel is then compared once; the arithmetic after that is the same.
     #[inline(always)]
     fn sum_of_square<R: Real>(
         &self,
@@ -185,7 +187,7 @@ impl<'a> Map<'a> {
         Some(add_row(sum, third, fourth, y2.fraction))
     }
 
-    /// The answers of four texels of a row, mixed to three.
+    /// The comparison results of four texels of a row, filtered horizontally to three values.
     #[inline(always)]
     fn row_of_three<R: Real>(
         &self,
@@ -206,7 +208,7 @@ impl<'a> Map<'a> {
         ]
     }
 
-    /// One sample.
+    /// One sample: four comparisons, filtered linearly.
     #[inline(always)]
     fn sample<R: Real>(&self, uv: Vec2<R>, reference: R) -> R {
         let (x, y) = (axis(uv.x, self.width), axis(uv.y, self.height));
@@ -228,7 +230,7 @@ impl<'a> Map<'a> {
         mix(above, below, y.fraction)
     }
 
-    /// 1 where the reference is not beyond the texel, else 0.
+    /// 1 where *reference ≤ texel*, else 0.
     #[inline(always)]
     fn passes<R: Real>(&self, index: R::Int, reference: R) -> R {
         let depth = index.gather(self.depths).to_real_bits();
@@ -239,7 +241,7 @@ impl<'a> Map<'a> {
         )
     }
 
-    /// What a row adds to the index of its texels.
+    /// The part of a texel's index that its row determines.
     #[inline(always)]
     fn row<I: Int>(&self, y: I) -> I {
         let blocks = (y >> 6) * y.splat(self.stride / 16);
@@ -267,7 +269,7 @@ fn add_row<R: Real>(sum: R, above: [R; 3], below: [R; 3], fraction: R) -> R {
         + mix(above[2], below[2], fraction)
 }
 
-/// What a column adds to the index of its texels.
+/// The part of a texel's index that its column determines.
 #[inline(always)]
 fn column<I: Int>(x: I) -> I {
     ((x >> 6) << 12) + spread_lanes(x)

@@ -1,29 +1,30 @@
-//! From bytes to a validated texture.
+//! Creation of 2D textures of four 8-bit channels from bytes.
 
 use crate::TextureError;
 use crate::mips;
 use estampe_types::{Limits, MipLevel, TexelEncoding, Texture, TextureFormat, TextureShape};
 
-/// Offsets of texels fit the signed 32-bit indices of lane code.
+/// The most texels of all levels: their offsets fit the signed 32-bit indices of lane code.
 const MAX_TEXELS: u64 = i32::MAX as u64;
 
-/// Whether smaller levels are made.
+/// Whether smaller mip levels are generated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum MipGeneration {
-    /// The full size alone.
+    /// No level is generated.
     #[default]
     None,
-    /// Levels down to 1×1, each halved from the one above.
+    /// Levels down to 1×1 are generated, each half the size of the level above.
     ///
-    /// A side is halved rounding down, at least 1, as WebGPU sizes levels. Texel (x, y) is the mean of
-    /// the texels (2x, 2y), (2x + 1, 2y), (2x, 2y + 1), (2x + 1, 2y + 1) above, the second clamped where a
-    /// side is 1; the last row or column of an odd side is left out. Unorm8 codes a, b, c, d give
-    /// `(a + b + c + d + 2) / 4`, rounded down; sRGB's R, G and B are averaged as linear values, in f32,
-    /// `((a + b) + (c + d)) · 0.25`, and encoded again. Alpha is straight: colours are not weighted with it.
+    /// A side is halved and rounded down, at least 1, as in WebGPU. Texel (x, y) is the mean of the
+    /// texels (2x, 2y), (2x + 1, 2y), (2x, 2y + 1), (2x + 1, 2y + 1) above, the second clamped
+    /// where a side is 1; the last row or column of an odd side is left out. Encoded unorm8 values
+    /// a, b, c, d give `(a + b + c + d + 2) / 4`, rounded down; sRGB's R, G and B are averaged as
+    /// linear values, in f32, `((a + b) + (c + d)) · 0.25`, and encoded again. Alpha is straight:
+    /// colours are not weighted with it.
     Full,
 }
 
-/// A texture from its texels: four bytes each, R G B A, row by row from the top.
+/// Creates a texture from texels of four bytes, R G B A, row by row from the top.
 ///
 /// # Errors
 /// [`TextureError`] when a side is zero or beyond `limits`, the number of bytes is not
@@ -50,11 +51,12 @@ pub fn create_texture(
     Ok(texture(format, levels, texels))
 }
 
-/// A texture with its levels given, the full size (width, height) first, each next one half as wide and
-/// high, rounded down, at least 1. The chain may end before 1×1.
+/// Creates a texture from its mip levels: the full size (width, height) first, each next level half
+/// as wide and high, rounded down, at least 1. The chain may end before 1×1.
 ///
 /// # Errors
-/// [`TextureError`] as for [`create_texture`], and when there is no level or more than down to 1×1.
+/// [`TextureError`] as for [`create_texture`], and when there is no level, or there are more than
+/// the chain down to 1×1 has.
 pub fn create_texture_with_levels(
     size: (u32, u32),
     format: TextureFormat,
@@ -82,12 +84,12 @@ fn texture(format: TextureFormat, levels: Vec<MipLevel>, texels: Vec<u32>) -> Te
     }
 }
 
-/// How many levels there are from this size down to 1×1.
+/// The number of levels from this size down to 1×1.
 fn full_chain(width: u32, height: u32) -> usize {
     width.max(height).max(1).ilog2() as usize + 1
 }
 
-/// The sizes and places of `count` levels.
+/// The sizes and offsets of `count` levels, after checks of format, size and count.
 fn lay_out(
     (width, height): (u32, u32),
     format: TextureFormat,

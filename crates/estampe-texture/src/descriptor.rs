@@ -1,10 +1,11 @@
-//! Textures of every dimension and format: from a descriptor and the format's own bytes.
+//! Texture descriptors: validation, and creation of textures of every dimension and format from the
+//! format's own bytes.
 
 use crate::upload::{self, LevelData};
 use crate::{MipGeneration, TextureError, generate};
 use estampe_types::{Limits, MipLevel, Texture, TextureDimension, TextureFormat, TextureShape};
 
-/// Indices of words fit the signed 32-bit integers of lane code.
+/// The most 32-bit words of a texture: their indices fit the signed 32-bit integers of lane code.
 const MAX_WORDS: u64 = i32::MAX as u64;
 
 /// The longest side of a 3D texture.
@@ -13,22 +14,24 @@ const MAX_SIDE_3D: u32 = 2048;
 /// The most layers of an array.
 const MAX_LAYERS: u32 = 256;
 
-/// What a texture is to be: WebGPU's `GPUTextureDescriptor`.
+/// Describes a texture to create: WebGPU's `GPUTextureDescriptor`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TextureDescriptor {
-    /// Along how many axes it is filtered.
+    /// Dimension: the number of axes along which the texture is filtered.
     pub dimension: TextureDimension,
     /// Width in texels, 1 to 16384 (3D: 2048).
     pub width: u32,
-    /// Height in texels, likewise; 1 of a 1D texture.
+    /// Height in texels, 1 to 16384 (3D: 2048); 1 for a 1D texture.
     pub height: u32,
-    /// The depth of a 3D texture, else how many layers there are, 1 to 256: six for each cube.
+    /// Depth of a 3D texture, 1 to 2048; otherwise the number of array layers, 1 to 256 (1D: 1),
+    /// six per cube.
     pub depth_or_layers: u32,
-    /// How many levels there are: 1 up to those from the full size down to one texel.
+    /// Number of mip levels: 1 up to the length of the chain from the full size down to one texel.
     pub mip_level_count: u32,
-    /// 1, or 2, 4, 8 or 16 of a 2D texture without further levels that is not made of blocks.
+    /// Samples per texel: 1, or 2, 4, 8 or 16 for a 2D texture of one level and an uncompressed
+    /// format.
     pub sample_count: u32,
-    /// What the texels are.
+    /// Format of the texels.
     pub format: TextureFormat,
 }
 
@@ -47,7 +50,7 @@ impl TextureDescriptor {
         }
     }
 
-    /// The same with all levels down to one texel.
+    /// This descriptor with all mip levels down to one texel.
     #[must_use]
     pub fn with_all_levels(self) -> Self {
         Self {
@@ -56,11 +59,13 @@ impl TextureDescriptor {
         }
     }
 
-    /// Makes the texture from the data of its first levels; the others are made of those as `mips` says, or are
-    /// zeros. How many levels there are is the descriptor's affair.
+    /// Creates the texture from the data of its first levels. The other levels are generated from
+    /// those if `mips` says so, else they are zeros. The descriptor alone determines the number of
+    /// levels.
     ///
     /// # Errors
-    /// [`TextureError`] when the descriptor breaks one of its rules, bytes are missing, or memory is short.
+    /// [`TextureError`] when the descriptor breaks one of its rules, bytes are missing, or memory
+    /// is short.
     pub fn create(
         &self,
         data: &[LevelData<'_>],
@@ -90,7 +95,7 @@ impl TextureDescriptor {
         let mut texels = 0;
         for level in 0..self.mip_level_count as usize {
             let (width, height) = self.size_of(level);
-            // Cannot be lost: `check` has confined all levels' words to 31 bits.
+            // No bits are lost: `check` limits the words of all levels to 31 bits.
             let offset = u32::try_from(texels).unwrap_or(u32::MAX);
             texture.levels.push(MipLevel {
                 width,
@@ -116,7 +121,7 @@ impl TextureDescriptor {
         Ok(texture)
     }
 
-    /// Whether the rules of the descriptor hold, before anything is believed.
+    /// Checks the rules of the descriptor, before any of its sizes is used.
     pub(crate) fn check(&self, limits: &Limits) -> Result<(), TextureError> {
         let (width, height, slices) = (self.width, self.height, self.depth_or_layers);
         if width == 0 || height == 0 {
@@ -183,7 +188,7 @@ impl TextureDescriptor {
         Ok(())
     }
 
-    /// What the texture is beside its width and height.
+    /// The texture's dimension, its depth or layers, and its samples.
     pub(crate) fn shape(&self) -> TextureShape {
         TextureShape {
             dimension: self.dimension,
@@ -203,7 +208,7 @@ impl TextureDescriptor {
         texture.stored_format().block_bytes().div_ceil(4)
     }
 
-    /// How many levels there are from the full size down to one texel.
+    /// The number of levels from the full size down to one texel.
     fn most_levels(&self) -> u32 {
         let depth = match self.dimension {
             TextureDimension::D3 => self.depth_or_layers,
@@ -216,7 +221,7 @@ impl TextureDescriptor {
         ((self.width >> level).max(1), (self.height >> level).max(1))
     }
 
-    /// Texels of a level, slices and samples counted.
+    /// The number of texels of a level, over all slices and samples.
     fn texels_of(&self, level: usize) -> u64 {
         let (width, height) = self.size_of(level);
         let slices = self.shape().slices(level);
@@ -225,7 +230,7 @@ impl TextureDescriptor {
     }
 }
 
-/// Zeros, or an error where there is no room for them and for the copy that becomes the texture.
+/// Allocates zeros; an error if memory does not hold them and the copy that becomes the texture.
 fn zeros(count: usize) -> Result<Vec<u32>, TextureError> {
     let bytes = count as u64 * 4;
     let mut room: Vec<u32> = Vec::new();

@@ -1,8 +1,8 @@
-//! What can be wrong with a texture.
+//! Errors of creating textures, views and samplers.
 
 use estampe_types::{TextureDimension, TextureFormat};
 
-/// The rule that the creation of a texture broke.
+/// The rule that the creation of a texture, a view or a sampler broke.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TextureError {
@@ -24,52 +24,53 @@ pub enum TextureError {
         /// The limit.
         limit: u32,
     },
-    /// More texels, all levels together, than offsets can count.
+    /// The texels of all levels together exceed 2³¹ − 1 words.
     #[error("{texels} texels in all levels exceed 2^31 − 1 words of four bytes")]
     TooManyTexels {
         /// Texels of all levels.
         texels: u64,
     },
-    /// A level's bytes do not fill it, or overfill it.
+    /// The number of bytes is not that of the level.
     #[error("level {level} takes {expected} bytes, not {actual}")]
     ByteCount {
         /// Which level; 0 is the full size.
         level: usize,
-        /// What the level takes.
+        /// The bytes that the level takes.
         expected: u64,
-        /// What was given.
+        /// The number that was given.
         actual: u64,
     },
-    /// No level at all, or more than halving down to 1×1 gives.
+    /// There is no level, or there are more than halving down to 1×1 gives.
     #[error("a texture of this size has 1 to {most} levels, not {actual}")]
     LevelCount {
-        /// The length of the full chain.
+        /// The number of levels of the full chain.
         most: usize,
-        /// What was given.
+        /// The number that was given.
         actual: usize,
     },
-    /// Other layers or depth than the dimension allows, or a row of some height.
+    /// The dimension does not allow this number of layers or slices, or a 1D texture has another
+    /// height than 1.
     #[error(
         "a {dimension:?} texture has 1 to {most} layers or slices, not {slices}, and a D1 texture has height 1, \
          not {height}"
     )]
     Slices {
-        /// Along how many axes it is filtered.
+        /// Dimension: the number of axes along which the texture is filtered.
         dimension: TextureDimension,
         /// Height in texels.
         height: u32,
-        /// The depth or layers that were asked for.
+        /// The depth or the number of layers that was asked for.
         slices: u32,
-        /// The most that there may be.
+        /// The most layers or slices that are allowed.
         most: u32,
     },
-    /// Blocks, depth or stencil in one or three dimensions.
+    /// A compressed, depth or stencil format in one or three dimensions.
     #[error("textures of {format:?} are 2D: choose TextureDimension::D2")]
     NotFlat {
         /// The format.
         format: TextureFormat,
     },
-    /// A number of samples that does not exist, or more than one where there is but one.
+    /// The number of samples is not 1, 2, 4, 8 or 16, or this texture can only have one sample.
     #[error(
         "{samples} samples: textures have 1 sample; 2D textures of one level and no blocks have 1, 2, 4, 8 or 16"
     )]
@@ -77,7 +78,7 @@ pub enum TextureError {
         /// The number that was asked for.
         samples: u32,
     },
-    /// Rows that overlap.
+    /// Rows or slices overlap, because a stride is too small.
     #[error(
         "a row of level {level} has {bytes_per_row} bytes and an image {rows_per_image} rows: bytes_per_row and \
          rows_per_image cannot be less"
@@ -90,7 +91,7 @@ pub enum TextureError {
         /// The least rows from slice to slice.
         rows_per_image: u64,
     },
-    /// Levels are to be made of a format of integers, depth or stencil.
+    /// Mip levels cannot be generated for a format of integers, depth or stencil.
     #[error("levels of {format:?} cannot be made: give their data, or choose MipGeneration::None")]
     MipGeneration {
         /// The format.
@@ -104,25 +105,25 @@ pub enum TextureError {
         /// The format.
         format: TextureFormat,
     },
-    /// There is no memory for it.
+    /// Memory does not hold the texture.
     #[error("no memory for a texture of {bytes} bytes")]
     OutOfMemory {
-        /// Its size.
+        /// Size of the texture in bytes.
         bytes: u64,
     },
-    /// A part of a texture that it does not have.
+    /// A view asks for a part that the texture does not have.
     #[error("the view asks for {what}, which the texture does not have")]
     View {
-        /// What is missing.
+        /// The missing part.
         what: &'static str,
     },
-    /// A sampler that cannot sample the texture, or none.
+    /// The sampler is invalid, or it cannot sample the texture.
     #[error("{what}")]
     Sampler {
         /// The rule that was broken.
         what: &'static str,
     },
-    /// A format that cannot be made from 8-bit RGBA bytes.
+    /// The format does not have four 8-bit channels.
     #[error("{format:?} cannot be filled with four 8-bit channels")]
     Format {
         /// The format.

@@ -1,21 +1,24 @@
-//! Mip levels, sampled: the nearest texel, or the weighted mean of four, of one level or two.
+//! Filtering of the common kind of texture: the nearest texel or the weighted mean of four, in one
+//! mip level or between two.
 
 use crate::texel::{Corners, Number, OPAQUE, finish, linear, mix, unpack};
 use crate::wrap::{Place, place, tile};
 use estampe_types::{AddressMode, FilterMode, Int, MipLevel, Real, Texture, Vec2, Vec3, Vec4};
 
-/// The longest side that lane arithmetic is made for, [`Limits`](estampe_types::Limits)' maximum.
+/// The longest side that lane arithmetic supports: the maximum of
+/// [`Limits`](estampe_types::Limits).
 const MAX_SIDE: u32 = 16_384;
-/// Beyond this the index of a texel would not fit i32.
+/// The greatest offset of a level: beyond it, the index of a texel would not fit i32.
 const MAX_OFFSET: u32 = 1 << 30;
 
-/// A mip level as lane code needs it. A texture put together by hand may claim anything; confining its
-/// numbers here keeps the arithmetic in range, and gathers clamp their indices.
+/// A mip level's numbers as lane code reads them. The fields of a [`Texture`] are public and may
+/// hold any value: clamping them here keeps the arithmetic in range, and gathers clamp their
+/// indices.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Level {
     pub(crate) width: i32,
     pub(crate) height: i32,
-    /// Width and height once more.
+    /// Width and height as floats.
     pub(crate) size: [f32; 2],
     offset: i32,
 }
@@ -32,26 +35,26 @@ impl Level {
         }
     }
 
-    /// Where it begins in the texture's words.
+    /// The index of the level's first word in the texture.
     #[inline(always)]
     pub(crate) fn offset(&self) -> i32 {
         self.offset
     }
 
-    /// Whether nothing had to be confined.
+    /// Whether no number had to be clamped.
     pub(crate) fn is_exact(self, level: &MipLevel) -> bool {
         [self.width, self.height, self.offset].map(i32::cast_unsigned)
             == [level.width, level.height, level.offset]
     }
 
-    /// Where the texel (x, y) lies in the texture's words.
+    /// The index of texel (x, y) in the texture's words.
     #[inline(always)]
     pub(crate) fn index<I: Int>(self, x: I, y: I) -> I {
         y * y.splat(self.width) + x + x.splat(self.offset)
     }
 }
 
-/// The place of a sample in one level.
+/// The footprint of a sample in one level.
 struct Footprint<R: Real> {
     level: Level,
     x: Place<R>,
@@ -75,8 +78,8 @@ impl<R: Number> Footprint<R> {
         x.is_outside(self.level.width - 1) | y.is_outside(self.level.height - 1)
     }
 
-    /// The four texels where none is outside: left and right are neighbours in memory, and upper and
-    /// lower one row apart.
+    /// Loads the four texels if all are inside the level: left and right are neighbours in memory,
+    /// and upper and lower are one row apart.
     #[inline(always)]
     fn corners_inside(&self, texels: &[u32]) -> Corners<R::Int> {
         let at = self.level.index(self.x.texel, self.y.texel);
@@ -87,7 +90,7 @@ impl<R: Number> Footprint<R> {
         }
     }
 
-    /// The four texels, those across a border from the other side.
+    /// Loads the four texels; texels across a border are taken from the opposite side.
     #[inline(always)]
     fn corners(&self, texels: &[u32]) -> Corners<R::Int> {
         let Self { level, x, y } = self;
@@ -117,7 +120,7 @@ impl<R: Number> Footprint<R> {
     }
 }
 
-/// The level's colour at a wrapped coordinate, in the units of [`texel`](crate::texel).
+/// Samples a level at a wrapped coordinate; the colour is in the units of [`texel`](crate::texel).
 #[inline(always)]
 pub(crate) fn sample_level<R: Number>(
     texture: &Texture,
@@ -137,17 +140,18 @@ pub(crate) fn sample_level<R: Number>(
     unpack(word, linear)
 }
 
-/// Where a linearly filtered sample lies when all texels of all lanes are inside their levels.
+/// The footprint of the common case: linear filtering, all lanes in the same mip level or between
+/// the same two, all texels inside.
 pub(crate) struct Inside<R: Real> {
     fine: Footprint<R>,
-    /// The next level, where it counts.
+    /// The next coarser level, unless its weight is 0 in every lane.
     coarse: Option<Footprint<R>>,
     fraction: R,
 }
 
 impl<R: Number> Inside<R> {
-    /// Of one level or, where the weight of the next one is not 0 in every lane, of two. `None` where a lane's
-    /// texels lie across a border.
+    /// The footprint in one level or, unless the weight of the next one is 0 in every lane, in two.
+    /// `None` if a lane's texels lie across a border.
     #[inline(always)]
     pub(crate) fn new(
         [fine, coarse]: [Level; 2],
@@ -178,11 +182,12 @@ impl<R: Number> Inside<R> {
         })
     }
 
-    /// The colour of a texture there, 0..1. Where alpha is 255 everywhere, a quarter of unorm8's arithmetic is left
-    /// out.
+    /// The colour of a texture at this footprint, 0..1. If alpha is 255 everywhere, unorm8 skips a
+    /// quarter of its arithmetic.
     ///
-    /// Both levels' texels are under way before the first is used: a packet's chain of dependent
-    /// operations is so long that one level after the other took a fifth more time.
+    /// The texels of both levels are loaded before the first is used: the chain of dependent
+    /// operations of a packet is so long that sampling one level after the other took a fifth more
+    /// time.
     #[inline(always)]
     pub(crate) fn color(&self, texture: &Texture, is_srgb: bool) -> Vec4<R> {
         let texels = &texture.texels[..];

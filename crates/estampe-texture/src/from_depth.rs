@@ -1,11 +1,11 @@
-//! A depth image as a texture like others.
+//! Conversion of a depth image to a texture.
 
 use crate::{LevelData, MipGeneration, TextureDescriptor, TextureError};
 use estampe_types::{DepthTexture, Limits, Texture, TextureFormat};
 
-/// A copy of a depth image, such as a depth attachment was, as a texture of [`TextureFormat::Depth32Float`]: to be
-/// sampled, gathered and compared in every way. [`sample_compare_level`](crate::sample_compare_level) reads the image
-/// as it lies.
+/// Copies a depth image, such as a depth attachment of an earlier pass, to a texture of
+/// [`TextureFormat::Depth32Float`], which can be sampled, gathered and compared like any other
+/// texture. [`sample_compare_level`](crate::sample_compare_level) reads the image without a copy.
 ///
 /// # Errors
 /// [`TextureError`] when the image is empty, or memory is short.

@@ -1,19 +1,21 @@
-//! Mip levels of every dimension and filterable format, from the level above.
+//! Generation of mip levels of every dimension and filterable format from the level above.
 //!
-//! A side is halved rounding down, at least 1. A texel is the mean of the two by two (of 3D textures by two) texels
-//! from 2x, 2y, 2z on, the second clamped where a side is 1; the last one of an odd side is left out. (As
-//! [`MipGeneration::Full`](crate::MipGeneration::Full) says.)
+//! A side is halved and rounded down, at least 1. A texel is the mean of the 2×2 texels (2×2×2 of
+//! 3D textures) from (2x, 2y, 2z) on in the level above. The second coordinate is clamped where a
+//! side is 1; the last texel of an odd side is left out.
+//! [`MipGeneration::Full`](crate::MipGeneration::Full) states this rule.
 
 use crate::mips;
 use estampe_format::TexelCodec;
 use estampe_types::{SampleType, TexelEncoding, Texture, TextureDimension, TextureFormat};
 
-/// Whether levels of the texture's format can be made: those of numbers, blocks included.
+/// Whether mip levels can be generated for the texture's format: formats of numbers, compressed
+/// ones included.
 pub(crate) fn is_possible(texture: &Texture) -> bool {
     texture.format.sample_type() == SampleType::Float
 }
 
-/// Makes a level from the one above among the texture's words; level 0 has none above.
+/// Generates a level from the one above in the texture's words; level 0 has none above.
 pub(crate) fn level(texture: &Texture, level: usize, words: &mut [u32]) {
     let Some(above) = level.checked_sub(1) else {
         return;
@@ -91,7 +93,8 @@ fn mean(format: TextureFormat, codec: &TexelCodec, fours: &[[&[u32]; 4]]) -> [u3
             of_slices[0][k]
         };
         let mean = sum * factor;
-        // Sums of codes are exact, and so is this code: ⌊mean + ½⌋; R, G and B of sRGB are numbers.
+        // Sums of encoded integers are exact, and so is the result ⌊mean + ½⌋. R, G and B of sRGB
+        // are linear numbers.
         if is_code && !(format.is_srgb() && k < 3) {
             (mean + 0.5).floor() * codec.scale()[k]
         } else {

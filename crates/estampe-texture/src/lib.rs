@@ -3,46 +3,67 @@
     clippy::self_named_module_files,
     reason = "folders that are being rewritten get their `mod.rs` then"
 )]
-//! Textures: making them, reading them at coordinates, storing to them.
+//! Textures: creation, views, sampling and storage textures.
 //!
-//! * [`TextureDescriptor`]: bytes of any [`TextureFormat`] become a [`Texture`] of one, two or three dimensions, with
-//!   layers, levels or samples; [`create_texture`] is the short way for four 8-bit channels. [`TextureError`] names
-//!   the rule that was broken;
-//! * [`TextureView`]: as what and how much of it is read; its sizes, and fetching texels;
-//! * [`SampledView`]: a view with a sampler: sampling, gathering, comparing, at any [`Coordinates`] and [`Lod`];
-//! * [`Sampled`]: the common kind by itself: 2D, four 8-bit channels, WebGPU's address modes;
-//! * [`sample_compare_level`], [`sample_compare_sum`]: a depth attachment, as it lies, compared with a reference
-//!   ([`texture_from_depth`] makes it a texture like others);
-//! * [`StorageTexture`], which shaders store to: [`storage_load`], [`storage_store`].
+//! * [`TextureDescriptor`] creates a [`Texture`] of one, two or three dimensions, with layers, mip
+//!   levels or samples, from the bytes of any [`TextureFormat`]; [`create_texture`] is the short
+//!   form for four 8-bit channels. [`TextureError`] names the rule that was broken.
+//! * [`TextureView`] is how a texture's dimension, mip levels and layers are reinterpreted; it
+//!   gives their sizes and fetches texels.
+//! * [`SampledView`] is a view with a sampler: it samples, gathers and compares at any
+//!   [`Coordinates`] and [`Lod`].
+//! * [`Sampled`] is a texture of the common kind with a sampler: 2D, four 8-bit channels, WebGPU's
+//!   address modes.
+//! * [`sample_compare_level`] and [`sample_compare_sum`] compare a depth attachment with a
+//!   reference, without a copy; [`texture_from_depth`] copies it to a texture like others.
+//! * [`StorageTexture`] is a texture that shaders load from and store to: [`storage_load`],
+//!   [`storage_store`].
 //!
-//! All of it is one text for one fragment (`f32`), a 2×2 quad ([`Quad`](estampe_types::Quad)) and packets, with the
-//! same bits.
+//! Functions that read or write texels take one fragment (`f32`), a 2×2 quad
+//! ([`Quad`](estampe_types::Quad)) or packets, and give the same bits for each.
 //!
 //! ```text
 //!  bytes ─▶ upload (blocks) ─▶ generate ─▶ Texture          encode ◀─ StorageTexture
 //!                                            │ decode
-//!  coordinates ─▶ footprint ─▶ levels ─▶ axis, cube ─▶ texels ─▶ mixture        (view: everything)
-//!  derivatives ─▶ lod ─▶ levels and their mixture ─▶ wrap ─▶ filter ─▶ texel    (sampled: the common kind)
+//!  coordinates ─▶ footprint ─▶ levels ─▶ axis, cube ─▶ texels ─▶ mixture     (view: everything)
+//!  derivatives ─▶ lod ─▶ levels ─▶ wrap ─▶ filter ─▶ texel ─▶ mixture   (sampled: the common kind)
 //! ```
+//!
+//! # Compiled once
+//!
+//! Shaders are generic over their numbers; the sampler is compiled once, in this crate.
+//! `request.rs` is the boundary through which shaders call it: a shader stores its lanes as a
+//! request and loads the answer, and both are packets of sixteen lanes, one cache line each.
+//! Requests to views (`view/coordinates.rs`) have the same form. Only `compare.rs` and
+//! [`Sampled::texel_fetch`] are generic, and compiled into each shader.
+//!
+//! A view that is not of the common kind has three implementations with the same bits:
+//!
+//! * `view/packet/inside.rs`, the common case of a packet: linear filtering, all lanes between the
+//!   same two mip levels, all texels inside;
+//! * `view/packet/mod.rs`, the general packet code, which samples other packets;
+//! * `view/sample.rs`, the scalar code, lane by lane, for everything else.
 //!
 //! # How a packet of the common kind is sampled
 //!
-//! Nearly always all sixteen lanes want the same mip level: 4×4 neighbouring pixels. So a level is
-//! sampled with its size and place the same in every lane, and where a packet does straddle levels,
-//! the whole is done once for each of them and the lanes are picked together. That is never more
-//! than four times for a packet of quads, and spares sizes and offsets per lane.
+//! Nearly always all sixteen lanes, 4×4 neighbouring pixels, need the same mip level. So a level is
+//! sampled with its size and offset the same in every lane. Where a packet straddles levels, the
+//! whole packet is sampled once for each of them, and each lane's result is selected. That is never
+//! more than four times for a packet of quads, and spares sizes and offsets per lane. Only linear
+//! filtering of repeated textures in two neighbouring levels selects a size per lane (`mixed.rs`).
 //!
-//! The level is guessed from the exponent of ρ² in the packet's first lane, so the four texels of each lane
-//! are on their way ([`Int::gather_square`](estampe_types::Int::gather_square)) while λ is still being
-//! computed; λ then says whether the guess was right.
+//! The level is guessed from the exponent of ρ² in the packet's first lane. The four texels of each
+//! lane are then loaded ([`Int::gather_square`](estampe_types::Int::gather_square)) while λ is
+//! still being computed; λ confirms or refutes the guess.
 //!
-//! At the scalar level ([`Real::EMULATED_LANES`](estampe_types::Real::EMULATED_LANES)), the lanes are sampled one after the
-//! other by the same text on `f32`: sixteen lanes at once took minutes to compile.
+//! At the scalar SIMD level ([`Real::EMULATED_LANES`](estampe_types::Real::EMULATED_LANES)), the
+//! same code samples the lanes one after the other as `f32`: sixteen lanes at once took minutes to
+//! compile.
 //!
-//! Unorm8 channels become numbers without a conversion: a byte put into the mantissa of 2²³ is
-//! 2²³ + c, and the difference of two of those is the exact c₁ − c₀ that linear filtering begins
-//! with. The second and fourth byte stay where they are, as 256·c, and the factor 1/255 at the end
-//! makes up for it. All of this is exact, so the bits are those of `docs/NUMERICS.md`.
+//! Unorm8 channels become floats without a conversion: a byte put into the mantissa of 2²³ is 2²³ +
+//! c, and the difference of two of those is the exact c₁ − c₀ with which linear filtering begins.
+//! The second and fourth byte stay in place, as 256·c, and the factor at the end, 1/255 divided by
+//! 256, compensates for it. All of this is exact, so the bits are those of `docs/NUMERICS.md`.
 
 mod blocks;
 mod compare;

@@ -1,5 +1,5 @@
-//! A mip level from the one above it: 2×2 boxes. The rule is stated at
-//! [`MipGeneration::Full`](crate::MipGeneration::Full).
+//! Mip generation of four 8-bit channels by a 2×2 box filter.
+//! [`MipGeneration::Full`](crate::MipGeneration::Full) states the rule.
 
 use estampe_format::srgb;
 use estampe_types::{MipLevel, TextureFormat};
@@ -31,7 +31,7 @@ pub(crate) fn append_half(
     }
 }
 
-/// The mean of four texels of four 8-bit channels.
+/// The function that averages four texels of four 8-bit channels.
 pub(crate) fn mean_of_four(format: TextureFormat) -> fn([u32; 4]) -> u32 {
     if format.is_srgb() {
         mean_srgb
@@ -40,7 +40,7 @@ pub(crate) fn mean_of_four(format: TextureFormat) -> fn([u32; 4]) -> u32 {
     }
 }
 
-/// Each channel (a + b + c + d + 2) / 4. Two channels are summed in one word, 16 bits each.
+/// Each channel is (a + b + c + d + 2) / 4. Two channels are summed in one word, 16 bits each.
 fn mean_unorm(four: [u32; 4]) -> u32 {
     const EVEN: u32 = 0x00FF_00FF;
     let (mut even, mut odd) = (0x0002_0002, 0x0002_0002);
@@ -51,7 +51,7 @@ fn mean_unorm(four: [u32; 4]) -> u32 {
     (even >> 2) & EVEN | ((odd >> 2) & EVEN) << 8
 }
 
-/// R, G and B by their linear values, alpha as unorm.
+/// Averages R, G and B as linear values, and alpha as unorm.
 fn mean_srgb(four: [u32; 4]) -> u32 {
     let table = &*srgb::LINEAR_FROM_SRGB;
     let mut texel = mean_unorm(four) & 0xFF00_0000;

@@ -1,11 +1,14 @@
-//! Sampling up to sixteen lanes by code that is compiled in this crate alone.
+//! The boundary through which shaders call the sampler, which is compiled once, in this crate.
 //!
-//! A shader is generic over its numbers; if the sampler were, too, each crate with a shader would compile it for every
-//! level, which took 8 seconds. So a shader stores its coordinates as packets, calls with the level that it runs at,
-//! and loads the colours: a register each.
+//! A shader is generic over its numbers. If the sampler were generic, too, each crate with a shader
+//! would compile it for every SIMD level, which took 8 seconds. Instead a shader stores its
+//! coordinates as a [`Request`], calls the sampler with its SIMD level, and loads the colours.
+//! Requests and answers are packets of up to sixteen lanes, a cache line each, so that a register
+//! stores or loads a packet at once.
 //!
-//! A packet's entry holds the common case alone ([`Sampled::inside`]); all else is behind a second call
-//! that finds everything anew, so that the common case keeps nothing in memory for it.
+//! The level entry of a packet holds only the common case ([`Sampled::inside`]). Other cases are
+//! behind a second call, which computes everything again, so that the common case keeps nothing in
+//! memory for them.
 
 use crate::Sampled;
 use crate::lod::{implicit_rho2, level_of_detail, rho2};
@@ -15,13 +18,14 @@ use crate::view::{Answers, answer, load, packet};
 use estampe_simd::{LANES, Lanes as _, Level, Packet, SimdBase, dispatch, f32x16};
 use estampe_types::{Int, Quad, Real, Vec2, Vec4};
 
-/// Where lanes are sampled: each number is a cache line, which a register of sixteen lanes stores and loads at once.
+/// Coordinates and levels of detail of up to sixteen lanes. Each number is a packet, a cache line,
+/// which a register of sixteen lanes stores and loads at once.
 #[derive(Debug)]
 pub(crate) struct Request {
     uv: [Packet<f32>; 2],
     /// Levels of detail, if [`Request::has_lod`].
     lod: Packet<f32>,
-    /// Whether levels of detail are given rather than found from the quads.
+    /// Whether levels of detail are given; otherwise they follow from the quads.
     has_lod: bool,
 }
 
@@ -29,7 +33,7 @@ pub(crate) struct Request {
 const QUAD: usize = 4;
 
 impl Request {
-    /// Sixteen lanes of coordinates, or all there are, from one on.
+    /// A request for the lanes from `first` on: sixteen, or all if there are fewer.
     #[inline(always)]
     fn new<R: Real>(uv: Vec2<R>, lod: Option<R>, first: usize) -> Self {
         Self {
@@ -65,7 +69,7 @@ impl Request {
 }
 
 impl Sampled {
-    /// The colours of sixteen lanes, or of all there are, from one on.
+    /// Samples the lanes from `first` on: sixteen, or all if there are fewer.
     #[inline(always)]
     pub(crate) fn sample_lanes<R: Real>(
         &self,
@@ -81,8 +85,8 @@ impl Sampled {
         }
     }
 
-    /// The colours of several textures, whose number is that of `colors`, at sixteen lanes or all there are, from
-    /// one on.
+    /// Samples several textures, as many as there are `colors`, for the lanes from `first` on:
+    /// sixteen, or all if there are fewer.
     #[inline(always)]
     pub(crate) fn sample_all_lanes<R: Real>(
         textures: &[&Self],
@@ -99,7 +103,7 @@ impl Sampled {
         }
     }
 
-    /// The colours of a packet. What its code captures is two references, which registers hold.
+    /// Samples a packet. The code inside `dispatch!` captures two references, which registers hold.
     #[inline(never)]
     fn sample_packet(&self, level: Level, request: &Request) -> Answers {
         dispatch!(@wide_move level, s => {
@@ -112,7 +116,7 @@ impl Sampled {
         }, scalar => self.sample_each(request))
     }
 
-    /// The colours of a packet that is not of the common case.
+    /// Samples a packet that is not the common case.
     #[inline(never)]
     fn sample_rare_packet(&self, level: Level, request: &Request) -> Answers {
         dispatch!(@wide level, s => {
@@ -145,7 +149,7 @@ impl Sampled {
         self.sample_at(uv, lod, guess)
     }
 
-    /// Coordinates, their level of detail, and most probably the finer level of the first lane.
+    /// The coordinates, their level of detail, and a guess of the finer level of the first lane.
     #[inline(always)]
     fn place<R: Real>(&self, request: &Request, like: R, first: usize) -> (Vec2<R>, R, i32) {
         let uv = request.uv(like, first);
@@ -159,8 +163,8 @@ impl Sampled {
         (uv, level_of_detail(rho2), self.guess_of_level(rho2))
     }
 
-    /// The colours of a packet in several textures. Where these are [alike](Self::is_like), the first one's places
-    /// serve all.
+    /// Samples a packet from several textures. If they are [alike](Self::is_like), the footprint in
+    /// the first one serves all.
     #[inline(never)]
     fn sample_all_packets(
         textures: &[&Self],
@@ -180,7 +184,7 @@ impl Sampled {
         }
     }
 
-    /// Samples textures that are like this one.
+    /// Samples textures that are [alike](Self::is_like): this one's footprint serves all.
     #[inline(never)]
     fn sample_alike(
         &self,
@@ -224,7 +228,7 @@ impl Sampled {
         }, scalar => ());
     }
 
-    /// Samples a packet's lanes one after the other: at the scalar level.
+    /// Samples a packet lane by lane, at the scalar SIMD level.
     #[inline(never)]
     fn sample_each(&self, request: &Request) -> Answers {
         let mut colors = Answers::default();
@@ -239,7 +243,7 @@ impl Sampled {
     }
 }
 
-/// Colours as packets.
+/// Stores colours as packets.
 #[inline(always)]
 fn stored<R: Real>(color: Vec4<R>) -> Answers {
     [

@@ -1,4 +1,4 @@
-//! A texture with a sampler, as a shader holds it.
+//! [`Sampled`]: the common kind of texture with a sampler, as a shader holds it.
 
 use crate::filter::{Inside, Level, mix_colors, sample_level};
 use crate::lod::{level_of_detail, rho2};
@@ -14,31 +14,33 @@ use estampe_types::{
 };
 use std::sync::Arc;
 
-/// The levels of the longest chain, from [`Limits`](estampe_types::Limits)' maximum of 16,384 down to 1, and
-/// one more to make a power of two.
+/// The levels of the longest chain, from the maximum of [`Limits`](estampe_types::Limits), 16,384,
+/// down to 1, and one more to make a power of two.
 const MAX_LEVELS: usize = 16;
 
-/// A texture and how it is sampled. Cheap to clone: the texels are shared.
+/// A 2D texture of four 8-bit channels with a sampler. Cheap to clone: the texels are shared.
 ///
-/// Coordinates may be anything; NaN and infinities read some texel of the texture, as
+/// Coordinates may be any number; NaN and infinities read some texel of the texture, as
 /// `docs/NUMERICS.md` says. Colours are linear, alpha is straight, all in 0..=1.
 #[derive(Clone, Debug)]
 pub struct Sampled {
     pub(crate) texture: Arc<Texture>,
     pub(crate) sampler: SamplerDescriptor,
-    /// The texture's levels; beyond the end the last one.
+    /// The texture's mip levels; entries beyond the last level repeat it.
     pub(crate) levels: Arc<[Level; MAX_LEVELS]>,
     /// The least and greatest level of detail that the sampler and the levels allow.
     pub(crate) lod_range: [f32; 2],
-    /// The finer level at both.
+    /// The finer level at both ends of `lod_range`.
     level_range: [i32; 2],
-    /// Whether it is the common case: unorm8 or sRGB, filtered linearly near and far.
+    /// Whether the common case is possible: unorm8 or sRGB, linear filters for magnification and
+    /// minification.
     is_linear: bool,
     /// Whether the texture's format is sRGB.
     pub(crate) is_srgb: bool,
-    /// Whether the levels are laid out as `create_texture` does it, so that size and number determine them.
+    /// Whether the levels are laid out as `create_texture` does it, so that the size and the number
+    /// of levels determine the layout.
     is_regular: bool,
-    /// The smallest level.
+    /// The index of the smallest level.
     last_level: usize,
 }
 
@@ -50,7 +52,7 @@ impl Sample2d for Sampled {
 }
 
 impl Sampled {
-    /// A texture with a sampler.
+    /// Combines a texture with a sampler.
     #[must_use]
     pub fn new(texture: impl Into<Arc<Texture>>, sampler: SamplerDescriptor) -> Self {
         let texture: Arc<Texture> = texture.into();
@@ -87,24 +89,24 @@ impl Sampled {
         &self.texture
     }
 
-    /// How it is sampled.
+    /// The sampler.
     #[must_use]
     pub fn sampler(&self) -> &SamplerDescriptor {
         &self.sampler
     }
 
-    /// The colour at (u, v), level of detail from the differences of (u, v) within each 2×2 quad. A lone
-    /// fragment (`f32`) has none: it reads the finest level.
+    /// Samples at (u, v), with the level of detail from the differences of (u, v) within each 2×2
+    /// quad. A single fragment (`f32`) has no differences: it reads the finest level.
     #[inline(always)]
     pub fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
         self.request(uv, None)
     }
 
-    /// The colours of several textures at one place, such as a surface's colour and its normal map: what
-    /// [`Self::sample`] of each gives.
+    /// Samples several textures at the same coordinates, such as a surface's colour and its normal
+    /// map. The results are those of [`Self::sample`].
     ///
-    /// Where the textures have the same size and number of levels and are sampled the same way, the level of
-    /// detail and the texels' places are found once for all.
+    /// If the textures have the same size, number of levels and sampler state, the level of detail
+    /// and the footprint are computed once for all of them.
     #[inline(always)]
     pub fn sample_all<R: Real, const N: usize>(textures: [&Self; N], uv: Vec2<R>) -> [Vec4<R>; N] {
         let mut answers = [Answers::default(); N];
@@ -120,7 +122,8 @@ impl Sampled {
         colors
     }
 
-    /// Samples sixteen lanes at a time, by code that is not compiled into the shader.
+    /// Samples sixteen lanes at a time through `request.rs`, whose code is not compiled into the
+    /// shader.
     #[inline(always)]
     fn request<R: Real>(&self, uv: Vec2<R>, lod: Option<R>) -> Vec4<R> {
         by_sixteen(
@@ -130,19 +133,21 @@ impl Sampled {
         )
     }
 
-    /// The colour at (u, v), level of detail from the given derivatives of (u, v) along x and y.
+    /// Samples at (u, v), with the level of detail from the given derivatives of (u, v) along x and
+    /// y.
     #[inline(always)]
     pub fn sample_grad<R: Real>(&self, uv: Vec2<R>, dx: Vec2<R>, dy: Vec2<R>) -> Vec4<R> {
         self.sample_level(uv, level_of_detail(rho2(dx, dy, self.levels[0].size)))
     }
 
-    /// The colour at (u, v) at a level of detail: 0 is the base level, each further one half as large.
+    /// Samples at (u, v) at a level of detail: 0 is the base level, each further level is half as
+    /// large.
     #[inline(always)]
     pub fn sample_level<R: Real>(&self, uv: Vec2<R>, lod: R) -> Vec4<R> {
         self.request(uv, Some(lod))
     }
 
-    /// The texel (x, y) of a level, without filtering; what lies outside reads the nearest texel inside.
+    /// The texel (x, y) of a level, without filtering; coordinates outside are clamped to the edge.
     #[inline(always)]
     pub fn texel_fetch<R: Real>(&self, x: R::Int, y: R::Int, level: usize) -> Vec4<R> {
         let level = self.levels[level.min(MAX_LEVELS - 1)];
@@ -158,7 +163,8 @@ impl Sampled {
         finish(unpack(word, linear), is_srgb)
     }
 
-    /// Whether samples of both lie at the same place, and are common enough for the fast path.
+    /// Whether samples of both textures have the same footprint, and the common case is possible
+    /// for both.
     #[inline(always)]
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.is_linear
@@ -172,8 +178,9 @@ impl Sampled {
             && self.address_modes() == other.address_modes()
     }
 
-    /// The finer level of the first lane, most probably: λ without the clamps is e/2 and a little more, with
-    /// e the exponent of ρ². It is known long before λ is, so addresses need not wait for that.
+    /// A guess of the finer level of the first lane: λ without the clamps is e/2 and a little more,
+    /// where e is the exponent of ρ². The guess is known long before λ, so addresses need not wait
+    /// for λ.
     #[inline(always)]
     pub(crate) fn guess_of_level<R: Real>(&self, rho2: R) -> i32 {
         let exponent = (rho2.to_bits().lane(0) >> 23) - 127;
@@ -190,7 +197,7 @@ impl Sampled {
         [self.sampler.address_mode_u, self.sampler.address_mode_v]
     }
 
-    /// The colour at a level of detail; `guess` is the finer level, most probably.
+    /// Samples at a level of detail; `guess` is the probable finer level.
     #[inline(always)]
     pub(crate) fn sample_at<R: Number>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Vec4<R> {
         if let Some(inside) = self.inside(uv, lod, guess) {
@@ -199,7 +206,7 @@ impl Sampled {
         self.sample_outside(uv, lod)
     }
 
-    /// The colour where [`Self::inside`] has none.
+    /// Samples where [`Self::inside`] gives `None`.
     #[inline(always)]
     pub(crate) fn sample_outside<R: Number>(&self, uv: Vec2<R>, lod: R) -> Vec4<R> {
         match self.mixed(uv, lod) {
@@ -208,7 +215,7 @@ impl Sampled {
         }
     }
 
-    /// (u, v) in the first tile.
+    /// (u, v) wrapped into the first tile.
     #[inline(always)]
     fn wrapped<R: Real>(&self, uv: Vec2<R>) -> Vec2<R> {
         let [mode_u, mode_v] = self.address_modes();
@@ -220,8 +227,8 @@ impl Sampled {
         Vec2::new(wrap(uv.x, mode_u), wrap(uv.y, mode_v))
     }
 
-    /// Where the sample lies in the common case, and the fast one: linear filtering, all lanes of one
-    /// level and none at a border. `None` where it is another.
+    /// The footprint in the common case, which is also the fast one: linear filtering, all lanes in
+    /// the same mip level or between the same two, no texel across a border. `None` in other cases.
     #[inline(always)]
     pub(crate) fn inside<R: Number>(&self, uv: Vec2<R>, lod: R, guess: i32) -> Option<Inside<R>> {
         if !self.is_linear {
@@ -240,7 +247,8 @@ impl Sampled {
         Inside::new(levels, self.wrapped(uv), self.address_modes(), fraction)
     }
 
-    /// Where the sample lies in the next common case: lanes of one level or of two neighbouring ones, repeated.
+    /// The footprint in the next common case: linear filtering, lanes in one level or in two
+    /// neighbouring ones, repeated coordinates. `None` in other cases.
     #[inline(always)]
     pub(crate) fn mixed<R: Number>(&self, uv: Vec2<R>, lod: R) -> Option<Mixed<R>> {
         if R::LANES == 1 || !self.is_linear || self.address_modes() != [AddressMode::Repeat; 2] {
@@ -260,8 +268,8 @@ impl Sampled {
         Some(Mixed::new(levels, second, self.wrapped(uv), fraction))
     }
 
-    /// Any case: samples the whole packet once for every level among its lanes, and picks the lanes
-    /// together.
+    /// Samples in any case: the whole packet once for every level among its lanes, with a selection
+    /// of the lanes of each.
     #[inline(always)]
     pub(crate) fn sample_anywhere<R: Number>(&self, uv: Vec2<R>, lod: R) -> Vec4<R> {
         let sampler = &self.sampler;
@@ -270,7 +278,7 @@ impl Sampled {
         let within = lod.clamp(self.lod_range[0], self.lod_range[1]);
         let (level, fraction) = mixture(within, sampler.mipmap_filter);
         let (level, wrapped) = (level.to_int_within_range(), self.wrapped(uv));
-        // What a lane reads: 2·level + 1, or 0 where it is magnified.
+        // The key of what a lane reads: 2·level + 1, or 0 where it is magnified.
         let minified = (level + level) | level.splat(1);
         let key = R::Int::select(is_minified, minified, level.splat(0));
         let mut color = Vec4::repeat(fraction);
@@ -283,7 +291,7 @@ impl Sampled {
             } else {
                 sampler.min_filter
             };
-            // A loop over the two levels, so that their long code exists once.
+            // A loop over the two levels, so that their long code is compiled once.
             let mut of_key = Vec4::repeat(fraction);
             for step in 0..2 {
                 let level = self.levels[((first >> 1) as usize + step) % MAX_LEVELS];
@@ -307,7 +315,7 @@ impl Sampled {
     }
 }
 
-/// Whether texels are words of four unorm bytes, of sRGB or not.
+/// Whether texels are words of four unorm bytes, with or without sRGB.
 pub(crate) fn is_rgba8(format: TextureFormat) -> bool {
     matches!(
         format,
@@ -315,7 +323,7 @@ pub(crate) fn is_rgba8(format: TextureFormat) -> bool {
     )
 }
 
-/// Whether each level is half the one before and begins where that one ends.
+/// Whether each level is half as large as the one before and begins where that one ends.
 fn is_regular(levels: &[MipLevel]) -> bool {
     levels
         .first()
@@ -330,7 +338,8 @@ fn is_regular(levels: &[MipLevel]) -> bool {
         })
 }
 
-/// The finer level and the weight of the next one, from a level of detail within the existing levels.
+/// The finer level and the weight of the next one, from a level of detail within the existing
+/// levels.
 #[inline(always)]
 pub(crate) fn mixture<R: Real>(lod: R, filter: FilterMode) -> (R, R) {
     match filter {

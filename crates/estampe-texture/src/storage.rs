@@ -1,8 +1,8 @@
-//! Storage textures: made, loaded from, stored to, read back.
+//! Storage textures: creation, loads, stores and readback.
 //!
-//! Threads draw tiles at once, so texels are atomic words (relaxed: what one fragment stores, another may see or not
-//! until the pass has ended). A store takes the lanes that are to store: helper lanes and discarded fragments must
-//! not.
+//! Threads draw tiles in parallel, so texels are atomic words. Their ordering is relaxed: until the
+//! pass has ended, a fragment may or may not see what another one stored. A store takes a mask of
+//! lanes, because helper invocations and discarded fragments must not store.
 
 use crate::view::{Answers, answer, by_sixteen, packet, packet_of_ints};
 use crate::{LevelData, MipGeneration, TextureDescriptor, TextureError};
@@ -12,8 +12,9 @@ use estampe_types::{
     Int, Limits, Real, StorageTexture, TexelEncoding, Texture, TextureFormat, Vec4,
 };
 
-/// A storage texture of the data, or of zeros without any: one level and one sample of a format of colours that is
-/// neither sRGB nor of blocks.
+/// Creates a storage texture from data, or of zeros without data. It has one mip level and one
+/// sample; its format is a colour format that is neither sRGB nor compressed nor of a shared
+/// exponent.
 ///
 /// # Errors
 /// [`TextureError`] when the descriptor breaks a rule, bytes are missing, or memory is short.
@@ -43,7 +44,7 @@ pub fn create_storage_texture(
     let made = made.ok_or_else(|| {
         let texels = u64::from(size.0) * u64::from(size.1) * u64::from(slices);
         TextureError::OutOfMemory {
-            // At least a word each.
+            // A texel takes at least one word.
             bytes: texels * u64::from(format.block_bytes().max(4)),
         }
     })?;
@@ -64,7 +65,8 @@ fn is_storable(format: TextureFormat) -> bool {
         && format.encoding() != TexelEncoding::SharedExponent
 }
 
-/// The texel (x, y) of a slice (`textureLoad`); zeros where there is none. Of integers the [bits](Real::to_bits).
+/// Loads the texel (x, y) of a slice (`textureLoad`); zeros outside the texture. Integer formats
+/// give the [bits](Real::to_bits).
 #[inline(always)]
 pub fn storage_load<I: Int>(texture: &StorageTexture, at: [I; 3]) -> Vec4<I::Real> {
     let like = at[0].to_real();
@@ -80,8 +82,9 @@ pub fn storage_load<I: Int>(texture: &StorageTexture, at: [I; 3]) -> Vec4<I::Rea
     )
 }
 
-/// Stores a texel (x, y) of a slice in the lanes of the mask (`textureStore`); nothing where there is none. Numbers
-/// become codes as in render targets; of integers the value's bits are stored.
+/// Stores the texel (x, y) of a slice for the lanes of the mask (`textureStore`); nothing outside
+/// the texture. Numbers are encoded as in render targets; integer formats store the bits of the
+/// value.
 #[inline(always)]
 pub fn storage_store<R: Real>(
     texture: &StorageTexture,
@@ -106,11 +109,11 @@ pub fn storage_store<R: Real>(
     );
 }
 
-/// The texels of sixteen lanes, or fewer.
+/// The texel coordinates of up to sixteen lanes.
 struct Places {
     at: [Packet<i32>; 3],
     count: usize,
-    /// The lanes that count.
+    /// The lanes that store.
     mask: u32,
 }
 
@@ -170,7 +173,7 @@ fn store_lanes(texture: &StorageTexture, places: &Places, texels: &Answers) {
     }
 }
 
-/// As what texels are stored: R first.
+/// The format in which texels are stored: R first.
 fn stored(texture: &StorageTexture) -> TextureFormat {
     match texture.format() {
         TextureFormat::Bgra8Unorm => TextureFormat::Rgba8Unorm,
@@ -178,7 +181,7 @@ fn stored(texture: &StorageTexture) -> TextureFormat {
     }
 }
 
-/// What a storage texture holds, as rows of the format's bytes that follow each other, slice after slice.
+/// Reads a storage texture back: the format's bytes in rows without padding, slice after slice.
 #[must_use]
 pub fn storage_bytes(texture: &StorageTexture) -> Vec<u8> {
     let size = texture.format().block_bytes() as usize;
@@ -203,10 +206,11 @@ pub fn storage_bytes(texture: &StorageTexture) -> Vec<u8> {
     bytes
 }
 
-/// What a storage texture holds now, as a texture that can be sampled, with levels made from it if wanted.
+/// Copies a storage texture to a texture that can be sampled; `mips` says whether mip levels are
+/// generated.
 ///
 /// # Errors
-/// [`TextureError`] when memory is short, or levels of the format cannot be made.
+/// [`TextureError`] when memory is short, or mip levels cannot be generated for the format.
 pub fn storage_texture_to_texture(
     texture: &StorageTexture,
     mips: MipGeneration,

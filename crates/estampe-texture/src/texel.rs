@@ -1,8 +1,8 @@
-//! Texels as numbers: unpacking four channels from a word, and their units.
+//! Decoding of texels: unpacking of four channels from a word, and their units.
 //!
-//! Until the end of filtering, channels are in the units that are cheapest to unpack exactly: unorm8's first
-//! and third as codes c, its second and fourth as 256·c, sRGB's colours as linear values. [`finish`]
-//! brings all of them to 0..1.
+//! Until the end of filtering, channels are in the units that are cheapest to unpack exactly. Of
+//! unorm8, the first and third channel are the encoded values c, the second and fourth are 256·c;
+//! colours of sRGB are linear values. [`finish`] scales all of them to 0..1.
 
 use estampe_format::srgb::LINEAR_FROM_SRGB;
 use estampe_simd::{ByteTable, Bytes, ExtractToken, Lanes, bits_of, i32x16, u32x16};
@@ -13,21 +13,22 @@ use std::sync::LazyLock;
 const MAGIC: i32 = 0x4B00_0000;
 const MAGIC_REAL: f32 = 8_388_608.0;
 
-/// 1/255 rounded, and the same for channels in units of 1/256 code: exact, a power of two apart.
+/// 1/255 rounded, and the factor of channels that are 256·c; the two differ by an exact power of
+/// two.
 const UNIT: f32 = 1.0 / 255.0;
 const UNIT_256: f32 = UNIT / 256.0;
 
-/// The bits of the linear value of each 8-bit sRGB code.
+/// The bits of the linear value of each encoded 8-bit sRGB value.
 static LINEAR: LazyLock<ByteTable> =
     LazyLock::new(|| ByteTable::new(LINEAR_FROM_SRGB.map(f32::to_bits)));
 
-/// Stored texels of four bytes.
+/// Integers whose lanes hold texels of four bytes.
 pub(crate) trait Texels: Int {
-    /// The table's elements for the lowest three bytes.
+    /// Looks up the lowest three bytes in the table.
     fn lookup_three(self, table: &ByteTable) -> [Self::Real; 3];
 }
 
-/// Numbers for whose lanes texels are read.
+/// Numbers whose lanes can read texels.
 pub(crate) trait Number: Real<Int: Texels> {}
 
 impl<R: Real<Int: Texels>> Number for R {}
@@ -57,7 +58,7 @@ impl Texels for Quad<i32> {
     }
 }
 
-/// One channel of one texel, plus 2²³.
+/// One channel of each lane's texel, plus 2²³.
 #[inline(always)]
 fn biased<I: Int>(word: I, mask: i32) -> I::Real {
     ((word & word.splat(mask)) | word.splat(MAGIC)).to_real_bits()
@@ -87,7 +88,7 @@ impl<I: Texels> Corners<I> {
         self.mean_of_unorm(fx, fy)
     }
 
-    /// The same of unorm8.
+    /// The weighted mean of unorm8 texels, in the units of this module.
     #[inline(always)]
     pub(crate) fn mean_of_unorm(&self, fx: I::Real, fy: I::Real) -> Vec4<I::Real> {
         let high = self.shifted();
@@ -128,7 +129,7 @@ impl<I: Texels> Corners<I> {
         )
     }
 
-    /// The mean with R, G and B decoded.
+    /// The weighted mean of sRGB texels, whose R, G and B are decoded first.
     #[inline(always)]
     fn mean_of_srgb(self, fx: I::Real, fy: I::Real) -> Vec4<I::Real> {
         let ([a, b], [c, d]) = (self.upper, self.lower);
@@ -152,16 +153,17 @@ fn mean_of_bytes<I: Int>([left, right]: [I; 2], mask: i32, f: I::Real) -> I::Rea
     (left - MAGIC_REAL) + (right - left) * f
 }
 
-/// Alpha 255 in the units of this module: what any mean of such texels is, for differences of 0 add nothing.
+/// Alpha 255 in the units of this module. Any mean of opaque texels has this alpha, because
+/// differences of 0 add nothing.
 pub(crate) const OPAQUE: f32 = 65_280.0;
 
-/// The linear values of a texel's sRGB codes.
+/// The linear values of R, G and B of an sRGB texel.
 #[inline(always)]
 pub(crate) fn linear<I: Texels>(word: I) -> [I::Real; 3] {
     word.lookup_three(&LINEAR)
 }
 
-/// [`linear`] for numbers of which no more is known.
+/// [`linear`] for any kind of integer, by gathers.
 #[inline(always)]
 pub(crate) fn linear_of_any<I: Int>(word: I) -> [I::Real; 3] {
     let table = bits_of(&*LINEAR_FROM_SRGB);
@@ -173,7 +175,8 @@ pub(crate) fn linear_of_any<I: Int>(word: I) -> [I::Real; 3] {
     ]
 }
 
-/// One texel in the units of this module; of sRGB, with its linear values.
+/// Unpacks one texel to the units of this module; `linear` holds the linear values of an sRGB
+/// texel.
 #[inline(always)]
 pub(crate) fn unpack<I: Int>(word: I, linear: Option<[I::Real; 3]>) -> Vec4<I::Real> {
     let high = word >> 16;
@@ -189,7 +192,7 @@ pub(crate) fn unpack<I: Int>(word: I, linear: Option<[I::Real; 3]>) -> Vec4<I::R
     )
 }
 
-/// From the units of this module to 0..1.
+/// Scales a colour from the units of this module to 0..1.
 #[inline(always)]
 pub(crate) fn finish<R: Real>(color: Vec4<R>, is_srgb: bool) -> Vec4<R> {
     let w = color.w * UNIT_256;

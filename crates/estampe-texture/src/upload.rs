@@ -1,26 +1,28 @@
-//! Rows of a format's bytes become stored texels.
+//! Upload of texel data: rows of a format's bytes become stored texels.
 
 use crate::TextureError;
 use crate::blocks::{self, MAX_WORDS};
 use estampe_types::Texture;
 
-/// The bytes of one level: slice after slice, row after row, each row of texels (of blocks) as the format has
-/// them; the samples of a multisampled texel follow each other. WebGPU's `GPUTexelCopyBufferLayout`.
+/// The bytes of one mip level in the format's layout: slice after slice, row after row of texels,
+/// or of blocks if the format is compressed; the samples of a multisampled texel are adjacent. This
+/// is WebGPU's `GPUTexelCopyBufferLayout`.
 ///
-/// Depths of 24 bits are the lower bits of four bytes, with the stencil above; beside depths of 32 bits, the
-/// stencil is the first of four bytes more.
+/// A depth of 24 bits is the lower part of four bytes, with the stencil above it; after a depth of
+/// 32 bits, the stencil is the first of four further bytes.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct LevelData<'a> {
-    /// The bytes; more than needed may be there.
+    /// The bytes; with a given stride there may be more than needed.
     pub bytes: &'a [u8],
-    /// From the begin of a row to that of the next; `None`: rows follow each other.
+    /// Bytes from the start of a row to the start of the next; `None`: rows have no padding.
     pub bytes_per_row: Option<u32>,
-    /// Rows (of blocks) from the begin of a slice to that of the next; `None`: slices follow each other.
+    /// Rows (of blocks if the format is compressed) from the start of a slice to the start of the
+    /// next; `None`: slices have no padding.
     pub rows_per_image: Option<u32>,
 }
 
 impl<'a> LevelData<'a> {
-    /// Rows and slices follow each other.
+    /// Data without padding between rows and slices.
     #[must_use]
     pub fn tight(bytes: &'a [u8]) -> Self {
         Self {
@@ -30,7 +32,7 @@ impl<'a> LevelData<'a> {
     }
 }
 
-/// Where the rows of a level lie among its bytes.
+/// The layout of a level's rows in its bytes.
 struct Layout {
     rows: usize,
     row_bytes: usize,
@@ -38,7 +40,7 @@ struct Layout {
     slice_stride: usize,
 }
 
-/// Fills a level of a texture whose words these are.
+/// Fills a level in the words of a texture.
 pub(crate) fn level(
     texture: &Texture,
     level: usize,
@@ -97,7 +99,8 @@ fn layout(texture: &Texture, level: usize, data: &LevelData<'_>) -> Result<Layou
             actual,
         });
     }
-    // What counts does not exceed the length of the bytes; strides may, where there is but one row or slice.
+    // Values that are used do not exceed the length of the bytes; a stride may, if there is only
+    // one row or slice.
     let within = |value| usize::try_from(value).unwrap_or(0);
     Ok(Layout {
         rows: within(rows),
@@ -126,7 +129,7 @@ fn row_of_texels(texture: &Texture, bytes: &[u8], words: &mut [u32]) {
     }
 }
 
-/// Decodes a row of blocks into the slice; what of them lies beyond the level is dropped.
+/// Decodes a row of blocks into the slice; texels beyond the level are dropped.
 fn row_of_blocks(
     texture: &Texture,
     bytes: &[u8],

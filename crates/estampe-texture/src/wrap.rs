@@ -1,32 +1,35 @@
-//! One axis of a coordinate: from u to the texels that it lies between.
+//! Wrapping of one texture coordinate, and the texels between which it lies.
 
 use estampe_types::{AddressMode, FilterMode, Int, Real};
 
-/// Brings u into the first tile, the same for all levels. [`AddressMode::ClampToEdge`] leaves it as it is.
+/// Wraps u into the first tile, which is the same for all mip levels. [`AddressMode::ClampToEdge`]
+/// leaves u unchanged.
 #[inline(always)]
 pub(crate) fn wrap<R: Real>(u: R, mode: AddressMode) -> R {
     match mode {
-        // max() turns NaN, which infinities give too, into 0.
+        // max() turns NaN into 0; infinities give NaN, too.
         AddressMode::Repeat => u.fract().max(u.splat(0.0)),
         AddressMode::MirrorRepeat => {
             let tile = (u * 0.5).floor() * 2.0;
             u.splat(1.0) - (u - tile - 1.0).abs()
         }
-        // The other two are not of this path: `SampledView` samples with them.
+        // This code does not serve the other two modes: `SampledView` samples with them.
         AddressMode::ClampToEdge | AddressMode::MirrorOnce | AddressMode::ClampToBorder => u,
     }
 }
 
-/// Where a sample lies along one axis of one level.
+/// The texel coordinate of a sample along one axis of one mip level.
 pub(crate) struct Place<R: Real> {
-    /// The texel at or before it: −1..size with repeat, where −1 is the last one; else 0..size.
+    /// The texel at or before the sample: −1..size with repeat, where −1 is the last texel; else
+    /// 0..size.
     pub(crate) texel: R::Int,
-    /// How far it is from that texel's centre to the next one's, 0..1. With mirror and clamp it is 0 at
-    /// the last texel, so the next one, which does not exist, never counts.
+    /// The position between the centres of that texel and the next, 0..1: the weight of the next
+    /// texel. With mirror and clamp it is 0 at the last texel, so a next texel, which does not
+    /// exist, never counts.
     pub(crate) fraction: R,
 }
 
-/// The place of a wrapped coordinate in a level of `length` texels.
+/// The texel coordinate of a wrapped coordinate in a level of `length` texels.
 #[inline(always)]
 pub(crate) fn place<R: Real>(
     wrapped: R,
@@ -48,13 +51,13 @@ pub(crate) fn place<R: Real>(
     }
 }
 
-/// The texel −1 is the last one and texel `size` is the first.
+/// Wraps a texel coordinate by one tile: −1 is the last texel and `size` is the first.
 #[inline(always)]
 pub(crate) fn tile<I: Int>(texel: I, size: i32) -> I {
     tile_lanes(texel, texel.splat(size))
 }
 
-/// [`tile`] where each lane has a size of its own.
+/// [`tile`] with a separate size in each lane.
 #[inline(always)]
 pub(crate) fn tile_lanes<I: Int>(texel: I, size: I) -> I {
     let below = I::select(texel.lt(texel.splat(0)), size - texel.splat(1), texel);

@@ -1,7 +1,7 @@
 //! ETC2 and EAC blocks, after the Khronos Data Format Specification 1.3, chapters 21 and 22.
 //!
-//! A block is a big-endian number of 64 bits. Its texels are numbered down the columns: texel i is at
-//! (i / 4, i % 4).
+//! A block is a big-endian number of 64 bits. Its texels are numbered down the columns: texel i is
+//! at (i / 4, i % 4).
 
 #![expect(
     clippy::cast_possible_truncation,
@@ -45,7 +45,7 @@ const MODIFIERS: [[i32; 8]; 16] = [
     [-3, -5, -7, -9, 2, 4, 6, 8],
 ];
 
-/// Decodes a block to the words that it is stored as.
+/// Decodes a block to the words that are stored.
 pub(super) fn decode(format: TextureFormat, block: &[u8], words: &mut [u32]) {
     use TextureFormat as F;
     let number = |at: usize| {
@@ -76,7 +76,7 @@ pub(super) fn decode(format: TextureFormat, block: &[u8], words: &mut [u32]) {
     }
 }
 
-/// From a column-wise number to a row-wise place.
+/// Converts a column-wise index to a row-wise one.
 fn row_order(texel: usize) -> usize {
     texel % 4 * 4 + texel / 4
 }
@@ -115,8 +115,8 @@ fn int(block: u64, low: u32, count: u32) -> i32 {
     field(block, low, count) as i32
 }
 
-/// The colours of a block; with `punch_through`, the bit that chooses between individual and differential mode says
-/// instead whether all texels are opaque.
+/// The colours of a block; with `punch_through`, the bit that chooses between individual and
+/// differential mode says instead whether all texels are opaque.
 fn colors(block: u64, punch_through: bool, words: &mut [u32]) {
     let flag = int(block, 33, 1) == 1;
     let is_opaque = flag || !punch_through;
@@ -125,7 +125,8 @@ fn colors(block: u64, punch_through: bool, words: &mut [u32]) {
         let at = |low: u32| [low, low - 8, low - 16].map(|low| int(block, low, 4) * 17);
         return subblocks(block, [at(60), at(56)], is_opaque, words);
     }
-    // A colour of five bits a channel and a difference of three, signed; sums beyond five bits are other modes.
+    // A colour of five bits a channel and a difference of three, signed; sums beyond five bits are
+    // other modes.
     let base = [59, 51, 43].map(|low| int(block, low, 5));
     let sum = [0, 1, 2].map(|k| base[k] + ((int(block, 56 - 8 * k as u32, 3) ^ 4) - 4));
     let beyond = sum.map(|channel| !(0..32).contains(&channel));
@@ -140,7 +141,8 @@ fn colors(block: u64, punch_through: bool, words: &mut [u32]) {
     }
 }
 
-/// The index of a texel: its bit in the upper half of the last 32 bits, then that in the lower half.
+/// The index of a texel: its bit in the upper half of the last 32 bits, then that in the lower
+/// half.
 fn index(block: u64, texel: usize) -> usize {
     field(block, 16 + texel as u32, 1) << 1 | field(block, texel as u32, 1)
 }
@@ -150,7 +152,8 @@ fn color(rgb: [i32; 3]) -> u32 {
     r | g << 8 | b << 16 | 0xFF00_0000
 }
 
-/// Individual and differential modes: each half has its base colour, and texels differ in intensity.
+/// Individual and differential modes: each half has its base colour, and texels differ in
+/// intensity.
 fn subblocks(block: u64, bases: [[i32; 3]; 2], is_opaque: bool, words: &mut [u32]) {
     let is_flipped = int(block, 32, 1) == 1;
     let tables = [37, 34].map(|low| INTENSITIES[field(block, low, 3)]);
@@ -178,7 +181,8 @@ fn subblocks(block: u64, bases: [[i32; 3]; 2], is_opaque: bool, words: &mut [u32
     }
 }
 
-/// Modes T and H: four paint colours, of which the third is transparent where not all texels are opaque.
+/// Modes T and H: four paint colours, of which the third is transparent where not all texels are
+/// opaque.
 fn painted(block: u64, paints: [[i32; 3]; 4], is_opaque: bool, words: &mut [u32]) {
     for texel in 0..16 {
         let index = index(block, texel);

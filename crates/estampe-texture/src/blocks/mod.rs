@@ -1,7 +1,7 @@
-//! Compressed blocks, decoded when a texture is made.
+//! Decoding of compressed blocks, when a texture is created.
 //!
-//! BC1 to BC7 are [`bcdec_rs`]'s. ETC2, EAC and ASTC are ours: libraries gave 8 of EAC's 11 bits, and ASTC's sRGB as
-//! if it were linear. This module alone names the library.
+//! BC1 to BC7 are [`bcdec_rs`]'s. ETC2, EAC and ASTC are decoded by this crate: libraries gave 8 of
+//! EAC's 11 bits, and decoded ASTC's sRGB as if it were linear. Only this module uses the library.
 
 mod astc;
 mod etc;
@@ -11,8 +11,9 @@ use estampe_types::TextureFormat;
 /// The most texels and words of a decoded block: 12×12 of ASTC, one word each.
 pub(crate) const MAX_WORDS: usize = 144;
 
-/// Decodes a block to the words of [`Texture::stored_format`](estampe_types::Texture::stored_format), row by row.
-/// `block` has the format's number of bytes; formats without blocks give nothing.
+/// Decodes a block to the words of
+/// [`Texture::stored_format`](estampe_types::Texture::stored_format), row by row. `block` has the
+/// format's number of bytes; formats without blocks give nothing.
 pub(crate) fn decode(format: TextureFormat, block: &[u8], words: &mut [u32; MAX_WORDS]) {
     use TextureFormat as F;
     let is_astc_4x4 = matches!(format, F::Astc4x4Unorm | F::Astc4x4UnormSrgb);
@@ -53,7 +54,7 @@ pub(crate) fn decode(format: TextureFormat, block: &[u8], words: &mut [u32; MAX_
         _ => {
             let size = format.block_size();
             match block.try_into() {
-                // Blocks of other sizes are ASTC's alone.
+                // Only ASTC has blocks of other sizes.
                 Ok(block) if size != [4, 4] || is_astc_4x4 => {
                     astc::decode(block, size, format.is_srgb(), words);
                 }
@@ -63,9 +64,10 @@ pub(crate) fn decode(format: TextureFormat, block: &[u8], words: &mut [u32; MAX_
     }
 }
 
-/// Whether the ends of a snorm channel are −127 and −128: the only ones whose order as codes, which decides between the
-/// two ramps, is not that of their numbers, by which the library decides. With the first end the greater, all eight
-/// steps lie between two numbers −1.
+/// Whether the endpoints of a snorm channel are −127 and −128. Only for these does the order of the
+/// encoded values, which decides between the two ramps, differ from the order of their numbers, by
+/// which the library decides. With the first endpoint the greater, all eight steps lie between two
+/// numbers −1.
 fn has_both_ends_at_minus_one(channel: &[u8]) -> bool {
     channel.starts_with(&[-127_i8, -128].map(i8::cast_unsigned))
 }

@@ -1,4 +1,4 @@
-//! Every kind of number gives the bits of the naive text.
+//! Every kind of number gives the bits of the naive implementation.
 
 use super::*;
 use crate::{AddressMode, FilterMode};

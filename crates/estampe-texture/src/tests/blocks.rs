@@ -1,4 +1,5 @@
-//! Blocks: by hand, by the formulas of the specifications, and what another decoder made of them.
+//! Compressed blocks: values by hand, by the formulas of the specifications, and from another
+//! decoder.
 
 use crate::{LevelData, Limits, MipGeneration, TextureDescriptor, TextureFormat as F};
 
@@ -14,8 +15,9 @@ fn decode(format: F, block: &[u8]) -> Vec<u32> {
     texture.texels.to_vec()
 }
 
-/// Blocks of the bytes of a linear congruential generator, whose high byte is used. The results of other decoders below
-/// are for these very bytes, so that they come from no library, which might give others some day.
+/// Blocks of the bytes of a linear congruential generator, whose high byte is used. The results of
+/// other decoders below are for these very bytes, so that they come from no library, which might
+/// give others some day.
 fn random_blocks(bytes: usize, count: usize) -> impl Iterator<Item = Vec<u8>> {
     let mut state = 1_u32;
     (0..count).map(move |_| {
@@ -130,7 +132,8 @@ fn bc1_to_bc5_follow_their_formulas() {
     }
 }
 
-/// The ends' codes are compared, not their numbers: −127 is above −128, though both are −1.
+/// The endpoints' encoded values are compared, not their numbers: −127 is above −128, though both
+/// are −1.
 ///
 /// Rows: F2.
 #[test]
@@ -150,7 +153,7 @@ fn signed_ends_are_compared_as_codes() {
             .collect::<Vec<_>>()
     };
     assert_eq!(red([-127, -128]), [-1.0; 8], "eight steps from −1 to −1");
-    // Of ends that do not fall, the last two steps are −1 and 1.
+    // If the first endpoint is not the greater, the last two steps are −1 and 1.
     let six = [-1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0];
     assert_eq!(red([-128, -127]), six);
     assert_eq!(red([-127, -127]), six);
@@ -174,8 +177,8 @@ fn hash_of(format: F) -> u64 {
     hash
 }
 
-/// Compared texel by texel with texture2ddecoder 0.1.2, another implementation, on these blocks: equal. (Of blocks with
-/// one bit of alpha, it leaves colours in transparent texels.)
+/// Compared texel by texel with texture2ddecoder 0.1.2, another implementation, on these blocks:
+/// equal. (Of blocks with one bit of alpha, it leaves colours in transparent texels.)
 /// Rows: F2.
 #[test]
 fn etc2_and_bc7_are_what_another_decoder_makes_of_them() {
@@ -271,9 +274,9 @@ fn astc_of_one_color_and_of_errors() {
     assert_eq!(decode(F::Astc8x8Unorm, &[0; 16]), vec![0xFFFF_00FF; 64]);
 }
 
-/// Compared with texture2ddecoder 0.1.2 on 200,000 random blocks of each of five sizes: the 74,242 that are LDR
-/// differ by one code at most, for it cuts off where we round. (A third, astc-decode 0.3.1, takes other colours for
-/// some blocks of several partitions.) This keeps what was compared.
+/// Compared with texture2ddecoder 0.1.2 on 200,000 random blocks of each of five sizes: the 74,242
+/// that are LDR differ by one code at most, for it cuts off where we round. (A third, astc-decode
+/// 0.3.1, takes other colours for some blocks of several partitions.) This keeps what was compared.
 /// Rows: F2.
 #[test]
 fn astc_is_what_another_decoder_makes_of_it() {
@@ -315,7 +318,8 @@ const ASTC_HASHES: [u64; 5] = [
     2_430_571_871_916_244_374,
 ];
 
-/// It asserts nothing: that decoding any bits ends without a panic, in a build that checks overflow, is what it tests.
+/// Decoding any bits ends without a panic in a build that checks overflow; the test asserts nothing
+/// else.
 ///
 /// Rows: F2.
 #[test]

@@ -1,4 +1,5 @@
-//! Codes of every format: what specifications say they stand for, and that numbers come back.
+//! Encoded texels of every format: their values by the specifications, and that encoding restores
+//! them.
 
 use crate::view::border_unit;
 use estampe_format::TexelCodec;
@@ -98,7 +99,7 @@ fn every_code_decodes_to_a_number_that_encodes_to_it() {
                     value.map(f32::to_bits),
                     "{format:?} {words:x?}"
                 );
-                // Of −1 there are two snorm codes, and numbers have several shared exponents.
+                // Two encoded snorm values mean −1, and a number has several shared exponents.
                 if !matches!(
                     format.encoding(),
                     E::Snorm8 | E::Snorm16 | E::SharedExponent

@@ -1,4 +1,4 @@
-//! Textures of every dimension are made by their rules.
+//! Textures of every dimension are created by their rules.
 
 use crate::{
     LevelData, Limits, MipGeneration, SampledView, SamplerDescriptor, Texture, TextureAspect,
@@ -339,7 +339,7 @@ fn views_and_samplers_ask_for_what_is_there() {
     }
 }
 
-/// The fields of a texture are public: what they claim must not harm.
+/// The fields of a texture are public: no value in them may do harm.
 #[test]
 fn views_of_textures_put_together_by_hand_cannot_harm() {
     use crate::{Coordinates, Lod};
@@ -513,7 +513,8 @@ fn check_levels(format: TextureFormat, dimension: TextureDimension) {
             }
             let got = value(level, at);
             for k in 0..4 {
-                // Half a code of the coarsest format near such a number: 2⁻⁵ of it, or 1/6 of two bits.
+                // Half a code of the coarsest format near such a number: 2⁻⁵ of it, or 1/6 of two
+                // bits.
                 let tolerance = match texture.stored_format() {
                     TextureFormat::Rgb10a2Unorm if k == 3 => 0.17,
                     TextureFormat::Rgba8UnormSrgb => 0.006,

@@ -50,7 +50,8 @@ fn each_texel_wraps_by_itself() {
         let view = row(TextureFormat::R32Float, addressed(mode));
         let four = view.gather(Coordinates::d2(Vec2::new(u, 0.5)), 0, [0; 2]);
         assert_eq!([four.x, four.y, four.z, four.w], expected, "{mode:?} {u}");
-        // An offset of one texel to the right and a coordinate of one to the left are the same place.
+        // An offset of one texel to the right and a coordinate of one to the left are the same
+        // place.
         let moved = Coordinates::d2(Vec2::new(u - 0.25, 0.5));
         let four = view.gather(moved, 0, [1, 0]);
         assert_eq!(

@@ -1,5 +1,5 @@
-//! Textures are made by their rules, and sampled as docs/NUMERICS.md says, to the bit, by every kind of
-//! number at every SIMD level.
+//! Textures are created by their rules, and every kind of number samples them as docs/NUMERICS.md
+//! says, to the bit, at every SIMD level.
 
 mod bits;
 mod blocks;
@@ -44,7 +44,7 @@ fn noise(width: u32, height: u32, format: TextureFormat) -> Texture {
     create_texture(width, height, format, &rgba, MipGeneration::Full, &limits).expect("valid")
 }
 
-/// How the level of detail is found.
+/// How the level of detail is determined.
 #[derive(Clone, Copy, Debug)]
 enum Lod {
     FromQuad,
@@ -70,7 +70,7 @@ fn sample_packet(level: Level, sampled: &Sampled, uv: [[f32; LANES]; 2], lod: Lo
     dispatch!(level, s => wide(s, sampled, uv, lod))
 }
 
-/// One packet of a view at a SIMD level: that it comes back is all that is asked.
+/// Samples one packet of a view at a SIMD level; the call only has to return.
 fn sample_view_packet(level: Level, view: &crate::SampledView) {
     #[inline(always)]
     fn wide<S: Lanes>(simd: S, view: &crate::SampledView) {

@@ -1,5 +1,5 @@
-//! Sampling as docs/NUMERICS.md words it, one fragment and one texel at a time, sharing no code with the
-//! crate; and the same in f64 from the textbook, to bound its error.
+//! A naive implementation of sampling as docs/NUMERICS.md defines it, one fragment and one texel at
+//! a time, without code of the crate; and textbook sampling in f64, to bound the error.
 
 #![expect(
     clippy::cast_possible_truncation,
@@ -32,7 +32,7 @@ pub(super) fn lod_of_quad(sampled: &Sampled, u: [f32; 3], v: [f32; 3]) -> f32 {
     0.5 * (((((a3 * t + a2) * t + a1) * t + a0) * t) + e)
 }
 
-/// The texel in filtering units: codes, or linear values for sRGB's R, G and B.
+/// The texel in filtering units: encoded values, or linear values for sRGB's R, G and B.
 fn texel(sampled: &Sampled, level: MipLevel, x: u32, y: u32) -> [f32; 4] {
     let texture = sampled.texture();
     let word = texture.texels[(level.offset + y * level.width + x) as usize];

@@ -1,4 +1,5 @@
-//! What spares work changes nothing: several textures sampled at one place, and those without alpha.
+//! Shortcuts give the same bits: several textures sampled at the same coordinates, and opaque
+//! textures.
 
 use super::{Colors, Lod, Random, noise, sample_packet};
 use crate::{
@@ -51,7 +52,7 @@ fn several_at_once_are_those_alone() {
     };
     let of =
         |size: [u32; 2], format, sampler| Sampled::new(noise(size[0], size[1], format), sampler);
-    // The same texels in levels that lie elsewhere.
+    // The same texels, in levels at other offsets.
     let mut moved = noise(64, 32, Rgba8Unorm);
     for level in &mut moved.levels {
         level.offset /= 2;

@@ -1,4 +1,4 @@
-//! What sampling means: values that can be told by hand.
+//! Sample results that can be computed by hand.
 
 use super::*;
 use crate::{AddressMode, FilterMode, create_texture_with_levels};
@@ -107,7 +107,7 @@ fn one_colour_stays_that_colour_exactly() {
 
 #[test]
 fn a_pixel_of_two_texels_reads_level_one() {
-    // Each level in a grey of its own: 0, 50, 100, 150.
+    // Each level has its own grey: 0, 50, 100, 150.
     let levels: Vec<Vec<u8>> = (0..4).map(|l| vec![50 * l; 4 << (6 - 2 * l)]).collect();
     let levels: Vec<&[u8]> = levels.iter().map(Vec::as_slice).collect();
     let format = TextureFormat::Rgba8Unorm;

@@ -1,19 +1,21 @@
-//! One axis: from a coordinate to the texels that it lies between, with offsets and borders.
+//! One coordinate axis in the scalar code: the texels between which a coordinate lies, with offsets
+//! and borders.
 
 use estampe_types::{AddressMode, FilterMode, Real};
 
-/// Where a sample lies along one axis: two texels, of which the second counts with linear filtering alone, and how
-/// far it is from the first. −1 is the border.
+/// The two texels of a sample along one axis and the position between their centres, 0..1. The
+/// second texel counts only with linear filtering. Texel −1 is the border.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Place {
     pub(crate) texels: [i32; 2],
     pub(crate) fraction: f32,
 }
 
-/// Beyond this, texels are not told apart any more.
+/// Texel coordinates are clamped to ±2²⁴: beyond it, f32 does not distinguish neighbouring texels.
 pub(crate) const FAR: f32 = 16_777_216.0;
 
-/// The place of a coordinate in `count` texels, `length` of them.
+/// The texels of coordinate `u` in a level of `count` texels; `length` is the same number as a
+/// float.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "confined to whole numbers within ±2²⁴"
@@ -30,7 +32,7 @@ pub(crate) fn place(
         FilterMode::Nearest => 0.0,
         FilterMode::Linear => 0.5,
     };
-    // As `wrap` does it, to the bit, so that all paths agree.
+    // The same arithmetic as `wrap`, to the bit, so that all paths agree.
     if offset == 0 && mode.is_plain() {
         let wrapped = crate::wrap::wrap(u, mode);
         let mut at = wrapped * length - half;
@@ -51,8 +53,8 @@ pub(crate) fn place(
     place_in_integers(u * length - half, count, mode, offset)
 }
 
-/// The two texels that gathering reads along an axis. Each wraps by itself, also at a clamped or mirrored edge, where
-/// filtering confines the coordinate instead: there both are the texel at the edge.
+/// The two texels that gathering reads along an axis. Each is wrapped by itself, also at a clamped
+/// or mirrored edge: there both are the texel at the edge. Filtering clamps the coordinate instead.
 #[inline]
 pub(crate) fn gathered(
     u: f32,
@@ -67,7 +69,8 @@ pub(crate) fn gathered(
     place.texels
 }
 
-/// The place of a texel coordinate, whose whole part and the next one are moved by the offset, then wrapped.
+/// The texels of a texel coordinate: its integer part and the next one are moved by the offset,
+/// then wrapped.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "confined to whole numbers within ±2²⁴"
@@ -83,7 +86,7 @@ fn place_in_integers(at: f32, count: i32, mode: AddressMode, offset: i32) -> Pla
     }
 }
 
-/// The texel that a whole coordinate finds; −1 for the border.
+/// Wraps an integer texel coordinate; −1 is the border.
 #[inline]
 pub(crate) fn wrapped(texel: i32, count: i32, mode: AddressMode) -> i32 {
     let mirrored = |texel: i32| if texel >= 0 { texel } else { -1 - texel };

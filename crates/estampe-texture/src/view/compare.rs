@@ -1,4 +1,5 @@
-//! Comparison samplers: texels are compared with a reference, and the answers, 1 or 0, are filtered.
+//! Comparison samplers: texels are compared with a reference, and the results, 1 or 0, are
+//! filtered.
 
 use super::SampledView;
 use super::coordinates::{Answers, Lanes, answer};
@@ -6,7 +7,7 @@ use super::sample::Tap;
 use estampe_types::state::CompareFunction;
 use estampe_types::{Real, TexelEncoding};
 
-/// How a texel compares: 1 where the comparison passes, else 0.
+/// The comparison of a texel with a reference: 1 where it passes, else 0.
 pub(crate) struct Comparison {
     function: CompareFunction,
     reference: f32,
@@ -21,12 +22,13 @@ impl Tap for Comparison {
 }
 
 impl SampledView {
-    /// Of fixed-point depths, the reference is confined to 0..=1 as they are.
+    /// The comparison with a reference; for fixed-point depths, the reference is clamped to 0..=1
+    /// as they are.
     pub(crate) fn comparison(&self, reference: f32) -> Comparison {
         let encoding = self.view.texture.stored_format().encoding();
         let is_fixed = matches!(encoding, TexelEncoding::Depth16 | TexelEncoding::Depth24);
         Comparison {
-            // A sampler that does not compare is refused for this before; `Never` gives 0.
+            // A sampler without a comparison is refused earlier; `Never` gives 0 for it.
             function: self.sampler.compare.unwrap_or(CompareFunction::Never),
             reference: if is_fixed {
                 Real::saturate(reference)
@@ -36,7 +38,8 @@ impl SampledView {
         }
     }
 
-    /// Compares lanes, sixteen at once where it can; the answers stand in the first channel.
+    /// Compares lanes: by packet code if possible, else lane by lane. The results are in the first
+    /// channel.
     #[inline(never)]
     pub(crate) fn compare_lanes(&self, lanes: &Lanes<'_>) -> Answers {
         let mut answers = Answers::default();

@@ -1,9 +1,10 @@
-//! Where a shader reads a texture: the lanes' coordinates, and how the level of detail is found.
+//! Requests to views: the lanes' coordinates, how the level of detail is determined, and both as
+//! packets.
 
 use estampe_simd::{LANES, Packet};
 use estampe_types::{Int, Real, Vec2, Vec3, Vec4};
 
-/// A texture coordinate: as many components as the view's dimension wants, and a layer of arrays.
+/// A texture coordinate: as many components as the view's dimension has, and an array layer.
 #[derive(Debug, Clone, Copy)]
 pub struct Coordinates<R: Real> {
     pub(crate) uvw: Vec3<R>,
@@ -11,19 +12,20 @@ pub struct Coordinates<R: Real> {
 }
 
 impl<R: Real> Coordinates<R> {
-    /// In a row of texels.
+    /// The coordinate u of a 1D view.
     #[inline(always)]
     pub fn d1(u: R) -> Self {
         Self::d3(Vec3::new(u, u.splat(0.0), u.splat(0.0)))
     }
 
-    /// In an image.
+    /// The coordinates (u, v) of a 2D view.
     #[inline(always)]
     pub fn d2(uv: Vec2<R>) -> Self {
         Self::d3(Vec3::new(uv.x, uv.y, uv.x.splat(0.0)))
     }
 
-    /// In an image of an array, confined to those that exist.
+    /// The coordinates (u, v) in a layer of a 2D array view; the layer is clamped to the existing
+    /// ones.
     #[inline(always)]
     pub fn d2_array(uv: Vec2<R>, layer: R::Int) -> Self {
         Self {
@@ -32,7 +34,7 @@ impl<R: Real> Coordinates<R> {
         }
     }
 
-    /// In a block of texels.
+    /// The coordinates (u, v, w) of a 3D view.
     #[inline(always)]
     pub fn d3(uvw: Vec3<R>) -> Self {
         Self {
@@ -41,13 +43,13 @@ impl<R: Real> Coordinates<R> {
         }
     }
 
-    /// In a cube's surface: where the direction, of any length, meets it.
+    /// The point of a cube map that a direction of any length meets.
     #[inline(always)]
     pub fn cube(direction: Vec3<R>) -> Self {
         Self::d3(direction)
     }
 
-    /// In the surface of a cube of an array.
+    /// The point of a cube of a cube array view that a direction of any length meets.
     #[inline(always)]
     pub fn cube_array(direction: Vec3<R>, layer: R::Int) -> Self {
         Self {
@@ -57,47 +59,49 @@ impl<R: Real> Coordinates<R> {
     }
 }
 
-/// How the level of detail is found.
+/// How the level of detail is determined.
 #[derive(Debug, Clone, Copy)]
 pub enum Lod<R: Real> {
-    /// From the coordinates' differences within each 2×2 quad; a lone fragment reads the base level.
+    /// From the coordinates' differences within each 2×2 quad; a single fragment reads the base
+    /// level.
     Implicit,
-    /// The same, and this is added.
+    /// As [`Lod::Implicit`], with this bias added.
     Bias(R),
-    /// This one.
+    /// This level of detail.
     Level(R),
     /// From the coordinates' derivatives along x and along y.
     Gradients(Vec3<R>, Vec3<R>),
 }
 
-/// What sixteen lanes, or fewer, get: channel by channel. Each channel is a cache line, so that a register of
-/// sixteen lanes is stored and loaded at once.
+/// Sample results of up to sixteen lanes, one packet per channel. Each packet is a cache line, so
+/// that a register of sixteen lanes is stored and loaded at once.
 pub(crate) type Answers = [Packet<f32>; 4];
 
-/// The same as packets: a request that code which knows no lanes can fulfil. Of a pair of packets it is one.
+/// A request as packets, for code that is not generic over the shader's numbers. A packet pair
+/// makes two requests.
 ///
-/// Packets that a request does not have are [`ZEROS`], so that nothing is stored for them.
+/// Packets that a request does not need are [`ZEROS`], so that nothing is stored for them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lanes<'a> {
-    /// How many lanes there are.
+    /// The number of lanes.
     pub(crate) count: usize,
     pub(crate) at: &'a [Packet<f32>; 3],
     pub(crate) layer: &'a Packet<i32>,
     pub(crate) lod: LodOfLanes,
-    /// The bias, or the level.
+    /// The bias, or the level of detail.
     pub(crate) value: &'a Packet<f32>,
-    /// Along x, then along y.
+    /// Derivatives along x, then along y.
     pub(crate) gradients: &'a [Packet<f32>; 6],
-    /// What is compared with.
+    /// The reference of comparisons.
     pub(crate) reference: &'a Packet<f32>,
-    /// In texels.
+    /// Offset in texels.
     pub(crate) offset: [i32; 3],
 }
 
-/// What a request does not have.
+/// Zeros for the packets that a request does not need.
 static ZEROS: [Packet<f32>; 6] = [Packet([0.0; LANES]); 6];
 
-/// Which of the numbers of [`Lanes`] count.
+/// Which numbers of [`Lanes`] determine the level of detail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum LodOfLanes {
     Bias,
@@ -172,12 +176,13 @@ impl Lanes<'_> {
         [[a, b, c], [d, e, f]]
     }
 
-    /// The first lane of a lane's quad; a lone fragment's own.
+    /// The first lane of a lane's quad; of a single fragment the lane itself.
     pub(crate) fn first_of_quad(&self, lane: usize) -> usize {
         if self.count >= 4 { lane & !3 } else { lane }
     }
 
-    /// The differences within a quad that begins at a lane, along x and along y; of a lone fragment 0.
+    /// The differences within a quad that begins at a lane, along x and along y; 0 for a single
+    /// fragment.
     pub(crate) fn differences(&self, first: usize) -> [[f32; 3]; 2] {
         if self.count < 4 {
             return [[0.0; 3]; 2];
@@ -187,7 +192,7 @@ impl Lanes<'_> {
     }
 }
 
-/// Sixteen lanes from one on, or all there are.
+/// Stores the lanes from `first` on as a packet: sixteen, or all if there are fewer.
 #[inline(always)]
 pub(crate) fn packet<R: Real>(value: R, first: usize) -> Packet<f32> {
     let mut lanes = Packet::default();
@@ -198,7 +203,7 @@ pub(crate) fn packet<R: Real>(value: R, first: usize) -> Packet<f32> {
     lanes
 }
 
-/// The same of integers.
+/// [`packet`] for integers.
 #[inline(always)]
 pub(crate) fn packet_of_ints<I: Int>(value: I, first: usize) -> Packet<i32> {
     let mut lanes = Packet::default();
@@ -210,7 +215,7 @@ pub(crate) fn packet_of_ints<I: Int>(value: I, first: usize) -> Packet<i32> {
     lanes
 }
 
-/// The lanes of a packet from one on as a number.
+/// Loads the lanes of a packet from `first` on.
 #[inline(always)]
 pub(crate) fn load<R: Real>(like: R, from: &Packet<f32>, first: usize) -> R {
     like.with_lanes(
@@ -219,7 +224,8 @@ pub(crate) fn load<R: Real>(like: R, from: &Packet<f32>, first: usize) -> R {
     )
 }
 
-/// Asks for sixteen lanes at a time, from a lane on, until each lane of a number has an answer.
+/// Calls `ask` with the first of each sixteen lanes, until each lane of a number has its sample
+/// result.
 #[inline(always)]
 pub(crate) fn by_sixteen<R: Real>(like: R, ask: impl Fn(usize) -> Answers) -> Vec4<R> {
     let first = ask(0);
@@ -230,7 +236,7 @@ pub(crate) fn by_sixteen<R: Real>(like: R, ask: impl Fn(usize) -> Answers) -> Ve
     }
 }
 
-/// The four numbers of each lane as a vector.
+/// Loads the four channels of each lane as a vector.
 #[inline(always)]
 pub(crate) fn packed<R: Real>(like: R, answers: [&Answers; 2]) -> Vec4<R> {
     Vec4::new(
@@ -249,7 +255,7 @@ fn channel<R: Real>(like: R, answers: [&Answers; 2], channel: usize) -> R {
     )
 }
 
-/// Puts a lane's four numbers among the answers.
+/// Stores the four channels of a lane among the sample results.
 #[inline(always)]
 pub(crate) fn answer(answers: &mut Answers, lane: usize, channels: [f32; 4]) {
     for (of_channel, channel) in answers.iter_mut().zip(channels) {

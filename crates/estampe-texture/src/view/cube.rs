@@ -1,12 +1,14 @@
-//! Cube maps: which face a direction meets and where, and the texels beyond a face's edge.
+//! Cube maps: the face that a direction meets, the coordinates there, and the texels beyond a
+//! face's edge.
 //!
 //! # Edges
 //!
-//! Texel (x, y) of a face of n texels has its centre at (2x + 1 − n, 2y + 1 − n) in a square from −n to n, and the
-//! square stands at n on its major axis: the cube from −n to n. One texel beyond an edge, a coordinate is ±(n + 1).
-//! The neighbour is found by folding the cube along that edge: the coordinate becomes ±n, the major one of the
-//! neighbour, and the old major coordinate becomes n − 1, the neighbour's first row of centres. All in integers,
-//! without a table of 24 edges.
+//! Texel (x, y) of a face of n texels has its centre at (2x + 1 − n, 2y + 1 − n) in a square from
+//! −n to n, and the square stands at n on its major axis: the cube from −n to n. One texel beyond
+//! an edge, a coordinate is ±(n + 1). The neighbour is found by folding the cube along that edge:
+//! the coordinate becomes ±n, the major one of the neighbour, and the old major coordinate becomes
+//! n − 1, the neighbour's first row of centres. All of this is integer arithmetic, without a table
+//! of 24 edges.
 
 /// Faces in layer order: the axis that is major, its sign, then the axes and signs of s and t.
 /// (Vulkan 1.3, *Cube Map Face Selection*.)
@@ -70,8 +72,8 @@ pub(crate) fn project_derivative(direction: [f32; 3], change: [f32; 3], face: us
     })
 }
 
-/// The face and texel of (x, y) beside a face of `n` texels, at most one texel beyond one edge; `None` beyond two:
-/// three faces meet there, and there is no fourth texel.
+/// The face and texel of (x, y) beside a face of `n` texels, at most one texel beyond one edge;
+/// `None` beyond two: three faces meet there, and there is no fourth texel.
 #[inline]
 pub(crate) fn across(face: i32, x: i32, y: i32, n: i32) -> Option<(i32, i32, i32)> {
     let is_inside = |at: i32| (0..n).contains(&at);

@@ -1,4 +1,4 @@
-//! Texels by their whole coordinates, without a sampler.
+//! Texel fetches: reads by integer coordinates, without a sampler.
 
 use super::TextureView;
 use super::coordinates::{Answers, answer, by_sixteen, packet_of_ints};
@@ -6,11 +6,13 @@ use estampe_simd::{LANES, Packet};
 use estampe_types::{Int, Real, Vec4, ViewDimension};
 
 impl TextureView {
-    /// The texel (x, y, z) of a level, z being the depth of a 3D view, or the layer of an array (of cubes: six for
-    /// each); sides that the view does not have are not looked at. `sample` is that of a multisampled texture.
+    /// The texel (x, y, z) of a level; z is the depth in a 3D view, or the layer of an array (six
+    /// per cube). Coordinates along axes that the view does not have are ignored. `sample` selects
+    /// a sample of a multisampled texture.
     ///
-    /// Numbers are as sampling gives them; of integers it gives the [bits](Real::to_bits). What is not there (a
-    /// texel, layer, level or sample) reads as zeros, alpha too (WebGPU's and Vulkan's robust access).
+    /// Numbers are as sampling gives them; integer formats give the [bits](Real::to_bits). A texel,
+    /// layer, level or sample that does not exist reads as zeros, alpha too (WebGPU's and Vulkan's
+    /// robust access).
     #[inline(always)]
     pub fn fetch<I: Int>(&self, [x, y, z]: [I; 3], level: I, sample: I) -> Vec4<I::Real> {
         let like = x.to_real();
@@ -63,7 +65,7 @@ impl TextureView {
         let is_there = (0..plane.sides[0]).contains(&x)
             && (0..plane.sides[1]).contains(&y)
             && (0..slices).contains(&z)
-            // A texture without samples has but one.
+            // A texture that is not multisampled has one sample.
             && sample < samples;
         if !is_there {
             return None;

@@ -1,9 +1,11 @@
-//! How large a pixel is in the texture: the level of detail, and the probes of anisotropic filtering.
+//! The footprint of a pixel in the scalar code: the level of detail, and the probes of anisotropic
+//! filtering.
 //!
 //! Anisotropic filtering is Vulkan's (1.3, *Texel Anisotropic Filtering*; the formula of
-//! EXT_texture_filter_anisotropic): the longer of the two derivatives is the footprint's long axis, N probes lie
-//! along it, and the level is that of a footprint η times shorter. The axes of the true ellipse (Heckbert 1989)
-//! would fit skewed footprints better, for a quadratic equation a quad more; no specification asks for them.
+//! EXT_texture_filter_anisotropic): the longer of the two derivatives is the footprint's long axis,
+//! N probes lie along it, and the level is that of a footprint η times shorter. The axes of the
+//! true ellipse (Heckbert 1989) would fit skewed footprints better, but cost one more quadratic
+//! equation per quad; no specification asks for them.
 
 use super::{TextureView, cube};
 use crate::lod::level_of_detail;
@@ -15,14 +17,14 @@ use estampe_types::{Real, SamplerDescriptor};
 pub(crate) struct Footprint {
     /// λ, before bias and clamps.
     pub(crate) lod: f32,
-    /// How many probes are averaged.
+    /// The number of probes that are averaged.
     pub(crate) probes: u16,
     /// The long axis, as a derivative of the coordinates.
     pub(crate) step: [f32; 3],
 }
 
 impl Footprint {
-    /// A level that is given: one probe.
+    /// The footprint of a given level of detail: one probe.
     pub(crate) fn of_level(lod: f32) -> Self {
         Self {
             lod,
@@ -31,7 +33,7 @@ impl Footprint {
         }
     }
 
-    /// From the coordinates' derivatives along x and along y.
+    /// The footprint of the coordinates' derivatives along x and along y.
     pub(crate) fn new(
         view: &TextureView,
         sampler: &SamplerDescriptor,

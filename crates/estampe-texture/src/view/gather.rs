@@ -1,4 +1,5 @@
-//! Gathering: one channel of the four texels around a place in the base level.
+//! Texel gathering: one channel of the four texels around a coordinate in the base level, lane by
+//! lane.
 
 use super::SampledView;
 use super::axis;
@@ -6,12 +7,12 @@ use super::coordinates::{Answers, Lanes, answer};
 use super::sample::{Channels, Tap};
 use estampe_types::ViewDimension;
 
-/// From upper left, upper right, lower left, lower right to the order of shading languages: lower left, lower
-/// right, upper right, upper left.
+/// From upper left, upper right, lower left, lower right to the order of shading languages: lower
+/// left, lower right, upper right, upper left.
 const ORDER: [usize; 4] = [2, 3, 1, 0];
 
 impl SampledView {
-    /// Gathers a channel for lanes, one after the other.
+    /// Gathers a channel, lane by lane.
     #[inline(never)]
     pub(crate) fn gather_lanes(&self, lanes: &Lanes<'_>, channel: usize) -> Answers {
         let mut texels = Answers::default();
@@ -24,7 +25,7 @@ impl SampledView {
         texels
     }
 
-    /// Gathers answers of a comparison.
+    /// Gathers comparison results, lane by lane.
     #[inline(never)]
     pub(crate) fn gather_compare_lanes(&self, lanes: &Lanes<'_>) -> Answers {
         let mut answers = Answers::default();
@@ -36,7 +37,8 @@ impl SampledView {
         answers
     }
 
-    /// The four texels around a lane's coordinates: upper left, upper right, lower left, lower right.
+    /// The four texels around a lane's coordinates: upper left, upper right, lower left, lower
+    /// right.
     fn four(&self, lanes: &Lanes<'_>, lane: usize, tap: &impl Tap) -> [[f32; 4]; 4] {
         if matches!(self.view.dimension, ViewDimension::D1 | ViewDimension::D3) {
             return [[0.0; 4]; 4];

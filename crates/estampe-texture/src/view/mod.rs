@@ -1,12 +1,27 @@
-//! Views: any texture as shaders see it, and what can be read without a sampler.
+//! Texture views: how a texture's dimension, mip levels and layers are reinterpreted, and how views
+//! are sampled, gathered, compared and fetched.
 //!
-//! Everything here is the general path: every dimension, format and function, scalar, lane by lane, compiled once
-//! for all shaders. Where a view and its sampler are of the common kind ([`Sampled`](crate::Sampled)'s: 2D, four
-//! 8-bit channels), [`SampledView`] hands over to it.
+//! This code serves every dimension, format and function, and is compiled once for all shaders. If
+//! a view and its sampler are of the common kind (2D, four 8-bit channels), [`SampledView`] hands
+//! `sample` over to [`Sampled`](crate::Sampled).
 //!
 //! ```text
 //!  coordinates ─▶ footprint ─▶ probes ─▶ levels ─▶ axis / cube ─▶ decode ─▶ mixture
 //! ```
+//!
+//! A shader stores its lanes as a request of packets (`coordinates.rs`). Three implementations
+//! sample it, each with the same arithmetic in the same order, so that the bits are the same:
+//!
+//! * `packet/inside.rs` is the common case of a packet: linear filtering, all lanes in the same mip
+//!   level or between the same two, all texels inside. It needs no selection per lane.
+//! * `packet/mod.rs` is the general packet code, for other packets: every format except integers
+//!   and stencil, every dimension, filter and comparison. It samples once for every mip level among
+//!   the lanes.
+//! * `sample.rs` is the scalar code, lane by lane: integers and stencil, fewer than sixteen lanes,
+//!   the scalar SIMD level, and the lanes that the packet code leaves out (texels across a border
+//!   or a cube's edge, or with an offset).
+//!
+//! Gathers (`gather.rs`) and fetches (`fetch.rs`) are lane by lane as well.
 
 mod axis;
 mod compare;

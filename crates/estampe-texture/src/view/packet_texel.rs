@@ -1,4 +1,4 @@
-//! Stored texels of sixteen lanes as numbers: every format but integers.
+//! Decoding of sixteen texels at once, for every format except integers.
 
 use super::TextureView;
 use estampe_format::{half, shared_exponent, small_float, srgb};
@@ -6,28 +6,28 @@ use estampe_simd::{Bytes, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16}
 use estampe_types::state::CompareFunction;
 use estampe_types::{Real, SampleType, TexelEncoding};
 
-/// Formats without code of their own.
+/// The kind of formats that share the general code.
 pub(super) const OTHERS: u8 = 0;
 /// Four unorm bytes.
 pub(super) const RGBA8: u8 = 1;
-/// The same with sRGB.
+/// Four unorm bytes with sRGB colours.
 pub(super) const RGBA8_SRGB: u8 = 2;
 /// Four half floats.
 pub(super) const RGBA16F: u8 = 3;
 
-/// A format whose texels sixteen lanes read at once.
+/// A format that packet code decodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PacketFormat {
     encoding: TexelEncoding,
     is_srgb: bool,
-    /// Channels that are stored.
+    /// The number of channels that are stored.
     pub(super) components: usize,
     /// Words of a texel: 1, 2 or 4.
     pub(super) words: i32,
 }
 
 impl PacketFormat {
-    /// `None` where a view's texels are read one by one: integers and stencil.
+    /// `None` for integers and stencil, which the scalar code reads lane by lane.
     pub(crate) fn new(view: &TextureView) -> Option<Self> {
         let stored = view.texture.stored_format();
         let is_number = matches!(
@@ -42,7 +42,7 @@ impl PacketFormat {
         })
     }
 
-    /// The format's number among those that have code of their own.
+    /// The kind of the format: one with specialised code, or [`OTHERS`].
     pub(super) fn kind(self) -> u8 {
         match (self.encoding, self.components) {
             (TexelEncoding::Unorm8, 4) if self.is_srgb => RGBA8_SRGB,
@@ -52,7 +52,7 @@ impl PacketFormat {
         }
     }
 
-    /// Whether it is a depth of whole codes.
+    /// Whether the format is a fixed-point depth.
     pub(super) fn is_fixed_depth(self) -> bool {
         matches!(
             self.encoding,
@@ -60,8 +60,8 @@ impl PacketFormat {
         )
     }
 
-    /// Texels' channels in units, from their words; those that the format lacks are anything. Loops have a constant
-    /// length, so that channels stay in registers.
+    /// Decodes the channels of texels from their words, in units; channels that the format does not
+    /// store are unspecified. Loops have a constant length, so that channels stay in registers.
     #[inline(always)]
     pub(super) fn units<S: Lanes, const C: usize, const KIND: u8>(
         self,
@@ -157,7 +157,7 @@ impl PacketFormat {
     }
 }
 
-/// Four bytes as units.
+/// Decodes four bytes, in units.
 #[inline(always)]
 fn bytes<S: Lanes, const C: usize>(s: S, word: u32x16<S>, units: &mut [f32x16<S>; C]) {
     for (k, unit) in (0..).zip(units) {
@@ -165,20 +165,20 @@ fn bytes<S: Lanes, const C: usize>(s: S, word: u32x16<S>, units: &mut [f32x16<S>
     }
 }
 
-/// The lowest bits.
+/// The lowest `count` bits.
 #[inline(always)]
 fn bits<S: Lanes>(s: S, word: u32x16<S>, count: u32) -> u32x16<S> {
     word & <u32x16<S> as SimdBase<S>>::splat(s, u32::MAX >> (32 - count))
 }
 
-/// Codes below 2³¹ as numbers.
+/// Converts integers below 2³¹ to floats.
 #[inline(always)]
 fn number<S: Lanes>(code: u32x16<S>) -> f32x16<S> {
     let signed: i32x16<S> = code.bitcast();
     f32x16::float_from(signed)
 }
 
-/// The highest bits but `unused` as signed numbers.
+/// Converts the bits above the lowest `unused` ones to floats, as signed integers.
 #[inline(always)]
 fn signed<S: Lanes>(top: u32x16<S>, unused: u32) -> f32x16<S> {
     let signed: i32x16<S> = top.bitcast();

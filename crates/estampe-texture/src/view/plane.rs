@@ -1,4 +1,4 @@
-//! Which part of a texture is seen, and as what.
+//! [`TextureView`]: how a texture's dimension, mip levels and layers are reinterpreted.
 
 use crate::TextureError;
 use estampe_format::TexelCodec;
@@ -7,40 +7,41 @@ use estampe_types::{
 };
 use std::sync::Arc;
 
-/// The longest side, confined to which arithmetic stays in range.
+/// The longest side: sides are clamped to it, so that arithmetic stays in range.
 const MAX_SIDE: u32 = 16_384;
 
-/// More layers than any texture has; arithmetic stays in range.
+/// The most layers, more than any valid texture has, for which arithmetic stays in range.
 const MAX_LAYERS: u32 = 1 << 14;
 
-/// One level as sampling needs it. A texture put together by hand may claim anything: sides are confined here, and
-/// what is not there reads as zeros.
+/// One mip level as sampling reads it. The fields of a [`Texture`] are public and may hold any
+/// value: sides are clamped here, and missing texels read as zeros.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plane {
     /// Width, height and depth (layers do not count).
     pub(crate) sides: [i32; 3],
-    /// The same.
+    /// The sides as floats.
     pub(crate) size: [f32; 3],
-    /// Texels before it, samples counted.
+    /// The number of texels before the level, with all samples.
     offset: usize,
 }
 
-/// A texture as a shader reads it. Cheap to clone.
+/// A texture as a shader reads it: a dimension, a range of layers and a range of mip levels. Cheap
+/// to clone.
 #[derive(Debug, Clone)]
 pub struct TextureView {
     pub(crate) texture: Arc<Texture>,
     pub(crate) dimension: ViewDimension,
     pub(crate) planes: Arc<[Plane]>,
     pub(crate) base_layer: u32,
-    /// Layers, or cubes.
+    /// The number of layers, or of cubes.
     pub(crate) layers: i32,
     pub(crate) codec: TexelCodec,
-    /// Whether it shows all of the texture.
+    /// Whether the view contains all layers and levels of the texture.
     pub(crate) is_whole: bool,
 }
 
 impl TextureView {
-    /// A view of a texture.
+    /// Creates a view of a texture.
     ///
     /// # Errors
     /// [`TextureError::View`] when the texture does not have what the descriptor asks for.
@@ -121,7 +122,7 @@ impl TextureView {
         })
     }
 
-    /// All of a texture, as an array if it has several layers.
+    /// A view of all of a texture, as an array if it has several layers.
     ///
     /// # Errors
     /// [`TextureError::View`] when it has no level or no layer.
@@ -135,14 +136,14 @@ impl TextureView {
         &self.texture
     }
 
-    /// As what it is read.
+    /// The dimension of the view.
     #[must_use]
     pub fn dimension(&self) -> ViewDimension {
         self.dimension
     }
 
-    /// Width, height and depth of a level (`textureDimensions`); 1 where it has no such side, 0 of a level that is
-    /// not there.
+    /// Width, height and depth of a level (`textureDimensions`); 1 for a side that the dimension
+    /// does not have, 0 for a level that does not exist.
     #[must_use]
     pub fn size(&self, level: usize) -> [u32; 3] {
         self.planes
@@ -150,19 +151,19 @@ impl TextureView {
             .map_or([0; 3], |plane| plane.sides.map(i32::cast_unsigned))
     }
 
-    /// How many levels there are (`textureNumLevels`).
+    /// The number of mip levels (`textureNumLevels`).
     #[must_use]
     pub fn level_count(&self) -> usize {
         self.planes.len()
     }
 
-    /// How many layers, or cubes, there are (`textureNumLayers`).
+    /// The number of layers, or of cubes (`textureNumLayers`).
     #[must_use]
     pub fn layer_count(&self) -> u32 {
         self.layers.cast_unsigned()
     }
 
-    /// How many samples a texel has (`textureNumSamples`).
+    /// The number of samples of a texel (`textureNumSamples`).
     #[must_use]
     pub fn sample_count(&self) -> u32 {
         self.texture.shape.samples
@@ -175,12 +176,13 @@ impl TextureView {
         )
     }
 
-    /// The words of a sample of a texel inside its plane: `slice` is a depth, or a layer of the texture.
+    /// The words of a sample of a texel inside its level: `slice` is a depth, or a layer of the
+    /// texture.
     #[inline]
     pub(crate) fn texel(&self, plane: &Plane, [x, y, slice]: [i32; 3], sample: u32) -> &[u32] {
         let [width, height, _] = plane.sides.map(|side| side as usize);
         let samples = self.texture.shape.samples as usize;
-        // Saturating, for what a texture put together by hand claims.
+        // Saturating, because the public fields of a texture may hold any value.
         let row = (slice as usize * height).saturating_add(y as usize);
         let texel = row.saturating_mul(width).saturating_add(x as usize);
         let at = plane.offset.saturating_add(texel.saturating_mul(samples));
@@ -192,10 +194,11 @@ impl TextureView {
 }
 
 impl Plane {
-    /// Where it begins among the texture's words.
+    /// The index of the level's first word in the texture.
     #[inline(always)]
     pub(crate) fn begin_words(&self, words: i32) -> i32 {
-        // Textures have fewer than 2³¹ words; gathers confine what one put together by hand claims.
+        // Valid textures have fewer than 2³¹ words; for other values of the public fields, gathers
+        // clamp their indices.
         let begin = i32::try_from(self.offset).unwrap_or(i32::MAX);
         begin.wrapping_mul(words)
     }

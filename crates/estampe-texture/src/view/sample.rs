@@ -1,4 +1,7 @@
-//! Filtering, one lane at a time: probes, levels, texels.
+//! The scalar code of filtering, lane by lane: probes, mip levels, texels.
+//!
+//! It serves formats without packet code, requests of fewer than sixteen lanes, the scalar SIMD
+//! level, and the lanes that packet code leaves out.
 
 use super::axis::{self, Place};
 use super::coordinates::{Answers, Lanes, LodOfLanes, answer};
@@ -9,29 +12,29 @@ use estampe_format::TexelCodec;
 use estampe_types::ViewDimension;
 use estampe_types::{AddressMode, BorderColor, FilterMode, Real};
 
-/// A place in the texture: within one face of cubes, and with the slice that it is in.
+/// A coordinate with its layer; for cubes, within one face.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Spot {
     pub(crate) uvw: [f32; 3],
-    /// A layer of the texture; of cubes that of the face +X.
+    /// The layer of the texture; for cubes, the layer of the face +X.
     layer: i32,
     /// The face, 0 to 5.
     face: i32,
 }
 
 impl Spot {
-    /// The texture's layer where it is; of cubes that of the first face.
+    /// The layer of the texture; for cubes, the layer of the first face.
     pub(crate) fn layer(&self) -> i32 {
         self.layer
     }
 }
 
-/// What a texel gives: its channels in units, or how it compares.
+/// The value of a texel that is filtered: its channels in units, or its comparison result.
 pub(crate) trait Tap {
     fn of(&self, unit: [f32; 4]) -> [f32; 4];
 }
 
-/// Its channels.
+/// The channels of a texel.
 pub(crate) struct Channels;
 
 impl Tap for Channels {
@@ -42,7 +45,7 @@ impl Tap for Channels {
 }
 
 impl SampledView {
-    /// Samples lanes: sixteen at once where it can, else one after the other.
+    /// Samples lanes: by packet code if possible, else lane by lane.
     #[inline(never)]
     pub(crate) fn sample_lanes(&self, lanes: &Lanes<'_>, colors: &mut Answers) {
         if !self.sample_packet(lanes, colors, false) {
@@ -59,7 +62,7 @@ impl SampledView {
         self.view.codec.finish(unit)
     }
 
-    /// λ with every bias, and the probes.
+    /// The footprint of a lane; every bias is added to its λ.
     pub(crate) fn footprint(&self, lanes: &Lanes<'_>, lane: usize) -> Footprint {
         let (view, sampler) = (&self.view, &self.sampler);
         let mut footprint = match lanes.lod {
@@ -114,7 +117,7 @@ impl SampledView {
         sum
     }
 
-    /// Where coordinates and a layer lie.
+    /// Finds the layer and the face of coordinates.
     pub(crate) fn spot(&self, at: [f32; 3], layer: i32) -> Spot {
         let view = &self.view;
         let layer = Ord::clamp(layer, 0, view.layers - 1);
@@ -136,7 +139,7 @@ impl SampledView {
         }
     }
 
-    /// One level, or the mixture of two.
+    /// Samples one mip level, or mixes two.
     fn levels(&self, spot: &Spot, lod: f32, offset: [i32; 3], tap: &impl Tap) -> [f32; 4] {
         let sampler = &self.sampler;
         let lod = Real::clamp(lod, sampler.lod_min_clamp, sampler.lod_max_clamp);
@@ -164,7 +167,7 @@ impl SampledView {
         }
     }
 
-    /// One level, nearest or linear.
+    /// Samples one mip level, nearest or linear.
     fn texels(
         &self,
         plane: &Plane,
@@ -208,7 +211,7 @@ impl SampledView {
         mix(near, image(z.texels[1]), z.fraction)
     }
 
-    /// The place along one axis.
+    /// The texels along one axis.
     pub(crate) fn place(
         &self,
         plane: &Plane,
@@ -222,7 +225,7 @@ impl SampledView {
         axis::place(spot.uvw[axis], side, mode, filter, offset[axis])
     }
 
-    /// How each axis is addressed.
+    /// The address modes of the three axes.
     pub(crate) fn address_modes(&self) -> [AddressMode; 3] {
         let sampler = &self.sampler;
         [
@@ -232,7 +235,7 @@ impl SampledView {
         ]
     }
 
-    /// A texel in units; the border where one of its coordinates is −1.
+    /// A texel in units; the border colour if one of its coordinates is −1.
     pub(crate) fn unit(&self, plane: &Plane, at: [i32; 3]) -> [f32; 4] {
         let codec = &self.view.codec;
         if at[0].min(at[1]).min(at[2]) < 0 {
@@ -245,7 +248,7 @@ impl SampledView {
         codec.units(self.view.texel(plane, at, 0))
     }
 
-    /// One level of a cube; across its edges linear filtering goes on.
+    /// Samples one mip level of a cube; linear filtering continues across edges.
     fn texels_of_cube(
         &self,
         plane: &Plane,
@@ -263,8 +266,9 @@ impl SampledView {
         mix(mix(four[0], four[1], fx), mix(four[2], four[3], fx), fy)
     }
 
-    /// The four texels around a spot of a cube (left and right of the upper row, then of the lower), and the
-    /// fractions between them. Where three faces meet, the missing texel is the mean of the others.
+    /// The four texels around a point of a cube (left and right of the upper row, then of the
+    /// lower), and the position between their centres. Where three faces meet, the missing texel is
+    /// the mean of the others.
     pub(crate) fn four_of_cube(
         &self,
         plane: &Plane,
@@ -285,7 +289,7 @@ impl SampledView {
             if let Some((face, x, y)) = cube::across(spot.face, at.0, at.1, n) {
                 *texel = tap.of(self.unit(plane, [x, y, spot.layer + face]));
             } else if self.view.codec.is_integer() {
-                // Integers have no mean: the corner of this face.
+                // Integers have no mean: take the corner texel of this face.
                 let [x, y] = [at.0, at.1].map(|at| Ord::clamp(at, 0, n - 1));
                 *texel = tap.of(self.unit(plane, [x, y, spot.layer + spot.face]));
             } else {
@@ -311,7 +315,8 @@ impl SampledView {
     }
 }
 
-/// 0 or 1 of a channel, in units: what borders are made of. Channels that the format lacks stay as they are.
+/// 0 or 1 of a channel in units, for border colours. Channels that the format does not store read
+/// as they do elsewhere.
 pub(crate) fn border_unit(codec: &TexelCodec, channel: usize, is_one: bool) -> f32 {
     if channel >= codec.components() {
         return codec.missing()[channel];

@@ -1,4 +1,4 @@
-//! A view with a sampler, as a shader holds it.
+//! [`SampledView`]: a view with a sampler, as a shader holds it.
 
 use super::TextureView;
 use super::coordinates::{Answers, Coordinates, Lanes, Lod, by_sixteen};
@@ -11,21 +11,23 @@ use estampe_types::shader::Sample2d;
 use estampe_types::{FilterMode, Real, SampleType, SamplerDescriptor, Texture};
 use estampe_types::{Vec2, Vec4};
 
-/// A view of any texture and how it is sampled. Cheap to clone.
+/// A view of any texture with a sampler. Cheap to clone.
 ///
-/// Coordinates may be anything: NaN and infinities read some texel, as `docs/NUMERICS.md` says. Of integer formats
-/// every function gives the [bits](Real::to_bits).
+/// Coordinates may be any number: NaN and infinities read some texel, as `docs/NUMERICS.md` says.
+/// For integer formats, every function gives the [bits](Real::to_bits).
 #[derive(Debug, Clone)]
 pub struct SampledView {
     pub(crate) view: TextureView,
     pub(crate) sampler: SamplerDescriptor,
-    /// The same, where it is of the common kind: 2D, four 8-bit channels, WebGPU's address modes.
+    /// The sampler of the common kind of view, if this is one: 2D, four 8-bit channels, WebGPU's
+    /// address modes.
     common: Option<Sampled>,
-    /// How sixteen lanes read texels at once, where they can.
+    /// How packet code decodes texels; `None` for formats without packet code.
     pub(crate) packets: Option<PacketFormat>,
-    /// Whether texels are filtered linearly and found by wrapped coordinates in one image of each level.
+    /// Whether view and sampler allow the common case of a packet (`packet/inside.rs`): linear
+    /// filtering in one image of each level, with wrapped coordinates or on a cube's face.
     pub(crate) is_simple: bool,
-    /// With which instructions they do.
+    /// The SIMD level of packet code.
     pub(crate) level: Level,
 }
 
@@ -37,7 +39,7 @@ impl Sample2d for SampledView {
 }
 
 impl SampledView {
-    /// A view with a sampler.
+    /// Combines a view with a sampler.
     ///
     /// # Errors
     /// [`TextureError::Sampler`] when the sampler is not valid, or cannot sample the view.
@@ -60,8 +62,7 @@ impl SampledView {
         })
     }
 
-    /// The same, whose packets are sampled with the instructions of a SIMD level rather than the best one. The
-    /// answers are the same.
+    /// Samples packets at the given SIMD level instead of the best one. The results are the same.
     #[must_use]
     pub fn at_level(self, level: Level) -> Self {
         Self { level, ..self }
@@ -73,13 +74,13 @@ impl SampledView {
         &self.view
     }
 
-    /// How it is sampled.
+    /// The sampler.
     #[must_use]
     pub fn sampler(&self) -> &SamplerDescriptor {
         &self.sampler
     }
 
-    /// The filtered texel (`textureSample`), level of detail from the quad.
+    /// Samples with the level of detail of the quad (`textureSample`).
     #[inline(always)]
     pub fn sample<R: Real>(&self, at: Coordinates<R>) -> Vec4<R> {
         if let Some(common) = &self.common {
@@ -88,7 +89,7 @@ impl SampledView {
         self.sample_with(at, Lod::Implicit, [0; 3])
     }
 
-    /// The filtered texel at a level of detail that is found as `lod` says, `offset` texels from its coordinates
+    /// Samples with the level of detail that `lod` determines, `offset` texels from the coordinates
     /// (`textureSampleBias`, `textureSampleLevel`, `textureSampleGrad`). Cubes take no offsets.
     #[inline(always)]
     pub fn sample_with<R: Real>(
@@ -117,8 +118,9 @@ impl SampledView {
         )
     }
 
-    /// One channel, 0 to 3, of the four texels of the base level around the coordinates (`textureGather`): lower
-    /// left, lower right, upper right, upper left, v pointing down. 1D and 3D textures give zeros.
+    /// One channel, 0 to 3, of the four texels of the base level around the coordinates
+    /// (`textureGather`): lower left, lower right, upper right, upper left, v pointing down. 1D and
+    /// 3D textures give zeros.
     #[inline(always)]
     pub fn gather<R: Real>(&self, at: Coordinates<R>, channel: usize, offset: [i32; 2]) -> Vec4<R> {
         at.uvw.x.out_of_line(
@@ -143,8 +145,8 @@ impl SampledView {
         )
     }
 
-    /// How much of the texels `reference` passes against (`textureSampleCompare`), 0 to 1. Without a comparison in
-    /// the sampler, 0.
+    /// The filtered share of texels against which `reference` passes the comparison
+    /// (`textureSampleCompare`), 0 to 1. Without a comparison in the sampler, 0.
     #[inline(always)]
     pub fn sample_compare<R: Real>(
         &self,
@@ -176,7 +178,7 @@ impl SampledView {
         )
     }
 
-    /// How `reference` compares with each of the four texels around the coordinates, 1 or 0
+    /// The comparison of `reference` with each of the four texels around the coordinates, 1 or 0
     /// (`textureGatherCompare`), in the order of [`SampledView::gather`].
     #[inline(always)]
     pub fn gather_compare<R: Real>(
@@ -249,7 +251,7 @@ fn is_simple(view: &TextureView, sampler: &SamplerDescriptor) -> bool {
         && sampler.max_anisotropy <= 1
 }
 
-/// Whether [`Sampled`] gives the same, and faster.
+/// Whether [`Sampled`] gives the same results faster.
 fn is_common(view: &TextureView, sampler: &SamplerDescriptor) -> bool {
     is_rgba8(view.texture.stored_format())
         && view.dimension == ViewDimension::D2

@@ -3,7 +3,7 @@
 /// Two colours, 16 bits a channel.
 pub(super) type Ends = [[u32; 4]; 2];
 
-/// The colours of a mode; `None` of the HDR ones.
+/// The colours of a mode; `None` for HDR modes.
 pub(super) fn ends_of(mode: u32, v: [i32; 8], is_srgb: bool) -> Option<Ends> {
     let gray = |l: i32, a: i32| [l, l, l, a];
     let scaled = |a: i32| {
@@ -65,7 +65,8 @@ pub(super) fn ends_of(mode: u32, v: [i32; 8], is_srgb: bool) -> Option<Ends> {
     }))
 }
 
-/// A base of eight bits and a signed offset of six, from two codes: a bit of the offset's belongs to the base.
+/// A base of eight bits and a signed offset of six, from two codes: a bit of the offset's belongs
+/// to the base.
 fn base_and_offset(base: i32, offset: i32) -> [i32; 2] {
     let six = offset >> 1 & 0x3F;
     [base >> 1 | offset & 0x80, (six ^ 0x20) - 0x20]

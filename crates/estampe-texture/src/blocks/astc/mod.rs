@@ -1,9 +1,9 @@
 //! ASTC blocks of the LDR profile, after the Khronos Data Format Specification 1.3, chapter 23.
 //!
-//! A block of 128 bits holds colour endpoints for one to four partitions of its texels, and a grid of weights that
-//! is stretched over the texels and mixes the endpoints. Both are sequences of small integers (*ISE*): the weights
-//! from the top downwards, the endpoints from behind the header upwards. What does not hold together, and HDR,
-//! is magenta.
+//! A block of 128 bits holds colour endpoints for one to four partitions of its texels, and a grid
+//! of weights that is stretched over the texels and mixes the endpoints. Both are sequences of
+//! small integers (*ISE*): the weights from the top downwards, the endpoints from behind the header
+//! upwards. Invalid blocks and HDR blocks are decoded to magenta.
 
 #![expect(
     clippy::cast_possible_truncation,
@@ -22,7 +22,7 @@ const MAGENTA: u32 = 0xFFFF_00FF;
 /// The most weights of a block, both planes together.
 const MAX_WEIGHTS: usize = 64;
 
-/// How the weights of a block lie.
+/// The layout of a block's weights.
 struct Grid {
     width: usize,
     height: usize,
@@ -31,7 +31,7 @@ struct Grid {
 }
 
 impl Grid {
-    /// From the block mode (table 125); `None` of reserved ones.
+    /// The layout of a block mode (table 125); `None` for reserved modes.
     fn new(mode: u32) -> Option<Self> {
         let field = |low: u32, count: u32| (mode >> low & ((1 << count) - 1)) as usize;
         let (a, b) = (field(5, 2), field(7, 2));
@@ -104,7 +104,8 @@ fn void_extent(bits: u128, is_srgb: bool) -> Option<u32> {
     Some(word_of(channels, is_srgb))
 }
 
-/// Sixteen bits a channel as eight: the upper ones of sRGB's colours, otherwise the nearest.
+/// Reduces sixteen bits per channel to eight: the upper bits for colours of sRGB, otherwise the
+/// nearest value.
 fn word_of(channels: [u32; 4], is_srgb: bool) -> u32 {
     let code = |k: usize| {
         if is_srgb && k < 3 {
@@ -116,7 +117,7 @@ fn word_of(channels: [u32; 4], is_srgb: bool) -> u32 {
     code(0) | code(1) << 8 | code(2) << 16 | code(3) << 24
 }
 
-/// What stands in a block before the colours, and where the colours are.
+/// The header of a block, and the position of its colours.
 struct Header {
     grid: Grid,
     /// How the endpoints of each partition are coded.
@@ -154,8 +155,8 @@ impl Header {
             let class = selector & 3;
             modes = [selector >> 2; 4];
             if class != 0 {
-                // Each partition is of this class or the next: a bit each; then two bits each for its kind.
-                // What the six bits do not hold stands under the weights.
+                // Each partition is of this class or the next: a bit each; then two bits each for
+                // its kind. The remaining bits are stored below the weights.
                 let extra = 3 * partitions as u32 - 4;
                 end -= extra;
                 let all = selector >> 2 | field(bits, end, extra) << 4;
@@ -182,7 +183,7 @@ impl Header {
         })
     }
 
-    /// The endpoints of the partitions; those of HDR are `None`.
+    /// The endpoints of the partitions; HDR endpoints are `None`.
     fn ends(&self, bits: u128, is_srgb: bool) -> Option<[Option<Ends>; 4]> {
         let [begin, end] = self.colors;
         let modes = &self.modes[..self.partitions];
@@ -284,14 +285,15 @@ fn stretched(
     let corners = [first, first + 1, first + grid.width, first + grid.width + 1];
     let mut sum = 8;
     for (share, corner) in shares.into_iter().zip(corners) {
-        // Beyond the grid a weight has no share.
+        // Weights beyond the grid have no share.
         let weight = weights.get(corner * grid.planes + plane);
         sum += share * weight.copied().unwrap_or_default();
     }
     sum >> 4
 }
 
-/// The partition of a texel: a hash of the seed chooses four slopes, and the greatest wins (section 23.21).
+/// The partition of a texel: a hash of the seed chooses four slopes, and the greatest wins (section
+/// 23.21).
 fn partition_of(seed: u32, place: [usize; 2], count: u32, is_small: bool) -> usize {
     let [x, y] = place.map(|at| (at as u32) << u32::from(is_small));
     let seed = seed + (count - 1) * 1024;

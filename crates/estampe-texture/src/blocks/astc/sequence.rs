@@ -1,16 +1,17 @@
-//! Integer sequences: numbers of a few levels, packed as bits with trits or quints above them (section 23.12).
+//! Integer sequences: numbers of a few levels, packed as bits with trits or quints above them
+//! (section 23.12).
 
 #![expect(
     clippy::cast_possible_truncation,
     reason = "a sequence has at most 64 numbers, of which each has at most 8 bits"
 )]
 
-/// The numbers of levels that there are, each finer than the one before.
+/// The possible numbers of levels, each finer than the one before.
 pub(super) const LEVELS: [u32; 21] = [
     2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48, 64, 80, 96, 128, 160, 192, 256,
 ];
 
-/// What stands above the bits of a number.
+/// The digit above the bits of a number.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Above {
     Nothing,
@@ -26,7 +27,7 @@ pub(super) struct Range {
 }
 
 impl Range {
-    /// Of a number of levels: 2ⁿ, 3·2ⁿ or 5·2ⁿ.
+    /// The packing of a number of levels: 2ⁿ, 3·2ⁿ or 5·2ⁿ.
     pub(super) fn of(levels: u32) -> Self {
         let (above, rest) = if levels.is_multiple_of(3) {
             (Above::Trit, levels / 3)
@@ -62,7 +63,7 @@ impl Range {
             }
     }
 
-    /// Reads a sequence, which is all there is among the bits: what is missing of its last group is 0.
+    /// Reads a sequence that fills all of the bits; missing bits of its last group are 0.
     pub(super) fn read(self, sequence: u128, to: &mut [u32]) {
         let mut left = sequence;
         let mut take = |count: u32| {
@@ -70,7 +71,7 @@ impl Range {
             left >>= count;
             value
         };
-        // How many numbers share a group, and how many of its bits follow each of them.
+        // The count of numbers that share a group, and of its bits that follow each of them.
         let (group, parts): (usize, &[u32]) = match self.above {
             Above::Nothing => (1, &[0]),
             Above::Trit => (5, &[2, 2, 1, 2, 1]),
@@ -106,7 +107,8 @@ impl Range {
         a & 0x80 | mixed >> 2
     }
 
-    /// Table 121: what trits or quints are multiplied by, and the bits above the lowest, spread over nine.
+    /// Table 121: what trits or quints are multiplied by, and the bits above the lowest, spread
+    /// over nine.
     fn color_spread(self, high: u32) -> Option<[u32; 2]> {
         Some(match (self.above, self.bits) {
             (Above::Trit, 1) => [204, 0],

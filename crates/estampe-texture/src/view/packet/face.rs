@@ -1,4 +1,4 @@
-//! The faces of cubes, for packets.
+//! Cube faces in the packet code.
 //!
 //! *Spec* Vulkan §Cube Map Face Selection; ties as `docs/NUMERICS.md` says.
 

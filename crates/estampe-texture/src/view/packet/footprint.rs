@@ -1,4 +1,5 @@
-//! The footprint of a pixel: which level of detail it wants, and how many probes along which derivative.
+//! The footprint of a pixel in the packet code: its level of detail, the number of probes, and the
+//! derivative along which they lie.
 
 use super::Packet;
 use super::face::Face;
@@ -34,10 +35,12 @@ impl Packet<'_> {
         (level_of_detail(most / (ratio * ratio)), probes, step)
     }
 
-    /// λ of each quad for one probe, from its first fragment's coordinates and all of them.
+    /// λ of each quad for one probe, from the coordinates of its first fragment and of all
+    /// fragments.
     ///
-    /// The derivatives' squared lengths are found in all lanes at once and taken from the quad's second and third: half
-    /// the work of one after the other.
+    /// The squared lengths are computed in all lanes at once, and those of the derivatives are
+    /// taken from the quad's second and third lane: half the work of one derivative after the
+    /// other.
     #[inline(always)]
     pub(super) fn lod_of_quads<R: Real>(&self, first: [R; 3], at: [R; 3]) -> R {
         let squared = self.squared(first, super::minus(at, first));

@@ -1,7 +1,9 @@
-//! The common case of a packet: linear filtering, all lanes of one level (or between two), all texels inside.
+//! The common case of a packet: linear filtering, all lanes in the same mip level or between the
+//! same two, all texels inside.
 //!
-//! Then neither borders nor faces nor levels are told apart lane by lane, and the texels of a lane are neighbours in
-//! memory. Arithmetic is that of the other cases, in the same order, so the bits are the same.
+//! The code then needs no distinction of borders, faces or levels per lane, and the texels of a
+//! lane are neighbours in memory. The arithmetic is that of the other cases, in the same order, so
+//! the bits are the same.
 
 use super::Packet;
 use super::places::Spots;
@@ -14,7 +16,8 @@ use crate::wrap::{Place, place};
 use estampe_simd::{Bytes, Lanes as SimdLanes, SimdBase, f32x16, i32x16, u32x16};
 use estampe_types::{FilterMode, Int, Real, Vec4, ViewDimension};
 
-/// The first texel of each lane's square and how far the sample is from it.
+/// The footprint of each lane in a level: the first of its 2×2 texels and the position between
+/// their centres.
 struct Square<'a, R: Real> {
     plane: &'a Plane,
     x: Place<R>,
@@ -22,7 +25,7 @@ struct Square<'a, R: Real> {
 }
 
 impl Packet<'_> {
-    /// Samples a packet, if it is of the common case; else `false`.
+    /// Samples a packet of the common case; `false` for other packets.
     #[inline(always)]
     pub(super) fn inside<S: SimdLanes, const C: usize, const KIND: u8>(
         &self,
@@ -62,7 +65,7 @@ impl Packet<'_> {
             let is_srgb = KIND == RGBA8_SRGB;
             let of_fine = self.corners(s, spots, &fine);
             let color = match &coarse {
-                // Both levels' texels are under way before the first is used.
+                // The texels of both levels are loaded before the first is used.
                 Some(coarse) => {
                     let of_coarse = self.corners(s, spots, coarse);
                     let fine = of_fine.mean(fine.x.fraction, fine.y.fraction, is_srgb);
@@ -76,7 +79,7 @@ impl Packet<'_> {
             return true;
         }
         let mut color = [zero; C];
-        // A loop, so that the long code of texels exists once.
+        // A loop, so that the long code of texels is compiled once.
         for step in 0..2 {
             let square = match (step, &coarse) {
                 (0, _) => &fine,
@@ -97,7 +100,7 @@ impl Packet<'_> {
         true
     }
 
-    /// Where the samples lie in a level, if all texels are inside.
+    /// The footprint in a level, if all texels are inside.
     #[inline(always)]
     fn square<'a, R: Real>(&self, spots: &Spots<R>, plane: &'a Plane) -> Option<Square<'a, R>> {
         let x = self.place_inside(spots, plane, 0);
@@ -110,7 +113,8 @@ impl Packet<'_> {
         Some(Square { plane, x, y })
     }
 
-    /// The place along one axis, where no texel is outside; anywhere else its texel is outside, too.
+    /// The texel along one axis, valid where no texel is outside; elsewhere this texel is outside,
+    /// too.
     #[inline(always)]
     fn place_inside<R: Real>(&self, spots: &Spots<R>, plane: &Plane, axis: usize) -> Place<R> {
         let (at, length) = (spots.at[axis], plane.size[axis]);
@@ -125,7 +129,7 @@ impl Packet<'_> {
         }
     }
 
-    /// The index of each lane's first texel among the texture's words.
+    /// The index of the first word of each lane's first texel.
     #[inline(always)]
     fn first_words<R: Real>(&self, spots: &Spots<R>, square: &Square<'_, R>) -> R::Int {
         let [width, height, _] = square.plane.sides;
@@ -143,7 +147,7 @@ impl Packet<'_> {
         texel * x.splat(words) + begin
     }
 
-    /// The four texels of a word.
+    /// Loads the four texels of a format of one word.
     #[inline(always)]
     fn corners<S: SimdLanes>(
         &self,
@@ -201,7 +205,7 @@ impl Packet<'_> {
         let mut four = [[spots.at[0]; C]; 4];
         for corner in 0..4 {
             if size == 4 {
-                // Four words are four 32-bit floats.
+                // A texel of four words is four 32-bit floats.
                 for k in 0..C {
                     four[corner][k] = words[corner][k].bitcast();
                 }
@@ -222,7 +226,7 @@ impl Packet<'_> {
     }
 }
 
-/// Indices so many words on.
+/// Indices moved on by a number of words.
 #[inline(always)]
 fn after<S: SimdLanes>(s: S, index: u32x16<S>, words: u32) -> u32x16<S> {
     index + <u32x16<S> as SimdBase<S>>::splat(s, words)

@@ -1,11 +1,15 @@
-//! Filtering sixteen lanes at once.
+//! The packet code: filtering of sixteen lanes at once.
 //!
-//! The same as `sample` does lane by lane, for the formats of [`PacketFormat`] in every dimension, with every
-//! filter. It is entered with arrays and chooses its instructions itself, so it is compiled once, in this
-//! crate, and not into every shader.
+//! It gives the same results as the scalar code in `sample.rs`, for the formats of [`PacketFormat`]
+//! in every dimension, with every filter. Requests are packets in memory, and the code dispatches
+//! to its SIMD level itself, so it is compiled once, in this crate, and not into every shader.
 //!
-//! A lane whose texels are not all within its level, where that needs more than a wrapped index (a border, an offset,
-//! a cube's edge), is done again by `sample`: there are few of them.
+//! The common case of a packet is in `inside.rs`; the other packets take the general code in this
+//! file.
+//!
+//! If the texels of a lane are not all within its level, and that needs more than a wrapped index
+//! (a border, an offset, a cube's edge), the scalar code samples the lane again: there are few such
+//! lanes.
 
 mod face;
 mod footprint;
@@ -26,7 +30,8 @@ use estampe_types::{FilterMode, Int, Real, ViewDimension};
 use places::{Places, Spots};
 
 impl SampledView {
-    /// Samples or compares sixteen lanes; `false` where it cannot, and nothing is done.
+    /// Samples or compares sixteen lanes; `false`, with nothing stored, if packet code cannot
+    /// do it.
     #[inline(always)]
     pub(crate) fn sample_packet(
         &self,
@@ -48,7 +53,7 @@ impl SampledView {
             compares,
             is_simple: self.is_simple && compares.is_none() && lanes.offset == [0; 3],
         };
-        // One channel is all that is compared, and that many formats have.
+        // Comparisons need one channel only, and many formats have only one.
         let again = if compares.is_some() || format.components == 1 {
             packet.enter::<1, OTHERS>(self.level, answers)
         } else {
@@ -76,26 +81,27 @@ impl SampledView {
     }
 }
 
-/// A packet and what is asked of it.
+/// A request for sixteen lanes.
 struct Packet<'a> {
     of: &'a SampledView,
     format: PacketFormat,
     lanes: &'a Lanes<'a>,
     compares: Option<CompareFunction>,
-    /// Whether it may be of the common case, as far as view, sampler and request tell.
+    /// Whether view, sampler and request allow the common case.
     is_simple: bool,
 }
 
-/// A mip level, and how it is read.
+/// A mip level, and how lanes read it.
 struct OfLevel<'a> {
     plane: &'a Plane,
     filter: FilterMode,
-    /// The lanes that count.
+    /// The lanes that read this level.
     lanes: u32,
 }
 
 impl Packet<'_> {
-    /// Samples the packet at a level; gives the lanes that are to be done again. The scalar level has no packets.
+    /// Samples the packet at a SIMD level; returns the lanes that the scalar code must sample
+    /// again. The scalar SIMD level has no packet code.
     fn enter<const C: usize, const KIND: u8>(
         &self,
         level: Level,
@@ -106,7 +112,7 @@ impl Packet<'_> {
         }, scalar => None)
     }
 
-    /// A given derivative.
+    /// A derivative that the request gives.
     #[inline(always)]
     fn gradient<R: Real>(&self, like: R, first: usize) -> [R; 3] {
         [
@@ -116,7 +122,7 @@ impl Packet<'_> {
         ]
     }
 
-    /// Samples the packet; gives the lanes that are to be done again.
+    /// Samples the packet; returns the lanes that the scalar code must sample again.
     #[inline(always)]
     fn sample<S: SimdLanes, const C: usize, const KIND: u8>(
         &self,
@@ -154,7 +160,7 @@ impl Packet<'_> {
         if self.is_simple && self.inside::<S, C, KIND>(s, &self.spots(at), lod, answers) {
             return 0;
         }
-        // Comparisons make one probe.
+        // Comparisons use one probe.
         let is_anisotropic = sampler.max_anisotropy > 1 && self.compares.is_none();
         let probes = if is_anisotropic {
             probes
@@ -197,7 +203,8 @@ impl Packet<'_> {
         again
     }
 
-    /// Weighs the probes' sum, brings it to numbers and stores it.
+    /// Divides the sum of the probes by their number, scales it from units to numbers and stores
+    /// it.
     #[inline(always)]
     fn finish<R: Real, const C: usize>(&self, sum: [R; C], probes: R, answers: &mut Answers) {
         let several = probes.gt(probes.splat(1.0));
@@ -220,7 +227,8 @@ impl Packet<'_> {
         }
     }
 
-    /// One level of each lane, or the mixture of two, for the active lanes: once for every level among them.
+    /// Samples one mip level of each active lane, or mixes two: once for every level among the
+    /// lanes.
     #[inline(always)]
     fn levels<S: SimdLanes, const C: usize, const KIND: u8>(
         &self,
@@ -241,7 +249,7 @@ impl Packet<'_> {
         };
         let is_mixed = u32::from(s.bits_of_mask(fraction.gt(zero)));
         let level = level.to_int_within_range();
-        // What a lane reads: 2·level, and 1 more where it is minified.
+        // The key of what a lane reads: 2·level, and 1 more where it is minified.
         let one = Int::splat(level, 1);
         let key = (level + level) | Int::select(is_minified, one, Int::splat(level, 0));
         let mut color = [zero; C];
@@ -282,7 +290,8 @@ impl Packet<'_> {
         color
     }
 
-    /// One level, nearest or linear; adds the lanes that cannot be done here to `again`.
+    /// Samples one mip level, nearest or linear; adds the lanes that need the scalar code to
+    /// `again`.
     #[inline(always)]
     fn texels<S: SimdLanes, const C: usize, const KIND: u8>(
         &self,
@@ -329,7 +338,7 @@ impl Packet<'_> {
         } else {
             like
         };
-        // Loops, so that the long code of a texel exists once.
+        // Loops, so that the long code of a texel is compiled once.
         let mut images = [[like; C]; 2];
         for (slice, image) in images.iter_mut().enumerate().take(count(2)) {
             let first = z.texels[slice] * height;
@@ -361,9 +370,11 @@ impl Packet<'_> {
         mix(images, z.fraction, count(2) == 2)
     }
 
-    /// The words of the texels at up to four places of a level, left and right of the upper row, then of the lower.
+    /// Loads the words of up to four texels of a level: left and right of the upper row, then of
+    /// the lower.
     ///
-    /// Where they are neighbours in memory, words are read as squares: that takes half as long as gathering each.
+    /// If the texels are neighbours in memory, their words are loaded as squares, which takes half
+    /// as long as a gather of each.
     #[inline(always)]
     fn words<S: SimdLanes>(
         &self,
@@ -392,7 +403,7 @@ impl Packet<'_> {
             let index: u32x16<S> = (places[corner] * Int::splat(places[0], size) + begin).bitcast();
             match size {
                 1 => words[corner][0] = s.gather(texels, index),
-                // Four words that follow each other: of one texel, or of two neighbours.
+                // Four consecutive words: of one texel, or of two neighbours.
                 2 if is_square && corner % 2 == 0 => {
                     let [a, b, c, d] = s.gather_four(texels, index);
                     [words[corner][0], words[corner][1]] = [a, b];
@@ -410,7 +421,7 @@ impl Packet<'_> {
         words
     }
 
-    /// What channels that the format lacks read as.
+    /// Sets the channels that the format does not store: colours to 0, alpha to 1.
     #[inline(always)]
     fn missing<R: Real, const C: usize>(&self, units: &mut [R; C]) {
         for (k, unit) in units.iter_mut().enumerate() {
@@ -420,7 +431,7 @@ impl Packet<'_> {
         }
     }
 
-    /// What texels are compared with.
+    /// The reference of comparisons; for fixed-point depths it is clamped to 0..=1.
     #[inline(always)]
     fn reference<R: Real>(&self, like: R) -> R {
         let reference = load(like, self.lanes.reference, 0);
@@ -432,7 +443,7 @@ impl Packet<'_> {
     }
 }
 
-/// Coordinates of one fragment of each quad.
+/// The coordinates of one fragment of each quad.
 #[inline(always)]
 fn of_quad<R: Real>([x, y, z]: [R; 3], index: u8) -> [R; 3] {
     [x.quad_lane(index), y.quad_lane(index), z.quad_lane(index)]

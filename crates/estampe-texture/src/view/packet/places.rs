@@ -1,4 +1,5 @@
-//! From coordinates to texels: faces and layers, then the one or two texels of each axis of a level.
+//! Texel coordinates in the packet code: faces and layers, then the one or two texels along each
+//! axis of a level.
 
 use super::Packet;
 use super::face::Face;
@@ -9,22 +10,22 @@ use crate::wrap::{place, tile, wrap};
 use estampe_simd as simd;
 use estampe_types::{AddressMode, FilterMode, Int, Real};
 
-/// Coordinates of all lanes, as far as they do not depend on the level.
+/// Coordinates of all lanes, in the form that is independent of the mip level.
 pub(super) struct Spots<R: Real> {
-    /// In their first tile, of cubes within the face.
+    /// Wrapped into the first tile; for cubes, within the face.
     pub(super) at: [R; 3],
     /// The texture's layer.
     pub(super) slice: R::Int,
 }
 
-/// Places along one axis.
+/// The texels along one axis and the position between their centres.
 pub(super) struct Places<R: Real> {
     pub(super) texels: [R::Int; 2],
     pub(super) fraction: R,
 }
 
 impl<R: Real> Places<R> {
-    /// One texel, of an axis that is not filtered.
+    /// One texel, along an axis that is not filtered.
     #[inline(always)]
     pub(super) fn fixed(texel: R::Int, like: R) -> Self {
         Self {
@@ -35,7 +36,7 @@ impl<R: Real> Places<R> {
 }
 
 impl Packet<'_> {
-    /// Where coordinates lie.
+    /// Finds the layer and the face of coordinates, and wraps them.
     #[inline(always)]
     pub(super) fn spots<R: Real>(&self, at: [R; 3]) -> Spots<R> {
         let view = &self.of.view;
@@ -67,7 +68,7 @@ impl Packet<'_> {
         }
     }
 
-    /// How an axis is addressed; of cubes it is not asked.
+    /// The address mode of an axis; cubes do not use it.
     #[inline(always)]
     pub(super) fn mode(&self, axis: usize) -> AddressMode {
         let sampler = &self.of.sampler;
@@ -78,13 +79,13 @@ impl Packet<'_> {
         }
     }
 
-    /// Whether all texels of an axis are found by wrapping coordinates.
+    /// Whether wrapping the coordinate is enough to find all texels along an axis.
     #[inline(always)]
     fn is_plain(&self, axis: usize) -> bool {
         self.lanes.offset[axis] == 0 && self.mode(axis).is_plain()
     }
 
-    /// A coordinate in its first tile.
+    /// A coordinate wrapped into the first tile, if that is enough.
     #[inline(always)]
     fn tiled<R: Real>(&self, u: R, axis: usize) -> R {
         if self.is_plain(axis) {
@@ -94,7 +95,7 @@ impl Packet<'_> {
         }
     }
 
-    /// The places along one axis of a level.
+    /// The texels along one axis of a level.
     #[inline(always)]
     pub(super) fn places<R: Real>(
         &self,
@@ -141,7 +142,8 @@ impl Packet<'_> {
         }
     }
 
-    /// Places that are right if they are within the level; of the others, the texels at its border.
+    /// The texels of a coordinate without wrapping, clamped to the level; lanes with a texel
+    /// outside are added to `outside`.
     #[inline(always)]
     fn unwrapped<R: Real>(
         at: R,
