@@ -193,7 +193,8 @@ impl Context {
         Ok(())
     }
 
-    /// A colour attachment's texels as [`RenderTarget::read_color_into`] gives them, by all threads.
+    /// A colour attachment's texels as [`RenderTarget::read_color_into`] gives them, by all
+    /// threads.
     ///
     /// # Errors
     /// [`ReadbackError`] beyond the last attachment, or when the memory has another length.

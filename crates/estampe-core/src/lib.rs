@@ -10,7 +10,7 @@
 //!                │
 //!                ▼  geometry, in slices of vertices, then in chunks of primitives
 //!     fetch ▸ vertex shader ▸ viewport transform ──▶ assembly ▸ cull ─────▸ set-up ▸ binning
-//!                                                                └▸ clip ▸─┘  the detour of the few that need it
+//!                                                                └▸ clip ▸─┘  detour, where needed
 //!                │
 //!     ═══════════▼══════════ bounds: chunks of plain data, the one boundary ══════════════════
 //!                │

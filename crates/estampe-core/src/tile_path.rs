@@ -1,9 +1,9 @@
 //! The choice of path: the one place that decides how a draw's primitives become samples of a tile.
 //!
 //! ```text
-//!   visibility   which triangle each sample shows, for all opaque draws in a row; then each visible sample is
-//!                shaded once. For pipelines whose colours replace, and whose shaders neither discard nor
-//!                write depth.
+//!   visibility   which triangle each sample shows, for all opaque draws in a row; then each
+//!                visible sample is shaded once. For pipelines whose colours replace, and whose
+//!                shaders neither discard nor write depth.
 //!   in order     primitive by primitive, in the order of submission. Everything else.
 //! ```
 //!

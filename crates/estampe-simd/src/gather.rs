@@ -2,9 +2,9 @@
 //!
 //! A hardware gather reads any address; clamping the indices to the table first makes it sound for
 //! any input, at the cost of one instruction. Squares of four elements are read by loads of eight
-//! bytes instead, and four neighbours by loads of sixteen: two gathers of pairs, or four of elements,
-//! were measured to take longer on Zen 4, and half of the processors have no gather at all. For
-//! single elements the gather is faster. This module has the crate's only `unsafe` code.
+//! bytes instead, and four neighbours by loads of sixteen: two gathers of pairs, or four of
+//! elements, were measured to take longer on Zen 4, and half of the processors have no gather at
+//! all. For single elements the gather is faster. This module has the crate's only `unsafe` code.
 
 use crate::LANES;
 use fearless_simd::{Simd, SimdBase, u32x16};

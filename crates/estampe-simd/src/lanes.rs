@@ -14,7 +14,8 @@ pub trait Lanes: Simd {
     /// The SIMD level of the token.
     fn as_level(self) -> Level;
 
-    /// Runs `work`; at the scalar level as a function of its own. See [`outline!`](crate::outline!).
+    /// Runs `work`; at the scalar level as a function of its own. See
+    /// [`outline!`](crate::outline!).
     #[doc(hidden)]
     #[inline(always)]
     fn outline<R>(self, work: impl FnOnce() -> R) -> R {
@@ -70,8 +71,8 @@ pub trait Lanes: Simd {
         crate::gather::square_by_lane(self, table, index, stride)
     }
 
-    /// `table[index]` and the next three elements in each lane. If any of the four is beyond the end,
-    /// the last four are read; a table with fewer than four elements reads as zeros.
+    /// `table[index]` and the next three elements in each lane. If any of the four is beyond the
+    /// end, the last four are read; a table with fewer than four elements reads as zeros.
     #[inline(always)]
     fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {
         crate::gather::four_by_lane(self, table, index)

@@ -217,8 +217,8 @@ macro_rules! dispatch {
             _ => $scalar,
         }
     };
-    // The same, where what the expression uses is moved into it: two references are then passed in registers, and
-    // not by way of memory.
+    // The same, where what the expression uses is moved into it: two references are then passed in
+    // registers, and not by way of memory.
     (@wide_move $level:expr, $simd:ident => $op:expr, scalar => $scalar:expr) => {
         match $level {
             #[cfg(target_arch = "x86_64")]
@@ -245,8 +245,8 @@ macro_rules! dispatch {
     }};
 }
 
-/// Evaluates an expression of lane code: `outline!(s, expression)`. At the scalar level it becomes a
-/// function of its own, which the compiler compiles once for all places that reach it.
+/// Evaluates an expression of lane code: `outline!(s, expression)`. At the scalar level it becomes
+/// a function of its own, which the compiler compiles once for all places that reach it.
 ///
 /// Sixteen scalar lanes are sixteen times the instructions, and inlining copies them to every
 /// caller. With the longest kernels outlined, the scalar level of `estampe-core` is a third of the

@@ -1,15 +1,16 @@
 //! Tables of 256 elements, read by permutations of registers.
 //!
-//! A permutation reads two registers of a table at once, so all sixteen lanes are served by eight of them, where a
-//! gather loads lane by lane.
+//! A permutation reads two registers of a table at once, so all sixteen lanes are served by eight
+//! of them, where a gather loads lane by lane.
 
 use fearless_simd::x86::Avx512;
 use fearless_simd::{SimdBase, SimdInto, u8x64, u32x16};
 
 use crate::ByteTable;
 
-/// [`Lanes::lookup`](crate::Lanes::lookup) by permutations: eight of 32 elements each, from which the index's
-/// highest three bits choose. Sixteen loads of one element take two to three times as long.
+/// [`Lanes::lookup`](crate::Lanes::lookup) by permutations: eight of 32 elements each, from which
+/// the index's highest three bits choose. Sixteen loads of one element take two to three times as
+/// long.
 #[inline(always)]
 pub(crate) fn avx512(simd: Avx512, table: &[u32; 256], index: u32x16<Avx512>) -> u32x16<Avx512> {
     fearless_simd::kernel!(
@@ -58,9 +59,10 @@ pub(crate) fn avx512(simd: Avx512, table: &[u32; 256], index: u32x16<Avx512>) ->
     choose(simd, a, e, index, bit(128))
 }
 
-/// [`Lanes::lookup_three`](crate::Lanes::lookup_three) by permutations of bytes, which look 64 bytes up at once: for each
-/// of the values' four bytes, two permutations of 128 elements each, from which the index's highest bit chooses.
-/// The bytes of a value are then brought together, sixteen channels side by side.
+/// [`Lanes::lookup_three`](crate::Lanes::lookup_three) by permutations of bytes, which look 64
+/// bytes up at once: for each of the values' four bytes, two permutations of 128 elements each,
+/// from which the index's highest bit chooses. The bytes of a value are then brought together,
+/// sixteen channels side by side.
 #[inline(always)]
 pub(crate) fn three_avx512(
     simd: Avx512,

@@ -9,12 +9,13 @@
 //!           10 11 14 15            5 7     row 3 = pair 5, pair 7
 //! ```
 //!
-//! With pairs as elements of 64 bits, a register of 128 bits holds two pairs in order, and a row is the zip of two
-//! registers: four loads, four zips and four stores move a packet. Rows that are built from single lanes in memory and
-//! then loaded as a whole take three times as long, because each load waits for the smaller stores before it.
+//! With pairs as elements of 64 bits, a register of 128 bits holds two pairs in order, and a row is
+//! the zip of two registers: four loads, four zips and four stores move a packet. Rows that are
+//! built from single lanes in memory and then loaded as a whole take three times as long, because
+//! each load waits for the smaller stores before it.
 //!
-//! A job is sixteen rows: sixteen packets of a 16×16 square lie one after the other, so reading and writing go through
-//! whole cache lines.
+//! A job is sixteen rows: sixteen packets of a 16×16 square lie one after the other, so reading and
+//! writing go through whole cache lines.
 
 use super::resolve::{MAX_PACKET, Mean};
 use crate::layout::TileGrid;
@@ -166,7 +167,8 @@ impl<'a> RowsJob<'a> {
     }
 }
 
-/// So many bytes of each of a band's four rows, from a byte on. With a constant length, stores into them need no test.
+/// So many bytes of each of a band's four rows, from a byte on. With a constant length, stores into
+/// them need no test.
 #[inline(always)]
 fn rows_of_band(
     band: &mut [u8],
@@ -185,7 +187,8 @@ fn rows_of_band(
     ]
 }
 
-/// Writes four packets that lie beside each other: sixteen texels at the begin of each of four rows.
+/// Writes four packets that lie beside each other: sixteen texels at the begin of each of four
+/// rows.
 #[inline(always)]
 fn write_rows<S: Lanes, const WORDS: usize, const BYTES: usize>(
     s: S,

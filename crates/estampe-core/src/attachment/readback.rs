@@ -29,8 +29,8 @@ pub enum ReadbackError {
 }
 
 impl RenderTarget {
-    /// How many bytes a colour attachment has as rows of texels, one after the other without padding: width · height
-    /// · bytes of the format. Beyond the last attachment it is 0.
+    /// How many bytes a colour attachment has as rows of texels, one after the other without
+    /// padding: width · height · bytes of the format. Beyond the last attachment it is 0.
     #[must_use]
     pub fn color_len_bytes(&self, index: usize) -> usize {
         let formats = self.color_formats();
@@ -38,13 +38,16 @@ impl RenderTarget {
         self.width() as usize * self.height() as usize * bytes as usize
     }
 
-    /// A colour attachment's texels in the format's own bytes (of RGBA8 R, G, B, A), row by row from the top;
-    /// several samples are resolved to their mean (linear for sRGB). Beyond the last attachment it is empty.
+    /// A colour attachment's texels in the format's own bytes (of RGBA8 R, G, B, A), row by row
+    /// from the top; several samples are resolved to their mean (linear for sRGB). Beyond the last
+    /// attachment it is empty.
     ///
-    /// One thread does it; a device does it with all of its threads, and into memory that is there already.
+    /// One thread does it; a device does it with all of its threads, and into memory that is there
+    /// already.
     #[must_use]
     pub fn read_color(&self, index: usize) -> Vec<u8> {
-        // Zeroed memory comes from the system untouched, so that filling it touches each page for the first time.
+        // Zeroed memory comes from the system untouched, so that filling it touches each page for
+        // the first time.
         let mut image = vec![0; self.color_len_bytes(index)];
         if let Ok(jobs) = self.color_jobs(index, &mut image) {
             run_all(jobs);
@@ -55,14 +58,15 @@ impl RenderTarget {
     /// [`Self::read_color`] into memory of [`Self::color_len_bytes`].
     ///
     /// # Errors
-    /// [`ReadbackError`] beyond the last attachment, or when the memory has another length; nothing is written then.
+    /// [`ReadbackError`] beyond the last attachment, or when the memory has another length; nothing
+    /// is written then.
     pub fn read_color_into(&self, index: usize, image: &mut [u8]) -> Result<(), ReadbackError> {
         run_all(self.color_jobs(index, image)?);
         Ok(())
     }
 
-    /// The texels of one sample of a colour attachment in the format's own bytes, row by row from the top. Beyond
-    /// the last attachment or sample it is empty.
+    /// The texels of one sample of a colour attachment in the format's own bytes, row by row from
+    /// the top. Beyond the last attachment or sample it is empty.
     #[must_use]
     pub fn read_texels(&self, index: usize, sample: u32) -> Vec<u8> {
         if sample >= self.samples() {
@@ -126,8 +130,8 @@ impl RenderTarget {
         ))
     }
 
-    /// The depth attachment, row by row from the top; of several samples the first. Depths of fixed-point formats
-    /// are the numbers nearest to their codes. Without depth it is empty.
+    /// The depth attachment, row by row from the top; of several samples the first. Depths of
+    /// fixed-point formats are the numbers nearest to their codes. Without depth it is empty.
     #[must_use]
     pub fn read_depth(&self) -> Vec<f32> {
         self.read_depth_sample(0)
@@ -139,8 +143,8 @@ impl RenderTarget {
         self.rows_of_sample(&self.depth, sample)
     }
 
-    /// The stencil values of one sample, row by row from the top. Without stencil, or beyond the last sample, it
-    /// is empty.
+    /// The stencil values of one sample, row by row from the top. Without stencil, or beyond the
+    /// last sample, it is empty.
     #[must_use]
     pub fn read_stencil(&self, sample: u32) -> Vec<u8> {
         self.rows_of_sample(&self.stencil, sample)
@@ -201,7 +205,8 @@ mod tests {
         target
     }
 
-    /// The definition: pixel by pixel, each texel's words from where they are stored, or the codec's mean of them.
+    /// The definition: pixel by pixel, each texel's words from where they are stored, or the
+    /// codec's mean of them.
     fn defined(target: &RenderTarget, sample: Option<usize>) -> Vec<u8> {
         let format = target.color_formats()[0];
         let codec = AttachmentCodec::new(format);

@@ -1,7 +1,7 @@
 //! Resolving: the samples of each pixel become their mean, in storage order.
 //!
-//! Both targets are made of the same packets in the same order: packet i of the image is the mean of the
-//! samples' lines of packet i. So the work is one pass over memory, cut anywhere.
+//! Both targets are made of the same packets in the same order: packet i of the image is the mean
+//! of the samples' lines of packet i. So the work is one pass over memory, cut anywhere.
 
 use super::{RenderTarget, format_names};
 use crate::layout::texel_words;
@@ -229,8 +229,9 @@ fn mean_of<S: Lanes, C: PacketCodec<S>>(
     means
 }
 
-/// The means of sixteen pixels' samples in unorm channels of 8 bits, rounded to the nearest code: floor(sum/n + ½) in
-/// integers, two channels at a time in halves of 16 bits. Sixteen samples sum up to 4,088 at most.
+/// The means of sixteen pixels' samples in unorm channels of 8 bits, rounded to the nearest code:
+/// floor(sum/n + ½) in integers, two channels at a time in halves of 16 bits. Sixteen samples sum
+/// up to 4,088 at most.
 #[inline(always)]
 fn mean_unorm<S: Lanes>(s: S, samples: &[u32], samples_log2: u32) -> u32x16<S> {
     outline!(s, {
@@ -246,8 +247,8 @@ fn mean_unorm<S: Lanes>(s: S, samples: &[u32], samples_log2: u32) -> u32x16<S> {
     })
 }
 
-/// The means of sixteen pixels' four samples in sRGB: linear for colour, alpha as it is. Most packets lie inside a
-/// primitive, and their samples are equal.
+/// The means of sixteen pixels' four samples in sRGB: linear for colour, alpha as it is. Most
+/// packets lie inside a primitive, and their samples are equal.
 #[inline(always)]
 fn mean_srgb<S: Lanes>(s: S, samples: &[u32], pixels: &mut [u32]) {
     outline!(s, {

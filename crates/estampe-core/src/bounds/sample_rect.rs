@@ -1,8 +1,8 @@
 //! The samples of a viewport.
 //!
 //! ```text
-//!     x = 10.6         pixel 10 of four samples: those at 10.6875 and beyond are inside the viewport,
-//!      ┊ ▪             the others are not, so that the pixel is neither inside nor outside
+//!     x = 10.6       pixel 10 of four samples: those at 10.6875 and beyond are inside the
+//!      ┊ ▪           viewport, the others are not, so that the pixel is neither inside nor outside
 //!     ▫┊    ▪
 //!      ┊▫
 //! ```

@@ -274,7 +274,8 @@ mod tests {
         GeometryPlan::new(&state, &bias, &viewport, target)
     }
 
-    /// Whether a triangle whose vertices are in clockwise order has the centre of some pixel of a tile strictly inside.
+    /// Whether a triangle whose vertices are in clockwise order has the centre of some pixel of a
+    /// tile strictly inside.
     fn holds_samples(corners: [[i64; 2]; 3], grid: TileGrid, tile: u32) -> bool {
         let (left, top) = grid.tile_origin(tile);
         let is_inside = |x: u32, y: u32| {

@@ -34,12 +34,12 @@ pub(crate) fn cull_uncovered<S: Lanes>(
         let columns = s.bits_of_mask(across.simd_ge(pixel));
         let rows = s.bits_of_mask(down.simd_ge(pixel));
 
-        // Twice the areas that the sample and each edge span: of a clockwise triangle all are positive
-        // inside, of another all are negative. A sample on an edge belongs to those that the fill rule
-        // says: it is inside a clockwise triangle of which it is on the top (level) or left edge (2→0),
-        // and inside another of which it is on the left one (0→1 or 1→2, not level). With 1 taken from
-        // what is not level, inside is where all signs are equal: signs cannot all be those of the
-        // other orientation, because the areas' sum is the triangle's.
+        // Twice the areas that the sample and each edge span: of a clockwise triangle all are
+        // positive inside, of another all are negative. A sample on an edge belongs to those that
+        // the fill rule says: it is inside a clockwise triangle of which it is on the top (level)
+        // or left edge (2→0), and inside another of which it is on the left one (0→1 or 1→2, not
+        // level). With 1 taken from what is not level, inside is where all signs are equal: signs
+        // cannot all be those of the other orientation, because the areas' sum is the triangle's.
         let bias = |from: i32x16<S>, to: i32x16<S>| from.simd_eq(to).select(zero, splat(-1));
         let (to_x0, to_y0) = (x - x0, y - y0);
         let a = [y0 - y1, y1 - y2, y2 - y0];

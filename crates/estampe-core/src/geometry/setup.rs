@@ -243,8 +243,8 @@ impl<'a> Setup<'a> {
     #[inline(always)]
     fn read<S: Lanes>(&self, s: S, vertices: &[u32; LANES]) -> [u32x16<S>; 4] {
         outline!(s, {
-            // Unused lanes hold vertices of triangles that waited before, perhaps of another run: any
-            // will do, or zeros.
+            // Unused lanes hold vertices of triangles that waited before, perhaps of another run:
+            // any will do, or zeros.
             let mut records = [&[0; 4]; LANES];
             for (record, &vertex) in records.iter_mut().zip(vertices) {
                 let found = if vertex & VertexRef::CLIPPED == 0 {

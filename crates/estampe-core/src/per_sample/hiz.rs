@@ -257,8 +257,8 @@ fn extreme<S: Lanes, const N: usize>(s: S, look: &HizQuery<'_, N>, least: bool) 
         let Plane { dx, dy, .. } = look.plane.z;
         let PlaneOrigin { x: x0, y: y0 } = look.plane.origin;
         let positions = look.samples.subpixels();
-        // The corner at which the plane is least: the first sample where it rises, the last where it
-        // falls.
+        // The corner at which the plane is least: the first sample where it rises, the last where
+        // it falls.
         let corner = |slope: f32, axis: usize| {
             if (slope >= 0.0) == least {
                 least_offset(&positions, axis)

@@ -370,7 +370,8 @@ mod tests {
         ];
         let batches = cut(&draws, |_, batch| {
             let primitives = batch.sub_draws.iter().map(|sub_draw| sub_draw.primitives);
-            // Six of the ten indices are left from the fourth one on; six more elements complete a primitive.
+            // Six of the ten indices are left from the fourth one on; six more elements complete a
+            // primitive.
             assert!(primitives.eq([4, 4, 300]));
             assert_eq!(batch.invisible_primitives, 2 * 96);
         });

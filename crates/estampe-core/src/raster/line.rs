@@ -1,8 +1,8 @@
 //! Pipeline lines (R3): Vulkan's Bresenham rule, one pixel wide or more, and rectangles.
 //!
 //! ```text
-//!     x-major:  in every column whose centre lies between the ends (the start's included, the end's
-//!     not), the pixel whose row holds the line's y at that centre; y-major lines likewise
+//!     x-major:  in every column whose centre lies between the ends (the start's included, the
+//!     end's not), the pixel whose row holds the line's y at that centre; y-major lines likewise
 //! ```
 //!
 //! *Precision* exact 64-bit integers · *Spec* Vulkan §Bresenham Line Segment Rasterization,

@@ -6,8 +6,8 @@
 //! constants.
 //!
 //! ```text
-//!     pixel (0,0)   (1,0)   (0,1)  …      of each lane's own box
-//!       t₀ t₁ t₂ … t₁₅                    E = c + a·x + b·y ≥ 0 of three edges, for sixteen triangles
+//!     pixel (0,0)   (1,0)   (0,1)  …   of each lane's own box
+//!       t₀ t₁ t₂ … t₁₅                 E = c + a·x + b·y ≥ 0 of three edges, for sixteen triangles
 //! ```
 
 use super::TileShape;

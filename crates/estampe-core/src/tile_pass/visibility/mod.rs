@@ -8,9 +8,12 @@
 //! run is resolved: every sample is shaded once.
 //!
 //! ```text
-//!   chunk ─▶ rasterize (coverage, hierarchical z) ─▶ writer (tests, ids) ──┐   one run: many chunks, many draws
-//!                └─ small triangles, sixteen at a time                     ▼
-//!                                        buffer: ids, unresolved samples ─▶ resolve: by pipeline, packets and quads
+//!   chunk ─▶ rasterize (coverage, hierarchical z) ─▶ writer (tests, ids) ──┐   one run: many
+//!                └─ small triangles, sixteen at a time                     │   chunks, many draws
+//!                                                                          ▼
+//!                                              buffer: ids, unresolved samples
+//!                                                                          ▼
+//!                                              resolve: by pipeline, packets and quads
 //! ```
 //!
 //! The ids stand in the first colour attachment itself where its texels are words of 32 bits, so
