@@ -23,13 +23,6 @@ const LONG_ROOT_LINES: usize = 150;
 /// Comments are as wide as rustfmt's code, except table rows and lines with a link.
 const COMMENT_COLUMNS: usize = 100;
 
-/// The folders whose comments do not comply with [`COMMENT_COLUMNS`] yet.
-const WIDE_COMMENTS: &[&str] = &[
-    "crates/estampe-core",
-    "crates/estampe-simd",
-    "crates/estampe-texture",
-];
-
 /// The crates with unsafe code: they `deny` it, and only these modules of theirs expect it.
 const UNSAFE_CRATES: &[(&str, &[&str])] = &[(
     "crates/estampe-simd",
@@ -94,30 +87,14 @@ fn check_length(file: &TextFile, source: &RustSource) -> Option<Finding> {
 
 fn check_comment_widths(repository: &Repository) -> Vec<Finding> {
     let mut findings = Vec::new();
-    let mut has_wide = vec![false; WIDE_COMMENTS.len()];
     for file in repository.rust_files() {
-        let exception = WIDE_COMMENTS
-            .iter()
-            .position(|folder| file.path.starts_with(folder));
         for (index, line) in file.text.lines().enumerate() {
-            match exception {
-                _ if !is_wide_comment(line) => {}
-                Some(folder) => has_wide[folder] = true,
-                None => {
-                    let message = format!("a comment wider than {COMMENT_COLUMNS} columns");
-                    findings.push(Finding::error(&file.path, index + 1, message));
-                }
+            if is_wide_comment(line) {
+                let message = format!("a comment wider than {COMMENT_COLUMNS} columns");
+                findings.push(Finding::error(&file.path, index + 1, message));
             }
         }
     }
-    let complying = WIDE_COMMENTS
-        .iter()
-        .zip(has_wide)
-        .filter(|(_, has_wide)| !has_wide);
-    findings.extend(complying.map(|(folder, _)| {
-        let message = format!("`{folder}` has no wide comments: remove it from WIDE_COMMENTS");
-        Finding::note(file!(), 0, message)
-    }));
     findings
 }
 
@@ -297,7 +274,5 @@ mod tests {
             messages_of("new/src/a.rs", &format!("fn f() {{}}\n// {wide}")).len(),
             1
         );
-        let found = check_files(&Repository::synthetic(&[]));
-        assert_eq!(found.len(), WIDE_COMMENTS.len());
     }
 }
