@@ -24,10 +24,10 @@
 //!
 //! Data flows one way: each stage owns the type that it gives, and the next one takes it. State is
 //! a value: a descriptor is validated once into a [`RenderPipeline`], a pass is checked before
-//! anything is drawn, and drawing cannot fail after that. Both sides of the boundary run in parallel: geometry in chunks cut by the draws, never by thread
-//! count, and tiles, each with its own slice of the attachments; so an image's bytes cannot depend
-//! on the number of threads. The conventions and the order of every operation are in
-//! `docs/NUMERICS.md`.
+//! anything is drawn, and drawing cannot fail after that. Both sides of the boundary run in
+//! parallel: geometry in chunks cut by the draws, never by thread count, and tiles, each with its
+//! own slice of the attachments; so an image's bytes cannot depend on the number of threads. The
+//! conventions and the order of every operation are in `docs/NUMERICS.md`.
 //!
 //! The modules, in pipeline order: `layout` (which pixel is stored where), [`pipeline`] (state),
 //! `plan`, `geometry`, `bounds`, `raster`, `fragment`, `per_sample`, [`attachment`]; [`draw`] and
