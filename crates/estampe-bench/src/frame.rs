@@ -247,7 +247,7 @@ fn render(
         })
         .collect();
     let pass = RenderPass {
-        load_colors: vec![LoadOp::Clear(CLEAR_COLOR.map(f64::from))],
+        load_colors: vec![LoadOp::Clear(CLEAR_COLOR.map(f64::from)); target.color_formats().len()],
         draws: &recorded,
         ..RenderPass::default()
     };
