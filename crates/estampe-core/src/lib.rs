@@ -1,8 +1,4 @@
 #![forbid(unsafe_code)]
-#![allow(
-    clippy::self_named_module_files,
-    reason = "folders that are being rewritten get their `mod.rs` then"
-)]
 //! The pipeline: from vertices to pixels.
 //!
 //! ```text

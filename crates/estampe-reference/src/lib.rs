@@ -1,8 +1,4 @@
 #![forbid(unsafe_code)]
-#![allow(
-    clippy::self_named_module_files,
-    reason = "folders that are being rewritten get their `mod.rs` then"
-)]
 //! The oracle: a second implementation of the pipeline, scalar and unoptimised, against which the
 //! core is tested.
 //!

@@ -1,6 +1,6 @@
 //! Conversion of the target's premultiplied pixels to the straight alpha of image files.
 
-use estampe::srgb::{LINEAR_FROM_SRGB, srgb_from_linear};
+use estampe::srgb;
 use estampe_scene::Image;
 
 /// Encoding of the target's 8-bit channels.
@@ -55,7 +55,7 @@ pub fn composite_over(image: &Image, background: [u8; 3]) -> Image {
 pub(crate) fn decode(code: u8, encoding: Encoding) -> f32 {
     match encoding {
         Encoding::Linear => f32::from(code) / 255.0,
-        Encoding::Srgb => LINEAR_FROM_SRGB[usize::from(code)],
+        Encoding::Srgb => srgb::decode(code),
     }
 }
 
@@ -67,7 +67,7 @@ pub(crate) fn decode(code: u8, encoding: Encoding) -> f32 {
 fn encode(value: f32, encoding: Encoding) -> u8 {
     match encoding {
         Encoding::Linear => (value.clamp(0.0, 1.0) * 255.0 + 0.5).floor() as u8,
-        Encoding::Srgb => srgb_from_linear(value),
+        Encoding::Srgb => srgb::encode(value),
     }
 }
 
@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn straight_alpha_composites_to_what_was_drawn() {
         // Half of white over nothing is linear ½, premultiplied.
-        let half = srgb_from_linear(128.0 / 255.0);
+        let half = srgb::encode(128.0 / 255.0);
         let mut rgba = vec![half, half, half, 128, 9, 9, 9, 0, 10, 20, 30, 255];
         straighten(&mut rgba, Encoding::Srgb);
         assert_eq!(&rgba[..4], [255, 255, 255, 128]);

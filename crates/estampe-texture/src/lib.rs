@@ -1,8 +1,4 @@
 #![forbid(unsafe_code)]
-#![allow(
-    clippy::self_named_module_files,
-    reason = "folders that are being rewritten get their `mod.rs` then"
-)]
 //! Textures: creation, views, sampling and storage textures.
 //!
 //! * [`TextureDescriptor`] creates a [`Texture`] of one, two or three dimensions, with layers, mip

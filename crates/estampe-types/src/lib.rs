@@ -28,7 +28,6 @@ mod pair;
 mod quad;
 mod real;
 pub mod shader;
-pub mod srgb;
 pub mod state;
 pub mod texture;
 mod vector;

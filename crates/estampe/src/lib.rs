@@ -34,6 +34,11 @@ mod device;
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
+/// The sRGB transfer function (IEC 61966-2-1) of 8-bit codes.
+pub mod srgb {
+    pub use estampe_format::srgb::{decode, encode};
+}
+
 pub use device::{Device, DeviceDescriptor, DeviceError};
 pub use estampe_core::profile::JobTimings;
 pub use estampe_core::{
@@ -49,6 +54,6 @@ pub use estampe_types::{
     FilterMode, Flat, FragmentIn, FragmentOut, IndexFormat, Int, Limits, Mat2, Mat3, Mat4,
     MipLevel, NoPerspective, Operand, PerSample, Program, Quad, Real, SampleType,
     SamplerDescriptor, Shader, ShaderProgram, TexelEncoding, Texture, TextureFormat, Varyings,
-    Vec2, Vec3, Vec4, VertexEncoding, VertexFormat, VertexIn, maths, operand, shader, srgb, state,
-    vec2, vec3, vec4,
+    Vec2, Vec3, Vec4, VertexEncoding, VertexFormat, VertexIn, maths, operand, shader, state, vec2,
+    vec3, vec4,
 };

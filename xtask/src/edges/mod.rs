@@ -26,6 +26,7 @@ const CRATES: &[(&str, &[&str])] = &[
         &[
             "estampe-types",
             "estampe-simd",
+            "estampe-format",
             "estampe-texture",
             "estampe-core",
         ],

@@ -6,9 +6,9 @@
 use super::{RenderTarget, format_names};
 use crate::layout::texel_words;
 use crate::pipeline::color_target::MAX_WORDS;
+use estampe_format::srgb::{self, LINEAR_FROM_SRGB};
 use estampe_format::{AttachmentCodec, PacketCodec, with_codec};
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16, outline, u32x16};
-use estampe_types::srgb::{LINEAR_FROM_SRGB, srgb_from_linear};
 use estampe_types::{TexelEncoding, TextureFormat};
 
 /// Packets of one job: a 64×64 block.
@@ -283,7 +283,7 @@ fn mean_srgb_colors(samples: [u32; 4]) -> u32 {
     let table = &*LINEAR_FROM_SRGB;
     let channel = |shift: u32| {
         let [a, b, c, d] = samples.map(|sample| table[(sample >> shift & 0xFF) as usize]);
-        u32::from(srgb_from_linear((a + b + c + d) * 0.25)) << shift
+        u32::from(srgb::encode((a + b + c + d) * 0.25)) << shift
     };
     channel(0) | channel(8) | channel(16)
 }
