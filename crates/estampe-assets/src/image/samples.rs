@@ -49,7 +49,7 @@ pub(super) fn disc(width: u32, height: u32) -> Image {
     image
 }
 
-/// The same arbitrary bytes on every machine.
+/// A generator of random numbers that are the same on every machine.
 #[derive(Debug)]
 pub(super) struct Random(fastrand::Rng);
 
