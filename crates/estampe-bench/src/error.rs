@@ -67,13 +67,13 @@ pub enum BenchError {
     Command {
         /// Its command line.
         command: String,
-        /// How it ended, and its output.
+        /// The exit status and the error output, or another reason why the command failed.
         reason: String,
     },
 }
 
 impl BenchError {
-    /// Whether the command line is at fault, and not a file or the system.
+    /// Returns true if the command line is at fault, and not a file or the system.
     #[must_use]
     pub fn is_usage(&self) -> bool {
         matches!(

@@ -130,7 +130,8 @@ impl Difference {
         self.beyond as f64 / self.pixels.max(1) as f64
     }
 
-    /// Whether the pictures count as the same.
+    /// Returns true if the pictures count as equal: at most [`Difference::GATE`] of their pixels
+    /// are beyond the tolerance.
     #[must_use]
     pub fn passes(&self) -> bool {
         self.share_beyond() <= Self::GATE

@@ -25,7 +25,7 @@ pub struct Curve {
     pub name: String,
     /// The colour, in SVG's notation.
     pub color: &'static str,
-    /// Whether the line is dashed.
+    /// If set, the line is dashed.
     pub is_dashed: bool,
     /// The points (x, y); both coordinates are positive.
     pub points: Vec<[f64; 2]>,

@@ -198,7 +198,7 @@ impl Scene {
 pub struct SceneEntry {
     /// The name on the command line.
     pub name: &'static str,
-    /// Whether `peerbench` has the scene, so that it can be compared.
+    /// True if `peerbench` has the scene, so that it can be compared.
     pub is_peers: bool,
     make: fn(Detail, FrameSize) -> Scene,
 }

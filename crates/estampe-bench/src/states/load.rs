@@ -10,7 +10,8 @@ pub enum Load {
     /// Eight full-screen opaque quads in smooth colours, back to front: every fragment passes the
     /// depth test.
     Fill,
-    /// The same quads, blended by their alpha; depth is tested and not written.
+    /// Eight full-screen quads in smooth colours, back to front, blended by their alpha; depth is
+    /// tested and not written.
     Blend,
     /// Opaque triangles of 8 pixels in smooth colours, beside each other.
     Tris8,
@@ -44,13 +45,13 @@ impl Load {
         }
     }
 
-    /// Whether fragments are blended with the stored colour.
+    /// Returns true if fragments are blended with the stored colour.
     #[must_use]
     pub const fn is_blended(self) -> bool {
         matches!(self, Self::Blend | Self::Text)
     }
 
-    /// Whether fragments sample a texture.
+    /// Returns true if fragments sample a texture.
     #[must_use]
     pub const fn is_textured(self) -> bool {
         matches!(self, Self::Textured | Self::Text)

@@ -96,7 +96,8 @@ impl StatesArguments {
         Load::ALL.into_iter().filter(is_wanted).collect()
     }
 
-    /// Whether everything is measured thoroughly, so that the table may be published.
+    /// Returns true if all states and loads are measured without `--quick`, so that the table may
+    /// be published.
     fn is_complete(&self) -> bool {
         !self.quick && self.states.is_empty() && self.loads.is_empty()
     }

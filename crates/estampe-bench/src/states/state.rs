@@ -167,7 +167,7 @@ impl State {
         }
     }
 
-    /// Whether the state applies to a load; the table has a dash if not.
+    /// Returns true if the state applies to a load; otherwise the table has a dash.
     #[must_use]
     pub fn applies_to(&self, load: Load) -> bool {
         match self.change {
