@@ -35,7 +35,7 @@ struct Plane {
     color: [f32; 3],
 }
 
-/// The same plane with the depth log₂(1 + w) / log₂(1 + far).
+/// A [`Plane`] whose depth is log₂(1 + w) / log₂(1 + far).
 struct LogarithmicPlane(Plane);
 
 estampe::shader! {
