@@ -1,4 +1,5 @@
-//! Where the channels of a texel lie: words of 32 bits, from the lowest bit of the lowest byte on.
+//! The layout of a texel's channels: words of 32 bits, counted from the lowest bit of the lowest
+//! byte.
 
 use estampe_types::{TexelEncoding, TextureFormat};
 
@@ -9,7 +10,7 @@ pub(crate) struct ChannelPlace {
     pub(crate) word: usize,
     /// The lowest bit in the word.
     pub(crate) shift: u32,
-    /// How many bits, 1..=32; 0 of a channel that the format lacks.
+    /// The number of bits, 1..=32; 0 for a channel that the format lacks.
     pub(crate) bits: u32,
 }
 

@@ -25,7 +25,7 @@ pub struct TexelCodec {
     sample_type: SampleType,
 }
 
-/// How all channels of a texel are encoded.
+/// The encoding of all channels of a texel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Encoding {
     Unorm,
@@ -124,20 +124,20 @@ impl TexelCodec {
         self.scale
     }
 
-    /// What a shader gets: numbers, or the bits of integers.
+    /// The type of the values that shaders read: numbers, or the bits of integers.
     #[must_use]
     pub fn sample_type(&self) -> SampleType {
         self.sample_type
     }
 
-    /// Whether shaders get integers.
+    /// Returns true if shaders read integers.
     #[must_use]
     pub fn is_integer(&self) -> bool {
         matches!(self.sample_type, SampleType::Uint | SampleType::Sint)
     }
 
-    /// What channels that the format lacks read as: 0, 0, 0 and 1, the 1 an integer where the
-    /// others are.
+    /// The values of channels that the format lacks: 0, 0, 0 and 1. The 1 is an integer if the
+    /// format stores integers.
     #[must_use]
     pub fn missing(&self) -> [f32; 4] {
         let one = if self.is_integer() {

@@ -15,7 +15,7 @@ pub struct VertexCodec {
     bits: u32,
 }
 
-/// Where a component lies.
+/// The position of a component in an attribute.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     /// The word of the attribute, 0 to 3.

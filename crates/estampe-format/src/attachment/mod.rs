@@ -35,7 +35,7 @@ use crate::texel::TexelCodec;
 use estampe_simd::{Lanes, f32x16, u32x16};
 use estampe_types::{SampleType, TexelEncoding, TextureFormat};
 
-/// How an attachment's format stores sixteen texels.
+/// A codec for packets of sixteen texels in an attachment's format.
 pub trait PacketCodec<S: Lanes>: Copy {
     /// Words of 32 bits of a texel: 1, 2 or 4.
     const WORDS: usize;
@@ -48,8 +48,8 @@ pub trait PacketCodec<S: Lanes>: Copy {
     /// The texels of sixteen colours, confined and rounded; words from `WORDS` on are 0.
     fn encode(self, s: S, color: [f32x16<S>; 4]) -> [u32x16<S>; 4];
 
-    /// What is added up when samples are resolved: the codes of normalised channels, snorm ones at
-    /// least −most, and the numbers of all others.
+    /// The values that a resolve adds up: the codes of normalised channels (snorm codes are at
+    /// least −most) and the numbers of all other channels.
     #[inline(always)]
     fn units(self, s: S, words: [u32x16<S>; 4]) -> [f32x16<S>; 4] {
         self.decode(s, words)
@@ -135,19 +135,19 @@ impl AttachmentCodec {
         layout::words(self.format)
     }
 
-    /// Whether channels are integers, whose bits shaders give.
+    /// Returns true if the channels are integers, of which shaders output the bits.
     #[must_use]
     pub fn is_integer(&self) -> bool {
         self.format.sample_type() != SampleType::Float
     }
 
-    /// Whether R, G and B are encoded as sRGB.
+    /// Returns true if R, G and B are encoded as sRGB.
     #[must_use]
     pub fn is_srgb(&self) -> bool {
         self.format.is_srgb()
     }
 
-    /// Whether logic operations apply: to neither floats nor sRGB.
+    /// Returns true if logic operations apply. They apply to neither float nor sRGB formats.
     #[must_use]
     pub fn has_logic_operations(&self) -> bool {
         use TexelEncoding as E;

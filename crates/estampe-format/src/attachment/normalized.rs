@@ -20,9 +20,9 @@ pub struct Normalized<const WORDS: usize> {
 struct Channel {
     /// Its lowest bit.
     shift: u32,
-    /// How far its highest bit is from the word's.
+    /// The number of bits of the word above the channel's highest bit.
     above: u32,
-    /// How many bits of a word it does not take.
+    /// The number of bits of the word that do not belong to the channel.
     unused: u32,
     /// Its bits, at the low end.
     mask: u32,

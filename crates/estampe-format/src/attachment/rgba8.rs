@@ -18,8 +18,8 @@ pub struct Rgba8Srgb {
     shifts: Shifts,
 }
 
-/// Where R and B lie: 0 and 16, or 16 and 0. Vectors are shifted by a variable number of bits as
-/// fast as by a constant, so no branch tells the two orders apart.
+/// The lowest bits of R and B in a texel: 0 and 16, or 16 and 0. A vector shift by a variable
+/// number of bits is as fast as one by a constant, so the two orders need no branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Shifts {
     red: u32,
