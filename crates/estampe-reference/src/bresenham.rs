@@ -22,7 +22,8 @@ pub struct Line {
     length: [i64; 2],
     /// The step along x and along y: −1 or 1.
     step: [i64; 2],
-    /// Whether a tie steps: set if the line runs from the greater to the lesser major coordinate.
+    /// True if a tie steps along the minor axis: the line runs from the greater to the lesser major
+    /// coordinate.
     tie_steps: bool,
     error: i64,
 }

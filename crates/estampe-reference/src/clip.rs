@@ -143,8 +143,8 @@ pub fn view_volume_distances([x, y, z, w]: [f32; 4]) -> [f32; 6] {
     [x + w, w - x, y + w, w - y, z, w - z]
 }
 
-/// Whether 1/w of a position is positive and finite, and the position is inside the depth planes:
-/// near and far, or w ≥ [`LEAST_W`] if depth is not clipped.
+/// Returns true if 1/w of a position is positive and finite, and the position is inside the depth
+/// planes: near and far, or w ≥ [`LEAST_W`] if depth is not clipped.
 #[must_use]
 pub fn is_inside([_, _, z, w]: [f32; 4], viewport: &ViewportTransform) -> bool {
     let is_in_depth = if viewport.unclipped_depth {
@@ -155,7 +155,8 @@ pub fn is_inside([_, _, z, w]: [f32; 4], viewport: &ViewportTransform) -> bool {
     is_in_depth && w > 0.0 && (1.0 / w).is_finite()
 }
 
-/// Whether a primitive is culled by distance: one cull distance is negative at all of its vertices.
+/// Returns true if a primitive is culled by distance: one cull distance is negative at all of its
+/// vertices.
 #[must_use]
 pub fn is_distant(vertices: &[ClipVertex]) -> bool {
     let distances = vertices
@@ -164,8 +165,8 @@ pub fn is_distant(vertices: &[ClipVertex]) -> bool {
     (0..distances).any(|k| vertices.iter().all(|vertex| vertex.cull_distances[k] < 0.0))
 }
 
-/// Whether a position is inside the depth planes and its window coordinates fit the rasterizer's
-/// fixed point.
+/// Returns true if a position is inside the depth planes and its window coordinates fit the
+/// rasterizer's fixed point.
 #[must_use]
 pub fn is_within_guard_band(position: [f32; 4], viewport: &ViewportTransform) -> bool {
     let window = viewport.window(position);
@@ -293,7 +294,8 @@ pub fn clip_line_by(plane: Plane, [start, end]: [ClipVertex; 2]) -> Option<[Clip
     }
 }
 
-/// Whether a point is drawn: its centre lies in the view volume, and no clip distance is negative.
+/// Returns true if a point is drawn: its centre lies in the view volume, and no clip distance is
+/// negative.
 #[must_use]
 pub fn keeps_point(vertex: &ClipVertex, viewport: &ViewportTransform) -> bool {
     let [x, y, _, w] = vertex.position;

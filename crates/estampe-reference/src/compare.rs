@@ -6,7 +6,8 @@
 use estampe_types::state::CompareFunction;
 use std::cmp::Ordering;
 
-/// Whether `new` passes against `stored`. If either is NaN, only `Always` and `NotEqual` pass.
+/// Returns true if `new` passes against `stored`. If either is NaN, only `Always` and `NotEqual`
+/// pass.
 #[must_use]
 pub fn passes<T: PartialOrd>(function: CompareFunction, new: T, stored: T) -> bool {
     use CompareFunction as F;

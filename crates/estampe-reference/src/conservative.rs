@@ -55,7 +55,7 @@ fn square([i, j]: [i64; 2]) -> [[i64; 2]; 4] {
     ]
 }
 
-/// Whether a triangle and a pixel's square have a point in common.
+/// Returns true if a triangle and a pixel's square have a point in common.
 fn touches(extent: [[i64; 2]; 2], edges: &[Edge; 3], pixel: [i64; 2]) -> bool {
     let boxes_meet = (0..2).all(|axis| {
         let low = pixel[axis] * PIXEL;
@@ -66,7 +66,7 @@ fn touches(extent: [[i64; 2]; 2], edges: &[Edge; 3], pixel: [i64; 2]) -> bool {
     boxes_meet && edges.iter().all(reaches_inside)
 }
 
-/// Whether a pixel's square lies inside a triangle.
+/// Returns true if a pixel's square lies inside a triangle.
 fn fills(edges: &[Edge; 3], pixel: [i64; 2]) -> bool {
     let corners = square(pixel);
     let has_inside = |edge: &Edge| corners.iter().all(|&corner| edge.function(corner) >= 0);

@@ -34,7 +34,7 @@ pub fn face(corners: [[i32; 2]; 3], front_face: FrontFace) -> Option<Face> {
     Some(if is_front { Face::Front } else { Face::Back })
 }
 
-/// Whether face culling drops a triangle with this facing.
+/// Returns true if face culling drops a triangle with this facing.
 #[must_use]
 pub fn is_culled(face: Face, mode: CullMode) -> bool {
     match mode {

@@ -31,7 +31,7 @@ pub struct Bounded {
 }
 
 impl Bounded {
-    /// Whether an f32 result lies within the bound.
+    /// Returns true if an f32 result lies within the bound.
     #[must_use]
     pub fn holds(self, computed: f32) -> bool {
         (f64::from(computed) - self.value).abs() <= self.error || self.error.is_infinite()

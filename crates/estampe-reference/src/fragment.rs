@@ -140,7 +140,7 @@ pub struct Fragment {
     pub depth: Option<f32>,
     /// The shader's sample mask; all ones if it writes none.
     pub sample_mask: u16,
-    /// Whether the shader discarded it.
+    /// True if the shader discarded the fragment.
     pub is_discarded: bool,
 }
 
@@ -156,7 +156,7 @@ pub struct Invocation {
     pub samples: u32,
     /// The sample that is shaded; `None` if shading is per pixel.
     pub sample: Option<u32>,
-    /// Whether the primitive is front facing.
+    /// True if the primitive is front facing.
     pub front_facing: bool,
 }
 

@@ -30,8 +30,8 @@ pub fn combine(operation: LogicOperation, s: u32, d: u32) -> u32 {
     }
 }
 
-/// Whether logic operations apply to an attachment with this red channel: not if it is float or
-/// sRGB.
+/// Returns true if logic operations apply to an attachment with this red channel. They apply to
+/// neither float nor sRGB attachments.
 #[must_use]
 pub fn concerns(red: Channel) -> bool {
     matches!(

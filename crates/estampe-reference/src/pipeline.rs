@@ -43,9 +43,9 @@ pub struct State {
     pub depth_bounds: Option<[f32; 2]>,
     /// The sample mask: bit s enables sample s.
     pub sample_mask: u32,
-    /// Whether alpha to coverage is on.
+    /// If set, alpha to coverage is enabled.
     pub alpha_to_coverage: bool,
-    /// Whether shading is per sample, even if the shader does not require it.
+    /// If set, shading is per sample, even if the shader does not require it.
     pub sample_shading: bool,
     /// A logic operation, in place of blending.
     pub logic_operation: Option<LogicOperation>,
@@ -132,8 +132,8 @@ impl Draw<'_> {
         }
     }
 
-    /// Whether the index at a position in the range is the greatest of its format, which restarts
-    /// primitives.
+    /// Returns true if the index at a position in the range restarts primitives: it is the greatest
+    /// of its format.
     #[must_use]
     pub fn is_restart(&self, position: u32) -> bool {
         let element = self.vertices.start.wrapping_add(position);
@@ -545,7 +545,7 @@ fn moved(vertex: WindowVertex, parent: Option<Parent<'_>>) -> WindowVertex {
     }
 }
 
-/// Whether each line of a topology begins at the end of the previous one.
+/// Returns true if each line of a topology begins at the end of the previous one.
 fn is_line_strip(topology: PrimitiveTopology) -> bool {
     use PrimitiveTopology as T;
     matches!(topology, T::LineStrip | T::LineLoop | T::LineStripAdjacency)
@@ -562,7 +562,7 @@ fn whole_width(width: f32) -> i64 {
         .into()
 }
 
-/// Whether a stipple pattern draws fragment `number` of the line.
+/// Returns true if a stipple pattern draws fragment `number` of the line.
 fn shows(stipple: Option<LineStipple>, number: u64) -> bool {
     stipple.is_none_or(|LineStipple { factor, pattern }| {
         let bit = number / u64::from(factor) % 16;

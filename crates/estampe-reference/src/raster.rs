@@ -114,7 +114,7 @@ impl Edge {
         (bx - ax) * (y - ay) - (by - ay) * (x - ax)
     }
 
-    /// Whether points on the edge itself belong to the triangle: the edge is a *top* edge
+    /// Returns true if points on the edge itself belong to the triangle: the edge is a *top* edge
     /// (horizontal, with the inside below) or a *left* edge (the inside is to the right).
     #[must_use]
     pub fn is_top_or_left(&self) -> bool {
@@ -124,7 +124,8 @@ impl Edge {
         is_top || is_left
     }
 
-    /// Whether the edge covers a point: it is inside, or on the edge and the edge is top or left.
+    /// Returns true if the edge covers a point: the point is inside, or it is on the edge and the
+    /// edge is top or left.
     #[must_use]
     pub fn covers(&self, point: [i64; 2]) -> bool {
         let e = self.function(point);

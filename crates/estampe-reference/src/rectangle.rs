@@ -49,7 +49,7 @@ impl LineRectangle {
         }
     }
 
-    /// Whether a point in 1/256 pixel is inside, by the fill rule of triangles.
+    /// Returns true if a point in 1/256 pixel is inside, by the fill rule of triangles.
     #[must_use]
     pub fn covers(&self, point: [i64; 2]) -> bool {
         self.edges
@@ -152,7 +152,7 @@ pub struct RectangleSurface<'a> {
     pub modes: &'a [Interpolation],
     /// The provoking vertex's varyings.
     pub flat: &'a [f32],
-    /// Whether alpha is multiplied by coverage.
+    /// If set, alpha is multiplied by coverage.
     pub is_smooth: bool,
 }
 

@@ -69,7 +69,7 @@ fn first_at_or_above(encoded: f64) -> f32 {
     f32::from_bits(first)
 }
 
-/// Whether `linear` is at or above the linear value of `encoded`.
+/// Returns true if `linear` is at or above the linear value of `encoded`.
 fn is_at_or_above(linear: f64, encoded: f64) -> bool {
     if encoded <= LINE_ENDS {
         return linear * 12.92 >= encoded;

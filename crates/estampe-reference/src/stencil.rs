@@ -9,7 +9,7 @@ use estampe_types::state::{StencilFaceState, StencilOperation};
 /// The greatest 8-bit stencil value.
 const GREATEST: i32 = 255;
 
-/// Whether the test passes: `(reference & read_mask) OP (stored & read_mask)`.
+/// Returns true if the stencil test passes: `(reference & read_mask) OP (stored & read_mask)`.
 #[must_use]
 pub fn passes(face: &StencilFaceState, reference: u8, stored: u8) -> bool {
     let [new, old] = [reference, stored].map(|value| value & face.read_mask);

@@ -140,7 +140,7 @@ impl Target {
         self.width as usize * self.height as usize * self.samples as usize
     }
 
-    /// Whether the target has no samples.
+    /// Returns true if the target has no samples.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0

@@ -28,7 +28,7 @@ pub struct ViewportTransform {
     pub offset: [f32; 3],
     /// The least and the greatest depth of the viewport.
     pub depth_range: [f32; 2],
-    /// Whether depth is clamped and not clipped.
+    /// If set, depth is clamped instead of clipped.
     pub unclipped_depth: bool,
 }
 
@@ -38,7 +38,7 @@ pub const LEAST_W: f32 = 1.0 / 1_048_576.0;
 /// If depth is not clipped, the depth of vertices is clamped to this magnitude: 2²⁴.
 pub const FARTHEST: f32 = 16_777_216.0;
 
-/// Whether a viewport draws: its numbers are within the limits of the arithmetic.
+/// Returns true if a viewport draws: its numbers are within the limits of the arithmetic.
 #[must_use]
 pub fn is_drawable(viewport: &Viewport) -> bool {
     let v = viewport;
@@ -189,7 +189,7 @@ impl PixelBounds {
         }
     }
 
-    /// Whether a pixel lies inside.
+    /// Returns true if a pixel lies inside.
     #[must_use]
     pub fn contains(&self, [x, y]: [i64; 2]) -> bool {
         let within =
@@ -226,7 +226,7 @@ impl ViewportSamples {
         }
     }
 
-    /// Whether a position in 1/256 pixel lies inside.
+    /// Returns true if a position in 1/256 pixel lies inside.
     #[must_use]
     pub fn contains(&self, [x, y]: [i64; 2]) -> bool {
         // Exact: positions in a target are far below 2⁵³.

@@ -73,8 +73,8 @@ fn cross(a: Corner, b: Corner, p: Corner) -> i64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
 
-/// Whether points on the edge belong to the triangle: it lies below a left-to-right edge or right
-/// of an upward edge.
+/// Returns true if points on the edge belong to the triangle: the triangle lies below a
+/// left-to-right edge or right of an upward edge.
 fn is_top_or_left(from: Corner, to: Corner) -> bool {
     let runs_right = from[1] == to[1] && from[0] < to[0];
     let runs_up = to[1] < from[1];

@@ -12,7 +12,7 @@ fn cross([ax, ay]: Point, [bx, by]: Point, [px, py]: Point) -> i64 {
     (bx - ax) * (py - ay) - (by - ay) * (px - ax)
 }
 
-/// Whether two closed segments have a point in common.
+/// Returns true if two closed segments have a point in common.
 fn segments_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     let lies_on = |p: Point, a: Point, b: Point| {
         cross(a, b, p) == 0 && (0..2).all(|k| a[k].min(b[k]) <= p[k] && p[k] <= a[k].max(b[k]))
@@ -25,8 +25,8 @@ fn segments_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
         || lies_on(d, a, b)
 }
 
-/// Whether a square and a triangle have a point in common: a corner of one lies in the other, or
-/// their borders cross.
+/// Returns true if a square and a triangle have a point in common: a corner of one lies in the
+/// other, or their borders cross.
 fn meet(corners: [Point; 3], square: [Point; 4]) -> bool {
     let sides_of = |p: Point| {
         let [a, b, c] = corners;

@@ -38,7 +38,7 @@ fn diamonds(from: [i32; 2], to: [i32; 2]) -> Vec<[i64; 2]> {
     found
 }
 
-/// Whether a segment meets an open square.
+/// Returns true if a segment meets an open square.
 fn meets(a: [i128; 2], b: [i128; 2], center: [i128; 2], half: i128) -> bool {
     // The open interval of t in which the segment is inside, as fractions with positive
     // denominators.

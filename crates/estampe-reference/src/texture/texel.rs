@@ -17,7 +17,7 @@ pub struct TexelReader {
 }
 
 impl TexelReader {
-    /// Whether the channels are integers.
+    /// Returns true if the channels are integers.
     #[must_use]
     pub fn is_integer(&self) -> bool {
         let kind = self.format.sample_type();
