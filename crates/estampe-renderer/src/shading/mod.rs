@@ -68,8 +68,8 @@ impl VertexTransforms {
     }
 }
 
-/// The unit shading normal: `normal` normalised, and negated on back faces (two-sided lighting).
-/// Where the vertices have no normal, the direction to the eye.
+/// The unit shading normal: `normal` normalised, and negated on back faces (two-sided lighting). If
+/// the vertices have no normal, it is `to_eye`, the direction to the eye.
 #[inline(always)]
 pub(crate) fn shading_normal<R: Real>(
     normal: Vec3<R>,
