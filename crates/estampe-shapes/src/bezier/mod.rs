@@ -127,8 +127,8 @@ impl BicubicPatch {
 
     /// The unit normal, on the side of ∂S/∂t × ∂S/∂s; zero where it is not defined.
     ///
-    /// Where the row s = 0 is a single point, ∂S/∂t vanishes. Near it ∂S/∂t grows as s · ∂²S/∂s∂t,
-    /// so the limit of the normal's direction is that of ∂²S/∂s∂t × ∂S/∂s.
+    /// If the row s = 0 is a single point, ∂S/∂t vanishes there. Near it ∂S/∂t grows as
+    /// s · ∂²S/∂s∂t, so the limit of the normal's direction is that of ∂²S/∂s∂t × ∂S/∂s.
     ///
     /// ```text
     ///        ∂S/∂t ◀──┬ normal: towards the reader

@@ -12,7 +12,7 @@
 //!    t, v
 //! ```
 //!
-//! Where a row of the grid is a single point, as at a sphere's poles, its cells are triangles. Each
+//! If a row of the grid is a single point, as at a sphere's poles, its cells are triangles. Each
 //! has a separate pole vertex whose u is that of the cell's middle.
 
 mod circle;

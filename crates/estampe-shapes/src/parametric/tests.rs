@@ -199,7 +199,7 @@ fn builtin_shapes_by_name() {
     );
 }
 
-/// The same bits on every machine: if this fails, every picture changes.
+/// Built-in shapes have the same bits on every machine. If this fails, every picture changes.
 #[test]
 fn bits_are_fixed() {
     let fingerprint = |mesh: &ShapeMesh| {
