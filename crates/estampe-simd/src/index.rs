@@ -63,7 +63,7 @@ impl Lane {
         1 << self.get()
     }
 
-    /// Whether a mask contains the lane.
+    /// Returns true if a mask contains the lane.
     #[inline(always)]
     #[must_use]
     pub fn is_in(self, mask: u16) -> bool {

@@ -114,7 +114,7 @@ pub trait Lanes: Simd {
 
 /// Reinterprets the bits of sixteen lanes.
 pub(crate) trait FromBytesOf<S: Simd> {
-    /// The same 64 bytes as another type.
+    /// Reinterprets the 64 bytes of `value` as this type.
     fn from_bytes_of(value: f32x16<S>) -> Self;
 }
 
