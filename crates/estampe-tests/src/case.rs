@@ -76,16 +76,16 @@ pub struct CaseDraw {
     pub depth_bounds: Option<[f32; 2]>,
     /// The sample mask.
     pub sample_mask: u32,
-    /// Whether alpha to coverage is on.
+    /// If set, alpha to coverage is enabled.
     pub alpha_to_coverage: bool,
-    /// Whether shading is per sample, even if the shader does not require it.
+    /// If set, shading is per sample, even if the shader does not require it.
     pub sample_shading: bool,
     /// A logic operation, in place of blending.
     pub logic_operation: Option<LogicOperation>,
     /// Blending and write mask of the colour attachments after the first; those beyond the list are
     /// as the first.
     pub more_targets: Vec<(Option<BlendState>, ColorWrites)>,
-    /// Whether passed samples are counted (an occlusion query).
+    /// If set, passed samples are counted (an occlusion query).
     pub is_counted: bool,
 }
 

@@ -80,7 +80,7 @@ fn described(statistics: &Statistics) -> String {
 /// With so few cases, all images of a topic may be plain.
 const FEW: u64 = 8;
 
-/// Whether all pixels of an image are equal; false for a single pixel.
+/// Returns true if all pixels of an image are equal; false for a single pixel.
 fn is_of_one_piece(image: &Image) -> bool {
     let is_all_one = |values: &Vec<u8>| values.iter().all(|value| *value == values[0]);
     let is_same_stencil = image.stored.stencils.iter().all(is_all_one);

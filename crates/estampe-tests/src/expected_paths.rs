@@ -7,7 +7,7 @@
 use crate::fast_path;
 use estampe::{Level, Statistics, TilePath};
 
-/// Whether a path exists at a SIMD level: the scalar level has only the in-order path.
+/// Returns true if a path exists at a SIMD level: the scalar level has only the in-order path.
 fn exists_at(path: TilePath, level: Level) -> bool {
     !level.is_scalar() || path == TilePath::InOrderPackets
 }

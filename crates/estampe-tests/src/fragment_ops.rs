@@ -317,7 +317,8 @@ impl FragmentOp {
         case
     }
 
-    /// Whether a result is accepted: blended channels may differ by one, all others must be equal.
+    /// Returns true if a result is accepted: blended channels may differ by one, all others must be
+    /// equal.
     #[must_use]
     pub fn accepts(&self, got: Stored) -> bool {
         let most = u8::from(self.blend.is_some());

@@ -4,7 +4,7 @@ use crate::case::Case;
 use estampe::{Device, RenderTarget, RenderTargetDescriptor};
 use estampe_types::TextureFormat;
 
-/// Whether `read_color` gives an attachment's bytes.
+/// Returns true if `read_color` gives the bytes of an attachment with this format.
 #[must_use]
 pub fn is_read_as_color(format: TextureFormat) -> bool {
     matches!(

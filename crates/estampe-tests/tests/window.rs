@@ -97,8 +97,8 @@ fn viewports() {
     });
 }
 
-/// Whether a viewport is within the limits of `docs/NUMERICS.md`; all others are refused (see the
-/// test `misuse` of `estampe`).
+/// Returns true if a viewport is within the limits of `docs/NUMERICS.md`; all others are refused
+/// (see the test `misuse` of `estampe`).
 fn is_within_limits(viewport: &Viewport) -> bool {
     let corner = -32_768.0..=32_767.0;
     let is_side = |side: f32| side > 0.0 && side <= 32_768.0;

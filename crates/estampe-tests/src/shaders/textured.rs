@@ -25,7 +25,7 @@ pub struct TexturedShader {
     pub sampler: SamplerDescriptor,
     /// The channel whose bits are shown; `None` shows the colour.
     pub channel: Option<usize>,
-    /// Whether the fast path samples a view (any format and sampler) and not a [`Sampled`] texture.
+    /// If set, the fast path samples a view (any format and sampler), not a [`Sampled`] texture.
     pub is_view: bool,
 }
 
