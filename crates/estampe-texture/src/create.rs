@@ -7,7 +7,7 @@ use estampe_types::{Limits, MipLevel, TexelEncoding, Texture, TextureFormat, Tex
 /// The most texels of all levels: their offsets fit the signed 32-bit indices of lane code.
 const MAX_TEXELS: u64 = i32::MAX as u64;
 
-/// Whether smaller mip levels are generated.
+/// The smaller mip levels that are generated: none or all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum MipGeneration {
     /// No level is generated.

@@ -33,7 +33,7 @@ pub enum TextureError {
     /// The number of bytes is not that of the level.
     #[error("level {level} takes {expected} bytes, not {actual}")]
     ByteCount {
-        /// Which level; 0 is the full size.
+        /// The mip level; 0 is the full size.
         level: usize,
         /// The bytes that the level takes.
         expected: u64,
@@ -84,7 +84,7 @@ pub enum TextureError {
          rows_per_image cannot be less"
     )]
     RowLayout {
-        /// Which level; 0 is the full size.
+        /// The mip level; 0 is the full size.
         level: usize,
         /// The least bytes from row to row.
         bytes_per_row: u64,

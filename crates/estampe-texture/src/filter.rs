@@ -41,7 +41,7 @@ impl Level {
         self.offset
     }
 
-    /// Whether no number had to be clamped.
+    /// Returns true if [`Level::new`] clamped no number of `level`.
     pub(crate) fn is_exact(self, level: &MipLevel) -> bool {
         [self.width, self.height, self.offset].map(i32::cast_unsigned)
             == [level.width, level.height, level.offset]

@@ -9,8 +9,8 @@ use crate::mips;
 use estampe_format::TexelCodec;
 use estampe_types::{SampleType, TexelEncoding, Texture, TextureDimension, TextureFormat};
 
-/// Whether mip levels can be generated for the texture's format: formats of numbers, compressed
-/// ones included.
+/// Returns true if mip levels can be generated for the texture's format: formats of numbers,
+/// compressed ones included.
 pub(crate) fn is_possible(texture: &Texture) -> bool {
     texture.format.sample_type() == SampleType::Float
 }

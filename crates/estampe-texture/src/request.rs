@@ -25,7 +25,7 @@ pub(crate) struct Request {
     uv: [Packet<f32>; 2],
     /// Levels of detail, if [`Request::has_lod`].
     lod: Packet<f32>,
-    /// Whether levels of detail are given; otherwise they follow from the quads.
+    /// True if levels of detail are given; otherwise they are computed from the quads.
     has_lod: bool,
 }
 

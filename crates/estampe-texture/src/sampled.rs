@@ -32,13 +32,13 @@ pub struct Sampled {
     pub(crate) lod_range: [f32; 2],
     /// The finer level at both ends of `lod_range`.
     level_range: [i32; 2],
-    /// Whether the common case is possible: unorm8 or sRGB, linear filters for magnification and
+    /// True if the common case is possible: unorm8 or sRGB, linear filters for magnification and
     /// minification.
     is_linear: bool,
-    /// Whether the texture's format is sRGB.
+    /// True if the texture's format is sRGB.
     pub(crate) is_srgb: bool,
-    /// Whether the levels are laid out as `create_texture` does it, so that the size and the number
-    /// of levels determine the layout.
+    /// True if the levels are laid out as by `create_texture`, so that the size and the number of
+    /// levels determine the layout.
     is_regular: bool,
     /// The index of the smallest level.
     last_level: usize,
@@ -163,8 +163,8 @@ impl Sampled {
         finish(unpack(word, linear), is_srgb)
     }
 
-    /// Whether samples of both textures have the same footprint, and the common case is possible
-    /// for both.
+    /// Returns true if samples of both textures have the same footprint, and the common case is
+    /// possible for both.
     #[inline(always)]
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.is_linear
@@ -315,7 +315,7 @@ impl Sampled {
     }
 }
 
-/// Whether texels are words of four unorm bytes, with or without sRGB.
+/// Returns true if texels are words of four unorm bytes, with or without sRGB.
 pub(crate) fn is_rgba8(format: TextureFormat) -> bool {
     matches!(
         format,
@@ -323,7 +323,7 @@ pub(crate) fn is_rgba8(format: TextureFormat) -> bool {
     )
 }
 
-/// Whether each level is half as large as the one before and begins where that one ends.
+/// Returns true if each level is half as large as the one before and begins where that one ends.
 fn is_regular(levels: &[MipLevel]) -> bool {
     levels
         .first()

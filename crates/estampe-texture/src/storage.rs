@@ -57,7 +57,7 @@ pub fn create_storage_texture(
     Ok(made)
 }
 
-/// Whether shaders can store texels of a format.
+/// Returns true if shaders can store texels of a format.
 fn is_storable(format: TextureFormat) -> bool {
     format.is_color()
         && !format.is_compressed()

@@ -64,10 +64,10 @@ pub(crate) fn decode(format: TextureFormat, block: &[u8], words: &mut [u32; MAX_
     }
 }
 
-/// Whether the endpoints of a snorm channel are −127 and −128. Only for these does the order of the
-/// encoded values, which decides between the two ramps, differ from the order of their numbers, by
-/// which the library decides. With the first endpoint the greater, all eight steps lie between two
-/// numbers −1.
+/// Returns true if the endpoints of a snorm channel are −127 and −128. The order of the encoded
+/// endpoints decides between the two ramps, but the library compares their numbers. The two orders
+/// differ only for these endpoints. As the first endpoint is the greater, all eight steps lie
+/// between two numbers −1.
 fn has_both_ends_at_minus_one(channel: &[u8]) -> bool {
     channel.starts_with(&[-127_i8, -128].map(i8::cast_unsigned))
 }

@@ -44,7 +44,7 @@ fn noise(width: u32, height: u32, format: TextureFormat) -> Texture {
     create_texture(width, height, format, &rgba, MipGeneration::Full, &limits).expect("valid")
 }
 
-/// How the level of detail is determined.
+/// The source of the level of detail.
 #[derive(Clone, Copy, Debug)]
 enum Lod {
     FromQuad,

@@ -59,7 +59,7 @@ impl<R: Real> Coordinates<R> {
     }
 }
 
-/// How the level of detail is determined.
+/// The source of the level of detail.
 #[derive(Debug, Clone, Copy)]
 pub enum Lod<R: Real> {
     /// From the coordinates' differences within each 2×2 quad; a single fragment reads the base
@@ -101,7 +101,7 @@ pub(crate) struct Lanes<'a> {
 /// Zeros for the packets that a request does not need.
 static ZEROS: [Packet<f32>; 6] = [Packet([0.0; LANES]); 6];
 
-/// Which numbers of [`Lanes`] determine the level of detail.
+/// The numbers of [`Lanes`] that determine the level of detail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum LodOfLanes {
     Bias,

@@ -53,7 +53,7 @@ pub(crate) fn face_of([x, y, z]: [f32; 3]) -> usize {
     2 * axis + usize::from(value < 0.0)
 }
 
-/// Where a direction meets a face: (s, t) in 0..1.
+/// Projects a direction onto a face: (s, t) in 0..1.
 #[inline]
 pub(crate) fn project(direction: [f32; 3], face: usize) -> [f32; 2] {
     let Face { major, s, t } = &FACES[face];

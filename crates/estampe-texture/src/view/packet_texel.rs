@@ -52,7 +52,7 @@ impl PacketFormat {
         }
     }
 
-    /// Whether the format is a fixed-point depth.
+    /// Returns true if the format is a fixed-point depth.
     pub(super) fn is_fixed_depth(self) -> bool {
         matches!(
             self.encoding,

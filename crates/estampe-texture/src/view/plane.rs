@@ -36,7 +36,7 @@ pub struct TextureView {
     /// The number of layers, or of cubes.
     pub(crate) layers: i32,
     pub(crate) codec: TexelCodec,
-    /// Whether the view contains all layers and levels of the texture.
+    /// True if the view contains all layers and levels of the texture.
     pub(crate) is_whole: bool,
 }
 

@@ -22,9 +22,9 @@ pub struct SampledView {
     /// The sampler of the common kind of view, if this is one: 2D, four 8-bit channels, WebGPU's
     /// address modes.
     common: Option<Sampled>,
-    /// How packet code decodes texels; `None` for formats without packet code.
+    /// The texel decoder of packet code; `None` for formats without packet code.
     pub(crate) packets: Option<PacketFormat>,
-    /// Whether view and sampler allow the common case of a packet (`packet/inside.rs`): linear
+    /// True if view and sampler allow the common case of a packet (`packet/inside.rs`): linear
     /// filtering in one image of each level, with wrapped coordinates or on a cube's face.
     pub(crate) is_simple: bool,
     /// The SIMD level of packet code.
@@ -251,7 +251,7 @@ fn is_simple(view: &TextureView, sampler: &SamplerDescriptor) -> bool {
         && sampler.max_anisotropy <= 1
 }
 
-/// Whether [`Sampled`] gives the same results faster.
+/// Returns true if [`Sampled`] gives the same results faster.
 fn is_common(view: &TextureView, sampler: &SamplerDescriptor) -> bool {
     is_rgba8(view.texture.stored_format())
         && view.dimension == ViewDimension::D2

@@ -120,7 +120,7 @@ fn word_of(channels: [u32; 4], is_srgb: bool) -> u32 {
 /// The header of a block, and the position of its colours.
 struct Header {
     grid: Grid,
-    /// How the endpoints of each partition are coded.
+    /// The endpoint mode of each partition, 0..=15: the encoding of its colours.
     modes: [u32; 4],
     partitions: usize,
     seed: u32,

@@ -19,7 +19,7 @@ enum Above {
     Quint,
 }
 
-/// How the numbers of a sequence are packed.
+/// The packing of the numbers of a sequence.
 #[derive(Clone, Copy)]
 pub(super) struct Range {
     bits: u32,

@@ -87,7 +87,7 @@ struct Packet<'a> {
     format: PacketFormat,
     lanes: &'a Lanes<'a>,
     compares: Option<CompareFunction>,
-    /// Whether view, sampler and request allow the common case.
+    /// True if view, sampler and request allow the common case.
     is_simple: bool,
 }
 

@@ -79,7 +79,7 @@ impl Packet<'_> {
         }
     }
 
-    /// Whether wrapping the coordinate is enough to find all texels along an axis.
+    /// Returns true if wrapping the coordinate is enough to find all texels along an axis.
     #[inline(always)]
     fn is_plain(&self, axis: usize) -> bool {
         self.lanes.offset[axis] == 0 && self.mode(axis).is_plain()
