@@ -179,7 +179,7 @@ pub struct StencilState {
 }
 
 impl From<StencilFaceState> for StencilState {
-    /// The same test on both sides.
+    /// Creates a state with the same test for both faces.
     fn from(face: StencilFaceState) -> Self {
         Self {
             front: face,
