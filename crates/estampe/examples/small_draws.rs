@@ -41,7 +41,7 @@ estampe::shader! {
     }
 }
 
-/// The same quad, whose position is an attribute stepped by instance.
+/// A quad like that of [`Placed`], whose position is an attribute stepped by instance.
 struct Instanced;
 
 estampe::shader! {
