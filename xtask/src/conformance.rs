@@ -20,13 +20,13 @@ use crate::markdown::Document;
 use crate::repository::TextFile;
 use crate::{Finding, Repository};
 
-/// Where the rows are.
+/// The document that defines the rows.
 const PIPELINE: &str = "docs/PIPELINE.md";
 
-/// Where the rows and their tests are.
+/// The document that lists the rows and their tests.
 pub(crate) const DOCUMENT: &str = "docs/CONFORMANCE.md";
 
-/// How far a row is built: see PIPELINE.md.
+/// The states of a row, which PIPELINE.md explains.
 const STATES: &[&str] = &["proved", "begun", "open"];
 
 /// The crate whose tests say nothing about the pipeline that people use.
@@ -37,7 +37,7 @@ const ORACLE: &str = "estampe-reference";
 struct Row {
     /// A capital and a number, such as `O3`.
     id: String,
-    /// What it demands, in a few words.
+    /// The requirement, in a few words.
     summary: String,
     is_proved: bool,
 }
@@ -133,7 +133,7 @@ fn rows_of(repository: &Repository, findings: &mut Vec<Finding>) -> Vec<Row> {
     rows
 }
 
-/// Whether a word is a capital and a number of one or two digits.
+/// Returns true if a word is a capital and a number of one or two digits.
 fn is_row_id(word: &str) -> bool {
     let mut letters = word.chars();
     letters

@@ -139,7 +139,7 @@ fn check_unsafe(file: &TextFile, source: &RustSource) -> Vec<Finding> {
     findings
 }
 
-/// Whether the file is the root of a library or a program.
+/// Returns true if the file is the root of a library or a program.
 fn is_crate_root(path: &Path) -> bool {
     let is_program = path
         .parent()

@@ -1,9 +1,10 @@
-//! What a check found: where, what, and whether it fails the build.
+//! A finding of a check: its place, its message, and its severity, which decides whether the build
+//! fails.
 
 use std::fmt;
 use std::path::PathBuf;
 
-/// Whether a finding fails the check.
+/// The severity of a finding, which decides whether the check fails.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Severity {
     /// Printed, and answered at review.
@@ -15,13 +16,13 @@ pub enum Severity {
 /// One place that breaks a rule.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {
-    /// Whether it fails the check.
+    /// The severity, which decides whether the check fails.
     pub severity: Severity,
     /// The file, relative to the repository's root.
     pub path: PathBuf,
     /// The line, from 1; 0 where the finding is about the whole file.
     pub line: usize,
-    /// What is wrong and what to do about it.
+    /// The message: the fault and its remedy.
     pub message: String,
 }
 
@@ -46,7 +47,7 @@ impl Finding {
         }
     }
 
-    /// Whether it fails the check.
+    /// Returns true if the finding fails the check.
     #[must_use]
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error

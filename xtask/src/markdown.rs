@@ -5,7 +5,7 @@ use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 /// A fenced block.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fence {
-    /// What follows the opening fence, such as `sh`.
+    /// The text after the opening fence, such as `sh`.
     pub(crate) language: String,
     /// The lines inside.
     pub(crate) lines: Vec<String>,
@@ -38,7 +38,7 @@ pub(crate) struct Document {
     pub(crate) rows: Vec<(usize, Vec<String>)>,
 }
 
-/// What the reader is inside of.
+/// The elements that enclose the current place in the text.
 #[derive(Debug, Default)]
 struct Open {
     heading: Option<String>,

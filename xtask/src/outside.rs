@@ -82,7 +82,8 @@ fn check_lock(lock: &str) -> Result<Vec<Finding>, toml::de::Error> {
     Ok(findings)
 }
 
-/// Whether a `-sys` package only declares what the operating system or the browser provides.
+/// Returns true if a `-sys` package only declares the interface of the operating system or the
+/// browser.
 fn is_pure_rust(name: &str) -> bool {
     matches!(name, "linux-raw-sys" | "windows-sys" | "js-sys" | "web-sys")
 }

@@ -24,7 +24,7 @@ pub(crate) struct Dependency {
     pub(crate) package: String,
     /// The name by which sources name the crate: `-` has become `_`.
     pub(crate) crate_name: String,
-    /// Whether only tests, examples and benchmarks may use it.
+    /// True if only tests, examples and benchmarks may use the package.
     pub(crate) is_dev: bool,
     pub(crate) features: Vec<String>,
     pub(crate) has_default_features: bool,
@@ -44,7 +44,7 @@ impl Packages {
     /// build does not need.
     ///
     /// # Errors
-    /// What cargo says where it cannot read a manifest or the lock file is not up to date.
+    /// The error of cargo if it cannot read a manifest or the lock file is not up to date.
     pub(crate) fn of(repository: &Repository) -> Result<Self, cargo_metadata::Error> {
         let options = ["--locked", "--filter-platform", "host-tuple"];
         let metadata = MetadataCommand::new()

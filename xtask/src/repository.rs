@@ -24,13 +24,13 @@ pub(crate) struct TextFile {
 }
 
 impl TextFile {
-    /// Whether the file's name ends in `.ending`.
+    /// Returns true if the file's name ends in `.ending`.
     pub(crate) fn has_ending(&self, ending: &str) -> bool {
         self.path.extension().is_some_and(|found| found == ending)
     }
 
-    /// Whether the file holds only tests: `tests.rs`, `tests_*.rs`, or anything below a `tests` or
-    /// `benches` folder.
+    /// Returns true if the file holds only tests: `tests.rs`, `tests_*.rs`, or anything below a
+    /// `tests` or `benches` folder.
     pub(crate) fn is_test(&self) -> bool {
         let in_test_folder = self
             .path
@@ -111,7 +111,7 @@ impl Repository {
         self.files.iter().find(|file| file.path == path.as_ref())
     }
 
-    /// Whether `path`, relative to the root, names a file or folder.
+    /// Returns true if `path`, relative to the root, names a file or folder.
     pub(crate) fn exists(&self, path: &Path) -> bool {
         self.files.iter().any(|file| file.path.starts_with(path)) || self.root.join(path).exists()
     }

@@ -67,7 +67,7 @@ impl RustSource {
         found
     }
 
-    /// Whether the source has the inner attribute `#![level(lint)]`.
+    /// Returns true if the source has the inner attribute `#![level(lint)]`.
     pub(crate) fn has_inner_attribute(&self, level: &str, lint: &str) -> bool {
         let wanted = format!("{level} ({lint})");
         self.trees.windows(3).any(|window| match window {
@@ -92,7 +92,7 @@ fn is_punct(tree: &TokenTree, wanted: char) -> bool {
     matches!(tree, TokenTree::Punct(punct) if punct.as_char() == wanted)
 }
 
-/// Whether `::` starts at `at`.
+/// Returns true if `::` starts at `at`.
 fn is_separator(trees: &[TokenTree], at: usize) -> bool {
     matches!(trees.get(at..at + 2), Some([a, b]) if is_punct(a, ':') && is_punct(b, ':'))
 }
@@ -124,7 +124,7 @@ fn without_test_items(trees: &[TokenTree]) -> Vec<TokenTree> {
     kept
 }
 
-/// Whether the attribute `#[cfg(test)]` starts at `at`.
+/// Returns true if the attribute `#[cfg(test)]` starts at `at`.
 fn is_cfg_test(trees: &[TokenTree], at: usize) -> bool {
     match trees.get(at..at + 2) {
         Some([hash, TokenTree::Group(attribute)]) => {
@@ -134,7 +134,7 @@ fn is_cfg_test(trees: &[TokenTree], at: usize) -> bool {
     }
 }
 
-/// Where the item that starts at `start` ends: behind its braces or its semicolon.
+/// The position after the item that starts at `start`: behind its braces or its semicolon.
 fn end_of_item(trees: &[TokenTree], start: usize) -> usize {
     let is_end = |tree: &TokenTree| match tree {
         TokenTree::Group(group) => group.delimiter() == Delimiter::Brace,

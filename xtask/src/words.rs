@@ -2,7 +2,7 @@
 
 use crate::{Finding, Repository};
 
-/// What a banned word is compared with.
+/// The spellings that match a banned word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Case {
     /// Letters of either case, and `-`, `_` or nothing in place of a space.

@@ -37,15 +37,16 @@ const LANE_OPERATIONS: &[&str] = &["__fearless_simd_kernel", "core::core_arch::x
 /// Symbols that look like offences and are none, with the reason.
 const ALLOWED: &[(&str, &str)] = &[("::xsave::_xgetbv", "part of the detection of the level")];
 
-/// What the check found in one binary.
+/// The result of the check of one binary.
 #[derive(Debug, Clone, Default)]
 pub struct AssemblyReport {
-    /// How many level entries the binary has: the hot functions.
+    /// The number of level entries, which are the hot functions, in the binary.
     pub entries: usize,
-    /// What must be inlined and is not, one sentence each.
+    /// Messages about functions and lane operations that must be inlined and are not, one sentence
+    /// each.
     pub offences: Vec<String>,
-    /// The functions of ours that a level entry calls without a level of their own. Right for what
-    /// has no lanes in it; worth a look when it is hot.
+    /// The functions of ours that a level entry calls and that have no level of their own. This is
+    /// right for code without lanes, and worth a look if the function is hot.
     pub calls: Vec<String>,
 }
 

@@ -135,7 +135,7 @@ fn malformed_files_are_errors() {
     }
 }
 
-/// What the next test looks for: a test itself may be inlined into what calls it.
+/// A function that the next test looks for: a test itself may be inlined into its caller.
 #[inline(never)]
 fn a_function_of_this_file() -> usize {
     std::hint::black_box(7)

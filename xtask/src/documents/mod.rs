@@ -111,7 +111,8 @@ fn check_comments(repository: &Repository, file: &TextFile) -> Vec<Finding> {
         .collect()
 }
 
-/// What is wrong with the names of documents (`NUMERICS.md`) in a text.
+/// Returns a message for each document that a text names (as `NUMERICS.md`) and that does not
+/// exist.
 fn check_names(repository: &Repository, folder: &Path, text: &str) -> Vec<String> {
     let is_part_of_name = |c: char| c.is_alphanumeric() || matches!(c, '.' | '/' | '-' | '_');
     text.split(|c| !is_part_of_name(c))

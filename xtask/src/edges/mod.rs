@@ -8,7 +8,7 @@ use toml::{Table, Value};
 use crate::packages::{Package, Packages};
 use crate::{Finding, Repository};
 
-/// Which of our crates each of our crates may use, in the order in which data flows.
+/// The workspace crates that each crate may use, in the order in which data flows.
 const CRATES: &[(&str, &[&str])] = &[
     ("estampe-simd", &[]),
     ("estampe-types", &["estampe-simd"]),
@@ -43,7 +43,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ("xtask", &[]),
 ];
 
-/// What a program may be built from.
+/// The crates that a program may be built from.
 const LIBRARIES: &[&str] = &[
     "estampe-simd",
     "estampe-types",
@@ -57,14 +57,14 @@ const LIBRARIES: &[&str] = &[
     "estampe-renderer",
 ];
 
-/// Which of our crates the tests and examples of a crate may use besides.
+/// The workspace crates that only the tests and examples of a crate may use.
 const TESTS: &[(&str, &[&str])] = &[
     ("estampe-renderer", &["estampe-shapes"]),
     // All of this crate is tests.
     ("estampe-tests", &["estampe-reference"]),
 ];
 
-/// Which crates may use a dependency from outside.
+/// The crates that may use a dependency from outside.
 enum Users {
     /// Every crate: the dependency is small and has no influence on a picture.
     Any,
@@ -229,7 +229,8 @@ fn objections(package: &Package) -> Vec<String> {
     objections
 }
 
-/// Whether the manifest says `lints.workspace = true`, which `cargo metadata` does not tell.
+/// Returns true if the manifest says `lints.workspace = true`. The output of `cargo metadata` does
+/// not contain this.
 fn inherits_lints(manifest: &str) -> bool {
     let table: Table = manifest.parse().unwrap_or_default();
     let lints = table.get("lints").and_then(|lints| lints.get("workspace"));

@@ -3,7 +3,7 @@
 use super::*;
 use crate::packages::Dependency;
 
-/// What is said about a package with these dependencies.
+/// The objections to a package with these dependencies.
 fn objections_of(name: &str, dependencies: Vec<Dependency>) -> Vec<String> {
     objections(&Package::synthetic(name, dependencies))
 }
