@@ -32,7 +32,7 @@ const PACKET_SIDE: usize = 4;
 /// The most bytes of a texel.
 const MAX_BYTES: usize = 16;
 
-/// What a texel is made from.
+/// The samples from which a texel is made.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Selection {
     /// One sample.
@@ -46,7 +46,7 @@ pub(super) enum Selection {
 pub(super) struct StoredTexels<'a> {
     /// By packet, sample, word of the texel and lane.
     pub(super) words: &'a [u32],
-    /// Where packets are stored.
+    /// The tile layout, which gives the position of each packet in `words`.
     pub(super) grid: TileGrid,
     /// Words of a texel: 1, 2 or 4.
     pub(super) words_each: usize,

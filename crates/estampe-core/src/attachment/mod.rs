@@ -1,4 +1,4 @@
-//! Where pixels live.
+//! Attachments: the storage of pixels.
 //!
 //! *In* values of covered samples · *Out* images · *Space* window · *Precision* the format's.
 //!
@@ -10,9 +10,10 @@
 //!     block (64×64) ─▶ 256 packets ─▶ 1 or 4 samples ─▶ 16 lanes
 //! ```
 //!
-//! So a packet of 16 RGBA8 or depth values is one aligned 64-byte line, any aligned power-of-two
-//! tile is one contiguous slice, and safe `&mut` slices go to the workers. Row order was measured
-//! three times slower for filling (every packet touches four lines); it is made once, on read-back.
+//! A packet of 16 RGBA8 or depth values is therefore one aligned 64-byte line, any aligned
+//! power-of-two tile is one contiguous slice, and workers get safe `&mut` slices. Filling was
+//! measured three times slower with rows in memory, where every packet touches four lines; rows are
+//! made once, on read-back.
 
 mod depth_texture;
 mod detile;

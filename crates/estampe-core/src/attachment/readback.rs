@@ -13,24 +13,24 @@ pub enum ReadbackError {
     /// There is no such colour attachment.
     #[error("no colour attachment {index}: the target has {count}")]
     NoAttachment {
-        /// Which was asked for.
+        /// The requested index.
         index: usize,
-        /// How many there are.
+        /// The number of colour attachments.
         count: usize,
     },
     /// The memory for the image is too short or too long.
     #[error("{actual} bytes of memory for an image of {expected} bytes: see color_len_bytes")]
     Length {
-        /// How many bytes the image has.
+        /// The length of the image in bytes.
         expected: usize,
-        /// How many there are.
+        /// The length of the given memory in bytes.
         actual: usize,
     },
 }
 
 impl RenderTarget {
-    /// How many bytes a colour attachment has as rows of texels, one after the other without
-    /// padding: width · height · bytes of the format. Beyond the last attachment it is 0.
+    /// Returns the length in bytes of a colour attachment as rows of texels without padding
+    /// (width · height · bytes of the format); 0 if `index` is beyond the last attachment.
     #[must_use]
     pub fn color_len_bytes(&self, index: usize) -> usize {
         let formats = self.color_formats();

@@ -128,7 +128,8 @@ impl<'a> ResolveJob<'a> {
     }
 }
 
-/// How the samples of a format's texels become their mean. See `docs/NUMERICS.md`, *Resolve*.
+/// The method by which the samples of a texel are averaged, chosen by the format. See
+/// `docs/NUMERICS.md`, *Resolve*.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Mean {
     /// Of 8-bit unorm channels, sums of integers.
@@ -140,7 +141,7 @@ pub(super) enum Mean {
     FourSrgb,
     /// Of any format.
     Any {
-        /// How texels are read and written.
+        /// The codec that reads and writes texels.
         codec: AttachmentCodec,
         /// Samples of a pixel.
         samples: usize,

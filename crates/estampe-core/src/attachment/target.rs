@@ -5,7 +5,7 @@ use crate::layout::{TileGrid, texel_words};
 use estampe_types::{Limits, Lines, TextureFormat};
 use std::sync::Arc;
 
-/// What a render target is made of.
+/// Describes a render target.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RenderTargetDescriptor {
     /// Width in pixels, from 1 on.
@@ -57,9 +57,9 @@ pub enum TargetError {
     /// Too many colour attachments.
     #[error("{count} colour attachments; the limit max_color_attachments is {limit}")]
     TooManyColors {
-        /// How many there are.
+        /// The number of colour attachments.
         count: usize,
-        /// How many there may be.
+        /// The largest number allowed.
         limit: u32,
     },
     /// A colour attachment with a format that cannot be drawn into.
@@ -69,7 +69,7 @@ pub enum TargetError {
         format.name()
     )]
     NotRenderable {
-        /// Which attachment.
+        /// The index of the colour attachment.
         index: usize,
         /// Its format.
         format: TextureFormat,
@@ -80,7 +80,7 @@ pub enum TargetError {
     /// The system has not enough memory.
     #[error("no memory for a render target of {bytes} bytes: make it smaller or use fewer samples")]
     OutOfMemory {
-        /// How much it would take.
+        /// The memory that the render target needs, in bytes.
         bytes: u64,
     },
 }
@@ -181,7 +181,7 @@ impl RenderTarget {
         self.descriptor.depth_stencil
     }
 
-    /// Whether there is a depth attachment.
+    /// Returns true if there is a depth attachment.
     #[must_use]
     pub fn has_depth(&self) -> bool {
         !self.depth.is_empty()
@@ -191,7 +191,7 @@ impl RenderTarget {
         DepthFormat::new(self.descriptor.depth_stencil)
     }
 
-    /// Whether there is a stencil attachment.
+    /// Returns true if there is a stencil attachment.
     #[must_use]
     pub fn has_stencil(&self) -> bool {
         !self.stencil.is_empty()
