@@ -2,7 +2,7 @@
 
 use estampe_simd::Lane;
 
-/// What a bin entry names.
+/// The primitives that one bin entry stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum BinEntry {
     /// Those triangles of a packet whose lanes are in the mask, in lane order.
@@ -23,10 +23,12 @@ pub(crate) struct Bins {
     unsorted: Vec<(u32, BinEntry)>,
     /// Sorted by tile; the entries of a tile in submission order.
     sorted: Vec<BinEntry>,
-    /// Where the entries of tile `first_tile + i` begin in `sorted`; one more than there are tiles.
+    /// The index in `sorted` of the first entry of tile `first_tile + i`; one element more than
+    /// there are tiles.
     starts: Vec<u32>,
     first_tile: u32,
-    /// Where the entries begin that may be merged: those of the packet that is being binned.
+    /// The index in `unsorted` of the first entry of the packet that is being binned: entries from
+    /// there on may be merged.
     mergeable_from: usize,
 }
 

@@ -23,7 +23,7 @@ pub(crate) struct ChunkRun {
 }
 
 impl ChunkRun {
-    /// Whether the run begins at or before the primitive of an entry.
+    /// Returns true if the run begins at or before the primitive of an entry.
     #[inline]
     fn begins_by(&self, entry: BinEntry) -> bool {
         match entry {
@@ -127,7 +127,8 @@ impl Chunk {
     }
 }
 
-/// How many elements a list of a chunk has. A chunk is cut long before it has 2³² of anything.
+/// Converts the length of a chunk's list. A chunk ends long before any of its lists has 2³²
+/// elements.
 #[inline(always)]
 pub(crate) fn number(len: usize) -> u32 {
     debug_assert!(
@@ -172,7 +173,7 @@ impl<'c> Iterator for RunsOfTile<'c> {
 /// of which hardly any reaches a given tile: asking each chunk took longer than drawing.
 #[derive(Debug, Default)]
 pub(crate) struct ChunkIndex {
-    /// Where each tile's chunks begin; one more than there are tiles.
+    /// The index in `chunks` of each tile's first chunk; one element more than there are tiles.
     starts: Vec<u32>,
     chunks: Vec<u32>,
 }

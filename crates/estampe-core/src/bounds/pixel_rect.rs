@@ -42,7 +42,7 @@ impl PixelRect {
         }
     }
 
-    /// Whether there are no pixels.
+    /// Returns true if the rectangle contains no pixels.
     pub(crate) fn is_empty(&self) -> bool {
         self.x0 >= self.x1 || self.y0 >= self.y1
     }

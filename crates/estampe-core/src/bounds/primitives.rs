@@ -23,7 +23,7 @@ pub(crate) struct TrianglePacket {
     /// Snapped positions in 1/256 pixel.
     pub(crate) x: [[i32; LANES]; 3],
     pub(crate) y: [[i32; LANES]; 3],
-    /// Where the varyings are.
+    /// References to the vertices' varyings.
     pub(crate) vertex: [[VertexRef; LANES]; 3],
     /// The vertex that flat varyings come from.
     pub(crate) provoking: [VertexRef; LANES],
@@ -41,7 +41,7 @@ pub(crate) struct TrianglePacket {
     pub(crate) front: u16,
     /// Bit by lane: the three 1/w are equal in bits.
     pub(crate) equal_w: u16,
-    /// How many lanes are used.
+    /// The number of lanes in use.
     pub(crate) len: u16,
 }
 
@@ -79,7 +79,9 @@ pub(crate) struct LinePrimitive {
     pub(crate) ends: [WindowVertex; 2],
     pub(crate) provoking: VertexRef,
     pub(crate) front: bool,
-    /// How many fragments of its strip lie before it, where a stipple pattern counts them.
+    /// The phase of the stipple pattern at the line's start, if there is a pattern: the number of
+    /// fragments of its strip before the line, modulo the pattern's length; for rectangles in
+    /// 1/65536 pixel.
     pub(crate) stipple: u32,
 }
 
