@@ -4,8 +4,8 @@ use super::interpolate::PixelOffsets;
 use crate::raster::SampleSet;
 use estampe_simd::{LANES, Packet};
 
-/// Where centroid varyings are interpolated: at the centre where all samples are covered or none
-/// is, else at the covered sample of the lowest number.
+/// The positions at which centroid varyings are interpolated: the pixel's centre if all samples or
+/// none are covered, else the covered sample of the lowest number.
 pub(super) fn centroids<const N: usize>(masks: &[u16; N], samples: SampleSet<N>) -> PixelOffsets {
     let offsets = samples.offsets();
     let masks = &masks[..samples.count()];

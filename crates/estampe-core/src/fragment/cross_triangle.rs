@@ -1,7 +1,7 @@
 //! Varyings of sixteen small triangles, one fragment of each at a time.
 //!
-//! Where fragments need no neighbours, a packet need not be 4×4 pixels of one triangle: in a *row*
-//! lane `i` is a pixel of triangle `i`, and interpolation takes no more than it does for one
+//! If fragments need no neighbours, a packet need not be 4×4 pixels of one triangle: in a *row*,
+//! lane `i` is a pixel of triangle `i`, and interpolation costs no more than it does for one
 //! triangle.
 
 use super::interpolate::VaryingSource;
@@ -19,7 +19,7 @@ pub(crate) struct CrossFragments {
     pixels: [[i32; LANES]; PIXELS],
     /// By row: the lanes that have a fragment.
     pub(crate) lanes: [u16; PIXELS],
-    /// How many rows there are.
+    /// The number of rows.
     pub(crate) count: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Where a shaded packet's sixteen fragments belong: to one packet of the tile, or to four quads of
+//! The destination of a shaded packet's sixteen fragments: one packet of the tile, or four quads of
 //! different packets.
 
 use super::quad::{QUAD, QUADS};
@@ -19,7 +19,8 @@ impl Default for Place {
     }
 }
 
-/// How the packets of an attachment follow each other: a packet's samples, a sample's words.
+/// The order in which an attachment stores its packets: the samples of a packet follow each other,
+/// and so do the words of a sample.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PacketLayout {
     pub(crate) samples: usize,
@@ -28,7 +29,8 @@ pub(crate) struct PacketLayout {
 }
 
 impl PacketLayout {
-    /// Where one word of one sample of a packet is stored, counted in packets of sixteen words.
+    /// The index at which one word of one sample of a packet is stored, in packets of sixteen
+    /// words.
     #[inline(always)]
     pub(crate) fn line(self, packet: usize, sample: usize, word: usize) -> usize {
         (packet * self.samples + sample) * self.words + word

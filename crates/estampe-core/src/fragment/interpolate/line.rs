@@ -38,7 +38,8 @@ impl<'a> LineInterpolant<'a> {
         }
     }
 
-    /// How much of each pixel a rectangle covers, estimated with sixteen points.
+    /// The part of each pixel that the line's rectangle covers, from 0 to 1, estimated with sixteen
+    /// points; 1 if the line has no rectangle.
     pub(crate) fn coverage(&self, [x, y]: [i32; 2]) -> Packet<f32> {
         let rectangle = self
             .rectangle

@@ -14,11 +14,11 @@ pub(crate) struct TriangleInterpolant<'a> {
     pub(crate) origin: PlaneOrigin,
     pub(crate) z: Plane,
     pub(crate) iw: Plane,
-    /// Whether the three 1/w are equal in bits.
+    /// True if the three 1/w are equal in bits.
     pub(crate) equal_w: bool,
     pub(crate) planes: VaryingPlanes<'a>,
     pub(crate) modes: &'a [Interpolation],
-    /// Whether every varying is smooth, which needs no look at the modes.
+    /// True if every varying is smooth; `modes` is then not read.
     pub(crate) all_smooth: bool,
 }
 

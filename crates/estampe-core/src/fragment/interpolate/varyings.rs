@@ -14,7 +14,7 @@ pub(crate) struct VaryingSource<'a> {
     pub(crate) shaded: &'a [f32],
     /// Of the chunk's own, made by clipping.
     pub(crate) clipped: &'a [f32],
-    /// How each scalar is interpolated.
+    /// The interpolation of each scalar.
     pub(crate) modes: &'a [Interpolation],
 }
 
@@ -81,7 +81,7 @@ impl<'a> VaryingPlanes<'a> {
         scalars * 3
     }
 
-    /// What [`set_planes`] wrote.
+    /// Interprets the numbers that [`set_planes`] wrote.
     #[inline(always)]
     pub(crate) fn new(numbers: &'a [f32]) -> Self {
         let n = numbers.len() / 3;
@@ -94,7 +94,7 @@ impl<'a> VaryingPlanes<'a> {
         }
     }
 
-    /// How many there are.
+    /// The number of planes.
     #[inline(always)]
     pub(super) fn len(&self) -> usize {
         self.origin.len()

@@ -47,10 +47,10 @@ pub(crate) struct FragmentQueue<const N: usize> {
     targets: usize,
     /// Colours of a fragment: its targets', and the second one.
     colors_each: usize,
-    /// Whether colours are the varyings' first four scalars.
+    /// True if colours are the varyings' first four scalars.
     color_passthrough: bool,
     depth_output: DepthOutput,
-    /// Where each scalar is sampled; empty if all are at the centre.
+    /// The sampling of each scalar; empty if all are sampled at the centre.
     sampling: Vec<Sampling>,
     needs: Needs,
     places: [Place; CAPACITY],
@@ -82,7 +82,7 @@ struct Needs {
     sample_index: bool,
     coverage: bool,
     sample_mask: bool,
-    /// Whether the depth of each sample is kept for tests after shading.
+    /// True if the depth of each sample is kept for tests after shading.
     depth: bool,
     /// The range that depth is clamped to.
     depth_range: [f32; 2],
@@ -170,7 +170,7 @@ impl<const N: usize> FragmentQueue<N> {
         self.len >= CAPACITY
     }
 
-    /// Whether another quad finds no place.
+    /// Returns true if there is no room for another quad.
     #[inline(always)]
     pub(crate) fn is_full_of_quads(&self) -> bool {
         self.is_full() && self.begins_with_next_quad()

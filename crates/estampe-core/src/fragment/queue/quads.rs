@@ -116,7 +116,7 @@ impl<const N: usize> FragmentQueue<N> {
         }
     }
 
-    /// Whether the next quad begins a packet of its own.
+    /// Returns true if the next quad begins a new packet.
     #[inline(always)]
     pub(crate) fn begins_with_next_quad(&self) -> bool {
         self.open.is_none_or(|(_, quads)| quads >= QUADS)

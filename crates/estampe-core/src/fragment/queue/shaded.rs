@@ -79,7 +79,7 @@ pub(crate) struct ShadedBatch<'a> {
     /// By packet: four channels of each target, then of the second colour.
     colors: &'a [Packet<f32>],
     stride: usize,
-    /// Where the second colour begins.
+    /// The index of the second colour's first channel in a packet's colours.
     second: Option<usize>,
 }
 
