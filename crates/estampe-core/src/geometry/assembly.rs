@@ -9,7 +9,8 @@ use estampe_simd::LANES;
 use estampe_types::state::{PrimitiveTopology, ProvokingVertex};
 use estampe_types::{Buffer, IndexFormat};
 
-/// How many primitives `elements` elements make; an incomplete last one is dropped.
+/// Returns the number of primitives that `elements` elements make. An incomplete last one is
+/// dropped.
 pub(crate) fn primitive_count(topology: PrimitiveTopology, elements: u32) -> u32 {
     use PrimitiveTopology as T;
     match topology {
@@ -88,7 +89,7 @@ pub(crate) fn elements_of(topology: PrimitiveTopology, p: u32, elements: u32) ->
     }
 }
 
-/// How elements become vertices of a sub-draw.
+/// The state by which elements become vertices of a sub-draw.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ElementSource<'a> {
     pub(crate) topology: PrimitiveTopology,

@@ -237,7 +237,7 @@ impl TileEdges {
         }
     }
 
-    /// Whether no sample of the tile can be inside.
+    /// Returns true if no sample of the tile can be inside the triangle.
     fn miss(&self, column: i32, row: i32, tile_log2: u32) -> bool {
         let [first, last] = self.sample_range;
         let low = |tile: i32| i64::from((tile << (tile_log2 + 8)) + first);
@@ -274,8 +274,8 @@ mod tests {
         GeometryPlan::new(&state, &bias, &viewport, target)
     }
 
-    /// Whether a triangle whose vertices are in clockwise order has the centre of some pixel of a
-    /// tile strictly inside.
+    /// Returns true if the centre of some pixel of a tile is strictly inside a triangle whose
+    /// vertices are in clockwise order.
     fn holds_samples(corners: [[i64; 2]; 3], grid: TileGrid, tile: u32) -> bool {
         let (left, top) = grid.tile_origin(tile);
         let is_inside = |x: u32, y: u32| {

@@ -90,8 +90,8 @@ impl Plane {
     }
 }
 
-/// Whether all of some vertices lie outside one side of the view volume, near and far left out
-/// where depth is not clipped.
+/// Returns true if all the vertices lie outside one side of the view volume. Near and far are not
+/// tested where depth is not clipped.
 fn are_outside<'a>(
     transform: &ViewportTransform,
     vertices: impl Iterator<Item = &'a [f32]> + Clone,
@@ -115,7 +115,7 @@ fn are_outside<'a>(
 pub(crate) struct ClipPolygon {
     /// Floats of a vertex: x, y, z, w, the varyings and the clip distances.
     stride: usize,
-    /// How many of them are clip distances.
+    /// The number of clip distances among them.
     distances: usize,
     vertices: Vec<f32>,
     next: Vec<f32>,
@@ -212,7 +212,7 @@ fn is_in_guard_band(transform: &ViewportTransform, vertex: &[f32]) -> bool {
     vertex[3] > 0.0 && is_within_guard_band(projected.x, projected.y)
 }
 
-/// Whether a point is drawn: its centre lies inside the view volume.
+/// Returns true if a point is drawn: its centre lies inside the view volume.
 pub(crate) fn is_point_visible(transform: &ViewportTransform, position: [f32; 4]) -> bool {
     let [x, y, _, w] = position;
     (-w..=w).contains(&x) && (-w..=w).contains(&y) && transform.is_in_depth(position)

@@ -72,7 +72,7 @@ impl ClipDetour {
         }
     }
 
-    /// Whether some cull distance is negative at all of a primitive's vertices.
+    /// Returns true if some cull distance is negative at all of a primitive's vertices.
     pub(super) fn is_culled_by_distance(&mut self, work: &RunWork<'_>, corners: &[u32]) -> bool {
         let interface = work.source.pipeline.interface();
         // A bit for each distance; a pipeline has at most eight.
@@ -168,8 +168,8 @@ impl ClipDetour {
     }
 }
 
-/// Whether a triangle's box contains sample positions of the plan's rectangle; culling tests the
-/// same in lanes.
+/// Returns true if a triangle's box contains sample positions of the plan's rectangle; culling
+/// makes the same test in lanes.
 fn is_on_target(work: &RunWork<'_>, vertices: &[WindowVertex; 3]) -> bool {
     let rect = work.plan.rect;
     let [first, last] = work.plan.sample_range;

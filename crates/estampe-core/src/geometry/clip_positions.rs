@@ -12,13 +12,13 @@ use super::shading::{PACKET, ShadingScratch, VertexSource, shade_positions};
 use estampe_simd::{Lane, Level, Packet};
 use estampe_types::Interface;
 
-/// How many packets are kept: two rows of a mesh of a thousand columns.
+/// The number of packets kept: two rows of a mesh of a thousand columns.
 const KEPT: usize = 128;
 
 /// Memory of one worker.
 #[derive(Debug, Default)]
 pub(crate) struct PositionCache {
-    /// Which packet is in each place; empty until one is asked for.
+    /// The packet kept at each place; empty until the first one is requested.
     packets: Vec<Option<u32>>,
     positions: Vec<[Packet<f32>; 4]>,
     /// The clip distances, then the cull distances, of each place; empty where the program has

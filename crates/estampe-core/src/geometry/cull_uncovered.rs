@@ -90,8 +90,8 @@ mod tests {
     use super::*;
     use estampe_simd::{LANES, Level, dispatch};
 
-    /// Whether the triangle covers a sample, from the fill rule's words: inside of every edge, or
-    /// on one that is its top or left.
+    /// Returns true if the triangle covers a sample, from the wording of the fill rule: inside
+    /// every edge, or on an edge that is top or left.
     fn covers_any(mut corners: [[i64; 2]; 3]) -> bool {
         let area = |[[ax, ay], [bx, by], [cx, cy]]: [[i64; 2]; 3]| {
             (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)

@@ -2,10 +2,10 @@
 
 use estampe_types::state::{CullMode, FrontFace, PrimitiveState};
 
-/// Which signs of area face the viewer, and which are dropped.
+/// The signs of area that are front facing, and those that are culled.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Facing {
-    /// Whether triangles that are clockwise in the window (area > 0, y down) face the viewer.
+    /// True if triangles that are clockwise in the window (area > 0, y down) are front facing.
     pub(crate) clockwise_is_front: bool,
     pub(crate) drops_clockwise: bool,
     pub(crate) drops_counter_clockwise: bool,
@@ -26,7 +26,7 @@ impl Facing {
         }
     }
 
-    /// Whether a triangle of this doubled area is dropped.
+    /// Returns true if a triangle of this doubled area is dropped; area 0 always is.
     #[inline(always)]
     pub(crate) fn drops(self, doubled_area: i64) -> bool {
         match doubled_area.signum() {
@@ -36,7 +36,7 @@ impl Facing {
         }
     }
 
-    /// Whether a triangle of this doubled area faces the viewer.
+    /// Returns true if a triangle of this doubled area is front facing.
     #[inline(always)]
     pub(crate) fn is_front(self, doubled_area: i64) -> bool {
         (doubled_area > 0) == self.clockwise_is_front

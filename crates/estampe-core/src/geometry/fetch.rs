@@ -15,7 +15,7 @@ use estampe_simd::{
 };
 use estampe_types::Buffer;
 
-/// Which vertices a packet holds.
+/// The vertex and instance indices of a packet's lanes.
 #[derive(Debug, Default)]
 pub(crate) struct PacketIndex {
     pub(crate) vertex: Packet<u32>,
@@ -157,7 +157,7 @@ fn strided<S: Lanes>(s: S, rows: &[u32], stride: usize, is_single: bool) -> [u32
     components_of(s, &quads)
 }
 
-/// How many elements hold an attribute whole.
+/// Returns the number of elements that hold an attribute completely inside the buffer.
 #[inline(always)]
 fn whole_elements(source: &AttributeSource, buffer: &Buffer) -> u32 {
     let end = source.attribute.offset as usize + source.attribute.format.size_bytes();

@@ -25,7 +25,7 @@ pub(crate) struct PrimitiveGroups<'a> {
     has_pattern: bool,
 }
 
-/// How much one instance has.
+/// The size of one instance.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct InstanceSize {
     pub(crate) vertices: u32,

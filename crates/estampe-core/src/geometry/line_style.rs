@@ -1,4 +1,4 @@
-//! How lines are drawn (R3): which shape they have, and what a stipple pattern leaves out.
+//! Line rasterization (R3): the shape of lines, and the parts that a stipple pattern leaves out.
 //!
 //! ```text
 //!     Bresenham      columns of pixels (of a y-major line: rows), as many high as the line is wide
@@ -20,7 +20,7 @@ pub(crate) enum LineShape {
     Rectangle { width: f32, smooth: bool },
 }
 
-/// How a pipeline's lines are drawn.
+/// The shape and the stipple pattern of a pipeline's lines.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LineStyle {
     pub(crate) shape: LineShape,
@@ -42,12 +42,13 @@ impl LineStyle {
         Self { shape, stipple }
     }
 
-    /// Whether alpha is multiplied by what of a pixel is covered.
+    /// Returns true if alpha is multiplied by the covered part of the pixel.
     pub(crate) fn is_smooth(&self) -> bool {
         matches!(self.shape, LineShape::Rectangle { smooth: true, .. })
     }
 
-    /// How far from the line between the ends pixels may begin, in 1/256 pixel.
+    /// Returns the greatest distance from a line, between its ends, at which its pixels may begin,
+    /// in 1/256 pixel.
     pub(crate) fn reach(&self) -> i32 {
         match self.shape {
             LineShape::Columns { width } => 256 + (width - 1) * 128,
@@ -80,8 +81,8 @@ impl LineStyle {
         u32::try_from((u64::from(line.stipple) + advance) % period).unwrap_or(0)
     }
 
-    /// Whether the pattern shows a line's fragment of this number, counted from where the pattern
-    /// began.
+    /// Returns true if the pattern shows the fragment with this number, counted from the pattern's
+    /// beginning.
     pub(crate) fn shows(&self, fragment: u64) -> bool {
         self.stipple.is_none_or(|LineStipple { factor, pattern }| {
             let bit = fragment / u64::from(factor.max(1)) % 16;
@@ -89,14 +90,14 @@ impl LineStyle {
         })
     }
 
-    /// Whether the pattern shows a rectangle at a distance from its start, in 1/256 pixel.
+    /// Returns true if the pattern shows a rectangle at a distance, in 1/256 pixel, from its start.
     pub(crate) fn shows_at(&self, line: &LinePrimitive, distance: f32) -> bool {
         let phase = u64::from(line.stipple) + phases(distance * 256.0);
         self.shows(phase / PHASES_OF_A_PIXEL)
     }
 }
 
-/// How many phases of a stipple pattern a pixel of a rectangular line has.
+/// The number of phases of a stipple pattern in one pixel of a rectangular line.
 const PHASES_OF_A_PIXEL: u64 = 65_536;
 
 /// ⌊phases⌋, at least 0. Distances are below 2²⁶ in 1/256 pixel, so that 64 bits hold any.
@@ -117,7 +118,7 @@ fn whole_width(width: f32) -> i32 {
 /// A line along its major axis, in 1/256 pixel.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LineAxis {
-    /// Whether x is the major axis.
+    /// True if x is the major axis.
     pub(crate) x_major: bool,
     /// The start on the major and the minor axis.
     pub(crate) start: [i64; 2],
@@ -143,7 +144,7 @@ impl LineAxis {
         }
     }
 
-    /// The same line, moved along the minor axis.
+    /// Returns the line moved along the minor axis by `across`, in 1/256 pixel.
     pub(crate) fn moved(mut self, across: i64) -> Self {
         self.start[1] += across;
         self
@@ -224,7 +225,7 @@ impl LineRectangle {
         self.edges.iter().all(|[a, b, c]| a * x + b * y + c >= 0)
     }
 
-    /// How many of sixteen points of a pixel are inside: those of a grid of four by four.
+    /// Returns the number of points of a 4×4 grid in the pixel, 0 to 16, that are inside.
     pub(crate) fn sixteenths(&self, [x, y]: [i32; 2]) -> u32 {
         let point = |at: u32| {
             let [right, below] = [at % 4, at / 4].map(|step| step.cast_signed() * 64 + 32);
@@ -235,8 +236,8 @@ impl LineRectangle {
     }
 }
 
-/// How far along a line a point in 1/256 pixel is, times the line's length: the product of the way
-/// to it with the way to the end.
+/// The position of a point along a line, times the line's length: the dot product of the vectors
+/// from the line's start to the point and to its end. The point is in 1/256 pixel.
 pub(crate) fn along(line: &LinePrimitive, [x, y]: [i32; 2]) -> i64 {
     let [a, b] = &line.ends;
     let product = |at: i32, from: i32, to: i32| i64::from(at - from) * i64::from(to - from);

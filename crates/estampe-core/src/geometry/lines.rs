@@ -6,14 +6,14 @@ use super::run::RunWork;
 use super::setup::Setup;
 use crate::bounds::primitives::{LinePrimitive, VertexRef, WindowVertex};
 
-/// What a line or point has besides its vertices: values of its own, or those of the triangle that
-/// it outlines.
+/// The values of a line or point besides its vertices: its own, or those of the triangle that it
+/// outlines.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Outline {
     /// The vertex that flat varyings come from.
     pub(super) provoking: VertexRef,
     pub(super) front: bool,
-    /// What is added to its depth.
+    /// The value added to its depth.
     pub(super) bias: Option<f32>,
 }
 
@@ -107,7 +107,7 @@ impl LineWalk {
     }
 }
 
-/// Whether an instance's line of this number begins a stipple pattern.
+/// Returns true if the line of this number in an instance begins a stipple pattern.
 fn begins_strip(work: &RunWork<'_>, number: u32) -> bool {
     !work.is_line_strip || number == 0 || work.line_restarts.binary_search(&number).is_ok()
 }

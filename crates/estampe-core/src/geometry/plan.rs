@@ -11,7 +11,7 @@ use crate::pipeline::primitive_kind::{PrimitiveKind, kind_of};
 use estampe_types::TextureFormat;
 use estampe_types::state::{DepthBiasState, PolygonMode, PrimitiveState, Viewport};
 
-/// What a draw's geometry depends on besides its vertices. Each value stands here and nowhere else.
+/// The values that a draw's geometry depends on besides its vertices. Each is stored only here.
 #[derive(Debug, Clone)]
 pub(crate) struct GeometryPlan {
     pub(crate) kind: PrimitiveKind,
@@ -32,7 +32,7 @@ pub(crate) struct GeometryPlan {
     pub(crate) grid: TileGrid,
 }
 
-/// What [`GeometryPlan::new`] needs to know of a render target.
+/// The properties of a render target that [`GeometryPlan::new`] reads.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TargetGeometry {
     pub(crate) grid: TileGrid,
@@ -70,12 +70,12 @@ impl GeometryPlan {
         }
     }
 
-    /// Whether primitives are filled triangles, not lines or points.
+    /// Returns true if primitives are filled triangles, not lines or points.
     pub(crate) fn fills_triangles(&self) -> bool {
         self.kind == PrimitiveKind::Triangles && self.polygon_mode == PolygonMode::Fill
     }
 
-    /// Whether there is one sample for each pixel, at its centre.
+    /// Returns true if each pixel has one sample, at its centre.
     pub(crate) fn samples_centers(&self) -> bool {
         self.sample_range == [128; 2]
     }

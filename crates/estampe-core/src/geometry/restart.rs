@@ -12,12 +12,12 @@ use super::assembly::{corners_of, primitive_count, raw_index};
 use estampe_types::state::{PrimitiveTopology, ProvokingVertex};
 use estampe_types::{Buffer, IndexFormat};
 
-/// Where in a draw's elements the next primitive is looked for.
+/// The position in a draw's elements at which the search for the next primitive begins.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct RestartCursor {
     /// The next element, counted from the draw's first one.
     next: u32,
-    /// Where the run that it belongs to began.
+    /// The first element of the run that `next` belongs to, counted from the draw's first one.
     run_start: u32,
 }
 
@@ -34,12 +34,12 @@ pub(crate) struct RestartSource<'a> {
 }
 
 impl RestartCursor {
-    /// Whether no element has been looked at.
+    /// Returns true if no element has been examined yet.
     pub(crate) fn is_at_start(self) -> bool {
         self.next == 0
     }
 
-    /// Whether all elements have been looked at.
+    /// Returns true if all elements have been examined.
     pub(crate) fn is_done(self, source: &RestartSource<'_>) -> bool {
         self.next >= source.elements[1]
     }

@@ -14,9 +14,9 @@ pub(crate) struct RunWork<'a> {
     pub(crate) plan: &'a GeometryPlan,
     pub(crate) elements: ElementSource<'a>,
     pub(crate) vertices: SubDrawVertices<'a>,
-    /// Where the vertices came from, for those that are shaded again.
+    /// The source of the vertices, for those that are shaded again.
     pub(crate) source: VertexSource<'a>,
-    /// Whether each line goes on where the one before ended.
+    /// True if each line begins at the end of the line before it.
     pub(crate) is_line_strip: bool,
     /// Those lines of an instance that begin a strip after a restart, ascending.
     pub(crate) line_restarts: &'a [u32],

@@ -33,9 +33,9 @@ pub(crate) struct VertexSpan {
     pub(crate) first_varying: usize,
     /// Scalars of a vertex's varyings.
     pub(crate) varying_scalars: usize,
-    /// Whether clip-space positions are kept.
+    /// True if clip-space positions are kept.
     pub(crate) keeps_clip_positions: bool,
-    /// Whether the shader sets point sizes.
+    /// True if the shader sets point sizes.
     pub(crate) has_point_sizes: bool,
 }
 

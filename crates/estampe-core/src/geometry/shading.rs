@@ -23,7 +23,7 @@ const BATCH: usize = 2;
 #[expect(clippy::cast_possible_truncation, reason = "sixteen")]
 pub(crate) const PACKET: u32 = LANES as u32;
 
-/// Where a sub-draw's vertices come from: flat vertex `i` is vertex `i % count` of instance `i /
+/// The source of a sub-draw's vertices. Flat vertex `i` is vertex `i % count` of instance `i /
 /// count`.
 #[derive(Debug, Clone)]
 pub(crate) struct VertexSource<'a> {
@@ -43,7 +43,7 @@ pub(crate) struct VertexSource<'a> {
 }
 
 impl VertexSource<'_> {
-    /// How many flat vertices there are.
+    /// Returns the number of flat vertices.
     fn total(&self) -> u32 {
         self.count.saturating_mul(self.instances)
     }
@@ -79,7 +79,7 @@ struct ShadeBatch {
 }
 
 impl ShadeBatch {
-    /// How many packets the batch takes.
+    /// Returns the number of packets in the batch.
     #[inline(always)]
     fn packets(self) -> usize {
         (self.total - self.done).div_ceil(LANES).min(BATCH)

@@ -15,7 +15,8 @@ pub(crate) const GUARD_MAX: f32 = 24_575.0;
 /// The least w that is not clipped where depth is not.
 pub(crate) const LEAST_W: f32 = 1.0 / 1_048_576.0;
 
-/// Where depth is not clipped, that of a vertex is confined to so much, on either side of 0.
+/// The largest magnitude of a vertex's depth where depth is not clipped; the depth is clamped to
+/// it.
 const FARTHEST: f32 = 16_777_216.0;
 
 /// The viewport's constants, as `docs/NUMERICS.md` rounds them.
@@ -25,7 +26,7 @@ pub(crate) struct ViewportTransform {
     pub(crate) offset: [f32; 3],
     /// The range that depth is clamped to.
     pub(crate) depth_range: [f32; 2],
-    /// Whether depth is not clipped.
+    /// True if depth is not clipped.
     pub(crate) unclipped_depth: bool,
 }
 
@@ -83,8 +84,8 @@ impl ViewportTransform {
         }
     }
 
-    /// Whether a position lies between the planes that bound depth, or w where depth is not
-    /// clipped.
+    /// Returns true if a position lies between the planes that bound depth, or, where depth is not
+    /// clipped, if its w is at least [`LEAST_W`].
     pub(crate) fn is_in_depth(&self, [_, _, z, w]: [f32; 4]) -> bool {
         if self.unclipped_depth {
             w >= LEAST_W
@@ -136,14 +137,14 @@ impl ViewportTransform {
     }
 }
 
-/// Whether a window position lies within the guard band; false for NaN.
+/// Returns true if a window position lies within the guard band; false for NaN.
 pub(crate) fn is_within_guard_band(x: f32, y: f32) -> bool {
     (GUARD_MIN..=GUARD_MAX).contains(&x) && (GUARD_MIN..=GUARD_MAX).contains(&y)
 }
 
-/// A window coordinate in 1/256 pixel, half to even. Clipped vertices lie up to a pixel outside the
-/// guard band; the clamp stands for those that rounding put further, or that overflowed: NaN gives
-/// the least.
+/// Rounds a window coordinate to 1/256 pixel, half to even. Clipped vertices lie up to a pixel
+/// outside the guard band; the clamp is for those that rounding moved further, or that overflowed.
+/// NaN gives the least value.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the clamp keeps it below 2²³"
@@ -154,10 +155,11 @@ pub(crate) fn snap(coordinate: f32) -> i32 {
     (at_least.min(high) * 256.0).round_ties_even() as i32
 }
 
-/// The same for sixteen coordinates within the guard band; others give anything.
+/// Snaps sixteen coordinates within the guard band as [`snap`] does; the result for others is
+/// unspecified.
 ///
-/// `round_to_i32` is exact up to 2²² = 16384 pixels; greater values are multiples of ½, so 2²²
-/// comes off without rounding and goes back on as an integer.
+/// `round_to_i32` is exact up to 2²² = 16384 pixels. Greater values are multiples of ½, so 2²² is
+/// subtracted without rounding and added again as an integer.
 #[inline(always)]
 fn snap_lanes<S: Lanes>(s: S, coordinate: f32x16<S>) -> i32x16<S> {
     let scaled = coordinate * 256.0;
