@@ -13,7 +13,7 @@ pub(crate) type ColorLanes<S> = [f32x16<S>; 4];
 
 /// A blend equation, compiled into the loop that stores colours.
 pub(crate) trait BlendKernel: Copy {
-    /// Whether the stored colours are read.
+    /// Returns true if the stored colours are read.
     fn reads_stored(&self) -> bool;
 
     /// The colours to store.

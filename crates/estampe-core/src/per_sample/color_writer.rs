@@ -237,7 +237,7 @@ impl<C: Copy> Target<'_, C> {
         }
     }
 
-    /// Whether stored words are combined with new ones after blending.
+    /// Returns true if stored words are combined with new ones after blending.
     #[inline(always)]
     fn combines_words(&self) -> bool {
         self.writer.logic.is_some() || !self.writer.writes_all

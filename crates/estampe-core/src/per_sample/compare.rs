@@ -18,10 +18,10 @@ pub(crate) trait Comparable: Copy {
     fn is_greater_equal(self, other: Self) -> Self::Outcome;
 }
 
-/// Whether `new OP stored` holds.
+/// Evaluates `new OP stored`.
 ///
-/// The choice is made anew for every packet, where a branch predictor finds it: a copy of the loops
-/// for each of the eight comparisons, at every SIMD level, took the compiler minutes.
+/// The function is selected anew for every packet, where a branch predictor foresees it. A copy of
+/// the loops for each of the eight comparisons, at every SIMD level, took the compiler minutes.
 #[inline(always)]
 pub(crate) fn compare<T: Comparable>(function: CompareFunction, new: T, stored: T) -> T::Outcome {
     match function {
@@ -36,8 +36,8 @@ pub(crate) fn compare<T: Comparable>(function: CompareFunction, new: T, stored: 
     }
 }
 
-/// Whether a comparison orders depths, so that the order of drawing decides between equal depths
-/// alone.
+/// Returns true if a comparison orders depths, so that the order of drawing decides only between
+/// equal depths.
 #[inline(always)]
 pub(crate) fn orders(function: CompareFunction) -> bool {
     matches!(
@@ -49,7 +49,7 @@ pub(crate) fn orders(function: CompareFunction) -> bool {
     )
 }
 
-/// Whether smaller depths win.
+/// Returns true if smaller depths pass and larger ones do not.
 #[inline(always)]
 pub(crate) fn prefers_less(function: CompareFunction) -> bool {
     matches!(function, CompareFunction::Less | CompareFunction::LessEqual)

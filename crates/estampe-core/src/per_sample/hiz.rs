@@ -37,7 +37,7 @@ pub(crate) struct BlockClasses {
 }
 
 impl BlockClasses {
-    /// The same for all blocks, nothing being known of depths.
+    /// Creates the same classes for all blocks, where no depths are known.
     pub(crate) fn of_all(hidden: u16, certain: u16) -> Self {
         Self {
             hidden,
@@ -99,9 +99,9 @@ impl HierarchicalZ {
         dispatch!(level, s => self.classify_lanes::<_, N>(s, look, (compare, or_equal), stored))
     }
 
-    /// Whether no sample of a triangle can pass anywhere in the tile. A quick look at the plane's
-    /// nearest corner, for the many that something in front hides; false where bounds are out of
-    /// date.
+    /// Returns true if no sample of a triangle can pass anywhere in the tile. Tests only the
+    /// plane's nearest corner, which is quick for the many triangles that something in front hides.
+    /// Returns false where bounds are out of date.
     #[inline]
     pub(crate) fn hides<const N: usize>(&self, look: &HizQuery<'_, N>, or_equal: bool) -> bool {
         let Some(compare) = look.tests.depth.map(|state| state.compare) else {

@@ -18,7 +18,7 @@ pub(crate) struct SampleTests {
     pub(crate) bounds: Option<[f32; 2]>,
     pub(crate) stencil: Option<StencilTest>,
     pub(crate) depth: Option<DepthState>,
-    /// How depths are clamped and rounded before they are compared.
+    /// The clamp and rounding of depths before they are compared.
     pub(crate) stored: StoredDepth,
 }
 
@@ -30,19 +30,20 @@ pub(crate) struct StoredSamples<'a> {
 }
 
 impl SampleTests {
-    /// Whether there is nothing to test or write.
+    /// Returns true if there is nothing to test or write.
     #[inline(always)]
     pub(crate) fn is_empty(&self) -> bool {
         self.bounds.is_none() && self.stencil.is_none() && self.depth.is_none()
     }
 
-    /// Whether depth is all that is tested.
+    /// Returns true if depth is all that is tested: there is no depth-bounds test and no stencil
+    /// test.
     #[inline(always)]
     pub(crate) fn is_depth_alone(&self) -> bool {
         self.bounds.is_none() && self.stencil.is_none()
     }
 
-    /// Whether samples that pass store their depth.
+    /// Returns true if samples that pass store their depth.
     #[inline(always)]
     pub(crate) fn writes_depth(&self) -> bool {
         self.depth.is_some_and(|state| state.write_enabled)
@@ -141,11 +142,12 @@ impl SampleTests {
         passes
     }
 
-    /// Whether a fragment that fails the depth test now would fail after shading too, and leave
-    /// nothing behind (O9).
+    /// Returns true if a fragment that fails the depth test now would fail it after shading too,
+    /// and write nothing (O9).
     ///
-    /// Fragments that wait in the queue may have changed the stored depth by then, but only as the
-    /// comparison lets them: towards where fewer pass. (Not so for "not equal".)
+    /// Fragments that wait in the queue may have changed the stored depth by then, but only in the
+    /// direction that the comparison allows: towards depths at which fewer fragments pass. This
+    /// does not hold for "not equal".
     pub(crate) fn early_failure_is_final(&self) -> bool {
         let keeps = self
             .stencil

@@ -25,9 +25,9 @@ use estampe_simd::{
 pub(crate) struct ColorPlanes {
     origin: PlaneOrigin,
     channels: [Plane; 4],
-    /// Whether no value in the tile needs clamping.
+    /// True if no value in the tile needs clamping.
     is_in_range: bool,
-    /// Whether alpha is the same everywhere.
+    /// True if alpha is constant over the triangle.
     has_one_alpha: bool,
 }
 

@@ -37,7 +37,8 @@ impl StencilTest {
         }
     }
 
-    /// Whether failing the stencil test, or the depth test after it, leaves what is stored.
+    /// Returns true if the stored value is kept when the stencil test, or the depth test after it,
+    /// fails.
     pub(crate) fn failing_keeps(state: &StencilState) -> bool {
         use StencilOperation::Keep;
         [state.front, state.back]
@@ -166,7 +167,7 @@ mod tests {
             .to_array()
     }
 
-    /// Whether a reference passes against a stored value, from the definition.
+    /// Returns true if a reference passes against a stored value, by the definition.
     fn holds(function: CompareFunction, reference: u8, stored: u8) -> bool {
         match function {
             CompareFunction::Never => false,
