@@ -17,7 +17,7 @@ pub(crate) struct ColorTarget {
     pub(crate) logic: Option<LogicOperation>,
     /// The bits of a texel that may change.
     pub(crate) writable: [u32; MAX_WORDS],
-    /// Whether these are all of its bits.
+    /// True if these are all the bits of the texel.
     pub(crate) writes_all: bool,
 }
 
@@ -66,13 +66,13 @@ impl ColorTarget {
         TexelCodec::new(self.codec.format()).encode(color)
     }
 
-    /// Whether every channel of the source replaces what is stored.
+    /// Returns true if every channel of the source replaces the stored one.
     pub(crate) fn replaces(&self) -> bool {
         self.equation == Equation::Replace && self.logic.is_none() && self.writes_all
     }
 
-    /// Whether colours are blended *over* 8-bit unorm texels by straight alpha, all channels
-    /// written: the state of `per_sample::source_over`.
+    /// Returns true if colours are blended *over* 8-bit unorm texels by straight alpha and all
+    /// channels are written: the state of `per_sample::source_over`.
     pub(crate) fn is_source_over(&self) -> bool {
         let over = Over::new(&BlendState::ALPHA_BLENDING).map(Equation::Over);
         Some(self.equation) == over

@@ -18,9 +18,9 @@ pub enum PipelineError {
     /// Too many colour targets.
     #[error("the pipeline has {count} colour targets; the limit max_color_attachments is {limit}")]
     TooManyTargets {
-        /// How many there are.
+        /// The number of colour targets.
         count: usize,
-        /// How many there may be.
+        /// The largest number allowed.
         limit: u32,
     },
     /// The shader writes another number of targets than there are.
@@ -28,9 +28,9 @@ pub enum PipelineError {
         "the shader writes {shader} colour targets, the pipeline has {pipeline}: they must agree"
     )]
     TargetCount {
-        /// What the shader writes.
+        /// The number of colour targets that the shader writes.
         shader: usize,
-        /// What the pipeline has.
+        /// The number of colour targets in the pipeline.
         pipeline: usize,
     },
     /// A colour target has a format that cannot be drawn into.
@@ -40,7 +40,7 @@ pub enum PipelineError {
         format.name()
     )]
     NotRenderable {
-        /// Which target.
+        /// The index of the colour target.
         index: usize,
         /// Its format.
         format: TextureFormat,
@@ -51,7 +51,7 @@ pub enum PipelineError {
         format.name()
     )]
     NotBlendable {
-        /// Which target.
+        /// The index of the colour target.
         index: usize,
         /// Its format.
         format: TextureFormat,
@@ -67,9 +67,9 @@ pub enum PipelineError {
     /// Too many vertex buffers.
     #[error("the pipeline has {count} vertex buffers; the limit max_vertex_buffers is {limit}")]
     TooManyVertexBuffers {
-        /// How many there are.
+        /// The number of vertex buffers.
         count: usize,
-        /// How many there may be.
+        /// The largest number allowed.
         limit: u32,
     },
     /// A stride is too large.
@@ -78,11 +78,11 @@ pub enum PipelineError {
          max_vertex_buffer_array_stride is {limit}"
     )]
     StrideTooLarge {
-        /// Which buffer.
+        /// The index of the vertex buffer.
         buffer: usize,
-        /// Its stride.
+        /// Its stride in bytes.
         stride: u32,
-        /// How large it may be.
+        /// The largest stride allowed, in bytes.
         limit: u32,
     },
     /// An attribute reaches beyond its element.
@@ -91,13 +91,13 @@ pub enum PipelineError {
          beyond its stride of {stride}"
     )]
     AttributeBeyondStride {
-        /// Which buffer.
+        /// The index of the vertex buffer.
         buffer: usize,
         /// The shader location that it feeds.
         location: u32,
-        /// Where the attribute ends.
+        /// The end of the attribute in bytes from the element's beginning.
         end: u64,
-        /// The element's length.
+        /// The length of an element in bytes.
         stride: u32,
     },
     /// A shader location is fed twice.
@@ -111,23 +111,23 @@ pub enum PipelineError {
     LocationUnknown {
         /// The location.
         location: u32,
-        /// How many the shader has.
+        /// The number of locations that the shader reads.
         count: usize,
     },
     /// Too many attributes.
     #[error("the shader reads {count} attributes; the limit max_vertex_attributes is {limit}")]
     TooManyAttributes {
-        /// How many it reads.
+        /// The number of attributes that the shader reads.
         count: usize,
-        /// How many it may read.
+        /// The largest number allowed.
         limit: u32,
     },
     /// Too many clip or cull distances.
     #[error("the shader has {count} clip or cull distances; there are at most {limit} of each")]
     TooManyDistances {
-        /// How many it has.
+        /// The number of clip or cull distances.
         count: usize,
-        /// How many it may have.
+        /// The largest number of each allowed.
         limit: usize,
     },
     /// Too many varyings.
@@ -135,9 +135,9 @@ pub enum PipelineError {
         "the shader has {count} scalars of varyings; the limit max_inter_stage_scalars is {limit}"
     )]
     TooManyVaryings {
-        /// How many it has.
+        /// The number of scalars of varyings.
         count: usize,
-        /// How many it may have.
+        /// The largest number allowed.
         limit: u32,
     },
 }

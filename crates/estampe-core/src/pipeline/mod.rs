@@ -19,12 +19,12 @@ use estampe_types::{
 };
 use std::sync::Arc;
 
-/// What a pipeline is made of.
+/// Describes a render pipeline.
 #[derive(Debug, Clone)]
 pub struct RenderPipelineDescriptor {
     /// The vertex and fragment shader.
     pub program: Arc<dyn Program>,
-    /// How each vertex buffer of a draw lies. Default none.
+    /// The layout of each vertex buffer of a draw. Default none.
     pub vertex_buffers: Vec<VertexBufferLayout>,
     /// Topology, facing, culling. Default a triangle list, nothing culled.
     pub primitive: PrimitiveState,
@@ -32,15 +32,16 @@ pub struct RenderPipelineDescriptor {
     pub depth: Option<DepthState>,
     /// The stencil test, or none. Default none.
     pub stencil: Option<StencilState>,
-    /// What is added to the depth of triangles. Default nothing.
+    /// The bias added to the depth of triangles. Default nothing.
     pub depth_bias: DepthBiasState,
     /// Samples per pixel: 1, 2, 4, 8 or 16. Default 1.
     pub samples: u32,
     /// The samples that may change, bit by bit. Default all.
     pub sample_mask: u32,
-    /// Whether the alpha of target 0 says how many of a fragment's samples are kept. Default no.
+    /// True if the alpha of target 0 decides how many samples of a fragment are kept. Default
+    /// false.
     pub alpha_to_coverage: bool,
-    /// Whether fragments are shaded once for each sample, whatever the shader says. Default no.
+    /// True if fragments are shaded once for each sample, regardless of the shader. Default false.
     pub sample_shading: bool,
     /// A logic operation in place of blending, for all targets. Default none.
     pub logic_operation: Option<LogicOperation>,
@@ -74,18 +75,18 @@ impl RenderPipelineDescriptor {
     }
 }
 
-/// How an attribute is decoded.
+/// The routine that decodes an attribute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Decoding {
     Float32,
     Unorm8,
     Unorm16,
-    /// Anything else, and what several instances share: fetched out of the way of common
-    /// attributes.
+    /// Any other format, and attributes that several instances share. They are fetched apart from
+    /// the common attributes.
     Rare,
 }
 
-/// Where one attribute of the shader comes from.
+/// The buffer, layout and format that an attribute of the shader is read from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct AttributeSource {
     /// Index into the draw's vertex buffers.
@@ -141,7 +142,7 @@ impl RenderPipeline {
         })
     }
 
-    /// What it was made of.
+    /// Returns the descriptor from which the pipeline was made.
     #[must_use]
     pub fn descriptor(&self) -> &RenderPipelineDescriptor {
         &self.inner.descriptor
@@ -168,7 +169,7 @@ impl RenderPipeline {
         &self.inner.color_targets
     }
 
-    /// Whether two are clones of one pipeline.
+    /// Returns true if both are clones of one pipeline.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.inner, &other.inner)
     }
@@ -316,7 +317,7 @@ fn attribute_sources(
     sources.into_iter().enumerate().map(found).collect()
 }
 
-/// How an attribute of a format is decoded, if it does not step.
+/// Returns the decoding of a format, for attributes whose elements several instances do not share.
 fn decoding(format: VertexFormat) -> Decoding {
     match format {
         VertexFormat::Float32

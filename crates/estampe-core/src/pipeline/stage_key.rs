@@ -117,7 +117,8 @@ impl StageKey {
     }
 }
 
-/// Whether a stencil state tests nothing and writes nothing: then it is no stencil test.
+/// Returns true if a stencil state tests nothing and writes nothing, which counts as no stencil
+/// test.
 fn does_nothing(state: &StencilState) -> bool {
     [state.front, state.back].iter().all(|face| {
         // Where everything passes, the operation of failing does not happen.
