@@ -82,7 +82,7 @@ impl ChunkPlan {
         *open = OpenChunk::default();
     }
 
-    /// How many chunks there are.
+    /// The number of chunks.
     pub(crate) fn len(&self) -> usize {
         self.ends.len()
     }
@@ -98,7 +98,7 @@ impl ChunkPlan {
     }
 }
 
-/// How much the chunk that is being planned has.
+/// The numbers of primitives and runs in the chunk that is being planned.
 #[derive(Debug, Default)]
 struct OpenChunk {
     primitives: u32,

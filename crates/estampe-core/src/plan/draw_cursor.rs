@@ -20,7 +20,7 @@ const BATCH_BUDGET: usize = 2_000_000;
 /// begin on triangles that are not turned.
 const SUB_DRAW_PRIMITIVES: u32 = 1_000_000;
 
-/// How far a pass's draws have been cut into batches.
+/// The position in a pass's draws up to which they are cut into batches.
 #[derive(Debug)]
 pub(crate) struct DrawCursor<'a> {
     draws: std::slice::Iter<'a, Draw<'a>>,
@@ -39,7 +39,8 @@ struct OpenDraw<'a> {
     /// The primitives that are left in the instance at hand.
     primitives: Range<u32>,
     instances: Range<u32>,
-    /// Where indices may restart primitives: how far these were looked for in the instance at hand.
+    /// The position in the current instance at which the search for the next primitive begins,
+    /// where indices may restart primitives.
     restart: RestartCursor,
 }
 

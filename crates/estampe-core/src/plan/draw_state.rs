@@ -19,7 +19,7 @@ pub(crate) struct DrawState<'a> {
     pub(crate) geometry: GeometryPlan,
 }
 
-/// What a state was resolved from.
+/// The inputs from which a state was resolved.
 #[derive(Debug, Clone)]
 struct StateKey<'a> {
     pipeline: &'a RenderPipeline,
@@ -28,8 +28,8 @@ struct StateKey<'a> {
 }
 
 impl<'a> DrawState<'a> {
-    /// The state of a draw on a target that [it fits](super::pass_check); `None` if no pixel lies in
-    /// viewport, scissor and target.
+    /// The state of a draw on a target that [it fits](super::pass_check); `None` if no pixel lies
+    /// in viewport, scissor and target.
     pub(crate) fn resolve(draw: &Draw<'a>, target: &RenderTarget) -> Option<Self> {
         let (width, height) = (target.width(), target.height());
         let viewport = draw.viewport.unwrap_or(Viewport::of_target(width, height));
@@ -57,7 +57,7 @@ impl<'a> DrawState<'a> {
         })
     }
 
-    /// Whether a draw on the same target has this state.
+    /// Returns true if a draw on the same target has this state.
     pub(crate) fn is_of(&self, draw: &Draw<'_>) -> bool {
         let key = &self.key;
         std::ptr::eq(key.pipeline, draw.pipeline)

@@ -12,7 +12,7 @@ use estampe_types::{Buffer, IndexFormat};
 /// draw is bounded by it.
 pub(super) const MAX_WHOLE_ELEMENTS: u32 = 1 << 24;
 
-/// How much larger than its number of elements a draw's range of indices may be; beyond, vertices
+/// The largest ratio of a draw's range of indices to its number of elements; beyond it, vertices
 /// are shaded once for each element.
 const SPARSE_FACTOR: u64 = 4;
 
@@ -88,8 +88,8 @@ impl IndexRange {
     }
 }
 
-/// How many elements a draw has. Fans, loops and stippled strips cannot be cut into sub-draws, so
-/// that they end at [`MAX_WHOLE_ELEMENTS`].
+/// The number of elements of a draw. Fans, loops and stippled strips cannot be cut into sub-draws,
+/// so they end at [`MAX_WHOLE_ELEMENTS`].
 pub(super) fn element_count(draw: &Draw<'_>) -> u32 {
     let count = draw.elements.end.saturating_sub(draw.elements.start);
     if is_splittable(draw) {
@@ -102,13 +102,13 @@ pub(super) fn element_count(draw: &Draw<'_>) -> u32 {
 /// Elements of a primitive at most.
 const PRIMITIVE_ELEMENTS: u32 = 6;
 
-/// How many of a draw's elements can show anything, of those that [`element_count`] counts.
+/// The number of a draw's elements that can be visible, at most [`element_count`].
 ///
-/// Elements beyond the index buffer's end are all the same vertex, so that triangles and lines
-/// between them have no extent, whatever the shader does. A draw of 2³² indices over a small buffer
-/// thus ends at once. Points are not left out, because they are drawn, over one another. Neither
-/// are line loops, whose last line closes the loop, and draws with primitive restart, whose
-/// primitives nobody counts before they are assembled.
+/// Elements beyond the index buffer's end are all the same vertex, so triangles and lines between
+/// them have no extent, whatever the shader does. A draw of 2³² indices over a small buffer thus
+/// ends at once. Points are kept, because they are drawn, over one another. Line loops are kept
+/// because the last line closes the loop, and draws with primitive restart because their primitives
+/// are not counted before assembly.
 pub(super) fn visible_elements(draw: &Draw<'_>) -> u32 {
     let count = element_count(draw);
     let state = &draw.pipeline.descriptor().primitive;
@@ -131,8 +131,8 @@ pub(super) fn visible_elements(draw: &Draw<'_>) -> u32 {
     count.min(left.saturating_add(PRIMITIVE_ELEMENTS))
 }
 
-/// Whether a run of a draw's primitives is a run of elements of the same topology, drawn like any
-/// other.
+/// Returns true if a run of a draw's primitives is a run of elements of the same topology that can
+/// be drawn like any other.
 pub(super) fn is_splittable(draw: &Draw<'_>) -> bool {
     let topology = draw.pipeline.descriptor().primitive.topology;
     !matches!(
@@ -141,7 +141,7 @@ pub(super) fn is_splittable(draw: &Draw<'_>) -> bool {
     ) && !is_stippled_strip(draw)
 }
 
-/// Whether each line of a topology goes on where the one before ended.
+/// Returns true if each line of a topology begins at the end of the line before it.
 pub(super) fn is_line_strip(topology: PrimitiveTopology) -> bool {
     matches!(
         topology,

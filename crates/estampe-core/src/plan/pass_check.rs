@@ -80,7 +80,7 @@ pub enum RenderPassError {
         draw: usize,
         /// The query that it names.
         query: u32,
-        /// How many queries the pass has.
+        /// The number of queries in the pass.
         count: usize,
     },
     /// More load operations than colour attachments.
@@ -89,9 +89,9 @@ pub enum RenderPassError {
          drop those beyond"
     )]
     LoadColors {
-        /// How many operations there are.
+        /// The number of load operations.
         given: usize,
-        /// How many attachments there are.
+        /// The number of colour attachments.
         attachments: usize,
     },
 }

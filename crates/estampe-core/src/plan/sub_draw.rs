@@ -116,7 +116,7 @@ impl<'a> SubDraw<'a> {
         is_stippled_strip(self.draw).then_some(self.primitives)
     }
 
-    /// Where the vertices come from.
+    /// Returns the source of the vertices.
     pub(crate) fn vertex_source(&self) -> VertexSource<'_> {
         VertexSource {
             pipeline: self.draw.pipeline,

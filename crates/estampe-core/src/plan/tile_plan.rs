@@ -33,7 +33,7 @@ pub(crate) struct TilePlan<'a> {
     pub(crate) bindings: &'a Bindings,
     /// The varyings of its vertices.
     pub(crate) varyings: &'a [f32],
-    /// Where pixels may change.
+    /// The pixels that may change.
     pub(crate) rect: PixelRect,
     /// The viewport's samples, where its edges go through pixels.
     pub(crate) cut_samples: Option<SampleRect>,
@@ -44,11 +44,11 @@ pub(crate) struct TilePlan<'a> {
     pub(crate) line_style: &'a LineStyle,
     /// The occlusion query that counts its samples.
     pub(crate) query: Option<u32>,
-    /// Whether every varying is smooth.
+    /// True if every varying is smooth.
     pub(crate) all_smooth: bool,
 }
 
-/// What a plan takes from the target and the pass.
+/// The inputs of a plan that come from the target and the pass.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TargetFacts {
     pub(crate) level: Level,
@@ -58,7 +58,7 @@ pub(crate) struct TargetFacts {
     pub(crate) has_queries: bool,
 }
 
-/// What a plan takes from geometry.
+/// The inputs of a plan that come from geometry.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PlannedGeometry<'a> {
     pub(crate) bindings: &'a Bindings,
@@ -116,13 +116,13 @@ impl<'a> TilePlan<'a> {
         }
     }
 
-    /// Whether the order of submission matters for depth alone, between equal depths: nothing else
-    /// is written or counted before shading.
+    /// Returns true if depth is the only test and no query counts samples. The order of submission
+    /// then matters only between equal depths: nothing else is written or counted before shading.
     pub(crate) fn tests_depth_alone(&self) -> bool {
         self.tests.is_depth_alone() && self.query.is_none()
     }
 
-    /// Whether fragments of two plans may share a call of the program.
+    /// Returns true if fragments of both plans may share a call of the program.
     pub(crate) fn shades_like(&self, other: &Self) -> bool {
         std::ptr::eq(self.bindings, other.bindings)
             && self.pipeline.is_same(other.pipeline)
