@@ -31,7 +31,7 @@ struct Edge {
     a: i64,
     b: i64,
     c: i64,
-    /// What the lanes of a packet add.
+    /// The value that each lane of a packet adds to that of the packet's first pixel.
     lanes: [i64; LANES],
 }
 
@@ -149,7 +149,7 @@ impl ConservativeTriangle {
         }
     }
 
-    /// Whether a square of pixels lies outside an edge.
+    /// Returns true if a square of pixels lies outside an edge.
     #[inline(always)]
     fn misses(&self, x: i32, y: i32, size: i64) -> bool {
         let outside = |edge: &Edge| edge.at(x, y) + edge.growth(size) < 0;

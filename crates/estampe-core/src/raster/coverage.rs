@@ -25,7 +25,7 @@ impl<const N: usize> Covered<N> {
 }
 
 impl<const N: usize> Covered<N> {
-    /// How many samples are covered.
+    /// Returns the number of covered samples.
     #[inline(always)]
     pub(crate) fn count(&self) -> u64 {
         let counts = self.masks.iter().map(|mask| u64::from(mask.count_ones()));

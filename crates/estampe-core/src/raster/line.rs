@@ -183,7 +183,8 @@ fn cover_rectangle<const N: usize>(
     }
 }
 
-/// Whether no point of the packet of 4×4 pixels that begins with a pixel is inside.
+/// Returns true if no point of the packet of 4×4 pixels that begins at a pixel is inside the
+/// rectangle.
 fn misses(rectangle: &LineRectangle, pixel: [i32; 2]) -> bool {
     let [x, y] = pixel.map(|at| i64::from(at) * 256);
     rectangle.edges.iter().any(|[a, b, c]| {

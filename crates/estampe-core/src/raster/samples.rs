@@ -59,7 +59,7 @@ impl<const N: usize> SampleSet<N> {
         Self { count }
     }
 
-    /// How many samples there are: a constant but for the code that serves any number.
+    /// Returns the number of samples: a constant, except in the code that serves any number.
     #[inline(always)]
     pub(crate) fn count(self) -> usize {
         if N == MAX_SAMPLES {

@@ -64,7 +64,8 @@ impl SmallTriangles {
         u64::from(upper.cast_unsigned()) | u64::from(lower.cast_unsigned()) << 32
     }
 
-    /// Where a pixel of a lane's box is stored in its tile, if it is covered.
+    /// Returns the index in its tile at which a pixel of a lane's box is stored, if the pixel is
+    /// covered.
     #[inline(always)]
     pub(crate) fn place_of(&self, pixel: usize, lane: usize) -> usize {
         let (column, row) = (pixel % SIDE as usize, pixel / SIDE as usize % SIDE as usize);
@@ -205,7 +206,7 @@ fn edges<S: Lanes>(
     ]
 }
 
-/// How sixteen triangles are wound, and the first pixels' centres.
+/// The winding of sixteen triangles, and the centres of the first pixels.
 struct Winding<S: Lanes> {
     clockwise: mask32x16<S>,
     center: [i32x16<S>; 2],
@@ -239,7 +240,7 @@ impl<S: Lanes> Winding<S> {
     }
 }
 
-/// How many columns (or rows) the largest of some boxes has, given the spans less one.
+/// The number of columns (or rows) of the largest of some boxes; `span` holds one less of each.
 #[inline(always)]
 fn largest<S: Lanes>(s: S, span: i32x16<S>, among: mask32x16<S>) -> i32 {
     let mut count = 1;

@@ -43,7 +43,7 @@ impl TileShape {
         })
     }
 
-    /// Whether a rectangle in the tile's own pixels is all of it.
+    /// Returns true if a rectangle in the tile's own pixels is the whole tile.
     #[inline(always)]
     pub(crate) fn is_whole(self, local: &PixelRect) -> bool {
         let side = self.side();

@@ -80,7 +80,7 @@ impl<const N: usize> TileTriangle<N> {
         })
     }
 
-    /// How many packets the box touches.
+    /// The number of packets that the box touches.
     #[inline(always)]
     pub(crate) fn packets(&self) -> i32 {
         (self.columns[1] - self.columns[0]) * (self.rows[1] - self.rows[0])
@@ -223,7 +223,8 @@ impl<const N: usize> Edge<N> {
     }
 }
 
-/// What sixteen lanes add to an edge's value: `a·column + b·row` of each lane, one pixel apart.
+/// The values that sixteen lanes add to an edge's value: `a·column + b·row` of each lane, one pixel
+/// apart.
 struct EdgeLanes<S: Lanes> {
     pixel: [i32x16<S>; 3],
 }
