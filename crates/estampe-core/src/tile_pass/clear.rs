@@ -39,7 +39,7 @@ impl Clear {
         clear
     }
 
-    /// Whether nothing is cleared.
+    /// Returns true if there is nothing to clear.
     pub(crate) fn is_done(&self) -> bool {
         self.colors.iter().all(Option::is_none) && self.depth.is_none() && self.stencil.is_none()
     }

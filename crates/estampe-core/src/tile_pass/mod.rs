@@ -40,7 +40,7 @@ pub(crate) struct TilePass<'a> {
     /// By sub-draw.
     pub(crate) plans: &'a [TilePlan<'a>],
     pub(crate) chunks: &'a [Chunk],
-    /// Which of the chunks reach a tile.
+    /// The chunks that reach each tile.
     pub(crate) chunk_index: &'a ChunkIndex,
     /// The values that attachments are cleared to first.
     pub(crate) clear: Clear,
@@ -143,9 +143,9 @@ struct TileWork<'a> {
     samples: usize,
     queries: Option<&'a OcclusionQueries>,
     shape: TileShape,
-    /// Where pixels may change, in the tile's own pixels.
+    /// The pixels that may change, in the tile's own pixels.
     rect: PixelRect,
-    /// Whether that is all of the tile.
+    /// True if `rect` is the whole tile.
     is_whole: bool,
     /// The blocks of 16×16 pixels that lie in it, one bit each.
     blocks: u16,

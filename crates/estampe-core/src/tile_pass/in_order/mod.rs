@@ -139,11 +139,11 @@ struct InOrder<'a, 'j, 't, const N: usize> {
     samples: SampleSet<N>,
     source: VaryingSource<'a>,
     conservative: ConservativeMode,
-    /// Whether blocks that hierarchical z rejects are left out.
+    /// True if blocks that hierarchical z rejects are skipped.
     uses_hiz: bool,
-    /// Whether whole blocks of triangles without perspective are blended from their planes.
+    /// True if whole blocks of triangles without perspective are blended from their planes.
     blends_blocks: bool,
-    /// Whether quads of several triangles share packets.
+    /// True if quads of several triangles share packets.
     shares_packets: bool,
     /// Samples that passed all tests, where a query counts them.
     passed: u64,

@@ -20,7 +20,7 @@ use estampe_simd::{LANES, Lanes, SimdBase, dispatch, f32x16};
 pub(super) struct CrossTriangleScratch {
     planes: CrossPlanes,
     fragments: Box<CrossFragments>,
-    /// How many packets are shaded or queued in the run.
+    /// The number of packets shaded or queued in the run.
     packets: u32,
     /// Texels of shaded packets: by packet, word, lane.
     texels: Vec<[u32; LANES]>,
@@ -58,7 +58,7 @@ impl CrossTriangleScratch {
         }
     }
 
-    /// How many texels wait, about.
+    /// Returns the approximate number of texels that wait for the resolve.
     pub(super) fn texels(&self) -> usize {
         self.texels.len() * LANES
     }

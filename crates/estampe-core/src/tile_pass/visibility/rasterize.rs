@@ -63,7 +63,7 @@ pub(super) fn rasterize<const N: usize>(
     scratch.visibility.order = entry_order;
 }
 
-/// Where the ids of a sub-draw's triangles go.
+/// Returns the storage for the IDs of a sub-draw's triangles.
 pub(super) fn storage_of(plan: &TilePlan<'_>) -> IdStorage {
     if plan.path == TilePath::VisibilityDepthOnly {
         return IdStorage::None;
@@ -81,8 +81,8 @@ pub(super) struct Rasterizer<'a, 'j, 't, const N: usize> {
     pub(super) samples: SampleSet<N>,
     order: OrderKind,
     pub(super) storage: IdStorage,
-    /// Whether small triangles' fragments are shaded at once, one of each of sixteen triangles in a
-    /// packet.
+    /// True if fragments of small triangles are shaded immediately, in packets of one fragment of
+    /// each of sixteen triangles.
     pub(super) crosses_triangles: bool,
     /// Samples that passed all tests, where a query counts them.
     pub(super) passed: u64,
@@ -127,7 +127,7 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
         self.small(packet, run, (lanes, first));
     }
 
-    /// Whether triangles do not come in the order of submission.
+    /// Returns true if triangles are not in the order of submission.
     fn is_any_order(&self) -> bool {
         self.order == OrderKind::NearestFirst
     }

@@ -28,9 +28,9 @@ pub(super) struct VisibilityTriangle {
 }
 
 impl VisibilityTriangle {
-    /// Whether no depth in the tile needs clamping: the plane is monotone in x and in y, rounding
-    /// included, so its extremes are at corners. A depth at an end of the range counts as outside,
-    /// because of −0.
+    /// Returns true if no depth in the tile needs clamping. The plane is monotone in x and in y,
+    /// rounding included, so its extremes are at corners. A depth at an end of the range counts as
+    /// outside, because of −0.
     #[inline(always)]
     fn is_within(&self, tile: TileShape, [low, high]: [f32; 2]) -> bool {
         let DepthPlane { origin, z } = self.plane;
@@ -46,7 +46,7 @@ impl VisibilityTriangle {
     }
 }
 
-/// How samples are tested, as the compiler knows it: a copy of the loops for each.
+/// The kinds of sample test that are known at compile time, with a copy of the loops for each.
 mod test_kind {
     /// *Less* in order, with writes, depth alone: most draws.
     pub(super) const LESS: u8 = 0;
@@ -72,7 +72,7 @@ pub(super) struct VisibilityWriter<'a, const N: usize> {
     pub(super) passed: Option<&'a mut u64>,
 }
 
-/// Where a triangle's ids go.
+/// The storage of a triangle's IDs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum IdStorage {
     /// Fragments have no colours.
@@ -109,7 +109,7 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         }
     }
 
-    /// Where the depths and ids of a packet's sample are stored.
+    /// Returns the index of the line that stores the depths and IDs of a packet's sample.
     #[inline(always)]
     fn line_of(&self, packet: usize, sample: usize) -> usize {
         packet * self.samples.count() + sample
@@ -139,7 +139,7 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         }
     }
 
-    /// Whether the test is *less* of depth alone, with writes.
+    /// Returns true if the only test is *less* of depth, with writes.
     #[inline(always)]
     pub(super) fn tests_less_alone(&self) -> bool {
         let state = self.tests.depth;

@@ -118,9 +118,9 @@ struct Resolver<'a, 'j, 't, const N: usize> {
     storage: IdStorage,
     /// The state of the group at hand.
     plan: &'a TilePlan<'a>,
-    /// How each scalar of the varyings is interpolated.
+    /// The interpolation of each scalar of the varyings.
     modes: &'a [Interpolation],
-    /// Whether the run has one group: every sample that is left shows it.
+    /// True if the run has one group, which every remaining sample shows.
     is_only_group: bool,
     /// The tile's first pixel.
     origin: [i32; 2],
@@ -190,7 +190,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         self.scratch.visibility.resolve.packets = sets;
     }
 
-    /// Where the ids of a packet's sample are stored.
+    /// Returns the index of the line that stores the IDs of a packet's sample.
     #[inline(always)]
     fn line_of(&self, packet: usize, sample: usize) -> usize {
         packet * self.samples.count() + sample

@@ -18,12 +18,12 @@ pub(super) struct VisibleTriangle {
     iw: Plane,
     equal_w: bool,
     front: bool,
-    /// Where its varyings' planes begin.
+    /// The index of its first varying plane in the scratch's `planes`.
     planes: u32,
 }
 
 impl<const N: usize> Resolver<'_, '_, '_, N> {
-    /// Where a triangle is in `visible`; its planes are made when it is first met.
+    /// Returns a triangle's index in `visible`; its planes are made when it is first met.
     #[inline(always)]
     pub(super) fn visible<S: Lanes>(&mut self, s: S, id: u32) -> usize {
         let VisibilityScratch {

@@ -77,7 +77,7 @@ impl EntryOrder {
     }
 }
 
-/// Whether a triangle is higher and wider than a block of 16×16 pixels.
+/// Returns true if a triangle is wider and higher than a 16×16 block.
 fn is_large(packet: &TrianglePacket, lane: usize) -> bool {
     const BLOCK_SUBPIXELS: i32 = 16 * 256;
     let x = [packet.x[0][lane], packet.x[1][lane], packet.x[2][lane]];
