@@ -1,4 +1,4 @@
-//! What a caller records: draws, and the pass that they belong to.
+//! The commands that a caller records: draws, and the pass that they belong to.
 
 use crate::pipeline::RenderPipeline;
 use estampe_types::state::{ScissorRect, Viewport};
@@ -15,28 +15,29 @@ pub struct Draw<'a> {
     pub vertex_buffers: &'a [Buffer],
     /// The index buffer and the width of its indices, if vertices are to be found by index.
     pub indices: Option<(&'a Buffer, IndexFormat)>,
-    /// Which indices are drawn, or which vertices without an index buffer. Indices beyond the
+    /// The range of indices to draw, or of vertices if there is no index buffer. Indices beyond the
     /// buffer's end read zero.
     pub elements: Range<u32>,
-    /// Which instances are drawn. Default one.
+    /// The range of instances to draw. Default one.
     pub instances: Range<u32>,
     /// Added to every index. Default 0.
     pub base_vertex: i32,
     /// The resources that shaders find by number.
     pub bindings: Option<&'a Bindings>,
-    /// Where NDC lands. Default the whole target, depth 0..1.
+    /// The rectangle that NDC is mapped to, and the range of depths. Default the whole target,
+    /// depth 0..1.
     pub viewport: Option<Viewport>,
-    /// What pixels may change. Default all.
+    /// The rectangle of pixels that may change. Default all.
     pub scissor: Option<ScissorRect>,
     /// The constant of blending. Default zeros.
     pub blend_constant: [f32; 4],
-    /// The stencil reference where the front is seen and where the back is. Default zeros.
+    /// The stencil references of front-facing and back-facing primitives. Default zeros.
     pub stencil_reference: [u8; 2],
-    /// Fragments are drawn only where the *stored* depth lies in this range, both ends included.
-    /// (Vulkan's depth bounds test.) Default none.
+    /// The range, both ends included, in which the *stored* depth must lie for a sample to be drawn
+    /// (Vulkan's depth-bounds test). Default none.
     pub depth_bounds: Option<[f32; 2]>,
-    /// Which of the pass's [`OcclusionQueries`] counts the samples that pass all tests. Default
-    /// none.
+    /// The index of the pass's [`OcclusionQueries`] counter to which the samples that pass all
+    /// tests are added. Default none.
     pub occlusion_query: Option<u32>,
 }
 
@@ -61,21 +62,22 @@ impl<'a> Draw<'a> {
         }
     }
 
-    /// A draw whose ranges stand in a buffer, at an offset in bytes, as four 32-bit numbers
-    /// (WebGPU's `drawIndirect`): how many vertices, how many instances, the first vertex, the
-    /// first instance. Numbers beyond the buffer's end are zero.
+    /// A draw whose ranges are read from a buffer, at an offset in bytes, as four 32-bit numbers
+    /// (WebGPU's `drawIndirect`): the number of vertices, the number of instances, the first
+    /// vertex, the first instance. Numbers beyond the buffer's end are zero.
     ///
-    /// Of more than [`Draw::INDIRECT_LIMIT`] vertices, over all instances, those beyond are not
-    /// drawn, so that no buffer keeps a program busy for hours. Several draws of one buffer are
-    /// several calls.
+    /// Vertices beyond [`Draw::INDIRECT_LIMIT`], counted over all instances, are not drawn, so that
+    /// no buffer keeps a program busy for hours. For several draws of one buffer, call this several
+    /// times.
     #[must_use]
     pub fn indirect(pipeline: &'a RenderPipeline, parameters: &Buffer, offset: usize) -> Self {
         let [count, instances, first, first_instance, _] = indirect_words(parameters, offset);
         Self::limited(pipeline, [first, count], [first_instance, instances])
     }
 
-    /// The same with an index buffer, and five numbers (WebGPU's `drawIndexedIndirect`): how many
-    /// indices, how many instances, the first index, the base vertex, the first instance.
+    /// A draw like [`Draw::indirect`] with an index buffer. The buffer holds five numbers (WebGPU's
+    /// `drawIndexedIndirect`): the number of indices, the number of instances, the first index, the
+    /// base vertex, the first instance.
     #[must_use]
     pub fn indexed_indirect(
         pipeline: &'a RenderPipeline,
@@ -113,16 +115,16 @@ fn indirect_words(parameters: &Buffer, offset: usize) -> [u32; 5] {
     [0, 4, 8, 12, 16].map(|at| parameters.word_at(offset.saturating_add(at)))
 }
 
-/// What becomes of an attachment's old contents when a pass begins.
+/// The operation on an attachment's old contents when a pass begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LoadOp<T> {
-    /// They stay.
+    /// Keeps the old contents.
     Load,
-    /// They become this value.
+    /// Replaces them with this value.
     Clear(T),
 }
 
-/// Draws into one target, with what becomes of its old contents.
+/// Draws into one target, and the operations on its old contents.
 #[derive(Debug, Clone)]
 pub struct RenderPass<'a> {
     /// By colour attachment: linear RGBA, which the attachment's format stores as it stores a
@@ -133,7 +135,7 @@ pub struct RenderPass<'a> {
     pub load_depth: LoadOp<f32>,
     /// Of the stencil attachment.
     pub load_stencil: LoadOp<u8>,
-    /// Where draws count the samples that pass. Default nowhere.
+    /// The counters of samples that pass all tests. Default none.
     pub occlusion_queries: Option<&'a OcclusionQueries>,
     /// The draws, in order.
     pub draws: &'a [Draw<'a>],
@@ -152,8 +154,8 @@ impl Default for RenderPass<'_> {
     }
 }
 
-/// Counters of samples that pass all tests (O10); a draw names the one that it adds to. What is
-/// counted is exact, and does not depend on threads or the SIMD level.
+/// Counters of samples that pass all tests (O10); a draw names the one that it adds to. The counts
+/// are exact and do not depend on threads or the SIMD level.
 #[derive(Debug, Default)]
 pub struct OcclusionQueries {
     counters: Vec<AtomicU64>,
@@ -168,13 +170,14 @@ impl OcclusionQueries {
         }
     }
 
-    /// How many counters there are.
+    /// Returns the number of counters.
     #[must_use]
     pub fn count(&self) -> usize {
         self.counters.len()
     }
 
-    /// What a counter has counted in the passes drawn so far; 0 beyond the last one.
+    /// Returns the number of samples counted by a counter in the passes drawn so far; 0 if `query`
+    /// is beyond the last one.
     #[must_use]
     pub fn samples_passed(&self, query: u32) -> u64 {
         let counter = self.counters.get(query as usize);

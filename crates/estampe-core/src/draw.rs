@@ -25,7 +25,8 @@ use estampe_types::DepthTexture;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
-/// What draws need besides their data: threads, a SIMD level, and memory that is used again.
+/// The resources that draws need besides their data: threads, a SIMD level, and memory that is
+/// reused.
 #[derive(Debug)]
 pub struct Context {
     level: Level,
@@ -105,8 +106,8 @@ impl Context {
         }
     }
 
-    /// What each job took since the last call; nothing unless the context is made for
-    /// [profiling](Context::profiling).
+    /// Returns the time of each job since the last call, and clears it; empty unless the context
+    /// was made for [profiling](Context::profiling).
     #[must_use]
     pub fn take_timings(&self) -> Vec<JobTimings> {
         self.executor.take_timings()
@@ -118,7 +119,7 @@ impl Context {
         self.level
     }
 
-    /// How many threads draw.
+    /// Returns the number of threads that draw.
     #[must_use]
     pub fn threads(&self) -> usize {
         self.executor.threads()

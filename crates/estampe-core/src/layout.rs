@@ -1,11 +1,11 @@
-//! Which pixel is stored where.
+//! The storage order of pixels in attachments.
 
 use estampe_types::TextureFormat;
 
 /// Side of a storage block, in pixels.
 pub(crate) const BLOCK: u32 = 64;
 
-/// How a target is cut into the tiles of a pass.
+/// The division of a target into the tiles of a pass.
 ///
 /// A tile is 64×64 pixels for one sample and 32×32 for four, so that RGBA8 and depth fill 32 KiB.
 /// Tiles are numbered in storage order: tile `n` is the `n`-th slice of `tile_pixels() * samples`.
@@ -67,7 +67,7 @@ impl TileGrid {
         (x, y)
     }
 
-    /// Where the packet that holds a pixel is stored, counted in packets.
+    /// Returns the index at which the packet that holds a pixel is stored, in packets.
     #[inline]
     pub(crate) fn packet_of(self, x: u32, y: u32) -> usize {
         let block = (y / BLOCK) * self.blocks_x + x / BLOCK;

@@ -15,7 +15,7 @@ pub struct JobTimings {
     /// When the first job began. The work between the end of one list of jobs and the beginning of
     /// the next one is done by the calling thread alone, however many threads there are.
     pub start: Instant,
-    /// What each job took, in the order in which workers take them.
+    /// The duration of each job, in the order in which workers take them.
     pub jobs: Vec<Duration>,
 }
 

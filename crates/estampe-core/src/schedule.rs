@@ -18,18 +18,18 @@ pub(crate) struct Executor {
     profiler: Option<Profiler>,
 }
 
-/// Why there is no executor.
+/// The error returned if the thread pool cannot be created.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("the system gave no pool of {threads} threads: {reason}")]
 pub struct ThreadError {
-    /// How many were asked for.
+    /// The number of threads requested.
     pub threads: usize,
-    /// What the system said.
+    /// The system's error message.
     pub reason: String,
 }
 
-/// How many times each worker takes items, at least, where there are enough: the fewer, the less
-/// they wait for each other, and the later the last one ends.
+/// The least number of times that each worker takes items, if there are enough. A smaller
+/// number makes workers wait less for each other, and the last one end later.
 const TURNS: usize = 4;
 
 impl Executor {
@@ -64,13 +64,13 @@ impl Executor {
         }
     }
 
-    /// What each item took since the last call.
+    /// Returns the time of each item since the last call, and clears it; empty without profiling.
     pub(crate) fn take_timings(&self) -> Vec<JobTimings> {
         let profiler = self.profiler.as_ref();
         profiler.map(Profiler::take).unwrap_or_default()
     }
 
-    /// How many items run at once.
+    /// Returns the number of items that run at once.
     pub(crate) fn threads(&self) -> usize {
         let helpers = self.helpers.as_ref();
         1 + helpers.map_or(0, rayon::ThreadPool::current_num_threads)
@@ -147,8 +147,8 @@ fn wait_a_little(running: &AtomicUsize) {
     (0..PAUSES).for_each(|_| std::hint::spin_loop());
 }
 
-/// How often a worker that is done looks for the others, and how many pauses lie between: 50 µs in
-/// all.
+/// The number of times that a finished worker checks for the others, and the number of pauses
+/// between: 50 µs in all.
 const ROUNDS: usize = 128;
 const PAUSES: usize = 16;
 

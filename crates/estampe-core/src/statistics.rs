@@ -1,4 +1,4 @@
-//! What a pass did: counts of each stage and the time they took.
+//! The statistics of a pass: counts of each stage and the time that they took.
 
 use crate::tile_path::PathCounts;
 use std::time::Duration;

@@ -12,7 +12,7 @@
 use crate::pipeline::{RenderPipeline, StageKey};
 use estampe_simd::Level;
 
-/// How the primitives of a draw are drawn into tiles.
+/// The code path by which the primitives of a draw are drawn into tiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum TilePath {
@@ -79,7 +79,7 @@ impl TilePath {
         }
     }
 
-    /// Whether the path is one of visibility.
+    /// Returns true if the path is a visibility path.
     #[must_use]
     pub fn is_visibility(self) -> bool {
         matches!(
@@ -112,13 +112,13 @@ pub(crate) struct PathFacts {
     /// Samples of a pixel.
     pub(crate) samples: usize,
     pub(crate) level: Level,
-    /// Whether neither stencil nor depth bounds nor an occlusion query looks at its samples.
+    /// True if there is no stencil test, no depth-bounds test and no occlusion query.
     pub(crate) tests_depth_alone: bool,
-    /// Whether the viewport contains some samples of a pixel and not others.
+    /// True if the viewport contains some samples of a pixel and not others.
     pub(crate) cuts_samples: bool,
 }
 
-/// How many primitives took each path, counted once for each tile that they touch.
+/// The number of primitives that took each path, counted once for each tile that they touch.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct PathCounts([u64; TilePath::ALL.len()]);
 
