@@ -75,11 +75,21 @@ fn large_triangles_over_each_other() {
         ]),
         |random| {
             let mut case = target(random, [140, 75]);
-            for _ in 0..=random.below(2) {
-                let count = 2 + random.below(14);
+            // Large triangles are sorted over draws in a row that test depth in the same way.
+            let shared_depth = random.once_in(2).then(|| DepthState {
+                compare: random.pick(&ORDERED),
+                write_enabled: true,
+            });
+            let most = random.pick(&[2, 10]);
+            for _ in 0..=random.below(most) {
+                let count = 1 + random.below(14);
                 let mut vertices = triangles(random, Style::Large, case.size, count);
                 quantize(random, &mut vertices);
                 let mut draw = opaque(random, &vertices);
+                if shared_depth.is_some() && !random.once_in(6) {
+                    draw.depth = shared_depth;
+                    draw.is_counted = false;
+                }
                 if random.once_in(4) {
                     draw.scissor = Some(ScissorRect {
                         x: random.below(60),

@@ -56,7 +56,7 @@ pub(super) struct VisibilityScratch<const N: usize> {
     buffer: VisibilityBuffer<N>,
     small: SmallTriangles,
     cross: CrossTriangleScratch,
-    order: shortcuts::EntryOrder,
+    waiting: shortcuts::WaitingTriangles,
     resolve: ResolveScratch<N>,
 }
 
@@ -67,7 +67,7 @@ impl<const N: usize> Default for VisibilityScratch<N> {
             buffer: VisibilityBuffer::default(),
             small: SmallTriangles::default(),
             cross: CrossTriangleScratch::default(),
-            order: shortcuts::EntryOrder::default(),
+            waiting: shortcuts::WaitingTriangles::default(),
             resolve: ResolveScratch::default(),
         }
     }
@@ -85,14 +85,23 @@ pub(super) fn add<const N: usize>(
         resolve(pass, job, scratch);
     }
     scratch.visibility.list.set_samples(pass.sample_set());
+    let run = [work.number, work.sub_draw];
+    let buffer = &mut scratch.visibility.buffer;
+    let first = buffer.add(run, entries, pass.plans);
+    if shortcuts::may_wait(work, entries) {
+        if !scratch.visibility.waiting.add(work, entries, first) {
+            rasterize::rasterize_waiting(pass, job, scratch);
+            let added = scratch.visibility.waiting.add(work, entries, first);
+            debug_assert!(added, "as many as may wait fit an empty list");
+        }
+        return;
+    }
+    rasterize::rasterize_waiting(pass, job, scratch);
     let plan = work.plan;
     if plan.path == TilePath::VisibilityCrossTriangle {
-        scratch.queue.configure(
-            plan.pipeline,
-            pass.sample_set(),
-            plan.tests.stored.range,
-            false,
-        );
+        let range = plan.tests.stored.range;
+        let queue = &mut scratch.queue;
+        queue.configure(plan.pipeline, pass.sample_set(), range, false);
     }
-    rasterize::rasterize(pass, work, entries, job, scratch);
+    rasterize::rasterize(pass, (work, entries), first, job, scratch);
 }

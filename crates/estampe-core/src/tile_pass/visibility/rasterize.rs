@@ -14,53 +14,54 @@ use crate::tile_pass::{HIZ_PACKETS, TileJob, TilePass, TileScratch, TileWork};
 use crate::tile_path::TilePath;
 use estampe_simd::dispatch;
 
-/// Rasterizes the tile's triangles of one run of a chunk.
+/// Rasterizes the tile's triangles of one run of a chunk in the order of submission; `id` is the
+/// first one's.
 pub(super) fn rasterize<const N: usize>(
     pass: &TilePass<'_>,
-    work: &TileWork<'_>,
-    entries: &[BinEntry],
+    (work, entries): (&TileWork<'_>, &[BinEntry]),
+    mut id: u32,
     job: &mut TileJob<'_>,
     scratch: &mut TileScratch<N>,
 ) {
-    let mut entry_order = std::mem::take(&mut scratch.visibility.order);
-    let order = entry_order.sort(work, entries);
-    let mut id = scratch
-        .visibility
-        .buffer
-        .add([work.number, work.sub_draw], entries, pass.plans);
-    let path = work.plan.path;
-    let mut pass = Rasterizer {
-        work,
-        samples: pass.sample_set(),
-        order,
-        storage: storage_of(work.plan),
-        crosses_triangles: path == TilePath::VisibilityCrossTriangle,
-        passed: 0,
-        job,
-        scratch,
-    };
-    let entry_of = |entry: &BinEntry| match *entry {
-        BinEntry::Triangles { packet, lanes } => (packet, lanes),
-        _ => unreachable!("lines and points are drawn in order"),
-    };
-    if order == OrderKind::NearestFirst {
-        // Ids follow the order of submission, whatever that of rasterization.
-        for number in entry_order.numbers() {
-            let (packet, lanes) = entry_of(&entries[number as usize]);
-            pass.entry(packet, lanes, id + number);
-        }
-    } else {
-        for entry in entries {
-            let (packet, lanes) = entry_of(entry);
-            pass.entry(packet, lanes, id);
-            id += lanes.count_ones();
-        }
+    let mut rasterizer = Rasterizer::new(pass, work, OrderKind::Submission, job, scratch);
+    for entry in entries {
+        let BinEntry::Triangles { packet, lanes } = *entry else {
+            unreachable!("lines and points are drawn in order");
+        };
+        rasterizer.entry(packet, lanes, id);
+        id += lanes.count_ones();
     }
-    pass.flush_cross_triangle();
+    rasterizer.flush_cross_triangle();
     if let (Some(queries), Some(query)) = (work.queries, work.plan.query) {
-        queries.add(query, pass.passed);
+        queries.add(query, rasterizer.passed);
     }
-    scratch.visibility.order = entry_order;
+}
+
+/// Rasterizes the large triangles that wait, nearest first. Their ids keep the order of
+/// submission.
+pub(super) fn rasterize_waiting<const N: usize>(
+    pass: &TilePass<'_>,
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    if scratch.visibility.waiting.is_empty() {
+        return;
+    }
+    let mut waiting = std::mem::take(&mut scratch.visibility.waiting);
+    let order = waiting.sort();
+    let mut work: Option<TileWork<'_>> = None;
+    for id in waiting.ids() {
+        let triangle = scratch.visibility.buffer.triangles[id as usize];
+        let run = [triangle.chunk, triangle.sub_draw];
+        let work = match &mut work {
+            Some(work) if [work.number, work.sub_draw] == run => work,
+            work => work.insert(TileWork::new(pass, run, job.tile)),
+        };
+        let mut rasterizer = Rasterizer::new(pass, work, order, job, scratch);
+        rasterizer.large_unless_hidden(triangle.packet, triangle.lane, id);
+    }
+    waiting.clear();
+    scratch.visibility.waiting = waiting;
 }
 
 /// Returns the storage for the IDs of a sub-draw's triangles.
@@ -90,18 +91,39 @@ pub(super) struct Rasterizer<'a, 'j, 't, const N: usize> {
     pub(super) scratch: &'j mut TileScratch<N>,
 }
 
-impl<const N: usize> Rasterizer<'_, '_, '_, N> {
-    /// Triangles of one packet; `id` is the first one's.
+impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
+    fn new(
+        pass: &TilePass<'_>,
+        work: &'a TileWork<'a>,
+        order: OrderKind,
+        job: &'j mut TileJob<'t>,
+        scratch: &'j mut TileScratch<N>,
+    ) -> Self {
+        Self {
+            work,
+            samples: pass.sample_set(),
+            order,
+            storage: storage_of(work.plan),
+            crosses_triangles: work.plan.path == TilePath::VisibilityCrossTriangle,
+            passed: 0,
+            job,
+            scratch,
+        }
+    }
+
+    /// The triangle of one lane, which is large.
+    fn large_unless_hidden(&mut self, packet: u32, lane: u8, id: u32) {
+        let packet = &self.work.chunk.triangles[packet as usize];
+        let lane = usize::from(lane);
+        let look = self.hiz_query(DepthPlane::new(packet, lane));
+        if !self.scratch.hiz.hides(&look, self.is_any_order()) {
+            self.large(packet, lane, id);
+        }
+    }
+
+    /// Triangles of one packet, small and large; `id` is the first one's.
     fn entry(&mut self, packet: u32, lanes: u16, mut id: u32) {
         let packet = &self.work.chunk.triangles[packet as usize];
-        if self.order != OrderKind::Submission {
-            let lane = lanes.trailing_zeros() as usize;
-            let look = self.hiz_query(DepthPlane::new(packet, lane));
-            if !self.scratch.hiz.hides(&look, self.is_any_order()) {
-                self.large(packet, lane, id);
-            }
-            return;
-        }
         let mut small = 0;
         if const { N == 1 } {
             let (tile, rect) = (self.work.shape, &self.work.rect);

@@ -10,7 +10,7 @@ mod visible;
 
 use super::buffer::ShadingGroup;
 use super::quads::Quads;
-use super::rasterize::storage_of;
+use super::rasterize::{rasterize_waiting, storage_of};
 use super::shortcuts::PrimitiveTexels;
 use super::writer::IdStorage;
 use super::{ONLY_WIDE, VisibilityScratch};
@@ -61,6 +61,7 @@ pub(in crate::tile_pass) fn resolve<const N: usize>(
     job: &mut TileJob<'_>,
     scratch: &mut TileScratch<N>,
 ) {
+    rasterize_waiting(pass, job, scratch);
     let VisibilityScratch {
         buffer,
         resolve,

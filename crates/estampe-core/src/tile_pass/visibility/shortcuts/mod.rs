@@ -5,13 +5,13 @@
 //! | shortcut | saves | without it |
 //! |---|---|---|
 //! | [`SinglePrimitiveBlocks`] | reading depths, and writing ids that are read again, in blocks of one triangle | `fill` 0.92 → 1.21 ms |
-//! | [`EntryOrder`] | depth tests of triangles that nearer ones hide: large triangles front to back | `fill` 16.9 → 1.3 ms with it |
+//! | [`WaitingTriangles`] | depth tests of triangles that nearer ones hide: large triangles front to back, over draws | `fill` 16.9 → 1.3 ms with it |
 //! | [`PrimitiveTexels`] | shading a triangle of one colour more than once | |
 
-mod entry_order;
 mod primitive_texels;
 mod single_primitive_blocks;
+mod waiting_triangles;
 
-pub(super) use entry_order::{EntryOrder, OrderKind};
 pub(super) use primitive_texels::PrimitiveTexels;
 pub(super) use single_primitive_blocks::SinglePrimitiveBlocks;
+pub(super) use waiting_triangles::{OrderKind, WaitingTriangles, may_wait};
