@@ -1,7 +1,6 @@
 //! The page on which the pipeline reads: what a draw is, and the order in which its stages run.
 
-use crate::attachment::resolve::ResolveJob;
-use crate::attachment::{ReadbackError, RenderTarget, ResolveError};
+use crate::attachment::RenderTarget;
 use crate::bounds::chunk::{Chunk, ChunkIndex};
 use crate::commands::{OcclusionQueries, RenderPass};
 use crate::geometry::chunk::{ChunkScratch, add_run};
@@ -21,7 +20,6 @@ use crate::schedule::{Executor, ThreadError};
 use crate::statistics::Statistics;
 use crate::tile_pass::{self, Clear, TileJob, TilePass, TileScratch};
 use estampe_simd::Level;
-use estampe_types::DepthTexture;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
@@ -177,49 +175,9 @@ impl Context {
         statistics
     }
 
-    /// Writes the mean of each pixel's samples to a target of one sample, of the same size and with
-    /// the same colour formats.
-    ///
-    /// # Errors
-    /// [`ResolveError`] if the targets do not fit together; nothing is written then.
-    pub fn resolve(
-        &self,
-        from: &RenderTarget,
-        into: &mut RenderTarget,
-    ) -> Result<(), ResolveError> {
-        let mut jobs = ResolveJob::all(from, into)?;
-        let level = self.level;
-        self.executor
-            .for_each_alone(&mut jobs, |job| job.run(level));
-        Ok(())
-    }
-
-    /// A colour attachment's texels as [`RenderTarget::read_color_into`] gives them, by all
-    /// threads.
-    ///
-    /// # Errors
-    /// [`ReadbackError`] beyond the last attachment, or when the memory has another length.
-    pub fn read_color_into(
-        &self,
-        target: &RenderTarget,
-        index: usize,
-        image: &mut [u8],
-    ) -> Result<(), ReadbackError> {
-        let mut jobs: Vec<_> = target.color_jobs(index, image)?.collect();
-        let level = self.level;
-        self.executor
-            .for_each_alone(&mut jobs, |job| job.run(level));
-        Ok(())
-    }
-
-    /// The target's depth as a texture, without a copy; `None` without depth or with several
-    /// samples.
-    pub fn depth_texture(&self, target: &mut RenderTarget) -> Option<DepthTexture> {
-        let memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
-        target.depth_texture(|jobs| {
-            self.executor
-                .for_each(jobs, &memory.chunk_scratch, |job, _| job.run());
-        })
+    /// The threads.
+    pub(crate) fn executor(&self) -> &Executor {
+        &self.executor
     }
 
     /// Geometry, first half: every vertex of the batch is shaded once and taken to the window.
@@ -350,24 +308,24 @@ const VERTEX_CHUNK: usize = 4096;
 fn tile_jobs<'a>(target: &'a mut RenderTarget, jobs: &mut Vec<TileJob<'a>>) {
     let grid = target.grid();
     let elements = grid.tile_pixels() * target.samples() as usize;
-    let formats = target.descriptor.color_formats.iter();
     jobs.extend((0u32..).take(grid.tiles()).map(|tile| TileJob {
         tile,
         ..TileJob::default()
     }));
-    for (index, (colors, format)) in target.colors.iter_mut().zip(formats).enumerate() {
-        let elements = elements * texel_words(*format);
-        for (job, slice) in jobs.iter_mut().zip(colors.chunks_exact_mut(elements)) {
+    for (index, color) in target.colors.iter_mut().enumerate() {
+        let elements = elements * texel_words(color.format());
+        for (job, slice) in jobs.iter_mut().zip(color.words.chunks_exact_mut(elements)) {
             job.colors[index] = slice.as_chunks_mut().0;
         }
     }
-    for (job, slice) in jobs
-        .iter_mut()
-        .zip(target.stencil.chunks_exact_mut(elements))
-    {
+    let Some(texels) = &mut target.depth_stencil else {
+        return;
+    };
+    let stencil = texels.stencil.chunks_exact_mut(elements);
+    for (job, slice) in jobs.iter_mut().zip(stencil) {
         job.stencil = slice.as_chunks_mut().0;
     }
-    let depth = Arc::make_mut(&mut target.depth);
+    let depth = Arc::make_mut(&mut texels.depth);
     for (job, slice) in jobs.iter_mut().zip(depth.chunks_exact_mut(elements)) {
         job.depth = slice.as_chunks_mut().0;
     }

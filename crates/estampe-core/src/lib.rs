@@ -56,9 +56,11 @@ mod schedule;
 pub mod statistics;
 mod tile_pass;
 pub mod tile_path;
+mod transfer;
 
 pub use attachment::{
-    ReadbackError, RenderTarget, RenderTargetDescriptor, ResolveError, TargetError,
+    ColorTexels, DepthStencilTexels, ImageSize, ReadbackError, RenderTarget,
+    RenderTargetDescriptor, ResolveError, ResolveMode, TargetError, row_order_words,
 };
 pub use commands::{Draw, LoadOp, OcclusionQueries, RenderPass};
 pub use draw::Context;

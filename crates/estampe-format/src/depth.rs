@@ -46,6 +46,21 @@ impl FixedDepth {
         })
     }
 
+    /// The greatest code: 65535 or 16777215.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "an integer of 24 bits")]
+    pub const fn greatest_code(self) -> u32 {
+        self.most as u32
+    }
+
+    /// The code of a depth in 0..=1.
+    #[inline(always)]
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "an integer of 24 bits")]
+    pub fn code(self, depth: f32) -> u32 {
+        (depth * self.most).round_ties_even() as u32
+    }
+
     /// The number of a code.
     #[inline(always)]
     #[must_use]

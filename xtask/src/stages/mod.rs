@@ -53,6 +53,7 @@ const LAYERS: &[&[&str]] = &[
     // The modules that call the stages.
     &["plan", "schedule"],
     &["draw", "tile_pass"],
+    &["transfer"],
 ];
 
 /// The one module of the core that may name rayon.

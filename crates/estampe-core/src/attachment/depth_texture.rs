@@ -1,6 +1,6 @@
 //! A depth attachment as a texture: the same memory, and the bounds of its packets beside it.
 
-use super::RenderTarget;
+use super::texels::DepthStencilTexels;
 use crate::layout::BLOCK;
 use estampe_types::DepthTexture;
 use std::sync::Arc;
@@ -19,17 +19,17 @@ impl BoundsJob<'_> {
     }
 }
 
-impl RenderTarget {
-    /// The depth attachment as a texture, its bounds found by `run_all`; `None` without depth or
+impl DepthStencilTexels {
+    /// The depths as a texture, its bounds found by `run_all`; `None` without depth or
     /// with several samples.
     pub(crate) fn depth_texture(
         &mut self,
         run_all: impl FnOnce(&mut [BoundsJob<'_>]),
     ) -> Option<DepthTexture> {
-        if self.depth.is_empty() || self.samples() != 1 {
+        if self.depth.is_empty() || self.size.samples != 1 {
             return None;
         }
-        let (width, height) = (self.width(), self.height());
+        let (width, height) = (self.size.width, self.size.height);
         if Arc::get_mut(&mut self.depth_bounds).is_none() {
             self.depth_bounds = Arc::default();
         }

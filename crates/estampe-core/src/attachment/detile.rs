@@ -112,6 +112,11 @@ impl<'a> RowsJob<'a> {
             })
     }
 
+    /// The bytes of the rows.
+    pub(super) fn bytes_mut(&mut self) -> &mut [u8] {
+        self.rows
+    }
+
     /// Fills the rows.
     pub(crate) fn run(&mut self, level: Level) {
         match self.bytes_each {

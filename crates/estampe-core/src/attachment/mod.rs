@@ -19,9 +19,16 @@ mod depth_texture;
 mod detile;
 mod readback;
 pub(crate) mod resolve;
+pub(crate) mod resolve_depth;
+mod retile;
+pub(crate) mod row_order;
 mod target;
+mod texels;
 
 pub use readback::ReadbackError;
 pub use resolve::ResolveError;
+pub use resolve_depth::ResolveMode;
+pub use row_order::row_order_words;
 pub(crate) use target::format_names;
 pub use target::{RenderTarget, RenderTargetDescriptor, TargetError};
+pub use texels::{ColorTexels, DepthStencilTexels, ImageSize};

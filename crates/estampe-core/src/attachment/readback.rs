@@ -3,6 +3,7 @@
 use super::RenderTarget;
 use super::detile::{RowsJob, Selection, StoredTexels};
 use super::resolve::Mean;
+use super::texels::{ColorTexels, DepthStencilTexels};
 use crate::layout::texel_words;
 use estampe_simd::{LANE_X, LANE_Y, LANES, Level};
 
@@ -96,11 +97,10 @@ impl RenderTarget {
         sample: Option<usize>,
         image: &'a mut [u8],
     ) -> Result<impl Iterator<Item = RowsJob<'a>>, ReadbackError> {
-        let formats = self.color_formats();
-        let (Some(words), Some(&format)) = (self.colors.get(index), formats.get(index)) else {
+        let Some(texels) = self.colors.get(index) else {
             return Err(ReadbackError::NoAttachment {
                 index,
-                count: formats.len(),
+                count: self.colors.len(),
             });
         };
         let expected = self.color_len_bytes(index);
@@ -110,24 +110,7 @@ impl RenderTarget {
                 actual: image.len(),
             });
         }
-        let samples = self.samples() as usize;
-        let stored = StoredTexels {
-            words,
-            grid: self.grid,
-            words_each: texel_words(format),
-            samples,
-            selection: match sample {
-                Some(sample) => Selection::Sample(sample),
-                None => Selection::Mean(Mean::new(format, samples)),
-            },
-        };
-        let bytes_each = format.block_bytes() as usize;
-        Ok(RowsJob::all(
-            stored,
-            self.width() as usize,
-            bytes_each,
-            image,
-        ))
+        Ok(texels.rows_jobs(sample, image))
     }
 
     /// The depth attachment, row by row from the top; of several samples the first. Depths of
@@ -140,27 +123,69 @@ impl RenderTarget {
     /// The depths of one sample. Without depth, or beyond the last sample, it is empty.
     #[must_use]
     pub fn read_depth_sample(&self, sample: u32) -> Vec<f32> {
-        self.rows_of_sample(&self.depth, sample)
+        let texels = self.depth_stencil.as_ref();
+        texels.map_or(Vec::new(), |texels| texels.depth_rows(sample))
     }
 
     /// The stencil values of one sample, row by row from the top. Without stencil, or beyond the
     /// last sample, it is empty.
     #[must_use]
     pub fn read_stencil(&self, sample: u32) -> Vec<u8> {
+        let texels = self.depth_stencil.as_ref();
+        texels.map_or(Vec::new(), |texels| texels.stencil_rows(sample))
+    }
+}
+
+impl ColorTexels {
+    /// The jobs that fill rows of the format's bytes with one sample, or with the mean of all. The
+    /// image must have the right length.
+    pub(crate) fn rows_jobs<'a>(
+        &'a self,
+        sample: Option<usize>,
+        image: &'a mut [u8],
+    ) -> impl Iterator<Item = RowsJob<'a>> {
+        let samples = self.size.samples as usize;
+        let stored = StoredTexels {
+            words: &self.words,
+            grid: self.size.grid(),
+            words_each: texel_words(self.format),
+            samples,
+            selection: match sample {
+                Some(sample) => Selection::Sample(sample),
+                None => Selection::Mean(Mean::new(self.format, samples)),
+            },
+        };
+        let bytes_each = self.format.block_bytes() as usize;
+        RowsJob::all(stored, self.size.width as usize, bytes_each, image)
+    }
+}
+
+impl DepthStencilTexels {
+    /// The depths of one sample, row by row. Without depth, or beyond the last sample, it is empty.
+    #[must_use]
+    pub fn depth_rows(&self, sample: u32) -> Vec<f32> {
+        self.rows_of_sample(&self.depth, sample)
+    }
+
+    /// The stencil values of one sample, row by row. Without stencil, or beyond the last sample, it
+    /// is empty.
+    #[must_use]
+    pub fn stencil_rows(&self, sample: u32) -> Vec<u8> {
         self.rows_of_sample(&self.stencil, sample)
     }
 
     /// Rows of one value a pixel, packet by packet.
     fn rows_of_sample<T: Copy + Default>(&self, stored: &[T], sample: u32) -> Vec<T> {
-        if stored.is_empty() || sample >= self.samples() {
+        if stored.is_empty() || sample >= self.size.samples {
             return Vec::new();
         }
-        let (width, height) = (self.width(), self.height());
+        let (width, height) = (self.size.width, self.size.height);
         let mut rows = vec![T::default(); width as usize * height as usize];
-        let (samples, sample) = (self.samples() as usize, sample as usize);
+        let (samples, sample) = (self.size.samples as usize, sample as usize);
+        let grid = self.size.grid();
         for y in (0..height).step_by(4) {
             for x in (0..width).step_by(4) {
-                let first = (self.grid.packet_of(x, y) * samples + sample) * LANES;
+                let first = (grid.packet_of(x, y) * samples + sample) * LANES;
                 let packet = &stored[first..][..LANES];
                 for (lane, &value) in packet.iter().enumerate() {
                     let (x, y) = (x + u32::from(LANE_X[lane]), y + u32::from(LANE_Y[lane]));
@@ -198,7 +223,7 @@ mod tests {
         let mut target = RenderTarget::new(&descriptor, &Limits::default()).unwrap();
         let used = u32::MAX >> (32 - format.block_bytes().min(4) * 8);
         let mut state = size.0;
-        for word in target.colors[0].iter_mut() {
+        for word in target.colors[0].words.iter_mut() {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             *word = (state ^ state >> 16) & used;
         }
@@ -219,9 +244,9 @@ mod tests {
                     at == (x % 4, y % 4)
                 };
                 let lane = (0..LANES).find(is_here).unwrap();
-                let packet = target.grid.packet_of(x, y) * count;
+                let packet = target.grid().packet_of(x, y) * count;
                 let elements = LANES * words;
-                let texels = &target.colors[0][packet * elements..][..elements * count];
+                let texels = &target.colors[0].words[packet * elements..][..elements * count];
                 let words = match sample {
                     Some(sample) => texels[sample * elements..][..elements].to_vec(),
                     None => mean_words(codec, texels, count).as_flattened()[..elements].to_vec(),

@@ -3,6 +3,7 @@
 //! Both targets are made of the same packets in the same order: packet i of the image is the mean
 //! of the samples' lines of packet i. So the work is one pass over memory, cut anywhere.
 
+use super::texels::ColorTexels;
 use super::{RenderTarget, format_names};
 use crate::layout::texel_words;
 use crate::pipeline::color_target::MAX_WORDS;
@@ -97,22 +98,27 @@ impl<'a> ResolveJob<'a> {
         into: &'a mut RenderTarget,
     ) -> Result<Vec<Self>, ResolveError> {
         check(from, into)?;
-        let count = from.samples() as usize;
         let attachments = from.colors.iter().zip(&mut into.colors);
-        let attachments = attachments.zip(from.color_formats());
-        let jobs = attachments.flat_map(|((samples, pixels), format)| {
-            let elements = JOB_PACKETS * LANES * texel_words(*format);
-            let samples = samples.chunks(elements * count);
-            samples
-                .zip(pixels.chunks_mut(elements))
-                .map(move |(samples, pixels)| Self {
-                    samples,
-                    pixels,
-                    format: *format,
-                    count,
-                })
-        });
+        let jobs = attachments.flat_map(|(from, into)| Self::of_image(from, into));
         Ok(jobs.collect())
+    }
+
+    /// Cuts the resolving of one image into jobs. The images have the same width, height and
+    /// format, and the destination has one sample.
+    pub(crate) fn of_image(
+        from: &'a ColorTexels,
+        into: &'a mut ColorTexels,
+    ) -> impl Iterator<Item = Self> {
+        let (format, count) = (from.format, from.size.samples as usize);
+        let elements = JOB_PACKETS * LANES * texel_words(format);
+        let samples = from.words.chunks(elements * count);
+        let pixels = into.words.chunks_mut(elements);
+        samples.zip(pixels).map(move |(samples, pixels)| Self {
+            samples,
+            pixels,
+            format,
+            count,
+        })
     }
 
     /// Resolves the job's packets.

@@ -1,9 +1,9 @@
 //! A render target: colour attachments and a depth attachment of one size.
 
+use super::texels::{ColorTexels, DepthStencilTexels, ImageSize};
 use crate::depth_format::DepthFormat;
 use crate::layout::{TileGrid, texel_words};
-use estampe_types::{Limits, Lines, TextureFormat};
-use std::sync::Arc;
+use estampe_types::{Limits, TextureFormat};
 
 /// Describes a render target.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -91,114 +91,129 @@ pub(crate) fn format_names(formats: &[TextureFormat]) -> String {
     names.join(", ")
 }
 
-/// Colour and depth attachments of one size, cleared to zeros when made.
+/// The attachments of a pass: colours, depth and stencil of one size.
 #[derive(Debug, Clone)]
 pub struct RenderTarget {
-    pub(crate) descriptor: RenderTargetDescriptor,
-    pub(super) grid: TileGrid,
-    /// In storage order; a texel of each sample is one, two or four
-    /// [`words`](crate::layout::texel_words) of sixteen lanes. RGBA8 has R in the low byte.
-    pub(crate) colors: Vec<Lines<u32>>,
-    /// One element per sample, in storage order; empty without depth. Shared with the depth
-    /// textures that were taken of it; drawing while one lives draws into a copy.
-    pub(crate) depth: Arc<Lines<f32>>,
-    /// One byte per sample, in storage order; empty without stencil.
-    pub(crate) stencil: Lines<u8>,
-    /// Memory of the last depth texture's bounds, used again when that is gone.
-    pub(super) depth_bounds: Arc<Vec<u32>>,
+    size: ImageSize,
+    pub(crate) colors: Vec<ColorTexels>,
+    color_formats: Vec<TextureFormat>,
+    pub(crate) depth_stencil: Option<DepthStencilTexels>,
 }
 
 impl RenderTarget {
-    /// Makes a target.
+    /// Makes a target of zeros.
     ///
     /// # Errors
     /// [`TargetError`] names the rule that the descriptor breaks, or that memory is short.
     pub fn new(descriptor: &RenderTargetDescriptor, limits: &Limits) -> Result<Self, TargetError> {
         check(descriptor, limits)?;
-        let RenderTargetDescriptor {
-            width,
-            height,
-            samples,
-            ..
-        } = *descriptor;
-        let has_depth = descriptor
-            .depth_stencil
-            .is_some_and(TextureFormat::has_depth);
-        let grid = TileGrid::new(width, height, samples);
-        let elements = grid.stored_pixels() * samples as usize;
-        let has_stencil = descriptor
-            .depth_stencil
-            .is_some_and(TextureFormat::has_stencil);
-        let words = descriptor.color_formats.iter().map(|&f| texel_words(f));
-        let words_of_all = words.clone().sum::<usize>() + usize::from(has_depth);
-        let bytes_each = words_of_all as u64 * 4 + u64::from(has_stencil);
-        let error = TargetError::OutOfMemory {
-            bytes: (elements as u64).saturating_mul(bytes_each),
+        let size = ImageSize {
+            width: descriptor.width,
+            height: descriptor.height,
+            samples: descriptor.samples,
         };
-        let colors = words.map(|words| Lines::zeros(elements.checked_mul(words)?));
-        let colors: Option<Vec<_>> = colors.collect();
-        let colors = colors.ok_or_else(|| error.clone())?;
-        let depth = Lines::zeros(if has_depth { elements } else { 0 });
-        let depth = depth.ok_or_else(|| error.clone())?;
-        let stencil = Lines::zeros(if has_stencil { elements } else { 0 }).ok_or(error)?;
-        Ok(Self {
-            descriptor: descriptor.clone(),
-            grid,
+        let error = || {
+            let words = descriptor.color_formats.iter().map(|&f| texel_words(f));
+            let depth = descriptor.depth_stencil;
+            let words =
+                words.sum::<usize>() + usize::from(depth.is_some_and(TextureFormat::has_depth));
+            let stencil = depth.is_some_and(TextureFormat::has_stencil);
+            let bytes_each = words as u64 * 4 + u64::from(stencil);
+            TargetError::OutOfMemory {
+                bytes: (size.stored_samples() as u64).saturating_mul(bytes_each),
+            }
+        };
+        let formats = descriptor.color_formats.iter();
+        let colors: Option<Vec<_>> = formats
+            .map(|&format| ColorTexels::zeros(format, size))
+            .collect();
+        let depth_stencil = descriptor.depth_stencil;
+        let depth_stencil = depth_stencil
+            .map(|format| DepthStencilTexels::zeros(format, size).ok_or_else(error))
+            .transpose()?;
+        Ok(Self::of_images(
+            size,
+            colors.ok_or_else(error)?,
+            depth_stencil,
+        ))
+    }
+
+    /// A target of images of this size.
+    #[must_use]
+    pub fn of_images(
+        size: ImageSize,
+        colors: Vec<ColorTexels>,
+        depth_stencil: Option<DepthStencilTexels>,
+    ) -> Self {
+        debug_assert!(
+            colors.iter().all(|color| color.size == size)
+                && depth_stencil.iter().all(|depth| depth.size == size),
+            "attachments of different sizes"
+        );
+        Self {
+            size,
+            color_formats: colors.iter().map(|color| color.format).collect(),
             colors,
-            depth: Arc::new(depth),
-            stencil,
-            depth_bounds: Arc::default(),
-        })
+            depth_stencil,
+        }
+    }
+
+    /// The images of the target.
+    #[must_use]
+    pub fn into_images(self) -> (Vec<ColorTexels>, Option<DepthStencilTexels>) {
+        (self.colors, self.depth_stencil)
     }
 
     /// Width in pixels.
     #[must_use]
     pub fn width(&self) -> u32 {
-        self.descriptor.width
+        self.size.width
     }
 
     /// Height in pixels.
     #[must_use]
     pub fn height(&self) -> u32 {
-        self.descriptor.height
+        self.size.height
     }
 
     /// Samples per pixel.
     #[must_use]
     pub fn samples(&self) -> u32 {
-        self.descriptor.samples
+        self.size.samples
     }
 
     /// Formats of the colour attachments.
     #[must_use]
     pub fn color_formats(&self) -> &[TextureFormat] {
-        &self.descriptor.color_formats
+        &self.color_formats
     }
 
     /// The format of the depth and stencil attachment.
     #[must_use]
     pub fn depth_stencil_format(&self) -> Option<TextureFormat> {
-        self.descriptor.depth_stencil
+        self.depth_stencil.as_ref().map(|depth| depth.format)
     }
 
     /// Returns true if there is a depth attachment.
     #[must_use]
     pub fn has_depth(&self) -> bool {
-        !self.depth.is_empty()
+        let format = self.depth_stencil_format();
+        format.is_some_and(TextureFormat::has_depth)
     }
 
     pub(crate) fn depth_format(&self) -> DepthFormat {
-        DepthFormat::new(self.descriptor.depth_stencil)
+        DepthFormat::new(self.depth_stencil_format())
     }
 
     /// Returns true if there is a stencil attachment.
     #[must_use]
     pub fn has_stencil(&self) -> bool {
-        !self.stencil.is_empty()
+        let format = self.depth_stencil_format();
+        format.is_some_and(TextureFormat::has_stencil)
     }
 
     pub(crate) fn grid(&self) -> TileGrid {
-        self.grid
+        self.size.grid()
     }
 }
 

@@ -1,0 +1,152 @@
+//! Resolving depth and stencil: the samples of each pixel become one value (Vulkan's
+//! `VkResolveModeFlagBits`).
+
+use super::texels::DepthStencilTexels;
+use crate::depth_format::DepthFormat;
+use estampe_simd::LANES;
+use std::sync::Arc;
+
+/// The value of a pixel's samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum ResolveMode {
+    /// The first sample's.
+    #[default]
+    SampleZero,
+    /// The mean: the sum of the samples in order, divided by their number, in f32, rounded to the
+    /// format. Not of stencil.
+    Average,
+    /// The least.
+    Min,
+    /// The greatest.
+    Max,
+}
+
+/// A run of packets for one worker.
+#[derive(Debug)]
+pub(crate) struct ResolveDepthJob<'a> {
+    from: &'a [[f32; LANES]],
+    into: &'a mut [[f32; LANES]],
+    from_stencil: &'a [[u8; LANES]],
+    into_stencil: &'a mut [[u8; LANES]],
+    samples: usize,
+    format: DepthFormat,
+    modes: [Option<ResolveMode>; 2],
+}
+
+/// Packets of one job: a 64×64 block.
+const JOB_PACKETS: usize = 256;
+
+impl<'a> ResolveDepthJob<'a> {
+    /// Cuts the resolving of an image into jobs: of depth and of stencil, each by its mode, or not
+    /// at all. The images have the same width, height and format, and the destination has one
+    /// sample.
+    pub(crate) fn all(
+        from: &'a DepthStencilTexels,
+        into: &'a mut DepthStencilTexels,
+        modes: [Option<ResolveMode>; 2],
+    ) -> Vec<Self> {
+        let (samples, format) = (from.size.samples as usize, from.depth_format());
+        let count = from.size.stored_samples() / samples / LANES / JOB_PACKETS;
+        let mut depth = from.depth.as_chunks().0.chunks(JOB_PACKETS * samples);
+        let mut stencil = from.stencil.as_chunks().0.chunks(JOB_PACKETS * samples);
+        let to_depth = Arc::make_mut(&mut into.depth).as_chunks_mut().0;
+        let mut to_depth = to_depth.chunks_mut(JOB_PACKETS);
+        let to_stencil = into.stencil.as_chunks_mut().0;
+        let mut to_stencil = to_stencil.chunks_mut(JOB_PACKETS);
+        let jobs = (0..count).map(|_| Self {
+            from: depth.next().unwrap_or_default(),
+            into: to_depth.next().unwrap_or_default(),
+            from_stencil: stencil.next().unwrap_or_default(),
+            into_stencil: to_stencil.next().unwrap_or_default(),
+            samples,
+            format,
+            modes,
+        });
+        jobs.collect()
+    }
+
+    /// Resolves the job's packets.
+    pub(crate) fn run(&mut self) {
+        let [depth, stencil] = self.modes;
+        if let Some(mode) = depth {
+            let packets = self.from.chunks_exact(self.samples);
+            for (samples, to) in packets.zip(&mut *self.into) {
+                *to = match mode {
+                    ResolveMode::SampleZero => samples[0],
+                    ResolveMode::Min => fold(samples, f32::min),
+                    ResolveMode::Max => fold(samples, f32::max),
+                    ResolveMode::Average => {
+                        let sum = fold(samples, |a, b| a + b);
+                        sum.map(|sum| self.format.stored(sum / self.samples as f32))
+                    }
+                };
+            }
+        }
+        if let Some(mode) = stencil {
+            let packets = self.from_stencil.chunks_exact(self.samples);
+            for (samples, to) in packets.zip(&mut *self.into_stencil) {
+                *to = match mode {
+                    ResolveMode::SampleZero | ResolveMode::Average => samples[0],
+                    ResolveMode::Min => fold(samples, u8::min),
+                    ResolveMode::Max => fold(samples, u8::max),
+                };
+            }
+        }
+    }
+}
+
+/// Combines the samples of each lane, in order.
+fn fold<T: Copy>(samples: &[[T; LANES]], with: impl Fn(T, T) -> T) -> [T; LANES] {
+    let mut all = samples[0];
+    for sample in &samples[1..] {
+        for (all, value) in all.iter_mut().zip(sample) {
+            *all = with(*all, *value);
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::attachment::ImageSize;
+    use estampe_types::TextureFormat;
+
+    #[test]
+    fn each_mode_combines_a_pixels_samples() {
+        let format = TextureFormat::Depth24PlusStencil8;
+        let size = |samples| ImageSize {
+            width: 3,
+            height: 2,
+            samples,
+        };
+        let mut from = DepthStencilTexels::zeros(format, size(4)).unwrap();
+        let fixed = from.depth_format();
+        let depths = [0.5, 0.25, 1.0, 0.75].map(|depth| fixed.stored(depth));
+        for (packet, stencil) in from.stencil.chunks_exact_mut(LANES * 4).enumerate() {
+            let depth = &mut Arc::make_mut(&mut from.depth)[packet * LANES * 4..][..LANES * 4];
+            for sample in 0..4 {
+                depth[sample * LANES..][..LANES].fill(depths[sample]);
+                stencil[sample * LANES..][..LANES].fill([7, 9, 3, 5][sample]);
+            }
+        }
+        let mean = fixed.stored((depths[0] + depths[1] + depths[2] + depths[3]) / 4.0);
+        for (modes, depth, stencil) in [
+            ([ResolveMode::SampleZero; 2], depths[0], 7),
+            ([ResolveMode::Min; 2], depths[1], 3),
+            ([ResolveMode::Max; 2], depths[2], 9),
+            ([ResolveMode::Average, ResolveMode::Max], mean, 9),
+        ] {
+            let mut into = DepthStencilTexels::zeros(format, size(1)).unwrap();
+            let mut jobs = ResolveDepthJob::all(&from, &mut into, modes.map(Some));
+            jobs.iter_mut().for_each(ResolveDepthJob::run);
+            assert_eq!(into.depth_rows(0), [depth; 6], "{modes:?}");
+            assert_eq!(into.stencil_rows(0), [stencil; 6], "{modes:?}");
+        }
+        let mut into = DepthStencilTexels::zeros(format, size(1)).unwrap();
+        let mut jobs = ResolveDepthJob::all(&from, &mut into, [None, Some(ResolveMode::Min)]);
+        jobs.iter_mut().for_each(ResolveDepthJob::run);
+        assert_eq!(into.depth_rows(0), [0.0; 6]);
+        assert_eq!(into.stencil_rows(0), [3; 6]);
+    }
+}

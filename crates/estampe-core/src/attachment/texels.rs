@@ -1,0 +1,115 @@
+//! The texels of one image as attachments store them: one mip level of one layer of a texture.
+
+use crate::depth_format::DepthFormat;
+use crate::layout::{TileGrid, texel_words};
+use estampe_types::{Lines, TextureFormat};
+use std::sync::Arc;
+
+/// The size of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ImageSize {
+    /// Width in pixels, 1 to 16384.
+    pub width: u32,
+    /// Height in pixels, 1 to 16384.
+    pub height: u32,
+    /// Samples per pixel: 1, 2, 4, 8 or 16.
+    pub samples: u32,
+}
+
+impl ImageSize {
+    pub(super) fn grid(self) -> TileGrid {
+        TileGrid::new(self.width, self.height, self.samples)
+    }
+
+    /// The number of samples that are stored, with the padding to whole tiles.
+    pub(super) fn stored_samples(self) -> usize {
+        self.grid().stored_pixels() * self.samples as usize
+    }
+}
+
+/// A colour image in storage order.
+#[derive(Debug, Clone)]
+pub struct ColorTexels {
+    pub(super) format: TextureFormat,
+    pub(super) size: ImageSize,
+    /// A texel of each sample is one, two or four [`words`](crate::layout::texel_words) of sixteen
+    /// lanes. RGBA8 has R in the low byte, BGRA8 B.
+    pub(crate) words: Lines<u32>,
+}
+
+impl ColorTexels {
+    /// An image of zeros; `None` if memory is short. The format must be renderable.
+    #[must_use]
+    pub fn zeros(format: TextureFormat, size: ImageSize) -> Option<Self> {
+        debug_assert!(
+            format.is_renderable(),
+            "{} is not renderable",
+            format.name()
+        );
+        let words = size.stored_samples().checked_mul(texel_words(format))?;
+        Some(Self {
+            format,
+            size,
+            words: Lines::zeros(words)?,
+        })
+    }
+
+    /// The format of the texels.
+    #[must_use]
+    pub fn format(&self) -> TextureFormat {
+        self.format
+    }
+
+    /// The size of the image.
+    #[must_use]
+    pub fn size(&self) -> ImageSize {
+        self.size
+    }
+}
+
+/// A depth and stencil image in storage order; either of them may be missing.
+#[derive(Debug, Clone)]
+pub struct DepthStencilTexels {
+    pub(super) format: TextureFormat,
+    pub(super) size: ImageSize,
+    /// One element per sample; empty without depth. Shared with the depth textures that were taken
+    /// of it; drawing while one lives draws into a copy.
+    pub(crate) depth: Arc<Lines<f32>>,
+    /// One byte per sample; empty without stencil.
+    pub(crate) stencil: Lines<u8>,
+    /// Memory of the last depth texture's bounds, used again when that is gone.
+    pub(super) depth_bounds: Arc<Vec<u32>>,
+}
+
+impl DepthStencilTexels {
+    /// An image of zeros; `None` if memory is short. The format must have depth or stencil.
+    #[must_use]
+    pub fn zeros(format: TextureFormat, size: ImageSize) -> Option<Self> {
+        let samples = size.stored_samples();
+        let depth = if format.has_depth() { samples } else { 0 };
+        let stencil = if format.has_stencil() { samples } else { 0 };
+        Some(Self {
+            format,
+            size,
+            depth: Arc::new(Lines::zeros(depth)?),
+            stencil: Lines::zeros(stencil)?,
+            depth_bounds: Arc::default(),
+        })
+    }
+
+    /// The format of the texels.
+    #[must_use]
+    pub fn format(&self) -> TextureFormat {
+        self.format
+    }
+
+    /// The size of the image.
+    #[must_use]
+    pub fn size(&self) -> ImageSize {
+        self.size
+    }
+
+    pub(crate) fn depth_format(&self) -> DepthFormat {
+        DepthFormat::new(Some(self.format))
+    }
+}
