@@ -16,6 +16,11 @@ mod limits;
 pub mod model;
 mod warning;
 
+/// The README's snippet, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub use error::{AssetError, Fault, Location};
 pub use file::{read_bytes, read_stream};
 pub use limits::Limits;

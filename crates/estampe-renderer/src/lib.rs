@@ -31,6 +31,11 @@ mod scene_view;
 mod shading;
 mod surface_pipelines;
 
+/// The README's snippet, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub use alpha::composite_over;
 pub use camera::{CameraOptions, Eye, ProjectionKind, ViewDirection};
 pub use estampe::state::CullMode;

@@ -13,6 +13,11 @@ mod material;
 mod mesh;
 mod workers;
 
+/// The README's snippet, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
 pub use image::Image;

@@ -29,5 +29,10 @@ pub mod polygon;
 mod random_cases;
 pub mod teapot;
 
+/// The README's snippet, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub use builtin::{BuiltinShape, UnknownShape};
 pub use mesh::ShapeMesh;

@@ -31,6 +31,11 @@ pub mod readback;
 pub mod shaders;
 pub mod shared_edges;
 
+/// The snippet of the repository's README, compiled and run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
+
 pub use case::{Case, CaseDraw};
 pub use compare::{check, check_one, check_paths, check_some};
 pub use expected_paths::ExpectedPaths;

@@ -31,7 +31,7 @@ mod device;
 
 /// The README's snippet, compiled and run as a test.
 #[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
+#[doc = include_str!("../README.md")]
 struct Readme;
 
 /// The sRGB transfer function (IEC 61966-2-1) of 8-bit codes.
