@@ -75,9 +75,11 @@ enum Users {
 /// One row per dependency from outside.
 const OUTSIDE: &[(&str, Users)] = &[
     // Threads belong to the scheduler of the pipeline (see also the stage order).
-    ("rayon", Users::Only(&["estampe-core"])),
+    ("rayon-core", Users::Only(&["estampe-core"])),
     // Texels as words and as bytes, without a copy.
     ("bytemuck", Users::Only(&["estampe", "estampe-core"])),
+    // Sets of buffer and texture usages.
+    ("bitflags", Users::Only(&["estampe"])),
     // The one implementation of the lanes.
     ("fearless_simd", Users::Only(&["estampe-simd"])),
     // Matrices and vectors of applications. Lane code computes what reaches a pixel.

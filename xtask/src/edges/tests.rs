@@ -20,7 +20,7 @@ fn used_by_tests(package: &str) -> Vec<Dependency> {
 fn allowed_edges_pass() {
     for (name, dependencies) in [
         ("estampe-core", used("estampe-simd")),
-        ("estampe-core", used("rayon")),
+        ("estampe-core", used("rayon-core")),
         ("estampe-core", used_by_tests("fastrand")),
         ("estampe-renderer", used_by_tests("estampe-shapes")),
         ("estampe-tests", used("estampe-reference")),
@@ -39,7 +39,7 @@ fn forbidden_edges_fail() {
         ("estampe-types", "estampe-texture"),
         ("estampe-cli", "estampe-bench"),
         ("estampe-cli", "xtask"),
-        ("estampe-renderer", "rayon"),
+        ("estampe-renderer", "rayon-core"),
         ("estampe-renderer", "estampe-shapes"),
         ("estampe-core", "fearless_simd"),
         ("estampe-scene", "png"),
