@@ -3,7 +3,7 @@
 use crate::attachment::RenderTarget;
 use crate::bounds::chunk::{Chunk, ChunkIndex};
 use crate::commands::{OcclusionQueries, RenderPass};
-use crate::geometry::chunk::{ChunkScratch, add_run};
+use crate::geometry::chunk::{ChunkScratch, Neighbours, add_part};
 use crate::geometry::shaded_vertices::{ShadedVertices, VertexJob};
 use crate::geometry::shading::{ShadingScratch, shade};
 use crate::layout::texel_words;
@@ -154,7 +154,7 @@ impl Context {
                 break;
             }
             self.shade_vertices(&batch, memory);
-            let chunks = self.build_chunks(&batch, memory);
+            let chunks = self.build_chunks(&batch, target.samples() as usize, memory);
             statistics.geometry += start.elapsed();
             let start = Instant::now();
             statistics += self.draw_tiles(
@@ -200,7 +200,7 @@ impl Context {
 
     /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in
     /// chunks whose borders do not depend on the number of threads. Says how many chunks there are.
-    fn build_chunks(&self, batch: &DrawBatch<'_>, memory: &mut Memory) -> usize {
+    fn build_chunks(&self, batch: &DrawBatch<'_>, samples: usize, memory: &mut Memory) -> usize {
         memory.chunk_plan.build(&batch.sub_draws);
         let used = memory.chunk_plan.len();
         if memory.chunks.len() < used {
@@ -210,14 +210,25 @@ impl Context {
         let chunks = memory.chunks.iter_mut().zip(memory.chunk_plan.chunks());
         jobs.extend(chunks.map(|(chunk, parts)| ChunkJob { chunk, parts }));
         let vertices = &memory.vertices;
+        let level = self.level;
         self.executor
             .for_each(&mut jobs, &memory.chunk_scratch, |job, scratch| {
                 job.chunk.clear();
-                for part in job.parts {
+                let mut joins_last = false;
+                for (at, part) in job.parts.iter().enumerate() {
                     let sub_draw = &batch.sub_draws[part.sub_draw as usize];
+                    let next = job.parts.get(at + 1);
+                    let joins_next = next.is_some_and(|next| {
+                        batch.joins([part.sub_draw, next.sub_draw], level, samples)
+                    });
                     let (plan, vertices) = (batch.plan(sub_draw), vertices.of_span(&sub_draw.span));
-                    let work = sub_draw.run_work(self.level, plan, vertices, part.primitives);
-                    add_run(part.sub_draw, &work, job.chunk, scratch);
+                    let work = sub_draw.run_work(level, plan, vertices, part.primitives);
+                    let neighbours = Neighbours {
+                        joins_last,
+                        joins_next,
+                    };
+                    add_part(part.sub_draw, &work, neighbours, job.chunk, scratch);
+                    joins_last = joins_next;
                 }
                 job.chunk.bins.sort();
             });

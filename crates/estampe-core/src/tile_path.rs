@@ -91,6 +91,12 @@ impl TilePath {
         )
     }
 
+    /// Returns true if triangles of draws that differ in bindings and vertices alone may be
+    /// rasterized together: they are shaded afterwards, draw by draw.
+    pub(crate) fn joins_draws(self) -> bool {
+        self.is_visibility() && self != Self::VisibilityCrossTriangle
+    }
+
     /// The path's name, in words.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -3,19 +3,22 @@
 //! *In* primitives that are set up · *Out* for each tile, its primitives in submission order ·
 //! *Space* window.
 //!
-//! A [`Chunk`] holds *runs*: each is a sub-draw, or part of one, and its primitives. Several small
+//! A [`Chunk`] holds *parts*: each is a sub-draw, or part of one, and its primitives. Several small
 //! draws share a chunk, so that its fixed costs (sorting bins, indexing tiles) are paid once for
-//! many draws. Primitives of two runs never share a packet. Runs follow one another in submission
-//! order, and so do the entries of a tile.
+//! many draws. Parts whose triangles tiles rasterize alike are one *run*, whose triangles share
+//! packets and entries of bins; primitives of two runs never do. Parts follow one another in
+//! submission order, and so do the entries of a tile.
 
 use super::bins::{BinEntry, Bins};
 use super::primitives::{LinePrimitive, PointPrimitive, TrianglePacket};
 use crate::statistics::Statistics;
+use estampe_simd::LANES;
 
-/// The primitives of one sub-draw in a chunk: from these first ones on up to those of the next run.
+/// The primitives of one sub-draw in a chunk, or of several that are rasterized alike: from these
+/// first ones on up to those of the next run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct ChunkRun {
-    /// The sub-draw's number in its batch.
+    /// The number of its first sub-draw in the batch.
     pub(crate) sub_draw: u32,
     first_packet: u32,
     first_line: u32,
@@ -32,6 +35,15 @@ impl ChunkRun {
             BinEntry::Point(point) => self.first_point <= point,
         }
     }
+}
+
+/// The triangles of one sub-draw in a chunk: from this first one on up to that of the next part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct ChunkPart {
+    /// Its place in the chunk's packets: 16 × the packet's number + the lane.
+    first_triangle: u32,
+    /// The sub-draw's number in its batch.
+    sub_draw: u32,
 }
 
 /// Packets of triangles whose memory outlives the chunk's contents: a packet is 1.3 KB, and to fill
@@ -71,6 +83,7 @@ impl std::ops::Deref for TrianglePackets {
 #[derive(Debug, Default)]
 pub(crate) struct Chunk {
     runs: Vec<ChunkRun>,
+    parts: Vec<ChunkPart>,
     pub(crate) triangles: TrianglePackets,
     pub(crate) lines: Vec<LinePrimitive>,
     pub(crate) points: Vec<PointPrimitive>,
@@ -85,6 +98,7 @@ impl Chunk {
     /// Forgets the contents and keeps the memory.
     pub(crate) fn clear(&mut self) {
         self.runs.clear();
+        self.parts.clear();
         self.triangles.clear();
         self.lines.clear();
         self.points.clear();
@@ -93,7 +107,7 @@ impl Chunk {
         self.statistics = Statistics::default();
     }
 
-    /// Begins the run of a sub-draw: primitives added from now on are that sub-draw's.
+    /// Begins a run with its first sub-draw.
     pub(crate) fn begin_run(&mut self, sub_draw: u32) {
         let [first_packet, first_line, first_point] =
             [self.triangles.len(), self.lines.len(), self.points.len()].map(number);
@@ -103,6 +117,29 @@ impl Chunk {
             first_line,
             first_point,
         });
+    }
+
+    /// Begins the primitives of a sub-draw in the last run, before which `waiting` triangles come
+    /// that are in no packet yet.
+    pub(crate) fn begin_part(&mut self, sub_draw: u32, waiting: usize) {
+        self.parts.push(ChunkPart {
+            first_triangle: number(self.triangles.len() * LANES + waiting),
+            sub_draw,
+        });
+    }
+
+    /// The sub-draws of triangles from a lane of a packet on.
+    pub(crate) fn sub_draws_from(&self, packet: u32, lane: u32) -> SubDrawCursor<'_> {
+        let triangle = triangle_number(packet, lane);
+        let begun = self
+            .parts
+            .partition_point(|part| part.first_triangle <= triangle);
+        let (before, later) = self.parts.split_at(begun);
+        let part = before.last();
+        SubDrawCursor {
+            sub_draw: part.map_or(0, |part| part.sub_draw),
+            later,
+        }
     }
 
     /// Fills the clipped varyings up to a whole number of vertices of `stride` scalars, and says
@@ -138,6 +175,13 @@ pub(crate) fn number(len: usize) -> u32 {
     u32::try_from(len).unwrap_or(u32::MAX)
 }
 
+/// A triangle's place in the packets of a chunk.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "sixteen")]
+fn triangle_number(packet: u32, lane: u32) -> u32 {
+    packet.wrapping_mul(LANES as u32).wrapping_add(lane)
+}
+
 /// See [`Chunk::runs_of_tile`].
 #[derive(Debug, Clone)]
 pub(crate) struct RunsOfTile<'c> {
@@ -166,6 +210,28 @@ impl<'c> Iterator for RunsOfTile<'c> {
         let (entries, rest) = self.entries.split_at(len);
         self.entries = rest;
         Some((run.sub_draw, entries))
+    }
+}
+
+/// Finds the sub-draws of triangles in ascending order.
+#[derive(Debug, Clone)]
+pub(crate) struct SubDrawCursor<'c> {
+    sub_draw: u32,
+    /// The parts that begin after the last triangle.
+    later: &'c [ChunkPart],
+}
+
+impl SubDrawCursor<'_> {
+    /// The number of a triangle's sub-draw in its batch. The triangle is at or after the one before.
+    #[inline(always)]
+    pub(crate) fn of(&mut self, packet: u32, lane: u32) -> u32 {
+        let triangle = triangle_number(packet, lane);
+        while let Some((part, later)) = self.later.split_first()
+            && part.first_triangle <= triangle
+        {
+            (self.sub_draw, self.later) = (part.sub_draw, later);
+        }
+        self.sub_draw
     }
 }
 
@@ -253,6 +319,34 @@ mod tests {
         assert_eq!(runs(0), expected);
         assert_eq!(runs(1), [(7, vec![triangles(1)]), (11, vec![triangles(4)])]);
         assert!(runs(2).is_empty());
+    }
+
+    #[test]
+    fn triangles_of_a_packet_know_their_sub_draws() {
+        let mut chunk = Chunk::default();
+        chunk.begin_run(5);
+        // Two triangles of 5, none of 6, one of 7; 8 begins in this packet and fills the next.
+        for (sub_draw, waiting) in [(5, 0), (6, 2), (7, 2), (8, 3)] {
+            chunk.begin_part(sub_draw, waiting);
+        }
+        chunk.triangles.push_stale();
+        chunk.triangles.push_stale();
+        chunk.begin_run(9);
+        chunk.begin_part(9, 0);
+        chunk.triangles.push_stale();
+        let expected = |packet, lane| match (packet, lane) {
+            (0, 0..2) => 5,
+            (0, 2) => 7,
+            (0 | 1, _) => 8,
+            _ => 9,
+        };
+        let all = (0..3).flat_map(|packet| (0..16).map(move |lane| (packet, lane)));
+        let mut cursor = chunk.sub_draws_from(0, 0);
+        for (packet, lane) in all {
+            assert_eq!(cursor.of(packet, lane), expected(packet, lane));
+            let mut from_here = chunk.sub_draws_from(packet, lane);
+            assert_eq!(from_here.of(packet, lane), expected(packet, lane));
+        }
     }
 
     #[test]

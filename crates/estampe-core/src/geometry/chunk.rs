@@ -19,10 +19,18 @@ pub(crate) struct ChunkScratch {
     clip: ClipDetour,
 }
 
-/// Adds the primitives of a sub-draw to a chunk, as a run of their own.
-pub(crate) fn add_run(
+/// Whether the sub-draws before and after one in its chunk belong to the same run.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Neighbours {
+    pub(crate) joins_last: bool,
+    pub(crate) joins_next: bool,
+}
+
+/// Adds the primitives of a sub-draw to a chunk: to the last run, or as a run of their own.
+pub(crate) fn add_part(
     sub_draw: u32,
     work: &RunWork<'_>,
+    neighbours: Neighbours,
     chunk: &mut Chunk,
     scratch: &mut ChunkScratch,
 ) {
@@ -32,18 +40,20 @@ pub(crate) fn add_run(
         clip,
     } = scratch;
     let [from, to] = work.primitives;
-    chunk.begin_run(sub_draw);
+    if !neighbours.joins_last {
+        debug_assert_eq!(setup.waiting(), 0, "the run before was not finished");
+        chunk.begin_run(sub_draw);
+    }
+    chunk.begin_part(sub_draw, setup.waiting());
     chunk.statistics.primitives_in += u64::from(to - from);
     clip.begin();
-    let scalars = work.vertices.varying_scalars;
-    let window = work.vertices.window;
-    let mut setup = Setup::new(work.level, work.plan, window, scalars, chunk, setup);
+    let mut setup = Setup::new(work, chunk, setup);
     if work.plan.fills_triangles() {
         dispatch!(work.level, s => filled::draw(s, work, &mut setup, groups, clip));
     } else {
         add_lines_and_points(work, &mut setup, clip);
     }
-    setup.finish();
+    setup.finish(neighbours.joins_next);
 }
 
 /// Adds lines, points, and triangles that are drawn as these, one by one.

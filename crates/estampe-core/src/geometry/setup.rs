@@ -4,13 +4,15 @@
 //! *Precision* positions exact, planes f32 in the order of `docs/NUMERICS.md`.
 //!
 //! Triangles wait as vertex numbers until there are sixteen; then positions, depth and 1/w of their
-//! vertices are read and the planes of all computed together. Sorting by (y, x) first makes
-//! everything that follows independent of the order in which a triangle's vertices were given.
+//! vertices are read and the planes of all computed together. Those of several sub-draws wait
+//! together if tiles rasterize these alike. Sorting by (y, x) first makes everything that follows
+//! independent of the order in which a triangle's vertices were given.
 
 use super::binning::bin_packet;
 use super::cull::WindowTriangles;
 use super::cull_uncovered::cull_uncovered;
 use super::plan::GeometryPlan;
+use super::run::RunWork;
 use super::shaded_vertices::PackedVertex;
 use crate::bounds::chunk::{Chunk, number};
 use crate::bounds::plane::PlanePacket;
@@ -27,6 +29,8 @@ use estampe_simd::{
 struct Waiting {
     /// The vertices in sorted order, as [`VertexRef`]s.
     vertex: [[u32; 2 * LANES]; 3],
+    /// The number of the sub-draw's first vertex in the batch; 0 of triangles made by clipping.
+    first_vertex: [u32; 2 * LANES],
     /// The provoking vertex, which is never one made by clipping; with [`FRONT`] if the triangle
     /// faces the viewer.
     provoking: [u32; 2 * LANES],
@@ -46,13 +50,15 @@ pub(crate) struct SetupScratch {
     clipped: Vec<PackedVertex>,
 }
 
-/// Fills the packets of one run of a chunk, and bins them.
+/// Fills packets with one sub-draw's triangles in a chunk, and bins them.
 #[derive(Debug)]
 pub(crate) struct Setup<'a> {
     level: Level,
     plan: &'a GeometryPlan,
-    /// The sub-draw's vertices.
+    /// The vertices of the batch.
     window: &'a [PackedVertex],
+    /// The number of the sub-draw's first one.
+    first_vertex: u32,
     waiting: &'a mut Waiting,
     clipped: &'a mut Vec<PackedVertex>,
     /// The number of the first of `clipped` in the chunk.
@@ -68,26 +74,31 @@ pub(crate) struct SetupLanes<S: Lanes> {
     pub(crate) doubled_area: f32x16<S>,
 }
 
+impl SetupScratch {
+    /// Triangles of the run at hand that are in no packet yet.
+    pub(crate) fn waiting(&self) -> usize {
+        self.waiting.len
+    }
+}
+
 impl<'a> Setup<'a> {
-    /// Set-up of a run whose vertices have so many scalars of varyings.
+    /// Set-up of a sub-draw, behind the triangles of the run that wait.
     pub(crate) fn new(
-        level: Level,
-        plan: &'a GeometryPlan,
-        window: &'a [PackedVertex],
-        varying_scalars: usize,
+        work: &RunWork<'a>,
         chunk: &'a mut Chunk,
         scratch: &'a mut SetupScratch,
     ) -> Self {
         let SetupScratch { waiting, clipped } = scratch;
-        debug_assert_eq!(waiting.len, 0, "the run before was not finished");
+        let vertices = &work.vertices;
         clipped.clear();
         Self {
-            level,
-            plan,
-            window,
+            level: work.level,
+            plan: work.plan,
+            window: vertices.of_batch,
+            first_vertex: vertices.first_in_batch,
             waiting,
             clipped,
-            first_clipped: chunk.align_clipped_varyings(varying_scalars),
+            first_clipped: chunk.align_clipped_varyings(vertices.varying_scalars),
             chunk,
         }
     }
@@ -137,15 +148,16 @@ impl<'a> Setup<'a> {
                 self.chunk.statistics.primitives_culled += u64::from(uncovered.count_ones());
             }
             let area = odd.select(-area, area);
+            let vertices = (order.vertex, self.first_vertex);
             self.waiting
-                .append(s, order.vertex, provoking, area.bitcast(), kept);
+                .append(s, vertices, provoking, area.bitcast(), kept);
             if self.waiting.len >= LANES {
                 self.emit();
             }
         })
     }
 
-    /// Adds one triangle whose vertices are in the order given and whose area is not 0.
+    /// Adds one triangle of vertices made by clipping, in the order given, whose area is not 0.
     pub(crate) fn push(
         &mut self,
         vertices: &[WindowVertex; 3],
@@ -158,6 +170,7 @@ impl<'a> Setup<'a> {
         for (corner, from) in order.into_iter().enumerate() {
             self.waiting.vertex[corner][at] = vertices[from].vertex.0;
         }
+        self.waiting.first_vertex[at] = 0;
         self.waiting.provoking[at] = provoking | if is_front { FRONT } else { 0 };
         let area = if odd { -doubled_area } else { doubled_area };
         // One rounding; the division is done for all sixteen.
@@ -168,9 +181,12 @@ impl<'a> Setup<'a> {
         }
     }
 
-    /// Sets up what waits: the run's last packet.
-    pub(crate) fn finish(mut self) {
-        if self.waiting.len > 0 {
+    /// Sets up what waits, unless the next sub-draw is of the same run: then its triangles may
+    /// share the packet.
+    pub(crate) fn finish(mut self, joins_next: bool) {
+        // Vertices made by clipping are known for one sub-draw.
+        let may_wait = joins_next && self.clipped.is_empty();
+        if self.waiting.len > 0 && !may_wait {
             self.emit();
         }
     }
@@ -189,9 +205,10 @@ impl<'a> Setup<'a> {
     fn set_up<S: Lanes>(&mut self, s: S, len: usize) {
         let waiting = &*self.waiting;
         let [v0, v1, v2] = [0, 1, 2].map(|corner| first_half(&waiting.vertex[corner]));
-        let [x0, y0, z0, w0] = self.read(s, v0);
-        let [x1, y1, z1, w1] = self.read(s, v1);
-        let [x2, y2, z2, w2] = self.read(s, v2);
+        let first = u32x16::load_array_ref(s, first_half(&waiting.first_vertex));
+        let [x0, y0, z0, w0] = self.read(s, v0, first);
+        let [x1, y1, z1, w1] = self.read(s, v1, first);
+        let [x2, y2, z2, w2] = self.read(s, v2, first);
 
         let packet = self.chunk.triangles.push_stale();
         let live = u16::MAX >> (LANES - len);
@@ -239,14 +256,15 @@ impl<'a> Setup<'a> {
         bin_packet(s, self.plan, [[x0, x1, x2], [y0, y1, y2]], self.chunk);
     }
 
-    /// x, y, depth and 1/w of sixteen vertices, as bits.
+    /// x, y, depth and 1/w of sixteen vertices, as bits; their numbers count from `first` on.
     #[inline(always)]
-    fn read<S: Lanes>(&self, s: S, vertices: &[u32; LANES]) -> [u32x16<S>; 4] {
+    fn read<S: Lanes>(&self, s: S, vertices: &[u32; LANES], first: u32x16<S>) -> [u32x16<S>; 4] {
         outline!(s, {
+            let vertices = (u32x16::load_array_ref(s, vertices) + first).to_array();
             // Unused lanes hold vertices of triangles that waited before, perhaps of another run:
             // any will do, or zeros.
             let mut records = [&[0; 4]; LANES];
-            for (record, &vertex) in records.iter_mut().zip(vertices) {
+            for (record, &vertex) in records.iter_mut().zip(&vertices) {
                 let found = if vertex & VertexRef::CLIPPED == 0 {
                     self.window.get(vertex as usize)
                 } else {
@@ -296,6 +314,7 @@ impl Default for Waiting {
     fn default() -> Self {
         Self {
             vertex: [[0; 2 * LANES]; 3],
+            first_vertex: [0; 2 * LANES],
             provoking: [0; 2 * LANES],
             doubled_area: [1.0; 2 * LANES],
             len: 0,
@@ -309,7 +328,7 @@ impl Waiting {
     fn append<S: Lanes>(
         &mut self,
         s: S,
-        [a, b, c]: [u32x16<S>; 3],
+        ([a, b, c], first_vertex): ([u32x16<S>; 3], u32),
         provoking: u32x16<S>,
         area: f32x16<S>,
         kept: u16,
@@ -317,6 +336,7 @@ impl Waiting {
         let at = self.len;
         self.len += kept.count_ones() as usize;
         let [to_a, to_b, to_c] = &mut self.vertex;
+        self.first_vertex[at..][..LANES].fill(first_vertex);
         if <S::u32s as SimdBase<S>>::LEN == LANES {
             // The whole vector is written; what is beyond the kept lanes is garbage until
             // overwritten.
@@ -351,6 +371,7 @@ impl Waiting {
         for values in &mut self.vertex {
             values.copy_within(LANES.., 0);
         }
+        self.first_vertex.copy_within(LANES.., 0);
         self.provoking.copy_within(LANES.., 0);
         self.doubled_area.copy_within(LANES.., 0);
     }

@@ -75,6 +75,10 @@ pub(crate) struct VertexJob<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SubDrawVertices<'a> {
     pub(crate) window: &'a [PackedVertex],
+    /// Those of the whole batch in the window.
+    pub(crate) of_batch: &'a [PackedVertex],
+    /// The number of this sub-draw's first one in the batch.
+    pub(crate) first_in_batch: u32,
     /// Empty where clip-space positions are not kept.
     clip: &'a [[u32; 4]],
     pub(crate) varyings: &'a [f32],
@@ -156,6 +160,9 @@ impl ShadedVertices {
         let varyings = span.count * span.varying_scalars;
         SubDrawVertices {
             window: &self.window[span.first..][..span.count],
+            of_batch: &self.window,
+            // A batch has few vertices more than its budget.
+            first_in_batch: u32::try_from(span.first).unwrap_or(u32::MAX),
             clip: if span.keeps_clip_positions {
                 &self.clip[span.first..][..span.count]
             } else {

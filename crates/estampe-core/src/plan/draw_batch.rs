@@ -6,6 +6,8 @@ use crate::attachment::RenderTarget;
 use crate::commands::Draw;
 use crate::geometry::plan::GeometryPlan;
 use crate::geometry::shaded_vertices::VertexSpan;
+use crate::tile_path::{PathFacts, TilePath};
+use estampe_simd::Level;
 
 /// Sub-draws in submission order, and the states that they share.
 #[derive(Debug, Default)]
@@ -62,6 +64,19 @@ impl<'a> DrawBatch<'a> {
     /// A sub-draw's geometry plan.
     pub(crate) fn plan(&self, sub_draw: &SubDraw<'_>) -> &GeometryPlan {
         &self.state(sub_draw).geometry
+    }
+
+    /// Returns true if tiles may rasterize the triangles of two sub-draws as those of one.
+    pub(crate) fn joins(&self, sub_draws: [u32; 2], level: Level, samples: usize) -> bool {
+        let [a, b] = sub_draws.map(|number| &self.sub_draws[number as usize]);
+        let facts = PathFacts {
+            samples,
+            level,
+            // Tells no visibility paths apart.
+            tests_depth_alone: false,
+            cuts_samples: self.plan(a).cut_samples.is_some(),
+        };
+        a.rasterizes_like(b) && TilePath::choose(a.draw.pipeline, &facts).joins_draws()
     }
 
     /// The places of the sub-draws' vertices.

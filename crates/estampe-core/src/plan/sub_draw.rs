@@ -100,6 +100,16 @@ impl<'a> SubDraw<'a> {
         self
     }
 
+    /// Returns true if a tile rasterizes the triangles of both alike, whatever shades them: they
+    /// differ in bindings, buffers and elements alone.
+    pub(crate) fn rasterizes_like(&self, other: &Self) -> bool {
+        let (draw, other_draw) = (self.draw, other.draw);
+        self.state == other.state
+            && draw.stencil_reference == other_draw.stencil_reference
+            && draw.depth_bounds == other_draw.depth_bounds
+            && draw.occlusion_query == other_draw.occlusion_query
+    }
+
     /// Vertices of all instances.
     pub(crate) fn total_vertices(&self) -> usize {
         (self.vertices as usize).saturating_mul(self.instances as usize)

@@ -137,8 +137,9 @@ struct TileWork<'a> {
     chunk: &'a Chunk,
     /// The chunk's number in the pass.
     number: u32,
-    /// The sub-draw's number in the pass.
+    /// The number of its first sub-draw in the pass.
     sub_draw: u32,
+    /// That sub-draw's plan. Those of others in the run shade otherwise, and differ in nothing else.
     plan: &'a TilePlan<'a>,
     samples: usize,
     queries: Option<&'a OcclusionQueries>,

@@ -2,6 +2,7 @@
 
 use super::shortcuts::SinglePrimitiveBlocks;
 use crate::bounds::bins::BinEntry;
+use crate::bounds::chunk::Chunk;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::MAX_PACKETS;
 use estampe_simd::LANES;
@@ -67,15 +68,21 @@ const fn most_lines(samples: usize) -> usize {
 }
 
 impl<const N: usize> VisibilityBuffer<N> {
-    /// Numbers the triangles of a chunk, in the order of submission; gives the first id.
+    /// Numbers the triangles of a run of a chunk, in the order of submission; gives the first id.
     #[expect(clippy::cast_possible_truncation, reason = "a lane is below 16")]
     pub(super) fn add(
         &mut self,
-        [chunk, sub_draw]: [u32; 2],
+        (chunk, number): (&Chunk, u32),
         entries: &[BinEntry],
         plans: &[TilePlan<'_>],
     ) -> u32 {
         let first = self.next_id();
+        let Some(BinEntry::Triangles { packet, lanes }) = entries.first() else {
+            return first;
+        };
+        let mut sub_draws = chunk.sub_draws_from(*packet, lanes.trailing_zeros());
+        let mut last = sub_draws.of(*packet, lanes.trailing_zeros());
+        let mut begun = first;
         for entry in entries {
             let BinEntry::Triangles { packet, mut lanes } = *entry else {
                 unreachable!("lines and points are drawn in order");
@@ -83,14 +90,25 @@ impl<const N: usize> VisibilityBuffer<N> {
             while lanes != 0 {
                 let lane = lanes.trailing_zeros() as u8;
                 lanes &= lanes - 1;
+                let sub_draw = sub_draws.of(packet, u32::from(lane));
+                if sub_draw != last {
+                    self.end_sub_draw(last, begun, plans);
+                    (last, begun) = (sub_draw, self.next_id());
+                }
                 self.triangles.push(TriangleRef {
-                    chunk,
+                    chunk: number,
                     packet,
                     sub_draw,
                     lane,
                 });
             }
         }
+        self.end_sub_draw(last, begun, plans);
+        first
+    }
+
+    /// Adds the triangles from an id on, which are a sub-draw's, to the groups.
+    fn end_sub_draw(&mut self, sub_draw: u32, first: u32, plans: &[TilePlan<'_>]) {
         let end = self.next_id();
         match self.groups.last_mut() {
             Some(group)
@@ -104,7 +122,6 @@ impl<const N: usize> VisibilityBuffer<N> {
                 sub_draw,
             }),
         }
-        first
     }
 
     /// The id of the next triangle.

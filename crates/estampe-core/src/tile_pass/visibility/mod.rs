@@ -85,9 +85,8 @@ pub(super) fn add<const N: usize>(
         resolve(pass, job, scratch);
     }
     scratch.visibility.list.set_samples(pass.sample_set());
-    let run = [work.number, work.sub_draw];
     let buffer = &mut scratch.visibility.buffer;
-    let first = buffer.add(run, entries, pass.plans);
+    let first = buffer.add((work.chunk, work.number), entries, pass.plans);
     if shortcuts::may_wait(work, entries) {
         if !scratch.visibility.waiting.add(work, entries, first) {
             rasterize::rasterize_waiting(pass, job, scratch);
