@@ -13,6 +13,7 @@ pub(crate) const MAX_WORDS: usize = 4;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ColorTarget {
     pub(crate) codec: AttachmentCodec,
+    texel: TexelCodec,
     pub(crate) equation: Equation,
     pub(crate) logic: Option<LogicOperation>,
     /// The bits of a texel that may change.
@@ -50,6 +51,7 @@ impl ColorTarget {
         let writable = writable_bits(codec, u32::from(state.write_mask.0));
         Self {
             codec,
+            texel: TexelCodec::new(state.format),
             // A logic operation replaces blending, also where the format leaves it without effect.
             equation: match logic {
                 Some(_) => Equation::Replace,
@@ -63,7 +65,7 @@ impl ColorTarget {
 
     /// The words of one colour's texel.
     pub(crate) fn texel(&self, color: [f32; 4]) -> [u32; MAX_WORDS] {
-        TexelCodec::new(self.codec.format()).encode(color)
+        self.texel.encode(color)
     }
 
     /// Returns true if every channel of the source replaces the stored one.

@@ -26,6 +26,8 @@ pub(crate) struct StageKey {
     pub(crate) has_colors: bool,
     /// The fragments' colour depends on the primitive alone, so it is shaded once for each.
     pub(crate) uniform_over_primitive: bool,
+    /// It depends on the draw alone, and on whether the primitive faces the viewer.
+    pub(crate) uniform_over_draw: bool,
     /// A fragment's one colour depends on its own varyings alone.
     pub(crate) fragments_are_independent: bool,
     /// The fragments' one colour is their first four scalars, so that the program need not be
@@ -100,6 +102,7 @@ impl StageKey {
             is_opaque: is_plain && targets.iter().all(ColorTarget::replaces),
             has_colors: !targets.is_empty(),
             uniform_over_primitive: flat && !interface.reads_position,
+            uniform_over_draw: interface.varyings.is_empty() && !interface.reads_position,
             fragments_are_independent: interface.no_derivatives
                 && !interface.reads_position
                 && interface.color_targets == 1,

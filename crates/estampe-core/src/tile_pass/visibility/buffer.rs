@@ -37,6 +37,8 @@ pub(super) struct ShadingGroup {
 pub(super) struct VisibilityBuffer<const N: usize> {
     pub(super) triangles: Vec<TriangleRef>,
     pub(super) groups: Vec<ShadingGroup>,
+    /// True if some draw may have one colour.
+    pub(super) has_one_color_draws: bool,
     /// By packet and sample: the lanes that hold an id in place of a colour.
     pub(super) unresolved: Box<[[u16; N]; MAX_PACKETS]>,
     /// Blocks that show one triangle at every sample, whose ids are not written.
@@ -50,6 +52,7 @@ impl<const N: usize> Default for VisibilityBuffer<N> {
         Self {
             triangles: Vec::new(),
             groups: Vec::new(),
+            has_one_color_draws: false,
             unresolved: Box::new([[0; N]; MAX_PACKETS]),
             single: SinglePrimitiveBlocks::default(),
             ids: vec![[0; LANES]; most_lines(N)].into(),
@@ -136,6 +139,7 @@ impl<const N: usize> VisibilityBuffer<N> {
     pub(super) fn clear(&mut self) {
         self.triangles.clear();
         self.groups.clear();
+        self.has_one_color_draws = false;
         self.unresolved.fill([0; N]);
         self.single = SinglePrimitiveBlocks::default();
     }

@@ -2,9 +2,11 @@
 //!
 //! A packet that shows one triangle is shaded whole; of others each triangle's quads are shaded in
 //! packets that they share with those of other triangles and places. Draws that share a pipeline
-//! and bindings are shaded together.
+//! and bindings are shaded together, and those of one colour come first.
 
 mod early;
+mod groups;
+mod per_draw;
 mod per_primitive;
 mod visible;
 
@@ -15,12 +17,14 @@ use super::shortcuts::PrimitiveTexels;
 use super::writer::IdStorage;
 use super::{ONLY_WIDE, VisibilityScratch};
 use crate::fragment::queue::PrimitivePacket;
+use crate::pipeline::RenderPipeline;
 use crate::plan::tile_plan::TilePlan;
 use crate::raster::{Covered, MAX_PACKETS, SampleSet, packet_origin};
 use crate::tile_pass::{TileJob, TilePass, TileScratch, write_colors};
 use early::write_cross_triangle;
 use estampe_simd::{LANES, Lanes, SimdBase, dispatch, u32x16};
 use estampe_types::Interpolation;
+use per_draw::DrawTexels;
 use visible::VisibleTriangle;
 
 /// No place in a list.
@@ -40,6 +44,9 @@ pub(super) struct ResolveScratch<const N: usize> {
     /// By shading group: the packets that show its triangles.
     packets: Vec<PacketSet>,
     texels: PrimitiveTexels,
+    draws: DrawTexels,
+    /// By visibility id: the number of the triangle's group; empty if there is one group.
+    group_of: Vec<u32>,
 }
 
 impl<const N: usize> Default for ResolveScratch<N> {
@@ -51,6 +58,8 @@ impl<const N: usize> Default for ResolveScratch<N> {
             quads: Quads::default(),
             packets: Vec::new(),
             texels: PrimitiveTexels::default(),
+            draws: DrawTexels::default(),
+            group_of: Vec::new(),
         }
     }
 }
@@ -75,6 +84,7 @@ pub(in crate::tile_pass) fn resolve<const N: usize>(
     let storage = storage_of(plan);
     if storage != IdStorage::None {
         scratch.statistics.visibility_runs += 1;
+        let has_one_color_draws = buffer.has_one_color_draws;
         resolve.visible.clear();
         resolve.planes.clear();
         resolve.texels.clear();
@@ -88,10 +98,16 @@ pub(in crate::tile_pass) fn resolve<const N: usize>(
         }
         let groups = std::mem::take(&mut scratch.visibility.buffer.groups);
         let mut resolver = Resolver::new(pass, storage, job, scratch);
-        dispatch!(@wide pass.level, s => resolver.find_packets(s, &groups),
-            scalar => unreachable!("{ONLY_WIDE}"));
-        for (number, group) in groups.iter().enumerate() {
-            resolver.group(group, number);
+        resolver.number_groups(&groups);
+        let is_done = has_one_color_draws
+            && dispatch!(@wide pass.level, s => resolver.fill_draws(s, &groups),
+                scalar => unreachable!("{ONLY_WIDE}"));
+        if !is_done {
+            dispatch!(@wide pass.level, s => resolver.find_packets(s, &groups),
+                scalar => unreachable!("{ONLY_WIDE}"));
+            for (number, group) in groups.iter().enumerate() {
+                resolver.group(group, number);
+            }
         }
         scratch.visibility.buffer.groups = groups;
     }
@@ -128,6 +144,8 @@ struct Resolver<'a, 'j, 't, const N: usize> {
     /// Packets of the tile.
     packets: usize,
     samples: SampleSet<N>,
+    /// The pipeline that the queue is ready for, while draws of one colour are shaded.
+    shaded_last: Option<&'a RenderPipeline>,
     job: &'j mut TileJob<'t>,
     scratch: &'j mut TileScratch<N>,
 }
@@ -149,46 +167,10 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
             origin: [x.cast_signed(), y.cast_signed()],
             packets: pass.grid.tile_pixels() / LANES,
             samples: pass.sample_set(),
+            shaded_last: None,
             job,
             scratch,
         }
-    }
-
-    /// Finds the packets that show triangles of each group.
-    #[inline(always)]
-    fn find_packets<S: Lanes>(&mut self, s: S, groups: &[ShadingGroup]) {
-        let mut sets = std::mem::take(&mut self.scratch.visibility.resolve.packets);
-        sets.clear();
-        self.is_only_group = groups.len() == 1;
-        if self.is_only_group {
-            sets.push([u64::MAX; MAX_PACKETS / 64]);
-        } else {
-            sets.resize(groups.len(), [0; MAX_PACKETS / 64]);
-            for packet in 0..MAX_PACKETS {
-                let buffer = &self.scratch.visibility.buffer;
-                let mut add = |id: u32| {
-                    // The buffer's groups are `groups`, moved out.
-                    let group = groups.partition_point(|group| group.ids.end <= id);
-                    sets[group][packet / 64] |= 1 << (packet % 64);
-                    group
-                };
-                if let Some(id) = buffer.single.of_packet(packet) {
-                    add(id);
-                    continue;
-                }
-                let mut left = buffer.unresolved[packet];
-                while left != [0; N] {
-                    let id = self.first_id(packet, &left);
-                    let group = &groups[add(id)];
-                    for (sample, left) in left.iter_mut().enumerate() {
-                        if *left != 0 {
-                            *left &= !self.lanes_in(s, self.line_of(packet, sample), group);
-                        }
-                    }
-                }
-            }
-        }
-        self.scratch.visibility.resolve.packets = sets;
     }
 
     /// Returns the index of the line that stores the IDs of a packet's sample.

@@ -1,6 +1,7 @@
 //! Triangles that have one colour: shaded once for each tile, and stored without a shader call.
 
 use super::Resolver;
+use crate::pipeline::color_target::MAX_WORDS;
 use crate::raster::Covered;
 use crate::tile_pass::TileScratch;
 use estampe_simd::{LANES, Lanes, Select, SimdBase, u32x16};
@@ -42,19 +43,9 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
         let targets = self.plan.pipeline.color_targets();
         let resolve = &self.scratch.visibility.resolve;
         let texels = resolve.texels.get(visible, targets.len());
-        for (texel, stored) in texels.unwrap_or_default().iter().zip(&mut self.job.colors) {
-            let samples = self.samples.count();
-            let words = stored.len() / self.packets / samples;
-            for (sample, mask) in covered.masks.iter().enumerate().take(samples) {
-                let line = (usize::from(covered.packet) * samples + sample) * words;
-                for (stored, word) in stored[line..].iter_mut().zip(texel).take(words) {
-                    let old = u32x16::load_array_ref(s, stored);
-                    let new = <u32x16<S> as SimdBase<S>>::splat(s, *word);
-                    let new = s.mask_from_bits(*mask).select(new, old);
-                    new.store_array(stored);
-                }
-            }
-        }
+        let sizes = [self.packets, self.samples.count()];
+        let colors = &mut self.job.colors;
+        store_texels(s, texels.unwrap_or_default(), covered, sizes, colors);
     }
 
     /// The place in `visible` of a triangle that has one colour, whose texels are known afterwards.
@@ -96,5 +87,29 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
         });
         visibility.resolve.texels.set(visible, texels);
         queue.clear();
+    }
+}
+
+/// Stores one texel of each target in the lanes of a packet; the tile has so many packets, and so
+/// many samples of a pixel.
+#[inline(always)]
+pub(super) fn store_texels<S: Lanes, const N: usize>(
+    s: S,
+    texels: &[[u32; MAX_WORDS]],
+    covered: &Covered<N>,
+    [packets, samples]: [usize; 2],
+    colors: &mut [&mut [[u32; LANES]]],
+) {
+    for (texel, stored) in texels.iter().zip(colors) {
+        let words = stored.len() / packets / samples;
+        for (sample, mask) in covered.masks.iter().enumerate().take(samples) {
+            let line = (usize::from(covered.packet) * samples + sample) * words;
+            for (stored, word) in stored[line..].iter_mut().zip(texel).take(words) {
+                let old = u32x16::load_array_ref(s, stored);
+                let new = <u32x16<S> as SimdBase<S>>::splat(s, *word);
+                let new = s.mask_from_bits(*mask).select(new, old);
+                new.store_array(stored);
+            }
+        }
     }
 }
