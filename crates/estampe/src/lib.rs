@@ -54,6 +54,6 @@ pub use estampe_types::{
     FilterMode, Flat, FragmentIn, FragmentOut, IndexFormat, Int, Limits, Mat2, Mat3, Mat4,
     MipLevel, NoPerspective, Operand, PerSample, Program, Quad, Real, SampleType,
     SamplerDescriptor, Shader, ShaderProgram, TexelEncoding, Texture, TextureFormat, Varyings,
-    Vec2, Vec3, Vec4, VertexEncoding, VertexFormat, VertexIn, maths, operand, shader, state, vec2,
-    vec3, vec4,
+    Vec2, Vec3, Vec4, VertexEncoding, VertexFormat, VertexIn, attributes, maths, operand, shader,
+    state, varyings, vec2, vec3, vec4,
 };

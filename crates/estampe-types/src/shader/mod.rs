@@ -11,6 +11,7 @@ mod interface;
 mod packets;
 mod pass_through;
 mod scalar;
+mod structs;
 mod varyings;
 mod vertex;
 
@@ -58,12 +59,12 @@ use estampe_simd::Level;
 /// }
 /// ```
 pub trait Shader: Send + Sync + 'static {
-    /// Attributes that a vertex reads, at location 0, 1, … in order: a number, a vector or a tuple
-    /// of those.
+    /// Attributes that a vertex reads, at location 0, 1, … in order: a number, a vector, a tuple of
+    /// up to six of those, or a struct of [`attributes!`](crate::attributes).
     type Attributes<R: Real>: Attributes<R>;
-    /// Values that a vertex passes to the fragments: a number, a vector or a tuple of those. The
-    /// wrappers [`Flat`], [`NoPerspective`], [`Centroid`] and [`PerSample`] choose the
-    /// interpolation.
+    /// Values that a vertex passes to the fragments: a number, a vector, a tuple of up to six of
+    /// those, or a struct of [`varyings!`](crate::varyings). The wrappers [`Flat`],
+    /// [`NoPerspective`], [`Centroid`] and [`PerSample`] choose the interpolation in tuples.
     type Varyings<R: Real>: Varyings<R>;
 
     /// Number of colour targets that the fragment writes.

@@ -1,4 +1,5 @@
-//! Attributes and varyings as types: numbers, vectors and tuples, which are split into scalars.
+//! Attributes and varyings as types, which are split into scalars: numbers, vectors, tuples, and
+//! the structs of [`attributes!`](crate::attributes) and [`varyings!`](crate::varyings).
 
 use super::Sampling;
 use crate::{Interpolation, Real, Vec2, Vec3, Vec4};
@@ -86,30 +87,38 @@ element! { Vec2<R>; 2; x y }
 element! { Vec3<R>; 3; x y z }
 element! { Vec4<R>; 4; x y z w }
 
-/// A single number. An array, because a bare type parameter would overlap with the vectors.
-impl<R: Real> Attributes<R> for [R; 1] {
-    fn components(out: &mut Vec<usize>) {
-        out.push(1);
-    }
-    #[inline(always)]
-    fn load(from: &mut impl Source<R>) -> Self {
-        [from.take()]
-    }
-}
+macro_rules! number {
+    ($type:ty; $x:ident => $load:expr, $store:expr) => {
+        impl<R: Real> Attributes<R> for $type {
+            fn components(out: &mut Vec<usize>) {
+                out.push(1);
+            }
+            #[inline(always)]
+            fn load(from: &mut impl Source<R>) -> Self {
+                let $x = from.take();
+                $load
+            }
+        }
 
-impl<R: Real> Varyings<R> for [R; 1] {
-    fn modes(out: &mut Vec<Interpolation>) {
-        out.push(Interpolation::Smooth);
-    }
-    #[inline(always)]
-    fn load(from: &mut impl Source<R>) -> Self {
-        [from.take()]
-    }
-    #[inline(always)]
-    fn store(self, to: &mut impl Sink<R>) {
-        to.put(self[0]);
-    }
+        impl<R: Real> Varyings<R> for $type {
+            fn modes(out: &mut Vec<Interpolation>) {
+                out.push(Interpolation::Smooth);
+            }
+            #[inline(always)]
+            fn load(from: &mut impl Source<R>) -> Self {
+                let $x = from.take();
+                $load
+            }
+            #[inline(always)]
+            fn store(self, to: &mut impl Sink<R>) {
+                let $x = self;
+                to.put($store);
+            }
+        }
+    };
 }
+number! { R; x => x, x }
+number! { [R; 1]; x => [x], x[0] }
 
 macro_rules! mode {
     ($wrapper:ident) => {

@@ -92,6 +92,7 @@ mod bits;
 mod functions;
 mod kinds;
 mod matrices;
+mod structs;
 mod vectors;
 
 #[test]
