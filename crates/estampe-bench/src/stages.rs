@@ -15,8 +15,8 @@ use estampe::state::{
     DepthState, LogicOperation, PrimitiveState, PrimitiveTopology,
 };
 use estampe::{
-    Device, Flat, FragmentIn, FragmentOut, Int, RenderPipelineDescriptor, TextureFormat, Vec2,
-    Vec3, Vec4, VertexFormat, VertexIn, VertexOut,
+    Device, Flat, FragmentIn, FragmentOut, RenderPipelineDescriptor, TextureFormat, Vec2, Vec3,
+    Vec4, VertexFormat, VertexIn, VertexOut,
 };
 
 /// The frame size of the loads.

@@ -1,7 +1,7 @@
 //! A depth attachment as a texture: the same depths, without a copy, and immutable.
 
 use estampe::{
-    DepthTexture, Device, DeviceDescriptor, Draw, FragmentIn, FragmentOut, Int,
+    DepthTexture, Device, DeviceDescriptor, Draw, FragmentIn, FragmentOut,
     RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, Vec4, VertexIn, VertexOut,
 };
 

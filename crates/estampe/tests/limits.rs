@@ -5,7 +5,7 @@ use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{PrimitiveTopology, VertexBufferLayout};
 use estampe::texture::{MipGeneration, TextureDescriptor};
 use estampe::{
-    Buffer, Device, DeviceDescriptor, Draw, Int, Level, Limits, PipelineError, Real,
+    Buffer, Device, DeviceDescriptor, Draw, Level, Limits, PipelineError, Real,
     RenderPipelineDescriptor, RenderTargetDescriptor, TextureFormat, Vec4, VertexFormat,
 };
 

@@ -3,8 +3,8 @@
 
 use estampe::state::{CompareFunction, DepthState, StencilState, Viewport};
 use estampe::{
-    Device, DeviceDescriptor, Draw, FragmentIn, FragmentOut, Int, LoadOp, OcclusionQueries,
-    RenderPass, RenderPassError, RenderPipeline, RenderPipelineDescriptor, RenderTarget,
+    Device, DeviceDescriptor, Draw, FragmentIn, FragmentOut, LoadOp, OcclusionQueries, RenderPass,
+    RenderPassError, RenderPipeline, RenderPipelineDescriptor, RenderTarget,
     RenderTargetDescriptor, TextureFormat, Vec4, VertexIn, VertexOut,
 };
 

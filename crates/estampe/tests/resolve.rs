@@ -2,7 +2,7 @@
 //! refused.
 
 use estampe::{
-    Device, DeviceDescriptor, Draw, FragmentIn, FragmentOut, Int, RenderPipelineDescriptor,
+    Device, DeviceDescriptor, Draw, FragmentIn, FragmentOut, RenderPipelineDescriptor,
     RenderTarget, RenderTargetDescriptor, TextureFormat, Vec4, VertexIn, VertexOut,
 };
 

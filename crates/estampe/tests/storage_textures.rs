@@ -7,7 +7,7 @@ use estampe::texture::{
     StorageTexture, TextureDescriptor, create_storage_texture, storage_bytes, storage_store,
 };
 use estampe::{
-    Buffer, Device, DeviceDescriptor, Draw, Int, Level, Limits, LoadOp, RenderPass,
+    Buffer, Device, DeviceDescriptor, Draw, Level, Limits, LoadOp, RenderPass,
     RenderPipelineDescriptor, RenderTargetDescriptor, TextureFormat, Vec2, Vec4, VertexFormat,
 };
 use std::sync::Arc;

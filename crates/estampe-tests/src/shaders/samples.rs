@@ -5,8 +5,7 @@ use super::{bytes_of, bytes_of_int};
 use crate::Random;
 use estampe_types::shader::VertexOut;
 use estampe_types::{
-    Centroid, Flat, FragmentIn, FragmentOut, Int, NoPerspective, PerSample, Real, Vec2, Vec4,
-    VertexIn,
+    Centroid, Flat, FragmentIn, FragmentOut, NoPerspective, PerSample, Real, Vec2, Vec4, VertexIn,
 };
 
 /// The shown value.

@@ -11,6 +11,7 @@ mod interface;
 mod packets;
 mod pass_through;
 mod scalar;
+mod shader_macro;
 mod structs;
 mod varyings;
 mod vertex;
@@ -145,32 +146,4 @@ pub trait Program: Send + Sync + std::fmt::Debug {
     fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>);
     /// Shades packets of fragments.
     fn run_fragments(&self, level: Level, bindings: &Bindings, batch: FragmentBatch<'_>);
-}
-
-/// Implements [`Shader`](trait@crate::Shader) with every function marked `#[inline(always)]`.
-///
-/// The sixteen-lane form of a function is compiled with SIMD instructions only if it is inlined
-/// into the function that selects the SIMD level. Generic helper functions outside the macro must
-/// be marked `#[inline(always)]` too: without it they run 5 to 14 times slower.
-#[macro_export]
-macro_rules! shader {
-    (impl $(<$($generic:ident: $bound:path),*>)? Shader for $shader:ty { $($items:tt)* }) => {
-        impl $(<$($generic: $bound),*>)? $crate::Shader for $shader {
-            $crate::shader! { @items $($items)* }
-        }
-    };
-    (@items) => {};
-    (@items type $name:ident<$r:ident: Real> = $type:ty; $($rest:tt)*) => {
-        type $name<$r: $crate::Real> = $type;
-        $crate::shader! { @items $($rest)* }
-    };
-    (@items const $name:ident: $type:ty = $value:expr; $($rest:tt)*) => {
-        const $name: $type = $value;
-        $crate::shader! { @items $($rest)* }
-    };
-    (@items fn $name:ident<$r:ident: Real>($($inputs:tt)*) -> $out:ty $body:block $($rest:tt)*) => {
-        #[inline(always)]
-        fn $name<$r: $crate::Real>($($inputs)*) -> $out $body
-        $crate::shader! { @items $($rest)* }
-    };
 }

@@ -90,6 +90,7 @@ macro_rules! agrees {
 
 mod bits;
 mod functions;
+mod items;
 mod kinds;
 mod matrices;
 mod structs;
