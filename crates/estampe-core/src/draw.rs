@@ -13,7 +13,7 @@ use crate::plan::draw_cursor::DrawCursor;
 use crate::plan::draw_state::DrawState;
 use crate::plan::pass_check::{RenderPassError, check_pass};
 use crate::plan::sub_draw::SubDraw;
-use crate::plan::tile_plan::{PlannedGeometry, TargetFacts, TilePlan};
+use crate::plan::tile_plan::{TargetFacts, TilePlan, TileState};
 use crate::profile::JobTimings;
 use crate::raster::MAX_SAMPLES;
 use crate::schedule::{Executor, ThreadError};
@@ -54,6 +54,7 @@ struct Lists {
     sub_draws: Vec<SubDraw<'static>>,
     vertex_jobs: Vec<VertexJob<'static>>,
     chunk_jobs: Vec<ChunkJob<'static>>,
+    tile_states: Vec<TileState<'static>>,
     plans: Vec<TilePlan<'static>>,
     tile_jobs: Vec<TileJob<'static>>,
 }
@@ -254,19 +255,17 @@ impl Context {
             has_depth: target.has_depth(),
             has_queries: occlusion_queries.is_some(),
         };
+        let mut states = recycled(std::mem::take(&mut memory.lists.tile_states));
+        batch.tile_states(&facts, &mut states);
         let mut plans = recycled(std::mem::take(&mut memory.lists.plans));
-        plans.extend(batch.sub_draws.iter().map(|sub_draw| {
-            let state = batch.state(sub_draw);
-            let geometry = PlannedGeometry {
+        for state in &states {
+            let sub_draws = batch.sub_draws[state.sub_draws.clone()].iter();
+            plans.extend(sub_draws.map(|sub_draw| TilePlan {
+                state,
                 bindings: sub_draw.bindings,
                 varyings: memory.vertices.of_span(&sub_draw.span).varyings,
-                rect: state.geometry.rect,
-                cut_samples: state.geometry.cut_samples,
-                depth_range: state.geometry.transform.depth_range,
-                line_style: &state.geometry.line_style,
-            };
-            TilePlan::new(sub_draw.draw, &geometry, &facts)
-        }));
+            }));
+        }
         let pass = TilePass {
             level: self.level,
             grid: target.grid(),
@@ -308,6 +307,7 @@ impl Context {
         }
         memory.lists.tile_jobs = recycled(jobs);
         memory.lists.plans = recycled(plans);
+        memory.lists.tile_states = recycled(states);
         statistics
     }
 }

@@ -133,7 +133,11 @@ impl ElementSource<'_> {
         }
         for (p, vertices) in (first..).zip(out) {
             let elements = corners_of(self.topology, self.provoking, p, self.elements);
-            *vertices = elements.map(|element| self.vertex_of(element).wrapping_add(base));
+            // One by one: of a mapped array the vertices are stored as words and loaded in pairs,
+            // which waits for the stores.
+            for (vertex, element) in vertices.iter_mut().zip(elements) {
+                *vertex = self.vertex_of(element).wrapping_add(base);
+            }
         }
     }
 

@@ -10,7 +10,7 @@ use super::viewport::ViewportTransform;
 use crate::bounds::transpose::{store_components, store_records};
 use crate::pipeline::{Decoding, RenderPipeline};
 use estampe_simd::{
-    Bytes, LANES, Lanes, Level, Packet, Select, SimdBase, dispatch, f32x16, i32x16,
+    Bytes, LANES, Lanes, Level, Packet, Select, SimdBase, dispatch, f32x16, i32x16, u32x16,
 };
 use estampe_types::{Bindings, Buffer, Interface, VertexBatch};
 
@@ -22,6 +22,9 @@ const BATCH: usize = 2;
 /// Vertices of a packet.
 #[expect(clippy::cast_possible_truncation, reason = "sixteen")]
 pub(crate) const PACKET: u32 = LANES as u32;
+
+/// The number of each lane.
+const LANE_NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 /// The source of a sub-draw's vertices. Flat vertex `i` is vertex `i % count` of instance `i /
 /// count`.
@@ -187,7 +190,12 @@ fn run(level: Level, source: &VertexSource<'_>, batch: ShadeBatch, scratch: &mut
 /// vertex `first`; lanes beyond the flat vertex `last` repeat it.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "a lane is below 16")]
-fn number_vertices(source: &VertexSource<'_>, first: u32, last: u32, index: &mut PacketIndex) {
+fn number_vertices<S: Lanes>(
+    s: S,
+    source: &VertexSource<'_>,
+    [first, last]: [u32; 2],
+    index: &mut PacketIndex,
+) {
     let (mut start, mut turn) = match source.count {
         count if first < count => (first, 0),
         count => (first % count, first / count),
@@ -206,6 +214,17 @@ fn number_vertices(source: &VertexSource<'_>, first: u32, last: u32, index: &mut
         return;
     }
     let left = last - first;
+    if source.sparse.is_none() && left < source.count - start {
+        // All in one instance. Fetching loads whole vectors, which is fast only if they were
+        // stored as such.
+        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+        let lanes = u32x16::load_array(s, LANE_NUMBERS).min(splat(left));
+        let vertices = lanes + splat(source.first_vertex.wrapping_add(start));
+        vertices.store_array(&mut index.vertex.0);
+        let instance = source.first_instance.wrapping_add(turn);
+        splat(instance).store_array(&mut index.instance.0);
+        return;
+    }
     let lanes = index.vertex.0.iter_mut().zip(&mut index.instance.0);
     for (lane, (vertex, instance)) in (0..).zip(lanes) {
         *vertex = match source.sparse {
@@ -242,7 +261,7 @@ fn fetch_batch<S: Lanes>(
     for packet in 0..batch.packets() {
         let mut index = PacketIndex::default();
         let start = batch.first + (batch.done + packet * LANES) as u32;
-        number_vertices(source, start, last, &mut index);
+        number_vertices(s, source, [start, last], &mut index);
         scratch.vertex_index[packet] = index.vertex;
         scratch.instance_index[packet] = index.instance;
         let out = &mut scratch.attributes[packet * scalars..][..scalars];

@@ -2,6 +2,7 @@
 
 use super::draw_state::DrawState;
 use super::sub_draw::SubDraw;
+use super::tile_plan::{TargetFacts, TileState};
 use crate::attachment::RenderTarget;
 use crate::commands::Draw;
 use crate::geometry::plan::GeometryPlan;
@@ -77,6 +78,23 @@ impl<'a> DrawBatch<'a> {
             cuts_samples: self.plan(a).cut_samples.is_some(),
         };
         a.rasterizes_like(b) && TilePath::choose(a.draw.pipeline, &facts).joins_draws()
+    }
+
+    /// Resolves the state that tiles read; sub-draws in a row share it.
+    pub(crate) fn tile_states<'b>(&'b self, target: &TargetFacts, states: &mut Vec<TileState<'b>>) {
+        let mut last: Option<&SubDraw<'_>> = None;
+        for (number, sub_draw) in self.sub_draws.iter().enumerate() {
+            match states.last_mut() {
+                Some(state) if last.is_some_and(|last| last.has_tile_state_of(sub_draw)) => {
+                    state.sub_draws.end = number + 1;
+                }
+                _ => {
+                    let plan = self.plan(sub_draw);
+                    states.push(TileState::new(number, sub_draw.draw, plan, target));
+                }
+            }
+            last = Some(sub_draw);
+        }
     }
 
     /// The places of the sub-draws' vertices.

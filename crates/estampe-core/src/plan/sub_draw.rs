@@ -110,6 +110,12 @@ impl<'a> SubDraw<'a> {
             && draw.occlusion_query == other_draw.occlusion_query
     }
 
+    /// Returns true if the tiles' state of both is the same.
+    pub(super) fn has_tile_state_of(&self, other: &Self) -> bool {
+        let constants = [self, other].map(|of| of.draw.blend_constant.map(f32::to_bits));
+        constants[0] == constants[1] && self.rasterizes_like(other)
+    }
+
     /// Vertices of all instances.
     pub(crate) fn total_vertices(&self) -> usize {
         (self.vertices as usize).saturating_mul(self.instances as usize)

@@ -1,10 +1,14 @@
 //! The plan of a sub-draw on the tile side: its state, resolved once.
+//!
+//! Neighbouring draws share a [`TileState`], as they do on the geometry side, so that a draw's own
+//! plan is a few words.
 
 use crate::bounds::pixel_rect::PixelRect;
 use crate::bounds::sample_rect::SampleRect;
 use crate::commands::Draw;
 use crate::depth_format::{DepthFormat, StoredDepth};
 use crate::geometry::line_style::LineStyle;
+use crate::geometry::plan::GeometryPlan;
 use crate::per_sample::sample_tests::SampleTests;
 use crate::per_sample::stencil::StencilTest;
 use crate::pipeline::RenderPipeline;
@@ -13,6 +17,7 @@ use estampe_simd::Level;
 use estampe_types::shader::DepthOutput;
 use estampe_types::state::CompareFunction;
 use estampe_types::{Bindings, Interpolation};
+use std::ops::{Deref, Range};
 
 /// When samples are tested (O9).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,10 +34,18 @@ pub(crate) enum TestTiming {
 /// A sub-draw as its tiles need it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TilePlan<'a> {
-    pub(crate) pipeline: &'a RenderPipeline,
+    pub(crate) state: &'a TileState<'a>,
     pub(crate) bindings: &'a Bindings,
     /// The varyings of its vertices.
     pub(crate) varyings: &'a [f32],
+}
+
+/// State that the tiles read of sub-draws in a row.
+#[derive(Debug, Clone)]
+pub(crate) struct TileState<'a> {
+    /// The numbers of the sub-draws in the batch.
+    pub(crate) sub_draws: Range<usize>,
+    pub(crate) pipeline: &'a RenderPipeline,
     /// The pixels that may change.
     pub(crate) rect: PixelRect,
     /// The viewport's samples, where its edges go through pixels.
@@ -48,7 +61,7 @@ pub(crate) struct TilePlan<'a> {
     pub(crate) all_smooth: bool,
 }
 
-/// The inputs of a plan that come from the target and the pass.
+/// The inputs of a state that come from the target and the pass.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TargetFacts {
     pub(crate) level: Level,
@@ -58,21 +71,30 @@ pub(crate) struct TargetFacts {
     pub(crate) has_queries: bool,
 }
 
-/// The inputs of a plan that come from geometry.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct PlannedGeometry<'a> {
-    pub(crate) bindings: &'a Bindings,
-    pub(crate) varyings: &'a [f32],
-    pub(crate) rect: PixelRect,
-    pub(crate) cut_samples: Option<SampleRect>,
-    pub(crate) depth_range: [f32; 2],
-    pub(crate) line_style: &'a LineStyle,
+impl<'a> Deref for TilePlan<'a> {
+    type Target = TileState<'a>;
+
+    #[inline(always)]
+    fn deref(&self) -> &TileState<'a> {
+        self.state
+    }
 }
 
-impl<'a> TilePlan<'a> {
+impl TilePlan<'_> {
+    /// Returns true if fragments of both plans may share a call of the program.
+    pub(crate) fn shades_like(&self, other: &Self) -> bool {
+        std::ptr::eq(self.bindings, other.bindings)
+            && self.pipeline.is_same(other.pipeline)
+            && self.tests.stored.range == other.tests.stored.range
+    }
+}
+
+impl<'a> TileState<'a> {
+    /// The state of a draw whose sub-draw has this number.
     pub(crate) fn new(
+        sub_draw: usize,
         draw: &'a Draw<'a>,
-        geometry: &PlannedGeometry<'a>,
+        geometry: &'a GeometryPlan,
         target: &TargetFacts,
     ) -> Self {
         let pipeline = draw.pipeline;
@@ -85,7 +107,7 @@ impl<'a> TilePlan<'a> {
             }),
             depth: key.depth,
             stored: StoredDepth {
-                range: geometry.depth_range,
+                range: geometry.transform.depth_range,
                 format: target.depth_format,
             },
         };
@@ -93,9 +115,8 @@ impl<'a> TilePlan<'a> {
         let tests_depth_alone = tests.is_depth_alone() && query.is_none();
         let modes = &pipeline.interface().varyings;
         Self {
+            sub_draws: sub_draw..sub_draw + 1,
             pipeline,
-            bindings: geometry.bindings,
-            varyings: geometry.varyings,
             rect: geometry.rect,
             cut_samples: geometry.cut_samples,
             path: TilePath::choose(
@@ -110,7 +131,7 @@ impl<'a> TilePlan<'a> {
             timing: timing(pipeline, &tests),
             tests,
             blend_constant: draw.blend_constant,
-            line_style: geometry.line_style,
+            line_style: &geometry.line_style,
             query,
             all_smooth: modes.iter().all(|mode| *mode == Interpolation::Smooth),
         }
@@ -120,13 +141,6 @@ impl<'a> TilePlan<'a> {
     /// then matters only between equal depths: nothing else is written or counted before shading.
     pub(crate) fn tests_depth_alone(&self) -> bool {
         self.tests.is_depth_alone() && self.query.is_none()
-    }
-
-    /// Returns true if fragments of both plans may share a call of the program.
-    pub(crate) fn shades_like(&self, other: &Self) -> bool {
-        std::ptr::eq(self.bindings, other.bindings)
-            && self.pipeline.is_same(other.pipeline)
-            && self.tests.stored.range == other.tests.stored.range
     }
 }
 

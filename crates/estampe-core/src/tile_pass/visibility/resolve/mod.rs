@@ -129,6 +129,14 @@ fn ids_of<'a>(
     }
 }
 
+/// The lanes whose ids belong to a group.
+#[inline(always)]
+fn lanes_in<S: Lanes>(s: S, ids: u32x16<S>, group: &ShadingGroup) -> u16 {
+    let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+    let inside = ids.simd_ge(splat(group.ids.start)) & ids.simd_lt(splat(group.ids.end));
+    s.bits_of_mask(inside)
+}
+
 /// A run being resolved.
 struct Resolver<'a, 'j, 't, const N: usize> {
     pass: &'a TilePass<'a>,
@@ -182,10 +190,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
     /// The lanes of a line of ids that belong to a group.
     #[inline(always)]
     fn lanes_in<S: Lanes>(&self, s: S, line: usize, group: &ShadingGroup) -> u16 {
-        let ids = u32x16::load_array_ref(s, &self.ids()[line]);
-        let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
-        let inside = ids.simd_ge(splat(group.ids.start)) & ids.simd_lt(splat(group.ids.end));
-        s.bits_of_mask(inside)
+        lanes_in(s, u32x16::load_array_ref(s, &self.ids()[line]), group)
     }
 
     /// The lanes of a line of ids that hold an id.

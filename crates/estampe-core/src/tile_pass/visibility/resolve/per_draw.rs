@@ -6,11 +6,12 @@
 //! draw's samples are left to the passes by group.
 
 use super::per_primitive::store_texels;
-use super::{Resolver, ShadingGroup};
+use super::{IdStorage, Resolver, ShadingGroup, lanes_in};
+use crate::per_sample::color_writer::ColorWriter;
 use crate::pipeline::color_target::MAX_WORDS;
 use crate::raster::Covered;
 use crate::tile_pass::TileScratch;
-use estampe_simd::{Lanes, Packet};
+use estampe_simd::{LANES, Lanes, Select, SimdBase, u32x16};
 
 /// The lanes that face the viewer in the packet that is shaded: whole quads, so that derivatives
 /// are 0.
@@ -34,6 +35,8 @@ enum DrawColor {
 pub(super) struct DrawTexels {
     colors: Vec<DrawColor>,
     texels: Vec<[u32; MAX_WORDS]>,
+    /// The texels of the packet that was shaded last, word by word.
+    encoded: Vec<[u32; LANES]>,
 }
 
 impl<const N: usize> Resolver<'_, '_, '_, N> {
@@ -45,6 +48,10 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
         draws.colors.clear();
         draws.colors.resize(groups.len(), DrawColor::Unknown);
         let mut is_done = true;
+        let targets = self.pass.plans[groups[0].sub_draw as usize]
+            .pipeline
+            .color_targets();
+        let is_one_word = N == 1 && targets.len() == 1 && self.storage == IdStorage::Attachment;
         for packet in 0..self.packets {
             let buffer = &self.scratch.visibility.buffer;
             if buffer.single.of_packet(packet).is_some() {
@@ -53,6 +60,10 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
             }
             let mut left = buffer.unresolved[packet];
             let mut others = [0; N];
+            if is_one_word {
+                others[0] = self.fill_words(s, groups, (packet, left[0]));
+                left = [0; N];
+            }
             while left != [0; N] {
                 let id = self.first_id(packet, &left);
                 let number = self.group_of(id);
@@ -75,6 +86,40 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
             self.scratch.visibility.buffer.unresolved[packet] = others;
         }
         is_done
+    }
+
+    /// Stores the texels of a packet of one sample a pixel, in place of ids in the only attachment.
+    /// Returns the lanes that are left.
+    #[inline(always)]
+    fn fill_words<S: Lanes>(
+        &mut self,
+        s: S,
+        groups: &[ShadingGroup],
+        (packet, unresolved): (usize, u16),
+    ) -> u16 {
+        let (mut left, mut others) = (unresolved, 0);
+        if left == 0 {
+            return 0;
+        }
+        let ids = u32x16::load_array_ref(s, &self.job.colors[0][packet]);
+        let mut words = ids;
+        while left != 0 {
+            let id = self.job.colors[0][packet][left.trailing_zeros() as usize % LANES];
+            let number = self.group_of(id);
+            let group = &groups[number];
+            let mask = lanes_in(s, ids, group) & left;
+            left &= !mask;
+            if let Some(first) = self.texels_of_draw(group, number) {
+                let word = self.scratch.visibility.resolve.draws.texels[first][0];
+                let word = <u32x16<S> as SimdBase<S>>::splat(s, word);
+                words = s.mask_from_bits(mask).select(word, words);
+            } else {
+                others |= mask;
+            }
+        }
+        words.store_array(&mut self.job.colors[0][packet]);
+        self.scratch.statistics.fragments_shaded += u64::from((unresolved & !others).count_ones());
+        others
     }
 
     /// Stores a draw's texels in samples of a packet.
@@ -122,26 +167,29 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
         }
         queue.push_across_triangles(u16::MAX, FRONT_LANES);
         queue.shade(self.pass.level, pipeline, plan.bindings);
-        let packet = queue.batch().packets().next();
-        let packet = packet.expect("a packet was queued");
         let first = draws.texels.len();
         for (index, target) in pipeline.color_targets().iter().enumerate() {
-            let color = packet.color(index);
-            if color.iter().any(is_different) {
-                queue.clear();
-                return None;
+            let constant = plan.blend_constant;
+            let writer = ColorWriter {
+                target,
+                index,
+                constant,
+            };
+            draws.encoded.clear();
+            writer.encode_batch(self.pass.level, &queue.batch(), &mut draws.encoded);
+            let mut texel = [0; MAX_WORDS];
+            for (word, lanes) in texel.iter_mut().zip(&draws.encoded) {
+                let [front, back] = FRONT_AND_BACK.map(|lane| lanes[lane]);
+                if front != back {
+                    queue.clear();
+                    return None;
+                }
+                *word = front;
             }
-            let color = color.each_ref().map(|channel| channel.0[0]);
-            draws.texels.push(target.texel(color));
+            draws.texels.push(texel);
         }
         queue.clear();
         draws.colors[number] = DrawColor::One(first);
         Some(first)
     }
-}
-
-/// Returns true if a channel depends on whether a triangle faces the viewer.
-fn is_different(channel: &Packet<f32>) -> bool {
-    let [front, back] = FRONT_AND_BACK.map(|lane| channel.0[lane].to_bits());
-    front != back
 }
