@@ -222,7 +222,8 @@ pub(crate) struct SubDrawCursor<'c> {
 }
 
 impl SubDrawCursor<'_> {
-    /// The number of a triangle's sub-draw in its batch. The triangle is at or after the one before.
+    /// The number of a triangle's sub-draw in its batch. The triangle is at or after the last one
+    /// that was asked for.
     #[inline(always)]
     pub(crate) fn of(&mut self, packet: u32, lane: u32) -> u32 {
         let triangle = triangle_number(packet, lane);

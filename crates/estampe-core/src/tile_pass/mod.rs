@@ -139,7 +139,7 @@ struct TileWork<'a> {
     number: u32,
     /// The number of its first sub-draw in the pass.
     sub_draw: u32,
-    /// That sub-draw's plan. Those of others in the run shade otherwise, and differ in nothing else.
+    /// That sub-draw's plan. The others' bindings and varyings differ, nothing else.
     plan: &'a TilePlan<'a>,
     samples: usize,
     queries: Option<&'a OcclusionQueries>,
