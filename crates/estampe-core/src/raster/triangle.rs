@@ -16,8 +16,10 @@ use crate::bounds::pixel_rect::PixelRect;
 use crate::bounds::primitives::TrianglePacket;
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, SimdBase, i32x16};
 
-/// Packets of a box that are tried one by one rather than through the hierarchy.
-const DIRECT_PACKETS: i32 = 6;
+/// Packets of a box that are tried one by one rather than through the hierarchy, where a pixel has
+/// one sample; of several samples each is tried.
+const DIRECT_PACKETS: i32 = 16;
+const DIRECT_PACKETS_OF_SAMPLES: i32 = 6;
 
 /// One edge inside a tile: `c[s] + a·i + b·j ≥ 0` is inside for sample `s` of the tile's pixel (i,
 /// j).
@@ -98,7 +100,12 @@ impl<const N: usize> TileTriangle<N> {
         out: &mut CoverageList<N>,
     ) -> u16 {
         let lanes = EdgeLanes::new(s, self);
-        if self.packets() <= DIRECT_PACKETS {
+        let direct = if const { N == 1 } {
+            DIRECT_PACKETS
+        } else {
+            DIRECT_PACKETS_OF_SAMPLES
+        };
+        if self.packets() <= direct {
             for row in self.rows[0]..self.rows[1] {
                 for column in self.columns[0]..self.columns[1] {
                     let packet = crate::layout::morton(column.cast_unsigned(), row.cast_unsigned());
