@@ -119,11 +119,11 @@ impl Chunk {
         });
     }
 
-    /// Begins the primitives of a sub-draw in the last run, before which `waiting` triangles come
-    /// that are in no packet yet.
-    pub(crate) fn begin_part(&mut self, sub_draw: u32, waiting: usize) {
+    /// Begins the primitives of a sub-draw in the last run, before whose first triangle so many
+    /// packets come, and `waiting` triangles that were in no packet then.
+    pub(crate) fn begin_part(&mut self, sub_draw: u32, packets: usize, waiting: usize) {
         self.parts.push(ChunkPart {
-            first_triangle: number(self.triangles.len() * LANES + waiting),
+            first_triangle: number(packets * LANES + waiting),
             sub_draw,
         });
     }
@@ -328,12 +328,12 @@ mod tests {
         chunk.begin_run(5);
         // Two triangles of 5, none of 6, one of 7; 8 begins in this packet and fills the next.
         for (sub_draw, waiting) in [(5, 0), (6, 2), (7, 2), (8, 3)] {
-            chunk.begin_part(sub_draw, waiting);
+            chunk.begin_part(sub_draw, 0, waiting);
         }
         chunk.triangles.push_stale();
         chunk.triangles.push_stale();
         chunk.begin_run(9);
-        chunk.begin_part(9, 0);
+        chunk.begin_part(9, 2, 0);
         chunk.triangles.push_stale();
         let expected = |packet, lane| match (packet, lane) {
             (0, 0..2) => 5,

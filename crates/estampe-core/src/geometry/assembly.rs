@@ -131,12 +131,22 @@ impl ElementSource<'_> {
             }
             return;
         }
-        for (p, vertices) in (first..).zip(out) {
-            let elements = corners_of(self.topology, self.provoking, p, self.elements);
-            // One by one: of a mapped array the vertices are stored as words and loaded in pairs,
-            // which waits for the stores.
-            for (vertex, element) in vertices.iter_mut().zip(elements) {
-                *vertex = self.vertex_of(element).wrapping_add(base);
+        // Vertices of an array that went through memory would be stored one by one and loaded in
+        // pairs, which waits for the stores.
+        match self.provoking {
+            ProvokingVertex::First => {
+                for (p, vertices) in (first..).zip(out) {
+                    let [a, b, c] = elements_of(self.topology, p, self.elements);
+                    vertices[0] = self.vertex_of(a).wrapping_add(base);
+                    vertices[1] = self.vertex_of(b).wrapping_add(base);
+                    vertices[2] = self.vertex_of(c).wrapping_add(base);
+                }
+            }
+            ProvokingVertex::Last => {
+                for (p, vertices) in (first..).zip(out) {
+                    let corners = corners_of(self.topology, self.provoking, p, self.elements);
+                    *vertices = corners.map(|corner| self.vertex_of(corner).wrapping_add(base));
+                }
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use super::clip_detour::ClipDetour;
 use super::cull::TriangleGroup;
+use super::gathered::Gathered;
 use super::groups::PrimitiveGroups;
 use super::lines::LineWalk;
 use super::run::RunWork;
@@ -15,6 +16,7 @@ use estampe_simd::{LANES, dispatch};
 #[derive(Debug, Default)]
 pub(crate) struct ChunkScratch {
     groups: [TriangleGroup; 2],
+    gathered: Gathered,
     setup: SetupScratch,
     clip: ClipDetour,
 }
@@ -36,6 +38,7 @@ pub(crate) fn add_part(
 ) {
     let ChunkScratch {
         groups,
+        gathered,
         setup,
         clip,
     } = scratch;
@@ -44,8 +47,20 @@ pub(crate) fn add_part(
         debug_assert_eq!(setup.waiting(), 0, "the run before was not finished");
         chunk.begin_run(sub_draw);
     }
-    chunk.begin_part(sub_draw, setup.waiting());
     chunk.statistics.primitives_in += u64::from(to - from);
+    let Neighbours {
+        joins_last,
+        joins_next,
+    } = neighbours;
+    if (joins_last || joins_next) && gathered.add(sub_draw, work, chunk, setup) {
+        if !joins_next {
+            gathered.finish(work, chunk, setup);
+            Setup::new(work, chunk, setup).finish(joins_next);
+        }
+        return;
+    }
+    gathered.finish(work, chunk, setup);
+    chunk.begin_part(sub_draw, chunk.triangles.len(), setup.waiting());
     clip.begin();
     let mut setup = Setup::new(work, chunk, setup);
     if work.plan.fills_triangles() {

@@ -11,6 +11,7 @@
 use super::plan::GeometryPlan;
 use super::shaded_vertices::{NEEDS_CLIPPING, PackedVertex};
 use estampe_simd::{Bytes, LANES, Lane, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, outline};
+use std::ops::Range;
 
 /// Sixteen assembled triangles: the vertices that they join, and where these lie in the window.
 #[derive(Debug, Default)]
@@ -34,6 +35,22 @@ impl TriangleGroup {
                 positions[lane] = u64::from(x) | u64::from(y) << 32;
             }
         }
+    }
+}
+
+impl TriangleGroup {
+    /// Reads x and y of the vertices in some lanes. Returns true if one needs clipping.
+    #[inline(always)]
+    pub(crate) fn read_lanes(&mut self, lanes: Range<usize>, window: &[PackedVertex]) -> bool {
+        let mut needs_clipping = false;
+        for (at, vertices) in self.vertices[lanes.clone()].iter().enumerate() {
+            for (positions, &vertex) in self.positions.iter_mut().zip(vertices) {
+                let [x, y, ..] = window[vertex as usize];
+                needs_clipping |= x.cast_signed() == NEEDS_CLIPPING;
+                positions[lanes.start + at] = u64::from(x) | u64::from(y) << 32;
+            }
+        }
+        needs_clipping
     }
 }
 

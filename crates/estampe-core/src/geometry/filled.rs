@@ -47,6 +47,7 @@ pub(super) fn draw<S: Lanes>(
         }
         let lanes = SetupLanes {
             vertices: vertices_of(s, group),
+            first_vertex: <u32x16<S> as SimdBase<S>>::splat(s, work.vertices.first_in_batch),
             doubled_area: classified.doubled_area,
         };
         let mut submit = Submission {
@@ -76,7 +77,7 @@ fn assemble(
 
 /// The vertices of sixteen triangles, corner by corner.
 #[inline(always)]
-fn vertices_of<S: Lanes>(s: S, group: &TriangleGroup) -> [u32x16<S>; 3] {
+pub(super) fn vertices_of<S: Lanes>(s: S, group: &TriangleGroup) -> [u32x16<S>; 3] {
     let mut vertices = [<u32x16<S> as SimdBase<S>>::splat(s, 0); 3];
     for (corner, vertices) in vertices.iter_mut().enumerate() {
         let mut lanes = [0; LANES];

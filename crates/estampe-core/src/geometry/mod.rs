@@ -45,6 +45,7 @@ pub(crate) mod setup;
 pub(crate) mod binning;
 
 mod filled;
+mod gathered;
 
 pub(crate) mod restart;
 

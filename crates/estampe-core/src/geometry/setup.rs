@@ -57,8 +57,6 @@ pub(crate) struct Setup<'a> {
     plan: &'a GeometryPlan,
     /// The vertices of the batch.
     window: &'a [PackedVertex],
-    /// The number of the sub-draw's first one.
-    first_vertex: u32,
     waiting: &'a mut Waiting,
     clipped: &'a mut Vec<PackedVertex>,
     /// The number of the first of `clipped` in the chunk.
@@ -70,6 +68,8 @@ pub(crate) struct Setup<'a> {
 pub(crate) struct SetupLanes<S: Lanes> {
     /// The sub-draw's vertices, in the order given.
     pub(crate) vertices: [u32x16<S>; 3],
+    /// The number of the sub-draw's first vertex in the batch.
+    pub(crate) first_vertex: u32x16<S>,
     /// In the order given, rounded; not 0.
     pub(crate) doubled_area: f32x16<S>,
 }
@@ -95,7 +95,6 @@ impl<'a> Setup<'a> {
             level: work.level,
             plan: work.plan,
             window: vertices.of_batch,
-            first_vertex: vertices.first_in_batch,
             waiting,
             clipped,
             first_clipped: chunk.align_clipped_varyings(vertices.varying_scalars),
@@ -111,7 +110,8 @@ impl<'a> Setup<'a> {
         VertexRef(number | VertexRef::CLIPPED)
     }
 
-    /// Adds the triangles of the lanes in `kept`.
+    /// Adds the triangles of the lanes in `kept`, but for those that cover no sample. Returns which
+    /// are left.
     #[inline(always)]
     pub(crate) fn push_lanes<S: Lanes>(
         &mut self,
@@ -119,7 +119,7 @@ impl<'a> Setup<'a> {
         window: &WindowTriangles<S>,
         triangles: &SetupLanes<S>,
         kept: u16,
-    ) {
+    ) -> u16 {
         outline!(s, {
             let area = triangles.doubled_area;
             let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
@@ -148,12 +148,13 @@ impl<'a> Setup<'a> {
                 self.chunk.statistics.primitives_culled += u64::from(uncovered.count_ones());
             }
             let area = odd.select(-area, area);
-            let vertices = (order.vertex, self.first_vertex);
+            let vertices = (order.vertex, triangles.first_vertex);
             self.waiting
                 .append(s, vertices, provoking, area.bitcast(), kept);
             if self.waiting.len >= LANES {
                 self.emit();
             }
+            kept
         })
     }
 
@@ -328,7 +329,7 @@ impl Waiting {
     fn append<S: Lanes>(
         &mut self,
         s: S,
-        ([a, b, c], first_vertex): ([u32x16<S>; 3], u32),
+        ([a, b, c], first_vertex): ([u32x16<S>; 3], u32x16<S>),
         provoking: u32x16<S>,
         area: f32x16<S>,
         kept: u16,
@@ -336,7 +337,6 @@ impl Waiting {
         let at = self.len;
         self.len += kept.count_ones() as usize;
         let [to_a, to_b, to_c] = &mut self.vertex;
-        self.first_vertex[at..][..LANES].fill(first_vertex);
         if <S::u32s as SimdBase<S>>::LEN == LANES {
             // The whole vector is written; what is beyond the kept lanes is garbage until
             // overwritten.
@@ -344,6 +344,9 @@ impl Waiting {
             a.compress(mask).store_slice(&mut to_a[at..][..LANES]);
             b.compress(mask).store_slice(&mut to_b[at..][..LANES]);
             c.compress(mask).store_slice(&mut to_c[at..][..LANES]);
+            first_vertex
+                .compress(mask)
+                .store_slice(&mut self.first_vertex[at..][..LANES]);
             provoking
                 .compress(mask)
                 .store_slice(&mut self.provoking[at..][..LANES]);
@@ -353,10 +356,12 @@ impl Waiting {
         }
         let (a, b, c) = (a.to_array(), b.to_array(), c.to_array());
         let (provoking, area) = (provoking.to_array(), area.to_array());
+        let first_vertex = first_vertex.to_array();
         for (to, lane) in (at..).zip(Lane::all_of(kept)) {
             to_a[to] = lane.of(&a);
             to_b[to] = lane.of(&b);
             to_c[to] = lane.of(&c);
+            self.first_vertex[to] = lane.of(&first_vertex);
             self.provoking[to] = lane.of(&provoking);
             self.doubled_area[to] = lane.of(&area);
         }
