@@ -13,9 +13,8 @@
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{CompareFunction, DepthState, PrimitiveTopology, VertexBufferLayout};
 use estampe::{
-    Buffer, DepthOutput, Device, DeviceDescriptor, Draw, LoadOp, Mat4, RenderPass,
-    RenderPipelineDescriptor, RenderTargetDescriptor, TextureFormat, Vec3, Vec4, VertexFormat,
-    maths,
+    Buffer, Device, DeviceDescriptor, Draw, LoadOp, Mat4, RenderPass, RenderPipelineDescriptor,
+    RenderTargetDescriptor, TextureFormat, Vec3, Vec4, VertexFormat, maths,
 };
 use estampe_assets::image::{AlphaChannel, encode_png};
 use estampe_renderer::transforms::projection::{DepthConvention, perspective};
@@ -62,7 +61,6 @@ estampe::shader! {
     impl Shader for LogarithmicPlane {
         type Attributes<R: Real> = Vec3<R>;
         type Varyings<R: Real> = [R; 1];
-        const DEPTH_OUTPUT: DepthOutput = DepthOutput::Any;
 
         fn vertex<R: Real>(&self, input: VertexIn<'_, R>, at: Vec3<R>) -> VertexOut<R, [R; 1]> {
             self.0.vertex(input, at)

@@ -11,7 +11,7 @@ use crate::setup::{Plane, SortedTriangle};
 use estampe_types::shader::{
     DepthOutput, FragmentIn, Interpolation, Sampling, Shader, Source, Varyings,
 };
-use estampe_types::{Bindings, Quad, Real, Vec4};
+use estampe_types::{Bindings, Interface, Quad, Real, Vec4};
 
 /// The interpolants of a primitive: depth, 1/w and varyings at any pixel of the window.
 pub trait Surface {
@@ -190,6 +190,7 @@ impl Invocation {
 /// Shades the four fragments of a quad. `clamp_depth` clamps a depth to the viewport's range.
 pub fn shade_quad<S: Shader>(
     shader: &S,
+    interface: &Interface,
     bindings: &Bindings,
     surface: &impl Surface,
     invocation: &Invocation,
@@ -198,25 +199,19 @@ pub fn shade_quad<S: Shader>(
     let lanes = [0, 1, 2, 3];
     let pixels = lanes.map(|lane| QuadCoverage::pixel(invocation.origin, lane));
 
-    // Window positions, only for shaders that declare that they read them.
+    // Window positions. A shader that does not read them has no use for them.
     let position = lanes.map(|lane| {
         let (pixel, place) = (pixels[lane], invocation.place(lane, Sampling::Center));
         let [x, y] = sample_window(pixel, place);
         let z = clamp_depth(surface.depth(pixel, place));
         [x, y, z, surface.inverse_w_at(pixel, place)]
     });
-    let read = |component: usize| {
-        let lane = |p: [f32; 4]| if S::READS_POSITION { p[component] } else { 0.0 };
-        Quad(position.map(lane))
-    };
+    let read = |component: usize| Quad(position.map(|p| p[component]));
     let sample_index = match invocation.sample {
-        Some(sample) if S::PER_SAMPLE => sample,
+        Some(sample) if interface.per_sample => sample,
         _ => 0,
     };
-    let covered = |lane: usize| match S::READS_COVERAGE {
-        true => i32::from(invocation.samples_of(lane)),
-        false => 0,
-    };
+    let covered = |lane: usize| i32::from(invocation.samples_of(lane));
     let input = FragmentIn {
         position: Vec4::new(read(0), read(1), read(2), read(3)),
         front_facing: Quad([invocation.front_facing; 4]),
@@ -252,11 +247,11 @@ pub fn shade_quad<S: Shader>(
         None => [0.0; 4],
     };
     lanes.map(|lane| Fragment {
-        colors: (0..S::COLOR_TARGETS)
+        colors: (0..interface.color_targets)
             .map(|target| color_at(output.color_of(target), lane))
             .collect(),
-        second: color_at(output.second_color().filter(|_| S::DUAL_SOURCE), lane),
-        depth: match S::DEPTH_OUTPUT {
+        second: color_at(output.second_color(), lane),
+        depth: match interface.depth_output {
             DepthOutput::None => None,
             _ => {
                 let depth = output.depth().unwrap_or(input.position.z);
@@ -264,10 +259,10 @@ pub fn shade_quad<S: Shader>(
             }
         },
         sample_mask: match output.sample_mask() {
-            Some(mask) if S::WRITES_SAMPLE_MASK => low_bits(mask.0[lane]),
-            _ => u16::MAX,
+            Some(mask) => low_bits(mask.0[lane]),
+            None => u16::MAX,
         },
-        is_discarded: S::DISCARDS && output.kept().is_some_and(|kept| !kept.0[lane]),
+        is_discarded: output.kept().is_some_and(|kept| !kept.0[lane]),
     })
 }
 

@@ -53,6 +53,7 @@
 //! | `maths`: `exp2`, `log2`, `sin`, `exp`, `pow`, `powi` | `estampe-types/src/tests/mod.rs` and `tests/shared/numbers.rs`: error bounds against f64 |
 //! | `Vec2`, `Vec3`, `Vec4`, `Mat4` | `tests/shared/vectors.rs`, by hand, the order of sums included |
 //! | how attributes and varyings are split into scalars and assembled; `FragmentOut`, `VertexOut` | `tests/shared/layouts.rs`; `tests/drawing.rs` |
+//! | the interface of a shader: `interface_of` | `estampe-types/src/shader/dry_run/tests.rs` |
 //! | `Buffer::words`, and how bytes become words; `Bindings` | `tests/shared/layouts.rs`, by hand |
 //! | the layout of textures: `stored_format`, `words_per_texel`, `slices`; `StorageTexture::index` | `tests/shared/layouts.rs`, by hand |
 //!

@@ -13,13 +13,13 @@ use crate::setup::SortedTriangle;
 use crate::shading::shade_vertex;
 use crate::viewport::{PixelBounds, ViewportSamples, ViewportTransform, is_drawable};
 use crate::{ClipVertex, Target, WindowVertex, depth_bias, fetch, per_sample};
-use estampe_types::shader::{Interpolation, Sampling, Shader, Varyings};
+use estampe_types::shader::{Shader, interface_of};
 use estampe_types::state::{
     BlendState, ColorWrites, ConservativeMode, DepthBiasState, DepthState, LineRasterization,
     LineStipple, LogicOperation, PolygonMode, PrimitiveState, PrimitiveTopology, ProvokingVertex,
     ScissorRect, StencilState, VertexBufferLayout, Viewport,
 };
-use estampe_types::{Bindings, Buffer, IndexFormat};
+use estampe_types::{Bindings, Buffer, IndexFormat, Interface};
 use std::ops::Range;
 
 /// The fixed-function state of a draw.
@@ -170,7 +170,8 @@ pub struct Counts {
 /// counted.
 ///
 /// It cannot fail: indices out of range and short buffers read as zeros, and NaN and infinity are
-/// dropped or stored as NUMERICS.md says. Its time is proportional to the vertex and instance
+/// dropped or stored as NUMERICS.md says; a shader of which no pipeline can be made draws nothing.
+/// Its time is proportional to the vertex and instance
 /// ranges, however large.
 pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Draw<'_>) -> Counts {
     if !is_drawable(&state.viewport) {
@@ -181,12 +182,9 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
     if bounds.x.is_empty() || bounds.y.is_empty() {
         return Counts::default();
     }
-    let mut modes = Vec::new();
-    S::Varyings::<f32>::modes(&mut modes);
-    let mut sampling = Vec::new();
-    S::Varyings::<f32>::sampling(&mut sampling);
-    let is_by_sample =
-        state.sample_shading || S::PER_SAMPLE || sampling.contains(&Sampling::Sample);
+    let Ok(interface) = interface_of(shader) else {
+        return Counts::default();
+    };
     let mut pass = Pass {
         target,
         shader,
@@ -196,8 +194,8 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
             .with_unclipped_depth(state.primitive.unclipped_depth),
         bounds,
         viewport_samples: ViewportSamples::new(&state.viewport),
-        modes,
-        is_by_sample,
+        is_by_sample: state.sample_shading || interface.per_sample,
+        interface: &interface,
         stipple: 0,
         counts: Counts::default(),
     };
@@ -208,7 +206,7 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
     };
     for instance in draw.instances.clone() {
         for run in &runs {
-            let shade = |at: u32| shade_vertex(shader, draw, run.start + at, instance);
+            let shade = |at: u32| shade_vertex(shader, &interface, draw, run.start + at, instance);
             pass.run(run.end - run.start, shade);
         }
     }
@@ -224,7 +222,7 @@ struct Pass<'a, S> {
     viewport: ViewportTransform,
     bounds: PixelBounds,
     viewport_samples: ViewportSamples,
-    modes: Vec<Interpolation>,
+    interface: &'a Interface,
     is_by_sample: bool,
     /// The length of the stipple pattern that the preceding lines of the strip have used: in
     /// columns for Bresenham lines, in 1/65536 pixel for rectangular ones.
@@ -318,7 +316,7 @@ impl<S: Shader> Pass<'_, S> {
             return;
         };
         self.counts.rasterized += 1;
-        let mut surface = TriangleSurface::new(&sorted, &self.modes, flat);
+        let mut surface = TriangleSurface::new(&sorted, &self.interface.varyings, flat);
         if let Some(bias) = self.bias(&sorted) {
             surface.depth.value += bias;
         }
@@ -388,11 +386,11 @@ impl<S: Shader> Pass<'_, S> {
             })
             .collect();
         self.stipple += u64::from(path.length());
-        let modes = self.modes.clone();
+        let interface = self.interface;
         let surface = LineSurface {
             path,
             ends,
-            modes: &modes,
+            modes: &interface.varyings,
             flat,
         };
         self.fragments(&quads, &surface, face);
@@ -419,11 +417,11 @@ impl<S: Shader> Pass<'_, S> {
             }
         }
         self.stipple += rectangle.length_65536();
-        let modes = self.modes.clone();
+        let interface = self.interface;
         let surface = RectangleSurface {
             rectangle,
             ends,
-            modes: &modes,
+            modes: &interface.varyings,
             flat,
             is_smooth,
         };
@@ -443,11 +441,11 @@ impl<S: Shader> Pass<'_, S> {
             point::cover
         };
         let quads = cover(placed.snapped, vertex.point_size, &self.bounds, samples);
-        let modes = self.modes.clone();
+        let interface = self.interface;
         let surface = PointSurface {
             vertex: &placed,
             flat: parent.map_or(&vertex.varyings, |parent| parent.flat),
-            modes: &modes,
+            modes: &interface.varyings,
         };
         self.fragments(&quads, &surface, face_of(parent));
     }
@@ -498,7 +496,15 @@ impl<S: Shader> Pass<'_, S> {
         }
         let viewport = self.viewport;
         let clamp_depth = |depth| viewport.clamp_depth(depth);
-        let shaded = shade_quad(self.shader, self.bindings, surface, invocation, clamp_depth);
+        let (shader, interface) = (self.shader, self.interface);
+        let shaded = shade_quad(
+            shader,
+            interface,
+            self.bindings,
+            surface,
+            invocation,
+            clamp_depth,
+        );
         for (lane, mut fragment) in shaded.into_iter().enumerate() {
             let pixel = QuadCoverage::pixel(invocation.origin, lane);
             if let Some(factor) = surface.alpha(pixel) {
@@ -519,7 +525,7 @@ impl<S: Shader> Pass<'_, S> {
                     continue;
                 }
                 let interpolated = clamp_depth(surface.depth(pixel, sample));
-                let depth = sample_depth(S::DEPTH_OUTPUT, fragment.depth, interpolated);
+                let depth = sample_depth(interface.depth_output, fragment.depth, interpolated);
                 let index = self.target.index(pixel, s);
                 let passed =
                     per_sample::store_sample(self.target, index, self.state, face, depth, fragment);

@@ -3,7 +3,7 @@
 //! In · Out: vertex and instance index · a vertex in clip space.
 
 use crate::{Draw, fetch};
-use estampe_types::shader::{Attributes, Shader, Sink, Source, Varyings, VertexIn};
+use estampe_types::shader::{Attributes, Interface, Shader, Sink, Source, Varyings, VertexIn};
 
 /// The outputs of the vertex shader.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +24,7 @@ pub struct ClipVertex {
 /// Fetches and shades the vertex at `position` in the draw's range, counted from the range's start.
 pub fn shade_vertex<S: Shader>(
     shader: &S,
+    interface: &Interface,
     draw: &Draw<'_>,
     position: u32,
     instance_index: u32,
@@ -54,12 +55,9 @@ pub fn shade_vertex<S: Shader>(
     ClipVertex {
         position: [p.x, p.y, p.z, p.w],
         varyings: varyings.0,
-        point_size: match output.point_size {
-            Some(pixels) if S::WRITES_POINT_SIZE => pixels,
-            _ => 1.0,
-        },
-        clip_distances: given(&output.clip_distances[..S::CLIP_DISTANCES]),
-        cull_distances: given(&output.cull_distances[..S::CULL_DISTANCES]),
+        point_size: output.point_size.unwrap_or(1.0),
+        clip_distances: given(&output.clip_distances[..interface.clip_distances]),
+        cull_distances: given(&output.cull_distances[..interface.cull_distances]),
     }
 }
 

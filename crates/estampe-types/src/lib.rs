@@ -48,8 +48,8 @@ pub use quad::Quad;
 pub use real::Real;
 pub use shader::{
     Attributes, Centroid, Flat, FragmentBatch, FragmentIn, FragmentOut, Interface, Interpolation,
-    NoPerspective, PerSample, Program, Sampling, Shader, ShaderProgram, Varyings, VertexBatch,
-    VertexIn,
+    NoPerspective, PerSample, Program, Sampling, Shader, ShaderError, ShaderProgram, Varyings,
+    VertexBatch, VertexIn,
 };
 pub use texture::{
     AddressMode, BorderColor, DepthTexture, FilterMode, MipLevel, SamplerDescriptor,

@@ -1,7 +1,7 @@
 //! The numbers that shaders compute with.
 
 use crate::operand::{Implied, Join, LeftOfReal, Operand, ScaleVectors};
-use crate::{Int, maths};
+use crate::{Int, ShaderError, maths};
 use estampe_simd::Level;
 use std::fmt::Debug;
 use std::ops::{
@@ -201,6 +201,14 @@ pub trait Real:
     #[inline(always)]
     fn level(self) -> Option<Level> {
         None
+    }
+
+    /// Called where a shader breaks a rule that only its values show. The dry run records it, so
+    /// that no pipeline is made; elsewhere the broken call has no effect, and debug builds stop.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn report(self, misuse: ShaderError) {
+        debug_assert!(false, "{misuse}");
     }
 
     /// One lane's value; `index` is below [`Real::LANES`].

@@ -53,7 +53,7 @@ pub use estampe_types::{
     AddressMode, Attributes, BindGroup, Binding, Bindings, Buffer, Centroid, DepthTexture,
     FilterMode, Flat, FragmentIn, FragmentOut, IndexFormat, Int, Limits, Mat2, Mat3, Mat4,
     MipLevel, NoPerspective, Operand, PerSample, Program, Quad, Real, SampleType,
-    SamplerDescriptor, Shader, ShaderProgram, TexelEncoding, Texture, TextureFormat, Varyings,
-    Vec2, Vec3, Vec4, VertexEncoding, VertexFormat, VertexIn, attributes, maths, operand, shader,
-    state, varyings, vec2, vec3, vec4,
+    SamplerDescriptor, Shader, ShaderError, ShaderProgram, TexelEncoding, Texture, TextureFormat,
+    Varyings, Vec2, Vec3, Vec4, VertexEncoding, VertexFormat, VertexIn, attributes, maths, operand,
+    shader, state, varyings, vec2, vec3, vec4,
 };

@@ -12,7 +12,6 @@ estampe::shader! {
     impl Shader for Slope {
         type Attributes<R: Real> = ();
         type Varyings<R: Real> = ();
-        const COLOR_TARGETS: usize = 0;
 
         fn vertex<R: Real>(&self, input: VertexIn<'_, R>, (): ()) -> VertexOut<R, ()> {
             let index = input.vertex_index.to_real();

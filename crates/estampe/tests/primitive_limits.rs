@@ -17,10 +17,7 @@ impl<const CLIP: usize, const CULL: usize> Shader for Distant<CLIP, CULL> {
 
     fn vertex<R: estampe::Real>(&self, input: VertexIn<'_, R>, _nothing: ()) -> VertexOut<R, ()> {
         let zero = input.zero;
-        // Indices from 8 on do not exist.
         VertexOut::new(Vec4::new(zero, zero, zero, zero), ())
-            .with_clip_distance(9, zero)
-            .with_cull_distance(usize::MAX, zero)
     }
 
     fn fragment<R: estampe::Real>(&self, input: FragmentIn<'_, R>, _nothing: ()) -> FragmentOut<R> {

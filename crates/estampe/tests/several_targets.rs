@@ -16,7 +16,6 @@ estampe::shader! {
     impl Shader for Primaries {
         type Attributes<R: Real> = Vec2<R>;
         type Varyings<R: Real> = Vec2<R>;
-        const COLOR_TARGETS: usize = 3;
 
         fn vertex<R: Real>(&self, input: VertexIn<'_, R>, at: Vec2<R>) -> VertexOut<R, Vec2<R>> {
             let (depth, w) = (input.real(0.5), input.real(1.0));

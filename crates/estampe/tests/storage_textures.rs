@@ -24,8 +24,6 @@ estampe::shader! {
     impl Shader for Storing {
         type Attributes<R: Real> = Vec2<R>;
         type Varyings<R: Real> = ();
-        const READS_POSITION: bool = true;
-        const STORES: bool = true;
 
         fn vertex<R: Real>(&self, input: VertexIn<'_, R>, at: Vec2<R>) -> VertexOut<R, ()> {
             let (depth, w) = (input.real(self.depth), input.real(1.0));

@@ -35,7 +35,6 @@ estampe::shader! {
     impl Shader for LightDepth {
         type Attributes<R: Real> = Vec3<R>; // position
         type Varyings<R: Real> = ();
-        const COLOR_TARGETS: usize = 0;
 
         fn vertex<R: Real>(&self, input: VertexIn<'_, R>, position: Vec3<R>) -> VertexOut<R, ()> {
             let light_from_object = input.bindings.mat4(0, 0, LIGHT_FROM_OBJECT);

@@ -75,10 +75,6 @@ estampe::shader! {
     impl<S: Surface, O: Output> Shader for Shaded<S, O> {
         type Attributes<R: Real> = S::Attributes<R>;
         type Varyings<R: Real> = S::Varyings<R>;
-        const COLOR_TARGETS: usize = O::TARGETS;
-        const DISCARDS: bool = O::DISCARDS;
-        const DUAL_SOURCE: bool = O::DUAL_SOURCE;
-        const WRITES_POINT_SIZE: bool = S::POINT_SIZE_PX.is_some();
 
         fn vertex<R: Real>(
             &self,
@@ -238,18 +234,12 @@ impl ViewTexture {
 
 /// The use of a fragment's colour.
 trait Output: Send + Sync + 'static {
-    const TARGETS: usize = 1;
-    const DISCARDS: bool = false;
-    const DUAL_SOURCE: bool = false;
-
     fn out<R: Real>(color: Vec4<R>) -> FragmentOut<R>;
 }
 
 struct Targets<const N: usize>;
 
 impl<const N: usize> Output for Targets<N> {
-    const TARGETS: usize = N;
-
     #[inline(always)]
     fn out<R: Real>(color: Vec4<R>) -> FragmentOut<R> {
         let mut out = FragmentOut::none();
@@ -280,8 +270,6 @@ impl Output for Integers {
 struct Discard;
 
 impl Output for Discard {
-    const DISCARDS: bool = true;
-
     #[inline(always)]
     fn out<R: Real>(color: Vec4<R>) -> FragmentOut<R> {
         FragmentOut::color(color).discard_unless(color.w.gt(color.w.splat(1.0 / 16.0)))
@@ -291,8 +279,6 @@ impl Output for Discard {
 struct DualSource;
 
 impl Output for DualSource {
-    const DUAL_SOURCE: bool = true;
-
     #[inline(always)]
     fn out<R: Real>(color: Vec4<R>) -> FragmentOut<R> {
         FragmentOut::color(color).with_second_color(Vec4::repeat(color.w))

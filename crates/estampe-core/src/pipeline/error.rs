@@ -1,11 +1,14 @@
 //! Why a pipeline was refused.
 
-use estampe_types::TextureFormat;
+use estampe_types::{ShaderError, TextureFormat};
 
 /// Why a pipeline was refused: the rule that its descriptor breaks.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PipelineError {
+    /// The shader contradicts what it declares, or a limit.
+    #[error(transparent)]
+    Shader(#[from] ShaderError),
     /// The sample count is not offered.
     #[error("a pipeline has 1, 2, 4, 8 or 16 samples per pixel, not {0}")]
     SampleCount(u32),
@@ -58,7 +61,7 @@ pub enum PipelineError {
     },
     /// A blend factor needs a second colour, which the shader does not give.
     #[error(
-        "colour target {0} blends with the fragment's second colour, but the shader gives none (DUAL_SOURCE)"
+        "colour target {0} blends with the fragment's second colour, but the shader gives none (with_second_color)"
     )]
     NoSecondColor(usize),
     /// Dual-source blending with another number of targets than one.

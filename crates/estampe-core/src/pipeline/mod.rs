@@ -124,6 +124,7 @@ impl RenderPipeline {
         descriptor: &RenderPipelineDescriptor,
         limits: &Limits,
     ) -> Result<Self, PipelineError> {
+        descriptor.program.validate()?;
         let interface = descriptor.program.interface();
         check_targets(descriptor, interface, limits)?;
         check_interface(interface, limits)?;

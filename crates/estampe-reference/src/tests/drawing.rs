@@ -83,9 +83,6 @@ estampe_types::shader! {
     impl Shader for Probe {
         type Attributes<R: Real> = (Vec4<R>, Vec3<R>);
         type Varyings<R: Real> = [R; 1];
-        const DISCARDS: bool = true;
-        const DEPTH_OUTPUT: shader::DepthOutput = shader::DepthOutput::Any;
-        const READS_POSITION: bool = true;
 
         fn vertex<R: Real>(
             &self,

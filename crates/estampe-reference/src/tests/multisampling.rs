@@ -26,9 +26,6 @@ estampe_types::shader! {
     impl Shader for BySample {
         type Attributes<R: Real> = (Vec4<R>, Vec3<R>);
         type Varyings<R: Real> = NoPerspective<Vec3<R>>;
-        const READS_POSITION: bool = true;
-        const PER_SAMPLE: bool = true;
-        const READS_COVERAGE: bool = true;
 
         fn vertex<R: Real>(
             &self,
@@ -79,8 +76,6 @@ estampe_types::shader! {
     impl Shader for Places {
         type Attributes<R: Real> = (Vec4<R>, Vec3<R>);
         type Varyings<R: Real> = (NoPerspective<[R; 1]>, Centroid<NoPerspective<[R; 1]>>);
-        const READS_COVERAGE: bool = true;
-        const WRITES_SAMPLE_MASK: bool = true;
 
         fn vertex<R: Real>(
             &self,

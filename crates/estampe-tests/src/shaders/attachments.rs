@@ -33,6 +33,7 @@ fn integer<R: Real>(value: R) -> R {
 impl<const N: usize> Shader for Layers<N> {
     type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
     type Varyings<R: Real> = Vec4<R>;
+    // The last of eight is not set.
     const COLOR_TARGETS: usize = N;
 
     #[inline(always)]
@@ -83,8 +84,8 @@ pub type CutLayers4 = CutLayers<4>;
 impl<const N: usize> Shader for CutLayers<N> {
     type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
     type Varyings<R: Real> = Vec4<R>;
+    // The last of eight is not set.
     const COLOR_TARGETS: usize = N;
-    const DISCARDS: bool = true;
 
     #[inline(always)]
     fn vertex<R: Real>(
@@ -112,7 +113,6 @@ estampe_types::shader! {
     impl Shader for TwoColors {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Vec4<R>;
-        const DUAL_SOURCE: bool = true;
 
         fn vertex<R: Real>(
             &self,
@@ -142,7 +142,6 @@ pub type LessDepth = HeldDepth<false>;
 impl<const GREATER: bool> Shader for HeldDepth<GREATER> {
     type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
     type Varyings<R: Real> = Vec4<R>;
-    const READS_POSITION: bool = true;
     const DEPTH_OUTPUT: DepthOutput = if GREATER {
         DepthOutput::Greater
     } else {
@@ -173,9 +172,6 @@ estampe_types::shader! {
     impl Shader for LogarithmicDepth {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Vec4<R>;
-        const READS_POSITION: bool = true;
-        const DEPTH_OUTPUT: DepthOutput =
-            DepthOutput::Any;
 
         fn vertex<R: Real>(
             &self,

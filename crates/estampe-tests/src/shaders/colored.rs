@@ -118,7 +118,6 @@ estampe_types::shader! {
     impl Shader for Sized {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = (Vec4<R>, Flat<[R; 1]>);
-        const WRITES_POINT_SIZE: bool = true;
 
         fn vertex<R: Real>(
             &self,

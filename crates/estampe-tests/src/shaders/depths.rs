@@ -1,6 +1,6 @@
 //! Shaders that discard and that write depth.
 
-use estampe_types::shader::{DepthOutput, VertexOut};
+use estampe_types::shader::VertexOut;
 use estampe_types::{FragmentIn, FragmentOut, Real, Vec4, VertexIn};
 
 /// Discards stripes of the first value.
@@ -11,7 +11,6 @@ estampe_types::shader! {
     impl Shader for Cutout {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Vec4<R>;
-        const DISCARDS: bool = true;
 
         fn vertex<R: Real>(
             &self,
@@ -61,8 +60,6 @@ estampe_types::shader! {
     impl Shader for DepthGiven {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Vec4<R>;
-        const DEPTH_OUTPUT: DepthOutput = DepthOutput::Any;
-        const READS_POSITION: bool = true;
 
         fn vertex<R: Real>(
             &self,
@@ -86,9 +83,6 @@ estampe_types::shader! {
     impl Shader for CutoutDepth {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Vec4<R>;
-        const DEPTH_OUTPUT: DepthOutput = DepthOutput::Any;
-        const READS_POSITION: bool = true;
-        const DISCARDS: bool = true;
 
         fn vertex<R: Real>(
             &self,
@@ -113,7 +107,6 @@ estampe_types::shader! {
     impl Shader for DepthOnly {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = ();
-        const COLOR_TARGETS: usize = 0;
 
         fn vertex<R: Real>(
             &self,

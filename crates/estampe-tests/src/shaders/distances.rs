@@ -21,9 +21,6 @@ estampe_types::shader! {
     impl Shader for Distant {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Shown<R>;
-        const READS_POSITION: bool = true;
-        const CLIP_DISTANCES: usize = 2;
-        const CULL_DISTANCES: usize = 2;
 
         fn vertex<R: Real>(
             &self,
@@ -65,9 +62,9 @@ estampe_types::shader! {
     impl Shader for ManyDistances {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Vec4<R>;
+        // The last is not set.
         const CLIP_DISTANCES: usize = 8;
         const CULL_DISTANCES: usize = 8;
-        const WRITES_POINT_SIZE: bool = true;
 
         fn vertex<R: Real>(
             &self,

@@ -70,7 +70,6 @@ estampe_types::shader! {
     impl Shader for Probe {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = (Vec2<R>, NoPerspective<Vec2<R>>, Flat<[R; 1]>);
-        const READS_POSITION: bool = true;
 
         fn vertex<R: Real>(
             &self,

@@ -20,7 +20,7 @@ pub enum Shown {
     /// The second varying: linear in the window, evaluated at the pixel's centre unless shading is
     /// per sample.
     Second,
-    /// The coverage and the index of the shaded sample.
+    /// The coverage, and in shaders that run by sample the index of the sample.
     Samples,
     /// Window x.
     X,
@@ -49,6 +49,7 @@ impl Shown {
 #[inline(always)]
 fn show<R: Real>(
     what: Shown,
+    is_by_sample: bool,
     input: FragmentIn<'_, R>,
     first: Vec2<R>,
     second: Vec2<R>,
@@ -59,7 +60,10 @@ fn show<R: Real>(
         Shown::Ddx => bytes_of(first.x.ddx()),
         Shown::Ddy => bytes_of(first.y.ddy()),
         Shown::Second => bytes_of(second.y),
-        Shown::Samples => bytes_of_int::<R>(input.coverage | (input.sample_index << 16)),
+        Shown::Samples if is_by_sample => {
+            bytes_of_int::<R>(input.coverage | (input.sample_index << 16))
+        }
+        Shown::Samples => bytes_of_int::<R>(input.coverage),
         Shown::X => bytes_of(p.x),
         Shown::Z => bytes_of(p.z),
         Shown::InverseW => bytes_of(p.w),
@@ -77,8 +81,7 @@ macro_rules! sampled {
                 type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
                 type Varyings<R: Real> =
                     ($wrapper<Vec2<R>>, NoPerspective<Vec2<R>>, Flat<[R; 1]>);
-                const READS_POSITION: bool = true;
-                const READS_COVERAGE: bool = true;
+                // Not found where another value is shown than the samples.
                 const PER_SAMPLE: bool = $per_sample;
 
                 fn vertex<R: Real>(
@@ -99,7 +102,7 @@ macro_rules! sampled {
                     input: FragmentIn<'_, R>,
                     ($wrapper(first), NoPerspective(second), Flat([flat])): Self::Varyings<R>,
                 ) -> FragmentOut<R> {
-                    show(self.0, input, first, Vec2::new(flat, second.y))
+                    show(self.0, $per_sample, input, first, Vec2::new(flat, second.y))
                 }
             }
         }
@@ -107,8 +110,8 @@ macro_rules! sampled {
 }
 sampled! {
     "A varying where the primitive covers the pixel." AtCentroid Centroid false;
-    "A varying at each sample, which makes shading go by sample." AtSample PerSample false;
-    "Shaded by sample because it reads the sample's number; the varying is declared centroid." BySample Centroid true;
+    "A varying at each sample, which makes shading go by sample." AtSample PerSample true;
+    "Shaded by sample because it declares so; the varying is declared centroid." BySample Centroid true;
 }
 
 /// Writes a sample mask computed from the first value, and shows the coverage; discards some
@@ -123,9 +126,6 @@ estampe_types::shader! {
     impl Shader for Masking {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Vec4<R>;
-        const READS_COVERAGE: bool = true;
-        const WRITES_SAMPLE_MASK: bool = true;
-        const DISCARDS: bool = true;
 
         fn vertex<R: Real>(
             &self,

@@ -118,6 +118,27 @@ macro_rules! methods_of_real {
 }
 pub(crate) use methods_of_real;
 
+/// Methods of the number of dry runs, which are compiled once and not in each shader.
+macro_rules! methods_of_recorded {
+    (
+        own { $($(#[$own_doc:meta])* $own:ident)+ }
+        one { $($(#[$doc:meta])* $name:ident)+ }
+        two { $($(#[$two_doc:meta])* $two:ident($x:ident, $y:ident))+ }
+    ) => {
+        $(
+            fn $name(self) -> Self {
+                self.made($crate::maths::scalar::$name(self.used()))
+            }
+        )+
+        $(
+            fn $two(self, other: impl Operand<Self>) -> Self {
+                self.made($crate::maths::scalar::$two(self.used(), other.operand(self).used()))
+            }
+        )+
+    };
+}
+pub(crate) use methods_of_recorded;
+
 /// Methods of a vector.
 macro_rules! methods_of_vectors {
     (

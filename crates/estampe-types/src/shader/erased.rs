@@ -1,12 +1,11 @@
 //! Type erasure: a Rust shader behind the [`Program`] interface.
 
-use super::fragment::MAX_COLORS;
+use super::declaration::{assert_fragment, assert_vertex};
 use super::packets::{PacketSink, PacketSource, Packets};
-use super::pass_through::color_passthrough;
-use super::{Attributes, Sampling, Varyings, scalar};
+use super::{Attributes, DepthOutput, Varyings, interface_of, scalar};
 use crate::{
-    Bindings, FragmentBatch, FragmentIn, Interface, Pair, Program, Real, Shader, Vec4, VertexBatch,
-    VertexIn,
+    Bindings, FragmentBatch, FragmentIn, Interface, Pair, Program, Real, Shader, ShaderError, Vec4,
+    VertexBatch, VertexIn,
 };
 use estampe_simd::{Bytes, Lanes, Level, Packet, SimdBase, dispatch, f32x16, i32x16, u32x16};
 
@@ -14,34 +13,24 @@ use estampe_simd::{Bytes, Lanes, Level, Packet, SimdBase, dispatch, f32x16, i32x
 pub struct ShaderProgram<T> {
     shader: T,
     interface: Interface,
+    /// Why no pipeline can be made of the shader, if so.
+    error: Option<ShaderError>,
 }
 
 impl<T: Shader> ShaderProgram<T> {
-    /// Wraps a shader, and computes its interface from its constants and types.
+    /// Wraps a shader, and finds [its interface](Shader#the-interface), for which the shader is run
+    /// a few times. An error is reported when a pipeline is created, by [`Program::validate`].
     #[must_use]
     pub fn new(shader: T) -> Self {
-        let mut interface = Interface {
-            color_targets: T::COLOR_TARGETS.min(MAX_COLORS),
-            discards: T::DISCARDS,
-            depth_output: T::DEPTH_OUTPUT,
-            reads_position: T::READS_POSITION,
-            writes_point_size: T::WRITES_POINT_SIZE,
-            clip_distances: T::CLIP_DISTANCES,
-            cull_distances: T::CULL_DISTANCES,
-            no_derivatives: T::NO_DERIVATIVES,
-            per_sample: T::PER_SAMPLE,
-            reads_coverage: T::READS_COVERAGE,
-            writes_sample_mask: T::WRITES_SAMPLE_MASK,
-            dual_source: T::DUAL_SOURCE,
-            stores: T::STORES,
-            ..Interface::default()
+        let (interface, error) = match interface_of(&shader) {
+            Ok(interface) => (interface, None),
+            Err(error) => (Interface::default(), Some(error)),
         };
-        T::Attributes::<f32>::components(&mut interface.attributes);
-        T::Varyings::<f32>::modes(&mut interface.varyings);
-        T::Varyings::<f32>::sampling(&mut interface.sampling);
-        interface.per_sample |= interface.sampling.contains(&Sampling::Sample);
-        interface.color_passthrough = color_passthrough(&shader, &interface);
-        Self { shader, interface }
+        Self {
+            shader,
+            interface,
+            error,
+        }
     }
 
     /// The shader.
@@ -65,6 +54,10 @@ impl<T: Shader> Program for ShaderProgram<T> {
         &self.interface
     }
 
+    fn validate(&self) -> Result<(), ShaderError> {
+        self.error.clone().map_or(Ok(()), Err)
+    }
+
     fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>) {
         dispatch!(@wide level, s => self.vertices(s, bindings, batch),
             scalar => scalar::vertices(&self.shader, &self.interface, bindings, batch));
@@ -85,8 +78,10 @@ impl<T: Shader> Program for ShaderProgram<T> {
 impl<T: Shader> ShaderProgram<T> {
     #[inline(always)]
     fn vertices<S: Lanes>(&self, simd: S, bindings: &Bindings, batch: VertexBatch<'_>) {
-        let attributes = self.interface.attribute_scalars();
-        let varyings = self.interface.varyings.len();
+        let interface = &self.interface;
+        let attributes = interface.attribute_scalars();
+        let varyings = interface.varyings.len();
+        let (clips, culls) = (interface.clip_distances, interface.cull_distances);
         for packet in 0..batch.vertex_index.len() {
             let input = VertexIn {
                 vertex_index: ints(simd, &batch.vertex_index[packet]),
@@ -97,17 +92,18 @@ impl<T: Shader> ShaderProgram<T> {
             let left = [&batch.attributes[packet * attributes..][..attributes]; 2];
             let loaded = T::Attributes::load(&mut PacketSource { simd, left });
             let out = self.shader.vertex(input, loaded);
+            assert_vertex::<T, _, _>(interface, &out);
             store_vec4(out.position, [packet * 4; 2], batch.positions);
             let to = &mut batch.varyings[packet * varyings..][..varyings];
             out.varyings.store(&mut PacketSink { left: to });
-            if T::WRITES_POINT_SIZE {
+            if interface.writes_point_size {
                 let size = out.point_size.unwrap_or(input.zero.splat(1.0));
                 size.store_array(&mut batch.point_sizes[packet].0);
             }
-            if T::CLIP_DISTANCES + T::CULL_DISTANCES > 0 {
-                let clip = out.clip_distances.iter().take(T::CLIP_DISTANCES);
-                let cull = out.cull_distances.iter().take(T::CULL_DISTANCES);
-                let first = packet * (T::CLIP_DISTANCES + T::CULL_DISTANCES);
+            if clips + culls > 0 {
+                let clip = out.clip_distances.iter().take(clips);
+                let cull = out.cull_distances.iter().take(culls);
+                let first = packet * (clips + culls);
                 for (distance, to) in clip.chain(cull).zip(&mut batch.distances[first..]) {
                     distance.unwrap_or(input.zero).store_array(&mut to.0);
                 }
@@ -123,9 +119,10 @@ impl<T: Shader> ShaderProgram<T> {
         bindings: &Bindings,
         batch: FragmentBatch<'_>,
     ) {
-        let varyings = self.interface.varyings.len();
-        let targets = self.interface.color_targets;
-        let outputs = self.interface.colors();
+        let interface = &self.interface;
+        let varyings = interface.varyings.len();
+        let targets = interface.color_targets;
+        let outputs = interface.colors();
         let count = batch.coverage.len();
         for packet in (0..count).step_by(R::COUNT) {
             // A last packet without a partner is paired with itself.
@@ -133,18 +130,18 @@ impl<T: Shader> ShaderProgram<T> {
             let packets = [packet, second];
             let zero = R::zero(simd);
             let black = Vec4::new(zero, zero, zero, zero);
-            let position = if T::READS_POSITION {
+            let position = if interface.reads_position {
                 let left = packets.map(|packet| &batch.positions[packet * 4..][..4]);
                 <Vec4<R> as Varyings<R>>::load(&mut PacketSource { simd, left })
             } else {
                 black
             };
-            let sample_index = if T::PER_SAMPLE {
+            let sample_index = if interface.per_sample {
                 R::ints_of(simd, packets.map(|p| [batch.sample_index[p]; 16]))
             } else {
                 zero.splat_int(0)
             };
-            let samples_covered = if T::READS_COVERAGE {
+            let samples_covered = if interface.reads_coverage {
                 R::ints_of(simd, packets.map(|p| batch.samples_covered[p].0))
             } else {
                 zero.splat_int(0)
@@ -161,15 +158,16 @@ impl<T: Shader> ShaderProgram<T> {
             let left = packets.map(|packet| &batch.varyings[packet * varyings..][..varyings]);
             let loaded = T::Varyings::load(&mut PacketSource { simd, left });
             let out = self.shader.fragment(input, loaded);
+            assert_fragment::<T, _>(interface, &out);
             for index in 0..targets {
                 let at = packets.map(|packet| (packet * outputs + index) * 4);
                 store_vec4(out.colors[index].unwrap_or(black), at, batch.colors);
             }
-            if T::DUAL_SOURCE {
+            if interface.dual_source {
                 let at = packets.map(|packet| (packet * outputs + targets) * 4);
                 store_vec4(out.second.unwrap_or(black), at, batch.colors);
             }
-            if T::WRITES_SAMPLE_MASK {
+            if interface.writes_sample_mask {
                 let kept = out.sample_mask.unwrap_or(zero.splat_int(-1));
                 let kept = R::parts_of_ints(kept);
                 store_ints(kept[0], &mut batch.sample_masks[packet]);
@@ -177,8 +175,8 @@ impl<T: Shader> ShaderProgram<T> {
                     store_ints(kept[1], &mut batch.sample_masks[second]);
                 }
             }
-            if T::DISCARDS
-                && let Some(keep) = out.keep
+            if let Some(keep) = out.keep
+                && interface.discards
             {
                 let keep = R::parts_of_mask(keep);
                 batch.coverage[packet] &= simd.bits_of_mask(keep[0]);
@@ -186,11 +184,20 @@ impl<T: Shader> ShaderProgram<T> {
                     batch.coverage[second] &= simd.bits_of_mask(keep[1]);
                 }
             }
-            if !matches!(T::DEPTH_OUTPUT, super::DepthOutput::None) {
-                let depth = out.depth.unwrap_or(position.z).parts();
-                depth[0].store_array(&mut batch.depths[packet].0);
-                if R::COUNT > 1 {
-                    depth[1].store_array(&mut batch.depths[second].0);
+            if interface.depth_output != DepthOutput::None {
+                match out.depth.map(R::parts) {
+                    Some(depth) => {
+                        depth[0].store_array(&mut batch.depths[packet].0);
+                        if R::COUNT > 1 {
+                            depth[1].store_array(&mut batch.depths[second].0);
+                        }
+                    }
+                    // The interpolated depth: window z, which is given to such shaders.
+                    None => {
+                        for packet in packets {
+                            batch.depths[packet] = batch.positions[packet * 4 + 2];
+                        }
+                    }
                 }
             }
         }

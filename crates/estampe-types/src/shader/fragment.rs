@@ -1,6 +1,6 @@
 //! Inputs and outputs of fragment shaders.
 
-use crate::{Bindings, Real, Vec4};
+use crate::{Bindings, Real, ShaderError, Vec4};
 use estampe_simd::Packet;
 
 /// The maximum number of colour targets of a shader.
@@ -9,8 +9,8 @@ pub(crate) const MAX_COLORS: usize = 8;
 /// The built-in inputs of a fragment shader.
 #[derive(Debug, Clone, Copy)]
 pub struct FragmentIn<'a, R: Real> {
-    /// Window-space x, y (pixel centres at ½), z and 1/w. Zero unless the shader sets
-    /// [`READS_POSITION`](crate::Shader::READS_POSITION).
+    /// Window-space x, y (pixel centres at ½), z and 1/w. Zero if the dry run did not find that the
+    /// shader reads it, and [`READS_POSITION`](crate::Shader::READS_POSITION) is not set.
     pub position: Vec4<R>,
     /// True if the triangle is front-facing; in polygon modes this holds for its edges and vertices
     /// too. Always true for line and point topologies.
@@ -18,12 +18,12 @@ pub struct FragmentIn<'a, R: Real> {
     /// Helper invocations: lanes that the primitive does not cover, shaded for their neighbours'
     /// derivatives alone. A helper's colours are dropped, and it must not store anything.
     pub is_helper: R::Mask,
-    /// Index of the shaded sample if the shader runs [per sample](crate::Shader::PER_SAMPLE), else
-    /// 0.
+    /// Index of the shaded sample. A shader that reads it runs once
+    /// [per sample](crate::Shader::PER_SAMPLE).
     pub sample_index: R::Int,
     /// Mask of the samples of the pixel that the primitive covers: bit i is sample i. A shader that
-    /// runs per sample sees its own sample only. Zero unless the shader sets
-    /// [`READS_COVERAGE`](crate::Shader::READS_COVERAGE).
+    /// runs per sample sees its own sample only. Zero if the dry run did not find that the shader
+    /// reads it, and [`READS_COVERAGE`](crate::Shader::READS_COVERAGE) is not set.
     pub coverage: R::Int,
     /// The resources that the draw binds.
     pub bindings: &'a Bindings,
@@ -70,15 +70,19 @@ impl<R: Real> FragmentOut<R> {
         Self::none().with_color(0, rgba)
     }
 
-    /// Sets the colour of target `index`, which must be below `COLOR_TARGETS`.
+    /// Sets the colour of target `index`, 0 to 7. A shader that sets another one has no effect
+    /// there, and no pipeline is made of it.
     #[inline(always)]
     #[must_use]
     pub fn with_color(mut self, index: usize, rgba: Vec4<R>) -> Self {
-        self.colors[index] = Some(rgba);
+        match self.colors.get_mut(index) {
+            Some(place) => *place = Some(rgba),
+            None => rgba.x.report(ShaderError::ColorIndex { index }),
+        }
         self
     }
 
-    /// Sets the second colour of dual-source blending. Requires `DUAL_SOURCE`.
+    /// Sets the second colour of dual-source blending. The shader then has one target.
     #[inline(always)]
     #[must_use]
     pub fn with_second_color(self, rgba: Vec4<R>) -> Self {
@@ -88,7 +92,7 @@ impl<R: Real> FragmentOut<R> {
         }
     }
 
-    /// Keeps only the samples whose bits are set. Requires `WRITES_SAMPLE_MASK`.
+    /// Keeps only the samples whose bits are set.
     #[inline(always)]
     #[must_use]
     pub fn with_sample_mask(self, samples: R::Int) -> Self {
@@ -98,7 +102,7 @@ impl<R: Real> FragmentOut<R> {
         }
     }
 
-    /// Replaces the interpolated depth. Requires `DEPTH_OUTPUT`.
+    /// Replaces the interpolated depth; see [`DEPTH_OUTPUT`](crate::Shader::DEPTH_OUTPUT).
     #[inline(always)]
     #[must_use]
     pub fn with_depth(self, depth: R) -> Self {
@@ -108,7 +112,7 @@ impl<R: Real> FragmentOut<R> {
         }
     }
 
-    /// Discards the lanes in which the mask is false. Requires `DISCARDS`.
+    /// Discards the lanes in which the mask is false.
     #[inline(always)]
     #[must_use]
     pub fn discard_unless(self, mask: R::Mask) -> Self {
@@ -125,7 +129,7 @@ impl<R: Real> FragmentOut<R> {
     /// The colour of a target, if the shader set it.
     #[inline(always)]
     pub fn color_of(&self, index: usize) -> Option<Vec4<R>> {
-        self.colors[index]
+        self.colors.get(index).copied().flatten()
     }
 
     /// The second colour, if the shader set it.

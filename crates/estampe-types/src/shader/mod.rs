@@ -5,18 +5,22 @@
 //! holds its uniforms and shares its textures. [`ShaderProgram`] erases its type once, when a
 //! pipeline is created, into a [`Program`], the interface that compiled text shaders implement too.
 
+mod declaration;
+mod dry_run;
 mod erased;
+mod error;
 mod fragment;
 mod interface;
 mod packets;
-mod pass_through;
 mod scalar;
 mod shader_macro;
 mod structs;
 mod varyings;
 mod vertex;
 
+pub use dry_run::interface_of;
 pub use erased::ShaderProgram;
+pub use error::ShaderError;
 pub use fragment::{FragmentBatch, FragmentIn, FragmentOut};
 pub use interface::{DepthOutput, Interface, Interpolation, Sampling};
 pub use varyings::{Attributes, Centroid, Flat, NoPerspective, PerSample, Sink, Source, Varyings};
@@ -59,6 +63,42 @@ use estampe_simd::Level;
 ///     }
 /// }
 /// ```
+///
+/// # The interface
+///
+/// The pipeline needs to know which inputs a shader reads and which outputs it sets. It finds out
+/// by a *dry run*: when [`ShaderProgram::new`] wraps a shader, it runs the vertex and the fragment
+/// function a few times on numbers that record what is done to them. So a body that calls
+/// [`FragmentOut::discard_unless`], reads [`FragmentIn::position`] or sets a clip distance needs no
+/// declaration.
+///
+/// The dry run is done with the shader's own value, so branches on its fields are those that will
+/// be taken. Branches on masks ([`Real::any`], [`Real::all`]) are tried both ways. Nothing is
+/// bound. **A use that depends on bindings must be declared** by the constant of that use:
+/// `COLOR_TARGETS`, `DISCARDS`, `DEPTH_OUTPUT`, `READS_POSITION`, `PER_SAMPLE`, `READS_COVERAGE`,
+/// `WRITES_SAMPLE_MASK`, `STORES`, `DUAL_SOURCE`, `WRITES_POINT_SIZE`, `CLIP_DISTANCES` and
+/// `CULL_DISTANCES`. They widen what is found, and never narrow it. A declared use that does not
+/// happen costs some time.
+///
+/// An output that is neither found nor declared has no effect, and stops a debug build with a
+/// sentence that names the constant. An input that is neither reads as zeros. A shader that sets a
+/// colour or a distance beyond the limit, breaks a promise, or panics in its dry run is refused
+/// when a pipeline is created, with a [`ShaderError`].
+///
+/// # Promises for speed
+///
+/// Three constants cannot be found, and save time:
+///
+/// | constant | the promise |
+/// |---|---|
+/// | `NO_DERIVATIVES` | no derivatives, neither explicit nor those of textures |
+/// | `COLOR_PASSTHROUGH` | the colour is the first four scalars of the varyings |
+/// | `PAIR_PACKETS` | none: the results are the same |
+///
+/// The dry run checks both promises, as far as they show without bindings: it records derivatives
+/// and compares a fragment with itself beside other neighbours, and it passes sixteen colours.
+/// A broken promise is a [`ShaderError`]. One that only bindings break is not noticed: derivatives
+/// are then undefined, and the colour is that of the varyings.
 pub trait Shader: Send + Sync + 'static {
     /// Attributes that a vertex reads, at location 0, 1, … in order: a number, a vector, a tuple of
     /// up to six of those, or a struct of [`attributes!`](crate::attributes).
@@ -68,50 +108,57 @@ pub trait Shader: Send + Sync + 'static {
     /// [`NoPerspective`], [`Centroid`] and [`PerSample`] choose the interpolation in tuples.
     type Varyings<R: Real>: Varyings<R>;
 
-    /// Number of colour targets that the fragment writes.
-    const COLOR_TARGETS: usize = 1;
-    /// Must be set if the fragment may discard.
+    /// Declares at least this many colour targets ([`FragmentOut::with_color`]), at most 8. Targets
+    /// that the fragment does not set are given zeros.
+    const COLOR_TARGETS: usize = 0;
+    /// Declares that the fragment may discard ([`FragmentOut::discard_unless`]).
     const DISCARDS: bool = false;
-    /// Depth that the fragment writes.
+    /// Declares that the fragment may set its depth ([`FragmentOut::with_depth`]). Fragments that
+    /// do not set it keep the interpolated depth. [`DepthOutput::Greater`] and
+    /// [`DepthOutput::Less`] are never found, and save work: depths are held to them.
     const DEPTH_OUTPUT: DepthOutput = DepthOutput::None;
-    /// If set, the fragment reads [`FragmentIn::position`]; otherwise that is zero.
+    /// Declares that the fragment may read [`FragmentIn::position`].
     const READS_POSITION: bool = false;
-    /// If set, the fragment is shaded once per sample, whose index is [`FragmentIn::sample_index`].
-    /// A [`PerSample`] varying has the same effect.
+    /// Declares that the fragment is shaded once per sample, whose index is
+    /// [`FragmentIn::sample_index`]. A [`PerSample`] varying has the same effect.
     const PER_SAMPLE: bool = false;
-    /// If set, the fragment reads [`FragmentIn::coverage`].
+    /// Declares that the fragment may read [`FragmentIn::coverage`].
     const READS_COVERAGE: bool = false;
-    /// If set, the fragment writes a sample mask: [`FragmentOut::with_sample_mask`].
+    /// Declares that the fragment may set a sample mask ([`FragmentOut::with_sample_mask`]).
     const WRITES_SAMPLE_MASK: bool = false;
-    /// If set, the fragment stores to [storage textures](crate::StorageTexture). It is then shaded
-    /// wherever the primitive covers it, visible or not, and tested afterwards. Vertices must not
-    /// store: lanes of a packet beyond the last vertex are shaded too.
+    /// Declares that the fragment may store to [storage textures](crate::StorageTexture). It is
+    /// then shaded wherever the primitive covers it, visible or not, and tested afterwards. Stores
+    /// must exclude [helper invocations](FragmentIn::is_helper). Vertices must not store: lanes of
+    /// a packet beyond the last vertex are shaded too.
     const STORES: bool = false;
-    /// If set, the fragment writes a second colour for blending:
-    /// [`FragmentOut::with_second_color`]. It then has one target.
+    /// Declares that the fragment may set a second colour for blending
+    /// ([`FragmentOut::with_second_color`]). It then has one target.
     const DUAL_SOURCE: bool = false;
-    /// If set, the fragment only returns the first four scalars of its varyings as its colour. The
-    /// pipeline then need not call the shader. The claim is tested when the program is created; a
-    /// shader that fails the test is called as any other.
-    const COLOR_PASSTHROUGH: bool = false;
-    /// If set, the shader takes no derivatives, and samples no texture whose level of detail comes
-    /// from them. Fragments of several small triangles are then shaded in one packet without their
-    /// quads, and derivatives are undefined: neighbouring lanes may belong to other triangles.
-    const NO_DERIVATIVES: bool = Self::COLOR_PASSTHROUGH;
-    /// If set, fragments are shaded two packets at a time ([`Pair`](crate::Pair)). This pays for
-    /// long chains of operations that depend on each other, such as the steps of a ray, because the
-    /// chains of the two packets overlap. Both packets stay in a loop until the last lane of both
-    /// is done. A short shader only runs out of registers.
-    const PAIR_PACKETS: bool = false;
-    /// If set, the vertex writes a point size; otherwise points are one pixel wide.
+    /// Declares that the vertex may set a point size ([`VertexOut::with_point_size`]). Points whose
+    /// size is not set are one pixel wide.
     const WRITES_POINT_SIZE: bool = false;
-
-    /// Number of clip distances that the vertex writes ([`VertexOut::with_clip_distance`]), at most
-    /// 8. Primitives are clipped where an interpolated clip distance is negative.
+    /// Declares at least this many clip distances ([`VertexOut::with_clip_distance`]), at most 8.
     const CLIP_DISTANCES: usize = 0;
-    /// Number of cull distances that the vertex writes ([`VertexOut::with_cull_distance`]), at most
-    /// 8. A primitive is dropped if one cull distance is negative at all of its vertices.
+    /// Declares at least this many cull distances ([`VertexOut::with_cull_distance`]), at most 8.
     const CULL_DISTANCES: usize = 0;
+
+    /// Promises that the fragment only returns the first four scalars of its varyings as its
+    /// colour. The pipeline then need not call the shader.
+    const COLOR_PASSTHROUGH: bool = false;
+    /// Promises that the shader takes no derivatives, and samples no texture whose level of detail
+    /// comes from them. Fragments of several small triangles are then shaded in one packet without
+    /// their quads, and neighbouring lanes may belong to other triangles.
+    const NO_DERIVATIVES: bool = Self::COLOR_PASSTHROUGH;
+    /// If set, fragments are shaded two packets at a time ([`Pair`](crate::Pair)). This changes no
+    /// result. It pays for long chains of operations that depend on each other, such as the steps
+    /// of a ray, because the chains of the two packets overlap. Both packets stay in a loop until
+    /// the last lane of both is done. A short shader only runs out of registers.
+    const PAIR_PACKETS: bool = false;
+
+    /// If set, outputs that the interface lacks stop the program; [`shader!`](macro@crate::shader)
+    /// sets it in debug builds of the shader's crate.
+    #[doc(hidden)]
+    const ASSERTS_OUTPUTS: bool = cfg!(debug_assertions);
 
     /// Shades one vertex: returns its clip-space position and varyings.
     fn vertex<R: Real>(
@@ -142,6 +189,14 @@ pub trait Sample2d: Send + Sync {
 pub trait Program: Send + Sync + std::fmt::Debug {
     /// The inputs and outputs of the program.
     fn interface(&self) -> &Interface;
+    /// Called when a pipeline is created of the program. Shaders in Rust report here how they
+    /// contradict [their interface](Shader#the-interface).
+    ///
+    /// # Errors
+    /// [`ShaderError`] says what is wrong; no pipeline is then created.
+    fn validate(&self) -> Result<(), ShaderError> {
+        Ok(())
+    }
     /// Shades packets of vertices.
     fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>);
     /// Shades packets of fragments.

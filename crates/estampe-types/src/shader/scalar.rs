@@ -3,6 +3,7 @@
 //! Sixteen emulated lanes would give the same bits, but the compiler took three minutes for one
 //! sampled texture that way, and takes two seconds this way.
 
+use super::declaration::{assert_fragment, assert_vertex};
 use super::{Attributes, DepthOutput, Sink, Source, Varyings};
 use crate::{
     Bindings, FragmentBatch, FragmentIn, Interface, Quad, Shader, Vec4, VertexBatch, VertexIn,
@@ -21,6 +22,7 @@ pub(super) fn vertices<T: Shader>(
 ) {
     let attributes = interface.attribute_scalars();
     let varyings = interface.varyings.len();
+    let (clips, culls) = (interface.clip_distances, interface.cull_distances);
     for packet in 0..batch.vertex_index.len() {
         let from = &batch.attributes[packet * attributes..][..attributes];
         let positions = &mut batch.positions[packet * 4..][..4];
@@ -34,19 +36,20 @@ pub(super) fn vertices<T: Shader>(
             };
             let loaded = T::Attributes::load(&mut QuadSource { left: from, lane });
             let out = shader.vertex(input, loaded);
+            assert_vertex::<T, _, _>(interface, &out);
             store_vec4(out.position, positions, lane);
             out.varyings.store(&mut QuadSink {
                 left: to,
                 next: 0,
                 lane,
             });
-            if T::WRITES_POINT_SIZE {
+            if interface.writes_point_size {
                 let size = out.point_size.unwrap_or(Quad([1.0; QUAD]));
                 store(size, &mut batch.point_sizes[packet], lane);
             }
-            let clip = out.clip_distances.iter().take(T::CLIP_DISTANCES);
-            let cull = out.cull_distances.iter().take(T::CULL_DISTANCES);
-            let first = packet * (T::CLIP_DISTANCES + T::CULL_DISTANCES);
+            let clip = out.clip_distances.iter().take(clips);
+            let cull = out.cull_distances.iter().take(culls);
+            let first = packet * (clips + culls);
             for (distance, to) in clip.chain(cull).zip(&mut batch.distances[first..]) {
                 store(distance.unwrap_or(input.zero), to, lane);
             }
@@ -70,7 +73,7 @@ pub(super) fn fragments<T: Shader>(
         let from = &batch.varyings[packet * varyings..][..varyings];
         let colors = &mut batch.colors[packet * outputs * 4..][..outputs * 4];
         for lane in (0..16).step_by(QUAD) {
-            let position = if T::READS_POSITION {
+            let position = if interface.reads_position {
                 let p = &batch.positions[packet * 4..][..4];
                 let [x, y, z, w] = [0, 1, 2, 3].map(|k| load(&p[k], lane));
                 Vec4::new(x, y, z, w)
@@ -78,9 +81,7 @@ pub(super) fn fragments<T: Shader>(
                 black
             };
             let front = batch.front_facing[packet] >> lane;
-            // As in the wide form, the input is set only for shaders that declare it.
-            let declared = batch.sample_index.get(packet).filter(|_| T::PER_SAMPLE);
-            let sample_index = declared.copied().unwrap_or_default();
+            let sample_index = batch.sample_index.get(packet).copied().unwrap_or_default();
             let front_facing = Quad([0, 1, 2, 3].map(|k| front >> k & 1 == 1));
             let input = FragmentIn {
                 position,
@@ -98,26 +99,27 @@ pub(super) fn fragments<T: Shader>(
             };
             let loaded = T::Varyings::load(&mut QuadSource { left: from, lane });
             let out = shader.fragment(input, loaded);
+            assert_fragment::<T, _>(interface, &out);
             let (of_targets, second) = colors.split_at_mut(targets * 4);
             for (color, to) in out.colors.iter().zip(of_targets.chunks_exact_mut(4)) {
                 store_vec4(color.unwrap_or(black), to, lane);
             }
-            if T::DUAL_SOURCE {
+            if interface.dual_source {
                 store_vec4(out.second.unwrap_or(black), second, lane);
             }
-            if T::WRITES_SAMPLE_MASK {
+            if interface.writes_sample_mask {
                 let Quad(kept) = out.sample_mask.unwrap_or(Quad([-1; QUAD]));
                 batch.sample_masks[packet].0[lane..lane + QUAD]
                     .copy_from_slice(&kept.map(i32::cast_unsigned));
             }
-            if T::DISCARDS
-                && let Some(Quad(keep)) = out.keep
+            if let Some(Quad(keep)) = out.keep
+                && interface.discards
             {
                 for (k, keep) in keep.into_iter().enumerate() {
                     batch.coverage[packet] &= !(u16::from(!keep) << (lane + k));
                 }
             }
-            if T::DEPTH_OUTPUT != DepthOutput::None {
+            if interface.depth_output != DepthOutput::None {
                 store(
                     out.depth.unwrap_or(position.z),
                     &mut batch.depths[packet],

@@ -216,6 +216,9 @@ macro_rules! __shader_items {
 
             $($meta)*
             impl $($generics)* Shader for $shader $($clause)* {
+                // As in the shader's crate: dependencies are often built without assertions.
+                const ASSERTS_OUTPUTS: bool = ::core::cfg!(debug_assertions);
+
                 $($of_trait)*
             }
 

@@ -1,6 +1,6 @@
 //! Inputs and outputs of vertex shaders.
 
-use crate::{Bindings, Real, Vec4};
+use crate::{Bindings, Real, ShaderError, Vec4};
 use estampe_simd::Packet;
 
 /// The built-in inputs of a vertex shader.
@@ -55,7 +55,7 @@ impl<R, V> VertexOut<R, V> {
         }
     }
 
-    /// Sets the point size, in pixels. Requires `WRITES_POINT_SIZE`.
+    /// Sets the point size, in pixels.
     #[inline(always)]
     #[must_use]
     pub fn with_point_size(self, pixels: R) -> Self {
@@ -64,25 +64,31 @@ impl<R, V> VertexOut<R, V> {
             ..self
         }
     }
+}
 
-    /// Sets clip distance `index`, which must be below `CLIP_DISTANCES`. Primitives are clipped
-    /// where the interpolated distance is negative.
+impl<R: Real, V> VertexOut<R, V> {
+    /// Sets clip distance `index`, 0 to 7. Primitives are clipped where the interpolated distance
+    /// is negative. A shader that sets another one has no effect there, and no pipeline is made of
+    /// it.
     #[inline(always)]
     #[must_use]
     pub fn with_clip_distance(mut self, index: usize, distance: R) -> Self {
-        if let Some(place) = self.clip_distances.get_mut(index) {
-            *place = Some(distance);
+        match self.clip_distances.get_mut(index) {
+            Some(place) => *place = Some(distance),
+            None => distance.report(ShaderError::ClipDistanceIndex { index }),
         }
         self
     }
 
-    /// Sets cull distance `index`, which must be below `CULL_DISTANCES`. A primitive is dropped if
-    /// the distance is negative at all of its vertices.
+    /// Sets cull distance `index`, 0 to 7. A primitive is dropped if the distance is negative at
+    /// all of its vertices. A shader that sets another one has no effect there, and no pipeline is
+    /// made of it.
     #[inline(always)]
     #[must_use]
     pub fn with_cull_distance(mut self, index: usize, distance: R) -> Self {
-        if let Some(place) = self.cull_distances.get_mut(index) {
-            *place = Some(distance);
+        match self.cull_distances.get_mut(index) {
+            Some(place) => *place = Some(distance),
+            None => distance.report(ShaderError::CullDistanceIndex { index }),
         }
         self
     }

@@ -1,6 +1,6 @@
 //! Packet pairs: lanes, masks and tables, and shaders that run two packets at a time.
 
-use crate::shader::{DepthOutput, FragmentBatch, VertexOut};
+use crate::shader::{FragmentBatch, VertexOut};
 use crate::{
     Bindings, FragmentIn, FragmentOut, Int, Pair, Program, Quad, Real, ShaderProgram, Vec2, Vec4,
     VertexIn, shader,
@@ -56,10 +56,6 @@ macro_rules! steps_towards_one {
             impl Shader for $name {
                 type Attributes<R: Real> = Vec2<R>;
                 type Varyings<R: Real> = Vec2<R>;
-                const COLOR_TARGETS: usize = 2;
-                const DISCARDS: bool = true;
-                const DEPTH_OUTPUT: DepthOutput = DepthOutput::Any;
-                const READS_POSITION: bool = true;
                 const PAIR_PACKETS: bool = $pair_packets;
 
                 fn vertex<R: Real>(&self, input: VertexIn<'_, R>, at: Vec2<R>) -> VertexOut<R, Vec2<R>> {
