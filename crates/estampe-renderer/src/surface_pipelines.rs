@@ -10,15 +10,14 @@ use crate::shading::points_and_lines::PointsAndLines;
 use crate::shading::surfaces::{Alpha, Painted, PlainPhong, PlainVertexLit, SurfaceLight};
 use crate::shading::vertex_lit::{VertexLight, VertexShadingMode};
 use crate::shading::wireframe::Wireframe;
-use estampe::shader::{FragmentBatch, Interface, VertexBatch};
 use estampe::state::{
     BlendState, ColorTargetState, ColorWrites, CullMode, DepthState, PrimitiveState,
     PrimitiveTopology,
 };
 use estampe::texture::Sampled;
 use estampe::{
-    Bindings, Device, Level, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor,
-    Shader, ShaderProgram, TextureFormat,
+    Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor, Shader,
+    ShaderProgram, TextureFormat,
 };
 use std::sync::Arc;
 
@@ -73,43 +72,6 @@ impl MaterialProgram {
             program: Arc::new(ShaderProgram::new(shader)),
             streams: streams.to_vec(),
         }
-    }
-}
-
-impl MaterialProgram {
-    /// Declares that the program discards nothing with these uniforms, so that depth can be tested
-    /// before it runs.
-    fn without_discarding(self) -> Self {
-        let interface = Interface {
-            discards: false,
-            ..self.program.interface().clone()
-        };
-        let program = Arc::new(NotDiscarding {
-            program: self.program,
-            interface,
-        });
-        Self { program, ..self }
-    }
-}
-
-/// A program whose interface declares that it does not discard.
-#[derive(Debug)]
-struct NotDiscarding {
-    program: Arc<dyn Program>,
-    interface: Interface,
-}
-
-impl Program for NotDiscarding {
-    fn interface(&self) -> &Interface {
-        &self.interface
-    }
-
-    fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>) {
-        self.program.run_vertices(level, bindings, batch);
-    }
-
-    fn run_fragments(&self, level: Level, bindings: &Bindings, batch: FragmentBatch<'_>) {
-        self.program.run_fragments(level, bindings, batch);
     }
 }
 
@@ -254,12 +216,7 @@ impl FrameStyle {
                 texture,
                 alpha,
             };
-            let material = MaterialProgram::new(shader, &[Position, Normal, Uv, Color]);
-            return if alpha == Alpha::CutsOut {
-                material
-            } else {
-                material.without_discarding()
-            };
+            return MaterialProgram::new(shader, &[Position, Normal, Uv, Color]);
         }
         let [r, g, b, opacity] = factor;
         let color = [

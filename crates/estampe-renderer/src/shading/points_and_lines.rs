@@ -23,7 +23,6 @@ estampe::shader! {
     impl Shader for PointsAndLines {
         type Attributes<R: Real> = (Vec3<R>, Vec4<R>); // position, color
         type Varyings<R: Real> = Vec3<R>;
-        const WRITES_POINT_SIZE: bool = true;
 
         fn vertex<R: Real>(
             &self,

@@ -117,7 +117,6 @@ estampe::shader! {
         // Vertex lighting uses all four values; fragment lighting uses two of them, for the view
         // position and the normal.
         type Varyings<R: Real> = (BothSides<R>, Vec2<R>, Vec4<R>);
-        const DISCARDS: bool = true;
 
         fn vertex<R: Real>(
             &self,
