@@ -5,8 +5,8 @@
 //!
 //! The API has WebGPU's nouns: a [`Device`] creates [`RenderPipeline`]s and [`RenderTarget`]s and
 //! draws a [`RenderPass`] of [`Draw`]s into a target. A shader is a Rust value that implements
-//! [`Shader`]: see [`shader!`]. Spaces, rounding and the order of every operation are in
-//! `docs/NUMERICS.md`.
+//! [`Shader`]: see [`shader!`], and `docs/from-glsl.md` for those who know GLSL or WGSL. Spaces,
+//! rounding and the order of every operation are in `docs/NUMERICS.md`.
 //!
 //! # Debug builds
 //!
@@ -33,6 +33,11 @@ mod device;
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// The snippets of the page for those who know GLSL or WGSL.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/from-glsl.md")]
+struct FromGlsl;
 
 /// The sRGB transfer function (IEC 61966-2-1) of 8-bit codes.
 pub mod srgb {
