@@ -1,6 +1,6 @@
 //! Errors of the benchmarks.
 
-use estampe::{DeviceError, LevelError, PipelineError, TargetError};
+use estampe::{BindGroupError, BufferError, DeviceError, LevelError, PipelineError, TextureError};
 use std::path::PathBuf;
 
 /// The reason why a benchmark stopped.
@@ -32,12 +32,15 @@ pub enum BenchError {
     /// A scene's pipeline was refused.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
-    /// A render target was refused.
+    /// A buffer was refused.
     #[error(transparent)]
-    Target(#[from] TargetError),
+    Buffer(#[from] BufferError),
+    /// A bind group was refused.
+    #[error(transparent)]
+    BindGroup(#[from] BindGroupError),
     /// A texture was refused.
-    #[error("{0}")]
-    Texture(String),
+    #[error(transparent)]
+    Texture(#[from] TextureError),
     /// A file cannot be read or written.
     #[error("{path}: {source}")]
     File {
@@ -82,7 +85,8 @@ impl BenchError {
                 | Self::UnknownState { .. }
                 | Self::Level(_)
                 | Self::Device(_)
-                | Self::Target(_)
+                | Self::Buffer(_)
+                | Self::BindGroup(_)
         )
     }
 }

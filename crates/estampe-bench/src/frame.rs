@@ -3,12 +3,13 @@
 
 use crate::BenchError;
 use crate::scene::{CLEAR_COLOR, Scene, SceneDraw, shadow};
+use crate::target::{Target, TargetDescriptor};
 use estampe::{
-    BindGroup, Binding, Bindings, Buffer, DepthTexture, Device, Draw, IndexFormat, LoadOp,
-    RenderPass, RenderPipeline, RenderTarget, RenderTargetDescriptor, Statistics,
+    BindGroup, BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType,
+    BufferBindingType, BufferSlice, Device, Draw, DrawBindGroup, Extent3d, IndexFormat, RenderPass,
+    RenderPipeline, Statistics, TexelCopyLayout, Texture,
 };
 use std::ops::Range;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// A frame's size in pixels.
@@ -47,22 +48,22 @@ pub struct PreparedScene<'d> {
     device: &'d Device,
     resources: Resources,
     /// The depth-map pass before the frame's pass, if the scene has one.
-    depth_map: Option<(RenderTarget, Vec<PreparedDraw>)>,
+    depth_map: Option<(Target, Vec<PreparedDraw>)>,
     draws: Vec<PreparedDraw>,
-    target: RenderTarget,
-    /// The target of the resolve, if the scene is multisampled.
-    resolved: Option<RenderTarget>,
+    target: Target,
+    /// The image of the resolve, if the scene is multisampled.
+    resolved: Option<Texture>,
 }
 
 /// The buffers and bindings to which draws refer.
 #[derive(Debug)]
 struct Resources {
     pipelines: Vec<RenderPipeline>,
-    buffers: Vec<Buffer>,
-    /// The index of the buffer that is bound at each draw's dynamic offset.
-    uniforms: Option<usize>,
-    /// Group 0, if it is the same in every frame.
-    bind_group: Arc<BindGroup>,
+    buffers: Vec<BufferSlice>,
+    /// Group 0: the uniforms, at each draw's dynamic offset.
+    uniforms: Option<BindGroup>,
+    /// Group 1: the depth map.
+    depth_map: Option<BindGroup>,
 }
 
 #[derive(Debug)]
@@ -93,35 +94,45 @@ impl<'d> PreparedScene<'d> {
             });
             draws.collect()
         };
-        let image = RenderTargetDescriptor::new(size.width, size.height);
-        let resolved = RenderTargetDescriptor {
-            depth_stencil: None,
-            ..image.clone()
-        };
         let depth_map = match &scene.depth_map {
             Some(map) => {
-                let target = device.create_render_target(&RenderTargetDescriptor {
-                    color_formats: Vec::new(),
-                    ..RenderTargetDescriptor::new(map.size, map.size)
-                })?;
+                let size = FrameSize {
+                    width: map.size,
+                    height: map.size,
+                };
+                let target = Target::new(
+                    device,
+                    &TargetDescriptor {
+                        color_formats: Vec::new(),
+                        ..TargetDescriptor::new(size)
+                    },
+                )?;
                 Some((target, prepared(&map.draws)))
             }
             None => None,
         };
+        let target = TargetDescriptor {
+            samples: scene.samples,
+            ..TargetDescriptor::new(size)
+        };
+        let resolved = TargetDescriptor {
+            depth_stencil: None,
+            ..TargetDescriptor::new(size)
+        };
+        let resolved = if scene.samples > 1 {
+            Target::new(device, &resolved)?.colors.pop()
+        } else {
+            None
+        };
+        let map = depth_map.as_ref();
+        let map = map.and_then(|(target, _)| target.depth_stencil.as_ref());
         Ok(Self {
             device,
-            resources: Resources::new(device, scene)?,
+            resources: Resources::new(device, scene, map)?,
             depth_map,
             draws: prepared(&scene.draws),
-            target: device.create_render_target(&RenderTargetDescriptor {
-                samples: scene.samples,
-                ..image
-            })?,
-            resolved: if scene.samples > 1 {
-                Some(device.create_render_target(&resolved)?)
-            } else {
-                None
-            },
+            target: Target::new(device, &target)?,
+            resolved,
         })
     }
 
@@ -132,93 +143,104 @@ impl<'d> PreparedScene<'d> {
             recording: Duration::ZERO,
             statistics: Statistics::default(),
         };
-        let mut map_group = None;
-        if let Some((target, draws)) = &mut self.depth_map {
-            render(
-                device,
-                resources,
-                &resources.bind_group,
-                draws,
-                target,
-                &mut times,
-            );
-            let texture = device.depth_texture(target);
-            map_group = texture.map(|texture| resources.group(Some(texture)));
+        let uniforms = resources.uniforms.as_ref();
+        if let Some((target, draws)) = &self.depth_map {
+            let groups = [uniforms, None];
+            render(device, resources, groups, draws, (target, None), &mut times);
         }
-        let group = map_group.as_ref().unwrap_or(&resources.bind_group);
-        render(
-            device,
-            resources,
-            group,
-            &self.draws,
-            &mut self.target,
-            &mut times,
-        );
-        if let Some(resolved) = &mut self.resolved {
-            device
-                .resolve(&self.target, resolved)
-                .expect("the targets fit together");
-        }
+        let groups = [uniforms, resources.depth_map.as_ref()];
+        let target = (&self.target, self.resolved.as_ref());
+        render(device, resources, groups, &self.draws, target, &mut times);
         times
     }
 
     /// The last frame's colours: RGBA8, row by row from the top.
     #[must_use]
     pub fn read_color(&self) -> Vec<u8> {
-        self.device.read_color(self.picture(), 0)
+        let read = self.device.read_texture(self.picture());
+        read.expect("a texture of one sample for all uses")
     }
 
     /// The number of bytes of [`Self::read_color`].
     #[must_use]
     pub fn color_len_bytes(&self) -> usize {
-        self.picture().color_len_bytes(0)
+        let picture = self.picture();
+        picture.width() as usize * picture.height() as usize * 4
     }
 
     /// [`Self::read_color`] into memory of [`Self::color_len_bytes`], on the device's threads.
     pub fn read_color_into(&self, image: &mut [u8]) {
-        let read = self.device.read_color_into(self.picture(), 0, image);
+        let picture = self.picture();
+        let size = Extent3d::new_2d(picture.width(), picture.height());
+        let layout = TexelCopyLayout::default();
+        let read = self.device.read_texture_into(picture, image, &layout, size);
         debug_assert_eq!(read, Ok(()), "memory of color_len_bytes");
     }
 
-    /// The target that holds the frame with one sample per pixel.
-    fn picture(&self) -> &RenderTarget {
-        self.resolved.as_ref().unwrap_or(&self.target)
+    /// The image that holds the frame with one sample per pixel.
+    fn picture(&self) -> &Texture {
+        self.resolved.as_ref().unwrap_or(&self.target.colors[0])
     }
 
-    /// The last frame's depths, row by row from the top.
+    /// The last frame's depths, row by row from the top; nothing if they have several samples.
     #[must_use]
     pub fn read_depth(&self) -> Vec<f32> {
-        self.target.read_depth()
+        let depth = self.target.depth_stencil.as_ref();
+        let bytes = depth.and_then(|depth| self.device.read_texture(depth).ok());
+        let bytes = bytes.unwrap_or_default();
+        let words = bytes.as_chunks().0.iter();
+        words.map(|bytes| f32::from_le_bytes(*bytes)).collect()
     }
 }
 
 impl Resources {
-    fn new(device: &Device, scene: &Scene) -> Result<Self, BenchError> {
+    fn new(
+        device: &Device,
+        scene: &Scene,
+        depth_map: Option<&Texture>,
+    ) -> Result<Self, BenchError> {
         let pipelines = scene.pipelines.iter();
+        let pipelines = pipelines.map(|descriptor| device.create_render_pipeline(descriptor));
         let buffers = scene.buffers.iter();
-        let mut resources = Self {
-            pipelines: pipelines
-                .map(|descriptor| device.create_render_pipeline(descriptor))
-                .collect::<Result<_, _>>()?,
-            buffers: buffers.map(|bytes| Buffer::from_bytes(bytes)).collect(),
-            uniforms: scene.uniforms,
-            bind_group: Arc::default(),
-        };
-        resources.bind_group = resources.group(None);
-        Ok(resources)
-    }
-
-    /// Group 0: the uniforms, and the depth map if there is one.
-    fn group(&self, depth_map: Option<DepthTexture>) -> Arc<BindGroup> {
-        let uniforms = self.uniforms.map(|index| Binding::Buffer {
-            buffer: self.buffers[index].clone(),
-            offset: 0,
-            has_dynamic_offset: true,
+        let buffers = buffers.map(|bytes| {
+            let buffer = device.create_buffer_with_contents(bytes)?;
+            Ok(BufferSlice::from(&buffer))
         });
-        let uniforms = uniforms.map(|binding| (0, binding));
-        let depth_map = depth_map.map(|map| (shadow::DEPTH_MAP, Binding::DepthTexture(map)));
-        Arc::new(BindGroup {
-            entries: uniforms.into_iter().chain(depth_map).collect(),
+        let buffers: Vec<BufferSlice> = buffers.collect::<Result<_, BenchError>>()?;
+        let group = |binding: u32, ty: BindingType, resource: BindingResource| {
+            let entry = BindGroupLayoutEntry { binding, ty };
+            device.create_bind_group(&BindGroupDescriptor {
+                label: None,
+                layout: &device.create_bind_group_layout(&[entry])?,
+                entries: &[(binding, resource)],
+            })
+        };
+        let uniforms = scene.uniforms.map(|index| {
+            let ty = BindingType::Buffer {
+                ty: BufferBindingType::Uniform,
+                has_dynamic_offset: true,
+                min_binding_size: 0,
+            };
+            // What is left of the buffer at the greatest offset of a draw.
+            let buffer = &buffers[index].buffer;
+            let map = scene.depth_map.iter().flat_map(|map| &map.draws);
+            let offsets = scene
+                .draws
+                .iter()
+                .chain(map)
+                .map(|draw| draw.dynamic_offset);
+            let size = buffer.size() - u64::from(offsets.max().unwrap_or(0));
+            group(0, ty, BindingResource::Buffer(buffer.slice(0..size)))
+        });
+        let depth_map = depth_map.map(|map| {
+            let resource = BindingResource::Texture(map.view());
+            group(shadow::DEPTH_MAP, BindingType::ShadowMap, resource)
+        });
+        Ok(Self {
+            pipelines: pipelines.collect::<Result<_, _>>()?,
+            uniforms: uniforms.transpose()?,
+            depth_map: depth_map.transpose()?,
+            buffers,
         })
     }
 }
@@ -227,33 +249,44 @@ impl Resources {
 fn render(
     device: &Device,
     resources: &Resources,
-    group: &Arc<BindGroup>,
+    [uniforms, depth_map]: [Option<&BindGroup>; 2],
     draws: &[PreparedDraw],
-    target: &mut RenderTarget,
+    (target, resolved): (&Target, Option<&Texture>),
     times: &mut FrameTimes,
 ) {
     let start = Instant::now();
-    let bindings = draws.iter().map(|PreparedDraw { draw, .. }| Bindings {
-        groups: vec![(Arc::clone(group), draw.dynamic_offset)],
+    let groups = draws.iter().map(|PreparedDraw { draw, .. }| {
+        let uniforms = uniforms.map(|group| DrawBindGroup {
+            group,
+            dynamic_offsets: std::slice::from_ref(&draw.dynamic_offset),
+        });
+        let depth_map = depth_map.map(DrawBindGroup::from);
+        [uniforms, depth_map]
     });
-    let bindings: Vec<Bindings> = bindings.collect();
-    let recorded: Vec<Draw<'_>> = (draws.iter().zip(&bindings))
-        .map(|(PreparedDraw { draw, elements }, bindings)| Draw {
+    let groups = groups.map(|groups| groups.into_iter().flatten().collect());
+    let groups: Vec<Vec<DrawBindGroup<'_>>> = groups.collect();
+    let recorded: Vec<Draw<'_>> = (draws.iter().zip(&groups))
+        .map(|(PreparedDraw { draw, elements }, groups)| Draw {
             vertex_buffers: std::slice::from_ref(&resources.buffers[draw.vertices]),
-            indices: Some((&resources.buffers[draw.indices], IndexFormat::Uint32)),
+            index_buffer: Some((&resources.buffers[draw.indices], IndexFormat::Uint32)),
             instances: 0..draw.instances,
-            bindings: Some(bindings),
+            bind_groups: groups,
             ..Draw::new(&resources.pipelines[draw.pipeline], elements.clone())
         })
         .collect();
+    let mut colors = target.colors(CLEAR_COLOR.map(f64::from));
+    if let (Some(Some(color)), Some(resolved)) = (colors.first_mut(), resolved) {
+        color.resolve_target = Some(resolved.view());
+    }
     let pass = RenderPass {
-        load_colors: vec![LoadOp::Clear(CLEAR_COLOR.map(f64::from)); target.color_formats().len()],
+        color_attachments: &colors,
+        depth_stencil_attachment: target.depth_stencil(),
         draws: &recorded,
         ..RenderPass::default()
     };
     times.recording += start.elapsed();
     times.statistics += device
-        .render(target, &pass)
+        .render(&pass)
         .expect("the pipelines are made for the target");
 }
 

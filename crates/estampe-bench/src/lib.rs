@@ -38,5 +38,6 @@ pub mod versus;
 
 mod error;
 mod process;
+mod target;
 
 pub use error::BenchError;

@@ -226,10 +226,10 @@ fn smooth_blended() -> Load {
         Layers::BACK_TO_FRONT,
         |layers| RenderPipelineDescriptor {
             depth: Some(DepthState::LESS_READ),
-            targets: vec![ColorTargetState {
+            targets: vec![Some(ColorTargetState {
                 blend: Some(BlendState::ALPHA_BLENDING),
                 ..TextureFormat::Rgba8Unorm.into()
-            }],
+            })],
             ..smooth(layers)
         },
     )
@@ -259,7 +259,7 @@ fn general_blended() -> Load {
         Layers::BACK_TO_FRONT,
         |layers| RenderPipelineDescriptor {
             depth: Some(DepthState::LESS_READ),
-            targets: vec![ColorTargetState {
+            targets: vec![Some(ColorTargetState {
                 blend: Some(BlendState {
                     color: BlendComponent {
                         operation: BlendOperation::Add,
@@ -269,7 +269,7 @@ fn general_blended() -> Load {
                     alpha: BlendComponent::OVER,
                 }),
                 ..TextureFormat::Rgba8Unorm.into()
-            }],
+            })],
             ..smooth(layers)
         },
     )

@@ -13,8 +13,9 @@
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{CompareFunction, DepthState, PrimitiveTopology, VertexBufferLayout};
 use estampe::{
-    Buffer, Device, DeviceDescriptor, Draw, LoadOp, Mat4, RenderPass, RenderPipelineDescriptor,
-    RenderTargetDescriptor, TextureFormat, Vec3, Vec4, VertexFormat, maths,
+    BufferError, BufferSlice, ColorAttachment, DepthStencilAttachment, Device, DeviceDescriptor,
+    Draw, Mat4, RenderPass, RenderPipelineDescriptor, TextureDescriptor, TextureFormat, Vec3, Vec4,
+    VertexFormat, bytes_of, maths,
 };
 use estampe_assets::image::{AlphaChannel, encode_png};
 use estampe_renderer::transforms::projection::{DepthConvention, perspective};
@@ -117,11 +118,12 @@ fn panel(device: &Device, method: Method) -> Result<Vec<u8>, Box<dyn Error>> {
     let (eye, centre) = (DVec3::new(0.0, 1.7, 0.0), DVec3::new(0.0, 1.2, -1.0));
     let view = CameraFrame::look_at(eye, centre, DVec3::Y).view_from_world();
     let clip_from_world: Mat4 = to_f32(&(projection * view)).into();
-    let plane = |height: f32| {
+    let plane = |height: f32| -> Result<[BufferSlice; 1], BufferError> {
         let far = -0.9 * FAR;
         let ends = [(-FAR, -0.5), (FAR, -0.5), (-FAR, far), (FAR, far)];
         let corners: Vec<f32> = ends.iter().flat_map(|&(x, z)| [x, height, z]).collect();
-        [Buffer::from_f32s(&corners)]
+        let buffer = device.create_buffer_with_contents(bytes_of(&corners))?;
+        Ok([BufferSlice::from(&buffer)])
     };
     let pipeline = |color: [f32; 3]| {
         let plane = Plane {
@@ -147,26 +149,26 @@ fn panel(device: &Device, method: Method) -> Result<Vec<u8>, Box<dyn Error>> {
     };
     // The lower plane is drawn first, so that it stays visible where both depths are stored alike.
     let (lower, upper) = (pipeline([0.9, 0.15, 0.1])?, pipeline([0.2, 0.45, 0.9])?);
-    let (lower_corners, upper_corners) = (plane(0.0), plane(0.01));
+    let (lower_corners, upper_corners) = (plane(0.0)?, plane(0.01)?);
     let draws = [(&lower, &lower_corners), (&upper, &upper_corners)];
     let draws = draws.map(|(pipeline, corners)| Draw {
         vertex_buffers: corners,
         ..Draw::new(pipeline, 0..4)
     });
-    let mut target = device.create_render_target(&RenderTargetDescriptor {
-        depth_stencil: Some(method.format),
-        ..RenderTargetDescriptor::new(width, height)
+    let image = |format| {
+        let descriptor = TextureDescriptor::new_2d(width, height, format);
+        device.create_texture(&descriptor)
+    };
+    let (color, depth) = (image(TextureFormat::Rgba8Unorm)?, image(method.format)?);
+    let background = [0.9, 0.93, 1.0, 1.0];
+    let farthest = if method.is_reversed { 0.0 } else { 1.0 };
+    device.render(&RenderPass {
+        color_attachments: &[Some(ColorAttachment::clear(&color.view(), background))],
+        depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depth.view(), farthest)),
+        draws: &draws,
+        ..RenderPass::default()
     })?;
-    device.render(
-        &mut target,
-        &RenderPass {
-            load_colors: vec![LoadOp::Clear([0.9, 0.93, 1.0, 1.0])],
-            load_depth: LoadOp::Clear(if method.is_reversed { 0.0 } else { 1.0 }),
-            draws: &draws,
-            ..RenderPass::default()
-        },
-    )?;
-    Ok(target.read_color(0))
+    Ok(device.read_texture(&color)?)
 }
 
 /// Number of pixels that show the lower plane.

@@ -53,7 +53,7 @@ impl From<RenderError> for Failure {
             RenderError::TooManyElements { .. } | RenderError::Texture(_) => {
                 Self::Input(error.to_string())
             }
-            RenderError::Target(_) => {
+            RenderError::Target(_) | RenderError::Pass(_) => {
                 Self::Output(format!("{error}; try a smaller --size or --samples 1"))
             }
             _ => Self::Output(error.to_string()),

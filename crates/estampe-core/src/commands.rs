@@ -4,7 +4,7 @@ use crate::pipeline::RenderPipeline;
 use estampe_types::state::{ScissorRect, Viewport};
 use estampe_types::{Bindings, Buffer, IndexFormat};
 use std::ops::Range;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// One draw: a pipeline, the data that it reads, and how much of it.
 #[derive(Debug, Clone)]
@@ -96,7 +96,9 @@ impl<'a> Draw<'a> {
     /// Vertices or indices of an indirect draw, times its instances, at most: 2²⁷.
     pub const INDIRECT_LIMIT: u32 = 1 << 27;
 
-    fn limited(
+    /// A draw of so many elements and instances, cut at [`Draw::INDIRECT_LIMIT`].
+    #[must_use]
+    pub fn limited(
         pipeline: &'a RenderPipeline,
         [first, count]: [u32; 2],
         [first_instance, instances]: [u32; 2],
@@ -137,8 +139,44 @@ pub struct RenderPass<'a> {
     pub load_stencil: LoadOp<u8>,
     /// The counters of samples that pass all tests. Default none.
     pub occlusion_queries: Option<&'a OcclusionQueries>,
+    /// Cancelling the pass, and watching its progress. Default neither.
+    pub control: PassControl<'a>,
     /// The draws, in order.
     pub draws: &'a [Draw<'a>],
+}
+
+/// Cancelling a pass, and watching its progress, between batches of draws: about every two million
+/// vertices.
+#[derive(Clone, Copy, Default)]
+pub struct PassControl<'a> {
+    /// If another thread sets it, the pass ends with an error, and its attachments hold what was
+    /// drawn until then. Default none.
+    pub cancel: Option<&'a AtomicBool>,
+    /// Called on the thread that draws with the number of draws that are drawn or begun, and of all
+    /// draws. Default none.
+    pub progress: Option<&'a (dyn Fn(usize, usize) + Sync)>,
+}
+
+impl PassControl<'_> {
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.cancel
+            .is_some_and(|cancel| cancel.load(Ordering::Relaxed))
+    }
+
+    pub(crate) fn report(&self, begun: usize, all: usize) {
+        if let Some(progress) = self.progress {
+            progress(begun, all);
+        }
+    }
+}
+
+impl std::fmt::Debug for PassControl<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("PassControl")
+            .field("cancel", &self.cancel)
+            .field("has_progress", &self.progress.is_some())
+            .finish()
+    }
 }
 
 impl Default for RenderPass<'_> {
@@ -149,6 +187,7 @@ impl Default for RenderPass<'_> {
             load_depth: LoadOp::Clear(1.0),
             load_stencil: LoadOp::Clear(0),
             occlusion_queries: None,
+            control: PassControl::default(),
             draws: &[],
         }
     }

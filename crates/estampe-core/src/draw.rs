@@ -11,12 +11,12 @@ use crate::plan::chunk_plan::{ChunkPart, ChunkPlan};
 use crate::plan::draw_batch::DrawBatch;
 use crate::plan::draw_cursor::DrawCursor;
 use crate::plan::draw_state::DrawState;
-use crate::plan::pass_check::{RenderPassError, check_pass};
+use crate::plan::pass_check::RenderPassError;
 use crate::plan::sub_draw::SubDraw;
 use crate::plan::tile_plan::{TargetFacts, TilePlan, TileState};
 use crate::profile::JobTimings;
 use crate::raster::MAX_SAMPLES;
-use crate::schedule::{Executor, ThreadError};
+use crate::schedule::{Executor, ThreadError, ThreadPool};
 use crate::statistics::Statistics;
 use crate::tile_pass::{self, Clear, TileJob, TilePass, TileScratch};
 use estampe_simd::Level;
@@ -29,7 +29,8 @@ use std::time::Instant;
 pub struct Context {
     level: Level,
     executor: Executor,
-    memory: Mutex<Memory>,
+    /// Memory that no pass uses now: one for each pass that was drawn beside others.
+    memory: Mutex<Vec<Memory>>,
 }
 
 /// Memory of a pass, kept for the next one: a frame like the one before allocates nothing.
@@ -45,6 +46,19 @@ struct Memory {
     tiles_1: Vec<Mutex<TileScratch<1>>>,
     tiles_4: Vec<Mutex<TileScratch<4>>>,
     tiles_many: Vec<Mutex<TileScratch<MAX_SAMPLES>>>,
+}
+
+impl Memory {
+    /// Memory for so many workers.
+    fn new(workers: usize) -> Self {
+        let mut memory = Self::default();
+        memory.shading.resize_with(workers, Mutex::default);
+        memory.chunk_scratch.resize_with(workers, Mutex::default);
+        memory.tiles_1.resize_with(workers, Mutex::default);
+        memory.tiles_4.resize_with(workers, Mutex::default);
+        memory.tiles_many.resize_with(workers, Mutex::default);
+        memory
+    }
 }
 
 /// Lists whose elements borrow from a pass, empty between passes: see [`recycled`].
@@ -83,6 +97,12 @@ impl Context {
         Ok(Self::on(Executor::new(threads)?, level))
     }
 
+    /// A context of the threads of a pool, and of whoever draws, at a SIMD level.
+    #[must_use]
+    pub fn on_pool(pool: Arc<ThreadPool>, level: Level) -> Self {
+        Self::on(Executor::on_pool(pool), level)
+    }
+
     /// A context that draws on the calling thread alone and measures what each job takes: see
     /// [`Context::take_timings`].
     #[must_use]
@@ -91,17 +111,11 @@ impl Context {
     }
 
     fn on(executor: Executor, level: Level) -> Self {
-        let mut memory = Memory::default();
-        let workers = executor.threads();
-        memory.shading.resize_with(workers, Mutex::default);
-        memory.chunk_scratch.resize_with(workers, Mutex::default);
-        memory.tiles_1.resize_with(workers, Mutex::default);
-        memory.tiles_4.resize_with(workers, Mutex::default);
-        memory.tiles_many.resize_with(workers, Mutex::default);
+        let memory = Mutex::new(vec![Memory::new(executor.threads())]);
         Self {
             level,
             executor,
-            memory: Mutex::new(memory),
+            memory,
         }
     }
 
@@ -127,19 +141,28 @@ impl Context {
     /// Draws a pass. Buffers that a draw lacks read as zeros.
     ///
     /// # Errors
-    /// [`RenderPassError`] if a draw does not fit the target; nothing is drawn or cleared then.
+    /// [`RenderPassError`] if a draw does not fit the target; nothing is drawn or cleared then. If
+    /// the pass is [cancelled](RenderPassError::Cancelled), the target holds a part of it.
     pub fn render(
         &self,
         target: &mut RenderTarget,
         pass: &RenderPass<'_>,
     ) -> Result<Statistics, RenderPassError> {
-        check_pass(target, pass)?;
-        Ok(self.render_checked(target, pass))
+        pass.check(&target.shape())?;
+        let kept = || self.memory.lock().unwrap_or_else(PoisonError::into_inner);
+        let memory = kept().pop();
+        let mut memory = memory.unwrap_or_else(|| Memory::new(self.executor.threads()));
+        let drawn = self.render_checked(target, pass, &mut memory);
+        kept().push(memory);
+        drawn
     }
 
-    fn render_checked(&self, target: &mut RenderTarget, pass: &RenderPass<'_>) -> Statistics {
-        let mut memory = self.memory.lock().unwrap_or_else(PoisonError::into_inner);
-        let memory = &mut *memory;
+    fn render_checked(
+        &self,
+        target: &mut RenderTarget,
+        pass: &RenderPass<'_>,
+        memory: &mut Memory,
+    ) -> Result<Statistics, RenderPassError> {
         let mut statistics = Statistics::default();
         let mut cursor = DrawCursor::new(pass.draws);
         let mut batch = DrawBatch {
@@ -148,10 +171,15 @@ impl Context {
             invisible_primitives: 0,
         };
         let mut clear = Clear::new(target, pass);
+        let mut is_cancelled = false;
         loop {
             let start = Instant::now();
             let more = cursor.next_batch(&self.executor, target, &mut batch);
             if !more && clear.is_done() {
+                break;
+            }
+            if pass.control.is_cancelled() {
+                is_cancelled = true;
                 break;
             }
             self.shade_vertices(&batch, memory);
@@ -170,10 +198,15 @@ impl Context {
             statistics.primitives_in += batch.invisible_primitives;
             statistics.primitives_culled += batch.invisible_primitives;
             clear = Clear::default();
+            pass.control
+                .report(pass.draws.len() - cursor.draws_left(), pass.draws.len());
         }
         memory.lists.states = recycled(batch.states);
         memory.lists.sub_draws = recycled(batch.sub_draws);
-        statistics
+        if is_cancelled {
+            return Err(RenderPassError::Cancelled);
+        }
+        Ok(statistics)
     }
 
     /// The threads.

@@ -60,12 +60,12 @@ mod transfer;
 
 pub use attachment::{
     ColorTexels, DepthStencilTexels, ImageSize, ReadbackError, RenderTarget,
-    RenderTargetDescriptor, ResolveError, ResolveMode, TargetError, row_order_words,
+    RenderTargetDescriptor, ResolveError, ResolveMode, TargetError, TargetShape, row_order_words,
 };
-pub use commands::{Draw, LoadOp, OcclusionQueries, RenderPass};
+pub use commands::{Draw, LoadOp, OcclusionQueries, PassControl, RenderPass};
 pub use draw::Context;
 pub use pipeline::{PipelineError, RenderPipeline, RenderPipelineDescriptor};
 pub use plan::pass_check::RenderPassError;
-pub use schedule::ThreadError;
+pub use schedule::{ThreadError, ThreadPool, ThreadPoolBuilder};
 pub use statistics::Statistics;
 pub use tile_path::{PathCounts, TilePath};

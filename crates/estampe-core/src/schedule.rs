@@ -8,12 +8,14 @@
 
 use crate::profile::{JobTimings, Profiler};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
+
+pub use rayon::{ThreadPool, ThreadPoolBuilder};
 
 /// Runs independent items on the calling thread and its helpers.
 #[derive(Debug)]
 pub(crate) struct Executor {
-    helpers: Option<rayon::ThreadPool>,
+    helpers: Option<Arc<ThreadPool>>,
     /// Measures each item, if the context is made for profiling.
     profiler: Option<Profiler>,
 }
@@ -51,9 +53,17 @@ impl Executor {
             reason: error.to_string(),
         })?;
         Ok(Self {
-            helpers: Some(pool),
+            helpers: Some(Arc::new(pool)),
             profiler: None,
         })
+    }
+
+    /// An executor of the caller and the threads of a pool.
+    pub(crate) fn on_pool(pool: Arc<ThreadPool>) -> Self {
+        Self {
+            helpers: Some(pool),
+            profiler: None,
+        }
     }
 
     /// An executor of the calling thread alone that measures what each item takes.
@@ -73,7 +83,7 @@ impl Executor {
     /// Returns the number of items that run at once.
     pub(crate) fn threads(&self) -> usize {
         let helpers = self.helpers.as_ref();
-        1 + helpers.map_or(0, rayon::ThreadPool::current_num_threads)
+        1 + helpers.map_or(0, |pool| pool.current_num_threads())
     }
 
     /// Runs `work` for every item, each with one worker's scratch.

@@ -7,7 +7,7 @@ use estampe_simd::Level;
 use estampe_types::shader::VertexOut;
 use estampe_types::state::{VertexAttribute, VertexBufferLayout};
 use estampe_types::{
-    BindGroup, Binding, Bindings, Buffer, FragmentIn, FragmentOut, Limits, Real, Vec4,
+    BindGroup, Binding, Bindings, BoundGroup, Buffer, FragmentIn, FragmentOut, Limits, Real, Vec4,
     VertexFormat, VertexIn,
 };
 use std::sync::Arc;
@@ -117,13 +117,16 @@ fn check(descriptor: RenderPipelineDescriptor, samples: u32) {
             let binding = Binding::Buffer {
                 buffer: Buffer::from_f32s(&[0; 4].map(|_| random())),
                 offset: 0,
-                has_dynamic_offset: false,
+                dynamic_offset: None,
             };
             let group = BindGroup {
                 entries: vec![(0, binding)],
             };
             let bindings = Bindings {
-                groups: vec![(Arc::new(group), 0)],
+                groups: vec![BoundGroup {
+                    group: Arc::new(group),
+                    ..BoundGroup::default()
+                }],
             };
             ([Buffer::from_f32s(&positions)], bindings, vertices)
         })

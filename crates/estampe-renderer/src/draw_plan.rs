@@ -13,7 +13,7 @@ use crate::shading::points_and_lines::PointsAndLines;
 use crate::surface_pipelines::{FrameStyle, StreamPipeline, Transparency};
 use crate::transforms::round_to_f32;
 use estampe::state::PrimitiveTopology;
-use estampe::{Buffer, Device, Draw, IndexFormat, TextureFormat};
+use estampe::{BufferError, BufferSlice, Device, Draw, IndexFormat, TextureFormat};
 use estampe_scene::{Mesh, Scene, Surface, Workers};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
@@ -29,8 +29,8 @@ pub(crate) struct DrawPlan {
 #[derive(Debug)]
 struct PlannedDraw {
     pipeline: usize,
-    vertex_buffers: Vec<Buffer>,
-    indices: Option<Buffer>,
+    vertex_buffers: Vec<BufferSlice>,
+    indices: Option<BufferSlice>,
     elements: Range<u32>,
 }
 
@@ -45,7 +45,7 @@ impl DrawPlan {
             let (pipeline, elements) = draw(planned);
             Draw {
                 vertex_buffers: &planned.vertex_buffers,
-                indices: planned
+                index_buffer: planned
                     .indices
                     .as_ref()
                     .map(|buffer| (buffer, IndexFormat::Uint32)),
@@ -84,7 +84,7 @@ struct DrawPlanBuilder {
     pipeline_of_key: HashMap<PipelineKey, usize>,
     transparent: Vec<DistantTriangle>,
     /// Pipeline and vertex buffers of each transparent surface.
-    transparent_surfaces: Vec<(usize, Vec<Buffer>)>,
+    transparent_surfaces: Vec<(usize, Vec<BufferSlice>)>,
 }
 
 impl Planner<'_> {
@@ -99,7 +99,7 @@ impl Planner<'_> {
             let (pipeline, vertex_buffers) =
                 builder.transparent_surfaces[run.surface as usize].clone();
             let elements = 0..element_count(run.indices.len())?;
-            let indices = Some(Buffer::from_words(run.indices));
+            let indices = Some(self.index_buffer_of(run.indices)?);
             builder.plan.draws.push(PlannedDraw {
                 pipeline,
                 vertex_buffers,
@@ -119,13 +119,14 @@ impl Planner<'_> {
         let is_unshared = self.style.needs_unshared_vertices() || mesh.normals.is_empty();
         let has_points_or_lines = !mesh.lines.is_empty() || !mesh.points.is_empty();
         let shared = (!is_unshared && !mesh.triangles.is_empty() || has_points_or_lines)
-            .then(|| MeshStreams::shared(mesh, &self.view.space, self.workers));
+            .then(|| MeshStreams::shared(mesh, &self.view.space, self.device, self.workers))
+            .transpose()?;
         if !mesh.triangles.is_empty() {
             let unshared;
             let streams = match &shared {
                 Some(shared) if !is_unshared => shared,
                 _ => {
-                    unshared = unshared_streams(mesh, &self.view.space);
+                    unshared = unshared_streams(mesh, &self.view.space, self.device)?;
                     &unshared
                 }
             };
@@ -146,7 +147,9 @@ impl Planner<'_> {
         builder: &mut DrawPlanBuilder,
     ) -> Result<(), RenderError> {
         element_count(mesh.triangles.len().saturating_mul(3))?;
-        let indices = (!is_unshared).then(|| self.index_buffer(mesh));
+        let indices = (!is_unshared)
+            .then(|| self.index_buffer(mesh))
+            .transpose()?;
         let whole = [Surface {
             material: None,
             triangles: 0..mesh.triangles.len(),
@@ -203,7 +206,7 @@ impl Planner<'_> {
     }
 
     /// The triangles' vertex indices, unchanged.
-    fn index_buffer(&self, mesh: &Mesh) -> Buffer {
+    fn index_buffer(&self, mesh: &Mesh) -> Result<BufferSlice, BufferError> {
         /// Indices of a piece: some hundred microseconds of work, because touching new memory costs
         /// more than copying.
         const PIECE: usize = 1 << 16;
@@ -212,7 +215,12 @@ impl Planner<'_> {
         let parts = words.chunks_mut(PIECE).zip(corners.chunks(PIECE));
         self.workers
             .map(parts, |(to, from)| to.copy_from_slice(from));
-        Buffer::from_words(words)
+        self.index_buffer_of(words)
+    }
+
+    fn index_buffer_of(&self, indices: Vec<u32>) -> Result<BufferSlice, BufferError> {
+        let buffer = self.device.create_buffer_of_words(indices)?;
+        Ok(BufferSlice::from(&buffer))
     }
 
     /// Adds the triangles of the next transparent surface, which the caller pushes afterwards.
@@ -267,7 +275,7 @@ impl Planner<'_> {
             let shows_colors = !mesh.colors.is_empty() && !self.style.shading.holds_numbers();
             let mut streams = shared.clone();
             if !shows_colors {
-                streams.colors = StreamData::constant(&[1.0; 4]);
+                streams.colors = StreamData::constant(self.device, &[1.0; 4])?;
             }
             let shader = self.points_and_lines(shows_colors, mesh.points.len());
             let pipeline = self
@@ -276,7 +284,7 @@ impl Planner<'_> {
             let vertex_buffers = buffers_of(&pipeline, &streams);
             builder.plan.pipelines.push(pipeline);
             let pipeline = builder.plan.pipelines.len() - 1;
-            let indices = Some(Buffer::from_words(indices));
+            let indices = Some(self.index_buffer_of(indices.to_vec())?);
             builder.plan.draws.push(PlannedDraw {
                 pipeline,
                 vertex_buffers,
@@ -346,7 +354,7 @@ fn point_size_px(options: &RenderOptions, count: usize) -> f32 {
     round_to_f32(share.clamp((shorter / 400.0).max(1.0), (shorter / 50.0).max(1.0)))
 }
 
-fn buffers_of(pipeline: &StreamPipeline, streams: &MeshStreams) -> Vec<Buffer> {
+fn buffers_of(pipeline: &StreamPipeline, streams: &MeshStreams) -> Vec<BufferSlice> {
     pipeline
         .streams
         .iter()

@@ -7,10 +7,9 @@ use crate::scene_view::SceneView;
 use crate::shading::VertexTransforms;
 use crate::shading::wireframe::Wireframe;
 use crate::surface_pipelines::FrameStyle;
-use estampe::texture::TextureError;
 use estampe::{
-    Device, LoadOp, PipelineError, RenderPass, RenderPassError, RenderTargetDescriptor, Statistics,
-    TargetError, TextureFormat,
+    BufferError, ColorAttachment, DepthStencilAttachment, Device, PipelineError, RenderPass,
+    RenderPassError, Statistics, Texture, TextureDescriptor, TextureError, TextureFormat,
 };
 use estampe_scene::{Camera, Image, Scene, Workers};
 use std::sync::Arc;
@@ -67,9 +66,12 @@ pub enum RenderError {
     /// A pipeline state breaks a rule.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
-    /// The target cannot be created.
+    /// An image of the frame cannot be created.
+    #[error("the images of the frame: {0}")]
+    Target(TextureError),
+    /// A vertex buffer cannot be created.
     #[error(transparent)]
-    Target(#[from] TargetError),
+    Buffer(#[from] BufferError),
     /// A texture cannot be created.
     #[error(transparent)]
     Texture(#[from] TextureError),
@@ -102,26 +104,23 @@ pub fn render(
         workers,
     }
     .plan()?;
-    let mut target = device.create_render_target(&RenderTargetDescriptor {
-        width: options.width,
-        height: options.height,
-        samples: options.samples,
-        color_formats: vec![style.format],
-        ..RenderTargetDescriptor::new(options.width, options.height)
-    })?;
+    let attachments =
+        Attachments::new(options, style.format, device).map_err(RenderError::Target)?;
     let prepare = start.elapsed();
 
-    let clear = clear_color(options);
     let draws = plan.draws();
-    let pass = RenderPass {
-        load_colors: vec![LoadOp::Clear(clear.map(f64::from))],
+    let statistics = device.render(&RenderPass {
+        color_attachments: &[Some(attachments.color(options))],
+        depth_stencil_attachment: Some(DepthStencilAttachment::clear(
+            &attachments.depth.view(),
+            1.0,
+        )),
         draws: &draws,
         ..RenderPass::default()
-    };
-    let statistics = device.render(&mut target, &pass)?;
+    })?;
 
     let start = Instant::now();
-    let mut rgba = device.read_color(&target, 0);
+    let mut rgba = device.read_texture(&attachments.image)?;
     if options.background.is_none() {
         straighten(&mut rgba, encoding(options));
     }
@@ -142,6 +141,52 @@ pub fn render(
         timings,
         camera: view.camera_world(),
     })
+}
+
+/// The images of a frame.
+struct Attachments {
+    /// The samples, if there are several per pixel.
+    samples: Option<Texture>,
+    image: Texture,
+    depth: Texture,
+}
+
+impl Attachments {
+    fn new(
+        options: &RenderOptions,
+        format: TextureFormat,
+        device: &Device,
+    ) -> Result<Self, TextureError> {
+        let image = TextureDescriptor::new_2d(options.width, options.height, format);
+        let samples = TextureDescriptor {
+            sample_count: options.samples,
+            ..image.clone()
+        };
+        let depth = TextureDescriptor {
+            format: TextureFormat::Depth32Float,
+            ..samples.clone()
+        };
+        Ok(Self {
+            samples: if options.samples > 1 {
+                Some(device.create_texture(&samples)?)
+            } else {
+                None
+            },
+            image: device.create_texture(&image)?,
+            depth: device.create_texture(&depth)?,
+        })
+    }
+
+    fn color(&self, options: &RenderOptions) -> ColorAttachment {
+        let clear = clear_color(options).map(f64::from);
+        match &self.samples {
+            Some(samples) => ColorAttachment {
+                resolve_target: Some(self.image.view()),
+                ..ColorAttachment::clear(&samples.view(), clear)
+            },
+            None => ColorAttachment::clear(&self.image.view(), clear),
+        }
+    }
 }
 
 fn check_size(options: &RenderOptions, device: &Device) -> Result<(), RenderError> {

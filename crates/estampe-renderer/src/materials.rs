@@ -4,8 +4,7 @@ use crate::frame::RenderError;
 use crate::options::{RenderOptions, Shading};
 use crate::shading::lighting::Gloss;
 use crate::surface_pipelines::{SurfaceStyle, Transparency};
-use estampe::texture::{MipGeneration, Sampled, create_texture};
-use estampe::{Device, SamplerDescriptor, TextureFormat};
+use estampe::{Device, Sampled, SamplerDescriptor, TextureDescriptor, TextureFormat};
 use estampe_scene::{AlphaMode, Image, Material, Mesh, Scene};
 use std::collections::HashMap;
 
@@ -111,15 +110,14 @@ impl<'a> Materials<'a> {
     }
 
     fn create(&self, image: &Image) -> Result<Sampled, RenderError> {
-        let texture = create_texture(
-            image.width,
-            image.height,
-            TextureFormat::Rgba8UnormSrgb,
-            &image.rgba,
-            MipGeneration::Full,
-            self.device.limits(),
-        )?;
-        Ok(Sampled::new(texture, SamplerDescriptor::trilinear_repeat()))
+        let format = TextureFormat::Rgba8UnormSrgb;
+        let descriptor = TextureDescriptor::new_2d(image.width, image.height, format);
+        let texture = self
+            .device
+            .create_texture_with_data(&descriptor.with_all_levels(), &[&image.rgba])?;
+        let sampler = SamplerDescriptor::trilinear_repeat();
+        let sampler = self.device.create_sampler(&sampler)?;
+        Ok(self.device.sampled(&texture, &sampler)?)
     }
 }
 

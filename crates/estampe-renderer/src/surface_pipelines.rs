@@ -14,9 +14,8 @@ use estampe::state::{
     BlendState, ColorTargetState, ColorWrites, CullMode, DepthState, PrimitiveState,
     PrimitiveTopology,
 };
-use estampe::texture::Sampled;
 use estampe::{
-    Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor, Shader,
+    Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor, Sampled, Shader,
     ShaderProgram, TextureFormat,
 };
 use std::sync::Arc;
@@ -258,7 +257,7 @@ impl FrameStyle {
             primitive: state.primitive,
             depth: Some(state.depth),
             samples: self.samples,
-            targets: vec![target],
+            targets: vec![Some(target)],
             ..RenderPipelineDescriptor::with_program(material.program)
         };
         let pipeline = device.create_render_pipeline(&descriptor)?;

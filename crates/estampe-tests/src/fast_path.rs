@@ -3,12 +3,14 @@
 use crate::case::{Case, CaseDraw};
 use crate::oracle::Image;
 use crate::readback;
+use crate::target::Target;
 use estampe::{
-    Device, DeviceDescriptor, Draw, Level, Limits, LoadOp, OcclusionQueries, RenderPass,
-    RenderPipeline, RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, Statistics,
+    BindGroup, BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType,
+    BufferBindingType, BufferSlice, Device, DeviceDescriptor, Draw, DrawBindGroup, Level, Limits,
+    OcclusionQueries, RenderPass, RenderPipeline, RenderPipelineDescriptor, Statistics,
 };
-use estampe_types::TextureFormat;
 use estampe_types::state::ColorTargetState;
+use estampe_types::{Binding, Bindings, Buffer as BufferData, TextureFormat};
 use std::sync::LazyLock;
 
 /// Numbers of threads: one, an even division, and more than this machine may have.
@@ -21,6 +23,7 @@ static DEVICES: LazyLock<Vec<Device>> = LazyLock::new(|| {
             threads,
             level,
             limits: Limits::default(),
+            pool: None,
         })
         .expect("the system starts a few threads")
     };
@@ -67,45 +70,34 @@ pub struct Drawn {
 #[must_use]
 pub fn draw(device: &Device, case: &Case) -> Drawn {
     let [width, height] = case.size;
-    let mut target = device
-        .create_render_target(&RenderTargetDescriptor {
-            samples: case.samples,
-            color_formats: case.formats(),
-            depth_stencil: case.depth_stencil,
-            ..RenderTargetDescriptor::new(width, height)
-        })
-        .expect("a valid target");
+    let target = Target::of_case(device, case);
     let queries = OcclusionQueries::new(case.draws.len());
     let first_draws = case.passes()[0].len();
     let mut statistics = Statistics::default();
     for (number, draws) in case.passes().into_iter().enumerate() {
         let is_first = number == 0;
-        let mut clear = RenderPass {
-            load_colors: vec![LoadOp::Clear(case.clear_color.map(f64::from)); case.formats().len()],
-            load_depth: LoadOp::Clear(case.clear_depth),
-            load_stencil: LoadOp::Clear(case.clear_stencil),
-            occlusion_queries: Some(&queries),
-            ..RenderPass::default()
-        };
-        if !is_first {
-            clear.load_colors = vec![LoadOp::Load; case.formats().len()];
-            clear.load_depth = LoadOp::Load;
-            clear.load_stencil = LoadOp::Load;
-        }
         let first_draw = if is_first { 0 } else { first_draws };
-        statistics += draw_pass(device, &mut target, case, (draws, first_draw), clear);
+        let attachments = target.pass(case, is_first);
+        let pass = RenderPass {
+            occlusion_queries: Some(&queries),
+            ..attachments.pass()
+        };
+        statistics += draw_pass(device, case, (draws, first_draw), pass);
     }
+    let stored = target.read(device);
     let color = match case.format {
-        Some(format) if readback::is_read_as_color(format) => target.read_color(0),
+        Some(format) if readback::is_read_as_color(format) => {
+            let resolved = stored.resolved.first();
+            resolved.unwrap_or(&stored.texels[0]).clone()
+        }
         _ => Vec::new(),
     };
-    let stored = readback::stored(device, &target);
     let counted = (0u32..).zip(&case.draws);
     let counts = counted
         .filter(|(_, draw)| draw.is_counted)
         .map(|(number, _)| queries.samples_passed(number))
         .collect();
-    let depth = target.read_depth().iter().map(|z| z.to_bits()).collect();
+    let depth = stored.depths.first().cloned().unwrap_or_default();
     let image = Image {
         pixels: width as usize * height as usize,
         color,
@@ -120,30 +112,31 @@ pub fn draw(device: &Device, case: &Case) -> Drawn {
 /// Draws a pass; `first` is the index of its first draw in the case.
 fn draw_pass(
     device: &Device,
-    target: &mut RenderTarget,
     case: &Case,
     (draws, first_draw): (&[CaseDraw], usize),
-    clear: RenderPass<'_>,
+    pass: RenderPass<'_>,
 ) -> Statistics {
     let first_draw = u32::try_from(first_draw).expect("few draws");
     let pipelines: Vec<_> = draws
         .iter()
         .map(|draw| pipeline(device, case, draw))
         .collect();
-    let buffers: Vec<Vec<_>> = draws
-        .iter()
-        .map(|draw| draw.buffers.iter().map(|(_, b)| b.clone()).collect())
-        .collect();
+    let buffers = draws.iter().map(|draw| Buffers::new(device, draw));
+    let buffers: Vec<Buffers> = buffers.collect();
+    let groups: Vec<Vec<DrawBindGroup<'_>>> = buffers.iter().map(Buffers::groups).collect();
     let commands: Vec<_> = draws
         .iter()
-        .zip(pipelines.iter().zip(&buffers))
+        .zip(pipelines.iter().zip(buffers.iter().zip(&groups)))
         .zip(first_draw..)
-        .map(|((draw, (pipeline, buffers)), number)| Draw {
-            vertex_buffers: buffers,
-            indices: draw.indices.as_ref().map(|(format, b)| (b, *format)),
+        .map(|((draw, (pipeline, (buffers, groups))), number)| Draw {
+            vertex_buffers: &buffers.vertices,
+            index_buffer: buffers
+                .indices
+                .as_ref()
+                .zip(draw.indices.as_ref().map(|(format, _)| *format)),
             instances: draw.instances.clone(),
             base_vertex: draw.base_vertex,
-            bindings: Some(&draw.bindings),
+            bind_groups: groups,
             viewport: draw.viewport,
             scissor: draw.scissor,
             blend_constant: draw.blend_constant,
@@ -155,21 +148,97 @@ fn draw_pass(
         .collect();
     let pass = RenderPass {
         draws: &commands,
-        ..clear
+        ..pass
     };
-    device
-        .render(target, &pass)
-        .expect("a pass that fits its target")
+    device.render(&pass).expect("a pass that fits its target")
+}
+
+/// The buffers and bind groups of a draw.
+struct Buffers {
+    vertices: Vec<BufferSlice>,
+    indices: Option<BufferSlice>,
+    groups: Vec<(BindGroup, Vec<u32>)>,
+}
+
+impl Buffers {
+    fn new(device: &Device, draw: &CaseDraw) -> Self {
+        let vertices = draw.buffers.iter().map(|(_, data)| slice(device, data));
+        let indices = draw.indices.as_ref();
+        Self {
+            vertices: vertices.collect(),
+            indices: indices.map(|(_, data)| slice(device, data)),
+            groups: bind_groups(device, &draw.bindings),
+        }
+    }
+
+    fn groups(&self) -> Vec<DrawBindGroup<'_>> {
+        let groups = self.groups.iter();
+        groups
+            .map(|(group, dynamic_offsets)| DrawBindGroup {
+                group,
+                dynamic_offsets,
+            })
+            .collect()
+    }
+}
+
+fn slice(device: &Device, data: &BufferData) -> BufferSlice {
+    let buffer = device.create_buffer_of_words(data.words().to_vec());
+    let buffer = buffer.expect("a small buffer");
+    buffer.slice(0..data.len_bytes() as u64)
+}
+
+/// Bind groups with the same buffers.
+fn bind_groups(device: &Device, bindings: &Bindings) -> Vec<(BindGroup, Vec<u32>)> {
+    let groups = bindings.groups.iter().map(|bound| {
+        let mut layout = Vec::new();
+        let mut entries = Vec::new();
+        let mut offsets = Vec::new();
+        for (binding, resource) in &bound.group.entries {
+            let Binding::Buffer {
+                buffer,
+                offset,
+                dynamic_offset,
+            } = resource
+            else {
+                panic!("cases bind buffers alone");
+            };
+            let whole = slice(device, buffer);
+            let offset = u64::from(*offset);
+            // A dynamic offset moves the whole binding, which must stay in the buffer.
+            let dynamic = dynamic_offset.map(|at| bound.dynamic_offsets[usize::from(at)]);
+            let end = whole.size - u64::from(dynamic.unwrap_or(0));
+            offsets.extend(dynamic);
+            layout.push(BindGroupLayoutEntry {
+                binding: *binding,
+                ty: BindingType::Buffer {
+                    ty: BufferBindingType::Uniform,
+                    has_dynamic_offset: dynamic_offset.is_some(),
+                    min_binding_size: 0,
+                },
+            });
+            let part = whole.buffer.slice(offset..end);
+            entries.push((*binding, BindingResource::Buffer(part)));
+        }
+        let layout = device.create_bind_group_layout(&layout);
+        let group = device.create_bind_group(&BindGroupDescriptor {
+            label: None,
+            layout: &layout.expect("a valid layout"),
+            entries: &entries,
+        });
+        (group.expect("resources that fit the layout"), offsets)
+    });
+    groups.collect()
 }
 
 fn pipeline(device: &Device, case: &Case, draw: &CaseDraw) -> RenderPipeline {
     let target = |(attachment, &format): (usize, &TextureFormat)| {
         let (blend, write_mask) = draw.target(attachment);
-        ColorTargetState {
+        Some(ColorTargetState {
             format,
             blend,
             write_mask,
-        }
+        })
     };
     device
         .create_render_pipeline(&RenderPipelineDescriptor {

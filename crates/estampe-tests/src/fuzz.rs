@@ -9,13 +9,14 @@ use crate::Random;
 use crate::fast_path;
 use crate::geometry::clip_at;
 use crate::shared_edges::{Corner, Kind, covered, mesh};
+use crate::target::Target;
 use estampe::{
-    Device, DeviceDescriptor, Draw, Level, Limits, LoadOp, RenderPass, RenderPipeline,
-    RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor,
+    BufferSlice, ColorAttachment, Device, DeviceDescriptor, Draw, Level, Limits, RenderPass,
+    RenderPipeline, RenderPipelineDescriptor, TextureAspect,
 };
 use estampe_types::shader::VertexOut;
 use estampe_types::state::{BlendState, ColorTargetState, VertexBufferLayout};
-use estampe_types::{Buffer, FragmentIn, FragmentOut, TextureFormat, Vec4, VertexFormat, VertexIn};
+use estampe_types::{FragmentIn, FragmentOut, TextureFormat, Vec4, VertexFormat, VertexIn};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -123,7 +124,7 @@ struct Kept {
     device: usize,
     size: [u32; 2],
     samples: u32,
-    target: RenderTarget,
+    target: Target,
     pipeline: RenderPipeline,
 }
 
@@ -134,6 +135,7 @@ impl Fuzzer {
                 threads: 1,
                 level,
                 limits: Limits::default(),
+                pool: None,
             })
             .expect("a device without threads of its own")
         };
@@ -216,10 +218,10 @@ impl Kept {
                 vertex_buffers: vec![VertexBufferLayout::packed(&[VertexFormat::Float32x4])],
                 depth: None,
                 samples,
-                targets: vec![ColorTargetState {
+                targets: vec![Some(ColorTargetState {
                     blend: Some(BlendState::ADDITIVE),
                     ..TextureFormat::Rgba8Unorm.into()
-                }],
+                })],
                 ..RenderPipelineDescriptor::new(Hit)
             })
             .expect("a valid pipeline");
@@ -227,12 +229,7 @@ impl Kept {
             device: number,
             size,
             samples,
-            target: device
-                .create_render_target(&RenderTargetDescriptor {
-                    samples,
-                    ..RenderTargetDescriptor::new(size[0], size[1])
-                })
-                .expect("a valid target"),
+            target: Target::new(device, size, samples, &[TextureFormat::Rgba8Unorm], None),
             pipeline,
         }
     }
@@ -261,7 +258,7 @@ impl Batch {
     }
 
     /// Clip-space positions of some meshes' triangles.
-    fn positions(&self, meshes: &[usize]) -> Buffer {
+    fn positions(&self, meshes: &[usize]) -> Vec<u32> {
         let mut scalars = Vec::new();
         for &number in meshes {
             let (w, (_, triangles)) = (self.ws[number], &self.meshes[number]);
@@ -270,7 +267,7 @@ impl Batch {
                 scalars.extend(clip_at(self.size, place, 0.5, w));
             }
         }
-        Buffer::from_f32s(&scalars)
+        scalars.iter().map(|scalar| scalar.to_bits()).collect()
     }
 
     /// The expected number of hits of each pixel's samples by some meshes; `None` where a mesh need
@@ -306,15 +303,11 @@ struct Wrong {
 }
 
 /// Draws some meshes and looks for a sample that they do not hit once each.
-fn wrong_sample(
-    device: &Device,
-    kept: &mut Kept,
-    batch: &Batch,
-    meshes: &[usize],
-) -> Option<Wrong> {
+fn wrong_sample(device: &Device, kept: &Kept, batch: &Batch, meshes: &[usize]) -> Option<Wrong> {
     let width = batch.size[0];
-    let buffers = [batch.positions(meshes)];
-    let count = buffers[0].len_bytes() / 16;
+    let positions = device.create_buffer_of_words(batch.positions(meshes));
+    let buffers = [BufferSlice::from(&positions.expect("a small buffer"))];
+    let count = buffers[0].size / 16;
     let draws = [Draw {
         vertex_buffers: &buffers,
         ..Draw::new(
@@ -322,17 +315,19 @@ fn wrong_sample(
             0..u32::try_from(count).expect("few triangles"),
         )
     }];
+    let color = &kept.target.colors[0];
     let pass = RenderPass {
-        load_colors: vec![LoadOp::Clear([0.0; 4])],
+        color_attachments: &[Some(ColorAttachment::clear(&color.view(), [0.0; 4]))],
         draws: &draws,
         ..RenderPass::default()
     };
     device
-        .render(&mut kept.target, &pass)
+        .render(&pass)
         .expect("the pipeline is made for the target");
     let wanted = batch.wanted(meshes);
     (0..batch.samples).find_map(|sample| {
-        let texels = kept.target.read_texels(0, sample);
+        let read = device.read_sample(color, TextureAspect::All, sample);
+        let texels = read.expect("a sample that there is");
         let hits = texels.iter().step_by(4).zip(&wanted);
         (0u32..).zip(hits).find_map(|(at, (&hits, &wanted))| {
             let wanted = wanted.filter(|&wanted| wanted != hits)?;
@@ -377,7 +372,7 @@ mod tests {
     fn is_found(batch: &Batch) -> bool {
         let mut fuzzer = Fuzzer::new();
         let at = fuzzer.kept(0, batch.size, batch.samples);
-        wrong_sample(&fuzzer.devices[0], &mut fuzzer.kept[at], batch, &[0]).is_some()
+        wrong_sample(&fuzzer.devices[0], &fuzzer.kept[at], batch, &[0]).is_some()
     }
 
     #[test]

@@ -30,6 +30,7 @@ pub mod random;
 pub mod readback;
 pub mod shaders;
 pub mod shared_edges;
+pub mod target;
 
 /// The snippet of the repository's README, compiled and run as a test.
 #[cfg(doctest)]

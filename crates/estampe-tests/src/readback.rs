@@ -1,7 +1,6 @@
 //! The contents of every sample of every attachment, in one form for the oracle and the fast path.
 
 use crate::case::Case;
-use estampe::{Device, RenderTarget, RenderTargetDescriptor};
 use estampe_types::TextureFormat;
 
 /// Returns true if `read_color` gives the bytes of an attachment with this format.
@@ -83,42 +82,5 @@ impl Stored {
             }
         }
         (self != wanted).then(|| "the lists of depths differ in number or length".to_owned())
-    }
-}
-
-/// Reads back a target.
-#[must_use]
-pub fn stored(device: &Device, target: &RenderTarget) -> Stored {
-    let samples = target.samples();
-    let attachments = 0..target.color_formats().len();
-    let mut resolved = Vec::new();
-    if samples > 1 && !attachments.is_empty() {
-        let mut into = device
-            .create_render_target(&RenderTargetDescriptor {
-                color_formats: target.color_formats().to_vec(),
-                depth_stencil: None,
-                ..RenderTargetDescriptor::new(target.width(), target.height())
-            })
-            .expect("a target like one that there is");
-        device
-            .resolve(target, &mut into)
-            .expect("the targets fit together");
-        resolved = attachments
-            .clone()
-            .map(|attachment| into.read_texels(attachment, 0))
-            .collect();
-    }
-    Stored {
-        texels: attachments
-            .flat_map(|attachment| (0..samples).map(move |s| target.read_texels(attachment, s)))
-            .collect(),
-        resolved,
-        depths: (0..samples)
-            .map(|s| {
-                let depths = target.read_depth_sample(s);
-                depths.into_iter().map(f32::to_bits).collect()
-            })
-            .collect(),
-        stencils: (0..samples).map(|s| target.read_stencil(s)).collect(),
     }
 }

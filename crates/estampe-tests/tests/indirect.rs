@@ -1,8 +1,9 @@
 //! Indirect draws: draws whose parameters are in a buffer.
 
 use estampe::{
-    Buffer, Device, DeviceDescriptor, Draw, IndexFormat, RenderPass, RenderPipeline,
-    RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor,
+    Buffer, BufferError, BufferSlice, ColorAttachment, DepthStencilAttachment, Device,
+    DeviceDescriptor, Draw, IndexFormat, RenderPass, RenderPipeline, RenderPipelineDescriptor,
+    Texture, TextureDescriptor, TextureFormat,
 };
 use estampe_tests::geometry::{Style, triangles, vertex_buffer, vertex_layout};
 use estampe_tests::{Random, shaders::Probe, shaders::Scalar};
@@ -11,9 +12,13 @@ fn device() -> Device {
     Device::new(&DeviceDescriptor::default()).unwrap()
 }
 
-fn target(device: &Device) -> RenderTarget {
-    let descriptor = RenderTargetDescriptor::new(40, 40);
-    device.create_render_target(&descriptor).unwrap()
+fn texture(device: &Device, format: TextureFormat) -> Texture {
+    let descriptor = TextureDescriptor::new_2d(40, 40, format);
+    device.create_texture(&descriptor).unwrap()
+}
+
+fn buffer(device: &Device, words: &[u32]) -> Buffer {
+    device.create_buffer_of_words(words.to_vec()).unwrap()
 }
 
 fn pipeline(device: &Device) -> RenderPipeline {
@@ -26,13 +31,16 @@ fn pipeline(device: &Device) -> RenderPipeline {
 }
 
 fn image(device: &Device, draw: Draw<'_>) -> Vec<u8> {
-    let mut target = target(device);
+    let color = texture(device, TextureFormat::Rgba8Unorm);
+    let depth = texture(device, TextureFormat::Depth32Float);
     let pass = RenderPass {
+        color_attachments: &[Some(ColorAttachment::clear(&color.view(), [0.0; 4]))],
+        depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depth.view(), 1.0)),
         draws: &[draw],
         ..RenderPass::default()
     };
-    device.render(&mut target, &pass).unwrap();
-    target.read_color(0)
+    device.render(&pass).unwrap();
+    device.read_texture(&color).unwrap()
 }
 
 /// Rows: V2.
@@ -40,14 +48,16 @@ fn image(device: &Device, draw: Draw<'_>) -> Vec<u8> {
 fn parameters_are_read_from_the_buffer() {
     let (device, random) = (device(), &mut Random::new("indirect", 1));
     let pipeline = pipeline(&device);
-    let buffers = [vertex_buffer(&triangles(random, Style::Large, [40, 40], 6))];
-    let indices = Buffer::from_words((0..18).rev().collect::<Vec<u32>>());
+    let vertices = vertex_buffer(&triangles(random, Style::Large, [40, 40], 6));
+    let buffers = [BufferSlice::from(&buffer(&device, vertices.words()))];
+    let indices = buffer(&device, &(0..18).rev().collect::<Vec<u32>>());
+    let indices = BufferSlice::from(&indices);
     // The parameters are read at the offset, which need not be a multiple of four.
     for shift in [0, 4, 7] {
         let parameters = |words: &[u32]| {
             let mut bytes = vec![0xAB; shift];
             bytes.extend(words.iter().flat_map(|word| word.to_le_bytes()));
-            Buffer::from_bytes(&bytes)
+            device.create_buffer_with_contents(&bytes).unwrap()
         };
         let direct = Draw {
             vertex_buffers: &buffers,
@@ -56,7 +66,7 @@ fn parameters_are_read_from_the_buffer() {
         };
         let indirect = Draw {
             vertex_buffers: &buffers,
-            ..Draw::indirect(&pipeline, &parameters(&[9, 1, 3, 2]), shift)
+            ..Draw::indirect(&pipeline, &parameters(&[9, 1, 3, 2]), shift as u64).unwrap()
         };
         let wanted = image(&device, direct);
         assert!(wanted.iter().any(|&byte| byte != 0));
@@ -65,14 +75,14 @@ fn parameters_are_read_from_the_buffer() {
         let indices = (&indices, IndexFormat::Uint32);
         let direct = Draw {
             vertex_buffers: &buffers,
-            indices: Some(indices),
+            index_buffer: Some(indices),
             base_vertex: -3,
             ..Draw::new(&pipeline, 3..12)
         };
         let words = [9, 1, 3, (-3_i32).cast_unsigned(), 0];
         let indirect = Draw {
             vertex_buffers: &buffers,
-            ..Draw::indexed_indirect(&pipeline, indices, &parameters(&words), shift)
+            ..Draw::indexed_indirect(&pipeline, indices, &parameters(&words), shift as u64).unwrap()
         };
         assert_eq!(image(&device, indirect), image(&device, direct));
     }
@@ -87,12 +97,12 @@ fn hostile_counts_are_limited() {
     for count in numbers {
         for instances in numbers {
             for first in numbers {
-                let words = vec![count, instances, first, first];
-                let draw = Draw::indirect(&pipeline, &Buffer::from_words(words), 0);
+                let words = buffer(&device, &[count, instances, first, first]);
+                let draw = Draw::indirect(&pipeline, &words, 0).unwrap();
                 let size = |range: &std::ops::Range<u32>| u64::from(range.end - range.start);
                 let (elements, copies) = (size(&draw.elements), size(&draw.instances));
                 assert!(elements <= u64::from(count) && copies <= u64::from(instances));
-                assert!(elements * copies <= u64::from(Draw::INDIRECT_LIMIT));
+                assert!(elements * copies <= Draw::INDIRECT_LIMIT);
                 if u64::from(count) * u64::from(instances) <= 1 << 27 && first < 1 << 27 {
                     assert_eq!(elements * copies, u64::from(count) * u64::from(instances));
                 }
@@ -103,13 +113,13 @@ fn hostile_counts_are_limited() {
 
 /// Rows: V2.
 #[test]
-fn parameters_beyond_the_buffers_end_are_zero() {
+fn parameters_beyond_the_buffers_end_are_an_error() {
     let device = device();
     let pipeline = pipeline(&device);
-    let parameters = Buffer::from_words(vec![3]);
-    for offset in [0, 2, 4, 400, usize::MAX - 3, usize::MAX] {
-        let draw = Draw::indirect(&pipeline, &parameters, offset);
-        assert!(draw.instances.is_empty());
-        assert!(image(&device, draw).iter().all(|&byte| byte == 0));
+    let parameters = buffer(&device, &[3, 1, 0, 0]);
+    assert!(Draw::indirect(&pipeline, &parameters, 0).is_ok());
+    for offset in [1, 4, 400, u64::MAX - 3, u64::MAX] {
+        let error = Draw::indirect(&pipeline, &parameters, offset).unwrap_err();
+        assert!(matches!(error, BufferError::Range { size: 16, .. }));
     }
 }

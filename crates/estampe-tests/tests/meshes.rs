@@ -4,7 +4,7 @@ use estampe_tests::geometry::{Vertex, clip_at, values};
 use estampe_tests::shaders::{Colored, Probe, Uniform};
 use estampe_tests::{Case, CaseDraw, Random, TestShader, check, check_one};
 use estampe_types::state::{BlendState, CullMode};
-use estampe_types::{BindGroup, Binding, Bindings, Buffer, IndexFormat};
+use estampe_types::{BindGroup, Binding, Bindings, BoundGroup, Buffer, IndexFormat};
 use std::sync::Arc;
 
 /// Indices of the 2·(n − 1)² triangles of a grid of n × n vertices, wound alike.
@@ -96,12 +96,15 @@ fn counting(size: [u32; 2], samples: u32, mut draw: CaseDraw, unit: [f32; 8]) ->
             Binding::Buffer {
                 buffer: Buffer::from_f32s(&unit),
                 offset: 0,
-                has_dynamic_offset: false,
+                dynamic_offset: None,
             },
         )],
     };
     draw.bindings = Bindings {
-        groups: vec![(Arc::new(group), 0)],
+        groups: vec![BoundGroup {
+            group: Arc::new(group),
+            ..BoundGroup::default()
+        }],
     };
     draw.blend = Some(BlendState::ADDITIVE);
     draw.depth = None;

@@ -8,7 +8,10 @@ use estampe_tests::{Case, CaseDraw, Random, TestShader, check, check_some};
 use estampe_types::state::{
     BlendState, CompareFunction, CullMode, DepthState, PolygonMode, PrimitiveTopology, ScissorRect,
 };
-use estampe_types::{BindGroup, Binding, Bindings, Buffer, IndexFormat, TextureFormat};
+use estampe_types::{
+    BindGroup, Binding, Bindings, BoundGroup, Buffer, IndexFormat, MAX_DYNAMIC_OFFSETS,
+    TextureFormat,
+};
 use std::sync::Arc;
 
 fn shader(random: &mut Random) -> TestShader {
@@ -27,14 +30,17 @@ fn colors(random: &mut Random) -> Bindings {
     let buffer = Buffer::from_f32s(&[random.four(0.0, 1.0), random.four(0.0, 1.0)].concat());
     let entry = Binding::Buffer {
         buffer,
-        offset: random.pick(&[0, 0, 4, 40]),
-        has_dynamic_offset: random.once_in(2),
+        offset: random.pick(&[0, 0, 4, 20]),
+        dynamic_offset: random.once_in(2).then_some(0),
     };
     let group = BindGroup {
         entries: vec![(0, entry)],
     };
     Bindings {
-        groups: vec![(Arc::new(group), random.pick(&[0, 8]))],
+        groups: vec![BoundGroup {
+            group: Arc::new(group),
+            dynamic_offsets: [random.pick(&[0, 8]); MAX_DYNAMIC_OFFSETS],
+        }],
     }
 }
 

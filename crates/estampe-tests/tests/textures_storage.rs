@@ -13,8 +13,8 @@ use estampe_texture::{
     create_storage_texture, storage_bytes, storage_load, storage_store, storage_texture_to_texture,
 };
 use estampe_types::{
-    BindGroup, Binding, Bindings, Limits, Quad, Real, SampleType, TexelEncoding, TextureAspect,
-    TextureDimension, TextureFormat, Vec4,
+    BindGroup, Binding, Bindings, BoundGroup, Limits, Quad, Real, SampleType, TexelEncoding,
+    TextureAspect, TextureDimension, TextureFormat, Vec4,
 };
 
 type Places = [[i32; LANES]; 3];
@@ -240,7 +240,10 @@ fn uploaded_bytes_are_kept() {
             entries: vec![(3, bound)],
         };
         let bindings = Bindings {
-            groups: vec![(group.into(), 0)],
+            groups: vec![BoundGroup {
+                group: group.into(),
+                ..BoundGroup::default()
+            }],
         };
         // The binding is the same texture, not a copy.
         let found = bindings.storage_texture(0, 3).expect("bound");

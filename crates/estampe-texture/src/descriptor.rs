@@ -121,8 +121,35 @@ impl TextureDescriptor {
         Ok(texture)
     }
 
+    /// A texture with the levels of the descriptor and no texels: to check views. The descriptor
+    /// must keep its [rules](TextureDescriptor::check).
+    #[must_use]
+    pub fn without_texels(&self) -> Texture {
+        let mut first = 0_u64;
+        let levels = (0..self.mip_level_count as usize).map(|level| {
+            let (width, height) = self.size_of(level);
+            let offset = u32::try_from(first).unwrap_or(u32::MAX);
+            first += self.texels_of(level);
+            MipLevel {
+                width,
+                height,
+                offset,
+            }
+        });
+        Texture {
+            format: self.format,
+            levels: levels.collect(),
+            texels: [].into(),
+            is_opaque: false,
+            shape: self.shape(),
+        }
+    }
+
     /// Checks the rules of the descriptor, before any of its sizes is used.
-    pub(crate) fn check(&self, limits: &Limits) -> Result<(), TextureError> {
+    ///
+    /// # Errors
+    /// [`TextureError`] names the rule that it breaks.
+    pub fn check(&self, limits: &Limits) -> Result<(), TextureError> {
         let (width, height, slices) = (self.width, self.height, self.depth_or_layers);
         if width == 0 || height == 0 {
             return Err(TextureError::Empty { width, height });

@@ -11,12 +11,13 @@ use estampe_types::{SampleType, TexelEncoding, Texture, TextureDimension, Textur
 
 /// Returns true if mip levels can be generated for the texture's format: formats of numbers,
 /// compressed ones included.
-pub(crate) fn is_possible(texture: &Texture) -> bool {
+#[must_use]
+pub fn is_possible(texture: &Texture) -> bool {
     texture.format.sample_type() == SampleType::Float
 }
 
 /// Generates a level from the one above in the texture's words; level 0 has none above.
-pub(crate) fn level(texture: &Texture, level: usize, words: &mut [u32]) {
+pub fn level(texture: &Texture, level: usize, words: &mut [u32]) {
     let Some(above) = level.checked_sub(1) else {
         return;
     };

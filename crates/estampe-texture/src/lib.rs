@@ -12,6 +12,7 @@
 //!   address modes.
 //! * [`sample_compare_level`] and [`sample_compare_sum`] compare a depth attachment with a
 //!   reference, without a copy; [`texture_from_depth`] copies it to a texture like others.
+//! * [`TextureBindings`] finds the textures of a draw by group and binding number.
 //! * [`StorageTexture`] is a texture that shaders load from and store to: [`storage_load`],
 //!   [`storage_store`].
 //!
@@ -61,6 +62,7 @@
 //! The second and fourth byte stay in place, as 256·c, and the factor at the end, 1/255 divided by
 //! 256, compensates for it. All of this is exact, so the bits are those of `docs/NUMERICS.md`.
 
+mod bindings;
 mod blocks;
 mod compare;
 mod create;
@@ -72,6 +74,7 @@ mod generate;
 mod lod;
 mod mips;
 mod mixed;
+pub mod region;
 mod request;
 mod sampled;
 mod storage;
@@ -80,6 +83,7 @@ mod upload;
 mod view;
 mod wrap;
 
+pub use bindings::TextureBindings;
 pub use compare::{sample_compare_level, sample_compare_sum};
 pub use create::{MipGeneration, create_texture, create_texture_with_levels};
 pub use descriptor::TextureDescriptor;
@@ -90,9 +94,11 @@ pub use estampe_types::{
     TextureViewDescriptor, ViewDimension,
 };
 pub use from_depth::texture_from_depth;
+pub use generate::{is_possible as can_generate, level as generate_level};
 pub use sampled::Sampled;
 pub use storage::{
-    create_storage_texture, storage_bytes, storage_load, storage_store, storage_texture_to_texture,
+    create_storage_texture, is_storable, storage_bytes, storage_load, storage_store,
+    storage_texture_to_texture,
 };
 pub use upload::LevelData;
 pub use view::{Coordinates, Lod, SampledView, TextureView};

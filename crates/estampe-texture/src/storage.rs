@@ -57,8 +57,10 @@ pub fn create_storage_texture(
     Ok(made)
 }
 
-/// Returns true if shaders can store texels of a format.
-fn is_storable(format: TextureFormat) -> bool {
+/// Returns true if shaders can store texels of a format: colours without blocks, sRGB or shared
+/// exponent.
+#[must_use]
+pub fn is_storable(format: TextureFormat) -> bool {
     format.is_color()
         && !format.is_compressed()
         && !format.is_srgb()

@@ -2,7 +2,7 @@
 
 use crate::TextureError;
 use crate::blocks::{self, MAX_WORDS};
-use estampe_types::Texture;
+use estampe_types::{Texture, TextureFormat};
 
 /// The bytes of one mip level in the format's layout: slice after slice, row after row of texels,
 /// or of blocks if the format is compressed; the samples of a multisampled texel are adjacent. This
@@ -117,15 +117,30 @@ fn row_of_texels(texture: &Texture, bytes: &[u8], words: &mut [u32]) {
         .chunks_exact(size)
         .zip(words.chunks_exact_mut(per_texel))
     {
-        for (word, bytes) in words.iter_mut().zip(texel.chunks(4)) {
-            let mut four = [0; 4];
-            four[..bytes.len()].copy_from_slice(bytes);
-            *word = u32::from_le_bytes(four);
-        }
-        if texture.format.is_bgra() {
-            let [b, g, r, a] = words[0].to_le_bytes();
-            words[0] = u32::from_le_bytes([r, g, b, a]);
-        }
+        words_of_bytes(texture.format, texel, words);
+    }
+}
+
+/// The words of one texel, from the format's bytes.
+pub(crate) fn words_of_bytes(format: TextureFormat, texel: &[u8], words: &mut [u32]) {
+    for (word, bytes) in words.iter_mut().zip(texel.chunks(4)) {
+        let mut four = [0; 4];
+        four[..bytes.len()].copy_from_slice(bytes);
+        *word = u32::from_le_bytes(four);
+    }
+    if format.is_bgra() {
+        let [b, g, r, a] = words[0].to_le_bytes();
+        words[0] = u32::from_le_bytes([r, g, b, a]);
+    }
+}
+
+/// The format's bytes of one texel: the inverse of [`words_of_bytes`].
+pub(crate) fn bytes_of_words(format: TextureFormat, words: &[u32], texel: &mut [u8]) {
+    for (bytes, word) in texel.chunks_mut(4).zip(words) {
+        bytes.copy_from_slice(&word.to_le_bytes()[..bytes.len()]);
+    }
+    if format.is_bgra() {
+        texel.swap(0, 2);
     }
 }
 

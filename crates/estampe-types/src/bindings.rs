@@ -7,6 +7,7 @@
 //! zeros.
 
 use crate::{Buffer, DepthTexture, SamplerDescriptor, StorageTexture, Texture};
+use std::any::Any;
 use std::sync::Arc;
 
 /// One resource.
@@ -14,12 +15,12 @@ use std::sync::Arc;
 pub enum Binding {
     /// Bytes of a uniform or storage buffer.
     Buffer {
-        /// The whole buffer; the binding starts at `offset`.
+        /// The bytes; the binding starts at `offset`.
         buffer: Buffer,
         /// Start of the binding, in bytes from the start of the buffer.
         offset: u32,
-        /// If set, the draw's dynamic offset of this group is added to `offset`.
-        has_dynamic_offset: bool,
+        /// If set, the index of the dynamic offset of this group that is added to `offset`.
+        dynamic_offset: Option<u8>,
     },
     /// A texture.
     Texture(Arc<Texture>),
@@ -29,6 +30,18 @@ pub enum Binding {
     StorageTexture(StorageTexture),
     /// The state by which a texture is sampled.
     Sampler(SamplerDescriptor),
+    /// A value of a crate above this one, such as a texture with its sampler.
+    Other(OtherResource),
+}
+
+/// A resource of any type: see [`Bindings::other`].
+#[derive(Clone)]
+pub struct OtherResource(pub Arc<dyn Any + Send + Sync>);
+
+impl std::fmt::Debug for OtherResource {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("OtherResource")
+    }
 }
 
 /// Resources that are bound together, as pairs of binding number and resource.
@@ -38,12 +51,23 @@ pub struct BindGroup {
     pub entries: Vec<(u32, Binding)>,
 }
 
+/// The most dynamic offsets of a bind group: WebGPU's 8 uniform and 4 storage buffers.
+pub const MAX_DYNAMIC_OFFSETS: usize = 12;
+
+/// A bind group as a draw binds it.
+#[derive(Debug, Clone, Default)]
+pub struct BoundGroup {
+    /// The resources.
+    pub group: Arc<BindGroup>,
+    /// Offsets in bytes, which are added to those of the buffers that name them.
+    pub dynamic_offsets: [u32; MAX_DYNAMIC_OFFSETS],
+}
+
 /// The resources that one draw binds.
 #[derive(Debug, Clone, Default)]
 pub struct Bindings {
-    /// By group number: the group, and the dynamic offset in bytes, which applies to its buffers
-    /// with `has_dynamic_offset`.
-    pub groups: Vec<(Arc<BindGroup>, u32)>,
+    /// By group number.
+    pub groups: Vec<BoundGroup>,
 }
 
 impl Bindings {
@@ -51,8 +75,9 @@ impl Bindings {
     #[inline]
     #[must_use]
     pub fn get(&self, group: u32, binding: u32) -> Option<&Binding> {
-        let (group, _) = self.groups.get(group as usize)?;
-        group
+        let bound = self.groups.get(group as usize)?;
+        bound
+            .group
             .entries
             .iter()
             .find(|(number, _)| *number == binding)
@@ -67,16 +92,14 @@ impl Bindings {
         let Some(Binding::Buffer {
             buffer,
             offset,
-            has_dynamic_offset,
+            dynamic_offset,
         }) = self.get(group, binding)
         else {
             return [0.0; N];
         };
-        let dynamic = if *has_dynamic_offset {
-            self.groups[group as usize].1
-        } else {
-            0
-        };
+        let offsets = &self.groups[group as usize].dynamic_offsets;
+        let dynamic = dynamic_offset.and_then(|index| offsets.get(usize::from(index)));
+        let dynamic = dynamic.copied().unwrap_or_default();
         let start = *offset as usize + dynamic as usize + offset_bytes as usize;
         // Fast path for aligned offsets inside the buffer: programs read their uniforms once per
         // packet.
@@ -100,6 +123,16 @@ impl Bindings {
         let v: [f32; 16] = self.f32s(group, binding, offset_bytes);
         let column = |c: usize| [v[c * 4], v[c * 4 + 1], v[c * 4 + 2], v[c * 4 + 3]];
         crate::Mat4([column(0), column(1), column(2), column(3)])
+    }
+
+    /// The resource of a crate above this one at a group and binding number, if it is of this type.
+    #[inline]
+    #[must_use]
+    pub fn other<T: Any>(&self, group: u32, binding: u32) -> Option<&T> {
+        match self.get(group, binding)? {
+            Binding::Other(OtherResource(resource)) => resource.downcast_ref(),
+            _ => None,
+        }
     }
 
     /// The texture at a group and binding number.

@@ -8,10 +8,46 @@ use std::sync::Arc;
 pub struct Buffer {
     // A vector, not `Arc<[u32]>`: a vector that several threads filled need not be copied.
     words: Arc<Vec<u32>>,
+    /// The first word that belongs to the buffer.
+    first_word: usize,
     len_bytes: usize,
 }
 
 impl Buffer {
+    /// `len_bytes` zeros, or `None` if there is not enough memory.
+    #[must_use]
+    pub fn zeros(len_bytes: usize) -> Option<Self> {
+        let count = len_bytes.div_ceil(4);
+        let mut words = Vec::new();
+        words.try_reserve_exact(count).ok()?;
+        words.resize(count, 0);
+        Some(Self {
+            words: Arc::new(words),
+            first_word: 0,
+            len_bytes,
+        })
+    }
+
+    /// A part of the buffer, which shares its memory. The first byte is rounded down to a multiple
+    /// of four; bytes beyond the buffer's end are left out.
+    #[must_use]
+    pub fn slice(&self, first_byte: usize, len_bytes: usize) -> Self {
+        let first_byte = first_byte.min(self.len_bytes) & !3;
+        Self {
+            words: Arc::clone(&self.words),
+            first_word: self.first_word + first_byte / 4,
+            len_bytes: len_bytes.min(self.len_bytes - first_byte),
+        }
+    }
+
+    /// The words, to be changed; they are copied first if something else shares them. Little-endian
+    /// bytes, as [`Buffer::words`].
+    #[must_use]
+    pub fn words_mut(&mut self) -> &mut [u32] {
+        let count = self.len_bytes.div_ceil(4);
+        &mut Arc::make_mut(&mut self.words)[self.first_word..][..count]
+    }
+
     /// A buffer with these bytes.
     #[must_use]
     pub fn from_bytes(bytes: &[u8]) -> Self {
@@ -22,6 +58,7 @@ impl Buffer {
         };
         Self {
             words: Arc::new(bytes.chunks(4).map(word).collect()),
+            first_word: 0,
             len_bytes: bytes.len(),
         }
     }
@@ -32,6 +69,7 @@ impl Buffer {
         let words: Vec<u32> = words.into();
         Self {
             len_bytes: words.len() * 4,
+            first_word: 0,
             words: Arc::new(words),
         }
     }
@@ -55,15 +93,17 @@ impl Buffer {
 
     /// The contents as little-endian words; the last one is padded with zeros.
     #[must_use]
+    #[inline]
     pub fn words(&self) -> &[u32] {
-        &self.words
+        let count = self.len_bytes.div_ceil(4);
+        &self.words[self.first_word..][..count]
     }
 
     /// The byte at an offset; zero beyond the end.
     #[inline]
     #[must_use]
     pub fn byte(&self, offset: usize) -> u8 {
-        let word = self.words.get(offset / 4).copied().unwrap_or_default();
+        let word = self.words().get(offset / 4).copied().unwrap_or_default();
         word.to_le_bytes()[offset % 4]
     }
 
@@ -73,7 +113,7 @@ impl Buffer {
     #[must_use]
     pub fn word_at(&self, offset: usize) -> u32 {
         if offset.is_multiple_of(4) {
-            return self.words.get(offset / 4).copied().unwrap_or_default();
+            return self.words().get(offset / 4).copied().unwrap_or_default();
         }
         u32::from_le_bytes([0, 1, 2, 3].map(|k| self.byte(offset.saturating_add(k))))
     }

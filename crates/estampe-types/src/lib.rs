@@ -13,6 +13,7 @@
 //!
 //! The conventions (spaces, rounding, order of operations) are in `docs/NUMERICS.md`.
 
+mod bind_group_layout;
 pub mod bindings;
 pub mod buffer;
 mod depth_minmax;
@@ -33,7 +34,10 @@ pub mod texture;
 mod vector;
 mod wide;
 
-pub use bindings::{BindGroup, Binding, Bindings};
+pub use bind_group_layout::{
+    BindGroupLayout, BindGroupLayoutEntry, BindingType, BufferBindingType,
+};
+pub use bindings::{BindGroup, Binding, Bindings, BoundGroup, MAX_DYNAMIC_OFFSETS, OtherResource};
 pub use buffer::Buffer;
 pub use format::{
     IndexFormat, SampleType, TexelEncoding, TextureFormat, VertexEncoding, VertexFormat,

@@ -21,6 +21,23 @@ pub struct Limits {
     pub max_color_attachments: u32,
     /// Bind groups of a draw. Default 4.
     pub max_bind_groups: u32,
+    /// Bindings of a bind group. Default 1000.
+    pub max_bindings_per_bind_group: u32,
+    /// Dynamic offsets of a bind group. Default and maximum 12.
+    pub max_dynamic_offsets_per_bind_group: u32,
+    /// Bytes of a uniform buffer's binding. Default 2³⁰.
+    pub max_uniform_buffer_binding_size: u64,
+    /// Bytes of a storage buffer's binding. Default 2³⁰.
+    pub max_storage_buffer_binding_size: u64,
+    /// Multiple that offsets of uniform and storage buffers must be of. Default 4.
+    pub min_buffer_offset_alignment: u32,
+    /// Vertices or indices of all draws of a pass, times their instances: what keeps a hostile draw
+    /// from running for hours. Default 2³⁰.
+    pub max_pass_vertices: u64,
+    /// Layers of a texture. Default and maximum 256.
+    pub max_texture_array_layers: u32,
+    /// Sides of a 3D texture, in texels. Default and maximum 2048.
+    pub max_texture_dimension_3d: u32,
 }
 
 impl Default for Limits {
@@ -34,6 +51,14 @@ impl Default for Limits {
             max_inter_stage_scalars: 64,
             max_color_attachments: 8,
             max_bind_groups: 4,
+            max_bindings_per_bind_group: 1000,
+            max_dynamic_offsets_per_bind_group: 12,
+            max_uniform_buffer_binding_size: 1 << 30,
+            max_storage_buffer_binding_size: 1 << 30,
+            min_buffer_offset_alignment: 4,
+            max_pass_vertices: 1 << 30,
+            max_texture_array_layers: 256,
+            max_texture_dimension_3d: 2048,
         }
     }
 }

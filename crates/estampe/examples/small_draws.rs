@@ -1,5 +1,5 @@
-//! Many small draws: 10,000 draws of one quad each, with one pipeline and 16 bytes of bindings per
-//! draw.
+//! Many small draws: 10,000 draws of one quad each, with one pipeline and one bind group, whose
+//! dynamic offset finds 16 bytes per draw.
 //!
 //! `cargo run --release -p estampe --example small_draws -- [frames] [draws|instances]` prints the
 //! time per quad before and in the tiles, on one thread. With `instances` the same quads are the
@@ -11,11 +11,12 @@
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{VertexBufferLayout, VertexStepMode};
 use estampe::{
-    BindGroup, Binding, Bindings, Buffer, Device, DeviceDescriptor, Draw, IndexFormat, RenderPass,
-    RenderPipelineDescriptor, RenderTargetDescriptor, Statistics, Vec2, Vec4, VertexFormat,
+    BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType,
+    ColorAttachment, DepthStencilAttachment, Device, DeviceDescriptor, Draw, DrawBindGroup,
+    IndexFormat, RenderPass, RenderPipelineDescriptor, Statistics, TextureDescriptor,
+    TextureFormat, Vec2, Vec4, VertexFormat, bytes_of,
 };
 use std::error::Error;
-use std::sync::Arc;
 
 const QUADS: u32 = 10_000;
 
@@ -90,11 +91,21 @@ fn main() -> Result<(), Box<dyn Error>> {
         threads: 1,
         ..DeviceDescriptor::default()
     })?;
-    let mut target = device.create_render_target(&RenderTargetDescriptor::new(1280, 720))?;
-    let corners = Buffer::from_f32s(&[-1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0]);
-    let indices = Buffer::from_bytes(&[0, 0, 1, 0, 2, 0, 0, 0, 2, 0, 3, 0]);
+    let image = |format| device.create_texture(&TextureDescriptor::new_2d(1280, 720, format));
+    let color = image(TextureFormat::Rgba8Unorm)?.view();
+    let depth = image(TextureFormat::Depth32Float)?.view();
+    let pass = RenderPass {
+        color_attachments: &[Some(ColorAttachment::clear(&color, [0.0; 4]))],
+        depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depth, 1.0)),
+        ..RenderPass::default()
+    };
+    let corners: [f32; 8] = [-1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0];
+    let corners = device.create_buffer_with_contents(bytes_of(&corners))?;
+    let indices: [u16; 6] = [0, 1, 2, 0, 2, 3];
+    let indices = device.create_buffer_with_contents(bytes_of(&indices))?;
+    let indices = indices.slice(..);
     let places: Vec<f32> = (0..QUADS).flat_map(place).collect();
-    let places = Buffer::from_f32s(&places);
+    let places = device.create_buffer_with_contents(bytes_of(&places))?;
     let corner_layout = VertexBufferLayout::packed(&[VertexFormat::Float32x2]);
     let mut times = Statistics::default();
     if is_instanced {
@@ -105,49 +116,54 @@ fn main() -> Result<(), Box<dyn Error>> {
         descriptor.vertex_buffers = vec![corner_layout, place_layout];
         let pipeline = device.create_render_pipeline(&descriptor)?;
         let draw = Draw {
-            vertex_buffers: &[corners, places],
-            indices: Some((&indices, IndexFormat::Uint16)),
+            vertex_buffers: &[corners.slice(..), places.slice(..)],
+            index_buffer: Some((&indices, IndexFormat::Uint16)),
             instances: 0..QUADS,
             ..Draw::new(&pipeline, 0..6)
         };
         for _ in 0..frames {
-            let draws = std::slice::from_ref(&draw);
-            let pass = RenderPass {
-                draws,
-                ..RenderPass::default()
-            };
-            times += device.render(&mut target, &pass)?;
+            times += device.render(&RenderPass {
+                draws: std::slice::from_ref(&draw),
+                ..pass.clone()
+            })?;
         }
     } else {
+        let layout = device.create_bind_group_layout(&[BindGroupLayoutEntry {
+            binding: 0,
+            ty: BindingType::Buffer {
+                ty: BufferBindingType::Uniform,
+                has_dynamic_offset: true,
+                min_binding_size: 16,
+            },
+        }])?;
+        let group = device.create_bind_group(&BindGroupDescriptor {
+            label: None,
+            layout: &layout,
+            entries: &[(0, BindingResource::Buffer(places.slice(..16)))],
+        })?;
         let mut descriptor = RenderPipelineDescriptor::new(Placed);
+        descriptor.bind_group_layouts = vec![layout];
         descriptor.vertex_buffers = vec![corner_layout];
         let pipeline = device.create_render_pipeline(&descriptor)?;
-        let binding = Binding::Buffer {
-            buffer: places,
-            offset: 0,
-            has_dynamic_offset: true,
-        };
-        let group = Arc::new(BindGroup {
-            entries: vec![(0, binding)],
+        let offsets: Vec<[u32; 1]> = (0..QUADS).map(|number| [number * 16]).collect();
+        let groups = offsets.iter().map(|offsets| DrawBindGroup {
+            group: &group,
+            dynamic_offsets: offsets,
         });
-        let bindings = |number| Bindings {
-            groups: vec![(Arc::clone(&group), number * 16)],
-        };
-        let bindings: Vec<Bindings> = (0..QUADS).map(bindings).collect();
-        let vertex_buffers = [corners];
-        let draw = |bindings| Draw {
+        let groups: Vec<DrawBindGroup<'_>> = groups.collect();
+        let vertex_buffers = [corners.slice(..)];
+        let draws = groups.chunks(1).map(|groups| Draw {
             vertex_buffers: &vertex_buffers,
-            indices: Some((&indices, IndexFormat::Uint16)),
-            bindings: Some(bindings),
+            index_buffer: Some((&indices, IndexFormat::Uint16)),
+            bind_groups: groups,
             ..Draw::new(&pipeline, 0..6)
-        };
-        let draws: Vec<Draw<'_>> = bindings.iter().map(draw).collect();
+        });
+        let draws: Vec<Draw<'_>> = draws.collect();
         for _ in 0..frames {
-            let pass = RenderPass {
+            times += device.render(&RenderPass {
                 draws: &draws,
-                ..RenderPass::default()
-            };
-            times += device.render(&mut target, &pass)?;
+                ..pass.clone()
+            })?;
         }
     }
     let quads = f64::from(QUADS) * f64::from(frames.max(1));

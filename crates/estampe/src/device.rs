@@ -1,12 +1,17 @@
 //! The device: threads, a SIMD level and limits. It creates pipelines and targets, and draws.
 
+use crate::texture::{self, Sampler, TexelCopyLayout, Texture, TextureCopy, TextureDescriptor};
 use crate::{
-    DepthTexture, Draw, Level, Limits, PipelineError, ReadbackError, RenderPass, RenderPassError,
-    RenderPipeline, RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, ResolveError,
-    Statistics, TargetError,
+    BindGroup, BindGroupDescriptor, BindGroupError, BindGroupLayout, BindGroupLayoutEntry,
+    BlitError, BlitRegion, Buffer, BufferDescriptor, BufferError, BufferUsages, CopyError,
+    Extent3d, FilterMode, Level, Limits, PipelineError, RenderPass, RenderPassError,
+    RenderPipeline, RenderPipelineDescriptor, Sampled, SampledView, SamplerDescriptor, Statistics,
+    TextureAspect, TextureError, TextureView, blit, copy, pass,
 };
 use estampe_core::Context;
+use estampe_core::ThreadPool;
 use estampe_core::profile::JobTimings;
+use std::sync::Arc;
 
 /// Threads, SIMD level and limits of a device.
 #[derive(Debug, Clone, Default)]
@@ -14,6 +19,9 @@ pub struct DeviceDescriptor {
     /// Number of threads that draw. Default 0: one for each processor. The image does not depend on
     /// it.
     pub threads: usize,
+    /// A pool whose threads draw, beside the caller; several devices may share it. Default none:
+    /// the device starts [`threads`](Self::threads) of its own.
+    pub pool: Option<Arc<ThreadPool>>,
     /// SIMD level of the kernels. Default the widest that the processor supports. The image does
     /// not depend on it.
     pub level: Level,
@@ -33,7 +41,8 @@ pub enum DeviceError {
     Threads(String),
 }
 
-/// Creates pipelines and targets, and draws. It is `Send + Sync`: share it by reference.
+/// Creates all objects, and draws. It is `Send + Sync`: share it by reference. Passes of several
+/// threads are drawn side by side; those that use the same texture wait for each other.
 #[derive(Debug)]
 pub struct Device {
     context: Context,
@@ -49,8 +58,11 @@ impl Device {
         if descriptor.threads > 1024 {
             return Err(DeviceError::TooManyThreads(descriptor.threads));
         }
-        let context = Context::new(descriptor.threads, descriptor.level)
-            .map_err(|error| DeviceError::Threads(error.to_string()))?;
+        let context = match &descriptor.pool {
+            Some(pool) => Context::on_pool(Arc::clone(pool), descriptor.level),
+            None => Context::new(descriptor.threads, descriptor.level)
+                .map_err(|error| DeviceError::Threads(error.to_string()))?,
+        };
         Ok(Self {
             context,
             limits: descriptor.limits.clone(),
@@ -85,96 +97,283 @@ impl Device {
         RenderPipeline::new(descriptor, &self.limits)
     }
 
-    /// Creates a render target.
+    /// Creates a buffer of zeros.
     ///
     /// # Errors
-    /// [`TargetError`] names the rule that the descriptor breaks, or reports that memory is short.
-    pub fn create_render_target(
-        &self,
-        descriptor: &RenderTargetDescriptor,
-    ) -> Result<RenderTarget, TargetError> {
-        RenderTarget::new(descriptor, &self.limits)
+    /// [`BufferError`] if the size exceeds [`Limits::max_buffer_size`], or memory is short.
+    pub fn create_buffer(&self, descriptor: &BufferDescriptor<'_>) -> Result<Buffer, BufferError> {
+        Buffer::new(descriptor, &self.limits)
     }
 
-    /// Draws a pass into a target. Resources that a draw does not bind read as zeros.
+    /// Creates a buffer with these bytes, for all uses; [`bytes_of`](crate::bytes_of) makes bytes
+    /// of numbers.
     ///
     /// # Errors
-    /// [`RenderPassError`] names the draw that does not fit the target (samples, formats, depth,
-    /// stencil, viewport, occlusion query) and both sides; nothing is drawn or cleared then.
-    pub fn render(
-        &self,
-        target: &mut RenderTarget,
-        pass: &RenderPass<'_>,
-    ) -> Result<Statistics, RenderPassError> {
-        self.context.render(target, pass)
+    /// [`BufferError`] as for [`Device::create_buffer`].
+    pub fn create_buffer_with_contents(&self, contents: &[u8]) -> Result<Buffer, BufferError> {
+        Buffer::with_contents(None, BufferUsages::all(), contents, &self.limits)
     }
 
-    /// Draws a pass that first clears the target: colours to transparent black, depth to 1, stencil
-    /// to 0. A second call therefore shows only its own draws; use [`Device::render`] to keep the
-    /// contents.
+    /// Creates a buffer of 32-bit words, for all uses, without a copy.
     ///
     /// # Errors
-    /// [`RenderPassError`], as of [`Device::render`].
-    pub fn draw(
-        &self,
-        target: &mut RenderTarget,
-        draws: &[Draw<'_>],
-    ) -> Result<Statistics, RenderPassError> {
-        self.render(
-            target,
-            &RenderPass {
-                draws,
-                ..RenderPass::default()
-            },
-        )
+    /// [`BufferError`] as for [`Device::create_buffer`].
+    pub fn create_buffer_of_words(&self, words: Vec<u32>) -> Result<Buffer, BufferError> {
+        Buffer::of_words(words, &self.limits)
     }
 
-    /// Multisample resolve: writes the mean of each pixel's samples to a target with one sample, of
-    /// the same size and colour formats. Depth is not resolved.
+    /// Creates a texture of zeros. Its memory is allocated when it is first used.
     ///
     /// # Errors
-    /// [`ResolveError`] names what the targets differ in; nothing is written then.
-    pub fn resolve(
+    /// [`TextureError`] names the rule or limit that the descriptor breaks.
+    pub fn create_texture(
         &self,
-        from: &RenderTarget,
-        into: &mut RenderTarget,
-    ) -> Result<(), ResolveError> {
-        self.context.resolve(from, into)
+        descriptor: &TextureDescriptor<'_>,
+    ) -> Result<Texture, TextureError> {
+        Texture::new(descriptor, &self.limits)
     }
 
-    /// A colour attachment's texels in the format's own bytes, row by row from the top; several
-    /// samples are resolved to their mean. It equals [`RenderTarget::read_color`], but uses all of
-    /// the device's threads. Empty if the target has no attachment `index`.
-    #[must_use]
-    pub fn read_color(&self, target: &RenderTarget, index: usize) -> Vec<u8> {
-        let mut image = vec![0; target.color_len_bytes(index)];
-        match self.read_color_into(target, index, &mut image) {
-            Ok(()) => image,
-            Err(_) => Vec::new(),
-        }
-    }
-
-    /// [`Device::read_color`] into memory of [`RenderTarget::color_len_bytes`] bytes. Reused memory
-    /// is written several times as fast as new memory, whose pages the system first has to map.
+    /// Creates a texture from the bytes of its first mip levels, each without padding: layer after
+    /// layer, row after row from the top. The other levels are generated, as by
+    /// [`Device::generate_mips`].
     ///
     /// # Errors
-    /// [`ReadbackError`] if the target has no attachment `index`, or the memory has another length;
-    /// nothing is written then.
-    pub fn read_color_into(
+    /// [`TextureError`] names the rule or limit that the descriptor breaks, or the level with
+    /// another number of bytes.
+    pub fn create_texture_with_data(
         &self,
-        target: &RenderTarget,
-        index: usize,
-        image: &mut [u8],
-    ) -> Result<(), ReadbackError> {
-        self.context.read_color_into(target, index, image)
+        descriptor: &TextureDescriptor<'_>,
+        levels: &[&[u8]],
+    ) -> Result<Texture, TextureError> {
+        Texture::with_data(descriptor, levels, &self.limits)
     }
 
-    /// The target's depth as a texture for comparisons in shaders, such as a shadow map. `None` if
-    /// the target has no depth or several samples. The texture shares the target's memory: drop it,
-    /// and bind groups that hold it, before the target is drawn again, or that draws into a copy.
-    #[must_use]
-    pub fn depth_texture(&self, target: &mut RenderTarget) -> Option<DepthTexture> {
-        self.context.depth_texture(target)
+    /// Creates a sampler.
+    ///
+    /// # Errors
+    /// [`TextureError`] names the rule that the descriptor breaks.
+    pub fn create_sampler(&self, descriptor: &SamplerDescriptor) -> Result<Sampler, TextureError> {
+        Sampler::new(descriptor)
+    }
+
+    /// Creates the layout of bind groups. Layouts with the same entries are compatible.
+    ///
+    /// # Errors
+    /// [`BindGroupError`] if two entries have the same binding number, or there are too many.
+    pub fn create_bind_group_layout(
+        &self,
+        entries: &[BindGroupLayoutEntry],
+    ) -> Result<BindGroupLayout, BindGroupError> {
+        crate::bind_group::create_layout(entries, &self.limits)
+    }
+
+    /// Creates a bind group.
+    ///
+    /// # Errors
+    /// [`BindGroupError`] names the binding that does not fit the layout, and both sides.
+    pub fn create_bind_group(
+        &self,
+        descriptor: &BindGroupDescriptor<'_>,
+    ) -> Result<BindGroup, BindGroupError> {
+        BindGroup::new(descriptor, &self.limits)
+    }
+
+    /// Draws a pass.
+    ///
+    /// # Errors
+    /// [`RenderPassError`] names the pass, the attachment or draw that does not fit, and both
+    /// sides; nothing is drawn or cleared then.
+    pub fn render(&self, pass: &RenderPass<'_>) -> Result<Statistics, RenderPassError> {
+        pass::render(&self.context, &self.limits, pass)
+    }
+
+    /// Writes texels from the host's bytes (WebGPU's `writeTexture`).
+    ///
+    /// # Errors
+    /// [`TextureError`] if the region is not in the texture, the bytes do not hold it, or the
+    /// texture has no [`TextureUsages::COPY_DST`](crate::TextureUsages).
+    pub fn write_texture<'t>(
+        &self,
+        to: impl Into<TextureCopy<'t>>,
+        bytes: &[u8],
+        layout: &TexelCopyLayout,
+        size: Extent3d,
+    ) -> Result<(), TextureError> {
+        let to = to.into();
+        let _reserved = to.texture.reserve();
+        texture::write(&self.context, &to, bytes, layout, size)
+    }
+
+    /// Reads the first mip level and layer of a texture as rows of the format's own bytes, from the
+    /// top, without padding.
+    ///
+    /// # Errors
+    /// [`TextureError`] as for [`Device::read_texture_into`].
+    pub fn read_texture(&self, texture: &Texture) -> Result<Vec<u8>, TextureError> {
+        let size = Extent3d::new_2d(texture.width(), texture.height());
+        let len = texture::tight_len(&texture.into(), size);
+        let mut bytes = vec![0; usize::try_from(len).unwrap_or(usize::MAX)];
+        self.read_texture_into(texture, &mut bytes, &TexelCopyLayout::default(), size)?;
+        Ok(bytes)
+    }
+
+    /// Reads one sample of each texel of the first mip level and layer, as rows of the format's own
+    /// bytes without padding; of one aspect of a depth-stencil format four bytes of depth (two of
+    /// 16 bits), one of stencil.
+    ///
+    /// # Errors
+    /// [`TextureError`] if the texture does not have the sample or the aspect, or has no
+    /// [`TextureUsages::COPY_SRC`](crate::TextureUsages).
+    pub fn read_sample(
+        &self,
+        texture: &Texture,
+        aspect: TextureAspect,
+        sample: u32,
+    ) -> Result<Vec<u8>, TextureError> {
+        let _reserved = texture.reserve();
+        texture::read_sample(&self.context, texture, aspect, sample)
+    }
+
+    /// Reads texels into the host's bytes. Memory that is used again is filled several times as
+    /// fast as new memory, whose pages the system first has to map.
+    ///
+    /// # Errors
+    /// [`TextureError`] if the region is not in the texture, the bytes do not hold it, or the
+    /// texture has several samples or no [`TextureUsages::COPY_SRC`](crate::TextureUsages).
+    pub fn read_texture_into<'t>(
+        &self,
+        from: impl Into<TextureCopy<'t>>,
+        bytes: &mut [u8],
+        layout: &TexelCopyLayout,
+        size: Extent3d,
+    ) -> Result<(), TextureError> {
+        let from = from.into();
+        let _reserved = from.texture.reserve();
+        texture::read(&self.context, &from, bytes, layout, size)
+    }
+
+    /// Copies bytes between buffers, or inside one.
+    ///
+    /// # Errors
+    /// [`CopyError`] if a range ends beyond its buffer, or a buffer lacks the usage.
+    pub fn copy_buffer_to_buffer(
+        &self,
+        (from, from_offset): (&Buffer, u64),
+        (into, into_offset): (&Buffer, u64),
+        size: u64,
+    ) -> Result<(), CopyError> {
+        copy::buffer_to_buffer((from, from_offset), (into, into_offset), size)
+    }
+
+    /// Copies texels out of a buffer.
+    ///
+    /// # Errors
+    /// [`CopyError`] if the region is not in the texture, the buffer does not hold it, or one of
+    /// them lacks the usage.
+    pub fn copy_buffer_to_texture<'t>(
+        &self,
+        from: (&Buffer, &TexelCopyLayout),
+        into: impl Into<TextureCopy<'t>>,
+        size: Extent3d,
+    ) -> Result<(), CopyError> {
+        copy::buffer_to_texture(&self.context, from, &into.into(), size)
+    }
+
+    /// Copies texels into a buffer.
+    ///
+    /// # Errors
+    /// [`CopyError`] as for [`Device::copy_buffer_to_texture`].
+    pub fn copy_texture_to_buffer<'t>(
+        &self,
+        from: impl Into<TextureCopy<'t>>,
+        into: (&Buffer, &TexelCopyLayout),
+        size: Extent3d,
+    ) -> Result<(), CopyError> {
+        copy::texture_to_buffer(&self.context, &from.into(), into, size)
+    }
+
+    /// Copies texels between textures whose formats differ at most in sRGB, or inside one. Codes
+    /// are copied, not colours.
+    ///
+    /// # Errors
+    /// [`CopyError`] if the formats differ, a region is not in its texture, or a texture lacks the
+    /// usage.
+    pub fn copy_texture_to_texture<'t, 'u>(
+        &self,
+        from: impl Into<TextureCopy<'t>>,
+        into: impl Into<TextureCopy<'u>>,
+        size: Extent3d,
+    ) -> Result<(), CopyError> {
+        copy::texture_to_texture(&self.context, &from.into(), &into.into(), size)
+    }
+
+    /// Sets bytes of a buffer to zero.
+    ///
+    /// # Errors
+    /// [`CopyError`] if the range ends beyond the buffer, or it has no
+    /// [`BufferUsages::COPY_DST`].
+    pub fn clear_buffer(&self, buffer: &Buffer, offset: u64, size: u64) -> Result<(), CopyError> {
+        copy::clear_buffer(buffer, offset, size)
+    }
+
+    /// Sets all texels of a view to zero. A pass clears to other values.
+    ///
+    /// # Errors
+    /// [`TextureError`] if the texture has no [`TextureUsages::COPY_DST`](crate::TextureUsages).
+    pub fn clear_texture(&self, view: &TextureView) -> Result<(), TextureError> {
+        copy::clear_texture(&self.context, view)
+    }
+
+    /// Makes each mip level of a texture from the one above, from level 1 on. A side is halved and
+    /// rounded down; a texel is the mean of the 2×2 texels above it (2×2×2 of 3D textures), linear
+    /// for sRGB; the last row or column of an odd side is left out.
+    ///
+    /// # Errors
+    /// [`TextureError`] if the format cannot be filtered, or memory is short.
+    pub fn generate_mips(&self, texture: &Texture) -> Result<(), TextureError> {
+        copy::generate_mips(&self.context, texture)
+    }
+
+    /// Copies a rectangle of an image into a rectangle of another one, scaled, filtered and
+    /// converted to its format (Vulkan's `vkCmdBlitImage`).
+    ///
+    /// # Errors
+    /// [`BlitError`] if a rectangle is empty or not in its image, the source cannot be sampled with
+    /// the filter, or the destination cannot be rendered to.
+    pub fn blit(
+        &self,
+        from: &BlitRegion<'_>,
+        into: &BlitRegion<'_>,
+        filter: FilterMode,
+    ) -> Result<(), BlitError> {
+        blit::blit(self, from, into, filter)
+    }
+
+    /// The texels of a view as they are now, with a sampler: for a shader that owns its textures.
+    /// Later changes of the texture do not reach it; while it lives, they are made in a copy.
+    ///
+    /// # Errors
+    /// [`TextureError`] if the sampler cannot sample the view, or memory is short.
+    pub fn sampled_view(
+        &self,
+        view: &TextureView,
+        sampler: &Sampler,
+    ) -> Result<SampledView, TextureError> {
+        view.texture()
+            .require(crate::TextureUsages::TEXTURE_BINDING)?;
+        let _reserved = view.texture().reserve();
+        texture::sampled_view(&self.context, view, sampler)
+    }
+
+    /// [`Device::sampled_view`] of a 2D texture of four 8-bit channels and WebGPU's address modes:
+    /// the kind that is sampled fastest.
+    ///
+    /// # Errors
+    /// [`TextureError`] if the texture or the sampler is of another kind, or memory is short.
+    pub fn sampled(&self, texture: &Texture, sampler: &Sampler) -> Result<Sampled, TextureError> {
+        texture.require(crate::TextureUsages::TEXTURE_BINDING)?;
+        let _reserved = texture.reserve();
+        texture::sampled(&self.context, texture, sampler)
     }
 
     /// The SIMD level of the kernels.

@@ -3,10 +3,12 @@
 //! programmable in Rust, with the same bits on every machine, and no driver, display or system
 //! library.
 //!
-//! The API has WebGPU's nouns: a [`Device`] creates [`RenderPipeline`]s and [`RenderTarget`]s and
-//! draws a [`RenderPass`] of [`Draw`]s into a target. A shader is a Rust value that implements
-//! [`Shader`]: see [`shader!`], and `docs/from-glsl.md` for those who know GLSL or WGSL. Spaces,
-//! rounding and the order of every operation are in `docs/NUMERICS.md`.
+//! The API has WebGPU's nouns: a [`Device`] creates [`Buffer`]s, [`Texture`]s, [`BindGroup`]s and
+//! [`RenderPipeline`]s, and draws a [`RenderPass`] of [`Draw`]s into views of textures. A shader is
+//! a Rust value that implements [`Shader`]: see [`shader!`], and `docs/from-glsl.md` for those who
+//! know GLSL or WGSL. It finds the textures that a draw binds through [`TextureBindings`]. Spaces,
+//! rounding and the order of every operation are in
+//! `docs/NUMERICS.md`.
 //!
 //! # Debug builds
 //!
@@ -27,7 +29,13 @@
 //! assertions and overflow checks the pipeline checks its own invariants and takes 1.4 times as
 //! long to compile.
 
+mod bind_group;
+mod blit;
+mod buffer;
+mod copy;
 mod device;
+mod pass;
+mod texture;
 
 /// The README's snippet, compiled and run as a test.
 #[cfg(doctest)]
@@ -44,21 +52,40 @@ pub mod srgb {
     pub use estampe_format::srgb::{decode, encode};
 }
 
+pub use bind_group::{BindGroup, BindGroupDescriptor, BindGroupError, BindingResource};
+pub use blit::{BlitError, BlitRegion};
+pub use buffer::{
+    Buffer, BufferDescriptor, BufferError, BufferNumber, BufferSlice, BufferUsages, bytes_of,
+};
+pub use copy::CopyError;
 pub use device::{Device, DeviceDescriptor, DeviceError};
+pub(crate) use estampe_core::Context;
 pub use estampe_core::profile::JobTimings;
 pub use estampe_core::{
-    Draw, LoadOp, OcclusionQueries, PathCounts, PipelineError, ReadbackError, RenderPass,
-    RenderPassError, RenderPipeline, RenderPipelineDescriptor, RenderTarget,
-    RenderTargetDescriptor, ResolveError, Statistics, TargetError, TilePath,
+    LoadOp, OcclusionQueries, PassControl, PathCounts, PipelineError, RenderPassError as DrawError,
+    RenderPipeline, RenderPipelineDescriptor, ResolveMode, Statistics, ThreadPool,
+    ThreadPoolBuilder, TilePath,
 };
 pub use estampe_simd::{Level, LevelError};
-pub use estampe_texture as texture;
+pub use estampe_texture::{
+    Coordinates, Lod, Sampled, SampledView, TextureBindings, sample_compare_level,
+    sample_compare_sum, storage_load, storage_store,
+};
 pub use estampe_types::shader::{DepthOutput, Interpolation, Sample2d, Sampling, VertexOut};
 pub use estampe_types::{
-    AddressMode, Attributes, BindGroup, Binding, Bindings, Buffer, Centroid, DepthTexture,
-    FilterMode, Flat, FragmentIn, FragmentOut, IndexFormat, Int, Limits, Mat2, Mat3, Mat4,
-    MipLevel, NoPerspective, Operand, PerSample, Program, Quad, Real, SampleType,
-    SamplerDescriptor, Shader, ShaderError, ShaderProgram, TexelEncoding, Texture, TextureFormat,
-    Varyings, Vec2, Vec3, Vec4, VertexEncoding, VertexFormat, VertexIn, attributes, maths, operand,
-    shader, state, varyings, vec2, vec3, vec4,
+    AddressMode, Attributes, BindGroupLayout, BindGroupLayoutEntry, BindingType, Bindings,
+    BorderColor, BufferBindingType, Centroid, DepthTexture, FilterMode, Flat, FragmentIn,
+    FragmentOut, IndexFormat, Int, Limits, Mat2, Mat3, Mat4, NoPerspective, Operand, PerSample,
+    Program, Quad, Real, SampleType, SamplerDescriptor, Shader, ShaderError, ShaderProgram,
+    TexelEncoding, TextureAspect, TextureDimension, TextureFormat, Varyings, Vec2, Vec3, Vec4,
+    VertexEncoding, VertexFormat, VertexIn, ViewDimension, attributes, maths, operand, shader,
+    state, varyings, vec2, vec3, vec4,
+};
+pub use pass::{
+    AspectOperations, ColorAttachment, DepthStencilAttachment, DepthStencilResolve, Draw,
+    DrawBindGroup, PassErrorKind, PassExtent, RenderPass, RenderPassError, StoreOp,
+};
+pub use texture::{
+    Extent3d, Sampler, TexelCopyLayout, Texture, TextureCopy, TextureDescriptor, TextureError,
+    TextureUsages, TextureView, TextureViewDescriptor,
 };

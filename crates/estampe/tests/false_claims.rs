@@ -1,12 +1,12 @@
 //! A `Program` that claims to pass its colour through although it has no varyings.
 
+mod support;
+
 use estampe::shader::{FragmentBatch, Interface, VertexBatch};
 use estampe::state::BlendState;
-use estampe::{
-    Bindings, Device, DeviceDescriptor, Draw, Level, Program, RenderPass, RenderPipelineDescriptor,
-    RenderTargetDescriptor,
-};
+use estampe::{Bindings, Device, DeviceDescriptor, Draw, Level, Program, RenderPipelineDescriptor};
 use std::sync::Arc;
+use support::Images;
 
 #[derive(Debug)]
 struct Claimant(Interface);
@@ -54,18 +54,12 @@ fn a_false_passthrough_claim_has_no_effect() {
                     no_derivatives: true,
                     ..Interface::default()
                 })));
-            descriptor.targets[0].blend = blend;
+            descriptor.targets[0].as_mut().unwrap().blend = blend;
             let pipeline = device.create_render_pipeline(&descriptor).unwrap();
-            let size = RenderTargetDescriptor::new(70, 20);
-            let mut target = device.create_render_target(&size).unwrap();
-            let draws = [Draw::new(&pipeline, 0..3)];
-            let pass = RenderPass {
-                draws: &draws,
-                ..RenderPass::default()
-            };
-            device.render(&mut target, &pass).unwrap();
+            let images = Images::new(&device, 70, 20);
+            images.draw(&device, &[Draw::new(&pipeline, 0..3)]);
             assert!(
-                target.read_color(0).iter().all(|&byte| byte == 255),
+                images.pixels(&device).iter().all(|&byte| byte == 255),
                 "{level:?}"
             );
         }

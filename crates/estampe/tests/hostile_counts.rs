@@ -1,11 +1,14 @@
 //! Draws of 2³² indices over a small buffer end at once, and draw the contents of the buffer.
 
+mod support;
+
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{BlendState, PrimitiveTopology, VertexBufferLayout};
 use estampe::{
-    Buffer, Device, DeviceDescriptor, Draw, IndexFormat, RenderPass, RenderPipelineDescriptor,
-    RenderTargetDescriptor, Vec2, Vec4, VertexFormat,
+    Device, DeviceDescriptor, Draw, IndexFormat, Limits, RenderPipelineDescriptor, Vec2, Vec4,
+    VertexFormat, bytes_of,
 };
+use support::Images;
 
 /// A translucent colour at a position in clip space.
 struct Translucent;
@@ -29,13 +32,23 @@ estampe::shader! {
 
 #[test]
 fn elements_beyond_the_index_buffer_show_nothing_and_take_no_time() {
-    let device = Device::new(&DeviceDescriptor::default()).unwrap();
-    let corners = [
+    // As many elements as there are: nothing keeps them from being drawn but their being skipped.
+    let device = Device::new(&DeviceDescriptor {
+        limits: Limits {
+            max_pass_vertices: u64::MAX,
+            ..Limits::default()
+        },
+        ..DeviceDescriptor::default()
+    })
+    .unwrap();
+    let corners: [f32; 12] = [
         -0.9, -0.8, 0.7, -0.6, 0.1, 0.9, -0.4, 0.3, 0.5, 0.5, -0.7, 0.6,
     ];
-    let vertices = [Buffer::from_f32s(&corners)];
+    let vertices = device.create_buffer_with_contents(bytes_of(&corners));
+    let vertices = [vertices.unwrap().slice(..)];
     let bytes = [3, 0, 1, 0, 2, 0, 4, 0, 5, 0, 0, 0, 1, 0];
-    let buffer = Buffer::from_bytes(&bytes);
+    let buffer = device.create_buffer_with_contents(&bytes).unwrap();
+    let indices = buffer.slice(..);
     use PrimitiveTopology as T;
     for topology in [
         T::TriangleList,
@@ -50,23 +63,18 @@ fn elements_beyond_the_index_buffer_show_nothing_and_take_no_time() {
         descriptor.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x2])];
         descriptor.primitive.topology = topology;
         descriptor.depth = None;
-        descriptor.targets[0].blend = Some(BlendState::ALPHA_BLENDING);
+        descriptor.targets[0].as_mut().unwrap().blend = Some(BlendState::ALPHA_BLENDING);
         let pipeline = device.create_render_pipeline(&descriptor).unwrap();
         let picture = |elements: std::ops::Range<u32>, format| {
-            let size = RenderTargetDescriptor::new(48, 48);
-            let mut target = device.create_render_target(&size).unwrap();
+            let images = Images::new(&device, 48, 48);
             let draws = [Draw {
                 vertex_buffers: &vertices,
-                indices: Some((&buffer, format)),
+                index_buffer: Some((&indices, format)),
                 instances: 0..2,
                 ..Draw::new(&pipeline, elements)
             }];
-            let pass = RenderPass {
-                draws: &draws,
-                ..RenderPass::default()
-            };
-            let statistics = device.render(&mut target, &pass).unwrap();
-            (target.read_color(0), statistics.primitives_in)
+            let statistics = images.draw(&device, &draws);
+            (images.pixels(&device), statistics.primitives_in)
         };
         for (first, format) in [
             (0, IndexFormat::Uint16),

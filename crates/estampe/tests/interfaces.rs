@@ -4,11 +4,11 @@
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{CompareFunction, DepthState, VertexBufferLayout};
 use estampe::{
-    BindGroup, Binding, Bindings, Buffer, Device, DeviceDescriptor, Draw, Level, LoadOp,
-    PipelineError, RenderPass, RenderPipeline, RenderPipelineDescriptor, RenderTargetDescriptor,
-    ShaderError, TextureFormat, Vec2, Vec4, VertexFormat,
+    BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType,
+    BufferSlice, ColorAttachment, DepthStencilAttachment, Device, DeviceDescriptor, Draw, Level,
+    PipelineError, RenderPass, RenderPipeline, RenderPipelineDescriptor, ShaderError, Texture,
+    TextureDescriptor, TextureFormat, Vec2, Vec4, VertexFormat, bytes_of,
 };
-use std::sync::Arc;
 
 /// A triangle over the target, whose fragments do what the field says.
 struct Doing(Does);
@@ -74,34 +74,49 @@ fn pipeline(device: &Device, does: Does) -> Result<RenderPipeline, PipelineError
 /// The columns, of sixteen, that are drawn over depths of 0.4 (in front of the triangle) or 1.
 fn drawn(device: &Device, does: Does, clear_depth: f32, uniform: f32) -> Vec<u8> {
     let pipeline = pipeline(device, does).expect("it is valid");
-    let mut target = device
-        .create_render_target(&RenderTargetDescriptor::new(16, 1))
-        .expect("it is small");
-    let vertices = [Buffer::from_f32s(&[-1.0, -1.0, 3.0, -1.0, -1.0, 3.0])];
-    let buffer = Buffer::from_f32s(&[uniform]);
-    let entry = Binding::Buffer {
-        buffer,
-        offset: 0,
-        has_dynamic_offset: false,
+    let color = texture(device, [16, 1], TextureFormat::Rgba8Unorm);
+    let depth = texture(device, [16, 1], TextureFormat::Depth32Float);
+    let uniforms = slice(device, &[uniform]);
+    let entry = BindGroupLayoutEntry {
+        binding: 0,
+        ty: BindingType::Buffer {
+            ty: BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: 4,
+        },
     };
-    let group = Arc::new(BindGroup {
-        entries: vec![(0, entry)],
+    let group = device.create_bind_group(&BindGroupDescriptor {
+        label: None,
+        layout: &device.create_bind_group_layout(&[entry]).expect("valid"),
+        entries: &[(0, BindingResource::Buffer(uniforms))],
     });
-    let bindings = Bindings {
-        groups: vec![(group, 0)],
-    };
-    let draws = [Draw {
-        vertex_buffers: &vertices,
-        bindings: Some(&bindings),
-        ..Draw::new(&pipeline, 0..3)
-    }];
+    let group = group.expect("it fits the layout");
     let pass = RenderPass {
-        load_depth: LoadOp::Clear(clear_depth),
-        draws: &draws,
+        color_attachments: &[Some(ColorAttachment::clear(&color.view(), [0.0; 4]))],
+        depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depth.view(), clear_depth)),
+        draws: &[Draw {
+            vertex_buffers: &[slice(device, &CORNERS)],
+            bind_groups: &[(&group).into()],
+            ..Draw::new(&pipeline, 0..3)
+        }],
         ..RenderPass::default()
     };
-    device.render(&mut target, &pass).expect("it fits");
-    target.read_color(0).chunks_exact(4).map(|p| p[0]).collect()
+    device.render(&pass).expect("it fits");
+    let bytes = device.read_texture(&color).expect("it can be read");
+    bytes.chunks_exact(4).map(|texel| texel[0]).collect()
+}
+
+/// A triangle over the whole image.
+const CORNERS: [f32; 6] = [-1.0, -1.0, 3.0, -1.0, -1.0, 3.0];
+
+fn slice(device: &Device, numbers: &[f32]) -> BufferSlice {
+    let buffer = device.create_buffer_with_contents(bytes_of(numbers));
+    buffer.expect("it is small").slice(..)
+}
+
+fn texture(device: &Device, [width, height]: [u32; 2], format: TextureFormat) -> Texture {
+    let descriptor = TextureDescriptor::new_2d(width, height, format);
+    device.create_texture(&descriptor).expect("it is small")
 }
 
 #[test]
@@ -177,23 +192,21 @@ fn declared_targets_that_are_not_set_hold_zeros() {
     descriptor.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x2])];
     descriptor.targets = vec![TextureFormat::Rgba8Unorm.into(); 3];
     let pipeline = device.create_render_pipeline(&descriptor).expect("valid");
-    let mut target = device
-        .create_render_target(&RenderTargetDescriptor {
-            color_formats: vec![TextureFormat::Rgba8Unorm; 3],
-            ..RenderTargetDescriptor::new(2, 2)
-        })
-        .expect("it is small");
-    let vertices = [Buffer::from_f32s(&[-1.0, -1.0, 3.0, -1.0, -1.0, 3.0])];
-    let draws = [Draw {
-        vertex_buffers: &vertices,
-        ..Draw::new(&pipeline, 0..3)
-    }];
+    let colors = [(); 3].map(|()| texture(&device, [2, 2], TextureFormat::Rgba8Unorm));
+    let attachments = colors
+        .each_ref()
+        .map(|color| Some(ColorAttachment::clear(&color.view(), [0.5; 4])));
+    let depth = texture(&device, [2, 2], TextureFormat::Depth32Float);
     let pass = RenderPass {
-        load_colors: vec![LoadOp::Clear([0.5; 4]); 3],
-        draws: &draws,
+        color_attachments: &attachments,
+        depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depth.view(), 1.0)),
+        draws: &[Draw {
+            vertex_buffers: &[slice(&device, &CORNERS)],
+            ..Draw::new(&pipeline, 0..3)
+        }],
         ..RenderPass::default()
     };
-    device.render(&mut target, &pass).expect("it fits");
-    let bytes = [0, 1, 2].map(|index| target.read_color(index)[0]);
+    device.render(&pass).expect("it fits");
+    let bytes = colors.map(|color| device.read_texture(&color).expect("it can be read")[0]);
     assert_eq!(bytes, [0, 255, 0]);
 }

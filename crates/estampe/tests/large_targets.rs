@@ -1,11 +1,14 @@
 //! Targets of the greatest sizes: pixels at their corners are drawn, and no other pixels.
 
+mod support;
+
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{PrimitiveTopology, ScissorRect, VertexBufferLayout};
 use estampe::{
-    Buffer, Device, DeviceDescriptor, Draw, RenderPass, RenderPipelineDescriptor,
-    RenderTargetDescriptor, TargetError, TextureFormat, Vec2, Vec4, VertexFormat,
+    Draw, RenderPipelineDescriptor, TextureDescriptor, TextureFormat, Vec2, Vec4, VertexFormat,
+    bytes_of,
 };
+use support::{Images, device};
 
 /// White, at depth ½.
 struct White;
@@ -29,8 +32,8 @@ estampe::shader! {
 
 /// Draws points at pixels' centres and, with a scissor, a rectangle over the whole target into the
 /// pixel beside the last corner. Returns the white pixels and their depths.
-fn drawn(width: u32, height: u32) -> Result<Vec<([u32; 2], f32)>, TargetError> {
-    let device = Device::new(&DeviceDescriptor::default()).expect("the system starts threads");
+fn drawn(width: u32, height: u32) -> Vec<([u32; 2], f32)> {
+    let device = device();
     let (right, bottom) = (width - 1, height - 1);
     let corners = [[0, 0], [right, 0], [0, bottom], [right, bottom]];
     // Exact: sides are powers of two.
@@ -50,10 +53,11 @@ fn drawn(width: u32, height: u32) -> Result<Vec<([u32; 2], f32)>, TargetError> {
     let filled = device
         .create_render_pipeline(&descriptor)
         .expect("a valid pipeline");
-    let buffers = [
-        Buffer::from_f32s(&points),
-        Buffer::from_f32s(&[-1.0, -1.0, 1.0, -1.0, -1.0, 1.0, 1.0, 1.0]),
-    ];
+    let square: [f32; 8] = [-1.0, -1.0, 1.0, -1.0, -1.0, 1.0, 1.0, 1.0];
+    let buffers = [&points[..], &square].map(|numbers| {
+        let buffer = device.create_buffer_with_contents(bytes_of(numbers));
+        buffer.expect("it is small").slice(..)
+    });
     let draws = [
         Draw {
             vertex_buffers: &buffers[..1],
@@ -70,17 +74,10 @@ fn drawn(width: u32, height: u32) -> Result<Vec<([u32; 2], f32)>, TargetError> {
             ..Draw::new(&filled, 0..4)
         },
     ];
-    let mut target = device.create_render_target(&RenderTargetDescriptor {
-        color_formats: vec![TextureFormat::R8Unorm],
-        ..RenderTargetDescriptor::new(width, height)
-    })?;
-    let pass = RenderPass {
-        draws: &draws,
-        ..RenderPass::default()
-    };
-    device.render(&mut target, &pass).expect("it fits");
-    let texels = target.read_texels(0, 0);
-    let depths = target.read_depth();
+    let images = Images::with(&device, [width, height], TextureFormat::R8Unorm, 1);
+    images.draw(&device, &draws);
+    let texels = images.pixels(&device);
+    let depths = images.depths(&device);
     let (rows, depths) = (texels.chunks(width as usize), depths.chunks(width as usize));
     let mut white = Vec::new();
     for (y, (row, depths)) in (0..).zip(rows.zip(depths)) {
@@ -91,17 +88,10 @@ fn drawn(width: u32, height: u32) -> Result<Vec<([u32; 2], f32)>, TargetError> {
             }
         }
     }
-    Ok(white)
+    white
 }
 
 fn check(width: u32, height: u32) {
-    let white = match drawn(width, height) {
-        Ok(white) => white,
-        Err(TargetError::OutOfMemory { bytes }) => {
-            panic!("the machine has no {bytes} bytes for a target of {width}x{height}")
-        }
-        Err(other) => panic!("{other}"),
-    };
     let (right, bottom) = (width - 1, height - 1);
     let expected = [
         [0, 0],
@@ -110,7 +100,7 @@ fn check(width: u32, height: u32) {
         [right - 1, bottom],
         [right, bottom],
     ];
-    assert_eq!(white, expected.map(|pixel| (pixel, 0.5)));
+    assert_eq!(drawn(width, height), expected.map(|pixel| (pixel, 0.5)));
 }
 
 /// Rows: N1, R1, O2.
@@ -129,11 +119,11 @@ fn corners_of_the_longest_sides() {
 /// Rows: N1.
 #[test]
 fn a_side_too_long_is_an_error_that_names_the_limit() {
-    let device = Device::new(&DeviceDescriptor::default()).expect("the system starts threads");
-    let refused = device.create_render_target(&RenderTargetDescriptor::new(16_385, 16));
+    let size = TextureDescriptor::new_2d(16_385, 16, TextureFormat::R8Unorm);
+    let refused = device().create_texture(&size);
     let message = refused.expect_err("too wide").to_string();
     assert!(
-        message.contains("16385x16") && message.contains("16384"),
+        message.contains("16385×16") && message.contains("16384"),
         "{message}"
     );
 }

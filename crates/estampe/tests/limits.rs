@@ -1,13 +1,15 @@
 //! The limits of every device: WebGPU's guaranteed numbers of attributes, varyings and layers are
 //! supported, and one more is an error.
 
+mod support;
+
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{PrimitiveTopology, VertexBufferLayout};
-use estampe::texture::{MipGeneration, TextureDescriptor};
 use estampe::{
-    Buffer, Device, DeviceDescriptor, Draw, Level, Limits, PipelineError, Real,
-    RenderPipelineDescriptor, RenderTargetDescriptor, TextureFormat, Vec4, VertexFormat,
+    Device, DeviceDescriptor, Draw, Extent3d, Level, Limits, PipelineError, Real,
+    RenderPipelineDescriptor, TextureDescriptor, TextureFormat, Vec4, VertexFormat, bytes_of,
 };
+use support::{Images, device, device_with};
 
 type Four<R> = (Vec4<R>, Vec4<R>, Vec4<R>, Vec4<R>);
 type Sixteen<R> = (Four<R>, Four<R>, Four<R>, Four<R>);
@@ -89,10 +91,6 @@ fn sixteen_attributes_and_sixteen_varyings() {
             .collect();
         element.repeat(3)
     };
-    let buffers = [
-        Buffer::from_f32s(&numbers(0)),
-        Buffer::from_f32s(&numbers(8)),
-    ];
     // `mixed` has the weights 1, ½, ½, ¼, repeated.
     let weights = [1.0, 0.5, 0.5, 0.25];
     let expected = [0, 1, 2, 3].map(|channel: usize| {
@@ -102,23 +100,21 @@ fn sixteen_attributes_and_sixteen_varyings() {
         (sum * 255.0 + 0.5).floor()
     });
     for level in Level::all_available() {
-        let device = Device::new(&DeviceDescriptor {
-            level,
-            ..DeviceDescriptor::default()
+        let device = device_with(0, level);
+        let buffers = [0, 8].map(|first| {
+            let buffer = device.create_buffer_with_contents(bytes_of(&numbers(first)));
+            buffer.expect("it is small").slice(..)
         });
-        let device = device.expect("the system starts threads");
         let pipeline = device
             .create_render_pipeline(&descriptor())
             .expect("within the limits");
-        let mut target = device
-            .create_render_target(&RenderTargetDescriptor::new(5, 3))
-            .expect("it is small");
+        let images = Images::new(&device, 5, 3);
         let draws = [Draw {
             vertex_buffers: &buffers,
             ..Draw::new(&pipeline, 0..3)
         }];
-        device.draw(&mut target, &draws).expect("it fits");
-        for pixel in target.read_color(0).as_chunks::<4>().0 {
+        images.draw(&device, &draws);
+        for pixel in images.pixels(&device).as_chunks::<4>().0 {
             assert_eq!(pixel.map(f32::from), expected, "{}", level.name());
         }
     }
@@ -163,17 +159,17 @@ fn one_more_is_an_error_that_names_the_limit() {
 /// Rows: N1, F2.
 #[test]
 fn textures_have_256_layers_and_no_more() {
-    let layers = |depth_or_layers: u32| TextureDescriptor {
-        depth_or_layers,
-        ..TextureDescriptor::new_2d(3, 2, TextureFormat::R8Unorm)
+    let create = |depth_or_array_layers: u32| {
+        device().create_texture(&TextureDescriptor {
+            size: Extent3d {
+                depth_or_array_layers,
+                ..Extent3d::new_2d(3, 2)
+            },
+            ..TextureDescriptor::new_2d(3, 2, TextureFormat::R8Unorm)
+        })
     };
-    let create = |descriptor: TextureDescriptor| {
-        descriptor.create(&[], MipGeneration::None, &Limits::default())
-    };
-    assert!(create(layers(256)).is_ok());
-    let message = create(layers(257))
-        .expect_err("one layer too many")
-        .to_string();
+    assert!(create(256).is_ok());
+    let message = create(257).expect_err("one layer too many").to_string();
     assert!(
         message.contains("256") && message.contains("257"),
         "{message}"

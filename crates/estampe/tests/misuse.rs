@@ -1,66 +1,62 @@
-//! Passes that do not fit their target: each is an error that names the draw, both sides and what
-//! to do, and nothing is drawn or cleared.
+//! Passes whose draws do not fit their attachments: each is an error that names the draw, both
+//! sides and what to do, and nothing is drawn, cleared, discarded or resolved.
+
+mod support;
 
 use estampe::state::{CompareFunction, DepthState, StencilState, Viewport};
 use estampe::{
-    Device, DeviceDescriptor, Draw, FragmentIn, FragmentOut, LoadOp, OcclusionQueries, RenderPass,
-    RenderPassError, RenderPipeline, RenderPipelineDescriptor, RenderTarget,
-    RenderTargetDescriptor, TextureFormat, Vec4, VertexIn, VertexOut,
+    ColorAttachment, DepthStencilAttachment, Device, Draw, DrawError, OcclusionQueries,
+    PassErrorKind, RenderPass, RenderPassError, RenderPipeline, RenderPipelineDescriptor, StoreOp,
+    TextureFormat,
 };
-
-/// A white triangle over the whole target.
-struct Cover;
-
-estampe::shader! {
-    impl Shader for Cover {
-        type Attributes<R: Real> = ();
-        type Varyings<R: Real> = ();
-
-        fn vertex<R: Real>(&self, input: VertexIn<'_, R>, (): ()) -> VertexOut<R, ()> {
-            let index = input.vertex_index.to_real();
-            let x = R::select(index.eq(input.real(1.0)), input.real(3.0), input.real(-1.0));
-            let y = R::select(index.eq(input.real(2.0)), input.real(3.0), input.real(-1.0));
-            VertexOut::new(Vec4::new(x, y, input.zero, input.real(1.0)), ())
-        }
-
-        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, (): ()) -> FragmentOut<R> {
-            FragmentOut::color(Vec4::repeat(input.real(1.0)))
-        }
-    }
-}
-
-fn device() -> Device {
-    Device::new(&DeviceDescriptor::default()).unwrap()
-}
+use support::{Fill, Images, clear, device, texture};
 
 fn pipeline(device: &Device, change: impl FnOnce(&mut RenderPipelineDescriptor)) -> RenderPipeline {
-    let mut descriptor = RenderPipelineDescriptor::new(Cover);
+    let mut descriptor = RenderPipelineDescriptor::new(Fill::WHITE);
     change(&mut descriptor);
     device.create_render_pipeline(&descriptor).unwrap()
 }
 
-fn target(device: &Device, change: impl FnOnce(&mut RenderTargetDescriptor)) -> RenderTarget {
-    let mut descriptor = RenderTargetDescriptor::new(20, 10);
-    change(&mut descriptor);
-    device.create_render_target(&descriptor).unwrap()
+fn images(device: &Device) -> Images {
+    let images = Images::new(device, 20, 10);
+    images.draw(device, &[]);
+    images
 }
 
-/// The error of a pass of two draws, of which the first fits. The target must stay as it is.
-fn error_of(device: &Device, target: &mut RenderTarget, pass: RenderPass<'_>) -> RenderPassError {
-    let before = target.read_color(0);
-    let error = device.render(target, &pass).unwrap_err();
-    assert!(target.read_color(0) == before, "something was drawn");
+/// The error of draws into images, which must stay as they are.
+fn error_of(device: &Device, images: &Images, pass: RenderPass<'_>) -> RenderPassError {
+    let read = || (images.pixels(device), images.depths(device));
+    let before = read();
+    let mut discarded = ColorAttachment::clear(&images.color.view(), [1.0; 4]);
+    discarded.store = StoreOp::Discard;
+    let error = device
+        .render(&RenderPass {
+            color_attachments: &[Some(discarded)],
+            depth_stencil_attachment: Some(DepthStencilAttachment::clear(
+                &images.depth.view(),
+                0.25,
+            )),
+            ..pass
+        })
+        .unwrap_err();
+    assert!(read() == before, "something was drawn: {error}");
     error
 }
 
-/// The error of a draw of a pipeline, in a pass without occlusion queries.
-fn error_of_pipeline(target: &mut RenderTarget, pipeline: &RenderPipeline) -> String {
-    let draws = [Draw::new(pipeline, 0..3)];
+/// The message of one draw of a pipeline into a pass of these attachments.
+fn message(
+    device: &Device,
+    pipeline: &RenderPipeline,
+    colors: &[Option<ColorAttachment>],
+    depth_stencil_attachment: Option<DepthStencilAttachment>,
+) -> String {
     let pass = RenderPass {
-        draws: &draws,
+        color_attachments: colors,
+        depth_stencil_attachment,
+        draws: &[Draw::new(pipeline, 0..3)],
         ..RenderPass::default()
     };
-    error_of(&device(), target, pass).to_string()
+    device.render(&pass).unwrap_err().to_string()
 }
 
 #[test]
@@ -70,67 +66,116 @@ fn pipelines_of_other_samples() {
         pipeline(&device, |_| ()),
         pipeline(&device, |descriptor| descriptor.samples = 4),
     );
-    let mut target = target(&device, |_| ());
+    let images = images(&device);
     let draws = [Draw::new(&one, 0..3), Draw::new(&four, 0..3)];
     let pass = RenderPass {
-        load_colors: vec![LoadOp::Clear([1.0; 4])],
+        label: Some("main"),
         draws: &draws,
         ..RenderPass::default()
     };
     assert_eq!(
-        error_of(&device, &mut target, pass).to_string(),
-        "draw 1: its pipeline has 4 samples per pixel and the render target 1; create the pipeline \
-         with `samples: 1`"
+        error_of(&device, &images, pass).to_string(),
+        "the pass `main`: draw 1: its pipeline has 4 samples per pixel and the render target 1; \
+         create the pipeline with `samples: 1`"
     );
     // The first draw by itself fits.
-    device.draw(&mut target, &draws[..1]).unwrap();
-    assert!(target.read_color(0).iter().all(|&byte| byte == 255));
+    images.draw(&device, &draws[..1]);
+    assert!(images.pixels(&device).iter().all(|&byte| byte == 255));
+}
+
+/// What the host wrote stays, also where a pass that clears has an image of its own.
+#[test]
+fn a_refused_pass_keeps_what_the_host_wrote() {
+    let device = device();
+    let images = images(&device);
+    let bytes = support::noise(20 * 10 * 4, 1);
+    let layout = estampe::TexelCopyLayout::default();
+    let size = images.color.size();
+    device
+        .write_texture(&images.color, &bytes, &layout, size)
+        .unwrap();
+    let four = pipeline(&device, |descriptor| descriptor.samples = 4);
+    let pass = RenderPass {
+        draws: &[Draw::new(&four, 0..3)],
+        ..RenderPass::default()
+    };
+    error_of(&device, &images, pass);
+    assert!(images.pixels(&device) == bytes);
+}
+
+#[test]
+fn a_refused_pass_resolves_nothing() {
+    let device = device();
+    let samples = Images::with(&device, [20, 10], TextureFormat::Rgba8Unorm, 4);
+    let image = texture(&device, [20, 10], TextureFormat::Rgba8Unorm);
+    clear(&device, &image.view(), [0.2, 0.4, 0.6, 0.8]);
+    let one = pipeline(&device, |_| ());
+    let color = ColorAttachment {
+        resolve_target: Some(image.view()),
+        ..ColorAttachment::clear(&samples.color.view(), [1.0; 4])
+    };
+    let depth = samples.cleared_depth();
+    assert_eq!(
+        message(&device, &one, &[Some(color)], Some(depth)),
+        "the pass: draw 0: its pipeline has 1 samples per pixel and the render target 4; create \
+         the pipeline with `samples: 4`"
+    );
+    let bytes = device.read_texture(&image).unwrap();
+    assert!(
+        bytes
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .all(|texel| *texel == [51, 102, 153, 204])
+    );
 }
 
 #[test]
 fn pipelines_of_other_color_formats() {
     let device = device();
-    let unorm = pipeline(&device, |_| ());
-    let mut float = target(&device, |descriptor| {
-        descriptor.color_formats = vec![TextureFormat::Rgba16Float, TextureFormat::R8Unorm];
+    let unorm = pipeline(&device, |descriptor| descriptor.depth = None);
+    let colors = [TextureFormat::Rgba16Float, TextureFormat::R8Unorm].map(|format| {
+        let image = texture(&device, [20, 10], format);
+        Some(ColorAttachment::load(&image.view()))
     });
     assert_eq!(
-        error_of_pipeline(&mut float, &unorm),
-        "draw 0: its pipeline writes the colour formats [rgba8unorm] and the render target has \
-         [rgba16float, r8unorm]; give the pipeline one target for each attachment, of the same format"
+        message(&device, &unorm, &colors, None),
+        "the pass: draw 0: its pipeline writes the colour formats [rgba8unorm] and the render \
+         target has [rgba16float, r8unorm]; give the pipeline one target for each attachment, of \
+         the same format"
     );
 }
 
 #[test]
-fn tests_of_what_the_target_lacks() {
+fn tests_of_what_the_pass_lacks() {
     let device = device();
+    let images = images(&device);
+    let color = [Some(ColorAttachment::load(&images.color.view()))];
     let depth = pipeline(&device, |descriptor| {
         descriptor.depth = Some(DepthState {
             compare: CompareFunction::Less,
             write_enabled: true,
         });
     });
-    let mut without = target(&device, |descriptor| descriptor.depth_stencil = None);
     assert_eq!(
-        error_of_pipeline(&mut without, &depth),
-        "draw 0: its pipeline has a depth test and the render target has no depth attachment; \
-         create the target with a depth format or the pipeline without `depth`"
+        message(&device, &depth, &color, None),
+        "the pass: draw 0: its pipeline has a depth test and the render target has no depth \
+         attachment; create the target with a depth format or the pipeline without `depth`"
     );
     let stencil = pipeline(&device, |descriptor| {
         descriptor.stencil = Some(StencilState::default());
     });
-    let mut depth_alone = target(&device, |_| ());
     assert_eq!(
-        error_of_pipeline(&mut depth_alone, &stencil),
-        "draw 0: its pipeline has a stencil test and the render target has no stencil attachment; \
-         create the target with a stencil format or the pipeline without `stencil`"
+        message(&device, &stencil, &color, Some(images.cleared_depth())),
+        "the pass: draw 0: its pipeline has a stencil test and the render target has no stencil \
+         attachment; create the target with a stencil format or the pipeline without `stencil`"
     );
 }
 
 #[test]
 fn viewports_beyond_the_guard_band() {
     let device = device();
-    let (pipeline, mut target) = (pipeline(&device, |_| ()), target(&device, |_| ()));
+    let (pipeline, images) = (pipeline(&device, |_| ()), images(&device));
     let whole = Viewport::of_target(20, 10);
     for wrong in [
         Viewport {
@@ -166,31 +211,28 @@ fn viewports_beyond_the_guard_band() {
             draws: &draws,
             ..RenderPass::default()
         };
-        let error = error_of(&device, &mut target, pass);
+        let error = error_of(&device, &images, pass);
         assert!(
-            matches!(error, RenderPassError::Viewport { draw: 0, .. }),
+            matches!(
+                error.kind,
+                PassErrorKind::Draw(DrawError::Viewport { draw: 0, .. })
+            ),
             "{wrong:?}: {error}"
         );
+        assert!(
+            wrong.max_depth < 1.5
+                || error.to_string()
+                    == "the pass: draw 0: the viewport is at (0, 0), 20x10 pixels large, with \
+                        depths 0..1.5; its corner must be in -32768..=32767, its sides above 0 and \
+                        at most 32768, its depths in 0..=1"
+        );
     }
-    let draws = [Draw {
-        viewport: Some(Viewport {
-            max_depth: 1.5,
-            ..whole
-        }),
-        ..Draw::new(&pipeline, 0..3)
-    }];
-    let error = device.draw(&mut target, &draws).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "draw 0: the viewport is at (0, 0), 20x10 pixels large, with depths 0..1.5; its corner must \
-         be in -32768..=32767, its sides above 0 and at most 32768, its depths in 0..=1"
-    );
 }
 
 #[test]
 fn occlusion_queries_that_the_pass_lacks() {
     let device = device();
-    let (pipeline, mut target) = (pipeline(&device, |_| ()), target(&device, |_| ()));
+    let (pipeline, images) = (pipeline(&device, |_| ()), images(&device));
     let draws = [Draw {
         occlusion_query: Some(2),
         ..Draw::new(&pipeline, 0..3)
@@ -203,29 +245,20 @@ fn occlusion_queries_that_the_pass_lacks() {
     };
     for (queries, count) in [(None, 0), (Some(&queries), 2)] {
         assert_eq!(
-            error_of(&device, &mut target, with(queries)).to_string(),
+            error_of(&device, &images, with(queries)).to_string(),
             format!(
-                "draw 0: it counts samples for occlusion query 2 and the pass has {count} of them; \
-                 set `RenderPass::occlusion_queries` to at least 3 queries"
+                "the pass: draw 0: it counts samples for occlusion query 2 and the pass has \
+                 {count} of them; set `RenderPass::occlusion_queries` to at least 3 queries"
             )
         );
     }
     let enough = OcclusionQueries::new(3);
-    device.render(&mut target, &with(Some(&enough))).unwrap();
+    device
+        .render(&RenderPass {
+            color_attachments: &[Some(ColorAttachment::load(&images.color.view()))],
+            depth_stencil_attachment: Some(images.cleared_depth()),
+            ..with(Some(&enough))
+        })
+        .unwrap();
     assert_eq!(enough.samples_passed(2), 200);
-}
-
-#[test]
-fn more_load_operations_than_attachments() {
-    let device = device();
-    let mut target = target(&device, |_| ());
-    let pass = RenderPass {
-        load_colors: vec![LoadOp::Clear([1.0; 4]); 2],
-        ..RenderPass::default()
-    };
-    assert_eq!(
-        error_of(&device, &mut target, pass).to_string(),
-        "the pass has 2 colour load operations and the render target 1 colour attachments; drop \
-         those beyond"
-    );
 }

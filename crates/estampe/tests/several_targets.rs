@@ -1,13 +1,16 @@
 //! Several colour targets of one pass, each with its own format, blending and write mask.
 
+mod support;
+
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{
     BlendState, ColorTargetState, ColorWrites, PrimitiveTopology, VertexBufferLayout,
 };
 use estampe::{
-    Buffer, Device, DeviceDescriptor, Draw, Level, LoadOp, PipelineError, RenderPass,
-    RenderPipelineDescriptor, RenderTargetDescriptor, TextureFormat, Vec2, Vec4, VertexFormat,
+    ColorAttachment, Draw, Level, PipelineError, RenderPass, RenderPipelineDescriptor,
+    TextureFormat, Vec2, Vec4, VertexFormat, bytes_of,
 };
+use support::{device_with, texture};
 
 /// Writes half red to target 0, half green to target 1, half blue to target 2.
 struct Primaries;
@@ -34,28 +37,20 @@ estampe::shader! {
 fn descriptor() -> RenderPipelineDescriptor {
     let mut descriptor = RenderPipelineDescriptor::new(Primaries);
     descriptor.primitive.topology = PrimitiveTopology::TriangleStrip;
+    descriptor.depth = None;
     descriptor.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x2])];
     descriptor.targets = vec![
         TextureFormat::Rgba8Unorm.into(),
-        ColorTargetState {
+        Some(ColorTargetState {
             write_mask: ColorWrites::COLOR,
             ..TextureFormat::Rgba8UnormSrgb.into()
-        },
-        ColorTargetState {
+        }),
+        Some(ColorTargetState {
             blend: Some(BlendState::ALPHA_BLENDING),
             ..TextureFormat::Rgba8Unorm.into()
-        },
+        }),
     ];
     descriptor
-}
-
-fn device(threads: usize, level: Level) -> Device {
-    let descriptor = DeviceDescriptor {
-        threads,
-        level,
-        ..DeviceDescriptor::default()
-    };
-    Device::new(&descriptor).expect("the system starts one or two threads")
 }
 
 /// Rows: F1, O5, O7, O8.
@@ -64,41 +59,40 @@ fn each_target_has_its_own_format_blending_and_mask() {
     let (width, height) = (70, 9);
     for level in Level::all_available() {
         for threads in [1, 2] {
-            let device = device(threads, level);
+            let device = device_with(threads, level);
             let pipeline = device
                 .create_render_pipeline(&descriptor())
                 .expect("it is valid");
-            let formats = descriptor()
-                .targets
+            let targets = descriptor().targets;
+            let images = targets
                 .iter()
-                .map(|target| target.format)
-                .collect();
-            let mut target = device
-                .create_render_target(&RenderTargetDescriptor {
-                    color_formats: formats,
-                    ..RenderTargetDescriptor::new(width, height)
-                })
-                .expect("it is small");
-            let corners = [-1.0, -1.0, 1.0, -1.0, -1.0, 1.0, 1.0, 1.0];
-            let vertices = [Buffer::from_f32s(&corners)];
+                .flatten()
+                .map(|target| texture(&device, [width, height], target.format));
+            let images: Vec<_> = images.collect();
+            let corners: [f32; 8] = [-1.0, -1.0, 1.0, -1.0, -1.0, 1.0, 1.0, 1.0];
+            let vertices = device.create_buffer_with_contents(bytes_of(&corners));
+            let vertices = [vertices.expect("it is small").slice(..)];
             let draws = [Draw {
                 vertex_buffers: &vertices,
                 ..Draw::new(&pipeline, 0..4)
             }];
-            let clear = vec![[0.0; 4], [1.0, 1.0, 1.0, 0.0], [1.0, 0.0, 0.0, 1.0]];
+            let clear = [[0.0; 4], [1.0, 1.0, 1.0, 0.0], [1.0, 0.0, 0.0, 1.0]];
+            let attachments = images.iter().zip(clear);
+            let attachments = attachments
+                .map(|(image, color)| Some(ColorAttachment::clear(&image.view(), color)));
             let pass = RenderPass {
-                load_colors: clear.into_iter().map(LoadOp::Clear).collect(),
+                color_attachments: &attachments.collect::<Vec<_>>(),
                 draws: &draws,
                 ..RenderPass::default()
             };
-            let statistics = device.render(&mut target, &pass).expect("it fits");
+            let statistics = device.render(&pass).expect("it fits");
             assert_eq!(statistics.fragments_shaded, u64::from(width * height));
 
             // 0.5 is code 128 (floor(127.5 + ½)), in sRGB 188. Target 1's alpha is masked. Target 2
             // blends half over red: (1·½, 0, ½·½, ½·1 + 1·½), 0.25 being code 64.
             let expected = [[128, 0, 0, 255], [0, 188, 0, 0], [128, 0, 64, 255]];
             for (index, expected) in expected.into_iter().enumerate() {
-                let pixels = target.read_color(index);
+                let pixels = device.read_texture(&images[index]).expect("it can be read");
                 assert_eq!(pixels.len(), (width * height * 4) as usize);
                 for pixel in pixels.chunks_exact(4) {
                     assert_eq!(
@@ -111,9 +105,57 @@ fn each_target_has_its_own_format_blending_and_mask() {
     }
 }
 
+/// The colour of a number without attachment is dropped; the others keep their numbers.
+#[test]
+fn an_attachment_may_be_missing() {
+    let device = device_with(1, Level::best());
+    let corners: [f32; 8] = [-1.0, -1.0, 1.0, -1.0, -1.0, 1.0, 1.0, 1.0];
+    let vertices = device.create_buffer_with_contents(bytes_of(&corners));
+    let vertices = [vertices.expect("it is small").slice(..)];
+    let seen = |missing: &[usize]| {
+        let mut with_holes = descriptor();
+        for index in missing {
+            with_holes.targets[*index] = None;
+        }
+        let pipeline = device.create_render_pipeline(&with_holes);
+        let pipeline = pipeline.expect("it is valid");
+        let images: Vec<_> = descriptor()
+            .targets
+            .iter()
+            .flatten()
+            .map(|target| texture(&device, [70, 9], target.format))
+            .collect();
+        let attachments = images.iter().enumerate().map(|(index, image)| {
+            let is_there = !missing.contains(&index);
+            is_there.then(|| ColorAttachment::clear(&image.view(), [0.0; 4]))
+        });
+        let pass = RenderPass {
+            color_attachments: &attachments.collect::<Vec<_>>(),
+            draws: &[Draw {
+                vertex_buffers: &vertices,
+                ..Draw::new(&pipeline, 0..4)
+            }],
+            ..RenderPass::default()
+        };
+        device.render(&pass).expect("it fits");
+        let bytes = images.iter().map(|image| device.read_texture(image));
+        bytes
+            .collect::<Result<Vec<_>, _>>()
+            .expect("it can be read")
+    };
+    let all = seen(&[]);
+    for missing in [&[0][..], &[1], &[2], &[0, 1], &[1, 2]] {
+        let mut expected = all.clone();
+        for index in missing {
+            expected[*index].fill(0);
+        }
+        assert!(seen(missing) == expected, "without {missing:?}");
+    }
+}
+
 #[test]
 fn a_pipeline_names_the_rule_that_it_breaks() {
-    let device = device(1, Level::best());
+    let device = device_with(1, Level::best());
     let refused = |change: fn(&mut RenderPipelineDescriptor)| {
         let mut descriptor = descriptor();
         change(&mut descriptor);
@@ -134,7 +176,7 @@ fn a_pipeline_names_the_rule_that_it_breaks() {
         PipelineError::LocationMissing(0)
     );
     assert_eq!(
-        refused(|d| d.targets[1].format = TextureFormat::Depth32Float),
+        refused(|d| d.targets[1] = TextureFormat::Depth32Float.into()),
         PipelineError::NotRenderable {
             index: 1,
             format: TextureFormat::Depth32Float

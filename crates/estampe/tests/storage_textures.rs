@@ -1,22 +1,22 @@
 //! Fragment shaders that store to a texture: all covered fragments store, helper invocations do
 //! not.
 
+mod support;
+
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{DepthState, VertexBufferLayout};
-use estampe::texture::{
-    StorageTexture, TextureDescriptor, create_storage_texture, storage_bytes, storage_store,
-};
+use estampe::storage_store;
 use estampe::{
-    Buffer, Device, DeviceDescriptor, Draw, Level, Limits, LoadOp, RenderPass,
-    RenderPipelineDescriptor, RenderTargetDescriptor, TextureFormat, Vec2, Vec4, VertexFormat,
+    BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType, ColorAttachment,
+    DepthStencilAttachment, Draw, Level, RenderPass, RenderPipelineDescriptor, TextureFormat, Vec2,
+    Vec4, VertexFormat, ViewDimension, bytes_of,
 };
-use std::sync::Arc;
+use support::{Images, device_with, texture};
 
 const SIZE: [u32; 2] = [75, 41];
 
-/// Writes a colour that depends on the position, to the target and to a texture.
+/// Writes a colour that depends on the position, to the attachment and to the texture of binding 1.
 struct Storing {
-    texture: Arc<StorageTexture>,
     depth: f32,
 }
 
@@ -35,54 +35,67 @@ estampe::shader! {
             let color = Vec4::new(x / 128.0, y / 128.0, input.real(1.0), input.real(1.0));
             let at = [x.floor().to_int(), y.floor().to_int()];
             let slice = at[0].splat(0);
-            storage_store(&self.texture, !input.is_helper, [at[0], at[1], slice], color);
+            if let Some(texture) = input.bindings.storage_texture(0, 1) {
+                storage_store(texture, !input.is_helper, [at[0], at[1], slice], color);
+            }
             FragmentOut::color(color)
         }
     }
 }
 
-/// The contents of the target and of the texture after triangles at depth ½ were drawn into a
-/// target cleared to `clear_depth`.
+/// The contents of the attachment and of the texture after triangles at depth ½ were drawn over
+/// depths cleared to `clear_depth`.
 fn drawn(level: Level, threads: usize, clear_depth: f32) -> [Vec<u8>; 2] {
-    let device = Device::new(&DeviceDescriptor {
-        threads,
-        level,
-        ..DeviceDescriptor::default()
-    });
-    let device = device.expect("the system starts two threads");
-    let [width, height] = SIZE;
+    let device = device_with(threads, level);
     let format = TextureFormat::Rgba8Unorm;
-    let descriptor = TextureDescriptor::new_2d(width, height, format);
-    let texture = create_storage_texture(&descriptor, None, &Limits::default());
-    let texture = Arc::new(texture.expect("it is small"));
-    let mut descriptor = RenderPipelineDescriptor::new(Storing {
-        texture: Arc::clone(&texture),
-        depth: 0.5,
-    });
+    let stored = texture(&device, SIZE, format);
+    let layout = device
+        .create_bind_group_layout(&[BindGroupLayoutEntry {
+            binding: 1,
+            ty: BindingType::StorageTexture {
+                format,
+                view_dimension: ViewDimension::D2,
+            },
+        }])
+        .expect("a valid layout");
+    let group = device
+        .create_bind_group(&BindGroupDescriptor {
+            label: None,
+            layout: &layout,
+            entries: &[(1, BindingResource::Texture(stored.view()))],
+        })
+        .expect("it has the layout");
+    let mut descriptor = RenderPipelineDescriptor::new(Storing { depth: 0.5 });
+    descriptor.bind_group_layouts = vec![layout];
     descriptor.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x2])];
     descriptor.depth = Some(DepthState::LESS_WRITE);
     let pipeline = device
         .create_render_pipeline(&descriptor)
         .expect("a valid pipeline");
-    let corners = [
+    let corners: [f32; 12] = [
         -0.9, -0.8, 0.7, -0.5, -0.2, 0.9, // large
         0.8, 0.8, 0.81, 0.84, 0.85, 0.79, // of a pixel or two
     ];
-    let buffers = [Buffer::from_f32s(&corners)];
+    let buffer = device.create_buffer_with_contents(bytes_of(&corners));
+    let buffers = [buffer.expect("it is small").slice(..)];
     let draws = [Draw {
         vertex_buffers: &buffers,
+        bind_groups: &[(&group).into()],
         ..Draw::new(&pipeline, 0..6)
     }];
-    let mut target = device
-        .create_render_target(&RenderTargetDescriptor::new(width, height))
-        .expect("it is small");
+    let images = Images::with(&device, SIZE, format, 1);
     let pass = RenderPass {
-        load_depth: LoadOp::Clear(clear_depth),
+        color_attachments: &[Some(ColorAttachment::clear(&images.color.view(), [0.0; 4]))],
+        depth_stencil_attachment: Some(DepthStencilAttachment::clear(
+            &images.depth.view(),
+            clear_depth,
+        )),
         draws: &draws,
         ..RenderPass::default()
     };
-    device.render(&mut target, &pass).expect("it fits");
-    [target.read_color(0), storage_bytes(&texture)]
+    device.render(&pass).expect("it fits");
+    let stored = device.read_texture(&stored).expect("it can be read");
+    [images.pixels(&device), stored]
 }
 
 /// Rows: F2, O9.

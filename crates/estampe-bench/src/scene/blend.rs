@@ -55,10 +55,10 @@ pub(super) fn scene() -> Scene {
             &[(VertexFormat::Float32x3, 0), (VertexFormat::Unorm8x4, 12)],
         )],
         depth: Some(DepthState::LESS_READ),
-        targets: vec![ColorTargetState {
+        targets: vec![Some(ColorTargetState {
             blend: Some(BlendState::ALPHA_BLENDING),
             ..TextureFormat::Rgba8Unorm.into()
-        }],
+        })],
         ..RenderPipelineDescriptor::new(VertexColor)
     };
     let buffers = vec![vertices.into_bytes(), quad_indices(QUADS)];

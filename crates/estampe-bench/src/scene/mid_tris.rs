@@ -9,8 +9,8 @@ use crate::generate::{
     LittleEndian, Matrix, Vector, diffuse_texture, look_at, normal_texture, normalize, perspective,
     torus,
 };
+use estampe::Sampled;
 use estampe::state::{CullMode, PrimitiveState};
-use estampe::texture::Sampled;
 use estampe::{
     FragmentIn, FragmentOut, Mat4, RenderPipelineDescriptor, Vec2, Vec3, Vec4, VertexFormat,
     VertexIn, VertexOut, maths,

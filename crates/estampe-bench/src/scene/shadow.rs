@@ -10,10 +10,9 @@ use crate::generate::{
     LittleEndian, Matrix, diffuse_texture, look_at, orthographic, quad_indices, torus,
 };
 use estampe::state::{CullMode, PrimitiveState};
-use estampe::texture::{Sampled, sample_compare_sum};
 use estampe::{
-    FragmentIn, FragmentOut, Real, RenderPipelineDescriptor, Vec2, Vec3, VertexFormat, VertexIn,
-    VertexOut, maths,
+    FragmentIn, FragmentOut, Real, RenderPipelineDescriptor, Sampled, Vec2, Vec3, VertexFormat,
+    VertexIn, VertexOut, maths, sample_compare_sum,
 };
 
 /// Bytes between the torus's and the ground's uniforms.
@@ -23,8 +22,9 @@ const WORLD_FROM_OBJECT: u32 = 64;
 const LIGHT_FROM_OBJECT: u32 = 128;
 const EYE: u32 = 192;
 const TOWARDS_LIGHT: u32 = 208;
-/// The binding of the depth map in group 0.
-pub(crate) const DEPTH_MAP: u32 = 1;
+/// The group and the binding of the depth map.
+const DEPTH_MAP_GROUP: u32 = 1;
+pub(crate) const DEPTH_MAP: u32 = 0;
 /// The distance by which a fragment may be behind the map's depth and still be lit.
 const DEPTH_BIAS: f32 = 0.004;
 
@@ -93,7 +93,7 @@ estampe::shader! {
             let towards_eye = (bound_vector(&input, EYE) - position).normalize();
             let half = (towards_light + towards_eye).normalize();
 
-            let lit = match input.bindings.depth_texture(0, DEPTH_MAP) {
+            let lit = match input.bindings.depth_texture(DEPTH_MAP_GROUP, DEPTH_MAP) {
                 Some(map) => {
                     let (at, reference) = (Vec2::new(in_map.x, in_map.y), in_map.z - DEPTH_BIAS);
                     sample_compare_sum(map, at, &self.taps, reference) * (1.0 / 9.0)

@@ -11,7 +11,7 @@ use super::{ASPECT, Detail, Scene, uniforms, upload, vertex_layout};
 use crate::generate::{
     LittleEndian, Matrix, QUAD_CORNERS, diffuse_texture, perspective, quad_indices, unit_hash,
 };
-use estampe::texture::Sampled;
+use estampe::Sampled;
 use estampe::{
     FragmentIn, FragmentOut, Mat4, RenderPipelineDescriptor, Vec2, Vec3, VertexFormat, VertexIn,
     VertexOut,

@@ -1,15 +1,24 @@
 //! Conversion of generated textures to textures for shaders.
 
 use crate::generate::MipChain;
-use estampe::texture::{Sampled, create_texture_with_levels};
-use estampe::{Limits, SamplerDescriptor, TextureFormat};
+use estampe::{
+    Device, DeviceDescriptor, Sampled, SamplerDescriptor, TextureDescriptor, TextureFormat,
+};
 
 /// The texture with its own mip levels, repeated, linear within and between levels.
 pub(super) fn trilinear(chain: &MipChain) -> Sampled {
-    let levels: Vec<&[u8]> = chain.levels.iter().map(Vec::as_slice).collect();
-    let size = (chain.size, chain.size);
-    let format = TextureFormat::Rgba8Unorm;
-    let texture = create_texture_with_levels(size, format, &levels, &Limits::default())
-        .expect("the generators halve a power of two below the limits");
-    Sampled::new(texture, SamplerDescriptor::trilinear_repeat())
+    let create = || -> Result<Sampled, Box<dyn std::error::Error>> {
+        // Textures for shaders do not depend on the device that made them.
+        let device = Device::new(&DeviceDescriptor {
+            threads: 1,
+            ..DeviceDescriptor::default()
+        })?;
+        let levels: Vec<&[u8]> = chain.levels.iter().map(Vec::as_slice).collect();
+        let format = TextureFormat::Rgba8Unorm;
+        let descriptor = TextureDescriptor::new_2d(chain.size, chain.size, format);
+        let texture = device.create_texture_with_data(&descriptor.with_all_levels(), &levels)?;
+        let sampler = device.create_sampler(&SamplerDescriptor::trilinear_repeat())?;
+        Ok(device.sampled(&texture, &sampler)?)
+    };
+    create().expect("the generators halve a power of two below the limits")
 }

@@ -7,15 +7,15 @@ use super::state::{BASELINE_COLOR, BASELINE_DEPTH, BASELINE_VERTEX_COLOR, Change
 use super::texture_views::Pictures;
 use crate::BenchError;
 use crate::frame::FrameSize;
+use crate::target::{Target, TargetDescriptor};
 use estampe::state::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTargetState, CompareFunction,
     DepthState, LogicOperation, PrimitiveState, ScissorRect, StencilFaceState, StencilOperation,
     StencilState,
 };
 use estampe::{
-    Buffer, Device, Draw, IndexFormat, LoadOp, OcclusionQueries, RenderPass, RenderPipeline,
-    RenderPipelineDescriptor, RenderTarget, RenderTargetDescriptor, SampleType, TextureFormat,
-    VertexFormat,
+    BufferSlice, Device, Draw, IndexFormat, OcclusionQueries, RenderPass, RenderPipeline,
+    RenderPipelineDescriptor, SampleType, TextureFormat, VertexFormat,
 };
 
 /// Everything that a state may change.
@@ -28,7 +28,7 @@ struct Setup {
     has_uv: bool,
     /// The pipeline; its program, vertex buffers and topology are set last.
     pipeline: RenderPipelineDescriptor,
-    target: RenderTargetDescriptor,
+    target: TargetDescriptor,
     scissor: Option<ScissorRect>,
     depth_bounds: Option<[f32; 2]>,
     has_query: bool,
@@ -54,10 +54,10 @@ impl Setup {
         };
         let pipeline = RenderPipelineDescriptor {
             depth: Some(depth),
-            targets: vec![ColorTargetState {
+            targets: vec![Some(ColorTargetState {
                 blend,
                 ..BASELINE_COLOR.into()
-            }],
+            })],
             ..RenderPipelineDescriptor::with_program(program(&surface, output))
         };
         Ok(Self {
@@ -67,10 +67,10 @@ impl Setup {
             vertex_color: BASELINE_VERTEX_COLOR,
             has_uv: load.is_textured(),
             pipeline,
-            target: RenderTargetDescriptor {
+            target: TargetDescriptor {
                 color_formats: vec![BASELINE_COLOR],
                 depth_stencil: Some(BASELINE_DEPTH),
-                ..RenderTargetDescriptor::new(size.width, size.height)
+                ..TargetDescriptor::new(size)
             },
             scissor: None,
             depth_bounds: None,
@@ -84,10 +84,7 @@ impl Setup {
         load: Load,
         pictures: &Pictures,
     ) -> Result<(), BenchError> {
-        let size = FrameSize {
-            width: self.target.width,
-            height: self.target.height,
-        };
+        let size = self.target.size;
         match change {
             Change::ColorFormat(format) => self.set_color_format(format),
             Change::DepthFormat(format) => {
@@ -150,10 +147,16 @@ impl Setup {
 
     fn set_color_format(&mut self, format: TextureFormat) {
         self.target.color_formats = vec![format];
-        self.pipeline.targets[0].format = format;
+        self.set_target(|target| target.format = format);
         if format.sample_type() != SampleType::Float {
             self.output = OutputKind::Integers;
         }
+    }
+
+    fn set_target(&mut self, set: impl FnOnce(&mut ColorTargetState)) {
+        set(self.pipeline.targets[0]
+            .as_mut()
+            .expect("the baseline has a target"));
     }
 
     fn set_stencil(&mut self, face: StencilFaceState) {
@@ -167,7 +170,7 @@ impl Setup {
     }
 
     fn set_blend(&mut self, blend: BlendState) {
-        self.pipeline.targets[0].blend = Some(blend);
+        self.set_target(|target| target.blend = Some(blend));
         self.pipeline.depth = Some(DepthState::LESS_READ);
     }
 }
@@ -201,10 +204,11 @@ fn inner_rect(size: FrameSize) -> ScissorRect {
 pub(super) struct Case<'d> {
     device: &'d Device,
     pipeline: RenderPipeline,
-    vertices: [Buffer; 1],
-    indices: Buffer,
+    vertices: [BufferSlice; 1],
+    indices: BufferSlice,
     index_count: u32,
-    target: RenderTarget,
+    size: FrameSize,
+    target: Target,
     scissor: Option<ScissorRect>,
     depth_bounds: Option<[f32; 2]>,
     queries: Option<OcclusionQueries>,
@@ -244,13 +248,19 @@ impl<'d> Case<'d> {
             ..setup.pipeline.clone()
         })?;
         let vertices = setup.geometry.encoded(setup.vertex_color, setup.has_uv);
+        let buffer = |bytes: &[u8]| -> Result<BufferSlice, BenchError> {
+            Ok(BufferSlice::from(
+                &device.create_buffer_with_contents(bytes)?,
+            ))
+        };
         Ok(Self {
             device,
             pipeline,
-            vertices: [Buffer::from_bytes(&vertices)],
-            indices: Buffer::from_bytes(setup.geometry.indices()),
+            vertices: [buffer(&vertices)?],
+            indices: buffer(setup.geometry.indices())?,
             index_count: setup.geometry.index_count(),
-            target: device.create_render_target(&setup.target)?,
+            size: setup.target.size,
+            target: Target::new(device, &setup.target)?,
             scissor: setup.scissor,
             depth_bounds: setup.depth_bounds,
             queries: setup.has_query.then(|| OcclusionQueries::new(1)),
@@ -262,10 +272,9 @@ impl<'d> Case<'d> {
     /// The number of fragments of the primitives inside the scissor rectangle, whether they pass
     /// the tests or not.
     fn count_fragments(&self, setup: &Setup) -> Result<u64, BenchError> {
-        let size = (self.target.width(), self.target.height());
         let plain =
             RenderPipelineDescriptor::with_program(program(&setup.surface, OutputKind::Targets(1)));
-        let mut counting = Self::of(
+        let counting = Self::of(
             self.device,
             &Setup {
                 geometry: setup.geometry.clone(),
@@ -275,7 +284,7 @@ impl<'d> Case<'d> {
                     depth: None,
                     ..plain
                 },
-                target: RenderTargetDescriptor::new(size.0, size.1),
+                target: TargetDescriptor::new(self.size),
                 depth_bounds: None,
                 has_query: true,
                 ..*setup
@@ -286,10 +295,10 @@ impl<'d> Case<'d> {
     }
 
     /// Draws a frame: clears the target and draws the load.
-    pub(super) fn draw(&mut self) {
+    pub(super) fn draw(&self) {
         let draw = Draw {
             vertex_buffers: &self.vertices,
-            indices: Some((&self.indices, IndexFormat::Uint32)),
+            index_buffer: Some((&self.indices, IndexFormat::Uint32)),
             scissor: self.scissor,
             depth_bounds: self.depth_bounds,
             blend_constant: [0.75; 4],
@@ -297,13 +306,14 @@ impl<'d> Case<'d> {
             ..Draw::new(&self.pipeline, 0..self.index_count)
         };
         let pass = RenderPass {
-            load_colors: vec![LoadOp::Clear([0.0; 4]); self.target.color_formats().len()],
+            color_attachments: &self.target.colors([0.0; 4]),
+            depth_stencil_attachment: self.target.depth_stencil(),
             occlusion_queries: self.queries.as_ref(),
             draws: std::slice::from_ref(&draw),
             ..RenderPass::default()
         };
         self.device
-            .render(&mut self.target, &pass)
+            .render(&pass)
             .expect("the pipeline is made for the target");
     }
 
@@ -328,7 +338,7 @@ impl<'d> Case<'d> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use estampe::DeviceDescriptor;
+    use estampe::{DeviceDescriptor, TextureAspect};
 
     const SIZE: FrameSize = FrameSize {
         width: 76,
@@ -346,18 +356,20 @@ mod tests {
     /// The texels of all targets and samples.
     fn picture(case: &mut Case<'_>) -> Vec<u8> {
         case.draw();
-        let targets = 0..case.target.color_formats().len();
-        let samples = case.target.samples();
-        let texels = targets.flat_map(|target| (0..samples).map(move |s| (target, s)));
+        let mut texels = Vec::new();
+        for color in &case.target.colors {
+            for sample in 0..color.sample_count() {
+                let read = case.device.read_sample(color, TextureAspect::All, sample);
+                texels.extend(read.unwrap());
+            }
+        }
         texels
-            .flat_map(|(target, sample)| case.target.read_texels(target, sample))
-            .collect()
     }
 
     /// A draw whose pipeline does not fit its target draws nothing, and would appear fast.
     #[test]
     fn every_state_is_drawn_with_each_of_its_loads() {
-        let (device, pictures) = (device(), Pictures::new());
+        let (device, pictures) = (device(), Pictures::new().unwrap());
         for load in Load::ALL {
             let mut baseline = Case::new(&device, load, SIZE, None, &pictures).unwrap();
             let expected = picture(&mut baseline);
@@ -377,7 +389,7 @@ mod tests {
                     Change::View(kind) => {
                         let is_converted = kind.format == TextureFormat::Rgba8Unorm
                             || kind.format == TextureFormat::Bgra8Unorm;
-                        is_converted && kind.dimension != estampe::texture::ViewDimension::Cube
+                        is_converted && kind.dimension != estampe::ViewDimension::Cube
                     }
                     _ => false,
                 };
@@ -400,7 +412,7 @@ mod tests {
 
     #[test]
     fn fragments_are_those_of_the_load() {
-        let (device, pictures) = (device(), Pictures::new());
+        let (device, pictures) = (device(), Pictures::new().unwrap());
         let count = |load, name: Option<&str>| {
             let states = State::all();
             let state = name.map(|name| states.iter().find(|s| s.name == name).unwrap());

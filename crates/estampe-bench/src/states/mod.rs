@@ -150,7 +150,7 @@ fn measure_all(
     let bar = ProgressBar::new(loads.iter().map(count).sum());
     let style = ProgressStyle::with_template("{elapsed_precise} {bar:40} {pos}/{len} {msg}");
     bar.set_style(style.expect("the template is a constant that was tried"));
-    let pictures = Pictures::new();
+    let pictures = Pictures::new()?;
     let mut rows = Vec::new();
     for &load in loads {
         let mut baseline = Case::new(device, load, SIZE, None, &pictures)?;

@@ -4,7 +4,7 @@
 //! `NO_DERIVATIVES`), so the measured cost is that of any program.
 
 use super::texture_views::{Lookup, ViewTexture};
-use estampe::texture::Sampled;
+use estampe::Sampled;
 use estampe::{
     Attributes, FragmentIn, FragmentOut, Int, Program, Real, ShaderProgram, Varyings, Vec2, Vec3,
     Vec4, VertexIn, VertexOut,
@@ -218,15 +218,13 @@ impl ViewTexture {
     #[inline(always)]
     fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
         self.view.sample(match self.lookup {
-            Lookup::Image => estampe::texture::Coordinates::d2(uv),
-            Lookup::Layer(layer) => {
-                estampe::texture::Coordinates::d2_array(uv, uv.x.splat_int(layer))
-            }
+            Lookup::Image => estampe::Coordinates::d2(uv),
+            Lookup::Layer(layer) => estampe::Coordinates::d2_array(uv, uv.x.splat_int(layer)),
             // The face +z and parts of its four neighbours.
             Lookup::Direction => {
                 let across = |t: R| (t - 0.5) * 2.25;
                 let direction = Vec3::new(across(uv.x), across(uv.y), uv.x.splat(1.0));
-                estampe::texture::Coordinates::cube(direction)
+                estampe::Coordinates::cube(direction)
             }
         })
     }

@@ -3,7 +3,7 @@
 
 use super::Load;
 use super::texture_views::ViewKind;
-use estampe::texture::ViewDimension;
+use estampe::ViewDimension;
 use estampe::{SampleType, TextureFormat, VertexFormat};
 
 /// The baseline's colour format.

@@ -5,11 +5,10 @@ use super::Load;
 use super::geometry::{GLYPH_PX, GLYPHS, TEXTURE_SIDE, half_of_256th};
 use crate::BenchError;
 use crate::generate::diffuse_texture;
-use estampe::texture::{
-    LevelData, MipGeneration, Sampled, SampledView, TextureDescriptor, TextureError, TextureView,
-    TextureViewDescriptor, ViewDimension,
+use estampe::{
+    Device, DeviceDescriptor, Extent3d, FilterMode, Sampled, SampledView, Sampler,
+    SamplerDescriptor, TextureDescriptor, TextureFormat, TextureViewDescriptor, ViewDimension,
 };
-use estampe::{FilterMode, Limits, SamplerDescriptor, TextureFormat};
 
 /// A texture format or shape other than the common kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,14 +43,23 @@ const LAYERS: u32 = 4;
 pub(super) struct Pictures {
     surface: Vec<u8>,
     glyphs: Vec<u8>,
+    /// Makes the textures; these do not depend on it.
+    device: Device,
+    bilinear: Sampler,
 }
 
 impl Pictures {
-    pub(super) fn new() -> Self {
-        Self {
+    pub(super) fn new() -> Result<Self, BenchError> {
+        let device = Device::new(&DeviceDescriptor {
+            threads: 1,
+            ..DeviceDescriptor::default()
+        })?;
+        Ok(Self {
             surface: diffuse_texture(TEXTURE_SIDE, 23).levels.swap_remove(0),
             glyphs: glyphs(),
-        }
+            bilinear: device.create_sampler(&bilinear())?,
+            device,
+        })
     }
 
     fn of(&self, load: Load) -> &[u8] {
@@ -65,11 +73,10 @@ impl Pictures {
     pub(super) fn sampled(&self, load: Load) -> Result<Sampled, BenchError> {
         let format = TextureFormat::Rgba8Unorm;
         let descriptor = TextureDescriptor::new_2d(TEXTURE_SIDE, TEXTURE_SIDE, format);
-        let data = LevelData::tight(self.of(load));
-        let texture = descriptor
-            .create(&[data], MipGeneration::None, &Limits::default())
-            .map_err(texture_error)?;
-        Ok(Sampled::new(texture, bilinear()))
+        let texture = self
+            .device
+            .create_texture_with_data(&descriptor, &[self.of(load)])?;
+        Ok(self.device.sampled(&texture, &self.bilinear)?)
     }
 
     /// The load's picture in another format or shape; each layer and each face has the same
@@ -81,24 +88,23 @@ impl Pictures {
             _ => 1,
         };
         let descriptor = TextureDescriptor {
-            depth_or_layers: layers,
+            size: Extent3d {
+                width: TEXTURE_SIDE,
+                height: TEXTURE_SIDE,
+                depth_or_array_layers: layers,
+            },
             ..TextureDescriptor::new_2d(TEXTURE_SIDE, TEXTURE_SIDE, kind.format)
         };
         let bytes = converted(self.of(load), kind.format).repeat(layers as usize);
-        let texture = descriptor
-            .create(
-                &[LevelData::tight(&bytes)],
-                MipGeneration::None,
-                &Limits::default(),
-            )
-            .map_err(texture_error)?;
-        let whole = TextureViewDescriptor {
+        let texture = self
+            .device
+            .create_texture_with_data(&descriptor, &[&bytes])?;
+        let view = texture.create_view(&TextureViewDescriptor {
             dimension: Some(kind.dimension),
             ..TextureViewDescriptor::default()
-        };
-        let view = TextureView::new(texture, &whole).map_err(texture_error)?;
+        })?;
         Ok(ViewTexture {
-            view: SampledView::new(view, bilinear()).map_err(texture_error)?,
+            view: self.device.sampled_view(&view, &self.bilinear)?,
             lookup: match kind.dimension {
                 ViewDimension::Cube => Lookup::Direction,
                 ViewDimension::D2Array => Lookup::Layer(2),
@@ -106,10 +112,6 @@ impl Pictures {
             },
         })
     }
-}
-
-fn texture_error(error: TextureError) -> BenchError {
-    BenchError::Texture(error.to_string())
 }
 
 fn bilinear() -> SamplerDescriptor {

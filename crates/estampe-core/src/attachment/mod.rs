@@ -30,5 +30,5 @@ pub use resolve::ResolveError;
 pub use resolve_depth::ResolveMode;
 pub use row_order::row_order_words;
 pub(crate) use target::format_names;
-pub use target::{RenderTarget, RenderTargetDescriptor, TargetError};
+pub use target::{RenderTarget, RenderTargetDescriptor, TargetError, TargetShape};
 pub use texels::{ColorTexels, DepthStencilTexels, ImageSize};

@@ -91,6 +91,17 @@ pub(crate) fn format_names(formats: &[TextureFormat]) -> String {
     names.join(", ")
 }
 
+/// The samples and formats of a target, without its pixels.
+#[derive(Debug, Clone, Copy)]
+pub struct TargetShape<'a> {
+    /// Samples per pixel.
+    pub samples: u32,
+    /// Formats of the colour attachments.
+    pub color_formats: &'a [TextureFormat],
+    /// Format of depth and stencil, if there are any.
+    pub depth_stencil: Option<TextureFormat>,
+}
+
 /// The attachments of a pass: colours, depth and stencil of one size.
 #[derive(Debug, Clone)]
 pub struct RenderTarget {
@@ -155,6 +166,16 @@ impl RenderTarget {
             color_formats: colors.iter().map(|color| color.format).collect(),
             colors,
             depth_stencil,
+        }
+    }
+
+    /// The samples and formats.
+    #[must_use]
+    pub fn shape(&self) -> TargetShape<'_> {
+        TargetShape {
+            samples: self.size.samples,
+            color_formats: &self.color_formats,
+            depth_stencil: self.depth_stencil_format(),
         }
     }
 

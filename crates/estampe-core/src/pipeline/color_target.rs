@@ -12,6 +12,8 @@ pub(crate) const MAX_WORDS: usize = 4;
 /// A colour target's state, reduced to the facts that select code.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ColorTarget {
+    /// The number of the shader's colour.
+    pub(crate) output: usize,
     pub(crate) codec: AttachmentCodec,
     texel: TexelCodec,
     pub(crate) equation: Equation,
@@ -45,11 +47,16 @@ impl Equation {
 }
 
 impl ColorTarget {
-    pub(crate) fn new(state: &ColorTargetState, logic: Option<LogicOperation>) -> Self {
+    pub(crate) fn new(
+        state: &ColorTargetState,
+        output: usize,
+        logic: Option<LogicOperation>,
+    ) -> Self {
         let codec = AttachmentCodec::new(state.format);
         let all = writable_bits(codec, 0xF);
         let writable = writable_bits(codec, u32::from(state.write_mask.0));
         Self {
+            output,
             codec,
             texel: TexelCodec::new(state.format),
             // A logic operation replaces blending, also where the format leaves it without effect.

@@ -6,6 +6,14 @@ use estampe_types::{ShaderError, TextureFormat};
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PipelineError {
+    /// Too many bind group layouts.
+    #[error("{count} bind group layouts; the limit max_bind_groups is {limit}")]
+    TooManyBindGroups {
+        /// The number of layouts.
+        count: usize,
+        /// The largest number allowed.
+        limit: u32,
+    },
     /// The shader contradicts what it declares, or a limit.
     #[error(transparent)]
     Shader(#[from] ShaderError),

@@ -15,7 +15,7 @@ use estampe_types::state::{
     LogicOperation, PrimitiveState, StencilState, VertexBufferLayout,
 };
 use estampe_types::{
-    Interface, Limits, Program, Shader, ShaderProgram, TextureFormat, VertexFormat,
+    BindGroupLayout, Interface, Limits, Program, Shader, ShaderProgram, TextureFormat, VertexFormat,
 };
 use std::sync::Arc;
 
@@ -24,6 +24,9 @@ use std::sync::Arc;
 pub struct RenderPipelineDescriptor {
     /// The vertex and fragment shader.
     pub program: Arc<dyn Program>,
+    /// The bind groups that the shaders read, by group number: each draw must bind groups of these
+    /// layouts. Default none.
+    pub bind_group_layouts: Vec<BindGroupLayout>,
     /// The layout of each vertex buffer of a draw. Default none.
     pub vertex_buffers: Vec<VertexBufferLayout>,
     /// Topology, facing, culling. Default a triangle list, nothing culled.
@@ -45,8 +48,9 @@ pub struct RenderPipelineDescriptor {
     pub sample_shading: bool,
     /// A logic operation in place of blending, for all targets. Default none.
     pub logic_operation: Option<LogicOperation>,
-    /// The colour targets. Default one `Rgba8Unorm`, replaced.
-    pub targets: Vec<ColorTargetState>,
+    /// The colour targets, by the number of the shader's colour; `None` is a hole, whose colour is
+    /// dropped. Default one `Rgba8Unorm`, replaced.
+    pub targets: Vec<Option<ColorTargetState>>,
 }
 
 impl RenderPipelineDescriptor {
@@ -60,6 +64,7 @@ impl RenderPipelineDescriptor {
     pub fn with_program(program: Arc<dyn Program>) -> Self {
         Self {
             program,
+            bind_group_layouts: Vec::new(),
             vertex_buffers: Vec::new(),
             primitive: PrimitiveState::default(),
             depth: Some(DepthState::LESS_WRITE),
@@ -70,7 +75,7 @@ impl RenderPipelineDescriptor {
             alpha_to_coverage: false,
             sample_shading: false,
             logic_operation: None,
-            targets: vec![TextureFormat::Rgba8Unorm.into()],
+            targets: vec![Some(TextureFormat::Rgba8Unorm.into())],
         }
     }
 }
@@ -126,12 +131,24 @@ impl RenderPipeline {
     ) -> Result<Self, PipelineError> {
         descriptor.program.validate()?;
         let interface = descriptor.program.interface();
+        let count = descriptor.bind_group_layouts.len();
+        if count > limits.max_bind_groups as usize {
+            return Err(PipelineError::TooManyBindGroups {
+                count,
+                limit: limits.max_bind_groups,
+            });
+        }
         check_targets(descriptor, interface, limits)?;
         check_interface(interface, limits)?;
         check_lines(&descriptor.primitive.line)?;
         let attributes = attribute_sources(descriptor, interface, limits)?;
-        let color_target = |target| ColorTarget::new(target, descriptor.logic_operation);
-        let color_targets: Vec<_> = descriptor.targets.iter().map(color_target).collect();
+        let targets = descriptor.targets.iter().enumerate();
+        let color_targets: Vec<_> = targets
+            .filter_map(|(output, target)| {
+                let target = target.as_ref()?;
+                Some(ColorTarget::new(target, output, descriptor.logic_operation))
+            })
+            .collect();
         let key = StageKey::new(descriptor, interface, &color_targets);
         Ok(Self {
             inner: Arc::new(Inner {
@@ -165,7 +182,7 @@ impl RenderPipeline {
         &self.inner.key
     }
 
-    /// The colour targets' facts.
+    /// The facts of the colour targets that are no holes.
     pub(crate) fn color_targets(&self) -> &[ColorTarget] {
         &self.inner.color_targets
     }
@@ -198,6 +215,9 @@ fn check_targets(
         });
     }
     for (index, target) in descriptor.targets.iter().enumerate() {
+        let Some(target) = target else {
+            continue;
+        };
         let format = target.format;
         if !format.is_renderable() {
             return Err(PipelineError::NotRenderable { index, format });

@@ -58,8 +58,9 @@ impl StageKey {
         let sample_mask =
             Some(descriptor.sample_mask).filter(|mask| mask & all_samples != all_samples);
         let is_integer = |target: &ColorTarget| target.codec.is_integer();
+        let first = targets.iter().find(|target| target.output == 0);
         let alpha_to_coverage =
-            descriptor.alpha_to_coverage && targets.first().is_some_and(|first| !is_integer(first));
+            descriptor.alpha_to_coverage && first.is_some_and(|first| !is_integer(first));
         let per_sample = samples > 1 && (descriptor.sample_shading || interface.per_sample);
         let has_centroids =
             samples > 1 && interface.sampling.iter().any(|at| *at != Sampling::Center);
@@ -110,7 +111,7 @@ impl StageKey {
             blends_blocks: is_plain
                 && color_passthrough
                 && interface.varyings[..4] == [Interpolation::Smooth; 4]
-                && targets.first().is_some_and(ColorTarget::is_source_over),
+                && first.is_some_and(ColorTarget::is_source_over),
             shares_packets,
             per_sample,
             alpha_to_coverage,

@@ -52,6 +52,11 @@ impl<'a> DrawCursor<'a> {
         }
     }
 
+    /// Returns the number of draws that no batch has begun.
+    pub(crate) fn draws_left(&self) -> usize {
+        self.draws.len()
+    }
+
     /// Cuts the next batch; false when no draws are left.
     pub(crate) fn next_batch(
         &mut self,

@@ -1,6 +1,6 @@
 //! The checks of a pass before anything is drawn or cleared: whether its draws fit its target.
 
-use crate::attachment::{RenderTarget, format_names};
+use crate::attachment::{TargetShape, format_names};
 use crate::commands::{Draw, RenderPass};
 use estampe_types::TextureFormat;
 use estampe_types::state::Viewport;
@@ -83,6 +83,9 @@ pub enum RenderPassError {
         /// The number of queries in the pass.
         count: usize,
     },
+    /// Another thread has cancelled the pass, whose target holds a part of it.
+    #[error("the pass was cancelled; its attachments hold what was drawn until then")]
+    Cancelled,
     /// More load operations than colour attachments.
     #[error(
         "the pass has {given} colour load operations and the render target {attachments} colour attachments; \
@@ -96,46 +99,55 @@ pub enum RenderPassError {
     },
 }
 
-/// Checks that a pass can be drawn into a target.
-pub(crate) fn check_pass(
-    target: &RenderTarget,
-    pass: &RenderPass<'_>,
-) -> Result<(), RenderPassError> {
-    let (given, attachments) = (pass.load_colors.len(), target.color_formats().len());
-    if given > attachments {
-        return Err(RenderPassError::LoadColors { given, attachments });
+impl RenderPass<'_> {
+    /// Checks that the pass can be drawn into a target.
+    ///
+    /// # Errors
+    /// [`RenderPassError`] names the draw that does not fit.
+    pub fn check(&self, target: &TargetShape<'_>) -> Result<(), RenderPassError> {
+        let (given, attachments) = (self.load_colors.len(), target.color_formats.len());
+        if given > attachments {
+            return Err(RenderPassError::LoadColors { given, attachments });
+        }
+        let queries = self.occlusion_queries.map_or(0, |queries| queries.count());
+        let mut draws = self.draws.iter().enumerate();
+        draws.try_for_each(|(number, draw)| check_draw(target, queries, number, draw))
     }
-    let queries = pass.occlusion_queries.map_or(0, |queries| queries.count());
-    let mut draws = pass.draws.iter().enumerate();
-    draws.try_for_each(|(number, draw)| check_draw(target, queries, number, draw))
 }
 
 fn check_draw(
-    target: &RenderTarget,
+    target: &TargetShape<'_>,
     queries: usize,
     number: usize,
     draw: &Draw<'_>,
 ) -> Result<(), RenderPassError> {
     let descriptor = draw.pipeline.descriptor();
-    if descriptor.samples != target.samples() {
+    if descriptor.samples != target.samples {
         return Err(RenderPassError::Samples {
             draw: number,
             pipeline: descriptor.samples,
-            target: target.samples(),
+            target: target.samples,
         });
     }
-    let formats = descriptor.targets.iter().map(|target| target.format);
-    if !formats.clone().eq(target.color_formats().iter().copied()) {
+    let formats = descriptor
+        .targets
+        .iter()
+        .flatten()
+        .map(|target| target.format);
+    if !formats.clone().eq(target.color_formats.iter().copied()) {
         return Err(RenderPassError::ColorFormats {
             draw: number,
             pipeline: formats.collect(),
-            target: target.color_formats().to_vec(),
+            target: target.color_formats.to_vec(),
         });
     }
-    if draw.pipeline.key().depth.is_some() && !target.has_depth() {
+    if draw.pipeline.key().depth.is_some()
+        && !target.depth_stencil.is_some_and(TextureFormat::has_depth)
+    {
         return Err(RenderPassError::NoDepth { draw: number });
     }
-    if descriptor.stencil.is_some() && !target.has_stencil() {
+    if descriptor.stencil.is_some() && !target.depth_stencil.is_some_and(TextureFormat::has_stencil)
+    {
         return Err(RenderPassError::NoStencil { draw: number });
     }
     match draw.viewport {

@@ -120,10 +120,10 @@ fn write_colors(
     colors: &mut [&mut [[u32; LANES]]; MAX_TARGETS],
 ) {
     let targets = plan.pipeline.color_targets().iter().zip(colors);
-    for (index, (target, stored)) in targets.enumerate() {
+    for (target, stored) in targets {
         let writer = ColorWriter {
             target,
-            index,
+            index: target.output,
             constant: plan.blend_constant,
         };
         writer.write_batch(level, batch, stored);

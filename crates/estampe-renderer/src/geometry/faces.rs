@@ -2,12 +2,17 @@
 
 use super::unit_space::UnitSpace;
 use super::vertex_data::{MeshStreams, StreamData};
+use estampe::{BufferError, Device};
 use estampe_scene::Mesh;
 use glam::Vec3;
 
 /// The streams of a mesh with three separate vertices for each triangle, in the triangles' order,
 /// and with the faces' normals instead of the vertices'.
-pub(crate) fn unshared_streams(mesh: &Mesh, space: &UnitSpace) -> MeshStreams {
+pub(crate) fn unshared_streams(
+    mesh: &Mesh,
+    space: &UnitSpace,
+    device: &Device,
+) -> Result<MeshStreams, BufferError> {
     let position = |index: u32| at(&mesh.positions, index).unwrap_or(Vec3::NAN);
     let corners = || mesh.triangles.iter().flatten().copied();
     let positions = corners().map(|index| space.unit_from_object(position(index)).to_array());
@@ -16,22 +21,25 @@ pub(crate) fn unshared_streams(mesh: &Mesh, space: &UnitSpace) -> MeshStreams {
         [normal, normal, normal]
     });
     let indicators = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    MeshStreams {
-        positions: StreamData::per_vertex(positions),
-        normals: StreamData::per_vertex(normals),
+    Ok(MeshStreams {
+        positions: StreamData::per_vertex(device, positions)?,
+        normals: StreamData::per_vertex(device, normals)?,
         uvs: if mesh.uvs.is_empty() {
-            StreamData::constant(&[0.0; 2])
+            StreamData::constant(device, &[0.0; 2])?
         } else {
             let uv = |index| at(&mesh.uvs, index).unwrap_or_default().to_array();
-            StreamData::per_vertex(corners().map(uv))
+            StreamData::per_vertex(device, corners().map(uv))?
         },
         colors: if mesh.colors.is_empty() {
-            StreamData::constant(&[1.0; 4])
+            StreamData::constant(device, &[1.0; 4])?
         } else {
-            StreamData::per_vertex(corners().map(|i| at(&mesh.colors, i).unwrap_or([1.0; 4])))
+            StreamData::per_vertex(
+                device,
+                corners().map(|i| at(&mesh.colors, i).unwrap_or([1.0; 4])),
+            )?
         },
-        corners: StreamData::per_vertex(mesh.triangles.iter().flat_map(|_| indicators)),
-    }
+        corners: StreamData::per_vertex(device, mesh.triangles.iter().flat_map(|_| indicators))?,
+    })
 }
 
 /// The unit normal of a counter-clockwise triangle, computed in f64; zero if the area is zero.

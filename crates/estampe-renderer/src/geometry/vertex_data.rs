@@ -2,9 +2,8 @@
 
 use super::faces::normals_oppose_winding;
 use super::unit_space::UnitSpace;
-use estampe::Buffer;
-use estampe::VertexFormat;
 use estampe::state::{VertexAttribute, VertexBufferLayout, VertexStepMode};
+use estampe::{BufferError, BufferSlice, Device, VertexFormat};
 use estampe_scene::{Mesh, Workers};
 
 /// The attributes that surface shaders may read, in this order.
@@ -35,29 +34,33 @@ impl VertexStream {
 /// One stream of a mesh: an element per vertex, or one element for all.
 #[derive(Debug, Clone)]
 pub(crate) struct StreamData {
-    buffer: Buffer,
+    buffer: BufferSlice,
     is_constant: bool,
 }
 
 impl StreamData {
     /// A stream with an element per vertex; each has the stream's number of floats.
-    pub(crate) fn per_vertex<const N: usize>(elements: impl Iterator<Item = [f32; N]>) -> Self {
+    pub(crate) fn per_vertex<const N: usize>(
+        device: &Device,
+        elements: impl Iterator<Item = [f32; N]>,
+    ) -> Result<Self, BufferError> {
         let mut words = Vec::with_capacity(elements.size_hint().0.saturating_mul(N));
         for element in elements {
             words.extend(element.map(f32::to_bits));
         }
-        Self {
-            buffer: Buffer::from_words(words),
+        Ok(Self {
+            buffer: BufferSlice::from(&device.create_buffer_of_words(words)?),
             is_constant: false,
-        }
+        })
     }
 
     /// A stream with an element per value, computed by several threads.
     fn of_each<T: Copy + Sync, const N: usize>(
+        device: &Device,
         values: &[T],
         element: impl Fn(T) -> [f32; N] + Sync,
         workers: Workers,
-    ) -> Self {
+    ) -> Result<Self, BufferError> {
         /// Vertices of a piece: some hundred microseconds of work, because touching new memory
         /// costs more than the writes themselves.
         const PIECE: usize = 1 << 14;
@@ -68,22 +71,23 @@ impl StreamData {
                 *words = element(value).map(f32::to_bits);
             }
         });
-        Self {
-            buffer: Buffer::from_words(words),
+        Ok(Self {
+            buffer: BufferSlice::from(&device.create_buffer_of_words(words)?),
             is_constant: false,
-        }
+        })
     }
 
     /// A stream with one element for all vertices.
-    pub(crate) fn constant(element: &[f32]) -> Self {
-        Self {
-            buffer: Buffer::from_f32s(element),
+    pub(crate) fn constant(device: &Device, element: &[f32]) -> Result<Self, BufferError> {
+        let words = element.iter().map(|value| value.to_bits()).collect();
+        Ok(Self {
+            buffer: BufferSlice::from(&device.create_buffer_of_words(words)?),
             is_constant: true,
-        }
+        })
     }
 
     /// The buffer; cloning shares it.
-    pub(crate) fn buffer(&self) -> Buffer {
+    pub(crate) fn buffer(&self) -> BufferSlice {
         self.buffer.clone()
     }
 
@@ -118,32 +122,37 @@ pub(crate) struct MeshStreams {
 impl MeshStreams {
     /// The streams of a mesh with the scene's shared vertices. Missing attributes are constant: no
     /// normal, uv (0, 0), white.
-    pub(crate) fn shared(mesh: &Mesh, space: &UnitSpace, workers: Workers) -> Self {
+    pub(crate) fn shared(
+        mesh: &Mesh,
+        space: &UnitSpace,
+        device: &Device,
+        workers: Workers,
+    ) -> Result<Self, BufferError> {
         let position = |p| space.unit_from_object(p).to_array();
-        Self {
-            positions: StreamData::of_each(&mesh.positions, position, workers),
+        Ok(Self {
+            positions: StreamData::of_each(device, &mesh.positions, position, workers)?,
             normals: if mesh.normals.is_empty() {
-                StreamData::constant(&[0.0; 3])
+                StreamData::constant(device, &[0.0; 3])?
             } else {
                 let sign = if normals_oppose_winding(mesh) {
                     -1.0
                 } else {
                     1.0
                 };
-                StreamData::of_each(&mesh.normals, |n| (n * sign).to_array(), workers)
+                StreamData::of_each(device, &mesh.normals, |n| (n * sign).to_array(), workers)?
             },
             uvs: if mesh.uvs.is_empty() {
-                StreamData::constant(&[0.0; 2])
+                StreamData::constant(device, &[0.0; 2])?
             } else {
-                StreamData::of_each(&mesh.uvs, |uv| uv.to_array(), workers)
+                StreamData::of_each(device, &mesh.uvs, |uv| uv.to_array(), workers)?
             },
             colors: if mesh.colors.is_empty() {
-                StreamData::constant(&[1.0; 4])
+                StreamData::constant(device, &[1.0; 4])?
             } else {
-                StreamData::of_each(&mesh.colors, |color| color, workers)
+                StreamData::of_each(device, &mesh.colors, |color| color, workers)?
             },
-            corners: StreamData::constant(&[0.0; 3]),
-        }
+            corners: StreamData::constant(device, &[0.0; 3])?,
+        })
     }
 
     /// The data of a stream.

@@ -7,7 +7,7 @@
 
 use super::phong::PhongLight;
 use super::vertex_lit::{self, BothSides, VertexLight};
-use estampe::texture::Sampled;
+use estampe::Sampled;
 use estampe::{FragmentIn, FragmentOut, Vec2, Vec3, Vec4, VertexIn, VertexOut};
 
 /// A surface of one colour, lit at every fragment.

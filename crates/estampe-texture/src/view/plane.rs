@@ -109,6 +109,9 @@ impl TextureView {
         if descriptor.aspect == TextureAspect::Stencil && !texture.format.has_stencil() {
             return Err(missing("stencil"));
         }
+        if descriptor.aspect == TextureAspect::Depth && !texture.format.has_depth() {
+            return Err(missing("depth"));
+        }
         let is_whole = is_whole && levels == texture.levels.len();
         let planes = (base..base + levels).map(|level| Plane::new(&texture, level));
         Ok(Self {

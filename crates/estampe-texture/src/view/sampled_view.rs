@@ -62,10 +62,25 @@ impl SampledView {
         })
     }
 
+    /// Checks the rules of a sampler that hold for every view.
+    ///
+    /// # Errors
+    /// [`TextureError::Sampler`] names the rule that it breaks.
+    pub fn check_sampler(sampler: &SamplerDescriptor) -> Result<(), TextureError> {
+        check_alone(sampler)
+    }
+
     /// Samples packets at the given SIMD level instead of the best one. The results are the same.
     #[must_use]
     pub fn at_level(self, level: Level) -> Self {
         Self { level, ..self }
+    }
+
+    /// The texture with its sampler, if it is of the common kind: 2D, four 8-bit channels, WebGPU's
+    /// address modes.
+    #[must_use]
+    pub fn common(&self) -> Option<&Sampled> {
+        self.common.as_ref()
     }
 
     /// The view, for its sizes and for fetching texels.
@@ -210,13 +225,13 @@ impl SampledView {
     }
 }
 
-fn check(view: &TextureView, sampler: &SamplerDescriptor) -> Result<(), TextureError> {
-    let refuse = |what| Err(TextureError::Sampler { what });
-    let filters = [
-        sampler.mag_filter,
-        sampler.min_filter,
-        sampler.mipmap_filter,
-    ];
+fn refuse(what: &'static str) -> Result<(), TextureError> {
+    Err(TextureError::Sampler { what })
+}
+
+/// Checks the rules of a sampler that do not depend on a view.
+fn check_alone(sampler: &SamplerDescriptor) -> Result<(), TextureError> {
+    let filters = filters(sampler);
     let (least, most) = (sampler.lod_min_clamp, sampler.lod_max_clamp);
     let has_nan = least.is_nan() || most.is_nan() || sampler.lod_bias.is_nan();
     if has_nan || least > most {
@@ -228,10 +243,23 @@ fn check(view: &TextureView, sampler: &SamplerDescriptor) -> Result<(), TextureE
     if sampler.max_anisotropy > 1 && filters != [FilterMode::Linear; 3] {
         return refuse("a sampler with max_anisotropy above 1 filters linearly, levels too");
     }
+    Ok(())
+}
+
+fn filters(sampler: &SamplerDescriptor) -> [FilterMode; 3] {
+    [
+        sampler.mag_filter,
+        sampler.min_filter,
+        sampler.mipmap_filter,
+    ]
+}
+
+fn check(view: &TextureView, sampler: &SamplerDescriptor) -> Result<(), TextureError> {
+    check_alone(sampler)?;
     if view.texture.shape.samples != 1 {
         return refuse("multisampled textures are not sampled: fetch their texels");
     }
-    if view.codec.is_integer() && filters != [FilterMode::Nearest; 3] {
+    if view.codec.is_integer() && filters(sampler) != [FilterMode::Nearest; 3] {
         return refuse("integers cannot be filtered: choose FilterMode::Nearest");
     }
     if sampler.compare.is_some() && view.codec.sample_type() != SampleType::Depth {

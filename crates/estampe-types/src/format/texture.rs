@@ -384,6 +384,16 @@ impl TextureFormat {
         self.is_renderable() && matches!(self.sample_type(), SampleType::Float)
     }
 
+    /// The format with the same texels whose colours are sRGB, or are not; itself if there is none.
+    #[must_use]
+    pub fn with_srgb(self, is_srgb: bool) -> Self {
+        let plain = |format: Self| format.name().trim_end_matches("-srgb");
+        let is_counterpart =
+            |format: &Self| format.is_srgb() == is_srgb && plain(*format) == plain(self);
+        let found = Self::ALL.iter().copied().find(is_counterpart);
+        found.unwrap_or(self)
+    }
+
     /// True if B is stored first.
     #[must_use]
     pub const fn is_bgra(self) -> bool {
@@ -394,6 +404,22 @@ impl TextureFormat {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn counterparts_differ_in_srgb_alone() {
+        use TextureFormat as F;
+        assert_eq!(F::Bgra8Unorm.with_srgb(true), F::Bgra8UnormSrgb);
+        assert_eq!(F::Bc7RgbaUnormSrgb.with_srgb(false), F::Bc7RgbaUnorm);
+        assert_eq!(F::R8Unorm.with_srgb(true), F::R8Unorm);
+        for &format in F::ALL.iter().filter(|format| format.is_srgb()) {
+            let plain = format.with_srgb(false);
+            assert!(
+                !plain.is_srgb() && plain.with_srgb(true) == format,
+                "{}",
+                format.name()
+            );
+        }
+    }
 
     #[test]
     fn names_are_distinct_and_sizes_fit_their_encodings() {

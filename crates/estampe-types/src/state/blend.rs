@@ -235,6 +235,13 @@ pub struct ColorTargetState {
     pub write_mask: ColorWrites,
 }
 
+/// A target that is no hole, so that a list of targets can be written as a list of formats.
+impl From<TextureFormat> for Option<ColorTargetState> {
+    fn from(format: TextureFormat) -> Self {
+        Some(format.into())
+    }
+}
+
 impl From<TextureFormat> for ColorTargetState {
     fn from(format: TextureFormat) -> Self {
         Self {

@@ -178,6 +178,17 @@ pub struct StencilState {
     pub back: StencilFaceState,
 }
 
+impl StencilState {
+    /// True if the test may change stencil values.
+    #[must_use]
+    pub fn writes(&self) -> bool {
+        [self.front, self.back].iter().any(|face| {
+            let operations = [face.fail_op, face.depth_fail_op, face.pass_op];
+            face.write_mask != 0 && operations != [StencilOperation::Keep; 3]
+        })
+    }
+}
+
 impl From<StencilFaceState> for StencilState {
     /// Creates a state with the same test for both faces.
     fn from(face: StencilFaceState) -> Self {

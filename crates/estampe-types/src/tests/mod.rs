@@ -243,12 +243,15 @@ fn bindings_read_zeros_where_nothing_is() {
             Binding::Buffer {
                 buffer: Buffer::from_f32s(&[1.0, 2.0, 3.0]),
                 offset: 4,
-                has_dynamic_offset: true,
+                dynamic_offset: Some(0),
             },
         )],
     };
     let bindings = Bindings {
-        groups: vec![(std::sync::Arc::new(group), 4)],
+        groups: vec![crate::BoundGroup {
+            group: std::sync::Arc::new(group),
+            dynamic_offsets: [4; crate::MAX_DYNAMIC_OFFSETS],
+        }],
     };
     assert_eq!(bindings.f32s::<1>(0, 3, 0), [3.0]);
     assert_eq!(bindings.f32s::<2>(0, 3, 0), [3.0, 0.0]);

@@ -42,6 +42,8 @@ pub enum TextureAspect {
     /// Colour, or depth if the format has it, else stencil.
     #[default]
     All,
+    /// Depths.
+    Depth,
     /// Stencil values.
     Stencil,
 }

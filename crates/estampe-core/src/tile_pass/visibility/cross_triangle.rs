@@ -127,9 +127,10 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
         let TileWork { level, plan, .. } = *self.work;
         statistics.fragments_shaded += queue.shade(level, plan.pipeline, plan.bindings);
         let texels = &mut visibility.cross.texels;
+        let target = &plan.pipeline.color_targets()[0];
         let writer = ColorWriter {
-            target: &plan.pipeline.color_targets()[0],
-            index: 0,
+            target,
+            index: target.output,
             constant: plan.blend_constant,
         };
         writer.encode_batch(level, &queue.batch(), texels);

@@ -40,23 +40,23 @@ fn buffers_are_bytes_in_little_endian_words() {
 #[test]
 fn bindings_are_found_by_group_and_number() {
     let buffer = |first: f32| Buffer::from_f32s(&[first, first + 1.0, first + 2.0]);
-    let bound = |number, first, offset, has_dynamic_offset| {
+    let bound = |number, first, offset, is_dynamic: bool| {
         let buffer = buffer(first);
         let binding = Binding::Buffer {
             buffer,
             offset,
-            has_dynamic_offset,
+            dynamic_offset: is_dynamic.then_some(0),
         };
         (number, binding)
     };
-    let group = |entries| Arc::new(BindGroup { entries });
+    let group = |entries, dynamic_offset| BoundGroup {
+        group: Arc::new(BindGroup { entries }),
+        dynamic_offsets: [dynamic_offset; MAX_DYNAMIC_OFFSETS],
+    };
     let bindings = Bindings {
         groups: vec![
-            (group(vec![bound(5, 10.0, 0, false)]), 8),
-            (
-                group(vec![bound(5, 20.0, 4, false), bound(0, 30.0, 0, true)]),
-                4,
-            ),
+            group(vec![bound(5, 10.0, 0, false)], 8),
+            group(vec![bound(5, 20.0, 4, false), bound(0, 30.0, 0, true)], 4),
         ],
     };
     assert_eq!(bindings.f32s(0, 5, 0), [10.0, 11.0, 12.0]);
@@ -68,10 +68,10 @@ fn bindings_are_found_by_group_and_number() {
     let matrix = Binding::Buffer {
         buffer: Buffer::from_f32s(&numbers),
         offset: 0,
-        has_dynamic_offset: false,
+        dynamic_offset: None,
     };
     let bindings = Bindings {
-        groups: vec![(group(vec![(0, matrix)]), 0)],
+        groups: vec![group(vec![(0, matrix)], 0)],
     };
     assert_eq!(bindings.mat4(0, 0, 0).0[1], [4.0, 5.0, 6.0, 7.0]);
 }

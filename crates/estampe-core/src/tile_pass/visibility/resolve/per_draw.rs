@@ -206,13 +206,13 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
 /// the cache: of many draws at once, where shading would wait for one after the other.
 #[inline(always)]
 fn first_uniform(bindings: &Bindings) -> u32 {
-    let Some((group, dynamic)) = bindings.groups.first() else {
+    let Some(bound) = bindings.groups.first() else {
         return 0;
     };
-    let Some((_, Binding::Buffer { buffer, offset, .. })) = group.entries.first() else {
+    let Some((_, Binding::Buffer { buffer, offset, .. })) = bound.group.entries.first() else {
         return 0;
     };
-    let at = (*offset as usize).saturating_add(*dynamic as usize);
+    let at = (*offset as usize).saturating_add(bound.dynamic_offsets[0] as usize);
     let second_line = at.saturating_add(64) / 4;
     buffer.words().get(second_line).copied().unwrap_or_default()
 }

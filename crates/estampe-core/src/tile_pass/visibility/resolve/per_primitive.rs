@@ -80,9 +80,12 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
         queue.shade(self.pass.level, self.plan.pipeline, self.plan.bindings);
         let packet = queue.batch().packets().next();
         let packet = packet.expect("a packet was queued");
-        let targets = self.plan.pipeline.color_targets().iter().enumerate();
-        let texels = targets.map(|(index, target)| {
-            let color = packet.color(index).each_ref().map(|channel| channel.0[0]);
+        let targets = self.plan.pipeline.color_targets().iter();
+        let texels = targets.map(|target| {
+            let color = packet
+                .color(target.output)
+                .each_ref()
+                .map(|channel| channel.0[0]);
             target.texel(color)
         });
         visibility.resolve.texels.set(visible, texels);

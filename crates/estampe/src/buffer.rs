@@ -1,0 +1,413 @@
+//! Buffers: memory for vertices, indices, uniforms, storage and indirect draws.
+
+use crate::Limits;
+use estampe_types::Buffer as BufferData;
+use std::ops::{Bound, Range, RangeBounds};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+bitflags::bitflags! {
+    /// The uses of a buffer: WebGPU's `GPUBufferUsage`.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    pub struct BufferUsages: u32 {
+        /// Read by the host: [`Buffer::read`], [`Buffer::map_read`].
+        const MAP_READ = 1;
+        /// Written by the host through [`Buffer::map_write`].
+        const MAP_WRITE = 1 << 1;
+        /// Source of copies.
+        const COPY_SRC = 1 << 2;
+        /// Destination of copies and of [`Buffer::write`].
+        const COPY_DST = 1 << 3;
+        /// Index buffer of draws.
+        const INDEX = 1 << 4;
+        /// Vertex buffer of draws.
+        const VERTEX = 1 << 5;
+        /// Uniform buffer of shaders.
+        const UNIFORM = 1 << 6;
+        /// Storage buffer of shaders.
+        const STORAGE = 1 << 7;
+        /// Parameters of indirect draws.
+        const INDIRECT = 1 << 8;
+    }
+}
+
+/// Describes a buffer: WebGPU's `GPUBufferDescriptor`.
+#[derive(Debug, Clone)]
+pub struct BufferDescriptor<'a> {
+    /// A name for error messages. Default none.
+    pub label: Option<&'a str>,
+    /// Bytes of the buffer.
+    pub size: u64,
+    /// The uses that are allowed. Default all.
+    pub usage: BufferUsages,
+}
+
+impl BufferDescriptor<'_> {
+    /// A buffer of this size for all uses.
+    #[must_use]
+    pub fn new(size: u64) -> Self {
+        Self {
+            label: None,
+            size,
+            usage: BufferUsages::all(),
+        }
+    }
+}
+
+/// The reason why a buffer was not created, written or read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BufferError {
+    /// The buffer exceeds a limit.
+    #[error("{buffer} of {size} bytes exceeds the limit max_buffer_size = {limit}")]
+    TooLarge {
+        /// The buffer.
+        buffer: String,
+        /// Its size in bytes.
+        size: u64,
+        /// The limit in bytes.
+        limit: u64,
+    },
+    /// The system has not enough memory.
+    #[error("no memory for {buffer} of {size} bytes")]
+    OutOfMemory {
+        /// The buffer.
+        buffer: String,
+        /// Its size in bytes.
+        size: u64,
+    },
+    /// A range that ends beyond the buffer.
+    #[error(
+        "bytes {}..{} of {buffer}, which has {size}: use a range inside the buffer",
+        range.start, range.end
+    )]
+    Range {
+        /// The buffer.
+        buffer: String,
+        /// The range in bytes.
+        range: Range<u64>,
+        /// The size of the buffer in bytes.
+        size: u64,
+    },
+    /// A use that the buffer was not created for.
+    #[error("{buffer} was created without BufferUsages::{}: add it to its usage", names(*needed))]
+    Usage {
+        /// The buffer.
+        buffer: String,
+        /// The use.
+        needed: BufferUsages,
+    },
+}
+
+fn names(usages: BufferUsages) -> String {
+    let names: Vec<&str> = usages.iter_names().map(|(name, _)| name).collect();
+    names.join(" | ")
+}
+
+/// Memory that the host writes and reads in part, and that draws, copies and shaders use. Clones
+/// are handles to the same memory.
+///
+/// A draw reads what the buffer holds when its pass begins: writes by other threads meanwhile go
+/// into a copy.
+#[derive(Clone)]
+pub struct Buffer {
+    inner: Arc<Inner>,
+}
+
+struct Inner {
+    label: Option<String>,
+    size: u64,
+    usage: BufferUsages,
+    data: Mutex<BufferData>,
+}
+
+impl Buffer {
+    pub(crate) fn new(
+        descriptor: &BufferDescriptor<'_>,
+        limits: &Limits,
+    ) -> Result<Self, BufferError> {
+        let size = check_size(descriptor.label, descriptor.size, limits)?;
+        let data = BufferData::zeros(size).ok_or_else(|| BufferError::OutOfMemory {
+            buffer: name_of(descriptor.label),
+            size: descriptor.size,
+        })?;
+        Ok(Self::of_data(descriptor.label, descriptor.usage, data))
+    }
+
+    pub(crate) fn with_contents(
+        label: Option<&str>,
+        usage: BufferUsages,
+        contents: &[u8],
+        limits: &Limits,
+    ) -> Result<Self, BufferError> {
+        check_size(label, contents.len() as u64, limits)?;
+        let data = BufferData::from_bytes(contents);
+        Ok(Self::of_data(label, usage, data))
+    }
+
+    pub(crate) fn of_words(words: Vec<u32>, limits: &Limits) -> Result<Self, BufferError> {
+        check_size(None, words.len() as u64 * 4, limits)?;
+        let data = BufferData::from_words(words);
+        Ok(Self::of_data(None, BufferUsages::all(), data))
+    }
+
+    fn of_data(label: Option<&str>, usage: BufferUsages, data: BufferData) -> Self {
+        Self {
+            inner: Arc::new(Inner {
+                label: label.map(str::to_owned),
+                size: data.len_bytes() as u64,
+                usage,
+                data: Mutex::new(data),
+            }),
+        }
+    }
+
+    /// The size in bytes.
+    #[must_use]
+    pub fn size(&self) -> u64 {
+        self.inner.size
+    }
+
+    /// The uses that the buffer was created for.
+    #[must_use]
+    pub fn usage(&self) -> BufferUsages {
+        self.inner.usage
+    }
+
+    /// The label, as messages name the buffer.
+    pub(crate) fn name(&self) -> String {
+        name_of(self.inner.label.as_deref())
+    }
+
+    /// A part of the buffer, in bytes; `..` is all of it. What is beyond the buffer's end is an
+    /// error where the slice is used.
+    #[must_use]
+    pub fn slice(&self, range: impl RangeBounds<u64>) -> BufferSlice {
+        let offset = match range.start_bound() {
+            Bound::Included(first) => *first,
+            Bound::Excluded(before) => before.saturating_add(1),
+            Bound::Unbounded => 0,
+        };
+        let end = match range.end_bound() {
+            Bound::Included(last) => last.saturating_add(1),
+            Bound::Excluded(end) => *end,
+            Bound::Unbounded => self.size(),
+        };
+        BufferSlice {
+            buffer: self.clone(),
+            offset,
+            size: end.saturating_sub(offset),
+        }
+    }
+
+    /// Writes bytes at an offset (WebGPU's `writeBuffer`).
+    ///
+    /// # Errors
+    /// [`BufferError`] if the bytes do not fit, or the buffer has no [`BufferUsages::COPY_DST`].
+    pub fn write(&self, offset: u64, bytes: &[u8]) -> Result<(), BufferError> {
+        self.require(BufferUsages::COPY_DST)?;
+        let range = self.range(offset, bytes.len() as u64)?;
+        write_bytes(self.lock().words_mut(), range.start, bytes);
+        Ok(())
+    }
+
+    /// Reads bytes from an offset on.
+    ///
+    /// # Errors
+    /// [`BufferError`] if the range ends beyond the buffer, or the buffer has no
+    /// [`BufferUsages::MAP_READ`].
+    pub fn read(&self, offset: u64, bytes: &mut [u8]) -> Result<(), BufferError> {
+        self.require(BufferUsages::MAP_READ)?;
+        let range = self.range(offset, bytes.len() as u64)?;
+        read_bytes(self.lock().words(), range.start, bytes);
+        Ok(())
+    }
+
+    /// Lets `use_bytes` see a range of the buffer, without a copy on little-endian machines. It
+    /// must not use this buffer otherwise, as it would wait for itself.
+    ///
+    /// # Errors
+    /// [`BufferError`] as for [`Buffer::read`].
+    pub fn map_read<T>(
+        &self,
+        range: Range<u64>,
+        use_bytes: impl FnOnce(&[u8]) -> T,
+    ) -> Result<T, BufferError> {
+        self.require(BufferUsages::MAP_READ)?;
+        let range = self.range(range.start, range.end.saturating_sub(range.start))?;
+        Ok(with_bytes(self.lock().words(), |bytes| {
+            use_bytes(&bytes[range])
+        }))
+    }
+
+    /// Lets `use_bytes` change a range of the buffer, without a copy on little-endian machines. The
+    /// bytes are those of the buffer before. It must not use this buffer otherwise, as it would
+    /// wait for itself.
+    ///
+    /// # Errors
+    /// [`BufferError`] if the range ends beyond the buffer, or the buffer has no
+    /// [`BufferUsages::MAP_WRITE`].
+    pub fn map_write<T>(
+        &self,
+        range: Range<u64>,
+        use_bytes: impl FnOnce(&mut [u8]) -> T,
+    ) -> Result<T, BufferError> {
+        self.require(BufferUsages::MAP_WRITE)?;
+        let range = self.range(range.start, range.end.saturating_sub(range.start))?;
+        Ok(with_bytes_mut(self.lock().words_mut(), |bytes| {
+            use_bytes(&mut bytes[range])
+        }))
+    }
+
+    /// The contents as they are now; later writes do not change them.
+    pub(crate) fn data(&self) -> BufferData {
+        self.lock().clone()
+    }
+
+    pub(crate) fn lock(&self) -> MutexGuard<'_, BufferData> {
+        // Plain data: after a panic elsewhere it is as good as before.
+        let data = &self.inner.data;
+        data.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Returns true if both are handles to the same memory.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.inner, &other.inner)
+    }
+
+    pub(crate) fn require(&self, needed: BufferUsages) -> Result<(), BufferError> {
+        if self.inner.usage.contains(needed) {
+            return Ok(());
+        }
+        Err(BufferError::Usage {
+            buffer: self.name(),
+            needed,
+        })
+    }
+
+    /// A range of bytes, if it lies in the buffer.
+    pub(crate) fn range(&self, offset: u64, len: u64) -> Result<Range<usize>, BufferError> {
+        let range = offset..offset.saturating_add(len);
+        let within = |at: u64| usize::try_from(at).ok().filter(|_| at <= self.size());
+        match (within(range.start), within(range.end)) {
+            (Some(start), Some(end)) => Ok(start..end),
+            _ => Err(BufferError::Range {
+                buffer: self.name(),
+                range,
+                size: self.size(),
+            }),
+        }
+    }
+}
+
+impl std::fmt::Debug for Buffer {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Buffer({}, {} bytes)", self.name(), self.size())
+    }
+}
+
+/// A part of a buffer, as draws and bind groups name it.
+#[derive(Debug, Clone)]
+pub struct BufferSlice {
+    /// The buffer.
+    pub buffer: Buffer,
+    /// The first byte, a multiple of 4.
+    pub offset: u64,
+    /// The number of bytes.
+    pub size: u64,
+}
+
+impl From<&Buffer> for BufferSlice {
+    /// The whole buffer.
+    fn from(buffer: &Buffer) -> Self {
+        Self {
+            buffer: buffer.clone(),
+            offset: 0,
+            size: buffer.size(),
+        }
+    }
+}
+
+/// A number, or an array of numbers, that buffers hold: see [`bytes_of`]. There is no `f64`, so
+/// that literals become `f32`.
+pub trait BufferNumber: bytemuck::NoUninit {}
+
+macro_rules! buffer_numbers {
+    ($($number:ty)*) => { $(impl BufferNumber for $number {})* };
+}
+
+buffer_numbers!(u8 i8 u16 i16 u32 i32 f32);
+
+impl<T: BufferNumber, const N: usize> BufferNumber for [T; N] where Self: bytemuck::NoUninit {}
+
+/// The bytes of numbers or of arrays of them, as buffers and textures hold them on little-endian
+/// machines.
+#[must_use]
+pub fn bytes_of<T: BufferNumber>(numbers: &[T]) -> &[u8] {
+    bytemuck::cast_slice(numbers)
+}
+
+fn name_of(label: Option<&str>) -> String {
+    label.map_or("a buffer".to_owned(), |label| {
+        format!("the buffer `{label}`")
+    })
+}
+
+fn check_size(label: Option<&str>, size: u64, limits: &Limits) -> Result<usize, BufferError> {
+    let limit = limits.max_buffer_size;
+    usize::try_from(size)
+        .ok()
+        .filter(|_| size <= limit)
+        .ok_or_else(|| BufferError::TooLarge {
+            buffer: name_of(label),
+            size,
+            limit,
+        })
+}
+
+/// Lets `use_bytes` see little-endian words as bytes, without a copy on little-endian machines.
+pub(crate) fn with_bytes<T>(words: &[u32], use_bytes: impl FnOnce(&[u8]) -> T) -> T {
+    if cfg!(target_endian = "little") {
+        return use_bytes(bytemuck::cast_slice(words));
+    }
+    let mut bytes = vec![0; words.len() * 4];
+    read_bytes(words, 0, &mut bytes);
+    use_bytes(&bytes)
+}
+
+/// Lets `use_bytes` change little-endian words as bytes, without a copy on little-endian machines.
+pub(crate) fn with_bytes_mut<T>(words: &mut [u32], use_bytes: impl FnOnce(&mut [u8]) -> T) -> T {
+    if cfg!(target_endian = "little") {
+        return use_bytes(bytemuck::cast_slice_mut(words));
+    }
+    let mut bytes = vec![0; words.len() * 4];
+    read_bytes(words, 0, &mut bytes);
+    let result = use_bytes(&mut bytes);
+    write_bytes(words, 0, &bytes);
+    result
+}
+
+/// Copies bytes into little-endian words.
+pub(crate) fn write_bytes(words: &mut [u32], offset: usize, bytes: &[u8]) {
+    if cfg!(target_endian = "little") {
+        let to: &mut [u8] = bytemuck::cast_slice_mut(words);
+        to[offset..][..bytes.len()].copy_from_slice(bytes);
+        return;
+    }
+    for (at, byte) in (offset..).zip(bytes) {
+        let mut word = words[at / 4].to_le_bytes();
+        word[at % 4] = *byte;
+        words[at / 4] = u32::from_le_bytes(word);
+    }
+}
+
+/// Copies bytes from little-endian words.
+pub(crate) fn read_bytes(words: &[u32], offset: usize, bytes: &mut [u8]) {
+    if cfg!(target_endian = "little") {
+        let from: &[u8] = bytemuck::cast_slice(words);
+        bytes.copy_from_slice(&from[offset..][..bytes.len()]);
+        return;
+    }
+    for (at, byte) in (offset..).zip(bytes) {
+        *byte = words[at / 4].to_le_bytes()[at % 4];
+    }
+}

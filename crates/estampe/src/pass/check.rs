@@ -1,0 +1,230 @@
+//! The checks of a pass's draws that need the objects: buffers, bind groups, uses of one image.
+
+use super::attachments::Attachments;
+use super::{Draw, PassErrorKind};
+use crate::bind_group::BindingResource;
+use crate::{BindGroup, BindingType, BufferError, BufferSlice, BufferUsages, Limits};
+use estampe_types::state::ColorTargetState;
+
+/// Checks a draw.
+pub(super) fn check_draw(
+    number: usize,
+    draw: &Draw<'_>,
+    attachments: &Attachments<'_>,
+    limits: &Limits,
+) -> Result<(), PassErrorKind> {
+    check_formats(number, draw, attachments)?;
+    check_read_only(number, draw, attachments.read_only())?;
+    check_buffers(number, draw)?;
+    check_groups(number, draw, limits)
+}
+
+/// Checks that the vertices of all draws together keep the limit.
+pub(super) fn check_vertices(draws: &[Draw<'_>], limits: &Limits) -> Result<(), PassErrorKind> {
+    let limit = limits.max_pass_vertices;
+    let mut vertices = 0_u64;
+    for (number, draw) in draws.iter().enumerate() {
+        let len = |range: &std::ops::Range<u32>| range.end.saturating_sub(range.start);
+        let elements = u64::from(len(&draw.elements)) * u64::from(len(&draw.instances));
+        vertices = vertices.saturating_add(elements);
+        if vertices > limit {
+            return Err(PassErrorKind::TooManyVertices {
+                draw: number,
+                vertices,
+                limit,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_formats(
+    number: usize,
+    draw: &Draw<'_>,
+    attachments: &Attachments<'_>,
+) -> Result<(), PassErrorKind> {
+    let targets = &draw.pipeline.descriptor().targets;
+    let format = |target: &Option<ColorTargetState>| target.map(|target| target.format);
+    let is_same = attachments.formats.len() <= targets.len()
+        && targets.iter().enumerate().all(|(index, target)| {
+            format(target) == attachments.formats.get(index).copied().flatten()
+        });
+    if is_same {
+        return Ok(());
+    }
+    Err(PassErrorKind::ColorFormats {
+        draw: number,
+        pipeline: targets.iter().map(format).collect(),
+        attachments: attachments.formats.clone(),
+    })
+}
+
+fn check_read_only(
+    draw_number: usize,
+    draw: &Draw<'_>,
+    [depth, stencil]: [bool; 2],
+) -> Result<(), PassErrorKind> {
+    let descriptor = draw.pipeline.descriptor();
+    let writes_depth = descriptor.depth.is_some_and(|state| state.write_enabled);
+    let aspect = if depth && writes_depth {
+        "depth"
+    } else if stencil && descriptor.stencil.is_some_and(|state| state.writes()) {
+        "stencil"
+    } else {
+        return Ok(());
+    };
+    Err(PassErrorKind::ReadOnly {
+        draw: draw_number,
+        aspect,
+    })
+}
+
+fn check_buffers(number: usize, draw: &Draw<'_>) -> Result<(), PassErrorKind> {
+    let expected = draw.pipeline.descriptor().vertex_buffers.len();
+    let given = draw.vertex_buffers.len();
+    if given != expected {
+        return Err(PassErrorKind::VertexBuffers {
+            draw: number,
+            given,
+            expected,
+        });
+    }
+    for (index, slice) in draw.vertex_buffers.iter().enumerate() {
+        let name = || format!("vertex buffer {index}");
+        check_slice(number, slice, BufferUsages::VERTEX, name)?;
+    }
+    match draw.index_buffer {
+        Some((slice, _)) => check_slice(number, slice, BufferUsages::INDEX, || {
+            "the index buffer".to_owned()
+        }),
+        None => Ok(()),
+    }
+}
+
+fn check_slice(
+    draw: usize,
+    slice: &BufferSlice,
+    usage: BufferUsages,
+    name: impl Fn() -> String,
+) -> Result<(), PassErrorKind> {
+    let of_buffer = |error: BufferError| PassErrorKind::Buffer {
+        draw,
+        buffer: name(),
+        error,
+    };
+    slice.buffer.require(usage).map_err(of_buffer)?;
+    let range = slice.buffer.range(slice.offset, slice.size);
+    range.map_err(of_buffer)?;
+    if !slice.offset.is_multiple_of(4) {
+        return Err(PassErrorKind::Offset {
+            draw,
+            buffer: name(),
+            offset: slice.offset,
+            alignment: 4,
+        });
+    }
+    Ok(())
+}
+
+fn check_groups(number: usize, draw: &Draw<'_>, limits: &Limits) -> Result<(), PassErrorKind> {
+    let layouts = &draw.pipeline.descriptor().bind_group_layouts;
+    let bad = |group: usize, rule: String| {
+        Err(PassErrorKind::BindGroup {
+            draw: number,
+            group,
+            rule,
+        })
+    };
+    let most = limits.max_bind_groups as usize;
+    if draw.bind_groups.len() > most {
+        return bad(most, format!("the limit max_bind_groups is {most}"));
+    }
+    for (index, layout) in layouts.iter().enumerate() {
+        let Some(bound) = draw.bind_groups.get(index) else {
+            let rule = "the pipeline needs it, and the draw binds none".to_owned();
+            return bad(index, rule);
+        };
+        if bound.group.layout() != layout {
+            let rule = format!(
+                "{} has the layout {:?}, and the pipeline needs {layout:?}",
+                bound.group.name(),
+                bound.group.layout()
+            );
+            return bad(index, rule);
+        }
+    }
+    for (index, bound) in draw.bind_groups.iter().enumerate() {
+        let (expected, given) = (
+            bound.group.layout().dynamic_offset_count(),
+            bound.dynamic_offsets.len(),
+        );
+        if given != expected {
+            let name = bound.group.name();
+            let rule = format!("{given} dynamic offsets, and {name} has {expected}");
+            return bad(index, rule);
+        }
+        if given > 0
+            && let Err(rule) = check_dynamic_offsets(bound.group, bound.dynamic_offsets, limits)
+        {
+            return bad(index, rule);
+        }
+    }
+    Ok(())
+}
+
+fn check_dynamic_offsets(
+    group: &BindGroup,
+    offsets: &[u32],
+    limits: &Limits,
+) -> Result<(), String> {
+    let alignment = limits.min_buffer_offset_alignment.max(4);
+    for (binding, resource) in group.entries() {
+        let index = group.layout().dynamic_offset_index(*binding);
+        let (Some(index), BindingResource::Buffer(slice)) = (index, resource) else {
+            continue;
+        };
+        let offset = offsets.get(index).copied().unwrap_or_default();
+        if !offset.is_multiple_of(alignment) {
+            return Err(format!(
+                "the dynamic offset {offset} of binding {binding} is not a multiple of {alignment}"
+            ));
+        }
+        let end = slice.offset + slice.size + u64::from(offset);
+        if end > slice.buffer.size() {
+            return Err(format!(
+                "binding {binding} with the dynamic offset {offset} ends at byte {end} of {}, which has {}",
+                slice.buffer.name(),
+                slice.buffer.size()
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Checks that a bind group does not read or store to an image that the pass writes.
+pub(super) fn check_uses(
+    group: &BindGroup,
+    attachments: &Attachments<'_>,
+) -> Result<(), PassErrorKind> {
+    for (binding, resource) in group.entries() {
+        let view = match resource {
+            BindingResource::Texture(view) | BindingResource::SampledTexture(view, _) => view,
+            BindingResource::Buffer(_) | BindingResource::Sampler(_) => continue,
+        };
+        let entry = group.layout().entry(*binding);
+        let stores =
+            entry.is_some_and(|entry| matches!(entry.ty, BindingType::StorageTexture { .. }));
+        let overlaps = |image: &&super::attachments::Use<'_>| {
+            (image.is_written || stores)
+                && image.view.texture().is_same(view.texture())
+                && view.contains(image.key)
+        };
+        if let Some(image) = attachments.uses().find(overlaps) {
+            return Err(PassErrorKind::UsedTwice {
+                first: image.role.to_string(),
+                second: format!("binding {binding} of {}", group.name()),
+            });
+        }
+    }
+    Ok(())
+}

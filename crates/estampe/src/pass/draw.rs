@@ -1,0 +1,142 @@
+//! Draws: a pipeline, the data that it reads, and how much of it.
+
+use crate::{
+    BindGroup, Buffer, BufferError, BufferSlice, BufferUsages, IndexFormat, RenderPipeline,
+};
+use estampe_types::state::{ScissorRect, Viewport};
+use std::ops::Range;
+
+/// A bind group of a draw.
+#[derive(Debug, Clone, Copy)]
+pub struct DrawBindGroup<'a> {
+    /// The group.
+    pub group: &'a BindGroup,
+    /// The dynamic offsets in bytes, in the order of binding numbers: as many as the layout has,
+    /// each a multiple of 4. Default none.
+    pub dynamic_offsets: &'a [u32],
+}
+
+impl<'a> From<&'a BindGroup> for DrawBindGroup<'a> {
+    /// A group without dynamic offsets.
+    fn from(group: &'a BindGroup) -> Self {
+        Self {
+            group,
+            dynamic_offsets: &[],
+        }
+    }
+}
+
+/// One draw: a pipeline, the data that it reads, and how much of it.
+#[derive(Debug, Clone)]
+pub struct Draw<'a> {
+    /// The validated state.
+    pub pipeline: &'a RenderPipeline,
+    /// The vertex buffers, one for each of the pipeline's layouts. Vertices beyond a buffer's end
+    /// read zeros. Default none.
+    pub vertex_buffers: &'a [BufferSlice],
+    /// The index buffer and the width of its indices, if vertices are to be found by index. Indices
+    /// beyond the buffer's end read zero. Default none.
+    pub index_buffer: Option<(&'a BufferSlice, IndexFormat)>,
+    /// The range of indices to draw, or of vertices if there is no index buffer.
+    pub elements: Range<u32>,
+    /// The range of instances to draw. Default one.
+    pub instances: Range<u32>,
+    /// Added to every index. Default 0.
+    pub base_vertex: i32,
+    /// The bind groups, by group number. Default none.
+    pub bind_groups: &'a [DrawBindGroup<'a>],
+    /// The rectangle that NDC is mapped to, and the range of depths. Default the whole attachment,
+    /// depth 0..1.
+    pub viewport: Option<Viewport>,
+    /// The rectangle of pixels that may change. Default all.
+    pub scissor: Option<ScissorRect>,
+    /// The constant of blending. Default zeros.
+    pub blend_constant: [f32; 4],
+    /// The stencil references of front-facing and back-facing primitives. Default zeros.
+    pub stencil_reference: [u8; 2],
+    /// The range, both ends included, in which the *stored* depth must lie for a sample to be drawn
+    /// (Vulkan's depth-bounds test). Default none.
+    pub depth_bounds: Option<[f32; 2]>,
+    /// The index of the pass's counter to which the samples that pass all tests are added. Default
+    /// none.
+    pub occlusion_query: Option<u32>,
+}
+
+impl<'a> Draw<'a> {
+    /// A draw of one instance without buffers, over the whole attachment.
+    #[must_use]
+    pub fn new(pipeline: &'a RenderPipeline, elements: Range<u32>) -> Self {
+        Self {
+            pipeline,
+            vertex_buffers: &[],
+            index_buffer: None,
+            elements,
+            instances: 0..1,
+            base_vertex: 0,
+            bind_groups: &[],
+            viewport: None,
+            scissor: None,
+            blend_constant: [0.0; 4],
+            stencil_reference: [0; 2],
+            depth_bounds: None,
+            occlusion_query: None,
+        }
+    }
+
+    /// The most vertices of an indirect draw, counted over all instances: 2²⁷.
+    pub const INDIRECT_LIMIT: u64 = estampe_core::Draw::INDIRECT_LIMIT as u64;
+
+    /// A draw whose ranges are read from a buffer now, at an offset in bytes, as four 32-bit
+    /// numbers (WebGPU's `drawIndirect`): the number of vertices, the number of instances, the
+    /// first vertex, the first instance.
+    ///
+    /// Vertices beyond [`Draw::INDIRECT_LIMIT`], counted over all instances, are not drawn, so that
+    /// no buffer keeps a program busy for hours.
+    ///
+    /// # Errors
+    /// [`BufferError`] if the numbers are not in the buffer, or it has no
+    /// [`BufferUsages::INDIRECT`].
+    pub fn indirect(
+        pipeline: &'a RenderPipeline,
+        parameters: &Buffer,
+        offset: u64,
+    ) -> Result<Self, BufferError> {
+        let [count, instances, first, first_instance] = words(parameters, offset)?;
+        let draw =
+            estampe_core::Draw::limited(pipeline, [first, count], [first_instance, instances]);
+        Ok(Self {
+            instances: draw.instances,
+            ..Self::new(pipeline, draw.elements)
+        })
+    }
+
+    /// A draw like [`Draw::indirect`] with an index buffer. The buffer holds five numbers (WebGPU's
+    /// `drawIndexedIndirect`): the number of indices, the number of instances, the first index, the
+    /// base vertex, the first instance.
+    ///
+    /// # Errors
+    /// [`BufferError`] as for [`Draw::indirect`].
+    pub fn indexed_indirect(
+        pipeline: &'a RenderPipeline,
+        index_buffer: (&'a BufferSlice, IndexFormat),
+        parameters: &Buffer,
+        offset: u64,
+    ) -> Result<Self, BufferError> {
+        let [count, instances, first, base, first_instance] = words(parameters, offset)?;
+        let draw =
+            estampe_core::Draw::limited(pipeline, [first, count], [first_instance, instances]);
+        Ok(Self {
+            index_buffer: Some(index_buffer),
+            base_vertex: base.cast_signed(),
+            instances: draw.instances,
+            ..Self::new(pipeline, draw.elements)
+        })
+    }
+}
+
+fn words<const N: usize>(buffer: &Buffer, offset: u64) -> Result<[u32; N], BufferError> {
+    buffer.require(BufferUsages::INDIRECT)?;
+    let range = buffer.range(offset, 4 * N as u64)?;
+    let data = buffer.lock();
+    Ok(std::array::from_fn(|k| data.word_at(range.start + 4 * k)))
+}

@@ -1,0 +1,192 @@
+//! The images of a pass: taken out of their textures before it, resolved and put back after it.
+
+use super::attachments::{Attachments, Use, load_of};
+use super::{AspectOperations, DepthStencilAttachment, PassErrorKind, StoreOp};
+use crate::Context;
+use crate::texture::{Image, Newest};
+use estampe_core::{DepthStencilTexels, LoadOp, RenderTarget};
+
+/// The images of a pass, and where the newest texels of each are.
+#[derive(Debug)]
+pub(super) struct Taken {
+    colors: Vec<(Image, Newest)>,
+    depth_stencil: Option<(Image, Newest)>,
+}
+
+impl Attachments<'_> {
+    /// Takes the images out of their textures; none if memory is short for one of them.
+    pub(super) fn take(&self, context: &Context) -> Result<Taken, PassErrorKind> {
+        let mut taken = Taken {
+            colors: Vec::with_capacity(self.colors.len()),
+            depth_stencil: None,
+        };
+        for color in &self.colors {
+            let keeps = color.attachment.load == LoadOp::Load;
+            match take(context, &color.image, keeps) {
+                Ok(image) => taken.colors.push(image),
+                Err(error) => return Err(self.put_back(taken, error)),
+            }
+        }
+        if let Some((image, attachment)) = &self.depth_stencil {
+            let format = image.view.format();
+            let keeps_depth = load_of(attachment.depth) == LoadOp::Load;
+            let keeps_stencil = load_of(attachment.stencil) == LoadOp::Load;
+            let keeps = format.has_depth() && keeps_depth || format.has_stencil() && keeps_stencil;
+            match take(context, image, keeps) {
+                Ok(image) => taken.depth_stencil = Some(image),
+                Err(error) => return Err(self.put_back(taken, error)),
+            }
+        }
+        Ok(taken)
+    }
+
+    fn put_back(&self, taken: Taken, error: PassErrorKind) -> PassErrorKind {
+        for (color, image) in self.colors.iter().zip(taken.colors) {
+            let mut contents = color.image.view.texture().lock();
+            contents.put_unchanged(color.image.key, image);
+        }
+        if let (Some((image, _)), Some(texels)) = (&self.depth_stencil, taken.depth_stencil) {
+            let mut contents = image.view.texture().lock();
+            contents.put_unchanged(image.key, texels);
+        }
+        error
+    }
+
+    /// The images as the core draws into them, and where the newest texels of depth and stencil
+    /// are.
+    pub(super) fn target(&self, taken: Taken) -> (RenderTarget, Option<Newest>) {
+        let colors = self.colors.iter().zip(taken.colors);
+        let colors = colors.map(|(color, (image, _))| match image {
+            Image::Color(image) => image.with_format(color.image.view.format()),
+            Image::DepthStencil(_) => unreachable!("a colour format"),
+        });
+        let (depth_stencil, newest) = match taken.depth_stencil {
+            Some((Image::DepthStencil(image), newest)) => (Some(image), Some(newest)),
+            Some((Image::Color(_), _)) => unreachable!("a depth format"),
+            None => (None, None),
+        };
+        let target = RenderTarget::of_images(self.size, colors.collect(), depth_stencil);
+        (target, newest)
+    }
+
+    /// Resolves the images, and puts them back into their textures.
+    pub(super) fn finish(
+        &self,
+        context: &Context,
+        target: RenderTarget,
+        depth_newest: Option<Newest>,
+    ) -> Result<(), PassErrorKind> {
+        let (colors, depth_stencil) = target.into_images();
+        let mut result = Ok(());
+        for (color, image) in self.colors.iter().zip(colors) {
+            if let Some(resolve) = &color.resolve {
+                match take(context, resolve, false) {
+                    Ok((Image::Color(into), _)) => {
+                        let mut into = into.with_format(image.format());
+                        context.resolve_color(&image, &mut into);
+                        let format = resolve.view.texture().format();
+                        let into = Image::Color(into.with_format(format));
+                        resolve.view.texture().lock().put(resolve.key, into);
+                    }
+                    Ok((Image::DepthStencil(_), _)) => unreachable!("a colour format"),
+                    Err(error) => result = Err(error),
+                }
+            }
+            let format = color.image.view.texture().format();
+            let image = Image::Color(image.with_format(format));
+            let mut contents = color.image.view.texture().lock();
+            match color.attachment.store {
+                StoreOp::Store => contents.put(color.image.key, image),
+                StoreOp::Discard => contents.discard(color.image.key, image),
+            }
+        }
+        if let (Some((image, attachment)), Some(texels)) = (&self.depth_stencil, depth_stencil) {
+            if let (Some(resolve), Some(into)) = (&attachment.resolve, self.resolves.last()) {
+                let format = image.view.format();
+                let modes = [
+                    resolve.depth.filter(|_| format.has_depth()),
+                    resolve.stencil.filter(|_| format.has_stencil()),
+                ];
+                match take(context, into, true) {
+                    Ok((Image::DepthStencil(mut resolved), _)) => {
+                        context.resolve_depth_stencil(&texels, &mut resolved, modes);
+                        let resolved = Image::DepthStencil(resolved);
+                        into.view.texture().lock().put(into.key, resolved);
+                    }
+                    Ok((Image::Color(_), _)) => unreachable!("a depth format"),
+                    Err(error) => result = Err(error),
+                }
+            }
+            self.put_depth_stencil(context, (image, attachment), texels, depth_newest);
+        }
+        result
+    }
+
+    fn put_depth_stencil(
+        &self,
+        context: &Context,
+        (image, attachment): (&Use<'_>, &DepthStencilAttachment),
+        texels: DepthStencilTexels,
+        newest: Option<Newest>,
+    ) {
+        let format = image.view.format();
+        let texture = image.view.texture();
+        let discards_depth = format.has_depth() && is_discarded(&attachment.depth);
+        let discards_stencil = format.has_stencil() && is_discarded(&attachment.stencil);
+        let keeps_depth = format.has_depth() && !discards_depth;
+        let keeps_stencil = format.has_stencil() && !discards_stencil;
+        if let Some(newest) = newest.filter(|_| !image.is_written) {
+            let texels = Image::DepthStencil(texels);
+            texture.lock().put_unchanged(image.key, (texels, newest));
+        } else if !keeps_depth && !keeps_stencil {
+            let texels = Image::DepthStencil(texels);
+            texture.lock().discard(image.key, texels);
+        } else {
+            let mut texels = Some(texels);
+            if discards_depth || discards_stencil {
+                // One aspect alone becomes zeros.
+                let mut target = RenderTarget::of_images(self.size, Vec::new(), texels);
+                let cleared = context.render(
+                    &mut target,
+                    &estampe_core::RenderPass {
+                        load_depth: if discards_depth {
+                            LoadOp::Clear(0.0)
+                        } else {
+                            LoadOp::Load
+                        },
+                        load_stencil: if discards_stencil {
+                            LoadOp::Clear(0)
+                        } else {
+                            LoadOp::Load
+                        },
+                        ..estampe_core::RenderPass::default()
+                    },
+                );
+                cleared.expect("a pass without draws fits");
+                texels = target.into_images().1;
+            }
+            if let Some(texels) = texels {
+                texture.lock().put(image.key, Image::DepthStencil(texels));
+            }
+        }
+    }
+}
+
+fn is_discarded<T>(operations: &AspectOperations<T>) -> bool {
+    matches!(
+        operations,
+        AspectOperations::Write {
+            store: StoreOp::Discard,
+            ..
+        }
+    )
+}
+
+fn take(context: &Context, image: &Use<'_>, keeps: bool) -> Result<(Image, Newest), PassErrorKind> {
+    let texture = image.view.texture();
+    let taken = texture.lock().take(texture, context, image.key, keeps);
+    taken.map_err(|error| PassErrorKind::Texture {
+        attachment: image.role.to_string(),
+        error,
+    })
+}

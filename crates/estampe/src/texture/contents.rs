@@ -1,0 +1,226 @@
+//! The texels of a texture: rows, tiles of the images that were rendered to, and which are newest.
+
+use super::{Texture, TextureError};
+use estampe_core::{ColorTexels, Context, DepthStencilTexels, row_order_words};
+use estampe_texture::MipGeneration;
+use estampe_types::{DepthTexture, Limits, Texture as TexelData, TextureFormat};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// One image of a texture: a mip level of a layer, or of a slice of a 3D texture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct ImageKey {
+    pub(crate) level: u32,
+    pub(crate) layer: u32,
+}
+
+/// An image in tiles.
+#[derive(Debug)]
+pub(crate) enum Image {
+    Color(ColorTexels),
+    DepthStencil(DepthStencilTexels),
+}
+
+/// Where the newest texels of an image are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Newest {
+    Tiles,
+    Rows,
+    Both,
+    /// Nowhere: a pass has discarded the image, which reads as zeros.
+    Discarded,
+}
+
+/// The texels of a texture; zeros where neither rows nor tiles have been needed yet.
+#[derive(Debug, Default)]
+pub(crate) struct Contents {
+    /// All levels and layers in the order in which shaders sample them.
+    rows: Option<Arc<TexelData>>,
+    /// Images in the order in which passes render to them.
+    images: BTreeMap<ImageKey, (Image, Newest)>,
+    /// The blocks of compressed images as they were written.
+    pub(super) blocks: BTreeMap<ImageKey, Vec<u8>>,
+    /// True if the host wrote rows since their opacity was found out.
+    is_written: bool,
+}
+
+impl Contents {
+    /// The texels of all levels and layers, as they are now.
+    pub(crate) fn rows(
+        &mut self,
+        texture: &Texture,
+        context: &Context,
+    ) -> Result<Arc<TexelData>, TextureError> {
+        self.update_rows(texture, context)?;
+        let rows = self.rows.as_mut().expect("the rows were made");
+        if std::mem::take(&mut self.is_written) {
+            let is_opaque = rows.stored_format() == TextureFormat::Rgba8Unorm
+                && rows.texels.iter().all(|texel| texel >> 24 == 255);
+            if is_opaque != rows.is_opaque {
+                Arc::make_mut(rows).is_opaque = is_opaque;
+            }
+        }
+        Ok(Arc::clone(rows))
+    }
+
+    /// Replaces all texels.
+    pub(super) fn set_rows(&mut self, data: TexelData) {
+        self.rows = Some(Arc::new(data));
+        self.images.clear();
+        self.is_written = false;
+    }
+
+    /// Lets `write` change the rows of some images; the tiles of these are out of date afterwards.
+    pub(crate) fn write_rows<T>(
+        &mut self,
+        texture: &Texture,
+        context: &Context,
+        images: impl Iterator<Item = ImageKey>,
+        write: impl FnOnce(&TexelData, &mut [u32]) -> T,
+    ) -> Result<T, TextureError> {
+        self.update_rows(texture, context)?;
+        for key in images {
+            if let Some((_, newest)) = self.images.get_mut(&key) {
+                *newest = Newest::Rows;
+            }
+        }
+        self.is_written = true;
+        let data = Arc::make_mut(self.rows.as_mut().expect("the rows were made"));
+        let mut texels = std::mem::take(&mut data.texels);
+        let result = write(data, Arc::make_mut(&mut texels));
+        data.texels = texels;
+        Ok(result)
+    }
+
+    /// Makes the rows, and brings them up to date with the tiles.
+    fn update_rows(&mut self, texture: &Texture, context: &Context) -> Result<(), TextureError> {
+        if self.rows.is_none() {
+            let limits = Limits::default();
+            let data = texture
+                .descriptor()
+                .create(&[], MipGeneration::None, &limits)?;
+            self.rows = Some(Arc::new(data));
+        }
+        let images = self.images.iter_mut();
+        let mut newer = images
+            .filter(|(_, (_, newest))| matches!(newest, Newest::Tiles | Newest::Discarded))
+            .peekable();
+        if newer.peek().is_none() {
+            return Ok(());
+        }
+        let data = Arc::make_mut(self.rows.as_mut().expect("just made"));
+        data.is_opaque = false;
+        let mut texels = std::mem::take(&mut data.texels);
+        let words = Arc::make_mut(&mut texels);
+        for (key, (image, newest)) in newer {
+            let rows = &mut words[words_of(data, *key)];
+            if *newest == Newest::Discarded {
+                rows.fill(0);
+                *newest = Newest::Rows;
+                continue;
+            }
+            match image {
+                Image::Color(image) => context.color_to_rows(image, rows),
+                Image::DepthStencil(image) => context.depth_stencil_to_rows(image, rows),
+            }
+            *newest = Newest::Both;
+        }
+        data.texels = texels;
+        Ok(())
+    }
+
+    /// Takes an image out in tiles, for a pass that renders to it, and says where its newest texels
+    /// are. Without `keeps`, the tiles may hold anything.
+    pub(crate) fn take(
+        &mut self,
+        texture: &Texture,
+        context: &Context,
+        key: ImageKey,
+        keeps: bool,
+    ) -> Result<(Image, Newest), TextureError> {
+        let (mut image, mut newest) = match self.images.remove(&key) {
+            Some((_, Newest::Discarded)) if keeps => {
+                if self.rows.is_some() {
+                    self.images
+                        .insert(key, (zeros(texture, key)?, Newest::Discarded));
+                    self.update_rows(texture, context)?;
+                    self.images.remove(&key);
+                }
+                (zeros(texture, key)?, Newest::Rows)
+            }
+            Some(stored) => stored,
+            None => (zeros(texture, key)?, Newest::Rows),
+        };
+        if keeps && newest == Newest::Rows {
+            newest = Newest::Tiles;
+            if let Some(data) = &self.rows {
+                newest = Newest::Both;
+                let rows = &data.texels[words_of(data, key)];
+                match &mut image {
+                    Image::Color(image) => context.rows_to_color(rows, image),
+                    Image::DepthStencil(image) => context.rows_to_depth_stencil(rows, image),
+                }
+            }
+        }
+        Ok((image, newest))
+    }
+
+    /// Puts an image back that a pass has changed.
+    pub(crate) fn put(&mut self, key: ImageKey, image: Image) {
+        self.images.insert(key, (image, Newest::Tiles));
+    }
+
+    /// Puts an image back that is as it was taken.
+    pub(crate) fn put_unchanged(&mut self, key: ImageKey, (image, newest): (Image, Newest)) {
+        self.images.insert(key, (image, newest));
+    }
+
+    /// Puts an image back whose texels are not kept: they read as zeros.
+    pub(crate) fn discard(&mut self, key: ImageKey, image: Image) {
+        self.images.insert(key, (image, Newest::Discarded));
+    }
+
+    /// The image in tiles if these are up to date, so that it can be read without a conversion.
+    pub(crate) fn tiles(&self, key: ImageKey) -> Option<&Image> {
+        let (image, newest) = self.images.get(&key)?;
+        matches!(newest, Newest::Tiles | Newest::Both).then_some(image)
+    }
+
+    /// The depths of an image of one sample for comparisons, in the attachment's own memory.
+    pub(crate) fn shadow_map(
+        &mut self,
+        texture: &Texture,
+        context: &Context,
+        key: ImageKey,
+    ) -> Result<Option<DepthTexture>, TextureError> {
+        let (mut image, newest) = self.take(texture, context, key, true)?;
+        let map = match &mut image {
+            Image::DepthStencil(depth) => context.depth_texture_of(depth),
+            Image::Color(_) => None,
+        };
+        self.put_unchanged(key, (image, newest));
+        Ok(map)
+    }
+}
+
+fn zeros(texture: &Texture, key: ImageKey) -> Result<Image, TextureError> {
+    let (format, size) = (texture.format(), texture.image_size(key.level));
+    let image = if format.is_color() {
+        ColorTexels::zeros(format, size).map(Image::Color)
+    } else {
+        DepthStencilTexels::zeros(format, size).map(Image::DepthStencil)
+    };
+    image.ok_or(TextureError::OutOfMemory {
+        bytes: row_order_words(format, size) as u64 * 4,
+    })
+}
+
+/// The words of an image among those of all levels and layers.
+pub(super) fn words_of(data: &TexelData, key: ImageKey) -> Range<usize> {
+    let level = data.levels[key.level as usize];
+    let texels = level.width as usize * level.height as usize * data.shape.samples as usize;
+    let first = level.offset as usize + key.layer as usize * texels;
+    let words = data.words_per_texel();
+    first * words..(first + texels) * words
+}
