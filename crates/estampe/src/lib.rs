@@ -10,6 +10,15 @@
 //! rounding and the order of every operation are in
 //! `docs/NUMERICS.md`.
 //!
+//! # Features
+//!
+//! None is on by default.
+//!
+//! | feature | adds |
+//! |---|---|
+//! | `png` | `Device::encode_png` and `Device::write_png`: textures as PNG files |
+//! | `scalar-level` | the scalar SIMD level, for tests |
+//!
 //! # Debug builds
 //!
 //! Cargo does not optimise debug builds, and lane code without optimisation is 70 to 250 times
@@ -35,6 +44,8 @@ mod buffer;
 mod copy;
 mod device;
 mod pass;
+#[cfg(feature = "png")]
+mod png_file;
 mod texture;
 
 /// The README's snippet, compiled and run as a test.
@@ -85,6 +96,8 @@ pub use pass::{
     AspectOperations, ColorAttachment, DepthStencilAttachment, DepthStencilResolve, Draw,
     DrawBindGroup, PassErrorKind, PassExtent, RenderPass, RenderPassError, StoreOp,
 };
+#[cfg(feature = "png")]
+pub use png_file::PngError;
 pub use texture::{
     Extent3d, Sampler, TexelCopyLayout, Texture, TextureCopy, TextureDescriptor, TextureError,
     TextureUsages, TextureView, TextureViewDescriptor,

@@ -97,8 +97,11 @@ const OUTSIDE: &[(&str, Users)] = &[
     // Blocks of compressed textures, decoded when a texture is made.
     ("bcdec_rs", Users::Only(&["estampe-texture"])),
     ("earcut", Users::Only(&["estampe-shapes"])),
-    // File formats: all other crates see decoded images.
-    ("png", Users::Only(&["estampe-assets", "estampe-bench"])),
+    // File formats: all other crates see decoded images. `estampe` writes PNG as an option.
+    (
+        "png",
+        Users::Only(&["estampe", "estampe-assets", "estampe-bench"]),
+    ),
     ("zune-jpeg", Users::Only(&["estampe-assets"])),
     ("jpeg-encoder", Users::Only(&["estampe-assets"])),
     // CPU time of the process.
