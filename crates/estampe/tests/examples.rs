@@ -1,0 +1,74 @@
+//! Every example draws its picture in `docs/images/examples`, byte for byte, at the narrowest and the
+//! widest SIMD level, on one thread and on two.
+//!
+//! `UPDATE_PICTURES=1 cargo test -p estampe --test examples` writes the pictures anew: look at each
+//! that changed.
+
+#![allow(dead_code, reason = "the examples' `main` is not called")]
+
+#[path = "../examples/deferred.rs"]
+mod deferred;
+#[path = "../examples/picking.rs"]
+mod picking;
+#[path = "../examples/shadow_map.rs"]
+mod shadow_map;
+#[path = "../examples/textured_cube.rs"]
+mod textured_cube;
+#[path = "../examples/triangle.rs"]
+mod triangle;
+
+use estampe::{Device, DeviceDescriptor, Level, Texture};
+use std::error::Error;
+use std::path::Path;
+
+#[test]
+fn deferred_draws_its_picture() {
+    check("deferred", deferred::picture);
+}
+
+#[test]
+fn picking_draws_its_picture() {
+    check("picking", picking::picture);
+}
+
+#[test]
+fn shadow_map_draws_its_picture() {
+    check("shadow_map", shadow_map::picture);
+}
+
+#[test]
+fn textured_cube_draws_its_picture() {
+    check("textured_cube", textured_cube::picture);
+}
+
+#[test]
+fn triangle_draws_its_picture() {
+    check("triangle", triangle::picture);
+}
+
+fn check(name: &str, picture: fn(&Device) -> Result<Texture, Box<dyn Error>>) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/images/examples");
+    let path = folder.join(format!("{name}.png"));
+    let levels = Level::all_available();
+    let narrowest = *levels.first().expect("there is a level");
+    for (level, threads) in [(Level::best(), 2), (narrowest, 1)] {
+        let device = Device::new(&DeviceDescriptor {
+            threads,
+            level,
+            ..DeviceDescriptor::default()
+        });
+        let device = device.expect("the system starts two threads");
+        let picture = picture(&device).expect("the example runs");
+        let drawn = device.encode_png(&picture).expect("it can be encoded");
+        if std::env::var_os("UPDATE_PICTURES").is_some() && threads == 2 {
+            std::fs::write(&path, &drawn).expect("the picture can be written");
+        }
+        let expected = std::fs::read(&path).expect("the example has a picture");
+        assert!(
+            drawn == expected,
+            "{name} draws another picture than {} at {level:?} on {threads} threads. If the \
+             change is meant, write it anew: UPDATE_PICTURES=1 cargo test -p estampe --test examples",
+            path.display()
+        );
+    }
+}
