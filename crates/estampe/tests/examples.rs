@@ -1,10 +1,14 @@
-//! Every example draws its picture in `docs/images/examples`, byte for byte, at the narrowest and the
-//! widest SIMD level, on one thread and on two.
+//! Every example draws its picture in `docs/images/examples`, byte for byte, at the narrowest and
+//! the widest SIMD level, on one thread and on two.
 //!
 //! `UPDATE_PICTURES=1 cargo test -p estampe --test examples` writes the pictures anew: look at each
 //! that changed.
 
 #![allow(dead_code, reason = "the examples' `main` is not called")]
+#![allow(
+    clippy::duplicate_mod,
+    reason = "each example brings the module that several share"
+)]
 
 #[path = "../examples/deferred.rs"]
 mod deferred;
