@@ -12,7 +12,7 @@ use crate::shared_edges::{Corner, Kind, covered, mesh};
 use crate::target::Target;
 use estampe::{
     BufferSlice, ColorAttachment, Device, DeviceDescriptor, Draw, Level, Limits, RenderPass,
-    RenderPipeline, RenderPipelineDescriptor, TextureAspect,
+    RenderPipeline, RenderPipelineDescriptor,
 };
 use estampe_types::shader::VertexOut;
 use estampe_types::state::{BlendState, ColorTargetState, VertexBufferLayout};
@@ -317,7 +317,7 @@ fn wrong_sample(device: &Device, kept: &Kept, batch: &Batch, meshes: &[usize]) -
     }];
     let color = &kept.target.colors[0];
     let pass = RenderPass {
-        color_attachments: &[Some(ColorAttachment::clear(&color.view(), [0.0; 4]))],
+        color_attachments: &[Some(ColorAttachment::clear(color, [0.0; 4]))],
         draws: &draws,
         ..RenderPass::default()
     };
@@ -326,7 +326,7 @@ fn wrong_sample(device: &Device, kept: &Kept, batch: &Batch, meshes: &[usize]) -
         .expect("the pipeline is made for the target");
     let wanted = batch.wanted(meshes);
     (0..batch.samples).find_map(|sample| {
-        let read = device.read_sample(color, TextureAspect::All, sample);
+        let read = device.read_sample(color, sample);
         let texels = read.expect("a sample that there is");
         let hits = texels.iter().step_by(4).zip(&wanted);
         (0u32..).zip(hits).find_map(|(at, (&hits, &wanted))| {

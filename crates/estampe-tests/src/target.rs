@@ -3,8 +3,9 @@
 use crate::case::Case;
 use crate::readback::Stored;
 use estampe::{
-    AspectOperations, ColorAttachment, DepthStencilAttachment, Device, LoadOp, PassExtent,
-    RenderPass, StoreOp, Texture, TextureAspect, TextureDescriptor,
+    AspectOperations, ColorAttachment, DepthStencilAttachment, Device, Extent3d, LoadOp,
+    PassExtent, RenderPass, StoreOp, TextureAspect, TextureDescriptor, TextureView,
+    TextureViewDescriptor,
 };
 use estampe_types::TextureFormat;
 
@@ -16,9 +17,16 @@ pub struct Target {
     /// Samples per pixel.
     pub samples: u32,
     /// The colour images.
-    pub colors: Vec<Texture>,
+    pub colors: Vec<TextureView>,
     /// The depth and stencil image.
-    pub depth_stencil: Option<Texture>,
+    pub depth_stencil: Option<TextureView>,
+}
+
+/// The place of an image in its texture.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    level: u32,
+    layer: u32,
 }
 
 impl Target {
@@ -34,13 +42,8 @@ impl Target {
         colors: &[TextureFormat],
         depth_stencil: Option<TextureFormat>,
     ) -> Self {
-        let create = |format: TextureFormat| {
-            let descriptor = TextureDescriptor {
-                sample_count: samples,
-                ..TextureDescriptor::new_2d(size[0], size[1], format)
-            };
-            device.create_texture(&descriptor).expect("a valid texture")
-        };
+        let first = Place { level: 0, layer: 0 };
+        let create = |format| image(device, size, samples, format, first);
         Self {
             size,
             samples,
@@ -71,23 +74,22 @@ impl Target {
         } else {
             LoadOp::Load
         };
-        let colors = self.colors.iter().map(|texture| {
+        let colors = self.colors.iter().map(|view| {
             Some(ColorAttachment {
                 load,
-                ..ColorAttachment::load(&texture.view())
+                ..ColorAttachment::load(view)
             })
         });
-        let depth_stencil = self.depth_stencil.as_ref().map(|texture| {
-            let view = texture.view();
+        let depth_stencil = self.depth_stencil.as_ref().map(|view| {
             if !clears {
-                return DepthStencilAttachment::load(&view);
+                return DepthStencilAttachment::load(view);
             }
             DepthStencilAttachment {
                 stencil: AspectOperations::Write {
                     load: LoadOp::Clear(case.clear_stencil),
                     store: StoreOp::Store,
                 },
-                ..DepthStencilAttachment::clear(&view, case.clear_depth)
+                ..DepthStencilAttachment::clear(view, case.clear_depth)
             }
         });
         Attachments {
@@ -108,24 +110,32 @@ impl Target {
     #[must_use]
     pub fn read(&self, device: &Device) -> Stored {
         let samples = 0..self.samples;
-        let read = |texture: &Texture, aspect: TextureAspect, sample: u32| {
-            let read = device.read_sample(texture, aspect, sample);
+        let read = |view: &TextureView, sample: u32| {
+            let read = device.read_sample(view, sample);
             read.expect("a sample that there is")
         };
-        let texels = self.colors.iter().flat_map(|texture| {
+        let texels = self.colors.iter().flat_map(|view| {
             let samples = samples.clone();
-            samples.map(move |sample| read(texture, TextureAspect::All, sample))
+            samples.map(move |sample| read(view, sample))
         });
         let texels = texels.collect();
         let aspect = |aspect: TextureAspect, has: fn(TextureFormat) -> bool| -> Vec<Vec<u8>> {
-            let texture = self.depth_stencil.as_ref();
-            let texture = texture.filter(|texture| has(texture.format()));
+            let view = self.depth_stencil.as_ref();
+            let view = view.filter(|view| has(view.format()));
+            let view = view.map(|view| {
+                let [level, layer] = [view.mip_levels()[0], view.array_layers()[0]];
+                let view = view.texture().create_view(&TextureViewDescriptor {
+                    aspect,
+                    ..TextureViewDescriptor::image(level, layer)
+                });
+                view.expect("an aspect of an image that there is")
+            });
             let values = samples
                 .clone()
-                .map(|sample| texture.map_or(Vec::new(), |texture| read(texture, aspect, sample)));
+                .map(|sample| view.as_ref().map_or(Vec::new(), |view| read(view, sample)));
             values.collect()
         };
-        let format = self.depth_stencil.as_ref().map(Texture::format);
+        let format = self.depth_stencil.as_ref().map(TextureView::format);
         let depths = aspect(TextureAspect::Depth, TextureFormat::has_depth);
         Stored {
             texels,
@@ -143,13 +153,13 @@ impl Target {
         if self.samples == 1 || self.colors.is_empty() {
             return Vec::new();
         }
-        let formats: Vec<_> = self.colors.iter().map(Texture::format).collect();
+        let formats: Vec<_> = self.colors.iter().map(TextureView::format).collect();
         let into = Self::new(device, self.size, 1, &formats, None);
         let pairs = self.colors.iter().zip(&into.colors);
         let colors = pairs.map(|(from, into)| {
             Some(ColorAttachment {
-                resolve_target: Some(into.view()),
-                ..ColorAttachment::load(&from.view())
+                resolve_target: Some(into.clone()),
+                ..ColorAttachment::load(from)
             })
         });
         let colors: Vec<_> = colors.collect();
@@ -159,9 +169,39 @@ impl Target {
                 ..RenderPass::default()
             })
             .expect("a pass without draws");
-        let read = |texture| device.read_texture(texture).expect("one sample");
+        let read = |view| device.read_sample(view, 0).expect("one sample");
         into.colors.iter().map(read).collect()
     }
+}
+
+/// An image of zeros at a place in a texture of three layers, which it has to itself. Multisampled
+/// textures have one level.
+fn image(
+    device: &Device,
+    [width, height]: [u32; 2],
+    samples: u32,
+    format: TextureFormat,
+    place: Place,
+) -> TextureView {
+    let is_small = width.max(height) <= 1024;
+    let level = if samples == 1 && is_small {
+        place.level
+    } else {
+        0
+    };
+    let layer = if is_small { place.layer } else { 0 };
+    let descriptor = TextureDescriptor {
+        sample_count: samples,
+        mip_level_count: level + 1,
+        size: Extent3d {
+            width: width << level,
+            height: height << level,
+            depth_or_array_layers: layer + 1,
+        },
+        ..TextureDescriptor::new_2d(width, height, format)
+    };
+    let texture = device.create_texture(&descriptor).expect("a valid texture");
+    texture.image(level, layer).expect("an image that there is")
 }
 
 /// The attachments of a pass.

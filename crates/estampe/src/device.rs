@@ -6,7 +6,7 @@ use crate::{
     BlitError, BlitRegion, Buffer, BufferDescriptor, BufferError, BufferUsages, CopyError,
     Extent3d, FilterMode, Level, Limits, PipelineError, RenderPass, RenderPassError,
     RenderPipeline, RenderPipelineDescriptor, Sampled, SampledView, SamplerDescriptor, Statistics,
-    TextureAspect, TextureError, TextureView, blit, copy, pass,
+    TextureError, TextureView, blit, copy, pass,
 };
 use estampe_core::Context;
 use estampe_core::ThreadPool;
@@ -217,21 +217,16 @@ impl Device {
         Ok(bytes)
     }
 
-    /// Reads one sample of each texel of the first mip level and layer, as rows of the format's own
-    /// bytes without padding; of one aspect of a depth-stencil format four bytes of depth (two of
-    /// 16 bits), one of stencil.
+    /// Reads one sample of each texel of a view of one level of one layer, as rows of the format's
+    /// own bytes without padding; of one aspect of a depth-stencil format four bytes of depth (two
+    /// of 16 bits), one of stencil.
     ///
     /// # Errors
-    /// [`TextureError`] if the texture does not have the sample or the aspect, or has no
-    /// [`TextureUsages::COPY_SRC`](crate::TextureUsages).
-    pub fn read_sample(
-        &self,
-        texture: &Texture,
-        aspect: TextureAspect,
-        sample: u32,
-    ) -> Result<Vec<u8>, TextureError> {
-        let _reserved = texture.reserve();
-        texture::read_sample(&self.context, texture, aspect, sample)
+    /// [`TextureError`] if the view has several levels or layers, or the texture does not have the
+    /// sample or [`TextureUsages::COPY_SRC`](crate::TextureUsages).
+    pub fn read_sample(&self, view: &TextureView, sample: u32) -> Result<Vec<u8>, TextureError> {
+        let _reserved = view.texture().reserve();
+        texture::read_sample(&self.context, view, sample)
     }
 
     /// Reads texels into the host's bytes. Memory that is used again is filled several times as

@@ -75,7 +75,7 @@ fn pipelines_of_other_samples() {
     };
     assert_eq!(
         error_of(&device, &images, pass).to_string(),
-        "the pass `main`: draw 1: its pipeline has 4 samples per pixel and the render target 1; \
+        "the pass `main`: draw 1: its pipeline has 4 samples per pixel and the pass 1; \
          create the pipeline with `samples: 1`"
     );
     // The first draw by itself fits.
@@ -117,7 +117,7 @@ fn a_refused_pass_resolves_nothing() {
     let depth = samples.cleared_depth();
     assert_eq!(
         message(&device, &one, &[Some(color)], Some(depth)),
-        "the pass: draw 0: its pipeline has 1 samples per pixel and the render target 4; create \
+        "the pass: draw 0: its pipeline has 1 samples per pixel and the pass 4; create \
          the pipeline with `samples: 4`"
     );
     let bytes = device.read_texture(&image).unwrap();
@@ -159,16 +159,16 @@ fn tests_of_what_the_pass_lacks() {
     });
     assert_eq!(
         message(&device, &depth, &color, None),
-        "the pass: draw 0: its pipeline has a depth test and the render target has no depth \
-         attachment; create the target with a depth format or the pipeline without `depth`"
+        "the pass: draw 0: its pipeline has a depth test and the pass has no depth \
+         attachment; attach one with a depth format or create the pipeline without `depth`"
     );
     let stencil = pipeline(&device, |descriptor| {
         descriptor.stencil = Some(StencilState::default());
     });
     assert_eq!(
         message(&device, &stencil, &color, Some(images.cleared_depth())),
-        "the pass: draw 0: its pipeline has a stencil test and the render target has no stencil \
-         attachment; create the target with a stencil format or the pipeline without `stencil`"
+        "the pass: draw 0: its pipeline has a stencil test and the pass has no stencil \
+         attachment; attach one with a stencil format or create the pipeline without `stencil`"
     );
 }
 

@@ -338,7 +338,7 @@ impl<'d> Case<'d> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use estampe::{DeviceDescriptor, TextureAspect};
+    use estampe::DeviceDescriptor;
 
     const SIZE: FrameSize = FrameSize {
         width: 76,
@@ -359,7 +359,7 @@ mod tests {
         let mut texels = Vec::new();
         for color in &case.target.colors {
             for sample in 0..color.sample_count() {
-                let read = case.device.read_sample(color, TextureAspect::All, sample);
+                let read = case.device.read_sample(&color.view(), sample);
                 texels.extend(read.unwrap());
             }
         }

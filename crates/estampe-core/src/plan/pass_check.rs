@@ -13,7 +13,7 @@ use estampe_types::state::Viewport;
 pub enum RenderPassError {
     /// A pipeline was created for another number of samples.
     #[error(
-        "draw {draw}: its pipeline has {pipeline} samples per pixel and the render target {target}; create \
+        "draw {draw}: its pipeline has {pipeline} samples per pixel and the pass {target}; create \
          the pipeline with `samples: {target}`"
     )]
     Samples {
@@ -26,7 +26,7 @@ pub enum RenderPassError {
     },
     /// A pipeline was created for other colour attachments.
     #[error(
-        "draw {draw}: its pipeline writes the colour formats [{}] and the render target has [{}]; give the \
+        "draw {draw}: its pipeline writes the colour formats [{}] and the pass has [{}]; give the \
          pipeline one target for each attachment, of the same format",
         format_names(pipeline),
         format_names(target)
@@ -41,8 +41,8 @@ pub enum RenderPassError {
     },
     /// A pipeline tests depth, and the target has no depth attachment.
     #[error(
-        "draw {draw}: its pipeline has a depth test and the render target has no depth attachment; create the \
-         target with a depth format or the pipeline without `depth`"
+        "draw {draw}: its pipeline has a depth test and the pass has no depth attachment; attach one \
+         with a depth format or create the pipeline without `depth`"
     )]
     NoDepth {
         /// The draw.
@@ -50,8 +50,8 @@ pub enum RenderPassError {
     },
     /// A pipeline tests stencil values, and the target has no stencil attachment.
     #[error(
-        "draw {draw}: its pipeline has a stencil test and the render target has no stencil attachment; create \
-         the target with a stencil format or the pipeline without `stencil`"
+        "draw {draw}: its pipeline has a stencil test and the pass has no stencil attachment; attach \
+         one with a stencil format or create the pipeline without `stencil`"
     )]
     NoStencil {
         /// The draw.
@@ -88,7 +88,7 @@ pub enum RenderPassError {
     Cancelled,
     /// More load operations than colour attachments.
     #[error(
-        "the pass has {given} colour load operations and the render target {attachments} colour attachments; \
+        "the pass has {given} colour load operations and {attachments} colour attachments; \
          drop those beyond"
     )]
     LoadColors {

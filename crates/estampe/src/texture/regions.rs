@@ -1,7 +1,7 @@
 //! Texels between the host and textures: whole levels or regions of them.
 
 use super::contents::words_of;
-use super::{Extent3d, Image, ImageKey, Texture, TextureError, TextureUsages};
+use super::{Extent3d, Image, ImageKey, Texture, TextureError, TextureUsages, TextureView};
 use crate::{Context, Limits};
 use estampe_texture::region::{RowSpan, aspect_bytes, read_row, write_blocks, write_row};
 use estampe_texture::{
@@ -285,39 +285,34 @@ pub(crate) fn read(
     Ok(())
 }
 
-/// Reads one sample of each texel of the first level and layer.
+/// Reads one sample of each texel of an image.
 pub(crate) fn read_sample(
     context: &Context,
-    texture: &Texture,
-    aspect: TextureAspect,
+    view: &TextureView,
     sample: u32,
 ) -> Result<Vec<u8>, TextureError> {
+    let (texture, format) = (view.texture(), view.texture().format());
     texture.require(TextureUsages::COPY_SRC)?;
-    let format = texture.format();
-    let has_aspect = match aspect {
-        TextureAspect::All => true,
-        TextureAspect::Depth => format.has_depth(),
-        TextureAspect::Stencil => format.has_stencil(),
+    let key = view.image_key(None);
+    let Some(key) = key.filter(|_| !format.is_compressed() && sample < texture.sample_count())
+    else {
+        let rule = "a sample is read of one level of one layer, not compressed, that has it";
+        return Err(unsupported(texture, rule));
     };
-    if !has_aspect || format.is_compressed() || sample >= texture.sample_count() {
-        return Err(unsupported(
-            texture,
-            "it does not have this sample or aspect",
-        ));
-    }
     let data = texture.lock().rows(texture, context)?;
-    let (width, height) = (texture.width() as usize, texture.height() as usize);
-    let each = aspect_bytes(format, aspect);
+    let level = data.levels[key.level as usize];
+    let (width, height) = (level.width as usize, level.height as usize);
+    let each = aspect_bytes(format, view.aspect());
     let mut bytes = vec![0; width * height * each];
     for (y, row) in bytes.chunks_mut(width * each).enumerate() {
         let span = RowSpan {
-            level: 0,
-            slice: 0,
+            level: key.level as usize,
+            slice: key.layer as usize,
             x: 0,
             y,
             width,
         };
-        read_row(&data, span, (aspect, sample as usize), row);
+        read_row(&data, span, (view.aspect(), sample as usize), row);
     }
     Ok(bytes)
 }

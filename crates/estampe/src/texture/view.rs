@@ -90,18 +90,24 @@ impl Texture {
     /// # Errors
     /// [`TextureError`] if the texture does not have the level or the layer, or is not 2D.
     pub fn image(&self, level: u32, layer: u32) -> Result<TextureView, TextureError> {
-        self.create_view(&TextureViewDescriptor {
+        self.create_view(&TextureViewDescriptor::image(level, layer))
+    }
+}
+
+impl TextureViewDescriptor {
+    /// A 2D view of one mip level of one layer.
+    #[must_use]
+    pub fn image(level: u32, layer: u32) -> Self {
+        Self {
             dimension: Some(ViewDimension::D2),
             base_mip_level: level,
             mip_level_count: Some(1),
             base_array_layer: layer,
             array_layer_count: Some(1),
-            ..TextureViewDescriptor::default()
-        })
+            ..Self::default()
+        }
     }
-}
 
-impl TextureViewDescriptor {
     fn of_texels(&self) -> TexelViewDescriptor {
         TexelViewDescriptor {
             dimension: self.dimension,
