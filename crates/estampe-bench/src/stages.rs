@@ -12,7 +12,7 @@ use crate::measure::{Effort, Timing, measure};
 use crate::scene::{Scene, SceneDraw, vertex_layout};
 use estampe::state::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTargetState, CullMode,
-    DepthState, LogicOperation, PrimitiveState, PrimitiveTopology,
+    DepthStencilState, LogicOperation, PrimitiveState, PrimitiveTopology,
 };
 use estampe::{
     Device, Flat, FragmentIn, FragmentOut, RenderPipelineDescriptor, TextureFormat, Vec2, Vec3,
@@ -225,7 +225,7 @@ fn smooth_blended() -> Load {
         Grid::whole(),
         Layers::BACK_TO_FRONT,
         |layers| RenderPipelineDescriptor {
-            depth: Some(DepthState::LESS_READ),
+            depth_stencil: Some(DepthStencilState::LESS_READ),
             targets: vec![Some(ColorTargetState {
                 blend: Some(BlendState::ALPHA_BLENDING),
                 ..TextureFormat::Rgba8Unorm.into()
@@ -258,7 +258,7 @@ fn general_blended() -> Load {
         Grid::whole(),
         Layers::BACK_TO_FRONT,
         |layers| RenderPipelineDescriptor {
-            depth: Some(DepthState::LESS_READ),
+            depth_stencil: Some(DepthStencilState::LESS_READ),
             targets: vec![Some(ColorTargetState {
                 blend: Some(BlendState {
                     color: BlendComponent {

@@ -137,14 +137,17 @@ fn panel(device: &Device, method: Method) -> Result<Vec<u8>, Box<dyn Error>> {
         };
         descriptor.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x3])];
         descriptor.primitive.topology = PrimitiveTopology::TriangleStrip;
-        descriptor.depth = Some(DepthState {
-            write_enabled: true,
-            compare: if method.is_reversed {
-                CompareFunction::Greater
-            } else {
-                CompareFunction::Less
-            },
-        });
+        descriptor.depth_stencil = Some(
+            DepthState {
+                write_enabled: true,
+                compare: if method.is_reversed {
+                    CompareFunction::Greater
+                } else {
+                    CompareFunction::Less
+                },
+            }
+            .into(),
+        );
         device.create_render_pipeline(&descriptor)
     };
     // The lower plane is drawn first, so that it stays visible where both depths are stored alike.

@@ -5,7 +5,7 @@ use estampe_core::{Context, Draw, LoadOp, RenderPass, RenderPipeline, RenderPipe
 use estampe_core::{RenderTarget, RenderTargetDescriptor};
 use estampe_simd::Level;
 use estampe_types::shader::VertexOut;
-use estampe_types::state::{VertexAttribute, VertexBufferLayout};
+use estampe_types::state::{MultisampleState, VertexAttribute, VertexBufferLayout};
 use estampe_types::{
     BindGroup, Binding, Bindings, BoundGroup, Buffer, FragmentIn, FragmentOut, Limits, Real, Vec4,
     VertexFormat, VertexIn,
@@ -101,7 +101,7 @@ fn check(descriptor: RenderPipelineDescriptor, samples: u32) {
     };
     let descriptor = RenderPipelineDescriptor {
         vertex_buffers: vec![layout],
-        samples,
+        multisample: MultisampleState::new(samples),
         ..descriptor
     };
     let pipeline = RenderPipeline::new(&descriptor, &Limits::default()).unwrap();

@@ -11,8 +11,8 @@ use crate::shading::surfaces::{Alpha, Painted, PlainPhong, PlainVertexLit, Surfa
 use crate::shading::vertex_lit::{VertexLight, VertexShadingMode};
 use crate::shading::wireframe::Wireframe;
 use estampe::state::{
-    BlendState, ColorTargetState, ColorWrites, CullMode, DepthState, PrimitiveState,
-    PrimitiveTopology,
+    BlendState, ColorTargetState, ColorWrites, CullMode, DepthState, MultisampleState,
+    PrimitiveState, PrimitiveTopology,
 };
 use estampe::{
     Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor, Sampled, Shader,
@@ -255,8 +255,8 @@ impl FrameStyle {
         let descriptor = RenderPipelineDescriptor {
             vertex_buffers: layouts.collect(),
             primitive: state.primitive,
-            depth: Some(state.depth),
-            samples: self.samples,
+            depth_stencil: Some(state.depth.into()),
+            multisample: MultisampleState::new(self.samples),
             targets: vec![Some(target)],
             ..RenderPipelineDescriptor::with_program(material.program)
         };

@@ -9,7 +9,7 @@ use estampe::{
     BufferBindingType, BufferSlice, Device, DeviceDescriptor, Draw, DrawBindGroup, Level, Limits,
     OcclusionQueries, RenderPass, RenderPipeline, RenderPipelineDescriptor, Statistics,
 };
-use estampe_types::state::ColorTargetState;
+use estampe_types::state::{ColorTargetState, DepthStencilState, MultisampleState};
 use estampe_types::{Binding, Bindings, Buffer as BufferData, TextureFormat};
 use std::sync::LazyLock;
 
@@ -244,13 +244,19 @@ fn pipeline(device: &Device, case: &Case, draw: &CaseDraw) -> RenderPipeline {
         .create_render_pipeline(&RenderPipelineDescriptor {
             vertex_buffers: draw.buffers.iter().map(|(l, _)| l.clone()).collect(),
             primitive: draw.primitive,
-            depth: draw.depth,
-            stencil: draw.stencil,
-            depth_bias: draw.depth_bias,
-            samples: case.samples,
-            sample_mask: draw.sample_mask,
-            alpha_to_coverage: draw.alpha_to_coverage,
-            sample_shading: draw.sample_shading,
+            depth_stencil: Some(DepthStencilState {
+                stencil: draw.stencil,
+                bias: draw.depth_bias,
+                ..draw
+                    .depth
+                    .map_or_else(DepthStencilState::default, DepthStencilState::from)
+            }),
+            multisample: MultisampleState {
+                count: case.samples,
+                mask: draw.sample_mask,
+                alpha_to_coverage_enabled: draw.alpha_to_coverage,
+                sample_shading_enabled: draw.sample_shading,
+            },
             logic_operation: draw.logic_operation,
             targets: case.formats().iter().enumerate().map(target).collect(),
             ..RenderPipelineDescriptor::with_program(draw.shader.program())

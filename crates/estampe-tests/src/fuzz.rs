@@ -15,7 +15,7 @@ use estampe::{
     RenderPipeline, RenderPipelineDescriptor,
 };
 use estampe_types::shader::VertexOut;
-use estampe_types::state::{BlendState, ColorTargetState, VertexBufferLayout};
+use estampe_types::state::{BlendState, ColorTargetState, MultisampleState, VertexBufferLayout};
 use estampe_types::{FragmentIn, FragmentOut, TextureFormat, Vec4, VertexFormat, VertexIn};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -216,8 +216,8 @@ impl Kept {
         let pipeline = device
             .create_render_pipeline(&RenderPipelineDescriptor {
                 vertex_buffers: vec![VertexBufferLayout::packed(&[VertexFormat::Float32x4])],
-                depth: None,
-                samples,
+                depth_stencil: None,
+                multisample: MultisampleState::new(samples),
                 targets: vec![Some(ColorTargetState {
                     blend: Some(BlendState::ADDITIVE),
                     ..TextureFormat::Rgba8Unorm.into()

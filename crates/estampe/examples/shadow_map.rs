@@ -5,7 +5,7 @@
 
 mod scene;
 
-use estampe::state::DepthBiasState;
+use estampe::state::DepthStencilState;
 use estampe::{
     BindingResource, BindingType, DepthStencilAttachment, Device, FragmentIn, FragmentOut, Mat4,
     RenderPass, RenderPipelineDescriptor, Texture, TextureDescriptor, TextureFormat, Vec2, Vec3,
@@ -100,8 +100,8 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
     let format = TextureFormat::Depth32Float;
     let map = device.create_texture(&TextureDescriptor::new_2d(MAP_SIDE, MAP_SIDE, format))?;
     let map = map.view();
-    let mut depth_bias = DepthBiasState::default();
-    (depth_bias.constant, depth_bias.slope_scale) = (4.0, 4.0);
+    let mut depth_stencil = DepthStencilState::LESS_WRITE;
+    (depth_stencil.bias.constant, depth_stencil.bias.slope_scale) = (4.0, 4.0);
     let sun = scene::TOWARDS_SUN.map(|x| x * 10.0);
     let light_from_world = Mat4::orthographic(-4.0, 4.0, -4.0, 4.0, 1.0, 16.0)
         * Mat4::look_at(sun, [0.0; 3], [0.0, 1.0, 0.0]);
@@ -110,7 +110,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
         bind_group_layouts: vec![objects.layout.clone()],
         vertex_buffers: vec![Solid::layout()],
         targets: Vec::new(),
-        depth_bias,
+        depth_stencil: Some(depth_stencil),
         ..RenderPipelineDescriptor::new(Depths { clip_from_world })
     })?;
     device.render(&RenderPass {

@@ -52,7 +52,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
             VertexFormat::Float32x2,
             VertexFormat::Float32x3,
         ])],
-        depth: None,
+        depth_stencil: None,
         targets: vec![Some(format.into())],
         ..RenderPipelineDescriptor::new(Rainbow)
     })?;

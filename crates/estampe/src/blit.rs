@@ -138,7 +138,7 @@ pub(crate) fn blit(
         offset: [x_offset, y_offset],
     };
     let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
-        depth: None,
+        depth_stencil: None,
         targets: vec![Some(ColorTargetState::from(into.view.format()))],
         ..RenderPipelineDescriptor::new(shader)
     })?;

@@ -106,6 +106,17 @@ fn names(usages: BufferUsages) -> String {
 /// Memory that the host writes and reads in part, and that draws, copies and shaders use. Clones
 /// are handles to the same memory.
 ///
+/// ```
+/// use estampe::{BufferDescriptor, Device, DeviceDescriptor, bytes_of};
+///
+/// let device = Device::new(&DeviceDescriptor::default())?;
+/// let buffer = device.create_buffer(&BufferDescriptor::new(12))?;
+/// buffer.write(4, bytes_of(&[1.5_f32]))?;
+/// let sum = buffer.map_read(0..12, |bytes| bytes.iter().map(|&b| u32::from(b)).sum::<u32>())?;
+/// assert_eq!(sum, 0xC0 + 0x3F);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// A draw reads what the buffer holds when its pass begins: writes by other threads meanwhile go
 /// into a copy.
 #[derive(Clone)]

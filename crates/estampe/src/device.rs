@@ -41,7 +41,19 @@ pub enum DeviceError {
     Threads(String),
 }
 
-/// Creates all objects, and draws. It is `Send + Sync`: share it by reference. Passes of several
+/// Creates all objects, and draws. A call is done when it returns: there is no queue to submit to
+/// and nothing to wait for.
+///
+/// ```
+/// use estampe::{Device, DeviceDescriptor, Level};
+///
+/// // Every processor, the widest SIMD level; neither changes an image.
+/// let device = Device::new(&DeviceDescriptor::default())?;
+/// assert_eq!(device.level().name(), Level::best().name());
+/// # Ok::<(), estampe::DeviceError>(())
+/// ```
+///
+/// It is `Send + Sync`: share it by reference. Passes of several
 /// threads are drawn side by side; those that use the same texture wait for each other.
 #[derive(Debug)]
 pub struct Device {

@@ -155,7 +155,7 @@ fn groups_and_bindings_are_found_by_number() {
         let pipeline = |layouts: &[BindGroupLayout]| {
             let descriptor = RenderPipelineDescriptor {
                 bind_group_layouts: layouts.to_vec(),
-                depth: None,
+                depth_stencil: None,
                 ..RenderPipelineDescriptor::new(Gathered)
             };
             device.create_render_pipeline(&descriptor).unwrap()
@@ -283,7 +283,7 @@ fn a_storage_texture_is_one_level_that_the_next_pass_reads() {
             let pipeline = device
                 .create_render_pipeline(&RenderPipelineDescriptor {
                     bind_group_layouts: vec![layout],
-                    depth: None,
+                    depth_stencil: None,
                     targets: vec![format.into()],
                     ..RenderPipelineDescriptor::new(Increment)
                 })
@@ -344,7 +344,7 @@ fn a_group_outlives_the_handles_of_its_resources() {
     let pipeline = device
         .create_render_pipeline(&RenderPipelineDescriptor {
             bind_group_layouts: vec![empty, layout],
-            depth: None,
+            depth_stencil: None,
             ..RenderPipelineDescriptor::new(Gathered)
         })
         .unwrap();

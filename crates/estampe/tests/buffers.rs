@@ -146,7 +146,7 @@ fn scene() -> Scene {
     descriptor.bind_group_layouts = vec![layout];
     descriptor.primitive.topology = PrimitiveTopology::PointList;
     descriptor.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x2])];
-    descriptor.depth = None;
+    descriptor.depth_stencil = None;
     Scene {
         pipeline: device.create_render_pipeline(&descriptor).unwrap(),
         device,

@@ -102,7 +102,7 @@ fn bound(device: &Device, depth: &Texture) -> DepthTexture {
     let pipeline = device
         .create_render_pipeline(&RenderPipelineDescriptor {
             bind_group_layouts: vec![layout],
-            depth: None,
+            depth_stencil: None,
             targets: Vec::new(),
             ..RenderPipelineDescriptor::with_program(Arc::clone(&keeper) as Arc<dyn Program>)
         })

@@ -62,7 +62,7 @@ fn elements_beyond_the_index_buffer_show_nothing_and_take_no_time() {
         let mut descriptor = RenderPipelineDescriptor::new(Translucent);
         descriptor.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x2])];
         descriptor.primitive.topology = topology;
-        descriptor.depth = None;
+        descriptor.depth_stencil = None;
         descriptor.targets[0].as_mut().unwrap().blend = Some(BlendState::ALPHA_BLENDING);
         let pipeline = device.create_render_pipeline(&descriptor).unwrap();
         let picture = |elements: std::ops::Range<u32>, format| {

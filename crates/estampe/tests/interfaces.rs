@@ -64,10 +64,13 @@ fn device(level: Level) -> Device {
 fn pipeline(device: &Device, does: Does) -> Result<RenderPipeline, PipelineError> {
     let mut descriptor = RenderPipelineDescriptor::new(Doing(does));
     descriptor.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x2])];
-    descriptor.depth = Some(DepthState {
-        compare: CompareFunction::Less,
-        ..DepthState::LESS_WRITE
-    });
+    descriptor.depth_stencil = Some(
+        DepthState {
+            compare: CompareFunction::Less,
+            ..DepthState::LESS_WRITE
+        }
+        .into(),
+    );
     device.create_render_pipeline(&descriptor)
 }
 

@@ -64,7 +64,7 @@ fn pipelines_of_other_samples() {
     let device = device();
     let (one, four) = (
         pipeline(&device, |_| ()),
-        pipeline(&device, |descriptor| descriptor.samples = 4),
+        pipeline(&device, |descriptor| descriptor.multisample.count = 4),
     );
     let images = images(&device);
     let draws = [Draw::new(&one, 0..3), Draw::new(&four, 0..3)];
@@ -76,7 +76,7 @@ fn pipelines_of_other_samples() {
     assert_eq!(
         error_of(&device, &images, pass).to_string(),
         "the pass `main`: draw 1: its pipeline has 4 samples per pixel and the pass 1; \
-         create the pipeline with `samples: 1`"
+         create the pipeline with `multisample.count` 1"
     );
     // The first draw by itself fits.
     images.draw(&device, &draws[..1]);
@@ -94,7 +94,7 @@ fn a_refused_pass_keeps_what_the_host_wrote() {
     device
         .write_texture(&images.color, &bytes, &layout, size)
         .unwrap();
-    let four = pipeline(&device, |descriptor| descriptor.samples = 4);
+    let four = pipeline(&device, |descriptor| descriptor.multisample.count = 4);
     let pass = RenderPass {
         draws: &[Draw::new(&four, 0..3)],
         ..RenderPass::default()
@@ -118,7 +118,7 @@ fn a_refused_pass_resolves_nothing() {
     assert_eq!(
         message(&device, &one, &[Some(color)], Some(depth)),
         "the pass: draw 0: its pipeline has 1 samples per pixel and the pass 4; create \
-         the pipeline with `samples: 4`"
+         the pipeline with `multisample.count` 4"
     );
     let bytes = device.read_texture(&image).unwrap();
     assert!(
@@ -133,16 +133,16 @@ fn a_refused_pass_resolves_nothing() {
 #[test]
 fn pipelines_of_other_color_formats() {
     let device = device();
-    let unorm = pipeline(&device, |descriptor| descriptor.depth = None);
+    let unorm = pipeline(&device, |descriptor| descriptor.depth_stencil = None);
     let colors = [TextureFormat::Rgba16Float, TextureFormat::R8Unorm].map(|format| {
         let image = texture(&device, [20, 10], format);
         Some(ColorAttachment::load(&image.view()))
     });
     assert_eq!(
         message(&device, &unorm, &colors, None),
-        "the pass: draw 0: its pipeline writes the colour formats [rgba8unorm] and the render \
-         target has [rgba16float, r8unorm]; give the pipeline one target for each attachment, of \
-         the same format"
+        "the pass: draw 0: its pipeline writes the colour formats [rgba8unorm] and the pass \
+         has [rgba16float, r8unorm]; give the pipeline one target for each attachment, of the \
+         same format"
     );
 }
 
@@ -152,23 +152,26 @@ fn tests_of_what_the_pass_lacks() {
     let images = images(&device);
     let color = [Some(ColorAttachment::load(&images.color.view()))];
     let depth = pipeline(&device, |descriptor| {
-        descriptor.depth = Some(DepthState {
-            compare: CompareFunction::Less,
-            write_enabled: true,
-        });
+        descriptor.depth_stencil = Some(
+            DepthState {
+                compare: CompareFunction::Less,
+                write_enabled: true,
+            }
+            .into(),
+        );
     });
     assert_eq!(
         message(&device, &depth, &color, None),
         "the pass: draw 0: its pipeline has a depth test and the pass has no depth \
-         attachment; attach one with a depth format or create the pipeline without `depth`"
+         attachment; attach one with a depth format or create the pipeline without `depth_stencil`"
     );
     let stencil = pipeline(&device, |descriptor| {
-        descriptor.stencil = Some(StencilState::default());
+        descriptor.depth_stencil.get_or_insert_default().stencil = Some(StencilState::default());
     });
     assert_eq!(
         message(&device, &stencil, &color, Some(images.cleared_depth())),
         "the pass: draw 0: its pipeline has a stencil test and the pass has no stencil \
-         attachment; attach one with a stencil format or create the pipeline without `stencil`"
+         attachment; attach one with a stencil format or create the pipeline without `depth_stencil.stencil`"
     );
 }
 

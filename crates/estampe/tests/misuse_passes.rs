@@ -253,7 +253,7 @@ fn draws() {
     let layout = |ty| device.create_bind_group_layout(&[entry(3, ty)]).unwrap();
     let mut descriptor = RenderPipelineDescriptor::new(Fill::WHITE);
     let writes_depth = device.create_render_pipeline(&descriptor).unwrap();
-    descriptor.depth = None;
+    descriptor.depth_stencil = None;
     let plain = device.create_render_pipeline(&descriptor).unwrap();
     descriptor.bind_group_layouts = vec![layout(DYNAMIC)];
     let grouped = device.create_render_pipeline(&descriptor).unwrap();

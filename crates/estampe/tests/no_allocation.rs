@@ -101,7 +101,7 @@ impl Scene {
         let device = device_with(threads, Level::best());
         let pipeline = |cull_mode| {
             let mut descriptor = RenderPipelineDescriptor::new(Colored);
-            descriptor.samples = samples;
+            descriptor.multisample.count = samples;
             descriptor.vertex_buffers =
                 vec![VertexBufferLayout::packed(&[VertexFormat::Float32x3])];
             descriptor.primitive = PrimitiveState {

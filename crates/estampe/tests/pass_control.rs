@@ -41,7 +41,7 @@ fn device(threads: usize) -> Device {
 
 fn pipeline(device: &Device) -> RenderPipeline {
     let descriptor = RenderPipelineDescriptor {
-        depth: None,
+        depth_stencil: None,
         ..RenderPipelineDescriptor::new(Gradient)
     };
     device.create_render_pipeline(&descriptor).unwrap()

@@ -61,7 +61,7 @@ fn pipeline_of(
     let pipeline = device
         .create_render_pipeline(&RenderPipelineDescriptor {
             bind_group_layouts: vec![layout.clone()],
-            depth: None,
+            depth_stencil: None,
             targets: vec![format.into()],
             ..RenderPipelineDescriptor::new(shader)
         })
@@ -241,7 +241,7 @@ fn an_srgb_view_of_a_linear_texture_encodes_and_decodes() {
             assert_eq!(read(&device, &image, 0, 0), texel.repeat(45), "{name}");
             let draws = device
                 .create_render_pipeline(&RenderPipelineDescriptor {
-                    depth: None,
+                    depth_stencil: None,
                     targets: vec![encoded.into()],
                     ..RenderPipelineDescriptor::new(Fill {
                         color: [0.0, 0.5, 1.0, 0.5],
@@ -540,10 +540,13 @@ fn depth_is_sampled_while_it_is_tested_read_only() {
             let (layout, pipeline) =
                 pipeline_of(&device, Grey { depth }, kind, TextureFormat::Rgba8Unorm);
             let mut descriptor = pipeline.descriptor().clone();
-            descriptor.depth = Some(estampe::state::DepthState {
-                compare: estampe::state::CompareFunction::Less,
-                write_enabled: false,
-            });
+            descriptor.depth_stencil = Some(
+                estampe::state::DepthState {
+                    compare: estampe::state::CompareFunction::Less,
+                    write_enabled: false,
+                }
+                .into(),
+            );
             let pipeline = device.create_render_pipeline(&descriptor).unwrap();
             let group = bound(&device, &layout, &images.depth.view());
             let view = images.color.view();

@@ -3,6 +3,7 @@
 mod support;
 
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
+use estampe::state::MultisampleState;
 use estampe::{
     BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType, ColorAttachment,
     Device, DeviceDescriptor, Draw, RenderPass, RenderPipelineDescriptor, SampleType, StoreOp,
@@ -78,7 +79,7 @@ fn sample_of(device: &Device, samples: &Texture, sample: i32) -> Vec<u8> {
     let pipeline = device
         .create_render_pipeline(&RenderPipelineDescriptor {
             bind_group_layouts: vec![layout],
-            depth: None,
+            depth_stencil: None,
             targets: vec![samples.format().into()],
             ..RenderPipelineDescriptor::new(OneSample(sample))
         })
@@ -128,7 +129,7 @@ fn a_resolve_target_holds_the_means_of_the_samples() {
         ] {
             let pipeline = device
                 .create_render_pipeline(&RenderPipelineDescriptor {
-                    samples: 4,
+                    multisample: MultisampleState::new(4),
                     targets: vec![format.into()],
                     ..RenderPipelineDescriptor::new(Ramp)
                 })

@@ -37,7 +37,7 @@ estampe::shader! {
 fn descriptor() -> RenderPipelineDescriptor {
     let mut descriptor = RenderPipelineDescriptor::new(Primaries);
     descriptor.primitive.topology = PrimitiveTopology::TriangleStrip;
-    descriptor.depth = None;
+    descriptor.depth_stencil = None;
     descriptor.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x2])];
     descriptor.targets = vec![
         TextureFormat::Rgba8Unorm.into(),
@@ -170,7 +170,10 @@ fn a_pipeline_names_the_rule_that_it_breaks() {
             pipeline: 2
         }
     );
-    assert_eq!(refused(|d| d.samples = 3), PipelineError::SampleCount(3));
+    assert_eq!(
+        refused(|d| d.multisample.count = 3),
+        PipelineError::SampleCount(3)
+    );
     assert_eq!(
         refused(|d| d.vertex_buffers.clear()),
         PipelineError::LocationMissing(0)

@@ -63,7 +63,7 @@ fn passes_into_one_image_do_not_mix() {
                     depth: 0.0,
                 };
                 let descriptor = RenderPipelineDescriptor {
-                    depth: None,
+                    depth_stencil: None,
                     ..RenderPipelineDescriptor::new(fill)
                 };
                 let pipeline = device.create_render_pipeline(&descriptor).unwrap();

@@ -4,7 +4,7 @@
 mod support;
 
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
-use estampe::state::{DepthState, VertexBufferLayout};
+use estampe::state::{DepthStencilState, VertexBufferLayout};
 use estampe::storage_store;
 use estampe::{
     BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType, ColorAttachment,
@@ -68,7 +68,7 @@ fn drawn(level: Level, threads: usize, clear_depth: f32) -> [Vec<u8>; 2] {
     let mut descriptor = RenderPipelineDescriptor::new(Storing { depth: 0.5 });
     descriptor.bind_group_layouts = vec![layout];
     descriptor.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x2])];
-    descriptor.depth = Some(DepthState::LESS_WRITE);
+    descriptor.depth_stencil = Some(DepthStencilState::LESS_WRITE);
     let pipeline = device
         .create_render_pipeline(&descriptor)
         .expect("a valid pipeline");

@@ -7,7 +7,7 @@
 
 use super::{Scene, vertex_layout};
 use crate::generate::{LittleEndian, QUAD_CORNERS, hash32, quad_indices};
-use estampe::state::{BlendState, ColorTargetState, DepthState};
+use estampe::state::{BlendState, ColorTargetState, DepthStencilState};
 use estampe::{
     FragmentIn, FragmentOut, RenderPipelineDescriptor, TextureFormat, Vec3, Vec4, VertexFormat,
     VertexIn, VertexOut,
@@ -54,7 +54,7 @@ pub(super) fn scene() -> Scene {
             16,
             &[(VertexFormat::Float32x3, 0), (VertexFormat::Unorm8x4, 12)],
         )],
-        depth: Some(DepthState::LESS_READ),
+        depth_stencil: Some(DepthStencilState::LESS_READ),
         targets: vec![Some(ColorTargetState {
             blend: Some(BlendState::ALPHA_BLENDING),
             ..TextureFormat::Rgba8Unorm.into()

@@ -10,7 +10,7 @@ use crate::generate::{
     torus,
 };
 use estampe::Sampled;
-use estampe::state::{CullMode, PrimitiveState};
+use estampe::state::{CullMode, MultisampleState, PrimitiveState};
 use estampe::{
     FragmentIn, FragmentOut, Mat4, RenderPipelineDescriptor, Vec2, Vec3, Vec4, VertexFormat,
     VertexIn, VertexOut, maths,
@@ -120,7 +120,7 @@ fn scene(name: &'static str, detail: Detail, samples: u32) -> Scene {
             cull_mode: CullMode::Back,
             ..PrimitiveState::default()
         },
-        samples,
+        multisample: MultisampleState::new(samples),
         ..RenderPipelineDescriptor::new(shader)
     };
     let buffers = vec![mesh.vertices, mesh.indices, uniform_bytes];

@@ -138,7 +138,7 @@ impl Scene {
             name,
             buffers,
             textures,
-            samples: pipeline.samples,
+            samples: pipeline.multisample.count,
             pipelines: vec![pipeline],
             uniforms: None,
             depth_map: None,

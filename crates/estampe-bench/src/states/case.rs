@@ -10,8 +10,8 @@ use crate::frame::FrameSize;
 use crate::target::{Target, TargetDescriptor};
 use estampe::state::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTargetState, CompareFunction,
-    DepthState, LogicOperation, PrimitiveState, ScissorRect, StencilFaceState, StencilOperation,
-    StencilState,
+    DepthState, DepthStencilState, LogicOperation, PrimitiveState, ScissorRect, StencilFaceState,
+    StencilOperation, StencilState,
 };
 use estampe::{
     BufferSlice, Device, Draw, IndexFormat, OcclusionQueries, RenderPass, RenderPipeline,
@@ -53,7 +53,7 @@ impl Setup {
             DepthState::LESS_WRITE
         };
         let pipeline = RenderPipelineDescriptor {
-            depth: Some(depth),
+            depth_stencil: Some(depth.into()),
             targets: vec![Some(ColorTargetState {
                 blend,
                 ..BASELINE_COLOR.into()
@@ -90,7 +90,7 @@ impl Setup {
             Change::DepthFormat(format) => {
                 self.target.depth_stencil = format;
                 if !format.is_some_and(TextureFormat::has_depth) {
-                    self.pipeline.depth = None;
+                    self.pipeline.depth_stencil = None;
                 }
             }
             Change::StencilKeep => self.set_stencil(StencilFaceState::default()),
@@ -103,11 +103,11 @@ impl Setup {
             Change::Samples(samples) => self.set_samples(samples),
             Change::AlphaToCoverage => {
                 self.set_samples(4);
-                self.pipeline.alpha_to_coverage = true;
+                self.pipeline.multisample.alpha_to_coverage_enabled = true;
             }
             Change::SampleMask => {
                 self.set_samples(4);
-                self.pipeline.sample_mask = 0b0110;
+                self.pipeline.multisample.mask = 0b0110;
             }
             Change::Targets(count) => {
                 self.output = OutputKind::Targets(count);
@@ -161,17 +161,18 @@ impl Setup {
 
     fn set_stencil(&mut self, face: StencilFaceState) {
         self.target.depth_stencil = Some(TextureFormat::Depth32FloatStencil8);
-        self.pipeline.stencil = Some(StencilState::from(face));
+        self.pipeline.depth_stencil.get_or_insert_default().stencil =
+            Some(StencilState::from(face));
     }
 
     fn set_samples(&mut self, samples: u32) {
         self.target.samples = samples;
-        self.pipeline.samples = samples;
+        self.pipeline.multisample.count = samples;
     }
 
     fn set_blend(&mut self, blend: BlendState) {
         self.set_target(|target| target.blend = Some(blend));
-        self.pipeline.depth = Some(DepthState::LESS_READ);
+        self.pipeline.depth_stencil = Some(DepthStencilState::LESS_READ);
     }
 }
 
@@ -281,7 +282,7 @@ impl<'d> Case<'d> {
                 surface: setup.surface.clone(),
                 output: OutputKind::Targets(1),
                 pipeline: RenderPipelineDescriptor {
-                    depth: None,
+                    depth_stencil: None,
                     ..plain
                 },
                 target: TargetDescriptor::new(self.size),

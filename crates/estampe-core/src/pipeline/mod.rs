@@ -11,8 +11,8 @@ pub(crate) use stage_key::StageKey;
 use color_target::ColorTarget;
 use estampe_types::shader::MAX_DISTANCES;
 use estampe_types::state::{
-    BlendFactor, BlendState, ColorTargetState, DepthBiasState, DepthState, LineState, LineStipple,
-    LogicOperation, PrimitiveState, StencilState, VertexBufferLayout,
+    BlendFactor, BlendState, ColorTargetState, DepthStencilState, LineState, LineStipple,
+    LogicOperation, MultisampleState, PrimitiveState, VertexBufferLayout,
 };
 use estampe_types::{
     BindGroupLayout, Interface, Limits, Program, Shader, ShaderProgram, TextureFormat, VertexFormat,
@@ -31,21 +31,10 @@ pub struct RenderPipelineDescriptor {
     pub vertex_buffers: Vec<VertexBufferLayout>,
     /// Topology, facing, culling. Default a triangle list, nothing culled.
     pub primitive: PrimitiveState,
-    /// The depth test, or none. Default less, written.
-    pub depth: Option<DepthState>,
-    /// The stencil test, or none. Default none.
-    pub stencil: Option<StencilState>,
-    /// The bias added to the depth of triangles. Default nothing.
-    pub depth_bias: DepthBiasState,
-    /// Samples per pixel: 1, 2, 4, 8 or 16. Default 1.
-    pub samples: u32,
-    /// The samples that may change, bit by bit. Default all.
-    pub sample_mask: u32,
-    /// True if the alpha of target 0 decides how many samples of a fragment are kept. Default
-    /// false.
-    pub alpha_to_coverage: bool,
-    /// True if fragments are shaded once for each sample, regardless of the shader. Default false.
-    pub sample_shading: bool,
+    /// The depth and stencil tests, or none. Default depth less, written.
+    pub depth_stencil: Option<DepthStencilState>,
+    /// Samples per pixel, and which of them may change. Default one.
+    pub multisample: MultisampleState,
     /// A logic operation in place of blending, for all targets. Default none.
     pub logic_operation: Option<LogicOperation>,
     /// The colour targets, by the number of the shader's colour; `None` is a hole, whose colour is
@@ -67,13 +56,8 @@ impl RenderPipelineDescriptor {
             bind_group_layouts: Vec::new(),
             vertex_buffers: Vec::new(),
             primitive: PrimitiveState::default(),
-            depth: Some(DepthState::LESS_WRITE),
-            stencil: None,
-            depth_bias: DepthBiasState::default(),
-            samples: 1,
-            sample_mask: u32::MAX,
-            alpha_to_coverage: false,
-            sample_shading: false,
+            depth_stencil: Some(DepthStencilState::LESS_WRITE),
+            multisample: MultisampleState::default(),
             logic_operation: None,
             targets: vec![Some(TextureFormat::Rgba8Unorm.into())],
         }
@@ -198,8 +182,8 @@ fn check_targets(
     interface: &Interface,
     limits: &Limits,
 ) -> Result<(), PipelineError> {
-    if !matches!(descriptor.samples, 1 | 2 | 4 | 8 | 16) {
-        return Err(PipelineError::SampleCount(descriptor.samples));
+    if !matches!(descriptor.multisample.count, 1 | 2 | 4 | 8 | 16) {
+        return Err(PipelineError::SampleCount(descriptor.multisample.count));
     }
     let count = descriptor.targets.len();
     if count > limits.max_color_attachments as usize {

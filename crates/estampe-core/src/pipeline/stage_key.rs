@@ -53,15 +53,16 @@ impl StageKey {
         interface: &Interface,
         targets: &[ColorTarget],
     ) -> Self {
-        let samples = descriptor.samples;
+        let multisample = &descriptor.multisample;
+        let samples = multisample.count;
         let all_samples = u32::MAX >> (32 - samples.clamp(1, 32));
-        let sample_mask =
-            Some(descriptor.sample_mask).filter(|mask| mask & all_samples != all_samples);
+        let sample_mask = Some(multisample.mask).filter(|mask| mask & all_samples != all_samples);
         let is_integer = |target: &ColorTarget| target.codec.is_integer();
         let first = targets.iter().find(|target| target.output == 0);
         let alpha_to_coverage =
-            descriptor.alpha_to_coverage && first.is_some_and(|first| !is_integer(first));
-        let per_sample = samples > 1 && (descriptor.sample_shading || interface.per_sample);
+            multisample.alpha_to_coverage_enabled && first.is_some_and(|first| !is_integer(first));
+        let per_sample =
+            samples > 1 && (multisample.sample_shading_enabled || interface.per_sample);
         let has_centroids =
             samples > 1 && interface.sampling.iter().any(|at| *at != Sampling::Center);
         let tests_early = !interface.discards
@@ -94,11 +95,14 @@ impl StageKey {
             && sample_mask.is_none()
             && !interface.dual_source
             && primitive.conservative == ConservativeMode::Disabled;
+        let depth_stencil = descriptor.depth_stencil;
         Self {
-            depth: descriptor
-                .depth
+            depth: depth_stencil
+                .map(|state| state.depth())
                 .filter(|depth| depth.write_enabled || depth.compare != CompareFunction::Always),
-            stencil: descriptor.stencil.filter(|state| !does_nothing(state)),
+            stencil: depth_stencil
+                .and_then(|state| state.stencil)
+                .filter(|state| !does_nothing(state)),
             tests_early,
             is_opaque: is_plain && targets.iter().all(ColorTarget::replaces),
             has_colors: !targets.is_empty(),

@@ -247,7 +247,7 @@ mod tests {
     fn pipeline(topology: PrimitiveTopology, samples: u32) -> RenderPipeline {
         let mut descriptor = RenderPipelineDescriptor::new(Plain);
         descriptor.primitive.topology = topology;
-        descriptor.samples = samples;
+        descriptor.multisample.count = samples;
         RenderPipeline::new(&descriptor, &Limits::default()).unwrap()
     }
 

@@ -43,7 +43,9 @@ impl<'a> DrawState<'a> {
             position_range: sample_range(samples, ConservativeMode::Disabled),
             sample_range: sample_range(samples, primitive.conservative),
         };
-        let geometry = GeometryPlan::new(primitive, &descriptor.depth_bias, &viewport, on_target);
+        let bias = descriptor.depth_stencil.map(|state| state.bias);
+        let bias = bias.unwrap_or_default();
+        let geometry = GeometryPlan::new(primitive, &bias, &viewport, on_target);
         if geometry.rect.is_empty() {
             return None;
         }

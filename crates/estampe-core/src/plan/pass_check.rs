@@ -14,7 +14,7 @@ pub enum RenderPassError {
     /// A pipeline was created for another number of samples.
     #[error(
         "draw {draw}: its pipeline has {pipeline} samples per pixel and the pass {target}; create \
-         the pipeline with `samples: {target}`"
+         the pipeline with `multisample.count` {target}"
     )]
     Samples {
         /// The draw.
@@ -42,7 +42,7 @@ pub enum RenderPassError {
     /// A pipeline tests depth, and the target has no depth attachment.
     #[error(
         "draw {draw}: its pipeline has a depth test and the pass has no depth attachment; attach one \
-         with a depth format or create the pipeline without `depth`"
+         with a depth format or create the pipeline without `depth_stencil`"
     )]
     NoDepth {
         /// The draw.
@@ -51,7 +51,7 @@ pub enum RenderPassError {
     /// A pipeline tests stencil values, and the target has no stencil attachment.
     #[error(
         "draw {draw}: its pipeline has a stencil test and the pass has no stencil attachment; attach \
-         one with a stencil format or create the pipeline without `stencil`"
+         one with a stencil format or create the pipeline without `depth_stencil.stencil`"
     )]
     NoStencil {
         /// The draw.
@@ -122,10 +122,10 @@ fn check_draw(
     draw: &Draw<'_>,
 ) -> Result<(), RenderPassError> {
     let descriptor = draw.pipeline.descriptor();
-    if descriptor.samples != target.samples {
+    if descriptor.multisample.count != target.samples {
         return Err(RenderPassError::Samples {
             draw: number,
-            pipeline: descriptor.samples,
+            pipeline: descriptor.multisample.count,
             target: target.samples,
         });
     }
@@ -146,7 +146,10 @@ fn check_draw(
     {
         return Err(RenderPassError::NoDepth { draw: number });
     }
-    if descriptor.stencil.is_some() && !target.depth_stencil.is_some_and(TextureFormat::has_stencil)
+    if descriptor
+        .depth_stencil
+        .is_some_and(|state| state.stencil.is_some())
+        && !target.depth_stencil.is_some_and(TextureFormat::has_stencil)
     {
         return Err(RenderPassError::NoStencil { draw: number });
     }

@@ -198,3 +198,72 @@ impl From<StencilFaceState> for StencilState {
         }
     }
 }
+
+/// Depth and stencil of a pipeline: WebGPU's `GPUDepthStencilState`, without the format, which is
+/// the attachment's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DepthStencilState {
+    /// If set, fragments that pass store their depth. Default not.
+    pub depth_write_enabled: bool,
+    /// Comparison of a fragment's depth with the stored one. Default always.
+    pub depth_compare: CompareFunction,
+    /// The stencil test. Default none.
+    pub stencil: Option<StencilState>,
+    /// The bias added to the depth of triangles. Default nothing.
+    pub bias: DepthBiasState,
+}
+
+impl DepthStencilState {
+    /// Nearer fragments pass and store their depth: the common case.
+    pub const LESS_WRITE: Self = Self::of(DepthState::LESS_WRITE);
+    /// Nearer fragments pass and store no depth: for transparent surfaces.
+    pub const LESS_READ: Self = Self::of(DepthState::LESS_READ);
+
+    const fn of(depth: DepthState) -> Self {
+        Self {
+            depth_write_enabled: depth.write_enabled,
+            depth_compare: depth.compare,
+            stencil: None,
+            bias: DepthBiasState {
+                constant: 0.0,
+                slope_scale: 0.0,
+                clamp: 0.0,
+            },
+        }
+    }
+
+    /// The depth test.
+    #[must_use]
+    pub const fn depth(&self) -> DepthState {
+        DepthState {
+            write_enabled: self.depth_write_enabled,
+            compare: self.depth_compare,
+        }
+    }
+}
+
+impl Default for DepthStencilState {
+    fn default() -> Self {
+        Self::of(DepthState {
+            write_enabled: false,
+            compare: CompareFunction::Always,
+        })
+    }
+}
+
+impl From<DepthState> for DepthStencilState {
+    /// A depth test alone.
+    fn from(depth: DepthState) -> Self {
+        Self::of(depth)
+    }
+}
+
+impl From<StencilState> for DepthStencilState {
+    /// A stencil test alone.
+    fn from(stencil: StencilState) -> Self {
+        Self {
+            stencil: Some(stencil),
+            ..Self::default()
+        }
+    }
+}

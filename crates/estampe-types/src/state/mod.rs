@@ -3,6 +3,7 @@
 
 mod blend;
 mod depth_stencil;
+mod multisample;
 mod primitive;
 mod vertex;
 mod viewport;
@@ -12,8 +13,10 @@ pub use blend::{
     LogicOperation,
 };
 pub use depth_stencil::{
-    CompareFunction, DepthBiasState, DepthState, StencilFaceState, StencilOperation, StencilState,
+    CompareFunction, DepthBiasState, DepthState, DepthStencilState, StencilFaceState,
+    StencilOperation, StencilState,
 };
+pub use multisample::MultisampleState;
 pub use primitive::{
     ConservativeMode, CullMode, FrontFace, LineRasterization, LineState, LineStipple, PolygonMode,
     PrimitiveState, PrimitiveTopology, ProvokingVertex,

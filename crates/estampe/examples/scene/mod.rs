@@ -2,7 +2,7 @@
 
 #![allow(dead_code, reason = "each example uses a part")]
 
-use estampe::state::{BlendState, ColorTargetState, VertexBufferLayout};
+use estampe::state::{BlendState, ColorTargetState, MultisampleState, VertexBufferLayout};
 use estampe::{
     BindGroup, BindGroupDescriptor, BindGroupLayout, BindGroupLayoutEntry, BindingResource,
     BindingType, BufferBindingType, BufferSlice, ColorAttachment, DepthStencilAttachment, Device,
@@ -98,7 +98,7 @@ pub(crate) fn fill(
     };
     let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
         bind_group_layouts: bound.iter().map(|(layout, _)| layout.clone()).collect(),
-        depth: None,
+        depth_stencil: None,
         targets: vec![Some(target)],
         ..RenderPipelineDescriptor::new(shader)
     })?;
@@ -176,7 +176,7 @@ impl Screen {
     pub(crate) fn pipeline(shader: impl Shader) -> RenderPipelineDescriptor {
         RenderPipelineDescriptor {
             vertex_buffers: vec![Solid::layout()],
-            samples: 4,
+            multisample: MultisampleState::new(4),
             targets: vec![Some(TextureFormat::Rgba8UnormSrgb.into())],
             ..RenderPipelineDescriptor::new(shader)
         }

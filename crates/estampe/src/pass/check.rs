@@ -4,7 +4,7 @@ use super::attachments::Attachments;
 use super::{Draw, PassErrorKind};
 use crate::bind_group::BindingResource;
 use crate::{BindGroup, BindingType, BufferError, BufferSlice, BufferUsages, Limits};
-use estampe_types::state::ColorTargetState;
+use estampe_types::state::{ColorTargetState, DepthStencilState};
 
 /// Checks a draw.
 pub(super) fn check_draw(
@@ -65,10 +65,13 @@ fn check_read_only(
     [depth, stencil]: [bool; 2],
 ) -> Result<(), PassErrorKind> {
     let descriptor = draw.pipeline.descriptor();
-    let writes_depth = descriptor.depth.is_some_and(|state| state.write_enabled);
+    let tests = descriptor.depth_stencil;
+    let writes_stencil =
+        |state: DepthStencilState| state.stencil.is_some_and(|stencil| stencil.writes());
+    let writes_depth = tests.is_some_and(|state| state.depth_write_enabled);
     let aspect = if depth && writes_depth {
         "depth"
-    } else if stencil && descriptor.stencil.is_some_and(|state| state.writes()) {
+    } else if stencil && tests.is_some_and(writes_stencil) {
         "stencil"
     } else {
         return Ok(());

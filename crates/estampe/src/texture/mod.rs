@@ -121,6 +121,18 @@ impl TextureDescriptor<'_> {
 /// A texture for every role: sampled, rendered to, copied. Clones are handles to the same texels,
 /// which are zeros at first.
 ///
+/// ```
+/// use estampe::{Device, DeviceDescriptor, TextureDescriptor, TextureFormat};
+///
+/// let device = Device::new(&DeviceDescriptor::default())?;
+/// let checker = TextureDescriptor::new_2d(2, 2, TextureFormat::R8Unorm).with_all_levels();
+/// let texture = device.create_texture_with_data(&checker, &[&[0, 255, 255, 0]])?;
+/// // The level of one texel was generated: the mean of the four.
+/// let level_1 = device.read_sample(&texture.image(1, 0)?, 0)?;
+/// assert_eq!(level_1, [128]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// A pass reads what a texture holds when the pass begins. The texels are in tiles while passes
 /// render to them and in rows while shaders sample them; the first use in the other role converts
 /// those mip levels and layers that changed, on all threads.
