@@ -66,6 +66,7 @@ fn pick(device: &Device, numbers: &Texture, [x, y]: [u32; 2]) -> Outcome<Option<
 }
 
 pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+    let screen = Screen::new(device)?;
     let solids = [Solid::cube(device)?, Solid::sphere(device)?];
     let mut list = Vec::new();
     for k in 0..25_u8 {
@@ -109,9 +110,8 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
     let objects = Objects::new(device, &list)?;
     let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
         bind_group_layouts: vec![objects.layout.clone()],
-        ..Screen::pipeline(shader)
+        ..screen.pipeline(shader)
     })?;
-    let screen = Screen::new(device)?;
     device.render(&RenderPass {
         color_attachments: &screen.colors([0.01, 0.012, 0.02]),
         depth_stencil_attachment: screen.depths(),

@@ -81,6 +81,7 @@ estampe::shader! {
 }
 
 pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
+    let screen = Screen::new(device)?;
     let (floor, cube) = (Solid::plane(device, 60.0)?, Solid::cube(device)?);
     let ball = Solid::sphere(device)?;
     let object = |solid, at: [f32; 3], size, turn, [r, g, b]: [f32; 3]| {
@@ -129,9 +130,8 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
     };
     let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
         bind_group_layouts: vec![objects.layout.clone(), layout],
-        ..Screen::pipeline(shader)
+        ..screen.pipeline(shader)
     })?;
-    let screen = Screen::new(device)?;
     device.render(&RenderPass {
         color_attachments: &screen.colors([0.5, 0.65, 0.85]),
         depth_stencil_attachment: screen.depths(),

@@ -109,7 +109,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
     let of_floor = group(device, &gray, Mat4::IDENTITY)?;
     let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
         bind_group_layouts: vec![layout(device)?],
-        ..Screen::pipeline(Textured)
+        ..screen.pipeline(Textured)
     })?;
     device.render(&RenderPass {
         color_attachments: &screen.colors([0.45, 0.62, 0.8]),

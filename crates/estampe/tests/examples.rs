@@ -10,20 +10,35 @@
     reason = "each example brings the module that several share"
 )]
 
+#[path = "../examples/bloom.rs"]
+mod bloom;
 #[path = "../examples/deferred.rs"]
 mod deferred;
+#[path = "../examples/instancing.rs"]
+mod instancing;
+#[path = "../examples/multisampling.rs"]
+mod multisampling;
 #[path = "../examples/picking.rs"]
 mod picking;
+#[path = "../examples/reflections.rs"]
+mod reflections;
 #[path = "../examples/shadow_map.rs"]
 mod shadow_map;
 #[path = "../examples/textured_cube.rs"]
 mod textured_cube;
 #[path = "../examples/triangle.rs"]
 mod triangle;
+#[path = "../examples/ui.rs"]
+mod ui;
 
 use estampe::{Device, DeviceDescriptor, Level, Texture};
 use std::error::Error;
 use std::path::Path;
+
+#[test]
+fn bloom_draws_its_picture() {
+    check("bloom", bloom::picture);
+}
 
 #[test]
 fn deferred_draws_its_picture() {
@@ -31,8 +46,23 @@ fn deferred_draws_its_picture() {
 }
 
 #[test]
+fn instancing_draws_its_picture() {
+    check("instancing", instancing::picture);
+}
+
+#[test]
+fn multisampling_draws_its_picture() {
+    check("multisampling", multisampling::picture);
+}
+
+#[test]
 fn picking_draws_its_picture() {
     check("picking", picking::picture);
+}
+
+#[test]
+fn reflections_draws_its_picture() {
+    check("reflections", reflections::picture);
 }
 
 #[test]
@@ -48,6 +78,11 @@ fn textured_cube_draws_its_picture() {
 #[test]
 fn triangle_draws_its_picture() {
     check("triangle", triangle::picture);
+}
+
+#[test]
+fn ui_draws_its_picture() {
+    check("ui", ui::picture);
 }
 
 fn check(name: &str, picture: fn(&Device) -> Result<Texture, Box<dyn Error>>) {

@@ -2,14 +2,16 @@
 
 #![allow(dead_code, reason = "each example uses a part")]
 
+pub(crate) mod page;
+
 use estampe::state::{BlendState, ColorTargetState, MultisampleState, VertexBufferLayout};
 use estampe::{
     BindGroup, BindGroupDescriptor, BindGroupLayout, BindGroupLayoutEntry, BindingResource,
     BindingType, BufferBindingType, BufferSlice, ColorAttachment, DepthStencilAttachment, Device,
-    Draw, DrawBindGroup, IndexFormat, Int, Mat4, Operand, Real, RenderPass, RenderPipeline,
-    RenderPipelineDescriptor, SampleType, Sampler, Shader, Texture, TextureDescriptor,
-    TextureFormat, TextureView, Vec2, Vec3, Vec4, VertexFormat, VertexIn, ViewDimension, maths,
-    vec4,
+    Draw, DrawBindGroup, FragmentIn, FragmentOut, IndexFormat, Int, Mat4, Operand, Real,
+    RenderPass, RenderPipeline, RenderPipelineDescriptor, SampleType, Sampler, Shader, Texture,
+    TextureDescriptor, TextureFormat, TextureView, Vec2, Vec3, Vec4, VertexFormat, VertexIn,
+    VertexOut, maths, vec4,
 };
 use std::error::Error;
 
@@ -36,17 +38,26 @@ pub(crate) fn camera(eye: [f32; 3], target: [f32; 3]) -> Mat4 {
     Mat4::perspective(0.8, width / height, 0.1, 50.0) * Mat4::look_at(eye, target, [0.0, 1.0, 0.0])
 }
 
+/// Clip space of a face of the cube map at `eye`. Faces are seen from inside and stored as from
+/// outside, hence the mirrored x.
+pub(crate) fn clip_from_cube_face(eye: [f32; 3], face: usize) -> Mat4 {
+    let mut forward = [0.0; 3];
+    forward[face / 2] = if face.is_multiple_of(2) { 1.0 } else { -1.0 };
+    let up = if face / 2 == 1 {
+        [0.0, 0.0, -forward[1]]
+    } else {
+        [0.0, 1.0, 0.0]
+    };
+    Mat4::scale([-1.0, 1.0, 1.0])
+        * Mat4::perspective(std::f32::consts::FRAC_PI_2, 1.0, 0.1, 100.0)
+        * Mat4::look_along(eye, forward, up)
+}
+
 /// A uniform buffer, as a bind group layout names it.
 pub(crate) const UNIFORMS: BindingType = BindingType::Buffer {
     ty: BufferBindingType::Uniform,
     has_dynamic_offset: false,
     min_binding_size: 0,
-};
-
-/// A texture of colours with its sampler, as a bind group layout names it.
-pub(crate) const SAMPLED: BindingType = BindingType::SampledTexture {
-    sample_type: SampleType::Float,
-    view_dimension: ViewDimension::D2,
 };
 
 /// A bind group of these resources, and its layout: binding 0, 1, …
@@ -80,8 +91,12 @@ pub(crate) fn bind_numbers(
 
 /// A view with its sampler, for [`bind`].
 pub(crate) fn sampled(view: &TextureView, sampler: &Sampler) -> (BindingType, BindingResource) {
+    let kind = BindingType::SampledTexture {
+        sample_type: SampleType::Float,
+        view_dimension: view.dimension(),
+    };
     let resource = BindingResource::SampledTexture(view.clone(), sampler.clone());
-    (SAMPLED, resource)
+    (kind, resource)
 }
 
 /// Runs the fragment shader for every pixel of an attachment. The vertices are [`covering`].
@@ -152,9 +167,13 @@ pub(crate) struct Screen {
 
 impl Screen {
     pub(crate) fn new(device: &Device) -> Outcome<Self> {
+        Self::of_format(device, TextureFormat::Rgba8UnormSrgb)
+    }
+
+    pub(crate) fn of_format(device: &Device, format: TextureFormat) -> Outcome<Self> {
         Ok(Self {
-            picture: target(device, TextureFormat::Rgba8UnormSrgb, 1)?,
-            colors: target(device, TextureFormat::Rgba8UnormSrgb, 4)?.view(),
+            picture: target(device, format, 1)?,
+            colors: target(device, format, 4)?.view(),
             depths: target(device, TextureFormat::Depth32Float, 4)?.view(),
         })
     }
@@ -173,11 +192,11 @@ impl Screen {
     }
 
     /// A pipeline for [`Solid`]s on the screen.
-    pub(crate) fn pipeline(shader: impl Shader) -> RenderPipelineDescriptor {
+    pub(crate) fn pipeline(&self, shader: impl Shader) -> RenderPipelineDescriptor {
         RenderPipelineDescriptor {
             vertex_buffers: vec![Solid::layout()],
             multisample: MultisampleState::new(4),
-            targets: vec![Some(TextureFormat::Rgba8UnormSrgb.into())],
+            targets: vec![Some(self.colors.format().into())],
             ..RenderPipelineDescriptor::new(shader)
         }
     }
@@ -319,6 +338,31 @@ impl<'s> Objects<'s> {
             ..solid.draw(pipeline)
         });
         draws.collect()
+    }
+}
+
+/// Draws [`Objects`] in daylight. The fourth number of a colour is light that the object gives off.
+pub(crate) struct Lit {
+    pub(crate) clip_from_world: Mat4,
+}
+
+estampe::shader! {
+    impl Shader for Lit {
+        type Attributes<R: Real> = Corner<R>;
+        type Varyings<R: Real> = Vec3<R>; // normal
+
+        fn vertex<R: Real>(&self, input: VertexIn<'_, R>, a: Corner<R>) -> VertexOut<R, Vec3<R>> {
+            let world_from_object = input.bindings.mat4(0, 0, 0);
+            let position_world = world_from_object.transform_point(a.position);
+            let normal = world_from_object.transform_vector(a.normal);
+            VertexOut::new(self.clip_from_world * position_world, normal)
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, normal: Vec3<R>) -> FragmentOut<R> {
+            let [r, g, b, glow] = input.bindings.f32s(0, 0, 64);
+            let light = daylight(normal.normalize(), 1.0) + glow;
+            FragmentOut::color((light * Vec3::new(r, g, b)).point())
+        }
     }
 }
 
