@@ -58,6 +58,11 @@ struct Readme;
 #[doc = include_str!("../../../docs/from-glsl.md")]
 struct FromGlsl;
 
+/// The snippets of the page for those who know wgpu.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/from-wgpu.md")]
+struct FromWgpu;
+
 /// The sRGB transfer function (IEC 61966-2-1) of 8-bit codes.
 pub mod srgb {
     pub use estampe_format::srgb::{decode, encode};
