@@ -1,5 +1,5 @@
-//! A cube with a checkerboard on each side, on a floor of tiles: mip levels keep distant tiles
-//! calm. The texture and the matrix are in a bind group.
+//! A cube with tiles on each side, on a floor of tiles: mip levels keep distant tiles calm. The
+//! texture and the matrices are in a bind group.
 //!
 //! `cargo run --release -p estampe --features png --example textured_cube [OUT.png]`
 

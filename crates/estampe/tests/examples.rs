@@ -1,14 +1,11 @@
-//! Every example draws its picture in `docs/images/examples`, byte for byte, at the narrowest and
-//! the widest SIMD level, on one thread and on two.
+//! Every example draws its picture in `docs/images/examples`, byte for byte, at the narrowest SIMD
+//! level on one thread, and at the widest on two.
 //!
 //! `UPDATE_PICTURES=1 cargo test -p estampe --test examples` writes the pictures anew: look at each
 //! that changed.
 
-#![allow(dead_code, reason = "the examples' `main` is not called")]
-#![allow(
-    clippy::duplicate_mod,
-    reason = "each example brings the module that several share"
-)]
+#![expect(dead_code, reason = "the examples' `main` is not called")]
+#![expect(clippy::duplicate_mod, reason = "each example is a program with its own modules")]
 
 #[path = "../examples/bloom.rs"]
 mod bloom;

@@ -1,6 +1,6 @@
 //! What the examples share: solids, a camera, a screen of four samples, and the picture's file.
 
-#![allow(dead_code, reason = "each example uses a part")]
+#![expect(dead_code, reason = "each example uses a part")]
 
 pub(crate) mod page;
 

@@ -27,8 +27,8 @@ pub(crate) fn atlas(device: &Device) -> Outcome<Texture> {
     Ok(device.create_texture_with_data(&descriptor, &[&texels])?)
 }
 
-/// For each quad: left, top, width and height in pixels, the premultiplied colour, the radius of its
-/// corners, and its cell of the atlas.
+/// For each quad: left, top, width and height in pixels, the premultiplied colour, the radius of
+/// its corners, and its cell of the atlas.
 #[derive(Default)]
 pub(crate) struct Page(pub(crate) Vec<[f32; 10]>);
 
