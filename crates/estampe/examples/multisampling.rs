@@ -5,7 +5,7 @@
 
 mod scene;
 
-use estampe::state::VertexBufferLayout;
+use estampe::state::{MultisampleState, VertexBufferLayout};
 use estampe::{
     BlitRegion, ColorAttachment, Device, Draw, FilterMode, FragmentIn, FragmentOut, RenderPass,
     RenderPipelineDescriptor, StoreOp, Texture, TextureDescriptor, TextureFormat, Vec2, Vec3,
@@ -70,8 +70,8 @@ fn draw(device: &Device, samples: u32) -> Outcome<Texture> {
     let formats = [VertexFormat::Float32x2, VertexFormat::Float32x3];
     let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
         vertex_buffers: vec![VertexBufferLayout::packed(&formats)],
-        depth: None,
-        samples,
+        depth_stencil: None,
+        multisample: MultisampleState::new(samples),
         targets: vec![Some(FORMAT.into())],
         ..RenderPipelineDescriptor::new(Rays)
     })?;

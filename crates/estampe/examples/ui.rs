@@ -118,7 +118,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
             topology: PrimitiveTopology::TriangleStrip,
             ..PrimitiveState::default()
         },
-        depth: None,
+        depth_stencil: None,
         targets: vec![Some(target)],
         ..RenderPipelineDescriptor::new(Quads)
     })?;

@@ -5,7 +5,10 @@
 //! that changed.
 
 #![expect(dead_code, reason = "the examples' `main` is not called")]
-#![expect(clippy::duplicate_mod, reason = "each example is a program with its own modules")]
+#![expect(
+    clippy::duplicate_mod,
+    reason = "each example is a program with its own modules"
+)]
 
 #[path = "../examples/bloom.rs"]
 mod bloom;
