@@ -8,7 +8,7 @@ mod scene;
 use estampe::state::BlendState;
 use estampe::{
     ColorAttachment, Coordinates, Device, FilterMode, FragmentIn, FragmentOut, Mat4, RenderPass,
-    RenderPipelineDescriptor, SampledView, SamplerDescriptor, Texture, TextureDescriptor,
+    RenderPipelineDescriptor, SamplerDescriptor, Texture, TextureBindings, TextureDescriptor,
     TextureFormat, Vec2, VertexIn, VertexOut, maths,
 };
 use scene::{Lit, Objects, Outcome, SIZE, Screen, Solid};
@@ -56,9 +56,7 @@ estampe::shader! {
         }
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, uv: Vec2<R>) -> FragmentOut<R> {
-            let Some(source) = input.bindings.other::<SampledView>(0, 0) else {
-                return FragmentOut::color(uv.extend(0.0).point());
-            };
+            let source = input.bindings.sampled(0, 0);
             let texel = |offset: f32| {
                 source.sample(Coordinates::d2(uv + Vec2::from(self.step) * offset)).rgb()
             };

@@ -7,7 +7,7 @@ mod scene;
 
 use estampe::{
     ColorAttachment, DepthStencilAttachment, Device, FilterMode, FragmentIn, FragmentOut, Mat4,
-    RenderPass, RenderPipelineDescriptor, SampledView, SamplerDescriptor, Texture,
+    RenderPass, RenderPipelineDescriptor, SamplerDescriptor, Texture, TextureBindings,
     TextureDescriptor, TextureFormat, Vec3, VertexIn, VertexOut, maths,
 };
 use scene::{Corner, Objects, Outcome, SIZE, Solid};
@@ -65,9 +65,9 @@ estampe::shader! {
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, (): ()) -> FragmentOut<R> {
             let (x, y) = (input.position.x.to_int(), input.position.y.to_int());
             let zero = x.splat(0);
-            let texel = |binding| match input.bindings.other::<SampledView>(1, binding) {
-                Some(texture) => texture.view().fetch([x, y, zero], zero, zero),
-                None => input.position,
+            let texel = |binding| {
+                let texture = input.bindings.sampled(1, binding);
+                texture.view().fetch([x, y, zero], zero, zero)
             };
             let (albedo, normal, position) = (texel(0), texel(1).xyz(), texel(2).xyz());
             let mut light = Vec3::repeat(normal.y * 0.01 + 0.02);

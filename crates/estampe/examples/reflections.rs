@@ -7,7 +7,7 @@ mod scene;
 
 use estampe::{
     ColorAttachment, Coordinates, DepthStencilAttachment, Device, FragmentIn, FragmentOut, Lod,
-    Mat4, RenderPass, RenderPipelineDescriptor, SampledView, SamplerDescriptor, Texture,
+    Mat4, RenderPass, RenderPipelineDescriptor, SamplerDescriptor, Texture, TextureBindings,
     TextureDescriptor, TextureFormat, TextureViewDescriptor, Vec3, VertexIn, VertexOut,
     ViewDimension, maths,
 };
@@ -58,9 +58,7 @@ estampe::shader! {
                 return FragmentOut::color((sky + maths::powi(sun, 64) * 3.0).point());
             }
             if kind >= MIRROR {
-                let Some(cube) = input.bindings.other::<SampledView>(1, 0) else {
-                    return FragmentOut::color(color.point());
-                };
+                let cube = input.bindings.sampled(1, 0);
                 let sight = (v.position - Vec3::from(EYE)).normalize();
                 let mirrored = Coordinates::cube(sight.reflect(normal));
                 let level = Lod::Level(input.real(kind - MIRROR));

@@ -8,8 +8,8 @@ mod scene;
 use estampe::{
     BindGroup, BindGroupDescriptor, BindGroupLayout, BindGroupLayoutEntry, BindingResource,
     BindingType, BufferBindingType, Coordinates, Device, Draw, FragmentIn, FragmentOut, Mat4,
-    RenderPass, RenderPipelineDescriptor, SampleType, SampledView, SamplerDescriptor, Texture,
-    TextureDescriptor, TextureFormat, Vec2, Vec3, VertexIn, VertexOut, ViewDimension, vec4,
+    RenderPass, RenderPipelineDescriptor, SampleType, SamplerDescriptor, Texture, TextureBindings,
+    TextureDescriptor, TextureFormat, Vec2, Vec3, VertexIn, VertexOut, ViewDimension,
 };
 use scene::{Corner, Outcome, Screen, Solid};
 
@@ -33,9 +33,7 @@ estampe::shader! {
         }
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, v: Surface<R>) -> FragmentOut<R> {
-            let Some(texture) = input.bindings.other::<SampledView>(0, 1) else {
-                return FragmentOut::color(vec4(input.zero, 0.0, 0.0, 1.0));
-            };
+            let texture = input.bindings.sampled(0, 1);
             let texel = texture.sample(Coordinates::d2(v.uv)).rgb();
             FragmentOut::color((texel * scene::daylight(v.normal, 1.0)).point())
         }

@@ -11,8 +11,8 @@ use estampe::state::{
 };
 use estampe::{
     ColorAttachment, Coordinates, Device, Draw, FragmentIn, FragmentOut, RenderPass,
-    RenderPipelineDescriptor, SampledView, SamplerDescriptor, Texture, TextureFormat, Vec2, Vec4,
-    VertexFormat, VertexIn, VertexOut,
+    RenderPipelineDescriptor, SamplerDescriptor, Texture, TextureBindings, TextureFormat, Vec2,
+    Vec4, VertexFormat, VertexIn, VertexOut,
 };
 use scene::{Outcome, SIZE, page};
 
@@ -69,8 +69,7 @@ estampe::shader! {
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, v: Pixel<R>) -> FragmentOut<R> {
             let at = Coordinates::d2(v.texel / Vec2::new(162.0, 8.0));
-            let atlas = input.bindings.other::<SampledView>(0, 0);
-            let letter = atlas.map_or(v.texel.x, |atlas| atlas.sample(at).x);
+            let letter = input.bindings.sampled(0, 0).sample(at).x;
             // The signed distance from the edge of a rectangle with round corners.
             let from_corner = v.from_centre.abs() - v.half + v.radius;
             let inside = from_corner.x.max(from_corner.y).min(0.0);
