@@ -16,6 +16,7 @@
 //!
 //! | feature | adds |
 //! |---|---|
+//! | `image` | `Device::create_texture_from_image` and `Device::read_image`: textures and the `image` crate |
 //! | `png` | `Device::encode_png` and `Device::write_png`: textures as PNG files |
 //! | `scalar-level` | the scalar SIMD level, for tests |
 //!
@@ -46,6 +47,10 @@ mod device;
 mod pass;
 #[cfg(feature = "png")]
 mod png_file;
+#[cfg(any(feature = "image", feature = "png"))]
+mod rgba;
+#[cfg(feature = "image")]
+mod rgba_image;
 mod texture;
 
 /// The README's snippet, compiled and run as a test.

@@ -1,6 +1,6 @@
 //! Textures as PNG files: the feature `png`.
 
-use crate::{Device, Texture, TextureError, TextureFormat};
+use crate::{Device, Texture, TextureError, rgba};
 use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 use std::path::{Path, PathBuf};
 
@@ -8,13 +8,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PngError {
-    /// A format that is not four channels of eight bits.
-    #[error(
-        "a texture of format {} is not written as PNG: blit it into rgba8unorm or rgba8unorm-srgb first",
-        .0.name()
-    )]
-    Format(TextureFormat),
-    /// The texture cannot be read.
+    /// The texture is of another format, or cannot be read.
     #[error(transparent)]
     Texture(#[from] TextureError),
     /// The encoder refuses the picture.
@@ -38,7 +32,7 @@ impl Device {
     /// texel is opaque. The same texels give the same bytes on every machine.
     ///
     /// The codes are written as they are. Viewers take them for sRGB, so render into
-    /// [`TextureFormat::Rgba8UnormSrgb`], and divide premultiplied colours by alpha.
+    /// [`TextureFormat::Rgba8UnormSrgb`](crate::TextureFormat), and divide premultiplied colours by alpha.
     ///
     /// ```
     /// # use estampe::{Device, DeviceDescriptor, TextureDescriptor, TextureFormat};
@@ -53,18 +47,7 @@ impl Device {
     /// [`PngError`] if the format is not rgba8unorm, bgra8unorm or their sRGB counterparts, or the
     /// texture cannot be read, as for [`Device::read_texture`].
     pub fn encode_png(&self, texture: &Texture) -> Result<Vec<u8>, PngError> {
-        use TextureFormat as F;
-        let is_bgra = match texture.format() {
-            F::Rgba8Unorm | F::Rgba8UnormSrgb => false,
-            F::Bgra8Unorm | F::Bgra8UnormSrgb => true,
-            format => return Err(PngError::Format(format)),
-        };
-        let mut texels = self.read_texture(texture)?;
-        if is_bgra {
-            for texel in texels.as_chunks_mut::<4>().0 {
-                texel.swap(0, 2);
-            }
-        }
+        let texels = rgba::read(self, texture)?;
         encode(texture.width(), texture.height(), &texels)
     }
 

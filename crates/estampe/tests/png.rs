@@ -62,10 +62,7 @@ fn what_cannot_be_written_is_an_error() {
     let float = TextureDescriptor::new_2d(2, 2, TextureFormat::Rgba16Float);
     let error = device.encode_png(&device.create_texture(&float).unwrap());
     let error = error.unwrap_err();
-    assert!(
-        matches!(error, PngError::Format(TextureFormat::Rgba16Float)),
-        "{error}"
-    );
+    assert!(matches!(error, PngError::Texture(_)), "{error}");
     assert!(error.to_string().contains("blit it"), "{error}");
 
     let secret = TextureDescriptor {

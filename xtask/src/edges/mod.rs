@@ -102,6 +102,8 @@ const OUTSIDE: &[(&str, Users)] = &[
         "png",
         Users::Only(&["estampe", "estampe-assets", "estampe-bench"]),
     ),
+    // Images of other programs, as an option.
+    ("image", Users::Only(&["estampe"])),
     ("zune-jpeg", Users::Only(&["estampe-assets"])),
     ("jpeg-encoder", Users::Only(&["estampe-assets"])),
     // CPU time of the process.
