@@ -77,8 +77,8 @@ fn lights(device: &Device) -> Outcome<Texture> {
     let (floor, cube) = (Solid::plane(device, 60.0)?, Solid::cube(device)?);
     let ball = Solid::sphere(device)?;
     let middle = Mat4::translation([0.0, 0.8, 0.0]) * Mat4::scale([0.8; 3]);
-    let mut list = vec![(&floor, Mat4::IDENTITY, [0.008, 0.008, 0.02, 0.0])];
-    list.push((&ball, middle, [0.1, 0.11, 0.16, 0.0]));
+    let mut list = vec![(&floor, Mat4::IDENTITY, [0.008, 0.008, 0.016, 0.0])];
+    list.push((&ball, middle, [0.2, 0.22, 0.3, 0.0]));
     for k in 0..9_u8 {
         let turn = f32::from(k) / 9.0 * std::f32::consts::TAU;
         let hue = |shift: f32| 0.52 + 0.48 * maths::cos(turn + shift);
@@ -87,7 +87,7 @@ fn lights(device: &Device) -> Outcome<Texture> {
         let tube = Mat4::translation([0.0, 1.0, 0.0]) * Mat4::scale([0.035, 1.0, 0.035]);
         let block = Mat4::translation([0.7, 0.3, 0.3]) * Mat4::scale([0.3; 3]);
         list.push((&cube, place * tube, color));
-        list.push((&cube, place * block, [0.06, 0.05, 0.1, 0.0]));
+        list.push((&cube, place * block, [0.32, 0.26, 0.42, 0.0]));
     }
     let screen = Screen::of_format(device, HDR)?;
     let objects = Objects::new(device, &list)?;
