@@ -80,6 +80,15 @@ impl std::fmt::Display for LevelError {
 
 impl std::error::Error for LevelError {}
 
+/// Levels are equal if they are of one kind: there is one value of each.
+impl PartialEq for Level {
+    fn eq(&self, other: &Self) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
+}
+
+impl Eq for Level {}
+
 impl Level {
     /// The names that [`Level::named`] accepts, narrowest level first within each architecture.
     pub const NAMES: [&'static str; 6] = ["scalar", "sse2", "avx2", "avx512", "neon", "simd128"];

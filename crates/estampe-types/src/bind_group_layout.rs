@@ -61,6 +61,27 @@ pub enum BindingType {
     },
 }
 
+impl BindingType {
+    /// A uniform buffer of at least so many bytes, without dynamic offset.
+    #[must_use]
+    pub const fn uniform(min_binding_size: u64) -> Self {
+        Self::Buffer {
+            ty: BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size,
+        }
+    }
+
+    /// A 2D texture of numbers with its sampler.
+    #[must_use]
+    pub const fn sampled_2d() -> Self {
+        Self::SampledTexture {
+            sample_type: SampleType::Float,
+            view_dimension: ViewDimension::D2,
+        }
+    }
+}
+
 /// The use that shaders make of a buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum BufferBindingType {

@@ -126,7 +126,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
     for level in 1..5 {
         let (smaller, between) = (image(level)?, image(level)?);
         let (from, into) = (larger.view(), smaller.view());
-        device.blit(&(&from).into(), &(&into).into(), FilterMode::Linear)?;
+        device.blit(&from, &into, FilterMode::Linear)?;
         let [width, height] = into.size().map(|side| side as f32);
         run(blur([1.0 / width, 0.0]), &smaller, clear(&between), None)?;
         run(blur([0.0, 1.0 / height]), &between, clear(&smaller), None)?;

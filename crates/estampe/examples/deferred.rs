@@ -139,7 +139,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
 
     let picture = scene::target(device, FORMATS[0], 1)?;
     let whole = picture.view();
-    device.blit(&(&lit).into(), &(&whole).into(), FilterMode::Linear)?;
+    device.blit(&lit, &whole, FilterMode::Linear)?;
     Ok(picture)
 }
 

@@ -114,7 +114,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
             origin: [half * width, 0],
             size: [width, height * 2],
         };
-        device.blit(&from, &into, FilterMode::Nearest)?;
+        device.blit(from, into, FilterMode::Nearest)?;
     }
     Ok(picture.texture().clone())
 }

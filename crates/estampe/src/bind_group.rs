@@ -37,19 +37,13 @@ pub struct BindGroupDescriptor<'a> {
 /// Resources that are bound together. Cheap to clone.
 ///
 /// ```
-/// use estampe::{
-///     BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType,
-///     BufferBindingType, Device, DeviceDescriptor, bytes_of,
-/// };
+/// use estampe::{BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType};
+/// use estampe::{Device, DeviceDescriptor, bytes_of};
 ///
 /// let device = Device::new(&DeviceDescriptor::default())?;
 /// let layout = device.create_bind_group_layout(&[BindGroupLayoutEntry {
 ///     binding: 0,
-///     ty: BindingType::Buffer {
-///         ty: BufferBindingType::Uniform,
-///         has_dynamic_offset: false,
-///         min_binding_size: 16,
-///     },
+///     ty: BindingType::uniform(16),
 /// }])?;
 /// let color = device.create_buffer_with_contents(bytes_of(&[1.0, 0.5, 0.0, 1.0]))?;
 /// let group = device.create_bind_group(&BindGroupDescriptor {

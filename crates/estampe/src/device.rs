@@ -49,7 +49,7 @@ pub enum DeviceError {
 ///
 /// // Every processor, the widest SIMD level; neither changes an image.
 /// let device = Device::new(&DeviceDescriptor::default())?;
-/// assert_eq!(device.level().name(), Level::best().name());
+/// assert_eq!(device.level(), Level::best());
 /// # Ok::<(), estampe::DeviceError>(())
 /// ```
 ///
@@ -347,13 +347,13 @@ impl Device {
     /// # Errors
     /// [`BlitError`] if a rectangle is empty or not in its image, the source cannot be sampled with
     /// the filter, or the destination cannot be rendered to.
-    pub fn blit(
+    pub fn blit<'v, 'w>(
         &self,
-        from: &BlitRegion<'_>,
-        into: &BlitRegion<'_>,
+        from: impl Into<BlitRegion<'v>>,
+        into: impl Into<BlitRegion<'w>>,
         filter: FilterMode,
     ) -> Result<(), BlitError> {
-        blit::blit(self, from, into, filter)
+        blit::blit(self, &from.into(), &into.into(), filter)
     }
 
     /// The texels of a view as they are now, with a sampler: for a shader that owns its textures.

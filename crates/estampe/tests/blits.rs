@@ -51,9 +51,7 @@ fn a_blit_of_the_same_size_is_exact_for_every_format() {
                 let bytes = texels(format, (size[0] * size[1]) as usize);
                 write(&device, &from, &bytes);
                 let (from, view) = (from.view(), into.view());
-                device
-                    .blit(&(&from).into(), &(&view).into(), FilterMode::Nearest)
-                    .unwrap();
+                device.blit(&from, &view, FilterMode::Nearest).unwrap();
                 assert!(
                     device.read_texture(&into).unwrap() == bytes,
                     "{} {size:?}, {name}",
@@ -83,9 +81,7 @@ fn a_blit_to_half_the_size_is_the_mean() {
             let bytes: Vec<u8> = even(noise(width * height * 4, 11)).collect();
             write(&device, &from, &bytes);
             let (from, view) = (from.view(), into.view());
-            device
-                .blit(&(&from).into(), &(&view).into(), FilterMode::Linear)
-                .unwrap();
+            device.blit(&from, &view, FilterMode::Linear).unwrap();
             let seen = device.read_texture(&into).unwrap();
             for (at, code) in seen.iter().enumerate() {
                 let (channel, texel) = (at % 4, at / 4);
@@ -144,7 +140,7 @@ fn a_region_is_scaled_and_converted_and_the_rest_stays() {
             size: [16, 15],
         };
         device
-            .blit(&source, &destination, FilterMode::Nearest)
+            .blit(source, destination, FilterMode::Nearest)
             .unwrap();
         let mut expected = around;
         for y in 0..15 {
@@ -175,9 +171,7 @@ fn long_images_are_copied_exactly() {
         for filter in [FilterMode::Nearest, FilterMode::Linear] {
             device.clear_texture(&into.view()).unwrap();
             let (from, view) = (from.view(), into.view());
-            device
-                .blit(&(&from).into(), &(&view).into(), filter)
-                .unwrap();
+            device.blit(&from, &view, filter).unwrap();
             assert!(
                 device.read_texture(&into).unwrap() == bytes,
                 "{size:?} {filter:?}"

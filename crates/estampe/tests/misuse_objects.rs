@@ -295,8 +295,9 @@ fn blits() {
     let device = device();
     let image = labelled(&device, "grass", TextureUsages::all()).view();
     let other = texture(&device, [4, 4], TextureFormat::Rgba8Unorm).view();
-    let blit =
-        |from: &BlitRegion<'_>, into: &BlitRegion<'_>| device.blit(from, into, FilterMode::Nearest);
+    let blit = |from: &BlitRegion<'_>, into: &BlitRegion<'_>| {
+        device.blit(*from, *into, FilterMode::Nearest)
+    };
     let region = |origin, size| BlitRegion {
         view: &image,
         origin,

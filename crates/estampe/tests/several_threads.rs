@@ -12,9 +12,7 @@ use support::{Fill, device_with, noise, texture};
 fn copy(device: &Device, from: &Texture, into: &Texture) {
     let (from, into) = (from.view(), into.view());
     let all: BlitRegion<'_> = (&into).into();
-    device
-        .blit(&(&from).into(), &all, FilterMode::Nearest)
-        .unwrap();
+    device.blit(&from, all, FilterMode::Nearest).unwrap();
 }
 
 #[test]

@@ -55,8 +55,15 @@ impl VertexBufferLayout {
     /// Attributes stored one after the other without gaps, for locations 0, 1, …, by vertex index.
     #[must_use]
     pub fn packed(formats: &[VertexFormat]) -> Self {
+        Self::packed_from(0, formats)
+    }
+
+    /// Attributes stored one after the other without gaps, for the locations from `first` on, by
+    /// vertex index.
+    #[must_use]
+    pub fn packed_from(first: u32, formats: &[VertexFormat]) -> Self {
         let mut layout = Self::default();
-        for (shader_location, &format) in (0u32..).zip(formats) {
+        for (shader_location, &format) in (first..).zip(formats) {
             let offset = layout.array_stride;
             layout.attributes.push(VertexAttribute {
                 format,
