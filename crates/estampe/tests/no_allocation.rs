@@ -161,7 +161,7 @@ fn turn() -> std::sync::MutexGuard<'static, ()> {
 
 /// The lists of a pass (attachments, textures, buffers, draws) and a place in each texture.
 /// Geometry and tiles allocate nothing, and so does each further draw.
-const LISTS: usize = 11;
+const LISTS: usize = 12;
 
 #[test]
 fn one_thread_allocates_the_lists_of_a_pass() {
