@@ -11,7 +11,7 @@ use estampe::{
     DepthStencilAttachment, Draw, Level, RenderPass, RenderPipelineDescriptor, TextureFormat, Vec2,
     Vec4, VertexFormat, ViewDimension, bytes_of,
 };
-use support::{Images, device_with, texture};
+use support::{Fill, Images, device_with, texture};
 
 const SIZE: [u32; 2] = [75, 41];
 
@@ -24,6 +24,7 @@ estampe::shader! {
     impl Shader for Storing {
         type Attributes<R: Real> = Vec2<R>;
         type Varyings<R: Real> = ();
+        const STORES: bool = true;
 
         fn vertex<R: Real>(&self, input: VertexIn<'_, R>, at: Vec2<R>) -> VertexOut<R, ()> {
             let (depth, w) = (input.real(self.depth), input.real(1.0));
@@ -115,4 +116,47 @@ fn covered_fragments_store_even_if_invisible() {
             assert_eq!(stored, seen, "{}", level.name());
         }
     }
+}
+
+/// A dry run cannot see a store whose texture is bound, so the constant is needed: without it the
+/// pass is refused.
+#[test]
+fn a_storage_texture_needs_a_shader_that_stores() {
+    let device = device_with(1, Level::best());
+    let format = TextureFormat::Rgba8Unorm;
+    let ty = BindingType::StorageTexture {
+        format,
+        view_dimension: ViewDimension::D2,
+    };
+    let layout = device
+        .create_bind_group_layout(&[BindGroupLayoutEntry { binding: 0, ty }])
+        .expect("a valid layout");
+    let stored = texture(&device, SIZE, format);
+    let group = device
+        .create_bind_group(&BindGroupDescriptor {
+            label: Some("output"),
+            layout: &layout,
+            entries: &[(0, BindingResource::Texture(stored.view()))],
+        })
+        .expect("it has the layout");
+    let pipeline = device
+        .create_render_pipeline(&RenderPipelineDescriptor::new(Fill::WHITE))
+        .expect("a valid pipeline");
+    let images = Images::with(&device, SIZE, format, 1);
+    let error = device
+        .render(&RenderPass {
+            color_attachments: &[Some(ColorAttachment::load(&images.color.view()))],
+            depth_stencil_attachment: Some(DepthStencilAttachment::load(&images.depth.view())),
+            draws: &[Draw {
+                bind_groups: &[(&group).into()],
+                ..Draw::new(&pipeline, 0..3)
+            }],
+            ..RenderPass::default()
+        })
+        .expect_err("the shader declares no stores");
+    assert_eq!(
+        error.to_string(),
+        "the pass: draw 0: bind group 0: the bind group `output` has a storage texture, and the \
+         shader declares no stores: set its constant `STORES`"
+    );
 }

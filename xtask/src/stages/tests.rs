@@ -71,7 +71,7 @@ fn a_re_export_does_not_hide_a_later_stage() {
 #[test]
 fn the_last_layer_names_all_and_is_named_by_none() {
     let source = "use crate::{geometry::fetch, raster, attachment::Attachment, Limits};";
-    assert_eq!(messages_of("draw", source), [""; 0]);
+    assert_eq!(messages_of("transfer", source), [""; 0]);
     assert_eq!(messages_of("raster", "use crate::draw::Draw;").len(), 1);
     assert_eq!(
         messages_of("statistics", "use crate::raster::Edge;").len(),

@@ -150,6 +150,12 @@ impl RenderPipeline {
         &self.inner.descriptor
     }
 
+    /// Returns true if the shader stores to textures.
+    #[must_use]
+    pub fn stores(&self) -> bool {
+        self.interface().stores
+    }
+
     pub(crate) fn program(&self) -> &dyn Program {
         &*self.inner.descriptor.program
     }

@@ -3,7 +3,9 @@
 use super::attachments::Attachments;
 use super::{Draw, PassErrorKind};
 use crate::bind_group::BindingResource;
-use crate::{BindGroup, BindingType, BufferError, BufferSlice, BufferUsages, Limits};
+use crate::{
+    BindGroup, BindGroupLayoutEntry, BindingType, BufferError, BufferSlice, BufferUsages, Limits,
+};
 use estampe_types::state::{ColorTargetState, DepthStencilState};
 
 /// Checks a draw.
@@ -157,6 +159,16 @@ fn check_groups(number: usize, draw: &Draw<'_>, limits: &Limits) -> Result<(), P
         }
     }
     for (index, bound) in draw.bind_groups.iter().enumerate() {
+        let is_storage =
+            |entry: &BindGroupLayoutEntry| matches!(entry.ty, BindingType::StorageTexture { .. });
+        if !draw.pipeline.stores() && bound.group.layout().entries().iter().any(is_storage) {
+            let name = bound.group.name();
+            let rule = format!(
+                "{name} has a storage texture, and the shader declares no stores: set its constant \
+                 `STORES`"
+            );
+            return bad(index, rule);
+        }
         let (expected, given) = (
             bound.group.layout().dynamic_offset_count(),
             bound.dynamic_offsets.len(),

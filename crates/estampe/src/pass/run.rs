@@ -56,8 +56,7 @@ fn run(
     // Before anything is taken, so that a pass that is refused changes nothing.
     attachments.with_shape(|shape| core_pass.check(shape))?;
     let (mut target, depth_newest) = attachments.target(attachments.take(context)?);
-    let statistics = context.render(&mut target, &core_pass);
-    let statistics = statistics.expect("the pass was checked");
+    let drawn = context.render(&mut target, &core_pass);
     attachments.finish(context, target, depth_newest)?;
     drop(draws);
     // Shared texels would be copied when they are written back.
@@ -70,7 +69,8 @@ fn run(
             error,
         })?;
     drop(reserved);
-    Ok(statistics)
+    // The pass was checked, but it may have been cancelled.
+    Ok(drawn?)
 }
 
 /// All textures of a pass, in the order in which they are reserved.
