@@ -50,6 +50,8 @@ estampe::shader! {
     impl Shader for Gathered {
         type Attributes<R: Real> = ();
         type Varyings<R: Real> = ();
+        // A storage texture is bound, though it is only read.
+        const STORES: bool = true;
 
         fn vertex<R: Real>(&self, input: VertexIn<'_, R>, (): ()) -> VertexOut<R, ()> {
             let at: Vec2<R> = covering(&input);
