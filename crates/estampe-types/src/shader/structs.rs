@@ -71,7 +71,7 @@
 /// }
 /// ```
 ///
-/// A struct without `<R>` is refused with the sentence "write the type parameter: struct Name<R>".
+/// A struct without `<R>` is refused: "write the type parameter: struct `Name<R>`".
 ///
 /// ```compile_fail
 /// estampe_types::varyings! {
