@@ -39,15 +39,14 @@ fn retile<S: Lanes, const WORDS: usize>(
         }
         let mut word = 0;
         while word < WORDS {
-            let [a, b, c, d] = planes[word].map(
-                #[inline(always)]
-                |row| -> f64x2<S> {
-                    if swaps_red_and_blue {
-                        swap_red_and_blue(s, row).bitcast()
-                    } else {
-                        row.bitcast()
-                    }
-                },
+            let [a, b, c, d] = planes[word];
+            let (a, b) = (
+                pairs(s, a, swaps_red_and_blue),
+                pairs(s, b, swaps_red_and_blue),
+            );
+            let (c, d) = (
+                pairs(s, c, swaps_red_and_blue),
+                pairs(s, d, swaps_red_and_blue),
             );
             let lanes = &mut to[word * 16..][..16];
             store(a.zip_low(b).bitcast(), lanes, 0);
@@ -89,6 +88,16 @@ fn words_of_row<S: Lanes, const WORDS: usize>(s: S, row: &[u32]) -> [u32x4<S>; W
 #[inline(always)]
 fn load<S: Lanes>(s: S, row: &[u32], quarter: usize) -> u32x4<S> {
     u32x4::from_slice(s, &row[quarter * SIDE..][..SIDE])
+}
+
+/// A row as pairs of lanes.
+#[inline(always)]
+fn pairs<S: Lanes>(s: S, row: u32x4<S>, swaps_red_and_blue: bool) -> f64x2<S> {
+    if swaps_red_and_blue {
+        swap_red_and_blue(s, row).bitcast()
+    } else {
+        row.bitcast()
+    }
 }
 
 #[inline(always)]
