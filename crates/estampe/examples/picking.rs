@@ -14,7 +14,7 @@ use scene::{Corner, Objects, Outcome, Screen, Solid};
 
 /// The pixel under the cursor.
 const CURSOR: [u32; 2] = [202, 128];
-/// What the texture of numbers is cleared to.
+/// The value that the texture of numbers is cleared to.
 const NOTHING: u32 = u32::MAX;
 
 /// Draws solids in the colour of their bind group, or as their number.

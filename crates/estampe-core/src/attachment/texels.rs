@@ -54,7 +54,7 @@ impl ColorTexels {
         })
     }
 
-    /// The same texels read and written as another format, which differs in sRGB alone.
+    /// Reinterprets the texels in another format, which differs in sRGB alone.
     #[must_use]
     pub fn with_format(self, format: TextureFormat) -> Self {
         debug_assert_eq!(format.with_srgb(false), self.format.with_srgb(false));

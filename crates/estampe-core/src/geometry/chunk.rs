@@ -21,7 +21,7 @@ pub(crate) struct ChunkScratch {
     clip: ClipDetour,
 }
 
-/// Whether the sub-draws before and after one in its chunk belong to the same run.
+/// True if the sub-draws before and after one in its chunk belong to the same run.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Neighbours {
     pub(crate) joins_last: bool,

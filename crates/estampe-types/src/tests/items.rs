@@ -1,4 +1,4 @@
-//! What `shader!` accepts.
+//! The items that `shader!` accepts.
 
 #![deny(warnings)]
 

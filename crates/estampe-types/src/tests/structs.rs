@@ -1,4 +1,4 @@
-//! What `varyings!` and `attributes!` accept.
+//! The structs that `varyings!` and `attributes!` accept.
 
 #![deny(warnings)]
 

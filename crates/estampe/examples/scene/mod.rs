@@ -1,4 +1,4 @@
-//! What the examples share: solids, a camera, a screen of four samples, and the picture's file.
+//! The parts that the examples share: solids, a camera, a screen of four samples, and the picture's file.
 
 #![expect(dead_code, reason = "each example uses a part")]
 
@@ -317,7 +317,7 @@ impl<'s> Objects<'s> {
         })
     }
 
-    /// What each draw binds: the group of its object as group 0, then others.
+    /// The bind groups of each draw: the group of its object as group 0, then others.
     pub(crate) fn bound<'a>(&'a self, others: &[&'a BindGroup]) -> Vec<Vec<DrawBindGroup<'a>>> {
         let all = |group| std::iter::once(group).chain(others.iter().copied());
         let groups = self.groups.iter();

@@ -189,7 +189,7 @@ impl<'a> Attachments<'a> {
             })
     }
 
-    /// What the core does with the contents at the beginning.
+    /// The core's load operations.
     pub(super) fn loads(&self) -> (Vec<LoadOp<[f64; 4]>>, LoadOp<f32>, LoadOp<u8>) {
         let colors = self.colors.iter().map(|color| color.attachment.load);
         let depth_stencil = self

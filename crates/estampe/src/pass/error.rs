@@ -190,7 +190,7 @@ pub enum PassErrorKind {
         buffer: String,
         /// The offset in bytes.
         offset: u64,
-        /// What it must be a multiple of.
+        /// The multiple that it must be of, in bytes.
         alignment: u32,
     },
     /// A bind group that is missing, of another layout, or beyond the pipeline's.

@@ -61,7 +61,7 @@ pub struct PassExtent {
     pub samples: u32,
 }
 
-/// What becomes of an attachment's contents at the end of a pass: WebGPU's `GPUStoreOp`.
+/// Operation on an attachment's contents at the end of a pass: WebGPU's `GPUStoreOp`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum StoreOp {
     /// They are kept.
@@ -84,7 +84,7 @@ pub struct ColorAttachment {
     /// The contents at the beginning: as they are, or this colour. Linear RGBA, which the format
     /// stores as it stores a fragment's colour; of integer formats the integers.
     pub load: LoadOp<[f64; 4]>,
-    /// What becomes of the contents. Default stored.
+    /// The contents at the end. Default stored.
     pub store: StoreOp,
 }
 
@@ -111,7 +111,7 @@ impl ColorAttachment {
     }
 }
 
-/// What a pass does with one aspect of a depth and stencil attachment.
+/// The operations of a pass on one aspect of a depth and stencil attachment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AspectOperations<T> {
     /// Draws test it and do not write it; the texture can be sampled meanwhile.
@@ -120,7 +120,7 @@ pub enum AspectOperations<T> {
     Write {
         /// The contents at the beginning.
         load: LoadOp<T>,
-        /// What becomes of the contents.
+        /// The contents at the end.
         store: StoreOp,
     },
 }

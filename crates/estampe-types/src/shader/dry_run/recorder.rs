@@ -1,4 +1,4 @@
-//! What a dry run records.
+//! The record of a dry run.
 
 use crate::ShaderError;
 use std::sync::OnceLock;

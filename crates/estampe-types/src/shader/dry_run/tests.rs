@@ -1,9 +1,9 @@
-//! What dry runs find, and what they refuse.
+//! Tests of the findings and refusals of dry runs.
 
 use crate::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut, interface_of};
 use crate::{DepthTexture, Interface, Quad, ShaderError, Vec2, Vec4};
 
-/// What a fragment does, apart from its colour.
+/// The effects of a fragment, apart from its colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Does {
     Nothing,
@@ -98,7 +98,7 @@ fn refused(does: Does) -> String {
     interface_of(&Doing(does)).unwrap_err().to_string()
 }
 
-/// What an interface has beyond that of a shader that only returns a colour.
+/// The parts of an interface beyond that of a shader that only returns a colour.
 fn beyond(does: Does) -> Interface {
     let mut interface = found(does);
     let nothing = found(Does::Nothing);

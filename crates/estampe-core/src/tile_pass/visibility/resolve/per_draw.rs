@@ -1,7 +1,7 @@
 //! Draws of one colour: nothing varies over a draw, so it is shaded once for each tile, and the
 //! colours of all such draws are stored in one pass over the tile's packets.
 //!
-//! What may still differ between triangles is whether they face the viewer. One packet is shaded
+//! Triangles may still differ in whether they face the viewer. One packet is shaded
 //! for both: some of its quads face the viewer and some do not. Where the two colours differ, the
 //! draw's samples are left to the passes by group.
 
