@@ -17,7 +17,7 @@ pub(crate) fn read(device: &Device, texture: &Texture) -> Result<Vec<u8>, Textur
     Ok(texels)
 }
 
-/// Whether blue comes first; `None` of formats that are not four channels of eight bits.
+/// Returns true if blue comes first; `None` of formats that are not four channels of eight bits.
 pub(crate) fn is_bgra(format: TextureFormat) -> Option<bool> {
     use TextureFormat as F;
     match format {

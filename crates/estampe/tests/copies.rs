@@ -8,7 +8,7 @@ use estampe::{
 };
 use support::{device, noise, texture};
 
-/// What a texture of this format keeps of the bytes of its texels.
+/// The bytes of texels that a texture of this format keeps.
 fn kept(format: TextureFormat, mut bytes: Vec<u8>) -> Vec<u8> {
     let each = format.block_bytes() as usize;
     for texel in bytes.chunks_exact_mut(each) {

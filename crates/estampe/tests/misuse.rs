@@ -83,7 +83,7 @@ fn pipelines_of_other_samples() {
     assert!(images.pixels(&device).iter().all(|&byte| byte == 255));
 }
 
-/// What the host wrote stays, also where a pass that clears has an image of its own.
+/// The texels that the host wrote stay, also where a pass that clears has an image of its own.
 #[test]
 fn a_refused_pass_keeps_what_the_host_wrote() {
     let device = device();

@@ -108,7 +108,7 @@ fn draw(device: &Device, pipeline: &RenderPipeline, group: &BindGroup, into: &Te
         .unwrap();
 }
 
-/// What [`Turned`] makes of RGBA or BGRA bytes, in the size of another image.
+/// The result of [`Turned`] for RGBA or BGRA bytes, in the size of another image.
 fn turned(bytes: &[u8], from: [u32; 2], into: [u32; 2], is_bgra: bool) -> Vec<u8> {
     let [width, height] = into;
     let mut turned = Vec::new();

@@ -1,4 +1,4 @@
-//! The parts that the examples share: solids, a camera, a screen of four samples, and the picture's file.
+//! Shared by the examples: solids, a camera, a screen of four samples, and the picture's file.
 
 #![expect(dead_code, reason = "each example uses a part")]
 

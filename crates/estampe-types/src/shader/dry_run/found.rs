@@ -21,7 +21,7 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// The findings of all runs together. A panic is an error of the shader only if the answers were
+    /// The findings of all runs. A panic is an error of the shader only if the answers were
     /// true: a body may rely on them.
     pub(super) fn of<T: Shader>(shader: &T, declared: &Interface) -> Result<Self, ShaderError> {
         let varyings = runs::plain_varyings(declared.varyings.len());
