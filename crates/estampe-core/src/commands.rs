@@ -2,7 +2,7 @@
 
 use crate::pipeline::RenderPipeline;
 use estampe_types::state::{ScissorRect, Viewport};
-use estampe_types::{Bindings, Buffer, IndexFormat};
+use estampe_types::{Bindings, BufferData, IndexFormat};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -12,9 +12,9 @@ pub struct Draw<'a> {
     /// The validated state.
     pub pipeline: &'a RenderPipeline,
     /// The vertex buffers, as the pipeline's layouts name them; a missing or short one reads zeros.
-    pub vertex_buffers: &'a [Buffer],
+    pub vertex_buffers: &'a [BufferData],
     /// The index buffer and the width of its indices, if vertices are to be found by index.
-    pub indices: Option<(&'a Buffer, IndexFormat)>,
+    pub indices: Option<(&'a BufferData, IndexFormat)>,
     /// The range of indices to draw, or of vertices if there is no index buffer. Indices beyond the
     /// buffer's end read zero.
     pub elements: Range<u32>,
@@ -70,7 +70,7 @@ impl<'a> Draw<'a> {
     /// no buffer keeps a program busy for hours. For several draws of one buffer, call this several
     /// times.
     #[must_use]
-    pub fn indirect(pipeline: &'a RenderPipeline, parameters: &Buffer, offset: usize) -> Self {
+    pub fn indirect(pipeline: &'a RenderPipeline, parameters: &BufferData, offset: usize) -> Self {
         let [count, instances, first, first_instance, _] = indirect_words(parameters, offset);
         Self::limited(pipeline, [first, count], [first_instance, instances])
     }
@@ -81,8 +81,8 @@ impl<'a> Draw<'a> {
     #[must_use]
     pub fn indexed_indirect(
         pipeline: &'a RenderPipeline,
-        indices: (&'a Buffer, IndexFormat),
-        parameters: &Buffer,
+        indices: (&'a BufferData, IndexFormat),
+        parameters: &BufferData,
         offset: usize,
     ) -> Self {
         let [count, instances, first, base, first_instance] = indirect_words(parameters, offset);
@@ -113,7 +113,7 @@ impl<'a> Draw<'a> {
 }
 
 /// Five words of a buffer; those beyond its end are zero.
-fn indirect_words(parameters: &Buffer, offset: usize) -> [u32; 5] {
+fn indirect_words(parameters: &BufferData, offset: usize) -> [u32; 5] {
     [0, 4, 8, 12, 16].map(|at| parameters.word_at(offset.saturating_add(at)))
 }
 

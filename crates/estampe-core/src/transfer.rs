@@ -7,7 +7,7 @@ use crate::attachment::{
     ColorTexels, DepthStencilTexels, ReadbackError, RenderTarget, ResolveError, ResolveMode,
 };
 use crate::draw::Context;
-use estampe_types::DepthTexture;
+use estampe_types::ShadowMap;
 
 impl Context {
     /// Writes the mean of each pixel's samples to a target of one sample, of the same size and with
@@ -114,13 +114,13 @@ impl Context {
 
     /// The depths of an image as a texture, without a copy; `None` without depth or with several
     /// samples.
-    pub fn depth_texture_of(&self, texels: &mut DepthStencilTexels) -> Option<DepthTexture> {
+    pub fn shadow_map_of(&self, texels: &mut DepthStencilTexels) -> Option<ShadowMap> {
         texels.depth_texture(|jobs| self.executor().for_each_alone(jobs, |job| job.run()))
     }
 
     /// The target's depth as a texture, without a copy; `None` without depth or with several
     /// samples.
-    pub fn depth_texture(&self, target: &mut RenderTarget) -> Option<DepthTexture> {
-        self.depth_texture_of(target.depth_stencil.as_mut()?)
+    pub fn depth_texture(&self, target: &mut RenderTarget) -> Option<ShadowMap> {
+        self.shadow_map_of(target.depth_stencil.as_mut()?)
     }
 }

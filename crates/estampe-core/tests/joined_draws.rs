@@ -7,8 +7,8 @@ use estampe_simd::Level;
 use estampe_types::shader::VertexOut;
 use estampe_types::state::{MultisampleState, VertexAttribute, VertexBufferLayout};
 use estampe_types::{
-    BindGroup, Binding, Bindings, BoundGroup, Buffer, FragmentIn, FragmentOut, Limits, Real, Vec4,
-    VertexFormat, VertexIn,
+    Bindings, BoundGroup, BoundResource, BoundResources, BufferData, FragmentIn, FragmentOut,
+    Limits, Real, Vec4, VertexFormat, VertexIn,
 };
 use std::sync::Arc;
 
@@ -114,12 +114,12 @@ fn check(descriptor: RenderPipelineDescriptor, samples: u32) {
         .map(|_| {
             let positions = triangles(&mut random);
             let vertices = u32::try_from(positions.len() / 4).unwrap();
-            let binding = Binding::Buffer {
-                buffer: Buffer::from_f32s(&[0; 4].map(|_| random())),
+            let binding = BoundResource::Buffer {
+                buffer: BufferData::from_f32s(&[0; 4].map(|_| random())),
                 offset: 0,
                 dynamic_offset: None,
             };
-            let group = BindGroup {
+            let group = BoundResources {
                 entries: vec![(0, binding)],
             };
             let bindings = Bindings {
@@ -128,7 +128,7 @@ fn check(descriptor: RenderPipelineDescriptor, samples: u32) {
                     ..BoundGroup::default()
                 }],
             };
-            ([Buffer::from_f32s(&positions)], bindings, vertices)
+            ([BufferData::from_f32s(&positions)], bindings, vertices)
         })
         .collect();
     let draws: Vec<_> = resources

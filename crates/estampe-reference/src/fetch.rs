@@ -6,17 +6,17 @@
 
 use crate::arithmetic::max;
 use estampe_types::state::{VertexBufferLayout, VertexStepMode};
-use estampe_types::{Buffer, IndexFormat, VertexEncoding, VertexFormat};
+use estampe_types::{BufferData, IndexFormat, VertexEncoding, VertexFormat};
 
 /// Element `position` of an index buffer, plus the base vertex (modulo 2³²).
 #[must_use]
-pub fn index(format: IndexFormat, buffer: &Buffer, position: u32, base_vertex: i32) -> u32 {
+pub fn index(format: IndexFormat, buffer: &BufferData, position: u32, base_vertex: i32) -> u32 {
     raw_index(format, buffer, position).wrapping_add_signed(base_vertex)
 }
 
 /// Element `position` of an index buffer, without the base vertex.
 #[must_use]
-pub fn raw_index(format: IndexFormat, buffer: &Buffer, position: u32) -> u32 {
+pub fn raw_index(format: IndexFormat, buffer: &BufferData, position: u32) -> u32 {
     let at = |width: usize| (position as usize).saturating_mul(width);
     match format {
         IndexFormat::Uint8 => u32::from(byte_at(buffer, at(1))),
@@ -37,7 +37,7 @@ pub fn instance_element(instance: u32, first_instance: u32, step_rate: u32) -> u
 /// The attribute at a location: from the first layout that names it; zeros if none does.
 #[must_use]
 pub fn attribute(
-    buffers: &[(VertexBufferLayout, Buffer)],
+    buffers: &[(VertexBufferLayout, BufferData)],
     location: u32,
     vertex_index: u32,
     [instance_index, first_instance]: [u32; 2],
@@ -63,7 +63,7 @@ pub fn attribute(
 
 /// The attribute at a byte offset, decoded; missing components are (0, 0, 0, 1).
 #[must_use]
-pub fn decode(format: VertexFormat, buffer: &Buffer, offset: usize) -> [f32; 4] {
+pub fn decode(format: VertexFormat, buffer: &BufferData, offset: usize) -> [f32; 4] {
     use VertexFormat as F;
     let byte = |k: usize| byte_at(buffer, offset.saturating_add(k));
     let short = |k: usize| u16_at(buffer, offset.saturating_add(2 * k));
@@ -119,16 +119,16 @@ pub fn half(code: u16) -> f32 {
     }
 }
 
-fn u16_at(buffer: &Buffer, offset: usize) -> u16 {
+fn u16_at(buffer: &BufferData, offset: usize) -> u16 {
     u16::from_le_bytes([0, 1].map(|k| byte_at(buffer, offset.saturating_add(k))))
 }
 
-fn word_at(buffer: &Buffer, offset: usize) -> u32 {
+fn word_at(buffer: &BufferData, offset: usize) -> u32 {
     u32::from_le_bytes([0, 1, 2, 3].map(|k| byte_at(buffer, offset.saturating_add(k))))
 }
 
 /// A byte of a buffer, which holds little-endian words; zero beyond the end.
-fn byte_at(buffer: &Buffer, offset: usize) -> u8 {
+fn byte_at(buffer: &BufferData, offset: usize) -> u8 {
     if offset >= buffer.len_bytes() {
         return 0;
     }

@@ -54,7 +54,7 @@
 //! | `Vec2`, `Vec3`, `Vec4`, `Mat4` | `tests/shared/vectors.rs`, by hand, the order of sums included |
 //! | how attributes and varyings are split into scalars and assembled; `FragmentOut`, `VertexOut` | `tests/shared/layouts.rs`; `tests/drawing.rs` |
 //! | the interface of a shader: `interface_of` | `estampe-types/src/shader/dry_run/tests.rs` |
-//! | `Buffer::words`, and how bytes become words; `Bindings` | `tests/shared/layouts.rs`, by hand |
+//! | `BufferData::words`, and how bytes become words; `Bindings` | `tests/shared/layouts.rs`, by hand |
 //! | the layout of textures: `stored_format`, `words_per_texel`, `slices`; `StorageTexture::index` | `tests/shared/layouts.rs`, by hand |
 //!
 //! The oracle has its own comparison functions, stencil operations, sRGB tables, and decoding of

@@ -19,7 +19,7 @@ use estampe_types::state::{
     LineStipple, LogicOperation, PolygonMode, PrimitiveState, PrimitiveTopology, ProvokingVertex,
     ScissorRect, StencilState, VertexBufferLayout, Viewport,
 };
-use estampe_types::{Bindings, Buffer, IndexFormat, Interface};
+use estampe_types::{Bindings, BufferData, IndexFormat, Interface};
 use std::ops::Range;
 
 /// The fixed-function state of a draw.
@@ -108,9 +108,9 @@ impl State {
 #[derive(Debug, Clone)]
 pub struct Draw<'a> {
     /// Vertex buffers with their layouts.
-    pub buffers: &'a [(VertexBufferLayout, Buffer)],
+    pub buffers: &'a [(VertexBufferLayout, BufferData)],
     /// The index buffer, if the draw has one.
-    pub indices: Option<(IndexFormat, &'a Buffer)>,
+    pub indices: Option<(IndexFormat, &'a BufferData)>,
     /// The range of vertices, or of elements of the index buffer.
     pub vertices: Range<u32>,
     /// The range of instances, drawn one after the other.

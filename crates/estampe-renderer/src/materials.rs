@@ -4,7 +4,7 @@ use crate::frame::RenderError;
 use crate::options::{RenderOptions, Shading};
 use crate::shading::lighting::Gloss;
 use crate::surface_pipelines::{SurfaceStyle, Transparency};
-use estampe::{Device, Sampled, SamplerDescriptor, TextureDescriptor, TextureFormat};
+use estampe::{Device, SampledTexture, SamplerDescriptor, TextureDescriptor, TextureFormat};
 use estampe_scene::{AlphaMode, Image, Material, Mesh, Scene};
 use std::collections::HashMap;
 
@@ -14,7 +14,7 @@ pub(crate) struct Materials<'a> {
     options: &'a RenderOptions,
     device: &'a Device,
     /// Textures by index into the scene's images; `None` is the texture of the options.
-    textures: HashMap<Option<usize>, Sampled>,
+    textures: HashMap<Option<usize>, SampledTexture>,
 }
 
 impl<'a> Materials<'a> {
@@ -88,7 +88,7 @@ impl<'a> Materials<'a> {
         &mut self,
         material: &Material,
         mesh: &Mesh,
-    ) -> Result<Option<Sampled>, RenderError> {
+    ) -> Result<Option<SampledTexture>, RenderError> {
         if mesh.uvs.is_empty() {
             return Ok(None);
         }
@@ -109,7 +109,7 @@ impl<'a> Materials<'a> {
         Ok(Some(texture))
     }
 
-    fn create(&self, image: &Image) -> Result<Sampled, RenderError> {
+    fn create(&self, image: &Image) -> Result<SampledTexture, RenderError> {
         let format = TextureFormat::Rgba8UnormSrgb;
         let descriptor = TextureDescriptor::new_2d(image.width, image.height, format);
         let texture = self
@@ -117,7 +117,7 @@ impl<'a> Materials<'a> {
             .create_texture_with_data(&descriptor.with_all_levels(), &[&image.rgba])?;
         let sampler = SamplerDescriptor::trilinear_repeat();
         let sampler = self.device.create_sampler(&sampler)?;
-        Ok(self.device.sampled(&texture, &sampler)?)
+        Ok(self.device.sampled_texture(&texture.view(), &sampler)?)
     }
 }
 

@@ -15,8 +15,8 @@ use estampe::state::{
     PrimitiveState, PrimitiveTopology,
 };
 use estampe::{
-    Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor, Sampled, Shader,
-    ShaderProgram, TextureFormat,
+    Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor, SampledTexture,
+    Shader, ShaderProgram, TextureFormat,
 };
 use std::sync::Arc;
 
@@ -40,7 +40,7 @@ pub(crate) struct SurfaceStyle {
     pub(crate) gloss: Gloss,
     /// Linear RGBA.
     pub(crate) base: [f32; 4],
-    pub(crate) texture: Option<Sampled>,
+    pub(crate) texture: Option<SampledTexture>,
     pub(crate) has_vertex_colors: bool,
     pub(crate) transparency: Transparency,
 }

@@ -6,7 +6,7 @@ use estampe_types::state::{
     BlendState, ColorWrites, DepthBiasState, DepthState, LogicOperation, PrimitiveState,
     ScissorRect, StencilState, VertexBufferLayout, Viewport,
 };
-use estampe_types::{Bindings, Buffer, IndexFormat, TextureFormat};
+use estampe_types::{Bindings, BufferData, IndexFormat, TextureFormat};
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -41,9 +41,9 @@ pub struct CaseDraw {
     /// The vertex and fragment shader.
     pub shader: TestShader,
     /// Vertex buffers with their layouts.
-    pub buffers: Vec<(VertexBufferLayout, Buffer)>,
+    pub buffers: Vec<(VertexBufferLayout, BufferData)>,
     /// The index buffer, if there is one.
-    pub indices: Option<(IndexFormat, Buffer)>,
+    pub indices: Option<(IndexFormat, BufferData)>,
     /// Range of vertices, or of elements of the index buffer.
     pub elements: Range<u32>,
     /// Range of instances.

@@ -10,7 +10,7 @@ use estampe::{
     OcclusionQueries, RenderPass, RenderPipeline, RenderPipelineDescriptor, Statistics,
 };
 use estampe_types::state::{ColorTargetState, DepthStencilState, MultisampleState};
-use estampe_types::{Binding, Bindings, Buffer as BufferData, TextureFormat};
+use estampe_types::{Bindings, BoundResource, BufferData, TextureFormat};
 use std::sync::LazyLock;
 
 /// Numbers of threads: one, an even division, and more than this machine may have.
@@ -195,7 +195,7 @@ fn bind_groups(device: &Device, bindings: &Bindings) -> Vec<(BindGroup, Vec<u32>
         let mut entries = Vec::new();
         let mut offsets = Vec::new();
         for (binding, resource) in &bound.group.entries {
-            let Binding::Buffer {
+            let BoundResource::Buffer {
                 buffer,
                 offset,
                 dynamic_offset,

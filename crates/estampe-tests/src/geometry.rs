@@ -2,7 +2,7 @@
 
 use crate::Random;
 use estampe_types::state::{VertexAttribute, VertexBufferLayout, VertexStepMode};
-use estampe_types::{Buffer, VertexFormat};
+use estampe_types::{BufferData, VertexFormat};
 
 /// A vertex of the standard layout.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,9 +31,9 @@ pub fn vertex_layout() -> VertexBufferLayout {
 
 /// A vertex buffer of the standard layout.
 #[must_use]
-pub fn vertex_buffer(vertices: &[Vertex]) -> Buffer {
+pub fn vertex_buffer(vertices: &[Vertex]) -> BufferData {
     let scalars = |vertex: &Vertex| [vertex.position, vertex.values].concat();
-    Buffer::from_f32s(&vertices.iter().flat_map(scalars).collect::<Vec<_>>())
+    BufferData::from_f32s(&vertices.iter().flat_map(scalars).collect::<Vec<_>>())
 }
 
 /// The clip-space position of a point in pixels with this depth and w, for a viewport over the

@@ -1,9 +1,9 @@
-//! Depth comparison of `DepthTexture` at every SIMD level against the oracle, bit for bit.
+//! Depth comparison of `ShadowMap` at every SIMD level against the oracle, bit for bit.
 
 use estampe_reference::depth_map::DepthMap;
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_tests::Random;
-use estampe_texture::{DepthTexture, sample_compare_level, sample_compare_sum};
+use estampe_texture::{ShadowMap, sample_compare_level, sample_compare_sum};
 use estampe_types::{Quad, Vec2};
 
 const TAPS: usize = 9;
@@ -14,7 +14,7 @@ type Packet = [[f32; LANES]; 3];
 #[inline(always)]
 fn wide<S: Lanes>(
     s: S,
-    map: &DepthTexture,
+    map: &ShadowMap,
     packet: &Packet,
     taps: &[[f32; 2]; TAPS],
 ) -> [[f32; LANES]; 2] {
@@ -28,7 +28,7 @@ fn wide<S: Lanes>(
 }
 
 /// The comparison with quads and with single fragments.
-fn narrow(map: &DepthTexture, [u, v, reference]: &Packet, taps: &[[f32; 2]; TAPS]) {
+fn narrow(map: &ShadowMap, [u, v, reference]: &Packet, taps: &[[f32; 2]; TAPS]) {
     for first in (0..LANES).step_by(4) {
         let quad =
             |of: &[f32; LANES]| Quad([of[first], of[first + 1], of[first + 2], of[first + 3]]);
@@ -42,7 +42,7 @@ fn narrow(map: &DepthTexture, [u, v, reference]: &Packet, taps: &[[f32; 2]; TAPS
 }
 
 fn check(image: &DepthMap, packet: &Packet, taps: &[[f32; 2]; TAPS]) {
-    let map = DepthTexture::from_rows(image.width, image.height, &image.rows);
+    let map = ShadowMap::from_rows(image.width, image.height, &image.rows);
     let [u, v, reference] = packet;
     let mut expected = [[0.0_f32; LANES]; 2];
     for lane in 0..LANES {
@@ -150,8 +150,8 @@ fn an_image_without_texels_reads_as_depth_zero() {
     let mut packet = [[0.25; LANES]; 3];
     packet[2] = std::array::from_fn(|lane| lane as f32 - 8.0);
     check(&none, &packet, &taps(&none, 0.1));
-    let map = DepthTexture::from_rows(3, 3, &[0.5; 8]);
+    let map = ShadowMap::from_rows(3, 3, &[0.5; 8]);
     assert_eq!((map.width(), map.texel(0, 0)), (0, 0.0));
-    let map = DepthTexture::from_rows(u32::MAX, 0, &[]);
+    let map = ShadowMap::from_rows(u32::MAX, 0, &[]);
     assert_eq!(map.depths().len(), 0);
 }

@@ -4,7 +4,7 @@
 use estampe_tests::geometry::{Style, Vertex, clip_at, triangles};
 use estampe_tests::shaders::{Colored, Crowded};
 use estampe_tests::{Case, CaseDraw, Random, check, check_some};
-use estampe_types::Buffer;
+use estampe_types::BufferData;
 
 /// Rows: N1, R1.
 #[test]
@@ -44,7 +44,7 @@ fn all_attributes_of_all_buffers_and_all_varyings() {
             }
             let values = vertices.iter().flat_map(|_| [0; 8].map(|_| random.unit()));
             let values: Vec<f32> = values.collect();
-            draw.buffers.push((layout, Buffer::from_f32s(&values)));
+            draw.buffers.push((layout, BufferData::from_f32s(&values)));
         }
         case.draws.push(draw);
         case

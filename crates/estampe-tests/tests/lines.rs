@@ -8,7 +8,7 @@ use estampe_types::state::{
     BlendState, CullMode, DepthState, LineRasterization, LineState, LineStipple, PolygonMode,
     PrimitiveTopology, ProvokingVertex, ScissorRect,
 };
-use estampe_types::{Buffer, IndexFormat, TextureFormat};
+use estampe_types::{BufferData, IndexFormat, TextureFormat};
 
 const KINDS: [LineRasterization; 3] = [
     LineRasterization::Bresenham,
@@ -103,7 +103,7 @@ fn every_shape_width_and_pattern() {
                     _ => random.below(count),
                 };
                 let indices: Vec<_> = (0..14).map(index).collect();
-                draw.indices = Some((IndexFormat::Uint32, Buffer::from_words(indices)));
+                draw.indices = Some((IndexFormat::Uint32, BufferData::from_words(indices)));
                 draw.elements = 0..14;
                 draw.primitive.primitive_restart = true;
             }

@@ -4,7 +4,7 @@ use estampe_tests::geometry::{Vertex, clip_at, values};
 use estampe_tests::shaders::{Colored, Probe, Uniform};
 use estampe_tests::{Case, CaseDraw, Random, TestShader, check, check_one};
 use estampe_types::state::{BlendState, CullMode};
-use estampe_types::{BindGroup, Binding, Bindings, BoundGroup, Buffer, IndexFormat};
+use estampe_types::{Bindings, BoundGroup, BoundResource, BoundResources, BufferData, IndexFormat};
 use std::sync::Arc;
 
 /// Indices of the 2·(n − 1)² triangles of a grid of n × n vertices, wound alike.
@@ -17,7 +17,7 @@ fn grid_indices(n: u32) -> Vec<u32> {
 
 fn with_indices(shader: impl Into<TestShader>, vertices: &[Vertex], indices: &[u32]) -> CaseDraw {
     CaseDraw {
-        indices: Some((IndexFormat::Uint32, Buffer::from_words(indices))),
+        indices: Some((IndexFormat::Uint32, BufferData::from_words(indices))),
         elements: 0..u32::try_from(indices.len()).expect("few indices"),
         ..CaseDraw::new(shader, vertices)
     }
@@ -90,11 +90,11 @@ fn ridged_grids_of_small_triangles() {
 
 /// A case in which additive blending adds one unit to a sample for each triangle that covers it.
 fn counting(size: [u32; 2], samples: u32, mut draw: CaseDraw, unit: [f32; 8]) -> Case {
-    let group = BindGroup {
+    let group = BoundResources {
         entries: vec![(
             0,
-            Binding::Buffer {
-                buffer: Buffer::from_f32s(&unit),
+            BoundResource::Buffer {
+                buffer: BufferData::from_f32s(&unit),
                 offset: 0,
                 dynamic_offset: None,
             },

@@ -9,8 +9,8 @@ use estampe_types::state::{
     BlendState, CompareFunction, CullMode, DepthState, PolygonMode, PrimitiveTopology, ScissorRect,
 };
 use estampe_types::{
-    BindGroup, Binding, Bindings, BoundGroup, Buffer, IndexFormat, MAX_DYNAMIC_OFFSETS,
-    TextureFormat,
+    Bindings, BoundGroup, BoundResource, BoundResources, BufferData, IndexFormat,
+    MAX_DYNAMIC_OFFSETS, TextureFormat,
 };
 use std::sync::Arc;
 
@@ -27,13 +27,13 @@ fn shader(random: &mut Random) -> TestShader {
 }
 
 fn colors(random: &mut Random) -> Bindings {
-    let buffer = Buffer::from_f32s(&[random.four(0.0, 1.0), random.four(0.0, 1.0)].concat());
-    let entry = Binding::Buffer {
+    let buffer = BufferData::from_f32s(&[random.four(0.0, 1.0), random.four(0.0, 1.0)].concat());
+    let entry = BoundResource::Buffer {
         buffer,
         offset: random.pick(&[0, 0, 4, 20]),
         dynamic_offset: random.once_in(2).then_some(0),
     };
-    let group = BindGroup {
+    let group = BoundResources {
         entries: vec![(0, entry)],
     };
     Bindings {
@@ -142,7 +142,7 @@ fn more_primitives_than_a_sub_draw_or_a_draw_batch_holds() {
         let count = 2_200_001;
         let indices: Vec<u8> = (0..count).map(|_| random.byte() % 20).collect();
         let mut draw = CaseDraw::new(FlatColored, &vertices);
-        draw.indices = Some((IndexFormat::Uint8, Buffer::from_bytes(&indices)));
+        draw.indices = Some((IndexFormat::Uint8, BufferData::from_bytes(&indices)));
         draw.elements = 0..count;
         draw.primitive.topology = topology;
         draw.primitive.cull_mode = CullMode::Back;

@@ -4,7 +4,7 @@ use estampe_tests::geometry::{Vertex, clip_at, values};
 use estampe_tests::shaders::{FlatColored, Indexed, Probe, Scalar};
 use estampe_tests::{Case, CaseDraw, Random, TestShader, check, check_some};
 use estampe_types::state::{CullMode, PolygonMode, PrimitiveTopology, ProvokingVertex};
-use estampe_types::{Buffer, IndexFormat};
+use estampe_types::{BufferData, IndexFormat};
 
 const TOPOLOGIES: [PrimitiveTopology; 11] = [
     PrimitiveTopology::PointList,
@@ -63,7 +63,7 @@ fn indexed(random: &mut Random, draw: &mut CaseDraw, count: u32) {
         _ => random.below(20),
     };
     let indices: Vec<_> = (0..count).map(&mut index).collect();
-    draw.indices = Some((format, Buffer::from_bytes(&bytes(format, &indices))));
+    draw.indices = Some((format, BufferData::from_bytes(&bytes(format, &indices))));
     draw.elements = random.pick(&[0, 0, 1, 3])..count + random.pick(&[0, 0, 5]);
     draw.base_vertex = random.pick(&[0, 0, 0, 1, -2]);
 }
@@ -102,7 +102,7 @@ fn the_provoking_vertex_of_every_topology() {
         let mut draw = CaseDraw::new(shader(random), &vertices);
         if random.once_in(2) {
             let indices: Vec<_> = (0..48).map(|_| random.below(24)).collect();
-            draw.indices = Some((IndexFormat::Uint32, Buffer::from_words(indices)));
+            draw.indices = Some((IndexFormat::Uint32, BufferData::from_words(indices)));
             draw.elements = 0..48;
         }
         draw.primitive.topology = random.pick(&TOPOLOGIES);
@@ -132,7 +132,7 @@ fn instances_whose_vertices_are_far_apart() {
         indices[7] = u32::MAX;
         indices[11] = u32::MAX - 1;
         indices[15] = 3_000_000_000;
-        draw.indices = Some((IndexFormat::Uint32, Buffer::from_words(indices)));
+        draw.indices = Some((IndexFormat::Uint32, BufferData::from_words(indices)));
         draw.elements = 0..24;
         draw.primitive.topology = random.pick(&TOPOLOGIES);
         draw.primitive.primitive_restart = true;
@@ -162,7 +162,7 @@ fn more_primitives_than_a_sub_draw_holds() {
             false => at / 50_000 % 20,
         };
         let indices: Vec<_> = (0..1_050_000).map(index).collect();
-        draw.indices = Some((IndexFormat::Uint32, Buffer::from_words(indices)));
+        draw.indices = Some((IndexFormat::Uint32, BufferData::from_words(indices)));
         draw.elements = 0..1_050_000;
         draw.primitive.topology = topology;
         draw.primitive.primitive_restart = true;

@@ -4,15 +4,15 @@
 use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::TexturedShader;
 use estampe_tests::{Case, CaseDraw, Random, check};
-use estampe_texture::{LevelData, MipGeneration, TextureDescriptor, create_texture};
+use estampe_texture::{LevelData, MipGeneration, TexelDescriptor, create_texture};
 use estampe_types::state::{PolygonMode, PrimitiveTopology};
 use estampe_types::{
-    AddressMode, BorderColor, FilterMode, Limits, SampleType, SamplerDescriptor, Texture,
+    AddressMode, BorderColor, FilterMode, Limits, SampleType, SamplerDescriptor, TexelData,
     TextureFormat,
 };
 use std::sync::Arc;
 
-fn texture(random: &mut Random) -> Arc<Texture> {
+fn texture(random: &mut Random) -> Arc<TexelData> {
     let sides = [1, 2, 3, 8, 17, 32];
     let (width, height) = (random.pick(&sides), random.pick(&sides));
     let texels: Vec<u8> = (0..width * height * 4).map(|_| random.byte()).collect();
@@ -66,7 +66,7 @@ fn textured_case(random: &mut Random, style: Style, scales: &[f32]) -> Case {
 }
 
 /// A texture of any float or normalised format, and a random sampler.
-fn any_texture(random: &mut Random) -> (Arc<Texture>, SamplerDescriptor) {
+fn any_texture(random: &mut Random) -> (Arc<TexelData>, SamplerDescriptor) {
     let all = TextureFormat::ALL.iter().copied();
     let formats: Vec<_> = all
         .filter(|format| format.sample_type() == SampleType::Float)
@@ -79,7 +79,7 @@ fn any_texture(random: &mut Random) -> (Arc<Texture>, SamplerDescriptor) {
     let bytes: Vec<u8> = (0..blocks * format.block_bytes())
         .map(|_| random.byte())
         .collect();
-    let descriptor = TextureDescriptor::new_2d(width, height, format).with_all_levels();
+    let descriptor = TexelDescriptor::new_2d(width, height, format).with_all_levels();
     let data = [LevelData::tight(&bytes)];
     let made = descriptor.create(&data, MipGeneration::Full, &Limits::default());
     let linear = [FilterMode::Linear; 3];

@@ -9,12 +9,12 @@ use estampe_reference::texture::texel::TexelReader;
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_tests::Random;
 use estampe_texture::{
-    LevelData, MipGeneration, StorageTexture, TextureDescriptor, TextureError, TextureView,
+    LevelData, MipGeneration, StorageTexture, TexelDescriptor, TexelView, TextureError,
     create_storage_texture, storage_bytes, storage_load, storage_store, storage_texture_to_texture,
 };
 use estampe_types::{
-    BindGroup, Binding, Bindings, BoundGroup, Limits, Quad, Real, SampleType, TexelEncoding,
-    TextureAspect, TextureDimension, TextureFormat, Vec4,
+    Bindings, BoundGroup, BoundResource, BoundResources, Limits, Quad, Real, SampleType,
+    TexelEncoding, TextureAspect, TextureDimension, TextureFormat, Vec4,
 };
 
 type Places = [[i32; LANES]; 3];
@@ -109,7 +109,7 @@ fn stored_texels_are_loaded_and_read_back() {
     for (number, &format) in TextureFormat::ALL.iter().enumerate() {
         if !is_storable(format) {
             let refused = create_storage_texture(
-                &TextureDescriptor::new_2d(4, 4, format),
+                &TexelDescriptor::new_2d(4, 4, format),
                 None,
                 &Limits::default(),
             );
@@ -117,10 +117,10 @@ fn stored_texels_are_loaded_and_read_back() {
             continue;
         }
         let random = &mut Random::new("storage", number as u64);
-        let descriptor = TextureDescriptor {
+        let descriptor = TexelDescriptor {
             dimension: random.pick(&[TextureDimension::D2, TextureDimension::D3]),
             depth_or_layers: 3,
-            ..TextureDescriptor::new_2d(7, 5, format)
+            ..TexelDescriptor::new_2d(7, 5, format)
         };
         let make =
             || create_storage_texture(&descriptor, None, &Limits::default()).expect("storable");
@@ -183,7 +183,7 @@ fn check_contents(
         aspect: TextureAspect::All,
     };
     let words = sampled.words_per_texel();
-    let view = TextureView::of(sampled.clone()).expect("a view");
+    let view = TexelView::of(sampled.clone()).expect("a view");
     for (index, expected) in expected.iter().enumerate() {
         let [x, y, z] = [index % 7, index / 7 % 5, index / 35].map(|k| k as i32);
         let places: Places = [[x; LANES], [y; LANES], [z; LANES]];
@@ -227,16 +227,16 @@ fn check_contents(
 fn uploaded_bytes_are_kept() {
     let bytes: Vec<u8> = (0..4 * 3 * 2 * 4).collect();
     for format in [TextureFormat::Bgra8Unorm, TextureFormat::Rg16Sint] {
-        let descriptor = TextureDescriptor {
+        let descriptor = TexelDescriptor {
             depth_or_layers: 2,
-            ..TextureDescriptor::new_2d(4, 3, format)
+            ..TexelDescriptor::new_2d(4, 3, format)
         };
         let data = Some(LevelData::tight(&bytes));
         let texture = create_storage_texture(&descriptor, data, &Limits::default());
         let texture = texture.expect("storable");
         assert_eq!(storage_bytes(&texture), bytes);
-        let bound = Binding::StorageTexture(texture.clone());
-        let group = BindGroup {
+        let bound = BoundResource::StorageTexture(texture.clone());
+        let group = BoundResources {
             entries: vec![(3, bound)],
         };
         let bindings = Bindings {
@@ -258,7 +258,7 @@ fn uploaded_bytes_are_kept() {
 /// Rows: F2.
 #[test]
 fn threads_store_side_by_side() {
-    let descriptor = TextureDescriptor::new_2d(256, 256, TextureFormat::Rgba32Uint);
+    let descriptor = TexelDescriptor::new_2d(256, 256, TextureFormat::Rgba32Uint);
     let texture = create_storage_texture(&descriptor, None, &Limits::default()).expect("storable");
     std::thread::scope(|scope| {
         for thread in 0..4_i32 {
@@ -284,7 +284,7 @@ fn threads_store_side_by_side() {
 /// Rows: F2, N1.
 #[test]
 fn large_ones_hold_their_corners() {
-    let descriptor = TextureDescriptor::new_2d(8192, 8192, TextureFormat::R8Unorm);
+    let descriptor = TexelDescriptor::new_2d(8192, 8192, TextureFormat::R8Unorm);
     let texture = create_storage_texture(&descriptor, None, &Limits::default()).expect("storable");
     for (x, y) in [(0, 0), (8191, 0), (0, 8191), (8191, 8191)] {
         storage_store::<f32>(&texture, true, [x, y, 0], Vec4::repeat(1.0));
@@ -295,7 +295,7 @@ fn large_ones_hold_their_corners() {
     let bytes = storage_bytes(&texture);
     assert_eq!(bytes.len(), 8192 * 8192);
     assert_eq!(bytes.iter().filter(|byte| **byte != 0).count(), 4);
-    let too_many = TextureDescriptor {
+    let too_many = TexelDescriptor {
         depth_or_layers: 256,
         ..descriptor
     };

@@ -8,16 +8,16 @@
 use estampe_reference::texture::ReferenceView;
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_tests::Random;
-use estampe_texture::{LevelData, MipGeneration, TextureDescriptor, TextureView};
+use estampe_texture::{LevelData, MipGeneration, TexelDescriptor, TexelView};
 use estampe_types::{
-    Limits, Pair, Quad, Real, SampleType, SamplerDescriptor, Texture, TextureAspect,
-    TextureDimension, TextureFormat, TextureViewDescriptor, Vec4, ViewDimension,
+    Limits, Pair, Quad, Real, SampleType, SamplerDescriptor, TexelData, TexelViewDescriptor,
+    TextureAspect, TextureDimension, TextureFormat, Vec4, ViewDimension,
 };
 use std::sync::Arc;
 
 /// A texture of a format with several mip levels and slices, or with samples, uploaded from padded
 /// rows. Checks that each byte arrives at its position.
-fn texture(random: &mut Random, format: TextureFormat) -> (Arc<Texture>, ViewDimension) {
+fn texture(random: &mut Random, format: TextureFormat) -> (Arc<TexelData>, ViewDimension) {
     let is_flat = format.is_compressed() || format.has_depth() || format.has_stencil();
     let (dimension, view) = match random.below(if is_flat { 2 } else { 4 }) {
         0 | 1 => (TextureDimension::D2, ViewDimension::D2Array),
@@ -29,14 +29,14 @@ fn texture(random: &mut Random, format: TextureFormat) -> (Arc<Texture>, ViewDim
     } else {
         1 + random.below(13)
     };
-    let mut descriptor = TextureDescriptor {
+    let mut descriptor = TexelDescriptor {
         dimension,
         depth_or_layers: if dimension == TextureDimension::D1 {
             1
         } else {
             1 + random.below(4)
         },
-        ..TextureDescriptor::new_2d(1 + random.below(13), height, format)
+        ..TexelDescriptor::new_2d(1 + random.below(13), height, format)
     };
     let mut view = view;
     if dimension == TextureDimension::D2 && !format.is_compressed() && random.once_in(2) {
@@ -100,7 +100,7 @@ fn texture(random: &mut Random, format: TextureFormat) -> (Arc<Texture>, ViewDim
 type Places = [[i32; LANES]; 5];
 
 #[inline(always)]
-fn fetch<R: Real>(view: &TextureView, like: R, places: &Places, first: usize) -> Vec4<R> {
+fn fetch<R: Real>(view: &TexelView, like: R, places: &Places, first: usize) -> Vec4<R> {
     let int = |k: usize| {
         let bits = like
             .with_lanes(|lane| f32::from_bits(places[k][(first + lane) % LANES].cast_unsigned()));
@@ -109,9 +109,9 @@ fn fetch<R: Real>(view: &TextureView, like: R, places: &Places, first: usize) ->
     view.fetch([int(0), int(1), int(2)], int(3), int(4))
 }
 
-fn packets(level: Level, view: &TextureView, places: &Places) -> [[f32; LANES]; 4] {
+fn packets(level: Level, view: &TexelView, places: &Places) -> [[f32; LANES]; 4] {
     #[inline(always)]
-    fn wide<S: Lanes>(simd: S, view: &TextureView, places: &Places) -> [[f32; LANES]; 4] {
+    fn wide<S: Lanes>(simd: S, view: &TexelView, places: &Places) -> [[f32; LANES]; 4] {
         let zero: f32x16<S> = SimdBase::splat(simd, 0.0);
         let Vec4 { x, y, z, w } = fetch(view, zero, places, 0);
         [x.to_array(), y.to_array(), z.to_array(), w.to_array()]
@@ -131,12 +131,12 @@ fn every_format_is_uploaded_and_fetched() {
             } else {
                 TextureAspect::All
             };
-            let descriptor = TextureViewDescriptor {
+            let descriptor = TexelViewDescriptor {
                 dimension: Some(dimension),
                 aspect,
-                ..TextureViewDescriptor::default()
+                ..TexelViewDescriptor::default()
             };
-            let view = TextureView::new(texture.clone(), &descriptor).expect("a view");
+            let view = TexelView::new(texture.clone(), &descriptor).expect("a view");
             let layers = match dimension {
                 ViewDimension::D3 => 1,
                 _ => texture.shape.depth_or_layers,
@@ -165,7 +165,7 @@ fn every_format_is_uploaded_and_fetched() {
     }
 }
 
-fn check(view: &TextureView, reference: &ReferenceView, places: &Places) {
+fn check(view: &TexelView, reference: &ReferenceView, places: &Places) {
     let format = view.texture().format;
     let is_integer = matches!(format.sample_type(), SampleType::Uint | SampleType::Sint);
     let bits = |x: f32| {

@@ -11,12 +11,12 @@ use estampe_reference::texture::view::Sample;
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_tests::Random;
 use estampe_texture::{
-    Coordinates, LevelData, Lod, MipGeneration, SampledView, TextureDescriptor, TextureView,
+    Coordinates, LevelData, Lod, MipGeneration, SampledTexture, TexelDescriptor, TexelView,
 };
 use estampe_types::state::CompareFunction;
 use estampe_types::{
     AddressMode, BorderColor, FilterMode, Limits, Pair, Quad, Real, SampleType, SamplerDescriptor,
-    Texture, TextureAspect, TextureDimension, TextureFormat, TextureViewDescriptor, Vec2, Vec3,
+    TexelData, TexelViewDescriptor, TextureAspect, TextureDimension, TextureFormat, Vec2, Vec3,
     Vec4, ViewDimension,
 };
 use std::sync::Arc;
@@ -84,7 +84,7 @@ kinds! {
 }
 
 #[inline(always)]
-fn ask<R: Kind>(view: &SampledView, ask: &Ask, like: R, first: usize, answers: &mut Answers) {
+fn ask<R: Kind>(view: &SampledTexture, ask: &Ask, like: R, first: usize, answers: &mut Answers) {
     let [u, v, w] = [
         like.real(&ask.at[0], first),
         like.real(&ask.at[1], first),
@@ -132,9 +132,9 @@ fn ask<R: Kind>(view: &SampledView, ask: &Ask, like: R, first: usize, answers: &
 }
 
 /// The fast path's results for a packet at a SIMD level.
-fn packets(level: Level, view: &SampledView, question: &Ask) -> Answers {
+fn packets(level: Level, view: &SampledTexture, question: &Ask) -> Answers {
     #[inline(always)]
-    fn wide<S: Lanes>(simd: S, view: &SampledView, question: &Ask) -> Answers {
+    fn wide<S: Lanes>(simd: S, view: &SampledTexture, question: &Ask) -> Answers {
         let mut answers = [[0.0; 4]; LANES];
         let zero: f32x16<S> = SimdBase::splat(simd, 0.0);
         ask(view, question, zero, 0, &mut answers);
@@ -196,7 +196,7 @@ fn texture(
     random: &mut Random,
     dimension: ViewDimension,
     formats: &[TextureFormat],
-) -> Arc<Texture> {
+) -> Arc<TexelData> {
     use ViewDimension as V;
     let sides = [1, 2, 3, 5, 8, 13, 16];
     let format = random.pick(formats);
@@ -209,14 +209,14 @@ fn texture(
         V::CubeArray => (width, 6 * (1 + random.below(3))),
         V::D3 => (random.pick(&sides), random.pick(&sides)),
     };
-    let descriptor = TextureDescriptor {
+    let descriptor = TexelDescriptor {
         dimension: match dimension {
             V::D1 => TextureDimension::D1,
             V::D3 => TextureDimension::D3,
             _ => TextureDimension::D2,
         },
         depth_or_layers: slices,
-        ..TextureDescriptor::new_2d(width, height, format)
+        ..TexelDescriptor::new_2d(width, height, format)
     };
     let mut descriptor = descriptor.with_all_levels();
     descriptor.mip_level_count -= random.below(descriptor.mip_level_count);
@@ -256,7 +256,7 @@ fn noise(random: &mut Random, format: TextureFormat, blocks: usize) -> Vec<u8> {
     }
 }
 
-fn sampler(random: &mut Random, view: &TextureView) -> SamplerDescriptor {
+fn sampler(random: &mut Random, view: &TexelView) -> SamplerDescriptor {
     use AddressMode as A;
     let modes = [
         A::ClampToEdge,
@@ -314,7 +314,7 @@ fn sampler(random: &mut Random, view: &TextureView) -> SamplerDescriptor {
     }
 }
 
-fn question(random: &mut Random, function: Function, view: &TextureView) -> Ask {
+fn question(random: &mut Random, function: Function, view: &TexelView) -> Ask {
     let is_cube = matches!(
         view.dimension(),
         ViewDimension::Cube | ViewDimension::CubeArray
@@ -369,7 +369,7 @@ fn question(random: &mut Random, function: Function, view: &TextureView) -> Ask 
 }
 
 /// Compares the fast path's results with the oracle's.
-fn check(view: &SampledView, reference: &ReferenceView, question: &Ask) {
+fn check(view: &SampledTexture, reference: &ReferenceView, question: &Ask) {
     let compares = !matches!(
         question.function,
         Function::Sample
@@ -450,14 +450,14 @@ fn checks(
         } else {
             TextureAspect::All
         };
-        let descriptor = TextureViewDescriptor {
+        let descriptor = TexelViewDescriptor {
             dimension: Some(dimension),
             base_mip_level: base as u32,
             base_array_layer: first,
             aspect,
-            ..TextureViewDescriptor::default()
+            ..TexelViewDescriptor::default()
         };
-        let view = TextureView::new(texture.clone(), &descriptor).expect("a view");
+        let view = TexelView::new(texture.clone(), &descriptor).expect("a view");
         let mut sampler = sampler(random, &view);
         if aspect == TextureAspect::Stencil {
             sampler = SamplerDescriptor {
@@ -482,7 +482,7 @@ fn checks(
             sampler,
             texture,
         };
-        let view = SampledView::new(view, sampler).expect("a sampler");
+        let view = SampledTexture::new(view, sampler).expect("a sampler");
         for &function in functions {
             let question = question(random, function, view.view());
             check(&view, &reference, &question);
@@ -567,7 +567,7 @@ fn comparisons_with_every_function() {
 /// Rows: F2.
 #[test]
 fn common_2d_views_equal_the_oracle() {
-    // `SampledView` passes these views to `Sampled`; the oracle samples all views with the same
+    // `SampledTexture` passes these views to `Rgba8Texture`; the oracle samples all views with the same
     // code.
     let formats = [
         TextureFormat::Rgba8Unorm,
@@ -577,16 +577,16 @@ fn common_2d_views_equal_the_oracle() {
     for seed in 0..400 {
         let random = &mut Random::new("views/common", seed);
         let texture = texture(random, ViewDimension::D2Array, &formats);
-        let texture = Texture {
+        let texture = TexelData {
             shape: estampe_types::TextureShape::default(),
-            ..Texture::clone(&texture)
+            ..TexelData::clone(&texture)
         };
         // The first layer with its first mip level.
-        let texture = Arc::new(Texture {
+        let texture = Arc::new(TexelData {
             levels: texture.levels[..1].to_vec(),
             ..texture
         });
-        let view = TextureView::of(texture.clone()).expect("a view");
+        let view = TexelView::of(texture.clone()).expect("a view");
         let sampler = SamplerDescriptor {
             mag_filter: random.pick(&[FilterMode::Nearest, FilterMode::Linear]),
             address_mode_u: random.pick(&[AddressMode::Repeat, AddressMode::MirrorRepeat]),
@@ -600,7 +600,7 @@ fn common_2d_views_equal_the_oracle() {
             aspect: TextureAspect::All,
             sampler,
         };
-        let view = SampledView::new(view, sampler).expect("a sampler");
+        let view = SampledTexture::new(view, sampler).expect("a sampler");
         let question = Ask {
             offset: [0; 3],
             ..question(random, Function::Sample, view.view())
@@ -622,7 +622,7 @@ fn a_mip_level_of_weight_zero_has_no_effect() {
         LevelData::tight(one.as_flattened()),
         LevelData::tight(&infinity),
     ];
-    let descriptor = TextureDescriptor::new_2d(4, 4, TextureFormat::R32Float).with_all_levels();
+    let descriptor = TexelDescriptor::new_2d(4, 4, TextureFormat::R32Float).with_all_levels();
     let texture = descriptor.create(&data, MipGeneration::None, &Limits::default());
     let texture = Arc::new(texture.expect("a texture"));
     let sampler = SamplerDescriptor {
@@ -630,8 +630,8 @@ fn a_mip_level_of_weight_zero_has_no_effect() {
         ..SamplerDescriptor::default()
     };
     let reference = ReferenceView::of_image(texture.clone(), sampler);
-    let view = TextureView::of(texture).expect("a view");
-    let view = SampledView::new(view, sampler).expect("a sampler");
+    let view = TexelView::of(texture).expect("a view");
+    let view = SampledTexture::new(view, sampler).expect("a sampler");
     let question = Ask {
         function: Function::Level,
         at: [[0.25; LANES]; 3],

@@ -8,7 +8,7 @@ use estampe_tests::{Case, CaseDraw, Random, check, check_some};
 use estampe_types::state::{
     PrimitiveTopology, VertexAttribute, VertexBufferLayout, VertexStepMode,
 };
-use estampe_types::{Buffer, IndexFormat, VertexFormat};
+use estampe_types::{BufferData, IndexFormat, VertexFormat};
 
 fn small_vertices(random: &mut Random, size: [u32; 2], count: u32) -> Vec<Vertex> {
     (0..count)
@@ -31,7 +31,7 @@ fn shifts(
     step_mode: VertexStepMode,
     count: u32,
     stride: u32,
-) -> (VertexBufferLayout, Buffer) {
+) -> (VertexBufferLayout, BufferData) {
     let layout = VertexBufferLayout {
         array_stride: stride,
         step_mode,
@@ -43,7 +43,7 @@ fn shifts(
         instance_step_rate: random.pick(&[1, 1, 0, 2, 3, u32::MAX]),
     };
     let words = (0..count * stride.div_ceil(4).max(2)).map(|_| random.range(-0.7, 0.7).to_bits());
-    (layout, Buffer::from_words(words.collect::<Vec<_>>()))
+    (layout, BufferData::from_words(words.collect::<Vec<_>>()))
 }
 
 fn topology(random: &mut Random) -> PrimitiveTopology {
@@ -92,7 +92,7 @@ fn many_instances_of_a_draw_that_fills_no_packet() {
     let random = &mut Random::new("vertex_input/many", 1);
     let mut case = Case::new([2, 2], 1);
     let mut draw = indexed_draw(random, &case);
-    draw.indices = Some((IndexFormat::Uint8, Buffer::from_bytes(&[0, 5, 11])));
+    draw.indices = Some((IndexFormat::Uint8, BufferData::from_bytes(&[0, 5, 11])));
     draw.elements = 0..3;
     draw.instances = 0..30_000;
     draw.primitive.topology = PrimitiveTopology::TriangleList;
@@ -110,7 +110,7 @@ fn instances_of_more_vertices_than_a_draw_batch_holds() {
     let mut draw = indexed_draw(random, &case);
     draw.buffers[1].0.step_mode = VertexStepMode::Instance;
     draw.buffers[1].0.instance_step_rate = 100_003;
-    draw.indices = Some((IndexFormat::Uint8, Buffer::from_bytes(&[0, 5, 11])));
+    draw.indices = Some((IndexFormat::Uint8, BufferData::from_bytes(&[0, 5, 11])));
     draw.elements = 0..3;
     draw.instances = 7..200_007;
     draw.primitive.topology = PrimitiveTopology::TriangleList;
@@ -161,7 +161,7 @@ fn indices_of_every_width() {
         if random.once_in(3) {
             bytes.truncate(random.index(bytes.len()));
         }
-        draw.indices = Some((format, Buffer::from_bytes(&bytes)));
+        draw.indices = Some((format, BufferData::from_bytes(&bytes)));
         draw.elements = random.pick(&[0..18, 3..18, 0..7, 5..30, 17..17]);
         draw.base_vertex = random.pick(&[0, 0, 0, 1, -5, 70_000, i32::MAX, i32::MIN]);
         draw.instances = random.pick(&[0..1, 0..1, 2..4]);
@@ -178,7 +178,7 @@ fn elements_at_the_end_of_the_range_of_u32() {
         let mut draw = indexed_draw(random, &case);
         draw.elements = u32::MAX - 9..u32::MAX;
         if random.once_in(2) {
-            draw.indices = Some((IndexFormat::Uint16, Buffer::from_bytes(&[1, 0, 2, 0])));
+            draw.indices = Some((IndexFormat::Uint16, BufferData::from_bytes(&[1, 0, 2, 0])));
         }
         case.draws.push(draw);
         case
@@ -199,7 +199,7 @@ fn vertex_buffers_that_end_too_soon() {
         // Cut at any byte: within a vertex, an attribute or a number.
         let kept = random.index(whole.len() + 1);
         let mut draw = CaseDraw::new(Probe::random(random), &vertices);
-        draw.buffers = vec![(vertex_layout(), Buffer::from_bytes(&whole[..kept]))];
+        draw.buffers = vec![(vertex_layout(), BufferData::from_bytes(&whole[..kept]))];
         case.draws.push(draw);
         case
     });
@@ -239,7 +239,7 @@ fn formats_strides_and_offsets() {
         };
         let needed = stride.max(1) * random.pick(&[24, 24, 20, 2]) + offset;
         let bytes: Vec<u8> = (0..needed).map(|_| random.byte()).collect();
-        draw.buffers.push((layout, Buffer::from_bytes(&bytes)));
+        draw.buffers.push((layout, BufferData::from_bytes(&bytes)));
         draw.instances = random.pick(&[0..1, 0..2, 7..8]);
         draw.depth = None;
         case.draws.push(draw);

@@ -7,7 +7,8 @@
 
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_texture::{
-    FilterMode, Limits, MipGeneration, Sampled, SamplerDescriptor, TextureFormat, create_texture,
+    FilterMode, Limits, MipGeneration, Rgba8Texture, SamplerDescriptor, TextureFormat,
+    create_texture,
 };
 use estampe_types::Vec2;
 use std::time::Instant;
@@ -23,7 +24,7 @@ fn scale(size: u32, y: f32) -> f32 {
 
 /// One row of tiles: the sum of all channels of all samples.
 #[inline(always)]
-fn sample_row<S: Lanes>(simd: S, sampled: &Sampled, tile_y: usize) -> f32 {
+fn sample_row<S: Lanes>(simd: S, sampled: &Rgba8Texture, tile_y: usize) -> f32 {
     let size = sampled.texture().levels[0].width;
     let (lane_x, lane_y) = (LANE_X.map(f32::from), LANE_Y.map(f32::from));
     let lane_x = f32x16::load_array(simd, lane_x);
@@ -47,7 +48,7 @@ fn sample_row<S: Lanes>(simd: S, sampled: &Sampled, tile_y: usize) -> f32 {
 }
 
 #[inline(never)]
-fn row(level: Level, sampled: &Sampled, tile_y: usize) -> f32 {
+fn row(level: Level, sampled: &Rgba8Texture, tile_y: usize) -> f32 {
     dispatch!(level, s => sample_row(s, sampled, tile_y))
 }
 
@@ -84,13 +85,13 @@ fn main() {
         ..bilinear
     };
     let cases = [
-        ("nearest", Sampled::new(unorm.clone(), nearest)),
-        ("bilinear", Sampled::new(unorm.clone(), bilinear)),
-        ("trilinear", Sampled::new(unorm, trilinear)),
-        ("trilinear opaque", Sampled::new(opaque, trilinear)),
-        ("nearest srgb", Sampled::new(srgb.clone(), nearest)),
-        ("bilinear srgb", Sampled::new(srgb.clone(), bilinear)),
-        ("trilinear srgb", Sampled::new(srgb, trilinear)),
+        ("nearest", Rgba8Texture::new(unorm.clone(), nearest)),
+        ("bilinear", Rgba8Texture::new(unorm.clone(), bilinear)),
+        ("trilinear", Rgba8Texture::new(unorm, trilinear)),
+        ("trilinear opaque", Rgba8Texture::new(opaque, trilinear)),
+        ("nearest srgb", Rgba8Texture::new(srgb.clone(), nearest)),
+        ("bilinear srgb", Rgba8Texture::new(srgb.clone(), bilinear)),
+        ("trilinear srgb", Rgba8Texture::new(srgb, trilinear)),
     ];
     for (name, sampled) in &cases {
         if only_case.as_ref().is_some_and(|only| only != name) {

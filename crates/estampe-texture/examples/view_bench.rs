@@ -6,9 +6,9 @@
 
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_texture::{
-    AddressMode, Coordinates, FilterMode, LevelData, Limits, Lod, MipGeneration, SampledView,
-    SamplerDescriptor, TextureDescriptor, TextureDimension, TextureFormat, TextureView,
-    TextureViewDescriptor, ViewDimension,
+    AddressMode, Coordinates, FilterMode, LevelData, Limits, Lod, MipGeneration, SampledTexture,
+    SamplerDescriptor, TexelDescriptor, TexelView, TexelViewDescriptor, TextureDimension,
+    TextureFormat, ViewDimension,
 };
 use estampe_types::state::CompareFunction;
 use estampe_types::{Real, Vec2, Vec3};
@@ -19,7 +19,7 @@ const TILE: usize = 64;
 
 /// One row of tiles: the sum of all channels of all samples.
 #[inline(always)]
-fn sample_row<S: Lanes>(simd: S, view: &SampledView, tile_y: usize) -> f32 {
+fn sample_row<S: Lanes>(simd: S, view: &SampledTexture, tile_y: usize) -> f32 {
     let size = view.view().size(0)[0] as f32;
     let lane_x = f32x16::load_array(simd, LANE_X.map(f32::from));
     let lane_y = f32x16::load_array(simd, LANE_Y.map(f32::from));
@@ -52,7 +52,7 @@ fn sample_row<S: Lanes>(simd: S, view: &SampledView, tile_y: usize) -> f32 {
 }
 
 #[inline(never)]
-fn row(level: Level, view: &SampledView, tile_y: usize) -> f32 {
+fn row(level: Level, view: &SampledTexture, tile_y: usize) -> f32 {
     dispatch!(level, s => sample_row(s, view, tile_y))
 }
 
@@ -61,7 +61,7 @@ fn view(
     dimension: ViewDimension,
     format: TextureFormat,
     sampler: SamplerDescriptor,
-) -> SampledView {
+) -> SampledTexture {
     let (width, height, slices) = match dimension {
         ViewDimension::D1 => (1024, 1, 1),
         ViewDimension::D2 => (1024, 1024, 1),
@@ -69,14 +69,14 @@ fn view(
         ViewDimension::Cube | ViewDimension::CubeArray => (512, 512, 6),
         ViewDimension::D3 => (128, 128, 128),
     };
-    let descriptor = TextureDescriptor {
+    let descriptor = TexelDescriptor {
         dimension: match dimension {
             ViewDimension::D1 => TextureDimension::D1,
             ViewDimension::D3 => TextureDimension::D3,
             _ => TextureDimension::D2,
         },
         depth_or_layers: slices,
-        ..TextureDescriptor::new_2d(width, height, format)
+        ..TexelDescriptor::new_2d(width, height, format)
     };
     let is_color = format.is_color();
     let descriptor = if is_color {
@@ -107,12 +107,12 @@ fn view(
     let texture = descriptor
         .create(&[LevelData::tight(&bytes)], mips, &Limits::default())
         .expect("a valid texture");
-    let descriptor = TextureViewDescriptor {
+    let descriptor = TexelViewDescriptor {
         dimension: Some(dimension),
-        ..TextureViewDescriptor::default()
+        ..TexelViewDescriptor::default()
     };
-    let view = TextureView::new(texture, &descriptor).expect("a view");
-    SampledView::new(view, sampler).expect("a sampler")
+    let view = TexelView::new(texture, &descriptor).expect("a view");
+    SampledTexture::new(view, sampler).expect("a sampler")
 }
 
 #[expect(clippy::print_stdout, reason = "the figures are the purpose")]

@@ -7,8 +7,8 @@
 
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_texture::{
-    Coordinates, FilterMode, LevelData, Limits, MipGeneration, SampledView, SamplerDescriptor,
-    TextureDescriptor, TextureFormat, TextureView, TextureViewDescriptor, ViewDimension,
+    Coordinates, FilterMode, LevelData, Limits, MipGeneration, SampledTexture, SamplerDescriptor,
+    TexelDescriptor, TexelView, TexelViewDescriptor, TextureFormat, ViewDimension,
 };
 use estampe_types::{Real, Vec2, Vec3};
 use std::time::Instant;
@@ -66,15 +66,15 @@ fn main() {
 }
 
 /// A view of a texture of noise with all mip levels, sampled linearly everywhere.
-fn view(dimension: ViewDimension, format: TextureFormat) -> SampledView {
+fn view(dimension: ViewDimension, format: TextureFormat) -> SampledTexture {
     let layers = match dimension {
         ViewDimension::Cube => 6,
         ViewDimension::D2Array => 4,
         _ => 1,
     };
-    let descriptor = TextureDescriptor {
+    let descriptor = TexelDescriptor {
         depth_or_layers: layers,
-        ..TextureDescriptor::new_2d(SIDE, SIDE, format).with_all_levels()
+        ..TexelDescriptor::new_2d(SIDE, SIDE, format).with_all_levels()
     };
     let bytes = SIDE * SIDE * layers * format.block_bytes();
     let mut bytes =
@@ -93,9 +93,9 @@ fn view(dimension: ViewDimension, format: TextureFormat) -> SampledView {
             &Limits::default(),
         )
         .expect("a valid texture");
-    let descriptor = TextureViewDescriptor {
+    let descriptor = TexelViewDescriptor {
         dimension: Some(dimension),
-        ..TextureViewDescriptor::default()
+        ..TexelViewDescriptor::default()
     };
     let sampler = SamplerDescriptor {
         mag_filter: FilterMode::Linear,
@@ -103,13 +103,13 @@ fn view(dimension: ViewDimension, format: TextureFormat) -> SampledView {
         mipmap_filter: FilterMode::Linear,
         ..SamplerDescriptor::default()
     };
-    let view = TextureView::new(texture, &descriptor).expect("a valid view");
-    SampledView::new(view, sampler).expect("a valid sampler")
+    let view = TexelView::new(texture, &descriptor).expect("a valid view");
+    SampledTexture::new(view, sampler).expect("a valid sampler")
 }
 
 /// Samples an image of packets with about 1.4 texels a pixel.
 #[inline(always)]
-fn image<S: Lanes>(s: S, view: &SampledView, dimension: ViewDimension) -> f32 {
+fn image<S: Lanes>(s: S, view: &SampledTexture, dimension: ViewDimension) -> f32 {
     let lanes = |from: &[u8; LANES]| {
         let mut offsets = [0.0; LANES];
         for (to, from) in offsets.iter_mut().zip(from) {

@@ -18,13 +18,13 @@ use crate::texel::mix;
 use crate::wrap::place;
 use estampe_simd::bits_of;
 use estampe_types::morton::spread_lanes;
-use estampe_types::{AddressMode, DepthTexture, FilterMode, Int, Real, Vec2};
+use estampe_types::{AddressMode, FilterMode, Int, Real, ShadowMap, Vec2};
 
 /// The filtered share of the texels around (u, v) that pass *reference ≤ texel*, 0..=1: WebGPU's
 /// `textureSampleCompareLevel` with a linear, clamped *less-equal* sampler. An empty image reads as
 /// depth 0.
 #[inline(always)]
-pub fn sample_compare_level<R: Real>(texture: &DepthTexture, uv: Vec2<R>, reference: R) -> R {
+pub fn sample_compare_level<R: Real>(texture: &ShadowMap, uv: Vec2<R>, reference: R) -> R {
     sample_compare_sum(texture, uv, &[[0.0; 2]], reference)
 }
 
@@ -32,7 +32,7 @@ pub fn sample_compare_level<R: Real>(texture: &DepthTexture, uv: Vec2<R>, refere
 /// their number, it is a soft shadow.
 #[inline(always)]
 pub fn sample_compare_sum<R: Real, const N: usize>(
-    texture: &DepthTexture,
+    texture: &ShadowMap,
     uv: Vec2<R>,
     offsets: &[[f32; 2]; N],
     reference: R,
@@ -71,8 +71,8 @@ struct Map<'a> {
 
 impl<'a> Map<'a> {
     #[inline(always)]
-    fn new(texture: &'a DepthTexture) -> Self {
-        let side = |texels: u32| texels.clamp(1, DepthTexture::MAX_SIDE).cast_signed();
+    fn new(texture: &'a ShadowMap) -> Self {
+        let side = |texels: u32| texels.clamp(1, ShadowMap::MAX_SIDE).cast_signed();
         let (width, height) = (side(texture.width()), side(texture.height()));
         Self {
             depths: bits_of(texture.depths()),
@@ -133,7 +133,7 @@ impl<'a> Map<'a> {
         let least = (a & half).min(b & half).min((c & half).min(d & half));
         let above = a.shr_unsigned(16).max(b.shr_unsigned(16));
         let greatest = above.max(c.shr_unsigned(16).max(d.shr_unsigned(16)));
-        let scaled = reference * DepthTexture::BOUND_SCALE;
+        let scaled = reference * ShadowMap::BOUND_SCALE;
         let lit = scaled.le(least.to_real());
         let dark = scaled.gt(greatest.to_real());
         if R::any(wide | !(lit | dark)) {

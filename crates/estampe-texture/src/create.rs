@@ -2,7 +2,7 @@
 
 use crate::TextureError;
 use crate::mips;
-use estampe_types::{Limits, MipLevel, TexelEncoding, Texture, TextureFormat, TextureShape};
+use estampe_types::{Limits, MipLevel, TexelData, TexelEncoding, TextureFormat, TextureShape};
 
 /// The most texels of all levels: their offsets fit the signed 32-bit indices of lane code.
 const MAX_TEXELS: u64 = i32::MAX as u64;
@@ -36,7 +36,7 @@ pub fn create_texture(
     rgba: &[u8],
     mips: MipGeneration,
     limits: &Limits,
-) -> Result<Texture, TextureError> {
+) -> Result<TexelData, TextureError> {
     let count = match mips {
         MipGeneration::None => 1,
         MipGeneration::Full => full_chain(width, height),
@@ -62,7 +62,7 @@ pub fn create_texture_with_levels(
     format: TextureFormat,
     levels: &[&[u8]],
     limits: &Limits,
-) -> Result<Texture, TextureError> {
+) -> Result<TexelData, TextureError> {
     let layout = lay_out(size, format, levels.len(), limits)?;
     for (index, (level, bytes)) in layout.iter().zip(levels).enumerate() {
         check_bytes(index, *level, bytes)?;
@@ -74,8 +74,8 @@ pub fn create_texture_with_levels(
     Ok(texture(format, layout, texels))
 }
 
-fn texture(format: TextureFormat, levels: Vec<MipLevel>, texels: Vec<u32>) -> Texture {
-    Texture {
+fn texture(format: TextureFormat, levels: Vec<MipLevel>, texels: Vec<u32>) -> TexelData {
+    TexelData {
         format,
         levels,
         is_opaque: texels.iter().all(|texel| texel >> 24 == 255),

@@ -3,7 +3,7 @@
 
 use crate::upload::{self, LevelData};
 use crate::{MipGeneration, TextureError, generate};
-use estampe_types::{Limits, MipLevel, Texture, TextureDimension, TextureFormat, TextureShape};
+use estampe_types::{Limits, MipLevel, TexelData, TextureDimension, TextureFormat, TextureShape};
 
 /// The most 32-bit words of a texture: their indices fit the signed 32-bit integers of lane code.
 const MAX_WORDS: u64 = i32::MAX as u64;
@@ -16,7 +16,7 @@ const MAX_LAYERS: u32 = 256;
 
 /// Describes a texture to create: WebGPU's `GPUTextureDescriptor`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct TextureDescriptor {
+pub struct TexelDescriptor {
     /// Dimension: the number of axes along which the texture is filtered.
     pub dimension: TextureDimension,
     /// Width in texels, 1 to 16384 (3D: 2048).
@@ -35,7 +35,7 @@ pub struct TextureDescriptor {
     pub format: TextureFormat,
 }
 
-impl TextureDescriptor {
+impl TexelDescriptor {
     /// A 2D texture of one level.
     #[must_use]
     pub fn new_2d(width: u32, height: u32, format: TextureFormat) -> Self {
@@ -71,7 +71,7 @@ impl TextureDescriptor {
         data: &[LevelData<'_>],
         mips: MipGeneration,
         limits: &Limits,
-    ) -> Result<Texture, TextureError> {
+    ) -> Result<TexelData, TextureError> {
         self.check(limits)?;
         if data.len() > self.mip_level_count as usize {
             return Err(TextureError::LevelCount {
@@ -79,7 +79,7 @@ impl TextureDescriptor {
                 actual: data.len(),
             });
         }
-        let mut texture = Texture {
+        let mut texture = TexelData {
             format: self.format,
             levels: Vec::new(),
             texels: [].into(),
@@ -122,9 +122,9 @@ impl TextureDescriptor {
     }
 
     /// A texture with the levels of the descriptor and no texels: to check views. The descriptor
-    /// must keep its [rules](TextureDescriptor::check).
+    /// must keep its [rules](TexelDescriptor::check).
     #[must_use]
-    pub fn without_texels(&self) -> Texture {
+    pub fn without_texels(&self) -> TexelData {
         let mut first = 0_u64;
         let levels = (0..self.mip_level_count as usize).map(|level| {
             let (width, height) = self.size_of(level);
@@ -136,7 +136,7 @@ impl TextureDescriptor {
                 offset,
             }
         });
-        Texture {
+        TexelData {
             format: self.format,
             levels: levels.collect(),
             texels: [].into(),
@@ -225,7 +225,7 @@ impl TextureDescriptor {
     }
 
     fn stored_words(&self) -> u32 {
-        let texture = Texture {
+        let texture = TexelData {
             format: self.format,
             levels: Vec::new(),
             texels: [].into(),

@@ -3,7 +3,7 @@
 
 use crate::texel::{Corners, Number, OPAQUE, finish, linear, mix, unpack};
 use crate::wrap::{Place, place, tile};
-use estampe_types::{AddressMode, FilterMode, Int, MipLevel, Real, Texture, Vec2, Vec3, Vec4};
+use estampe_types::{AddressMode, FilterMode, Int, MipLevel, Real, TexelData, Vec2, Vec3, Vec4};
 
 /// The longest side that lane arithmetic supports: the maximum of
 /// [`Limits`](estampe_types::Limits).
@@ -11,7 +11,7 @@ const MAX_SIDE: u32 = 16_384;
 /// The greatest offset of a level: beyond it, the index of a texel would not fit i32.
 const MAX_OFFSET: u32 = 1 << 30;
 
-/// A mip level's numbers as lane code reads them. The fields of a [`Texture`] are public and may
+/// A mip level's numbers as lane code reads them. The fields of a [`TexelData`] are public and may
 /// hold any value: clamping them here keeps the arithmetic in range, and gathers clamp their
 /// indices.
 #[derive(Clone, Copy, Debug)]
@@ -123,7 +123,7 @@ impl<R: Number> Footprint<R> {
 /// Samples a level at a wrapped coordinate; the colour is in the units of [`texel`](crate::texel).
 #[inline(always)]
 pub(crate) fn sample_level<R: Number>(
-    texture: &Texture,
+    texture: &TexelData,
     level: Level,
     wrapped: Vec2<R>,
     modes: [AddressMode; 2],
@@ -189,7 +189,7 @@ impl<R: Number> Inside<R> {
     /// operations of a packet is so long that sampling one level after the other took a fifth more
     /// time.
     #[inline(always)]
-    pub(crate) fn color(&self, texture: &Texture, is_srgb: bool) -> Vec4<R> {
+    pub(crate) fn color(&self, texture: &TexelData, is_srgb: bool) -> Vec4<R> {
         let texels = &texture.texels[..];
         let of_fine = self.fine.corners_inside(texels);
         let Some(coarse) = &self.coarse else {

@@ -7,17 +7,17 @@
 
 use crate::mips;
 use estampe_format::TexelCodec;
-use estampe_types::{SampleType, TexelEncoding, Texture, TextureDimension, TextureFormat};
+use estampe_types::{SampleType, TexelData, TexelEncoding, TextureDimension, TextureFormat};
 
 /// Returns true if mip levels can be generated for the texture's format: formats of numbers,
 /// compressed ones included.
 #[must_use]
-pub fn is_possible(texture: &Texture) -> bool {
+pub fn is_possible(texture: &TexelData) -> bool {
     texture.format.sample_type() == SampleType::Float
 }
 
 /// Generates a level from the one above in the texture's words; level 0 has none above.
-pub fn level(texture: &Texture, level: usize, words: &mut [u32]) {
+pub fn level(texture: &TexelData, level: usize, words: &mut [u32]) {
     let Some(above) = level.checked_sub(1) else {
         return;
     };

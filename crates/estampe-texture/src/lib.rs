@@ -1,14 +1,14 @@
 #![forbid(unsafe_code)]
 //! Textures: creation, views, sampling and storage textures.
 //!
-//! * [`TextureDescriptor`] creates a [`Texture`] of one, two or three dimensions, with layers, mip
+//! * [`TexelDescriptor`] creates a [`TexelData`] of one, two or three dimensions, with layers, mip
 //!   levels or samples, from the bytes of any [`TextureFormat`]; [`create_texture`] is the short
 //!   form for four 8-bit channels. [`TextureError`] names the rule that was broken.
-//! * [`TextureView`] is how a texture's dimension, mip levels and layers are reinterpreted; it
+//! * [`TexelView`] is how a texture's dimension, mip levels and layers are reinterpreted; it
 //!   gives their sizes and fetches texels.
-//! * [`SampledView`] is a view with a sampler: it samples, gathers and compares at any
+//! * [`SampledTexture`] is a view with a sampler: it samples, gathers and compares at any
 //!   [`Coordinates`] and [`Lod`].
-//! * [`Sampled`] is a texture of the common kind with a sampler: 2D, four 8-bit channels, WebGPU's
+//! * [`Rgba8Texture`] is a texture of the common kind with a sampler: 2D, four 8-bit channels, WebGPU's
 //!   address modes.
 //! * [`sample_compare_level`] and [`sample_compare_sum`] compare a depth attachment with a
 //!   reference, without a copy; [`texture_from_depth`] copies it to a texture like others.
@@ -32,7 +32,7 @@
 //! `request.rs` is the boundary through which shaders call it: a shader stores its lanes as a
 //! request and loads the answer, and both are packets of sixteen lanes, one cache line each.
 //! Requests to views (`view/coordinates.rs`) have the same form. Only `compare.rs` and
-//! [`Sampled::texel_fetch`] are generic, and compiled into each shader.
+//! [`Rgba8Texture::texel_fetch`] are generic, and compiled into each shader.
 //!
 //! A view that is not of the common kind has three implementations with the same bits:
 //!
@@ -76,7 +76,7 @@ mod mips;
 mod mixed;
 pub mod region;
 mod request;
-mod sampled;
+mod rgba8_texture;
 mod storage;
 mod texel;
 mod upload;
@@ -86,22 +86,22 @@ mod wrap;
 pub use bindings::TextureBindings;
 pub use compare::{sample_compare_level, sample_compare_sum};
 pub use create::{MipGeneration, create_texture, create_texture_with_levels};
-pub use descriptor::TextureDescriptor;
+pub use descriptor::TexelDescriptor;
 pub use error::TextureError;
 pub use estampe_types::{
-    AddressMode, BorderColor, DepthTexture, FilterMode, Limits, MipLevel, SamplerDescriptor,
-    StorageTexture, Texture, TextureAspect, TextureDimension, TextureFormat, TextureShape,
-    TextureViewDescriptor, ViewDimension,
+    AddressMode, BorderColor, FilterMode, Limits, MipLevel, SamplerDescriptor, ShadowMap,
+    StorageTexture, TexelData, TexelViewDescriptor, TextureAspect, TextureDimension, TextureFormat,
+    TextureShape, ViewDimension,
 };
 pub use from_depth::texture_from_depth;
 pub use generate::{is_possible as can_generate, level as generate_level};
-pub use sampled::Sampled;
+pub use rgba8_texture::Rgba8Texture;
 pub use storage::{
     create_storage_texture, is_storable, storage_bytes, storage_load, storage_store,
     storage_texture_to_texture,
 };
 pub use upload::LevelData;
-pub use view::{Coordinates, Lod, SampledView, TextureView};
+pub use view::{Coordinates, Lod, SampledTexture, TexelView, TextureCoordinates};
 
 #[cfg(test)]
 mod tests;

@@ -9,7 +9,7 @@
 use crate::filter::{Level, mix_colors};
 use crate::texel::{Corners, Number, OPAQUE, finish};
 use crate::wrap::tile_lanes as tile;
-use estampe_types::{Int, Real, Texture, Vec2, Vec3, Vec4};
+use estampe_types::{Int, Real, TexelData, Vec2, Vec3, Vec4};
 
 /// The footprints of linear filtering, in two levels of each lane.
 pub(crate) struct Mixed<R: Real> {
@@ -33,7 +33,7 @@ impl<R: Number> Mixed<R> {
 
     /// The colour of a texture at these footprints, 0..1.
     #[inline(always)]
-    pub(crate) fn color(&self, texture: &Texture, is_srgb: bool) -> Vec4<R> {
+    pub(crate) fn color(&self, texture: &TexelData, is_srgb: bool) -> Vec4<R> {
         let of_fine = self.fine.corners(&texture.texels);
         let of_coarse = self.coarse.corners(&texture.texels);
         if texture.is_opaque && !is_srgb {

@@ -6,7 +6,7 @@
 
 use crate::blocks::{self, MAX_WORDS};
 use crate::upload::{bytes_of_words, words_of_bytes};
-use estampe_types::{Texture, TextureAspect, TextureFormat};
+use estampe_types::{TexelData, TextureAspect, TextureFormat};
 
 /// Part of one level and slice of a texture, in texels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,7 +35,7 @@ pub fn aspect_bytes(format: TextureFormat, aspect: TextureAspect) -> usize {
 }
 
 /// The index of the first word of a span, and the words of its texels.
-fn words_of(texture: &Texture, span: RowSpan) -> std::ops::Range<usize> {
+fn words_of(texture: &TexelData, span: RowSpan) -> std::ops::Range<usize> {
     let level = texture.levels[span.level];
     let samples = texture.shape.samples as usize;
     let (width, height) = (level.width as usize, level.height as usize);
@@ -47,7 +47,7 @@ fn words_of(texture: &Texture, span: RowSpan) -> std::ops::Range<usize> {
 
 /// Writes the texels of a row; not of compressed formats, nor of several samples.
 pub fn write_row(
-    texture: &Texture,
+    texture: &TexelData,
     span: RowSpan,
     aspect: TextureAspect,
     bytes: &[u8],
@@ -91,7 +91,7 @@ fn clear_unused(format: TextureFormat, texel: &mut [u32]) {
 
 /// Reads one sample of the texels of a row; not of compressed formats.
 pub fn read_row(
-    texture: &Texture,
+    texture: &TexelData,
     span: RowSpan,
     (aspect, sample): (TextureAspect, usize),
     bytes: &mut [u8],
@@ -116,7 +116,7 @@ pub fn read_row(
 }
 
 /// Decodes a row of blocks of a compressed format; texels beyond the level are dropped.
-pub fn write_blocks(texture: &Texture, span: RowSpan, bytes: &[u8], words: &mut [u32]) {
+pub fn write_blocks(texture: &TexelData, span: RowSpan, bytes: &[u8], words: &mut [u32]) {
     let [block_width, block_height] = texture.format.block_size().map(|side| side as usize);
     let level = texture.levels[span.level];
     let (width, height) = (level.width as usize, level.height as usize);

@@ -6,13 +6,13 @@
 //! Requests and answers are packets of up to sixteen lanes, a cache line each, so that a register
 //! stores or loads a packet at once.
 //!
-//! The level entry of a packet holds only the common case ([`Sampled::inside`]). Other cases are
+//! The level entry of a packet holds only the common case ([`Rgba8Texture::inside`]). Other cases are
 //! behind a second call, which computes everything again, so that the common case keeps nothing in
 //! memory for them.
 
-use crate::Sampled;
+use crate::Rgba8Texture;
 use crate::lod::{implicit_rho2, level_of_detail, rho2};
-use crate::sampled::mixture;
+use crate::rgba8_texture::mixture;
 use crate::texel::Number;
 use crate::view::{Answers, answer, load, packet};
 use estampe_simd::{LANES, Lanes as _, Level, Packet, SimdBase, dispatch, f32x16};
@@ -68,7 +68,7 @@ impl Request {
     }
 }
 
-impl Sampled {
+impl Rgba8Texture {
     /// Samples the lanes from `first` on: sixteen, or all if there are fewer.
     #[inline(always)]
     pub(crate) fn sample_lanes<R: Real>(

@@ -5,11 +5,11 @@
 //! lanes, because helper invocations and discarded fragments must not store.
 
 use crate::view::{Answers, answer, by_sixteen, packet, packet_of_ints};
-use crate::{LevelData, MipGeneration, TextureDescriptor, TextureError};
+use crate::{LevelData, MipGeneration, TexelDescriptor, TextureError};
 use estampe_format::TexelCodec;
 use estampe_simd::{LANES, Packet};
 use estampe_types::{
-    Int, Limits, Real, StorageTexture, TexelEncoding, Texture, TextureFormat, Vec4,
+    Int, Limits, Real, StorageTexture, TexelData, TexelEncoding, TextureFormat, Vec4,
 };
 
 /// Creates a storage texture from data, or of zeros without data. It has one mip level and one
@@ -19,7 +19,7 @@ use estampe_types::{
 /// # Errors
 /// [`TextureError`] when the descriptor breaks a rule, bytes are missing, or memory is short.
 pub fn create_storage_texture(
-    descriptor: &TextureDescriptor,
+    descriptor: &TexelDescriptor,
     data: Option<LevelData<'_>>,
     limits: &Limits,
 ) -> Result<StorageTexture, TextureError> {
@@ -216,11 +216,11 @@ pub fn storage_bytes(texture: &StorageTexture) -> Vec<u8> {
 pub fn storage_texture_to_texture(
     texture: &StorageTexture,
     mips: MipGeneration,
-) -> Result<Texture, TextureError> {
-    let descriptor = TextureDescriptor {
+) -> Result<TexelData, TextureError> {
+    let descriptor = TexelDescriptor {
         dimension: texture.shape().dimension,
         depth_or_layers: texture.shape().depth_or_layers,
-        ..TextureDescriptor::new_2d(texture.width(), texture.height(), texture.format())
+        ..TexelDescriptor::new_2d(texture.width(), texture.height(), texture.format())
     };
     let descriptor = match mips {
         MipGeneration::None => descriptor,

@@ -2,7 +2,7 @@
 
 use crate::TextureError;
 use crate::blocks::{self, MAX_WORDS};
-use estampe_types::{Texture, TextureFormat};
+use estampe_types::{TexelData, TextureFormat};
 
 /// The bytes of one mip level in the format's layout: slice after slice, row after row of texels,
 /// or of blocks if the format is compressed; the samples of a multisampled texel are adjacent. This
@@ -42,7 +42,7 @@ struct Layout {
 
 /// Fills a level in the words of a texture.
 pub(crate) fn level(
-    texture: &Texture,
+    texture: &TexelData,
     level: usize,
     data: &LevelData<'_>,
     words: &mut [u32],
@@ -70,7 +70,7 @@ pub(crate) fn level(
     Ok(())
 }
 
-fn layout(texture: &Texture, level: usize, data: &LevelData<'_>) -> Result<Layout, TextureError> {
+fn layout(texture: &TexelData, level: usize, data: &LevelData<'_>) -> Result<Layout, TextureError> {
     let size = texture.levels[level];
     let [block_width, block_height] = texture.format.block_size();
     let columns = u64::from(size.width.div_ceil(block_width)) * u64::from(texture.shape.samples);
@@ -110,7 +110,7 @@ fn layout(texture: &Texture, level: usize, data: &LevelData<'_>) -> Result<Layou
     })
 }
 
-fn row_of_texels(texture: &Texture, bytes: &[u8], words: &mut [u32]) {
+fn row_of_texels(texture: &TexelData, bytes: &[u8], words: &mut [u32]) {
     let size = texture.format.block_bytes() as usize;
     let per_texel = texture.words_per_texel();
     for (texel, words) in bytes
@@ -146,7 +146,7 @@ pub(crate) fn bytes_of_words(format: TextureFormat, words: &[u32], texel: &mut [
 
 /// Decodes a row of blocks into the slice; texels beyond the level are dropped.
 fn row_of_blocks(
-    texture: &Texture,
+    texture: &TexelData,
     bytes: &[u8],
     row: usize,
     (width, height): (usize, usize),

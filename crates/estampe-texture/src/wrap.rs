@@ -13,7 +13,7 @@ pub(crate) fn wrap<R: Real>(u: R, mode: AddressMode) -> R {
             let tile = (u * 0.5).floor() * 2.0;
             u.splat(1.0) - (u - tile - 1.0).abs()
         }
-        // This code does not serve the other two modes: `SampledView` samples with them.
+        // This code does not serve the other two modes: `SampledTexture` samples with them.
         AddressMode::ClampToEdge | AddressMode::MirrorOnce | AddressMode::ClampToBorder => u,
     }
 }

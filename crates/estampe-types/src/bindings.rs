@@ -6,26 +6,24 @@
 //! use bindings for values that change from draw to draw. A resource that is not bound reads as
 //! zeros.
 
-use crate::{Buffer, DepthTexture, SamplerDescriptor, StorageTexture, Texture};
+use crate::{BufferData, SamplerDescriptor, ShadowMap, StorageTexture};
 use std::any::Any;
 use std::sync::Arc;
 
 /// One resource.
 #[derive(Debug, Clone)]
-pub enum Binding {
+pub enum BoundResource {
     /// Bytes of a uniform or storage buffer.
     Buffer {
         /// The bytes; the binding starts at `offset`.
-        buffer: Buffer,
+        buffer: BufferData,
         /// Start of the binding, in bytes from the start of the buffer.
         offset: u32,
         /// If set, the index of the dynamic offset of this group that is added to `offset`.
         dynamic_offset: Option<u8>,
     },
-    /// A texture.
-    Texture(Arc<Texture>),
-    /// A depth texture, such as a shadow map.
-    DepthTexture(DepthTexture),
+    /// A shadow map.
+    ShadowMap(ShadowMap),
     /// A texture that fragment shaders store to.
     StorageTexture(StorageTexture),
     /// The state by which a texture is sampled.
@@ -46,9 +44,9 @@ impl std::fmt::Debug for OtherResource {
 
 /// Resources that are bound together, as pairs of binding number and resource.
 #[derive(Debug, Clone, Default)]
-pub struct BindGroup {
+pub struct BoundResources {
     /// The entries, in any order.
-    pub entries: Vec<(u32, Binding)>,
+    pub entries: Vec<(u32, BoundResource)>,
 }
 
 /// The most dynamic offsets of a bind group: WebGPU's 8 uniform and 4 storage buffers.
@@ -58,7 +56,7 @@ pub const MAX_DYNAMIC_OFFSETS: usize = 12;
 #[derive(Debug, Clone, Default)]
 pub struct BoundGroup {
     /// The resources.
-    pub group: Arc<BindGroup>,
+    pub group: Arc<BoundResources>,
     /// Offsets in bytes, which are added to those of the buffers that name them.
     pub dynamic_offsets: [u32; MAX_DYNAMIC_OFFSETS],
 }
@@ -74,7 +72,7 @@ impl Bindings {
     /// The resource at a group and binding number; `None` if nothing is bound there.
     #[inline]
     #[must_use]
-    pub fn get(&self, group: u32, binding: u32) -> Option<&Binding> {
+    pub fn get(&self, group: u32, binding: u32) -> Option<&BoundResource> {
         let bound = self.groups.get(group as usize)?;
         bound
             .group
@@ -89,7 +87,7 @@ impl Bindings {
     #[inline]
     #[must_use]
     pub fn f32s<const N: usize>(&self, group: u32, binding: u32, offset_bytes: u32) -> [f32; N] {
-        let Some(Binding::Buffer {
+        let Some(BoundResource::Buffer {
             buffer,
             offset,
             dynamic_offset,
@@ -130,16 +128,7 @@ impl Bindings {
     #[must_use]
     pub fn other<T: Any>(&self, group: u32, binding: u32) -> Option<&T> {
         match self.get(group, binding)? {
-            Binding::Other(OtherResource(resource)) => resource.downcast_ref(),
-            _ => None,
-        }
-    }
-
-    /// The texture at a group and binding number.
-    #[must_use]
-    pub fn texture(&self, group: u32, binding: u32) -> Option<&Arc<Texture>> {
-        match self.get(group, binding)? {
-            Binding::Texture(texture) => Some(texture),
+            BoundResource::Other(OtherResource(resource)) => resource.downcast_ref(),
             _ => None,
         }
     }
@@ -149,7 +138,7 @@ impl Bindings {
     #[must_use]
     pub fn storage_texture(&self, group: u32, binding: u32) -> Option<&StorageTexture> {
         match self.get(group, binding)? {
-            Binding::StorageTexture(texture) => Some(texture),
+            BoundResource::StorageTexture(texture) => Some(texture),
             _ => None,
         }
     }
@@ -158,17 +147,17 @@ impl Bindings {
     #[must_use]
     pub fn sampler(&self, group: u32, binding: u32) -> Option<&SamplerDescriptor> {
         match self.get(group, binding)? {
-            Binding::Sampler(sampler) => Some(sampler),
+            BoundResource::Sampler(sampler) => Some(sampler),
             _ => None,
         }
     }
 
-    /// The depth texture at a group and binding number.
+    /// The shadow map at a group and binding number.
     #[inline]
     #[must_use]
-    pub fn depth_texture(&self, group: u32, binding: u32) -> Option<&DepthTexture> {
+    pub fn shadow_map(&self, group: u32, binding: u32) -> Option<&ShadowMap> {
         match self.get(group, binding)? {
-            Binding::DepthTexture(texture) => Some(texture),
+            BoundResource::ShadowMap(texture) => Some(texture),
             _ => None,
         }
     }

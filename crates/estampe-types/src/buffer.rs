@@ -5,7 +5,7 @@ use std::sync::Arc;
 /// An immutable buffer, shared by reference. The bytes are kept as little-endian 32-bit words, so
 /// that lanes can gather them.
 #[derive(Clone)]
-pub struct Buffer {
+pub struct BufferData {
     // A vector, not `Arc<[u32]>`: a vector that several threads filled need not be copied.
     words: Arc<Vec<u32>>,
     /// The first word that belongs to the buffer.
@@ -13,7 +13,7 @@ pub struct Buffer {
     len_bytes: usize,
 }
 
-impl Buffer {
+impl BufferData {
     /// `len_bytes` zeros, or `None` if there is not enough memory.
     #[must_use]
     pub fn zeros(len_bytes: usize) -> Option<Self> {
@@ -41,7 +41,7 @@ impl Buffer {
     }
 
     /// The words, to be changed; they are copied first if something else shares them. Little-endian
-    /// bytes, as [`Buffer::words`].
+    /// bytes, as [`BufferData::words`].
     #[must_use]
     pub fn words_mut(&mut self) -> &mut [u32] {
         let count = self.len_bytes.div_ceil(4);
@@ -119,7 +119,7 @@ impl Buffer {
     }
 }
 
-impl std::fmt::Debug for Buffer {
+impl std::fmt::Debug for BufferData {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "Buffer({} bytes)", self.len_bytes)
     }

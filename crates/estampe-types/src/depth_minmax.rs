@@ -1,11 +1,11 @@
 //! Least and greatest depth of each 4×4 texels of a depth texture.
 //!
 //! In: a row of blocks of 64×64 depths, all in 0..=1, in storage order.\
-//! Out: sixteen rows of words in the format of [`DepthTexture::bounds`].\
+//! Out: sixteen rows of words in the format of [`ShadowMap::bounds`].\
 //! Precision: minimum and maximum do not depend on the order of comparisons, so the bits are the
 //! same at every SIMD level.
 
-use crate::DepthTexture;
+use crate::ShadowMap;
 use crate::morton::{compact, spread};
 use crate::texture::BLOCK;
 use estampe_simd::{
@@ -69,7 +69,7 @@ fn bounds_of<S: Lanes>(simd: S, packets: &[[f32; LANES]; LANES]) -> i32x16<S> {
         count /= 2;
     }
     // In 0..=32768, so that truncation rounds down and loses nothing else.
-    let scale = f32x16::splat(simd, DepthTexture::BOUND_SCALE);
+    let scale = f32x16::splat(simd, ShadowMap::BOUND_SCALE);
     let low = i32x16::truncate_from(least[0] * scale);
     let scaled = greatest[0] * scale;
     let high = i32x16::truncate_from(scaled);

@@ -37,8 +37,10 @@ mod wide;
 pub use bind_group_layout::{
     BindGroupLayout, BindGroupLayoutEntry, BindingType, BufferBindingType,
 };
-pub use bindings::{BindGroup, Binding, Bindings, BoundGroup, MAX_DYNAMIC_OFFSETS, OtherResource};
-pub use buffer::Buffer;
+pub use bindings::{
+    Bindings, BoundGroup, BoundResource, BoundResources, MAX_DYNAMIC_OFFSETS, OtherResource,
+};
+pub use buffer::BufferData;
 pub use format::{
     IndexFormat, SampleType, TexelEncoding, TextureFormat, VertexEncoding, VertexFormat,
 };
@@ -56,9 +58,8 @@ pub use shader::{
     VertexBatch, VertexIn,
 };
 pub use texture::{
-    AddressMode, BorderColor, DepthTexture, FilterMode, MipLevel, SamplerDescriptor,
-    StorageTexture, Texture, TextureAspect, TextureDimension, TextureShape, TextureViewDescriptor,
-    ViewDimension,
+    AddressMode, BorderColor, FilterMode, MipLevel, SamplerDescriptor, ShadowMap, StorageTexture,
+    TexelData, TexelViewDescriptor, TextureAspect, TextureDimension, TextureShape, ViewDimension,
 };
 pub use vector::{Vec2, Vec3, Vec4, vec2, vec3, vec4};
 

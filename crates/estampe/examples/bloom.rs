@@ -7,7 +7,7 @@ mod scene;
 
 use estampe::state::BlendState;
 use estampe::{
-    ColorAttachment, Coordinates, Device, FilterMode, FragmentIn, FragmentOut, Mat4, RenderPass,
+    ColorAttachment, Device, FilterMode, FragmentIn, FragmentOut, Mat4, RenderPass,
     RenderPipelineDescriptor, SamplerDescriptor, Texture, TextureBindings, TextureDescriptor,
     TextureFormat, Vec2, VertexIn, VertexOut, maths,
 };
@@ -56,9 +56,9 @@ estampe::shader! {
         }
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, uv: Vec2<R>) -> FragmentOut<R> {
-            let source = input.bindings.sampled(0, 0);
+            let source = input.bindings.sampled_texture(0, 0);
             let texel = |offset: f32| {
-                source.sample(Coordinates::d2(uv + Vec2::from(self.step) * offset)).rgb()
+                source.sample(uv + Vec2::from(self.step) * offset).rgb()
             };
             let mut sum = texel(0.0) * self.weights[0] - self.threshold;
             for (k, weight) in self.weights.into_iter().enumerate().skip(1) {

@@ -66,7 +66,7 @@ estampe::shader! {
             let (x, y) = (input.position.x.to_int(), input.position.y.to_int());
             let zero = x.splat(0);
             let texel = |binding| {
-                let texture = input.bindings.sampled(1, binding);
+                let texture = input.bindings.sampled_texture(1, binding);
                 texture.view().fetch([x, y, zero], zero, zero)
             };
             let (albedo, normal, position) = (texel(0), texel(1).xyz(), texel(2).xyz());

@@ -6,10 +6,9 @@
 mod scene;
 
 use estampe::{
-    ColorAttachment, Coordinates, DepthStencilAttachment, Device, FragmentIn, FragmentOut, Lod,
-    Mat4, RenderPass, RenderPipelineDescriptor, SamplerDescriptor, Texture, TextureBindings,
-    TextureDescriptor, TextureFormat, TextureViewDescriptor, Vec3, VertexIn, VertexOut,
-    ViewDimension, maths,
+    ColorAttachment, DepthStencilAttachment, Device, FragmentIn, FragmentOut, Mat4, RenderPass,
+    RenderPipelineDescriptor, SamplerDescriptor, Texture, TextureBindings, TextureDescriptor,
+    TextureFormat, TextureViewDescriptor, Vec3, VertexIn, VertexOut, ViewDimension, maths,
 };
 use scene::{Corner, Objects, Outcome, Screen, Solid};
 
@@ -58,11 +57,10 @@ estampe::shader! {
                 return FragmentOut::color((sky + maths::powi(sun, 64) * 3.0).point());
             }
             if kind >= MIRROR {
-                let cube = input.bindings.sampled(1, 0);
+                let cube = input.bindings.sampled_texture(1, 0);
                 let sight = (v.position - Vec3::from(EYE)).normalize();
-                let mirrored = Coordinates::cube(sight.reflect(normal));
-                let level = Lod::Level(input.real(kind - MIRROR));
-                let light = cube.sample_with(mirrored, level, [0; 3]).rgb();
+                let level = input.real(kind - MIRROR);
+                let light = cube.sample_level(sight.reflect(normal), level).rgb();
                 // Grazing light is reflected without the colour of the metal.
                 let grazing = maths::powi(1.0 + sight.dot(normal).min(0.0), 5);
                 let metal = color.mix(Vec3::repeat(input.real(1.0)), grazing);

@@ -65,7 +65,7 @@ estampe::shader! {
             let step = |k: usize| (k as f32 - 2.0) * texel;
             let offsets: [[f32; 2]; 25] = std::array::from_fn(|k| [step(k % 5), step(k / 5)]);
             let uv = v.position_light.xy() * Vec2::new(0.5, -0.5) + 0.5;
-            let lit = match input.bindings.depth_texture(1, 0) {
+            let lit = match input.bindings.shadow_map(1, 0) {
                 Some(map) => sample_compare_sum(map, uv, &offsets, v.position_light.z) / 25.0,
                 None => input.real(1.0),
             };

@@ -7,8 +7,8 @@ mod scene;
 
 use estampe::{
     BindGroup, BindGroupDescriptor, BindGroupLayout, BindGroupLayoutEntry, BindingResource,
-    BindingType, BufferBindingType, Coordinates, Device, Draw, FragmentIn, FragmentOut, Mat4,
-    RenderPass, RenderPipelineDescriptor, SampleType, SamplerDescriptor, Texture, TextureBindings,
+    BindingType, BufferBindingType, Device, Draw, FragmentIn, FragmentOut, Mat4, RenderPass,
+    RenderPipelineDescriptor, SampleType, SamplerDescriptor, Texture, TextureBindings,
     TextureDescriptor, TextureFormat, Vec2, Vec3, VertexIn, VertexOut, ViewDimension,
 };
 use scene::{Corner, Outcome, Screen, Solid};
@@ -33,8 +33,8 @@ estampe::shader! {
         }
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, v: Surface<R>) -> FragmentOut<R> {
-            let texture = input.bindings.sampled(0, 1);
-            let texel = texture.sample(Coordinates::d2(v.uv)).rgb();
+            let texture = input.bindings.sampled_texture(0, 1);
+            let texel = texture.sample(v.uv).rgb();
             FragmentOut::color((texel * scene::daylight(v.normal, 1.0)).point())
         }
     }

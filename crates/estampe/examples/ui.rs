@@ -10,9 +10,9 @@ use estampe::state::{
     VertexBufferLayout, VertexStepMode,
 };
 use estampe::{
-    ColorAttachment, Coordinates, Device, Draw, FragmentIn, FragmentOut, RenderPass,
-    RenderPipelineDescriptor, SamplerDescriptor, Texture, TextureBindings, TextureFormat, Vec2,
-    Vec4, VertexFormat, VertexIn, VertexOut,
+    ColorAttachment, Device, Draw, FragmentIn, FragmentOut, RenderPass, RenderPipelineDescriptor,
+    SamplerDescriptor, Texture, TextureBindings, TextureFormat, Vec2, Vec4, VertexFormat, VertexIn,
+    VertexOut,
 };
 use scene::{Outcome, SIZE, page};
 
@@ -68,8 +68,8 @@ estampe::shader! {
         }
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, v: Pixel<R>) -> FragmentOut<R> {
-            let at = Coordinates::d2(v.texel / Vec2::new(162.0, 8.0));
-            let letter = input.bindings.sampled(0, 0).sample(at).x;
+            let at = v.texel / Vec2::new(162.0, 8.0);
+            let letter = input.bindings.sampled_texture(0, 0).sample(at).x;
             // The signed distance from the edge of a rectangle with round corners.
             let from_corner = v.from_centre.abs() - v.half + v.radius;
             let inside = from_corner.x.max(from_corner.y).min(0.0);

@@ -1,13 +1,13 @@
 //! Bind groups: the resources that shaders find by group and binding number.
 
 use crate::texture::{
-    Sampler, StoredTextures, TextureError, TextureUsages, TextureView, sampled_view,
+    Sampler, StoredTextures, TextureError, TextureUsages, TextureView, sampled_texture,
 };
 use crate::{
     BindGroupLayout, BindGroupLayoutEntry, BindingType, BufferBindingType, BufferError,
     BufferSlice, BufferUsages, Context, Limits, SampleType,
 };
-use estampe_types::bindings::{BindGroup as BoundResources, Binding, OtherResource};
+use estampe_types::bindings::{BoundResource, BoundResources, OtherResource};
 use std::sync::Arc;
 
 /// A resource of a bind group.
@@ -265,14 +265,14 @@ impl BindGroup {
                 BindingResource::Texture(view) => match kind {
                     Some(BindingType::ShadowMap) => shadow_map(context, view)?,
                     Some(BindingType::StorageTexture { .. }) => {
-                        Binding::StorageTexture(stores.get(context, view)?)
+                        BoundResource::StorageTexture(stores.get(context, view)?)
                     }
-                    _ => Binding::Other(OtherResource(Arc::new(view.texels(context)?))),
+                    _ => BoundResource::Other(OtherResource(Arc::new(view.texels(context)?))),
                 },
-                BindingResource::Sampler(sampler) => Binding::Sampler(*sampler.descriptor()),
+                BindingResource::Sampler(sampler) => BoundResource::Sampler(*sampler.descriptor()),
                 BindingResource::SampledTexture(view, sampler) => {
-                    let sampled = sampled_view(context, view, sampler)?;
-                    Binding::Other(OtherResource(Arc::new(sampled)))
+                    let sampled = sampled_texture(context, view, sampler)?;
+                    BoundResource::Other(OtherResource(Arc::new(sampled)))
                 }
             };
             Ok((*binding, bound))
@@ -282,11 +282,11 @@ impl BindGroup {
     }
 }
 
-fn bound_buffer(slice: &BufferSlice, dynamic_offset: Option<usize>) -> Binding {
+fn bound_buffer(slice: &BufferSlice, dynamic_offset: Option<usize>) -> BoundResource {
     let data = slice.buffer.data();
     let end = usize::try_from(slice.offset + slice.size).unwrap_or(usize::MAX);
     let dynamic_offset = dynamic_offset.and_then(|index| u8::try_from(index).ok());
-    Binding::Buffer {
+    BoundResource::Buffer {
         // What follows a dynamic binding is checked with the offset of the draw.
         buffer: if dynamic_offset.is_some() {
             data
@@ -298,13 +298,13 @@ fn bound_buffer(slice: &BufferSlice, dynamic_offset: Option<usize>) -> Binding {
     }
 }
 
-fn shadow_map(context: &Context, view: &TextureView) -> Result<Binding, TextureError> {
+fn shadow_map(context: &Context, view: &TextureView) -> Result<BoundResource, TextureError> {
     let texture = view.texture();
     let map = match view.image_key(None) {
         Some(key) => texture.lock().shadow_map(texture, context, key)?,
         None => None,
     };
-    Ok(Binding::DepthTexture(map.unwrap_or_default()))
+    Ok(BoundResource::ShadowMap(map.unwrap_or_default()))
 }
 
 fn name_of(label: Option<&str>) -> String {

@@ -2,7 +2,7 @@
 
 use crate::pass::{ColorAttachment, Draw, RenderPass};
 use crate::texture::{Texture, TextureUsages, TextureView};
-use crate::{Coordinates, Lod, SampleType, SampledView, ViewDimension};
+use crate::{Coordinates, Lod, SampleType, SampledTexture, ViewDimension};
 use crate::{
     Device, FilterMode, FragmentIn, FragmentOut, LoadOp, PipelineError, RenderPassError,
     RenderPipelineDescriptor, SamplerDescriptor, TextureError, Vec2, Vec4, VertexIn, VertexOut,
@@ -73,7 +73,7 @@ pub enum BlitError {
 /// Samples the source at the place that corresponds to a pixel of the destination.
 #[derive(Debug)]
 struct Blit {
-    source: SampledView,
+    source: SampledTexture,
     /// u, v = pixel · scale + offset.
     scale: [f32; 2],
     offset: [f32; 2],
@@ -133,7 +133,7 @@ pub(crate) fn blit(
     };
     let ([x_scale, x_offset], [y_scale, y_offset]) = (place(0), place(1));
     let shader = Blit {
-        source: device.sampled_view(from.view, &sampler)?,
+        source: device.sampled_texture(from.view, &sampler)?,
         scale: [x_scale, y_scale],
         offset: [x_offset, y_offset],
     };

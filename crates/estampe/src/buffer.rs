@@ -1,7 +1,7 @@
 //! Buffers: memory for vertices, indices, uniforms, storage and indirect draws.
 
 use crate::Limits;
-use estampe_types::Buffer as BufferData;
+use estampe_types::BufferData;
 use std::ops::{Bound, Range, RangeBounds};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

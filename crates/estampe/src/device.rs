@@ -5,7 +5,7 @@ use crate::{
     BindGroup, BindGroupDescriptor, BindGroupError, BindGroupLayout, BindGroupLayoutEntry,
     BlitError, BlitRegion, Buffer, BufferDescriptor, BufferError, BufferUsages, CopyError,
     Extent3d, FilterMode, Level, Limits, PipelineError, RenderPass, RenderPassError,
-    RenderPipeline, RenderPipelineDescriptor, Sampled, SampledView, SamplerDescriptor, Statistics,
+    RenderPipeline, RenderPipelineDescriptor, SampledTexture, SamplerDescriptor, Statistics,
     TextureError, TextureView, blit, copy, pass,
 };
 use estampe_core::Context;
@@ -361,26 +361,15 @@ impl Device {
     ///
     /// # Errors
     /// [`TextureError`] if the sampler cannot sample the view, or memory is short.
-    pub fn sampled_view(
+    pub fn sampled_texture(
         &self,
         view: &TextureView,
         sampler: &Sampler,
-    ) -> Result<SampledView, TextureError> {
+    ) -> Result<SampledTexture, TextureError> {
         view.texture()
             .require(crate::TextureUsages::TEXTURE_BINDING)?;
         let _reserved = view.texture().reserve();
-        texture::sampled_view(&self.context, view, sampler)
-    }
-
-    /// [`Device::sampled_view`] of a 2D texture of four 8-bit channels and WebGPU's address modes:
-    /// the kind that is sampled fastest.
-    ///
-    /// # Errors
-    /// [`TextureError`] if the texture or the sampler is of another kind, or memory is short.
-    pub fn sampled(&self, texture: &Texture, sampler: &Sampler) -> Result<Sampled, TextureError> {
-        texture.require(crate::TextureUsages::TEXTURE_BINDING)?;
-        let _reserved = texture.reserve();
-        texture::sampled(&self.context, texture, sampler)
+        texture::sampled_texture(&self.context, view, sampler)
     }
 
     /// The SIMD level of the kernels.

@@ -89,15 +89,15 @@ pub use estampe_core::{
 };
 pub use estampe_simd::{Level, LevelError};
 pub use estampe_texture::{
-    Coordinates, Lod, Sampled, SampledView, TextureBindings, sample_compare_level,
-    sample_compare_sum, storage_load, storage_store,
+    Coordinates, Lod, SampledTexture, TexelView, TextureBindings, TextureCoordinates,
+    sample_compare_level, sample_compare_sum, storage_load, storage_store,
 };
 pub use estampe_types::shader::{DepthOutput, Interpolation, Sample2d, Sampling, VertexOut};
 pub use estampe_types::{
     AddressMode, Attributes, BindGroupLayout, BindGroupLayoutEntry, BindingType, Bindings,
-    BorderColor, BufferBindingType, Centroid, DepthTexture, FilterMode, Flat, FragmentIn,
-    FragmentOut, IndexFormat, Int, Limits, Mat2, Mat3, Mat4, NoPerspective, Operand, PerSample,
-    Program, Quad, Real, SampleType, SamplerDescriptor, Shader, ShaderError, ShaderProgram,
+    BorderColor, BufferBindingType, Centroid, FilterMode, Flat, FragmentIn, FragmentOut,
+    IndexFormat, Int, Limits, Mat2, Mat3, Mat4, NoPerspective, Operand, PerSample, Program, Quad,
+    Real, SampleType, SamplerDescriptor, Shader, ShaderError, ShaderProgram, ShadowMap,
     TexelEncoding, TextureAspect, TextureDimension, TextureFormat, Varyings, Vec2, Vec3, Vec4,
     VertexEncoding, VertexFormat, VertexIn, ViewDimension, attributes, maths, operand, shader,
     state, varyings, vec2, vec3, vec4,

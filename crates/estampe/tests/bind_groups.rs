@@ -62,9 +62,9 @@ estampe::shader! {
             let bindings = input.bindings;
             let [red] = bindings.f32s::<1>(1, 2, 0);
             let zero = input.zero.to_int();
-            let green = bindings.texture_view(0, 7).fetch([zero; 3], zero, zero).y;
+            let green = bindings.texture(0, 7).fetch([zero; 3], zero, zero).y;
             let at = Coordinates::d2(Vec2::new(input.real(0.5), input.real(0.5)));
-            let blue = bindings.sampled(3, 0);
+            let blue = bindings.sampled_texture(3, 0);
             let blue = blue.sample_with(at, Lod::Level(input.zero), [0; 3]).z;
             let alpha = match bindings.storage_texture(1, 9) {
                 Some(texture) => storage_load(texture, [zero; 3]).w,

@@ -5,8 +5,8 @@ mod support;
 use estampe::shader::{FragmentBatch, Interface, VertexBatch};
 use estampe::{
     BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType, Bindings,
-    ColorAttachment, DepthStencilAttachment, DepthTexture, Device, DeviceDescriptor, Draw,
-    FragmentIn, FragmentOut, Level, PassExtent, Program, RenderPass, RenderPipelineDescriptor,
+    ColorAttachment, DepthStencilAttachment, Device, DeviceDescriptor, Draw, FragmentIn,
+    FragmentOut, Level, PassExtent, Program, RenderPass, RenderPipelineDescriptor, ShadowMap,
     Texture, TextureDescriptor, TextureFormat, Vec4, VertexIn, VertexOut,
 };
 use std::sync::{Arc, Mutex};
@@ -38,7 +38,7 @@ estampe::shader! {
 #[derive(Debug, Default)]
 struct Keeper {
     interface: Interface,
-    kept: Mutex<Option<DepthTexture>>,
+    kept: Mutex<Option<ShadowMap>>,
 }
 
 impl Program for Keeper {
@@ -47,7 +47,7 @@ impl Program for Keeper {
     }
 
     fn run_vertices(&self, _level: Level, bindings: &Bindings, _batch: VertexBatch<'_>) {
-        *self.kept.lock().unwrap() = bindings.depth_texture(0, 2).cloned();
+        *self.kept.lock().unwrap() = bindings.shadow_map(0, 2).cloned();
     }
 
     fn run_fragments(&self, _level: Level, _bindings: &Bindings, _batch: FragmentBatch<'_>) {}
@@ -84,7 +84,7 @@ fn draw(device: &Device, depth: &Texture) {
 }
 
 /// The shadow map as a shader reads it.
-fn bound(device: &Device, depth: &Texture) -> DepthTexture {
+fn bound(device: &Device, depth: &Texture) -> ShadowMap {
     let layout = device
         .create_bind_group_layout(&[BindGroupLayoutEntry {
             binding: 2,
@@ -129,7 +129,7 @@ fn bound(device: &Device, depth: &Texture) -> DepthTexture {
         .expect("a shadow map is bound")
 }
 
-fn rows(texture: &DepthTexture) -> Vec<f32> {
+fn rows(texture: &ShadowMap) -> Vec<f32> {
     let (width, height) = (texture.width(), texture.height());
     let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     texels.map(|(x, y)| texture.texel(x, y)).collect()
@@ -150,15 +150,15 @@ fn the_shadow_map_holds_the_depths_and_bounds_them() {
         let depths = f32s(&device.read_texture(&depth).unwrap());
         assert!(rows(&map) == depths);
         assert!(depths.iter().filter(|depth| **depth < 1.0).count() > 5000);
-        let stride = DepthTexture::bounds_stride(SIZE[0]);
+        let stride = ShadowMap::bounds_stride(SIZE[0]);
         for (index, depth) in depths.iter().enumerate() {
             let (x, y) = (index % SIZE[0] as usize, index / SIZE[0] as usize);
             let word = map.bounds()[y / 4 * stride + x / 4];
-            let scaled = depth * DepthTexture::BOUND_SCALE;
+            let scaled = depth * ShadowMap::BOUND_SCALE;
             assert!((word & 0xFFFF) as f32 <= scaled && (word >> 16) as f32 >= scaled);
         }
         // The same image from rows; the bounds differ only where packets extend beyond the image.
-        let brought = DepthTexture::from_rows(SIZE[0], SIZE[1], &depths);
+        let brought = ShadowMap::from_rows(SIZE[0], SIZE[1], &depths);
         assert!(rows(&brought) == depths);
         assert_eq!(brought.bounds()[..32], map.bounds()[..32]);
     }
@@ -170,7 +170,7 @@ fn a_shadow_map_is_the_attachments_memory_until_it_is_drawn_over() {
     let device = device();
     let depth = cleared(&device);
     let before = bound(&device, &depth);
-    let place = |map: &DepthTexture| map.depths().as_ptr();
+    let place = |map: &ShadowMap| map.depths().as_ptr();
     assert_eq!(place(&before), place(&bound(&device, &depth)));
     let rows_before = rows(&before);
     draw(&device, &depth);

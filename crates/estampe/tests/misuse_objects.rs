@@ -190,12 +190,7 @@ fn textures() {
         .create_sampler(&SamplerDescriptor::default())
         .unwrap();
     refused!(
-        device.sampled_view(&none.view(), &sampler),
-        TextureError::Usage { .. },
-        lacks("TEXTURE_BINDING")
-    );
-    refused!(
-        device.sampled(&none, &sampler),
+        device.sampled_texture(&none.view(), &sampler),
         TextureError::Usage { .. },
         lacks("TEXTURE_BINDING")
     );

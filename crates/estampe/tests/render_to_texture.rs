@@ -31,7 +31,7 @@ estampe::shader! {
         }
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, uv: Vec2<R>) -> FragmentOut<R> {
-            let texture = input.bindings.sampled(0, 0);
+            let texture = input.bindings.sampled_texture(0, 0);
             let color = texture.sample_with(Coordinates::d2(uv), Lod::Level(input.zero), [0; 3]);
             FragmentOut::color(Vec4::new(color.y, color.z, color.x, color.w))
         }
@@ -335,7 +335,7 @@ estampe::shader! {
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, (): ()) -> FragmentOut<R> {
             let [x, y] = [input.position.x, input.position.y].map(|at| at.floor().to_int());
             let (zero, slice) = (x.splat(0), x.splat(self.slice));
-            let view = input.bindings.sampled(0, 0).view();
+            let view = input.bindings.sampled_texture(0, 0).view();
             FragmentOut::color(view.fetch([x, y, slice], zero, zero))
         }
     }
@@ -422,7 +422,7 @@ estampe::shader! {
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, (): ()) -> FragmentOut<R> {
             let [x, y, z] = self.0.map(|axis| input.real(axis));
             let at = Coordinates::cube(Vec3::new(x, y, z));
-            let texture = input.bindings.sampled(0, 0);
+            let texture = input.bindings.sampled_texture(0, 0);
             FragmentOut::color(texture.sample_with(at, Lod::Level(input.zero), [0; 3]))
         }
     }
@@ -494,7 +494,7 @@ estampe::shader! {
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, (): ()) -> FragmentOut<R> {
             let [x, y] = [input.position.x, input.position.y].map(|at| at.floor().to_int());
             let zero = x.splat(0);
-            let depth = input.bindings.sampled(0, 0).view().fetch([x, y, zero], zero, zero).x;
+            let depth = input.bindings.sampled_texture(0, 0).view().fetch([x, y, zero], zero, zero).x;
             FragmentOut::color(Vec4::new(depth, depth, depth, input.real(1.0)))
         }
     }

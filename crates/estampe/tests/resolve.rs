@@ -51,7 +51,7 @@ estampe::shader! {
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, (): ()) -> FragmentOut<R> {
             let [x, y] = [input.position.x, input.position.y].map(|at| at.floor().to_int());
             let (zero, sample) = (x.splat(0), x.splat(self.0));
-            let texture = input.bindings.texture_view(0, 0);
+            let texture = input.bindings.texture(0, 0);
             FragmentOut::color(texture.fetch([x, y, zero], zero, sample))
         }
     }

@@ -9,7 +9,7 @@ use crate::generate::{
     LittleEndian, Matrix, Vector, diffuse_texture, look_at, normal_texture, normalize, perspective,
     torus,
 };
-use estampe::Sampled;
+use estampe::SampledTexture;
 use estampe::state::{CullMode, MultisampleState, PrimitiveState};
 use estampe::{
     FragmentIn, FragmentOut, Mat4, RenderPipelineDescriptor, Vec2, Vec3, Vec4, VertexFormat,
@@ -27,8 +27,8 @@ struct NormalMapped {
     world_from_object: Mat4,
     eye_world: [f32; 3],
     towards_light: [f32; 3],
-    diffuse_map: Sampled,
-    normal_map: Sampled,
+    diffuse_map: SampledTexture,
+    normal_map: SampledTexture,
 }
 
 estampe::shader! {
@@ -58,7 +58,7 @@ estampe::shader! {
             (position, normal, tangent, uv): (Vec3<R>, Vec3<R>, Vec4<R>, Vec2<R>),
         ) -> FragmentOut<R> {
             let maps = [&self.diffuse_map, &self.normal_map];
-            let [albedo, mapped] = Sampled::sample_all(maps, uv);
+            let [albedo, mapped] = SampledTexture::sample_all(maps, uv);
             let (albedo, mapped) = (albedo.xyz(), mapped.xyz());
             let (one, two) = (Vec3::repeat(input.real(1.0)), input.real(2.0));
             let bump = mapped * two - one;

@@ -11,8 +11,8 @@ use crate::generate::{
 };
 use estampe::state::{CullMode, PrimitiveState};
 use estampe::{
-    FragmentIn, FragmentOut, Real, RenderPipelineDescriptor, Sampled, Vec2, Vec3, VertexFormat,
-    VertexIn, VertexOut, maths, sample_compare_sum,
+    FragmentIn, FragmentOut, Real, RenderPipelineDescriptor, SampledTexture, Vec2, Vec3,
+    VertexFormat, VertexIn, VertexOut, maths, sample_compare_sum,
 };
 
 /// Bytes between the torus's and the ground's uniforms.
@@ -49,7 +49,7 @@ estampe::shader! {
 
 /// Blinn-Phong (Blinn 1977) with a diffuse and a shadow map.
 struct Shadowed {
-    diffuse_map: Sampled,
+    diffuse_map: SampledTexture,
     /// Offsets of the nine samples of the map, in (u, v), from the middle one.
     taps: [[f32; 2]; 9],
 }
@@ -93,7 +93,7 @@ estampe::shader! {
             let towards_eye = (bound_vector(&input, EYE) - position).normalize();
             let half = (towards_light + towards_eye).normalize();
 
-            let lit = match input.bindings.depth_texture(DEPTH_MAP_GROUP, DEPTH_MAP) {
+            let lit = match input.bindings.shadow_map(DEPTH_MAP_GROUP, DEPTH_MAP) {
                 Some(map) => {
                     let (at, reference) = (Vec2::new(in_map.x, in_map.y), in_map.z - DEPTH_BIAS);
                     sample_compare_sum(map, at, &self.taps, reference) * (1.0 / 9.0)

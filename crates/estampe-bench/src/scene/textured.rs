@@ -11,7 +11,7 @@ use super::{ASPECT, Detail, Scene, uniforms, upload, vertex_layout};
 use crate::generate::{
     LittleEndian, Matrix, QUAD_CORNERS, diffuse_texture, perspective, quad_indices, unit_hash,
 };
-use estampe::Sampled;
+use estampe::SampledTexture;
 use estampe::{
     FragmentIn, FragmentOut, Mat4, RenderPipelineDescriptor, Vec2, Vec3, VertexFormat, VertexIn,
     VertexOut,
@@ -22,7 +22,7 @@ const QUADS: u32 = 16;
 /// Outputs the texture.
 struct Textured {
     clip_from_view: Mat4,
-    texture: Sampled,
+    texture: SampledTexture,
 }
 
 estampe::shader! {

@@ -4,7 +4,7 @@
 //! `NO_DERIVATIVES`), so the measured cost is that of any program.
 
 use super::texture_views::{Lookup, ViewTexture};
-use estampe::Sampled;
+use estampe::SampledTexture;
 use estampe::{
     Attributes, FragmentIn, FragmentOut, Int, Program, Real, ShaderProgram, Varyings, Vec2, Vec3,
     Vec4, VertexIn, VertexOut,
@@ -13,7 +13,6 @@ use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// The source of a fragment's colour.
-#[expect(clippy::large_enum_variant, reason = "one value for each pipeline")]
 #[derive(Debug, Clone)]
 pub(super) enum SurfaceKind {
     /// The vertex colour.
@@ -23,7 +22,7 @@ pub(super) enum SurfaceKind {
     /// The vertex colour, on points three pixels wide.
     PointTint,
     /// A texture of the common kind (8-bit RGBA, 2D) times the vertex colour.
-    Texture(Sampled),
+    Texture(SampledTexture),
     /// A texture view of another kind times the vertex colour.
     View(ViewTexture),
 }
@@ -175,7 +174,7 @@ impl Surface for PointTint {
     }
 }
 
-struct TextureTint(Sampled);
+struct TextureTint(SampledTexture);
 
 impl Surface for TextureTint {
     type Attributes<R: Real> = (Vec3<R>, Vec4<R>, Vec2<R>);

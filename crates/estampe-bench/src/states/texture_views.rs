@@ -6,8 +6,8 @@ use super::geometry::{GLYPH_PX, GLYPHS, TEXTURE_SIDE, half_of_256th};
 use crate::BenchError;
 use crate::generate::diffuse_texture;
 use estampe::{
-    Device, DeviceDescriptor, Extent3d, FilterMode, Sampled, SampledView, Sampler,
-    SamplerDescriptor, TextureDescriptor, TextureFormat, TextureViewDescriptor, ViewDimension,
+    Device, DeviceDescriptor, Extent3d, FilterMode, SampledTexture, Sampler, SamplerDescriptor,
+    TextureDescriptor, TextureFormat, TextureViewDescriptor, ViewDimension,
 };
 
 /// A texture format or shape other than the common kind.
@@ -20,7 +20,7 @@ pub(super) struct ViewKind {
 /// A view and the conversion of (u, v) to its coordinates.
 #[derive(Debug, Clone)]
 pub(super) struct ViewTexture {
-    pub(super) view: SampledView,
+    pub(super) view: SampledTexture,
     pub(super) lookup: Lookup,
 }
 
@@ -70,13 +70,15 @@ impl Pictures {
     }
 
     /// The load's picture as a texture of the common kind.
-    pub(super) fn sampled(&self, load: Load) -> Result<Sampled, BenchError> {
+    pub(super) fn sampled(&self, load: Load) -> Result<SampledTexture, BenchError> {
         let format = TextureFormat::Rgba8Unorm;
         let descriptor = TextureDescriptor::new_2d(TEXTURE_SIDE, TEXTURE_SIDE, format);
         let texture = self
             .device
             .create_texture_with_data(&descriptor, &[self.of(load)])?;
-        Ok(self.device.sampled(&texture, &self.bilinear)?)
+        Ok(self
+            .device
+            .sampled_texture(&texture.view(), &self.bilinear)?)
     }
 
     /// The load's picture in another format or shape; each layer and each face has the same
@@ -104,7 +106,7 @@ impl Pictures {
             ..TextureViewDescriptor::default()
         })?;
         Ok(ViewTexture {
-            view: self.device.sampled_view(&view, &self.bilinear)?,
+            view: self.device.sampled_texture(&view, &self.bilinear)?,
             lookup: match kind.dimension {
                 ViewDimension::Cube => Lookup::Direction,
                 ViewDimension::D2Array => Lookup::Layer(2),

@@ -2,7 +2,7 @@
 
 use super::texels::DepthStencilTexels;
 use crate::layout::BLOCK;
-use estampe_types::DepthTexture;
+use estampe_types::ShadowMap;
 use std::sync::Arc;
 
 /// A row of blocks whose bounds one worker finds.
@@ -15,7 +15,7 @@ pub(crate) struct BoundsJob<'a> {
 impl BoundsJob<'_> {
     /// Finds the bounds.
     pub(crate) fn run(&mut self) {
-        DepthTexture::bound(self.depths, self.bounds);
+        ShadowMap::bound(self.depths, self.bounds);
     }
 }
 
@@ -25,7 +25,7 @@ impl DepthStencilTexels {
     pub(crate) fn depth_texture(
         &mut self,
         run_all: impl FnOnce(&mut [BoundsJob<'_>]),
-    ) -> Option<DepthTexture> {
+    ) -> Option<ShadowMap> {
         if self.depth.is_empty() || self.size.samples != 1 {
             return None;
         }
@@ -35,8 +35,8 @@ impl DepthStencilTexels {
         }
         // Not shared, as was just seen to.
         let bounds = Arc::make_mut(&mut self.depth_bounds);
-        bounds.resize(DepthTexture::bounds_len(width, height), 0);
-        let stride = DepthTexture::bounds_stride(width);
+        bounds.resize(ShadowMap::bounds_len(width, height), 0);
+        let stride = ShadowMap::bounds_stride(width);
         let block = BLOCK as usize;
         let rows = self.depth.chunks_exact(stride * 4 * block);
         let mut jobs: Vec<BoundsJob<'_>> = rows
@@ -45,10 +45,6 @@ impl DepthStencilTexels {
             .collect();
         run_all(&mut jobs);
         let shared = (Arc::clone(&self.depth), Arc::clone(&self.depth_bounds));
-        Some(DepthTexture::from_storage(
-            (width, height),
-            shared.0,
-            shared.1,
-        ))
+        Some(ShadowMap::from_storage((width, height), shared.0, shared.1))
     }
 }

@@ -7,7 +7,7 @@ use crate::pipeline::primitive_kind::PrimitiveKind;
 use crate::pipeline::primitive_kind::kind_of;
 use estampe_simd::LANES;
 use estampe_types::state::{PrimitiveTopology, ProvokingVertex};
-use estampe_types::{Buffer, IndexFormat};
+use estampe_types::{BufferData, IndexFormat};
 
 /// Returns the number of primitives that `elements` elements make. An incomplete last one is
 /// dropped.
@@ -100,7 +100,7 @@ pub(crate) struct ElementSource<'a> {
     /// Elements of one instance.
     pub(crate) elements: u32,
     /// The index buffer; without one, or where indices are sparse, element `i` is vertex `i`.
-    pub(crate) indices: Option<(&'a Buffer, IndexFormat)>,
+    pub(crate) indices: Option<(&'a BufferData, IndexFormat)>,
     /// The first element in the index buffer.
     pub(crate) first_element: u32,
     /// Taken from an index (after the base vertex was added) to give the sub-draw's vertex.
@@ -194,7 +194,7 @@ impl ElementSource<'_> {
 /// there lacks: the last of a buffer's words is filled up with zeros.
 #[inline(always)]
 pub(crate) fn vertex_index(
-    buffer: &Buffer,
+    buffer: &BufferData,
     format: IndexFormat,
     at: usize,
     base_vertex: i32,
@@ -204,7 +204,7 @@ pub(crate) fn vertex_index(
 
 /// An element of an index buffer.
 #[inline(always)]
-pub(crate) fn raw_index(buffer: &Buffer, format: IndexFormat, at: usize) -> u32 {
+pub(crate) fn raw_index(buffer: &BufferData, format: IndexFormat, at: usize) -> u32 {
     let word = |at: usize| buffer.words().get(at).copied().unwrap_or_default();
     match format {
         IndexFormat::Uint32 => word(at),
@@ -231,7 +231,7 @@ mod tests {
     #[test]
     fn sixteen_triangles_are_assembled_like_one() {
         let bytes: Vec<u8> = (0..240u32).map(|at| (at * 37 % 251) as u8).collect();
-        let buffer = Buffer::from_bytes(&bytes);
+        let buffer = BufferData::from_bytes(&bytes);
         for format in [IndexFormat::Uint32, IndexFormat::Uint16, IndexFormat::Uint8] {
             for first_element in [0, 1, 6, 9, 71, 72] {
                 let source = ElementSource {
@@ -295,7 +295,7 @@ mod tests {
 
     #[test]
     fn indices_of_every_width_read_zero_bytes_beyond_the_end() {
-        let buffer = Buffer::from_bytes(&[1, 0, 2, 0, 3, 0]);
+        let buffer = BufferData::from_bytes(&[1, 0, 2, 0, 3, 0]);
         let read = |format, at| vertex_index(&buffer, format, at, 0);
         assert_eq!(
             [0, 1, 2, 3].map(|at| read(IndexFormat::Uint16, at)),

@@ -13,7 +13,7 @@ use estampe_format::vertex::VertexCodec;
 use estampe_simd::{
     Bytes, LANES, Lanes, Level, Packet, SimdBase, SimdCvtFloat, dispatch, f32x16, i32x16, u32x16,
 };
-use estampe_types::Buffer;
+use estampe_types::BufferData;
 
 /// The vertex and instance indices of a packet's lanes.
 #[derive(Debug, Default)]
@@ -31,7 +31,7 @@ pub(crate) fn fetch<S: Lanes>(
     s: S,
     sources: &[AttributeSource],
     wanted: &[usize],
-    buffers: &[Buffer],
+    buffers: &[BufferData],
     index: &PacketIndex,
     out: &mut [Packet<f32>],
 ) {
@@ -93,7 +93,7 @@ pub(crate) fn fetch<S: Lanes>(
 fn fetch_words<S: Lanes>(
     s: S,
     source: &AttributeSource,
-    buffer: &Buffer,
+    buffer: &BufferData,
     index: &PacketIndex,
     count: usize,
 ) -> [u32x16<S>; 4] {
@@ -159,7 +159,7 @@ fn strided<S: Lanes>(s: S, rows: &[u32], stride: usize, is_single: bool) -> [u32
 
 /// Returns the number of elements that hold an attribute completely inside the buffer.
 #[inline(always)]
-fn whole_elements(source: &AttributeSource, buffer: &Buffer) -> u32 {
+fn whole_elements(source: &AttributeSource, buffer: &BufferData) -> u32 {
     let end = source.attribute.offset as usize + source.attribute.format.size_bytes();
     match (buffer.len_bytes().checked_sub(end), source.stride) {
         (None, _) => 0,
@@ -182,7 +182,7 @@ pub(crate) fn fetch_rare(
     level: Level,
     sources: &[AttributeSource],
     wanted: &[usize],
-    buffers: &[Buffer],
+    buffers: &[BufferData],
     (index, first_instance): (&PacketIndex, u32),
     out: &mut [Packet<f32>],
 ) {
@@ -206,7 +206,7 @@ pub(crate) fn fetch_rare(
 fn fetch_one(
     level: Level,
     source: &AttributeSource,
-    buffers: &[Buffer],
+    buffers: &[BufferData],
     index: &PacketIndex,
     out: &mut [Packet<f32>],
 ) {
@@ -226,7 +226,7 @@ fn fetch_one(
 fn decode<S: Lanes>(
     s: S,
     source: &AttributeSource,
-    buffer: &Buffer,
+    buffer: &BufferData,
     index: &PacketIndex,
     out: &mut [Packet<f32>],
 ) {

@@ -10,7 +10,7 @@
 
 use super::assembly::{corners_of, primitive_count, raw_index};
 use estampe_types::state::{PrimitiveTopology, ProvokingVertex};
-use estampe_types::{Buffer, IndexFormat};
+use estampe_types::{BufferData, IndexFormat};
 
 /// The position in a draw's elements at which the search for the next primitive begins.
 #[derive(Debug, Clone, Copy, Default)]
@@ -26,7 +26,7 @@ pub(crate) struct RestartCursor {
 pub(crate) struct RestartSource<'a> {
     pub(crate) topology: PrimitiveTopology,
     pub(crate) provoking: ProvokingVertex,
-    pub(crate) buffer: &'a Buffer,
+    pub(crate) buffer: &'a BufferData,
     pub(crate) format: IndexFormat,
     pub(crate) base_vertex: i32,
     /// The first element, and how many there are.

@@ -12,7 +12,7 @@ use crate::pipeline::{Decoding, RenderPipeline};
 use estampe_simd::{
     Bytes, LANES, Lanes, Level, Packet, Select, SimdBase, dispatch, f32x16, i32x16, u32x16,
 };
-use estampe_types::{Bindings, Buffer, Interface, VertexBatch};
+use estampe_types::{Bindings, BufferData, Interface, VertexBatch};
 
 /// Packets that a program shades in one call. Few, because fetching and storing wait for memory
 /// while programs compute: of a million triangles' half a million vertices, with 2, 4, 8 and 16
@@ -31,7 +31,7 @@ const LANE_NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13
 #[derive(Debug, Clone)]
 pub(crate) struct VertexSource<'a> {
     pub(crate) pipeline: &'a RenderPipeline,
-    pub(crate) buffers: &'a [Buffer],
+    pub(crate) buffers: &'a [BufferData],
     pub(crate) bindings: &'a Bindings,
     /// The first vertex index.
     pub(crate) first_vertex: u32,

@@ -221,7 +221,7 @@ mod tests {
     use crate::pipeline::{RenderPipeline, RenderPipelineDescriptor};
     use estampe_types::shader::VertexOut;
     use estampe_types::state::{PrimitiveTopology, ScissorRect, Viewport};
-    use estampe_types::{Buffer, FragmentIn, FragmentOut, IndexFormat, Limits, Vec2, VertexIn};
+    use estampe_types::{BufferData, FragmentIn, FragmentOut, IndexFormat, Limits, Vec2, VertexIn};
 
     /// A shader of two floats as varyings.
     struct Plain;
@@ -361,7 +361,7 @@ mod tests {
     fn elements_beyond_the_index_buffer_are_left_out_and_counted() {
         let lists = pipeline(PrimitiveTopology::TriangleList, 1);
         let points = pipeline(PrimitiveTopology::PointList, 1);
-        let buffer = Buffer::from_bytes(&[0; 20]);
+        let buffer = BufferData::from_bytes(&[0; 20]);
         let draw = |pipeline, elements| Draw {
             indices: Some((&buffer, IndexFormat::Uint16)),
             ..Draw::new(pipeline, elements)

@@ -6,7 +6,7 @@ use crate::geometry::assembly::{raw_index, vertex_index};
 use crate::geometry::restart::RestartSource;
 use crate::schedule::Executor;
 use estampe_types::state::PrimitiveTopology;
-use estampe_types::{Buffer, IndexFormat};
+use estampe_types::{BufferData, IndexFormat};
 
 /// Elements of a fan, loop or stippled strip at most: what is beyond is not drawn. Memory for a
 /// draw is bounded by it.
@@ -217,7 +217,7 @@ const INDEX_CHUNK: usize = 1 << 16;
 /// become SIMD code; `None` where the buffer does not hold all of them, or they are bytes.
 fn extremes_in_buffer(
     executor: &Executor,
-    buffer: &Buffer,
+    buffer: &BufferData,
     format: IndexFormat,
     [first, count]: [u32; 2],
 ) -> Option<[u32; 2]> {
@@ -292,10 +292,10 @@ fn extremes(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use estampe_types::Buffer;
+    use estampe_types::BufferData;
 
     /// The extremes by the definition.
-    fn slowly(buffer: &Buffer, format: IndexFormat, [first, count]: [u32; 2]) -> [u32; 2] {
+    fn slowly(buffer: &BufferData, format: IndexFormat, [first, count]: [u32; 2]) -> [u32; 2] {
         let indices = (first..first + count).map(|at| raw_index(buffer, format, at as usize));
         [indices.clone().min().unwrap(), indices.max().unwrap()]
     }
@@ -310,7 +310,7 @@ mod tests {
         };
         for len in [40, 43, 600_000] {
             let bytes: Vec<u8> = (0..len).map(|_| byte()).collect();
-            let buffer = Buffer::from_bytes(&bytes);
+            let buffer = BufferData::from_bytes(&bytes);
             for format in [IndexFormat::Uint16, IndexFormat::Uint32] {
                 let all = u32::try_from(buffer.words().len()).unwrap();
                 let all = if format == IndexFormat::Uint16 {

@@ -105,7 +105,7 @@ fn draw_with<S: Shader>(
         .iter()
         .flat_map(|(position, values)| position.iter().chain(values).copied())
         .collect();
-    let buffers = [(plain_layout(), Buffer::from_f32s(&scalars))];
+    let buffers = [(plain_layout(), BufferData::from_f32s(&scalars))];
     let bindings = Bindings::default();
     let command = Draw {
         buffers: &buffers,

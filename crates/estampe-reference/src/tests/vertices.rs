@@ -19,8 +19,8 @@ fn layout(format: VertexFormat, stride: u32, offset: u32, location: u32) -> Vert
 /// Rows: V2.
 #[test]
 fn missing_components_are_0_0_0_1() {
-    let floats = Buffer::from_f32s(&[1.5, -2.0, 3.0, 4.0]);
-    let decode = |format, buffer: &Buffer| fetch::decode(format, buffer, 0);
+    let floats = BufferData::from_f32s(&[1.5, -2.0, 3.0, 4.0]);
+    let decode = |format, buffer: &BufferData| fetch::decode(format, buffer, 0);
     assert_eq!(decode(VertexFormat::Float32, &floats), [1.5, 0.0, 0.0, 1.0]);
     assert_eq!(
         decode(VertexFormat::Float32x2, &floats),
@@ -34,7 +34,7 @@ fn missing_components_are_0_0_0_1() {
         decode(VertexFormat::Float32x4, &floats),
         [1.5, -2.0, 3.0, 4.0]
     );
-    let bytes = Buffer::from_bytes(&[255, 51, 0, 128, 255, 255, 0, 0]);
+    let bytes = BufferData::from_bytes(&[255, 51, 0, 128, 255, 255, 0, 0]);
     let [second, fourth] = [51.0, 128.0].map(|code| code * (1.0 / 255.0));
     assert_eq!(
         decode(VertexFormat::Unorm8x2, &bytes),
@@ -54,7 +54,7 @@ fn missing_components_are_0_0_0_1() {
 fn missing_data_reads_zeros() {
     let buffers = [(
         layout(VertexFormat::Float32x4, 16, 8, 3),
-        Buffer::from_f32s(&[1.0; 7]),
+        BufferData::from_f32s(&[1.0; 7]),
     )];
     let fetch = |location, vertex| fetch::attribute(&buffers, location, vertex, [0; 2]);
     assert_eq!(fetch(3, 0), [1.0; 4]);
@@ -67,7 +67,7 @@ fn missing_data_reads_zeros() {
     assert_eq!(fetch(0, 0), [0.0; 4], "no such location");
     let short = [(
         layout(VertexFormat::Float32x2, 8, 0, 0),
-        Buffer::from_f32s(&[]),
+        BufferData::from_f32s(&[]),
     )];
     assert_eq!(fetch::attribute(&short, 0, 0, [0; 2]), [0.0, 0.0, 0.0, 1.0]);
 }
@@ -75,7 +75,7 @@ fn missing_data_reads_zeros() {
 /// Rows: V2.
 #[test]
 fn indices_of_every_width_and_the_base_vertex() {
-    let bytes = Buffer::from_bytes(&[1, 2, 3, 4, 5]);
+    let bytes = BufferData::from_bytes(&[1, 2, 3, 4, 5]);
     let index = |format, position, base| fetch::index(format, &bytes, position, base);
     assert_eq!(index(IndexFormat::Uint8, 4, 0), 5);
     assert_eq!(index(IndexFormat::Uint8, 4, -2), 3);
@@ -148,11 +148,11 @@ fn instances_advance_instance_buffers_and_are_drawn_in_order() {
     let buffers = [
         (
             layout(VertexFormat::Float32x4, 16, 0, 0),
-            Buffer::from_f32s(&positions),
+            BufferData::from_f32s(&positions),
         ),
-        (per_instance, Buffer::from_f32s(&colors)),
+        (per_instance, BufferData::from_f32s(&colors)),
     ];
-    let indices = Buffer::from_bytes(&[9, 3, 4, 5, 6]);
+    let indices = BufferData::from_bytes(&[9, 3, 4, 5, 6]);
     let bindings = Bindings::default();
     let mut target = unorm(2, 2, 1);
     let state = State {
@@ -185,9 +185,9 @@ fn instances_advance_instance_buffers_and_are_drawn_in_order() {
 /// Rows: V2.
 #[test]
 fn codes_at_the_ends_of_every_normalised_format_are_one_and_minus_one() {
-    let ones = Buffer::from_bytes(&[0xFF; 16]);
-    let most = Buffer::from_bytes(&[0xFF, 0x7F].repeat(8));
-    let least = Buffer::from_bytes(&[0x00, 0x80].repeat(8));
+    let ones = BufferData::from_bytes(&[0xFF; 16]);
+    let most = BufferData::from_bytes(&[0xFF, 0x7F].repeat(8));
+    let least = BufferData::from_bytes(&[0x00, 0x80].repeat(8));
     for &format in VertexFormat::ALL {
         let decode = |buffer| fetch::decode(format, buffer, 0)[0];
         match (format.encoding(), format.size_bytes() / format.components()) {
@@ -196,7 +196,7 @@ fn codes_at_the_ends_of_every_normalised_format_are_one_and_minus_one() {
                 assert_eq!([&most, &least].map(decode), [1.0, -1.0], "{format:?}");
             }
             (VertexEncoding::Snorm, _) => {
-                let codes = [127, 128, 129].map(|code| Buffer::from_bytes(&[code]));
+                let codes = [127, 128, 129].map(|code| BufferData::from_bytes(&[code]));
                 assert_eq!(
                     codes.each_ref().map(decode),
                     [1.0, -1.0, -1.0],
@@ -221,9 +221,9 @@ fn codes_at_the_ends_of_every_normalised_format_are_one_and_minus_one() {
 /// Rows: V2.
 #[test]
 fn packed_formats_and_halves_are_read_as_webgpu_says() {
-    let word = |word: u32| Buffer::from_words(vec![word]);
+    let word = |word: u32| BufferData::from_words(vec![word]);
     let packed = word(3 << 30 | 1023 << 20 | 1);
-    let decode = |format, buffer: &Buffer| fetch::decode(format, buffer, 0);
+    let decode = |format, buffer: &BufferData| fetch::decode(format, buffer, 0);
     let [r, g, b, a] = decode(VertexFormat::Unorm10_10_10_2, &packed);
     assert_eq!([r, g, b, a], [1.0 / 1023.0, 0.0, 1.0, 1.0]);
     let bgra = decode(VertexFormat::Unorm8x4Bgra, &word(0xFF00_00FF));

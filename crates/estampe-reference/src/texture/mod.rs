@@ -15,7 +15,7 @@ use crate::color::INVERSE_255;
 use crate::srgb;
 use estampe_types::shader::Sample2d;
 use estampe_types::{
-    AddressMode, FilterMode, MipLevel, Real, SamplerDescriptor, Texture, Vec2, Vec4,
+    AddressMode, FilterMode, MipLevel, Real, SamplerDescriptor, TexelData, Vec2, Vec4,
 };
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ const LOG2: [f32; 4] = [1.438_725_7, -0.677_783_9, 0.321_188_8, -0.082_130_6];
 #[derive(Debug, Clone)]
 pub struct ReferenceTexture {
     /// The texels.
-    pub texture: Arc<Texture>,
+    pub texture: Arc<TexelData>,
     /// Addressing, filtering and the range of λ.
     pub sampler: SamplerDescriptor,
 }
@@ -50,7 +50,7 @@ impl Sample2d for ReferenceTexture {
 impl ReferenceTexture {
     /// Pairs a texture with a sampler.
     #[must_use]
-    pub fn new(texture: Arc<Texture>, sampler: SamplerDescriptor) -> Self {
+    pub fn new(texture: Arc<TexelData>, sampler: SamplerDescriptor) -> Self {
         Self { texture, sampler }
     }
 

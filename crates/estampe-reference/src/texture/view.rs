@@ -10,7 +10,7 @@ use crate::arithmetic::{clamp, max, min};
 use crate::compare;
 use estampe_types::shader::Sample2d;
 use estampe_types::{
-    AddressMode, BorderColor, FilterMode, Real, SamplerDescriptor, TexelEncoding, Texture,
+    AddressMode, BorderColor, FilterMode, Real, SamplerDescriptor, TexelData, TexelEncoding,
     TextureAspect, TextureDimension, Vec2, Vec4, ViewDimension,
 };
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct ReferenceView {
     /// The texture.
-    pub texture: Arc<Texture>,
+    pub texture: Arc<TexelData>,
     /// The dimension of the view.
     pub dimension: ViewDimension,
     /// The first mip level and the number of levels.
@@ -79,7 +79,7 @@ impl Sample2d for ReferenceView {
 impl ReferenceView {
     /// The 2D view of all mip levels of a texture's first layer.
     #[must_use]
-    pub fn of_image(texture: Arc<Texture>, sampler: SamplerDescriptor) -> Self {
+    pub fn of_image(texture: Arc<TexelData>, sampler: SamplerDescriptor) -> Self {
         Self {
             dimension: ViewDimension::D2,
             levels: [0, texture.levels.len()],

@@ -7,7 +7,7 @@
 
 use super::phong::PhongLight;
 use super::vertex_lit::{self, BothSides, VertexLight};
-use estampe::Sampled;
+use estampe::SampledTexture;
 use estampe::{FragmentIn, FragmentOut, Vec2, Vec3, Vec4, VertexIn, VertexOut};
 
 /// A surface of one colour, lit at every fragment.
@@ -86,7 +86,7 @@ pub(crate) struct Painted {
     /// Linear RGBA, multiplied by the texture and the vertex colour.
     pub(crate) factor: [f32; 4],
     /// The base-colour texture.
-    pub(crate) texture: Option<Sampled>,
+    pub(crate) texture: Option<SampledTexture>,
     /// Use of alpha.
     pub(crate) alpha: Alpha,
 }

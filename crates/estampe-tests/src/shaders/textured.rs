@@ -4,10 +4,10 @@
 use super::bytes_of;
 use estampe_reference::texture::ReferenceView;
 use estampe_reference::{Counts, Draw, ReferenceTexture, State, Target};
-use estampe_texture::{Sampled, SampledView, TextureView};
+use estampe_texture::{Rgba8Texture, SampledTexture, TexelView};
 use estampe_types::shader::{Sample2d, VertexOut};
 use estampe_types::{
-    FragmentIn, FragmentOut, Program, SamplerDescriptor, ShaderProgram, Texture, Vec2, Vec4,
+    FragmentIn, FragmentOut, Program, SamplerDescriptor, ShaderProgram, TexelData, Vec2, Vec4,
     VertexIn,
 };
 use std::sync::Arc;
@@ -20,12 +20,12 @@ impl<T: Sample2d + 'static> TexelSource for T {}
 #[derive(Debug, Clone)]
 pub struct TexturedShader {
     /// The texels.
-    pub texture: Arc<Texture>,
+    pub texture: Arc<TexelData>,
     /// The sampler.
     pub sampler: SamplerDescriptor,
     /// The channel whose bits are shown; `None` shows the colour.
     pub channel: Option<usize>,
-    /// If set, the fast path samples a view (any format and sampler), not a [`Sampled`] texture.
+    /// If set, the fast path samples a view (any format and sampler), not a [`Rgba8Texture`] texture.
     pub is_view: bool,
 }
 
@@ -33,11 +33,11 @@ impl TexturedShader {
     pub(super) fn program(&self) -> Arc<dyn Program> {
         let channel = self.channel;
         if self.is_view {
-            let view = TextureView::of(self.texture.clone()).expect("a texture of one image");
-            let texels = SampledView::new(view, self.sampler).expect("a sampler that fits");
+            let view = TexelView::of(self.texture.clone()).expect("a texture of one image");
+            let texels = SampledTexture::new(view, self.sampler).expect("a sampler that fits");
             return Arc::new(ShaderProgram::new(Textured { texels, channel }));
         }
-        let texels = Sampled::new(self.texture.clone(), self.sampler);
+        let texels = Rgba8Texture::new(self.texture.clone(), self.sampler);
         Arc::new(ShaderProgram::new(Textured { texels, channel }))
     }
 

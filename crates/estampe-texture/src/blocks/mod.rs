@@ -12,7 +12,7 @@ use estampe_types::TextureFormat;
 pub(crate) const MAX_WORDS: usize = 144;
 
 /// Decodes a block to the words of
-/// [`Texture::stored_format`](estampe_types::Texture::stored_format), row by row. `block` has the
+/// [`TexelData::stored_format`](estampe_types::TexelData::stored_format), row by row. `block` has the
 /// format's number of bytes; formats without blocks give nothing.
 pub(crate) fn decode(format: TextureFormat, block: &[u8], words: &mut [u32; MAX_WORDS]) {
     use TextureFormat as F;

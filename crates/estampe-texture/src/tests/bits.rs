@@ -87,7 +87,7 @@ fn packets_quads_and_fragments_give_the_bits_of_the_naive_text() {
         for (width, height) in SIZES {
             let texture = std::sync::Arc::new(noise(width, height, format));
             for sampler in samplers() {
-                let sampled = Sampled::new(texture.clone(), sampler);
+                let sampled = Rgba8Texture::new(texture.clone(), sampler);
                 for round in 0..6 {
                     let uv = packet(&mut random, round % 2 == 1);
                     check_packet(&sampled, uv);
@@ -97,7 +97,7 @@ fn packets_quads_and_fragments_give_the_bits_of_the_naive_text() {
     }
 }
 
-fn check_packet(sampled: &Sampled, [u, v]: [[f32; LANES]; 2]) {
+fn check_packet(sampled: &Rgba8Texture, [u, v]: [[f32; LANES]; 2]) {
     let mut lods = [0.0; LANES];
     for (lane, lod) in lods.iter_mut().enumerate() {
         let quad = lane & !3;
@@ -196,7 +196,7 @@ fn a_texture_put_together_by_hand_cannot_harm() {
     });
     let random = &mut Random::new(3);
     for (levels, texels) in [(vec![], vec![]), (levels.to_vec(), vec![u32::MAX; 3])] {
-        let texture = std::sync::Arc::new(Texture {
+        let texture = std::sync::Arc::new(TexelData {
             format: TextureFormat::Rgba8Unorm,
             levels,
             texels: texels.into(),
@@ -205,7 +205,7 @@ fn a_texture_put_together_by_hand_cannot_harm() {
         });
         for mut sampler in samplers() {
             sampler.lod_min_clamp = f32::NAN;
-            let sampled = Sampled::new(texture.clone(), sampler);
+            let sampled = Rgba8Texture::new(texture.clone(), sampler);
             for level in Level::all_available() {
                 let colors = sample_packet(level, &sampled, packet(random, true), Lod::FromQuad);
                 assert!(

@@ -1,11 +1,11 @@
 //! Compressed blocks: values by hand, by the formulas of the specifications, and from another
 //! decoder.
 
-use crate::{LevelData, Limits, MipGeneration, TextureDescriptor, TextureFormat as F};
+use crate::{LevelData, Limits, MipGeneration, TexelDescriptor, TextureFormat as F};
 
 fn decode(format: F, block: &[u8]) -> Vec<u32> {
     let [width, height] = format.block_size();
-    let texture = TextureDescriptor::new_2d(width, height, format)
+    let texture = TexelDescriptor::new_2d(width, height, format)
         .create(
             &[LevelData::tight(block)],
             MipGeneration::None,

@@ -1,17 +1,18 @@
 //! Creation: sizes, levels, mip generation, errors.
 
 use crate::{
-    MipGeneration, Texture, TextureError, TextureFormat, create_texture, create_texture_with_levels,
+    MipGeneration, TexelData, TextureError, TextureFormat, create_texture,
+    create_texture_with_levels,
 };
 use estampe_format::srgb::{self, LINEAR_FROM_SRGB};
 use estampe_types::Limits;
 
-fn full(width: u32, height: u32, format: TextureFormat, rgba: &[u8]) -> Texture {
+fn full(width: u32, height: u32, format: TextureFormat, rgba: &[u8]) -> TexelData {
     let limits = Limits::default();
     create_texture(width, height, format, rgba, MipGeneration::Full, &limits).expect("valid")
 }
 
-fn level(texture: &Texture, index: usize) -> Vec<[u8; 4]> {
+fn level(texture: &TexelData, index: usize) -> Vec<[u8; 4]> {
     let level = texture.levels[index];
     let start = level.offset as usize;
     let texels = &texture.texels[start..start + (level.width * level.height) as usize];

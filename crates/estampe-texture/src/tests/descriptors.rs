@@ -1,31 +1,31 @@
 //! Textures of every dimension are created by their rules.
 
 use crate::{
-    LevelData, Limits, MipGeneration, SampledView, SamplerDescriptor, Texture, TextureAspect,
-    TextureDescriptor, TextureDimension, TextureError, TextureFormat, TextureView,
-    TextureViewDescriptor, ViewDimension,
+    LevelData, Limits, MipGeneration, SampledTexture, SamplerDescriptor, TexelData,
+    TexelDescriptor, TexelView, TexelViewDescriptor, TextureAspect, TextureDimension, TextureError,
+    TextureFormat, ViewDimension,
 };
 use estampe_format::TexelCodec;
 use estampe_types::SampleType;
 
-fn make(descriptor: TextureDescriptor) -> Result<Texture, TextureError> {
+fn make(descriptor: TexelDescriptor) -> Result<TexelData, TextureError> {
     descriptor.create(&[], MipGeneration::None, &Limits::default())
 }
 
-fn flat() -> TextureDescriptor {
-    TextureDescriptor::new_2d(4, 4, TextureFormat::Rgba8Unorm)
+fn flat() -> TexelDescriptor {
+    TexelDescriptor::new_2d(4, 4, TextureFormat::Rgba8Unorm)
 }
 
-fn block() -> TextureDescriptor {
-    TextureDescriptor {
+fn block() -> TexelDescriptor {
+    TexelDescriptor {
         dimension: TextureDimension::D3,
         depth_or_layers: 4,
         ..flat()
     }
 }
 
-fn row() -> TextureDescriptor {
-    TextureDescriptor {
+fn row() -> TexelDescriptor {
+    TexelDescriptor {
         dimension: TextureDimension::D1,
         height: 1,
         ..flat()
@@ -33,91 +33,91 @@ fn row() -> TextureDescriptor {
 }
 
 /// Descriptors, and whether an error is that of the rule that they break.
-type Broken = (TextureDescriptor, fn(&TextureError) -> bool);
+type Broken = (TexelDescriptor, fn(&TextureError) -> bool);
 
 fn broken() -> Vec<Broken> {
     use TextureError as E;
     let (block, row) = (block(), row());
     vec![
         (
-            TextureDescriptor { width: 0, ..flat() },
+            TexelDescriptor { width: 0, ..flat() },
             (|e| matches!(e, E::Empty { .. })) as fn(&E) -> bool,
         ),
         (
-            TextureDescriptor {
+            TexelDescriptor {
                 height: 16_385,
                 ..flat()
             },
             |e| matches!(e, E::TooLarge { limit: 16_384, .. }),
         ),
         (
-            TextureDescriptor {
+            TexelDescriptor {
                 width: 2049,
                 ..block
             },
             |e| matches!(e, E::TooLarge { limit: 2048, .. }),
         ),
         (
-            TextureDescriptor {
+            TexelDescriptor {
                 depth_or_layers: 257,
                 ..flat()
             },
             |e| matches!(e, E::Slices { most: 256, .. }),
         ),
         (
-            TextureDescriptor {
+            TexelDescriptor {
                 depth_or_layers: 0,
                 ..flat()
             },
             |e| matches!(e, E::Slices { .. }),
         ),
         (
-            TextureDescriptor {
+            TexelDescriptor {
                 depth_or_layers: 2049,
                 ..block
             },
             |e| matches!(e, E::Slices { most: 2048, .. }),
         ),
-        (TextureDescriptor { height: 2, ..row }, |e| {
+        (TexelDescriptor { height: 2, ..row }, |e| {
             matches!(e, E::Slices { height: 2, .. })
         }),
         (
-            TextureDescriptor {
+            TexelDescriptor {
                 format: TextureFormat::Bc1RgbaUnorm,
                 ..block
             },
             |e| matches!(e, E::NotFlat { .. }),
         ),
         (
-            TextureDescriptor {
+            TexelDescriptor {
                 format: TextureFormat::Depth32Float,
                 ..row
             },
             |e| matches!(e, E::NotFlat { .. }),
         ),
         (
-            TextureDescriptor {
+            TexelDescriptor {
                 mip_level_count: 4,
                 ..flat()
             },
             |e| matches!(e, E::LevelCount { most: 3, actual: 4 }),
         ),
         (
-            TextureDescriptor {
+            TexelDescriptor {
                 mip_level_count: 0,
                 ..flat()
             },
             |e| matches!(e, E::LevelCount { .. }),
         ),
         (
-            TextureDescriptor {
+            TexelDescriptor {
                 sample_count: 3,
                 ..flat()
             },
             |e| matches!(e, E::Samples { samples: 3 }),
         ),
         (
-            TextureDescriptor {
+            TexelDescriptor {
                 sample_count: 4,
                 mip_level_count: 2,
                 ..flat()
@@ -125,7 +125,7 @@ fn broken() -> Vec<Broken> {
             |e| matches!(e, E::Samples { .. }),
         ),
         (
-            TextureDescriptor {
+            TexelDescriptor {
                 width: 16_384,
                 height: 16_384,
                 depth_or_layers: 256,
@@ -148,15 +148,15 @@ fn rules_that_are_broken_are_named() {
         flat().with_all_levels(),
         block().with_all_levels(),
         row().with_all_levels(),
-        TextureDescriptor {
+        TexelDescriptor {
             depth_or_layers: 256,
             ..flat()
         },
-        TextureDescriptor {
+        TexelDescriptor {
             sample_count: 16,
             ..flat()
         },
-        TextureDescriptor {
+        TexelDescriptor {
             width: 16_384,
             height: 1,
             ..flat()
@@ -228,22 +228,22 @@ fn rows_that_overlap_or_end_early_are_refused() {
 #[test]
 fn views_and_samplers_ask_for_what_is_there() {
     let texture = std::sync::Arc::new(
-        make(TextureDescriptor {
+        make(TexelDescriptor {
             depth_or_layers: 7,
             ..flat().with_all_levels()
         })
         .expect("an array"),
     );
-    let view = |descriptor| TextureView::new(texture.clone(), &descriptor);
-    let of = |dimension| TextureViewDescriptor {
+    let view = |descriptor| TexelView::new(texture.clone(), &descriptor);
+    let of = |dimension| TexelViewDescriptor {
         dimension: Some(dimension),
-        ..TextureViewDescriptor::default()
+        ..TexelViewDescriptor::default()
     };
-    let array = view(TextureViewDescriptor::default()).expect("all of it");
+    let array = view(TexelViewDescriptor::default()).expect("all of it");
     assert_eq!(array.dimension(), ViewDimension::D2Array);
     assert_eq!((array.layer_count(), array.level_count()), (7, 3));
     assert_eq!((array.size(1), array.size(3)), ([2, 2, 1], [0; 3]));
-    let cube = view(TextureViewDescriptor {
+    let cube = view(TexelViewDescriptor {
         base_array_layer: 1,
         base_mip_level: 1,
         ..of(ViewDimension::Cube)
@@ -252,27 +252,27 @@ fn views_and_samplers_ask_for_what_is_there() {
     for refused in [
         of(ViewDimension::D3),
         of(ViewDimension::CubeArray),
-        TextureViewDescriptor {
+        TexelViewDescriptor {
             base_array_layer: 2,
             ..of(ViewDimension::Cube)
         },
-        TextureViewDescriptor {
+        TexelViewDescriptor {
             base_array_layer: 7,
             ..of(ViewDimension::D2)
         },
-        TextureViewDescriptor {
+        TexelViewDescriptor {
             array_layer_count: Some(8),
             ..of(ViewDimension::D2Array)
         },
-        TextureViewDescriptor {
+        TexelViewDescriptor {
             base_mip_level: 3,
             ..of(ViewDimension::D2)
         },
-        TextureViewDescriptor {
+        TexelViewDescriptor {
             mip_level_count: Some(u32::MAX),
             ..of(ViewDimension::D2)
         },
-        TextureViewDescriptor {
+        TexelViewDescriptor {
             aspect: TextureAspect::Stencil,
             ..of(ViewDimension::D2)
         },
@@ -282,8 +282,8 @@ fn views_and_samplers_ask_for_what_is_there() {
     }
     let linear = SamplerDescriptor::trilinear_repeat();
     let sampled = |format, sampler| {
-        let texture = make(TextureDescriptor { format, ..flat() }).expect("a texture");
-        SampledView::new(TextureView::of(texture).expect("a view"), sampler)
+        let texture = make(TexelDescriptor { format, ..flat() }).expect("a texture");
+        SampledTexture::new(TexelView::of(texture).expect("a view"), sampler)
     };
     assert!(sampled(TextureFormat::Rgba32Float, linear).is_ok());
     let less = Some(estampe_types::state::CompareFunction::Less);
@@ -368,7 +368,7 @@ fn views_of_textures_put_together_by_hand_cannot_harm() {
             TextureDimension::D2,
             TextureDimension::D3,
         ];
-        let texture = Texture {
+        let texture = TexelData {
             format: TextureFormat::ALL[round as usize % TextureFormat::ALL.len()],
             levels,
             texels: vec![0x3F80_0000; random.bits() as usize % 50].into(),
@@ -381,7 +381,7 @@ fn views_of_textures_put_together_by_hand_cannot_harm() {
         };
         use ViewDimension as V;
         let dimension = [V::D1, V::D2, V::D2Array, V::Cube, V::CubeArray, V::D3];
-        let descriptor = TextureViewDescriptor {
+        let descriptor = TexelViewDescriptor {
             dimension: Some(dimension[random.bits() as usize % 6]),
             base_mip_level: random.bits() % 3,
             base_array_layer: if random.bits().is_multiple_of(4) {
@@ -389,9 +389,9 @@ fn views_of_textures_put_together_by_hand_cannot_harm() {
             } else {
                 0
             },
-            ..TextureViewDescriptor::default()
+            ..TexelViewDescriptor::default()
         };
-        let Ok(view) = TextureView::new(texture, &descriptor) else {
+        let Ok(view) = TexelView::new(texture, &descriptor) else {
             continue;
         };
         views += 1;
@@ -414,7 +414,7 @@ fn views_of_textures_put_together_by_hand_cannot_harm() {
                 SamplerDescriptor::trilinear_repeat()
             }
         };
-        let Ok(sampled) = SampledView::new(view, sampler) else {
+        let Ok(sampled) = SampledTexture::new(view, sampler) else {
             continue;
         };
         let mut number = || Quad([0; 4].map(|_| (random.unit() - 0.5) * 8.0));
@@ -446,10 +446,10 @@ fn levels_are_means() {
 }
 
 fn check_levels(format: TextureFormat, dimension: TextureDimension) {
-    let descriptor = TextureDescriptor {
+    let descriptor = TexelDescriptor {
         dimension,
         depth_or_layers: 3,
-        ..TextureDescriptor::new_2d(13, 6, format)
+        ..TexelDescriptor::new_2d(13, 6, format)
     };
     let descriptor = descriptor.with_all_levels();
     let [block_width, block_height] = format.block_size();
@@ -538,18 +538,18 @@ fn check_levels(format: TextureFormat, dimension: TextureDimension) {
 #[test]
 fn a_depth_image_is_compared_the_same_as_a_texture() {
     use crate::{
-        Coordinates, DepthTexture, FilterMode, Lod, sample_compare_level, texture_from_depth,
+        Coordinates, FilterMode, Lod, ShadowMap, sample_compare_level, texture_from_depth,
     };
     let random = &mut super::Random::new(5);
     let rows: Vec<f32> = (0..37 * 70).map(|_| random.unit()).collect();
-    let image = DepthTexture::from_rows(37, 70, &rows);
-    let view = TextureView::of(texture_from_depth(&image).expect("not empty")).expect("a view");
+    let image = ShadowMap::from_rows(37, 70, &rows);
+    let view = TexelView::of(texture_from_depth(&image).expect("not empty")).expect("a view");
     let sampler = SamplerDescriptor {
         mag_filter: FilterMode::Linear,
         compare: Some(estampe_types::state::CompareFunction::LessEqual),
         ..SamplerDescriptor::default()
     };
-    let view = SampledView::new(view, sampler).expect("a sampler");
+    let view = SampledTexture::new(view, sampler).expect("a sampler");
     for _ in 0..2000 {
         let uv = crate::tests::Vec2::new(random.unit() * 1.2 - 0.1, random.unit() * 1.2 - 0.1);
         let reference = random.unit();
@@ -557,5 +557,5 @@ fn a_depth_image_is_compared_the_same_as_a_texture() {
         let got = view.sample_compare(Coordinates::d2(uv), reference, Lod::Level(0.0), [0; 2]);
         assert_eq!(got.to_bits(), wanted.to_bits());
     }
-    assert!(texture_from_depth(&DepthTexture::default()).is_err());
+    assert!(texture_from_depth(&ShadowMap::default()).is_err());
 }

@@ -1,28 +1,28 @@
 //! Gathering at the edges of a texture.
 
 use crate::{
-    AddressMode, Coordinates, LevelData, MipGeneration, SampledView, SamplerDescriptor,
-    TextureDescriptor, TextureFormat, TextureView,
+    AddressMode, Coordinates, LevelData, MipGeneration, SampledTexture, SamplerDescriptor,
+    TexelDescriptor, TexelView, TextureFormat,
 };
 use estampe_types::state::CompareFunction;
 use estampe_types::{Limits, Vec2};
 
 /// A row of texels 0, 1, 2, 3.
-fn row(format: TextureFormat, sampler: SamplerDescriptor) -> SampledView {
+fn row(format: TextureFormat, sampler: SamplerDescriptor) -> SampledTexture {
     let bytes = Vec::from_iter(
         [0.0_f32, 1.0, 2.0, 3.0]
             .into_iter()
             .flat_map(f32::to_le_bytes),
     );
-    let texture = TextureDescriptor::new_2d(4, 1, format)
+    let texture = TexelDescriptor::new_2d(4, 1, format)
         .create(
             &[LevelData::tight(&bytes)],
             MipGeneration::None,
             &Limits::default(),
         )
         .expect("a valid texture");
-    let view = TextureView::of(texture).expect("a valid view");
-    SampledView::new(view, sampler).expect("a valid sampler")
+    let view = TexelView::of(texture).expect("a valid view");
+    SampledTexture::new(view, sampler).expect("a valid sampler")
 }
 
 fn addressed(mode: AddressMode) -> SamplerDescriptor {

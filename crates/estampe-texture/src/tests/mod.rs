@@ -11,7 +11,9 @@ mod naive;
 mod several;
 mod values;
 
-use crate::{MipGeneration, Sampled, SamplerDescriptor, Texture, TextureFormat, create_texture};
+use crate::{
+    MipGeneration, Rgba8Texture, SamplerDescriptor, TexelData, TextureFormat, create_texture,
+};
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_types::{Limits, Vec2, Vec4};
 
@@ -38,7 +40,7 @@ impl Random {
     }
 }
 
-fn noise(width: u32, height: u32, format: TextureFormat) -> Texture {
+fn noise(width: u32, height: u32, format: TextureFormat) -> TexelData {
     let rgba = Random::new(width * 31 + height).bytes((width * height * 4) as usize);
     let limits = Limits::default();
     create_texture(width, height, format, &rgba, MipGeneration::Full, &limits).expect("valid")
@@ -54,9 +56,9 @@ enum Lod {
 type Colors = [[f32; 4]; LANES];
 
 /// One packet, sampled at a SIMD level.
-fn sample_packet(level: Level, sampled: &Sampled, uv: [[f32; LANES]; 2], lod: Lod) -> Colors {
+fn sample_packet(level: Level, sampled: &Rgba8Texture, uv: [[f32; LANES]; 2], lod: Lod) -> Colors {
     #[inline(always)]
-    fn wide<S: Lanes>(simd: S, sampled: &Sampled, uv: [[f32; LANES]; 2], lod: Lod) -> Colors {
+    fn wide<S: Lanes>(simd: S, sampled: &Rgba8Texture, uv: [[f32; LANES]; 2], lod: Lod) -> Colors {
         let [u, v] = uv;
         let uv = Vec2::new(f32x16::load_array(simd, u), f32x16::load_array(simd, v));
         let color = match lod {
@@ -71,9 +73,9 @@ fn sample_packet(level: Level, sampled: &Sampled, uv: [[f32; LANES]; 2], lod: Lo
 }
 
 /// Samples one packet of a view at a SIMD level; the call only has to return.
-fn sample_view_packet(level: Level, view: &crate::SampledView) {
+fn sample_view_packet(level: Level, view: &crate::SampledTexture) {
     #[inline(always)]
-    fn wide<S: Lanes>(simd: S, view: &crate::SampledView) {
+    fn wide<S: Lanes>(simd: S, view: &crate::SampledTexture) {
         let mut u = [0.0; LANES];
         for (lane, u) in (0..).zip(&mut u) {
             *u = (lane - 7) as f32 * 0.3;
@@ -89,6 +91,6 @@ fn array(color: Vec4<f32>) -> [f32; 4] {
     [color.x, color.y, color.z, color.w]
 }
 
-fn sampled(texture: Texture, sampler: SamplerDescriptor) -> Sampled {
-    Sampled::new(texture, sampler)
+fn sampled(texture: TexelData, sampler: SamplerDescriptor) -> Rgba8Texture {
+    Rgba8Texture::new(texture, sampler)
 }

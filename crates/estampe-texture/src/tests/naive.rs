@@ -6,7 +6,7 @@
     reason = "texels and levels are whole numbers within range; NaN does not reach a cast"
 )]
 
-use crate::{AddressMode, FilterMode, MipLevel, Sampled};
+use crate::{AddressMode, FilterMode, MipLevel, Rgba8Texture};
 use estampe_format::srgb::LINEAR_FROM_SRGB;
 
 fn max(a: f32, b: f32) -> f32 {
@@ -18,7 +18,7 @@ fn min(a: f32, b: f32) -> f32 {
 }
 
 /// λ of a quad from its first lane's derivatives.
-pub(super) fn lod_of_quad(sampled: &Sampled, u: [f32; 3], v: [f32; 3]) -> f32 {
+pub(super) fn lod_of_quad(sampled: &Rgba8Texture, u: [f32; 3], v: [f32; 3]) -> f32 {
     let base = sampled.texture().levels[0];
     let (w, h) = (base.width as f32, base.height as f32);
     let rho2 = |other: usize| {
@@ -33,7 +33,7 @@ pub(super) fn lod_of_quad(sampled: &Sampled, u: [f32; 3], v: [f32; 3]) -> f32 {
 }
 
 /// The texel in filtering units: encoded values, or linear values for sRGB's R, G and B.
-fn texel(sampled: &Sampled, level: MipLevel, x: u32, y: u32) -> [f32; 4] {
+fn texel(sampled: &Rgba8Texture, level: MipLevel, x: u32, y: u32) -> [f32; 4] {
     let texture = sampled.texture();
     let word = texture.texels[(level.offset + y * level.width + x) as usize];
     let [r, g, b, a] = word.to_le_bytes();
@@ -71,7 +71,13 @@ fn axis(u: f32, size: u32, mode: AddressMode, filter: FilterMode) -> ([u32; 2], 
     ([wrapped(first), wrapped(first + 1.0)], q - first)
 }
 
-fn sample_one(sampled: &Sampled, level: usize, u: f32, v: f32, filter: FilterMode) -> [f32; 4] {
+fn sample_one(
+    sampled: &Rgba8Texture,
+    level: usize,
+    u: f32,
+    v: f32,
+    filter: FilterMode,
+) -> [f32; 4] {
     let sampler = sampled.sampler();
     let levels = &sampled.texture().levels;
     let level = levels[level.min(levels.len() - 1)];
@@ -89,7 +95,7 @@ fn sample_one(sampled: &Sampled, level: usize, u: f32, v: f32, filter: FilterMod
     })
 }
 
-pub(super) fn sample(sampled: &Sampled, u: f32, v: f32, lod: f32) -> [f32; 4] {
+pub(super) fn sample(sampled: &Rgba8Texture, u: f32, v: f32, lod: f32) -> [f32; 4] {
     let sampler = sampled.sampler();
     let lod = min(max(lod, sampler.lod_min_clamp), sampler.lod_max_clamp);
     let filter = if lod <= 0.0 {
@@ -117,7 +123,7 @@ pub(super) fn sample(sampled: &Sampled, u: f32, v: f32, lod: f32) -> [f32; 4] {
 }
 
 /// The trilinear, tiled sample of textbooks in f64; λ = log₂ of the longer derivative in texels.
-pub(super) fn trilinear_f64(sampled: &Sampled, uv: [f64; 2], rho: f64) -> [f64; 4] {
+pub(super) fn trilinear_f64(sampled: &Rgba8Texture, uv: [f64; 2], rho: f64) -> [f64; 4] {
     let levels = &sampled.texture().levels;
     let lod = libm::log2(rho).clamp(0.0, (levels.len() - 1) as f64);
     let of_level = |level: usize| {

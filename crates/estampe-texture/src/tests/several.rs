@@ -3,18 +3,18 @@
 
 use super::{Colors, Lod, Random, noise, sample_packet};
 use crate::{
-    AddressMode, FilterMode, Limits, MipGeneration, Sampled, SamplerDescriptor, TextureFormat,
+    AddressMode, FilterMode, Limits, MipGeneration, Rgba8Texture, SamplerDescriptor, TextureFormat,
     create_texture,
 };
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_types::{Quad, Vec2, Vec4};
 
-fn sample_both(level: Level, textures: [&Sampled; 2], uv: [[f32; LANES]; 2]) -> [Colors; 2] {
+fn sample_both(level: Level, textures: [&Rgba8Texture; 2], uv: [[f32; LANES]; 2]) -> [Colors; 2] {
     #[inline(always)]
-    fn wide<S: Lanes>(simd: S, textures: [&Sampled; 2], uv: [[f32; LANES]; 2]) -> [Colors; 2] {
+    fn wide<S: Lanes>(simd: S, textures: [&Rgba8Texture; 2], uv: [[f32; LANES]; 2]) -> [Colors; 2] {
         let [u, v] = uv;
         let uv = Vec2::new(f32x16::load_array(simd, u), f32x16::load_array(simd, v));
-        Sampled::sample_all(textures, uv).map(|color| {
+        Rgba8Texture::sample_all(textures, uv).map(|color| {
             let Vec4 { x, y, z, w } = color;
             let channels = [x.to_array(), y.to_array(), z.to_array(), w.to_array()];
             std::array::from_fn(|lane| channels.map(|channel| channel[lane]))
@@ -50,8 +50,9 @@ fn several_at_once_are_those_alone() {
         mipmap_filter: FilterMode::Nearest,
         ..trilinear
     };
-    let of =
-        |size: [u32; 2], format, sampler| Sampled::new(noise(size[0], size[1], format), sampler);
+    let of = |size: [u32; 2], format, sampler| {
+        Rgba8Texture::new(noise(size[0], size[1], format), sampler)
+    };
     // The same texels, in levels at other offsets.
     let mut moved = noise(64, 32, Rgba8Unorm);
     for level in &mut moved.levels {
@@ -65,7 +66,7 @@ fn several_at_once_are_those_alone() {
         of([64, 32], Rgba8Unorm, coarse),
         of([64, 32], Rgba8Unorm, bilinear),
         of([64, 32], Rgba8UnormSrgb, trilinear),
-        Sampled::new(moved, trilinear),
+        Rgba8Texture::new(moved, trilinear),
     ];
     let random = &mut Random::new(77);
     for first in &textures {
@@ -82,9 +83,9 @@ fn several_at_once_are_those_alone() {
         }
     }
     let uv = Vec2::new(Quad([0.1, 0.12, 0.1, 0.12]), Quad([0.3, 0.3, 0.31, 0.31]));
-    let [one, two] = Sampled::sample_all([&textures[0], &textures[3]], uv);
+    let [one, two] = Rgba8Texture::sample_all([&textures[0], &textures[3]], uv);
     assert_eq!([one, two], [textures[0].sample(uv), textures[3].sample(uv)]);
-    assert_eq!(Sampled::sample_all([], uv), []);
+    assert_eq!(Rgba8Texture::sample_all([], uv), []);
 }
 
 #[test]
@@ -107,7 +108,7 @@ fn alpha_that_is_left_out_is_one() {
     let mut plain = texture.clone();
     plain.is_opaque = false;
     let trilinear = SamplerDescriptor::trilinear_repeat();
-    let textures = [texture, plain].map(|texture| Sampled::new(texture, trilinear));
+    let textures = [texture, plain].map(|texture| Rgba8Texture::new(texture, trilinear));
     let random = &mut Random::new(5);
     for level in Level::all_available() {
         for _ in 0..200 {

@@ -4,7 +4,7 @@ use super::*;
 use crate::{AddressMode, FilterMode, create_texture_with_levels};
 
 /// One row of grey texels.
-fn row(codes: &[u8], sampler: SamplerDescriptor) -> Sampled {
+fn row(codes: &[u8], sampler: SamplerDescriptor) -> Rgba8Texture {
     let rgba: Vec<u8> = codes.iter().flat_map(|&c| [c; 4]).collect();
     let limits = Limits::default();
     let width = u32::try_from(codes.len()).expect("short");
@@ -22,7 +22,7 @@ fn linear(mode: AddressMode) -> SamplerDescriptor {
 }
 
 /// The code at u, times 255.
-fn code(sampled: &Sampled, u: f32) -> f32 {
+fn code(sampled: &Rgba8Texture, u: f32) -> f32 {
     sampled.sample(Vec2::new(u, 0.5)).x * 255.0
 }
 

@@ -1,7 +1,7 @@
 //! Comparison samplers: texels are compared with a reference, and the results, 1 or 0, are
 //! filtered.
 
-use super::SampledView;
+use super::SampledTexture;
 use super::coordinates::{Answers, Lanes, answer};
 use super::sample::Tap;
 use estampe_types::state::CompareFunction;
@@ -21,7 +21,7 @@ impl Tap for Comparison {
     }
 }
 
-impl SampledView {
+impl SampledTexture {
     /// The comparison with a reference; for fixed-point depths, the reference is clamped to 0..=1
     /// as they are.
     pub(crate) fn comparison(&self, reference: f32) -> Comparison {

@@ -59,6 +59,34 @@ impl<R: Real> Coordinates<R> {
     }
 }
 
+/// What a texture is sampled at: [`Coordinates`], (u, v) of a 2D view as a [`Vec2`], or a [`Vec3`]:
+/// (u, v, w) of a 3D view, a direction of a cube.
+pub trait TextureCoordinates<R: Real>: Copy {
+    /// The coordinates, layer 0 if they have none.
+    fn coordinates(self) -> Coordinates<R>;
+}
+
+impl<R: Real> TextureCoordinates<R> for Coordinates<R> {
+    #[inline(always)]
+    fn coordinates(self) -> Self {
+        self
+    }
+}
+
+impl<R: Real> TextureCoordinates<R> for Vec2<R> {
+    #[inline(always)]
+    fn coordinates(self) -> Coordinates<R> {
+        Coordinates::d2(self)
+    }
+}
+
+impl<R: Real> TextureCoordinates<R> for Vec3<R> {
+    #[inline(always)]
+    fn coordinates(self) -> Coordinates<R> {
+        Coordinates::d3(self)
+    }
+}
+
 /// The source of the level of detail.
 #[derive(Debug, Clone, Copy)]
 pub enum Lod<R: Real> {

@@ -1,11 +1,11 @@
 //! Texel fetches: reads by integer coordinates, without a sampler.
 
-use super::TextureView;
+use super::TexelView;
 use super::coordinates::{Answers, answer, by_sixteen, packet_of_ints};
 use estampe_simd::{LANES, Packet};
 use estampe_types::{Int, Real, Vec4, ViewDimension};
 
-impl TextureView {
+impl TexelView {
     /// The texel (x, y, z) of a level; z is the depth in a 3D view, or the layer of an array (six
     /// per cube). Coordinates along axes that the view does not have are ignored. `sample` selects
     /// a sample of a multisampled texture.

@@ -7,7 +7,7 @@
 //! true ellipse (Heckbert 1989) would fit skewed footprints better, but cost one more quadratic
 //! equation per quad; no specification asks for them.
 
-use super::{TextureView, cube};
+use super::{TexelView, cube};
 use crate::lod::level_of_detail;
 use estampe_types::ViewDimension;
 use estampe_types::{Real, SamplerDescriptor};
@@ -35,7 +35,7 @@ impl Footprint {
 
     /// The footprint of the coordinates' derivatives along x and along y.
     pub(crate) fn new(
-        view: &TextureView,
+        view: &TexelView,
         sampler: &SamplerDescriptor,
         at: [f32; 3],
         [dx, dy]: [[f32; 3]; 2],
@@ -68,7 +68,7 @@ impl Footprint {
 }
 
 /// The squared length of a derivative in texels of the base level.
-fn squared_length(view: &TextureView, at: [f32; 3], d: [f32; 3]) -> f32 {
+fn squared_length(view: &TexelView, at: [f32; 3], d: [f32; 3]) -> f32 {
     let size = view.planes[0].size;
     match view.dimension {
         ViewDimension::D1 => {

@@ -1,7 +1,7 @@
 //! Texel gathering: one channel of the four texels around a coordinate in the base level, lane by
 //! lane.
 
-use super::SampledView;
+use super::SampledTexture;
 use super::axis;
 use super::coordinates::{Answers, Lanes, answer};
 use super::sample::{Channels, Tap};
@@ -11,7 +11,7 @@ use estampe_types::ViewDimension;
 /// left, lower right, upper right, upper left.
 const ORDER: [usize; 4] = [2, 3, 1, 0];
 
-impl SampledView {
+impl SampledTexture {
     /// Gathers a channel, lane by lane.
     #[inline(never)]
     pub(crate) fn gather_lanes(&self, lanes: &Lanes<'_>, channel: usize) -> Answers {

@@ -2,8 +2,8 @@
 //! are sampled, gathered, compared and fetched.
 //!
 //! This code serves every dimension, format and function, and is compiled once for all shaders. If
-//! a view and its sampler are of the common kind (2D, four 8-bit channels), [`SampledView`] hands
-//! `sample` over to [`Sampled`](crate::Sampled).
+//! a view and its sampler are of the common kind (2D, four 8-bit channels), [`SampledTexture`] hands
+//! `sample` over to [`Rgba8Texture`](crate::Sampled).
 //!
 //! ```text
 //!  coordinates ─▶ footprint ─▶ probes ─▶ levels ─▶ axis / cube ─▶ decode ─▶ mixture
@@ -34,11 +34,11 @@ mod packet;
 mod packet_texel;
 mod plane;
 mod sample;
-mod sampled_view;
+mod sampled_texture;
 
 pub(crate) use coordinates::{Answers, answer, by_sixteen, load, packed, packet, packet_of_ints};
-pub use coordinates::{Coordinates, Lod};
-pub use plane::TextureView;
+pub use coordinates::{Coordinates, Lod, TextureCoordinates};
+pub use plane::TexelView;
 #[cfg(test)]
 pub(crate) use sample::border_unit;
-pub use sampled_view::SampledView;
+pub use sampled_texture::SampledTexture;

@@ -1,6 +1,6 @@
 //! Decoding of sixteen texels at once, for every format except integers.
 
-use super::TextureView;
+use super::TexelView;
 use estampe_format::{half, shared_exponent, small_float, srgb};
 use estampe_simd::{Bytes, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
 use estampe_types::state::CompareFunction;
@@ -28,7 +28,7 @@ pub(crate) struct PacketFormat {
 
 impl PacketFormat {
     /// `None` for integers and stencil, which the scalar code reads lane by lane.
-    pub(crate) fn new(view: &TextureView) -> Option<Self> {
+    pub(crate) fn new(view: &TexelView) -> Option<Self> {
         let stored = view.texture.stored_format();
         let is_number = matches!(
             view.codec.sample_type(),

@@ -1,9 +1,9 @@
-//! [`TextureView`]: how a texture's dimension, mip levels and layers are reinterpreted.
+//! [`TexelView`]: how a texture's dimension, mip levels and layers are reinterpreted.
 
 use crate::TextureError;
 use estampe_format::TexelCodec;
 use estampe_types::{
-    Texture, TextureAspect, TextureDimension, TextureViewDescriptor, ViewDimension,
+    TexelData, TexelViewDescriptor, TextureAspect, TextureDimension, ViewDimension,
 };
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ const MAX_SIDE: u32 = 16_384;
 /// The most layers, more than any valid texture has, for which arithmetic stays in range.
 const MAX_LAYERS: u32 = 1 << 14;
 
-/// One mip level as sampling reads it. The fields of a [`Texture`] are public and may hold any
+/// One mip level as sampling reads it. The fields of a [`TexelData`] are public and may hold any
 /// value: sides are clamped here, and missing texels read as zeros.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plane {
@@ -28,8 +28,8 @@ pub(crate) struct Plane {
 /// A texture as a shader reads it: a dimension, a range of layers and a range of mip levels. Cheap
 /// to clone.
 #[derive(Debug, Clone)]
-pub struct TextureView {
-    pub(crate) texture: Arc<Texture>,
+pub struct TexelView {
+    pub(crate) texture: Arc<TexelData>,
     pub(crate) dimension: ViewDimension,
     pub(crate) planes: Arc<[Plane]>,
     pub(crate) base_layer: u32,
@@ -40,17 +40,17 @@ pub struct TextureView {
     pub(crate) is_whole: bool,
 }
 
-impl TextureView {
+impl TexelView {
     /// Creates a view of a texture.
     ///
     /// # Errors
     /// [`TextureError::View`] when the texture does not have what the descriptor asks for.
     pub fn new(
-        texture: impl Into<Arc<Texture>>,
-        descriptor: &TextureViewDescriptor,
+        texture: impl Into<Arc<TexelData>>,
+        descriptor: &TexelViewDescriptor,
     ) -> Result<Self, TextureError> {
         use ViewDimension as V;
-        let texture: Arc<Texture> = texture.into();
+        let texture: Arc<TexelData> = texture.into();
         let missing = |what| TextureError::View { what };
         let all_layers = match texture.shape.dimension {
             TextureDimension::D3 => 1,
@@ -129,13 +129,13 @@ impl TextureView {
     ///
     /// # Errors
     /// [`TextureError::View`] when it has no level or no layer.
-    pub fn of(texture: impl Into<Arc<Texture>>) -> Result<Self, TextureError> {
-        Self::new(texture, &TextureViewDescriptor::default())
+    pub fn of(texture: impl Into<Arc<TexelData>>) -> Result<Self, TextureError> {
+        Self::new(texture, &TexelViewDescriptor::default())
     }
 
     /// The texture.
     #[must_use]
-    pub fn texture(&self) -> &Arc<Texture> {
+    pub fn texture(&self) -> &Arc<TexelData> {
         &self.texture
     }
 
@@ -206,7 +206,7 @@ impl Plane {
         begin.wrapping_mul(words)
     }
 
-    fn new(texture: &Texture, level: usize) -> Self {
+    fn new(texture: &TexelData, level: usize) -> Self {
         let of_level = &texture.levels[level];
         let depth = match texture.shape.dimension {
             TextureDimension::D3 => texture.shape.slices(level),

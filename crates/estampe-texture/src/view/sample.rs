@@ -7,7 +7,7 @@ use super::axis::{self, Place};
 use super::coordinates::{Answers, Lanes, LodOfLanes, answer};
 use super::footprint::Footprint;
 use super::plane::Plane;
-use super::{SampledView, cube};
+use super::{SampledTexture, cube};
 use estampe_format::TexelCodec;
 use estampe_types::ViewDimension;
 use estampe_types::{AddressMode, BorderColor, FilterMode, Real};
@@ -44,7 +44,7 @@ impl Tap for Channels {
     }
 }
 
-impl SampledView {
+impl SampledTexture {
     /// Samples lanes: by packet code if possible, else lane by lane.
     #[inline(never)]
     pub(crate) fn sample_lanes(&self, lanes: &Lanes<'_>, colors: &mut Answers) {

@@ -237,11 +237,11 @@ fn libm_log2(x: f64) -> f64 {
 fn bindings_read_zeros_where_nothing_is() {
     let bindings = Bindings::default();
     assert_eq!(bindings.f32s::<4>(0, 0, 0), [0.0; 4]);
-    let group = BindGroup {
+    let group = BoundResources {
         entries: vec![(
             3,
-            Binding::Buffer {
-                buffer: Buffer::from_f32s(&[1.0, 2.0, 3.0]),
+            BoundResource::Buffer {
+                buffer: BufferData::from_f32s(&[1.0, 2.0, 3.0]),
                 offset: 4,
                 dynamic_offset: Some(0),
             },

@@ -8,7 +8,7 @@ mod view;
 pub use sampler::{AddressMode, BorderColor, FilterMode, SamplerDescriptor};
 pub use shape::{TextureDimension, TextureShape};
 pub use storage::StorageTexture;
-pub use view::{TextureAspect, TextureViewDescriptor, ViewDimension};
+pub use view::{TexelViewDescriptor, TextureAspect, ViewDimension};
 
 use crate::format::TextureFormat;
 use crate::morton::spread;
@@ -19,10 +19,10 @@ use std::sync::Arc;
 ///
 /// Texels are stored level by level; in each level slice by slice (the layers of an array, six
 /// faces per cube, or the depths of a 3D texture); in each slice row by row from the top; in each
-/// row texel by texel; in each texel sample by sample. A sample takes [`Texture::words_per_texel`]
-/// words, which hold the bytes of [`Texture::stored_format`] from the lowest on.
+/// row texel by texel; in each texel sample by sample. A sample takes [`TexelData::words_per_texel`]
+/// words, which hold the bytes of [`TexelData::stored_format`] from the lowest on.
 #[derive(Debug, Clone)]
-pub struct Texture {
+pub struct TexelData {
     /// Format with which the texture was created.
     pub format: TextureFormat,
     /// The levels, the full size first. Each side is half that of the level before, rounded down,
@@ -50,7 +50,7 @@ pub struct MipLevel {
     pub offset: u32,
 }
 
-/// Side of a storage block of a [`DepthTexture`], in texels.
+/// Side of a storage block of a [`ShadowMap`], in texels.
 pub(crate) const BLOCK: usize = 64;
 
 /// A depth texture for comparisons in shaders, such as a shadow map: a copy of a depth attachment's
@@ -61,15 +61,15 @@ pub(crate) const BLOCK: usize = 64;
 /// The depth min/max of each 4×4 texels is stored row by row; it decides most samples of a shadow
 /// map.
 #[derive(Debug, Clone, Default)]
-pub struct DepthTexture {
+pub struct ShadowMap {
     width: u32,
     height: u32,
     depths: Arc<Lines<f32>>,
     bounds: Arc<Vec<u32>>,
 }
 
-impl DepthTexture {
-    /// Scale by which depths are multiplied before they are stored in [`DepthTexture::bounds`].
+impl ShadowMap {
+    /// Scale by which depths are multiplied before they are stored in [`ShadowMap::bounds`].
     pub const BOUND_SCALE: f32 = 32_768.0;
 
     /// The greatest width and height, in texels.
@@ -77,7 +77,7 @@ impl DepthTexture {
 
     /// A texture from depths row by row from the top, clamped to 0..=1; NaN becomes 0. The texture
     /// is empty if the number of depths is not width times height, or if a side exceeds
-    /// [`DepthTexture::MAX_SIDE`].
+    /// [`ShadowMap::MAX_SIDE`].
     #[must_use]
     pub fn from_rows(width: u32, height: u32, rows: &[f32]) -> Self {
         if rows.len() as u64 != u64::from(width) * u64::from(height)
@@ -163,8 +163,8 @@ impl DepthTexture {
         &self.depths
     }
 
-    /// Depth min/max of each 4×4 texels, row by row, [`DepthTexture::bounds_stride`] words per row,
-    /// in units of 1/[`DepthTexture::BOUND_SCALE`]: the least depth rounded down in the low half of
+    /// Depth min/max of each 4×4 texels, row by row, [`ShadowMap::bounds_stride`] words per row,
+    /// in units of 1/[`ShadowMap::BOUND_SCALE`]: the least depth rounded down in the low half of
     /// a word, the greatest rounded up in the high half. One more word follows the last, so that
     /// pairs can be read.
     #[must_use]

@@ -1,6 +1,6 @@
 //! Shape of a texture besides its width and height, and the layout of its texels in memory.
 
-use super::Texture;
+use super::TexelData;
 use crate::format::{TexelEncoding, TextureFormat};
 
 /// Number of axes along which a texture is filtered.
@@ -49,7 +49,7 @@ impl TextureShape {
     }
 }
 
-impl Texture {
+impl TexelData {
     /// Format in which the texels are stored in memory: compressed blocks are decoded when a
     /// texture is created, and BGRA becomes RGBA.
     #[must_use]

@@ -74,7 +74,7 @@ impl StorageTexture {
         self.height
     }
 
-    /// Words per texel, as in a [`Texture`](super::Texture).
+    /// Words per texel, as in a [`TexelData`](super::TexelData).
     #[must_use]
     pub const fn words_per_texel(&self) -> usize {
         super::shape::stored_format(self.format)

@@ -20,7 +20,7 @@ pub enum ViewDimension {
 /// The part of a texture that a view shows. The default is the whole texture, as an array if it has
 /// several layers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct TextureViewDescriptor {
+pub struct TexelViewDescriptor {
     /// Dimension of the view. `None` is the texture's dimension; a 2D texture with several layers
     /// becomes [`ViewDimension::D2Array`].
     pub dimension: Option<ViewDimension>,

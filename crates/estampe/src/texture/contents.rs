@@ -3,7 +3,7 @@
 use super::{Texture, TextureError};
 use estampe_core::{ColorTexels, Context, DepthStencilTexels, row_order_words};
 use estampe_texture::MipGeneration;
-use estampe_types::{DepthTexture, Limits, Texture as TexelData, TextureFormat};
+use estampe_types::{Limits, ShadowMap, TexelData, TextureFormat};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -193,10 +193,10 @@ impl Contents {
         texture: &Texture,
         context: &Context,
         key: ImageKey,
-    ) -> Result<Option<DepthTexture>, TextureError> {
+    ) -> Result<Option<ShadowMap>, TextureError> {
         let (mut image, newest) = self.take(texture, context, key, true)?;
         let map = match &mut image {
-            Image::DepthStencil(depth) => context.depth_texture_of(depth),
+            Image::DepthStencil(depth) => context.shadow_map_of(depth),
             Image::Color(_) => None,
         };
         self.put_unchanged(key, (image, newest));

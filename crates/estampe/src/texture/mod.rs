@@ -11,12 +11,12 @@ pub use error::TextureError;
 pub use regions::{TexelCopyLayout, TextureCopy};
 pub(crate) use regions::{read, read_sample, tight_len, write, zero};
 pub(crate) use stores::StoredTextures;
+pub(crate) use view::sampled_texture;
 pub use view::{Sampler, TextureView, TextureViewDescriptor};
-pub(crate) use view::{sampled, sampled_view};
 
 use crate::Limits;
 use estampe_core::ImageSize;
-use estampe_texture::TextureDescriptor as TexelDescriptor;
+use estampe_texture::TexelDescriptor;
 use estampe_types::{TextureDimension, TextureFormat};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

@@ -4,9 +4,7 @@ use super::contents::words_of;
 use super::{Extent3d, Image, ImageKey, Texture, TextureError, TextureUsages, TextureView};
 use crate::{Context, Limits};
 use estampe_texture::region::{RowSpan, aspect_bytes, read_row, write_blocks, write_row};
-use estampe_texture::{
-    LevelData, MipGeneration, TextureDescriptor as TexelDescriptor, create_texture,
-};
+use estampe_texture::{LevelData, MipGeneration, TexelDescriptor, create_texture};
 use estampe_types::{TextureAspect, TextureFormat};
 
 /// One side of a copy: a mip level, and where in it the region begins. WebGPU's

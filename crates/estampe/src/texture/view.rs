@@ -2,10 +2,10 @@
 
 use super::{ImageKey, Texture, TextureError};
 use crate::Context;
-use estampe_texture::{Sampled, SampledView, TextureView as TexelView};
+use estampe_texture::{SampledTexture, TexelView};
 use estampe_types::{
-    SamplerDescriptor, TextureAspect, TextureDimension, TextureFormat,
-    TextureViewDescriptor as TexelViewDescriptor, ViewDimension,
+    SamplerDescriptor, TexelViewDescriptor, TextureAspect, TextureDimension, TextureFormat,
+    ViewDimension,
 };
 use std::sync::Arc;
 
@@ -194,7 +194,7 @@ impl TextureView {
     pub(crate) fn check_sampler(&self, sampler: &Sampler) -> Result<(), TextureError> {
         let shape = self.texture.descriptor().without_texels();
         let view = TexelView::new(shape, &self.of_texels())?;
-        SampledView::new(view, *sampler.descriptor)?;
+        SampledTexture::new(view, *sampler.descriptor)?;
         Ok(())
     }
 
@@ -230,7 +230,7 @@ pub struct Sampler {
 
 impl Sampler {
     pub(crate) fn new(descriptor: &SamplerDescriptor) -> Result<Self, TextureError> {
-        SampledView::check_sampler(descriptor)?;
+        SampledTexture::check_sampler(descriptor)?;
         Ok(Self {
             descriptor: Arc::new(*descriptor),
         })
@@ -244,29 +244,12 @@ impl Sampler {
 }
 
 /// A texture's texels as they are now, with a sampler, for a shader that owns it.
-pub(crate) fn sampled_view(
+pub(crate) fn sampled_texture(
     context: &Context,
     view: &TextureView,
     sampler: &Sampler,
-) -> Result<SampledView, TextureError> {
+) -> Result<SampledTexture, TextureError> {
     let texels = view.texels(context)?;
-    let sampled = SampledView::new(texels, *sampler.descriptor)?;
+    let sampled = SampledTexture::new(texels, *sampler.descriptor)?;
     Ok(sampled.at_level(context.level()))
-}
-
-/// The common kind of texture with a sampler.
-pub(crate) fn sampled(
-    context: &Context,
-    texture: &Texture,
-    sampler: &Sampler,
-) -> Result<Sampled, TextureError> {
-    let data = texture.lock().rows(texture, context)?;
-    let view = SampledView::new(TexelView::of(data)?, *sampler.descriptor)?;
-    view.common().cloned().ok_or(TextureError::Unsupported {
-        texture: texture.name(),
-        format: texture.format(),
-        samples: texture.sample_count(),
-        rule: "`Device::sampled` takes 2D textures of four 8-bit channels, sampled without anisotropy, \
-               bias and border: use `Device::sampled_view`",
-    })
 }

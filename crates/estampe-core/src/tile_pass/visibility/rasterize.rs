@@ -72,7 +72,7 @@ pub(super) fn storage_of(plan: &TilePlan<'_>) -> IdStorage {
     match plan.pipeline.color_targets() {
         [] => IdStorage::None,
         [first, ..] if first.codec.words() == 1 => IdStorage::Attachment,
-        _ => IdStorage::Buffer,
+        _ => IdStorage::BufferData,
     }
 }
 

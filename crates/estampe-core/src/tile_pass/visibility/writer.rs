@@ -80,7 +80,7 @@ pub(super) enum IdStorage {
     /// In the first colour attachment.
     Attachment,
     /// Beside the attachments.
-    Buffer,
+    BufferData,
 }
 
 impl<'a, const N: usize> VisibilityWriter<'a, N> {
@@ -95,7 +95,7 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         let ids: &mut [[u32; LANES]] = match storage {
             IdStorage::None => &mut [],
             IdStorage::Attachment => job.colors[0],
-            IdStorage::Buffer => &mut buffer.ids[..],
+            IdStorage::BufferData => &mut buffer.ids[..],
         };
         Self {
             tests,

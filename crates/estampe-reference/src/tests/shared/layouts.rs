@@ -10,14 +10,14 @@ use std::sync::Arc;
 #[test]
 fn buffers_are_bytes_in_little_endian_words() {
     let bytes: Vec<u8> = (1..=9).collect();
-    let buffer = Buffer::from_bytes(&bytes);
+    let buffer = BufferData::from_bytes(&bytes);
     assert_eq!(buffer.len_bytes(), 9);
     assert_eq!(buffer.words(), [0x0403_0201, 0x0807_0605, 9]);
-    let floats = Buffer::from_f32s(&[1.0, -2.0]);
+    let floats = BufferData::from_f32s(&[1.0, -2.0]);
     assert_eq!(floats.len_bytes(), 8);
     assert_eq!(floats.words(), [0x3F80_0000, 0xC000_0000]);
-    assert_eq!(Buffer::from_words(vec![7, 8]).words(), [7, 8]);
-    assert_eq!(Buffer::from_bytes(&[]).words(), [0; 0]);
+    assert_eq!(BufferData::from_words(vec![7, 8]).words(), [7, 8]);
+    assert_eq!(BufferData::from_bytes(&[]).words(), [0; 0]);
     // Both the core's readers and the oracle's give zero beyond the end.
     for (format, expected) in [
         (IndexFormat::Uint8, [1, 2, 9, 0]),
@@ -39,10 +39,10 @@ fn buffers_are_bytes_in_little_endian_words() {
 /// Rows: V1.
 #[test]
 fn bindings_are_found_by_group_and_number() {
-    let buffer = |first: f32| Buffer::from_f32s(&[first, first + 1.0, first + 2.0]);
+    let buffer = |first: f32| BufferData::from_f32s(&[first, first + 1.0, first + 2.0]);
     let bound = |number, first, offset, is_dynamic: bool| {
         let buffer = buffer(first);
-        let binding = Binding::Buffer {
+        let binding = BoundResource::Buffer {
             buffer,
             offset,
             dynamic_offset: is_dynamic.then_some(0),
@@ -50,7 +50,7 @@ fn bindings_are_found_by_group_and_number() {
         (number, binding)
     };
     let group = |entries, dynamic_offset| BoundGroup {
-        group: Arc::new(BindGroup { entries }),
+        group: Arc::new(BoundResources { entries }),
         dynamic_offsets: [dynamic_offset; MAX_DYNAMIC_OFFSETS],
     };
     let bindings = Bindings {
@@ -65,8 +65,8 @@ fn bindings_are_found_by_group_and_number() {
     assert_eq!(bindings.f32s(1, 1, 0), [0.0]);
     assert_eq!(bindings.f32s(2, 5, 0), [0.0]);
     let numbers: Vec<f32> = (0..16).map(|k| k as f32).collect();
-    let matrix = Binding::Buffer {
-        buffer: Buffer::from_f32s(&numbers),
+    let matrix = BoundResource::Buffer {
+        buffer: BufferData::from_f32s(&numbers),
         offset: 0,
         dynamic_offset: None,
     };
@@ -79,7 +79,7 @@ fn bindings_are_found_by_group_and_number() {
 /// Rows: F2.
 #[test]
 fn textures_are_stored_as_their_documentation_says() {
-    let texture = |format| Texture {
+    let texture = |format| TexelData {
         format,
         levels: Vec::new(),
         texels: Arc::new([]),

@@ -23,7 +23,7 @@ fn texture(
         offset += width * height;
         level
     });
-    let texture = Texture {
+    let texture = TexelData {
         format,
         levels: levels.collect(),
         texels: reds

@@ -6,7 +6,7 @@ use crate::texture::cube;
 use crate::texture::view::{ReferenceView, Sample};
 use estampe_types::state::CompareFunction;
 use estampe_types::{
-    AddressMode, BorderColor, FilterMode, MipLevel, SamplerDescriptor, Texture, TextureAspect,
+    AddressMode, BorderColor, FilterMode, MipLevel, SamplerDescriptor, TexelData, TextureAspect,
     TextureDimension, TextureFormat, TextureShape, ViewDimension,
 };
 use std::sync::Arc;
@@ -37,7 +37,7 @@ fn view(
         placed
     });
     let levels: Vec<_> = levels.collect();
-    let texture = Texture {
+    let texture = TexelData {
         format: TextureFormat::R32Float,
         shape: TextureShape {
             dimension: match dimension {

@@ -18,7 +18,7 @@ mod places;
 
 pub(crate) use super::packet_texel::PacketFormat;
 
-use super::SampledView;
+use super::SampledTexture;
 use super::coordinates::{Answers, Lanes, LodOfLanes, answer, load, packet};
 use super::packet_texel::{OTHERS, RGBA8, RGBA8_SRGB, RGBA16F, passes};
 use super::plane::Plane;
@@ -29,7 +29,7 @@ use estampe_types::state::CompareFunction;
 use estampe_types::{FilterMode, Int, Real, ViewDimension};
 use places::{Places, Spots};
 
-impl SampledView {
+impl SampledTexture {
     /// Samples or compares sixteen lanes; `false`, with nothing stored, if packet code cannot
     /// do it.
     #[inline(always)]
@@ -83,7 +83,7 @@ impl SampledView {
 
 /// A request for sixteen lanes.
 struct Packet<'a> {
-    of: &'a SampledView,
+    of: &'a SampledTexture,
     format: PacketFormat,
     lanes: &'a Lanes<'a>,
     compares: Option<CompareFunction>,

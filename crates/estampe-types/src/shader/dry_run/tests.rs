@@ -1,7 +1,7 @@
 //! Tests of the findings and refusals of dry runs.
 
 use crate::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut, interface_of};
-use crate::{DepthTexture, Interface, Quad, ShaderError, Vec2, Vec4};
+use crate::{Interface, Quad, ShaderError, ShadowMap, Vec2, Vec4};
 
 /// The effects of a fragment, apart from its colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -306,7 +306,7 @@ crate::shader! {
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, x: R) -> FragmentOut<R> {
             let out = FragmentOut::color(Vec4::repeat(x));
-            match input.bindings.depth_texture(0, 0).map(DepthTexture::width) {
+            match input.bindings.shadow_map(0, 0).map(ShadowMap::width) {
                 Some(_) => out
                     .with_color(2, input.position)
                     .discard_unless(x.lt(0.5)),

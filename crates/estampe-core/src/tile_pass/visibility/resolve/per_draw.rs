@@ -12,7 +12,7 @@ use crate::pipeline::color_target::MAX_WORDS;
 use crate::raster::Covered;
 use crate::tile_pass::TileScratch;
 use estampe_simd::{LANES, Lanes, Select, SimdBase, u32x16};
-use estampe_types::{Binding, Bindings};
+use estampe_types::{Bindings, BoundResource};
 use std::hint::black_box;
 
 /// The lanes that face the viewer in the packet that is shaded: whole quads, so that derivatives
@@ -209,7 +209,8 @@ fn first_uniform(bindings: &Bindings) -> u32 {
     let Some(bound) = bindings.groups.first() else {
         return 0;
     };
-    let Some((_, Binding::Buffer { buffer, offset, .. })) = bound.group.entries.first() else {
+    let Some((_, BoundResource::Buffer { buffer, offset, .. })) = bound.group.entries.first()
+    else {
         return 0;
     };
     let at = (*offset as usize).saturating_add(bound.dynamic_offsets[0] as usize);

@@ -1,27 +1,27 @@
-//! [`SampledView`]: a view with a sampler, as a shader holds it.
+//! [`SampledTexture`]: a view with a sampler, as a shader holds it.
 
-use super::TextureView;
-use super::coordinates::{Answers, Coordinates, Lanes, Lod, by_sixteen};
+use super::TexelView;
+use super::coordinates::{Answers, Lanes, Lod, TextureCoordinates, by_sixteen};
 use super::packet::PacketFormat;
-use crate::sampled::is_rgba8;
-use crate::{Sampled, TextureError};
+use crate::rgba8_texture::is_rgba8;
+use crate::{Rgba8Texture, TextureError};
 use estampe_simd::Level;
 use estampe_types::ViewDimension;
 use estampe_types::shader::Sample2d;
-use estampe_types::{FilterMode, Real, SampleType, SamplerDescriptor, Texture};
-use estampe_types::{Vec2, Vec4};
+use estampe_types::{FilterMode, Real, SampleType, SamplerDescriptor, TexelData};
+use estampe_types::{Vec2, Vec3, Vec4};
 
 /// A view of any texture with a sampler. Cheap to clone.
 ///
 /// Coordinates may be any number: NaN and infinities read some texel, as `docs/NUMERICS.md` says.
 /// For integer formats, every function gives the [bits](Real::to_bits).
 #[derive(Debug, Clone)]
-pub struct SampledView {
-    pub(crate) view: TextureView,
+pub struct SampledTexture {
+    pub(crate) view: TexelView,
     pub(crate) sampler: SamplerDescriptor,
     /// The sampler of the common kind of view, if this is one: 2D, four 8-bit channels, WebGPU's
     /// address modes.
-    common: Option<Sampled>,
+    common: Option<Rgba8Texture>,
     /// The texel decoder of packet code; `None` for formats without packet code.
     pub(crate) packets: Option<PacketFormat>,
     /// True if view and sampler allow the common case of a packet (`packet/inside.rs`): linear
@@ -31,26 +31,26 @@ pub struct SampledView {
     pub(crate) level: Level,
 }
 
-impl Sample2d for SampledView {
+impl Sample2d for SampledTexture {
     #[inline(always)]
     fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
-        self.sample(Coordinates::d2(uv))
+        Self::sample(self, uv)
     }
 }
 
-impl SampledView {
+impl SampledTexture {
     /// Combines a view with a sampler.
     ///
     /// # Errors
     /// [`TextureError::Sampler`] when the sampler is not valid, or cannot sample the view.
-    pub fn new(view: TextureView, sampler: SamplerDescriptor) -> Result<Self, TextureError> {
+    pub fn new(view: TexelView, sampler: SamplerDescriptor) -> Result<Self, TextureError> {
         check(&view, &sampler)?;
         let common = is_common(&view, &sampler).then(|| {
-            let texture = Texture {
+            let texture = TexelData {
                 format: view.texture.stored_format(),
-                ..Texture::clone(&view.texture)
+                ..TexelData::clone(&view.texture)
             };
-            Sampled::new(texture, sampler)
+            Rgba8Texture::new(texture, sampler)
         });
         Ok(Self {
             packets: PacketFormat::new(&view),
@@ -79,13 +79,13 @@ impl SampledView {
     /// The texture with its sampler, if it is of the common kind: 2D, four 8-bit channels, WebGPU's
     /// address modes.
     #[must_use]
-    pub fn common(&self) -> Option<&Sampled> {
+    pub fn common(&self) -> Option<&Rgba8Texture> {
         self.common.as_ref()
     }
 
     /// The view, for its sizes and for fetching texels.
     #[must_use]
-    pub fn view(&self) -> &TextureView {
+    pub fn view(&self) -> &TexelView {
         &self.view
     }
 
@@ -97,11 +97,61 @@ impl SampledView {
 
     /// Samples with the level of detail of the quad (`textureSample`).
     #[inline(always)]
-    pub fn sample<R: Real>(&self, at: Coordinates<R>) -> Vec4<R> {
+    pub fn sample<R: Real>(&self, at: impl TextureCoordinates<R>) -> Vec4<R> {
+        let at = at.coordinates();
         if let Some(common) = &self.common {
             return common.sample(Vec2::new(at.uvw.x, at.uvw.y));
         }
         self.sample_with(at, Lod::Implicit, [0; 3])
+    }
+
+    /// Samples several textures at the same coordinates, such as a surface's colour and its normal
+    /// map. The results are those of [`Self::sample`]; for 2D textures of four 8-bit channels, one
+    /// size and one sampler state, what they have in common is computed once.
+    #[inline(always)]
+    pub fn sample_all<R: Real, const N: usize>(
+        textures: [&Self; N],
+        at: impl TextureCoordinates<R>,
+    ) -> [Vec4<R>; N] {
+        let at = at.coordinates();
+        if let Some(common) = all_common(&textures) {
+            return Rgba8Texture::sample_all(common, Vec2::new(at.uvw.x, at.uvw.y));
+        }
+        // Rare and large: outside the shader's code.
+        at.uvw.x.out_of_line(
+            #[inline(always)]
+            || {
+                textures.map(
+                    #[inline(always)]
+                    |texture| texture.sample_with(at, Lod::Implicit, [0; 3]),
+                )
+            },
+        )
+    }
+
+    /// Samples with a bias that is added to the level of detail of the quad (`textureSampleBias`).
+    #[inline(always)]
+    pub fn sample_bias<R: Real>(&self, at: impl TextureCoordinates<R>, bias: R) -> Vec4<R> {
+        self.sample_with(at, Lod::Bias(bias), [0; 3])
+    }
+
+    /// Samples at a level of detail (`textureSampleLevel`): 0 is the base level, each further level
+    /// is half as large.
+    #[inline(always)]
+    pub fn sample_level<R: Real>(&self, at: impl TextureCoordinates<R>, level: R) -> Vec4<R> {
+        self.sample_with(at, Lod::Level(level), [0; 3])
+    }
+
+    /// Samples with the level of detail of the coordinates' derivatives along x and along y
+    /// (`textureSampleGrad`); of 2D views their third component is without effect.
+    #[inline(always)]
+    pub fn sample_grad<R: Real>(
+        &self,
+        at: impl TextureCoordinates<R>,
+        dx: Vec3<R>,
+        dy: Vec3<R>,
+    ) -> Vec4<R> {
+        self.sample_with(at, Lod::Gradients(dx, dy), [0; 3])
     }
 
     /// Samples with the level of detail that `lod` determines, `offset` texels from the coordinates
@@ -109,10 +159,11 @@ impl SampledView {
     #[inline(always)]
     pub fn sample_with<R: Real>(
         &self,
-        at: Coordinates<R>,
+        at: impl TextureCoordinates<R>,
         lod: Lod<R>,
         offset: [i32; 3],
     ) -> Vec4<R> {
+        let at = at.coordinates();
         by_sixteen(
             at.uvw.x,
             #[inline(always)]
@@ -137,7 +188,13 @@ impl SampledView {
     /// (`textureGather`): lower left, lower right, upper right, upper left, v pointing down. 1D and
     /// 3D textures give zeros.
     #[inline(always)]
-    pub fn gather<R: Real>(&self, at: Coordinates<R>, channel: usize, offset: [i32; 2]) -> Vec4<R> {
+    pub fn gather<R: Real>(
+        &self,
+        at: impl TextureCoordinates<R>,
+        channel: usize,
+        offset: [i32; 2],
+    ) -> Vec4<R> {
+        let at = at.coordinates();
         at.uvw.x.out_of_line(
             #[inline(always)]
             || {
@@ -165,11 +222,12 @@ impl SampledView {
     #[inline(always)]
     pub fn sample_compare<R: Real>(
         &self,
-        at: Coordinates<R>,
+        at: impl TextureCoordinates<R>,
         reference: R,
         lod: Lod<R>,
         offset: [i32; 2],
     ) -> R {
+        let at = at.coordinates();
         reference.out_of_line(
             #[inline(always)]
             || {
@@ -194,14 +252,15 @@ impl SampledView {
     }
 
     /// The comparison of `reference` with each of the four texels around the coordinates, 1 or 0
-    /// (`textureGatherCompare`), in the order of [`SampledView::gather`].
+    /// (`textureGatherCompare`), in the order of [`SampledTexture::gather`].
     #[inline(always)]
     pub fn gather_compare<R: Real>(
         &self,
-        at: Coordinates<R>,
+        at: impl TextureCoordinates<R>,
         reference: R,
         offset: [i32; 2],
     ) -> Vec4<R> {
+        let at = at.coordinates();
         reference.out_of_line(
             #[inline(always)]
             || {
@@ -223,6 +282,19 @@ impl SampledView {
             },
         )
     }
+}
+
+/// The textures as [`Rgba8Texture`]s, if all of them are.
+#[inline(always)]
+fn all_common<'t, const N: usize>(
+    textures: &[&'t SampledTexture; N],
+) -> Option<[&'t Rgba8Texture; N]> {
+    let first = textures.first()?.common.as_ref()?;
+    let mut common = [first; N];
+    for (common, texture) in common.iter_mut().zip(textures) {
+        *common = texture.common.as_ref()?;
+    }
+    Some(common)
 }
 
 fn refuse(what: &'static str) -> Result<(), TextureError> {
@@ -254,7 +326,7 @@ fn filters(sampler: &SamplerDescriptor) -> [FilterMode; 3] {
     ]
 }
 
-fn check(view: &TextureView, sampler: &SamplerDescriptor) -> Result<(), TextureError> {
+fn check(view: &TexelView, sampler: &SamplerDescriptor) -> Result<(), TextureError> {
     check_alone(sampler)?;
     if view.texture.shape.samples != 1 {
         return refuse("multisampled textures are not sampled: fetch their texels");
@@ -271,7 +343,7 @@ fn check(view: &TextureView, sampler: &SamplerDescriptor) -> Result<(), TextureE
     Ok(())
 }
 
-fn is_simple(view: &TextureView, sampler: &SamplerDescriptor) -> bool {
+fn is_simple(view: &TexelView, sampler: &SamplerDescriptor) -> bool {
     let is_flat = matches!(view.dimension, ViewDimension::D2 | ViewDimension::D2Array);
     let is_plain = sampler.address_mode_u.is_plain() && sampler.address_mode_v.is_plain();
     (view.is_cube() || is_flat && is_plain)
@@ -279,8 +351,8 @@ fn is_simple(view: &TextureView, sampler: &SamplerDescriptor) -> bool {
         && sampler.max_anisotropy <= 1
 }
 
-/// Returns true if [`Sampled`] gives the same results faster.
-fn is_common(view: &TextureView, sampler: &SamplerDescriptor) -> bool {
+/// Returns true if [`Rgba8Texture`] gives the same results faster.
+fn is_common(view: &TexelView, sampler: &SamplerDescriptor) -> bool {
     is_rgba8(view.texture.stored_format())
         && view.dimension == ViewDimension::D2
         && view.is_whole

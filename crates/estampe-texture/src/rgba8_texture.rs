@@ -1,4 +1,4 @@
-//! [`Sampled`]: the common kind of texture with a sampler, as a shader holds it.
+//! [`Rgba8Texture`]: the common kind of texture with a sampler, as a shader holds it.
 
 use crate::filter::{Inside, Level, mix_colors, sample_level};
 use crate::lod::{level_of_detail, rho2};
@@ -9,8 +9,8 @@ use crate::wrap::wrap;
 use estampe_simd::LANES;
 use estampe_types::shader::Sample2d;
 use estampe_types::{
-    AddressMode, FilterMode, Int, MipLevel, Real, SamplerDescriptor, Texture, TextureFormat, Vec2,
-    Vec4,
+    AddressMode, FilterMode, Int, MipLevel, Real, SamplerDescriptor, TexelData, TextureFormat,
+    Vec2, Vec4,
 };
 use std::sync::Arc;
 
@@ -23,8 +23,8 @@ const MAX_LEVELS: usize = 16;
 /// Coordinates may be any number; NaN and infinities read some texel of the texture, as
 /// `docs/NUMERICS.md` says. Colours are linear, alpha is straight, all in 0..=1.
 #[derive(Clone, Debug)]
-pub struct Sampled {
-    pub(crate) texture: Arc<Texture>,
+pub struct Rgba8Texture {
+    pub(crate) texture: Arc<TexelData>,
     pub(crate) sampler: SamplerDescriptor,
     /// The texture's mip levels; entries beyond the last level repeat it.
     pub(crate) levels: Arc<[Level; MAX_LEVELS]>,
@@ -44,18 +44,18 @@ pub struct Sampled {
     last_level: usize,
 }
 
-impl Sample2d for Sampled {
+impl Sample2d for Rgba8Texture {
     #[inline(always)]
     fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
         Self::sample(self, uv)
     }
 }
 
-impl Sampled {
+impl Rgba8Texture {
     /// Combines a texture with a sampler.
     #[must_use]
-    pub fn new(texture: impl Into<Arc<Texture>>, sampler: SamplerDescriptor) -> Self {
-        let texture: Arc<Texture> = texture.into();
+    pub fn new(texture: impl Into<Arc<TexelData>>, sampler: SamplerDescriptor) -> Self {
+        let texture: Arc<TexelData> = texture.into();
         let last = texture.levels.len().saturating_sub(1).min(MAX_LEVELS - 1);
         let smallest = MipLevel {
             width: 1,
@@ -85,7 +85,7 @@ impl Sampled {
 
     /// The texture.
     #[must_use]
-    pub fn texture(&self) -> &Arc<Texture> {
+    pub fn texture(&self) -> &Arc<TexelData> {
         &self.texture
     }
 
