@@ -6,7 +6,7 @@ use crate::scene::{CLEAR_COLOR, Scene, SceneDraw, shadow};
 use crate::target::{Target, TargetDescriptor};
 use estampe::{
     BindGroup, BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType,
-    BufferBindingType, BufferSlice, Device, Draw, DrawBindGroup, Extent3d, IndexFormat, RenderPass,
+    BufferBindingType, BufferSlice, Device, Draw, Extent3d, IndexFormat, RenderPass,
     RenderPipeline, Statistics, TexelCopyLayout, Texture,
 };
 use std::ops::Range;
@@ -255,22 +255,19 @@ fn render(
     times: &mut FrameTimes,
 ) {
     let start = Instant::now();
-    let groups = draws.iter().map(|PreparedDraw { draw, .. }| {
-        let uniforms = uniforms.map(|group| DrawBindGroup {
-            group,
-            dynamic_offsets: std::slice::from_ref(&draw.dynamic_offset),
-        });
-        let depth_map = depth_map.map(DrawBindGroup::from);
-        [uniforms, depth_map]
-    });
-    let groups = groups.map(|groups| groups.into_iter().flatten().collect());
-    let groups: Vec<Vec<DrawBindGroup<'_>>> = groups.collect();
-    let recorded: Vec<Draw<'_>> = (draws.iter().zip(&groups))
-        .map(|(PreparedDraw { draw, elements }, groups)| Draw {
+    let groups: Vec<BindGroup> = [uniforms, depth_map]
+        .into_iter()
+        .flatten()
+        .cloned()
+        .collect();
+    let offsets = usize::from(uniforms.is_some());
+    let recorded: Vec<Draw<'_>> = (draws.iter())
+        .map(|PreparedDraw { draw, elements }| Draw {
             vertex_buffers: std::slice::from_ref(&resources.buffers[draw.vertices]),
             index_buffer: Some((&resources.buffers[draw.indices], IndexFormat::Uint32)),
             instances: 0..draw.instances,
-            bind_groups: groups,
+            bind_groups: &groups,
+            dynamic_offsets: &std::slice::from_ref(&draw.dynamic_offset)[..offsets],
             ..Draw::new(&resources.pipelines[draw.pipeline], elements.clone())
         })
         .collect();

@@ -6,7 +6,7 @@ use crate::readback;
 use crate::target::Target;
 use estampe::{
     BindGroup, BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType,
-    BufferBindingType, BufferSlice, Device, DeviceDescriptor, Draw, DrawBindGroup, Level, Limits,
+    BufferBindingType, BufferSlice, Device, DeviceDescriptor, Draw, Level, Limits,
     OcclusionQueries, RenderPass, RenderPipeline, RenderPipelineDescriptor, Statistics,
 };
 use estampe_types::state::{ColorTargetState, DepthStencilState, MultisampleState};
@@ -123,12 +123,11 @@ fn draw_pass(
         .collect();
     let buffers = draws.iter().map(|draw| Buffers::new(device, draw));
     let buffers: Vec<Buffers> = buffers.collect();
-    let groups: Vec<Vec<DrawBindGroup<'_>>> = buffers.iter().map(Buffers::groups).collect();
     let commands: Vec<_> = draws
         .iter()
-        .zip(pipelines.iter().zip(buffers.iter().zip(&groups)))
+        .zip(pipelines.iter().zip(&buffers))
         .zip(first_draw..)
-        .map(|((draw, (pipeline, (buffers, groups))), number)| Draw {
+        .map(|((draw, (pipeline, buffers)), number)| Draw {
             vertex_buffers: &buffers.vertices,
             index_buffer: buffers
                 .indices
@@ -136,7 +135,8 @@ fn draw_pass(
                 .zip(draw.indices.as_ref().map(|(format, _)| *format)),
             instances: draw.instances.clone(),
             base_vertex: draw.base_vertex,
-            bind_groups: groups,
+            bind_groups: &buffers.groups,
+            dynamic_offsets: &buffers.dynamic_offsets,
             viewport: draw.viewport,
             scissor: draw.scissor,
             blend_constant: draw.blend_constant,
@@ -157,28 +157,23 @@ fn draw_pass(
 struct Buffers {
     vertices: Vec<BufferSlice>,
     indices: Option<BufferSlice>,
-    groups: Vec<(BindGroup, Vec<u32>)>,
+    groups: Vec<BindGroup>,
+    /// Those of all groups.
+    dynamic_offsets: Vec<u32>,
 }
 
 impl Buffers {
     fn new(device: &Device, draw: &CaseDraw) -> Self {
         let vertices = draw.buffers.iter().map(|(_, data)| slice(device, data));
         let indices = draw.indices.as_ref();
+        let groups = bind_groups(device, &draw.bindings);
+        let (groups, dynamic_offsets): (Vec<_>, Vec<_>) = groups.into_iter().unzip();
         Self {
             vertices: vertices.collect(),
             indices: indices.map(|(_, data)| slice(device, data)),
-            groups: bind_groups(device, &draw.bindings),
+            groups,
+            dynamic_offsets: dynamic_offsets.concat(),
         }
-    }
-
-    fn groups(&self) -> Vec<DrawBindGroup<'_>> {
-        let groups = self.groups.iter();
-        groups
-            .map(|(group, dynamic_offsets)| DrawBindGroup {
-                group,
-                dynamic_offsets,
-            })
-            .collect()
     }
 }
 

@@ -99,7 +99,7 @@ fn lights(device: &Device) -> Outcome<Texture> {
     device.render(&RenderPass {
         color_attachments: &screen.colors([0.0; 3]),
         depth_stencil_attachment: screen.depths(),
-        draws: &objects.draws(&pipeline, &objects.bound(&[])),
+        draws: &objects.draws(&pipeline),
         ..RenderPass::default()
     })?;
     Ok(screen.picture)

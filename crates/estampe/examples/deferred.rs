@@ -123,7 +123,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
     device.render(&RenderPass {
         color_attachments: &targets.each_ref().map(clear),
         depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depth.view(), 1.0)),
-        draws: &objects.draws(&pipeline, &objects.bound(&[])),
+        draws: &objects.draws(&pipeline),
         ..RenderPass::default()
     })?;
 

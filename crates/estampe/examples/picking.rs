@@ -100,7 +100,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
     device.render(&RenderPass {
         color_attachments: &[Some(ColorAttachment::clear(&numbers.view(), nothing))],
         depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depths.view(), 1.0)),
-        draws: &objects.draws(&pipeline, &objects.bound(&[])),
+        draws: &objects.draws(&pipeline),
         ..RenderPass::default()
     })?;
     if let Some(k) = pick(device, &numbers, CURSOR)? {
@@ -115,7 +115,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
     device.render(&RenderPass {
         color_attachments: &screen.colors([0.01, 0.012, 0.02]),
         depth_stencil_attachment: screen.depths(),
-        draws: &objects.draws(&pipeline, &objects.bound(&[])),
+        draws: &objects.draws(&pipeline),
         ..RenderPass::default()
     })?;
     Ok(screen.picture)

@@ -108,7 +108,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
         device.render(&RenderPass {
             color_attachments: &[Some(ColorAttachment::clear(&view, [0.0; 4]))],
             depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depths, 1.0)),
-            draws: &surroundings.draws(&pipeline, &surroundings.bound(&[])),
+            draws: &surroundings.draws(&pipeline),
             ..RenderPass::default()
         })?;
     }
@@ -134,7 +134,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
     device.render(&RenderPass {
         color_attachments: &screen.colors([0.0; 3]),
         depth_stencil_attachment: screen.depths(),
-        draws: &objects.draws(&pipeline, &objects.bound(&[&map])),
+        draws: &objects.bind(&map).draws(&pipeline),
         ..RenderPass::default()
     })?;
     Ok(screen.picture)

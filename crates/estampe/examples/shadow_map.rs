@@ -116,7 +116,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
     })?;
     device.render(&RenderPass {
         depth_stencil_attachment: Some(DepthStencilAttachment::clear(&map, 1.0)),
-        draws: &objects.draws(&pipeline, &objects.bound(&[])),
+        draws: &objects.draws(&pipeline),
         ..RenderPass::default()
     })?;
 
@@ -135,7 +135,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
     device.render(&RenderPass {
         color_attachments: &screen.colors([0.5, 0.65, 0.85]),
         depth_stencil_attachment: screen.depths(),
-        draws: &objects.draws(&pipeline, &objects.bound(&[&map])),
+        draws: &objects.bind(&map).draws(&pipeline),
         ..RenderPass::default()
     })?;
     Ok(screen.picture)

@@ -12,9 +12,9 @@ use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};
 use estampe::state::{VertexBufferLayout, VertexStepMode};
 use estampe::{
     BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType,
-    ColorAttachment, DepthStencilAttachment, Device, DeviceDescriptor, Draw, DrawBindGroup,
-    IndexFormat, RenderPass, RenderPipelineDescriptor, Statistics, TextureDescriptor,
-    TextureFormat, Vec2, Vec4, VertexFormat, bytes_of,
+    ColorAttachment, DepthStencilAttachment, Device, DeviceDescriptor, Draw, IndexFormat,
+    RenderPass, RenderPipelineDescriptor, Statistics, TextureDescriptor, TextureFormat, Vec2, Vec4,
+    VertexFormat, bytes_of,
 };
 use std::error::Error;
 
@@ -146,16 +146,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         descriptor.vertex_buffers = vec![corner_layout];
         let pipeline = device.create_render_pipeline(&descriptor)?;
         let offsets: Vec<[u32; 1]> = (0..QUADS).map(|number| [number * 16]).collect();
-        let groups = offsets.iter().map(|offsets| DrawBindGroup {
-            group: &group,
-            dynamic_offsets: offsets,
-        });
-        let groups: Vec<DrawBindGroup<'_>> = groups.collect();
+        let groups = [group];
         let vertex_buffers = [corners.slice(..)];
-        let draws = groups.chunks(1).map(|groups| Draw {
+        let draws = offsets.iter().map(|offsets| Draw {
             vertex_buffers: &vertex_buffers,
             index_buffer: Some((&indices, IndexFormat::Uint16)),
-            bind_groups: groups,
+            bind_groups: &groups,
+            dynamic_offsets: offsets,
             ..Draw::new(&pipeline, 0..6)
         });
         let draws: Vec<Draw<'_>> = draws.collect();

@@ -114,11 +114,11 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
         depth_stencil_attachment: screen.depths(),
         draws: &[
             Draw {
-                bind_groups: &[(&of_floor).into()],
+                bind_groups: std::slice::from_ref(&of_floor),
                 ..floor.draw(&pipeline)
             },
             Draw {
-                bind_groups: &[(&of_cube).into()],
+                bind_groups: std::slice::from_ref(&of_cube),
                 ..cube.draw(&pipeline)
             },
         ],

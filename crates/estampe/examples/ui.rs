@@ -121,7 +121,7 @@ pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
         targets: vec![Some(target)],
         ..RenderPipelineDescriptor::new(Quads)
     })?;
-    let (quads, groups) = ([(&quads).into()], [(&atlas).into()]);
+    let (quads, groups) = ([(&quads).into()], [atlas]);
     let buttons = Draw {
         vertex_buffers: &quads,
         bind_groups: &groups,

@@ -104,7 +104,7 @@ pub use estampe_types::{
 };
 pub use pass::{
     AspectOperations, ColorAttachment, DepthStencilAttachment, DepthStencilResolve, Draw,
-    DrawBindGroup, PassErrorKind, PassExtent, RenderPass, RenderPassError, StoreOp,
+    PassErrorKind, PassExtent, RenderPass, RenderPassError, StoreOp,
 };
 #[cfg(feature = "png")]
 pub use png_file::PngError;

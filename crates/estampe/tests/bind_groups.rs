@@ -164,12 +164,11 @@ fn groups_and_bindings_are_found_by_number() {
         };
         let target = texture(&device, [18, 5], format);
         let seen = |pipeline, groups: &[BindGroup]| {
-            let bound: Vec<_> = groups.iter().map(Into::into).collect();
             device
                 .render(&RenderPass {
                     color_attachments: &[Some(ColorAttachment::clear(&target.view(), [1.0; 4]))],
                     draws: &[Draw {
-                        bind_groups: &bound,
+                        bind_groups: groups,
                         ..Draw::new(pipeline, 0..3)
                     }],
                     ..RenderPass::default()
@@ -299,7 +298,7 @@ fn a_storage_texture_is_one_level_that_the_next_pass_reads() {
                             [0.0; 4],
                         ))],
                         draws: &[Draw {
-                            bind_groups: &[(&group).into()],
+                            bind_groups: std::slice::from_ref(&group),
                             ..Draw::new(&pipeline, 0..3)
                         }],
                         ..RenderPass::default()
@@ -361,7 +360,7 @@ fn a_group_outlives_the_handles_of_its_resources() {
             .render(&RenderPass {
                 color_attachments: &[Some(ColorAttachment::clear(&target.view(), [1.0; 4]))],
                 draws: &[Draw {
-                    bind_groups: &[(&first).into(), (&one).into()],
+                    bind_groups: &[first.clone(), one.clone()],
                     ..Draw::new(&pipeline, 0..3)
                 }],
                 ..RenderPass::default()

@@ -5,9 +5,9 @@ mod support;
 use estampe::state::{PrimitiveTopology, VertexBufferLayout};
 use estampe::{
     BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType, BufferBindingType,
-    BufferDescriptor, BufferSlice, Device, Draw, DrawBindGroup, FragmentIn, FragmentOut,
-    IndexFormat, RenderPipeline, RenderPipelineDescriptor, Vec2, Vec4, VertexFormat, VertexIn,
-    VertexOut, bytes_of,
+    BufferDescriptor, BufferSlice, Device, Draw, FragmentIn, FragmentOut, IndexFormat,
+    RenderPipeline, RenderPipelineDescriptor, Vec2, Vec4, VertexFormat, VertexIn, VertexOut,
+    bytes_of,
 };
 use support::{Images, device, noise};
 
@@ -164,11 +164,13 @@ impl Scene {
         std::array::from_fn(|x| [pixels[x * 4], pixels[x * 4 + 2]])
     }
 
-    fn bound<'a>(&'a self, dynamic_offsets: &'a [u32]) -> [DrawBindGroup<'a>; 1] {
-        [DrawBindGroup {
-            group: &self.group,
-            dynamic_offsets,
-        }]
+    /// A draw with one dynamic offset.
+    fn draw<'a>(&'a self, offset: &'a u32, elements: std::ops::Range<u32>) -> Draw<'a> {
+        Draw {
+            bind_groups: std::slice::from_ref(&self.group),
+            dynamic_offsets: std::slice::from_ref(offset),
+            ..Draw::new(&self.pipeline, elements)
+        }
     }
 
     /// Vertices in columns 0 to 3, of red 51, 102, 153, 204.
@@ -189,24 +191,22 @@ fn draws_read_slices_and_dynamic_offsets() {
     // The second and third vertex: red 102 and 153 in columns 1 and 2. The binding begins at 8, so
     // the offset 8 finds the shift 2 and blue 51.
     let slice = [vertices.slice(8..24)];
-    let draw = |offsets| Draw {
+    let draw = |offset| Draw {
         vertex_buffers: &slice,
-        bind_groups: offsets,
-        ..Draw::new(&scene.pipeline, 0..2)
+        ..scene.draw(offset, 0..2)
     };
-    let [first, second] = [scene.bound(&[8]), scene.bound(&[0])];
     let expected = [NONE, NONE, NONE, [102, 51], [153, 51], NONE, NONE, NONE];
-    assert_eq!(scene.drawn(&[draw(&first)]), expected);
+    assert_eq!(scene.drawn(&[draw(&8)]), expected);
     // Two draws of one group: the second one shifts by 1.
     let mut expected = expected;
     expected[2] = [102, 255];
     expected[3] = [153, 255];
-    assert_eq!(scene.drawn(&[draw(&first), draw(&second)]), expected);
+    assert_eq!(scene.drawn(&[draw(&8), draw(&0)]), expected);
     // What is written is in the next pass.
     scene.uniforms.write(12, &0.8_f32.to_le_bytes()).unwrap();
     expected[2] = [102, 204];
     expected[3] = [153, 204];
-    assert_eq!(scene.drawn(&[draw(&first), draw(&second)]), expected);
+    assert_eq!(scene.drawn(&[draw(&8), draw(&0)]), expected);
 }
 
 /// A vertex beyond the slice reads zeros, even if the buffer goes on.
@@ -214,12 +214,10 @@ fn draws_read_slices_and_dynamic_offsets() {
 fn slices_end_where_they_end() {
     let scene = scene();
     let vertices = scene.vertices();
-    let group = scene.bound(&[0]);
     let slice = [vertices.slice(16..24)];
     let draw = Draw {
         vertex_buffers: &slice,
-        bind_groups: &group,
-        ..Draw::new(&scene.pipeline, 0..2)
+        ..scene.draw(&0, 0..2)
     };
     let mut expected = [NONE; 8];
     expected[3] = [153, 255];
@@ -234,8 +232,7 @@ fn slices_end_where_they_end() {
     let draw = Draw {
         vertex_buffers: &all,
         index_buffer: Some((&indices, IndexFormat::Uint32)),
-        bind_groups: &group,
-        ..Draw::new(&scene.pipeline, 0..3)
+        ..scene.draw(&0, 0..3)
     };
     let mut expected = [NONE; 8];
     expected[3] = [153, 255];
@@ -250,7 +247,6 @@ fn slices_end_where_they_end() {
 fn indirect_draws_read_the_parameters() {
     let scene = scene();
     let vertices = [scene.vertices().slice(..)];
-    let group = scene.bound(&[0]);
     let parameters = [99_u32, 2, 1, 1, 0, 2, 1, 1, u32::MAX, 0];
     let parameters = scene
         .device
@@ -258,7 +254,8 @@ fn indirect_draws_read_the_parameters() {
         .unwrap();
     let draw = Draw {
         vertex_buffers: &vertices,
-        bind_groups: &group,
+        bind_groups: std::slice::from_ref(&scene.group),
+        dynamic_offsets: &[0],
         ..Draw::indirect(&scene.pipeline, &parameters, 4).unwrap()
     };
     assert_eq!(
@@ -278,7 +275,8 @@ fn indirect_draws_read_the_parameters() {
     let index_buffer = (&indices, IndexFormat::Uint16);
     let draw = Draw {
         vertex_buffers: &vertices,
-        bind_groups: &group,
+        bind_groups: std::slice::from_ref(&scene.group),
+        dynamic_offsets: &[0],
         ..Draw::indexed_indirect(&scene.pipeline, index_buffer, &parameters, 20).unwrap()
     };
     assert_eq!((draw.elements.clone(), draw.base_vertex), (1..3, -1));

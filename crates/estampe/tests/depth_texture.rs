@@ -115,7 +115,7 @@ fn bound(device: &Device, depth: &Texture) -> ShadowMap {
                 samples: 1,
             }),
             draws: &[Draw {
-                bind_groups: &[(&group).into()],
+                bind_groups: std::slice::from_ref(&group),
                 ..Draw::new(&pipeline, 0..3)
             }],
             ..RenderPass::default()
@@ -269,7 +269,7 @@ fn there_is_no_shadow_map_without_depth_or_with_several_samples() {
             color_attachments: &[Some(ColorAttachment::clear(&color.view(), [0.0; 4]))],
             depth_stencil_attachment: Some(DepthStencilAttachment::load(&depth.view())),
             draws: &[Draw {
-                bind_groups: &[(&group).into()],
+                bind_groups: std::slice::from_ref(&group),
                 ..Draw::new(&pipeline, 0..3)
             }],
             ..RenderPass::default()

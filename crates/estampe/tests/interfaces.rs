@@ -99,7 +99,7 @@ fn drawn(device: &Device, does: Does, clear_depth: f32, uniform: f32) -> Vec<u8>
         depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depth.view(), clear_depth)),
         draws: &[Draw {
             vertex_buffers: &[slice(device, &CORNERS)],
-            bind_groups: &[(&group).into()],
+            bind_groups: std::slice::from_ref(&group),
             ..Draw::new(&pipeline, 0..3)
         }],
         ..RenderPass::default()

@@ -5,9 +5,9 @@ mod support;
 use estampe::{
     AspectOperations, BindGroup, BindGroupDescriptor, BindGroupError, BindGroupLayoutEntry,
     BindingResource, BindingType, BufferBindingType, BufferDescriptor, ColorAttachment,
-    DepthStencilAttachment, DepthStencilResolve, Device, Draw, DrawBindGroup, IndexFormat, Limits,
-    PassErrorKind, PassExtent, RenderPass, RenderPipelineDescriptor, ResolveMode, SampleType,
-    SamplerDescriptor, Texture, TextureDescriptor, TextureFormat, TextureUsages, ViewDimension,
+    DepthStencilAttachment, DepthStencilResolve, Device, Draw, IndexFormat, Limits, PassErrorKind,
+    PassExtent, RenderPass, RenderPipelineDescriptor, ResolveMode, SampleType, SamplerDescriptor,
+    Texture, TextureDescriptor, TextureFormat, TextureUsages, ViewDimension,
 };
 use support::{Fill, device, labelled, limited, samples, texture};
 
@@ -250,13 +250,10 @@ fn draws() {
     let device = device();
     let image = texture(&device, [8, 4], TextureFormat::Rgba8Unorm).view();
     let depth = texture(&device, [8, 4], TextureFormat::Depth16Unorm).view();
-    let layout = |ty| device.create_bind_group_layout(&[entry(3, ty)]).unwrap();
     let mut descriptor = RenderPipelineDescriptor::new(Fill::WHITE);
     let writes_depth = device.create_render_pipeline(&descriptor).unwrap();
     descriptor.depth_stencil = None;
     let plain = device.create_render_pipeline(&descriptor).unwrap();
-    descriptor.bind_group_layouts = vec![layout(DYNAMIC)];
-    let grouped = device.create_render_pipeline(&descriptor).unwrap();
     let refuse = |draw: Draw<'_>| {
         refused_pass(
             &device,
@@ -307,47 +304,73 @@ fn draws() {
         message,
         "draw 1: the index buffer begins at byte 6, which is not a multiple of 4"
     );
+}
 
+#[test]
+fn bind_groups_of_draws() {
+    use PassErrorKind as E;
+    let device = device();
+    let image = texture(&device, [8, 4], TextureFormat::Rgba8Unorm).view();
+    let layout = |ty| device.create_bind_group_layout(&[entry(3, ty)]).unwrap();
+    let mut descriptor = RenderPipelineDescriptor::new(Fill::WHITE);
+    descriptor.depth_stencil = None;
+    let plain = device.create_render_pipeline(&descriptor).unwrap();
+    descriptor.bind_group_layouts = vec![layout(DYNAMIC)];
+    let grouped = device.create_render_pipeline(&descriptor).unwrap();
+    let refuse = |draw: Draw<'_>| {
+        refused_pass(
+            &device,
+            RenderPass {
+                color_attachments: &[Some(ColorAttachment::load(&image))],
+                draws: &[Draw::new(&plain, 0..3), draw],
+                ..RenderPass::default()
+            },
+        )
+    };
+    let buffer = device.create_buffer(&BufferDescriptor::new(64)).unwrap();
     let bind = |ty, resource| bind(&device, ty, &[(3, resource)]).unwrap();
     let dynamic = bind(DYNAMIC, BindingResource::Buffer(buffer.slice(0..16)));
     let fixed = bind(UNIFORM, BindingResource::Buffer(buffer.slice(0..16)));
-    let group = |groups: &[DrawBindGroup<'_>]| {
+    let group = |groups: &[BindGroup], dynamic_offsets: &[u32]| {
         let (kind, message) = refuse(Draw {
             bind_groups: groups,
+            dynamic_offsets,
             ..Draw::new(&grouped, 0..3)
         });
         assert!(matches!(kind, E::BindGroup { draw: 1, .. }), "{kind:?}");
         message
     };
-    let with = |dynamic_offsets| DrawBindGroup {
-        group: &dynamic,
-        dynamic_offsets,
-    };
+    let dynamic = std::slice::from_ref(&dynamic);
     assert_eq!(
-        group(&[]),
+        group(&[], &[]),
         "draw 1: bind group 0: the pipeline needs it, and the draw binds none"
     );
-    let message = group(&[(&fixed).into()]);
+    let message = group(&[fixed], &[]);
     assert!(
         message.starts_with("draw 1: bind group 0: the bind group `material` has the layout [")
             && message.contains("], and the pipeline needs ["),
         "{message}"
     );
     assert_eq!(
-        group(&[with(&[])]),
-        "draw 1: bind group 0: 0 dynamic offsets, and the bind group `material` has 1"
+        group(dynamic, &[]),
+        "draw 1: bind group 0: the bind group `material` has 1 dynamic offsets, and 0 of the 0 that \
+         the draw gives are left for it"
     );
     assert_eq!(
-        group(&[with(&[6])]),
+        group(dynamic, &[0, 4]),
+        "draw 1: bind group 0: the draw gives 2 dynamic offsets, and its bind groups have 1"
+    );
+    assert_eq!(
+        group(dynamic, &[6]),
         "draw 1: bind group 0: the dynamic offset 6 of binding 3 is not a multiple of 4"
     );
     assert_eq!(
-        group(&[with(&[52])]),
+        group(dynamic, &[52]),
         "draw 1: bind group 0: binding 3 with the dynamic offset 52 ends at byte 68 of a buffer, \
          which has 64"
     );
     assert_eq!(
-        group(&[with(&[0]), with(&[0]), with(&[0]), with(&[0]), with(&[0])]),
+        group(&vec![dynamic[0].clone(); 5], &[0; 5]),
         "draw 1: bind group 4: the limit max_bind_groups is 4"
     );
     // A pass cannot sample what it draws into.
@@ -359,7 +382,7 @@ fn draws() {
         BindingResource::SampledTexture(image.clone(), sampler),
     );
     let (kind, message) = refuse(Draw {
-        bind_groups: &[(&sampled).into()],
+        bind_groups: std::slice::from_ref(&sampled),
         ..Draw::new(&plain, 0..3)
     });
     assert!(matches!(kind, E::UsedTwice { .. }));

@@ -100,7 +100,7 @@ fn draw(device: &Device, pipeline: &RenderPipeline, group: &BindGroup, into: &Te
         .render(&RenderPass {
             color_attachments: &[Some(ColorAttachment::load(into))],
             draws: &[Draw {
-                bind_groups: &[group.into()],
+                bind_groups: std::slice::from_ref(group),
                 ..Draw::new(pipeline, 0..3)
             }],
             ..RenderPass::default()
@@ -200,7 +200,7 @@ fn pictures_are_sampled_and_rendered_to_in_turn() {
                 .render(&RenderPass {
                     color_attachments: &[Some(ColorAttachment::load(&a.view()))],
                     draws: &[Draw {
-                        bind_groups: &[(&from_b).into()],
+                        bind_groups: std::slice::from_ref(&from_b),
                         scissor: Some(ScissorRect {
                             x: 30,
                             y: 0,
@@ -557,7 +557,7 @@ fn depth_is_sampled_while_it_is_tested_read_only() {
                         &images.depth.view(),
                     )),
                     draws: &[Draw {
-                        bind_groups: &[(&group).into()],
+                        bind_groups: std::slice::from_ref(&group),
                         ..Draw::new(&pipeline, 0..3)
                     }],
                     ..RenderPass::default()

@@ -90,7 +90,7 @@ fn sample_of(device: &Device, samples: &Texture, sample: i32) -> Vec<u8> {
         .render(&RenderPass {
             color_attachments: &[Some(ColorAttachment::clear(&image.view(), [0.0; 4]))],
             draws: &[Draw {
-                bind_groups: &[(&group).into()],
+                bind_groups: std::slice::from_ref(&group),
                 ..Draw::new(&pipeline, 0..3)
             }],
             ..RenderPass::default()

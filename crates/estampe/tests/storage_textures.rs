@@ -81,7 +81,7 @@ fn drawn(level: Level, threads: usize, clear_depth: f32) -> [Vec<u8>; 2] {
     let buffers = [buffer.expect("it is small").slice(..)];
     let draws = [Draw {
         vertex_buffers: &buffers,
-        bind_groups: &[(&group).into()],
+        bind_groups: std::slice::from_ref(&group),
         ..Draw::new(&pipeline, 0..6)
     }];
     let images = Images::with(&device, SIZE, format, 1);
@@ -148,7 +148,7 @@ fn a_storage_texture_needs_a_shader_that_stores() {
             color_attachments: &[Some(ColorAttachment::load(&images.color.view()))],
             depth_stencil_attachment: Some(DepthStencilAttachment::load(&images.depth.view())),
             draws: &[Draw {
-                bind_groups: &[(&group).into()],
+                bind_groups: std::slice::from_ref(&group),
                 ..Draw::new(&pipeline, 0..3)
             }],
             ..RenderPass::default()

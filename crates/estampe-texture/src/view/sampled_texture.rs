@@ -98,11 +98,21 @@ impl SampledTexture {
     /// Samples with the level of detail of the quad (`textureSample`).
     #[inline(always)]
     pub fn sample<R: Real>(&self, at: impl TextureCoordinates<R>) -> Vec4<R> {
-        let at = at.coordinates();
         if let Some(common) = &self.common {
-            return common.sample(Vec2::new(at.uvw.x, at.uvw.y));
+            let uvw = at.coordinates().uvw;
+            return common.sample(Vec2::new(uvw.x, uvw.y));
         }
-        self.sample_with(at, Lod::Implicit, [0; 3])
+        self.sample_other(at)
+    }
+
+    /// Samples a texture that is not [common](Self::common), outside the shader's code.
+    #[inline(always)]
+    fn sample_other<R: Real>(&self, at: impl TextureCoordinates<R>) -> Vec4<R> {
+        let at = at.coordinates();
+        at.uvw.x.out_of_line(
+            #[inline(always)]
+            move || self.sample_with(at, Lod::Implicit, [0; 3]),
+        )
     }
 
     /// Samples several textures at the same coordinates, such as a surface's colour and its normal
@@ -113,19 +123,13 @@ impl SampledTexture {
         textures: [&Self; N],
         at: impl TextureCoordinates<R>,
     ) -> [Vec4<R>; N] {
-        let at = at.coordinates();
         if let Some(common) = all_common(&textures) {
-            return Rgba8Texture::sample_all(common, Vec2::new(at.uvw.x, at.uvw.y));
+            let uvw = at.coordinates().uvw;
+            return Rgba8Texture::sample_all(common, Vec2::new(uvw.x, uvw.y));
         }
-        // Rare and large: outside the shader's code.
-        at.uvw.x.out_of_line(
+        textures.map(
             #[inline(always)]
-            || {
-                textures.map(
-                    #[inline(always)]
-                    |texture| texture.sample_with(at, Lod::Implicit, [0; 3]),
-                )
-            },
+            |texture| texture.sample_other(at),
         )
     }
 

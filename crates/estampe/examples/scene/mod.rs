@@ -8,8 +8,8 @@ use estampe::state::{BlendState, ColorTargetState, MultisampleState, VertexBuffe
 use estampe::{
     BindGroup, BindGroupDescriptor, BindGroupLayout, BindGroupLayoutEntry, BindingResource,
     BindingType, BufferBindingType, BufferSlice, ColorAttachment, DepthStencilAttachment, Device,
-    Draw, DrawBindGroup, FragmentIn, FragmentOut, IndexFormat, Int, Mat4, Operand, Real,
-    RenderPass, RenderPipeline, RenderPipelineDescriptor, SampleType, Sampler, Shader, Texture,
+    Draw, FragmentIn, FragmentOut, IndexFormat, Int, Mat4, Operand, Real, RenderPass,
+    RenderPipeline, RenderPipelineDescriptor, SampleType, Sampler, Shader, Texture,
     TextureDescriptor, TextureFormat, TextureView, Vec2, Vec3, Vec4, VertexFormat, VertexIn,
     VertexOut, maths, vec4,
 };
@@ -117,7 +117,7 @@ pub(crate) fn fill(
         targets: vec![Some(target)],
         ..RenderPipelineDescriptor::new(shader)
     })?;
-    let groups: Vec<_> = bound.iter().map(|(_, group)| group.into()).collect();
+    let groups: Vec<_> = bound.iter().map(|(_, group)| group.clone()).collect();
     device.render(&RenderPass {
         color_attachments: &[Some(into)],
         draws: &[Draw {
@@ -301,7 +301,7 @@ fn vertex([x, y, z]: [f32; 3], [nx, ny, nz]: [f32; 3], [u, v]: [f32; 2]) -> Vert
 pub(crate) struct Objects<'s> {
     pub(crate) layout: BindGroupLayout,
     solids: Vec<&'s Solid>,
-    groups: Vec<BindGroup>,
+    groups: Vec<Vec<BindGroup>>,
 }
 
 impl<'s> Objects<'s> {
@@ -313,28 +313,23 @@ impl<'s> Objects<'s> {
         Ok(Self {
             layout: bound[0].0.clone(),
             solids: list.iter().map(|(solid, ..)| *solid).collect(),
-            groups: bound.into_iter().map(|(_, group)| group).collect(),
+            groups: bound.into_iter().map(|(_, group)| vec![group]).collect(),
         })
     }
 
-    /// The bind groups of each draw: the group of its object as group 0, then others.
-    pub(crate) fn bound<'a>(&'a self, others: &[&'a BindGroup]) -> Vec<Vec<DrawBindGroup<'a>>> {
-        let all = |group| std::iter::once(group).chain(others.iter().copied());
-        let groups = self.groups.iter();
-        groups
-            .map(|group| all(group).map(DrawBindGroup::from).collect())
-            .collect()
+    /// Binds a group as group 1 of every draw.
+    pub(crate) fn bind(mut self, group: &BindGroup) -> Self {
+        for groups in &mut self.groups {
+            groups.push(group.clone());
+        }
+        self
     }
 
     /// A draw of each object.
-    pub(crate) fn draws<'a>(
-        &'a self,
-        pipeline: &'a RenderPipeline,
-        bound: &'a [Vec<DrawBindGroup<'a>>],
-    ) -> Vec<Draw<'a>> {
-        let objects = self.solids.iter().zip(bound);
-        let draws = objects.map(|(solid, bound)| Draw {
-            bind_groups: bound,
+    pub(crate) fn draws<'a>(&'a self, pipeline: &'a RenderPipeline) -> Vec<Draw<'a>> {
+        let objects = self.solids.iter().zip(&self.groups);
+        let draws = objects.map(|(solid, bind_groups)| Draw {
+            bind_groups,
             ..solid.draw(pipeline)
         });
         draws.collect()

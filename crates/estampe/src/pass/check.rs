@@ -149,40 +149,50 @@ fn check_groups(number: usize, draw: &Draw<'_>, limits: &Limits) -> Result<(), P
             let rule = "the pipeline needs it, and the draw binds none".to_owned();
             return bad(index, rule);
         };
-        if bound.group.layout() != layout {
+        if bound.layout() != layout {
             let rule = format!(
                 "{} has the layout {:?}, and the pipeline needs {layout:?}",
-                bound.group.name(),
-                bound.group.layout()
+                bound.name(),
+                bound.layout()
             );
             return bad(index, rule);
         }
     }
-    for (index, bound) in draw.bind_groups.iter().enumerate() {
+    let mut offsets = draw.dynamic_offsets;
+    for (index, group) in draw.bind_groups.iter().enumerate() {
         let is_storage =
             |entry: &BindGroupLayoutEntry| matches!(entry.ty, BindingType::StorageTexture { .. });
-        if !draw.pipeline.stores() && bound.group.layout().entries().iter().any(is_storage) {
-            let name = bound.group.name();
+        if !draw.pipeline.stores() && group.layout().entries().iter().any(is_storage) {
+            let name = group.name();
             let rule = format!(
                 "{name} has a storage texture, and the shader declares no stores: set its constant \
                  `STORES`"
             );
             return bad(index, rule);
         }
-        let (expected, given) = (
-            bound.group.layout().dynamic_offset_count(),
-            bound.dynamic_offsets.len(),
-        );
-        if given != expected {
-            let name = bound.group.name();
-            let rule = format!("{given} dynamic offsets, and {name} has {expected}");
+        let count = group.layout().dynamic_offset_count();
+        let Some((of_group, others)) = offsets.split_at_checked(count) else {
+            let (name, given) = (group.name(), draw.dynamic_offsets.len());
+            let rule = format!(
+                "{name} has {count} dynamic offsets, and {} of the {given} that the draw gives are left for it",
+                offsets.len()
+            );
             return bad(index, rule);
-        }
-        if given > 0
-            && let Err(rule) = check_dynamic_offsets(bound.group, bound.dynamic_offsets, limits)
+        };
+        offsets = others;
+        if count > 0
+            && let Err(rule) = check_dynamic_offsets(group, of_group, limits)
         {
             return bad(index, rule);
         }
+    }
+    if !offsets.is_empty() {
+        let given = draw.dynamic_offsets.len();
+        let rule = format!(
+            "the draw gives {given} dynamic offsets, and its bind groups have {}",
+            given - offsets.len()
+        );
+        return bad(draw.bind_groups.len().saturating_sub(1), rule);
     }
     Ok(())
 }

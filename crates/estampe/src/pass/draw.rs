@@ -6,26 +6,6 @@ use crate::{
 use estampe_types::state::{ScissorRect, Viewport};
 use std::ops::Range;
 
-/// A bind group of a draw.
-#[derive(Debug, Clone, Copy)]
-pub struct DrawBindGroup<'a> {
-    /// The group.
-    pub group: &'a BindGroup,
-    /// The dynamic offsets in bytes, in the order of binding numbers: as many as the layout has,
-    /// each a multiple of 4. Default none.
-    pub dynamic_offsets: &'a [u32],
-}
-
-impl<'a> From<&'a BindGroup> for DrawBindGroup<'a> {
-    /// A group without dynamic offsets.
-    fn from(group: &'a BindGroup) -> Self {
-        Self {
-            group,
-            dynamic_offsets: &[],
-        }
-    }
-}
-
 /// One draw: a pipeline, the data that it reads, and how much of it.
 #[derive(Debug, Clone)]
 pub struct Draw<'a> {
@@ -44,7 +24,10 @@ pub struct Draw<'a> {
     /// Added to every index. Default 0.
     pub base_vertex: i32,
     /// The bind groups, by group number. Default none.
-    pub bind_groups: &'a [DrawBindGroup<'a>],
+    pub bind_groups: &'a [BindGroup],
+    /// The dynamic offsets in bytes, each a multiple of 4: those of the first group in the order of
+    /// its binding numbers, then those of the next. Default none.
+    pub dynamic_offsets: &'a [u32],
     /// The rectangle that NDC is mapped to, and the range of depths. Default the whole attachment,
     /// depth 0..1.
     pub viewport: Option<Viewport>,
@@ -74,6 +57,7 @@ impl<'a> Draw<'a> {
             instances: 0..1,
             base_vertex: 0,
             bind_groups: &[],
+            dynamic_offsets: &[],
             viewport: None,
             scissor: None,
             blend_constant: [0.0; 4],

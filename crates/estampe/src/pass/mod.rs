@@ -7,7 +7,7 @@ mod error;
 mod images;
 mod run;
 
-pub use draw::{Draw, DrawBindGroup};
+pub use draw::Draw;
 pub use error::{PassErrorKind, RenderPassError};
 pub(crate) use run::render;
 

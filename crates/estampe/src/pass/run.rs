@@ -2,7 +2,7 @@
 
 use super::attachments::Attachments;
 use super::check::{check_draw, check_uses, check_vertices};
-use super::{Draw, DrawBindGroup, PassErrorKind, RenderPass, RenderPassError};
+use super::{Draw, PassErrorKind, RenderPass, RenderPassError};
 use crate::bind_group::BindingResource;
 use crate::texture::{StoredTextures, Texture};
 use crate::{BindGroup, BufferSlice, Context, Limits, Statistics};
@@ -102,14 +102,14 @@ impl<'a> Groups<'a> {
             distinct: Vec::new(),
             indices: BTreeMap::new(),
         };
-        let mut before: &[DrawBindGroup<'_>] = &[];
+        let mut before: &[BindGroup] = &[];
         for draw in draws {
             if !std::ptr::eq(draw.bind_groups, before) {
-                for bound in draw.bind_groups {
-                    if groups.index_of(bound.group).is_none() {
+                for group in draw.bind_groups {
+                    if groups.index_of(group).is_none() {
                         let index = groups.distinct.len();
-                        groups.indices.insert(bound.group.id(), index);
-                        groups.distinct.push(bound.group);
+                        groups.indices.insert(group.id(), index);
+                        groups.distinct.push(group);
                     }
                 }
                 before = draw.bind_groups;
@@ -174,10 +174,16 @@ impl DrawData {
                     data.buffers.len() - 1
                 });
             }
-            if !is_same(|a, b| same_groups(a.bind_groups, b.bind_groups)) {
+            if !is_same(same_groups) {
                 last.2 = (!draw.bind_groups.is_empty()).then(|| {
+                    let mut offsets = draw.dynamic_offsets;
                     let bound = draw.bind_groups.iter();
-                    let bound = bound.map(|bound| bound_group(bound, groups, resources));
+                    let bound = bound.map(|group| {
+                        let count = group.layout().dynamic_offset_count();
+                        let (of_group, others) = offsets.split_at(count.min(offsets.len()));
+                        offsets = others;
+                        bound_group(group, of_group, groups, resources)
+                    });
                     data.bindings.push(Bindings {
                         groups: bound.collect(),
                     });
@@ -215,13 +221,14 @@ impl DrawData {
 }
 
 fn bound_group(
-    bound: &DrawBindGroup<'_>,
+    group: &BindGroup,
+    offsets: &[u32],
     groups: &Groups<'_>,
     resources: &[Arc<BoundResources>],
 ) -> BoundGroup {
-    let index = groups.index_of(bound.group);
+    let index = groups.index_of(group);
     let mut dynamic_offsets = [0; MAX_DYNAMIC_OFFSETS];
-    for (to, offset) in dynamic_offsets.iter_mut().zip(bound.dynamic_offsets) {
+    for (to, offset) in dynamic_offsets.iter_mut().zip(offsets) {
         *to = *offset;
     }
     BoundGroup {
@@ -247,9 +254,9 @@ fn same_slices(a: &[BufferSlice], b: &[BufferSlice]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_slice(a, b))
 }
 
-fn same_groups(a: &[DrawBindGroup<'_>], b: &[DrawBindGroup<'_>]) -> bool {
-    let is_same = |(a, b): (&DrawBindGroup<'_>, &DrawBindGroup<'_>)| {
-        a.group.is_same(b.group) && a.dynamic_offsets == b.dynamic_offsets
-    };
-    a.len() == b.len() && a.iter().zip(b).all(is_same)
+fn same_groups(a: &Draw<'_>, b: &Draw<'_>) -> bool {
+    let same = a.bind_groups.iter().zip(b.bind_groups);
+    a.bind_groups.len() == b.bind_groups.len()
+        && a.dynamic_offsets == b.dynamic_offsets
+        && same.into_iter().all(|(a, b)| a.is_same(b))
 }
