@@ -1,15 +1,19 @@
 //! Textures: images of any dimension, format and role, and their views.
 
+mod blocks;
 mod contents;
 mod error;
-mod regions;
+mod first_texels;
+mod host_access;
+mod region;
 mod stores;
 mod view;
 
 pub(crate) use contents::{Contents, Image, ImageKey, Newest};
 pub use error::TextureError;
-pub use regions::{TexelCopyLayout, TextureCopy};
-pub(crate) use regions::{read, read_sample, tight_len, write, zero};
+pub(crate) use host_access::{read, read_sample, write, zero};
+pub(crate) use region::tight_len;
+pub use region::{TexelCopyLayout, TextureCopy};
 pub(crate) use stores::StoredTextures;
 pub(crate) use view::sampled_texture;
 pub use view::{Sampler, TextureView, TextureViewDescriptor};

@@ -1,0 +1,52 @@
+//! The texels that a texture is created with.
+
+use super::{ImageKey, Texture, TextureError};
+use crate::Limits;
+use estampe_texture::{
+    LevelData, MipGeneration, TexelDescriptor, create_texture,
+};
+use estampe_types::TextureFormat;
+
+impl Texture {
+    /// Sets the texels to the tight bytes of the first mip levels; the others are generated.
+    pub(super) fn fill(&self, levels: &[&[u8]], limits: &Limits) -> Result<(), TextureError> {
+        let descriptor = self.descriptor();
+        let mips = if levels.len() < descriptor.mip_level_count as usize {
+            MipGeneration::Full
+        } else {
+            MipGeneration::None
+        };
+        let mut contents = self.lock();
+        let size = (descriptor.width, descriptor.height);
+        let one = TexelDescriptor::new_2d(size.0, size.1, descriptor.format);
+        let data = match levels {
+            // The common case has code of its own.
+            [rgba] if is_rgba8(descriptor.format) && *descriptor == one.with_all_levels() => {
+                create_texture(size.0, size.1, descriptor.format, rgba, mips, limits)?
+            }
+            _ => {
+                let data: Vec<_> = levels.iter().map(|bytes| LevelData::tight(bytes)).collect();
+                descriptor.create(&data, mips, limits)?
+            }
+        };
+        if descriptor.format.is_compressed() {
+            for (level, bytes) in (0..).zip(levels) {
+                let layers = self.level_size(level).depth_or_array_layers;
+                let image = (bytes.len() / layers.max(1) as usize).max(1);
+                for (layer, bytes) in (0..).zip(bytes.chunks(image)) {
+                    let key = ImageKey { level, layer };
+                    contents.blocks.insert(key, bytes.to_vec());
+                }
+            }
+        }
+        contents.set_rows(data);
+        Ok(())
+    }
+}
+
+fn is_rgba8(format: TextureFormat) -> bool {
+    matches!(
+        format,
+        TextureFormat::Rgba8Unorm | TextureFormat::Rgba8UnormSrgb
+    )
+}

@@ -1,0 +1,148 @@
+//! Texels between the host's bytes and textures: regions, single samples, clears to zero.
+
+use super::blocks::blocks_of;
+use super::contents::words_of;
+use super::region::{Region, TexelCopyLayout, TextureCopy, unsupported};
+use super::{Extent3d, Image, ImageKey, Texture, TextureError, TextureUsages, TextureView};
+use crate::Context;
+use estampe_texture::region::{RowSpan, aspect_bytes, read_row, write_blocks, write_row};
+use estampe_types::TextureAspect;
+
+/// Writes a region from bytes.
+pub(crate) fn write(
+    context: &Context,
+    copy: &TextureCopy<'_>,
+    bytes: &[u8],
+    layout: &TexelCopyLayout,
+    size: Extent3d,
+) -> Result<(), TextureError> {
+    let texture = copy.texture;
+    texture.require(TextureUsages::COPY_DST)?;
+    let region = Region::new(copy, size, layout, bytes.len() as u64)?;
+    let mut contents = texture.lock();
+    let is_compressed = texture.format().is_compressed();
+    if is_compressed {
+        for (span, first) in region.spans() {
+            let stored = blocks_of(&mut contents.blocks, texture, span);
+            stored[..region.row_bytes].copy_from_slice(&bytes[first..][..region.row_bytes]);
+        }
+    }
+    contents.write_rows(texture, context, region.images(), |data, words| {
+        for (span, first) in region.spans() {
+            let bytes = &bytes[first..][..region.row_bytes];
+            if is_compressed {
+                write_blocks(data, span, bytes, words);
+            } else {
+                write_row(data, span, copy.aspect, bytes, words);
+            }
+        }
+    })
+}
+
+/// Reads a region into bytes.
+pub(crate) fn read(
+    context: &Context,
+    copy: &TextureCopy<'_>,
+    bytes: &mut [u8],
+    layout: &TexelCopyLayout,
+    size: Extent3d,
+) -> Result<(), TextureError> {
+    let texture = copy.texture;
+    texture.require(TextureUsages::COPY_SRC)?;
+    let region = Region::new(copy, size, layout, bytes.len() as u64)?;
+    let mut contents = texture.lock();
+    if texture.format().is_compressed() {
+        for (span, first) in region.spans() {
+            let stored = blocks_of(&mut contents.blocks, texture, span);
+            bytes[first..][..region.row_bytes].copy_from_slice(&stored[..region.row_bytes]);
+        }
+        return Ok(());
+    }
+    let level = texture.level_size(copy.mip_level);
+    let is_whole = size == Extent3d::new_2d(level.width, level.height);
+    let is_tight =
+        *layout == TexelCopyLayout::default() && bytes.len() == region.row_bytes * region.rows;
+    if is_whole
+        && is_tight
+        && copy.aspect == TextureAspect::All
+        && let Some(Image::Color(image)) = contents.tiles(region.key)
+    {
+        context.read_color_texels(image, bytes);
+        return Ok(());
+    }
+    let data = contents.rows(texture, context)?;
+    for (span, first) in region.spans() {
+        read_row(
+            &data,
+            span,
+            (copy.aspect, 0),
+            &mut bytes[first..][..region.row_bytes],
+        );
+    }
+    Ok(())
+}
+
+/// Reads one sample of each texel of an image.
+pub(crate) fn read_sample(
+    context: &Context,
+    view: &TextureView,
+    sample: u32,
+) -> Result<Vec<u8>, TextureError> {
+    let (texture, format) = (view.texture(), view.texture().format());
+    texture.require(TextureUsages::COPY_SRC)?;
+    let key = view.image_key(None);
+    let Some(key) = key.filter(|_| !format.is_compressed() && sample < texture.sample_count())
+    else {
+        let rule = "a sample is read of one level of one layer, not compressed, that has it";
+        return Err(unsupported(texture, rule));
+    };
+    let data = texture.lock().rows(texture, context)?;
+    let level = data.levels[key.level as usize];
+    let (width, height) = (level.width as usize, level.height as usize);
+    let each = aspect_bytes(format, view.aspect());
+    let mut bytes = vec![0; width * height * each];
+    for (y, row) in bytes.chunks_mut(width * each).enumerate() {
+        let span = RowSpan {
+            level: key.level as usize,
+            slice: key.layer as usize,
+            x: 0,
+            y,
+            width,
+        };
+        read_row(&data, span, (view.aspect(), sample as usize), row);
+    }
+    Ok(bytes)
+}
+
+/// Sets one aspect or all of every texel of some images to zero.
+pub(crate) fn zero(
+    context: &Context,
+    texture: &Texture,
+    keys: &[ImageKey],
+    aspect: TextureAspect,
+) -> Result<(), TextureError> {
+    let mut contents = texture.lock();
+    contents.blocks.retain(|key, _| !keys.contains(key));
+    contents.write_rows(texture, context, keys.iter().copied(), |data, words| {
+        for key in keys {
+            if aspect == TextureAspect::All {
+                words[words_of(data, *key)].fill(0);
+                continue;
+            }
+            let level = data.levels[key.level as usize];
+            let width = level.width as usize;
+            let samples = data.shape.samples as usize;
+            let zeros = vec![0; width * samples * aspect_bytes(data.format, aspect)];
+            for y in 0..level.height as usize {
+                let span = RowSpan {
+                    level: key.level as usize,
+                    slice: key.layer as usize,
+                    x: 0,
+                    y,
+                    width,
+                };
+                write_row(data, span, aspect, &zeros, words);
+            }
+        }
+    })
+}

@@ -1,0 +1,210 @@
+//! Regions of textures: which texels a copy reads or writes, and where their bytes are in memory.
+
+use super::{Extent3d, ImageKey, Texture, TextureError};
+use estampe_texture::region::{RowSpan, aspect_bytes};
+use estampe_types::TextureAspect;
+
+/// One side of a copy: a mip level, and where in it the region begins. WebGPU's
+/// `GPUTexelCopyTextureInfo`.
+#[derive(Debug, Clone)]
+pub struct TextureCopy<'a> {
+    /// The texture.
+    pub texture: &'a Texture,
+    /// The mip level. Default 0.
+    pub mip_level: u32,
+    /// The first texel: column, row, and layer or depth. Default zeros.
+    pub origin: [u32; 3],
+    /// The aspect of a depth-stencil format. Default all of it.
+    pub aspect: TextureAspect,
+}
+
+impl<'a> From<&'a Texture> for TextureCopy<'a> {
+    /// The full size, from the first texel on.
+    fn from(texture: &'a Texture) -> Self {
+        Self {
+            texture,
+            mip_level: 0,
+            origin: [0; 3],
+            aspect: TextureAspect::All,
+        }
+    }
+}
+
+/// The layout of a region's bytes in memory: WebGPU's `GPUTexelCopyBufferLayout`. The default is
+/// without padding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct TexelCopyLayout {
+    /// The first byte. Default 0.
+    pub offset: u64,
+    /// Bytes from the start of a row (of blocks if the format is compressed) to the start of the
+    /// next. Default those of the region's rows.
+    pub bytes_per_row: Option<u32>,
+    /// Rows (of blocks) from the start of a layer to the start of the next. Default those of the
+    /// region.
+    pub rows_per_image: Option<u32>,
+}
+
+/// A region that is known to lie in its level, and the layout of its bytes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Region {
+    /// The mip level, and the first layer or slice.
+    pub(super) key: ImageKey,
+    origin: [usize; 2],
+    columns: usize,
+    /// Rows of texels, or of blocks.
+    pub(super) rows: usize,
+    layers: usize,
+    block_height: usize,
+    /// Bytes of a row without padding.
+    pub(super) row_bytes: usize,
+    row_stride: usize,
+    layer_stride: usize,
+    offset: usize,
+}
+
+impl Region {
+    pub(super) fn new(
+        copy: &TextureCopy<'_>,
+        size: Extent3d,
+        layout: &TexelCopyLayout,
+        bytes: u64,
+    ) -> Result<Self, TextureError> {
+        let texture = copy.texture;
+        let format = texture.format();
+        let [block_width, block_height] = format.block_size();
+        let has_level = copy.mip_level < texture.mip_level_count();
+        let level = if has_level {
+            texture.level_size(copy.mip_level)
+        } else {
+            Extent3d {
+                width: 0,
+                height: 0,
+                depth_or_array_layers: 0,
+            }
+        };
+        let fits = |first: u32, len: u32, side: u32, block: u32| {
+            let end = first.checked_add(len);
+            first.is_multiple_of(block)
+                && end.is_some_and(|end| end <= side && (len.is_multiple_of(block) || end == side))
+        };
+        let [x, y, layer] = copy.origin;
+        let Extent3d {
+            width,
+            height,
+            depth_or_array_layers: layers,
+        } = size;
+        if !has_level
+            || !fits(x, width, level.width, block_width)
+            || !fits(y, height, level.height, block_height)
+            || !fits(layer, layers, level.depth_or_array_layers, 1)
+        {
+            return Err(TextureError::Region {
+                texture: texture.name(),
+                level: copy.mip_level,
+                origin: copy.origin,
+                size,
+                level_size: level,
+                block: [block_width, block_height],
+            });
+        }
+        let has_aspect = match copy.aspect {
+            TextureAspect::All => true,
+            TextureAspect::Depth => format.has_depth(),
+            TextureAspect::Stencil => format.has_stencil(),
+        };
+        if !has_aspect {
+            return Err(unsupported(texture, "it does not have this aspect"));
+        }
+        if texture.sample_count() != 1 {
+            return Err(unsupported(
+                texture,
+                "resolve a multisampled texture before it is copied to or from the host",
+            ));
+        }
+        let each = aspect_bytes(format, copy.aspect) as u64;
+        let rows = u64::from(height.div_ceil(block_height));
+        let row_bytes = u64::from(width.div_ceil(block_width)) * each;
+        let row_stride = layout.bytes_per_row.map_or(row_bytes, u64::from);
+        let image_rows = layout.rows_per_image.map_or(rows, u64::from);
+        let is_empty = width == 0 || height == 0 || layers == 0;
+        let last = u64::from(layers.saturating_sub(1));
+        let expected = if is_empty {
+            0
+        } else {
+            let last_layer = row_stride.saturating_mul(image_rows).saturating_mul(last);
+            let last_row = row_stride.saturating_mul(rows - 1);
+            let end = last_layer
+                .saturating_add(last_row)
+                .saturating_add(row_bytes);
+            end.saturating_add(layout.offset)
+        };
+        if row_stride < row_bytes || image_rows < rows || expected > bytes {
+            return Err(TextureError::Bytes {
+                texture: texture.name(),
+                expected,
+                bytes_per_row: row_bytes,
+                actual: bytes,
+            });
+        }
+        // What is used is at most `expected`, the length of bytes in memory.
+        let within = |value: u64| usize::try_from(value).unwrap_or(usize::MAX);
+        Ok(Self {
+            key: ImageKey {
+                level: copy.mip_level,
+                layer,
+            },
+            origin: [x as usize, y as usize],
+            columns: width as usize,
+            rows: if is_empty { 0 } else { within(rows) },
+            layers: layers as usize,
+            block_height: block_height as usize,
+            row_bytes: within(row_bytes),
+            row_stride: within(row_stride),
+            layer_stride: within(row_stride.saturating_mul(image_rows)),
+            offset: within(layout.offset),
+        })
+    }
+
+    /// The images that the region touches.
+    pub(super) fn images(self) -> impl Iterator<Item = ImageKey> {
+        let last = self.key.layer + u32::try_from(self.layers).unwrap_or_default();
+        (self.key.layer..last).map(move |layer| ImageKey { layer, ..self.key })
+    }
+
+    /// Each row of the region: the span of texels, and where its bytes begin.
+    pub(super) fn spans(self) -> impl Iterator<Item = (RowSpan, usize)> {
+        (0..self.layers).flat_map(move |layer| {
+            (0..self.rows).map(move |row| {
+                let span = RowSpan {
+                    level: self.key.level as usize,
+                    slice: self.key.layer as usize + layer,
+                    x: self.origin[0],
+                    y: self.origin[1] + row * self.block_height,
+                    width: self.columns,
+                };
+                let first = self.offset + layer * self.layer_stride + row * self.row_stride;
+                (span, first)
+            })
+        })
+    }
+}
+
+/// An error that names the rule which a texture breaks.
+pub(super) fn unsupported(texture: &Texture, rule: &'static str) -> TextureError {
+    TextureError::Unsupported {
+        texture: texture.name(),
+        format: texture.format(),
+        samples: texture.sample_count(),
+        rule,
+    }
+}
+
+/// Bytes of a region without padding.
+pub(crate) fn tight_len(copy: &TextureCopy<'_>, size: Extent3d) -> u64 {
+    let format = copy.texture.format();
+    let [width, height] = format.block_size();
+    u64::from(size.width.div_ceil(width))
+        * u64::from(size.height.div_ceil(height))
+        * u64::from(size.depth_or_array_layers)
+        * aspect_bytes(format, copy.aspect) as u64
+}
