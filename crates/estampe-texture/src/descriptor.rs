@@ -2,7 +2,7 @@
 //! format's own bytes.
 
 use crate::upload::{self, LevelData};
-use crate::{MipGeneration, TextureError, generate};
+use crate::{MipGeneration, TextureError, generate, region};
 use estampe_types::{Limits, MipLevel, TexelData, TextureDimension, TextureFormat, TextureShape};
 
 /// The most 32-bit words of a texture: their indices fit the signed 32-bit integers of lane code.
@@ -60,8 +60,8 @@ impl TexelDescriptor {
     }
 
     /// Creates the texture from the data of its first levels. The other levels are generated from
-    /// those if `mips` says so, else they are zeros. The descriptor alone determines the number of
-    /// levels.
+    /// those if `mips` says so, else they are zeros: in compressed formats blocks of zero bytes.
+    /// The descriptor alone determines the number of levels.
     ///
     /// # Errors
     /// [`TextureError`] when the descriptor breaks one of its rules, bytes are missing, or memory
@@ -86,14 +86,15 @@ impl TexelDescriptor {
             is_opaque: false,
             shape: self.shape(),
         };
-        let made = data.len().max(1)..self.mip_level_count as usize;
+        let count = self.mip_level_count as usize;
+        let made = data.len().max(1)..count;
         if mips == MipGeneration::Full && !made.is_empty() && !generate::is_possible(&texture) {
             return Err(TextureError::MipGeneration {
                 format: self.format,
             });
         }
         let mut texels = 0;
-        for level in 0..self.mip_level_count as usize {
+        for level in 0..count {
             let (width, height) = self.size_of(level);
             // No bits are lost: `check` limits the words of all levels to 31 bits.
             let offset = u32::try_from(texels).unwrap_or(u32::MAX);
@@ -104,11 +105,17 @@ impl TexelDescriptor {
             });
             texels += self.texels_of(level);
         }
-        let count = usize::try_from(texels).unwrap_or(usize::MAX);
-        let count = count.saturating_mul(texture.words_per_texel());
-        let mut words = zeros(count)?;
+        let texels = usize::try_from(texels).unwrap_or(usize::MAX);
+        let mut words = zeros(texels.saturating_mul(texture.words_per_texel()))?;
         for (level, data) in data.iter().enumerate() {
             upload::level(&texture, level, data, &mut words)?;
+        }
+        if self.format.is_compressed() {
+            for level in data.len()..count {
+                for slice in 0..texture.shape.slices(level) as usize {
+                    region::write_zeros(&texture, level, slice, &mut words);
+                }
+            }
         }
         if mips == MipGeneration::Full {
             for level in made {

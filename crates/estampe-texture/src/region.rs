@@ -8,6 +8,9 @@ use crate::blocks::{self, MAX_WORDS};
 use crate::upload::{bytes_of_words, words_of_bytes};
 use estampe_types::{TexelData, TextureAspect, TextureFormat};
 
+/// The most bytes of a compressed block.
+const MAX_BLOCK_BYTES: usize = 16;
+
 /// Part of one level and slice of a texture, in texels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RowSpan {
@@ -139,6 +142,41 @@ pub fn write_blocks(texture: &TexelData, span: RowSpan, bytes: &[u8], words: &mu
                 ..span
             };
             words[words_of(texture, row)].copy_from_slice(&texels[..columns * each]);
+        }
+    }
+}
+
+/// Sets the texels of one level of one slice to zeros; of compressed formats to those of blocks of
+/// zero bytes, which need not be zeros (of ASTC they are the error colour).
+pub fn write_zeros(texture: &Texture, level: usize, slice: usize, words: &mut [u32]) {
+    let size = texture.levels[level];
+    let (width, height) = (size.width as usize, size.height as usize);
+    let span = |y: usize| RowSpan {
+        level,
+        slice,
+        x: 0,
+        y,
+        width,
+    };
+    let [first, last] = [0, height - 1].map(|y| words_of(texture, span(y)));
+    words[first.start..last.end].fill(0);
+    let format = texture.format;
+    if !format.is_compressed() {
+        return;
+    }
+    // Every block is the same: it is decoded once.
+    let mut block = [0; MAX_WORDS];
+    let bytes = [0; MAX_BLOCK_BYTES];
+    blocks::decode(format, &bytes[..format.block_bytes() as usize], &mut block);
+    if block == [0; MAX_WORDS] {
+        return;
+    }
+    let [block_width, block_height] = format.block_size().map(|side| side as usize);
+    let row_words = block_width * texture.words_per_texel();
+    for y in 0..height {
+        let row = &block[y % block_height * row_words..][..row_words];
+        for texels in words[words_of(texture, span(y))].chunks_mut(row_words) {
+            texels.copy_from_slice(&row[..texels.len()]);
         }
     }
 }

@@ -134,7 +134,9 @@ impl Device {
         Buffer::of_words(words, &self.limits)
     }
 
-    /// Creates a texture of zeros. Its memory is allocated when it is first used.
+    /// Creates a texture of zeros, of a compressed format of blocks of zero bytes, which shaders
+    /// sample as such blocks are decoded (BC1's are black, those of ASTC its error colour). Its
+    /// memory is allocated when it is first used.
     ///
     /// # Errors
     /// [`TextureError`] names the rule or limit that the descriptor breaks.
@@ -147,7 +149,7 @@ impl Device {
 
     /// Creates a texture from the bytes of its first mip levels, each without padding: layer after
     /// layer, row after row from the top. The other levels are generated, as by
-    /// [`Device::generate_mips`].
+    /// [`Device::generate_mips`]; those of compressed formats must all be given.
     ///
     /// # Errors
     /// [`TextureError`] names the rule or limit that the descriptor breaks, or the level with
@@ -323,7 +325,8 @@ impl Device {
         copy::clear_buffer(buffer, offset, size)
     }
 
-    /// Sets all texels of a view to zero. A pass clears to other values.
+    /// Sets all texels of a view to zero, compressed ones to blocks of zero bytes. A pass clears to
+    /// other values.
     ///
     /// # Errors
     /// [`TextureError`] if the texture has no [`TextureUsages::COPY_DST`](crate::TextureUsages).

@@ -1,5 +1,6 @@
 //! The texels of a texture: rows, tiles of the images that were rendered to, and which are newest.
 
+use super::blocks::Blocks;
 use super::{Texture, TextureError};
 use estampe_core::{ColorTexels, Context, DepthStencilTexels, row_order_words};
 use estampe_texture::MipGeneration;
@@ -32,15 +33,16 @@ pub(crate) enum Newest {
     Discarded,
 }
 
-/// The texels of a texture; zeros where neither rows nor tiles have been needed yet.
+/// The texels of a texture; zeros where neither rows nor tiles have been needed yet, of compressed
+/// formats blocks of zero bytes.
 #[derive(Debug, Default)]
 pub(crate) struct Contents {
     /// All levels and layers in the order in which shaders sample them.
     rows: Option<Arc<TexelData>>,
     /// Images in the order in which passes render to them.
     images: BTreeMap<ImageKey, (Image, Newest)>,
-    /// The blocks of compressed images as they were written.
-    pub(super) blocks: BTreeMap<ImageKey, Vec<u8>>,
+    /// The blocks of compressed images.
+    pub(super) blocks: Blocks,
     /// True if the host wrote rows since their opacity was found out.
     is_written: bool,
 }

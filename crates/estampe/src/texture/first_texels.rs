@@ -1,5 +1,6 @@
 //! The texels that a texture is created with.
 
+use super::region::unsupported;
 use super::{ImageKey, Texture, TextureError};
 use crate::Limits;
 use estampe_texture::{
@@ -11,6 +12,11 @@ impl Texture {
     /// Sets the texels to the tight bytes of the first mip levels; the others are generated.
     pub(super) fn fill(&self, levels: &[&[u8]], limits: &Limits) -> Result<(), TextureError> {
         let descriptor = self.descriptor();
+        let is_complete = levels.len().max(1) >= descriptor.mip_level_count as usize;
+        if descriptor.format.is_compressed() && !is_complete {
+            let rule = "give all mip levels: compressed blocks are not generated";
+            return Err(unsupported(self, rule));
+        }
         let mips = if levels.len() < descriptor.mip_level_count as usize {
             MipGeneration::Full
         } else {
@@ -35,7 +41,7 @@ impl Texture {
                 let image = (bytes.len() / layers.max(1) as usize).max(1);
                 for (layer, bytes) in (0..).zip(bytes.chunks(image)) {
                     let key = ImageKey { level, layer };
-                    contents.blocks.insert(key, bytes.to_vec());
+                    contents.blocks.set(key, bytes);
                 }
             }
         }

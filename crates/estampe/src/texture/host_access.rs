@@ -1,11 +1,11 @@
 //! Texels between the host's bytes and textures: regions, single samples, clears to zero.
 
-use super::blocks::blocks_of;
-use super::contents::words_of;
 use super::region::{Region, TexelCopyLayout, TextureCopy, unsupported};
 use super::{Extent3d, Image, ImageKey, Texture, TextureError, TextureUsages, TextureView};
 use crate::Context;
-use estampe_texture::region::{RowSpan, aspect_bytes, read_row, write_blocks, write_row};
+use estampe_texture::region::{
+    RowSpan, aspect_bytes, read_row, write_blocks, write_row, write_zeros,
+};
 use estampe_types::TextureAspect;
 
 /// Writes a region from bytes.
@@ -23,8 +23,8 @@ pub(crate) fn write(
     let is_compressed = texture.format().is_compressed();
     if is_compressed {
         for (span, first) in region.spans() {
-            let stored = blocks_of(&mut contents.blocks, texture, span);
-            stored[..region.row_bytes].copy_from_slice(&bytes[first..][..region.row_bytes]);
+            let bytes = &bytes[first..][..region.row_bytes];
+            contents.blocks.write(texture, span, bytes);
         }
     }
     contents.write_rows(texture, context, region.images(), |data, words| {
@@ -53,8 +53,8 @@ pub(crate) fn read(
     let mut contents = texture.lock();
     if texture.format().is_compressed() {
         for (span, first) in region.spans() {
-            let stored = blocks_of(&mut contents.blocks, texture, span);
-            bytes[first..][..region.row_bytes].copy_from_slice(&stored[..region.row_bytes]);
+            let bytes = &mut bytes[first..][..region.row_bytes];
+            contents.blocks.read(texture, span, bytes);
         }
         return Ok(());
     }
@@ -114,7 +114,8 @@ pub(crate) fn read_sample(
     Ok(bytes)
 }
 
-/// Sets one aspect or all of every texel of some images to zero.
+/// Sets one aspect or all of every texel of some images to zero; compressed ones to blocks of zero
+/// bytes.
 pub(crate) fn zero(
     context: &Context,
     texture: &Texture,
@@ -122,11 +123,11 @@ pub(crate) fn zero(
     aspect: TextureAspect,
 ) -> Result<(), TextureError> {
     let mut contents = texture.lock();
-    contents.blocks.retain(|key, _| !keys.contains(key));
+    contents.blocks.clear(keys);
     contents.write_rows(texture, context, keys.iter().copied(), |data, words| {
         for key in keys {
             if aspect == TextureAspect::All {
-                words[words_of(data, *key)].fill(0);
+                write_zeros(data, key.level as usize, key.layer as usize, words);
                 continue;
             }
             let level = data.levels[key.level as usize];

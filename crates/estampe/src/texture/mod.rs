@@ -123,7 +123,7 @@ impl TextureDescriptor<'_> {
 }
 
 /// A texture for every role: sampled, rendered to, copied. Clones are handles to the same texels,
-/// which are zeros at first.
+/// which are zeros at first, or compressed blocks of zero bytes.
 ///
 /// ```
 /// use estampe::{Device, DeviceDescriptor, TextureDescriptor, TextureFormat};
