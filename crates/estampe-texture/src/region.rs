@@ -148,7 +148,7 @@ pub fn write_blocks(texture: &TexelData, span: RowSpan, bytes: &[u8], words: &mu
 
 /// Sets the texels of one level of one slice to zeros; of compressed formats to those of blocks of
 /// zero bytes, which need not be zeros (of ASTC they are the error colour).
-pub fn write_zeros(texture: &Texture, level: usize, slice: usize, words: &mut [u32]) {
+pub fn write_zeros(texture: &TexelData, level: usize, slice: usize, words: &mut [u32]) {
     let size = texture.levels[level];
     let (width, height) = (size.width as usize, size.height as usize);
     let span = |y: usize| RowSpan {

@@ -2,7 +2,7 @@
 
 use crate::pass::{ColorAttachment, Draw, RenderPass};
 use crate::texture::{Texture, TextureUsages, TextureView};
-use crate::{Coordinates, Lod, SampleType, SampledTexture, ViewDimension};
+use crate::{Coordinates, Lod, Real, SampleType, SampledTexture, ViewDimension};
 use crate::{
     Device, FilterMode, FragmentIn, FragmentOut, LoadOp, PipelineError, RenderPassError,
     RenderPipelineDescriptor, SamplerDescriptor, TextureError, Vec2, Vec4, VertexIn, VertexOut,
@@ -74,9 +74,37 @@ pub enum BlitError {
 #[derive(Debug)]
 struct Blit {
     source: SampledTexture,
-    /// u, v = pixel · scale + offset.
-    scale: [f32; 2],
-    offset: [f32; 2],
+    filter: FilterMode,
+    axes: [Axis; 2],
+}
+
+/// One axis of a blit, in texels and pixels.
+#[derive(Debug, Clone, Copy)]
+struct Axis {
+    /// First texel and number of texels of the source's rectangle.
+    from: [f32; 2],
+    /// First pixel and number of pixels of the destination's rectangle.
+    into: [f32; 2],
+    /// 1 ÷ the side of the source's image.
+    inverse_side: f32,
+}
+
+impl Axis {
+    /// The coordinate at which the source is sampled for a pixel's centre: `docs/NUMERICS.md`,
+    /// *Blits*. With the nearest filter the texel is found in units of texels, where the places
+    /// between two texels, which all pixels of an image that is halved have, are exact.
+    #[inline(always)]
+    fn coordinate<R: Real>(&self, filter: FilterMode, position: R) -> R {
+        let pixel = position - self.into[0];
+        let texels = match filter {
+            FilterMode::Nearest => {
+                let into = pixel.splat(self.into[1]);
+                (pixel * self.from[1] / into).floor() + (self.from[0] + 0.5)
+            }
+            FilterMode::Linear => pixel * (self.from[1] / self.into[1]) + self.from[0],
+        };
+        texels * self.inverse_side
+    }
 }
 
 estampe_types::shader! {
@@ -96,8 +124,8 @@ estampe_types::shader! {
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, (): ()) -> FragmentOut<R> {
             let at = Vec2::new(
-                input.position.x * self.scale[0] + self.offset[0],
-                input.position.y * self.scale[1] + self.offset[1],
+                self.axes[0].coordinate(self.filter, input.position.x),
+                self.axes[1].coordinate(self.filter, input.position.y),
             );
             let level = Lod::Level(input.zero);
             FragmentOut::color(self.source.sample_with(Coordinates::d2(at), level, [0; 3]))
@@ -125,17 +153,15 @@ pub(crate) fn blit(
         ..SamplerDescriptor::default()
     })?;
     let image = from.view.size();
-    let place = |axis: usize| {
-        let texels = image[axis] as f32;
-        let scale = from.size[axis] as f32 / into.size[axis] as f32;
-        let first = from.origin[axis] as f32 - into.origin[axis] as f32 * scale;
-        [scale / texels, first / texels]
+    let axis = |axis: usize| Axis {
+        from: [from.origin[axis] as f32, from.size[axis] as f32],
+        into: [into.origin[axis] as f32, into.size[axis] as f32],
+        inverse_side: 1.0 / image[axis] as f32,
     };
-    let ([x_scale, x_offset], [y_scale, y_offset]) = (place(0), place(1));
     let shader = Blit {
         source: device.sampled_texture(from.view, &sampler)?,
-        scale: [x_scale, y_scale],
-        offset: [x_offset, y_offset],
+        filter,
+        axes: [axis(0), axis(1)],
     };
     let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
         depth_stencil: None,

@@ -106,6 +106,37 @@ fn a_blit_to_half_the_size_is_the_mean() {
     }
 }
 
+/// The nearest filter takes texel ⌊(pixel + ½) · texels ÷ pixels⌋, also where that lies between two
+/// texels, as for all pixels of an image of half the size.
+#[test]
+fn nearest_texels_are_those_of_integers() {
+    let device = device();
+    let mut between = 0;
+    for texels in (1..=90).chain([1023, 1280]) {
+        let from = texture(&device, [texels, 1], TextureFormat::R32Float);
+        let bytes: Vec<u8> = (0..texels)
+            .flat_map(|at| (at as f32).to_le_bytes())
+            .collect();
+        write(&device, &from, &bytes);
+        for pixels in [1, 2, 3, 7, 36, 37, 45, 64, 500] {
+            let into = texture(&device, [pixels, 1], TextureFormat::R32Float);
+            let (from, view) = (from.view(), into.view());
+            device.blit(&from, &view, FilterMode::Nearest).unwrap();
+            let seen = device.read_texture(&into).unwrap();
+            for (pixel, texel) in (0..pixels).zip(seen.as_chunks::<4>().0) {
+                let place = (2 * pixel + 1) * texels;
+                between += u32::from(place.is_multiple_of(2 * pixels));
+                assert_eq!(
+                    f32::from_le_bytes(*texel),
+                    (place / (2 * pixels)) as f32,
+                    "pixel {pixel} of {pixels}, from {texels} texels"
+                );
+            }
+        }
+    }
+    assert!(between > 500, "{between}");
+}
+
 /// A rectangle of one image is scaled up into a rectangle of another, which is converted.
 #[test]
 fn a_region_is_scaled_and_converted_and_the_rest_stays() {
