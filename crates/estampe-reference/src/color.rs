@@ -58,3 +58,22 @@ pub fn bytes(format: TextureFormat, [r, g, b, a]: Codes) -> Vec<u8> {
     }
     texel.to_le_bytes()[..format.block_bytes() as usize].to_vec()
 }
+
+/// The codes of a texel's bytes: the inverse of [`bytes`].
+#[must_use]
+pub fn codes(format: TextureFormat, texel: &[u8]) -> Codes {
+    let mut sixteen = [0; 16];
+    sixteen[..texel.len()].copy_from_slice(texel);
+    let mut left = u128::from_le_bytes(sixteen);
+    let in_order = channels(format).map(|channel| {
+        let field = left & ((1 << channel.bits()) - 1);
+        left >>= channel.bits();
+        u32::try_from(field).expect("at most 32 bits")
+    });
+    let [first, g, third, a] = in_order;
+    if format.is_bgra() {
+        [third, g, first, a]
+    } else {
+        [first, g, third, a]
+    }
+}

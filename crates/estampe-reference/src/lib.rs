@@ -31,12 +31,13 @@
 //! | [`fragment`] | planes at a quad | colours, depth |
 //! | [`per_sample`] with [`stencil`], [`blending`], [`logic`] | a fragment | the [`Target`] |
 //!
-//! Beside them: [`texture`] and [`depth_map`] (sampling), [`color`], [`channel`], [`srgb`] and
-//! [`small_float`] (encoding and decoding), [`compare`] (comparison functions), [`line`](mod@line),
-//! [`rectangle`] and [`point`] (the other primitives), [`depth_bias`], [`conservative`]
-//! (conservative rasterization), [`bresenham`] (integer lines) and [`scan_conversion`] (triangles)
-//! in the textbook forms, and [`exact`], the formulas in f64 with bounds for the error of the f32
-//! ones.
+//! Beside them: [`texture`] and [`depth_map`] (sampling), [`color`], [`channel`], [`srgb`],
+//! [`small_float`] and [`shared_exponent`] (encoding and decoding), [`compare`] (comparison
+//! functions), [`line`](mod@line), [`rectangle`] and [`point`] (the other primitives),
+//! [`depth_bias`], [`conservative`] (conservative rasterization), [`bresenham`] (integer lines) and
+//! [`scan_conversion`] (triangles) in the textbook forms, and [`exact`], the formulas in f64 with
+//! bounds for the error of the f32 ones. [`transfer`] has what happens to images outside of draws:
+//! copies, clears, mip levels and blits.
 //!
 //! # What the core and the oracle share
 //!
@@ -87,11 +88,13 @@ pub mod rectangle;
 pub mod scan_conversion;
 pub mod setup;
 pub mod shading;
+pub mod shared_exponent;
 pub mod small_float;
 pub mod srgb;
 pub mod stencil;
 mod target;
 pub mod texture;
+pub mod transfer;
 pub mod viewport;
 
 pub use pipeline::{Counts, Draw, State, TargetState, draw};

@@ -15,6 +15,7 @@ mod per_sample;
 mod scan_conversion;
 mod shared;
 mod textures;
+mod transfer;
 mod vertices;
 
 use crate::*;
