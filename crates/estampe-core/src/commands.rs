@@ -62,37 +62,6 @@ impl<'a> Draw<'a> {
         }
     }
 
-    /// A draw whose ranges are read from a buffer, at an offset in bytes, as four 32-bit numbers
-    /// (WebGPU's `drawIndirect`): the number of vertices, the number of instances, the first
-    /// vertex, the first instance. Numbers beyond the buffer's end are zero.
-    ///
-    /// Vertices beyond [`Draw::INDIRECT_LIMIT`], counted over all instances, are not drawn, so that
-    /// no buffer keeps a program busy for hours. For several draws of one buffer, call this several
-    /// times.
-    #[must_use]
-    pub fn indirect(pipeline: &'a RenderPipeline, parameters: &BufferData, offset: usize) -> Self {
-        let [count, instances, first, first_instance, _] = indirect_words(parameters, offset);
-        Self::limited(pipeline, [first, count], [first_instance, instances])
-    }
-
-    /// A draw like [`Draw::indirect`] with an index buffer. The buffer holds five numbers (WebGPU's
-    /// `drawIndexedIndirect`): the number of indices, the number of instances, the first index, the
-    /// base vertex, the first instance.
-    #[must_use]
-    pub fn indexed_indirect(
-        pipeline: &'a RenderPipeline,
-        indices: (&'a BufferData, IndexFormat),
-        parameters: &BufferData,
-        offset: usize,
-    ) -> Self {
-        let [count, instances, first, base, first_instance] = indirect_words(parameters, offset);
-        Self {
-            indices: Some(indices),
-            base_vertex: base.cast_signed(),
-            ..Self::limited(pipeline, [first, count], [first_instance, instances])
-        }
-    }
-
     /// Vertices or indices of an indirect draw, times its instances, at most: 2²⁷.
     pub const INDIRECT_LIMIT: u32 = 1 << 27;
 
@@ -110,11 +79,6 @@ impl<'a> Draw<'a> {
             ..Self::new(pipeline, first..first.saturating_add(count))
         }
     }
-}
-
-/// Five words of a buffer; those beyond its end are zero.
-fn indirect_words(parameters: &BufferData, offset: usize) -> [u32; 5] {
-    [0, 4, 8, 12, 16].map(|at| parameters.word_at(offset.saturating_add(at)))
 }
 
 /// The operation on an attachment's old contents when a pass begins.

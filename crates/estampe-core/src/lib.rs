@@ -59,8 +59,8 @@ pub mod tile_path;
 mod transfer;
 
 pub use attachment::{
-    ColorTexels, DepthStencilTexels, ImageSize, ReadbackError, RenderTarget,
-    RenderTargetDescriptor, ResolveError, ResolveMode, TargetError, TargetShape, row_order_words,
+    ColorTexels, DepthStencilTexels, ImageSize, RenderTarget, ResolveMode, TargetShape,
+    row_order_words,
 };
 pub use commands::{Draw, LoadOp, OcclusionQueries, PassControl, RenderPass};
 pub use draw::Context;

@@ -3,30 +3,11 @@
 
 use crate::attachment::resolve::ResolveJob;
 use crate::attachment::resolve_depth::ResolveDepthJob;
-use crate::attachment::{
-    ColorTexels, DepthStencilTexels, ReadbackError, RenderTarget, ResolveError, ResolveMode,
-};
+use crate::attachment::{ColorTexels, DepthStencilTexels, ResolveMode};
 use crate::draw::Context;
 use estampe_types::ShadowMap;
 
 impl Context {
-    /// Writes the mean of each pixel's samples to a target of one sample, of the same size and with
-    /// the same colour formats.
-    ///
-    /// # Errors
-    /// [`ResolveError`] if the targets do not fit together; nothing is written then.
-    pub fn resolve(
-        &self,
-        from: &RenderTarget,
-        into: &mut RenderTarget,
-    ) -> Result<(), ResolveError> {
-        let mut jobs = ResolveJob::all(from, into)?;
-        let level = self.level();
-        self.executor()
-            .for_each_alone(&mut jobs, |job| job.run(level));
-        Ok(())
-    }
-
     /// Writes the mean of each pixel's samples to an image of one sample, of the same width, height
     /// and format.
     pub fn resolve_color(&self, from: &ColorTexels, into: &mut ColorTexels) {
@@ -49,29 +30,10 @@ impl Context {
             .for_each_alone(&mut jobs, ResolveDepthJob::run);
     }
 
-    /// A colour attachment's texels as [`RenderTarget::read_color_into`] gives them, by all
-    /// threads.
-    ///
-    /// # Errors
-    /// [`ReadbackError`] beyond the last attachment, or when the memory has another length.
-    pub fn read_color_into(
-        &self,
-        target: &RenderTarget,
-        index: usize,
-        image: &mut [u8],
-    ) -> Result<(), ReadbackError> {
-        let mut jobs: Vec<_> = target.color_jobs(index, image)?.collect();
-        let level = self.level();
-        self.executor()
-            .for_each_alone(&mut jobs, |job| job.run(level));
-        Ok(())
-    }
-
     /// Fills rows with an image's texels in the format's own bytes, of several samples their mean.
     /// `bytes` must have width · height · the format's bytes.
     pub fn read_color_texels(&self, texels: &ColorTexels, bytes: &mut [u8]) {
-        let sample = (texels.size().samples == 1).then_some(0);
-        let mut jobs: Vec<_> = texels.rows_jobs(sample, bytes).collect();
+        let mut jobs: Vec<_> = texels.byte_rows_jobs(bytes).collect();
         let level = self.level();
         self.executor()
             .for_each_alone(&mut jobs, |job| job.run(level));
@@ -116,11 +78,5 @@ impl Context {
     /// samples.
     pub fn shadow_map_of(&self, texels: &mut DepthStencilTexels) -> Option<ShadowMap> {
         texels.depth_texture(|jobs| self.executor().for_each_alone(jobs, |job| job.run()))
-    }
-
-    /// The target's depth as a texture, without a copy; `None` without depth or with several
-    /// samples.
-    pub fn depth_texture(&self, target: &mut RenderTarget) -> Option<ShadowMap> {
-        self.shadow_map_of(target.depth_stencil.as_mut()?)
     }
 }

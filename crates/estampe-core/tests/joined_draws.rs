@@ -1,14 +1,16 @@
 //! Draws that share packets and bins: a pass of many small draws gives the image of one pass for
 //! each of them.
 
-use estampe_core::{Context, Draw, LoadOp, RenderPass, RenderPipeline, RenderPipelineDescriptor};
-use estampe_core::{RenderTarget, RenderTargetDescriptor};
+use estampe_core::{
+    ColorTexels, Context, DepthStencilTexels, Draw, ImageSize, LoadOp, RenderPass, RenderPipeline,
+    RenderPipelineDescriptor, RenderTarget, row_order_words,
+};
 use estampe_simd::Level;
 use estampe_types::shader::VertexOut;
 use estampe_types::state::{MultisampleState, VertexAttribute, VertexBufferLayout};
 use estampe_types::{
-    Bindings, BoundGroup, BoundResource, BoundResources, BufferData, FragmentIn, FragmentOut,
-    Limits, Real, Vec4, VertexFormat, VertexIn,
+    BoundResources, BoundResource, Bindings, BoundGroup, BufferData, FragmentIn, FragmentOut, Limits, Real,
+    TextureFormat, Vec4, VertexFormat, VertexIn,
 };
 use std::sync::Arc;
 
@@ -139,12 +141,7 @@ fn check(descriptor: RenderPipelineDescriptor, samples: u32) {
             ..Draw::new(&pipeline, 0..*vertices)
         })
         .collect();
-    let target = RenderTargetDescriptor {
-        samples,
-        ..RenderTargetDescriptor::new(150, 100)
-    };
-    let mut together = RenderTarget::new(&target, &Limits::default()).unwrap();
-    let mut one_by_one = RenderTarget::new(&target, &Limits::default()).unwrap();
+    let [mut together, mut one_by_one] = [0, 1].map(|_| target(samples));
     let context = Context::new(1, Level::best()).unwrap();
     let pass = RenderPass {
         draws: &draws,
@@ -162,12 +159,37 @@ fn check(descriptor: RenderPipelineDescriptor, samples: u32) {
         }
         context.render(&mut one_by_one, &pass).unwrap();
     }
-    for sample in 0..samples {
-        let [together, one_by_one] =
-            [&together, &one_by_one].map(|target| target.read_texels(0, sample));
-        assert!(together.iter().any(|byte| *byte != 0));
-        assert!(together == one_by_one, "sample {sample} of {samples}");
+    let [together, one_by_one] =
+        [together, one_by_one].map(|target| colors(&context, target, samples));
+    for sample in 0..samples as usize {
+        let mut words = together.iter().skip(sample).step_by(samples as usize);
+        assert!(words.any(|word| *word != 0), "sample {sample}");
     }
+    assert!(together == one_by_one, "{samples} samples");
+}
+
+fn size(samples: u32) -> ImageSize {
+    ImageSize {
+        width: 150,
+        height: 100,
+        samples,
+    }
+}
+
+/// A target of zeros, of the formats that a pipeline has by default.
+fn target(samples: u32) -> RenderTarget {
+    let size = size(samples);
+    let color = ColorTexels::zeros(TextureFormat::Rgba8Unorm, size).unwrap();
+    let depth = DepthStencilTexels::zeros(TextureFormat::Depth32Float, size).unwrap();
+    RenderTarget::of_images(size, vec![color], Some(depth))
+}
+
+/// The colours of all samples: those of a pixel follow each other.
+fn colors(context: &Context, target: RenderTarget, samples: u32) -> Vec<u32> {
+    let texels = &target.into_images().0[0];
+    let mut words = vec![0; row_order_words(texels.format(), size(samples))];
+    context.color_to_rows(texels, &mut words);
+    words
 }
 
 #[test]

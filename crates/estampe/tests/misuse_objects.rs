@@ -225,6 +225,13 @@ fn textures() {
         TextureError::Bytes { .. },
         "a region of the texture `grass` takes 125 bytes with 32 bytes a row, and 128 are given"
     );
+    let mut short = [7; 127];
+    refused!(
+        device.read_texture_into(&image, &mut short, &tight, all),
+        TextureError::Bytes { .. },
+        "a region of the texture `grass` takes 128 bytes with 32 bytes a row, and 127 are given"
+    );
+    assert_eq!(short, [7; 127]);
     let samples = samples(&device, TextureFormat::Rgba8Unorm);
     refused!(
         device.read_texture(&samples),

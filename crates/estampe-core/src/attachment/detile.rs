@@ -32,15 +32,6 @@ const PACKET_SIDE: usize = 4;
 /// The most bytes of a texel.
 const MAX_BYTES: usize = 16;
 
-/// The samples from which a texel is made.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Selection {
-    /// One sample.
-    Sample(usize),
-    /// The mean of all samples.
-    Mean(Mean),
-}
-
 /// A colour attachment as it is stored.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StoredTexels<'a> {
@@ -52,7 +43,8 @@ pub(super) struct StoredTexels<'a> {
     pub(super) words_each: usize,
     /// Samples of a pixel.
     pub(super) samples: usize,
-    pub(super) selection: Selection,
+    /// The mean of several samples; `None` of one.
+    pub(super) mean: Option<Mean>,
 }
 
 impl StoredTexels<'_> {
@@ -67,9 +59,9 @@ impl StoredTexels<'_> {
         outline!(s, {
             let elements = LANES * self.words_each;
             let stored = &self.words[packet * elements * self.samples..][..elements * self.samples];
-            match &self.selection {
-                Selection::Sample(sample) => &stored[sample * elements..][..elements],
-                Selection::Mean(mean) => {
+            match &self.mean {
+                None => stored,
+                Some(mean) => {
                     let texels = &mut scratch[..elements];
                     mean.write(s, stored, texels);
                     texels

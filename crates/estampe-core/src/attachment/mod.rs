@@ -25,10 +25,7 @@ pub(crate) mod row_order;
 mod target;
 mod texels;
 
-pub use readback::ReadbackError;
-pub use resolve::ResolveError;
 pub use resolve_depth::ResolveMode;
 pub use row_order::row_order_words;
-pub(crate) use target::format_names;
-pub use target::{RenderTarget, RenderTargetDescriptor, TargetError, TargetShape};
+pub use target::{RenderTarget, TargetShape};
 pub use texels::{ColorTexels, DepthStencilTexels, ImageSize};

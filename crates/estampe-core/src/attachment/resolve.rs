@@ -1,10 +1,9 @@
 //! Resolving: the samples of each pixel become their mean, in storage order.
 //!
-//! Both targets are made of the same packets in the same order: packet i of the image is the mean
-//! of the samples' lines of packet i. So the work is one pass over memory, cut anywhere.
+//! Both images are made of the same packets in the same order: packet i of the destination is the
+//! mean of the samples' lines of packet i. So the work is one pass over memory, cut anywhere.
 
 use super::texels::ColorTexels;
-use super::{RenderTarget, format_names};
 use crate::layout::texel_words;
 use crate::pipeline::color_target::MAX_WORDS;
 use estampe_format::srgb::{self, LINEAR_FROM_SRGB};
@@ -18,69 +17,6 @@ const JOB_PACKETS: usize = 256;
 /// Words of a packet's texels, at most.
 pub(super) const MAX_PACKET: usize = LANES * MAX_WORDS;
 
-/// The reason why targets cannot be resolved. Nothing has been written.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ResolveError {
-    /// The targets have different sizes.
-    #[error(
-        "resolving a target of {}x{} pixels into one of {}x{}: they must have the same size",
-        from[0], from[1], into[0], into[1]
-    )]
-    Size {
-        /// Width and height of the source in pixels.
-        from: [u32; 2],
-        /// Those of the destination.
-        into: [u32; 2],
-    },
-    /// The source has one sample, or the destination several.
-    #[error(
-        "resolving a target of {from} samples into one of {into}: the source must have several samples and the \
-         destination one"
-    )]
-    Samples {
-        /// Samples of the source.
-        from: u32,
-        /// Samples of the destination.
-        into: u32,
-    },
-    /// The targets have different colour formats.
-    #[error(
-        "resolving the colour formats [{}] into [{}]: they must be the same",
-        format_names(from),
-        format_names(into)
-    )]
-    ColorFormats {
-        /// Formats of the source.
-        from: Vec<TextureFormat>,
-        /// Formats of the destination.
-        into: Vec<TextureFormat>,
-    },
-}
-
-fn check(from: &RenderTarget, into: &RenderTarget) -> Result<(), ResolveError> {
-    let size = |target: &RenderTarget| [target.width(), target.height()];
-    if size(from) != size(into) {
-        return Err(ResolveError::Size {
-            from: size(from),
-            into: size(into),
-        });
-    }
-    if from.samples() == 1 || into.samples() != 1 {
-        return Err(ResolveError::Samples {
-            from: from.samples(),
-            into: into.samples(),
-        });
-    }
-    if from.color_formats() != into.color_formats() {
-        return Err(ResolveError::ColorFormats {
-            from: from.color_formats().to_vec(),
-            into: into.color_formats().to_vec(),
-        });
-    }
-    Ok(())
-}
-
 /// A run of packets for one worker.
 #[derive(Debug)]
 pub(crate) struct ResolveJob<'a> {
@@ -92,17 +28,6 @@ pub(crate) struct ResolveJob<'a> {
 }
 
 impl<'a> ResolveJob<'a> {
-    /// Cuts the resolving of a target's colours into jobs.
-    pub(crate) fn all(
-        from: &'a RenderTarget,
-        into: &'a mut RenderTarget,
-    ) -> Result<Vec<Self>, ResolveError> {
-        check(from, into)?;
-        let attachments = from.colors.iter().zip(&mut into.colors);
-        let jobs = attachments.flat_map(|(from, into)| Self::of_image(from, into));
-        Ok(jobs.collect())
-    }
-
     /// Cuts the resolving of one image into jobs. The images have the same width, height and
     /// format, and the destination has one sample.
     pub(crate) fn of_image(

@@ -109,8 +109,18 @@ fn fold<T: Copy>(samples: &[[T; LANES]], with: impl Fn(T, T) -> T) -> [T; LANES]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::attachment::ImageSize;
+    use crate::attachment::{ImageSize, row_order_words};
+    use estampe_format::depth::FixedDepth;
+    use estampe_simd::Level;
     use estampe_types::TextureFormat;
+
+    /// The words of an image in row order: a code of 24 bits below the stencil.
+    fn words_of(texels: &DepthStencilTexels) -> Vec<u32> {
+        let mut rows = vec![0; row_order_words(texels.format, texels.size)];
+        let jobs = texels.row_jobs(&mut rows);
+        jobs.for_each(|mut job| job.run(Level::best()));
+        rows
+    }
 
     #[test]
     fn each_mode_combines_a_pixels_samples() {
@@ -140,13 +150,12 @@ mod tests {
             let mut into = DepthStencilTexels::zeros(format, size(1)).unwrap();
             let mut jobs = ResolveDepthJob::all(&from, &mut into, modes.map(Some));
             jobs.iter_mut().for_each(ResolveDepthJob::run);
-            assert_eq!(into.depth_rows(0), [depth; 6], "{modes:?}");
-            assert_eq!(into.stencil_rows(0), [stencil; 6], "{modes:?}");
+            let word = FixedDepth::new(format).unwrap().code(depth) | stencil << 24;
+            assert_eq!(words_of(&into), [word; 6], "{modes:?}");
         }
         let mut into = DepthStencilTexels::zeros(format, size(1)).unwrap();
         let mut jobs = ResolveDepthJob::all(&from, &mut into, [None, Some(ResolveMode::Min)]);
         jobs.iter_mut().for_each(ResolveDepthJob::run);
-        assert_eq!(into.depth_rows(0), [0.0; 6]);
-        assert_eq!(into.stencil_rows(0), [3; 6]);
+        assert_eq!(words_of(&into), [3 << 24; 6]);
     }
 }

@@ -66,12 +66,6 @@ impl ColorTexels {
     pub fn format(&self) -> TextureFormat {
         self.format
     }
-
-    /// The size of the image.
-    #[must_use]
-    pub fn size(&self) -> ImageSize {
-        self.size
-    }
 }
 
 /// A depth and stencil image in storage order; either of them may be missing.
@@ -102,18 +96,6 @@ impl DepthStencilTexels {
             stencil: Lines::zeros(stencil)?,
             depth_bounds: Arc::default(),
         })
-    }
-
-    /// The format of the texels.
-    #[must_use]
-    pub fn format(&self) -> TextureFormat {
-        self.format
-    }
-
-    /// The size of the image.
-    #[must_use]
-    pub fn size(&self) -> ImageSize {
-        self.size
     }
 
     pub(crate) fn depth_format(&self) -> DepthFormat {

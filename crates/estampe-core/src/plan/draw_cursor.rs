@@ -217,11 +217,13 @@ impl<'a> OpenDraw<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::attachment::RenderTargetDescriptor;
+    use crate::attachment::{ColorTexels, DepthStencilTexels, ImageSize};
     use crate::pipeline::{RenderPipeline, RenderPipelineDescriptor};
     use estampe_types::shader::VertexOut;
     use estampe_types::state::{PrimitiveTopology, ScissorRect, Viewport};
-    use estampe_types::{BufferData, FragmentIn, FragmentOut, IndexFormat, Limits, Vec2, VertexIn};
+    use estampe_types::{
+        BufferData, FragmentIn, FragmentOut, IndexFormat, Limits, TextureFormat, Vec2, VertexIn,
+    };
 
     /// A shader of two floats as varyings.
     struct Plain;
@@ -253,8 +255,14 @@ mod tests {
 
     /// Cuts draws into batches and hands each to `check`, with its number; says how many there are.
     fn cut(draws: &[Draw<'_>], mut check: impl FnMut(usize, &DrawBatch<'_>)) -> usize {
-        let target = RenderTargetDescriptor::new(40, 30);
-        let target = RenderTarget::new(&target, &Limits::default()).unwrap();
+        let size = ImageSize {
+            width: 40,
+            height: 30,
+            samples: 1,
+        };
+        let color = ColorTexels::zeros(TextureFormat::Rgba8Unorm, size).unwrap();
+        let depth = DepthStencilTexels::zeros(TextureFormat::Depth32Float, size).unwrap();
+        let target = RenderTarget::of_images(size, vec![color], Some(depth));
         let executor = Executor::new(1).unwrap();
         let (mut cursor, mut batch) = (DrawCursor::new(draws), DrawBatch::default());
         let mut batches = 0;

@@ -1,6 +1,6 @@
 //! The checks of a pass before anything is drawn or cleared: whether its draws fit its target.
 
-use crate::attachment::{TargetShape, format_names};
+use crate::attachment::TargetShape;
 use crate::commands::{Draw, RenderPass};
 use estampe_types::TextureFormat;
 use estampe_types::state::Viewport;
@@ -170,6 +170,12 @@ fn check_draw(
         }),
         _ => Ok(()),
     }
+}
+
+/// The names of formats, separated by commas: for messages.
+fn format_names(formats: &[TextureFormat]) -> String {
+    let names: Vec<&str> = formats.iter().map(|format| format.name()).collect();
+    names.join(", ")
 }
 
 /// A viewport that the arithmetic can stand: finite, with area, its depths in 0..=1.

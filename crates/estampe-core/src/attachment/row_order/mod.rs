@@ -120,7 +120,7 @@ mod tests {
                 .storage_jobs(&rows)
                 .for_each(|mut job| job.run(level));
             let mut bytes = vec![0; rows.len() * 4];
-            let jobs = texels.rows_jobs(Some(0), &mut bytes);
+            let jobs = texels.byte_rows_jobs(&mut bytes);
             jobs.for_each(|mut job| job.run(level));
             let swaps = swaps_red_and_blue(format);
             let expected = rows.iter().map(|&w| if swaps { swapped(w) } else { w });

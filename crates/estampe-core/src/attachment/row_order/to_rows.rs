@@ -1,7 +1,7 @@
 //! Rows filled from an image in storage order.
 
 use super::{row_order_words, swapped, swaps_red_and_blue, words_each};
-use crate::attachment::detile::{RowsJob, Selection, StoredTexels};
+use crate::attachment::detile::{RowsJob, StoredTexels};
 use crate::attachment::texels::{ColorTexels, DepthStencilTexels, ImageSize};
 use crate::layout::texel_words;
 use estampe_format::depth::FixedDepth;
@@ -159,7 +159,7 @@ fn lane_rows<'a>(
         grid: size.grid(),
         words_each,
         samples: 1,
-        selection: Selection::Sample(0),
+        mean: None,
     };
     let bytes = bytemuck::cast_slice_mut(rows);
     let jobs = RowsJob::all(stored, size.width as usize, words_each * 4, bytes);
