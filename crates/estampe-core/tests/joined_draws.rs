@@ -9,8 +9,8 @@ use estampe_simd::Level;
 use estampe_types::shader::VertexOut;
 use estampe_types::state::{MultisampleState, VertexAttribute, VertexBufferLayout};
 use estampe_types::{
-    BoundResources, BoundResource, Bindings, BoundGroup, BufferData, FragmentIn, FragmentOut, Limits, Real,
-    TextureFormat, Vec4, VertexFormat, VertexIn,
+    Bindings, BoundGroup, BoundResource, BoundResources, BufferData, FragmentIn, FragmentOut,
+    Limits, Real, TextureFormat, Vec4, VertexFormat, VertexIn,
 };
 use std::sync::Arc;
 

@@ -1,12 +1,12 @@
-//! Copies between buffers and textures: every format and block size, padding, regions, aspects.
+//! Copies between buffers and textures: every format and block size, padding, aspects.
 
 mod support;
 
 use estampe::{
-    Buffer, Device, Extent3d, TexelCopyLayout, Texture, TextureAspect, TextureCopy,
-    TextureDescriptor, TextureDimension, TextureFormat, TextureViewDescriptor,
+    Buffer, Device, Extent3d, TexelCopyLayout, Texture, TextureAspect, TextureCopy, TextureFormat,
+    TextureViewDescriptor,
 };
-use support::{device, noise, texture};
+use support::{device, layered, noise, texture};
 
 /// The bytes of texels that a texture of this format keeps.
 fn kept(format: TextureFormat, mut bytes: Vec<u8>) -> Vec<u8> {
@@ -82,26 +82,13 @@ impl Rows {
     }
 }
 
-/// Two layers, three levels, sides that no block size divides.
-fn descriptor(format: TextureFormat) -> TextureDescriptor<'static> {
-    TextureDescriptor {
-        size: Extent3d {
-            width: 29,
-            height: 23,
-            depth_or_array_layers: 2,
-        },
-        mip_level_count: 3,
-        ..TextureDescriptor::new_2d(1, 1, format)
-    }
-}
-
 #[test]
 fn every_format_goes_from_buffer_to_texture_to_texture_to_buffer() {
     let device = device();
     let mut blocks = std::collections::BTreeSet::new();
     for (seed, &format) in (0..).zip(TextureFormat::ALL) {
         blocks.insert(format.block_size());
-        let [first, second] = [0, 1].map(|_| device.create_texture(&descriptor(format)).unwrap());
+        let [first, second] = [0, 1].map(|_| device.create_texture(&layered(format)).unwrap());
         for level in 0..3 {
             let (tight, padded) = (Rows::of(&first, level, 0, 0), Rows::of(&first, level, 8, 2));
             let texels = noise(tight.row_bytes * tight.rows * tight.layers, seed);
@@ -133,148 +120,6 @@ fn every_format_goes_from_buffer_to_texture_to_texture_to_buffer() {
         }
     }
     assert!(blocks.len() == 15, "{blocks:?}");
-}
-
-/// Levels and layers that were not written are zeros.
-#[test]
-fn what_was_not_written_is_zeros() {
-    let device = device();
-    for &format in TextureFormat::ALL {
-        let texture = device.create_texture(&descriptor(format)).unwrap();
-        let rows = Rows::of(&texture, 1, 0, 0);
-        let mut bytes = vec![0xEE; rows.len()];
-        let from = TextureCopy {
-            mip_level: 1,
-            ..(&texture).into()
-        };
-        let size = texture.level_size(1);
-        device
-            .read_texture_into(from, &mut bytes, &TexelCopyLayout::default(), size)
-            .unwrap();
-        assert!(bytes.iter().all(|byte| *byte == 0), "{}", format.name());
-    }
-}
-
-/// A region of 2×2 blocks, or of less at the edge, from one place to another.
-#[test]
-fn regions_change_nothing_around_them() {
-    let device = device();
-    for format in [
-        TextureFormat::R8Unorm,
-        TextureFormat::Bgra8Unorm,
-        TextureFormat::Rgba32Float,
-        TextureFormat::Bc1RgbaUnorm,
-        TextureFormat::Astc12x10Unorm,
-    ] {
-        let [width, height] = format.block_size();
-        // Four blocks and a texel of a fifth, three blocks.
-        let size = [width * 4 + 1, height * 3];
-        let size = if format.is_compressed() { size } else { [5, 3] };
-        let [from, into] = [0, 1].map(|_| texture(&device, size, format));
-        let columns = 5;
-        let each = format.block_bytes() as usize;
-        let texels = [1, 2].map(|seed| noise(columns * 3 * each, seed));
-        for (texture, texels) in [(&from, &texels[0]), (&into, &texels[1])] {
-            let layout = TexelCopyLayout::default();
-            device
-                .write_texture(texture, texels, &layout, texture.size())
-                .unwrap();
-        }
-        let [first, second] =
-            [(&from, [3, 1]), (&into, [3, 0])].map(|(texture, [x, y])| TextureCopy {
-                origin: [x * width, y * height, 0],
-                ..texture.into()
-            });
-        // Blocks 3 and 4; the fifth column is cut by the edge.
-        let region = Extent3d::new_2d(size[0] - 3 * width, 2 * height);
-        device
-            .copy_texture_to_texture(first.clone(), second, region)
-            .unwrap();
-        let mut expected = texels[1].clone();
-        for row in 0..2 {
-            let (source, place) = ((row + 1) * columns + 3, row * columns + 3);
-            expected[place * each..][..2 * each]
-                .copy_from_slice(&texels[0][source * each..][..2 * each]);
-        }
-        assert!(
-            device.read_texture(&into).unwrap() == expected,
-            "{}",
-            format.name()
-        );
-
-        // Inside one texture, where the regions overlap: as if the source were read first.
-        let place = TextureCopy {
-            origin: [2 * width, 0, 0],
-            ..(&from).into()
-        };
-        let source = TextureCopy {
-            origin: [width, height, 0],
-            ..(&from).into()
-        };
-        let region = Extent3d::new_2d(2 * width, 2 * height);
-        device
-            .copy_texture_to_texture(source, place, region)
-            .unwrap();
-        let mut expected = texels[0].clone();
-        for row in 0..2 {
-            let (source, place) = ((row + 1) * columns + 1, row * columns + 2);
-            expected[place * each..][..2 * each]
-                .copy_from_slice(&texels[0][source * each..][..2 * each]);
-        }
-        assert!(
-            device.read_texture(&from).unwrap() == expected,
-            "{}",
-            format.name()
-        );
-    }
-}
-
-#[test]
-fn slices_of_a_volume_are_copied_like_layers() {
-    let device = device();
-    let size = Extent3d {
-        width: 5,
-        height: 4,
-        depth_or_array_layers: 6,
-    };
-    let volume = device
-        .create_texture(&TextureDescriptor {
-            dimension: TextureDimension::D3,
-            size,
-            ..TextureDescriptor::new_2d(5, 4, TextureFormat::Rg16Uint)
-        })
-        .unwrap();
-    let layers = device
-        .create_texture(&TextureDescriptor {
-            size,
-            ..TextureDescriptor::new_2d(5, 4, TextureFormat::Rg16Uint)
-        })
-        .unwrap();
-    let texels = noise(5 * 4 * 6 * 4, 9);
-    let tight = TexelCopyLayout::default();
-    device
-        .write_texture(&volume, &texels, &tight, size)
-        .unwrap();
-    let three = Extent3d {
-        depth_or_array_layers: 3,
-        ..size
-    };
-    let [from, into] = [(&volume, 2), (&layers, 1)].map(|(texture, slice)| TextureCopy {
-        origin: [0, 0, slice],
-        ..texture.into()
-    });
-    device.copy_texture_to_texture(from, into, three).unwrap();
-    let mut bytes = vec![0; texels.len()];
-    device
-        .read_texture_into(&layers, &mut bytes, &tight, size)
-        .unwrap();
-    let image = 5 * 4 * 4;
-    let expected = [
-        vec![0; image],
-        texels[2 * image..5 * image].to_vec(),
-        vec![0; 2 * image],
-    ];
-    assert!(bytes == expected.concat());
 }
 
 #[test]
@@ -343,80 +188,4 @@ fn depth_and_stencil_are_copied_one_by_one() {
         device.clear_texture(&image.view()).unwrap();
         assert!(read(&image, Stencil) == [0; 18]);
     }
-}
-
-#[test]
-fn views_are_cleared_and_nothing_else() {
-    let device = device();
-    for format in [TextureFormat::Rgba8Unorm, TextureFormat::Bc4RUnorm] {
-        let texture = device.create_texture(&descriptor(format)).unwrap();
-        let mut written = Vec::new();
-        for level in 0..3 {
-            let rows = Rows::of(&texture, level, 0, 0);
-            let bytes = noise(rows.len(), level);
-            let to = TextureCopy {
-                mip_level: level,
-                ..(&texture).into()
-            };
-            let size = texture.level_size(level);
-            device
-                .write_texture(to, &bytes, &TexelCopyLayout::default(), size)
-                .unwrap();
-            written.push(bytes);
-        }
-        let view = texture.create_view(&TextureViewDescriptor {
-            base_mip_level: 1,
-            base_array_layer: 1,
-            ..TextureViewDescriptor::default()
-        });
-        device.clear_texture(&view.unwrap()).unwrap();
-        for (level, mut expected) in (0..).zip(written) {
-            if level > 0 {
-                let half = expected.len() / 2;
-                expected[half..].fill(0);
-            }
-            let mut bytes = vec![0; expected.len()];
-            let from = TextureCopy {
-                mip_level: level,
-                ..(&texture).into()
-            };
-            let size = texture.level_size(level);
-            device
-                .read_texture_into(from, &mut bytes, &TexelCopyLayout::default(), size)
-                .unwrap();
-            assert!(bytes == expected, "{} level {level}", format.name());
-        }
-    }
-}
-
-/// A level's texel is the mean of four, of the level that was rendered or written above it.
-#[test]
-fn mip_levels_are_means() {
-    let device = device();
-    let descriptor = TextureDescriptor::new_2d(8, 4, TextureFormat::R8Unorm).with_all_levels();
-    let image = device.create_texture(&descriptor).unwrap();
-    let read = |level: u32| {
-        let size = image.level_size(level);
-        let mut bytes = vec![0; (size.width * size.height) as usize];
-        let from = TextureCopy {
-            mip_level: level,
-            ..(&image).into()
-        };
-        device
-            .read_texture_into(from, &mut bytes, &TexelCopyLayout::default(), size)
-            .unwrap();
-        bytes
-    };
-    let texels: Vec<u8> = (0..32).map(|at| at % 8 * 4 + at / 8 * 8).collect();
-    let size = Extent3d::new_2d(8, 4);
-    device
-        .write_texture(&image, &texels, &TexelCopyLayout::default(), size)
-        .unwrap();
-    device.generate_mips(&image).unwrap();
-    assert_eq!(read(1), [6, 14, 22, 30, 22, 30, 38, 46]);
-    assert_eq!(read(2), [18, 34]);
-    assert_eq!(read(3), [26]);
-    support::clear(&device, &image.image(0, 0).unwrap(), [1.0; 4]);
-    device.generate_mips(&image).unwrap();
-    assert_eq!([read(1), read(2), read(3)].concat(), [255; 11]);
 }

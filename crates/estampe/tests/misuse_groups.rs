@@ -4,10 +4,10 @@
 mod support;
 
 use estampe::{
-    BindGroup, BindGroupDescriptor, BindGroupError, BindGroupLayoutEntry, BindingResource,
-    BindingType, BufferBindingType, BufferDescriptor, Device, Limits, SampleType,
+    BindGroupError, BindingResource, BindingType, BufferDescriptor, Limits, SampleType,
     SamplerDescriptor, TextureFormat, TextureUsages, ViewDimension,
 };
+use support::binding::{DYNAMIC, SAMPLED, UNIFORM, entry, material};
 use support::{labelled, limited, samples, texture};
 
 /// Checks an error's variant and its message.
@@ -17,39 +17,6 @@ macro_rules! refused {
         assert!(matches!(error, $variant), "{error:?}");
         assert_eq!(error.to_string(), $message);
     }};
-}
-
-const UNIFORM: BindingType = BindingType::Buffer {
-    ty: BufferBindingType::Uniform,
-    has_dynamic_offset: false,
-    min_binding_size: 16,
-};
-
-const DYNAMIC: BindingType = BindingType::Buffer {
-    ty: BufferBindingType::Uniform,
-    has_dynamic_offset: true,
-    min_binding_size: 16,
-};
-
-const SAMPLED: BindingType = BindingType::SampledTexture {
-    sample_type: SampleType::Float,
-    view_dimension: ViewDimension::D2,
-};
-
-fn entry(binding: u32, ty: BindingType) -> BindGroupLayoutEntry {
-    BindGroupLayoutEntry { binding, ty }
-}
-
-fn bind(
-    device: &Device,
-    ty: BindingType,
-    entries: &[(u32, BindingResource)],
-) -> Result<BindGroup, BindGroupError> {
-    device.create_bind_group(&BindGroupDescriptor {
-        label: Some("material"),
-        layout: &device.create_bind_group_layout(&[entry(3, ty)])?,
-        entries,
-    })
 }
 
 #[test]
@@ -92,7 +59,7 @@ fn bind_groups() {
         .unwrap();
     let of_buffer = |range: std::ops::Range<u64>| BindingResource::Buffer(buffer.slice(range));
     refused!(
-        bind(&device, UNIFORM, &[]),
+        material(&device, UNIFORM, &[]),
         BindGroupError::Missing { .. },
         "binding 3 of the bind group `material` is a uniform buffer, and there is no resource for it"
     );
@@ -102,7 +69,7 @@ fn bind_groups() {
         )
     };
     refused!(
-        bind(
+        material(
             &device,
             UNIFORM,
             &[(3, of_buffer(0..16)), (4, of_buffer(0..16))]
@@ -111,7 +78,7 @@ fn bind_groups() {
         unexpected(4)
     );
     refused!(
-        bind(
+        material(
             &device,
             UNIFORM,
             &[(3, of_buffer(0..16)), (3, of_buffer(0..16))]
@@ -178,7 +145,7 @@ fn bind_groups() {
         ),
     ] {
         refused!(
-            bind(&device, ty, &[(3, resource)]),
+            material(&device, ty, &[(3, resource)]),
             BindGroupError::Kind { .. },
             format!(
                 "binding 3 of the bind group `material` is {expected}, and the resource is {actual}"
@@ -187,7 +154,7 @@ fn bind_groups() {
     }
     for range in [0..12, 0..68, 8..24] {
         refused!(
-            bind(&device, UNIFORM, &[(3, of_buffer(range.clone()))]),
+            material(&device, UNIFORM, &[(3, of_buffer(range.clone()))]),
             BindGroupError::BufferRange { .. },
             format!(
                 "binding 3 of the bind group `material` is {} bytes at offset {} of a buffer: the \
@@ -198,14 +165,14 @@ fn bind_groups() {
         );
     }
     refused!(
-        bind(&device, UNIFORM, &[(3, of_buffer(240..272))]),
+        material(&device, UNIFORM, &[(3, of_buffer(240..272))]),
         BindGroupError::Buffer { .. },
         "binding 3 of the bind group `material`: bytes 240..272 of a buffer, which has 256: use a \
          range inside the buffer"
     );
     let unbound = labelled(&device, "grass", TextureUsages::COPY_DST);
     refused!(
-        bind(
+        material(
             &device,
             SAMPLED,
             &[(3, BindingResource::SampledTexture(unbound.view(), sampler))]

@@ -3,12 +3,12 @@
 mod support;
 
 use estampe::{
-    AspectOperations, BindGroup, BindGroupDescriptor, BindGroupError, BindGroupLayoutEntry,
-    BindingResource, BindingType, BufferBindingType, BufferDescriptor, ColorAttachment,
+    AspectOperations, BindGroup, BindingResource, BufferDescriptor, ColorAttachment,
     DepthStencilAttachment, DepthStencilResolve, Device, Draw, IndexFormat, Limits, PassErrorKind,
-    PassExtent, RenderPass, RenderPipelineDescriptor, ResolveMode, SampleType, SamplerDescriptor,
-    Texture, TextureDescriptor, TextureFormat, TextureUsages, ViewDimension,
+    PassExtent, RenderPass, RenderPipelineDescriptor, ResolveMode, SamplerDescriptor, Texture,
+    TextureDescriptor, TextureFormat, TextureUsages,
 };
+use support::binding::{DYNAMIC, SAMPLED, UNIFORM, entry, material};
 use support::{Fill, device, labelled, limited, samples, texture};
 
 /// The error of a pass, whose message begins with its name.
@@ -28,39 +28,6 @@ macro_rules! refused_pass {
         assert!(matches!(kind, $variant), "{kind:?}");
         assert_eq!(message, $message);
     }};
-}
-
-const UNIFORM: BindingType = BindingType::Buffer {
-    ty: BufferBindingType::Uniform,
-    has_dynamic_offset: false,
-    min_binding_size: 16,
-};
-
-const DYNAMIC: BindingType = BindingType::Buffer {
-    ty: BufferBindingType::Uniform,
-    has_dynamic_offset: true,
-    min_binding_size: 16,
-};
-
-const SAMPLED: BindingType = BindingType::SampledTexture {
-    sample_type: SampleType::Float,
-    view_dimension: ViewDimension::D2,
-};
-
-fn entry(binding: u32, ty: BindingType) -> BindGroupLayoutEntry {
-    BindGroupLayoutEntry { binding, ty }
-}
-
-fn bind(
-    device: &Device,
-    ty: BindingType,
-    entries: &[(u32, BindingResource)],
-) -> Result<BindGroup, BindGroupError> {
-    device.create_bind_group(&BindGroupDescriptor {
-        label: Some("material"),
-        layout: &device.create_bind_group_layout(&[entry(3, ty)])?,
-        entries,
-    })
 }
 
 #[test]
@@ -328,7 +295,7 @@ fn bind_groups_of_draws() {
         )
     };
     let buffer = device.create_buffer(&BufferDescriptor::new(64)).unwrap();
-    let bind = |ty, resource| bind(&device, ty, &[(3, resource)]).unwrap();
+    let bind = |ty, resource| material(&device, ty, &[(3, resource)]).unwrap();
     let dynamic = bind(DYNAMIC, BindingResource::Buffer(buffer.slice(0..16)));
     let fixed = bind(UNIFORM, BindingResource::Buffer(buffer.slice(0..16)));
     let group = |groups: &[BindGroup], dynamic_offsets: &[u32]| {

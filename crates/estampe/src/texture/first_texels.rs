@@ -3,9 +3,7 @@
 use super::region::unsupported;
 use super::{ImageKey, Texture, TextureError};
 use crate::Limits;
-use estampe_texture::{
-    LevelData, MipGeneration, TexelDescriptor, create_texture,
-};
+use estampe_texture::{LevelData, MipGeneration, TexelDescriptor, create_texture};
 use estampe_types::TextureFormat;
 
 impl Texture {

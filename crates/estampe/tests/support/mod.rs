@@ -2,10 +2,13 @@
 
 #![allow(dead_code, reason = "every test uses a part")]
 
+pub(crate) mod binding;
+pub(crate) mod sampling;
+
 use estampe::{
-    ColorAttachment, DepthStencilAttachment, Device, DeviceDescriptor, Draw, FragmentIn,
-    FragmentOut, Int, Level, Limits, RenderPass, Statistics, Texture, TextureDescriptor,
-    TextureFormat, TextureUsages, TextureView, Vec2, Vec4, VertexIn, VertexOut,
+    ColorAttachment, DepthStencilAttachment, Device, DeviceDescriptor, Draw, Extent3d, FragmentIn,
+    FragmentOut, Int, Level, Limits, RenderPass, Statistics, TexelCopyLayout, Texture, TextureCopy,
+    TextureDescriptor, TextureFormat, TextureUsages, TextureView, Vec2, Vec4, VertexIn, VertexOut,
 };
 
 /// A device with as many threads as processors.
@@ -38,6 +41,19 @@ pub(crate) fn texture(device: &Device, size: [u32; 2], format: TextureFormat) ->
     device
         .create_texture(&TextureDescriptor::new_2d(size[0], size[1], format))
         .unwrap()
+}
+
+/// A texture of two layers, three levels, sides that no block size divides.
+pub(crate) fn layered(format: TextureFormat) -> TextureDescriptor<'static> {
+    TextureDescriptor {
+        size: Extent3d {
+            width: 29,
+            height: 23,
+            depth_or_array_layers: 2,
+        },
+        mip_level_count: 3,
+        ..TextureDescriptor::new_2d(1, 1, format)
+    }
 }
 
 /// A texture with a label and few uses.
@@ -106,6 +122,56 @@ impl Images {
     pub(crate) fn depths(&self, device: &Device) -> Vec<f32> {
         f32s(&device.read_texture(&self.depth).unwrap())
     }
+}
+
+/// The bytes of one level of all layers or slices, rows without padding.
+pub(crate) fn read_level(device: &Device, texture: &Texture, level: u32) -> Vec<u8> {
+    read_region(device, texture, [level, 0], texture.level_size(level))
+}
+
+/// The bytes of one level of one layer or slice, rows without padding.
+pub(crate) fn read_layer(device: &Device, texture: &Texture, level: u32, layer: u32) -> Vec<u8> {
+    let size = texture.level_size(level);
+    let size = Extent3d::new_2d(size.width, size.height);
+    read_region(device, texture, [level, layer], size)
+}
+
+fn read_region(
+    device: &Device,
+    texture: &Texture,
+    [mip_level, layer]: [u32; 2],
+    size: Extent3d,
+) -> Vec<u8> {
+    // Bytes that are not written would differ from the expected ones.
+    let mut bytes = vec![0xEE; len_bytes(texture.format(), size)];
+    let from = TextureCopy {
+        mip_level,
+        origin: [0, 0, layer],
+        ..texture.into()
+    };
+    device
+        .read_texture_into(from, &mut bytes, &TexelCopyLayout::default(), size)
+        .unwrap();
+    bytes
+}
+
+/// The bytes of rows without padding.
+pub(crate) fn len_bytes(format: TextureFormat, size: Extent3d) -> usize {
+    let [width, height] = format.block_size();
+    let blocks = size.width.div_ceil(width) * size.height.div_ceil(height);
+    (blocks * size.depth_or_array_layers * format.block_bytes()) as usize
+}
+
+/// Writes one level of all layers or slices, from rows without padding.
+pub(crate) fn write_level(device: &Device, texture: &Texture, level: u32, bytes: &[u8]) {
+    let to = TextureCopy {
+        mip_level: level,
+        ..texture.into()
+    };
+    let size = texture.level_size(level);
+    device
+        .write_texture(to, bytes, &TexelCopyLayout::default(), size)
+        .unwrap();
 }
 
 /// The floats of little-endian bytes.
