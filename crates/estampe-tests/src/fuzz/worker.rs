@@ -1,14 +1,8 @@
-//! Random watertightness test: triangles that share edges cover each sample exactly once, through
-//! the public API.
-//!
-//! A batch is several [meshes](crate::shared_edges) over one target, each of which covers every
-//! pixel once. Additive blending adds one code per hit, so each sample must end with a code equal
-//! to the number of meshes.
+//! A worker: draws batches, and looks for samples that a mesh does not hit once.
 
+use super::batch::{Batch, around};
 use crate::Random;
 use crate::fast_path;
-use crate::geometry::clip_at;
-use crate::shared_edges::{Corner, Kind, covered, mesh};
 use crate::target::Target;
 use estampe::{
     BufferSlice, ColorAttachment, Device, DeviceDescriptor, Draw, Level, Limits, RenderPass,
@@ -17,15 +11,6 @@ use estampe::{
 use estampe_types::shader::VertexOut;
 use estampe_types::state::{BlendState, ColorTargetState, MultisampleState, VertexBufferLayout};
 use estampe_types::{FragmentIn, FragmentOut, TextureFormat, Vec4, VertexFormat, VertexIn};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::time::{Duration, Instant};
-
-/// The greatest number of meshes in a batch: their hits fit into 8 bits, with room for some double
-/// hits.
-const MESHES: u32 = 100;
-
-/// The number of triangles at which a batch is closed.
-const TRIANGLES: usize = 40_000;
 
 /// Adds one 8-bit code to every covered sample.
 #[derive(Debug, Clone, Copy)]
@@ -51,70 +36,8 @@ estampe_types::shader! {
     }
 }
 
-/// The number of batches and triangles drawn.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Tally {
-    /// Batches drawn.
-    pub batches: u64,
-    /// Triangles in them.
-    pub primitives: u64,
-}
-
-/// Meshes over one target.
-#[derive(Debug)]
-struct Batch {
-    size: [u32; 2],
-    samples: u32,
-    meshes: Vec<(Kind, Vec<[Corner; 3]>)>,
-    /// The w of all vertices of each mesh.
-    ws: Vec<f32>,
-}
-
-/// Draws batches until the time is up, at least one; the first has seed `first_seed`, and each
-/// further one the next seed. All processors work.
-///
-/// # Errors
-/// A sample that was not hit once, with the seed of its batch and the mesh.
-pub fn run(time: Duration, first_seed: u64) -> Result<Tally, String> {
-    let start = Instant::now();
-    let next = AtomicU64::new(0);
-    let has_failed = AtomicBool::new(false);
-    let work = || {
-        let mut tally = Tally::default();
-        let mut fuzzer = Fuzzer::new();
-        loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            if number > 0 && (start.elapsed() >= time || has_failed.load(Ordering::Relaxed)) {
-                return Ok(tally);
-            }
-            match fuzzer.batch(first_seed.wrapping_add(number)) {
-                Ok(primitives) => tally.primitives += primitives,
-                Err(failure) => {
-                    has_failed.store(true, Ordering::Relaxed);
-                    return Err(failure);
-                }
-            }
-            tally.batches += 1;
-        }
-    };
-    let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        let handles: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
-        let mut sum = Tally::default();
-        for handle in handles {
-            let tally = match handle.join() {
-                Ok(tally) => tally?,
-                Err(panic) => std::panic::resume_unwind(panic),
-            };
-            sum.batches += tally.batches;
-            sum.primitives += tally.primitives;
-        }
-        Ok(sum)
-    })
-}
-
 /// A worker's devices, and their pipelines and targets, which take longer to create than to use.
-struct Fuzzer {
+pub(super) struct Fuzzer {
     /// The scalar SIMD level first.
     devices: Vec<Device>,
     kept: Vec<Kept>,
@@ -129,7 +52,7 @@ struct Kept {
 }
 
 impl Fuzzer {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         let device = |level| {
             Device::new(&DeviceDescriptor {
                 threads: 1,
@@ -156,7 +79,7 @@ impl Fuzzer {
     }
 
     /// Draws the batch of a seed and returns its number of triangles.
-    fn batch(&mut self, seed: u64) -> Result<u64, String> {
+    pub(super) fn batch(&mut self, seed: u64) -> Result<u64, String> {
         let mut random = Random::new("fuzz/raster", seed);
         let batch = Batch::random(&mut random);
         let at = self.device_of(seed);
@@ -235,61 +158,6 @@ impl Kept {
     }
 }
 
-impl Batch {
-    fn random(random: &mut Random) -> Self {
-        let size = random.pick(&[[64, 64], [32, 32], [16, 16], [61, 35], [130, 20]]);
-        let samples = random.pick(&[1, 1, 1, 4, 4, 2, 8, 16]);
-        let mut meshes = Vec::new();
-        let mut ws = Vec::new();
-        let mut triangles = 0;
-        while meshes.len() < MESHES as usize && triangles < TRIANGLES {
-            let kind = random.pick(&Kind::ALL);
-            let made = mesh(random, kind, size);
-            triangles += made.len();
-            meshes.push((kind, made));
-            ws.push(random.pick(&[1.0, 1.0, 0.5, 8.0]));
-        }
-        Self {
-            size,
-            samples,
-            meshes,
-            ws,
-        }
-    }
-
-    /// Clip-space positions of some meshes' triangles.
-    fn positions(&self, meshes: &[usize]) -> Vec<u32> {
-        let mut scalars = Vec::new();
-        for &number in meshes {
-            let (w, (_, triangles)) = (self.ws[number], &self.meshes[number]);
-            for corner in triangles.iter().flatten() {
-                let place = corner.map(|subpixels| subpixels as f32 / 256.0);
-                scalars.extend(clip_at(self.size, place, 0.5, w));
-            }
-        }
-        scalars.iter().map(|scalar| scalar.to_bits()).collect()
-    }
-
-    /// The expected number of hits of each pixel's samples by some meshes; `None` where a mesh need
-    /// not cover the pixel.
-    fn wanted(&self, meshes: &[usize]) -> Vec<Option<u8>> {
-        let [width, height] = self.size;
-        let mut wanted = vec![Some(0); width as usize * height as usize];
-        for &number in meshes {
-            let (kind, triangles) = &self.meshes[number];
-            let [columns, rows] = covered(*kind, self.size, triangles);
-            for y in 0..height {
-                for x in 0..width {
-                    let hits = &mut wanted[(y * width + x) as usize];
-                    let is_covered = x < columns && y < rows;
-                    *hits = hits.filter(|_| is_covered).map(|hits| hits + 1);
-                }
-            }
-        }
-        wanted
-    }
-}
-
 /// A sample with a wrong number of hits.
 #[derive(Debug, Clone, Copy)]
 struct Wrong {
@@ -341,21 +209,10 @@ fn wrong_sample(device: &Device, kept: &Kept, batch: &Batch, meshes: &[usize]) -
     })
 }
 
-/// Some of the triangles whose boxes touch a pixel.
-fn around(triangles: &[[Corner; 3]], pixel: [u32; 2]) -> Vec<[Corner; 3]> {
-    let touches = |triangle: &&[Corner; 3]| {
-        (0..2).all(|axis| {
-            let low = i32::try_from(pixel[axis] * 256).unwrap_or(i32::MAX - 256);
-            let places = || triangle.iter().map(|corner| corner[axis]);
-            places().min() <= Some(low + 256) && places().max() >= Some(low)
-        })
-    };
-    triangles.iter().filter(touches).take(12).copied().collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shared_edges::{Corner, Kind, mesh};
 
     /// A grid mesh over a small target with this many samples.
     fn grid(samples: u32) -> Batch {
