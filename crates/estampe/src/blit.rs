@@ -1,7 +1,7 @@
 //! Blits: a rectangle of an image, scaled and converted into a rectangle of another one.
 
-use crate::pass::{ColorAttachment, Draw, RenderPass};
-use crate::texture::{Texture, TextureUsages, TextureView};
+use crate::pass::{self, ColorAttachment, Draw, RenderPass};
+use crate::texture::{Sampler, Texture, TextureUsages, TextureView};
 use crate::{Coordinates, Lod, Real, SampleType, SampledTexture, ViewDimension};
 use crate::{
     Device, FilterMode, FragmentIn, FragmentOut, LoadOp, PipelineError, RenderPassError,
@@ -133,25 +133,48 @@ estampe_types::shader! {
     }
 }
 
+/// Checks a blit.
+pub(crate) fn check(
+    device: &Device,
+    from: &BlitRegion<'_>,
+    into: &BlitRegion<'_>,
+    filter: FilterMode,
+) -> Result<(), BlitError> {
+    check_region("source", from)?;
+    check_region("destination", into)?;
+    if from.view.texture().is_same(into.view.texture()) {
+        return Err(BlitError::SameTexture);
+    }
+    let usage = TextureUsages::TEXTURE_BINDING;
+    from.view.texture().require(usage)?;
+    from.view.check_sampler(&sampler(device, filter)?)?;
+    Ok(pass::check(
+        device.limits(),
+        &RenderPass {
+            label: Some("blit"),
+            color_attachments: &[Some(ColorAttachment::load(into.view))],
+            ..RenderPass::default()
+        },
+    )?)
+}
+
+fn sampler(device: &Device, filter: FilterMode) -> Result<Sampler, TextureError> {
+    device.create_sampler(&SamplerDescriptor {
+        mag_filter: filter,
+        min_filter: filter,
+        ..SamplerDescriptor::default()
+    })
+}
+
+/// Blits.
 pub(crate) fn blit(
     device: &Device,
     from: &BlitRegion<'_>,
     into: &BlitRegion<'_>,
     filter: FilterMode,
 ) -> Result<(), BlitError> {
-    check("source", from)?;
-    check("destination", into)?;
-    if from.view.texture().is_same(into.view.texture()) {
-        return Err(BlitError::SameTexture);
-    }
-    from.view
-        .texture()
-        .require(TextureUsages::TEXTURE_BINDING)?;
-    let sampler = device.create_sampler(&SamplerDescriptor {
-        mag_filter: filter,
-        min_filter: filter,
-        ..SamplerDescriptor::default()
-    })?;
+    check(device, from, into, filter)?;
+    let sampler = sampler(device, filter)?;
     let image = from.view.size();
     let axis = |axis: usize| Axis {
         from: [from.origin[axis] as f32, from.size[axis] as f32],
@@ -192,7 +215,7 @@ pub(crate) fn blit(
     Ok(())
 }
 
-fn check(side: &'static str, region: &BlitRegion<'_>) -> Result<(), BlitError> {
+fn check_region(side: &'static str, region: &BlitRegion<'_>) -> Result<(), BlitError> {
     let view = region.view;
     let texture: &Texture = view.texture();
     if view.image_key(None).is_none()

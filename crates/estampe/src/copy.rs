@@ -6,6 +6,7 @@ use crate::{
     Buffer, BufferError, BufferUsages, Context, Extent3d, TextureError, TextureUsages, TextureView,
 };
 use estampe_types::TextureDimension;
+use std::ops::Range;
 
 /// The reason why nothing was copied.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -27,16 +28,24 @@ pub enum CopyError {
     },
 }
 
+/// The ranges of bytes of a copy between buffers.
+pub(crate) fn check_buffer_to_buffer(
+    from: (&Buffer, u64),
+    into: (&Buffer, u64),
+    size: u64,
+) -> Result<(Range<usize>, Range<usize>), CopyError> {
+    from.0.require(BufferUsages::COPY_SRC)?;
+    into.0.require(BufferUsages::COPY_DST)?;
+    Ok((from.0.range(from.1, size)?, into.0.range(into.1, size)?))
+}
+
 /// Copies bytes between buffers, which may be the same.
 pub(crate) fn buffer_to_buffer(
     from: (&Buffer, u64),
     into: (&Buffer, u64),
     size: u64,
 ) -> Result<(), CopyError> {
-    from.0.require(BufferUsages::COPY_SRC)?;
-    into.0.require(BufferUsages::COPY_DST)?;
-    let source = from.0.range(from.1, size)?;
-    let destination = into.0.range(into.1, size)?;
+    let (source, destination) = check_buffer_to_buffer(from, into, size)?;
     // The source is read as it is now, so that neither buffer waits for the other.
     let data = from.0.data();
     let mut bytes = vec![0; source.len()];
@@ -46,13 +55,32 @@ pub(crate) fn buffer_to_buffer(
     Ok(())
 }
 
+/// The range of bytes of a write.
+pub(crate) fn check_write(
+    buffer: &Buffer,
+    offset: u64,
+    size: u64,
+) -> Result<Range<usize>, BufferError> {
+    buffer.require(BufferUsages::COPY_DST)?;
+    buffer.range(offset, size)
+}
+
 /// Sets bytes of a buffer to zero.
 pub(crate) fn clear_buffer(buffer: &Buffer, offset: u64, size: u64) -> Result<(), CopyError> {
-    buffer.require(BufferUsages::COPY_DST)?;
-    let range = buffer.range(offset, size)?;
+    let range = check_write(buffer, offset, size)?;
     let zeros = vec![0; range.len()];
     write_bytes(buffer.lock().words_mut(), range.start, &zeros);
     Ok(())
+}
+
+/// Checks a copy of texels out of a buffer.
+pub(crate) fn check_buffer_to_texture(
+    (from, layout): (&Buffer, &TexelCopyLayout),
+    into: &TextureCopy<'_>,
+    size: Extent3d,
+) -> Result<(), CopyError> {
+    from.require(BufferUsages::COPY_SRC)?;
+    Ok(texture::check_write(into, from.size(), layout, size)?)
 }
 
 /// Copies texels out of a buffer.
@@ -69,6 +97,16 @@ pub(crate) fn buffer_to_texture(
     with_bytes(data.words(), |bytes| {
         Ok(texture::write(context, into, &bytes[..len], layout, size)?)
     })
+}
+
+/// Checks a copy of texels into a buffer.
+pub(crate) fn check_texture_to_buffer(
+    from: &TextureCopy<'_>,
+    (into, layout): (&Buffer, &TexelCopyLayout),
+    size: Extent3d,
+) -> Result<(), CopyError> {
+    into.require(BufferUsages::COPY_DST)?;
+    Ok(texture::check_read(from, into.size(), layout, size)?)
 }
 
 /// Copies texels into a buffer.
@@ -93,9 +131,8 @@ pub(crate) fn texture_to_buffer(
     })
 }
 
-/// Copies texels between textures, which may be the same.
-pub(crate) fn texture_to_texture(
-    context: &Context,
+/// Checks a copy of texels between textures.
+pub(crate) fn check_texture_to_texture(
     from: &TextureCopy<'_>,
     into: &TextureCopy<'_>,
     size: Extent3d,
@@ -107,12 +144,24 @@ pub(crate) fn texture_to_texture(
             into: into.texture.name(),
         });
     }
+    let tight = TexelCopyLayout::default();
+    let len = texture::tight_len(from, size);
+    texture::check_read(from, len, &tight, size)?;
+    Ok(texture::check_write(into, len, &tight, size)?)
+}
+
+/// Copies texels between textures, which may be the same.
+pub(crate) fn texture_to_texture(
+    context: &Context,
+    from: &TextureCopy<'_>,
+    into: &TextureCopy<'_>,
+    size: Extent3d,
+) -> Result<(), CopyError> {
+    check_texture_to_texture(from, into, size)?;
     let mut both = [from.texture, into.texture];
     both.sort_by_key(|texture| texture.id());
     let _first = both[0].reserve();
     let _second = (!both[0].is_same(both[1])).then(|| both[1].reserve());
-    // Checked before anything is read.
-    into.texture.require(TextureUsages::COPY_DST)?;
     let len = texture::tight_len(from, size);
     let mut bytes = zeros(len)?;
     let tight = TexelCopyLayout::default();
@@ -129,10 +178,15 @@ fn zeros(len: u64) -> Result<Vec<u8>, TextureError> {
     Ok(bytes)
 }
 
+/// Checks that the texels of a view can be set.
+pub(crate) fn check_clear(view: &TextureView) -> Result<(), TextureError> {
+    view.texture().require(TextureUsages::COPY_DST)
+}
+
 /// Sets all texels of a view to zero, of one aspect if the view has one.
 pub(crate) fn clear_texture(context: &Context, view: &TextureView) -> Result<(), TextureError> {
+    check_clear(view)?;
     let texture = view.texture();
-    texture.require(TextureUsages::COPY_DST)?;
     let _reserved = texture.reserve();
     let keys: Vec<ImageKey> = levels(view)
         .flat_map(|level| layers(view, level).map(move |layer| ImageKey { level, layer }))
@@ -154,9 +208,8 @@ fn layers(view: &TextureView, level: u32) -> std::ops::Range<u32> {
     first..first + count
 }
 
-/// Makes each mip level from the one above, from level 1 on.
-pub(crate) fn generate_mips(context: &Context, texture: &Texture) -> Result<(), TextureError> {
-    let _reserved = texture.reserve();
+/// Checks that the mip levels of a texture can be made.
+pub(crate) fn check_mips(texture: &Texture) -> Result<(), TextureError> {
     let shape = texture.descriptor().without_texels();
     if !estampe_texture::can_generate(&shape) || texture.format().is_compressed() {
         return Err(TextureError::Unsupported {
@@ -166,6 +219,13 @@ pub(crate) fn generate_mips(context: &Context, texture: &Texture) -> Result<(), 
             rule: "mip levels are made of colours that can be filtered, and not of compressed blocks",
         });
     }
+    Ok(())
+}
+
+/// Makes each mip level from the one above, from level 1 on.
+pub(crate) fn generate_mips(context: &Context, texture: &Texture) -> Result<(), TextureError> {
+    check_mips(texture)?;
+    let _reserved = texture.reserve();
     let levels = 1..texture.mip_level_count();
     let keys = levels.clone().flat_map(|level| {
         let layers = texture.level_size(level).depth_or_array_layers;

@@ -3,15 +3,16 @@
 use crate::texture::{self, Sampler, TexelCopyLayout, Texture, TextureCopy, TextureDescriptor};
 use crate::{
     BindGroup, BindGroupDescriptor, BindGroupError, BindGroupLayout, BindGroupLayoutEntry,
-    BlitError, BlitRegion, Buffer, BufferDescriptor, BufferError, BufferUsages, CopyError,
+    BlitError, BlitRegion, Buffer, BufferDescriptor, BufferError, BufferUsages, Command, CopyError,
     Extent3d, FilterMode, Level, Limits, PipelineError, RenderPass, RenderPassError,
     RenderPipeline, RenderPipelineDescriptor, SampledTexture, SamplerDescriptor, Statistics,
-    TextureError, TextureView, blit, copy, pass,
+    SubmitError, TextureError, TextureView, blit, command, copy, pass,
 };
 use estampe_core::Context;
 use estampe_core::ThreadPool;
 use estampe_core::profile::JobTimings;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Threads, SIMD level and limits of a device.
 #[derive(Debug, Clone, Default)]
@@ -41,8 +42,8 @@ pub enum DeviceError {
     Threads(String),
 }
 
-/// Creates all objects, and draws. A call is done when it returns: there is no queue to submit to
-/// and nothing to wait for.
+/// Creates all objects, and draws. A call is done when it returns: there is nothing to wait for.
+/// [`Device::submit`] takes a list of commands, and checks all of it first.
 ///
 /// ```
 /// use estampe::{Device, DeviceDescriptor, Level};
@@ -59,6 +60,7 @@ pub enum DeviceError {
 pub struct Device {
     context: Context,
     limits: Limits,
+    created: Instant,
 }
 
 impl Device {
@@ -78,6 +80,7 @@ impl Device {
         Ok(Self {
             context,
             limits: descriptor.limits.clone(),
+            created: Instant::now(),
         })
     }
 
@@ -88,6 +91,7 @@ impl Device {
         Self {
             context: Context::profiling(level),
             limits: Limits::default(),
+            created: Instant::now(),
         }
     }
 
@@ -198,7 +202,37 @@ impl Device {
     /// [`RenderPassError`] names the pass, the attachment or draw that does not fit, and both
     /// sides; nothing is drawn or cleared then.
     pub fn render(&self, pass: &RenderPass<'_>) -> Result<Statistics, RenderPassError> {
-        pass::render(&self.context, &self.limits, pass)
+        pass::render(self, pass)
+    }
+
+    /// Runs commands in order, after all of them were checked. Returns the sum of the passes'
+    /// statistics.
+    ///
+    /// ```
+    /// use estampe::{ColorAttachment, Command, Device, DeviceDescriptor, RenderPass};
+    /// use estampe::{TextureDescriptor, TextureFormat};
+    ///
+    /// let device = Device::new(&DeviceDescriptor::default())?;
+    /// let descriptor = TextureDescriptor::new_2d(8, 8, TextureFormat::Rgba8Unorm);
+    /// let image = device.create_texture(&descriptor.with_all_levels())?;
+    /// let base = image.image(0, 0)?;
+    /// let attachments = [Some(ColorAttachment::clear(&base, [0.0, 1.0, 0.0, 1.0]))];
+    /// device.submit(&[
+    ///     Command::Render(RenderPass {
+    ///         color_attachments: &attachments,
+    ///         ..RenderPass::default()
+    ///     }),
+    ///     Command::GenerateMips(&image),
+    /// ])?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SubmitError`] names the command and the reason. If the check fails, nothing has been done;
+    /// a command can fail later only for want of memory, or if a pass is cancelled: those before it
+    /// are done then.
+    pub fn submit(&self, commands: &[Command<'_>]) -> Result<Statistics, SubmitError> {
+        command::submit(self, commands)
     }
 
     /// Writes texels from the host's bytes (WebGPU's `writeTexture`).
@@ -385,6 +419,17 @@ impl Device {
     #[must_use]
     pub fn threads(&self) -> usize {
         self.context.threads()
+    }
+
+    /// The time since the device was created: the clock of
+    /// [timestamps](crate::RangeResult::begin).
+    #[must_use]
+    pub fn age(&self) -> Duration {
+        self.created.elapsed()
+    }
+
+    pub(crate) fn context(&self) -> &Context {
+        &self.context
     }
 
     /// The largest sizes of resources and pipelines.

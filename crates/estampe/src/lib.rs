@@ -42,6 +42,7 @@
 mod bind_group;
 mod blit;
 mod buffer;
+mod command;
 mod copy;
 mod device;
 mod pass;
@@ -78,6 +79,7 @@ pub use blit::{BlitError, BlitRegion};
 pub use buffer::{
     Buffer, BufferDescriptor, BufferError, BufferNumber, BufferSlice, BufferUsages, bytes_of,
 };
+pub use command::{Command, CommandError, SubmitError};
 pub use copy::CopyError;
 pub use device::{Device, DeviceDescriptor, DeviceError};
 pub(crate) use estampe_core::Context;
@@ -104,7 +106,7 @@ pub use estampe_types::{
 };
 pub use pass::{
     AspectOperations, ColorAttachment, DepthStencilAttachment, DepthStencilResolve, Draw,
-    PassErrorKind, PassExtent, RenderPass, RenderPassError, StoreOp,
+    PassErrorKind, PassExtent, RangeQueries, RangeResult, RenderPass, RenderPassError, StoreOp,
 };
 #[cfg(feature = "png")]
 pub use png_file::PngError;

@@ -130,6 +130,19 @@ pub enum PassErrorKind {
         /// The limit.
         limit: u64,
     },
+    /// A range of a query that is not one of the pass's draws.
+    #[error(
+        "range query {query} is of draws {}..{}, and the pass has {draws}",
+        range.start, range.end
+    )]
+    QueryRange {
+        /// The query.
+        query: usize,
+        /// Its range of draws.
+        range: std::ops::Range<usize>,
+        /// The number of draws.
+        draws: usize,
+    },
     /// A pipeline was created for other colour attachments.
     #[error(
         "draw {draw}: its pipeline writes the colour formats [{}] and the pass has [{}]; give the pipeline one \

@@ -3,13 +3,16 @@
 mod attachments;
 mod check;
 mod draw;
+mod draw_data;
 mod error;
 mod images;
+mod queries;
 mod run;
 
 pub use draw::Draw;
 pub use error::{PassErrorKind, RenderPassError};
-pub(crate) use run::render;
+pub use queries::{RangeQueries, RangeResult};
+pub(crate) use run::{check, render};
 
 use crate::texture::TextureView;
 use estampe_core::{LoadOp, OcclusionQueries, PassControl, ResolveMode};
@@ -44,6 +47,8 @@ pub struct RenderPass<'a> {
     pub extent: Option<PassExtent>,
     /// The counters of samples that pass all tests. Default none.
     pub occlusion_queries: Option<&'a OcclusionQueries>,
+    /// Statistics and timestamps of ranges of the draws. Default none.
+    pub range_queries: Option<&'a RangeQueries>,
     /// Cancelling the pass, and watching its progress. Default neither.
     pub control: PassControl<'a>,
     /// The draws, in order. Default none.

@@ -8,6 +8,30 @@ use estampe_texture::region::{
 };
 use estampe_types::TextureAspect;
 
+/// Checks that so many bytes can be written to a region.
+pub(crate) fn check_write(
+    copy: &TextureCopy<'_>,
+    bytes: u64,
+    layout: &TexelCopyLayout,
+    size: Extent3d,
+) -> Result<(), TextureError> {
+    copy.texture.require(TextureUsages::COPY_DST)?;
+    Region::new(copy, size, layout, bytes)?;
+    Ok(())
+}
+
+/// Checks that a region can be read into so many bytes.
+pub(crate) fn check_read(
+    copy: &TextureCopy<'_>,
+    bytes: u64,
+    layout: &TexelCopyLayout,
+    size: Extent3d,
+) -> Result<(), TextureError> {
+    copy.texture.require(TextureUsages::COPY_SRC)?;
+    Region::new(copy, size, layout, bytes)?;
+    Ok(())
+}
+
 /// Writes a region from bytes.
 pub(crate) fn write(
     context: &Context,

@@ -11,7 +11,7 @@ mod view;
 
 pub(crate) use contents::{Contents, Image, ImageKey, Newest};
 pub use error::TextureError;
-pub(crate) use host_access::{read, read_sample, write, zero};
+pub(crate) use host_access::{check_read, check_write, read, read_sample, write, zero};
 pub(crate) use region::tight_len;
 pub use region::{TexelCopyLayout, TextureCopy};
 pub(crate) use stores::StoredTextures;

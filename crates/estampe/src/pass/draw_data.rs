@@ -1,0 +1,187 @@
+//! What the draws of a pass refer to, as the core sees it: plain data.
+
+use super::{Draw, PassErrorKind};
+use crate::texture::StoredTextures;
+use crate::{BindGroup, BufferSlice, Context};
+use estampe_types::bindings::BoundResources;
+use estampe_types::{Bindings, BoundGroup, BufferData, MAX_DYNAMIC_OFFSETS};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// The bind groups of a pass, each once.
+#[derive(Debug)]
+pub(super) struct Groups<'a> {
+    pub(super) distinct: Vec<&'a BindGroup>,
+    /// The index of each by its id.
+    indices: BTreeMap<usize, usize>,
+}
+
+impl<'a> Groups<'a> {
+    pub(super) fn of(draws: &[Draw<'a>]) -> Self {
+        let mut groups = Self {
+            distinct: Vec::new(),
+            indices: BTreeMap::new(),
+        };
+        let mut before: &[BindGroup] = &[];
+        for draw in draws {
+            if !std::ptr::eq(draw.bind_groups, before) {
+                for group in draw.bind_groups {
+                    if groups.index_of(group).is_none() {
+                        let index = groups.distinct.len();
+                        groups.indices.insert(group.id(), index);
+                        groups.distinct.push(group);
+                    }
+                }
+                before = draw.bind_groups;
+            }
+        }
+        groups
+    }
+
+    fn index_of(&self, group: &BindGroup) -> Option<usize> {
+        self.indices.get(&group.id()).copied()
+    }
+
+    pub(super) fn resources(
+        &self,
+        context: &Context,
+        stores: &mut StoredTextures,
+    ) -> Result<Vec<Arc<BoundResources>>, PassErrorKind> {
+        let resources = self.distinct.iter().map(|group| {
+            let resources = group.resources(context, stores);
+            resources.map_err(|error| PassErrorKind::Texture {
+                attachment: group.name(),
+                error,
+            })
+        });
+        resources.collect()
+    }
+}
+
+/// The plain data that the draws of a pass refer to.
+#[derive(Debug)]
+pub(super) struct DrawData {
+    buffers: Vec<BufferData>,
+    bindings: Vec<Bindings>,
+    /// For each draw: its vertex buffers, its index buffer, its bindings.
+    of_draws: Vec<(Range<usize>, Option<usize>, Option<usize>)>,
+}
+
+impl DrawData {
+    pub(super) fn new(
+        draws: &[Draw<'_>],
+        groups: &Groups<'_>,
+        resources: &[Arc<BoundResources>],
+    ) -> Self {
+        let mut data = Self {
+            buffers: Vec::new(),
+            bindings: Vec::new(),
+            of_draws: Vec::with_capacity(draws.len()),
+        };
+        let mut before: Option<&Draw<'_>> = None;
+        let mut last = (0..0, None, None);
+        for draw in draws {
+            let is_same = |same: fn(&Draw<'_>, &Draw<'_>) -> bool| {
+                before.is_some_and(|before| same(before, draw))
+            };
+            if !is_same(|a, b| same_slices(a.vertex_buffers, b.vertex_buffers)) {
+                let first = data.buffers.len();
+                data.buffers.extend(draw.vertex_buffers.iter().map(data_of));
+                last.0 = first..data.buffers.len();
+            }
+            if !is_same(|a, b| match (a.index_buffer, b.index_buffer) {
+                (Some((a, _)), Some((b, _))) => same_slice(a, b),
+                (a, b) => a.is_none() && b.is_none(),
+            }) {
+                last.1 = draw.index_buffer.map(|(slice, _)| {
+                    data.buffers.push(data_of(slice));
+                    data.buffers.len() - 1
+                });
+            }
+            if !is_same(same_groups) {
+                last.2 = (!draw.bind_groups.is_empty()).then(|| {
+                    let mut offsets = draw.dynamic_offsets;
+                    let bound = draw.bind_groups.iter();
+                    let bound = bound.map(|group| {
+                        let count = group.layout().dynamic_offset_count();
+                        let (of_group, others) = offsets.split_at(count.min(offsets.len()));
+                        offsets = others;
+                        bound_group(group, of_group, groups, resources)
+                    });
+                    data.bindings.push(Bindings {
+                        groups: bound.collect(),
+                    });
+                    data.bindings.len() - 1
+                });
+            }
+            data.of_draws.push(last.clone());
+            before = Some(draw);
+        }
+        data
+    }
+
+    pub(super) fn draws<'a>(&'a self, draws: &[Draw<'a>]) -> Vec<estampe_core::Draw<'a>> {
+        let draws = draws.iter().zip(&self.of_draws);
+        let draws = draws.map(|(draw, (vertices, indices, bindings))| {
+            let format = draw.index_buffer.map(|(_, format)| format);
+            estampe_core::Draw {
+                pipeline: draw.pipeline,
+                vertex_buffers: &self.buffers[vertices.clone()],
+                indices: indices.map(|at| &self.buffers[at]).zip(format),
+                elements: draw.elements.clone(),
+                instances: draw.instances.clone(),
+                base_vertex: draw.base_vertex,
+                bindings: bindings.map(|at| &self.bindings[at]),
+                viewport: draw.viewport,
+                scissor: draw.scissor,
+                blend_constant: draw.blend_constant,
+                stencil_reference: draw.stencil_reference,
+                depth_bounds: draw.depth_bounds,
+                occlusion_query: draw.occlusion_query,
+            }
+        });
+        draws.collect()
+    }
+}
+
+fn bound_group(
+    group: &BindGroup,
+    offsets: &[u32],
+    groups: &Groups<'_>,
+    resources: &[Arc<BoundResources>],
+) -> BoundGroup {
+    let index = groups.index_of(group);
+    let mut dynamic_offsets = [0; MAX_DYNAMIC_OFFSETS];
+    for (to, offset) in dynamic_offsets.iter_mut().zip(offsets) {
+        *to = *offset;
+    }
+    BoundGroup {
+        group: index.map_or_else(Arc::default, |index| Arc::clone(&resources[index])),
+        dynamic_offsets,
+    }
+}
+
+fn data_of(slice: &BufferSlice) -> BufferData {
+    // The slice was checked: it lies in the buffer.
+    let bytes = |value: u64| usize::try_from(value).unwrap_or(usize::MAX);
+    slice
+        .buffer
+        .data()
+        .slice(bytes(slice.offset), bytes(slice.size))
+}
+
+fn same_slice(a: &BufferSlice, b: &BufferSlice) -> bool {
+    a.buffer.is_same(&b.buffer) && a.offset == b.offset && a.size == b.size
+}
+
+fn same_slices(a: &[BufferSlice], b: &[BufferSlice]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_slice(a, b))
+}
+
+fn same_groups(a: &Draw<'_>, b: &Draw<'_>) -> bool {
+    let same = a.bind_groups.iter().zip(b.bind_groups);
+    a.bind_groups.len() == b.bind_groups.len()
+        && a.dynamic_offsets == b.dynamic_offsets
+        && same.into_iter().all(|(a, b)| a.is_same(b))
+}
