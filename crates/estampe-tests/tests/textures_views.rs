@@ -567,8 +567,8 @@ fn comparisons_with_every_function() {
 /// Rows: F2.
 #[test]
 fn common_2d_views_equal_the_oracle() {
-    // `SampledTexture` passes these views to `Rgba8Texture`; the oracle samples all views with the same
-    // code.
+    // `SampledTexture` passes these views to `Rgba8Texture`; the oracle samples all views with the
+    // same code.
     let formats = [
         TextureFormat::Rgba8Unorm,
         TextureFormat::Bgra8UnormSrgb,

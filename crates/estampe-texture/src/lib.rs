@@ -8,8 +8,8 @@
 //!   gives their sizes and fetches texels.
 //! * [`SampledTexture`] is a view with a sampler: it samples, gathers and compares at any
 //!   [`Coordinates`] and [`Lod`].
-//! * [`Rgba8Texture`] is a texture of the common kind with a sampler: 2D, four 8-bit channels, WebGPU's
-//!   address modes.
+//! * [`Rgba8Texture`] is a texture of the common kind with a sampler: 2D, four 8-bit channels,
+//!   WebGPU's address modes.
 //! * [`sample_compare_level`] and [`sample_compare_sum`] compare a depth attachment with a
 //!   reference, without a copy; [`texture_from_depth`] copies it to a texture like others.
 //! * [`TextureBindings`] finds the textures of a draw by group and binding number.

@@ -6,9 +6,9 @@
 //! Requests and answers are packets of up to sixteen lanes, a cache line each, so that a register
 //! stores or loads a packet at once.
 //!
-//! The level entry of a packet holds only the common case ([`Rgba8Texture::inside`]). Other cases are
-//! behind a second call, which computes everything again, so that the common case keeps nothing in
-//! memory for them.
+//! The level entry of a packet holds only the common case ([`Rgba8Texture::inside`]). Other cases
+//! are behind a second call, which computes everything again, so that the common case keeps nothing
+//! in memory for them.
 
 use crate::Rgba8Texture;
 use crate::lod::{implicit_rho2, level_of_detail, rho2};

@@ -25,7 +25,8 @@ pub struct TexturedShader {
     pub sampler: SamplerDescriptor,
     /// The channel whose bits are shown; `None` shows the colour.
     pub channel: Option<usize>,
-    /// If set, the fast path samples a view (any format and sampler), not a [`Rgba8Texture`] texture.
+    /// If set, the fast path samples a view (any format and sampler), not a [`Rgba8Texture`]
+    /// texture.
     pub is_view: bool,
 }
 

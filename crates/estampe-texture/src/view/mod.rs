@@ -2,8 +2,8 @@
 //! are sampled, gathered, compared and fetched.
 //!
 //! This code serves every dimension, format and function, and is compiled once for all shaders. If
-//! a view and its sampler are of the common kind (2D, four 8-bit channels), [`SampledTexture`] hands
-//! `sample` over to [`Rgba8Texture`](crate::Sampled).
+//! a view and its sampler are of the common kind (2D, four 8-bit channels), [`SampledTexture`]
+//! hands `sample` over to [`Rgba8Texture`](crate::Rgba8Texture).
 //!
 //! ```text
 //!  coordinates ─▶ footprint ─▶ probes ─▶ levels ─▶ axis / cube ─▶ decode ─▶ mixture

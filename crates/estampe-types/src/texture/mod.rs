@@ -19,8 +19,9 @@ use std::sync::Arc;
 ///
 /// Texels are stored level by level; in each level slice by slice (the layers of an array, six
 /// faces per cube, or the depths of a 3D texture); in each slice row by row from the top; in each
-/// row texel by texel; in each texel sample by sample. A sample takes [`TexelData::words_per_texel`]
-/// words, which hold the bytes of [`TexelData::stored_format`] from the lowest on.
+/// row texel by texel; in each texel sample by sample. A sample takes
+/// [`TexelData::words_per_texel`] words, which hold the bytes of [`TexelData::stored_format`] from
+/// the lowest on.
 #[derive(Debug, Clone)]
 pub struct TexelData {
     /// Format with which the texture was created.
