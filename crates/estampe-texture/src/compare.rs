@@ -22,7 +22,8 @@ use estampe_types::{AddressMode, FilterMode, Int, Real, ShadowMap, Vec2};
 
 /// The filtered share of the texels around (u, v) that pass *reference ≤ texel*, 0..=1: WebGPU's
 /// `textureSampleCompareLevel` with a linear, clamped *less-equal* sampler. An empty image reads as
-/// depth 0.
+/// depth 0. What lies outside the map is compared with its edge: a shader whose light has an end
+/// must treat coordinates beyond 0..=1 itself.
 #[inline(always)]
 pub fn sample_compare_level<R: Real>(texture: &ShadowMap, uv: Vec2<R>, reference: R) -> R {
     sample_compare_sum(texture, uv, &[[0.0; 2]], reference)
@@ -105,7 +106,12 @@ impl<'a> Map<'a> {
 
     /// The lit lanes, if the bounds decide every lane: all texels of its samples pass, or all fail.
     #[inline(always)]
-    fn decided<R: Real>(&self, uv: Vec2<R>, offsets: &[[f32; 2]], reference: R) -> Option<R::Mask> {
+    fn decided<R: Real>(
+        &self,
+        uv: Vec2<R>,
+        offsets: &[[f32; 2]],
+        reference: R,
+    ) -> Option<R::SelectMask> {
         let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
         for offset in offsets {
             for axis in 0..2 {

@@ -73,7 +73,7 @@ impl<R: Number> Footprint<R> {
 
     /// The lanes whose four texels are not all inside the level.
     #[inline(always)]
-    fn outside(&self) -> R::Mask {
+    fn outside(&self) -> R::SelectMask {
         let (x, y) = (self.x.texel, self.y.texel);
         x.is_outside(self.level.width - 1) | y.is_outside(self.level.height - 1)
     }

@@ -22,7 +22,12 @@ impl<R: Number> Mixed<R> {
     /// The lanes in `second` are filtered between the second and the third level, the others
     /// between the first and the second. The address mode is repeat.
     #[inline(always)]
-    pub(crate) fn new(levels: [&Level; 3], second: R::Mask, wrapped: Vec2<R>, fraction: R) -> Self {
+    pub(crate) fn new(
+        levels: [&Level; 3],
+        second: R::SelectMask,
+        wrapped: Vec2<R>,
+        fraction: R,
+    ) -> Self {
         let [first, middle, last] = levels;
         Self {
             fine: Lanes::new([first, middle], second, wrapped),
@@ -62,7 +67,7 @@ struct Lanes<R: Real> {
 
 impl<R: Number> Lanes<R> {
     #[inline(always)]
-    fn new([a, b]: [&Level; 2], in_b: R::Mask, wrapped: Vec2<R>) -> Self {
+    fn new([a, b]: [&Level; 2], in_b: R::SelectMask, wrapped: Vec2<R>) -> Self {
         let like = wrapped.x;
         let real = |a: f32, b: f32| R::select(in_b, like.splat(b), like.splat(a));
         let int = |a: i32, b: i32| R::Int::select(in_b, like.splat_int(b), like.splat_int(a));

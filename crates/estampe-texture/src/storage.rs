@@ -90,7 +90,7 @@ pub fn storage_load<I: Int>(texture: &StorageTexture, at: [I; 3]) -> Vec4<I::Rea
 #[inline(always)]
 pub fn storage_store<R: Real>(
     texture: &StorageTexture,
-    mask: R::Mask,
+    mask: R::SelectMask,
     at: [R::Int; 3],
     value: Vec4<R>,
 ) {

@@ -82,18 +82,18 @@ impl Bindings {
             .map(|(_, entry)| entry)
     }
 
-    /// `N` consecutive 32-bit floats of the bound buffer, starting at a byte offset. Floats beyond
-    /// the buffer's end, and all floats if no buffer is bound, are zero.
+    /// `N` consecutive 32-bit words of the bound buffer, starting at a byte offset. Words beyond
+    /// the buffer's end, and all words if no buffer is bound, are zero.
     #[inline]
     #[must_use]
-    pub fn f32s<const N: usize>(&self, group: u32, binding: u32, offset_bytes: u32) -> [f32; N] {
+    pub fn u32s<const N: usize>(&self, group: u32, binding: u32, offset_bytes: u32) -> [u32; N] {
         let Some(BoundResource::Buffer {
             buffer,
             offset,
             dynamic_offset,
         }) = self.get(group, binding)
         else {
-            return [0.0; N];
+            return [0; N];
         };
         let offsets = &self.groups[group as usize].dynamic_offsets;
         let dynamic = dynamic_offset.and_then(|index| offsets.get(usize::from(index)));
@@ -105,13 +105,28 @@ impl Bindings {
             && let Some(words) = words.first_chunk::<N>()
             && start.is_multiple_of(4)
         {
-            return words.map(f32::from_bits);
+            return *words;
         }
-        let mut values = [0.0; N];
+        let mut values = [0; N];
         for (index, value) in values.iter_mut().enumerate() {
-            *value = f32::from_bits(buffer.word_at(start + index * 4));
+            *value = buffer.word_at(start + index * 4);
         }
         values
+    }
+
+    /// `N` consecutive 32-bit floats of the bound buffer, as [`Bindings::u32s`].
+    #[inline]
+    #[must_use]
+    pub fn f32s<const N: usize>(&self, group: u32, binding: u32, offset_bytes: u32) -> [f32; N] {
+        self.u32s(group, binding, offset_bytes).map(f32::from_bits)
+    }
+
+    /// `N` consecutive 32-bit signed integers of the bound buffer, as [`Bindings::u32s`].
+    #[inline]
+    #[must_use]
+    pub fn i32s<const N: usize>(&self, group: u32, binding: u32, offset_bytes: u32) -> [i32; N] {
+        self.u32s(group, binding, offset_bytes)
+            .map(u32::cast_signed)
     }
 
     /// A 4×4 matrix of the bound buffer, stored by columns.

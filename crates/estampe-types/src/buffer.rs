@@ -48,19 +48,31 @@ impl BufferData {
         &mut Arc::make_mut(&mut self.words)[self.first_word..][..count]
     }
 
-    /// A buffer with these bytes.
+    /// A buffer with these bytes, or `None` if there is not enough memory.
     #[must_use]
-    pub fn from_bytes(bytes: &[u8]) -> Self {
+    pub fn try_from_bytes(bytes: &[u8]) -> Option<Self> {
         let word = |chunk: &[u8]| {
             let mut word = [0; 4];
             word[..chunk.len()].copy_from_slice(chunk);
             u32::from_le_bytes(word)
         };
-        Self {
-            words: Arc::new(bytes.chunks(4).map(word).collect()),
+        let mut words = Vec::new();
+        words.try_reserve_exact(bytes.len().div_ceil(4)).ok()?;
+        words.extend(bytes.chunks(4).map(word));
+        Some(Self {
+            words: Arc::new(words),
             first_word: 0,
             len_bytes: bytes.len(),
-        }
+        })
+    }
+
+    /// [`BufferData::try_from_bytes`] of few bytes.
+    ///
+    /// # Panics
+    /// If there is not enough memory.
+    #[must_use]
+    pub fn from_bytes(bytes: &[u8]) -> Self {
+        Self::try_from_bytes(bytes).expect("not enough memory")
     }
 
     /// A buffer of 32-bit words.

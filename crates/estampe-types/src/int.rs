@@ -22,9 +22,9 @@ pub trait Int:
     + Implied<f32, Is: LeftOfReal<<Self as Int>::Real>>
 {
     /// The real number with the same lanes.
-    type Real: Real<Int = Self, Mask = Self::Mask>;
+    type Real: Real<Int = Self, SelectMask = Self::SelectMask>;
     /// A boolean in each lane.
-    type Mask: Copy;
+    type SelectMask: Copy;
 
     /// `value` in every lane.
     #[must_use]
@@ -46,14 +46,14 @@ pub trait Int:
     #[must_use]
     fn max(self, other: Self) -> Self;
     /// True in the lanes where `self < other`, signed.
-    fn lt(self, other: Self) -> Self::Mask;
+    fn lt(self, other: Self) -> Self::SelectMask;
     /// True in the lanes where `self == other`.
-    fn eq(self, other: Self) -> Self::Mask;
+    fn eq(self, other: Self) -> Self::SelectMask;
     /// True in the lanes where `self` is outside `0..count`; `count` is not negative.
-    fn is_outside(self, count: i32) -> Self::Mask;
+    fn is_outside(self, count: i32) -> Self::SelectMask;
     /// `yes` in the lanes of the mask, `no` in the others.
     #[must_use]
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    fn select(mask: Self::SelectMask, yes: Self, no: Self) -> Self;
     /// `table[self]`, the index read as unsigned. An index beyond the end gives the last element;
     /// an empty table gives 0.
     #[must_use]

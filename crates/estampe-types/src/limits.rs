@@ -4,6 +4,8 @@
 /// that names it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Limits {
+    /// Width of a 1D texture, in texels. Default and maximum 16384.
+    pub max_texture_dimension_1d: u32,
     /// Width and height of a render target or texture, in pixels. Default and maximum 16384: the
     /// guard band of the fixed-point rasterizer is sized for it.
     pub max_texture_dimension_2d: u32,
@@ -19,18 +21,39 @@ pub struct Limits {
     pub max_inter_stage_scalars: u32,
     /// Colour targets of a pipeline. Default 8.
     pub max_color_attachments: u32,
+    /// Bytes of all colour targets of a pipeline for one sample. Default 128: eight targets of the
+    /// widest format.
+    pub max_color_attachment_bytes_per_sample: u32,
     /// Bind groups of a draw. Default 4.
     pub max_bind_groups: u32,
+    /// Bind groups and vertex buffers of a pipeline together. Default 24.
+    pub max_bind_groups_plus_vertex_buffers: u32,
     /// Bindings of a bind group. Default 1000.
     pub max_bindings_per_bind_group: u32,
     /// Dynamic offsets of a bind group. Default and maximum 12.
     pub max_dynamic_offsets_per_bind_group: u32,
+    /// Uniform buffers with a dynamic offset of a pipeline. Default 48.
+    pub max_dynamic_uniform_buffers_per_pipeline_layout: u32,
+    /// Storage buffers with a dynamic offset of a pipeline. Default 48.
+    pub max_dynamic_storage_buffers_per_pipeline_layout: u32,
+    /// Textures that a pipeline samples or fetches from. Default 1000.
+    pub max_sampled_textures_per_shader_stage: u32,
+    /// Samplers of a pipeline. Default 1000.
+    pub max_samplers_per_shader_stage: u32,
+    /// Storage buffers of a pipeline. Default 1000.
+    pub max_storage_buffers_per_shader_stage: u32,
+    /// Storage textures of a pipeline. Default 1000.
+    pub max_storage_textures_per_shader_stage: u32,
+    /// Uniform buffers of a pipeline. Default 1000.
+    pub max_uniform_buffers_per_shader_stage: u32,
     /// Bytes of a uniform buffer's binding. Default 2³⁰.
     pub max_uniform_buffer_binding_size: u64,
     /// Bytes of a storage buffer's binding. Default 2³⁰.
     pub max_storage_buffer_binding_size: u64,
-    /// Multiple that offsets of uniform and storage buffers must be of. Default 4.
-    pub min_buffer_offset_alignment: u32,
+    /// Multiple that offsets of uniform buffers must be of, in bytes. Default and minimum 4.
+    pub min_uniform_buffer_offset_alignment: u32,
+    /// Multiple that offsets of storage buffers must be of, in bytes. Default and minimum 4.
+    pub min_storage_buffer_offset_alignment: u32,
     /// Vertices or indices of all draws of a pass, times their instances: what keeps a hostile draw
     /// from running for hours. Default 2³⁰.
     pub max_pass_vertices: u64,
@@ -43,6 +66,7 @@ pub struct Limits {
 impl Default for Limits {
     fn default() -> Self {
         Self {
+            max_texture_dimension_1d: 16_384,
             max_texture_dimension_2d: 16_384,
             max_buffer_size: 1 << 30,
             max_vertex_attributes: 16,
@@ -50,12 +74,22 @@ impl Default for Limits {
             max_vertex_buffer_array_stride: 2048,
             max_inter_stage_scalars: 64,
             max_color_attachments: 8,
+            max_color_attachment_bytes_per_sample: 128,
             max_bind_groups: 4,
+            max_bind_groups_plus_vertex_buffers: 24,
             max_bindings_per_bind_group: 1000,
             max_dynamic_offsets_per_bind_group: 12,
+            max_dynamic_uniform_buffers_per_pipeline_layout: 48,
+            max_dynamic_storage_buffers_per_pipeline_layout: 48,
+            max_sampled_textures_per_shader_stage: 1000,
+            max_samplers_per_shader_stage: 1000,
+            max_storage_buffers_per_shader_stage: 1000,
+            max_storage_textures_per_shader_stage: 1000,
+            max_uniform_buffers_per_shader_stage: 1000,
             max_uniform_buffer_binding_size: 1 << 30,
             max_storage_buffer_binding_size: 1 << 30,
-            min_buffer_offset_alignment: 4,
+            min_uniform_buffer_offset_alignment: 4,
+            min_storage_buffer_offset_alignment: 4,
             max_pass_vertices: 1 << 30,
             max_texture_array_layers: 256,
             max_texture_dimension_3d: 2048,

@@ -111,7 +111,7 @@ macro_rules! both {
 }
 
 impl<R: Real> Real for Pair<R> {
-    type Mask = Pair<R::Mask>;
+    type SelectMask = Pair<R::SelectMask>;
     type Int = Pair<R::Int>;
     const LANES: usize = 2 * R::LANES;
     // The scalar level shades quads; it never makes pairs.
@@ -120,7 +120,7 @@ impl<R: Real> Real for Pair<R> {
     both! {
         splat(value: f32) -> Self;
         splat_int(value: i32) -> Pair<R::Int>;
-        splat_mask(value: bool) -> Pair<R::Mask>;
+        splat_mask(value: bool) -> Pair<R::SelectMask>;
         sqrt() -> Self;
         abs() -> Self;
         floor() -> Self;
@@ -136,23 +136,23 @@ impl<R: Real> Real for Pair<R> {
     both! { with_operand
         min -> Self;
         max -> Self;
-        lt -> Pair<R::Mask>;
-        le -> Pair<R::Mask>;
-        eq -> Pair<R::Mask>;
+        lt -> Pair<R::SelectMask>;
+        le -> Pair<R::SelectMask>;
+        eq -> Pair<R::SelectMask>;
     }
     #[inline(always)]
-    fn select(mask: Pair<R::Mask>, yes: Self, no: Self) -> Self {
+    fn select(mask: Pair<R::SelectMask>, yes: Self, no: Self) -> Self {
         Self(
             R::select(mask.0, yes.0, no.0),
             R::select(mask.1, yes.1, no.1),
         )
     }
     #[inline(always)]
-    fn any(mask: Pair<R::Mask>) -> bool {
+    fn any(mask: Pair<R::SelectMask>) -> bool {
         R::any(mask.0 | mask.1)
     }
     #[inline(always)]
-    fn mask_bits(mask: Pair<R::Mask>) -> u32 {
+    fn mask_bits(mask: Pair<R::SelectMask>) -> u32 {
         R::mask_bits(mask.0) | R::mask_bits(mask.1) << R::LANES
     }
     #[inline(always)]
@@ -185,25 +185,25 @@ impl<R: Real> Real for Pair<R> {
 
 impl<I: Int> Int for Pair<I> {
     type Real = Pair<I::Real>;
-    type Mask = Pair<<I::Real as Real>::Mask>;
+    type SelectMask = Pair<<I::Real as Real>::SelectMask>;
 
     both! {
         splat(value: i32) -> Self;
         shr_unsigned(by: u32) -> Self;
         to_real() -> Pair<I::Real>;
         to_real_bits() -> Pair<I::Real>;
-        is_outside(count: i32) -> Self::Mask;
+        is_outside(count: i32) -> Self::SelectMask;
         gather(table: &[u32]) -> Self;
     }
     both! { with_other
         wrapping_mul -> Self;
         min -> Self;
         max -> Self;
-        lt -> Self::Mask;
-        eq -> Self::Mask;
+        lt -> Self::SelectMask;
+        eq -> Self::SelectMask;
     }
     #[inline(always)]
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+    fn select(mask: Self::SelectMask, yes: Self, no: Self) -> Self {
         Self(
             I::select(mask.0, yes.0, no.0),
             I::select(mask.1, yes.1, no.1),

@@ -112,7 +112,7 @@ impl Shr<u32> for Quad<i32> {
 join_number! { [] Quad }
 
 impl Real for Quad {
-    type Mask = Quad<bool>;
+    type SelectMask = Quad<bool>;
     type Int = Quad<i32>;
     const LANES: usize = 4;
     const EMULATED_LANES: bool = true;
@@ -223,7 +223,7 @@ impl Real for Quad {
 
 impl Int for Quad<i32> {
     type Real = Quad;
-    type Mask = Quad<bool>;
+    type SelectMask = Quad<bool>;
 
     #[inline(always)]
     fn splat(self, value: i32) -> Self {
@@ -283,7 +283,7 @@ impl Int for Quad<i32> {
 }
 
 impl Real for f32 {
-    type Mask = bool;
+    type SelectMask = bool;
     type Int = i32;
     const LANES: usize = 1;
     const EMULATED_LANES: bool = false;
@@ -406,7 +406,7 @@ impl Real for f32 {
 
 impl Int for i32 {
     type Real = f32;
-    type Mask = bool;
+    type SelectMask = bool;
 
     #[inline(always)]
     fn splat(self, value: i32) -> Self {

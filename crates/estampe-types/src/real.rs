@@ -18,10 +18,10 @@ use std::ops::{
 ///
 /// # Conditions
 ///
-/// A comparison gives a [mask](Real::Mask): a boolean in each lane. Rust's `if`, `&&` and `||` take
-/// one `bool`, and `<` and `==` give one, so the compiler refuses them for lanes: "expected `bool`,
-/// found associated type `<R as Real>::Mask`", "binary operation `<` cannot be applied to type
-/// `R`". Compute both branches, and let [`Real::select`] choose in each lane:
+/// A comparison gives a [mask](Real::SelectMask): a boolean in each lane. Rust's `if`, `&&` and
+/// `||` take one `bool`, and `<` and `==` give one, so the compiler refuses them for lanes:
+/// "expected `bool`, found associated type `<R as Real>::SelectMask`", "binary operation `<` cannot
+/// be applied to type `R`". Compute both branches, and let [`Real::select`] choose in each lane:
 ///
 /// ```
 /// use estampe_types::Real;
@@ -87,13 +87,13 @@ pub trait Real:
     + Implied<f32, Is: LeftOfReal<Self>>
 {
     /// A boolean in each lane. It cannot be the condition of an `if`: see [`Real::select`].
-    type Mask: Copy
+    type SelectMask: Copy
         + Debug
-        + BitAnd<Output = Self::Mask>
-        + BitOr<Output = Self::Mask>
-        + Not<Output = Self::Mask>;
+        + BitAnd<Output = Self::SelectMask>
+        + BitOr<Output = Self::SelectMask>
+        + Not<Output = Self::SelectMask>;
     /// A 32-bit integer for each lane.
-    type Int: Int<Real = Self, Mask = Self::Mask>;
+    type Int: Int<Real = Self, SelectMask = Self::SelectMask>;
 
     /// The number of lanes: 1, 4, 16 or 32.
     const LANES: usize;
@@ -109,7 +109,7 @@ pub trait Real:
     fn splat_int(self, value: i32) -> Self::Int;
     /// `value` in every lane of a mask.
     #[must_use]
-    fn splat_mask(self, value: bool) -> Self::Mask;
+    fn splat_mask(self, value: bool) -> Self::SelectMask;
 
     /// Square root, correctly rounded.
     #[must_use]
@@ -128,34 +128,34 @@ pub trait Real:
     fn max(self, other: impl Operand<Self>) -> Self;
 
     /// True in the lanes where `self < other`.
-    fn lt(self, other: impl Operand<Self>) -> Self::Mask;
+    fn lt(self, other: impl Operand<Self>) -> Self::SelectMask;
     /// True in the lanes where `self <= other`.
-    fn le(self, other: impl Operand<Self>) -> Self::Mask;
+    fn le(self, other: impl Operand<Self>) -> Self::SelectMask;
     /// True in the lanes where `self == other`.
-    fn eq(self, other: impl Operand<Self>) -> Self::Mask;
+    fn eq(self, other: impl Operand<Self>) -> Self::SelectMask;
     /// True in the lanes where `self > other`.
     #[inline(always)]
-    fn gt(self, other: impl Operand<Self>) -> Self::Mask {
+    fn gt(self, other: impl Operand<Self>) -> Self::SelectMask {
         other.operand(self).lt(self)
     }
     /// True in the lanes where `self >= other`.
     #[inline(always)]
-    fn ge(self, other: impl Operand<Self>) -> Self::Mask {
+    fn ge(self, other: impl Operand<Self>) -> Self::SelectMask {
         other.operand(self).le(self)
     }
 
     /// `yes` in the lanes of the mask, `no` in the others.
     #[must_use]
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    fn select(mask: Self::SelectMask, yes: Self, no: Self) -> Self;
     /// True if the mask is true in any lane.
-    fn any(mask: Self::Mask) -> bool;
+    fn any(mask: Self::SelectMask) -> bool;
     /// True if the mask is true in every lane.
     #[inline(always)]
-    fn all(mask: Self::Mask) -> bool {
+    fn all(mask: Self::SelectMask) -> bool {
         !Self::any(!mask)
     }
     /// The mask as bits: lane `i` is bit `i`.
-    fn mask_bits(mask: Self::Mask) -> u32;
+    fn mask_bits(mask: Self::SelectMask) -> u32;
 
     /// Rounds towards zero. NaN gives 0; values out of range give the least or the greatest
     /// integer.

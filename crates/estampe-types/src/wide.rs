@@ -10,7 +10,7 @@ use estampe_simd::{
 join_number! { [S: Lanes] f32x16<S> }
 
 impl<S: Lanes> Real for f32x16<S> {
-    type Mask = mask32x16<S>;
+    type SelectMask = mask32x16<S>;
     type Int = i32x16<S>;
     const LANES: usize = LANES;
     const EMULATED_LANES: bool = S::IS_SCALAR;
@@ -136,7 +136,7 @@ impl<S: Lanes> Real for f32x16<S> {
 
 impl<S: Lanes> Int for i32x16<S> {
     type Real = f32x16<S>;
-    type Mask = mask32x16<S>;
+    type SelectMask = mask32x16<S>;
 
     #[inline(always)]
     fn splat(self, value: i32) -> Self {

@@ -106,9 +106,7 @@ fn lights(device: &Device) -> Outcome<Texture> {
 }
 
 pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
-    let mut sampler = SamplerDescriptor::default();
-    (sampler.mag_filter, sampler.min_filter) = (FilterMode::Linear, FilterMode::Linear);
-    let sampler = device.create_sampler(&sampler)?;
+    let sampler = device.create_sampler(&SamplerDescriptor::linear())?;
     let run = |filter: Filter, from: &Texture, into: ColorAttachment, blend| {
         let bound = scene::bind(device, &[scene::sampled(&from.view(), &sampler)])?;
         scene::fill(device, filter, &[&bound], into, blend)

@@ -7,8 +7,8 @@ mod scene;
 
 use estampe::{
     ColorAttachment, DepthStencilAttachment, Device, Extent3d, FragmentIn, FragmentOut, Mat4,
-    RenderPass, RenderPipelineDescriptor, TexelCopyLayout, Texture, TextureAspect, TextureCopy,
-    TextureFormat, Vec3, VertexIn, VertexOut, vec4,
+    RenderPass, RenderPipelineDescriptor, TexelCopyLayout, Texture, TextureCopy, TextureFormat,
+    Vec3, VertexIn, VertexOut, vec4,
 };
 use scene::{Corner, Objects, Outcome, Screen, Solid};
 
@@ -52,12 +52,7 @@ estampe::shader! {
 
 /// The object in a pixel of the texture of numbers.
 fn pick(device: &Device, numbers: &Texture, [x, y]: [u32; 2]) -> Outcome<Option<u32>> {
-    let copy = TextureCopy {
-        texture: numbers,
-        mip_level: 0,
-        origin: [x, y, 0],
-        aspect: TextureAspect::All,
-    };
+    let copy = TextureCopy::from(numbers).at([x, y, 0]);
     let mut bytes = [0; 4];
     let one = Extent3d::new_2d(1, 1);
     device.read_texture_into(copy, &mut bytes, &TexelCopyLayout::default(), one)?;

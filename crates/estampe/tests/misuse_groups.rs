@@ -49,7 +49,7 @@ fn bind_group_layouts() {
 fn bind_groups() {
     let device = limited(Limits {
         max_uniform_buffer_binding_size: 64,
-        min_buffer_offset_alignment: 16,
+        min_uniform_buffer_offset_alignment: 16,
         ..Limits::default()
     });
     let buffer = device.create_buffer(&BufferDescriptor::new(256)).unwrap();

@@ -127,13 +127,13 @@ fn textures() {
     };
     refused!(
         create(TextureDimension::D2, 257),
-        TextureError::Layers { .. },
-        "257 layers, or texels of a 3D texture's side, exceed the limit max_texture_array_layers = 256"
+        TextureError::Limit { .. },
+        "257 layers exceed the limit max_texture_array_layers = 256"
     );
     refused!(
         create(TextureDimension::D3, 65),
-        TextureError::Layers { .. },
-        "65 layers, or texels of a 3D texture's side, exceed the limit max_texture_dimension_3d = 64"
+        TextureError::Limit { .. },
+        "65 texels of a 3D texture's side exceed the limit max_texture_dimension_3d = 64"
     );
     refused!(
         create(TextureDimension::D2, 0),
@@ -343,9 +343,9 @@ fn blits() {
     let shared = texture(&device, [8, 4], TextureFormat::Rgb9e5Ufloat).view();
     refused!(
         blit(&(&image).into(), &(&shared).into()),
-        BlitError::Pipeline(_),
-        "colour target 0 has the format rgb9e5ufloat, into which colours cannot be drawn: depth, \
-         stencil and compressed formats and rgb9e5ufloat are not renderable"
+        BlitError::Pass(_),
+        "the pass `blit`: colour attachment 0 has the format rgb9e5ufloat: colours cannot be rendered \
+         to depth, stencil and compressed formats and rgb9e5ufloat"
     );
     refused!(
         blit(&(&other).into(), &(&unused).into()),

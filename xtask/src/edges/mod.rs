@@ -127,6 +127,8 @@ const OUTSIDE: &[(&str, Users)] = &[
     ("rustc-demangle", Users::Only(&["xtask"])),
     ("spdx", Users::Only(&["xtask"])),
     ("toml", Users::Only(&["xtask"])),
+    // Programs that must not compile.
+    ("trybuild", Users::Only(&["estampe"])),
     ("libm", Users::Any),
     ("thiserror", Users::Any),
     ("fastrand", Users::Any),

@@ -64,7 +64,7 @@ estampe::shader! {
 /// continues, which does no harm, because its distance is not used. So lanes that are done need no
 /// mask, on which every step would depend.
 #[inline(always)]
-fn trace<R: Real>(eye: Vec3<R>, ray: Vec3<R>) -> (R, R::Mask) {
+fn trace<R: Real>(eye: Vec3<R>, ray: Vec3<R>) -> (R, R::SelectMask) {
     let mut distance = eye.x.splat(0.0);
     let mut near = eye.x.splat_mask(false);
     for _ in 0..STEPS {

@@ -14,6 +14,18 @@ pub enum PipelineError {
         /// The largest number allowed.
         limit: u32,
     },
+    /// Too many bindings of a kind, or too many bytes of colour.
+    #[error("the pipeline has {count} {what}; the limit {limit_name} is {limit}")]
+    TooMany {
+        /// The kind.
+        what: &'static str,
+        /// The number of them.
+        count: usize,
+        /// The limit's name.
+        limit_name: &'static str,
+        /// The largest number allowed.
+        limit: u32,
+    },
     /// The shader contradicts what it declares, or a limit.
     #[error(transparent)]
     Shader(#[from] ShaderError),

@@ -1,5 +1,6 @@
 //! The state of a draw: an untrusted descriptor, validated once into an immutable pipeline.
 
+mod binding_limits;
 pub(crate) mod color_target;
 mod error;
 pub(crate) mod primitive_kind;
@@ -8,6 +9,7 @@ mod stage_key;
 pub use error::PipelineError;
 pub(crate) use stage_key::StageKey;
 
+use binding_limits::check_bindings;
 use color_target::ColorTarget;
 use estampe_types::shader::MAX_DISTANCES;
 use estampe_types::state::{
@@ -115,13 +117,7 @@ impl RenderPipeline {
     ) -> Result<Self, PipelineError> {
         descriptor.program.validate()?;
         let interface = descriptor.program.interface();
-        let count = descriptor.bind_group_layouts.len();
-        if count > limits.max_bind_groups as usize {
-            return Err(PipelineError::TooManyBindGroups {
-                count,
-                limit: limits.max_bind_groups,
-            });
-        }
+        check_bindings(descriptor, limits)?;
         check_targets(descriptor, interface, limits)?;
         check_interface(interface, limits)?;
         check_lines(&descriptor.primitive.line)?;

@@ -3,7 +3,7 @@
 use super::{PlainImage, PlainTexture};
 use crate::texture::ReferenceView;
 use estampe_types::{
-    MipLevel, SamplerDescriptor, Texture, TextureFormat, TextureShape, ViewDimension,
+    MipLevel, SamplerDescriptor, TexelData, TextureFormat, TextureShape, ViewDimension,
 };
 use std::sync::Arc;
 
@@ -13,8 +13,8 @@ pub type BlockDecoder = fn(TextureFormat, &[u8]) -> Vec<u32>;
 
 /// The texture, with a format that differs at most in sRGB.
 #[must_use]
-pub fn texture(plain: &PlainTexture, format: TextureFormat, decode: BlockDecoder) -> Texture {
-    let mut texture = Texture {
+pub fn texture(plain: &PlainTexture, format: TextureFormat, decode: BlockDecoder) -> TexelData {
+    let mut texture = TexelData {
         format,
         levels: Vec::new(),
         texels: [].into(),
@@ -52,7 +52,7 @@ pub fn texture(plain: &PlainTexture, format: TextureFormat, decode: BlockDecoder
 /// The 2D view of one image of a texture.
 #[must_use]
 pub fn image_view(
-    texture: Arc<Texture>,
+    texture: Arc<TexelData>,
     [level, layer]: [u32; 2],
     sampler: SamplerDescriptor,
 ) -> ReferenceView {

@@ -74,7 +74,7 @@ impl VertexTransforms {
 pub(crate) fn shading_normal<R: Real>(
     normal: Vec3<R>,
     to_eye: Vec3<R>,
-    front_facing: R::Mask,
+    front_facing: R::SelectMask,
 ) -> Vec3<R> {
     let squared = normal.dot(normal);
     let has_one = squared.gt(squared.splat(1e-12));

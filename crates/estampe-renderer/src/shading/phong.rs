@@ -32,7 +32,7 @@ impl PhongLight {
         base: Vec3<R>,
         view: Vec3<R>,
         normal: Vec3<R>,
-        front_facing: R::Mask,
+        front_facing: R::SelectMask,
     ) -> Vec3<R> {
         let to_eye = self.transforms.eye_direction(view);
         let normal = shading_normal(normal, to_eye, front_facing);

@@ -57,7 +57,11 @@ impl VertexLight {
 
 /// The base colour in the light of the facing side.
 #[inline(always)]
-pub(crate) fn color<R: Real>(base: Vec3<R>, sides: BothSides<R>, front_facing: R::Mask) -> Vec3<R> {
+pub(crate) fn color<R: Real>(
+    base: Vec3<R>,
+    sides: BothSides<R>,
+    front_facing: R::SelectMask,
+) -> Vec3<R> {
     let (front, front_added, back, back_added) = sides;
     let light = Vec3::select(front_facing, front, back);
     base * light + Vec3::select(front_facing, front_added, back_added)

@@ -17,7 +17,7 @@ macro_rules! componentwise {
         )]
         pub trait Componentwise: Copy {
             /// A boolean in each lane.
-            type Mask: Copy;
+            type SelectMask: Copy;
             $($(#[$one_doc])* #[doc(hidden)] #[must_use] fn $one(self) -> Self;)+
             $($(#[$two_doc])* #[doc(hidden)] #[must_use] fn $two(self, other: Self) -> Self;)+
             /// `self + (other − self)·t`.
@@ -31,11 +31,11 @@ macro_rules! componentwise {
             /// `yes` in the lanes of the mask, `no` in the others.
             #[doc(hidden)]
             #[must_use]
-            fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+            fn select(mask: Self::SelectMask, yes: Self, no: Self) -> Self;
         }
 
         impl<R: Real> Componentwise for R {
-            type Mask = <R as Real>::Mask;
+            type SelectMask = <R as Real>::SelectMask;
             $(
                 #[inline(always)]
                 fn $one(self) -> Self {
@@ -58,7 +58,7 @@ macro_rules! componentwise {
                 t * t * (3.0 - t * 2.0)
             }
             #[inline(always)]
-            fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+            fn select(mask: Self::SelectMask, yes: Self, no: Self) -> Self {
                 <R as Real>::select(mask, yes, no)
             }
         }
@@ -69,7 +69,7 @@ macro_rules! componentwise {
     };
     (@vector $name:ident $fields:tt ($($one:ident)+) ($($two:ident)+)) => {
         impl<R: Real> Componentwise for $name<R> {
-            type Mask = <R as Real>::Mask;
+            type SelectMask = <R as Real>::SelectMask;
             $(componentwise! { @one $one $fields })+
             $(componentwise! { @two $two $fields })+
             componentwise! { @three $fields }
@@ -97,7 +97,7 @@ macro_rules! componentwise {
             Self { $($field: Componentwise::smoothstep(self.$field, high.$field, x.$field)),+ }
         }
         #[inline(always)]
-        fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        fn select(mask: Self::SelectMask, yes: Self, no: Self) -> Self {
             Self { $($field: <R as Real>::select(mask, yes.$field, no.$field)),+ }
         }
     };

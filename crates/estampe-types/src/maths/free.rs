@@ -85,7 +85,7 @@ pub fn smoothstep<V: Componentwise>(low: impl Operand<V>, high: impl Operand<V>,
 pub fn select<A: Join<B, Joined: Componentwise>, B>(
     no: A,
     yes: B,
-    mask: <Joined<A, B> as Componentwise>::Mask,
+    mask: <Joined<A, B> as Componentwise>::SelectMask,
 ) -> Joined<A, B> {
     let (no, yes) = no.join(yes);
     Componentwise::select(mask, yes, no)

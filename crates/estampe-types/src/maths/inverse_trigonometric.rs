@@ -30,7 +30,7 @@ pub(crate) fn acos<R: Real>(x: R) -> R {
 /// asin s = s + s·z·p(z), z = s² ≤ ¼, where p is the minimax polynomial of degree 4 (relative error
 /// 6·10⁻⁹).
 #[inline(always)]
-fn half_angle<R: Real>(m: R) -> (R, R::Mask) {
+fn half_angle<R: Real>(m: R) -> (R, R::SelectMask) {
     let is_small = m.le(0.5);
     let z = R::select(is_small, m * m, (1.0 - m) * 0.5);
     let s = R::select(is_small, m, z.sqrt());

@@ -14,10 +14,10 @@ pub struct FragmentIn<'a, R: Real> {
     pub position: Vec4<R>,
     /// True if the triangle is front-facing; in polygon modes this holds for its edges and vertices
     /// too. Always true for line and point topologies.
-    pub front_facing: R::Mask,
+    pub front_facing: R::SelectMask,
     /// Helper invocations: lanes that the primitive does not cover, shaded for their neighbours'
     /// derivatives alone. A helper's colours are dropped, and it must not store anything.
-    pub is_helper: R::Mask,
+    pub is_helper: R::SelectMask,
     /// Index of the shaded sample. A shader that reads it runs once
     /// [per sample](crate::Shader::PER_SAMPLE).
     pub sample_index: R::Int,
@@ -44,7 +44,7 @@ impl<R: Real> FragmentIn<'_, R> {
 pub struct FragmentOut<R: Real> {
     pub(crate) colors: [Option<Vec4<R>>; MAX_COLORS],
     pub(crate) depth: Option<R>,
-    pub(crate) keep: Option<R::Mask>,
+    pub(crate) keep: Option<R::SelectMask>,
     pub(crate) second: Option<Vec4<R>>,
     pub(crate) sample_mask: Option<R::Int>,
 }
@@ -115,7 +115,7 @@ impl<R: Real> FragmentOut<R> {
     /// Discards the lanes in which the mask is false.
     #[inline(always)]
     #[must_use]
-    pub fn discard_unless(self, mask: R::Mask) -> Self {
+    pub fn discard_unless(self, mask: R::SelectMask) -> Self {
         let keep = match self.keep {
             Some(before) => before & mask,
             None => mask,
@@ -152,7 +152,7 @@ impl<R: Real> FragmentOut<R> {
 
     /// The mask of lanes that are not discarded, or `None` if the shader never discards.
     #[inline(always)]
-    pub fn kept(&self) -> Option<R::Mask> {
+    pub fn kept(&self) -> Option<R::SelectMask> {
         self.keep
     }
 }

@@ -16,13 +16,13 @@ pub(super) trait Packets<S: Lanes>: Real {
     /// Both packets; a single packet is returned twice.
     fn parts(self) -> [f32x16<S>; 2];
     /// The mask whose lane i is bit i of each packet's bits.
-    fn mask_of(simd: S, bits: [u16; 2]) -> Self::Mask;
+    fn mask_of(simd: S, bits: [u16; 2]) -> Self::SelectMask;
     /// Integers from each packet's lanes.
     fn ints_of(simd: S, lanes: [[u32; LANES]; 2]) -> Self::Int;
     /// [`Packets::parts`] of integers.
     fn parts_of_ints(ints: Self::Int) -> [i32x16<S>; 2];
     /// [`Packets::parts`] of a mask.
-    fn parts_of_mask(mask: Self::Mask) -> [mask32x16<S>; 2];
+    fn parts_of_mask(mask: Self::SelectMask) -> [mask32x16<S>; 2];
 }
 
 impl<S: Lanes> Packets<S> for f32x16<S> {
@@ -75,7 +75,7 @@ impl<S: Lanes> Packets<S> for Pair<f32x16<S>> {
         [self.0, self.1]
     }
     #[inline(always)]
-    fn mask_of(simd: S, [first, second]: [u16; 2]) -> Self::Mask {
+    fn mask_of(simd: S, [first, second]: [u16; 2]) -> Self::SelectMask {
         Pair(simd.mask_from_bits(first), simd.mask_from_bits(second))
     }
     #[inline(always)]
@@ -87,7 +87,7 @@ impl<S: Lanes> Packets<S> for Pair<f32x16<S>> {
         [ints.0, ints.1]
     }
     #[inline(always)]
-    fn parts_of_mask(mask: Self::Mask) -> [mask32x16<S>; 2] {
+    fn parts_of_mask(mask: Self::SelectMask) -> [mask32x16<S>; 2] {
         [mask.0, mask.1]
     }
 }

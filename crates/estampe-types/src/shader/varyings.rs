@@ -17,6 +17,12 @@ pub trait Sink<R> {
 }
 
 /// The attributes that a vertex shader reads: one location per element.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot be attributes of a vertex",
+    label = "this must be numbers or vectors of numbers",
+    note = "attributes of a vertex are `R`, `Vec2<R>`, `Vec3<R>`, `Vec4<R>`, `()`, tuples of them, and structs of \
+            `estampe::attributes!`"
+)]
 pub trait Attributes<R: Real>: Sized {
     /// Appends the number of components of each location.
     fn components(out: &mut Vec<usize>);
@@ -25,6 +31,12 @@ pub trait Attributes<R: Real>: Sized {
 }
 
 /// The varyings that a vertex shader passes to the fragments.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot be varyings",
+    label = "this must be numbers or vectors of numbers",
+    note = "varyings are `R`, `Vec2<R>`, `Vec3<R>`, `Vec4<R>`, `()`, tuples of them, and structs of \
+            `estampe::varyings!`"
+)]
 pub trait Varyings<R: Real>: Sized {
     /// Appends the interpolation of each scalar.
     fn modes(out: &mut Vec<Interpolation>);

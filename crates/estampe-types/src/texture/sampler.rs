@@ -102,6 +102,16 @@ impl Default for SamplerDescriptor {
 }
 
 impl SamplerDescriptor {
+    /// Linear filtering of the nearest mip level, clamped to the edge.
+    #[must_use]
+    pub fn linear() -> Self {
+        Self {
+            mag_filter: FilterMode::Linear,
+            min_filter: FilterMode::Linear,
+            ..Self::default()
+        }
+    }
+
     /// Linear filtering within and between mip levels, repeated.
     #[must_use]
     pub fn trilinear_repeat() -> Self {

@@ -40,7 +40,7 @@ macro_rules! functions {
 
             /// `yes` in the lanes of the mask, `no` in the others.
             #[inline(always)]
-            pub fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
+            pub fn select(mask: R::SelectMask, yes: Self, no: Self) -> Self {
                 Self {
                     $first: R::select(mask, yes.$first, no.$first),
                     $($rest: R::select(mask, yes.$rest, no.$rest)),+

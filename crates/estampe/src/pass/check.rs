@@ -2,7 +2,7 @@
 
 use super::attachments::Attachments;
 use super::{Draw, PassErrorKind};
-use crate::bind_group::BindingResource;
+use crate::bind_group::{BindingResource, offset_alignment};
 use crate::{
     BindGroup, BindGroupLayoutEntry, BindingType, BufferError, BufferSlice, BufferUsages, Limits,
 };
@@ -202,11 +202,14 @@ fn check_dynamic_offsets(
     offsets: &[u32],
     limits: &Limits,
 ) -> Result<(), String> {
-    let alignment = limits.min_buffer_offset_alignment.max(4);
     for (binding, resource) in group.entries() {
         let index = group.layout().dynamic_offset_index(*binding);
         let (Some(index), BindingResource::Buffer(slice)) = (index, resource) else {
             continue;
+        };
+        let alignment = match group.layout().entry(*binding).map(|entry| entry.ty) {
+            Some(BindingType::Buffer { ty, .. }) => offset_alignment(ty, limits),
+            _ => 4,
         };
         let offset = offsets.get(index).copied().unwrap_or_default();
         if !offset.is_multiple_of(alignment) {

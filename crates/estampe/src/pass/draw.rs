@@ -7,6 +7,30 @@ use estampe_types::state::{ScissorRect, Viewport};
 use std::ops::Range;
 
 /// One draw: a pipeline, the data that it reads, and how much of it.
+///
+/// It borrows the handles of its objects, so that a function can return the draws of a scene that
+/// owns them:
+///
+/// ```
+/// use estampe::{BindGroup, BufferSlice, Draw, IndexFormat, RenderPipeline};
+///
+/// struct Object {
+///     vertices: BufferSlice,
+///     indices: BufferSlice,
+///     count: u32,
+///     groups: [BindGroup; 2],
+/// }
+///
+/// fn draws<'a>(objects: &'a [Object], pipeline: &'a RenderPipeline) -> Vec<Draw<'a>> {
+///     let draws = objects.iter().map(|object| Draw {
+///         vertex_buffers: std::slice::from_ref(&object.vertices),
+///         index_buffer: Some((&object.indices, IndexFormat::Uint32)),
+///         bind_groups: &object.groups,
+///         ..Draw::new(pipeline, 0..object.count)
+///     });
+///     draws.collect()
+/// }
+/// ```
 #[derive(Debug, Clone)]
 pub struct Draw<'a> {
     /// The validated state.

@@ -10,17 +10,17 @@ pub enum TextureError {
     /// A rule of the descriptor, of a view or of a sampler.
     #[error(transparent)]
     Rule(#[from] estampe_texture::TextureError),
-    /// Too many layers, or a side of a 3D texture that is too long.
-    #[error(
-        "{layers} layers, or texels of a 3D texture's side, exceed the limit {limit_name} = {limit}"
-    )]
-    Layers {
-        /// The number of layers, or the longest side of a 3D texture.
-        layers: u32,
-        /// The limit.
-        limit: u32,
+    /// Too many layers, or a side of a 1D or 3D texture that is too long.
+    #[error("{value} {what} exceed the limit {limit_name} = {limit}")]
+    Limit {
+        /// What is limited: layers, or texels of a side.
+        what: &'static str,
+        /// The number of them.
+        value: u32,
         /// The limit's name.
         limit_name: &'static str,
+        /// The limit.
+        limit: u32,
     },
     /// A use that the texture was not created for.
     #[error("{texture} was created without TextureUsages::{}: add it to its usage", names(*needed))]

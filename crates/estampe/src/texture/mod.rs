@@ -154,6 +154,41 @@ struct Inner {
     contents: Mutex<Contents>,
 }
 
+/// Checks the sides that only some textures have; those of 2D textures are checked with the rest.
+fn check_sides(descriptor: &TextureDescriptor<'_>, limits: &Limits) -> Result<(), TextureError> {
+    let size = descriptor.size;
+    let layers = size.depth_or_array_layers;
+    let (what, value, limit_name, limit) = match descriptor.dimension {
+        TextureDimension::D1 => (
+            "texels of a 1D texture",
+            size.width,
+            "max_texture_dimension_1d",
+            limits.max_texture_dimension_1d,
+        ),
+        TextureDimension::D2 => (
+            "layers",
+            layers,
+            "max_texture_array_layers",
+            limits.max_texture_array_layers,
+        ),
+        TextureDimension::D3 => (
+            "texels of a 3D texture's side",
+            layers.max(size.width).max(size.height),
+            "max_texture_dimension_3d",
+            limits.max_texture_dimension_3d,
+        ),
+    };
+    if value > limit {
+        return Err(TextureError::Limit {
+            what,
+            value,
+            limit_name,
+            limit,
+        });
+    }
+    Ok(())
+}
+
 impl Texture {
     pub(crate) fn new(
         descriptor: &TextureDescriptor<'_>,
@@ -161,25 +196,7 @@ impl Texture {
     ) -> Result<Self, TextureError> {
         let texels = descriptor.texels();
         let label = descriptor.label.map(str::to_owned);
-        let layers = descriptor.size.depth_or_array_layers;
-        let limit = match descriptor.dimension {
-            TextureDimension::D3 => limits.max_texture_dimension_3d,
-            TextureDimension::D1 | TextureDimension::D2 => limits.max_texture_array_layers,
-        };
-        let longest = match descriptor.dimension {
-            TextureDimension::D3 => layers.max(texels.width).max(texels.height),
-            TextureDimension::D1 | TextureDimension::D2 => layers,
-        };
-        if longest > limit {
-            return Err(TextureError::Layers {
-                layers: longest,
-                limit,
-                limit_name: match descriptor.dimension {
-                    TextureDimension::D3 => "max_texture_dimension_3d",
-                    _ => "max_texture_array_layers",
-                },
-            });
-        }
+        check_sides(descriptor, limits)?;
         texels.check(limits)?;
         Ok(Self {
             inner: Arc::new(Inner {

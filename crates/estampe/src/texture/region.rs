@@ -30,6 +30,20 @@ impl<'a> From<&'a Texture> for TextureCopy<'a> {
     }
 }
 
+impl TextureCopy<'_> {
+    /// The same level, with the region's first texel in another column, row, and layer or depth.
+    #[must_use]
+    pub fn at(self, origin: [u32; 3]) -> Self {
+        Self { origin, ..self }
+    }
+
+    /// The same region's first texel in another mip level.
+    #[must_use]
+    pub fn level(self, mip_level: u32) -> Self {
+        Self { mip_level, ..self }
+    }
+}
+
 /// The layout of a region's bytes in memory: WebGPU's `GPUTexelCopyBufferLayout`. The default is
 /// without padding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

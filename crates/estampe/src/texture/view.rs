@@ -31,6 +31,27 @@ pub struct TextureViewDescriptor {
 }
 
 /// A part of a texture as it is sampled, rendered to or copied. Cheap to clone.
+///
+/// ```
+/// use estampe::{Device, DeviceDescriptor, Extent3d, TextureDescriptor, TextureFormat};
+/// use estampe::{TextureViewDescriptor, ViewDimension};
+///
+/// let device = Device::new(&DeviceDescriptor::default())?;
+/// let six = Extent3d { width: 64, height: 64, depth_or_array_layers: 6 };
+/// let faces = device.create_texture(&TextureDescriptor {
+///     size: six,
+///     ..TextureDescriptor::new_2d(64, 64, TextureFormat::Rgba8UnormSrgb)
+/// })?;
+/// // Rendered to face by face, sampled as a cube.
+/// let top = faces.image(0, 2)?;
+/// assert_eq!((top.size(), top.array_layers()), ([64, 64], [2, 1]));
+/// let cube = faces.create_view(&TextureViewDescriptor {
+///     dimension: Some(ViewDimension::Cube),
+///     ..TextureViewDescriptor::default()
+/// })?;
+/// assert_eq!(cube.array_layers(), [0, 6]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct TextureView {
     texture: Texture,
@@ -223,6 +244,15 @@ impl TextureView {
 }
 
 /// How a texture is sampled: a checked [`SamplerDescriptor`]. Cheap to clone.
+///
+/// ```
+/// use estampe::{Device, DeviceDescriptor, SamplerDescriptor};
+///
+/// let device = Device::new(&DeviceDescriptor::default())?;
+/// let sampler = device.create_sampler(&SamplerDescriptor::linear())?;
+/// assert_eq!(sampler.descriptor().max_anisotropy, 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sampler {
     descriptor: Arc<SamplerDescriptor>,

@@ -7,9 +7,9 @@ use estampe_types::{Int, Real};
 /// The faces of a cube that directions meet.
 pub(super) struct Face<R: Real> {
     pub(super) index: R::Int,
-    is_x: R::Mask,
-    is_z: R::Mask,
-    is_negative: R::Mask,
+    is_x: R::SelectMask,
+    is_z: R::SelectMask,
+    is_negative: R::SelectMask,
 }
 
 impl<R: Real> Face<R> {

@@ -157,7 +157,7 @@ macro_rules! on_quads {
 }
 
 impl<'a> Real for Recorded<'a> {
-    type Mask = Recorded<'a, bool>;
+    type SelectMask = Recorded<'a, bool>;
     type Int = Recorded<'a, i32>;
     const LANES: usize = 4;
     const EMULATED_LANES: bool = true;
@@ -168,7 +168,7 @@ impl<'a> Real for Recorded<'a> {
     fn splat_int(self, value: i32) -> Self::Int {
         self.made(Quad([value; 4]))
     }
-    fn splat_mask(self, value: bool) -> Self::Mask {
+    fn splat_mask(self, value: bool) -> Self::SelectMask {
         self.made(Quad([value; 4]))
     }
     on_quads! {
@@ -193,13 +193,13 @@ impl<'a> Real for Recorded<'a> {
         ddy_coarse();
         quad_lane(index: u8);
     }
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+    fn select(mask: Self::SelectMask, yes: Self, no: Self) -> Self {
         yes.made(<Quad as Real>::select(mask.used(), yes.used(), no.used()))
     }
-    fn any(mask: Self::Mask) -> bool {
+    fn any(mask: Self::SelectMask) -> bool {
         mask.recorder.answer(Quad::any(mask.used()))
     }
-    fn mask_bits(mask: Self::Mask) -> u32 {
+    fn mask_bits(mask: Self::SelectMask) -> u32 {
         let bits = Quad::mask_bits(mask.used());
         if mask.input.has(Facts::HELPER) {
             // A store: the answer must be true, or helpers would store.
@@ -223,7 +223,7 @@ impl<'a> Real for Recorded<'a> {
 
 impl<'a> Int for Recorded<'a, i32> {
     type Real = Recorded<'a>;
-    type Mask = Recorded<'a, bool>;
+    type SelectMask = Recorded<'a, bool>;
 
     fn splat(self, value: i32) -> Self {
         self.made(Quad([value; 4]))
@@ -242,7 +242,7 @@ impl<'a> Int for Recorded<'a, i32> {
         lt -> bool;
         eq -> bool;
     }
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+    fn select(mask: Self::SelectMask, yes: Self, no: Self) -> Self {
         yes.made(Int::select(mask.used(), yes.used(), no.used()))
     }
     fn lane(self, index: usize) -> i32 {

@@ -1,5 +1,14 @@
 //! Buffers: memory for vertices, indices, uniforms, storage and indirect draws.
 
+mod bytes;
+mod error;
+mod slice;
+
+pub use bytes::{BufferNumber, bytes_of};
+pub(crate) use bytes::{read_bytes, with_bytes, with_bytes_mut, write_bytes};
+pub use error::BufferError;
+pub use slice::BufferSlice;
+
 use crate::Limits;
 use estampe_types::BufferData;
 use std::ops::{Bound, Range, RangeBounds};
@@ -53,56 +62,6 @@ impl BufferDescriptor<'_> {
     }
 }
 
-/// The reason why a buffer was not created, written or read.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum BufferError {
-    /// The buffer exceeds a limit.
-    #[error("{buffer} of {size} bytes exceeds the limit max_buffer_size = {limit}")]
-    TooLarge {
-        /// The buffer.
-        buffer: String,
-        /// Its size in bytes.
-        size: u64,
-        /// The limit in bytes.
-        limit: u64,
-    },
-    /// The system has not enough memory.
-    #[error("no memory for {buffer} of {size} bytes")]
-    OutOfMemory {
-        /// The buffer.
-        buffer: String,
-        /// Its size in bytes.
-        size: u64,
-    },
-    /// A range that ends beyond the buffer.
-    #[error(
-        "bytes {}..{} of {buffer}, which has {size}: use a range inside the buffer",
-        range.start, range.end
-    )]
-    Range {
-        /// The buffer.
-        buffer: String,
-        /// The range in bytes.
-        range: Range<u64>,
-        /// The size of the buffer in bytes.
-        size: u64,
-    },
-    /// A use that the buffer was not created for.
-    #[error("{buffer} was created without BufferUsages::{}: add it to its usage", names(*needed))]
-    Usage {
-        /// The buffer.
-        buffer: String,
-        /// The use.
-        needed: BufferUsages,
-    },
-}
-
-fn names(usages: BufferUsages) -> String {
-    let names: Vec<&str> = usages.iter_names().map(|(name, _)| name).collect();
-    names.join(" | ")
-}
-
 /// Memory that the host writes and reads in part, and that draws, copies and shaders use. Clones
 /// are handles to the same memory.
 ///
@@ -151,7 +110,11 @@ impl Buffer {
         limits: &Limits,
     ) -> Result<Self, BufferError> {
         check_size(label, contents.len() as u64, limits)?;
-        let data = BufferData::from_bytes(contents);
+        let data =
+            BufferData::try_from_bytes(contents).ok_or_else(|| BufferError::OutOfMemory {
+                buffer: name_of(label),
+                size: contents.len() as u64,
+            })?;
         Ok(Self::of_data(label, usage, data))
     }
 
@@ -316,47 +279,6 @@ impl std::fmt::Debug for Buffer {
     }
 }
 
-/// A part of a buffer, as draws and bind groups name it.
-#[derive(Debug, Clone)]
-pub struct BufferSlice {
-    /// The buffer.
-    pub buffer: Buffer,
-    /// The first byte, a multiple of 4.
-    pub offset: u64,
-    /// The number of bytes.
-    pub size: u64,
-}
-
-impl From<&Buffer> for BufferSlice {
-    /// The whole buffer.
-    fn from(buffer: &Buffer) -> Self {
-        Self {
-            buffer: buffer.clone(),
-            offset: 0,
-            size: buffer.size(),
-        }
-    }
-}
-
-/// A number, or an array of numbers, that buffers hold: see [`bytes_of`]. There is no `f64`, so
-/// that literals become `f32`.
-pub trait BufferNumber: bytemuck::NoUninit {}
-
-macro_rules! buffer_numbers {
-    ($($number:ty)*) => { $(impl BufferNumber for $number {})* };
-}
-
-buffer_numbers!(u8 i8 u16 i16 u32 i32 f32);
-
-impl<T: BufferNumber, const N: usize> BufferNumber for [T; N] where Self: bytemuck::NoUninit {}
-
-/// The bytes of numbers or of arrays of them, as buffers and textures hold them on little-endian
-/// machines.
-#[must_use]
-pub fn bytes_of<T: BufferNumber>(numbers: &[T]) -> &[u8] {
-    bytemuck::cast_slice(numbers)
-}
-
 fn name_of(label: Option<&str>) -> String {
     label.map_or("a buffer".to_owned(), |label| {
         format!("the buffer `{label}`")
@@ -373,52 +295,4 @@ fn check_size(label: Option<&str>, size: u64, limits: &Limits) -> Result<usize, 
             size,
             limit,
         })
-}
-
-/// Lets `use_bytes` see little-endian words as bytes, without a copy on little-endian machines.
-pub(crate) fn with_bytes<T>(words: &[u32], use_bytes: impl FnOnce(&[u8]) -> T) -> T {
-    if cfg!(target_endian = "little") {
-        return use_bytes(bytemuck::cast_slice(words));
-    }
-    let mut bytes = vec![0; words.len() * 4];
-    read_bytes(words, 0, &mut bytes);
-    use_bytes(&bytes)
-}
-
-/// Lets `use_bytes` change little-endian words as bytes, without a copy on little-endian machines.
-pub(crate) fn with_bytes_mut<T>(words: &mut [u32], use_bytes: impl FnOnce(&mut [u8]) -> T) -> T {
-    if cfg!(target_endian = "little") {
-        return use_bytes(bytemuck::cast_slice_mut(words));
-    }
-    let mut bytes = vec![0; words.len() * 4];
-    read_bytes(words, 0, &mut bytes);
-    let result = use_bytes(&mut bytes);
-    write_bytes(words, 0, &bytes);
-    result
-}
-
-/// Copies bytes into little-endian words.
-pub(crate) fn write_bytes(words: &mut [u32], offset: usize, bytes: &[u8]) {
-    if cfg!(target_endian = "little") {
-        let to: &mut [u8] = bytemuck::cast_slice_mut(words);
-        to[offset..][..bytes.len()].copy_from_slice(bytes);
-        return;
-    }
-    for (at, byte) in (offset..).zip(bytes) {
-        let mut word = words[at / 4].to_le_bytes();
-        word[at % 4] = *byte;
-        words[at / 4] = u32::from_le_bytes(word);
-    }
-}
-
-/// Copies bytes from little-endian words.
-pub(crate) fn read_bytes(words: &[u32], offset: usize, bytes: &mut [u8]) {
-    if cfg!(target_endian = "little") {
-        let from: &[u8] = bytemuck::cast_slice(words);
-        bytes.copy_from_slice(&from[offset..][..bytes.len()]);
-        return;
-    }
-    for (at, byte) in (offset..).zip(bytes) {
-        *byte = words[at / 4].to_le_bytes()[at % 4];
-    }
 }

@@ -1,0 +1,68 @@
+//! What a bind group binds, as programs read it.
+
+use super::{BindGroup, BindingResource};
+use crate::texture::{StoredTextures, TextureError, TextureView, sampled_texture};
+use crate::{BindingType, BufferSlice, Context};
+use estampe_types::bindings::{BoundResource, BoundResources, OtherResource};
+use std::sync::Arc;
+
+impl BindGroup {
+    /// The resources as they are now, as programs read them. Textures that shaders store to are
+    /// shared through `stores`.
+    pub(crate) fn resources(
+        &self,
+        context: &Context,
+        stores: &mut StoredTextures,
+    ) -> Result<Arc<BoundResources>, TextureError> {
+        let layout = &self.inner.layout;
+        let entries = self.inner.entries.iter().map(|(binding, resource)| {
+            let kind = layout.entry(*binding).map(|entry| entry.ty);
+            let bound = match resource {
+                BindingResource::Buffer(slice) => {
+                    let index = layout.dynamic_offset_index(*binding);
+                    bound_buffer(slice, index)
+                }
+                BindingResource::Texture(view) => match kind {
+                    Some(BindingType::ShadowMap) => shadow_map(context, view)?,
+                    Some(BindingType::StorageTexture { .. }) => {
+                        BoundResource::StorageTexture(stores.get(context, view)?)
+                    }
+                    _ => BoundResource::Other(OtherResource(Arc::new(view.texels(context)?))),
+                },
+                BindingResource::Sampler(sampler) => BoundResource::Sampler(*sampler.descriptor()),
+                BindingResource::SampledTexture(view, sampler) => {
+                    let sampled = sampled_texture(context, view, sampler)?;
+                    BoundResource::Other(OtherResource(Arc::new(sampled)))
+                }
+            };
+            Ok((*binding, bound))
+        });
+        let entries: Result<Vec<_>, TextureError> = entries.collect();
+        Ok(Arc::new(BoundResources { entries: entries? }))
+    }
+}
+
+fn bound_buffer(slice: &BufferSlice, dynamic_offset: Option<usize>) -> BoundResource {
+    let data = slice.buffer.data();
+    let end = usize::try_from(slice.offset + slice.size).unwrap_or(usize::MAX);
+    let dynamic_offset = dynamic_offset.and_then(|index| u8::try_from(index).ok());
+    BoundResource::Buffer {
+        // What follows a dynamic binding is checked with the offset of the draw.
+        buffer: if dynamic_offset.is_some() {
+            data
+        } else {
+            data.slice(0, end)
+        },
+        offset: u32::try_from(slice.offset).unwrap_or(u32::MAX),
+        dynamic_offset,
+    }
+}
+
+fn shadow_map(context: &Context, view: &TextureView) -> Result<BoundResource, TextureError> {
+    let texture = view.texture();
+    let map = match view.image_key(None) {
+        Some(key) => texture.lock().shadow_map(texture, context, key)?,
+        None => None,
+    };
+    Ok(BoundResource::ShadowMap(map.unwrap_or_default()))
+}
