@@ -42,6 +42,7 @@ const LAYERS: &[&[&str]] = &[
     &["geometry::shading"],
     &["geometry::groups", "geometry::run", "geometry::restart"],
     &["geometry::cull", "geometry::cull_uncovered"],
+    &["geometry::vertex_order", "geometry::waiting"],
     &["geometry::setup", "geometry::binning"],
     &["geometry::clip", "geometry::clip_positions"],
     &["geometry"],

@@ -4,9 +4,10 @@
 //! flows: [`fetch`] reads attributes; [`shading`] runs the vertex shader and takes its vertices
 //! through the [`viewport`] to the window, where they wait as [`shaded_vertices`]; [`assembly`]
 //! joins vertices into primitives, in [`groups`] of sixteen, for each [`run`]; [`cull`] drops most
-//! triangles ([`facing`] says which side is culled); [`setup`] sorts vertices, drops triangles that
-//! cover no sample ([`cull_uncovered`]), makes planes and moves those of depth ([`depth_bias`]);
-//! [`binning`] finds tiles. [`filled`] is the loop over these, and [`chunk`] its entry.
+//! triangles ([`facing`] says which side is culled); [`setup`] sorts vertices ([`vertex_order`]),
+//! drops triangles that cover no sample ([`cull_uncovered`]), lets sixteen gather ([`waiting`]),
+//! makes planes and moves those of depth ([`depth_bias`]); [`binning`] finds tiles. [`filled`] is
+//! the loop over these, and [`chunk`] its entry.
 //!
 //! The exceptions: [`restart`] assembles primitives where indices may end them; [`clip_detour`]
 //! takes the few primitives that leave the view volume through [`clip`], with positions and
@@ -39,6 +40,9 @@ pub(crate) mod cull;
 pub(crate) mod cull_uncovered;
 
 pub(crate) mod depth_bias;
+
+mod vertex_order;
+mod waiting;
 
 pub(crate) mod setup;
 

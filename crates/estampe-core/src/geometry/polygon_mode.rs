@@ -4,7 +4,8 @@ use super::clip_detour::{ClipDetour, doubled_area};
 use super::lines::{LineWalk, Outline};
 use super::points::draw_point;
 use super::run::RunWork;
-use super::setup::{Setup, sorted};
+use super::setup::Setup;
+use super::vertex_order::sorted;
 use crate::bounds::primitives::{VertexRef, WindowVertex};
 use estampe_types::state::PolygonMode;
 

@@ -14,33 +14,16 @@ use super::cull_uncovered::cull_uncovered;
 use super::plan::GeometryPlan;
 use super::run::RunWork;
 use super::shaded_vertices::PackedVertex;
+use super::vertex_order::{Order, sorted};
+use super::waiting::{FRONT, Waiting, first_half};
 use crate::bounds::chunk::{Chunk, number};
 use crate::bounds::plane::PlanePacket;
 use crate::bounds::primitives::{VertexRef, WindowVertex};
 use crate::bounds::transpose::components_of;
 use estampe_simd::{
-    Bytes, LANES, Lane, Lanes, Level, Select, SimdBase, SimdCvtFloat, dispatch, f32x16, i32x16,
-    outline, u32x16,
+    Bytes, LANES, Lanes, Level, Select, SimdBase, SimdCvtFloat, dispatch, f32x16, i32x16, outline,
+    u32x16,
 };
-
-/// Triangles that wait for their packet to be full: at most fifteen, and sixteen that join them.
-#[derive(Debug)]
-#[repr(C, align(64))]
-struct Waiting {
-    /// The vertices in sorted order, as [`VertexRef`]s.
-    vertex: [[u32; 2 * LANES]; 3],
-    /// The number of the sub-draw's first vertex in the batch; 0 of triangles made by clipping.
-    first_vertex: [u32; 2 * LANES],
-    /// The provoking vertex, which is never one made by clipping; with [`FRONT`] if the triangle
-    /// faces the viewer.
-    provoking: [u32; 2 * LANES],
-    /// Doubled area in sorted order, rounded.
-    doubled_area: [f32; 2 * LANES],
-    len: usize,
-}
-
-/// The bit of a provoking vertex that tells triangles that face the viewer.
-const FRONT: u32 = 1 << 31;
 
 /// Memory of one worker.
 #[derive(Debug, Default)]
@@ -281,133 +264,6 @@ impl<'a> Setup<'a> {
     }
 }
 
-/// Three vertices of sixteen triangles, to be sorted by (y, x).
-struct Order<S: Lanes> {
-    x: [i32x16<S>; 3],
-    y: [i32x16<S>; 3],
-    vertex: [u32x16<S>; 3],
-}
-
-impl<S: Lanes> Order<S> {
-    /// Puts two vertices in order; true where they changed places. Equal ones keep theirs.
-    #[inline(always)]
-    fn exchange<const A: usize, const B: usize>(
-        &mut self,
-        s: S,
-    ) -> <i32x16<S> as SimdBase<S>>::Mask {
-        outline!(s, {
-            let (xa, xb) = (self.x[A], self.x[B]);
-            let (ya, yb) = (self.y[A], self.y[B]);
-            let (va, vb) = (self.vertex[A], self.vertex[B]);
-            let swap = ya.simd_gt(yb) | (ya.simd_eq(yb) & xa.simd_gt(xb));
-            self.x[A] = swap.select(xb, xa);
-            self.x[B] = swap.select(xa, xb);
-            self.y[A] = swap.select(yb, ya);
-            self.y[B] = swap.select(ya, yb);
-            self.vertex[A] = swap.select(vb, va);
-            self.vertex[B] = swap.select(va, vb);
-            swap
-        })
-    }
-}
-
-impl Default for Waiting {
-    fn default() -> Self {
-        Self {
-            vertex: [[0; 2 * LANES]; 3],
-            first_vertex: [0; 2 * LANES],
-            provoking: [0; 2 * LANES],
-            doubled_area: [1.0; 2 * LANES],
-            len: 0,
-        }
-    }
-}
-
-impl Waiting {
-    /// Adds the lanes in `kept`, in order.
-    #[inline(always)]
-    fn append<S: Lanes>(
-        &mut self,
-        s: S,
-        ([a, b, c], first_vertex): ([u32x16<S>; 3], u32x16<S>),
-        provoking: u32x16<S>,
-        area: f32x16<S>,
-        kept: u16,
-    ) {
-        let at = self.len;
-        self.len += kept.count_ones() as usize;
-        let [to_a, to_b, to_c] = &mut self.vertex;
-        if <S::u32s as SimdBase<S>>::LEN == LANES {
-            // The whole vector is written; what is beyond the kept lanes is garbage until
-            // overwritten.
-            let mask = s.mask_from_bits(kept);
-            a.compress(mask).store_slice(&mut to_a[at..][..LANES]);
-            b.compress(mask).store_slice(&mut to_b[at..][..LANES]);
-            c.compress(mask).store_slice(&mut to_c[at..][..LANES]);
-            first_vertex
-                .compress(mask)
-                .store_slice(&mut self.first_vertex[at..][..LANES]);
-            provoking
-                .compress(mask)
-                .store_slice(&mut self.provoking[at..][..LANES]);
-            area.compress(mask)
-                .store_slice(&mut self.doubled_area[at..][..LANES]);
-            return;
-        }
-        let (a, b, c) = (a.to_array(), b.to_array(), c.to_array());
-        let (provoking, area) = (provoking.to_array(), area.to_array());
-        let first_vertex = first_vertex.to_array();
-        for (to, lane) in (at..).zip(Lane::all_of(kept)) {
-            to_a[to] = lane.of(&a);
-            to_b[to] = lane.of(&b);
-            to_c[to] = lane.of(&c);
-            self.first_vertex[to] = lane.of(&first_vertex);
-            self.provoking[to] = lane.of(&provoking);
-            self.doubled_area[to] = lane.of(&area);
-        }
-    }
-
-    /// Moves what waits beyond the first packet to its place.
-    fn drop_first(&mut self, len: usize) {
-        self.len -= len;
-        if self.len == 0 {
-            return;
-        }
-        for values in &mut self.vertex {
-            values.copy_within(LANES.., 0);
-        }
-        self.first_vertex.copy_within(LANES.., 0);
-        self.provoking.copy_within(LANES.., 0);
-        self.doubled_area.copy_within(LANES.., 0);
-    }
-}
-
-/// The lanes of the packet that is next.
-#[inline(always)]
-fn first_half<T>(values: &[T; 2 * LANES]) -> &[T; LANES] {
-    values
-        .first_chunk()
-        .unwrap_or_else(|| unreachable!("32 lanes have a first half"))
-}
-
-/// The order of three vertices by (y, x), and whether it is an odd permutation. Equal ones keep
-/// theirs.
-#[inline(always)]
-pub(super) fn sorted(vertices: &[WindowVertex; 3]) -> ([usize; 3], bool) {
-    let before = |a: usize, b: usize| {
-        let (a, b) = (&vertices[a], &vertices[b]);
-        (a.y, a.x) <= (b.y, b.x)
-    };
-    let (mut order, mut odd) = ([0, 1, 2], false);
-    for (a, b) in [(0, 1), (1, 2), (0, 1)] {
-        if !before(order[a], order[b]) {
-            order.swap(a, b);
-            odd = !odd;
-        }
-    }
-    (order, odd)
-}
-
 /// Differences of sixteen triangles' positions, in pixels, and 1 ÷ doubled area.
 struct Edges<S: Lanes> {
     dx1: f32x16<S>,
@@ -426,29 +282,5 @@ impl<S: Lanes> Edges<S> {
             ((e1 * self.dy2 - e2 * self.dy1) * self.r).store_array(&mut out.dx);
             ((e2 * self.dx1 - e1 * self.dx2) * self.r).store_array(&mut out.dy);
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn vertices_are_sorted_by_row_then_column() {
-        let at = |x, y| WindowVertex {
-            x,
-            y,
-            ..WindowVertex::default()
-        };
-        let cases = [
-            ([at(0, 0), at(1, 0), at(0, 1)], [0, 1, 2], false),
-            ([at(1, 0), at(0, 0), at(0, 1)], [1, 0, 2], true),
-            ([at(5, 9), at(0, 1), at(9, 0)], [2, 1, 0], true),
-            ([at(5, 9), at(9, 0), at(0, 1)], [1, 2, 0], false),
-            ([at(3, 3), at(3, 3), at(0, 3)], [2, 0, 1], false),
-        ];
-        for (vertices, order, odd) in cases {
-            assert_eq!(sorted(&vertices), (order, odd), "{vertices:?}");
-        }
     }
 }

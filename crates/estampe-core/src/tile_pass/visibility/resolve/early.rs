@@ -1,6 +1,7 @@
 //! Fragments that were shaded before the run's end: their texels take the place of their ids.
 
-use super::{TileScratch, ids_of};
+use super::TileScratch;
+use super::ids::ids_of;
 use crate::tile_pass::TileJob;
 use crate::tile_pass::visibility::VisibilityScratch;
 use crate::tile_pass::visibility::buffer::SHADED;

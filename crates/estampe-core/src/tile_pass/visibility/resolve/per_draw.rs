@@ -5,8 +5,9 @@
 //! for both: some of its quads face the viewer and some do not. Where the two colours differ, the
 //! draw's samples are left to the passes by group.
 
+use super::ids::lanes_in;
 use super::per_primitive::store_texels;
-use super::{IdStorage, Resolver, ShadingGroup, lanes_in};
+use super::{IdStorage, Resolver, ShadingGroup};
 use crate::per_sample::color_writer::ColorWriter;
 use crate::pipeline::color_target::MAX_WORDS;
 use crate::raster::Covered;
