@@ -62,7 +62,6 @@ pub fn write_row(
     for (texel, bytes) in texels.zip(bytes.chunks_exact(each)) {
         if aspect == TextureAspect::All {
             words_of_bytes(texture.format, bytes, texel);
-            clear_unused(texture.format, texel);
             continue;
         }
         // An aspect has at most four bytes.
@@ -75,20 +74,9 @@ pub fn write_row(
             (TextureAspect::Depth, TextureFormat::Depth24PlusStencil8) => {
                 texel[0] = texel[0] & 0xFF00_0000 | bits & 0x00FF_FFFF;
             }
-            _ => {
-                texel[0] = bits;
-                clear_unused(texture.format, texel);
-            }
+            (_, TextureFormat::Depth24Plus) => texel[0] = bits & 0x00FF_FFFF,
+            _ => texel[0] = bits,
         }
-    }
-}
-
-/// Clears the bits that neither depth nor stencil has, as attachments do not keep them.
-fn clear_unused(format: TextureFormat, texel: &mut [u32]) {
-    match format {
-        TextureFormat::Depth24Plus => texel[0] &= 0x00FF_FFFF,
-        TextureFormat::Depth32FloatStencil8 => texel[1] &= 0xFF,
-        _ => {}
     }
 }
 

@@ -121,16 +121,22 @@ fn row_of_texels(texture: &TexelData, bytes: &[u8], words: &mut [u32]) {
     }
 }
 
-/// The words of one texel, from the format's bytes.
+/// The words of one texel, from the format's bytes. Bits that neither depth nor stencil has become
+/// zeros, as attachments do not keep them.
 pub(crate) fn words_of_bytes(format: TextureFormat, texel: &[u8], words: &mut [u32]) {
     for (word, bytes) in words.iter_mut().zip(texel.chunks(4)) {
         let mut four = [0; 4];
         four[..bytes.len()].copy_from_slice(bytes);
         *word = u32::from_le_bytes(four);
     }
-    if format.is_bgra() {
-        let [b, g, r, a] = words[0].to_le_bytes();
-        words[0] = u32::from_le_bytes([r, g, b, a]);
+    match format {
+        TextureFormat::Bgra8Unorm | TextureFormat::Bgra8UnormSrgb => {
+            let [b, g, r, a] = words[0].to_le_bytes();
+            words[0] = u32::from_le_bytes([r, g, b, a]);
+        }
+        TextureFormat::Depth24Plus => words[0] &= 0x00FF_FFFF,
+        TextureFormat::Depth32FloatStencil8 => words[1] &= 0xFF,
+        _ => {}
     }
 }
 

@@ -122,6 +122,21 @@ fn every_format_goes_from_buffer_to_texture_to_texture_to_buffer() {
     assert!(blocks.len() == 15, "{blocks:?}");
 }
 
+/// Bytes that neither depth nor stencil has are zeros, also of texels that a texture is created
+/// with.
+#[test]
+fn first_texels_keep_what_written_ones_keep() {
+    let device = device();
+    for &format in TextureFormat::ALL {
+        let bytes = noise((7 * 5 * format.block_bytes()) as usize, 4);
+        let descriptor = TextureDescriptor::new_2d(7, 5, format);
+        if !format.is_compressed() {
+            let made = device.create_texture_with_data(&descriptor, &[&bytes]);
+            let read = device.read_texture(&made.unwrap()).unwrap();
+            assert!(read == kept(format, bytes), "{}", format.name());
+        }
+    }
+}
 #[test]
 fn depth_and_stencil_are_copied_one_by_one() {
     let device = device();
