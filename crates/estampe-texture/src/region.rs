@@ -37,8 +37,9 @@ pub fn aspect_bytes(format: TextureFormat, aspect: TextureAspect) -> usize {
     }
 }
 
-/// The index of the first word of a span, and the words of its texels.
-fn words_of(texture: &TexelData, span: RowSpan) -> std::ops::Range<usize> {
+/// The words of a span's texels among those of the texture, all samples counted.
+#[must_use]
+pub fn row_words(texture: &TexelData, span: RowSpan) -> std::ops::Range<usize> {
     let level = texture.levels[span.level];
     let samples = texture.shape.samples as usize;
     let (width, height) = (level.width as usize, level.height as usize);
@@ -56,7 +57,7 @@ pub fn write_row(
     bytes: &[u8],
     words: &mut [u32],
 ) {
-    let words = &mut words[words_of(texture, span)];
+    let words = &mut words[row_words(texture, span)];
     let each = aspect_bytes(texture.format, aspect);
     let texels = words.chunks_exact_mut(texture.words_per_texel());
     for (texel, bytes) in texels.zip(bytes.chunks_exact(each)) {
@@ -80,6 +81,32 @@ pub fn write_row(
     }
 }
 
+/// Copies an aspect of texels between rows of the same format, or of two that differ in sRGB.
+pub fn copy_row(format: TextureFormat, aspect: TextureAspect, from: &[u32], to: &mut [u32]) {
+    use TextureFormat as F;
+    match (format, aspect) {
+        (F::Depth24PlusStencil8, TextureAspect::Depth) => copy_bits(0x00FF_FFFF, from, to),
+        (F::Depth24PlusStencil8, TextureAspect::Stencil) => copy_bits(0xFF00_0000, from, to),
+        (F::Depth32FloatStencil8, TextureAspect::Depth) => copy_halves(0, from, to),
+        (F::Depth32FloatStencil8, TextureAspect::Stencil) => copy_halves(1, from, to),
+        _ => to.copy_from_slice(from),
+    }
+}
+
+/// Copies some bits of each word.
+fn copy_bits(bits: u32, from: &[u32], to: &mut [u32]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *to & !bits | from & bits;
+    }
+}
+
+/// Copies one word of each pair.
+fn copy_halves(half: usize, from: &[u32], to: &mut [u32]) {
+    for (to, from) in to.chunks_exact_mut(2).zip(from.chunks_exact(2)) {
+        to[half] = from[half];
+    }
+}
+
 /// Reads one sample of the texels of a row; not of compressed formats.
 pub fn read_row(
     texture: &TexelData,
@@ -87,7 +114,7 @@ pub fn read_row(
     (aspect, sample): (TextureAspect, usize),
     bytes: &mut [u8],
 ) {
-    let words = &texture.texels[words_of(texture, span)];
+    let words = &texture.texels[row_words(texture, span)];
     let each = aspect_bytes(texture.format, aspect);
     let samples = words.chunks_exact(texture.words_per_texel());
     let texels = samples.skip(sample).step_by(texture.shape.samples as usize);
@@ -129,7 +156,7 @@ pub fn write_blocks(texture: &TexelData, span: RowSpan, bytes: &[u8], words: &mu
                 width: columns,
                 ..span
             };
-            words[words_of(texture, row)].copy_from_slice(&texels[..columns * each]);
+            words[row_words(texture, row)].copy_from_slice(&texels[..columns * each]);
         }
     }
 }
@@ -146,7 +173,7 @@ pub fn write_zeros(texture: &TexelData, level: usize, slice: usize, words: &mut 
         y,
         width,
     };
-    let [first, last] = [0, height - 1].map(|y| words_of(texture, span(y)));
+    let [first, last] = [0, height - 1].map(|y| row_words(texture, span(y)));
     words[first.start..last.end].fill(0);
     let format = texture.format;
     if !format.is_compressed() {
@@ -160,10 +187,10 @@ pub fn write_zeros(texture: &TexelData, level: usize, slice: usize, words: &mut 
         return;
     }
     let [block_width, block_height] = format.block_size().map(|side| side as usize);
-    let row_words = block_width * texture.words_per_texel();
+    let block_row = block_width * texture.words_per_texel();
     for y in 0..height {
-        let row = &block[y % block_height * row_words..][..row_words];
-        for texels in words[words_of(texture, span(y))].chunks_mut(row_words) {
+        let row = &block[y % block_height * block_row..][..block_row];
+        for texels in words[row_words(texture, span(y))].chunks_mut(block_row) {
             texels.copy_from_slice(&row[..texels.len()]);
         }
     }

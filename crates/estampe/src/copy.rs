@@ -144,10 +144,8 @@ pub(crate) fn check_texture_to_texture(
             into: into.texture.name(),
         });
     }
-    let tight = TexelCopyLayout::default();
-    let len = texture::tight_len(from, size);
-    texture::check_read(from, len, &tight, size)?;
-    Ok(texture::check_write(into, len, &tight, size)?)
+    texture::check_copy(from, into, size)?;
+    Ok(())
 }
 
 /// Copies texels between textures, which may be the same.
@@ -162,20 +160,7 @@ pub(crate) fn texture_to_texture(
     both.sort_by_key(|texture| texture.id());
     let _first = both[0].reserve();
     let _second = (!both[0].is_same(both[1])).then(|| both[1].reserve());
-    let len = texture::tight_len(from, size);
-    let mut bytes = zeros(len)?;
-    let tight = TexelCopyLayout::default();
-    texture::read(context, from, &mut bytes, &tight, size)?;
-    Ok(texture::write(context, into, &bytes, &tight, size)?)
-}
-
-fn zeros(len: u64) -> Result<Vec<u8>, TextureError> {
-    let short = TextureError::OutOfMemory { bytes: len };
-    let len = usize::try_from(len).map_err(|_| short.clone())?;
-    let mut bytes = Vec::new();
-    bytes.try_reserve_exact(len).map_err(|_| short)?;
-    bytes.resize(len, 0);
-    Ok(bytes)
+    Ok(texture::copy(context, from, into, size)?)
 }
 
 /// Checks that the texels of a view can be set.

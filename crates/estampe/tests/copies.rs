@@ -3,8 +3,8 @@
 mod support;
 
 use estampe::{
-    Buffer, Device, Extent3d, TexelCopyLayout, Texture, TextureAspect, TextureCopy, TextureFormat,
-    TextureViewDescriptor,
+    Buffer, CopyError, Device, Extent3d, TexelCopyLayout, Texture, TextureAspect, TextureCopy,
+    TextureDescriptor, TextureError, TextureFormat, TextureViewDescriptor,
 };
 use support::{device, layered, noise, texture};
 
@@ -135,6 +135,25 @@ fn first_texels_keep_what_written_ones_keep() {
             let read = device.read_texture(&made.unwrap()).unwrap();
             assert!(read == kept(format, bytes), "{}", format.name());
         }
+    }
+}
+
+/// The region is checked before memory is taken for it.
+#[test]
+fn huge_regions_are_refused() {
+    let device = device();
+    let [from, into] = [0, 1].map(|_| texture(&device, [5, 4], TextureFormat::Rgba32Float));
+    for side in [6, 1 << 20, u32::MAX] {
+        let size = Extent3d {
+            width: side,
+            height: side,
+            depth_or_array_layers: side,
+        };
+        let copied = device.copy_texture_to_texture(&from, &into, size);
+        assert!(matches!(
+            copied,
+            Err(CopyError::Texture(TextureError::Region { .. }))
+        ));
     }
 }
 #[test]

@@ -61,6 +61,14 @@ impl ColorTexels {
         Self { format, ..self }
     }
 
+    /// Replaces the texels by those of an image of the same size, whose format differs at most in
+    /// sRGB.
+    pub fn copy_from(&mut self, from: &Self) {
+        debug_assert_eq!(from.format.with_srgb(false), self.format.with_srgb(false));
+        debug_assert_eq!(from.size, self.size);
+        self.words.copy_from_slice(&from.words);
+    }
+
     /// The format of the texels.
     #[must_use]
     pub fn format(&self) -> TextureFormat {
@@ -96,6 +104,25 @@ impl DepthStencilTexels {
             stencil: Lines::zeros(stencil)?,
             depth_bounds: Arc::default(),
         })
+    }
+
+    /// The format of the texels.
+    #[must_use]
+    pub fn format(&self) -> TextureFormat {
+        self.format
+    }
+
+    /// The size of the image.
+    #[must_use]
+    pub fn size(&self) -> ImageSize {
+        self.size
+    }
+
+    /// Replaces depths and stencil values by those of an image of the same size and format.
+    pub fn copy_from(&mut self, from: &Self) {
+        debug_assert_eq!((from.format, from.size), (self.format, self.size));
+        Arc::make_mut(&mut self.depth).copy_from_slice(&from.depth);
+        self.stencil.copy_from_slice(&from.stencil);
     }
 
     pub(crate) fn depth_format(&self) -> DepthFormat {

@@ -71,10 +71,8 @@ impl Device {
     /// [`TextureError`] as for [`Device::read_texture_into`].
     pub fn read_texture(&self, texture: &Texture) -> Result<Vec<u8>, TextureError> {
         let size = Extent3d::new_2d(texture.width(), texture.height());
-        let len = texture::tight_len(&texture.into(), size);
-        let mut bytes = vec![0; usize::try_from(len).unwrap_or(usize::MAX)];
-        self.read_texture_into(texture, &mut bytes, &TexelCopyLayout::default(), size)?;
-        Ok(bytes)
+        let _reserved = texture.reserve();
+        texture::read_tight(&self.context, &texture.into(), size)
     }
 
     /// Reads one sample of each texel of a view of one level of one layer, as rows of the format's
@@ -148,11 +146,12 @@ impl Device {
     }
 
     /// Copies texels between textures whose formats differ at most in sRGB, or inside one. Codes
-    /// are copied, not colours.
+    /// are copied, not colours. Of multisampled textures whole images are copied, to one with as
+    /// many samples.
     ///
     /// # Errors
-    /// [`CopyError`] if the formats differ, a region is not in its texture, or a texture lacks the
-    /// usage.
+    /// [`CopyError`] if the formats or samples differ, a region is not in its texture or a part of
+    /// a multisampled image, or a texture lacks the usage.
     pub fn copy_texture_to_texture<'t, 'u>(
         &self,
         from: impl Into<TextureCopy<'t>>,

@@ -16,7 +16,8 @@ pub(crate) fn check_write(
     size: Extent3d,
 ) -> Result<(), TextureError> {
     copy.texture.require(TextureUsages::COPY_DST)?;
-    Region::new(copy, size, layout, bytes)?;
+    let bytes = usize::try_from(bytes).unwrap_or(usize::MAX);
+    Region::new(copy, size)?.in_memory(copy.texture, layout, bytes)?;
     Ok(())
 }
 
@@ -28,7 +29,8 @@ pub(crate) fn check_read(
     size: Extent3d,
 ) -> Result<(), TextureError> {
     copy.texture.require(TextureUsages::COPY_SRC)?;
-    Region::new(copy, size, layout, bytes)?;
+    let bytes = usize::try_from(bytes).unwrap_or(usize::MAX);
+    Region::new(copy, size)?.in_memory(copy.texture, layout, bytes)?;
     Ok(())
 }
 
@@ -42,17 +44,18 @@ pub(crate) fn write(
 ) -> Result<(), TextureError> {
     let texture = copy.texture;
     texture.require(TextureUsages::COPY_DST)?;
-    let region = Region::new(copy, size, layout, bytes.len() as u64)?;
+    let region = Region::new(copy, size)?;
+    let rows = region.in_memory(texture, layout, bytes.len())?;
     let mut contents = texture.lock();
     let is_compressed = texture.format().is_compressed();
     if is_compressed {
-        for (span, first) in region.spans() {
+        for (span, first) in rows.spans() {
             let bytes = &bytes[first..][..region.row_bytes];
             contents.blocks.write(texture, span, bytes);
         }
     }
     contents.write_rows(texture, context, region.images(), |data, words| {
-        for (span, first) in region.spans() {
+        for (span, first) in rows.spans() {
             let bytes = &bytes[first..][..region.row_bytes];
             if is_compressed {
                 write_blocks(data, span, bytes, words);
@@ -73,20 +76,19 @@ pub(crate) fn read(
 ) -> Result<(), TextureError> {
     let texture = copy.texture;
     texture.require(TextureUsages::COPY_SRC)?;
-    let region = Region::new(copy, size, layout, bytes.len() as u64)?;
+    let region = Region::new(copy, size)?;
+    let rows = region.in_memory(texture, layout, bytes.len())?;
     let mut contents = texture.lock();
     if texture.format().is_compressed() {
-        for (span, first) in region.spans() {
+        for (span, first) in rows.spans() {
             let bytes = &mut bytes[first..][..region.row_bytes];
             contents.blocks.read(texture, span, bytes);
         }
         return Ok(());
     }
-    let level = texture.level_size(copy.mip_level);
-    let is_whole = size == Extent3d::new_2d(level.width, level.height);
-    let is_tight =
-        *layout == TexelCopyLayout::default() && bytes.len() == region.row_bytes * region.rows;
-    if is_whole
+    let is_tight = *layout == TexelCopyLayout::default() && bytes.len() == region.tight_len();
+    if region.is_whole(texture)
+        && size.depth_or_array_layers == 1
         && is_tight
         && copy.aspect == TextureAspect::All
         && let Some(Image::Color(image)) = contents.tiles(region.key)
@@ -95,7 +97,7 @@ pub(crate) fn read(
         return Ok(());
     }
     let data = contents.rows(texture, context)?;
-    for (span, first) in region.spans() {
+    for (span, first) in rows.spans() {
         read_row(
             &data,
             span,
@@ -104,6 +106,27 @@ pub(crate) fn read(
         );
     }
     Ok(())
+}
+
+/// Reads a region as bytes without padding.
+pub(crate) fn read_tight(
+    context: &Context,
+    copy: &TextureCopy<'_>,
+    size: Extent3d,
+) -> Result<Vec<u8>, TextureError> {
+    let mut bytes = zeros(Region::new(copy, size)?.tight_len())?;
+    read(context, copy, &mut bytes, &TexelCopyLayout::default(), size)?;
+    Ok(bytes)
+}
+
+/// So many zero bytes; an error if memory is short.
+fn zeros(len: usize) -> Result<Vec<u8>, TextureError> {
+    let short = |_| TextureError::OutOfMemory { bytes: len as u64 };
+    let mut room: Vec<u8> = Vec::new();
+    room.try_reserve_exact(len).map_err(short)?;
+    drop(std::hint::black_box(room));
+    // New pages are zeros already: they are not written here.
+    Ok(vec![0; len])
 }
 
 /// Reads one sample of each texel of an image.
@@ -124,7 +147,7 @@ pub(crate) fn read_sample(
     let level = data.levels[key.level as usize];
     let (width, height) = (level.width as usize, level.height as usize);
     let each = aspect_bytes(format, view.aspect());
-    let mut bytes = vec![0; width * height * each];
+    let mut bytes = zeros(width * height * each)?;
     for (y, row) in bytes.chunks_mut(width * each).enumerate() {
         let span = RowSpan {
             level: key.level as usize,

@@ -2,6 +2,7 @@
 
 mod blocks;
 mod contents;
+mod copy_texels;
 mod error;
 mod first_texels;
 mod host_access;
@@ -10,9 +11,9 @@ mod stores;
 mod view;
 
 pub(crate) use contents::{Contents, Image, ImageKey, Newest};
+pub(crate) use copy_texels::{check_copy, copy};
 pub use error::TextureError;
-pub(crate) use host_access::{check_read, check_write, read, read_sample, write, zero};
-pub(crate) use region::tight_len;
+pub(crate) use host_access::{check_read, check_write, read, read_sample, read_tight, write, zero};
 pub use region::{TexelCopyLayout, TextureCopy};
 pub(crate) use stores::StoredTextures;
 pub(crate) use view::sampled_texture;

@@ -58,7 +58,7 @@ pub struct TexelCopyLayout {
     pub rows_per_image: Option<u32>,
 }
 
-/// A region that is known to lie in its level, and the layout of its bytes.
+/// A region that is known to lie in its level, of a texture that has its aspect.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Region {
     /// The mip level, and the first layer or slice.
@@ -71,18 +71,20 @@ pub(super) struct Region {
     block_height: usize,
     /// Bytes of a row without padding.
     pub(super) row_bytes: usize,
+}
+
+/// A region of a texture of one sample, and the layout of its bytes in memory that holds them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RegionInMemory {
+    region: Region,
     row_stride: usize,
     layer_stride: usize,
     offset: usize,
 }
 
 impl Region {
-    pub(super) fn new(
-        copy: &TextureCopy<'_>,
-        size: Extent3d,
-        layout: &TexelCopyLayout,
-        bytes: u64,
-    ) -> Result<Self, TextureError> {
+    /// Checks the rules of regions: WebGPU's *validating texture copy range*.
+    pub(super) fn new(copy: &TextureCopy<'_>, size: Extent3d) -> Result<Self, TextureError> {
         let texture = copy.texture;
         let format = texture.format();
         let [block_width, block_height] = format.block_size();
@@ -129,39 +131,8 @@ impl Region {
         if !has_aspect {
             return Err(unsupported(texture, "it does not have this aspect"));
         }
-        if texture.sample_count() != 1 {
-            return Err(unsupported(
-                texture,
-                "resolve a multisampled texture before it is copied to or from the host",
-            ));
-        }
-        let each = aspect_bytes(format, copy.aspect) as u64;
-        let rows = u64::from(height.div_ceil(block_height));
-        let row_bytes = u64::from(width.div_ceil(block_width)) * each;
-        let row_stride = layout.bytes_per_row.map_or(row_bytes, u64::from);
-        let image_rows = layout.rows_per_image.map_or(rows, u64::from);
         let is_empty = width == 0 || height == 0 || layers == 0;
-        let last = u64::from(layers.saturating_sub(1));
-        let expected = if is_empty {
-            0
-        } else {
-            let last_layer = row_stride.saturating_mul(image_rows).saturating_mul(last);
-            let last_row = row_stride.saturating_mul(rows - 1);
-            let end = last_layer
-                .saturating_add(last_row)
-                .saturating_add(row_bytes);
-            end.saturating_add(layout.offset)
-        };
-        if row_stride < row_bytes || image_rows < rows || expected > bytes {
-            return Err(TextureError::Bytes {
-                texture: texture.name(),
-                expected,
-                bytes_per_row: row_bytes,
-                actual: bytes,
-            });
-        }
-        // What is used is at most `expected`, the length of bytes in memory.
-        let within = |value: u64| usize::try_from(value).unwrap_or(usize::MAX);
+        let each = aspect_bytes(format, copy.aspect);
         Ok(Self {
             key: ImageKey {
                 level: copy.mip_level,
@@ -169,14 +140,73 @@ impl Region {
             },
             origin: [x as usize, y as usize],
             columns: width as usize,
-            rows: if is_empty { 0 } else { within(rows) },
+            rows: if is_empty {
+                0
+            } else {
+                height.div_ceil(block_height) as usize
+            },
             layers: layers as usize,
             block_height: block_height as usize,
-            row_bytes: within(row_bytes),
+            row_bytes: width.div_ceil(block_width) as usize * each,
+        })
+    }
+
+    /// Checks that `bytes` bytes of memory hold the region in a layout.
+    pub(super) fn in_memory(
+        self,
+        texture: &Texture,
+        layout: &TexelCopyLayout,
+        bytes: usize,
+    ) -> Result<RegionInMemory, TextureError> {
+        if texture.sample_count() != 1 {
+            let rule = "resolve a multisampled texture before it is copied to or from the host";
+            return Err(unsupported(texture, rule));
+        }
+        let (rows, row_bytes) = (self.rows as u64, self.row_bytes as u64);
+        let row_stride = layout.bytes_per_row.map_or(row_bytes, u64::from);
+        let image_rows = layout.rows_per_image.map_or(rows, u64::from);
+        let expected = if rows == 0 {
+            0
+        } else {
+            let last_layer = row_stride
+                .saturating_mul(image_rows)
+                .saturating_mul(self.layers as u64 - 1);
+            let last_row = row_stride.saturating_mul(rows - 1);
+            let end = last_layer
+                .saturating_add(last_row)
+                .saturating_add(row_bytes);
+            end.saturating_add(layout.offset)
+        };
+        if row_stride < row_bytes || image_rows < rows || expected > bytes as u64 {
+            return Err(TextureError::Bytes {
+                texture: texture.name(),
+                expected,
+                bytes_per_row: row_bytes,
+                actual: bytes as u64,
+            });
+        }
+        // What is used is at most `expected`, the length of bytes in memory.
+        let within = |value: u64| usize::try_from(value).unwrap_or(usize::MAX);
+        Ok(RegionInMemory {
+            region: self,
             row_stride: within(row_stride),
             layer_stride: within(row_stride.saturating_mul(image_rows)),
             offset: within(layout.offset),
         })
+    }
+
+    /// The number of bytes without padding.
+    pub(super) fn tight_len(self) -> usize {
+        self.row_bytes * self.rows * self.layers
+    }
+
+    /// Returns true if the region has all rows and columns of its images.
+    pub(super) fn is_whole(self, texture: &Texture) -> bool {
+        let level = texture.level_size(self.key.level);
+        let [_, block_height] = texture.format().block_size();
+        self.origin == [0, 0]
+            && self.columns == level.width as usize
+            && self.rows == level.height.div_ceil(block_height) as usize
     }
 
     /// The images that the region touches.
@@ -185,17 +215,25 @@ impl Region {
         (self.key.layer..last).map(move |layer| ImageKey { layer, ..self.key })
     }
 
+    /// The rows of one of the region's images, of blocks if the format is compressed.
+    pub(super) fn spans_of(self, key: ImageKey) -> impl Iterator<Item = RowSpan> {
+        (0..self.rows).map(move |row| RowSpan {
+            level: key.level as usize,
+            slice: key.layer as usize,
+            x: self.origin[0],
+            y: self.origin[1] + row * self.block_height,
+            width: self.columns,
+        })
+    }
+}
+
+impl RegionInMemory {
     /// Each row of the region: the span of texels, and where its bytes begin.
     pub(super) fn spans(self) -> impl Iterator<Item = (RowSpan, usize)> {
-        (0..self.layers).flat_map(move |layer| {
-            (0..self.rows).map(move |row| {
-                let span = RowSpan {
-                    level: self.key.level as usize,
-                    slice: self.key.layer as usize + layer,
-                    x: self.origin[0],
-                    y: self.origin[1] + row * self.block_height,
-                    width: self.columns,
-                };
+        let images = self.region.images().enumerate();
+        images.flat_map(move |(layer, key)| {
+            let rows = self.region.spans_of(key).enumerate();
+            rows.map(move |(row, span)| {
                 let first = self.offset + layer * self.layer_stride + row * self.row_stride;
                 (span, first)
             })
@@ -211,14 +249,4 @@ pub(super) fn unsupported(texture: &Texture, rule: &'static str) -> TextureError
         samples: texture.sample_count(),
         rule,
     }
-}
-
-/// Bytes of a region without padding.
-pub(crate) fn tight_len(copy: &TextureCopy<'_>, size: Extent3d) -> u64 {
-    let format = copy.texture.format();
-    let [width, height] = format.block_size();
-    u64::from(size.width.div_ceil(width))
-        * u64::from(size.height.div_ceil(height))
-        * u64::from(size.depth_or_array_layers)
-        * aspect_bytes(format, copy.aspect) as u64
 }
