@@ -10,6 +10,7 @@
 //! | [`teapot`] | the Utah teapot from its published control points |
 //! | [`parametric`] | surfaces S(s, t) on a grid: sphere, torus, plane |
 //! | [`cube`] | the one built-in model that is not a surface on a grid |
+//! | [`expression`] | expressions of numbers: parsing, values, exact derivatives |
 //! | [`bezier`] | Bézier curves and patches with their derivatives |
 //! | [`mesh`] | the triangle mesh that all of these produce |
 //! | [`polygon`] | area, convexity, point tests, triangulation |
@@ -22,6 +23,7 @@
 pub mod bezier;
 pub mod builtin;
 pub mod cube;
+pub mod expression;
 pub mod mesh;
 pub mod parametric;
 pub mod polygon;
