@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-/// An indexed triangle mesh with one normal and one texture coordinate per vertex.
+/// An indexed triangle mesh with a normal per vertex, and perhaps texture coordinates.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShapeMesh {
     /// Name of the shape, in lower case.
@@ -11,7 +11,7 @@ pub struct ShapeMesh {
     pub positions: Vec<Vec3>,
     /// Unit normals, outwards, one per position.
     pub normals: Vec<Vec3>,
-    /// Texture coordinates, one per position; v = 0 is the image's top row.
+    /// Texture coordinates, one per position, or none; v = 0 is the image's top row.
     pub uvs: Vec<Vec2>,
     /// Vertex indices, counter-clockwise seen from outside. Never out of range, and no triangle
     /// has two corners at the same position.

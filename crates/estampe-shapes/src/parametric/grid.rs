@@ -48,7 +48,7 @@ pub fn surface(
 }
 
 /// Interpolates a range; exact at both ends in spite of rounding.
-fn between(range: &Range<f64>, step: u32, steps: u32) -> f64 {
+pub(crate) fn between(range: &Range<f64>, step: u32, steps: u32) -> f64 {
     let (step, steps) = (f64::from(step), f64::from(steps));
     (range.start * (steps - step) + range.end * step) / steps
 }

@@ -65,6 +65,7 @@ fn volume(mesh: &ShapeMesh) -> f64 {
         / 6.0
 }
 
+/// Rows: M4.
 #[test]
 fn closed_shapes_are_closed_and_have_their_volume() {
     let sphere = sphere(2.0, 96, 48);

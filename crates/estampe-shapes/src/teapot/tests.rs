@@ -51,6 +51,7 @@ fn the_points_are_symmetric() {
     }
 }
 
+/// Rows: M4.
 #[test]
 fn bounds_are_the_published_ones() {
     let mesh = teapot(64);
@@ -111,6 +112,7 @@ fn border_name(a: Vec3, b: Vec3) -> Option<&'static str> {
     }
 }
 
+/// Rows: M4.
 #[test]
 fn patches_meet_to_the_bit() {
     for cells in [2, 3, 7, 16, 33] {
@@ -173,6 +175,7 @@ fn triangles_have_extent_and_face_their_normals() {
     }
 }
 
+/// Rows: M4.
 #[test]
 fn normals_point_outwards() {
     // Body: away from the axis.
