@@ -12,6 +12,7 @@
 //! | [`expression`] | expressions of numbers: parsing, values, exact derivatives |
 //! | [`explicit`] | curves y = f(x) and surfaces z = f(x, y) |
 //! | [`parametric`] | curves C(t) and surfaces S(s, t): any, and sphere, torus, plane, helix |
+//! | [`implicit`] | curves F(x, y) = 0 and surfaces F(x, y, z) = 0 |
 //! | [`bezier`] | Bézier curves and patches with their derivatives |
 //! | [`curve`] | polylines, and tubes around them |
 //! | [`mesh`] | the triangle mesh that all of these produce |
@@ -30,6 +31,7 @@ pub mod cube;
 pub mod curve;
 pub mod explicit;
 pub mod expression;
+pub mod implicit;
 pub mod mesh;
 pub mod parametric;
 pub mod polygon;
