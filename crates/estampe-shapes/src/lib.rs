@@ -16,7 +16,7 @@
 //! | [`bezier`] | Bézier curves and patches with their derivatives |
 //! | [`curve`] | polylines, and tubes around them |
 //! | [`mesh`] | the triangle mesh that all of these produce |
-//! | [`polygon`] | area, convexity, point tests, triangulation |
+//! | [`polygon`] | area, convexity, simplicity, point tests, triangulation, fill on pixels |
 //!
 //! Conventions: triangles are counter-clockwise seen from outside, normals have unit length and
 //! point outwards, texture coordinates have v = 0 at the image's top row, and images are not

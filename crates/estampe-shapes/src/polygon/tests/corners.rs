@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use fastrand::Rng;
 use glam::{DVec3, Vec2, Vec3};
 
-use super::*;
+use crate::polygon::*;
 use crate::random_cases::random_cases;
 
 fn polar(turns: f64, radius: f64) -> Vec2 {
@@ -131,6 +131,7 @@ fn assert_covers(corners: &[Vec2], triangles: &[[u32; 3]]) {
     }
 }
 
+/// Rows: M6.
 #[test]
 fn triangles_cover_a_simple_polygon_once() {
     random_cases(|random| {
@@ -216,6 +217,7 @@ fn hostile_corners() {
 }
 
 /// Convex polygons: corners of an ellipse, some repeated, some in the middle of edges.
+/// Rows: M6.
 #[test]
 fn convex_polygons() {
     random_cases(|random| {
@@ -238,6 +240,7 @@ fn convex_polygons() {
     });
 }
 
+/// Rows: M6.
 #[test]
 fn convexity_of_known_shapes() {
     let ring = |points: &[(f32, f32)]| points.iter().copied().map(Vec2::from).collect::<Vec<_>>();
