@@ -1,7 +1,8 @@
 #![forbid(unsafe_code)]
-//! Readers of models and images, and writers of images.
+//! Readers and writers of models and images.
 //!
-//! - [`model`]: OBJ with its material libraries, STL and PLY become an [`estampe_scene::Scene`].
+//! - [`model`]: OBJ with its material libraries, STL and PLY become an [`estampe_scene::Scene`], and
+//!   back.
 //! - [`image`]: TGA, PNG and JPEG become an [`estampe_scene::Image`], and back.
 //!
 //! Every input is treated as hostile: a reader ends with a value or an [`AssetError`] with the
@@ -24,5 +25,5 @@ struct Readme;
 pub use error::{AssetError, Fault, Location};
 pub use file::{read_bytes, read_stream};
 pub use limits::Limits;
-pub use model::{Loaded, ModelFormat, load_model, parse_model};
+pub use model::{Loaded, ModelFormat, encode_model, load_model, parse_model};
 pub use warning::Warning;

@@ -1,10 +1,10 @@
-//! Readers of models: OBJ with MTL, STL and PLY.
+//! Readers and writers of models: OBJ with MTL, STL and PLY.
 //!
 //! ```text
 //! bytes -> obj | stl | ply  (one folder each: lines or records -> meshes)
 //!       -> finish           (faces with non-finite corners dropped, limits)
 //!       -> normals          (missing ones)
-//!       -> Scene
+//!       -> Scene -> write -> bytes
 //! ```
 //!
 //! The readers work on bytes, so no encoding is assumed; names are decoded as UTF-8 or, if that
@@ -27,6 +27,7 @@ mod stl;
 mod textures;
 mod vertex_copies;
 mod weld;
+mod write;
 
 #[cfg(test)]
 mod tests;
@@ -35,3 +36,4 @@ pub use detect::ModelFormat;
 pub use load::{Loaded, load_model, parse_model};
 pub use normals::NormalMode;
 pub use resources::{Folder, NoResources, ResourceError, Resources};
+pub use write::encode_model;
