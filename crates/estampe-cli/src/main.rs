@@ -64,7 +64,7 @@ fn main() -> ExitCode {
     let code = match &cli.command {
         Command::Render(args) => report(
             "render",
-            args.json.then_some(args.output.is_standard_output()),
+            args.report.json.then_some(args.output.is_standard_output()),
             render::run(args),
         ),
         Command::Info(args) => report("info", args.json.then_some(false), describe::run(args)),

@@ -7,6 +7,8 @@
 
 mod arguments;
 mod command;
+mod draw;
+mod picture;
 mod report;
 
 pub(crate) use arguments::RenderArgs;

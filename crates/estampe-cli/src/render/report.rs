@@ -1,14 +1,12 @@
 //! The report of `estampe render`: a line of text, or a JSON object.
 
-use super::arguments::RenderArgs;
-use super::command::milliseconds;
+use super::draw::Drawn;
+use super::picture::{PictureArgs, ReportArgs};
 use crate::failure::Failure;
 use crate::input::Model;
 use crate::values::{Destination, shown};
 use clap::ValueEnum;
-use estampe::Device;
 use estampe_assets::image::ImageFormat;
-use estampe_renderer::Frame;
 use estampe_scene::Projection;
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -27,85 +25,65 @@ pub(super) struct Encoded {
 }
 
 /// The contents of a report.
-pub(super) struct Report<'a> {
-    pub(super) args: &'a RenderArgs,
-    pub(super) model: &'a Model,
-    pub(super) frame: &'a Frame,
-    pub(super) device: &'a Device,
-    pub(super) written: Encoded,
+pub(crate) struct Report<'a> {
+    pub(crate) args: &'a PictureArgs,
+    pub(crate) output: &'a Destination,
+    pub(crate) model: &'a Model,
+    pub(crate) drawn: &'a Drawn,
+    /// The function that was meshed, if there is one.
+    pub(crate) shape: Option<Value>,
 }
 
 impl Report<'_> {
-    /// Writes one line to standard error.
-    pub(super) fn write_summary(&self) {
+    /// Writes the warnings, and the object or the line of text, as the options say.
+    pub(crate) fn write(&self, args: &ReportArgs) -> Result<(), Failure> {
         let (width, height) = self.args.size;
-        let triangles: usize = self
-            .model
-            .scene
-            .meshes
-            .iter()
-            .map(|m| m.triangles.len())
-            .sum();
-        let total = milliseconds(self.written.total);
-        let output = self.output_name();
-        // If standard error is closed, the line is lost.
-        let _ = writeln!(
-            io::stderr(),
-            "{output}: {width}x{height}, {triangles} triangles, {total:.0} ms"
-        );
-    }
-
-    /// Writes one object to standard output, or to standard error if the image goes to standard
-    /// output.
-    pub(super) fn write_json(&self) -> Result<(), Failure> {
-        let object = self.json();
-        let written = if self.args.output.is_standard_output() {
-            writeln!(io::stderr(), "{object:#}")
-        } else {
-            let mut out = io::stdout().lock();
-            writeln!(out, "{object:#}").and_then(|()| out.flush())
-        };
-        written.map_err(|error| {
-            Failure::Output(format!(
-                "the report: {error}; check the program that reads standard output"
-            ))
-        })
-    }
-
-    fn output_name(&self) -> String {
-        match &self.args.output {
-            Destination::File(path) => shown(path),
-            Destination::StandardOutput => "standard output".to_owned(),
-        }
+        let output = output_name(self.output);
+        let subject = format!("{output}: {width}x{height}");
+        write(
+            args,
+            self.model,
+            self.output,
+            &subject,
+            self.drawn.written.total,
+            || self.json(),
+        )
     }
 
     fn json(&self) -> Value {
         let shading = self.args.shading.to_possible_value();
-        json!({
+        let Drawn {
+            device, written, ..
+        } = self.drawn;
+        let mut object = json!({
             "model": self.model.name,
             "format": self.model.format.map(|format| format.name()),
             "output": {
-                "path": self.output_name(),
-                "format": format!("{:?}", self.written.format).to_lowercase(),
+                "path": output_name(self.output),
+                "format": format!("{:?}", written.format).to_lowercase(),
                 "width": self.args.size.0,
                 "height": self.args.size.1,
-                "samples": if self.args.samples == "1" { 1 } else { 4 },
-                "bytes": self.written.bytes,
+                "samples": self.args.sample_count(),
+                "bytes": written.bytes,
             },
             "shading": shading.as_ref().map(clap::builder::PossibleValue::get_name),
-            "threads": self.device.threads(),
-            "simd": self.device.level().name(),
+            "threads": device.threads(),
+            "simd": device.level().name(),
             "camera": self.camera(),
             "counts": counts(self.model),
             "pipeline": self.pipeline(),
             "timings_ms": self.timings(),
             "warnings": self.model.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
             "warning_count": self.model.warning_count,
-        })
+        });
+        if let Some(shape) = &self.shape {
+            object["shape"] = shape.clone();
+        }
+        object
     }
 
     fn camera(&self) -> Value {
-        let camera = &self.frame.camera;
+        let camera = &self.drawn.frame.camera;
         let (kind, key, value, near, far) = match camera.projection {
             Projection::Perspective {
                 fov_y_rad,
@@ -136,7 +114,7 @@ impl Report<'_> {
     }
 
     fn pipeline(&self) -> Value {
-        let statistics = &self.frame.statistics;
+        let statistics = &self.drawn.frame.statistics;
         json!({
             "vertices_shaded": statistics.vertices_shaded,
             "primitives_in": statistics.primitives_in,
@@ -148,7 +126,7 @@ impl Report<'_> {
     }
 
     fn timings(&self) -> Value {
-        let (timings, written) = (&self.frame.timings, &self.written);
+        let (timings, written) = (&self.drawn.frame.timings, &self.drawn.written);
         let stages = [
             ("read", self.model.read),
             ("parse", self.model.parse),
@@ -162,12 +140,77 @@ impl Report<'_> {
             ("write", written.write),
             ("total", written.total),
         ];
-        let rounded = |time: Duration| (milliseconds(time) * 1e3).round() / 1e3;
         stages
             .into_iter()
-            .map(|(stage, time)| (stage.to_owned(), json!(rounded(time))))
+            .map(|(stage, time)| (stage.to_owned(), json!(rounded_milliseconds(time))))
             .collect()
     }
+}
+
+/// Writes the warnings of a model, then one JSON object, or one line to standard error that begins
+/// with `subject`.
+pub(crate) fn write(
+    args: &ReportArgs,
+    model: &Model,
+    output: &Destination,
+    subject: &str,
+    total: Duration,
+    object: impl FnOnce() -> Value,
+) -> Result<(), Failure> {
+    if !args.quiet {
+        model.print_warnings();
+    }
+    if args.json {
+        return write_json(&object(), output);
+    }
+    if !args.quiet {
+        let count = |of: fn(&estampe_scene::Mesh) -> usize| -> usize {
+            model.scene.meshes.iter().map(of).sum()
+        };
+        let (triangles, lines) = (count(|m| m.triangles.len()), count(|m| m.lines.len()));
+        let primitives = match (triangles, lines) {
+            (0, 1..) => format!("{lines} lines"),
+            _ => format!("{triangles} triangles"),
+        };
+        let total = milliseconds(total);
+        // If standard error is closed, the line is lost.
+        let _ = writeln!(io::stderr(), "{subject}, {primitives}, {total:.0} ms");
+    }
+    Ok(())
+}
+
+/// Writes one object to standard output, or to standard error if the output goes to standard
+/// output.
+fn write_json(object: &Value, output: &Destination) -> Result<(), Failure> {
+    let written = if output.is_standard_output() {
+        writeln!(io::stderr(), "{object:#}")
+    } else {
+        let mut out = io::stdout().lock();
+        writeln!(out, "{object:#}").and_then(|()| out.flush())
+    };
+    written.map_err(|error| {
+        Failure::Output(format!(
+            "the report: {error}; check the program that reads standard output"
+        ))
+    })
+}
+
+/// The output for messages.
+pub(crate) fn output_name(output: &Destination) -> String {
+    match output {
+        Destination::File(path) => shown(path),
+        Destination::StandardOutput => "standard output".to_owned(),
+    }
+}
+
+/// Milliseconds, for text and JSON.
+pub(crate) fn milliseconds(duration: Duration) -> f64 {
+    duration.as_secs_f64() * 1e3
+}
+
+/// Milliseconds, rounded to microseconds.
+pub(crate) fn rounded_milliseconds(duration: Duration) -> f64 {
+    (milliseconds(duration) * 1e3).round() / 1e3
 }
 
 /// The counts of a model's contents.

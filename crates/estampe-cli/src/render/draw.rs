@@ -1,0 +1,140 @@
+//! Draws a model and writes the picture, for all commands that draw.
+
+use super::picture::PictureArgs;
+use super::report::Encoded;
+use crate::failure::Failure;
+use crate::input::{self, Model};
+use crate::output;
+use crate::progress::Progress;
+use crate::values::{Destination, ImageFormatName, shown};
+use estampe::{Device, DeviceDescriptor};
+use estampe_assets::Limits;
+use estampe_assets::image::{ImageFormat, decode, encode};
+use estampe_renderer::{Frame, RenderOptions, ViewDirection, composite_over, render};
+use estampe_scene::{Image, Scene};
+use std::time::Instant;
+
+/// The stages that [`draw`] begins.
+pub(crate) const STAGES: u64 = 3;
+
+/// A picture that was written.
+pub(crate) struct Drawn {
+    pub(super) frame: Frame,
+    pub(super) device: Device,
+    pub(super) written: Encoded,
+}
+
+/// Draws the model, and writes the picture to its destination. `default_view` is the view if no
+/// option says another one; `start` is when the command began.
+pub(crate) fn draw(
+    model: &Model,
+    args: &PictureArgs,
+    default_view: ViewDirection,
+    (output, format): (&Destination, ImageFormat),
+    start: Instant,
+    progress: &Progress,
+) -> Result<Drawn, Failure> {
+    check_drawable(model)?;
+    let texture_start = Instant::now();
+    let texture = args
+        .texture
+        .as_deref()
+        .map(|path| read_texture(path, model))
+        .transpose()?;
+    let texture_time = texture_start.elapsed();
+
+    progress.stage("drawing");
+    let device_start = Instant::now();
+    let device = device(args)?;
+    let device_time = device_start.elapsed();
+    let frame = render(&model.scene, &args.options(default_view, texture), &device)?;
+
+    progress.stage("encoding");
+    let encode_start = Instant::now();
+    let bytes = encoded(&frame, format)?;
+    let encode_time = encode_start.elapsed();
+
+    progress.stage("writing");
+    let write_start = Instant::now();
+    output::write(output, &bytes)?;
+    let written = Encoded {
+        format,
+        bytes: bytes.len(),
+        texture: texture_time,
+        device: device_time,
+        encode: encode_time,
+        write: write_start.elapsed(),
+        total: start.elapsed(),
+    };
+    Ok(Drawn {
+        frame,
+        device,
+        written,
+    })
+}
+
+/// The format of a picture: the named one, else that of the destination.
+pub(crate) fn image_format(
+    named: Option<ImageFormatName>,
+    output: &Destination,
+) -> Result<ImageFormat, Failure> {
+    let named = named.map(ImageFormat::from);
+    named.or_else(|| output.image_format()).ok_or_else(|| {
+        Failure::Usage(
+            "OUT's name does not show the image's format; name it .png, .jpg or .tga, or add \
+             --output-format"
+                .to_owned(),
+        )
+    })
+}
+
+/// Refuses a model without anything to draw, which would give an empty image.
+fn check_drawable(model: &Model) -> Result<(), Failure> {
+    let has_primitives = |scene: &Scene| {
+        let meshes = &mut scene.meshes.iter();
+        meshes.any(|m| !(m.triangles.is_empty() && m.lines.is_empty() && m.points.is_empty()))
+    };
+    if has_primitives(&model.scene) {
+        return Ok(());
+    }
+    let name = &model.name;
+    let advice = "check that the export was complete";
+    Err(Failure::Input(format!(
+        "{name}: the model has no triangle, line or point to draw; {advice}"
+    )))
+}
+
+fn read_texture(path: &std::path::Path, model: &Model) -> Result<Image, Failure> {
+    let limits = Limits::default();
+    let bytes = input::read_file(path, &limits)?;
+    let image = decode(&bytes, &limits).map_err(|error| error.in_file(&shown(path)))?;
+    if model.scene.meshes.iter().all(|mesh| mesh.uvs.is_empty()) {
+        let name = &model.name;
+        return Err(Failure::Input(format!(
+            "{name}: the model has no texture coordinates, so --texture has no effect; omit it"
+        )));
+    }
+    Ok(image)
+}
+
+fn device(args: &PictureArgs) -> Result<Device, Failure> {
+    let descriptor = DeviceDescriptor {
+        threads: args.thread_count(),
+        level: args.simd,
+        ..DeviceDescriptor::default()
+    };
+    Device::new(&descriptor)
+        .map_err(|error| Failure::Output(format!("{error}; try fewer --threads")))
+}
+
+/// The image's file; formats without alpha get the default background behind transparency.
+fn encoded(frame: &Frame, format: ImageFormat) -> Result<Vec<u8>, Failure> {
+    let opaque;
+    let image = if format.has_alpha() {
+        &frame.image
+    } else {
+        opaque = composite_over(&frame.image, RenderOptions::DEFAULT_BACKGROUND);
+        &opaque
+    };
+    encode(image, format).map_err(|error| Failure::Output(error.to_string()))
+}

@@ -1,0 +1,186 @@
+//! The options of a picture, which all commands that draw have, and the renderer's options from them.
+
+use crate::values::{self, Background, CullName, ShadingName, ViewName};
+use clap::Args;
+use estampe::Level;
+use estampe_renderer::{CameraOptions, Eye, ProjectionKind, RenderOptions, Up, ViewDirection};
+use estampe_scene::{Image, Light};
+use glam::{DVec3, Vec3};
+use std::path::PathBuf;
+
+/// The size, the camera, the appearance, and the machine that draws.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct PictureArgs {
+    /// Width and height in pixels, each 1 to 16384
+    #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = values::size)]
+    pub(crate) size: (u32, u32),
+
+    /// A named view: iso, front, back, left, right, top or bottom
+    #[arg(long, value_name = "NAME", value_enum, hide_possible_values = true)]
+    #[arg(conflicts_with_all = ["azimuth", "elevation", "eye"], help_heading = "Camera")]
+    pub(crate) view: Option<ViewName>,
+
+    /// Angle around the model in degrees: 0 front, 90 right, 180 back [default: 30]
+    #[arg(long, value_name = "DEG", value_parser = values::azimuth, allow_hyphen_values = true)]
+    #[arg(conflicts_with = "eye", help_heading = "Camera")]
+    pub(crate) azimuth: Option<f64>,
+
+    /// Angle above the model in degrees, -90 to 90 [default: 20]
+    #[arg(long, value_name = "DEG", value_parser = values::elevation, allow_hyphen_values = true)]
+    #[arg(conflicts_with = "eye", help_heading = "Camera")]
+    pub(crate) elevation: Option<f64>,
+
+    /// Position of the eye, instead of a direction and the fit
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::vector, allow_hyphen_values = true)]
+    #[arg(help_heading = "Camera")]
+    pub(crate) eye: Option<DVec3>,
+
+    /// The point in the middle of the image [default: the best fit; with --eye, the model's middle]
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::vector, allow_hyphen_values = true)]
+    #[arg(help_heading = "Camera")]
+    pub(crate) target: Option<DVec3>,
+
+    /// The up direction: y, z, a direction x,y,z, or auto (Z for STL, else Y)
+    #[arg(long, value_name = "UP", default_value = "auto", value_parser = values::up)]
+    #[arg(allow_hyphen_values = true, help_heading = "Camera")]
+    pub(crate) up: Up,
+
+    /// Vertical opening angle in degrees, 0.1 to 175
+    #[arg(long, value_name = "DEG", default_value = "35", value_parser = values::fov)]
+    #[arg(conflicts_with = "ortho", help_heading = "Camera")]
+    pub(crate) fov: f64,
+
+    /// Parallel projection: size does not depend on distance
+    #[arg(long, help_heading = "Camera")]
+    pub(crate) ortho: bool,
+
+    /// Free border around the model, as a fraction of the shorter side, 0 to 0.49
+    #[arg(long, value_name = "FRACTION", default_value = "0.05", value_parser = values::margin)]
+    #[arg(help_heading = "Camera")]
+    pub(crate) margin: f64,
+
+    /// Shading of surfaces: flat, gouraud, phong, toon, unlit, wireframe, normals, depth or uv
+    ///
+    /// flat: lighting once per face; gouraud: lighting at the vertices; phong: lighting at every
+    /// pixel; toon: lighting in four steps; unlit: colours and textures without lighting;
+    /// wireframe: edges, hidden by faces; normals: red right, green up, blue towards the eye;
+    /// depth: white near, black far; uv: u red, v green. The last three store numbers without sRGB
+    /// encoding.
+    #[arg(
+        long,
+        value_name = "STYLE",
+        value_enum,
+        default_value = "phong",
+        hide_possible_values = true
+    )]
+    #[arg(help_heading = "Appearance")]
+    pub(crate) shading: ShadingName,
+
+    /// A direction towards a white light, instead of the default lights; repeatable
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::direction, allow_hyphen_values = true)]
+    #[arg(help_heading = "Appearance")]
+    pub(crate) light: Vec<DVec3>,
+
+    /// Ambient light, 0 to 10, times the base colour [default: 0.18]
+    #[arg(long, value_name = "AMOUNT", value_parser = values::ambient, help_heading = "Appearance")]
+    pub(crate) ambient: Option<f32>,
+
+    /// A base-colour texture (PNG, JPEG, TGA; sRGB), instead of the model's colours and textures
+    #[arg(long, value_name = "FILE", help_heading = "Appearance")]
+    pub(crate) texture: Option<PathBuf>,
+
+    /// The background: none, or a colour as six hexadecimal digits, with or without #
+    #[arg(long, value_name = "none|#RRGGBB", default_value = "#f2f2f2")]
+    #[arg(value_parser = values::background, help_heading = "Appearance")]
+    pub(crate) background: Background,
+
+    /// Faces that are culled: none, back (facing away) or front
+    #[arg(
+        long,
+        value_name = "FACES",
+        value_enum,
+        default_value = "none",
+        hide_possible_values = true
+    )]
+    #[arg(help_heading = "Appearance")]
+    pub(crate) cull: CullName,
+
+    /// Samples per pixel: 1, or 4 for smooth edges
+    #[arg(long, value_name = "N", default_value = "4", value_parser = ["1", "4"])]
+    #[arg(hide_possible_values = true, help_heading = "Appearance")]
+    pub(crate) samples: String,
+
+    /// Number of threads, 1 to 1024; the image does not depend on it [default: one per processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(help_heading = "Machine")]
+    pub(crate) threads: Option<u16>,
+
+    /// SIMD level: auto, scalar, sse2, avx2 or avx512; the image does not depend on it
+    #[arg(long, value_name = "LEVEL", default_value = "auto", value_parser = values::simd)]
+    #[arg(help_heading = "Machine")]
+    pub(crate) simd: Level,
+}
+
+/// What a command says about its work.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct ReportArgs {
+    /// Write no warnings, no summary and no progress
+    #[arg(short, long, help_heading = "Report")]
+    pub(crate) quiet: bool,
+
+    /// Write a report with counts and the time of each stage, as one JSON object
+    #[arg(long, help_heading = "Report")]
+    pub(crate) json: bool,
+}
+
+impl PictureArgs {
+    /// The samples per pixel.
+    pub(super) fn sample_count(&self) -> u32 {
+        if self.samples == "1" { 1 } else { 4 }
+    }
+
+    /// The threads that draw; 0 is one per processor.
+    pub(crate) fn thread_count(&self) -> usize {
+        self.threads.map_or(0, usize::from)
+    }
+
+    /// The renderer's options; `default` is the view if no option says another one.
+    pub(super) fn options(&self, default: ViewDirection, texture: Option<Image>) -> RenderOptions {
+        let direction = match self.view {
+            Some(view) => view.into(),
+            None => ViewDirection {
+                azimuth_deg: self.azimuth.unwrap_or(default.azimuth_deg),
+                elevation_deg: self.elevation.unwrap_or(default.elevation_deg),
+            },
+        };
+        let light = |towards: &glam::DVec3| Light {
+            // Normalised, because f64's range exceeds f32's; only the direction matters.
+            towards_light_world: towards.normalize_or(glam::DVec3::Y).as_vec3(),
+            color: Vec3::ONE,
+        };
+        RenderOptions {
+            width: self.size.0,
+            height: self.size.1,
+            samples: self.sample_count(),
+            camera: CameraOptions {
+                eye: self.eye.map_or(Eye::Fitted(direction), Eye::At),
+                target_world: self.target,
+                projection: if self.ortho {
+                    ProjectionKind::Orthographic
+                } else {
+                    ProjectionKind::Perspective {
+                        fov_y_deg: self.fov,
+                    }
+                },
+                margin: self.margin,
+            },
+            up: self.up,
+            shading: self.shading.into(),
+            lights: self.light.iter().map(light).collect(),
+            ambient: self.ambient,
+            texture,
+            background: self.background.0,
+            cull: self.cull.into(),
+        }
+    }
+}
