@@ -1,6 +1,7 @@
 //! Errors of a command by their cause, which determines the exit code.
 
 use estampe_assets::AssetError;
+use estampe_ladder::LadderError;
 use estampe_renderer::RenderError;
 use std::fmt;
 
@@ -57,6 +58,19 @@ impl From<RenderError> for Failure {
                 Self::Output(format!("{error}; try a smaller --size or --samples 1"))
             }
             _ => Self::Output(error.to_string()),
+        }
+    }
+}
+
+impl From<LadderError> for Failure {
+    fn from(error: LadderError) -> Self {
+        let message = error.to_string();
+        match error {
+            LadderError::NoSuchRung { .. } | LadderError::WaitsForGlsl | LadderError::Usage(_) => {
+                Self::Usage(message)
+            }
+            LadderError::Asset(_) | LadderError::NoTriangles { .. } => Self::Input(message),
+            _ => Self::Output(message),
         }
     }
 }

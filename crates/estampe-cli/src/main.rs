@@ -3,7 +3,8 @@
 //!
 //! * [`render`]: renders a model to an image;
 //! * [`describe`]: describes the contents of a model;
-//! * [`diff`]: measures the difference of two images.
+//! * [`diff`]: measures the difference of two images;
+//! * [`ladder`]: draws the pictures of the ladder, from one pixel to shapes.
 //!
 //! [`input`] reads models from files, standard input or by built-in name, [`output`] writes files
 //! completely or not at all, [`values`] parses the options' values, and [`failure`] has the exit
@@ -13,6 +14,7 @@ mod describe;
 mod diff;
 mod failure;
 mod input;
+mod ladder;
 mod output;
 mod progress;
 mod render;
@@ -35,6 +37,7 @@ Examples:
   estampe render builtin:teapot -o teapot.png --view iso --shading toon
   estampe info model.stl
   estampe diff expected.png actual.png
+  estampe ladder all -o ladder
 
 `estampe help COMMAND` explains all options of a command.")]
 struct Cli {
@@ -48,6 +51,7 @@ enum Command {
     Render(Box<render::RenderArgs>),
     Info(describe::InfoArgs),
     Diff(diff::DiffArgs),
+    Ladder(ladder::LadderArgs),
 }
 
 /// The versions of the program and of its images.
@@ -68,6 +72,7 @@ fn main() -> ExitCode {
             render::run(args),
         ),
         Command::Info(args) => report("info", args.json.then_some(false), describe::run(args)),
+        Command::Ladder(args) => report("ladder", None, ladder::run(args)),
         Command::Diff(args) => {
             let (mut out, mut err) = (BufWriter::new(io::stdout().lock()), io::stderr().lock());
             diff::run(args, &mut out, &mut err)

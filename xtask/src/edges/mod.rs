@@ -35,9 +35,21 @@ const CRATES: &[(&str, &[&str])] = &[
     ("estampe-scene", &[]),
     ("estampe-assets", &["estampe-scene", "estampe-shapes"]),
     ("estampe-renderer", &["estampe", "estampe-scene"]),
-    ("estampe-cli", LIBRARIES),
     // The oracle is a second opinion: it shares the types of the interface and no algorithm.
     ("estampe-reference", &["estampe-types"]),
+    // The one library that shows the teaching code of the oracle.
+    (
+        "estampe-ladder",
+        &[
+            "estampe",
+            "estampe-shapes",
+            "estampe-scene",
+            "estampe-assets",
+            "estampe-renderer",
+            "estampe-reference",
+        ],
+    ),
+    ("estampe-cli", LIBRARIES),
     ("estampe-tests", LIBRARIES),
     ("estampe-bench", LIBRARIES),
     ("xtask", &[]),
@@ -55,6 +67,7 @@ const LIBRARIES: &[&str] = &[
     "estampe-scene",
     "estampe-assets",
     "estampe-renderer",
+    "estampe-ladder",
 ];
 
 /// The workspace crates that only the tests and examples of a crate may use.
@@ -91,6 +104,7 @@ const OUTSIDE: &[(&str, Users)] = &[
             "estampe-scene",
             "estampe-assets",
             "estampe-renderer",
+            "estampe-ladder",
             "estampe-cli",
         ]),
     ),

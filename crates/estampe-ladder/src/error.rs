@@ -1,0 +1,60 @@
+//! Errors of the ladder.
+
+use estampe::{BindGroupError, BufferError, DeviceError, PipelineError, TextureError};
+use estampe_assets::AssetError;
+
+/// The reason why a rung has no picture.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LadderError {
+    /// No rung has this number.
+    #[error("there is no rung {number}; the rungs are 1 to 23, or all")]
+    NoSuchRung {
+        /// The given number.
+        number: u32,
+    },
+    /// Rung 22 runs shaders in GLSL, which the pipeline does not read yet.
+    #[error(
+        "rung 22 runs shaders written in GLSL, which estampe does not read yet (row G1 of \
+         docs/PIPELINE.md); take another rung, docs/from-glsl.md translates GLSL to Rust"
+    )]
+    WaitsForGlsl,
+    /// The command line of an example is wrong.
+    #[error("{0}")]
+    Usage(String),
+    /// A model or texture cannot be read, or the picture cannot be encoded.
+    #[error(transparent)]
+    Asset(#[from] AssetError),
+    /// The model has no triangles.
+    #[error("{name}: the model has no triangles to draw; take another model")]
+    NoTriangles {
+        /// The model's name.
+        name: String,
+    },
+    /// The picture cannot be written.
+    #[error("{path}: {cause}; check the folder, its permissions and space")]
+    Write {
+        /// The file.
+        path: String,
+        /// The system's reason.
+        cause: std::io::Error,
+    },
+    /// The system starts no threads.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// A buffer is too large for the device.
+    #[error(transparent)]
+    Buffer(#[from] BufferError),
+    /// A texture is too large for the device.
+    #[error(transparent)]
+    Texture(#[from] TextureError),
+    /// A bind group does not fit its layout.
+    #[error(transparent)]
+    BindGroup(#[from] BindGroupError),
+    /// A pipeline is not valid.
+    #[error(transparent)]
+    Pipeline(#[from] PipelineError),
+    /// A pass is not valid.
+    #[error(transparent)]
+    Pass(#[from] estampe::RenderPassError),
+}

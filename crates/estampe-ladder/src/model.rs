@@ -1,0 +1,122 @@
+//! The model that the rungs draw.
+
+use crate::LadderError;
+use estampe_assets::{Limits, load_model};
+use estampe_renderer::transforms::round_to_f32;
+use estampe_scene::{Bounds, Mesh, Scene};
+use estampe_shapes::teapot::teapot;
+use glam::{DVec3, Vec2, Vec3};
+use std::path::Path;
+
+/// A triangle mesh in the cube −1..1, y up.
+#[derive(Debug, Clone, Default)]
+pub struct Model {
+    /// The positions of the vertices.
+    pub positions: Vec<[f32; 3]>,
+    /// The unit normal of each vertex.
+    pub normals: Vec<[f32; 3]>,
+    /// The texture coordinates of each vertex, v down; zeros if the file has none.
+    pub uvs: Vec<[f32; 2]>,
+    /// Three vertices for each face, counter-clockwise seen from outside.
+    pub faces: Vec<[u32; 3]>,
+}
+
+impl Model {
+    /// The built-in model: the Utah teapot in 2,000 triangles, its spout half towards the viewer.
+    #[must_use]
+    pub fn builtin() -> Self {
+        /// Cells along each side of the teapot's 32 patches.
+        const CELLS: u32 = 6;
+        /// cos and sin of the turn about the y axis.
+        const TURN: [f32; 2] = [0.8, 0.6];
+        let shape = teapot(CELLS);
+        let turned = |p: &Vec3| {
+            let [c, s] = TURN;
+            Vec3::new(c * p.x - s * p.z, p.y, s * p.x + c * p.z)
+        };
+        let mut model = Self::default();
+        model.append(&Mesh {
+            positions: shape.positions.iter().map(turned).collect(),
+            normals: shape.normals.iter().map(turned).collect(),
+            uvs: shape.uvs,
+            triangles: shape.triangles,
+            ..Mesh::default()
+        });
+        model.place();
+        model
+    }
+
+    /// The triangles of a file: OBJ, STL or PLY; see [`Model::of_scene`].
+    ///
+    /// # Errors
+    /// If the file cannot be read, or has no triangles.
+    pub fn read(path: &Path) -> Result<Self, LadderError> {
+        let scene = load_model(path, None, &Limits::default())?.scene;
+        Self::of_scene(&scene).ok_or_else(|| LadderError::NoTriangles {
+            name: path.display().to_string(),
+        })
+    }
+
+    /// The triangles of all meshes, or `None` if there are none. Triangles with a corner that is
+    /// not finite are dropped.
+    ///
+    /// A model inside the cube −1..1 stays as it is; any other is moved to the middle and scaled to
+    /// nine tenths of the cube.
+    #[must_use]
+    pub fn of_scene(scene: &Scene) -> Option<Self> {
+        let mut model = Self::default();
+        for mesh in &scene.meshes {
+            model.append(mesh);
+        }
+        model.place();
+        (!model.faces.is_empty()).then_some(model)
+    }
+
+    /// Appends the triangles of a mesh whose corners are finite.
+    fn append(&mut self, mesh: &Mesh) {
+        let first = u32::try_from(self.positions.len()).expect("readers limit the vertices");
+        let count = self.positions.len() + mesh.positions.len();
+        self.positions
+            .extend(mesh.positions.iter().map(Vec3::to_array));
+        self.normals.extend(mesh.normals.iter().map(Vec3::to_array));
+        self.normals.resize(count, [0.0, 0.0, 1.0]);
+        self.uvs.extend(mesh.uvs.iter().map(Vec2::to_array));
+        self.uvs.resize(count, [0.0; 2]);
+        let is_finite = |index: &u32| mesh.positions[*index as usize].is_finite();
+        let triangles = mesh.triangles.iter();
+        let finite = triangles.filter(|triangle| triangle.iter().all(is_finite));
+        self.faces
+            .extend(finite.map(|triangle| triangle.map(|index| index + first)));
+    }
+
+    /// Moves and scales the positions into the cube −1..1 if they are not all inside.
+    fn place(&mut self) {
+        let used = self.triangles().flatten().map(Vec3::from);
+        let Bounds { min, max } = Bounds::of(used);
+        if min.cmpge(Vec3::NEG_ONE).all() && max.cmple(Vec3::ONE).all() {
+            return;
+        }
+        // In f64, where no difference overflows.
+        let (min, max) = (min.as_dvec3(), max.as_dvec3());
+        let half = (max - min).max_element() / 2.0;
+        let scale = if half > 0.0 { 0.9 / half } else { 1.0 };
+        for position in &mut self.positions {
+            let placed = (DVec3::from(position.map(f64::from)) - (min + max) / 2.0) * scale;
+            *position = placed.to_array().map(round_to_f32);
+        }
+    }
+
+    /// The positions of the corners of each face.
+    pub fn triangles(&self) -> impl Iterator<Item = [[f32; 3]; 3]> {
+        let corners = |face: &[u32; 3]| face.map(|index| self.positions[index as usize]);
+        self.faces.iter().map(corners)
+    }
+
+    /// The unit normal of a face, (b − a) × (c − a), which points outside; zero if the face has no
+    /// area.
+    #[must_use]
+    pub fn face_normal(corners: [[f32; 3]; 3]) -> [f32; 3] {
+        let [a, b, c] = corners.map(Vec3::from);
+        (b - a).cross(c - a).normalize_or_zero().to_array()
+    }
+}

@@ -1,0 +1,104 @@
+//! The `main` of an example: arguments, a picture, a file.
+
+use crate::{Course, LadderError, Model, Picture, rung};
+use estampe_assets::image::ImageFormat;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Runs an example: draws the picture of a rung and writes it.
+///
+/// The arguments are `-o FILE` (PNG, TGA or JPEG by its extension; default the rung's name with
+/// `.png`) and `--model FILE` (default the built-in model). Errors are printed as a sentence; the
+/// exit code is 1 if the picture could not be drawn or written, 2 if the arguments are wrong.
+#[must_use]
+pub fn run(number: u32, draw: fn(&Course) -> Result<Picture, LadderError>) -> ExitCode {
+    let written = || -> Result<PathBuf, LadderError> {
+        let arguments = Arguments::parse(number, std::env::args_os().skip(1))?;
+        let mut course = Course::new()?;
+        if let Some(path) = &arguments.model {
+            course.model = Model::read(path)?;
+        }
+        let file = draw(&course)?.encode(arguments.format)?;
+        write(&arguments.output, &file)?;
+        Ok(arguments.output)
+    };
+    match written() {
+        Ok(path) => {
+            eprintln!("wrote {}", path.display());
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("{error}");
+            let is_usage = matches!(error, LadderError::Usage(_));
+            ExitCode::from(if is_usage { 2 } else { 1 })
+        }
+    }
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), LadderError> {
+    std::fs::write(path, bytes).map_err(|cause| LadderError::Write {
+        path: path.display().to_string(),
+        cause,
+    })
+}
+
+/// The arguments of an example.
+#[derive(Debug)]
+struct Arguments {
+    output: PathBuf,
+    format: ImageFormat,
+    model: Option<PathBuf>,
+}
+
+impl Arguments {
+    fn parse(
+        number: u32,
+        mut words: impl Iterator<Item = std::ffi::OsString>,
+    ) -> Result<Self, LadderError> {
+        let mut output = PathBuf::from(format!("{}.png", rung(number)?.name));
+        let mut model = None;
+        let usage = || LadderError::Usage("the arguments are [-o FILE] [--model FILE]".to_owned());
+        while let Some(word) = words.next() {
+            let value = words.next().map(PathBuf::from).ok_or_else(usage)?;
+            match word.to_str() {
+                Some("-o") => output = value,
+                Some("--model") => model = Some(value),
+                _ => return Err(usage()),
+            }
+        }
+        let format = ImageFormat::from_path(&output).ok_or_else(|| {
+            let name = output.display();
+            LadderError::Usage(format!("{name}: name the picture .png, .tga or .jpg"))
+        })?;
+        Ok(Self {
+            output,
+            format,
+            model,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(words: &[&str]) -> Result<Arguments, LadderError> {
+        Arguments::parse(1, words.iter().map(std::ffi::OsString::from))
+    }
+
+    #[test]
+    fn arguments_are_an_output_and_a_model() {
+        let default = parsed(&[]).unwrap();
+        assert_eq!(default.output, Path::new("ladder_01_pixel.png"));
+        assert_eq!(default.model, None);
+        let given = parsed(&["--model", "a.obj", "-o", "b.tga"]).unwrap();
+        assert_eq!(given.format, ImageFormat::Tga);
+        assert_eq!(given.model.as_deref(), Some(Path::new("a.obj")));
+        for wrong in [&["-o"][..], &["a.png"], &["--size", "3"], &["-o", "a.gif"]] {
+            assert!(
+                matches!(parsed(wrong), Err(LadderError::Usage(_))),
+                "{wrong:?}"
+            );
+        }
+    }
+}
