@@ -90,22 +90,21 @@ fn draws_of(device: &Device, vertices: u32) -> Result<(), String> {
     drawn.map(drop).map_err(|error| error.to_string())
 }
 
-/// The limits set to 2, and what meets each.
-fn cases() -> Vec<(&'static str, Limits, Made)> {
-    const SAMPLED: BindingType = BindingType::sampled_2d();
-    const UNIFORM: BufferBindingType = BufferBindingType::Uniform;
-    macro_rules! limit {
-        ($name:ident, $made:expr) => {
-            (
-                stringify!($name),
-                Limits {
-                    $name: 2,
-                    ..Limits::default()
-                },
-                $made as Made,
-            )
-        };
-    }
+macro_rules! limit {
+    ($name:ident, $made:expr) => {
+        (
+            stringify!($name),
+            Limits {
+                $name: 2,
+                ..Limits::default()
+            },
+            $made as Made,
+        )
+    };
+}
+
+/// The limits of sizes and of vertex buffers, set to 2, and what meets each.
+fn of_sizes() -> Vec<(&'static str, Limits, Made)> {
     vec![
         limit!(max_texture_dimension_1d, |d, n| texture_of(
             d,
@@ -161,6 +160,15 @@ fn cases() -> Vec<(&'static str, Limits, Made)> {
             let made = d.create_render_pipeline(&descriptor);
             made.map(drop).map_err(|error| error.to_string())
         }),
+        limit!(max_pass_vertices, draws_of),
+    ]
+}
+
+/// The limits of what a pipeline binds, set to 2, and what meets each.
+fn of_bindings() -> Vec<(&'static str, Limits, Made)> {
+    const SAMPLED: BindingType = BindingType::sampled_2d();
+    const UNIFORM: BufferBindingType = BufferBindingType::Uniform;
+    vec![
         limit!(max_bind_groups, |d, n| pipeline_of(d, SAMPLED, n)),
         limit!(max_sampled_textures_per_shader_stage, |d, n| pipeline_of(
             d,
@@ -217,14 +225,13 @@ fn cases() -> Vec<(&'static str, Limits, Made)> {
             let made = d.create_render_pipeline(&descriptor);
             made.map(drop).map_err(|error| error.to_string())
         }),
-        limit!(max_pass_vertices, draws_of),
     ]
 }
 
 /// Rows: N1
 #[test]
 fn each_limit_is_reached_and_no_more() {
-    for (name, limits, made) in cases() {
+    for (name, limits, made) in of_sizes().into_iter().chain(of_bindings()) {
         let device = limited(limits);
         made(&device, 2).unwrap_or_else(|error| panic!("{name}: {error}"));
         let error = made(&device, 3).expect_err(name);
