@@ -3,9 +3,9 @@
 //! A grid sees a function at its samples only, and a straight line between two of them may hide a
 //! jump (`floor(x)`), a pole (`1/x`), or the end of the domain (`sqrt(x)`). Derivatives tell which
 //! segments to look at: where a function is smooth, the difference of its values is nearly the mean
-//! of its slopes times the step (the trapezoidal rule). Where it is not, bisection follows the half
-//! that fits worse. A steep but continuous function flattens out as the interval shrinks; at a jump
-//! the difference remains.
+//! of its slopes times the step (the trapezoidal rule). Where it is not, bisection follows the
+//! halves that do not fit. A steep but continuous function flattens out as the interval shrinks; at
+//! a jump the difference remains.
 
 use std::cell::Cell;
 
@@ -65,14 +65,22 @@ const ROUNDING: f64 = 1e-9;
 /// function that oscillates between all samples would spend 48 at each.
 pub(crate) const SEARCH_BUDGET: u64 = 1 << 24;
 
-/// The break between two parameters with defined samples, if there is one.
-pub(crate) fn find_break(
-    sample: impl Fn(f64) -> Sample,
-    (from, first): (f64, Sample),
-    (to, last): (f64, Sample),
-    budget: &Cell<u64>,
-) -> Option<Break> {
-    let misfit = |a: f64, at_a: &Sample, b: f64, at_b: &Sample| {
+/// Evaluations that the search in one segment may spend: a jump and its surroundings take 100.
+const SEGMENT_BUDGET: u32 = 400;
+
+/// A part of a segment that is not smooth.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    ends: [(f64, Sample); 2],
+    /// The deviation from the trapezoidal rule.
+    misfit: f64,
+    bisections: u32,
+}
+
+impl Part {
+    /// The part between two samples; `None` if it is smooth.
+    fn new(ends: [(f64, Sample); 2], bisections: u32) -> Option<Self> {
+        let [(a, at_a), (b, at_b)] = ends;
         let difference = at_b.position - at_a.position;
         let predicted = (at_a.slope + at_b.slope) * (0.5 * (b - a));
         let misfit = (difference - predicted).length();
@@ -82,26 +90,68 @@ pub(crate) fn find_break(
         } else {
             misfit
         };
-        (misfit, misfit <= SMOOTH * difference.length())
-    };
-    if misfit(from, &first, to, &last).1 {
-        return None;
+        (misfit > SMOOTH * difference.length()).then_some(Self {
+            ends,
+            misfit,
+            bisections,
+        })
     }
-    let whole = last.position.distance(first.position);
-    let remains =
-        |at_a: &Sample, at_b: &Sample| at_b.position.distance(at_a.position) > REMAINING * whole;
-    let (mut a, mut at_a, mut b, mut at_b) = (from, first, to, last);
-    for _ in 0..BISECTIONS {
-        let middle = 0.5 * (a + b);
-        if middle == a || middle == b {
+
+    /// The part from the first end of both to the last. Beside a pole, the values of neighbours in
+    /// f64 differ as they do at a jump; the pole is among them.
+    fn united(&self, other: &Self) -> Self {
+        let [first, last] = self.ends;
+        let [other_first, other_last] = other.ends;
+        // Parameters may run backwards.
+        let way = last.0 - first.0;
+        let is_before = (other_first.0 - first.0) * way < 0.0;
+        let is_after = (other_last.0 - last.0) * way > 0.0;
+        Self {
+            ends: [
+                if is_before { other_first } else { first },
+                if is_after { other_last } else { last },
+            ],
+            ..*self
+        }
+    }
+
+    /// The distance of the points at both ends.
+    fn distance(&self) -> f64 {
+        let [(_, at_a), (_, at_b)] = self.ends;
+        at_b.position.distance(at_a.position)
+    }
+}
+
+/// The break between two parameters with defined samples, if there is one.
+pub(crate) fn find_break(
+    sample: impl Fn(f64) -> Sample,
+    first: (f64, Sample),
+    last: (f64, Sample),
+    budget: &Cell<u64>,
+) -> Option<Break> {
+    let segment = Part::new([first, last], 0)?;
+    let (length, whole) = ((last.0 - first.0).abs(), segment.distance());
+    // Next to a pole both halves fit badly, so both are searched, the worse one first.
+    let mut parts = vec![segment];
+    let mut found: Option<Part> = None;
+    for _ in 0..SEGMENT_BUDGET {
+        let Some(part) = parts.pop() else {
             break;
+        };
+        let [(a, at_a), (b, at_b)] = part.ends;
+        let middle = 0.5 * (a + b);
+        if part.bisections >= BISECTIONS || middle == a || middle == b {
+            if part.distance() > REMAINING * whole {
+                found = Some(found.map_or(part, |other| other.united(&part)));
+            }
+            continue;
         }
         budget.set(budget.get().checked_sub(1)?);
         let at_middle = sample(middle);
         if !at_middle.is_defined() {
             // At the end of a square root, rounding may leave its domain between two samples in it.
-            if b - a <= ROUNDING * (to - from) && !remains(&at_a, &at_b) {
-                return None;
+            if (b - a).abs() <= ROUNDING * length && part.distance() <= REMAINING * whole {
+                continue;
             }
             let is_defined = |t: f64| sample(t).is_defined();
             return Some(Break {
@@ -110,23 +160,18 @@ pub(crate) fn find_break(
                 is_step: false,
             });
         }
-        let (below, above) = (
-            misfit(a, &at_a, middle, &at_middle),
-            misfit(middle, &at_middle, b, &at_b),
-        );
-        if below.1 && above.1 {
-            return None;
-        }
-        if below.0 > above.0 || above.1 {
-            (b, at_b) = (middle, at_middle);
-        } else {
-            (a, at_a) = (middle, at_middle);
+        let half = |ends| Part::new(ends, part.bisections + 1);
+        let low = half([(a, at_a), (middle, at_middle)]);
+        let high = half([(middle, at_middle), (b, at_b)]);
+        match (low, high) {
+            (Some(low), Some(high)) if low.misfit > high.misfit => parts.extend([high, low]),
+            (low, high) => parts.extend([low, high].into_iter().flatten()),
         }
     }
-    remains(&at_a, &at_b).then_some(Break {
-        before: a,
-        after: b,
-        is_step: at_b.position.distance(at_a.position) <= 2.0 * whole,
+    found.map(|part| Break {
+        before: part.ends[0].0,
+        after: part.ends[1].0,
+        is_step: part.distance() <= 2.0 * whole,
     })
 }
 

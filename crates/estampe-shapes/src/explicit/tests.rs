@@ -128,6 +128,28 @@ fn a_range_of_values_cuts_curves_at_its_limits() {
             "{low} {high}"
         );
     }
+    // Poles at odd places and many resolutions: no vertical lines through them.
+    for steps in 90..200 {
+        let tangent = plotted("tan(x)", -5.0..5.0, Some(&(-3.0..3.0)), steps);
+        assert_eq!(tangent.strands.len(), 3, "{steps}");
+        let backwards = plotted("tan(x)", 5.0..-5.0, Some(&(-3.0..3.0)), steps);
+        assert_eq!(backwards.strands.len(), 3, "{steps}");
+        for text in ["1/(x^3 - x/7)", "1/((x + 0.7)*(x - 0.3))"] {
+            let poles = plotted(text, -2.0..2.0, Some(&(-30.0..30.0)), steps);
+            for pair in poles
+                .strands
+                .iter()
+                .flat_map(|strand| strand.points.windows(2))
+            {
+                assert!(
+                    pair[0].y * pair[1].y > -1.0,
+                    "{text} {steps}: {} {}",
+                    pair[0],
+                    pair[1]
+                );
+            }
+        }
+    }
     // A step over the whole range gives both ends; a range that runs backwards is the same range.
     for values in [-0.25..0.25, 0.25..-0.25] {
         let steep = ends(&plotted("x", -1.0..1.0, Some(&values), 1));
