@@ -2,6 +2,7 @@
 //! The `estampe` command.
 //!
 //! * [`render`]: renders a model to an image;
+//! * [`shape`]: meshes a function, as a model or an image;
 //! * [`describe`]: describes the contents of a model;
 //! * [`diff`]: measures the difference of two images;
 //! * [`ladder`]: draws the pictures of the ladder, from one pixel to shapes.
@@ -18,6 +19,7 @@ mod ladder;
 mod output;
 mod progress;
 mod render;
+mod shape;
 mod values;
 
 use std::io::{self, BufWriter, Write};
@@ -27,14 +29,15 @@ use std::sync::LazyLock;
 use clap::{Parser, Subcommand};
 use failure::Failure;
 
-/// Renders 3D models to images, on any machine: no GPU, no display, no system libraries. The same
-/// command gives the same bytes everywhere.
+/// Renders 3D models and functions to images, on any machine: no GPU, no display, no system
+/// libraries. The same command gives the same bytes everywhere.
 #[derive(Debug, Parser)]
 #[command(name = "estampe", version = version(), arg_required_else_help = true)]
 #[command(after_help = "\
 Examples:
   estampe render model.obj -o model.png
   estampe render builtin:teapot -o teapot.png --view iso --shading toon
+  estampe shape --explicit 'sin(x) + cos(y)' -o waves.png
   estampe info model.stl
   estampe diff expected.png actual.png
   estampe ladder all -o ladder
@@ -49,6 +52,7 @@ struct Cli {
 enum Command {
     // Boxed, because it has many options.
     Render(Box<render::RenderArgs>),
+    Shape(Box<shape::ShapeArgs>),
     Info(describe::InfoArgs),
     Diff(diff::DiffArgs),
     Ladder(ladder::LadderArgs),
@@ -70,6 +74,11 @@ fn main() -> ExitCode {
             "render",
             args.report.json.then_some(args.output.is_standard_output()),
             render::run(args),
+        ),
+        Command::Shape(args) => report(
+            "shape",
+            args.report.json.then_some(args.output.is_standard_output()),
+            shape::run(args),
         ),
         Command::Info(args) => report("info", args.json.then_some(false), describe::run(args)),
         Command::Ladder(args) => report("ladder", None, ladder::run(args)),

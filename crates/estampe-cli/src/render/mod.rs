@@ -13,4 +13,7 @@ mod report;
 
 pub(crate) use arguments::RenderArgs;
 pub(crate) use command::run;
-pub(crate) use report::counts;
+pub(crate) use draw::{STAGES, draw};
+pub(crate) use picture::{PictureArgs, ReportArgs};
+pub(crate) use report::write as write_report;
+pub(crate) use report::{Report, counts, output_name, rounded_milliseconds};

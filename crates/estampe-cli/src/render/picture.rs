@@ -1,4 +1,5 @@
-//! The options of a picture, which all commands that draw have, and the renderer's options from them.
+//! The options of a picture, which all commands that draw have, and the renderer's options from
+//! them.
 
 use crate::values::{self, Background, CullName, ShadingName, ViewName};
 use clap::Args;
