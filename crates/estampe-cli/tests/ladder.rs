@@ -6,18 +6,31 @@ mod picture;
 mod support;
 
 use picture::Picture;
-use support::{Folder, estampe};
+use support::{Folder, TETRAHEDRON, estampe};
 
 #[test]
 fn a_rung_is_a_picture_in_a_folder_that_is_made() {
     let folder = Folder::new();
     let out = folder.path("new");
     let run = estampe("ladder 1 -o {}", &[&out]);
-    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    assert_eq!((run.code, run.out.len(), run.err.as_str()), (0, 0, ""));
     let picture = Picture::open(&out.join("ladder_01_pixel.png"));
     assert_eq!((picture.width, picture.height), (100, 100));
     assert_eq!(picture.pixel(52, 41), [255, 0, 0, 255]);
     assert_eq!(picture.extent(), [52, 41, 53, 42], "one pixel is red");
+}
+
+#[test]
+fn a_model_replaces_the_built_in_one() {
+    let folder = Folder::new();
+    let model = folder.with_file("m.obj", TETRAHEDRON);
+    let run = estampe("ladder 5 --model {} -o {}", &[&model, &folder.path("out")]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let picture = Picture::open(&folder.path("out").join("ladder_05_random_colors.png"));
+    let [left, top, right, bottom] = picture.extent();
+    let colors = picture.color_count();
+    assert_eq!((left, bottom), (400, 400), "the corner at the origin");
+    assert!(right >= 799 && top <= 1 && (2..=5).contains(&colors));
 }
 
 #[test]

@@ -1,7 +1,12 @@
 //! What the rungs share: the device that draws, the model, and the course's numbers.
 
 use crate::{LadderError, Model};
-use estampe::{Device, DeviceDescriptor};
+use estampe::state::Viewport;
+use estampe::{
+    AddressMode, Device, DeviceDescriptor, SampledTexture, SamplerDescriptor, TextureDescriptor,
+    TextureFormat,
+};
+use estampe_scene::Image;
 
 /// The device and the model of all rungs, and the course's numbers.
 ///
@@ -44,6 +49,34 @@ impl Course {
     #[must_use]
     pub fn with(device: Device, model: Model) -> Self {
         Self { device, model }
+    }
+
+    /// The window that pictures before the viewport matrix have in the pipeline: half a pixel to
+    /// the right and up, because the course's (x + 1)·W/2 names a pixel by its centre.
+    pub const VIEWPORT: Viewport = Viewport {
+        x: 0.5,
+        y: -0.5,
+        ..Viewport::of_target(Self::SIZE, Self::SIZE)
+    };
+
+    /// The model's texture with the course's sampling: the texel (⌊u·W⌋, ⌊v·H⌋), repeated.
+    ///
+    /// # Errors
+    /// If the texture does not fit the device's limits.
+    pub fn texture(&self) -> Result<SampledTexture, LadderError> {
+        let Image {
+            width,
+            height,
+            rgba,
+        } = &self.model.texture;
+        let descriptor = TextureDescriptor::new_2d(*width, *height, TextureFormat::Rgba8Unorm);
+        let texture = self.device.create_texture_with_data(&descriptor, &[rgba])?;
+        let sampler = self.device.create_sampler(&SamplerDescriptor {
+            address_mode_u: AddressMode::Repeat,
+            address_mode_v: AddressMode::Repeat,
+            ..SamplerDescriptor::default()
+        })?;
+        Ok(self.device.sampled_texture(&texture.view(), &sampler)?)
     }
 
     /// The pixel of a point of the cube −1..1 in a picture of [`Course::SIZE`], x to the right and

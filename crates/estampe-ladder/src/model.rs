@@ -3,13 +3,13 @@
 use crate::LadderError;
 use estampe_assets::{Limits, load_model};
 use estampe_renderer::transforms::round_to_f32;
-use estampe_scene::{Bounds, Mesh, Scene};
+use estampe_scene::{Bounds, Image, Mesh, Scene};
 use estampe_shapes::teapot::teapot;
 use glam::{DVec3, Vec2, Vec3};
 use std::path::Path;
 
 /// A triangle mesh in the cube −1..1, y up.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Model {
     /// The positions of the vertices.
     pub positions: Vec<[f32; 3]>,
@@ -19,22 +19,36 @@ pub struct Model {
     pub uvs: Vec<[f32; 2]>,
     /// Three vertices for each face, counter-clockwise seen from outside.
     pub faces: Vec<[u32; 3]>,
+    /// The diffuse texture.
+    pub texture: Image,
 }
 
 impl Model {
-    /// The built-in model: the Utah teapot in 2,000 triangles, its spout half towards the viewer.
+    /// No faces, and the built-in texture.
+    #[must_use]
+    pub fn empty() -> Self {
+        Self {
+            positions: Vec::new(),
+            normals: Vec::new(),
+            uvs: Vec::new(),
+            faces: Vec::new(),
+            texture: tiles(),
+        }
+    }
+
+    /// The built-in model: the Utah teapot in 2,000 triangles, its spout a little towards the viewer.
     #[must_use]
     pub fn builtin() -> Self {
         /// Cells along each side of the teapot's 32 patches.
         const CELLS: u32 = 6;
         /// cos and sin of the turn about the y axis.
-        const TURN: [f32; 2] = [0.8, 0.6];
+        const TURN: [f32; 2] = [0.96, 0.28];
         let shape = teapot(CELLS);
         let turned = |p: &Vec3| {
             let [c, s] = TURN;
             Vec3::new(c * p.x - s * p.z, p.y, s * p.x + c * p.z)
         };
-        let mut model = Self::default();
+        let mut model = Self::empty();
         model.append(&Mesh {
             positions: shape.positions.iter().map(turned).collect(),
             normals: shape.normals.iter().map(turned).collect(),
@@ -61,14 +75,19 @@ impl Model {
     /// not finite are dropped.
     ///
     /// A model inside the cube −1..1 stays as it is; any other is moved to the middle and scaled to
-    /// nine tenths of the cube.
+    /// nine tenths of the cube. The texture is that of the first material with one, or else the
+    /// built-in one.
     #[must_use]
     pub fn of_scene(scene: &Scene) -> Option<Self> {
-        let mut model = Self::default();
+        let mut model = Self::empty();
         for mesh in &scene.meshes {
             model.append(mesh);
         }
         model.place();
+        let mut textures = scene.materials.iter().filter_map(|m| m.base_color_texture);
+        if let Some(texture) = textures.next() {
+            model.texture = scene.images[texture].clone();
+        }
         (!model.faces.is_empty()).then_some(model)
     }
 
@@ -119,4 +138,23 @@ impl Model {
         let [a, b, c] = corners.map(Vec3::from);
         (b - a).cross(c - a).normalize_or_zero().to_array()
     }
+}
+
+/// The built-in texture: 256×256 texels, eight by eight tiles. Red grows with u, green with v, so
+/// that a place on the model shows where its texel comes from.
+fn tiles() -> Image {
+    let mut image = Image::filled(256, 256, [40, 36, 34, 255]);
+    for v in 0..=255_u8 {
+        for u in 0..=255_u8 {
+            let is_joint = u % 32 == 0 || v % 32 == 0;
+            let is_bright = (u / 32 + v / 32) % 2 == 0;
+            if !is_joint {
+                let tint = [64 + u / 2, 64 + v / 2, 96];
+                let color = tint.map(|code| if is_bright { code / 2 + 120 } else { code });
+                let at = (usize::from(v) * 256 + usize::from(u)) * 4;
+                image.rgba[at..at + 3].copy_from_slice(&color);
+            }
+        }
+    }
+    image
 }

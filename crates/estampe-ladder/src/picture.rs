@@ -155,6 +155,18 @@ impl Picture {
         })
     }
 
+    /// The picture as large as a square of `side` pixels allows, at a whole multiple of its size or
+    /// a whole part of it.
+    #[must_use]
+    pub fn fitted(&self, side: u32) -> Self {
+        let longest = self.width().max(self.height());
+        if longest > side {
+            self.reduced(longest.div_ceil(side))
+        } else {
+            self.magnified((side / longest.max(1)).max(1))
+        }
+    }
+
     /// The part of `size` pixels whose top left pixel is `from`.
     #[must_use]
     pub fn cropped(&self, [left, top]: [i32; 2], size: [u32; 2]) -> Self {

@@ -1,6 +1,6 @@
 //! The screen of the rungs that use the pipeline: a picture, its depth buffer, the model's faces.
 
-use crate::{Course, LadderError, Model, Picture};
+use crate::{Color, Course, LadderError, Model, Picture};
 use estampe::state::{CompareFunction, DepthState, VertexBufferLayout};
 use estampe::{
     BufferSlice, ColorAttachment, DepthStencilAttachment, Device, Draw, RenderPass, RenderPipeline,
@@ -65,8 +65,9 @@ impl Faces {
     }
 }
 
-/// A picture and its depth buffer. The nearest depth is 1, the farthest 0, as the course's z grows
-/// towards the eye: draws compare *greater*, and the buffer is cleared to 0, its least value.
+/// A picture with its depth and stencil buffer. The nearest depth is 1, the farthest 0, as the
+/// course's z grows towards the eye: draws compare *greater*, and the buffer is cleared to 0, its
+/// least value. Stencil values are cleared to 0.
 #[derive(Debug)]
 pub struct Screen<'c> {
     device: &'c Device,
@@ -88,7 +89,7 @@ impl<'c> Screen<'c> {
         Ok(Self {
             device,
             color: texture(TextureFormat::Rgba8Unorm)?,
-            depth: texture(TextureFormat::Depth32Float)?,
+            depth: texture(TextureFormat::Depth32FloatStencil8)?,
         })
     }
 
@@ -122,32 +123,22 @@ impl<'c> Screen<'c> {
     /// # Errors
     /// If a draw does not fit the screen or its pipeline.
     pub fn draw(&self, draws: &[Draw<'_>]) -> Result<Picture, LadderError> {
-        let black = [0.0, 0.0, 0.0, 1.0];
+        self.draw_over(Picture::BLACK, draws)
+    }
+
+    /// Clears the screen to a colour, and draws.
+    ///
+    /// # Errors
+    /// If a draw does not fit the screen or its pipeline.
+    pub fn draw_over(&self, background: Color, draws: &[Draw<'_>]) -> Result<Picture, LadderError> {
+        let [r, g, b] = background.map(|code| f64::from(code) / 255.0);
+        let cleared = ColorAttachment::clear(&self.color.view(), [r, g, b, 1.0]);
         self.device.render(&RenderPass {
-            color_attachments: &[Some(ColorAttachment::clear(&self.color.view(), black))],
+            color_attachments: &[Some(cleared)],
             depth_stencil_attachment: Some(DepthStencilAttachment::clear(&self.depth.view(), 0.0)),
             draws,
             ..RenderPass::default()
         })?;
         Picture::of_texture(self.device, &self.color)
-    }
-
-    /// The depths of the pixels as grey values: black 0, white 1.
-    ///
-    /// # Errors
-    /// If the depth buffer cannot be read.
-    pub fn depths(&self) -> Result<Picture, LadderError> {
-        let bytes = self.device.read_texture(&self.depth)?;
-        let mut picture = Picture::new(self.depth.width(), self.depth.height());
-        let columns = self.depth.width() as usize;
-        for (at, bytes) in bytes.as_chunks::<4>().0.iter().enumerate() {
-            let grey = Picture::code(f32::from_le_bytes(*bytes));
-            let place = [at % columns, at / columns];
-            picture.set(
-                place.map(|at| i32::try_from(at).expect("at most 16384")),
-                [grey; 3],
-            );
-        }
-        Ok(picture)
     }
 }

@@ -28,8 +28,7 @@ pub struct Sheet {
 impl Sheet {
     /// Adds the picture of the rung with this number, below 100.
     pub fn add(&mut self, number: u32, picture: &Picture) {
-        let side = picture.width().max(picture.height());
-        let small = picture.reduced(side.div_ceil(CELL).max(1));
+        let small = picture.fitted(CELL);
         let mut cell = Picture::filled(CELL, CELL, [48, 48, 48]);
         let middle = [small.width(), small.height()].map(|side| ((CELL - side) / 2).cast_signed());
         cell.paste(&small, middle);

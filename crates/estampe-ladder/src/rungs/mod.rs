@@ -16,6 +16,34 @@ pub mod ladder_05_random_colors;
 pub mod ladder_06_flat_shading;
 #[path = "../../examples/ladder_07_z_buffer.rs"]
 pub mod ladder_07_z_buffer;
+#[path = "../../examples/ladder_08_diffuse_texture.rs"]
+pub mod ladder_08_diffuse_texture;
+#[path = "../../examples/ladder_09_gouraud.rs"]
+pub mod ladder_09_gouraud;
+#[path = "../../examples/ladder_10_viewport.rs"]
+pub mod ladder_10_viewport;
+#[path = "../../examples/ladder_11_projection.rs"]
+pub mod ladder_11_projection;
+#[path = "../../examples/ladder_12_look_at.rs"]
+pub mod ladder_12_look_at;
+#[path = "../../examples/ladder_13_four_shaders.rs"]
+pub mod ladder_13_four_shaders;
+#[path = "../../examples/ladder_14_quantised.rs"]
+pub mod ladder_14_quantised;
+#[path = "../../examples/ladder_15_phong.rs"]
+pub mod ladder_15_phong;
+#[path = "../../examples/ladder_16_near_clipping.rs"]
+pub mod ladder_16_near_clipping;
+#[path = "../../examples/ladder_17_top_left_rule.rs"]
+pub mod ladder_17_top_left_rule;
+#[path = "../../examples/ladder_18_z_fighting.rs"]
+pub mod ladder_18_z_fighting;
+#[path = "../../examples/ladder_19_visibility.rs"]
+pub mod ladder_19_visibility;
+#[path = "../../examples/ladder_20_transparency.rs"]
+pub mod ladder_20_transparency;
+#[path = "../../examples/ladder_21_stencil_logic.rs"]
+pub mod ladder_21_stencil_logic;
 
 use crate::{Course, LadderError, Picture};
 
@@ -75,6 +103,90 @@ pub const RUNGS: &[Rung] = &[
         name: "ladder_07_z_buffer",
         title: "the z-buffer: never written, right, and its contents",
         draw: ladder_07_z_buffer::draw,
+    },
+    Rung {
+        number: 8,
+        name: "ladder_08_diffuse_texture",
+        title: "a diffuse texture",
+        draw: ladder_08_diffuse_texture::draw,
+    },
+    Rung {
+        number: 9,
+        name: "ladder_09_gouraud",
+        title: "Gouraud shading beside flat shading",
+        draw: ladder_09_gouraud::draw,
+    },
+    Rung {
+        number: 10,
+        name: "ladder_10_viewport",
+        title: "the viewport matrix",
+        draw: ladder_10_viewport::draw,
+    },
+    Rung {
+        number: 11,
+        name: "ladder_11_projection",
+        title: "central projection, and texture coordinates in it",
+        draw: ladder_11_projection::draw,
+    },
+    Rung {
+        number: 12,
+        name: "ladder_12_look_at",
+        title: "a camera that looks at the model",
+        draw: ladder_12_look_at::draw,
+    },
+    Rung {
+        number: 13,
+        name: "ladder_13_four_shaders",
+        title: "four shaders in one picture",
+        draw: ladder_13_four_shaders::draw,
+    },
+    Rung {
+        number: 14,
+        name: "ladder_14_quantised",
+        title: "quantised Gouraud shading",
+        draw: ladder_14_quantised::draw,
+    },
+    Rung {
+        number: 15,
+        name: "ladder_15_phong",
+        title: "Phong shading, several lights, attenuation, fog, toon",
+        draw: ladder_15_phong::draw,
+    },
+    Rung {
+        number: 16,
+        name: "ladder_16_near_clipping",
+        title: "clipping by the near plane",
+        draw: ladder_16_near_clipping::draw,
+    },
+    Rung {
+        number: 17,
+        name: "ladder_17_top_left_rule",
+        title: "the top-left rule, magnified",
+        draw: ladder_17_top_left_rule::draw,
+    },
+    Rung {
+        number: 18,
+        name: "ladder_18_z_fighting",
+        title: "z-fighting and its cures",
+        draw: ladder_18_z_fighting::draw,
+    },
+    Rung {
+        number: 19,
+        name: "ladder_19_visibility",
+        title: "painter, BSP tree and z-buffer",
+        draw: ladder_19_visibility::draw,
+    },
+    Rung {
+        number: 20,
+        name: "ladder_20_transparency",
+        title: "transparency: terrain, then water",
+        draw: ladder_20_transparency::draw,
+    },
+    Rung {
+        number: 21,
+        name: "ladder_21_stencil_logic",
+        title: "stencil and logic operations",
+        draw: ladder_21_stencil_logic::draw,
     },
 ];
 

@@ -1,0 +1,125 @@
+//! Rung 20: transparency, 400×400 each: water before the terrain (wrong), and after it.
+//!
+//! `cargo run --release --example ladder_20_transparency`
+
+use estampe::state::{BlendState, ColorTargetState, CompareFunction, DepthState};
+use estampe::{
+    FragmentIn, FragmentOut, Mat4, RenderPipelineDescriptor, TextureFormat, Vec3, VertexIn,
+    VertexOut, maths,
+};
+use estampe_ladder::{Color, Corner, Course, Faces, LadderError, Model, Picture, Screen};
+
+const SKY: Color = [150, 190, 230];
+
+struct Landscape {
+    clip_from_world: Mat4,
+    is_water: bool,
+}
+
+estampe::varyings! {
+    struct Surface<R> { height: R, light: R }
+}
+
+estampe::shader! {
+    impl Shader for Landscape {
+        type Attributes<R: Real> = Corner<R>;
+        type Varyings<R: Real> = Surface<R>;
+
+        fn vertex<R: Real>(&self, _: VertexIn<'_, R>, a: Corner<R>) -> VertexOut<R, Surface<R>> {
+            VertexOut::new(self.clip_from_world.transform_point(a.position), Surface {
+                height: (a.position.y * 3.0 + 0.5).saturate(),
+                light: a.face_normal.dot_uniform([0.4, 0.8, 0.45]).max(0.1),
+            })
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, v: Surface<R>) -> FragmentOut<R> {
+            let rgb = |color: [f32; 3]| Vec3::uniform(input.zero, color);
+            if self.is_water {
+                return FragmentOut::color(rgb([0.1, 0.3, 0.6]).extend(0.6)); // α = 0.6
+            }
+            let color = rgb([0.75, 0.65, 0.4]).mix(rgb([0.3, 0.6, 0.25]), v.height);
+            FragmentOut::color((color * v.light).point())
+        }
+    }
+}
+
+/// The surface y = f(x, z) over −1..1, as a grid of cells of two triangles.
+fn explicit(cells: u32, f: impl Fn(f32, f32) -> f32) -> Model {
+    let mut model = Model::empty();
+    for row in 0..=cells {
+        for column in 0..=cells {
+            let [x, z] = [column, row].map(|at| at as f32 / cells as f32 * 2.0 - 1.0);
+            model.positions.push([x, f(x, z), z]);
+            model.normals.push(Course::UP);
+            model.uvs.push([0.0; 2]);
+            if row < cells && column < cells {
+                let a = row * (cells + 1) + column;
+                let b = a + cells + 1;
+                model.faces.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
+            }
+        }
+    }
+    model
+}
+
+/// Hills, higher at the back, with knolls on them.
+fn height(x: f32, z: f32) -> f32 {
+    let hills = maths::sin(x * 5.0 + 1.0) * maths::sin(z * 4.0) * 0.22;
+    let knolls = maths::sin(x * 11.0) * maths::sin(z * 13.0 + 2.0) * 0.05;
+    hills + knolls - z * 0.15
+}
+
+/// Blending mixes a fragment with what is already there, C = α·C_new + (1 − α)·C_old, so what lies
+/// behind must be drawn first: all that is opaque, then what is transparent, from the farthest on.
+/// Transparent surfaces are tested against the depth buffer, and do not write it.
+///
+/// On the left the water comes first and writes its depth: it is blended with the sky, and the
+/// ground beneath it is hidden.
+///
+/// # Errors
+/// If the textures do not fit the device.
+pub fn draw(course: &Course) -> Result<Picture, LadderError> {
+    let view_from_world = Mat4::look_at([0.6, 1.3, 2.0], [0.0, -0.1, 0.0], Course::UP);
+    let clip_from_world = Mat4::perspective_reversed(0.85, 1.0, 0.1, 10.0) * view_from_world;
+    let landscape = |is_water| {
+        Screen::pipeline(Landscape {
+            clip_from_world,
+            is_water,
+        })
+    };
+    let water = |write_enabled| {
+        let compare = CompareFunction::Greater;
+        RenderPipelineDescriptor {
+            depth_stencil: Some(
+                DepthState {
+                    write_enabled,
+                    compare,
+                }
+                .into(),
+            ),
+            targets: vec![Some(ColorTargetState {
+                blend: Some(BlendState::ALPHA_BLENDING),
+                ..TextureFormat::Rgba8Unorm.into()
+            })],
+            ..landscape(true)
+        }
+    };
+    let device = &course.device;
+    let pipeline = |descriptor| device.create_render_pipeline(&descriptor);
+    let terrain = pipeline(landscape(false))?;
+    let (writing_water, water) = (pipeline(water(true))?, pipeline(water(false))?);
+    let ground = Faces::new(device, &explicit(64, height))?;
+    let surface = Faces::new(device, &explicit(1, |_, _| 0.0))?;
+
+    let screen = Screen::new(course, 400, 400)?;
+    let wrong = [surface.draw(&writing_water), ground.draw(&terrain)];
+    let right = [ground.draw(&terrain), surface.draw(&water)];
+    Ok(Picture::side_by_side(&[
+        screen.draw_over(SKY, &wrong)?,
+        screen.draw_over(SKY, &right)?,
+    ]))
+}
+
+fn main() -> std::process::ExitCode {
+    estampe_ladder::run(20, draw)
+}

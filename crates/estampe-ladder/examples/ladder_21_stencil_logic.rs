@@ -1,0 +1,146 @@
+//! Rung 21: stencil and logic operations, 400×400 each.
+//!
+//! `cargo run --release --example ladder_21_stencil_logic -- --model head.obj`
+
+use estampe::state::{
+    ColorTargetState, ColorWrites, CompareFunction, DepthState, DepthStencilState, LogicOperation,
+    PrimitiveTopology, StencilFaceState, StencilOperation,
+};
+use estampe::{
+    Draw, FragmentIn, FragmentOut, RenderPipelineDescriptor, TextureFormat, Vec3, VertexIn,
+    VertexOut, maths, vec4,
+};
+use estampe_ladder::{Corner, Course, Faces, LadderError, Picture, Screen};
+
+/// The model by Gouraud shading, or swollen along its normals and of one colour.
+struct Shaded {
+    swollen_by: f32,
+    color: Option<[f32; 3]>,
+}
+
+estampe::shader! {
+    impl Shader for Shaded {
+        type Attributes<R: Real> = Corner<R>;
+        type Varyings<R: Real> = R; // intensity
+
+        fn vertex<R: Real>(&self, _: VertexIn<'_, R>, a: Corner<R>) -> VertexOut<R, R> {
+            let p = a.position + a.normal * self.swollen_by;
+            let intensity = a.normal.dot_uniform(Course::TOWARDS_LIGHT).max(0.0);
+            VertexOut::new(vec4(p.x, p.y, p.z * 0.4 + 0.5, 1.0), intensity)
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, intensity: R) -> FragmentOut<R> {
+            let color = match self.color {
+                Some(color) => Vec3::uniform(input.zero, color),
+                None => Vec3::repeat(intensity),
+            };
+            FragmentOut::color(color.point())
+        }
+    }
+}
+
+/// A white disc of 24 corners as a triangle fan.
+struct Disc;
+
+estampe::shader! {
+    impl Shader for Disc {
+        type Attributes<R: Real> = ();
+        type Varyings<R: Real> = ();
+
+        fn vertex<R: Real>(&self, input: VertexIn<'_, R>, (): ()) -> VertexOut<R, ()> {
+            let angle = input.vertex_index.to_real() * (std::f32::consts::TAU / 24.0);
+            let (x, y) = (maths::cos(angle) * 0.5 + 0.25, maths::sin(angle) * 0.5);
+            VertexOut::new(vec4(x, y, 0.0, 1.0), ())
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, (): ()) -> FragmentOut<R> {
+            FragmentOut::color(Vec3::repeat(input.real(1.0)).point())
+        }
+    }
+}
+
+/// The stencil test: `reference OP stored`, with reference 1; where it and the depth test pass, the
+/// operation changes the stored value.
+fn stencil(compare: CompareFunction, pass_op: StencilOperation) -> DepthStencilState {
+    let face = StencilFaceState {
+        compare,
+        pass_op,
+        ..StencilFaceState::default()
+    };
+    let depth = DepthState {
+        write_enabled: true,
+        compare: CompareFunction::GreaterEqual,
+    };
+    DepthStencilState {
+        stencil: Some(face.into()),
+        ..depth.into()
+    }
+}
+
+/// In reading order:
+///
+/// - mask: a disc writes 1 to the stencil and no colour; the model is drawn where the stencil is 1;
+/// - outline: the model writes 1; then it is drawn swollen, in orange, where the stencil is not 1;
+/// - XOR: a white disc, combined with the picture by exclusive or, inverts the picture;
+/// - XOR twice: the disc again, and the picture is as before. Selections were drawn so.
+///
+/// # Errors
+/// If the model does not fit the device.
+pub fn draw(course: &Course) -> Result<Picture, LadderError> {
+    use CompareFunction::{Always, Equal, NotEqual};
+    use StencilOperation::{Keep, Replace};
+    let model = |swollen_by, color, depth_stencil| RenderPipelineDescriptor {
+        depth_stencil: Some(depth_stencil),
+        ..Screen::pipeline(Shaded { swollen_by, color })
+    };
+    let mut disc = RenderPipelineDescriptor::new(Disc);
+    disc.primitive.topology = PrimitiveTopology::TriangleFan;
+    let mask = RenderPipelineDescriptor {
+        depth_stencil: Some(stencil(Always, Replace)),
+        targets: vec![Some(ColorTargetState {
+            write_mask: ColorWrites::NONE,
+            ..TextureFormat::Rgba8Unorm.into()
+        })],
+        ..disc.clone()
+    };
+    let xor = RenderPipelineDescriptor {
+        depth_stencil: Some(DepthStencilState::default()),
+        logic_operation: Some(LogicOperation::Xor),
+        ..disc
+    };
+    let orange = Some([1.0, 0.5, 0.0]);
+    let masked = model(0.0, None, stencil(Equal, Keep));
+    let marking = model(0.0, None, stencil(Always, Replace));
+    let outline = model(0.025, orange, stencil(NotEqual, Keep));
+    let descriptors = [mask, masked, marking, outline, xor];
+    let mut pipelines = Vec::new();
+    for descriptor in &descriptors {
+        pipelines.push(course.device.create_render_pipeline(descriptor)?);
+    }
+    let screen = Screen::new(course, 400, 400)?;
+    let faces = Faces::new(&course.device, &course.model)?;
+    let draw_of = |number: usize| {
+        let pipeline = &pipelines[number];
+        let is_disc = matches!(number, 0 | 4);
+        let draw = if is_disc {
+            Draw::new(pipeline, 0..24)
+        } else {
+            faces.draw(pipeline)
+        };
+        Draw {
+            stencil_reference: [1, 1],
+            ..draw
+        }
+    };
+    let panels: [&[usize]; 4] = [&[0, 1], &[2, 3], &[2, 4], &[2, 4, 4]];
+    let panels = panels.map(|numbers| {
+        let draws: Vec<_> = numbers.iter().copied().map(draw_of).collect();
+        screen.draw(&draws)
+    });
+    let panels: Result<Vec<_>, _> = panels.into_iter().collect();
+    Ok(Picture::in_columns(2, &panels?))
+}
+
+fn main() -> std::process::ExitCode {
+    estampe_ladder::run(21, draw)
+}
