@@ -1,7 +1,7 @@
 //! `estampe ladder` end to end: the pictures' files, and the errors.
 
 #[path = "support/picture.rs"]
-#[expect(dead_code, reason = "other tests use the rest")]
+#[allow(dead_code, reason = "other tests use the rest")]
 mod picture;
 mod support;
 

@@ -36,8 +36,8 @@ fn pixels(triangle: [Corner; 3], is_inside: fn(f32) -> bool) -> Vec<[u32; 2]> {
 
 /// The top-left rule: a pixel whose centre lies on an edge belongs to the triangle if the edge is a
 /// left one (the triangle is to its right) or a horizontal one at the top. Of two triangles that
-/// share an edge, one has it on its left or top, the other on its right or bottom: the pixel has one
-/// owner.
+/// share an edge, one has it on its left or top, the other on its right or bottom: the pixel has
+/// one owner.
 fn top_left(triangle: [Corner; 3]) -> Vec<[u32; 2]> {
     let in_256ths = |corner: Corner| {
         corner.map(|at| {

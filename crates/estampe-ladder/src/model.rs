@@ -36,7 +36,8 @@ impl Model {
         }
     }
 
-    /// The built-in model: the Utah teapot in 2,000 triangles, its spout a little towards the viewer.
+    /// The built-in model: the Utah teapot in 2,000 triangles, its spout a little towards the
+    /// viewer.
     #[must_use]
     pub fn builtin() -> Self {
         /// Cells along each side of the teapot's 32 patches.

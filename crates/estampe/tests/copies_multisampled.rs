@@ -71,8 +71,8 @@ const ONE: Extent3d = Extent3d {
     ..SIZE
 };
 
-/// From rows and from tiles, to a new texture and to one that was rendered to, inside a texture, for
-/// every format.
+/// From rows and from tiles, to a new texture and to one that was rendered to, inside a texture,
+/// for every format.
 ///
 /// Rows: R6.
 #[test]
