@@ -183,5 +183,11 @@ fn parts_other_counts_and_buffers_are_refused() {
         let error = result.unwrap_err().to_string();
         assert!(error.contains("resolve a multisampled texture"), "{error}");
     }
+    // No layers are copied as nothing, as of all textures.
+    let none = Extent3d {
+        depth_or_array_layers: 0,
+        ..SIZE
+    };
+    device.copy_texture_to_texture(&other, &four, none).unwrap();
     assert!(samples(&device, &four, 1, TextureAspect::All) == before);
 }

@@ -65,8 +65,8 @@ pub(super) struct Region {
     pub(super) key: ImageKey,
     origin: [usize; 2],
     columns: usize,
-    /// Rows of texels, or of blocks.
-    pub(super) rows: usize,
+    /// Rows of texels, or of blocks; none without columns.
+    rows: usize,
     layers: usize,
     block_height: usize,
     /// Bytes of a row without padding.
@@ -131,7 +131,6 @@ impl Region {
         if !has_aspect {
             return Err(unsupported(texture, "it does not have this aspect"));
         }
-        let is_empty = width == 0 || height == 0 || layers == 0;
         let each = aspect_bytes(format, copy.aspect);
         Ok(Self {
             key: ImageKey {
@@ -140,7 +139,7 @@ impl Region {
             },
             origin: [x as usize, y as usize],
             columns: width as usize,
-            rows: if is_empty {
+            rows: if width == 0 {
                 0
             } else {
                 height.div_ceil(block_height) as usize
@@ -165,7 +164,7 @@ impl Region {
         let (rows, row_bytes) = (self.rows as u64, self.row_bytes as u64);
         let row_stride = layout.bytes_per_row.map_or(row_bytes, u64::from);
         let image_rows = layout.rows_per_image.map_or(rows, u64::from);
-        let expected = if rows == 0 {
+        let expected = if rows == 0 || self.layers == 0 {
             0
         } else {
             let last_layer = row_stride
