@@ -109,8 +109,8 @@ pub fn draw(device: &Device, case: &Case) -> Drawn {
     Drawn { image, statistics }
 }
 
-/// Draws a pass; `first` is the index of its first draw in the case.
-fn draw_pass(
+/// Draws a pass; the number is the index of its first draw in the case.
+pub(crate) fn draw_pass(
     device: &Device,
     case: &Case,
     (draws, first_draw): (&[CaseDraw], usize),

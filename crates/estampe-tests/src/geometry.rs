@@ -49,6 +49,20 @@ pub fn clip_at([width, height]: [u32; 2], [x, y]: [f32; 2], z: f32, w: f32) -> [
     ]
 }
 
+/// Two triangles that cover a target, at depth ½; `values` gives those of the corner at a position
+/// in 0..=1.
+#[must_use]
+pub fn whole_target(size: [u32; 2], values: impl Fn([f32; 2]) -> [f32; 4]) -> Vec<Vertex> {
+    let [width, height] = size.map(|side| side as f32);
+    let corner = |[x, y]: [f32; 2]| Vertex {
+        position: clip_at(size, [x * width, y * height], 0.5, 1.0),
+        values: values([x, y]),
+    };
+    let upper = [[0.0, 0.0], [1.0, 0.0]].map(corner);
+    let lower = [[0.0, 1.0], [1.0, 1.0]].map(corner);
+    vec![upper[0], lower[0], lower[1], upper[0], lower[1], upper[1]]
+}
+
 /// The size, shape or position of random triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Style {

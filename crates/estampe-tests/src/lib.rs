@@ -31,6 +31,7 @@ pub mod readback;
 pub mod shaders;
 pub mod shared_edges;
 pub mod target;
+pub mod transfers;
 
 /// The snippet of the repository's README, compiled and run as a test.
 #[cfg(doctest)]

@@ -104,7 +104,8 @@ fn stored(target: &Target) -> Stored {
     }
 }
 
-fn draw_one(target: &mut Target, draw: &CaseDraw, case: &Case) -> Counts {
+/// Executes one draw of a case.
+pub(crate) fn draw_one(target: &mut Target, draw: &CaseDraw, case: &Case) -> Counts {
     let attachments = case.formats().len();
     let whole = State::new(target.width, target.height);
     let depth_bias_unit = match case.depth_stencil {

@@ -175,7 +175,7 @@ fn means_leave_out_the_last_row_of_odd_sides() {
         vec![3, 5, 50, 60, 255],
         vec![255; 5],
     ];
-    mips::generate(&mut texture);
+    mips::generate(&mut texture, 1);
     // (1 + 2 + 3 + 5 + 2) ÷ 4, (30 + 40 + 50 + 60 + 2) ÷ 4; then 3 and 45 twice.
     assert_eq!(texture.levels[1][0].rows, [[3, 45]]);
     assert_eq!(texture.levels[2][0].rows, [[24]]);
@@ -187,7 +187,7 @@ fn means_leave_out_the_last_row_of_odd_sides() {
     {
         image.rows = vec![texels.iter().flat_map(|t: &i16| t.to_le_bytes()).collect()];
     }
-    mips::generate(&mut volume);
+    mips::generate(&mut volume, 1);
     // Each counts twice, as the height is 1: −22 ÷ 8, + ½, rounded down.
     assert_eq!(volume.levels[1][0].rows, [(-3_i16).to_le_bytes()]);
 }
@@ -196,7 +196,7 @@ fn means_leave_out_the_last_row_of_odd_sides() {
 fn means_of_srgb_are_linear_and_bgra_keeps_its_order() {
     let mut texture = PlainTexture::zeros(F::Bgra8UnormSrgb, TextureDimension::D2, [2, 1, 1], 2, 1);
     texture.levels[0][0].rows = vec![vec![0, 0, 255, 10, 255, 0, 255, 20]];
-    mips::generate(&mut texture);
+    mips::generate(&mut texture, 1);
     // The mean of black and white is the code 188.
     assert_eq!(texture.levels[1][0].rows, [[188, 0, 255, 15]]);
 }

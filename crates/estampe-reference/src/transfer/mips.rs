@@ -15,14 +15,14 @@ pub fn is_possible(format: TextureFormat) -> bool {
     format.sample_type() == SampleType::Float && !format.is_compressed()
 }
 
-/// Makes each level from the one above, from level 1 on. A texture of one level stays as it is.
+/// Makes each level from the one above, from level `first` on, which is not 0.
 ///
 /// # Panics
 /// If it is not [possible](is_possible).
-pub fn generate(texture: &mut PlainTexture) {
+pub fn generate(texture: &mut PlainTexture, first: u32) {
     assert!(is_possible(texture.format), "no mean of these texels");
     let level_count = u32::try_from(texture.levels.len()).expect("few levels");
-    for level in 1..level_count {
+    for level in first..level_count {
         let [width, height, slices] = texture.level_size(level);
         for slice in 0..slices {
             for y in 0..height {

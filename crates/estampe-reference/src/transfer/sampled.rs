@@ -11,7 +11,8 @@ use std::sync::Arc;
 /// [`Texture::stored_format`](estampe_types::Texture::stored_format), row by row.
 pub type BlockDecoder = fn(TextureFormat, &[u8]) -> Vec<u32>;
 
-/// The texture, with a format that differs at most in sRGB.
+/// The texture, as a view with a format that differs at most in sRGB shows it. Blocks are decoded
+/// in the texture's own format.
 #[must_use]
 pub fn texture(plain: &PlainTexture, format: TextureFormat, decode: BlockDecoder) -> TexelData {
     let mut texture = TexelData {
@@ -37,7 +38,12 @@ pub fn texture(plain: &PlainTexture, format: TextureFormat, decode: BlockDecoder
         offset += width * height * slices * plain.samples;
         for image in images {
             if format.is_compressed() {
-                words.extend(decoded(image, format, texture.words_per_texel(), decode));
+                words.extend(decoded(
+                    image,
+                    plain.format,
+                    texture.words_per_texel(),
+                    decode,
+                ));
             } else {
                 let texels = image.rows.iter().flatten().copied().collect::<Vec<u8>>();
                 let texels = texels.chunks(format.block_bytes() as usize);

@@ -1,6 +1,7 @@
 //! The shaders of the tests: each writes a value that both sides must compute equally.
 
 mod attachments;
+mod bound;
 mod colored;
 mod depths;
 mod distances;
@@ -13,6 +14,7 @@ pub use attachments::{
     Crowded, CutLayers, CutLayers1, CutLayers2, CutLayers4, GreaterDepth, HeldDepth, Layers,
     Layers1, Layers2, Layers3, Layers4, Layers8, LessDepth, LogarithmicDepth, TwoColors,
 };
+pub use bound::{BoundDepth, BoundTexture, StoresPlaces, value_at};
 pub use colored::{Colored, FlatColored, Halved, Sized, Uniform};
 pub use depths::{Cutout, CutoutDepth, DepthGiven, DepthOnly, GivenDepth};
 pub use distances::{Distant, ManyDistances};
