@@ -51,6 +51,17 @@ pub fn surface(
     function: impl Fn(DVec3) -> f64,
     gradient: impl Fn(DVec3) -> DVec3,
 ) -> Result<ImplicitSurface, ImplicitError> {
+    surface_up_to(MAX_ELEMENTS, bounds, cells, function, gradient)
+}
+
+/// [`surface()`] with another maximum number of triangles.
+pub(super) fn surface_up_to(
+    most: usize,
+    bounds: &[Range<f64>; 3],
+    cells: [u32; 3],
+    function: impl Fn(DVec3) -> f64,
+    gradient: impl Fn(DVec3) -> DVec3,
+) -> Result<ImplicitSurface, ImplicitError> {
     let axis = |i: usize| Axis::new(i, &bounds[i], cells[i].clamp(1, MAX_SURFACE_CELLS));
     let axes = [axis(0)?, axis(1)?, axis(2)?];
     let mut march = March {
@@ -67,7 +78,7 @@ pub fn surface(
             let [a, b] = ends;
             march.tetrahedron([a, b, around[side], around[(side + 1) % 4]]);
         }
-        if march.triangles.len() > MAX_ELEMENTS {
+        if march.triangles.len() > most {
             return Err(ImplicitError::TooManyElements);
         }
         Ok(())

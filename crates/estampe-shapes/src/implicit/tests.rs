@@ -5,6 +5,7 @@ use std::ops::Range;
 use fastrand::Rng;
 use glam::{DVec2, DVec3, Vec3};
 
+use super::surface::surface_up_to;
 use super::*;
 use crate::expression::Expression;
 use crate::mesh::ShapeMesh;
@@ -182,7 +183,7 @@ fn random_surfaces_are_closed_manifolds_but_for_the_box() {
     let (mut closed, mut on_box, mut empty, mut triangles) = (0, 0, 0, 0);
     for case in 0..240 {
         let text = continuous(&mut random);
-        let cells = random.u32(5..17);
+        let cells = random.u32(4..13);
         let ImplicitSurface {
             mesh,
             interruptions,
@@ -232,7 +233,7 @@ fn jumps_and_undefined_regions_leave_a_border_and_no_false_wall() {
     let (mut interrupted, mut triangles) = (0, 0);
     for case in 0..200 {
         let text = broken(&mut random);
-        let cells = random.u32(5..15);
+        let cells = random.u32(4..12);
         let ImplicitSurface {
             mesh,
             interruptions,
@@ -381,14 +382,19 @@ fn impossible_boxes_are_errors() {
     assert!(sphere([unit(), unit(), unit()], [0; 3]).is_ok());
     let far_away = sphere([1000.0..1003.0, unit(), unit()], [8; 3]).unwrap();
     assert!(far_away.mesh.triangles.is_empty());
-    let wave = |x: f64| (10.1 * x - libm::rint(10.1 * x)).abs() - 0.25;
-    let rough = surface(
-        &[unit(), unit(), unit()],
-        [300; 3],
-        |p| wave(p.x * 9.0) + wave(p.y * 8.0) + wave(p.z * 7.0),
-        |_| DVec3::ZERO,
-    );
-    assert_eq!(rough, Err(ImplicitError::TooManyElements));
+    let ball = |most: usize| {
+        let bounds = [unit(), unit(), unit()];
+        surface_up_to(
+            most,
+            &bounds,
+            [8; 3],
+            |p| p.length_squared() - 1.0,
+            |p| p * 2.0,
+        )
+    };
+    let count = ball(MAX_ELEMENTS).unwrap().mesh.triangles.len();
+    assert!(ball(count).is_ok());
+    assert_eq!(ball(count - 1), Err(ImplicitError::TooManyElements));
 }
 
 /// The mesh has the same bits on every machine.
