@@ -48,12 +48,10 @@ estampe::shader! {
 pub fn draw(course: &Course) -> Result<Picture, LadderError> {
     let screen = Screen::new(course, Course::SIZE, Course::SIZE)?;
     let faces = Faces::new(&course.device, &course.model)?;
-    let shader = Textured {
+    let pipeline = screen.pipeline(Textured {
         texture: course.texture()?,
-    };
-    let pipeline = course
-        .device
-        .create_render_pipeline(&Screen::pipeline(shader))?;
+    });
+    let pipeline = course.device.create_render_pipeline(&pipeline)?;
     let picture = screen.draw(&[Draw {
         viewport: Some(Course::VIEWPORT),
         ..faces.draw(&pipeline)

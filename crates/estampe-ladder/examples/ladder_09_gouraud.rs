@@ -50,8 +50,8 @@ pub fn draw(course: &Course) -> Result<Picture, LadderError> {
     let screen = Screen::new(course, Course::SIZE, Course::SIZE)?;
     let faces = Faces::new(&course.device, &course.model)?;
     let panel = |is_flat| {
-        let descriptor = Screen::pipeline(Shaded { is_flat });
-        let pipeline = course.device.create_render_pipeline(&descriptor)?;
+        let pipeline = screen.pipeline(Shaded { is_flat });
+        let pipeline = course.device.create_render_pipeline(&pipeline)?;
         screen.draw(&[Draw {
             viewport: Some(Course::VIEWPORT),
             ..faces.draw(&pipeline)

@@ -65,13 +65,12 @@ pub fn draw(course: &Course) -> Result<Picture, LadderError> {
     let faces = Faces::new(&course.device, &course.model)?;
     let panel = |zoom: f64, shows_depth: bool| {
         let window_from_ndc = viewport::window_from_ndc_zoomed(SIZE, SIZE, zoom);
-        let descriptor = Screen::pipeline(Shaded {
+        let shader = Shaded {
             window_from_ndc: to_f32(&window_from_ndc).into(),
             clip_from_window: to_f32(&clip_from_window()).into(),
             shows_depth,
-        });
-        let pipeline = course.device.create_render_pipeline(&descriptor)?;
-        screen.draw(&[faces.draw(&pipeline)])
+        };
+        screen.show(shader, &faces)
     };
     let panels = [panel(1.0, false)?, panel(0.5, false)?, panel(0.5, true)?];
     Ok(Picture::side_by_side(&panels))

@@ -77,14 +77,12 @@ pub fn draw(course: &Course) -> Result<Picture, LadderError> {
         let (z_near, z_far) = (1.0, -4.0);
         let clip_from_world = Screen::REVERSED * projection::central(d, z_near, z_far);
         let faces = Faces::new(&course.device, model)?;
-        let pipeline = course
-            .device
-            .create_render_pipeline(&Screen::pipeline(Textured {
-                clip_from_world: to_f32(&clip_from_world).into(),
-                texture: course.texture()?,
-                is_affine,
-            }))?;
-        screen.draw(&[faces.draw(&pipeline)])
+        let shader = Textured {
+            clip_from_world: to_f32(&clip_from_world).into(),
+            texture: course.texture()?,
+            is_affine,
+        };
+        screen.show(shader, &faces)
     };
     let panels = [
         panel(&course.model, f64::INFINITY, false)?,

@@ -54,13 +54,8 @@ pub fn draw(course: &Course) -> Result<Picture, LadderError> {
 
     let screen = Screen::new(course, Course::SIZE, Course::SIZE)?;
     let faces = Faces::new(&course.device, &course.model)?;
-    let shader = Shaded {
-        clip_from_world: to_f32(&clip_from_world).into(),
-    };
-    let pipeline = course
-        .device
-        .create_render_pipeline(&Screen::pipeline(shader))?;
-    screen.draw(&[faces.draw(&pipeline)])
+    let clip_from_world = to_f32(&clip_from_world).into();
+    screen.show(Shaded { clip_from_world }, &faces)
 }
 
 fn main() -> std::process::ExitCode {

@@ -7,9 +7,6 @@ use estampe::{
     Draw, FragmentIn, FragmentOut, Mat4, SampledTexture, Vec2, Vec3, VertexIn, VertexOut,
 };
 use estampe_ladder::{Corner, Course, Faces, LadderError, Picture, Screen};
-use estampe_renderer::transforms::view::CameraFrame;
-use estampe_renderer::transforms::{projection, to_f32};
-use glam::DVec3;
 
 /// The colour of a fragment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +16,13 @@ enum Style {
     Gouraud,
     GouraudTexture,
 }
+
+const STYLES: [Style; 4] = [
+    Style::Flat,
+    Style::FlatTexture,
+    Style::Gouraud,
+    Style::GouraudTexture,
+];
 
 struct Shaded {
     style: Style,
@@ -70,56 +74,35 @@ estampe::shader! {
 /// # Errors
 /// If the model does not fit the device.
 pub fn draw(course: &Course) -> Result<Picture, LadderError> {
-    let [eye, centre, up] =
-        [Course::EYE, Course::CENTRE, Course::UP].map(|vector| DVec3::from(vector.map(f64::from)));
-    let view_from_world = CameraFrame::look_at(eye, centre, up).centred_view_from_world(centre);
-    let clip_from_view = projection::central(eye.distance(centre), 1.75, -1.75);
-    let clip_from_world = to_f32(&(Screen::REVERSED * clip_from_view * view_from_world)).into();
-
     let screen = Screen::new(course, Course::SIZE, Course::SIZE)?;
     let faces = Faces::new(&course.device, &course.model)?;
     let texture = course.texture()?;
     let mut pipelines = Vec::new();
-    for style in [
-        Style::Flat,
-        Style::FlatTexture,
-        Style::Gouraud,
-        Style::GouraudTexture,
-    ] {
-        let descriptor = Screen::pipeline(Shaded {
+    for style in STYLES {
+        let pipeline = screen.pipeline(Shaded {
             style,
-            clip_from_world,
+            clip_from_world: Course::camera(),
             texture: texture.clone(),
         });
-        pipelines.push(course.device.create_render_pipeline(&descriptor)?);
+        pipelines.push(course.device.create_render_pipeline(&pipeline)?);
     }
-    let quarter = |column: f32, row: f32| {
-        let size = Course::SIZE as f32;
-        let (half, side) = (size / 2.0, 0.4 * size);
-        let border = (half - side) / 2.0;
-        Viewport {
-            x: column * half + border,
-            y: row * half + border,
-            width: side,
-            height: side,
-            ..Viewport::of_target(Course::SIZE, Course::SIZE)
-        }
-    };
-    let places = [
-        quarter(0.0, 0.0),
-        quarter(1.0, 0.0),
-        quarter(0.0, 1.0),
-        quarter(1.0, 1.0),
-    ];
-    let draws: Vec<_> = pipelines
+    let (half, side) = (Course::SIZE as f32 / 2.0, Course::SIZE as f32 * 0.4);
+    let border = (half - side) / 2.0;
+    let quarters = [[0.0, 0.0], [half, 0.0], [0.0, half], [half, half]];
+    let draws = pipelines
         .iter()
-        .zip(places)
-        .map(|(pipeline, viewport)| Draw {
-            viewport: Some(viewport),
+        .zip(quarters)
+        .map(|(pipeline, [x, y])| Draw {
+            viewport: Some(Viewport {
+                x: x + border,
+                y: y + border,
+                width: side,
+                height: side,
+                ..Viewport::of_target(Course::SIZE, Course::SIZE)
+            }),
             ..faces.draw(pipeline)
-        })
-        .collect();
-    screen.draw(&draws)
+        });
+    screen.draw(&draws.collect::<Vec<_>>())
 }
 
 fn main() -> std::process::ExitCode {

@@ -44,11 +44,7 @@ estampe::shader! {
 pub fn draw(course: &Course) -> Result<Picture, LadderError> {
     let screen = Screen::new(course, 400, 400)?;
     let faces = Faces::new(&course.device, &course.model)?;
-    let panel = |levels| {
-        let descriptor = Screen::pipeline(Quantised { levels });
-        let pipeline = course.device.create_render_pipeline(&descriptor)?;
-        screen.draw(&[faces.draw(&pipeline)])
-    };
+    let panel = |levels| screen.show(Quantised { levels }, &faces);
     Ok(Picture::in_columns(
         2,
         &[panel(2.0)?, panel(3.0)?, panel(4.0)?, panel(8.0)?],

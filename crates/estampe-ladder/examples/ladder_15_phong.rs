@@ -4,9 +4,6 @@
 
 use estampe::{FragmentIn, FragmentOut, Mat4, Vec3, VertexIn, VertexOut};
 use estampe_ladder::{Color, Corner, Course, Faces, LadderError, Picture, Screen};
-use estampe_renderer::transforms::view::CameraFrame;
-use estampe_renderer::transforms::{projection, to_f32};
-use glam::DVec3;
 
 /// A point light: its position, its colour, and the distance at which it ends.
 #[derive(Debug, Clone, Copy)]
@@ -84,13 +81,9 @@ estampe::shader! {
 /// # Errors
 /// If the model does not fit the device.
 pub fn draw(course: &Course) -> Result<Picture, LadderError> {
-    let [eye, centre, up] =
-        [Course::EYE, Course::CENTRE, Course::UP].map(|vector| DVec3::from(vector.map(f64::from)));
-    let view_from_world = CameraFrame::look_at(eye, centre, up).centred_view_from_world(centre);
-    let clip_from_view = projection::central(eye.distance(centre), 1.75, -1.75);
     let white = Light(Vec3::new(-1.0, 2.0, 4.0), [1.0; 3], f32::INFINITY);
     let phong = Lit {
-        clip_from_world: to_f32(&(Screen::REVERSED * clip_from_view * view_from_world)).into(),
+        clip_from_world: Course::camera(),
         lights: vec![white],
         is_lit_by_vertex: false,
         is_toon: false,
@@ -105,51 +98,27 @@ pub fn draw(course: &Course) -> Result<Picture, LadderError> {
     let near = vec![Light(Vec3::new(0.9, 0.6, 1.3), [1.5; 3], 2.4)];
     let screen = Screen::new(course, 400, 400)?;
     let faces = Faces::new(&course.device, &course.model)?;
-    let mut panels = Vec::new();
-    for (background, lit) in [
-        (
-            Picture::BLACK,
-            Lit {
-                is_lit_by_vertex: true,
-                ..phong.clone()
-            },
-        ),
-        (Picture::BLACK, phong.clone()),
-        (
-            Picture::BLACK,
-            Lit {
-                lights: three,
-                ..phong.clone()
-            },
-        ),
-        (
-            Picture::BLACK,
-            Lit {
-                lights: near,
-                ..phong.clone()
-            },
-        ),
-        (
-            FOG,
-            Lit {
-                fog_distance: 3.2,
-                ..phong.clone()
-            },
-        ),
-        (
-            Picture::BLACK,
-            Lit {
-                is_toon: true,
-                ..phong
-            },
-        ),
-    ] {
+    let mut gouraud = phong.clone();
+    gouraud.is_lit_by_vertex = true;
+    let [mut several, mut attenuated, mut foggy, mut toon] = [(); 4].map(|()| phong.clone());
+    several.lights = three;
+    attenuated.lights = near;
+    foggy.fog_distance = 3.2;
+    toon.is_toon = true;
+    let panel = |lit: Lit| {
+        let background = if lit.fog_distance.is_finite() {
+            FOG
+        } else {
+            Picture::BLACK
+        };
         let pipeline = course
             .device
-            .create_render_pipeline(&Screen::pipeline(lit))?;
-        panels.push(screen.draw_over(background, &[faces.draw(&pipeline)])?);
-    }
-    Ok(Picture::in_columns(3, &panels))
+            .create_render_pipeline(&screen.pipeline(lit))?;
+        screen.draw_over(background, &[faces.draw(&pipeline)])
+    };
+    let panels = [gouraud, phong, several, attenuated, foggy, toon].map(panel);
+    let panels: Result<Vec<_>, LadderError> = panels.into_iter().collect();
+    Ok(Picture::in_columns(3, &panels?))
 }
 
 fn main() -> std::process::ExitCode {

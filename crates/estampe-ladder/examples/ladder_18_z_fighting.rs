@@ -2,18 +2,13 @@
 //!
 //! `cargo run --release --example ladder_18_z_fighting`
 
-use estampe::state::{CompareFunction, DepthState, PrimitiveTopology, VertexBufferLayout};
-use estampe::{
-    ColorAttachment, DepthStencilAttachment, Draw, FragmentIn, FragmentOut, Mat4, RenderPass,
-    RenderPipelineDescriptor, TextureDescriptor, TextureFormat, Vec3, VertexFormat, VertexIn,
-    VertexOut, bytes_of,
-};
-use estampe_ladder::{Course, LadderError, Picture};
+use estampe::TextureFormat::{self, Depth16Unorm, Depth24Plus, Depth32Float};
+use estampe::{FragmentIn, FragmentOut, Mat4, Vec3, VertexIn, VertexOut};
+use estampe_ladder::{Corner, Course, Faces, LadderError, Model, Picture, Screen};
 
-const SIZE: u32 = 240;
 const FAR: f32 = 100.0;
 
-/// A horizontal plane at a height, with stripes every five metres.
+/// A horizontal square of 56 m at a height, with stripes.
 struct Plane {
     clip_from_world: Mat4,
     height: f32,
@@ -22,12 +17,13 @@ struct Plane {
 
 estampe::shader! {
     impl Shader for Plane {
-        type Attributes<R: Real> = Vec3<R>;
-        type Varyings<R: Real> = R; // distance
+        type Attributes<R: Real> = Corner<R>;
+        type Varyings<R: Real> = R; // z
 
-        fn vertex<R: Real>(&self, _: VertexIn<'_, R>, at: Vec3<R>) -> VertexOut<R, R> {
-            let at = Vec3::new(at.x, at.y + self.height, at.z);
-            VertexOut::new(self.clip_from_world.transform_point(at), at.z)
+        fn vertex<R: Real>(&self, _: VertexIn<'_, R>, a: Corner<R>) -> VertexOut<R, R> {
+            let z = a.position.z * 28.0 - 32.0;
+            let at = Vec3::new(a.position.x * 28.0, z * 0.0 + self.height, z);
+            VertexOut::new(self.clip_from_world.transform_point(at), z)
         }
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, z: R) -> FragmentOut<R> {
@@ -38,24 +34,9 @@ estampe::shader! {
     }
 }
 
-/// A scene: the distance of the planes and of the near plane, the format, and the mapping.
-struct Scene {
-    gap: f32,
-    near: f32,
-    format: TextureFormat,
-    is_reversed: bool,
-}
-
-const fn scene(gap: f32, near: f32, format: TextureFormat, is_reversed: bool) -> Scene {
-    Scene {
-        gap,
-        near,
-        format,
-        is_reversed,
-    }
-}
-
-use TextureFormat::{Depth16Unorm, Depth24Plus, Depth32Float};
+/// The distances of the planes and of the near plane, the depth format, and the farthest depth: 1,
+/// or 0 where z is reversed.
+type Scene = (f32, f32, TextureFormat, f32);
 
 /// Depth is d = far·(z − near) / (z·(far − near)) at the distance z. Steps of 2⁻ᵇ in d are steps of
 ///
@@ -66,82 +47,39 @@ use TextureFormat::{Depth16Unorm, Depth24Plus, Depth32Float};
 /// so nearly all precision lies next to the near plane, and moving that plane away is the cheapest
 /// cure. A float has its finest steps at 0; with z reversed they are where 1/z is coarse.
 const SCENES: [Scene; 8] = [
-    scene(0.02, 1e-2, Depth24Plus, false),
-    scene(0.02, 1e-4, Depth24Plus, false),
-    scene(0.02, 1e-5, Depth24Plus, false),
-    scene(0.02, 1e-2, Depth16Unorm, false),
-    scene(1.0, 1e-4, Depth24Plus, false),
-    scene(0.02, 1.0, Depth24Plus, false),
-    scene(0.02, 1e-4, Depth32Float, false),
-    scene(0.02, 1e-4, Depth32Float, true),
+    (0.02, 1e-2, Depth24Plus, 1.0),
+    (0.02, 1e-4, Depth24Plus, 1.0),
+    (0.02, 1e-5, Depth24Plus, 1.0),
+    (0.02, 1e-2, Depth16Unorm, 1.0),
+    (1.0, 1e-4, Depth24Plus, 1.0),
+    (0.02, 1.0, Depth24Plus, 1.0),
+    (0.02, 1e-4, Depth32Float, 1.0),
+    (0.02, 1e-4, Depth32Float, 0.0),
 ];
 
-fn panel(course: &Course, scene: &Scene) -> Result<Picture, LadderError> {
+fn panel(course: &Course, (gap, near, format, farthest): Scene) -> Result<Picture, LadderError> {
     let device = &course.device;
-    let projection = if scene.is_reversed {
-        Mat4::perspective_reversed(0.8, 1.0, scene.near, FAR)
+    let clip_from_view = if farthest > 0.0 {
+        Mat4::perspective(0.8, 1.0, near, FAR)
     } else {
-        Mat4::perspective(0.8, 1.0, scene.near, FAR)
+        Mat4::perspective_reversed(0.8, 1.0, near, FAR)
     };
-    let view_from_world = Mat4::look_at([0.0, 8.0, 0.0], [0.0, 0.0, -22.0], Course::UP);
-    let clip_from_world = projection * view_from_world;
-    let (compare, farthest) = if scene.is_reversed {
-        (CompareFunction::Greater, 0.0)
-    } else {
-        (CompareFunction::Less, 1.0)
+    let view_from_world = Mat4::look_at([4.0, 8.0, 0.0], [-2.0, 0.0, -22.0], Course::UP);
+    let clip_from_world = clip_from_view * view_from_world;
+    let plane = |height, color| Plane {
+        clip_from_world,
+        height,
+        color,
     };
-    // A square around (0, 0, −34), and the same turned by 45 degrees: with the same corners, both
-    // planes would have the same rounding.
-    let (side, diagonal) = (24.0, 30.0);
-    let corners: [[f32; 3]; 8] = [
-        [-side, 0.0, side],
-        [side, 0.0, side],
-        [-side, 0.0, -side],
-        [side, 0.0, -side],
-        [0.0, 0.0, diagonal],
-        [diagonal, 0.0, 0.0],
-        [-diagonal, 0.0, 0.0],
-        [0.0, 0.0, -diagonal],
-    ]
-    .map(|[x, y, z]| [x, y, z - 34.0]);
-    let vertices = [(&device.create_buffer_with_contents(bytes_of(&corners))?).into()];
-    // The lower plane, in red, is drawn first: it stays where both depths are equal.
-    let mut pipelines = Vec::new();
-    for (height, color) in [(0.0, [0.9, 0.15, 0.1]), (scene.gap, [0.2, 0.45, 0.9])] {
-        let mut descriptor = RenderPipelineDescriptor::new(Plane {
-            clip_from_world,
-            height,
-            color,
-        });
-        descriptor.vertex_buffers = vec![VertexBufferLayout::packed(&[VertexFormat::Float32x3])];
-        descriptor.primitive.topology = PrimitiveTopology::TriangleStrip;
-        let write_enabled = true;
-        let depth = DepthState {
-            write_enabled,
-            compare,
-        };
-        descriptor.depth_stencil = Some(depth.into());
-        pipelines.push(device.create_render_pipeline(&descriptor)?);
-    }
-    let texture = |format| device.create_texture(&TextureDescriptor::new_2d(SIZE, SIZE, format));
-    let (color, depth) = (texture(TextureFormat::Rgba8Unorm)?, texture(scene.format)?);
-    let draws = pipelines
-        .iter()
-        .zip([0..4, 4..8])
-        .map(|(pipeline, square)| Draw {
-            vertex_buffers: &vertices,
-            ..Draw::new(pipeline, square)
-        });
-    device.render(&RenderPass {
-        color_attachments: &[Some(ColorAttachment::clear(
-            &color.view(),
-            [0.0, 0.0, 0.0, 1.0],
-        ))],
-        depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depth.view(), farthest)),
-        draws: &draws.collect::<Vec<_>>(),
-        ..RenderPass::default()
-    })?;
-    Picture::of_texture(device, &color)
+    // The lower plane, in red, is drawn first: it stays where both depths are equal. The planes are
+    // grids of different cells: with the same vertices they would round alike.
+    let screen = Screen::with_depth(course, [240, 240], format, farthest)?;
+    let [red, blue] = [plane(0.0, [0.9, 0.15, 0.1]), plane(gap, [0.2, 0.45, 0.9])];
+    let lower = device.create_render_pipeline(&screen.pipeline(red))?;
+    let upper = device.create_render_pipeline(&screen.pipeline(blue))?;
+    let coarse = Faces::new(device, &Model::explicit(9, |_, _| 0.0))?;
+    let fine = Faces::new(device, &Model::explicit(14, |_, _| 0.0))?;
+    screen.draw(&[coarse.draw(&lower), fine.draw(&upper)])
 }
 
 /// Above: near = 10⁻², 10⁻⁴ and 10⁻⁵ with 24 bits, and 10⁻² with 16 bits. Below, the cures of the
@@ -151,7 +89,8 @@ fn panel(course: &Course, scene: &Scene) -> Result<Picture, LadderError> {
 /// # Errors
 /// If the textures do not fit the device.
 pub fn draw(course: &Course) -> Result<Picture, LadderError> {
-    let panels: Result<Vec<_>, _> = SCENES.iter().map(|scene| panel(course, scene)).collect();
+    let panels = SCENES.map(|scene| panel(course, scene));
+    let panels: Result<Vec<_>, _> = panels.into_iter().collect();
     Ok(Picture::in_columns(4, &panels?))
 }
 

@@ -3,10 +3,7 @@
 //! `cargo run --release --example ladder_20_transparency`
 
 use estampe::state::{BlendState, ColorTargetState, CompareFunction, DepthState};
-use estampe::{
-    FragmentIn, FragmentOut, Mat4, RenderPipelineDescriptor, TextureFormat, Vec3, VertexIn,
-    VertexOut, maths,
-};
+use estampe::{FragmentIn, FragmentOut, Mat4, TextureFormat, Vec3, VertexIn, VertexOut, maths};
 use estampe_ladder::{Color, Corner, Course, Faces, LadderError, Model, Picture, Screen};
 
 const SKY: Color = [150, 190, 230];
@@ -43,25 +40,6 @@ estampe::shader! {
     }
 }
 
-/// The surface y = f(x, z) over −1..1, as a grid of cells of two triangles.
-fn explicit(cells: u32, f: impl Fn(f32, f32) -> f32) -> Model {
-    let mut model = Model::empty();
-    for row in 0..=cells {
-        for column in 0..=cells {
-            let [x, z] = [column, row].map(|at| at as f32 / cells as f32 * 2.0 - 1.0);
-            model.positions.push([x, f(x, z), z]);
-            model.normals.push(Course::UP);
-            model.uvs.push([0.0; 2]);
-            if row < cells && column < cells {
-                let a = row * (cells + 1) + column;
-                let b = a + cells + 1;
-                model.faces.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
-            }
-        }
-    }
-    model
-}
-
 /// Hills, higher at the back, with knolls on them.
 fn height(x: f32, z: f32) -> f32 {
     let hills = maths::sin(x * 5.0 + 1.0) * maths::sin(z * 4.0) * 0.22;
@@ -81,37 +59,30 @@ fn height(x: f32, z: f32) -> f32 {
 pub fn draw(course: &Course) -> Result<Picture, LadderError> {
     let view_from_world = Mat4::look_at([0.6, 1.3, 2.0], [0.0, -0.1, 0.0], Course::UP);
     let clip_from_world = Mat4::perspective_reversed(0.85, 1.0, 0.1, 10.0) * view_from_world;
+    let screen = Screen::new(course, 400, 400)?;
     let landscape = |is_water| {
-        Screen::pipeline(Landscape {
+        screen.pipeline(Landscape {
             clip_from_world,
             is_water,
         })
     };
-    let water = |write_enabled| {
-        let compare = CompareFunction::Greater;
-        RenderPipelineDescriptor {
-            depth_stencil: Some(
-                DepthState {
-                    write_enabled,
-                    compare,
-                }
-                .into(),
-            ),
-            targets: vec![Some(ColorTargetState {
-                blend: Some(BlendState::ALPHA_BLENDING),
-                ..TextureFormat::Rgba8Unorm.into()
-            })],
-            ..landscape(true)
-        }
-    };
+    let mut water = landscape(true);
+    water.targets = vec![Some(ColorTargetState {
+        blend: Some(BlendState::ALPHA_BLENDING),
+        ..TextureFormat::Rgba8Unorm.into()
+    })];
     let device = &course.device;
-    let pipeline = |descriptor| device.create_render_pipeline(&descriptor);
-    let terrain = pipeline(landscape(false))?;
-    let (writing_water, water) = (pipeline(water(true))?, pipeline(water(false))?);
-    let ground = Faces::new(device, &explicit(64, height))?;
-    let surface = Faces::new(device, &explicit(1, |_, _| 0.0))?;
+    let terrain = device.create_render_pipeline(&landscape(false))?;
+    let writing_water = device.create_render_pipeline(&water)?;
+    let test_alone = DepthState {
+        write_enabled: false,
+        compare: CompareFunction::Greater,
+    };
+    water.depth_stencil = Some(test_alone.into());
+    let water = device.create_render_pipeline(&water)?;
+    let ground = Faces::new(device, &Model::explicit(64, height))?;
+    let surface = Faces::new(device, &Model::explicit(1, |_, _| 0.0))?;
 
-    let screen = Screen::new(course, 400, 400)?;
     let wrong = [surface.draw(&writing_water), ground.draw(&terrain)];
     let right = [ground.draw(&terrain), surface.draw(&water)];
     Ok(Picture::side_by_side(&[

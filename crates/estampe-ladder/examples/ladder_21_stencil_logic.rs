@@ -89,47 +89,36 @@ fn stencil(compare: CompareFunction, pass_op: StencilOperation) -> DepthStencilS
 pub fn draw(course: &Course) -> Result<Picture, LadderError> {
     use CompareFunction::{Always, Equal, NotEqual};
     use StencilOperation::{Keep, Replace};
+    let screen = Screen::new(course, 400, 400)?;
     let model = |swollen_by, color, depth_stencil| RenderPipelineDescriptor {
         depth_stencil: Some(depth_stencil),
-        ..Screen::pipeline(Shaded { swollen_by, color })
+        ..screen.pipeline(Shaded { swollen_by, color })
     };
-    let mut disc = RenderPipelineDescriptor::new(Disc);
-    disc.primitive.topology = PrimitiveTopology::TriangleFan;
-    let mask = RenderPipelineDescriptor {
-        depth_stencil: Some(stencil(Always, Replace)),
-        targets: vec![Some(ColorTargetState {
-            write_mask: ColorWrites::NONE,
-            ..TextureFormat::Rgba8Unorm.into()
-        })],
-        ..disc.clone()
-    };
-    let xor = RenderPipelineDescriptor {
-        depth_stencil: Some(DepthStencilState::default()),
-        logic_operation: Some(LogicOperation::Xor),
-        ..disc
-    };
-    let orange = Some([1.0, 0.5, 0.0]);
     let masked = model(0.0, None, stencil(Equal, Keep));
     let marking = model(0.0, None, stencil(Always, Replace));
-    let outline = model(0.025, orange, stencil(NotEqual, Keep));
-    let descriptors = [mask, masked, marking, outline, xor];
-    let mut pipelines = Vec::new();
-    for descriptor in &descriptors {
-        pipelines.push(course.device.create_render_pipeline(descriptor)?);
-    }
-    let screen = Screen::new(course, 400, 400)?;
+    let outline = model(0.025, Some([1.0, 0.5, 0.0]), stencil(NotEqual, Keep));
+
+    let mut mask = RenderPipelineDescriptor::new(Disc);
+    mask.primitive.topology = PrimitiveTopology::TriangleFan;
+    let mut xor = mask.clone();
+    xor.depth_stencil = Some(DepthStencilState::default());
+    xor.logic_operation = Some(LogicOperation::Xor);
+    mask.depth_stencil = Some(stencil(Always, Replace));
+    mask.targets = vec![Some(ColorTargetState {
+        write_mask: ColorWrites::NONE,
+        ..TextureFormat::Rgba8Unorm.into()
+    })];
+
     let faces = Faces::new(&course.device, &course.model)?;
-    let draw_of = |number: usize| {
-        let pipeline = &pipelines[number];
-        let is_disc = matches!(number, 0 | 4);
-        let draw = if is_disc {
-            Draw::new(pipeline, 0..24)
-        } else {
-            faces.draw(pipeline)
-        };
-        Draw {
-            stencil_reference: [1, 1],
-            ..draw
+    let mut pipelines = Vec::new();
+    for descriptor in [mask, masked, marking, outline, xor] {
+        pipelines.push(course.device.create_render_pipeline(&descriptor)?);
+    }
+    let draw_of = |number: usize| Draw {
+        stencil_reference: [1, 1],
+        ..match &pipelines[number] {
+            disc if matches!(number, 0 | 4) => Draw::new(disc, 0..24),
+            model => faces.draw(model),
         }
     };
     let panels: [&[usize]; 4] = [&[0, 1], &[2, 3], &[2, 4], &[2, 4, 4]];

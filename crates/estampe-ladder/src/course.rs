@@ -1,12 +1,15 @@
 //! What the rungs share: the device that draws, the model, and the course's numbers.
 
-use crate::{LadderError, Model};
+use crate::{LadderError, Model, Screen};
 use estampe::state::Viewport;
 use estampe::{
-    AddressMode, Device, DeviceDescriptor, SampledTexture, SamplerDescriptor, TextureDescriptor,
-    TextureFormat,
+    AddressMode, Device, DeviceDescriptor, Mat4, SampledTexture, SamplerDescriptor,
+    TextureDescriptor, TextureFormat,
 };
+use estampe_renderer::transforms::view::CameraFrame;
+use estampe_renderer::transforms::{projection, to_f32};
 use estampe_scene::Image;
+use glam::DVec3;
 
 /// The device and the model of all rungs, and the course's numbers.
 ///
@@ -49,6 +52,18 @@ impl Course {
     #[must_use]
     pub fn with(device: Device, model: Model) -> Self {
         Self { device, model }
+    }
+
+    /// Clip space of the camera of rung 12: from [`Course::EYE`] to [`Course::CENTRE`], by the
+    /// central projection, with the nearest depth 1. The corners of the cube −1..1 are √3 from the
+    /// origin, and so the planes at ±1.75 enclose it.
+    #[must_use]
+    pub fn camera() -> Mat4 {
+        let [eye, centre, up] =
+            [Self::EYE, Self::CENTRE, Self::UP].map(|v| DVec3::from(v.map(f64::from)));
+        let view_from_world = CameraFrame::look_at(eye, centre, up).centred_view_from_world(centre);
+        let clip_from_view = projection::central(eye.distance(centre), 1.75, -1.75);
+        to_f32(&(Screen::REVERSED * clip_from_view * view_from_world)).into()
     }
 
     /// The window that pictures before the viewport matrix have in the pipeline: half a pixel to

@@ -11,6 +11,7 @@
 //! | [`Model`] | positions, normals, texture coordinates, faces, a texture |
 //! | [`Picture`] | pixels; magnified, side by side, as a file |
 //! | [`Screen`], [`Faces`], [`Corner`] | the attachments, the model's buffer, and its vertices in shaders |
+//! | [`Polygon`] | a convex polygon that is filled and split, without the pipeline |
 //! | [`RUNGS`], [`rung`] | the rungs, in order |
 //! | [`Sheet`] | all pictures on one page |
 //! | [`run`] | the `main` of an example |
@@ -24,6 +25,7 @@ mod course;
 mod error;
 mod model;
 mod picture;
+mod polygon;
 mod program;
 pub mod rungs;
 mod screen;
@@ -38,6 +40,7 @@ pub use course::Course;
 pub use error::LadderError;
 pub use model::Model;
 pub use picture::{Color, Picture};
+pub use polygon::Polygon;
 pub use program::run;
 pub use rungs::{RUNGS, Rung, rung};
 pub use screen::{Corner, Faces, Screen};

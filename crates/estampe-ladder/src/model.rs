@@ -61,6 +61,27 @@ impl Model {
         model
     }
 
+    /// The surface y = f(x, z) over −1..1, as a grid of cells of two triangles, lit from above.
+    #[must_use]
+    pub fn explicit(cells: u32, f: impl Fn(f32, f32) -> f32) -> Self {
+        let mut model = Self::empty();
+        for row in 0..=cells {
+            for column in 0..=cells {
+                let [u, v] = [column, row].map(|at| at as f32 / cells as f32);
+                let (x, z) = (u * 2.0 - 1.0, v * 2.0 - 1.0);
+                model.positions.push([x, f(x, z), z]);
+                model.normals.push([0.0, 1.0, 0.0]);
+                model.uvs.push([u, v]);
+                if row < cells && column < cells {
+                    let a = row * (cells + 1) + column;
+                    let b = a + cells + 1;
+                    model.faces.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
+                }
+            }
+        }
+        model
+    }
+
     /// The triangles of a file: OBJ, STL or PLY; see [`Model::of_scene`].
     ///
     /// # Errors

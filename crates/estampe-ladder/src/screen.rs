@@ -65,14 +65,18 @@ impl Faces {
     }
 }
 
-/// A picture with its depth and stencil buffer. The nearest depth is 1, the farthest 0, as the
-/// course's z grows towards the eye: draws compare *greater*, and the buffer is cleared to 0, its
-/// least value. Stencil values are cleared to 0.
+/// A picture with its depth buffer.
+///
+/// By default the nearest depth is 1 and the farthest 0, as the course's z grows towards the eye:
+/// draws compare *greater*, and the buffer is cleared to 0, its least value. A stencil of 0 comes
+/// with it.
 #[derive(Debug)]
 pub struct Screen<'c> {
     device: &'c Device,
     color: Texture,
     depth: Texture,
+    /// The depth that the buffer is cleared to: 0, or 1 where lesser depths are nearer.
+    farthest: f32,
 }
 
 impl<'c> Screen<'c> {
@@ -81,6 +85,25 @@ impl<'c> Screen<'c> {
     /// # Errors
     /// If the textures do not fit the device's limits.
     pub fn new(course: &'c Course, width: u32, height: u32) -> Result<Self, LadderError> {
+        Self::with_depth(
+            course,
+            [width, height],
+            TextureFormat::Depth32FloatStencil8,
+            0.0,
+        )
+    }
+
+    /// A screen with a depth format, whose farthest depth is 0 (nearer is greater) or 1 (nearer is
+    /// less).
+    ///
+    /// # Errors
+    /// If the textures do not fit the device's limits, or the format is none of depth.
+    pub fn with_depth(
+        course: &'c Course,
+        [width, height]: [u32; 2],
+        format: TextureFormat,
+        farthest: f32,
+    ) -> Result<Self, LadderError> {
         let device = &course.device;
         let texture = |format| {
             let descriptor = TextureDescriptor::new_2d(width, height, format);
@@ -89,18 +112,23 @@ impl<'c> Screen<'c> {
         Ok(Self {
             device,
             color: texture(TextureFormat::Rgba8Unorm)?,
-            depth: texture(TextureFormat::Depth32FloatStencil8)?,
+            depth: texture(format)?,
+            farthest,
         })
     }
 
-    /// A pipeline for [`Faces`] on a screen, with the depth test.
+    /// A pipeline for [`Faces`] on the screen, with the depth test.
     #[must_use]
-    pub fn pipeline(shader: impl Shader) -> RenderPipelineDescriptor {
+    pub fn pipeline(&self, shader: impl Shader) -> RenderPipelineDescriptor {
         use VertexFormat::{Float32x2, Float32x3};
         let formats = [Float32x3, Float32x3, Float32x3, Float32x2];
         let depth = DepthState {
             write_enabled: true,
-            compare: CompareFunction::Greater,
+            compare: if self.farthest > 0.0 {
+                CompareFunction::Less
+            } else {
+                CompareFunction::Greater
+            },
         };
         RenderPipelineDescriptor {
             vertex_buffers: vec![VertexBufferLayout::packed(&formats)],
@@ -118,6 +146,15 @@ impl<'c> Screen<'c> {
         DVec4::new(0.0, 0.0, 1.0, 1.0),
     );
 
+    /// Clears the screen to black, and draws faces by a shader.
+    ///
+    /// # Errors
+    /// If the shader does not fit the pipeline.
+    pub fn show(&self, shader: impl Shader, faces: &Faces) -> Result<Picture, LadderError> {
+        let pipeline = self.device.create_render_pipeline(&self.pipeline(shader))?;
+        self.draw(&[faces.draw(&pipeline)])
+    }
+
     /// Clears the screen to black, and draws.
     ///
     /// # Errors
@@ -133,9 +170,10 @@ impl<'c> Screen<'c> {
     pub fn draw_over(&self, background: Color, draws: &[Draw<'_>]) -> Result<Picture, LadderError> {
         let [r, g, b] = background.map(|code| f64::from(code) / 255.0);
         let cleared = ColorAttachment::clear(&self.color.view(), [r, g, b, 1.0]);
+        let depth = DepthStencilAttachment::clear(&self.depth.view(), self.farthest);
         self.device.render(&RenderPass {
             color_attachments: &[Some(cleared)],
-            depth_stencil_attachment: Some(DepthStencilAttachment::clear(&self.depth.view(), 0.0)),
+            depth_stencil_attachment: Some(depth),
             draws,
             ..RenderPass::default()
         })?;
