@@ -8,7 +8,7 @@ use estampe_types::{
 use std::sync::Arc;
 
 /// Decodes a compressed block to the words of
-/// [`Texture::stored_format`](estampe_types::Texture::stored_format), row by row.
+/// [`TexelData::stored_format`](estampe_types::TexelData::stored_format), row by row.
 pub type BlockDecoder = fn(TextureFormat, &[u8]) -> Vec<u32>;
 
 /// The texture, as a view with a format that differs at most in sRGB shows it. Blocks are decoded

@@ -22,7 +22,7 @@ estampe_types::shader! {
         }
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, uv: Vec2<R>) -> FragmentOut<R> {
-            let texture = input.bindings.sampled(0, 0);
+            let texture = input.bindings.sampled_texture(0, 0);
             FragmentOut::color(texture.sample(Coordinates::d2(uv)))
         }
     }
@@ -47,7 +47,7 @@ estampe_types::shader! {
 
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, uv: Vec2<R>) -> FragmentOut<R> {
             let reference = input.real(self.0);
-            let share = match input.bindings.depth_texture(0, 0) {
+            let share = match input.bindings.shadow_map(0, 0) {
                 Some(map) => sample_compare_level(map, uv, reference),
                 None => input.real(-1.0),
             };

@@ -1,13 +1,16 @@
 //! Views that were held while their textures changed: every texel is as it was.
 
-use estampe::{SampleType, SampledView};
+use estampe::{SampleType, SampledTexture};
 use estampe_reference::texture::ReferenceView;
-use estampe_types::{SamplerDescriptor, Texture, TextureAspect, TextureDimension, ViewDimension};
+use estampe_types::{SamplerDescriptor, TexelData, TextureAspect, TextureDimension, ViewDimension};
 use std::sync::Arc;
 
 /// Compares held views with textures as the oracle had them. An error describes the first
 /// difference.
-pub(super) fn compare_held(held: &[SampledView], wanted: &[Arc<Texture>]) -> Result<(), String> {
+pub(super) fn compare_held(
+    held: &[SampledTexture],
+    wanted: &[Arc<TexelData>],
+) -> Result<(), String> {
     for (number, (held, wanted)) in held.iter().zip(wanted).enumerate() {
         let reference = whole_view(wanted);
         let kind = wanted.format.sample_type();
@@ -32,7 +35,7 @@ pub(super) fn compare_held(held: &[SampledView], wanted: &[Arc<Texture>]) -> Res
 }
 
 /// The view of all of a texture.
-fn whole_view(texture: &Arc<Texture>) -> ReferenceView {
+fn whole_view(texture: &Arc<TexelData>) -> ReferenceView {
     let layers = texture.shape.depth_or_layers;
     let (dimension, layers) = match texture.shape.dimension {
         TextureDimension::D1 => (ViewDimension::D1, 1),
@@ -51,7 +54,7 @@ fn whole_view(texture: &Arc<Texture>) -> ReferenceView {
 }
 
 /// The level and the coordinates of every texel.
-fn texels(texture: &Texture) -> impl Iterator<Item = (i32, [i32; 3])> {
+fn texels(texture: &TexelData) -> impl Iterator<Item = (i32, [i32; 3])> {
     let levels = texture.levels.iter().enumerate();
     levels.flat_map(|(number, level)| {
         let slices = texture.shape.slices(number);

@@ -175,7 +175,7 @@ pub enum Operation {
         /// The image.
         image: ImageAt,
     },
-    /// `Device::sampled_view`: the texels as they are now, read after the last operation.
+    /// `Device::sampled_texture`: the texels as they are now, read after the last operation.
     Hold {
         /// The texture, of one sample.
         texture: usize,

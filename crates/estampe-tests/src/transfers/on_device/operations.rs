@@ -3,7 +3,7 @@
 use crate::transfers::on_model::Outcome;
 use crate::transfers::sequence::{BlitSide, ImageAt, Operation, Sequence, Side, noise};
 use estampe::{
-    BlitRegion, Buffer, BufferDescriptor, Device, Extent3d, SampledView, SamplerDescriptor,
+    BlitRegion, Buffer, BufferDescriptor, Device, Extent3d, SampledTexture, SamplerDescriptor,
     TexelCopyLayout, Texture, TextureCopy, TextureDescriptor, TextureView, TextureViewDescriptor,
 };
 use estampe_reference::transfer::Layout;
@@ -15,7 +15,7 @@ pub struct Objects<'d> {
     pub(super) device: &'d Device,
     pub(super) textures: Vec<Texture>,
     pub(super) buffers: Vec<Buffer>,
-    pub(super) held: Vec<SampledView>,
+    pub(super) held: Vec<SampledTexture>,
 }
 
 impl<'d> Objects<'d> {
@@ -154,7 +154,7 @@ impl<'d> Objects<'d> {
             Operation::Hold { texture } => {
                 let sampler = device.create_sampler(&SamplerDescriptor::default());
                 let view = self.textures[*texture].view();
-                let held = device.sampled_view(&view, &sampler.expect("the default"));
+                let held = device.sampled_texture(&view, &sampler.expect("the default"));
                 self.held.push(held.expect("a texture of one sample"));
                 true
             }

@@ -11,8 +11,8 @@ use crate::transfers::sequence::{
 use estampe::state::ColorTargetState;
 use estampe::{
     AspectOperations, BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType,
-    ColorAttachment, DepthStencilAttachment, DepthStencilResolve, Draw, DrawBindGroup, LoadOp,
-    PassExtent, RenderPass, RenderPipelineDescriptor, SampleType, StoreOp, TextureViewDescriptor,
+    ColorAttachment, DepthStencilAttachment, DepthStencilResolve, Draw, LoadOp, PassExtent,
+    RenderPass, RenderPipelineDescriptor, SampleType, StoreOp, TextureViewDescriptor,
 };
 use estampe_types::{TextureAspect, TextureDimension, ViewDimension};
 
@@ -169,11 +169,10 @@ impl Objects<'_> {
         let words = vertex_buffer(vertices).words().to_vec();
         let buffer = device.create_buffer_of_words(words).expect("few vertices");
         let count = u32::try_from(vertices.len()).expect("few vertices");
-        let bound = [DrawBindGroup::from(&group)];
         let pass = RenderPass {
             draws: &[Draw {
                 vertex_buffers: &[buffer.slice(..)],
-                bind_groups: &bound,
+                bind_groups: std::slice::from_ref(&group),
                 ..Draw::new(&pipeline, 0..count)
             }],
             ..attachments

@@ -2,7 +2,7 @@
 
 use super::Objects;
 use crate::transfers::sequence::ImageAt;
-use estampe::{Extent3d, SampledView, TexelCopyLayout, TextureCopy};
+use estampe::{Extent3d, SampledTexture, TexelCopyLayout, TextureCopy};
 use estampe_types::TextureAspect;
 
 impl Objects<'_> {
@@ -63,7 +63,7 @@ impl Objects<'_> {
 
     /// The views that were held.
     #[must_use]
-    pub fn held(&self) -> &[SampledView] {
+    pub fn held(&self) -> &[SampledTexture] {
         &self.held
     }
 }

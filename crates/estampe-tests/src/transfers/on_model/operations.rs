@@ -5,7 +5,7 @@ use crate::transfers::sequence::{
 };
 use estampe_reference::transfer::texel::set_aspect;
 use estampe_reference::transfer::{PlainImage, PlainTexture, Rule, blit, copy, mips, sampled};
-use estampe_texture::{LevelData, MipGeneration, TextureDescriptor};
+use estampe_texture::{LevelData, MipGeneration, TexelDescriptor};
 use estampe_types::{Limits, SamplerDescriptor, TextureAspect, TextureDimension, TextureFormat};
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ pub struct Model {
     /// The buffers.
     pub buffers: Vec<Vec<u8>>,
     /// The textures that were held, as they were then.
-    pub held: Vec<Arc<estampe_types::Texture>>,
+    pub held: Vec<Arc<estampe_types::TexelData>>,
 }
 
 impl Model {
@@ -173,7 +173,7 @@ impl Model {
         &self,
         texture: usize,
         format: TextureFormat,
-    ) -> Arc<estampe_types::Texture> {
+    ) -> Arc<estampe_types::TexelData> {
         Arc::new(sampled::texture(&self.textures[texture], format, decoded))
     }
 
@@ -214,7 +214,7 @@ fn created(shape: &TextureShape) -> PlainTexture {
 /// The texels of a compressed block, as textures are made of it.
 fn decoded(format: TextureFormat, block: &[u8]) -> Vec<u32> {
     let [width, height] = format.block_size();
-    let descriptor = TextureDescriptor::new_2d(width, height, format);
+    let descriptor = TexelDescriptor::new_2d(width, height, format);
     let texture = descriptor.create(
         &[LevelData::tight(block)],
         MipGeneration::None,
