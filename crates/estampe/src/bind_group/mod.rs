@@ -17,7 +17,7 @@ use std::sync::Arc;
 pub enum BindingResource {
     /// A part of a buffer.
     Buffer(BufferSlice),
-    /// A texture; also for [`BindingType::ShadowMap`].
+    /// A texture; also for [`BindingType::ShadowMap`](crate::BindingType).
     Texture(TextureView),
     /// A sampler.
     Sampler(Sampler),

@@ -165,7 +165,7 @@ impl Device {
     ///
     /// # Errors
     /// [`CopyError`] if the range ends beyond the buffer, or it has no
-    /// [`BufferUsages::COPY_DST`].
+    /// [`BufferUsages::COPY_DST`](crate::BufferUsages).
     pub fn clear_buffer(&self, buffer: &Buffer, offset: u64, size: u64) -> Result<(), CopyError> {
         copy::clear_buffer(buffer, offset, size)
     }

@@ -23,7 +23,8 @@ impl Device {
     /// Creates a buffer of zeros.
     ///
     /// # Errors
-    /// [`BufferError`] if the size exceeds [`Limits::max_buffer_size`], or memory is short.
+    /// [`BufferError`] if the size exceeds
+    /// [`Limits::max_buffer_size`](crate::Limits), or memory is short.
     pub fn create_buffer(&self, descriptor: &BufferDescriptor<'_>) -> Result<Buffer, BufferError> {
         Buffer::new(descriptor, &self.limits)
     }
