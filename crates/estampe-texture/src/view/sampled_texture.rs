@@ -127,10 +127,11 @@ impl SampledTexture {
             let uvw = at.coordinates().uvw;
             return Rgba8Texture::sample_all(common, Vec2::new(uvw.x, uvw.y));
         }
-        textures.map(
-            #[inline(always)]
-            |texture| texture.sample_other(at),
-        )
+        let mut colors = [Vec4::repeat(at.coordinates().uvw.x); N];
+        for (color, texture) in colors.iter_mut().zip(textures) {
+            *color = texture.sample_other(at);
+        }
+        colors
     }
 
     /// Samples with a bias that is added to the level of detail of the quad (`textureSampleBias`).
