@@ -6,6 +6,7 @@ use crate::models::write_models;
 use crate::picture::{Difference, Picture};
 use crate::report::{self, Report, Row};
 use crate::scene::{self, Detail, Scene, SceneEntry};
+use crate::stages::conversions;
 use crate::states::{self, StatesArguments};
 use crate::versus::{self, CompareArguments};
 use crate::{BenchError, growth, stages};
@@ -68,7 +69,8 @@ pub struct Arguments {
     /// Compare each scene's last frame with DIR/SCENE_WxH.png
     #[arg(long, value_name = "DIR")]
     pub compare: Option<PathBuf>,
-    /// Measure each stage on its own, instead of the scenes
+    /// Measure each stage on its own, and the conversions between tiles and rows, instead of the
+    /// scenes
     #[arg(long)]
     pub stages: bool,
     /// Measure how cost grows with triangles, pixels and cores, instead of the scenes, and write
@@ -262,6 +264,11 @@ fn run_stages(
     for load in stages::loads() {
         let timing = load.measure(device, effort)?;
         print(out, &stages::line(load.purpose, &timing))?;
+    }
+    print(out, conversions::HEADER)?;
+    for conversion in conversions::all() {
+        let timing = conversion.measure(device, effort)?;
+        print(out, &conversion.line(&timing))?;
     }
     Ok(Outcome::Agreement)
 }

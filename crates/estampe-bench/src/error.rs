@@ -1,6 +1,9 @@
 //! Errors of the benchmarks.
 
-use estampe::{BindGroupError, BufferError, DeviceError, LevelError, PipelineError, TextureError};
+use estampe::{
+    BindGroupError, BufferError, DeviceError, LevelError, PipelineError, RenderPassError,
+    TextureError,
+};
 use std::path::PathBuf;
 
 /// The reason why a benchmark stopped.
@@ -41,6 +44,9 @@ pub enum BenchError {
     /// A texture was refused.
     #[error(transparent)]
     Texture(#[from] TextureError),
+    /// A pass was refused.
+    #[error(transparent)]
+    Pass(#[from] RenderPassError),
     /// A file cannot be read or written.
     #[error("{path}: {source}")]
     File {

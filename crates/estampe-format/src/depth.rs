@@ -1,7 +1,9 @@
 //! Fixed-point depth: stored as the f32 nearest to code ÷ (2ⁿ − 1), so that comparing numbers is
 //! comparing codes.
 
-use estampe_simd::{Lanes, Select, SimdBase, SimdFloat, f32x16, outline};
+use estampe_simd::{
+    Bytes, Lanes, Select, SimdBase, SimdCvtTruncate, SimdFloat, f32x16, i32x16, outline, u32x16,
+};
 use estampe_types::{TexelEncoding, TextureFormat};
 
 /// A depth format of 16 or 24 bits.
@@ -30,20 +32,35 @@ impl FixedDepth {
     }
 
     /// [`stored`](Self::stored) of sixteen depths in 0..=1.
+    #[inline(always)]
+    #[must_use]
+    pub fn stored_lanes<S: Lanes>(self, s: S, depth: f32x16<S>) -> f32x16<S> {
+        outline!(s, self.rounded_lanes(s, depth) / self.most)
+    }
+
+    /// The [`code`](Self::code)s of sixteen depths in 0..=1.
+    #[inline(always)]
+    #[must_use]
+    pub fn code_lanes<S: Lanes>(self, s: S, depth: f32x16<S>) -> u32x16<S> {
+        outline!(s, {
+            let code = i32x16::truncate_from(self.rounded_lanes(s, depth));
+            code.bitcast()
+        })
+    }
+
+    /// round_ties_even(depth·most) of sixteen depths in 0..=1.
     ///
     /// The product p is at most 2²⁴. Below 2²³ the sum p + 2²³ is between 2²³ and 2²⁴, where
     /// numbers are the integers: the addition rounds p to nearest, ties to even, and taking 2²³
     /// away is exact. From 2²³ on p is an integer as it is; the sum would be above 2²⁴, where odd
     /// integers are no numbers. −0 keeps its sign.
     #[inline(always)]
-    pub fn stored_lanes<S: Lanes>(self, s: S, depth: f32x16<S>) -> f32x16<S> {
-        outline!(s, {
-            const INTEGERS: f32 = 8_388_608.0;
-            let product = depth * self.most;
-            let rounded = ((product + INTEGERS) - INTEGERS).copysign(product);
-            let integers = <f32x16<S> as SimdBase<S>>::splat(s, INTEGERS);
-            product.simd_lt(integers).select(rounded, product) / self.most
-        })
+    fn rounded_lanes<S: Lanes>(self, s: S, depth: f32x16<S>) -> f32x16<S> {
+        const INTEGERS: f32 = 8_388_608.0;
+        let product = depth * self.most;
+        let rounded = ((product + INTEGERS) - INTEGERS).copysign(product);
+        let integers = <f32x16<S> as SimdBase<S>>::splat(s, INTEGERS);
+        product.simd_lt(integers).select(rounded, product)
     }
 
     /// The greatest code: 65535 or 16777215.

@@ -149,6 +149,32 @@ fn one_aspect_is_copied_with_every_sample() {
     }
 }
 
+/// Depths that are not in 0..1 are copied as they are, also after a pass has tested them: it clamps
+/// what it tests, not what is stored.
+///
+/// Rows: D1.
+#[test]
+fn depths_that_a_pass_tested_are_copied_as_stored() {
+    let device = device();
+    for count in [1, 4] {
+        let from = noisy(&device, TextureFormat::Depth32Float, count);
+        let into = device
+            .create_texture(&descriptor(TextureFormat::Depth32Float, count))
+            .unwrap();
+        let stored = samples(&device, &from, 1, TextureAspect::All);
+        let view = from.image(0, 1).unwrap();
+        device
+            .render(&RenderPass {
+                depth_stencil_attachment: Some(DepthStencilAttachment::read_only(&view)),
+                ..RenderPass::default()
+            })
+            .unwrap();
+        device.copy_texture_to_texture(&from, &into, SIZE).unwrap();
+        assert!(samples(&device, &into, 1, TextureAspect::All) == stored);
+        assert!(samples(&device, &from, 1, TextureAspect::All) == stored);
+    }
+}
+
 #[test]
 fn parts_other_counts_and_buffers_are_refused() {
     let device = device();

@@ -17,6 +17,7 @@
 //! A job is sixteen rows: sixteen packets of a 16×16 square lie one after the other, so reading and
 //! writing go through whole cache lines.
 
+use super::DepthStencilTexels;
 use super::resolve::{MAX_PACKET, Mean};
 use crate::layout::TileGrid;
 use estampe_simd::{
@@ -32,19 +33,30 @@ const PACKET_SIDE: usize = 4;
 /// The most bytes of a texel.
 const MAX_BYTES: usize = 16;
 
-/// A colour attachment as it is stored.
+/// An attachment as it is stored.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StoredTexels<'a> {
-    /// By packet, sample, word of the texel and lane.
-    pub(super) words: &'a [u32],
-    /// The tile layout, which gives the position of each packet in `words`.
+    /// What the words of a packet are made of.
+    pub(super) words: StoredWords<'a>,
+    /// The tile layout, which gives the position of each packet.
     pub(super) grid: TileGrid,
     /// Words of a texel: 1, 2 or 4.
     pub(super) words_each: usize,
-    /// Samples of a pixel.
-    pub(super) samples: usize,
-    /// The mean of several samples; `None` of one.
-    pub(super) mean: Option<Mean>,
+}
+
+/// Where the words of a packet's texels come from.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum StoredWords<'a> {
+    /// Stored as they are, by packet, word of the texel and lane.
+    One(&'a [u32]),
+    /// The mean of several samples, which are stored by packet, sample, word of the texel and lane.
+    Mean {
+        words: &'a [u32],
+        samples: usize,
+        mean: Mean,
+    },
+    /// The words in row order of depths and stencil values.
+    DepthStencil(&'a DepthStencilTexels),
 }
 
 impl StoredTexels<'_> {
@@ -58,12 +70,24 @@ impl StoredTexels<'_> {
     ) -> &'s [u32] {
         outline!(s, {
             let elements = LANES * self.words_each;
-            let stored = &self.words[packet * elements * self.samples..][..elements * self.samples];
-            match &self.mean {
-                None => stored,
-                Some(mean) => {
+            match &self.words {
+                StoredWords::One(words) => &words[packet * elements..][..elements],
+                StoredWords::Mean {
+                    words,
+                    samples,
+                    mean,
+                } => {
                     let texels = &mut scratch[..elements];
-                    mean.write(s, stored, texels);
+                    mean.write(
+                        s,
+                        &words[packet * elements * samples..][..elements * samples],
+                        texels,
+                    );
+                    texels
+                }
+                StoredWords::DepthStencil(image) => {
+                    let texels = &mut scratch[..elements];
+                    image.write_packet(s, packet, texels);
                     texels
                 }
             }

@@ -1,7 +1,7 @@
 //! From storage order to rows of the format's bytes, of several samples their mean: images as the
 //! host reads them.
 
-use super::detile::{RowsJob, StoredTexels};
+use super::detile::{RowsJob, StoredTexels, StoredWords};
 use super::resolve::Mean;
 use super::texels::ColorTexels;
 use crate::layout::texel_words;
@@ -14,12 +14,18 @@ impl ColorTexels {
         image: &'a mut [u8],
     ) -> impl Iterator<Item = RowsJob<'a>> {
         let samples = self.size.samples as usize;
+        let words = match samples {
+            1 => StoredWords::One(&self.words),
+            _ => StoredWords::Mean {
+                words: &self.words,
+                samples,
+                mean: Mean::new(self.format, samples),
+            },
+        };
         let stored = StoredTexels {
-            words: &self.words,
+            words,
             grid: self.size.grid(),
             words_each: texel_words(self.format),
-            samples,
-            mean: (samples > 1).then(|| Mean::new(self.format, samples)),
         };
         let bytes_each = self.format.block_bytes() as usize;
         RowsJob::all(stored, self.size.width as usize, bytes_each, image)

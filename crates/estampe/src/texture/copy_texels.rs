@@ -59,7 +59,7 @@ pub(crate) fn copy(
     for (read, written) in source.images().zip(destination.images()) {
         if are_whole
             && is_all
-            && let Some(tiles) = source_contents.tiles(read)
+            && let Some(tiles) = source_contents.newest_tiles(read)
         {
             copy_tiles(context, tiles, (&mut contents, into, written))?;
             continue;

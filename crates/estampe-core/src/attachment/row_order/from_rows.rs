@@ -1,13 +1,12 @@
 //! An image in storage order filled from rows.
 
 use super::{row_order_words, swapped, swaps_red_and_blue, words_each};
-use crate::attachment::retile;
+use crate::attachment::retile::{self, PACKETS, SquareRows};
 use crate::attachment::texels::{ColorTexels, DepthStencilTexels, ImageSize};
-use crate::layout::{BLOCK, texel_words};
+use crate::layout::{BLOCK, morton, texel_words};
 use estampe_format::depth::FixedDepth;
 use estampe_simd::{LANE_X, LANE_Y, LANES, Level};
 use estampe_types::TextureFormat;
-use estampe_types::morton::compact;
 
 impl ColorTexels {
     /// Cuts the storing of rows into jobs.
@@ -17,15 +16,17 @@ impl ColorTexels {
     ) -> impl Iterator<Item = FromRowsJob<'a>> {
         debug_assert_eq!(rows.len(), row_order_words(self.format, self.size));
         let (format, size) = (self.format, self.size);
-        let block = (BLOCK * BLOCK) as usize * size.samples as usize * texel_words(format);
-        let blocks = self.words.chunks_exact_mut(block).enumerate();
-        blocks.map(move |(number, words)| FromRowsJob {
-            block: Block::Color(words),
-            format,
-            size,
-            origin: block_origin(size, number),
-            rows,
-        })
+        let row = row_of_blocks(size);
+        let rows_of_blocks = self.words.chunks_exact_mut(row * texel_words(format));
+        (0..)
+            .zip(rows_of_blocks)
+            .map(move |(y, words)| FromRowsJob {
+                stored: Stored::Color(words),
+                format,
+                size,
+                first_y: y * BLOCK,
+                rows,
+            })
     }
 }
 
@@ -37,42 +38,44 @@ impl DepthStencilTexels {
     ) -> impl Iterator<Item = FromRowsJob<'a>> {
         debug_assert_eq!(rows.len(), row_order_words(self.format, self.size));
         let (format, size) = (self.format, self.size);
-        let block = (BLOCK * BLOCK) as usize * size.samples as usize;
-        let count = size.stored_samples() / block;
-        let mut depth = std::sync::Arc::make_mut(&mut self.depth).chunks_exact_mut(block);
-        let mut stencil = self.stencil.chunks_exact_mut(block);
-        (0..count).map(move |number| FromRowsJob {
-            block: Block::DepthStencil {
+        let row = row_of_blocks(size);
+        let mut depth = std::sync::Arc::make_mut(&mut self.depth).chunks_exact_mut(row);
+        let mut stencil = self.stencil.chunks_exact_mut(row);
+        (0..size.height.div_ceil(BLOCK)).map(move |y| FromRowsJob {
+            stored: Stored::DepthStencil {
                 depth: depth.next().unwrap_or_default(),
                 stencil: stencil.next().unwrap_or_default(),
             },
             format,
             size,
-            origin: block_origin(size, number),
+            first_y: y * BLOCK,
             rows,
         })
     }
 }
 
-/// The first pixel of a storage block.
-fn block_origin(size: ImageSize, number: usize) -> [u32; 2] {
-    let columns = size.width.div_ceil(BLOCK);
-    let number = u32::try_from(number).unwrap_or(u32::MAX);
-    [number % columns * BLOCK, number / columns * BLOCK]
+/// Side of the squares that are filled one after the other.
+const SQUARE: usize = 16;
+
+/// The samples of a row of storage blocks.
+fn row_of_blocks(size: ImageSize) -> usize {
+    let blocks = size.width.div_ceil(BLOCK) as usize;
+    blocks * (BLOCK * BLOCK) as usize * size.samples as usize
 }
 
-/// A storage block that is filled from rows.
+/// A row of storage blocks that is filled from rows.
 #[derive(Debug)]
 pub(crate) struct FromRowsJob<'a> {
-    block: Block<'a>,
+    stored: Stored<'a>,
     format: TextureFormat,
     size: ImageSize,
-    origin: [u32; 2],
+    first_y: u32,
     rows: &'a [u32],
 }
 
+/// Samples in storage order.
 #[derive(Debug)]
-enum Block<'a> {
+enum Stored<'a> {
     Color(&'a mut [u32]),
     DepthStencil {
         depth: &'a mut [f32],
@@ -80,56 +83,110 @@ enum Block<'a> {
     },
 }
 
+impl Stored<'_> {
+    /// So many samples from one on. Where the image has no depth or no stencil, that part is empty.
+    fn part(&mut self, first: usize, len: usize, words_each: usize) -> Stored<'_> {
+        match self {
+            Self::Color(words) => {
+                Stored::Color(&mut words[first * words_each..][..len * words_each])
+            }
+            Self::DepthStencil { depth, stencil } => Stored::DepthStencil {
+                depth: depth.get_mut(first..first + len).unwrap_or_default(),
+                stencil: stencil.get_mut(first..first + len).unwrap_or_default(),
+            },
+        }
+    }
+}
+
 impl FromRowsJob<'_> {
-    /// Fills the block.
+    /// Fills the blocks: a band of sixteen rows after the other, so that the rows are read from the
+    /// left to the right.
     pub(crate) fn run(&mut self, level: Level) {
         let samples = self.size.samples as usize;
         let each = words_each(self.format);
-        let [width, height] = [self.size.width, self.size.height];
+        for y in (0..BLOCK).step_by(SQUARE) {
+            for x in (0..self.size.width).step_by(SQUARE) {
+                let origin = [x, self.first_y + y];
+                if origin[1] >= self.size.height {
+                    return;
+                }
+                let block = x / BLOCK * (BLOCK * BLOCK);
+                let packet = morton(x % BLOCK / 4, y / 4) * 16;
+                let square = PACKETS * LANES * samples;
+                let first = (block + packet) as usize * samples;
+                SquareJob {
+                    stored: self.stored.part(first, square, each),
+                    format: self.format,
+                    from: SquareRows {
+                        rows: self.rows,
+                        size: self.size,
+                        origin,
+                    },
+                }
+                .run(level);
+            }
+        }
+    }
+}
+
+/// A square of 16×16 pixels that is filled from rows.
+#[derive(Debug)]
+struct SquareJob<'a> {
+    stored: Stored<'a>,
+    format: TextureFormat,
+    from: SquareRows<'a>,
+}
+
+impl SquareJob<'_> {
+    fn run(&mut self, level: Level) {
+        let from = self.from;
+        let has_lanes = from.size.samples == 1;
+        if has_lanes {
+            match &mut self.stored {
+                Stored::Color(words) => {
+                    retile::color(level, from, swaps_red_and_blue(self.format), words);
+                }
+                Stored::DepthStencil { depth, stencil } => {
+                    retile::depth_stencil(level, from, self.format, depth, stencil);
+                }
+            }
+        }
+        for packet in 0..PACKETS {
+            if !(has_lanes && from.has_whole_band(from.first_pixel(packet)[1])) {
+                self.fill_packet(packet);
+            }
+        }
+    }
+
+    /// Fills the pixels of a packet that lie in the image, one by one.
+    fn fill_packet(&mut self, packet: usize) {
+        let size = self.from.size;
+        let samples = size.samples as usize;
+        let each = words_each(self.format);
         let swaps = swaps_red_and_blue(self.format);
         let fixed = FixedDepth::new(self.format);
-        for packet in 0..256_u32 {
-            let x = self.origin[0] + compact(packet) * 4;
-            let y = self.origin[1] + compact(packet >> 1) * 4;
-            if x >= width || y >= height {
+        let [x, y] = self.from.first_pixel(packet);
+        for lane in 0..LANES {
+            let [x, y] = [x + u32::from(LANE_X[lane]), y + u32::from(LANE_Y[lane])];
+            if x >= size.width || y >= size.height {
                 continue;
             }
-            let is_whole = x + 4 <= width && y + 4 <= height;
-            let first = packet as usize * samples * LANES;
-            if let Block::Color(words) = &mut self.block
-                && is_whole
-                && samples == 1
-            {
-                let to = &mut words[first * each..][..LANES * each];
-                let row = |k: usize| {
-                    let at = ((y as usize + k) * width as usize + x as usize) * each;
-                    &self.rows[at..][..4 * each]
-                };
-                retile::packet(level, [row(0), row(1), row(2), row(3)], swaps, to);
-                continue;
-            }
-            for lane in 0..LANES {
-                let [x, y] = [x + u32::from(LANE_X[lane]), y + u32::from(LANE_Y[lane])];
-                if x >= width || y >= height {
-                    continue;
-                }
-                let texel = (y as usize * width as usize + x as usize) * samples;
-                for sample in 0..samples {
-                    let words = &self.rows[(texel + sample) * each..][..each];
-                    let at = first + sample * LANES;
-                    match &mut self.block {
-                        Block::Color(to) => {
-                            for (index, word) in words.iter().enumerate() {
-                                let word = if swaps { swapped(*word) } else { *word };
-                                to[at * each + index * LANES + lane] = word;
-                            }
+            let texel = (y as usize * size.width as usize + x as usize) * samples;
+            for sample in 0..samples {
+                let words = &self.from.rows[(texel + sample) * each..][..each];
+                let at = (packet * samples + sample) * LANES;
+                match &mut self.stored {
+                    Stored::Color(to) => {
+                        for (index, word) in words.iter().enumerate() {
+                            let word = if swaps { swapped(*word) } else { *word };
+                            to[at * each + index * LANES + lane] = word;
                         }
-                        Block::DepthStencil { depth, stencil } => {
-                            store_depth(fixed, words, depth.get_mut(at + lane));
-                            let stored = stencil_of(self.format, words);
-                            if let Some(to) = stencil.get_mut(at + lane) {
-                                *to = stored;
-                            }
+                    }
+                    Stored::DepthStencil { depth, stencil } => {
+                        store_depth(fixed, words, depth.get_mut(at + lane));
+                        let stored = stencil_of(self.format, words);
+                        if let Some(to) = stencil.get_mut(at + lane) {
+                            *to = stored;
                         }
                     }
                 }

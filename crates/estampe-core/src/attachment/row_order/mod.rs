@@ -41,7 +41,7 @@ fn swapped(word: u32) -> u32 {
 mod tests {
     use super::*;
     use crate::attachment::texels::{ColorTexels, DepthStencilTexels};
-    use estampe_simd::Level;
+    use estampe_simd::{LANE_X, LANES, Level};
 
     /// Words that are valid texels of a format.
     fn rows(format: TextureFormat, size: ImageSize) -> Vec<u32> {
@@ -99,6 +99,58 @@ mod tests {
                     }
                     assert!(rows == back, "{}, {size:?}", format.name());
                 }
+            }
+        }
+    }
+
+    /// Whole packets, which go through lanes, clamp depths and cut codes as the pixels at an edge
+    /// do, which go one by one.
+    #[test]
+    fn hostile_depths_are_clamped_in_lanes_as_one_by_one() {
+        let hostile = [
+            f32::NAN.to_bits(),
+            (-f32::NAN).to_bits(),
+            (-0.0_f32).to_bits(),
+            (-1.5_f32).to_bits(),
+            1.5_f32.to_bits(),
+            f32::INFINITY.to_bits(),
+            1,
+            0x3F7F_FFFF,
+            u32::MAX,
+        ];
+        for &format in TextureFormat::ALL {
+            if !(format.has_depth() || format.has_stencil()) {
+                continue;
+            }
+            // The same sixteen words are a whole packet of the one, and cut by the edge of the other.
+            let [whole, cut] = [4, 3].map(|width| {
+                let size = ImageSize {
+                    width,
+                    height: 4,
+                    samples: 1,
+                };
+                let each = words_each(format);
+                let pixels = (0..4).flat_map(|y| (0..width).map(move |x| (x + y * 4) as usize));
+                let rows: Vec<u32> = pixels
+                    .flat_map(|pixel| (0..each).map(move |word| hostile[(pixel + word) % 9]))
+                    .collect();
+                Level::all_available().into_iter().map(move |level| {
+                    let mut texels = DepthStencilTexels::zeros(format, size).unwrap();
+                    texels
+                        .storage_jobs(&rows)
+                        .for_each(|mut job| job.run(level));
+                    let lanes = (0..LANES).filter(|&lane| LANE_X[lane] < 3);
+                    let values = lanes.map(|lane| {
+                        let depth = texels.depth.get(lane).map(|depth| depth.to_bits());
+                        (depth, texels.stencil.get(lane).copied())
+                    });
+                    values.collect::<Vec<_>>()
+                })
+            });
+            for (whole, cut) in whole.zip(cut) {
+                assert_eq!(whole, cut, "{}", format.name());
+                let depths = whole.iter().filter_map(|value| value.0);
+                assert!(depths.map(f32::from_bits).all(|d| (0.0..=1.0).contains(&d)));
             }
         }
     }

@@ -1,11 +1,11 @@
 //! Rows filled from an image in storage order.
 
 use super::{row_order_words, swapped, swaps_red_and_blue, words_each};
-use crate::attachment::detile::{RowsJob, StoredTexels};
+use crate::attachment::detile::{RowsJob, StoredTexels, StoredWords};
 use crate::attachment::texels::{ColorTexels, DepthStencilTexels, ImageSize};
 use crate::layout::texel_words;
 use estampe_format::depth::FixedDepth;
-use estampe_simd::{LANES, Level};
+use estampe_simd::{Bytes, LANES, Lanes, Level, SimdBase, f32x16, outline, u32x16};
 use estampe_types::TextureFormat;
 use estampe_types::morton::spread;
 
@@ -100,7 +100,8 @@ impl ColorTexels {
             return Box::new(texel_rows(Image::Color(self), self.size, each, rows));
         }
         let swaps = swaps_red_and_blue(self.format);
-        Box::new(lane_rows(&self.words, self.size, each, rows, swaps))
+        let words = StoredWords::One(&self.words);
+        Box::new(lane_rows(words, self.size, each, rows, swaps))
     }
 
     /// Loads a texel.
@@ -124,11 +125,52 @@ impl DepthStencilTexels {
     ) -> Box<dyn Iterator<Item = ToRowsJob<'a>> + 'a> {
         let each = words_each(self.format);
         debug_assert_eq!(rows.len(), row_order_words(self.format, self.size));
-        if self.size.samples > 1 || self.format != TextureFormat::Depth32Float {
+        if self.size.samples > 1 {
             return Box::new(texel_rows(Image::DepthStencil(self), self.size, each, rows));
         }
-        let words = bytemuck::cast_slice(&self.depth);
+        let words = match self.format {
+            TextureFormat::Depth32Float => StoredWords::One(bytemuck::cast_slice(&self.depth)),
+            _ => StoredWords::DepthStencil(self),
+        };
         Box::new(lane_rows(words, self.size, each, rows, false))
+    }
+
+    /// Writes the words of a packet's texels, word by word and in the order of lanes. The image must
+    /// have one sample.
+    #[inline(always)]
+    pub(in crate::attachment) fn write_packet<S: Lanes>(
+        &self,
+        s: S,
+        packet: usize,
+        words: &mut [u32],
+    ) {
+        outline!(s, {
+            let at = packet * LANES;
+            let mut stencil = [0; LANES];
+            if !self.stencil.is_empty() {
+                let values = &self.stencil[at..][..LANES];
+                let mut lane = 0;
+                while lane < LANES {
+                    stencil[lane] = u32::from(values[lane]);
+                    lane += 1;
+                }
+            }
+            let stencil = u32x16::from_slice(s, &stencil);
+            if self.depth.is_empty() {
+                stencil.store_slice(&mut words[..LANES]);
+                return;
+            }
+            let depth = f32x16::from_slice(s, &self.depth[at..][..LANES]);
+            let Some(fixed) = FixedDepth::new(self.format) else {
+                let bits: u32x16<S> = depth.bitcast();
+                bits.store_slice(&mut words[..LANES]);
+                if let Some(second) = words.get_mut(LANES..2 * LANES) {
+                    stencil.store_slice(second);
+                }
+                return;
+            };
+            (fixed.code_lanes(s, depth) | stencil << 24).store_slice(&mut words[..LANES]);
+        });
     }
 
     /// Loads a texel: see the module's documentation.
@@ -148,7 +190,7 @@ impl DepthStencilTexels {
 }
 
 fn lane_rows<'a>(
-    words: &'a [u32],
+    words: StoredWords<'a>,
     size: ImageSize,
     words_each: usize,
     rows: &'a mut [u32],
@@ -158,8 +200,6 @@ fn lane_rows<'a>(
         words,
         grid: size.grid(),
         words_each,
-        samples: 1,
-        mean: None,
     };
     let bytes = bytemuck::cast_slice_mut(rows);
     let jobs = RowsJob::all(stored, size.width as usize, words_each * 4, bytes);
