@@ -135,8 +135,8 @@ impl DepthStencilTexels {
         Box::new(lane_rows(words, self.size, each, rows, false))
     }
 
-    /// Writes the words of a packet's texels, word by word and in the order of lanes. The image must
-    /// have one sample.
+    /// Writes the words of a packet's texels, word by word and in the order of lanes. The image
+    /// must have one sample.
     #[inline(always)]
     pub(in crate::attachment) fn write_packet<S: Lanes>(
         &self,
