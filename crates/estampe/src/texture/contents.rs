@@ -189,8 +189,8 @@ impl Contents {
         matches!(newest, Newest::Tiles | Newest::Both).then_some(image)
     }
 
-    /// The image in tiles if only these are up to date. Where rows are too, float depths in them may
-    /// be others: a pass clamps them.
+    /// The image in tiles if only these are up to date. Where rows are too, float depths in them
+    /// may be others: a pass clamps them.
     pub(crate) fn newest_tiles(&self, key: ImageKey) -> Option<&Image> {
         let (image, newest) = self.images.get(&key)?;
         (*newest == Newest::Tiles).then_some(image)

@@ -122,7 +122,7 @@ mod tests {
             if !(format.has_depth() || format.has_stencil()) {
                 continue;
             }
-            // The same sixteen words are a whole packet of the one, and cut by the edge of the other.
+            // The same words are a whole packet of the one image, cut by the edge of the other.
             let [whole, cut] = [4, 3].map(|width| {
                 let size = ImageSize {
                     width,
