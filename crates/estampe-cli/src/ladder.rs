@@ -1,14 +1,14 @@
 //! `estampe ladder`: draws the pictures of the ladder, and a sheet of all of them.
 
 use crate::failure::Failure;
-use crate::input::Model;
+use crate::input::{self, Model};
 use crate::output;
 use crate::progress::Progress;
 use crate::values::{self, Destination, Source, shown};
 use clap::Args;
 use estampe::{Device, DeviceDescriptor, Level};
 use estampe_assets::Limits;
-use estampe_assets::image::ImageFormat;
+use estampe_assets::image::{ImageFormat, decode};
 use estampe_ladder::{Course, Picture, RUNGS, Rung, Sheet, rung};
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 Examples:
   estampe ladder 7 -o ladder
   estampe ladder all -o ladder
-  estampe ladder 12 --model head.obj -o ladder
+  estampe ladder 12 --model head.obj --texture head_diffuse.tga -o ladder
 
 The pictures are DIR/ladder_01_pixel.png to DIR/ladder_23_shapes.png; all also writes DIR/sheet.png with all of \
 them. Each is the picture of an example of the crate estampe-ladder. Rung 22 waits for shaders in GLSL.
@@ -36,6 +36,10 @@ pub(crate) struct LadderArgs {
     /// The model, in place of the built-in one: a file or builtin:NAME
     #[arg(long, value_name = "MODEL")]
     pub(crate) model: Option<Source>,
+
+    /// The texture of the model (PNG, JPEG, TGA), in place of its own or the built-in one
+    #[arg(long, value_name = "FILE")]
+    pub(crate) texture: Option<PathBuf>,
 
     /// Number of threads, 1 to 1024; the pictures do not depend on it [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -113,10 +117,15 @@ fn course(args: &LadderArgs) -> Result<Course, Failure> {
     });
     let device =
         device.map_err(|error| Failure::Output(format!("{error}; try fewer --threads")))?;
-    let model = match &args.model {
+    let mut model = match &args.model {
         None => estampe_ladder::Model::builtin(),
         Some(source) => read_model(source, args.quiet)?,
     };
+    if let Some(path) = &args.texture {
+        let limits = Limits::default();
+        let bytes = input::read_file(path, &limits)?;
+        model.texture = decode(&bytes, &limits).map_err(|error| error.in_file(&shown(path)))?;
+    }
     Ok(Course::with(device, model))
 }
 

@@ -1,5 +1,8 @@
 //! Rung 1: one red pixel at (52, 41) in a TGA file of 100×100 pixels.
 //!
+//! Look at the middle: one pixel is red. With `-o pixel.tga` the file is 18 bytes of size and
+//! format, then runs of equal pixels.
+//!
 //! `cargo run --release --example ladder_01_pixel -- -o pixel.tga`
 
 use estampe_assets::Limits;

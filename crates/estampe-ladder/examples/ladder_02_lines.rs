@@ -1,6 +1,9 @@
 //! Rung 2: the line (13, 20)–(80, 40) in white and (20, 13)–(40, 80) in red, 100×100, y up: three
 //! naive versions, then Bresenham's.
 //!
+//! Look at the gaps on the left, and at the blue pixels above right: the red line, drawn from its
+//! other end, covers other pixels. Bresenham's lines, below right, have neither.
+//!
 //! `cargo run --release --example ladder_02_lines`
 
 use estampe_ladder::{Color, Course, LadderError, Picture};

@@ -1,5 +1,8 @@
 //! Rung 3: a model in wireframe, 800×800: the three edges of each face as Bresenham's lines.
 //!
+//! Look at the far side of the model: its edges are visible through the near side, for nothing
+//! hides anything yet.
+//!
 //! `cargo run --release --example ladder_03_wireframe -- --model head.obj`
 
 use estampe_ladder::{Course, LadderError, Picture};

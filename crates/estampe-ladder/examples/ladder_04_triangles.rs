@@ -1,5 +1,8 @@
 //! Rung 4: three filled triangles in 200×200, y up, by two scan conversions.
 //!
+//! Look at the left edges of the triangles, where the two scan conversions differ: the third panel
+//! has those pixels alone.
+//!
 //! `cargo run --release --example ladder_04_triangles`
 
 use estampe_ladder::{Color, Course, LadderError, Picture};

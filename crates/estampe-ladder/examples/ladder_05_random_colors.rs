@@ -1,5 +1,8 @@
 //! Rung 5: the faces of a model filled in random colours, 800×800.
 //!
+//! Look for faces of the far side: where they come later in the file, they cover those of the near
+//! side.
+//!
 //! `cargo run --release --example ladder_05_random_colors -- --model head.obj`
 
 use estampe_ladder::{Color, Course, LadderError, Picture};

@@ -1,5 +1,8 @@
 //! Rung 6: flat shading, 800×800, the light from the eye.
 //!
+//! Look at the parts that stand before others, as the spout before the body: where the hidden face
+//! comes later in the file, it is drawn over the visible one.
+//!
 //! `cargo run --release --example ladder_06_flat_shading -- --model head.obj`
 
 use estampe_ladder::{Course, LadderError, Model, Picture};

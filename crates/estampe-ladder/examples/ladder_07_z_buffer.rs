@@ -1,5 +1,8 @@
 //! Rung 7: the z-buffer, 800×800 each: forgotten, right, and what is in it.
 //!
+//! Look at the upper end of the handle and at the rim below the lid: the left panel shows faces
+//! there that lie behind others.
+//!
 //! `cargo run --release --example ladder_07_z_buffer -- --model head.obj`
 
 use estampe_ladder::{Course, LadderError, Model, Picture};

@@ -1,6 +1,8 @@
 //! Rung 8: a diffuse texture, 800×800. From here on the pipeline rasterizes and interpolates; the
 //! shader is ours.
 //!
+//! Look at one face: its light is the same everywhere, while its texels change.
+//!
 //! `cargo run --release --example ladder_08_diffuse_texture -- --model head.obj`
 
 use estampe::{Draw, FragmentIn, FragmentOut, SampledTexture, Vec2, VertexIn, VertexOut, vec4};

@@ -1,5 +1,8 @@
 //! Rung 9: Gouraud shading beside flat shading, 800×800 each.
 //!
+//! Look at the faces of the body, which Gouraud shading makes invisible, and at the outline, where
+//! they stay.
+//!
 //! `cargo run --release --example ladder_09_gouraud -- --model head.obj`
 
 use estampe::{Draw, FragmentIn, FragmentOut, Vec3, VertexIn, VertexOut, vec4};

@@ -1,5 +1,7 @@
 //! Rung 10: the viewport matrix, 800×800 each.
 //!
+//! Look at the grey of the third panel: zoom changes x and y, and leaves z' as it is.
+//!
 //! `cargo run --release --example ladder_10_viewport -- --model head.obj`
 
 use estampe::{FragmentIn, FragmentOut, Mat4, Vec3, VertexIn, VertexOut};

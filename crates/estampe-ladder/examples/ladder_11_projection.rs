@@ -1,5 +1,8 @@
 //! Rung 11: the central projection, with the eye at d = ∞ and d = 2, and texture coordinates in it.
 //!
+//! Look at the diagonal of the ramp: below left the tiles bend there, below right they are
+//! straight. Above, the parts of the model that are nearer to the eye grow with d = 2.
+//!
 //! `cargo run --release --example ladder_11_projection -- --model head.obj`
 
 use estampe::{FragmentIn, FragmentOut, Mat4, SampledTexture, Vec2, VertexIn, VertexOut};

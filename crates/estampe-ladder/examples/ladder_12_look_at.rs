@@ -1,5 +1,8 @@
 //! Rung 12: a camera that looks from (1, 1, 2) at the origin, 800×800.
 //!
+//! Look at the lid, which is dark: the eye has moved, the light has not, and still comes along the
+//! z axis.
+//!
 //! `cargo run --release --example ladder_12_look_at -- --model head.obj`
 
 use estampe::{FragmentIn, FragmentOut, Mat4, Vec3, VertexIn, VertexOut};

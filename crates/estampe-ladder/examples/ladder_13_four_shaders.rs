@@ -1,5 +1,7 @@
 //! Rung 13: four shaders in one picture of 800×800, which share everything but the last step.
 //!
+//! Look along a row: without and with the texture; and down a column: flat and smooth light.
+//!
 //! `cargo run --release --example ladder_13_four_shaders -- --model head.obj`
 
 use estampe::state::Viewport;

@@ -1,5 +1,8 @@
 //! Rung 14: Gouraud shading quantised to N levels, for N = 2, 3, 4 and 8, 400×400 each.
 //!
+//! Look at the borders between the levels: they are lines of equal light, and tell how a surface
+//! bends.
+//!
 //! `cargo run --release --example ladder_14_quantised -- --model head.obj`
 
 use estampe::{FragmentIn, FragmentOut, Vec3, VertexIn, VertexOut, vec4};

@@ -1,5 +1,8 @@
 //! Rung 15: Phong shading, several lights, attenuation, fog and toon shading, 400×400 each.
 //!
+//! Look at the highlight on the body: Gouraud shading, above left, spreads it over whole faces,
+//! Phong shading beside it gives it its shape.
+//!
 //! `cargo run --release --example ladder_15_phong -- --model head.obj`
 
 use estampe::{FragmentIn, FragmentOut, Mat4, Vec3, VertexIn, VertexOut};

@@ -1,6 +1,9 @@
 //! Rung 16: clipping by the near plane, 400×400: a floor that runs on behind the eye, without and
 //! with it.
 //!
+//! Look above the horizon on the left: the blue tiles lie behind the eye, and are drawn upside
+//! down.
+//!
 //! `cargo run --release --example ladder_16_near_clipping`
 
 use estampe::state::Viewport;

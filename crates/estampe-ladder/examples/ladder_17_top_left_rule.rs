@@ -1,5 +1,7 @@
 //! Rung 17: the top-left rule, magnified: four triangles whose edges run through pixel centres.
 //!
+//! Look at the pixels under the white edges: black ones are missing, yellow ones are drawn twice.
+//!
 //! `cargo run --release --example ladder_17_top_left_rule`
 
 use estampe_ladder::{Color, Course, LadderError, Picture};

@@ -1,5 +1,8 @@
 //! Rung 18: z-fighting of two planes 2 cm apart, far = 100 m, and its cures, 240×240 each.
 //!
+//! Look for red, the lower plane: where it shows through the blue one, both depths were rounded to
+//! the same value, or to the wrong order.
+//!
 //! `cargo run --release --example ladder_18_z_fighting`
 
 use estampe::TextureFormat::{self, Depth16Unorm, Depth24Plus, Depth32Float};

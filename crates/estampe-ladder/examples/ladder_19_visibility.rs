@@ -1,6 +1,9 @@
 //! Rung 19: three answers to what hides what, 300×300 each: painter's algorithm, BSP tree and
 //! z-buffer, and the z-buffer seen from above.
 //!
+//! Look at the beams and the squares in the first panel: the painter draws the blue beam and the
+//! violet square wholly before their neighbours.
+//!
 //! `cargo run --release --example ladder_19_visibility`
 
 use estampe_ladder::{Course, LadderError, Picture, Polygon};

@@ -1,5 +1,7 @@
 //! Rung 20: transparency, 400×400 each: water before the terrain (wrong), and after it.
 //!
+//! Look at the ground under the water: on the left there is none.
+//!
 //! `cargo run --release --example ladder_20_transparency`
 
 use estampe::state::{BlendState, ColorTargetState, CompareFunction, DepthState};

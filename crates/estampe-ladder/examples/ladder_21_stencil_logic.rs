@@ -1,16 +1,20 @@
 //! Rung 21: stencil and logic operations, 400×400 each.
 //!
+//! Look at the disc, which is never seen itself: it selects pixels of the model, or inverts them.
+//!
 //! `cargo run --release --example ladder_21_stencil_logic -- --model head.obj`
 
 use estampe::state::{
     ColorTargetState, ColorWrites, CompareFunction, DepthState, DepthStencilState, LogicOperation,
-    PrimitiveTopology, StencilFaceState, StencilOperation,
+    StencilFaceState, StencilOperation,
 };
 use estampe::{
     Draw, FragmentIn, FragmentOut, RenderPipelineDescriptor, TextureFormat, Vec3, VertexIn,
-    VertexOut, maths, vec4,
+    VertexOut, vec4,
 };
-use estampe_ladder::{Corner, Course, Faces, LadderError, Picture, Screen};
+use estampe_ladder::{Corner, Course, Faces, LadderError, Model, Picture, Screen};
+use estampe_shapes::parametric::cos_sin_turns;
+use glam::DVec3;
 
 /// The model by Gouraud shading, or swollen along its normals and of one colour.
 struct Shaded {
@@ -39,23 +43,18 @@ estampe::shader! {
     }
 }
 
-/// A white disc of 24 corners as a triangle fan.
-struct Disc;
-
-estampe::shader! {
-    impl Shader for Disc {
-        type Attributes<R: Real> = ();
-        type Varyings<R: Real> = ();
-
-        fn vertex<R: Real>(&self, input: VertexIn<'_, R>, (): ()) -> VertexOut<R, ()> {
-            let angle = input.vertex_index.to_real() * (std::f32::consts::TAU / 24.0);
-            let (x, y) = (maths::cos(angle) * 0.5 + 0.25, maths::sin(angle) * 0.5);
-            VertexOut::new(vec4(x, y, 0.0, 1.0), ())
-        }
-
-        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, (): ()) -> FragmentOut<R> {
-            FragmentOut::color(Vec3::repeat(input.real(1.0)).point())
-        }
+/// A disc of 24 corners, a fan of triangles, behind the model.
+fn disc() -> Model {
+    let corner = |k| {
+        let (c, s) = cos_sin_turns(f64::from(k) / 24.0);
+        DVec3::new(c * 0.5 + 0.25, s * 0.5, -1.2).as_vec3().into()
+    };
+    Model {
+        positions: (0..24).map(corner).collect(),
+        normals: vec![Course::TOWARDS_LIGHT; 24],
+        uvs: vec![[0.0; 2]; 24],
+        faces: (2..24).map(|k| [0, k - 1, k]).collect(),
+        ..Model::empty()
     }
 }
 
@@ -90,36 +89,32 @@ pub fn draw(course: &Course) -> Result<Picture, LadderError> {
     use CompareFunction::{Always, Equal, NotEqual};
     use StencilOperation::{Keep, Replace};
     let screen = Screen::new(course, 400, 400)?;
-    let model = |swollen_by, color, depth_stencil| RenderPipelineDescriptor {
+    let pipeline = |swollen_by, color, depth_stencil| RenderPipelineDescriptor {
         depth_stencil: Some(depth_stencil),
         ..screen.pipeline(Shaded { swollen_by, color })
     };
-    let masked = model(0.0, None, stencil(Equal, Keep));
-    let marking = model(0.0, None, stencil(Always, Replace));
-    let outline = model(0.025, Some([1.0, 0.5, 0.0]), stencil(NotEqual, Keep));
-
-    let mut mask = RenderPipelineDescriptor::new(Disc);
-    mask.primitive.topology = PrimitiveTopology::TriangleFan;
-    let mut xor = mask.clone();
-    xor.depth_stencil = Some(DepthStencilState::default());
-    xor.logic_operation = Some(LogicOperation::Xor);
-    mask.depth_stencil = Some(stencil(Always, Replace));
+    let white = Some([1.0; 3]);
+    let mut mask = pipeline(0.0, white, stencil(Always, Replace));
     mask.targets = vec![Some(ColorTargetState {
         write_mask: ColorWrites::NONE,
         ..TextureFormat::Rgba8Unorm.into()
     })];
+    let masked = pipeline(0.0, None, stencil(Equal, Keep));
+    let marking = pipeline(0.0, None, stencil(Always, Replace));
+    let outline = pipeline(0.025, Some([1.0, 0.5, 0.0]), stencil(NotEqual, Keep));
+    let mut xor = pipeline(0.0, white, DepthStencilState::default());
+    xor.logic_operation = Some(LogicOperation::Xor);
 
-    let faces = Faces::new(&course.device, &course.model)?;
+    let model = Faces::new(&course.device, &course.model)?;
+    let disc = Faces::new(&course.device, &disc())?;
     let mut pipelines = Vec::new();
     for descriptor in [mask, masked, marking, outline, xor] {
         pipelines.push(course.device.create_render_pipeline(&descriptor)?);
     }
+    let faces = [&disc, &model, &model, &model, &disc];
     let draw_of = |number: usize| Draw {
         stencil_reference: [1, 1],
-        ..match &pipelines[number] {
-            disc if matches!(number, 0 | 4) => Draw::new(disc, 0..24),
-            model => faces.draw(model),
-        }
+        ..faces[number].draw(&pipelines[number])
     };
     let panels: [&[usize]; 4] = [&[0, 1], &[2, 3], &[2, 4], &[2, 4, 4]];
     let panels = panels.map(|numbers| {

@@ -2,6 +2,9 @@
 
 use estampe::{BindGroupError, BufferError, DeviceError, PipelineError, TextureError};
 use estampe_assets::AssetError;
+use estampe_shapes::expression::ExpressionError;
+use estampe_shapes::implicit::ImplicitError;
+use estampe_shapes::polygon::PolygonError;
 
 /// The reason why a rung has no picture.
 #[derive(Debug, thiserror::Error)]
@@ -39,6 +42,15 @@ pub enum LadderError {
         /// The system's reason.
         cause: std::io::Error,
     },
+    /// A function is not an expression.
+    #[error(transparent)]
+    Expression(#[from] ExpressionError),
+    /// An implicit function cannot be meshed.
+    #[error(transparent)]
+    Implicit(#[from] ImplicitError),
+    /// A polygon cannot be filled.
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
     /// The system starts no threads.
     #[error(transparent)]
     Device(#[from] DeviceError),

@@ -11,6 +11,7 @@
 //! | [`Model`] | positions, normals, texture coordinates, faces, a texture |
 //! | [`Picture`] | pixels; magnified, side by side, as a file |
 //! | [`Screen`], [`Faces`], [`Corner`] | the attachments, the model's buffer, and its vertices in shaders |
+//! | [`Lit`] | a shader for rungs whose subject is not shading |
 //! | [`Polygon`] | a convex polygon that is filled and split, without the pipeline |
 //! | [`RUNGS`], [`rung`] | the rungs, in order |
 //! | [`Sheet`] | all pictures on one page |
@@ -23,6 +24,7 @@ extern crate self as estampe_ladder;
 
 mod course;
 mod error;
+mod lit;
 mod model;
 mod picture;
 mod polygon;
@@ -38,6 +40,7 @@ struct Readme;
 
 pub use course::Course;
 pub use error::LadderError;
+pub use lit::Lit;
 pub use model::Model;
 pub use picture::{Color, Picture};
 pub use polygon::Polygon;

@@ -4,6 +4,7 @@ use crate::LadderError;
 use estampe_assets::{Limits, load_model};
 use estampe_renderer::transforms::round_to_f32;
 use estampe_scene::{Bounds, Image, Mesh, Scene};
+use estampe_shapes::ShapeMesh;
 use estampe_shapes::teapot::teapot;
 use glam::{DVec3, Vec2, Vec3};
 use std::path::Path;
@@ -43,16 +44,23 @@ impl Model {
         /// Cells along each side of the teapot's 32 patches.
         const CELLS: u32 = 6;
         /// cos and sin of the turn about the y axis.
-        const TURN: [f32; 2] = [0.96, 0.28];
-        let shape = teapot(CELLS);
-        let turned = |p: &Vec3| {
-            let [c, s] = TURN;
-            Vec3::new(c * p.x - s * p.z, p.y, s * p.x + c * p.z)
-        };
+        const TURN: [f32; 2] = [15.0 / 17.0, 8.0 / 17.0];
+        let mut teapot = teapot(CELLS);
+        let [c, s] = TURN;
+        for vector in teapot.positions.iter_mut().chain(&mut teapot.normals) {
+            let Vec3 { x, y, z } = *vector;
+            *vector = Vec3::new(c * x - s * z, y, s * x + c * z);
+        }
+        Self::of_shape(teapot)
+    }
+
+    /// A shape, moved and scaled as [`Model::of_scene`] does.
+    #[must_use]
+    pub fn of_shape(shape: ShapeMesh) -> Self {
         let mut model = Self::empty();
         model.append(&Mesh {
-            positions: shape.positions.iter().map(turned).collect(),
-            normals: shape.normals.iter().map(turned).collect(),
+            positions: shape.positions,
+            normals: shape.normals,
             uvs: shape.uvs,
             triangles: shape.triangles,
             ..Mesh::default()

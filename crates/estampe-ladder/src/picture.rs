@@ -7,7 +7,10 @@ use crate::LadderError;
 use estampe::{Device, Texture};
 use estampe_assets::image::{ImageFormat, encode, flip_vertical};
 use estampe_reference::bresenham;
+use estampe_reference::scan_conversion::bounding_box;
 use estampe_scene::Image;
+use estampe_shapes::curve::Curve;
+use glam::{Vec2, vec2};
 
 /// Red, green and blue, 0 to 255, as the file stores them.
 pub type Color = [u8; 3];
@@ -113,6 +116,42 @@ impl Picture {
             let rgba = &self.image.rgba;
             [rgba[at], rgba[at + 1], rgba[at + 2]]
         })
+    }
+
+    /// The pixel of a point of the square −1..1, with y up in both: (⌊(x + 1)·W/2⌋, ⌊(y + 1)·H/2⌋).
+    #[must_use]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "far points become far pixels"
+    )]
+    pub fn place(&self, point: Vec2) -> [i32; 2] {
+        let half = vec2(self.width() as f32, self.height() as f32) / 2.0;
+        let place = ((point + Vec2::ONE) * half).floor();
+        [place.x as i32, place.y as i32]
+    }
+
+    /// Draws the closed outline of a polygon, whose corners lie in the square −1..1.
+    pub fn outline(&mut self, corners: &[Vec2], color: Color) {
+        for (k, &from) in corners.iter().enumerate() {
+            let to = corners[(k + 1) % corners.len()];
+            self.line(self.place(from), self.place(to), color);
+        }
+    }
+
+    /// Draws x and y of a curve in the square −1..1.
+    pub fn curve(&mut self, curve: &Curve, color: Color) {
+        let (points, lines) = curve.lines();
+        for line in lines {
+            let [from, to] = line.map(|at| self.place(points[at as usize].truncate()));
+            self.line(from, to, color);
+        }
+    }
+
+    /// Fills a triangle, whose corners lie in the square −1..1, with its edges.
+    pub fn fill(&mut self, corners: [Vec2; 3], color: Color) {
+        for pixel in bounding_box::printed(corners.map(|corner| self.place(corner))) {
+            self.set(pixel, color);
+        }
     }
 
     /// The place of a pixel's bytes.

@@ -1,15 +1,19 @@
 //! The `main` of an example: arguments, a picture, a file.
 
 use crate::{Course, LadderError, Model, Picture, rung};
-use estampe_assets::image::ImageFormat;
+use estampe_assets::image::{ImageFormat, decode};
+use estampe_assets::{AssetError, Limits, read_stream};
+use estampe_scene::Image;
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Runs an example: draws the picture of a rung and writes it.
 ///
 /// The arguments are `-o FILE` (PNG, TGA or JPEG by its extension; default the rung's name with
-/// `.png`) and `--model FILE` (default the built-in model). Errors are printed as a sentence; the
-/// exit code is 1 if the picture could not be drawn or written, 2 if the arguments are wrong.
+/// `.png`), `--model FILE` and `--texture FILE` (default the built-in ones). Errors are printed
+/// as a sentence; the exit code is 1 if the picture could not be drawn or written, 2 if the
+/// arguments are wrong.
 #[must_use]
 pub fn run(number: u32, draw: fn(&Course) -> Result<Picture, LadderError>) -> ExitCode {
     let written = || -> Result<PathBuf, LadderError> {
@@ -17,6 +21,9 @@ pub fn run(number: u32, draw: fn(&Course) -> Result<Picture, LadderError>) -> Ex
         let mut course = Course::new()?;
         if let Some(path) = &arguments.model {
             course.model = Model::read(path)?;
+        }
+        if let Some(path) = &arguments.texture {
+            course.model.texture = read_texture(path)?;
         }
         let file = draw(&course)?.encode(arguments.format)?;
         write(&arguments.output, &file)?;
@@ -35,6 +42,16 @@ pub fn run(number: u32, draw: fn(&Course) -> Result<Picture, LadderError>) -> Ex
     }
 }
 
+fn read_texture(path: &Path) -> Result<Image, LadderError> {
+    let limits = Limits::default();
+    let name = path.display().to_string();
+    let bytes = File::open(path).and_then(|file| read_stream(file, &limits));
+    let bytes = bytes.map_err(|cause| {
+        AssetError::io(cause.to_string(), "check the path and its permissions").in_file(&name)
+    })?;
+    Ok(decode(&bytes, &limits).map_err(|error| error.in_file(&name))?)
+}
+
 fn write(path: &Path, bytes: &[u8]) -> Result<(), LadderError> {
     std::fs::write(path, bytes).map_err(|cause| LadderError::Write {
         path: path.display().to_string(),
@@ -48,6 +65,7 @@ struct Arguments {
     output: PathBuf,
     format: ImageFormat,
     model: Option<PathBuf>,
+    texture: Option<PathBuf>,
 }
 
 impl Arguments {
@@ -56,13 +74,17 @@ impl Arguments {
         mut words: impl Iterator<Item = std::ffi::OsString>,
     ) -> Result<Self, LadderError> {
         let mut output = PathBuf::from(format!("{}.png", rung(number)?.name));
-        let mut model = None;
-        let usage = || LadderError::Usage("the arguments are [-o FILE] [--model FILE]".to_owned());
+        let (mut model, mut texture) = (None, None);
+        let usage = || {
+            let arguments = "the arguments are [-o FILE] [--model FILE] [--texture FILE]";
+            LadderError::Usage(arguments.to_owned())
+        };
         while let Some(word) = words.next() {
             let value = words.next().map(PathBuf::from).ok_or_else(usage)?;
             match word.to_str() {
                 Some("-o") => output = value,
                 Some("--model") => model = Some(value),
+                Some("--texture") => texture = Some(value),
                 _ => return Err(usage()),
             }
         }
@@ -74,6 +96,7 @@ impl Arguments {
             output,
             format,
             model,
+            texture,
         })
     }
 }

@@ -44,6 +44,8 @@ pub mod ladder_19_visibility;
 pub mod ladder_20_transparency;
 #[path = "../../examples/ladder_21_stencil_logic.rs"]
 pub mod ladder_21_stencil_logic;
+#[path = "../../examples/ladder_23_shapes.rs"]
+pub mod ladder_23_shapes;
 
 use crate::{Course, LadderError, Picture};
 
@@ -187,6 +189,12 @@ pub const RUNGS: &[Rung] = &[
         name: "ladder_21_stencil_logic",
         title: "stencil and logic operations",
         draw: ladder_21_stencil_logic::draw,
+    },
+    Rung {
+        number: 23,
+        name: "ladder_23_shapes",
+        title: "shapes: explicit, parametric, implicit, polygons",
+        draw: ladder_23_shapes::draw,
     },
 ];
 
