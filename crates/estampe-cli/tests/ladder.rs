@@ -1,13 +1,14 @@
 //! `estampe ladder` end to end: the pictures' files, and the errors.
 
 #[path = "support/picture.rs"]
-#[allow(dead_code, reason = "other tests use the rest")]
 mod picture;
 mod support;
 
+use estampe::Level;
 use picture::Picture;
 use support::{Folder, TETRAHEDRON, estampe};
 
+/// Rows: L1.
 #[test]
 fn a_rung_is_a_picture_in_a_folder_that_is_made() {
     let folder = Folder::new();
@@ -31,6 +32,73 @@ fn a_model_replaces_the_built_in_one() {
     let colors = picture.color_count();
     assert_eq!((left, bottom), (400, 400), "the corner at the origin");
     assert!(right >= 799 && top <= 1 && (2..=5).contains(&colors));
+}
+
+/// Rows: L1.
+#[test]
+fn all_rungs_and_a_sheet() {
+    let folder = Folder::new();
+    let out = folder.path("out");
+    let run = estampe("ladder all -o {}", &[&out]);
+    assert_eq!((run.code, run.out.len(), run.err.as_str()), (0, 0, ""));
+    let names = std::fs::read_dir(&out).expect("the folder is made");
+    let names = names.map(|entry| entry.expect("readable").file_name());
+    let mut names: Vec<_> = names
+        .map(|name| name.into_string().expect("plain"))
+        .collect();
+    names.sort();
+    assert_eq!(names.len(), 23);
+    for (number, name) in (1..=21).chain([23]).zip(&names) {
+        assert!(name.starts_with(&format!("ladder_{number:02}_")), "{name}");
+    }
+    assert_eq!(names[22], "sheet.png");
+    let sheet = Picture::open(&out.join("sheet.png"));
+    assert_eq!((sheet.width, sheet.height), (6 * 208 - 8, 4 * 208 - 8));
+}
+
+#[test]
+fn a_texture_replaces_the_built_in_one() {
+    let folder = Folder::new();
+    let red = folder.path("red.png");
+    let cube = "render builtin:plane -o {} -q --view front --background ff0000 --size 2x2";
+    assert_eq!(estampe(cube, &[&red]).code, 0);
+    let out = folder.path("out");
+    let run = estampe("ladder 8 --texture {} -o {}", &[&red, &out]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let picture = Picture::open(&out.join("ladder_08_diffuse_texture.png"));
+    assert_eq!(picture.pixel(0, 0), [255, 0, 0, 255], "the texture itself");
+    let [r, g, b, _] = picture.pixel(808 + 400, 400);
+    assert!(r > 200 && g == 0 && b == 0, "the model");
+}
+
+/// A rung that sets pixels itself, one that the pipeline draws, one with several passes.
+///
+/// Rows: L1, U3.
+#[test]
+fn the_bytes_depend_on_neither_threads_nor_simd() {
+    let levels = Level::all_available();
+    assert!(levels.len() >= 2, "two levels are compared");
+    for (rung, name) in [
+        (7, "ladder_07_z_buffer.png"),
+        (13, "ladder_13_four_shaders.png"),
+        (21, "ladder_21_stencil_logic.png"),
+    ] {
+        let folder = Folder::new();
+        let mut files = Vec::new();
+        for level in [levels[0], levels[levels.len() - 1]] {
+            for threads in [1, 2, 7] {
+                let simd = level.name();
+                let out = folder.path(&format!("{simd}_{threads}"));
+                let words = format!("ladder {rung} -o {{}} -q --threads {threads} --simd {simd}");
+                let run = estampe(&words, &[&out]);
+                assert_eq!(run.code, 0, "{words}: {}", run.err);
+                files.push((words, std::fs::read(out.join(name)).expect("written")));
+            }
+        }
+        for (words, file) in &files {
+            assert!(*file == files[0].1, "{words} writes other bytes");
+        }
+    }
 }
 
 #[test]
@@ -66,6 +134,18 @@ fn wrong_rungs_models_and_folders_are_errors() {
             vec![&points, &out],
             1,
             "no triangles",
+        ),
+        (
+            "ladder 1 --texture {} -o {}",
+            vec![&missing, &out],
+            1,
+            "no such file",
+        ),
+        (
+            "ladder 1 --texture {} -o {}",
+            vec![&points, &out],
+            1,
+            "points.obj",
         ),
         ("ladder 1 -o {}", vec![&file], 3, "folder"),
     ] {

@@ -15,6 +15,7 @@
 //! | [`Polygon`] | a convex polygon that is filled and split, without the pipeline |
 //! | [`RUNGS`], [`rung`] | the rungs, in order |
 //! | [`Sheet`] | all pictures on one page |
+//! | [`mistakes`] | pictures of the formulas in which the course is mistaken |
 //! | [`run`] | the `main` of an example |
 //!
 //! The pictures of the rungs are in `docs/ladder.md`. Row L1 of `docs/PIPELINE.md` lists them.
@@ -25,6 +26,7 @@ extern crate self as estampe_ladder;
 mod course;
 mod error;
 mod lit;
+pub mod mistakes;
 mod model;
 mod picture;
 mod polygon;
