@@ -1,17 +1,16 @@
 //! Fragments: interpolation over a primitive, and the fragment shader on a 2×2 quad.
 //!
 //! In · Out: a primitive's interpolants and a quad · four colours and depths. Precision: f32 in the
-//! order of NUMERICS.md. The shader runs with `R = Quad`, so that its derivatives are differences
+//! order of NUMERICS.md. The shader runs on a whole quad, so that its derivatives are differences
 //! between lanes; helper invocations run as well. The point of the pixel at which each lane is
 //! evaluated: NUMERICS.md, *Multisampling*.
 
 use crate::arithmetic::{max, min};
+use crate::program::{QuadInput, ShadedFragment, Shaders};
 use crate::raster::{QuadCoverage, all_samples, sample_positions};
 use crate::setup::{Plane, SortedTriangle};
-use estampe_types::shader::{
-    DepthOutput, FragmentIn, Interpolation, Sampling, Shader, Source, Varyings,
-};
-use estampe_types::{Bindings, Interface, Quad, Real, Vec4};
+use estampe_types::Bindings;
+use estampe_types::shader::{DepthOutput, Interpolation, Sampling};
 
 /// The interpolants of a primitive: depth, 1/w and varyings at any pixel of the window.
 pub trait Surface {
@@ -128,21 +127,8 @@ impl Surface for TriangleSurface {
     }
 }
 
-/// A fragment after the fragment shader.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Fragment {
-    /// One colour for each target that the shader writes.
-    pub colors: Vec<[f32; 4]>,
-    /// The second colour of dual-source blending; zeros if the shader writes none.
-    pub second: [f32; 4],
-    /// The depth that the shader writes, clamped to the viewport's range; `None` if it declares no
-    /// depth output.
-    pub depth: Option<f32>,
-    /// The shader's sample mask; all ones if it writes none.
-    pub sample_mask: u16,
-    /// True if the shader discarded the fragment.
-    pub is_discarded: bool,
-}
+/// A fragment after the fragment shader; its depth is clamped to the viewport's range.
+pub type Fragment = ShadedFragment;
 
 /// A quad for one run of the fragment shader.
 #[derive(Debug, Clone, Copy)]
@@ -188,82 +174,62 @@ impl Invocation {
 }
 
 /// Shades the four fragments of a quad. `clamp_depth` clamps a depth to the viewport's range.
-pub fn shade_quad<S: Shader>(
-    shader: &S,
-    interface: &Interface,
+pub fn shade_quad(
+    shaders: &dyn Shaders,
     bindings: &Bindings,
-    surface: &impl Surface,
+    surface: &dyn Surface,
     invocation: &Invocation,
     clamp_depth: impl Fn(f32) -> f32,
 ) -> [Fragment; 4] {
-    let lanes = [0, 1, 2, 3];
-    let pixels = lanes.map(|lane| QuadCoverage::pixel(invocation.origin, lane));
+    let input = quad_input(shaders, bindings, surface, invocation, &clamp_depth);
+    let shaded = shaders.quad(&input);
+    shaded.map(|fragment| Fragment {
+        depth: fragment.depth.map(&clamp_depth),
+        ..fragment
+    })
+}
 
-    // Window positions. A shader that does not read them has no use for them.
-    let position = lanes.map(|lane| {
+/// The inputs of a quad's fragments: window positions, and each scalar of the varyings at the
+/// position of its sampling.
+pub fn quad_input<'a>(
+    shaders: &dyn Shaders,
+    bindings: &'a Bindings,
+    surface: &dyn Surface,
+    invocation: &Invocation,
+    clamp_depth: impl Fn(f32) -> f32,
+) -> QuadInput<'a> {
+    let lanes = [0, 1, 2, 3];
+    let interface = shaders.interface();
+    let pixels = lanes.map(|lane| QuadCoverage::pixel(invocation.origin, lane));
+    let positions = lanes.map(|lane| {
         let (pixel, place) = (pixels[lane], invocation.place(lane, Sampling::Center));
         let [x, y] = sample_window(pixel, place);
         let z = clamp_depth(surface.depth(pixel, place));
         [x, y, z, surface.inverse_w_at(pixel, place)]
     });
-    let read = |component: usize| Quad(position.map(|p| p[component]));
-    let sample_index = match invocation.sample {
-        Some(sample) if interface.per_sample => sample,
-        _ => 0,
-    };
-    let covered = |lane: usize| i32::from(invocation.samples_of(lane));
-    let input = FragmentIn {
-        position: Vec4::new(read(0), read(1), read(2), read(3)),
-        front_facing: Quad([invocation.front_facing; 4]),
-        is_helper: Quad(lanes.map(|lane| invocation.samples_of(lane) == 0)),
-        sample_index: Quad([sample_index.cast_signed(); 4]),
-        coverage: Quad(lanes.map(covered)),
+    let varyings = lanes.map(|lane| {
+        let at = |sampling| surface.varyings_at(pixels[lane], invocation.place(lane, sampling));
+        let (center, centroid) = (at(Sampling::Center), at(Sampling::Centroid));
+        let scalar = |k: usize| match interface.sampling.get(k) {
+            Some(Sampling::Centroid) => centroid[k],
+            // A `Sample` varying makes shading run per sample; all positions are then that
+            // sample's.
+            Some(Sampling::Center | Sampling::Sample) | None => center[k],
+        };
+        (0..interface.varyings.len()).map(scalar).collect()
+    });
+    QuadInput {
+        positions,
+        front_facing: invocation.front_facing,
+        is_helper: lanes.map(|lane| invocation.samples_of(lane) == 0),
+        sample_index: match invocation.sample {
+            Some(sample) if interface.per_sample => sample,
+            _ => 0,
+        },
+        coverage: lanes.map(|lane| invocation.samples_of(lane)),
+        varyings,
         bindings,
-        zero: Quad([0.0; 4]),
-    };
-
-    // Interpolate each scalar at the position of its sampling.
-    let mut samplings = Vec::new();
-    S::Varyings::<f32>::sampling(&mut samplings);
-    let mut varyings = QuadScalars {
-        lanes: lanes.map(|lane| {
-            let at = |sampling| surface.varyings_at(pixels[lane], invocation.place(lane, sampling));
-            let (center, centroid) = (at(Sampling::Center), at(Sampling::Centroid));
-            let scalar = |(k, sampling): (usize, &Sampling)| match sampling {
-                Sampling::Centroid => centroid[k],
-                // A `Sample` varying makes shading run per sample; all positions are then that
-                // sample's.
-                Sampling::Center | Sampling::Sample => center[k],
-            };
-            let scalars: Vec<f32> = samplings.iter().enumerate().map(scalar).collect();
-            scalars.into_iter()
-        }),
-    };
-    let output = shader.fragment(input, S::Varyings::load(&mut varyings));
-
-    // Split the shader's output into lanes.
-    let color_at = |color: Option<Vec4<Quad>>, lane: usize| match color {
-        Some(c) => [c.x, c.y, c.z, c.w].map(|channel| channel.lane(lane)),
-        None => [0.0; 4],
-    };
-    lanes.map(|lane| Fragment {
-        colors: (0..interface.color_targets)
-            .map(|target| color_at(output.color_of(target), lane))
-            .collect(),
-        second: color_at(output.second_color(), lane),
-        depth: match interface.depth_output {
-            DepthOutput::None => None,
-            _ => {
-                let depth = output.depth().unwrap_or(input.position.z);
-                Some(clamp_depth(depth.lane(lane)))
-            }
-        },
-        sample_mask: match output.sample_mask() {
-            Some(mask) => low_bits(mask.0[lane]),
-            None => u16::MAX,
-        },
-        is_discarded: output.kept().is_some_and(|kept| !kept.0[lane]),
-    })
+    }
 }
 
 /// A fragment's depth at a sample: the interpolated depth, or the shader's, limited as its depth
@@ -275,26 +241,5 @@ pub fn sample_depth(output: DepthOutput, written: Option<f32>, interpolated: f32
         (DepthOutput::Any, Some(depth)) => depth,
         (DepthOutput::Greater, Some(depth)) => max(depth, interpolated),
         (DepthOutput::Less, Some(depth)) => min(depth, interpolated),
-    }
-}
-
-/// The low 16 bits: pixels have at most 16 samples.
-fn low_bits(mask: i32) -> u16 {
-    let [low, high, ..] = mask.to_le_bytes();
-    u16::from_le_bytes([low, high])
-}
-
-/// The scalars of four lanes as a source of quads.
-struct QuadScalars {
-    lanes: [std::vec::IntoIter<f32>; 4],
-}
-
-impl Source<Quad> for QuadScalars {
-    fn take(&mut self) -> Quad {
-        Quad(
-            self.lanes
-                .each_mut()
-                .map(|lane| lane.next().unwrap_or_default()),
-        )
     }
 }

@@ -37,7 +37,8 @@
 //! [`depth_bias`], [`conservative`] (conservative rasterization), [`bresenham`] (integer lines) and
 //! [`scan_conversion`] (triangles) in the textbook forms, and [`exact`], the formulas in f64 with
 //! bounds for the error of the f32 ones. [`transfer`] has what happens to images outside of draws:
-//! copies, clears, mip levels and blits.
+//! copies, clears, mip levels and blits. [`program`] runs shaders, [`observer`] is told what happens
+//! to a primitive: `estampe inspect` stands on it.
 //!
 //! # What the core and the oracle share
 //!
@@ -80,9 +81,11 @@ pub mod fetch;
 pub mod fragment;
 pub mod line;
 pub mod logic;
+pub mod observer;
 pub mod per_sample;
 mod pipeline;
 pub mod point;
+pub mod program;
 pub mod raster;
 pub mod rectangle;
 pub mod scan_conversion;
@@ -97,11 +100,11 @@ pub mod texture;
 pub mod transfer;
 pub mod viewport;
 
-pub use pipeline::{Counts, Draw, State, TargetState, draw};
+pub use pipeline::{Counts, Draw, State, TargetState, draw, draw_observed};
 pub use shading::ClipVertex;
-pub use target::Target;
+pub use target::{StoredSample, Target};
 pub use texture::ReferenceTexture;
-pub use viewport::WindowVertex;
+pub use viewport::{PixelBounds, WindowVertex};
 
 #[cfg(test)]
 mod tests;

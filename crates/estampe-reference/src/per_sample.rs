@@ -38,8 +38,21 @@ pub fn alpha_coverage(alpha: f32, samples: u32) -> u16 {
     (0..count).fold(0, |mask, sample| mask | 1 << sample)
 }
 
-/// Tests one sample of a fragment, stores its results, and returns whether it passed. `index` is
-/// the sample's element in the attachments, see [`Target::index`].
+/// The test that a sample of a fragment failed, in the order of the tests, or none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// The stored depth lies outside of the depth bounds.
+    DepthBounds,
+    /// The stencil test failed.
+    Stencil,
+    /// The stencil test passed, and the depth test failed.
+    Depth,
+    /// Every test passed; depth and colours were stored.
+    Passed,
+}
+
+/// Tests one sample of a fragment, and stores its results. `index` is the sample's element in the
+/// attachments, see [`Target::index`].
 pub fn store_sample(
     target: &mut Target,
     index: usize,
@@ -47,14 +60,14 @@ pub fn store_sample(
     face: Face,
     depth: f32,
     fragment: &Fragment,
-) -> bool {
+) -> Outcome {
     let has_depth = !target.depth.is_empty();
     let has_stencil = !target.stencil.is_empty();
 
     if let (Some([least, greatest]), true) = (state.depth_bounds, has_depth) {
         let stored = target.depth[index];
         if !(least <= stored && stored <= greatest) {
-            return false;
+            return Outcome::DepthBounds;
         }
     }
 
@@ -76,8 +89,11 @@ pub fn store_sample(
         }
         _ => true,
     };
-    if !(stencil_passes && depth_passes) {
-        return false;
+    if !stencil_passes {
+        return Outcome::Stencil;
+    }
+    if !depth_passes {
+        return Outcome::Depth;
     }
     if has_depth && state.depth.is_some_and(|test| test.write_enabled) {
         target.depth[index] = depth;
@@ -85,7 +101,7 @@ pub fn store_sample(
     for attachment in 0..target.color_formats.len() {
         store_color(target, attachment, index, state, fragment);
     }
-    true
+    Outcome::Passed
 }
 
 fn store_color(

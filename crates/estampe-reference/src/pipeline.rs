@@ -6,14 +6,17 @@ use crate::conservative;
 use crate::cull::{Face, face, is_culled};
 use crate::fragment::{Invocation, Surface, TriangleSurface, sample_depth, shade_quad};
 use crate::line::{LinePath, LineSurface};
+use crate::observer::{Assembled, FragmentEvent, Observer, SampleEvent};
+use crate::per_sample::Outcome;
 use crate::point::{self, PointSurface};
+use crate::program::{RustShaders, Shaders};
 use crate::raster::{self, QuadCoverage, all_samples, sample_positions};
 use crate::rectangle::{LineRectangle, RectangleSurface};
 use crate::setup::SortedTriangle;
 use crate::shading::shade_vertex;
 use crate::viewport::{PixelBounds, ViewportSamples, ViewportTransform, is_drawable};
 use crate::{ClipVertex, Target, WindowVertex, depth_bias, fetch, per_sample};
-use estampe_types::shader::{Shader, interface_of};
+use estampe_types::shader::Shader;
 use estampe_types::state::{
     BlendState, ColorWrites, ConservativeMode, DepthBiasState, DepthState, LineRasterization,
     LineStipple, LogicOperation, PolygonMode, PrimitiveState, PrimitiveTopology, ProvokingVertex,
@@ -174,20 +177,33 @@ pub struct Counts {
 /// Its time is proportional to the vertex and instance
 /// ranges, however large.
 pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Draw<'_>) -> Counts {
+    match RustShaders::new(shader) {
+        Ok(shaders) => draw_observed(target, &shaders, state, draw, &mut ()),
+        Err(_) => Counts::default(),
+    }
+}
+
+/// Draws with any shaders into the stored pixels of a target, and tells an observer what happens.
+pub fn draw_observed(
+    target: &mut Target,
+    shaders: &dyn Shaders,
+    state: &State,
+    draw: &Draw<'_>,
+    observer: &mut dyn Observer,
+) -> Counts {
     if !is_drawable(&state.viewport) {
         return Counts::default();
     }
     let size = [target.width, target.height];
-    let bounds = PixelBounds::new(&state.viewport, &state.scissor, size, target.samples);
+    let bounds = PixelBounds::new(&state.viewport, &state.scissor, size, target.samples)
+        .intersection(target.stored());
     if bounds.x.is_empty() || bounds.y.is_empty() {
         return Counts::default();
     }
-    let Ok(interface) = interface_of(shader) else {
-        return Counts::default();
-    };
+    let interface = shaders.interface();
     let mut pass = Pass {
         target,
-        shader,
+        shaders,
         state,
         bindings: draw.bindings,
         viewport: ViewportTransform::new(&state.viewport)
@@ -195,9 +211,10 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
         bounds,
         viewport_samples: ViewportSamples::new(&state.viewport),
         is_by_sample: state.sample_shading || interface.per_sample,
-        interface: &interface,
+        interface,
         stipple: 0,
         counts: Counts::default(),
+        observer,
     };
     let count = draw.vertices.end.saturating_sub(draw.vertices.start);
     let runs = match draw.indices {
@@ -206,17 +223,16 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
     };
     for instance in draw.instances.clone() {
         for run in &runs {
-            let shade = |at: u32| shade_vertex(shader, &interface, draw, run.start + at, instance);
-            pass.run(run.end - run.start, shade);
+            pass.run(draw, run, instance);
         }
     }
     pass.counts
 }
 
 /// The state that all primitives of a draw share.
-struct Pass<'a, S> {
+struct Pass<'a> {
     target: &'a mut Target,
-    shader: &'a S,
+    shaders: &'a dyn Shaders,
     state: &'a State,
     bindings: &'a Bindings,
     viewport: ViewportTransform,
@@ -228,6 +244,7 @@ struct Pass<'a, S> {
     /// columns for Bresenham lines, in 1/65536 pixel for rectangular ones.
     stipple: u64,
     counts: Counts,
+    observer: &'a mut dyn Observer,
 }
 
 /// In polygon modes line and point, the triangle to which a line or point belongs.
@@ -239,34 +256,50 @@ struct Parent<'a> {
     bias: Option<f32>,
 }
 
-impl<S: Shader> Pass<'_, S> {
-    /// Draws the primitives of `count` consecutive vertices without a restart between them.
-    fn run(&mut self, count: u32, shade: impl Fn(u32) -> ClipVertex) {
+impl Pass<'_> {
+    /// Draws the primitives of a run of consecutive vertices without a restart between them.
+    fn run(&mut self, draw: &Draw<'_>, run: &Range<u32>, instance: u32) {
         let PrimitiveState {
             topology,
             provoking_vertex: mode,
             ..
         } = self.state.primitive;
-        for (index, primitive) in primitives(topology, count).enumerate() {
+        let shaders = self.shaders;
+        let shade = |at: u32| shade_vertex(shaders, draw, run.start + at, instance);
+        for (index, primitive) in primitives(topology, run.end - run.start).enumerate() {
+            let number = self.counts.primitives;
             self.counts.primitives += 1;
+            let mut observe = |positions: &[u32], vertices: &[ClipVertex]| {
+                let positions: Vec<u32> = positions.iter().map(|at| run.start + at).collect();
+                self.observer.primitive(&Assembled {
+                    number,
+                    instance,
+                    positions: &positions,
+                    vertices,
+                });
+            };
             match primitive {
                 Primitive::Point(at) => {
                     let vertex = shade(at);
+                    observe(&[at], std::slice::from_ref(&vertex));
                     if !is_distant(std::slice::from_ref(&vertex)) {
                         self.point(&vertex, None);
                     }
                 }
                 Primitive::Line(at) => {
+                    let ends = at.map(&shade);
+                    observe(&at, &ends);
                     if index == 0 || !is_line_strip(topology) {
                         self.stipple = 0;
                     }
-                    let ends = at.map(&shade);
                     if !is_distant(&ends) {
                         self.line(&ends, None);
                     }
                 }
                 Primitive::Triangle(at) => {
-                    let corners = turned(topology, mode, index, at).map(&shade);
+                    let at = turned(topology, mode, index, at);
+                    let corners = at.map(&shade);
+                    observe(&at, &corners);
                     if !is_distant(&corners) {
                         self.triangle(&corners);
                     }
@@ -286,7 +319,7 @@ impl<S: Shader> Pass<'_, S> {
             };
             let is_culled = is_culled(face, self.state.primitive.cull_mode);
             match mode {
-                PolygonMode::Fill if is_culled => {}
+                PolygonMode::Fill if is_culled => self.observer.culled(&placed, face),
                 PolygonMode::Fill => self.filled(placed, face, &flat),
                 // The first piece with an area gives the facing of the whole triangle; its edges
                 // and vertices are then clipped separately.
@@ -312,6 +345,7 @@ impl<S: Shader> Pass<'_, S> {
 
     /// Draws one piece of a clipped triangle.
     fn filled(&mut self, vertices: [WindowVertex; 3], face: Face, flat: &[f32]) {
+        let vertices_given = vertices.clone();
         let Some(sorted) = SortedTriangle::new(vertices) else {
             return;
         };
@@ -320,6 +354,7 @@ impl<S: Shader> Pass<'_, S> {
         if let Some(bias) = self.bias(&sorted) {
             surface.depth.value += bias;
         }
+        self.observer.piece(&vertices_given, face);
         let (corners, samples) = (sorted.corners(), self.target.samples);
         let quads = match self.state.primitive.conservative {
             ConservativeMode::Disabled => raster::triangle(corners, &self.bounds, samples),
@@ -350,6 +385,8 @@ impl<S: Shader> Pass<'_, S> {
             .each_ref()
             .map(|vertex| moved(self.viewport.place(vertex), parent));
         self.counts.rasterized += 1;
+        self.observer
+            .piece(&[start.clone(), end.clone()], face_of(parent));
         let provoking = match self.state.primitive.provoking_vertex {
             ProvokingVertex::First => &ends[0],
             ProvokingVertex::Last => &ends[1],
@@ -434,6 +471,8 @@ impl<S: Shader> Pass<'_, S> {
         }
         self.counts.rasterized += 1;
         let placed = moved(self.viewport.place(vertex), parent);
+        self.observer
+            .piece(std::slice::from_ref(&placed), face_of(parent));
         let samples = self.target.samples;
         let cover = if self.state.primitive.round_points {
             point::cover_round
@@ -451,7 +490,7 @@ impl<S: Shader> Pass<'_, S> {
     }
 
     /// Shades quads, per pixel or per sample.
-    fn fragments(&mut self, quads: &[QuadCoverage], surface: &impl Surface, face: Face) {
+    fn fragments(&mut self, quads: &[QuadCoverage], surface: &dyn Surface, face: Face) {
         let samples = self.target.samples;
         let inside = self.viewport_samples.clone();
         let kept = |pixel: [u32; 2], covered: u16| {
@@ -489,22 +528,15 @@ impl<S: Shader> Pass<'_, S> {
 
     /// Runs the fragment shader once on a quad, unless no sample of it is covered, and passes the
     /// results to the per-sample operations.
-    fn shade(&mut self, invocation: &Invocation, surface: &impl Surface, face: Face) {
+    fn shade(&mut self, invocation: &Invocation, surface: &dyn Surface, face: Face) {
         let kept = [0, 1, 2, 3].map(|lane| invocation.samples_of(lane));
         if kept == [0; 4] {
             return;
         }
         let viewport = self.viewport;
         let clamp_depth = |depth| viewport.clamp_depth(depth);
-        let (shader, interface) = (self.shader, self.interface);
-        let shaded = shade_quad(
-            shader,
-            interface,
-            self.bindings,
-            surface,
-            invocation,
-            clamp_depth,
-        );
+        let (shaders, interface) = (self.shaders, self.interface);
+        let shaded = shade_quad(shaders, self.bindings, surface, invocation, clamp_depth);
         for (lane, mut fragment) in shaded.into_iter().enumerate() {
             let pixel = QuadCoverage::pixel(invocation.origin, lane);
             if let Some(factor) = surface.alpha(pixel) {
@@ -516,10 +548,24 @@ impl<S: Shader> Pass<'_, S> {
             let covered = kept[lane];
             self.counts.fragments += u64::from(covered != 0);
             self.counts.samples_covered += u64::from(covered.count_ones());
-            if fragment.is_discarded {
-                continue;
+            let stored = if fragment.is_discarded {
+                0
+            } else {
+                covered & per_sample::kept_samples(fragment, self.state, self.target)
+            };
+            if covered != 0 {
+                self.observer.fragment(&FragmentEvent {
+                    pixel,
+                    lane,
+                    invocation,
+                    covered,
+                    stored,
+                    surface,
+                    bindings: self.bindings,
+                    clamp_depth: &clamp_depth,
+                    fragment,
+                });
             }
-            let stored = covered & per_sample::kept_samples(fragment, self.state, self.target);
             for (s, &sample) in (0u32..).zip(sample_positions(invocation.samples)) {
                 if stored >> s & 1 == 0 {
                     continue;
@@ -527,9 +573,22 @@ impl<S: Shader> Pass<'_, S> {
                 let interpolated = clamp_depth(surface.depth(pixel, sample));
                 let depth = sample_depth(interface.depth_output, fragment.depth, interpolated);
                 let index = self.target.index(pixel, s);
-                let passed =
+                let before = self
+                    .observer
+                    .wants(pixel)
+                    .then(|| self.target.sample(index));
+                let outcome =
                     per_sample::store_sample(self.target, index, self.state, face, depth, fragment);
-                self.counts.samples_passed += u64::from(passed);
+                if let Some(before) = before {
+                    self.observer.sample(SampleEvent {
+                        sample: s,
+                        depth: self.target.quantised(depth),
+                        outcome,
+                        before,
+                        after: self.target.sample(index),
+                    });
+                }
+                self.counts.samples_passed += u64::from(outcome == Outcome::Passed);
             }
         }
     }

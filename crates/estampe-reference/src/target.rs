@@ -3,6 +3,7 @@
 use crate::channel::{clear_depth, quantised_depth};
 use crate::color::{self, Codes};
 use crate::raster::sample_positions;
+use crate::viewport::PixelBounds;
 use estampe_types::TextureFormat;
 
 /// The greatest width and height, in pixels.
@@ -10,8 +11,8 @@ const MAX_DIMENSION: u32 = 16_384;
 
 /// Attachments of one size and one number of samples per pixel.
 ///
-/// In each of them, sample s of pixel (x, y) is element `(y * width + x) * samples + s`: see
-/// [`Target::index`].
+/// In each of them, sample s of pixel (x, y) is element `(y * width + x) * samples + s`, counted in
+/// the pixels that are stored: see [`Target::index`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Target {
     /// Width in pixels.
@@ -31,6 +32,19 @@ pub struct Target {
     pub depth: Vec<f32>,
     /// The stored stencil values; empty without a stencil attachment.
     pub stencil: Vec<u8>,
+    /// The pixels that are stored.
+    stored: PixelBounds,
+}
+
+/// The stored values of one sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredSample {
+    /// The codes R, G, B, A of each colour attachment.
+    pub colors: Vec<Codes>,
+    /// The depth, as f32 in every format; `None` without a depth attachment.
+    pub depth: Option<f32>,
+    /// The stencil value; `None` without a stencil attachment.
+    pub stencil: Option<u8>,
 }
 
 impl Target {
@@ -51,8 +65,25 @@ impl Target {
         depth_stencil: Option<TextureFormat>,
     ) -> Self {
         let [width, height] = size.map(|along| along.min(MAX_DIMENSION));
+        let stored = PixelBounds {
+            x: 0..width,
+            y: 0..height,
+        };
+        Self::of_part(size, samples, color_formats, depth_stencil, stored)
+    }
+
+    /// Attachments of which only some pixels are stored; no others may be drawn to or read.
+    #[must_use]
+    pub fn of_part(
+        size: [u32; 2],
+        samples: u32,
+        color_formats: &[TextureFormat],
+        depth_stencil: Option<TextureFormat>,
+        stored: PixelBounds,
+    ) -> Self {
+        let [width, height] = size.map(|along| along.min(MAX_DIMENSION));
         let per_pixel = sample_positions(samples).len();
-        let len = width as usize * height as usize * per_pixel;
+        let len = stored.x.len() * stored.y.len() * per_pixel;
         let has = |what: fn(TextureFormat) -> bool| usize::from(depth_stencil.is_some_and(what));
         Self {
             width,
@@ -63,6 +94,7 @@ impl Target {
             color: vec![[0; 4]; len * color_formats.len()],
             depth: vec![1.0; len * has(TextureFormat::has_depth)],
             stencil: vec![0; len * has(TextureFormat::has_stencil)],
+            stored,
         }
     }
 
@@ -99,7 +131,20 @@ impl Target {
     /// for attachment 0, [`Target::color`].
     #[must_use]
     pub fn index(&self, [x, y]: [u32; 2], sample: u32) -> usize {
-        (y as usize * self.width as usize + x as usize) * self.samples as usize + sample as usize
+        let (column, row) = (x - self.stored.x.start, y - self.stored.y.start);
+        let pixel = row as usize * self.stored.x.len() + column as usize;
+        pixel * self.samples as usize + sample as usize
+    }
+
+    /// The stored values of the sample at an [index](Target::index).
+    #[must_use]
+    pub fn sample(&self, index: usize) -> StoredSample {
+        let colors = (0..self.color_formats.len()).map(|at| self.color[at * self.len() + index]);
+        StoredSample {
+            colors: colors.collect(),
+            depth: self.depth.get(index).copied(),
+            stencil: self.stencil.get(index).copied(),
+        }
     }
 
     /// A depth as the depth attachment stores it; unchanged without a depth attachment.
@@ -134,10 +179,16 @@ impl Target {
             .collect()
     }
 
+    /// The pixels that are stored: all, unless the target was made of a part.
+    #[must_use]
+    pub fn stored(&self) -> &PixelBounds {
+        &self.stored
+    }
+
     /// The number of samples of an attachment.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.width as usize * self.height as usize * self.samples as usize
+        self.stored.x.len() * self.stored.y.len() * self.samples as usize
     }
 
     /// Returns true if the target has no samples.

@@ -189,6 +189,19 @@ impl PixelBounds {
         }
     }
 
+    /// The pixels of both rectangles.
+    #[must_use]
+    pub fn intersection(&self, other: &Self) -> Self {
+        let both = |a: &Range<u32>, b: &Range<u32>| {
+            let start = a.start.max(b.start);
+            start..a.end.min(b.end).max(start)
+        };
+        Self {
+            x: both(&self.x, &other.x),
+            y: both(&self.y, &other.y),
+        }
+    }
+
     /// Returns true if a pixel lies inside.
     #[must_use]
     pub fn contains(&self, [x, y]: [i64; 2]) -> bool {

@@ -4,6 +4,7 @@ use crate::Random;
 use crate::case::Case;
 use crate::expected_paths::ExpectedPaths;
 use crate::fast_path::{self, Drawn, all_devices, some_devices};
+use crate::inspection;
 use crate::oracle::{self, Image};
 use estampe::{Device, Statistics, TilePath};
 use estampe_types::state::PrimitiveTopology;
@@ -128,7 +129,29 @@ fn compare(case: &Case, devices: &[&Device], statistics: &mut Statistics) -> Res
             return Err(difference(case, device, &image, &wanted));
         }
     }
+    if let Some(device) = devices.first() {
+        inspect_one(device, case, &wanted)?;
+    }
     Ok(wanted)
+}
+
+/// Inspects a pixel: one in the middle, or the first one that is not as the first pixel is.
+fn inspect_one(device: &Device, case: &Case, image: &Image) -> Result<(), String> {
+    let [width, height] = case.size;
+    let texels = image.stored.texels.first().unwrap_or(&image.color);
+    let pixels = width as usize * height as usize;
+    let each = (texels.len() / pixels.max(1)).max(1);
+    let mut colors = texels.chunks(each);
+    let first = colors.next();
+    let shown = colors.rposition(|color| Some(color) != first);
+    let at = shown.map_or(pixels / 2, |at| at + 1);
+    let [x, y] = [at % width as usize, at / width as usize];
+    let pixel = [x, y].map(|at| u32::try_from(at).unwrap_or(u32::MAX));
+    let told = inspection::check_pixel(device, case, image, pixel);
+    told.map(drop).map_err(|difference| {
+        let device = fast_path::name(device);
+        format!("{device}: the history of pixel {pixel:?}: {difference}")
+    })
 }
 
 fn difference(case: &Case, device: &Device, got: &Image, wanted: &Image) -> String {

@@ -116,6 +116,20 @@ pub(crate) fn draw_pass(
     (draws, first_draw): (&[CaseDraw], usize),
     pass: RenderPass<'_>,
 ) -> Statistics {
+    with_pass(device, case, (draws, first_draw), pass, |pass| {
+        device.render(pass).expect("a pass that fits its target")
+    })
+}
+
+/// Lets `use_pass` use a pass with these draws; the number is the index of the first one in the
+/// case.
+pub(crate) fn with_pass<T>(
+    device: &Device,
+    case: &Case,
+    (draws, first_draw): (&[CaseDraw], usize),
+    pass: RenderPass<'_>,
+    use_pass: impl FnOnce(&RenderPass<'_>) -> T,
+) -> T {
     let first_draw = u32::try_from(first_draw).expect("few draws");
     let pipelines: Vec<_> = draws
         .iter()
@@ -150,7 +164,7 @@ pub(crate) fn draw_pass(
         draws: &commands,
         ..pass
     };
-    device.render(&pass).expect("a pass that fits its target")
+    use_pass(&pass)
 }
 
 /// The buffers and bind groups of a draw.

@@ -12,6 +12,8 @@
 //!                                       └▶ fast_path ─┘
 //! ```
 //!
+//! Of each case, [`inspection`] compares the history of a pixel with the image too.
+//!
 //! The topics are the files of `tests`. A topic can name the [tile paths](ExpectedPaths) that its
 //! cases must reach. Two environment variables change a run: `ESTAMPE_TEST_FACTOR=20` draws twenty
 //! times as many cases, each on every level at every number of threads; `ESTAMPE_TEST_SEED=7` draws
@@ -24,6 +26,7 @@ pub mod fast_path;
 pub mod fragment_ops;
 pub mod fuzz;
 pub mod geometry;
+pub mod inspection;
 pub mod mixed_draws;
 pub mod oracle;
 pub mod random;

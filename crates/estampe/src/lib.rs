@@ -45,6 +45,7 @@ mod buffer;
 mod command;
 mod copy;
 mod device;
+mod inspect;
 mod pass;
 #[cfg(feature = "png")]
 mod png_file;
@@ -103,6 +104,10 @@ pub use estampe_types::{
     TexelEncoding, TextureAspect, TextureDimension, TextureFormat, Varyings, Vec2, Vec3, Vec4,
     VertexEncoding, VertexFormat, VertexIn, ViewDimension, attributes, maths, operand, shader,
     state, varyings, vec2, vec3, vec4,
+};
+pub use inspect::{
+    FragmentRecord, InspectError, InspectedVertex, PieceVertex, PixelHistory, PrimitiveKind,
+    PrimitiveRecord, SampleRecord, SampleValues, TestOutcome,
 };
 pub use pass::{
     AspectOperations, ColorAttachment, DepthStencilAttachment, DepthStencilResolve, Draw,

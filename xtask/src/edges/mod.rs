@@ -21,9 +21,11 @@ const CRATES: &[(&str, &[&str])] = &[
         "estampe-core",
         &["estampe-types", "estampe-simd", "estampe-format"],
     ),
+    // `Device::inspect` runs a pass with the oracle, for one pixel.
     (
         "estampe",
         &[
+            "estampe-reference",
             "estampe-types",
             "estampe-simd",
             "estampe-format",

@@ -4,7 +4,7 @@
 use super::*;
 use crate::cull::Face;
 use crate::fragment::{Fragment, sample_depth};
-use crate::per_sample::{alpha_coverage, kept_samples, store_sample};
+use crate::per_sample::{Outcome, alpha_coverage, kept_samples, store_sample};
 use TextureFormat as F;
 use estampe_types::shader::DepthOutput;
 
@@ -52,9 +52,9 @@ fn stencil_operations_depend_on_the_first_failing_test() {
     let mut store = |face, depth, stencil: u8, state: &State| {
         target.clear([0.0; 4], 0.5);
         target.clear_stencil(stencil);
-        let passed = store_sample(&mut target, 0, state, face, depth, &fragment([1.0; 4]));
+        let outcome = store_sample(&mut target, 0, state, face, depth, &fragment([1.0; 4]));
         (
-            passed,
+            outcome == Outcome::Passed,
             target.stencil[0],
             target.depth[0],
             target.color[0][0],
@@ -178,7 +178,7 @@ fn depths_are_compared_as_the_format_holds_them() {
             Face::Front,
             depth,
             &fragment([0.0; 4]),
-        )
+        ) == Outcome::Passed
     };
     assert!(passes(CompareFunction::Equal, near));
     assert!(!passes(CompareFunction::Greater, near));

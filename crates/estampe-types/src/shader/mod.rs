@@ -26,8 +26,9 @@ pub use interface::{DepthOutput, Interface, Interpolation, Sampling};
 pub use varyings::{Attributes, Centroid, Flat, NoPerspective, PerSample, Sink, Source, Varyings};
 pub use vertex::{MAX_DISTANCES, VertexBatch, VertexIn, VertexOut};
 
+pub use estampe_simd::{LANES, Level, Packet};
+
 use crate::{Bindings, Real, Vec2, Vec4};
-use estampe_simd::Level;
 
 /// A vertex and a fragment shader in Rust.
 ///

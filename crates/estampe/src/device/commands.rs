@@ -3,8 +3,9 @@
 use super::Device;
 use crate::texture::{self, TexelCopyLayout, Texture, TextureCopy};
 use crate::{
-    BlitError, BlitRegion, Buffer, Command, CopyError, Extent3d, FilterMode, RenderPass,
-    RenderPassError, Statistics, SubmitError, TextureError, TextureView, blit, command, copy, pass,
+    BlitError, BlitRegion, Buffer, Command, CopyError, Extent3d, FilterMode, InspectError,
+    PixelHistory, RenderPass, RenderPassError, Statistics, SubmitError, TextureError, TextureView,
+    blit, command, copy, inspect, pass,
 };
 
 impl Device {
@@ -15,6 +16,42 @@ impl Device {
     /// sides; nothing is drawn or cleared then.
     pub fn render(&self, pass: &RenderPass<'_>) -> Result<Statistics, RenderPassError> {
         pass::render(self, pass)
+    }
+
+    /// The history of one pixel (column and row, from the top left) in a pass: every primitive that
+    /// covers it, with its vertices, edge functions, depth and varyings as interpolated, the
+    /// shader's result, the outcome of each sample's tests, and the stored values before and after.
+    ///
+    /// The pass is run with the reference pipeline, one primitive after the other. The history ends
+    /// with the pixel that [`render`](Self::render) draws, bit for bit; nothing is drawn or stored.
+    /// It takes about a microsecond for each vertex that a primitive names.
+    ///
+    /// ```
+    /// use estampe::{ColorAttachment, Device, DeviceDescriptor, RenderPass};
+    /// use estampe::{TextureDescriptor, TextureFormat};
+    ///
+    /// let device = Device::new(&DeviceDescriptor::default())?;
+    /// let descriptor = TextureDescriptor::new_2d(4, 4, TextureFormat::Rgba8Unorm);
+    /// let image = device.create_texture(&descriptor)?;
+    /// let pass = RenderPass {
+    ///     color_attachments: &[Some(ColorAttachment::clear(&image.view(), [1.0, 0.5, 0.0, 1.0]))],
+    ///     ..RenderPass::default()
+    /// };
+    /// let history = device.inspect(&pass, [2, 3])?;
+    /// assert!(history.primitives.is_empty());
+    /// assert_eq!(history.texels, [Some(vec![255, 128, 0, 255])]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`InspectError`] if the pass does not fit, as of [`render`](Self::render); if the pixel lies
+    /// outside; or if shaders store, so that all pixels are drawn, and these are too many.
+    pub fn inspect(
+        &self,
+        pass: &RenderPass<'_>,
+        pixel: [u32; 2],
+    ) -> Result<PixelHistory, InspectError> {
+        inspect::inspect(self, pass, pixel)
     }
 
     /// Runs commands in order, after all of them were checked. Returns the sum of the passes'

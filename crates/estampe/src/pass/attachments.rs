@@ -8,7 +8,7 @@ use estampe_types::TextureFormat;
 
 /// The role of an image, as messages name it.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Role {
+pub(crate) enum Role {
     Color(usize),
     DepthStencil,
     ResolveOfColor(usize),
@@ -32,28 +32,28 @@ impl std::fmt::Display for Role {
 
 /// One image that a pass writes or tests.
 #[derive(Debug, Clone)]
-pub(super) struct Use<'a> {
-    pub(super) view: &'a TextureView,
-    pub(super) key: ImageKey,
-    pub(super) role: Role,
+pub(crate) struct Use<'a> {
+    pub(crate) view: &'a TextureView,
+    pub(crate) key: ImageKey,
+    pub(crate) role: Role,
     /// False of depth and stencil that are read-only.
     pub(super) is_written: bool,
 }
 
 /// The checked attachments of a pass.
 #[derive(Debug)]
-pub(super) struct Attachments<'a> {
-    pub(super) size: ImageSize,
+pub(crate) struct Attachments<'a> {
+    pub(crate) size: ImageSize,
     /// By the number of the shader's colour; no holes at the end.
-    pub(super) formats: Vec<Option<TextureFormat>>,
-    pub(super) colors: Vec<Color<'a>>,
-    pub(super) depth_stencil: Option<(Use<'a>, &'a DepthStencilAttachment)>,
+    pub(crate) formats: Vec<Option<TextureFormat>>,
+    pub(crate) colors: Vec<Color<'a>>,
+    pub(crate) depth_stencil: Option<(Use<'a>, &'a DepthStencilAttachment)>,
     pub(super) resolves: Vec<Use<'a>>,
 }
 
 #[derive(Debug)]
-pub(super) struct Color<'a> {
-    pub(super) image: Use<'a>,
+pub(crate) struct Color<'a> {
+    pub(crate) image: Use<'a>,
     pub(super) attachment: &'a ColorAttachment,
     pub(super) resolve: Option<Use<'a>>,
 }
@@ -190,7 +190,7 @@ impl<'a> Attachments<'a> {
     }
 
     /// The core's load operations.
-    pub(super) fn loads(&self) -> (Vec<LoadOp<[f64; 4]>>, LoadOp<f32>, LoadOp<u8>) {
+    pub(crate) fn loads(&self) -> (Vec<LoadOp<[f64; 4]>>, LoadOp<f32>, LoadOp<u8>) {
         let colors = self.colors.iter().map(|color| color.attachment.load);
         let depth_stencil = self
             .depth_stencil
@@ -204,7 +204,7 @@ impl<'a> Attachments<'a> {
     }
 
     /// The samples and formats, as pipelines must have them.
-    pub(super) fn with_shape<T>(&self, use_shape: impl FnOnce(&TargetShape<'_>) -> T) -> T {
+    pub(crate) fn with_shape<T>(&self, use_shape: impl FnOnce(&TargetShape<'_>) -> T) -> T {
         let formats = self.colors.iter().map(|color| color.image.view.format());
         let formats: Vec<_> = formats.collect();
         let depth_stencil = self.depth_stencil.as_ref();

@@ -61,7 +61,7 @@ impl<'a> Groups<'a> {
 
 /// The plain data that the draws of a pass refer to.
 #[derive(Debug)]
-pub(super) struct DrawData {
+pub(crate) struct DrawData {
     buffers: Vec<BufferData>,
     bindings: Vec<Bindings>,
     /// For each draw: its vertex buffers, its index buffer, its bindings.
@@ -121,7 +121,7 @@ impl DrawData {
         data
     }
 
-    pub(super) fn draws<'a>(&'a self, draws: &[Draw<'a>]) -> Vec<estampe_core::Draw<'a>> {
+    pub(crate) fn draws<'a>(&'a self, draws: &[Draw<'a>]) -> Vec<estampe_core::Draw<'a>> {
         let draws = draws.iter().zip(&self.of_draws);
         let draws = draws.map(|(draw, (vertices, indices, bindings))| {
             let format = draw.index_buffer.map(|(_, format)| format);

@@ -9,10 +9,11 @@ mod images;
 mod queries;
 mod run;
 
+pub(crate) use attachments::{Attachments, Use};
 pub use draw::Draw;
 pub use error::{PassErrorKind, RenderPassError};
 pub use queries::{RangeQueries, RangeResult};
-pub(crate) use run::{check, render};
+pub(crate) use run::{check, core_pass, prepared, render};
 
 use crate::texture::TextureView;
 use estampe_core::{LoadOp, OcclusionQueries, PassControl, ResolveMode};

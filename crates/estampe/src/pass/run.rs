@@ -60,9 +60,9 @@ fn check_objects<'a>(
     Ok((attachments, groups))
 }
 
-type Loads = (Vec<LoadOp<[f64; 4]>>, LoadOp<f32>, LoadOp<u8>);
+pub(crate) type Loads = (Vec<LoadOp<[f64; 4]>>, LoadOp<f32>, LoadOp<u8>);
 
-fn core_pass<'a>(
+pub(crate) fn core_pass<'a>(
     pass: &RenderPass<'a>,
     (load_colors, load_depth, load_stencil): Loads,
     draws: &'a [estampe_core::Draw<'a>],
@@ -105,6 +105,23 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     drop(reserved);
     // The pass was checked, but it may have been cancelled.
     Ok(drawn?)
+}
+
+/// Lets `use_data` read the attachments and the plain data of a pass's draws as they are; nothing
+/// is drawn, and what shaders store is dropped.
+pub(crate) fn prepared<T>(
+    device: &Device,
+    pass: &RenderPass<'_>,
+    use_data: impl FnOnce(&Attachments<'_>, &DrawData) -> T,
+) -> Result<T, PassErrorKind> {
+    let (attachments, groups) = check_objects(device.limits(), pass)?;
+    let textures = reserved_order(&attachments, &groups);
+    let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
+    let resources = groups.resources(device.context(), &mut StoredTextures::default())?;
+    let data = DrawData::new(pass.draws, &groups, &resources);
+    let used = use_data(&attachments, &data);
+    drop(reserved);
+    Ok(used)
 }
 
 /// Draws the parts between the ends of the queries' ranges one after the other: all draws at once

@@ -226,7 +226,7 @@ fn zeros(texture: &Texture, key: ImageKey) -> Result<Image, TextureError> {
 }
 
 /// The words of an image among those of all levels and layers.
-pub(super) fn words_of(data: &TexelData, key: ImageKey) -> Range<usize> {
+pub(crate) fn words_of(data: &TexelData, key: ImageKey) -> Range<usize> {
     let level = data.levels[key.level as usize];
     let texels = level.width as usize * level.height as usize * data.shape.samples as usize;
     let first = level.offset as usize + key.layer as usize * texels;

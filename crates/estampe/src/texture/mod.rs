@@ -10,7 +10,7 @@ mod region;
 mod stores;
 mod view;
 
-pub(crate) use contents::{Contents, Image, ImageKey, Newest};
+pub(crate) use contents::{Contents, Image, ImageKey, Newest, words_of};
 pub(crate) use copy_texels::{check_copy, copy};
 pub use error::TextureError;
 pub(crate) use host_access::{check_read, check_write, read, read_sample, read_tight, write, zero};

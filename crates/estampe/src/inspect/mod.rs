@@ -1,0 +1,22 @@
+//! Any pixel explains itself: everything that happened to one pixel in a pass.
+//!
+//! [`Device::inspect`](crate::Device::inspect) runs a pass again, with the reference pipeline in
+//! place of the fast one, on the 2×2 pixels around one pixel, and writes down what touches it. The
+//! two pipelines agree bit by bit, so the history ends with the pixel that
+//! [`Device::render`](crate::Device::render) draws. Attachments and storage textures stay as they
+//! are.
+
+mod history;
+mod initial;
+mod record;
+mod run;
+
+pub use history::{
+    FragmentRecord, InspectedVertex, PieceVertex, PixelHistory, PrimitiveKind, PrimitiveRecord,
+    SampleRecord, SampleValues,
+};
+pub use run::InspectError;
+pub(crate) use run::inspect;
+
+/// The result of a sample's tests.
+pub use estampe_reference::per_sample::Outcome as TestOutcome;
