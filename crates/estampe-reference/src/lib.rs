@@ -37,8 +37,9 @@
 //! [`depth_bias`], [`conservative`] (conservative rasterization), [`bresenham`] (integer lines) and
 //! [`scan_conversion`] (triangles) in the textbook forms, and [`exact`], the formulas in f64 with
 //! bounds for the error of the f32 ones. [`transfer`] has what happens to images outside of draws:
-//! copies, clears, mip levels and blits. [`program`] runs shaders, [`observer`] is told what happens
-//! to a primitive: `estampe inspect` stands on it.
+//! copies, clears, mip levels and blits. [`illumination`] is the light on surfaces in f64, with
+//! which the shaders of `estampe-renderer` are compared. [`program`] runs shaders, and [`observer`]
+//! is told what happens to a primitive: `Device::inspect` of `estampe` stands on them.
 //!
 //! # What the core and the oracle share
 //!
@@ -79,6 +80,7 @@ pub mod depth_map;
 pub mod exact;
 pub mod fetch;
 pub mod fragment;
+pub mod illumination;
 pub mod line;
 pub mod logic;
 pub mod observer;

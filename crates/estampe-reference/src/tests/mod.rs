@@ -9,6 +9,7 @@ mod coverage;
 mod diamond;
 mod drawing;
 mod formats;
+mod illumination;
 mod lines;
 mod multisampling;
 mod per_sample;
