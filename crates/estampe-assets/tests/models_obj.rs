@@ -349,6 +349,35 @@ fn textures_are_loaded_once_and_their_alpha_is_classified() {
 }
 
 #[test]
+fn bump_maps_are_read_with_their_multiplier() {
+    let files = Files::default()
+        .with(
+            "m.mtl",
+            b"newmtl a\nbump -bm 2.5 a b.tga\nnewmtl b\nmap_Bump -o 1 1 -BM -0.5 -clamp on a b.tga\n\
+            newmtl c\nmap_bump a b.tga\nmap_Kd a b.tga\nnewmtl d\nbump -bm inf a b.tga\n\
+            newmtl e\nbump -bm 1e30 a b.tga\nnewmtl f\nbump -bm a b.tga\nnewmtl g\n",
+        )
+        .with("a b.tga", &tga([[1, 2, 3, 255], [4, 5, 6, 255]]));
+    let mut text = format!("{SQUARE}mtllib m.mtl\n");
+    for name in ["a", "b", "c", "d", "e", "f", "g"] {
+        text += &format!("usemtl {name}\nf 1 2 3\n");
+    }
+    let loaded = read_with(&text, &files);
+    let materials = &loaded.scene.materials;
+    let scales: Vec<f32> = materials.iter().map(|one| one.bump_scale).collect();
+    assert_eq!(scales[..5], [2.5, -0.5, 1.0, 1.0, 1000.0]);
+    let maps: Vec<_> = materials.iter().map(|one| one.bump_texture).collect();
+    let all = Some(0);
+    assert_eq!(maps, [all, all, all, all, all, None, None]);
+    assert_eq!(materials[2].base_color_texture, all, "one image for both");
+    assert_eq!(loaded.scene.images.len(), 1);
+    // `-bm` takes the first word of the name.
+    let messages = messages(&loaded);
+    assert_eq!(messages.len(), 1, "{messages:?}");
+    assert!(messages[0].contains("the texture `b.tga`"), "{messages:?}");
+}
+
+#[test]
 fn opacity_comes_from_d_before_tr() {
     let library = "newmtl a\nd 0.75\nTr 0.5\nnewmtl b\nTr 0.25\nnewmtl c\nTr 1\nnewmtl d\nd 1\nTr 1\n\
         newmtl e\nd -halo 0.5\nnewmtl f\nd nan\n";

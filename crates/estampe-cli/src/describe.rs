@@ -26,7 +26,7 @@ Exit codes: 0 success, 1 the model is missing or invalid, 2 wrong usage, 3 the r
 With --json one object is written: model, format, up, counts {meshes, vertices, triangles, lines, points, \
 materials, textures}, bounds {min, max, size} or null, meshes [{name, vertices, triangles, lines, points, \
 attributes, materials}], materials [{name, base_color, opacity, specular, shininess, emissive, texture, \
-alpha}], textures [{width, height}], warnings [text], warning_count. An error gives {error, exit_code}.")]
+bump_texture, bump_scale, alpha}], textures [{width, height}], warnings [text], warning_count. An error gives {error, exit_code}.")]
 pub(crate) struct InfoArgs {
     /// The model: a file, builtin:NAME, or - for standard input
     #[arg(value_name = "MODEL")]
@@ -129,6 +129,8 @@ fn json(model: &Model) -> Value {
             "shininess": material.shininess,
             "emissive": material.emissive.to_array(),
             "texture": material.base_color_texture,
+            "bump_texture": material.bump_texture,
+            "bump_scale": material.bump_scale,
             "alpha": alpha_name(material.alpha_mode),
         })
     });

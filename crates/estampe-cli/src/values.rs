@@ -32,7 +32,8 @@ fn number(text: &str) -> Option<f64> {
         .filter(|number: &f64| number.is_finite())
 }
 
-fn number_between(text: &str, low: f64, high: f64) -> Result<f64, String> {
+/// A number of a range, both ends included.
+pub(crate) fn number_between(text: &str, low: f64, high: f64) -> Result<f64, String> {
     let in_range = number(text).filter(|number| (low..=high).contains(number));
     in_range.ok_or_else(|| format!("write a number from {low} to {high}"))
 }
@@ -98,15 +99,21 @@ pub(crate) fn background(text: &str) -> Result<Background, String> {
     if text.eq_ignore_ascii_case("none") {
         return Ok(Background(None));
     }
+    let color = color(text).map_err(|error| format!("{error}, or none"))?;
+    Ok(Background(Some(color)))
+}
+
+/// `#rrggbb` or `rrggbb`, sRGB.
+pub(crate) fn color(text: &str) -> Result<[u8; 3], String> {
     let digits = text.strip_prefix('#').unwrap_or(text);
     let is_hex = digits.len() == 6 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
     let code = is_hex
         .then(|| u32::from_str_radix(digits, 16).ok())
         .flatten();
     let [_, r, g, b] = code
-        .ok_or("write none, or a colour as six hexadecimal digits, as in '#f2f2f2'")?
+        .ok_or("write a colour as six hexadecimal digits, as in '#f2f2f2'")?
         .to_be_bytes();
-    Ok(Background(Some([r, g, b])))
+    Ok([r, g, b])
 }
 
 /// A background colour, or none.
@@ -265,8 +272,12 @@ pub(crate) enum ShadingName {
     Gouraud,
     /// Lighting at every pixel
     Phong,
-    /// Lighting in four steps
+    /// Lighting at every pixel, in four steps
     Toon,
+    /// Lighting once per face, in four steps
+    ToonFlat,
+    /// Lighting at the vertices, interpolated, in four steps
+    ToonGouraud,
     /// Colours and textures without lighting
     Unlit,
     /// Edges; faces hide the edges behind them
@@ -286,6 +297,8 @@ impl From<ShadingName> for Shading {
             ShadingName::Gouraud => Self::Gouraud,
             ShadingName::Phong => Self::Phong,
             ShadingName::Toon => Self::Toon,
+            ShadingName::ToonFlat => Self::ToonFlat,
+            ShadingName::ToonGouraud => Self::ToonGouraud,
             ShadingName::Unlit => Self::Unlit,
             ShadingName::Wireframe => Self::Wireframe,
             ShadingName::Normals => Self::Normals,

@@ -6,6 +6,7 @@ mod support;
 
 use estampe::Level;
 use picture::Picture;
+use std::collections::BTreeSet;
 use support::{Folder, TETRAHEDRON, estampe, estampe_fed};
 
 #[test]
@@ -48,6 +49,78 @@ fn the_bytes_depend_on_neither_threads_nor_simd() {
     }
 }
 
+/// Each option of light changes the picture, which has the same bytes at every SIMD level and for
+/// any number of threads.
+///
+/// Rows: F3.
+#[test]
+fn options_of_light_change_the_picture_and_depend_on_neither_threads_nor_simd() {
+    let lamp = "--light pos:-1,1.6,3:ff8000:2 --light 1,0.2,0.3 --ambient 0.1";
+    let mut seen = Vec::new();
+    for shading in ["flat", "gouraud", "phong", "toon"] {
+        for words in [
+            String::new(),
+            lamp.to_owned(),
+            format!("{lamp} --attenuation 4"),
+            "--specular none".to_owned(),
+            "--specular blinn:0.7 --shininess 20".to_owned(),
+            "--levels 3".to_owned(),
+            "--fog 2:9,203040".to_owned(),
+            format!("{lamp} --attenuation 7 --specular phong:0.6 --levels 5 --fog 12 --ortho"),
+        ] {
+            let mut pictures = Vec::new();
+            let levels = Level::all_available();
+            let threads = [1, 3].into_iter().cycle();
+            for (level, threads) in levels.iter().zip(threads) {
+                let machine = format!("--threads {threads} --simd {}", level.name());
+                let words = format!(
+                    "render builtin:torus -o - -q --size 96x72 --shading {shading} {machine} {words}"
+                );
+                let run = estampe(&words, &[]);
+                assert_eq!(run.code, 0, "{words}: {}", run.err);
+                pictures.push(run.out);
+            }
+            let picture = pictures.remove(0);
+            let context = format!("{shading} {words}");
+            assert!(pictures.iter().all(|other| *other == picture), "{context}");
+            let is_toon_without_highlights = shading == "toon" && words.starts_with("--specular");
+            assert_eq!(
+                seen.contains(&picture),
+                is_toon_without_highlights,
+                "{context}"
+            );
+            seen.push(picture);
+        }
+    }
+}
+
+/// Rows: F3.
+#[test]
+fn n_levels_are_at_most_n_values_of_each_channel() {
+    for (levels, shading) in [(2, "gouraud"), (3, "flat"), (5, "phong")] {
+        let words = format!(
+            "render builtin:torus -o - -q --size 96x72 --samples 1 --background none --levels {levels} \
+             --shading {shading} --light 1,1,1:ffc0a0:3 --light pos:-3,1,1:80a0ff:2"
+        );
+        let run = estampe(&words, &[]);
+        assert_eq!(run.code, 0, "{words}: {}", run.err);
+        let picture = Picture::read(&run.out);
+        let pixels = (0..72).flat_map(|y| (0..96).map(move |x| (x, y)));
+        let mut values = vec![BTreeSet::new(); 3];
+        for pixel in pixels.map(|(x, y)| picture.pixel(x, y)) {
+            for (channel, values) in values.iter_mut().enumerate() {
+                if pixel[3] == 255 {
+                    values.insert(pixel[channel]);
+                }
+            }
+        }
+        for values in values {
+            assert!((2..=levels).contains(&values.len()), "{words}: {values:?}");
+            assert!(values.contains(&0), "{words}: {values:?}");
+        }
+    }
+}
+
 #[test]
 fn every_shading_has_its_own_look_at_every_level() {
     let mut seen = Vec::new();
@@ -56,6 +129,8 @@ fn every_shading_has_its_own_look_at_every_level() {
         "gouraud",
         "phong",
         "toon",
+        "toon-flat",
+        "toon-gouraud",
         "unlit",
         "wireframe",
         "normals",

@@ -3,7 +3,7 @@
 
 use crate::alpha::{Encoding, decode};
 use crate::frame::RenderError;
-use crate::geometry::faces::unshared_streams;
+use crate::geometry::faces::{LitAt, unshared_streams};
 use crate::geometry::order::{DistantTriangle, back_to_front};
 use crate::geometry::vertex_data::{MeshStreams, StreamData, VertexStream};
 use crate::materials::Materials;
@@ -126,7 +126,12 @@ impl Planner<'_> {
             let streams = match &shared {
                 Some(shared) if !is_unshared => shared,
                 _ => {
-                    unshared = unshared_streams(mesh, &self.view.space, self.device)?;
+                    let lit_at = if self.style.needs_face_centers() {
+                        LitAt::Centroid
+                    } else {
+                        LitAt::Vertices
+                    };
+                    unshared = unshared_streams(mesh, lit_at, &self.view.space, self.device)?;
                     &unshared
                 }
             };
@@ -312,7 +317,7 @@ impl Planner<'_> {
             [0x2c, 0x3a, 0x4a]
         };
         let is_depth = self.style.shading == Shading::Depth;
-        let (color, fog_color, fog_at_furthest) = if is_depth {
+        let (color, distant_color, share_at_furthest) = if is_depth {
             ([1.0; 3], [0.0; 3], 1.0)
         } else {
             let own = if shows_colors {
@@ -320,19 +325,23 @@ impl Planner<'_> {
             } else {
                 contrasting.map(|code| decode(code, encoding))
             };
-            let fog = if self.style.shading.holds_numbers() || shows_colors {
+            let share = if self.style.shading.holds_numbers() || shows_colors {
                 0.0
             } else {
                 0.4
             };
-            (own, background.map(|code| decode(code, encoding)), fog)
+            (own, background.map(|code| decode(code, encoding)), share)
         };
         PointsAndLines {
             transforms: self.style.transforms,
             color,
-            fog_color,
-            fog_at_furthest,
+            distant_color,
+            share_at_furthest,
             depth_range: self.style.depth_range,
+            fog: self
+                .style
+                .fog
+                .filter(|_| !self.style.shading.holds_numbers()),
             point_size_px: point_size_px(self.options, point_count),
         }
     }

@@ -228,6 +228,13 @@ fn frame_style(view: &SceneView, options: &RenderOptions) -> FrameStyle {
         shading: options.shading,
         transforms,
         lights: Arc::new(view.lights(options)),
+        levels: options.levels,
+        fog: options.fog.as_ref().map(|fog| {
+            let color = fog.color.or(options.background);
+            let color = color.unwrap_or(RenderOptions::DEFAULT_BACKGROUND);
+            let linear = color.map(|code| decode(code, Encoding::Srgb));
+            view.fog(fog, linear, (options.width, options.height))
+        }),
         wireframe: wireframe(transforms, options),
         depth_range: view.depth_range(),
         cull: options.cull,

@@ -40,7 +40,7 @@ pub use alpha::composite_over;
 pub use camera::{CameraOptions, Eye, ProjectionKind, ViewDirection};
 pub use estampe::state::CullMode;
 pub use frame::{Frame, FrameTimings, RenderError, render};
-pub use options::{RenderOptions, Shading, Up};
+pub use options::{Fog, RenderOptions, Shading, Specular, SpecularModel, Up};
 
 /// Version of the images. It rises whenever the same scene and options give other bytes than
 /// before; CHANGELOG lists the changes.

@@ -1,8 +1,9 @@
 //! A scene's materials, prepared for shaders; textures are created when a surface first needs them.
 
 use crate::frame::RenderError;
-use crate::options::{RenderOptions, Shading};
-use crate::shading::lighting::Gloss;
+use crate::options::{RenderOptions, Shading, SpecularModel};
+use crate::shading::bump::BumpMap;
+use crate::shading::lighting::{Gloss, Highlight};
 use crate::surface_pipelines::{SurfaceStyle, Transparency};
 use estampe::{Device, SampledTexture, SamplerDescriptor, TextureDescriptor, TextureFormat};
 use estampe_scene::{AlphaMode, Image, Material, Mesh, Scene};
@@ -13,9 +14,15 @@ pub(crate) struct Materials<'a> {
     scene: &'a Scene,
     options: &'a RenderOptions,
     device: &'a Device,
-    /// Textures by index into the scene's images; `None` is the texture of the options.
-    textures: HashMap<Option<usize>, SampledTexture>,
+    /// Textures by index into the scene's images (`None` is the texture of the options), and
+    /// format.
+    textures: HashMap<(Option<usize>, TextureFormat), SampledTexture>,
 }
+
+/// The format of colours.
+const COLORS: TextureFormat = TextureFormat::Rgba8UnormSrgb;
+/// The format of heights.
+const HEIGHTS: TextureFormat = TextureFormat::Rgba8Unorm;
 
 impl<'a> Materials<'a> {
     pub(crate) fn new(scene: &'a Scene, options: &'a RenderOptions, device: &'a Device) -> Self {
@@ -57,13 +64,10 @@ impl<'a> Materials<'a> {
             None
         };
         Ok(SurfaceStyle {
-            gloss: Gloss {
-                specular: material.specular.to_array(),
-                shininess: whole_exponent(material.shininess),
-                emissive: material.emissive.to_array(),
-            },
+            gloss: self.gloss(material),
             base: [color.x, color.y, color.z, material.opacity],
             texture,
+            bump: self.bump(material, mesh)?,
             has_vertex_colors,
             transparency,
         })
@@ -77,6 +81,44 @@ impl<'a> Materials<'a> {
             Shading::Unlit => color,
             _ => color.max(glam::Vec3::splat(DARKEST)),
         }
+    }
+
+    /// Reflection and emission: the options', else the material's.
+    fn gloss(&self, material: &Material) -> Gloss {
+        let options = self.options;
+        let strength = options.specular.strength.map(|strength| [strength; 3]);
+        let specular = strength.unwrap_or(material.specular.to_array());
+        let exponent = options.shininess.map(|exponent| exponent.clamp(1, 10_000));
+        Gloss {
+            specular: match options.specular.model {
+                SpecularModel::None => [0.0; 3],
+                SpecularModel::Phong | SpecularModel::Blinn => specular,
+            },
+            shininess: exponent.unwrap_or_else(|| whole_exponent(material.shininess)),
+            emissive: material.emissive.to_array(),
+            highlight: match options.specular.model {
+                SpecularModel::Blinn => Highlight::HalfVector,
+                SpecularModel::None | SpecularModel::Phong => Highlight::Reflection,
+            },
+        }
+    }
+
+    /// The bump map of a surface, where light is computed at fragments.
+    fn bump(&mut self, material: &Material, mesh: &Mesh) -> Result<Option<BumpMap>, RenderError> {
+        let bends_normals = matches!(self.options.shading, Shading::Phong | Shading::Toon);
+        let Some(index) = material.bump_texture else {
+            return Ok(None);
+        };
+        let Some(image) = self.scene.images.get(index) else {
+            return Ok(None);
+        };
+        if !bends_normals || mesh.uvs.is_empty() {
+            return Ok(None);
+        }
+        Ok(Some(BumpMap {
+            texture: self.shared(Some(index), HEIGHTS, image)?,
+            height: material.bump_scale * BumpMap::UNIT_HEIGHT,
+        }))
     }
 
     fn reads_textures(&self) -> bool {
@@ -101,23 +143,28 @@ impl<'a> Materials<'a> {
             },
             (None, None) => return Ok(None),
         };
-        if let Some(texture) = self.textures.get(&key) {
-            return Ok(Some(texture.clone()));
-        }
-        let texture = self.create(image)?;
-        self.textures.insert(key, texture.clone());
-        Ok(Some(texture))
+        self.shared(key, COLORS, image).map(Some)
     }
 
-    fn create(&self, image: &Image) -> Result<SampledTexture, RenderError> {
-        let format = TextureFormat::Rgba8UnormSrgb;
+    /// The texture of an image, which is created once for each format.
+    fn shared(
+        &mut self,
+        key: Option<usize>,
+        format: TextureFormat,
+        image: &Image,
+    ) -> Result<SampledTexture, RenderError> {
+        if let Some(texture) = self.textures.get(&(key, format)) {
+            return Ok(texture.clone());
+        }
         let descriptor = TextureDescriptor::new_2d(image.width, image.height, format);
         let texture = self
             .device
             .create_texture_with_data(&descriptor.with_all_levels(), &[&image.rgba])?;
         let sampler = SamplerDescriptor::trilinear_repeat();
         let sampler = self.device.create_sampler(&sampler)?;
-        Ok(self.device.sampled_texture(&texture.view(), &sampler)?)
+        let texture = self.device.sampled_texture(&texture.view(), &sampler)?;
+        self.textures.insert((key, format), texture.clone());
+        Ok(texture)
     }
 }
 

@@ -24,6 +24,16 @@ pub struct RenderOptions {
     pub lights: Vec<Light>,
     /// Ambient light, times the base colour. `None` (default) is 0.18.
     pub ambient: Option<f32>,
+    /// Highlights. Default: those of the materials, by the reflected light.
+    pub specular: Specular,
+    /// Specular exponent of all materials, 1..=10,000. `None` (default) is that of the materials.
+    pub shininess: Option<u32>,
+    /// Levels of lit colours, at least 2: each channel of the linear colour becomes
+    /// min(⌊I·N⌋, N − 1)/(N − 1). With toon shading the steps of light, by default 4. `None`
+    /// (default) is smooth.
+    pub levels: Option<u16>,
+    /// Fog over surfaces, lines and points, if their colours are light. Default none.
+    pub fog: Option<Fog>,
     /// A base-colour texture, sRGB, which replaces the materials' colours and textures.
     pub texture: Option<Image>,
     /// The background, sRGB, or `None` for a transparent one. Default #f2f2f2.
@@ -48,11 +58,49 @@ impl Default for RenderOptions {
             shading: Shading::default(),
             lights: Vec::new(),
             ambient: None,
+            specular: Specular::default(),
+            shininess: None,
+            levels: None,
+            fog: None,
             texture: None,
             background: Some(Self::DEFAULT_BACKGROUND),
             cull: CullMode::None,
         }
     }
+}
+
+/// Highlights of surfaces.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Specular {
+    /// The model.
+    pub model: SpecularModel,
+    /// Specular colour of all materials, grey, linear. `None` (default) is that of the materials.
+    pub strength: Option<f32>,
+}
+
+/// The specular term, of a shininess e.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum SpecularModel {
+    /// No highlights.
+    None,
+    /// max(r·v, 0)ᵉ with the reflected light r (Phong 1975).
+    #[default]
+    Phong,
+    /// max(n·h, 0)ᵉ with the half vector h (Blinn 1977): about four times the exponent gives a
+    /// highlight of the same size.
+    Blinn,
+}
+
+/// Fog that becomes denser with the distance from the eye; with a parallel projection, from the
+/// plane of the camera's eye.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fog {
+    /// Distance up to which there is no fog, in world units.
+    pub start_world: f64,
+    /// Distance at which there is nothing but fog, in world units.
+    pub end_world: f64,
+    /// Colour, sRGB. `None` is the background's, or the default background's if it is transparent.
+    pub color: Option<[u8; 3]>,
 }
 
 /// Shading of surfaces.
@@ -67,6 +115,10 @@ pub enum Shading {
     Phong,
     /// Lighting at every fragment, in four steps.
     Toon,
+    /// Lighting once per face, in four steps.
+    ToonFlat,
+    /// Lighting at the vertices, interpolated, in four steps.
+    ToonGouraud,
     /// The base colour without lighting.
     Unlit,
     /// Edges; faces hide the edges behind them.
@@ -80,6 +132,18 @@ pub enum Shading {
 }
 
 impl Shading {
+    /// True if light is in steps.
+    #[must_use]
+    pub fn is_toon(self) -> bool {
+        matches!(self, Self::Toon | Self::ToonFlat | Self::ToonGouraud)
+    }
+
+    /// True if light is computed once per face.
+    #[must_use]
+    pub fn is_flat(self) -> bool {
+        matches!(self, Self::Flat | Self::ToonFlat)
+    }
+
     /// True if the image shows numbers, which are stored unchanged, not light, which is
     /// sRGB-encoded.
     #[must_use]

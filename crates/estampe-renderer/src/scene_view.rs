@@ -3,12 +3,17 @@
 use crate::camera::placement::Lens;
 use crate::camera::{CameraOptions, Cloud, Eye, PlacedCamera};
 use crate::geometry::unit_space::{UnitSpace, UsedVertices, used_vertices};
-use crate::options::{RenderOptions, Up};
+use crate::options::{self, RenderOptions, Up};
 use crate::shading::VertexTransforms;
-use crate::shading::lighting::{DEFAULT_AMBIENT, Lights, ViewLight};
-use crate::transforms::{round_to_f32, to_f32, transform_vector};
-use estampe_scene::{Camera, Projection, Scene, UpAxis, Workers};
+use crate::shading::lighting::{DEFAULT_AMBIENT, Directional, Lights, Positional, ViewLight};
+use crate::shading::output::{EyeDistance, Fog};
+use crate::transforms::{round_to_f32, to_f32, transform_point, transform_vector};
+use estampe_scene::{Camera, LightSource, Projection, Scene, UpAxis, Workers};
 use glam::{DMat3, DMat4, DVec3};
+
+/// Distance beyond which a light is moved closer, in unit space: its direction stays the same, and
+/// squares of distances are in f32's range.
+const FURTHEST_LIGHT: f64 = 1e15;
 
 /// A scene's unit space and its camera.
 #[derive(Debug, Clone)]
@@ -68,19 +73,92 @@ impl SceneView {
         if options.lights.is_empty() {
             return Lights::studio(ambient);
         }
-        let view_from_world = self.camera.frame.view_from_world();
-        let lights = options.lights.iter().map(|light| {
-            let towards = light.towards_light_world.as_dvec3().normalize_or_zero();
-            let towards = transform_vector(&view_from_world, towards)
-                .as_vec3()
-                .to_array();
-            ViewLight {
-                towards,
-                color: light.color.to_array(),
-                highlight: 1.0,
+        let mut lights = Lights::with_uniform_ambient(ambient);
+        let view_from_unit = self.camera.frame.view_from_world();
+        for light in &options.lights {
+            let color = light.color.to_array().map(|channel| channel.max(0.0));
+            match light.source {
+                LightSource::Directional {
+                    towards_light_world,
+                } => {
+                    let towards = towards_light_world.as_dvec3().normalize_or_zero();
+                    let towards = transform_vector(&view_from_unit, towards).as_vec3();
+                    lights.directional.push(ViewLight {
+                        source: Directional(towards.to_array()),
+                        color,
+                        highlight: 1.0,
+                    });
+                }
+                LightSource::Positional {
+                    position_world,
+                    reach,
+                } => {
+                    let position = self.space.unit_from_world(position_world.as_dvec3());
+                    let position = position.clamp_length_max(FURTHEST_LIGHT);
+                    let position = transform_point(&view_from_unit, position).as_vec3();
+                    let reach = f64::from(reach.unwrap_or(f32::INFINITY));
+                    lights.positional.push(ViewLight {
+                        source: Positional {
+                            position: position.to_array(),
+                            inverse_reach: self.per_unit(reach),
+                        },
+                        color,
+                        highlight: 1.0,
+                    });
+                }
             }
-        });
-        Lights::with_uniform_ambient(lights.collect(), ambient)
+        }
+        lights
+    }
+
+    /// The fog of the options, with this linear colour.
+    pub(crate) fn fog(&self, fog: &options::Fog, color: [f32; 3], size_px: (u32, u32)) -> Fog {
+        let start = fog.start_world / self.space.world_per_unit();
+        Fog {
+            color,
+            start: round_to_f32(start).clamp(0.0, f32::MAX),
+            per_distance: self.per_unit(fog.end_world - fog.start_world),
+            eye_distance: self.eye_distance(size_px),
+        }
+    }
+
+    /// 1 ÷ a length in world units, in unit space; finite, and 0 for an infinite length.
+    fn per_unit(&self, length_world: f64) -> f32 {
+        let per_unit = self.space.world_per_unit() / length_world.max(f64::MIN_POSITIVE);
+        round_to_f32(per_unit).clamp(0.0, f32::MAX)
+    }
+
+    /// How fragments find their distance from the eye, the inverse of projection and viewport.
+    fn eye_distance(&self, (width, height): (u32, u32)) -> EyeDistance {
+        let clip_from_view = self.camera.clip_from_view(self.aspect);
+        match self.camera.lens {
+            Lens::Perspective(_) => {
+                // ndc = (s·x + o·z)/−z, so x/−z = (ndc + o)/s; x runs from −1 to 1, y from 1 to −1.
+                let slope = |scale: f64, skew: f64, left: f64, side: u32| {
+                    let per_pixel = -left * 2.0 / f64::from(side);
+                    [per_pixel / scale, (left + skew) / scale].map(round_to_f32)
+                };
+                EyeDistance::Perspective {
+                    x: slope(
+                        clip_from_view.x_axis.x,
+                        clip_from_view.z_axis.x,
+                        -1.0,
+                        width,
+                    ),
+                    y: slope(
+                        clip_from_view.y_axis.y,
+                        clip_from_view.z_axis.y,
+                        1.0,
+                        height,
+                    ),
+                }
+            }
+            Lens::Orthographic(_) => {
+                // depth = s·z + o, and the distance is −z.
+                let (scale, offset) = (clip_from_view.z_axis.z, clip_from_view.w_axis.z);
+                EyeDistance::Orthographic([-1.0 / scale, offset / scale].map(round_to_f32))
+            }
+        }
     }
 
     /// Distances of the nearest and the furthest point, in unit space; different even for flat

@@ -3,12 +3,15 @@
 use crate::geometry::vertex_data::{MeshStreams, VertexStream};
 use crate::options::Shading;
 use crate::shading::VertexTransforms;
+use crate::shading::base_color::{Alpha, BaseColor, Painted, Plain};
+use crate::shading::bump::BumpMap;
 use crate::shading::inspection::{DepthGrey, Normals, UvColors};
+use crate::shading::interpolation::{AtFragments, AtVertices, Interpolation, Viewer};
 use crate::shading::lighting::{Gloss, Lights};
-use crate::shading::phong::{PhongLight, ShadingMode};
+use crate::shading::output::{Fog, Output};
 use crate::shading::points_and_lines::PointsAndLines;
-use crate::shading::surfaces::{Alpha, Painted, PlainPhong, PlainVertexLit, SurfaceLight};
-use crate::shading::vertex_lit::{VertexLight, VertexShadingMode};
+use crate::shading::surface::Surface;
+use crate::shading::terms::{Reflectance, Terms};
 use crate::shading::wireframe::Wireframe;
 use estampe::state::{
     BlendState, ColorTargetState, ColorWrites, CullMode, DepthState, MultisampleState,
@@ -26,6 +29,9 @@ pub(crate) struct FrameStyle {
     pub(crate) shading: Shading,
     pub(crate) transforms: VertexTransforms,
     pub(crate) lights: Arc<Lights>,
+    /// The levels of the options: steps of toon shading, else levels of colours.
+    pub(crate) levels: Option<u16>,
+    pub(crate) fog: Option<Fog>,
     pub(crate) wireframe: Wireframe,
     /// Distances of the model's nearest and furthest point.
     pub(crate) depth_range: (f32, f32),
@@ -41,6 +47,7 @@ pub(crate) struct SurfaceStyle {
     /// Linear RGBA.
     pub(crate) base: [f32; 4],
     pub(crate) texture: Option<SampledTexture>,
+    pub(crate) bump: Option<BumpMap>,
     pub(crate) has_vertex_colors: bool,
     pub(crate) transparency: Transparency,
 }
@@ -56,7 +63,7 @@ pub(crate) enum Transparency {
     Blended,
 }
 
-/// Number of light steps in toon shading.
+/// Number of light steps in toon shading, unless the options say another one.
 const TOON_LEVELS: u16 = 4;
 
 /// A program with the vertex streams that it reads, by location.
@@ -140,29 +147,27 @@ impl FrameStyle {
 
     /// True if each triangle needs separate vertices.
     pub(crate) fn needs_unshared_vertices(&self) -> bool {
-        matches!(self.shading, Shading::Flat | Shading::Wireframe)
+        self.shading.is_flat() || self.shading == Shading::Wireframe
+    }
+
+    /// True if flat light differs between the vertices of a face, unless it is computed at the
+    /// face's middle.
+    pub(crate) fn needs_face_centers(&self) -> bool {
+        self.shading.is_flat() && !self.lights.positional.is_empty()
     }
 
     fn material_program(&self, surface: &SurfaceStyle) -> MaterialProgram {
         use VertexStream::{Corner, Normal, Position, Uv};
         let transforms = self.transforms;
+        let toon = Terms::Toon(self.levels.unwrap_or(TOON_LEVELS));
         match self.shading {
-            Shading::Phong => {
-                self.painted_or_plain(surface, self.phong(surface, ShadingMode::Smooth))
-            }
-            Shading::Toon => {
-                self.painted_or_plain(surface, self.phong(surface, ShadingMode::Toon(TOON_LEVELS)))
-            }
-            Shading::Gouraud => self.painted_or_plain(
-                surface,
-                self.vertex_lit(surface, VertexShadingMode::Gouraud),
-            ),
-            Shading::Flat => {
-                self.painted_or_plain(surface, self.vertex_lit(surface, VertexShadingMode::Flat))
-            }
-            Shading::Unlit => {
-                self.painted_or_plain(surface, self.vertex_lit(surface, VertexShadingMode::Unlit))
-            }
+            Shading::Phong => self.at_fragments(surface, Terms::All),
+            Shading::Toon => self.at_fragments(surface, toon),
+            Shading::ToonFlat => self.at_vertices(surface, toon, Viewer::Infinity),
+            Shading::ToonGouraud => self.at_vertices(surface, toon, Viewer::Eye),
+            Shading::Gouraud => self.at_vertices(surface, Terms::All, Viewer::Eye),
+            Shading::Flat => self.at_vertices(surface, Terms::All, Viewer::Infinity),
+            Shading::Unlit => self.at_vertices(surface, Terms::Unlit, Viewer::Infinity),
             Shading::Wireframe => MaterialProgram::new(self.wireframe.clone(), &[Position, Corner]),
             Shading::Normals => MaterialProgram::new(Normals { transforms }, &[Position, Normal]),
             Shading::Depth => {
@@ -180,62 +185,81 @@ impl FrameStyle {
         }
     }
 
-    fn phong(&self, surface: &SurfaceStyle, mode: ShadingMode) -> SurfaceLight {
-        let (transforms, gloss) = (self.transforms, surface.gloss);
-        SurfaceLight::Fragments(PhongLight {
-            transforms,
-            lights: Arc::clone(&self.lights),
-            gloss,
-            mode,
-        })
+    fn at_fragments(&self, surface: &SurfaceStyle, terms: Terms) -> MaterialProgram {
+        let interpolation = AtFragments {
+            transforms: self.transforms,
+            reflectance: self.reflectance(surface, terms),
+        };
+        self.painted_or_plain(surface, interpolation, &[VertexStream::Normal])
     }
 
-    fn vertex_lit(&self, surface: &SurfaceStyle, mode: VertexShadingMode) -> SurfaceLight {
-        let (transforms, gloss) = (self.transforms, surface.gloss);
-        SurfaceLight::Vertices(VertexLight {
-            transforms,
-            lights: Arc::clone(&self.lights),
-            gloss,
-            mode,
-        })
+    fn at_vertices(&self, surface: &SurfaceStyle, terms: Terms, viewer: Viewer) -> MaterialProgram {
+        let interpolation = AtVertices {
+            transforms: self.transforms,
+            reflectance: self.reflectance(surface, terms),
+            viewer,
+        };
+        let streams = [VertexStream::Normal, VertexStream::LitAt];
+        self.painted_or_plain(surface, interpolation, &streams)
     }
 
-    fn painted_or_plain(&self, surface: &SurfaceStyle, light: SurfaceLight) -> MaterialProgram {
-        use VertexStream::{Color, Normal, Position, Uv};
-        let (factor, texture) = (surface.base, surface.texture.clone());
+    fn reflectance(&self, surface: &SurfaceStyle, terms: Terms) -> Reflectance {
+        Reflectance {
+            lights: Arc::clone(&self.lights),
+            gloss: surface.gloss,
+            terms,
+        }
+    }
+
+    fn painted_or_plain(
+        &self,
+        surface: &SurfaceStyle,
+        interpolation: impl Interpolation,
+        streams: &[VertexStream],
+    ) -> MaterialProgram {
+        let (factor, texture, bump) = (surface.base, surface.texture.clone(), surface.bump.clone());
         let alpha = match surface.transparency {
             Transparency::Opaque => Alpha::Ignored,
             Transparency::Masked => Alpha::CutsOut,
             Transparency::Blended => Alpha::Kept,
         };
-        if texture.is_some() || surface.has_vertex_colors || alpha == Alpha::CutsOut {
-            let shader = Painted {
-                light,
+        let has_colors = texture.is_some() || surface.has_vertex_colors;
+        if has_colors || bump.is_some() || alpha == Alpha::CutsOut {
+            let painted = Painted {
                 factor,
                 texture,
+                bump,
                 alpha,
             };
-            return MaterialProgram::new(shader, &[Position, Normal, Uv, Color]);
+            let of_color = [VertexStream::Uv, VertexStream::Color];
+            return self.composed(painted, interpolation, &[streams, &of_color].concat());
         }
         let [r, g, b, opacity] = factor;
-        let color = [
-            r,
-            g,
-            b,
-            if alpha == Alpha::Ignored {
-                1.0
-            } else {
-                opacity
-            },
-        ];
-        match light {
-            SurfaceLight::Fragments(light) => {
-                MaterialProgram::new(PlainPhong { light, color }, &[Position, Normal])
-            }
-            SurfaceLight::Vertices(light) => {
-                MaterialProgram::new(PlainVertexLit { light, color }, &[Position, Normal])
-            }
-        }
+        let opacity = if alpha == Alpha::Ignored {
+            1.0
+        } else {
+            opacity
+        };
+        self.composed(Plain([r, g, b, opacity]), interpolation, streams)
+    }
+
+    /// The surface of these parts, which read these streams after the position.
+    fn composed(
+        &self,
+        base_color: impl BaseColor,
+        interpolation: impl Interpolation,
+        streams: &[VertexStream],
+    ) -> MaterialProgram {
+        let output = Output {
+            levels: self.levels.filter(|_| !self.shading.is_toon()),
+            fog: self.fog,
+        };
+        let surface = Surface {
+            base_color,
+            interpolation,
+            output,
+        };
+        MaterialProgram::new(surface, &[&[VertexStream::Position], streams].concat())
     }
 
     fn pipeline(

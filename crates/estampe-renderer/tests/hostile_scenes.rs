@@ -2,16 +2,19 @@
 
 use estampe::{Device, DeviceDescriptor};
 use estampe_renderer::{
-    CameraOptions, Eye, RenderError, RenderOptions, Shading, ViewDirection, render,
+    CameraOptions, Eye, Fog, RenderError, RenderOptions, Shading, Specular, SpecularModel,
+    ViewDirection, render,
 };
-use estampe_scene::{AlphaMode, Image, Light, Material, Mesh, Scene, Surface};
+use estampe_scene::{AlphaMode, Image, Light, LightSource, Material, Mesh, Scene, Surface};
 use glam::{DVec3, Vec2, Vec3};
 
-const SHADINGS: [Shading; 9] = [
+const SHADINGS: [Shading; 11] = [
     Shading::Flat,
     Shading::Gouraud,
     Shading::Phong,
     Shading::Toon,
+    Shading::ToonFlat,
+    Shading::ToonGouraud,
     Shading::Unlit,
     Shading::Wireframe,
     Shading::Normals,
@@ -104,6 +107,8 @@ fn broken() -> Scene {
         specular: Vec3::splat(1e30),
         shininess: f32::NAN,
         base_color_texture: Some(0),
+        bump_texture: Some(0),
+        bump_scale: f32::NAN,
         alpha_mode: AlphaMode::Blend,
         ..Material::default()
     };
@@ -125,7 +130,9 @@ fn broken_scenes_are_drawn_without_their_invalid_parts() {
     let device = device();
     let mut options = RenderOptions {
         lights: vec![Light {
-            towards_light_world: Vec3::ZERO,
+            source: LightSource::Directional {
+                towards_light_world: Vec3::ZERO,
+            },
             color: Vec3::NAN,
         }],
         background: None,
@@ -141,6 +148,52 @@ fn broken_scenes_are_drawn_without_their_invalid_parts() {
                 ..options
             };
             render(&scene, &options, &device).expect("every scene can be drawn");
+        }
+    }
+}
+
+#[test]
+fn odd_lights_and_fog_give_pictures() {
+    let device = device();
+    let numbers = [0.0, -1.0, 1e-38, 1e38, f32::INFINITY, f32::NAN];
+    for number in numbers {
+        let light = |position_world, reach| Light {
+            source: LightSource::Positional {
+                position_world,
+                reach,
+            },
+            color: Vec3::new(number, 1.0, -number),
+        };
+        for end_world in numbers.map(f64::from) {
+            let options = |shading| RenderOptions {
+                lights: vec![
+                    light(Vec3::splat(number), None),
+                    light(Vec3::ZERO, Some(number)),
+                ],
+                ambient: Some(number),
+                specular: Specular {
+                    model: SpecularModel::Blinn,
+                    strength: Some(number),
+                },
+                shininess: Some(u32::MAX),
+                levels: Some(0),
+                fog: Some(Fog {
+                    start_world: f64::from(number),
+                    end_world,
+                    color: None,
+                }),
+                ..small(shading)
+            };
+            for shading in [
+                Shading::Flat,
+                Shading::Gouraud,
+                Shading::Phong,
+                Shading::Toon,
+            ] {
+                for scene in [broken(), Scene::default()] {
+                    render(&scene, &options(shading), &device).expect("every light can be used");
+                }
+            }
         }
     }
 }

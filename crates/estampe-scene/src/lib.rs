@@ -21,7 +21,7 @@ struct Readme;
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
 pub use image::Image;
-pub use light::Light;
+pub use light::{Light, LightSource};
 pub use material::{AlphaMode, Material};
 pub use mesh::{LineSegment, Mesh, Surface, Triangle, UpAxis};
 pub use workers::{Workers, pieces};

@@ -19,7 +19,12 @@ pub struct Material {
     pub emissive: Vec3,
     /// Index into `Scene::images` of the sRGB base-colour texture.
     pub base_color_texture: Option<usize>,
-    /// Use of the texture's alpha.
+    /// Index into `Scene::images` of the bump map: a texture of heights, which are the mean of red,
+    /// green and blue, linear.
+    pub bump_texture: Option<usize>,
+    /// Factor of the heights; negative ones make dents.
+    pub bump_scale: f32,
+    /// Use of the base-colour texture's alpha.
     pub alpha_mode: AlphaMode,
 }
 
@@ -46,6 +51,8 @@ impl Default for Material {
             shininess: 32.0,
             emissive: Vec3::ZERO,
             base_color_texture: None,
+            bump_texture: None,
+            bump_scale: 1.0,
             alpha_mode: AlphaMode::Opaque,
         }
     }

@@ -74,7 +74,7 @@ const LIBRARIES: &[&str] = &[
 
 /// The workspace crates that only the tests and examples of a crate may use.
 const TESTS: &[(&str, &[&str])] = &[
-    ("estampe-renderer", &["estampe-shapes"]),
+    ("estampe-renderer", &["estampe-shapes", "estampe-reference"]),
     // All of this crate is tests.
     ("estampe-tests", &["estampe-reference"]),
 ];

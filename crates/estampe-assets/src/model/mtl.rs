@@ -1,6 +1,7 @@
 //! MTL: the material libraries of OBJ.
 //!
-//! Read: `Kd`, `Ks`, `Ke` (one value means grey), `Ns`, `d`, `Tr`, `illum`, `map_Kd`, `map_d`.
+//! Read: `Kd`, `Ks`, `Ke` (one value means grey), `Ns`, `d`, `Tr`, `illum`, `map_Kd`, `map_d`,
+//! `map_Bump` or `bump` with its multiplier `-bm`.
 //! Colours are treated as sRGB-encoded, as modelling programs display them, and become linear. `Ka`
 //! is known and ignored, because ambient light belongs to the scene. One warning reports the other
 //! maps, which are not drawn.
@@ -48,6 +49,15 @@ struct Draft {
     illumination: Option<f32>,
     base_color_map: Option<TextureName>,
     opacity_map: Option<TextureName>,
+    bump_map: Option<Map>,
+}
+
+/// A texture of a material with the options that are read.
+#[derive(Debug)]
+struct Map {
+    name: TextureName,
+    /// `-bm`: the factor of a bump map's heights.
+    bump_multiplier: Option<f32>,
 }
 
 /// An opened library file.
@@ -234,10 +244,14 @@ impl Draft {
                 None => warn("a number was expected"),
             },
             b"illum" => self.illumination = read_number(statements),
-            b"map_kd" => self.base_color_map = read_map(statements, source),
-            b"map_d" | b"map_tr" => self.opacity_map = read_map(statements, source),
-            b"map_ks" | b"map_ns" | b"map_ke" | b"map_bump" | b"bump" | b"norm" | b"disp"
-            | b"decal" | b"refl" => warn("this kind of texture is not drawn"),
+            b"map_kd" => self.base_color_map = read_map(statements, source).map(|map| map.name),
+            b"map_d" | b"map_tr" => {
+                self.opacity_map = read_map(statements, source).map(|map| map.name);
+            }
+            b"map_bump" | b"bump" => self.bump_map = read_map(statements, source),
+            b"map_ks" | b"map_ns" | b"map_ke" | b"norm" | b"disp" | b"decal" | b"refl" => {
+                warn("this kind of texture is not drawn");
+            }
             _ => {}
         }
     }
@@ -248,6 +262,7 @@ impl Draft {
             mut material,
             base_color_map,
             opacity_map,
+            bump_map,
             ..
         } = self;
         material.opacity = match (self.dissolve, self.transparency) {
@@ -276,6 +291,11 @@ impl Draft {
             material.base_color_texture = Some(image);
             material.alpha_mode = alpha_mode;
         }
+        if is_used && let Some(map) = bump_map {
+            let image = textures.load(Some(&map.name), None, context);
+            material.bump_texture = image.map(|(image, _)| image);
+            material.bump_scale = map.bump_multiplier.unwrap_or(1.0);
+        }
         if material.opacity < 1.0 {
             material.alpha_mode = AlphaMode::Blend;
         }
@@ -302,45 +322,59 @@ fn read_color(statements: &mut Statements<'_>) -> Option<Vec3> {
     Some(encoded.map(linear_from_srgb))
 }
 
-/// The file name after the options, which are skipped.
-fn read_map(statements: &mut Statements<'_>, source: &Source<'_>) -> Option<TextureName> {
+/// The file name after the options, of which the bump multiplier is read.
+fn read_map(statements: &mut Statements<'_>, source: &Source<'_>) -> Option<Map> {
     let location = statements.location();
     let rest = statements.rest();
-    let name = text_of_name(after_options(rest));
+    let (name, bump_multiplier) = after_options(rest);
+    let name = text_of_name(name);
     let name = unquoted(name.trim()).to_owned();
     let separator = source.name.rfind(['/', '\\']);
     let folder = separator.map_or("", |at| &source.name[..=at]).to_owned();
     let named_in = source.name.to_owned();
-    (!name.is_empty()).then_some(TextureName {
+    let name = TextureName {
         name,
         folder,
         named_in,
         location,
+    };
+    (!name.name.is_empty()).then_some(Map {
+        name,
+        bump_multiplier,
     })
 }
 
-/// The text after the options `-name argument…`. The last word is never an argument.
-fn after_options(mut text: &[u8]) -> &[u8] {
+/// The text after the options `-name argument…`, and the argument of `-bm`. The last word is never
+/// an argument.
+fn after_options(mut text: &[u8]) -> (&[u8], Option<f32>) {
+    // Beyond, the slopes of all but the flattest maps are vertical.
+    const STEEPEST: f32 = 1000.0;
+    let mut bump_multiplier = None;
     loop {
         let (word, rest) = split_word(text);
         if rest.is_empty() {
-            return text;
+            return (text, bump_multiplier);
         }
-        let is_number = |word: &[u8]| {
-            crate::model::number::parse_f32(word).is_some_and(|(_, length)| length == word.len())
+        let number = |word: &[u8]| {
+            let parsed = crate::model::number::parse_f32(word);
+            parsed.and_then(|(number, length)| (length == word.len()).then_some(number))
         };
         let (least, most) = match word.to_ascii_lowercase().as_slice() {
             b"-o" | b"-s" | b"-t" => (1, 3),
             b"-mm" => (2, 2),
             b"-blendu" | b"-blendv" | b"-boost" | b"-texres" | b"-clamp" | b"-bm" | b"-imfchan"
             | b"-type" | b"-cc" | b"-colorspace" => (1, 1),
-            _ => return text,
+            _ => return (text, bump_multiplier),
         };
         text = rest;
         for taken in 0..most {
             let (argument, rest) = split_word(text);
-            if rest.is_empty() || taken >= least && !is_number(argument) {
+            if rest.is_empty() || taken >= least && number(argument).is_none() {
                 break;
+            }
+            if word.eq_ignore_ascii_case(b"-bm") {
+                let number = number(argument).filter(|number| number.is_finite());
+                bump_multiplier = number.map(|number| number.clamp(-STEEPEST, STEEPEST));
             }
             text = rest;
         }

@@ -13,14 +13,15 @@ Examples:
   estampe render head.obj -o head.png --texture head_diffuse.tga --azimuth -20
   estampe render builtin:teapot -o teapot.png --shading toon --background none
   estampe render scan.ply -o scan.jpg --size 640x480 --samples 1
-  estampe render model.obj -o lit.png --light 1,1,1 --light -1,0.3,0 --ambient 0.1
+  estampe render model.obj -o lit.png --light 1,1,1 --light -1,0.3,0:4080ff:0.5 --ambient 0.1
+  estampe render model.obj -o lamp.png --light pos:2,3,4 --attenuation 9 --specular blinn:0.6 --shininess 80
   curl -s https://example.org/m.stl | estampe render - --format stl -o - > m.png
 
 Built-in models: builtin:teapot, builtin:sphere, builtin:torus, builtin:cube, builtin:plane.
 
 Space: right-handed, Y up. STL files are Z-up and are rotated, (x, y, z) to (x, z, -y). --up z rotates other \
 files in the same way, --up y rotates nothing, and --up x,y,z rotates nothing and sets the up direction. --eye, \
---target and --light are in this space. The eye's direction from the target is \
+--target and --light are in this space, and --attenuation and --fog are lengths in it. The eye's direction from the target is \
 (sin a cos e, sin e, cos a cos e) for azimuth a and elevation e.
 
 Exit codes: 0 success, 1 the model is missing or invalid, 2 wrong usage, 3 the image cannot be written.

@@ -34,6 +34,7 @@ pub(crate) fn draw(
     start: Instant,
     progress: &Progress,
 ) -> Result<Drawn, Failure> {
+    args.illumination.check()?;
     check_drawable(model)?;
     let texture_start = Instant::now();
     let texture = args

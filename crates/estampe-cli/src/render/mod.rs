@@ -8,6 +8,8 @@
 mod arguments;
 mod command;
 mod draw;
+mod illumination;
+mod illumination_values;
 mod picture;
 mod report;
 

@@ -1,12 +1,13 @@
 //! The options of a picture, which all commands that draw have, and the renderer's options from
 //! them.
 
+use super::illumination::IlluminationArgs;
 use crate::values::{self, Background, CullName, ShadingName, ViewName};
 use clap::Args;
 use estampe::Level;
 use estampe_renderer::{CameraOptions, Eye, ProjectionKind, RenderOptions, Up, ViewDirection};
-use estampe_scene::{Image, Light};
-use glam::{DVec3, Vec3};
+use estampe_scene::Image;
+use glam::DVec3;
 use std::path::PathBuf;
 
 /// The size, the camera, the appearance, and the machine that draws.
@@ -60,13 +61,13 @@ pub(crate) struct PictureArgs {
     #[arg(help_heading = "Camera")]
     pub(crate) margin: f64,
 
-    /// Shading of surfaces: flat, gouraud, phong, toon, unlit, wireframe, normals, depth or uv
+    /// Shading: flat, gouraud, phong, toon, unlit, wireframe, normals, depth, uv (see --help)
     ///
     /// flat: lighting once per face; gouraud: lighting at the vertices; phong: lighting at every
-    /// pixel; toon: lighting in four steps; unlit: colours and textures without lighting;
-    /// wireframe: edges, hidden by faces; normals: red right, green up, blue towards the eye;
-    /// depth: white near, black far; uv: u red, v green. The last three store numbers without sRGB
-    /// encoding.
+    /// pixel; toon, toon-flat, toon-gouraud: lighting at every pixel, once per face or at the
+    /// vertices, in steps; unlit: colours and textures without lighting; wireframe: edges, hidden
+    /// by faces; normals: red right, green up, blue towards the eye; depth: white near, black far;
+    /// uv: u red, v green. The last three store numbers without sRGB encoding.
     #[arg(
         long,
         value_name = "STYLE",
@@ -77,14 +78,8 @@ pub(crate) struct PictureArgs {
     #[arg(help_heading = "Appearance")]
     pub(crate) shading: ShadingName,
 
-    /// A direction towards a white light, instead of the default lights; repeatable
-    #[arg(long, value_name = "X,Y,Z", value_parser = values::direction, allow_hyphen_values = true)]
-    #[arg(help_heading = "Appearance")]
-    pub(crate) light: Vec<DVec3>,
-
-    /// Ambient light, 0 to 10, times the base colour [default: 0.18]
-    #[arg(long, value_name = "AMOUNT", value_parser = values::ambient, help_heading = "Appearance")]
-    pub(crate) ambient: Option<f32>,
+    #[command(flatten)]
+    pub(crate) illumination: IlluminationArgs,
 
     /// A base-colour texture (PNG, JPEG, TGA; sRGB), instead of the model's colours and textures
     #[arg(long, value_name = "FILE", help_heading = "Appearance")]
@@ -154,12 +149,7 @@ impl PictureArgs {
                 elevation_deg: self.elevation.unwrap_or(default.elevation_deg),
             },
         };
-        let light = |towards: &glam::DVec3| Light {
-            // Normalised, because f64's range exceeds f32's; only the direction matters.
-            towards_light_world: towards.normalize_or(glam::DVec3::Y).as_vec3(),
-            color: Vec3::ONE,
-        };
-        RenderOptions {
+        let options = RenderOptions {
             width: self.size.0,
             height: self.size.1,
             samples: self.sample_count(),
@@ -177,11 +167,11 @@ impl PictureArgs {
             },
             up: self.up,
             shading: self.shading.into(),
-            lights: self.light.iter().map(light).collect(),
-            ambient: self.ambient,
             texture,
             background: self.background.0,
             cull: self.cull.into(),
-        }
+            ..RenderOptions::default()
+        };
+        self.illumination.apply(options)
     }
 }

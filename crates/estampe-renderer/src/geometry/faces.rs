@@ -6,10 +6,20 @@ use estampe::{BufferError, Device};
 use estampe_scene::Mesh;
 use glam::Vec3;
 
+/// Where a face is lit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LitAt {
+    /// At each of its vertices.
+    Vertices,
+    /// At its centroid.
+    Centroid,
+}
+
 /// The streams of a mesh with three separate vertices for each triangle, in the triangles' order,
 /// and with the faces' normals instead of the vertices'.
 pub(crate) fn unshared_streams(
     mesh: &Mesh,
+    lit_at: LitAt,
     space: &UnitSpace,
     device: &Device,
 ) -> Result<MeshStreams, BufferError> {
@@ -20,9 +30,19 @@ pub(crate) fn unshared_streams(
         let normal = face_normal(triangle.map(position)).to_array();
         [normal, normal, normal]
     });
+    let positions = StreamData::per_vertex(device, positions)?;
+    let centroids = mesh.triangles.iter().flat_map(|triangle| {
+        let corners = triangle.map(|index| space.unit_from_object(position(index)).as_dvec3());
+        let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+        [middle.as_vec3().to_array(); 3]
+    });
     let indicators = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     Ok(MeshStreams {
-        positions: StreamData::per_vertex(device, positions)?,
+        lit_at: match lit_at {
+            LitAt::Vertices => positions.clone(),
+            LitAt::Centroid => StreamData::per_vertex(device, centroids)?,
+        },
+        positions,
         normals: StreamData::per_vertex(device, normals)?,
         uvs: if mesh.uvs.is_empty() {
             StreamData::constant(device, &[0.0; 2])?

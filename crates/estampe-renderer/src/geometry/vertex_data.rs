@@ -17,6 +17,8 @@ pub(crate) enum VertexStream {
     Uv,
     /// Four floats, linear.
     Color,
+    /// Three floats, unit space: where light at the vertices is computed.
+    LitAt,
     /// Three floats: 1 at one corner of a triangle, 0 at the others.
     Corner,
 }
@@ -24,7 +26,7 @@ pub(crate) enum VertexStream {
 impl VertexStream {
     const fn format(self) -> VertexFormat {
         match self {
-            Self::Position | Self::Normal | Self::Corner => VertexFormat::Float32x3,
+            Self::Position | Self::Normal | Self::LitAt | Self::Corner => VertexFormat::Float32x3,
             Self::Uv => VertexFormat::Float32x2,
             Self::Color => VertexFormat::Float32x4,
         }
@@ -116,6 +118,7 @@ pub(crate) struct MeshStreams {
     pub(crate) normals: StreamData,
     pub(crate) uvs: StreamData,
     pub(crate) colors: StreamData,
+    pub(crate) lit_at: StreamData,
     pub(crate) corners: StreamData,
 }
 
@@ -129,8 +132,10 @@ impl MeshStreams {
         workers: Workers,
     ) -> Result<Self, BufferError> {
         let position = |p| space.unit_from_object(p).to_array();
+        let positions = StreamData::of_each(device, &mesh.positions, position, workers)?;
         Ok(Self {
-            positions: StreamData::of_each(device, &mesh.positions, position, workers)?,
+            lit_at: positions.clone(),
+            positions,
             normals: if mesh.normals.is_empty() {
                 StreamData::constant(device, &[0.0; 3])?
             } else {
@@ -162,6 +167,7 @@ impl MeshStreams {
             VertexStream::Normal => &self.normals,
             VertexStream::Uv => &self.uvs,
             VertexStream::Color => &self.colors,
+            VertexStream::LitAt => &self.lit_at,
             VertexStream::Corner => &self.corners,
         }
     }

@@ -2,22 +2,30 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | [`lighting`] | lights and the Phong lighting model |
-//! | [`phong`] | lighting at every fragment, smooth or in toon steps |
-//! | [`vertex_lit`] | lighting at the vertices (Gouraud) or the faces (flat), or none (unlit) |
-//! | [`surfaces`] | shaders of surfaces, plain or with texture and vertex colours |
+//! | [`lighting`] | lights, and the sum of their light on a point |
+//! | [`steps`] | light in steps |
+//! | [`terms`] | the terms of a surface: all, toon, or none (unlit) |
+//! | [`bump`] | normals bent by a texture of heights |
+//! | [`interpolation`] | lighting at every fragment (Phong), or at the vertices (Gouraud, flat) |
+//! | [`base_color`] | one colour, or texture and vertex colours |
+//! | [`output`] | quantised colours, fog |
+//! | [`surface`] | the shader of surfaces, composed of these parts |
 //! | [`wireframe`] | edges over faces that hide the edges behind them |
 //! | [`inspection`] | normals, depth and uv as colours |
 //! | [`points_and_lines`] | points and lines |
 //!
 //! Lighting is computed in view space, in linear light.
 
+pub(crate) mod base_color;
+pub(crate) mod bump;
 pub(crate) mod inspection;
+pub(crate) mod interpolation;
 pub(crate) mod lighting;
-pub(crate) mod phong;
+pub(crate) mod output;
 pub(crate) mod points_and_lines;
-pub(crate) mod surfaces;
-pub(crate) mod vertex_lit;
+pub(crate) mod steps;
+pub(crate) mod surface;
+pub(crate) mod terms;
 pub(crate) mod wireframe;
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
-//! The shader of points and lines: vertex colours without lighting, with linear fog (depth cueing).
+//! The shader of points and lines: vertex colours without lighting, with depth cueing, and fog.
 
 use super::VertexTransforms;
+use super::output::Fog;
 use estampe::{FragmentIn, FragmentOut, Vec3, Vec4, VertexIn, VertexOut};
 
 /// The shader of points and lines.
@@ -9,12 +10,13 @@ pub(crate) struct PointsAndLines {
     pub(crate) transforms: VertexTransforms,
     /// Linear colour, multiplied by the vertex colour.
     pub(crate) color: [f32; 3],
-    /// Linear colour of the fog (depth cueing).
-    pub(crate) fog_color: [f32; 3],
-    /// Share of fog in the colour at the model's furthest point, in 0..=1; none at its nearest.
-    pub(crate) fog_at_furthest: f32,
+    /// Linear colour into which distant points fade (depth cueing).
+    pub(crate) distant_color: [f32; 3],
+    /// Share of this colour at the model's furthest point, in 0..=1; none at its nearest.
+    pub(crate) share_at_furthest: f32,
     /// Distances of the model's nearest and furthest point along the view direction.
     pub(crate) depth_range: (f32, f32),
+    pub(crate) fog: Option<Fog>,
     /// Width of a point, in pixels.
     pub(crate) point_size_px: f32,
 }
@@ -31,14 +33,19 @@ estampe::shader! {
         ) -> VertexOut<R, Vec3<R>> {
             let (nearest, furthest) = self.depth_range;
             let distance = -self.transforms.view(position).z;
-            let fog = ((distance - nearest) / (furthest - nearest)).saturate() * self.fog_at_furthest;
+            let depth = ((distance - nearest) / (furthest - nearest)).saturate();
             let own = color.xyz() * Vec3::uniform(input.zero, self.color);
-            let color = own.mix(Vec3::uniform(input.zero, self.fog_color), fog);
+            let distant = Vec3::uniform(input.zero, self.distant_color);
+            let color = own.mix(distant, depth * self.share_at_furthest);
             VertexOut::new(self.transforms.clip(position), color)
                 .with_point_size(input.real(self.point_size_px))
         }
 
-        fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, color: Vec3<R>) -> FragmentOut<R> {
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, color: Vec3<R>) -> FragmentOut<R> {
+            let color = match &self.fog {
+                Some(fog) => fog.color(&input, color),
+                None => color,
+            };
             FragmentOut::color(color.point())
         }
     }

@@ -1,0 +1,97 @@
+//! The base colour of a surface, its alpha and its bump map: one colour, or texture and vertex
+//! colours.
+
+use super::bump::BumpMap;
+use estampe::{Attributes, FragmentIn, Real, SampledTexture, Varyings, Vec2, Vec4};
+
+/// The base colour: a part of a [`Surface`](super::surface::Surface).
+pub(crate) trait BaseColor: Send + Sync + 'static {
+    /// What a vertex has for it. It is interpolated unchanged.
+    type Values<R: Real>: Attributes<R> + Varyings<R> + Copy;
+
+    /// Linear RGBA at a fragment.
+    fn color<R: Real>(&self, input: &FragmentIn<'_, R>, values: Self::Values<R>) -> Vec4<R>;
+
+    /// The bump map with its texture coordinates, if there is one.
+    fn bump<R: Real>(&self, values: Self::Values<R>) -> Option<(&BumpMap, Vec2<R>)>;
+
+    /// Use of the colour's alpha.
+    fn alpha(&self) -> Alpha;
+}
+
+/// One colour: linear RGBA.
+#[derive(Debug, Clone)]
+pub(crate) struct Plain(pub(crate) [f32; 4]);
+
+impl BaseColor for Plain {
+    type Values<R: Real> = ();
+
+    #[inline(always)]
+    fn color<R: Real>(&self, input: &FragmentIn<'_, R>, (): ()) -> Vec4<R> {
+        Vec4::uniform(input.zero, self.0)
+    }
+
+    #[inline(always)]
+    fn bump<R: Real>(&self, (): ()) -> Option<(&BumpMap, Vec2<R>)> {
+        None
+    }
+
+    #[inline(always)]
+    fn alpha(&self) -> Alpha {
+        Alpha::Kept
+    }
+}
+
+/// Vertex colours, or a texture, or both, or one colour with a bump map.
+#[derive(Debug, Clone)]
+pub(crate) struct Painted {
+    /// Linear RGBA, multiplied by the texture and the vertex colour.
+    pub(crate) factor: [f32; 4],
+    /// The base-colour texture.
+    pub(crate) texture: Option<SampledTexture>,
+    /// Heights that bend the normals of fragments.
+    pub(crate) bump: Option<BumpMap>,
+    /// Use of alpha.
+    pub(crate) alpha: Alpha,
+}
+
+/// Use of the texture's and the vertices' alpha.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Alpha {
+    /// Alpha is 1.
+    Ignored,
+    /// Fragments below ½ are discarded.
+    CutsOut,
+    /// Alpha is written with the colour.
+    Kept,
+}
+
+impl BaseColor for Painted {
+    type Values<R: Real> = (Vec2<R>, Vec4<R>); // uv, color
+
+    #[inline(always)]
+    fn color<R: Real>(
+        &self,
+        input: &FragmentIn<'_, R>,
+        (uv, color): (Vec2<R>, Vec4<R>),
+    ) -> Vec4<R> {
+        let mut base = color * Vec4::uniform(input.zero, self.factor);
+        if let Some(texture) = &self.texture {
+            base *= texture.sample(uv);
+        }
+        if self.alpha == Alpha::Ignored {
+            base.w = input.real(1.0);
+        }
+        base
+    }
+
+    #[inline(always)]
+    fn bump<R: Real>(&self, (uv, _): (Vec2<R>, Vec4<R>)) -> Option<(&BumpMap, Vec2<R>)> {
+        self.bump.as_ref().map(|map| (map, uv))
+    }
+
+    #[inline(always)]
+    fn alpha(&self) -> Alpha {
+        self.alpha
+    }
+}

@@ -1,0 +1,62 @@
+//! The shader of surfaces, composed of parts: a base colour, the place where the light is computed
+//! with the terms of the light, and an output.
+//!
+//! ```text
+//!   base colour        plain · vertex colour · texture (with a bump map)      base_color
+//!   × interpolation    flat · Gouraud · Phong                                 interpolation
+//!   × terms            ambient + diffuse + specular · toon · unlit            terms, lighting
+//!   × output           plain · quantised · fogged                             output
+//! ```
+//!
+//! A part that needs other varyings is a type, and each combination of these is a shader of its
+//! own, which takes the compiler seconds at each SIMD level: there are two base colours and two
+//! interpolations. All other choices are values of fields. A branch on a field costs a fragment
+//! nothing that can be measured, and the pipeline finds what a shader reads with the fields that it
+//! has: without fog no position, without a texture no derivatives.
+
+use super::base_color::{Alpha, BaseColor};
+use super::interpolation::Interpolation;
+use super::output::Output;
+use estampe::{FragmentIn, FragmentOut, Vec3, VertexIn, VertexOut};
+
+/// A surface.
+#[derive(Debug, Clone)]
+pub(crate) struct Surface<B, I> {
+    pub(crate) base_color: B,
+    pub(crate) interpolation: I,
+    pub(crate) output: Output,
+}
+
+estampe::shader! {
+    impl<B: BaseColor, I: Interpolation> Shader for Surface<B, I> {
+        // Position, then those of the parts.
+        type Attributes<R: Real> = (Vec3<R>, I::Attributes<R>, B::Values<R>);
+        type Varyings<R: Real> = (I::Varyings<R>, B::Values<R>);
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, lit, painted): (Vec3<R>, I::Attributes<R>, B::Values<R>),
+        ) -> VertexOut<R, (I::Varyings<R>, B::Values<R>)> {
+            let varyings = (self.interpolation.vertex(position, lit), painted);
+            VertexOut::new(self.interpolation.transforms().clip(position), varyings)
+        }
+
+        fn fragment<R: Real>(
+            &self,
+            input: FragmentIn<'_, R>,
+            (lit, painted): (I::Varyings<R>, B::Values<R>),
+        ) -> FragmentOut<R> {
+            let base = self.base_color.color(&input, painted);
+            let bump = self.base_color.bump(painted);
+            let color = self.interpolation.fragment(base.xyz(), bump, lit, input.front_facing);
+            let color = self.output.color(&input, color);
+            let out = FragmentOut::color(color.extend(base.w));
+            if self.base_color.alpha() == Alpha::CutsOut {
+                out.discard_unless(base.w.ge(input.real(0.5)))
+            } else {
+                out
+            }
+        }
+    }
+}
