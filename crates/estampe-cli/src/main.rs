@@ -5,12 +5,14 @@
 //! * [`shape`]: meshes a function, as a model or an image;
 //! * [`describe`]: describes the contents of a model;
 //! * [`diff`]: measures the difference of two images;
+//! * [`depth`]: measures the precision of depth buffers;
 //! * [`ladder`]: draws the pictures of the ladder, from one pixel to shapes.
 //!
 //! [`input`] reads models from files, standard input or by built-in name, [`output`] writes files
 //! completely or not at all, [`values`] parses the options' values, and [`failure`] has the exit
 //! codes.
 
+mod depth;
 mod describe;
 mod diff;
 mod failure;
@@ -39,6 +41,7 @@ Examples:
   estampe render builtin:teapot -o teapot.png --view iso --shading toon
   estampe shape --explicit 'sin(x) + cos(y)' -o waves.png
   estampe info model.stl
+  estampe depth --near 0.1 --far 1000 --format d24
   estampe diff expected.png actual.png
   estampe ladder all -o ladder
 
@@ -55,6 +58,7 @@ enum Command {
     Shape(Box<shape::ShapeArgs>),
     Info(describe::InfoArgs),
     Diff(diff::DiffArgs),
+    Depth(depth::DepthArgs),
     Ladder(ladder::LadderArgs),
 }
 
@@ -81,6 +85,17 @@ fn main() -> ExitCode {
             shape::run(args),
         ),
         Command::Info(args) => report("info", args.json.then_some(false), describe::run(args)),
+        Command::Depth(args) => {
+            let to = &args.output;
+            let on_standard_output = to
+                .as_ref()
+                .is_some_and(values::Destination::is_standard_output);
+            report(
+                "depth",
+                args.json.then_some(on_standard_output),
+                depth::run(args),
+            )
+        }
         Command::Ladder(args) => report("ladder", None, ladder::run(args)),
         Command::Diff(args) => {
             let (mut out, mut err) = (BufWriter::new(io::stdout().lock()), io::stderr().lock());

@@ -24,6 +24,34 @@ pub(crate) fn size(text: &str) -> Result<(u32, u32), String> {
     sides.ok_or_else(|| format!("write WIDTHxHEIGHT, each 1 to {MAX_SIDE} pixels, as in 1024x768"))
 }
 
+/// `WxH` of a plot in pixels: large enough for its texts.
+pub(crate) fn plot_size(text: &str) -> Result<(u32, u32), String> {
+    const LEAST: (u32, u32) = (200, 150);
+    match size(text)? {
+        (width, height) if width >= LEAST.0 && height >= LEAST.1 => Ok((width, height)),
+        _ => Err(format!(
+            "a plot has at least {}x{} pixels",
+            LEAST.0, LEAST.1
+        )),
+    }
+}
+
+/// A positive distance as the pipeline rounds it.
+pub(crate) fn distance(text: &str) -> Result<f32, String> {
+    let distance = number(text)
+        .map(round_to_f32)
+        .filter(|distance| *distance > 0.0);
+    distance.ok_or_else(|| "write a distance above 0, as in 0.1".to_owned())
+}
+
+/// A positive distance, or `inf`.
+pub(crate) fn distance_or_infinity(text: &str) -> Result<f32, String> {
+    match text {
+        "inf" | "infinity" | "∞" => Ok(f32::INFINITY),
+        _ => distance(text).map_err(|message| format!("{message}, or inf")),
+    }
+}
+
 /// A finite number.
 fn number(text: &str) -> Option<f64> {
     text.trim()

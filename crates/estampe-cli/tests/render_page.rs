@@ -11,14 +11,19 @@ mod shell;
 #[expect(dead_code, reason = "the commands of the page have quoted words")]
 mod support;
 
-use page::check_page;
 use std::path::Path;
 use support::{Folder, Run};
 
 /// Rows: F3.
 #[test]
 fn the_commands_of_the_page_draw_its_pictures() {
-    assert!(check_page("render") > 40);
+    let drawn = page::check_page("render");
+    assert_eq!(
+        drawn,
+        page::committed("render"),
+        "each picture is drawn by a command of the page"
+    );
+    assert!(drawn.len() > 40, "{drawn:?}");
 }
 
 /// Options that change no picture, or its file alone.

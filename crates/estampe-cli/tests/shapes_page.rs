@@ -10,10 +10,14 @@ mod shell;
 #[expect(dead_code, reason = "the commands of the page have quoted words")]
 mod support;
 
-use page::check_page;
-
 /// Rows: M3, M4, M5.
 #[test]
 fn the_commands_of_the_page_draw_its_pictures() {
-    assert!(check_page("shapes") > 10);
+    let drawn = page::check_page("shapes");
+    assert_eq!(
+        drawn,
+        page::committed("shapes"),
+        "each picture is drawn by a command of the page"
+    );
+    assert!(drawn.len() > 10, "{drawn:?}");
 }

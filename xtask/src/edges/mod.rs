@@ -37,6 +37,11 @@ const CRATES: &[(&str, &[&str])] = &[
     ("estampe-scene", &[]),
     ("estampe-assets", &["estampe-scene", "estampe-shapes"]),
     ("estampe-renderer", &["estampe", "estampe-scene"]),
+    // Depths are rounded by the codec of the pipeline.
+    (
+        "estampe-visibility",
+        &["estampe", "estampe-format", "estampe-scene"],
+    ),
     // The oracle is a second opinion: it shares the types of the interface and no algorithm.
     ("estampe-reference", &["estampe-types"]),
     // The one library that shows the teaching code of the oracle.
@@ -69,12 +74,15 @@ const LIBRARIES: &[&str] = &[
     "estampe-scene",
     "estampe-assets",
     "estampe-renderer",
+    "estampe-visibility",
     "estampe-ladder",
 ];
 
 /// The workspace crates that only the tests and examples of a crate may use.
 const TESTS: &[(&str, &[&str])] = &[
     ("estampe-renderer", &["estampe-shapes", "estampe-reference"]),
+    // Pictures of examples and tests as files.
+    ("estampe-visibility", &["estampe-assets"]),
     // All of this crate is tests.
     ("estampe-tests", &["estampe-reference"]),
 ];
