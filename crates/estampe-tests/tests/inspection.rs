@@ -1,5 +1,5 @@
-//! Any pixel explains itself: the history of random pixels of random passes ends with the pixel that
-//! is drawn, each record begins where the one before ended, and all kinds of records occur.
+//! Any pixel explains itself: the history of random pixels of random passes ends with the pixel
+//! that is drawn, each record begins where the one before ended, and all kinds of records occur.
 
 use estampe_tests::geometry::Style;
 use estampe_tests::inspection::{Told, check_pixel};
@@ -35,12 +35,20 @@ fn check_all(topic: &str, cases: u64, mixture: impl Fn(&mut Random) -> Mixture) 
 #[test]
 fn histories_end_with_the_pixel_that_is_drawn() {
     let told = check_all("inspection/one sample", 40, |random| {
-        let format = random.pick(&[F::Rgba8Unorm, F::Bgra8UnormSrgb, F::Rgba16Float, F::Rg8Unorm]);
+        let format = random.pick(&[
+            F::Rgba8Unorm,
+            F::Bgra8UnormSrgb,
+            F::Rgba16Float,
+            F::Rg8Unorm,
+        ]);
         let depth = random.pick(&[F::Depth24PlusStencil8, F::Depth32FloatStencil8]);
         Mixture::new(&[format], Some(depth), 1)
     });
     assert!(told.primitives > 1000, "{told:?}");
-    assert!(told.passed > 500 && told.discarded > 0 && told.culled > 0, "{told:?}");
+    assert!(
+        told.passed > 500 && told.discarded > 0 && told.culled > 0,
+        "{told:?}"
+    );
     assert!(told.failed[0] > 0 && told.failed[1] > 0, "{told:?}");
 }
 
@@ -49,7 +57,11 @@ fn histories_end_with_the_pixel_that_is_drawn() {
 fn histories_of_several_samples_and_targets() {
     let told = check_all("inspection/samples", 25, |random| {
         let samples = random.pick(&[2, 4, 8, 16]);
-        let mut mixture = Mixture::new(&[F::Rgba8Unorm, F::R32Float], Some(F::Depth16Unorm), samples);
+        let mut mixture = Mixture::new(
+            &[F::Rgba8Unorm, F::R32Float],
+            Some(F::Depth16Unorm),
+            samples,
+        );
         mixture.styles = Style::ALL.to_vec();
         mixture
     });

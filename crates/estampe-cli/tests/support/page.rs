@@ -33,8 +33,8 @@ fn blocks(page: &str) -> Vec<Block<'_>> {
 
 /// Runs the commands of the page of this name, the lines of its `sh` blocks that begin with
 /// `estampe`, and compares the pictures that they write with those in the page's folder of
-/// `docs/images`, byte for byte; each must be shown on the page. A block that names a file after its
-/// language, as in "```mtl clay.mtl", is written to that file first. Returns the names of the
+/// `docs/images`, byte for byte; each must be shown on the page. A block that names a file after
+/// its language, as in "```mtl clay.mtl", is written to that file first. Returns the names of the
 /// pictures.
 ///
 /// If the environment variable `UPDATE_PICTURES` is set, the pictures are written anew.

@@ -77,8 +77,8 @@ pub struct PrimitiveRecord {
     /// True if the facing of the piece is culled: nothing else happened.
     pub is_culled: bool,
     /// Of a triangle, its edge functions at the pixel's centre, in pixels²: twice the areas of the
-    /// triangles that the centre makes with the edges opposite to each vertex of the piece, positive
-    /// inside.
+    /// triangles that the centre makes with the edges opposite to each vertex of the piece,
+    /// positive inside.
     pub edges: Option<[f64; 3]>,
     /// Of a triangle, the edge functions divided by their sum.
     pub barycentrics: Option<[f64; 3]>,
