@@ -35,7 +35,8 @@ pub(crate) struct IlluminationArgs {
     /// Highlights: none, phong (reflected light) or blinn (half vector), with or without :STRENGTH
     ///
     /// STRENGTH, 0 to 10, is the specular colour of all materials [default: the materials']. A
-    /// highlight of the same size needs about four times the shininess with blinn.
+    /// highlight of the same size needs about four times the shininess with blinn. Toon shading has
+    /// no highlights.
     #[arg(long, value_name = "MODEL[:STRENGTH]", default_value = "phong")]
     #[arg(value_parser = values::specular, help_heading = "Light")]
     specular: Specular,
