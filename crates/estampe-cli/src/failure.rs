@@ -1,5 +1,6 @@
 //! Errors of a command by their cause, which determines the exit code.
 
+use estampe::InspectError;
 use estampe_assets::AssetError;
 use estampe_ladder::LadderError;
 use estampe_renderer::RenderError;
@@ -50,6 +51,9 @@ impl From<AssetError> for Failure {
 impl From<RenderError> for Failure {
     fn from(error: RenderError) -> Self {
         match error {
+            RenderError::Inspect(InspectError::Outside { .. }) => {
+                Self::Usage(format!("{error}; choose another --pixel"))
+            }
             RenderError::Size { .. } => Self::Usage(format!("{error}; choose another --size")),
             RenderError::TooManyElements { .. } | RenderError::Texture(_) => {
                 Self::Input(error.to_string())

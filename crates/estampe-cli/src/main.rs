@@ -3,6 +3,7 @@
 //!
 //! * [`render`]: renders a model to an image;
 //! * [`shape`]: meshes a function, as a model or an image;
+//! * [`inspect`]: explains a pixel of the image;
 //! * [`describe`]: describes the contents of a model;
 //! * [`diff`]: measures the difference of two images;
 //! * [`depth`]: measures the precision of depth buffers;
@@ -17,6 +18,7 @@ mod describe;
 mod diff;
 mod failure;
 mod input;
+mod inspect;
 mod ladder;
 mod output;
 mod progress;
@@ -40,6 +42,7 @@ Examples:
   estampe render model.obj -o model.png
   estampe render builtin:teapot -o teapot.png --view iso --shading toon
   estampe shape --explicit 'sin(x) + cos(y)' -o waves.png
+  estampe inspect builtin:teapot --pixel 500,400
   estampe info model.stl
   estampe depth --near 0.1 --far 1000 --format d24
   estampe diff expected.png actual.png
@@ -57,6 +60,8 @@ enum Command {
     Render(Box<render::RenderArgs>),
     Shape(Box<shape::ShapeArgs>),
     Info(describe::InfoArgs),
+    // Boxed, because it has the options of a picture.
+    Inspect(Box<inspect::InspectArgs>),
     Diff(diff::DiffArgs),
     Depth(depth::DepthArgs),
     Ladder(ladder::LadderArgs),
@@ -84,6 +89,7 @@ fn main() -> ExitCode {
             args.report.json.then_some(args.output.is_standard_output()),
             shape::run(args),
         ),
+        Command::Inspect(args) => report("inspect", args.json.then_some(false), inspect::run(args)),
         Command::Info(args) => report("info", args.json.then_some(false), describe::run(args)),
         Command::Depth(args) => {
             let to = &args.output;

@@ -8,8 +8,9 @@ use crate::shading::VertexTransforms;
 use crate::shading::wireframe::Wireframe;
 use crate::surface_pipelines::FrameStyle;
 use estampe::{
-    BufferError, ColorAttachment, DepthStencilAttachment, Device, PipelineError, RenderPass,
-    RenderPassError, Statistics, Texture, TextureDescriptor, TextureError, TextureFormat,
+    BufferError, ColorAttachment, DepthStencilAttachment, Device, InspectError, PipelineError,
+    RenderPass, RenderPassError, Statistics, Texture, TextureDescriptor, TextureError,
+    TextureFormat,
 };
 use estampe_scene::{Camera, Image, Scene, Workers};
 use std::sync::Arc;
@@ -78,6 +79,9 @@ pub enum RenderError {
     /// A draw does not fit the target.
     #[error(transparent)]
     Pass(#[from] RenderPassError),
+    /// A pixel cannot be inspected.
+    #[error(transparent)]
+    Inspect(#[from] InspectError),
 }
 
 /// Draws a scene.
@@ -91,6 +95,42 @@ pub fn render(
     device: &Device,
 ) -> Result<Frame, RenderError> {
     let start = Instant::now();
+    with_pass(scene, options, device, |pass, view, image| {
+        let prepare = start.elapsed();
+        let statistics = device.render(pass)?;
+        let start = Instant::now();
+        let mut rgba = device.read_texture(image)?;
+        if options.background.is_none() {
+            straighten(&mut rgba, encoding(options));
+        }
+        let image = Image {
+            width: options.width,
+            height: options.height,
+            rgba,
+        };
+        let timings = FrameTimings {
+            prepare,
+            geometry: statistics.geometry,
+            raster: statistics.raster,
+            read_back: start.elapsed(),
+        };
+        Ok(Frame {
+            image,
+            statistics,
+            timings,
+            camera: view.camera_world(),
+        })
+    })
+}
+
+/// Prepares all that a frame needs, and lets `use_pass` use its pass, its view and the texture of
+/// the image.
+pub(crate) fn with_pass<T>(
+    scene: &Scene,
+    options: &RenderOptions,
+    device: &Device,
+    use_pass: impl FnOnce(&RenderPass<'_>, &SceneView, &Texture) -> Result<T, RenderError>,
+) -> Result<T, RenderError> {
     check_size(options, device)?;
     let workers = Workers::new(device.threads());
     let view = SceneView::new(scene, options, workers);
@@ -106,10 +146,8 @@ pub fn render(
     .plan()?;
     let attachments =
         Attachments::new(options, style.format, device).map_err(RenderError::Target)?;
-    let prepare = start.elapsed();
-
     let draws = plan.draws();
-    let statistics = device.render(&RenderPass {
+    let pass = RenderPass {
         color_attachments: &[Some(attachments.color(options))],
         depth_stencil_attachment: Some(DepthStencilAttachment::clear(
             &attachments.depth.view(),
@@ -117,30 +155,8 @@ pub fn render(
         )),
         draws: &draws,
         ..RenderPass::default()
-    })?;
-
-    let start = Instant::now();
-    let mut rgba = device.read_texture(&attachments.image)?;
-    if options.background.is_none() {
-        straighten(&mut rgba, encoding(options));
-    }
-    let image = Image {
-        width: options.width,
-        height: options.height,
-        rgba,
     };
-    let timings = FrameTimings {
-        prepare,
-        geometry: statistics.geometry,
-        raster: statistics.raster,
-        read_back: start.elapsed(),
-    };
-    Ok(Frame {
-        image,
-        statistics,
-        timings,
-        camera: view.camera_world(),
-    })
+    use_pass(&pass, &view, &attachments.image)
 }
 
 /// The images of a frame.
@@ -203,7 +219,7 @@ fn check_size(options: &RenderOptions, device: &Device) -> Result<(), RenderErro
     })
 }
 
-fn encoding(options: &RenderOptions) -> Encoding {
+pub(crate) fn encoding(options: &RenderOptions) -> Encoding {
     if options.shading.holds_numbers() {
         Encoding::Linear
     } else {

@@ -27,6 +27,7 @@ mod frame;
 mod geometry;
 mod materials;
 mod options;
+mod pixel_history;
 mod scene_view;
 mod shading;
 mod surface_pipelines;
@@ -41,6 +42,7 @@ pub use camera::{CameraOptions, Eye, ProjectionKind, ViewDirection};
 pub use estampe::state::CullMode;
 pub use frame::{Frame, FrameTimings, RenderError, render};
 pub use options::{Fog, RenderOptions, Shading, Specular, SpecularModel, Up};
+pub use pixel_history::{FramePixel, VertexSpaces, inspect};
 
 /// Version of the images. It rises whenever the same scene and options give other bytes than
 /// before; CHANGELOG lists the changes.

@@ -37,11 +37,7 @@ pub(crate) fn draw(
     args.illumination.check()?;
     check_drawable(model)?;
     let texture_start = Instant::now();
-    let texture = args
-        .texture
-        .as_deref()
-        .map(|path| read_texture(path, model))
-        .transpose()?;
+    let texture = texture_of(model, args)?;
     let texture_time = texture_start.elapsed();
 
     progress.stage("drawing");
@@ -72,6 +68,24 @@ pub(crate) fn draw(
         device,
         written,
     })
+}
+
+/// The renderer's options of a picture, and the device that draws it.
+pub(crate) fn prepare(
+    model: &Model,
+    args: &PictureArgs,
+    default_view: ViewDirection,
+) -> Result<(RenderOptions, Device), Failure> {
+    args.illumination.check()?;
+    check_drawable(model)?;
+    let options = args.options(default_view, texture_of(model, args)?);
+    Ok((options, device(args)?))
+}
+
+/// The texture of the options, if they name one.
+fn texture_of(model: &Model, args: &PictureArgs) -> Result<Option<Image>, Failure> {
+    let path = args.texture.as_deref();
+    path.map(|path| read_texture(path, model)).transpose()
 }
 
 /// The format of a picture: the named one, else that of the destination.
