@@ -205,10 +205,13 @@ fn document(rows: &[Row], tests: &[Test]) -> String {
 /// Every test that names rows, by path and line.
 fn tests_of(repository: &Repository, findings: &mut Vec<Finding>) -> Vec<Test> {
     let mut tests = Vec::new();
-    for file in repository
-        .rust_files()
-        .filter(|file| file.path.starts_with("crates"))
-    {
+    // Sources of the checks hold examples of such lines; their tests of the repository are tests.
+    let with_tests = ["crates", "xtask/tests"];
+    for file in repository.rust_files().filter(|file| {
+        with_tests
+            .iter()
+            .any(|folder| file.path.starts_with(folder))
+    }) {
         tests.extend(tests_in(file, findings));
     }
     tests

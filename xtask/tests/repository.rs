@@ -22,6 +22,7 @@ fn every_dependency_is_used() {
     passes(xtask::check_unused);
 }
 
+/// Rows: U4.
 #[test]
 fn outside_packages_are_pure_rust_from_crates_io() {
     passes(xtask::check_outside);

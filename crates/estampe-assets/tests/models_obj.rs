@@ -68,6 +68,7 @@ fn tga(pixels: [[u8; 4]; 2]) -> Vec<u8> {
     bytes
 }
 
+/// Rows: M2.
 #[test]
 fn the_four_forms_of_faces_are_read() {
     let attributes = "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 2\n";
@@ -93,6 +94,7 @@ fn the_four_forms_of_faces_are_read() {
     assert_eq!((four.uvs.len(), four.normals.len()), (3, 3));
 }
 
+/// Rows: M2.
 #[test]
 fn negative_indices_count_back() {
     let relative = mesh("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 0 1 0\nf -4 -2 -1\n");
@@ -139,6 +141,8 @@ fn malformed_corners_and_short_faces_are_omitted() {
 }
 
 /// An L: as a fan from its first corner one triangle would be inside out.
+///
+/// Rows: M2.
 #[test]
 fn concave_polygons_are_split_inside() {
     let shape = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n";
@@ -159,6 +163,7 @@ fn concave_polygons_are_split_inside() {
     }
 }
 
+/// Rows: M2.
 #[test]
 fn lines_and_points_are_kept() {
     let both = mesh(&format!("{SQUARE}l 1 2/1 3\np 4 1\np 2\nvt 0 0\n"));
@@ -174,6 +179,7 @@ fn lines_and_points_are_kept() {
     assert_eq!(only.warning_count, 1);
 }
 
+/// Rows: M2.
 #[test]
 fn defaults_and_extra_numbers_of_vertices() {
     let weights = mesh("v 0 0 0 0.5\nv 1 0 0 0.5\nv 0 1 0 0.5\nvt 0.25\nvt\nf 1/1 2/2 3/1\n");
@@ -199,6 +205,7 @@ fn defaults_and_extra_numbers_of_vertices() {
     assert!((bytes.scene.meshes[0].colors[2][0] - 0.502_886_6).abs() < 1e-5);
 }
 
+/// Rows: M2.
 #[test]
 fn every_way_to_end_lines_reads_the_same() {
     let text =
@@ -242,6 +249,7 @@ fn non_finite_coordinates_drop_only_their_faces() {
     assert!(!loaded.scene.meshes[0].bounds().is_empty());
 }
 
+/// Rows: M2.
 #[test]
 fn meshes_are_objects_or_else_groups() {
     let faces = |a: &str, b: &str| format!("{SQUARE}{a}\nf 1 2 3\n{b}\nf 1 3 4\n{a}\nf 1 2 4\n");
@@ -261,6 +269,7 @@ fn meshes_are_objects_or_else_groups() {
     );
 }
 
+/// Rows: M2.
 #[test]
 fn materials_become_one_surface_each() {
     let library = b"newmtl red\nKd 1 0 0\nnewmtl grey\nKd 0.5\nNs 10\nKs 0 0 0\nKe 0 1 0\n";
@@ -307,6 +316,7 @@ fn missing_materials_are_reported_where_they_are_used() {
     assert_eq!(loaded.scene.meshes[0].triangles.len(), 2);
 }
 
+/// Rows: M2.
 #[test]
 fn textures_are_loaded_once_and_their_alpha_is_classified() {
     let opaque = tga([[1, 2, 3, 255], [4, 5, 6, 255]]);
@@ -348,6 +358,7 @@ fn textures_are_loaded_once_and_their_alpha_is_classified() {
     assert_eq!(loaded.scene.images[3].texel(1, 0), [6, 5, 4, 0]);
 }
 
+/// Rows: M2.
 #[test]
 fn bump_maps_are_read_with_their_multiplier() {
     let files = Files::default()
@@ -442,6 +453,7 @@ fn side_files_are_bounded() {
     assert_eq!(refused, 45, "two look-ups for each of the first five");
 }
 
+/// Rows: M2.
 #[test]
 fn smoothing_groups_override_the_crease_angle() {
     // Two squares at a right angle.
@@ -458,6 +470,30 @@ fn smoothing_groups_override_the_crease_angle() {
     assert_eq!(count("s off\nf 1 2 3 4\ns 0\nf 1 4 6 5\n"), 8, "by angle");
 }
 
+/// Rows: M2.
+#[test]
+fn edges_sharper_than_forty_degrees_stay_sharp() {
+    // A strip along the y axis, folded there by an angle.
+    let corners = |degrees: f32| {
+        let (s, c) = libm::sincosf(degrees.to_radians());
+        format!(
+            "v 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0\nv {0} 0 {s}\nv {0} 1 {s}\n",
+            -c
+        )
+    };
+    let count = |degrees: f32| {
+        let text = format!("{}f 4 1 2 3\nf 5 4 3 6\n", corners(degrees));
+        mesh(&text).positions.len()
+    };
+    for degrees in [0.0, 20.0, 39.9] {
+        assert_eq!(count(degrees), 6, "{degrees}° is smooth");
+    }
+    for degrees in [40.1, 60.0, 90.0, 170.0] {
+        assert_eq!(count(degrees), 8, "{degrees}° is an edge");
+    }
+}
+
+/// Rows: M2.
 #[test]
 fn warnings_are_bounded_and_unknown_statements_reported_once() {
     let text = format!(

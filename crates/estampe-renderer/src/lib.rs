@@ -19,7 +19,6 @@
 //! Row numbers in the documentation are those of `docs/PIPELINE.md`.
 
 pub mod camera;
-pub mod transforms;
 
 mod alpha;
 mod draw_plan;
@@ -40,6 +39,7 @@ struct Readme;
 pub use alpha::composite_over;
 pub use camera::{CameraOptions, Eye, ProjectionKind, ViewDirection};
 pub use estampe::state::CullMode;
+pub use estampe::transforms;
 pub use frame::{Frame, FrameTimings, RenderError, render};
 pub use options::{Fog, RenderOptions, Shading, Specular, SpecularModel, Up};
 pub use pixel_history::{FramePixel, VertexSpaces, inspect};

@@ -23,7 +23,7 @@ pub use camera::{Camera, Projection};
 pub use image::Image;
 pub use light::{Light, LightSource};
 pub use material::{AlphaMode, Material};
-pub use mesh::{LineSegment, Mesh, Surface, Triangle, UpAxis};
+pub use mesh::{LineSegment, Mesh, MeshAttribute, Surface, Triangle, UpAxis};
 pub use workers::{Workers, pieces};
 
 /// The contents of one file.

@@ -18,6 +18,9 @@ pub struct Mesh {
     pub uvs: Vec<Vec2>,
     /// Linear RGB vertex colours and alpha, or empty.
     pub colors: Vec<[f32; 4]>,
+    /// Further attributes by name, such as a tangent or a temperature. Names differ from each
+    /// other, and each has a value for every vertex.
+    pub attributes: Vec<MeshAttribute>,
     /// Triangles, each three vertex indices below `positions.len()`.
     pub triangles: Vec<Triangle>,
     /// Line segments, each two vertex indices.
@@ -27,6 +30,17 @@ pub struct Mesh {
     /// Runs of triangles with one material, in order, covering `triangles` without gaps; may be
     /// empty, which means the default material throughout.
     pub surfaces: Vec<Surface>,
+}
+
+/// A named attribute of each vertex: one to four numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshAttribute {
+    /// The name by which a program asks for it.
+    pub name: String,
+    /// Numbers per vertex, 1 to 4.
+    pub components: usize,
+    /// The numbers of the first vertex, then of the second, and so on.
+    pub values: Vec<f32>,
 }
 
 /// Three vertex indices, counter-clockwise as seen from the front.
@@ -54,6 +68,15 @@ pub enum UpAxis {
 }
 
 impl Mesh {
+    /// The attribute with this name among [`attributes`](Self::attributes). `None` if there is none,
+    /// or if it has not its number of components for each vertex.
+    #[must_use]
+    pub fn attribute(&self, name: &str) -> Option<&MeshAttribute> {
+        let named = self.attributes.iter().find(|found| found.name == name)?;
+        let len = self.positions.len().checked_mul(named.components)?;
+        ((1..=4).contains(&named.components) && named.values.len() == len).then_some(named)
+    }
+
     /// The box around all finite positions that a primitive uses.
     #[must_use]
     pub fn bounds(&self) -> Bounds {

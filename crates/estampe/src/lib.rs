@@ -6,7 +6,8 @@
 //! The API has WebGPU's nouns: a [`Device`] creates [`Buffer`]s, [`Texture`]s, [`BindGroup`]s and
 //! [`RenderPipeline`]s, and draws a [`RenderPass`] of [`Draw`]s into views of textures. A shader is
 //! a Rust value that implements [`Shader`]: see [`shader!`], and `docs/from-glsl.md` for those who
-//! know GLSL or WGSL. It finds the textures that a draw binds through [`TextureBindings`]. Spaces,
+//! know GLSL or WGSL. It finds the textures that a draw binds through [`TextureBindings`].
+//! [`Mat4`] has the transforms of models and cameras, [`transforms`] all of them in f64. Spaces,
 //! rounding and the order of every operation are in
 //! `docs/NUMERICS.md`.
 //!
@@ -54,6 +55,7 @@ mod rgba;
 #[cfg(feature = "image")]
 mod rgba_image;
 mod texture;
+pub mod transforms;
 
 /// The README's snippet, compiled and run as a test.
 #[cfg(doctest)]

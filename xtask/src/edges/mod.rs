@@ -110,6 +110,7 @@ const OUTSIDE: &[(&str, Users)] = &[
         "glam",
         Users::Only(&[
             "estampe-types",
+            "estampe",
             "estampe-shapes",
             "estampe-scene",
             "estampe-assets",

@@ -87,6 +87,7 @@ fn check_flat(bytes: &[u8], expected: [u8; 4]) {
     }
 }
 
+/// Rows: I2.
 #[test]
 fn grey_files() {
     for value in [0, 1, 77, 128, 255] {
@@ -94,6 +95,7 @@ fn grey_files() {
     }
 }
 
+/// Rows: I2.
 #[test]
 fn three_components_are_ycbcr_unless_the_file_says_rgb() {
     // ITU-T T.871: R = Y + 1.402 (Cr − 128).
@@ -101,6 +103,7 @@ fn three_components_are_ycbcr_unless_the_file_says_rgb() {
     check_flat(&flat_jpeg(&[10, 20, 30], Some(0)), [10, 20, 30, 255]);
 }
 
+/// Rows: I2.
 #[test]
 fn four_inks_become_colours() {
     // Adobe stores inks inverted: 255 is no ink. Colour = ink · black.
@@ -117,6 +120,7 @@ fn four_inks_become_colours() {
     );
 }
 
+/// Rows: I2.
 #[test]
 fn written_jpegs_read_back_nearly() {
     let image = disc(100, 60);
@@ -138,6 +142,7 @@ fn written_jpegs_read_back_nearly() {
     assert_eq!(encode_jpeg(&image, 0), encode_jpeg(&image, 1));
 }
 
+/// Rows: I2.
 #[test]
 fn prefixes_and_random_damage_never_panic() {
     let limits = Limits {

@@ -136,6 +136,7 @@ fn unorm8(value: u32, bits: u8) -> u8 {
     (f64::from(value) / top * 255.0 + 0.5) as u8
 }
 
+/// Rows: I2.
 #[test]
 fn every_colour_type_and_depth_interlaced_or_not() {
     for interlaced in [false, true] {
@@ -167,6 +168,7 @@ fn every_colour_type_and_depth_interlaced_or_not() {
     }
 }
 
+/// Rows: I2.
 #[test]
 fn palettes_of_every_depth_with_and_without_transparency() {
     for depth in [1, 2, 4, 8] {
@@ -191,6 +193,7 @@ fn palettes_of_every_depth_with_and_without_transparency() {
     }
 }
 
+/// Rows: I2.
 #[test]
 fn one_colour_can_be_transparent() {
     let mut grey = Fixture::new(0, 8, (4, 1));
@@ -216,6 +219,7 @@ fn one_colour_can_be_transparent() {
     );
 }
 
+/// Rows: I2.
 #[test]
 fn written_files_read_back() {
     let mut random = Random::new(2);
@@ -257,6 +261,7 @@ fn the_same_picture_is_the_same_bytes_and_small() {
     assert!(bytes.len() < 256 * 256 * 3 / 3, "{} bytes", bytes.len());
 }
 
+/// Rows: I2.
 #[test]
 fn every_prefix_is_refused_inside_the_file() {
     let bytes = encode_png(&noise(6, 6, 4), AlphaChannel::Always).expect("a valid image");
@@ -292,6 +297,7 @@ fn a_large_size_in_a_small_file_takes_no_memory() {
     }
 }
 
+/// Rows: I2.
 #[test]
 fn random_damage_never_panics() {
     let limits = Limits {

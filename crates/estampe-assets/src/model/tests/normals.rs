@@ -65,6 +65,7 @@ fn a_cube_keeps_its_edges() {
     }
 }
 
+/// Rows: M2.
 #[test]
 fn a_round_tube_is_smooth_and_a_square_one_is_not() {
     let mut meshes = [tube(16)];
@@ -92,6 +93,7 @@ fn a_round_tube_is_smooth_and_a_square_one_is_not() {
     );
 }
 
+/// Rows: M2.
 #[test]
 fn positions_equal_to_the_bit_are_one_point_even_across_meshes() {
     let whole = tube(16);
@@ -126,6 +128,7 @@ fn positions_equal_to_the_bit_are_one_point_even_across_meshes() {
     assert!(of_soup.copied().eq(expected));
 }
 
+/// Rows: M2.
 #[test]
 fn flat_mode_gives_each_triangle_its_own_normal() {
     let mut meshes = [tube(16)];
@@ -139,6 +142,7 @@ fn flat_mode_gives_each_triangle_its_own_normal() {
     assert_eq!(mesh.normals.len(), mesh.positions.len());
 }
 
+/// Rows: M2.
 #[test]
 fn smoothing_groups_overrule_angles() {
     let all_one = [vec![1; 12]];
@@ -178,6 +182,7 @@ fn normals_of_the_file_are_kept() {
     );
 }
 
+/// Rows: M2.
 #[test]
 fn the_larger_face_weighs_more() {
     // Two triangles 30° apart over a common edge; one has three times the area.

@@ -35,6 +35,7 @@ fn files() -> Vec<Vec<u8>> {
     files
 }
 
+/// Rows: I1.
 #[test]
 fn every_prefix_is_located_or_complete() {
     let limits = Limits::default();
@@ -78,6 +79,7 @@ fn a_large_size_in_a_small_file_takes_no_memory() {
     }
 }
 
+/// Rows: I1.
 #[test]
 fn random_damage_never_panics() {
     let files = files();

@@ -24,6 +24,7 @@ fn refusal(fixture: &Fixture) -> AssetError {
     decode(&fixture.bytes(), &Limits::default()).expect_err("a wrong file")
 }
 
+/// Rows: I1.
 #[test]
 fn true_colour_of_24_bits_is_stored_blue_first() {
     let texels = [0, 0, 255, 0, 255, 0, 255, 0, 0, 30, 20, 10];
@@ -33,6 +34,7 @@ fn true_colour_of_24_bits_is_stored_blue_first() {
     );
 }
 
+/// Rows: I1.
 #[test]
 fn five_bit_channels_are_spread_over_the_whole_range() {
     // ARRRRRGG GGGBBBBB, little-endian: red, green, blue, and (3, 27, 14) with the top bit set.
@@ -54,6 +56,7 @@ fn the_top_bit_of_16_is_alpha_only_where_the_extension_area_says_so() {
     check(&fixture, &[WHITE, WHITE]);
 }
 
+/// Rows: I1.
 #[test]
 fn alpha_of_32_bits_follows_the_attributes_type() {
     let mut fixture = Fixture::new(2, 32, (2, 1), &[1, 2, 3, 0, 40, 60, 80, 128]);
@@ -76,6 +79,7 @@ fn alpha_of_32_bits_follows_the_attributes_type() {
     }
 }
 
+/// Rows: I1.
 #[test]
 fn grey_may_carry_alpha() {
     check(
@@ -88,6 +92,7 @@ fn grey_may_carry_alpha() {
     check(&fixture, &[[0, 0, 0, 255], [77, 77, 77, 5]]);
 }
 
+/// Rows: I1.
 #[test]
 fn colour_maps_have_entries_of_four_widths() {
     for (bits, map_bytes, colors) in [
@@ -112,6 +117,7 @@ fn map_entries_of_32_bits_have_alpha_when_the_descriptor_says_so() {
     check(&fixture, &[[1, 2, 3, 77]]);
 }
 
+/// Rows: I1.
 #[test]
 fn the_first_entry_shifts_the_indices() {
     let mut fixture = Fixture::new(1, 8, (3, 1), &[200, 202, 201]);
@@ -150,6 +156,7 @@ fn the_image_id_and_an_unused_map_are_skipped() {
     check(&fixture, &[GREEN]);
 }
 
+/// Rows: I1.
 #[test]
 fn four_origins() {
     let texels = [1, 2, 3, 4, 5, 6];
@@ -168,6 +175,7 @@ fn four_origins() {
     }
 }
 
+/// Rows: I1.
 #[test]
 fn interleaved_rows_are_put_in_order() {
     for (order, stored) in [(0x40, [0, 2, 4, 1, 3]), (0x80, [0, 4, 1, 2, 3])] {
@@ -183,6 +191,7 @@ fn interleaved_rows_are_put_in_order() {
     assert!(refusal(&fixture).to_string().contains("byte 17"));
 }
 
+/// Rows: I1.
 #[test]
 fn packets_of_every_depth_run_and_repeat() {
     let grey = |values: &[u8]| values.iter().map(|&v| [v, v, v, 255]).collect::<Vec<_>>();
@@ -208,6 +217,7 @@ fn packets_of_every_depth_run_and_repeat() {
     check(&mapped, &[BLUE, BLUE, BLUE, RED]);
 }
 
+/// Rows: I1.
 #[test]
 fn packets_may_cross_rows_and_are_cut_at_the_last_texel() {
     let expected = [5, 5, 5, 5, 6, 7].map(|grey| [grey, grey, grey, 255]);
@@ -221,6 +231,7 @@ fn packets_may_cross_rows_and_are_cut_at_the_last_texel() {
     );
 }
 
+/// Rows: I1.
 #[test]
 fn headers_that_contradict_themselves_are_refused() {
     let good = Fixture::new(2, 24, (1, 1), &[0; 3]);

@@ -15,6 +15,7 @@ fn read_back(bytes: &[u8]) -> Image {
     decode(bytes, &Limits::default()).expect("our own file")
 }
 
+/// Rows: I1.
 #[test]
 fn a_small_file_byte_for_byte() {
     let image = Image {
@@ -49,6 +50,7 @@ fn a_small_file_byte_for_byte() {
     );
 }
 
+/// Rows: I1.
 #[test]
 fn alpha_is_written_when_needed_or_asked() {
     let clear = noise(4, 4, 3);
@@ -76,6 +78,7 @@ fn alpha_is_written_when_needed_or_asked() {
     }
 }
 
+/// Rows: I1.
 #[test]
 fn pictures_of_all_sizes_read_back() {
     let mut random = Random::new(11);
