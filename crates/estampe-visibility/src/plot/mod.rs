@@ -17,4 +17,3 @@ mod tests;
 
 pub use chart::{Curve, Plot};
 pub use drawing::{Anchor, Drawing, Stroke, Text};
-pub use raster::PlotError;

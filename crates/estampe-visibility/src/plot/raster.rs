@@ -1,34 +1,17 @@
 //! Drawings as images, drawn by the pipeline's smooth lines.
 
 use super::{Drawing, Stroke};
+use crate::DrawError;
 use estampe::state::{
     BlendState, ColorTargetState, LineRasterization, LineState, PrimitiveTopology,
     VertexBufferLayout,
 };
 use estampe::{
-    BufferError, ColorAttachment, Device, Draw, FragmentIn, FragmentOut, PipelineError, RenderPass,
-    RenderPassError, RenderPipelineDescriptor, TextureDescriptor, TextureError, TextureFormat,
-    Vec2, Vec3, Vec4, VertexFormat, VertexIn, VertexOut, bytes_of,
+    ColorAttachment, Device, Draw, FragmentIn, FragmentOut, RenderPass, RenderPipelineDescriptor,
+    TextureDescriptor, TextureFormat, Vec2, Vec3, Vec4, VertexFormat, VertexIn, VertexOut,
+    bytes_of,
 };
 use estampe_scene::Image;
-
-/// The reason why a drawing has no image.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum PlotError {
-    /// The image is too large for the device.
-    #[error(transparent)]
-    Texture(#[from] TextureError),
-    /// The strokes are too many for the device.
-    #[error(transparent)]
-    Buffer(#[from] BufferError),
-    /// A width of a stroke is not above 0 and at most 64.
-    #[error(transparent)]
-    Pipeline(#[from] PipelineError),
-    /// The pass is not valid.
-    #[error(transparent)]
-    Pass(#[from] RenderPassError),
-}
 
 /// Lines in pixels, each vertex with its colour.
 struct Ink {
@@ -66,7 +49,7 @@ impl Drawing {
     ///
     /// # Errors
     /// If the size or a stroke does not fit the device.
-    pub fn to_image(&self, device: &Device) -> Result<Image, PlotError> {
+    pub fn to_image(&self, device: &Device) -> Result<Image, DrawError> {
         let texts = self.texts.iter().flat_map(super::Text::strokes);
         let strokes: Vec<Stroke> = self.strokes.iter().cloned().chain(texts).collect();
         let [width, height] = self.size;
