@@ -5,8 +5,8 @@
 //! ```
 //!
 //! Three beams, each over the next in a cycle, and two squares that cross, from the front. From
-//! left to right: painter's algorithm, sorted by the polygons' centres; the BSP tree, whose cuts show as
-//! lines; the depth buffer; the depth buffer from above, the eye below.
+//! left to right: painter's algorithm, sorted by the polygons' centres; the BSP tree; the depth
+//! buffer; the depth buffer from above, the eye below.
 
 #![expect(clippy::print_stdout, reason = "examples print their results")]
 
