@@ -1,6 +1,9 @@
 //! `estampe inspect` end to end: the history ends with the pixel that `estampe render` writes.
 
-#[expect(dead_code, reason = "pixels are compared, and nothing else of pictures")]
+#[expect(
+    dead_code,
+    reason = "pixels are compared, and nothing else of pictures"
+)]
 #[path = "support/picture.rs"]
 mod picture;
 #[expect(dead_code, reason = "the test knows the names of its files")]
