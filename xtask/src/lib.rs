@@ -5,6 +5,7 @@
 //! ```text
 //! cargo run -p xtask -- check        every check of sources, documents and dependencies
 //! cargo run -p xtask -- asm          the check of the hot functions' machine code
+//! cargo run -p xtask -- book         checks the book and writes its pages
 //! cargo run -p xtask -- conformance  writes which tests prove which row of the pipeline
 //! cargo run -p xtask -- fuzz raster  random triangles that share edges, for long
 //! ```
@@ -15,6 +16,7 @@
 //! why in the commit.
 
 mod assembly;
+mod book;
 mod conformance;
 mod documents;
 mod edges;
@@ -30,6 +32,7 @@ mod unused;
 mod words;
 
 pub use assembly::{AssemblyError, AssemblyReport, check_binary};
+pub use book::{BookError, check_book, write_book};
 pub use conformance::{check_conformance, conformance_document};
 pub use documents::check_documents;
 pub use edges::check_edges;
@@ -53,5 +56,6 @@ pub const CHECKS: &[Check] = &[
     ("files", check_files),
     ("words", check_words),
     ("documents", check_documents),
+    ("book", check_book),
     ("conformance", check_conformance),
 ];

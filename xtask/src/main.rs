@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
 use clap::{Parser, Subcommand};
-use xtask::{CHECKS, Repository, check_binary, conformance_document};
+use xtask::{CHECKS, Repository, check_binary, check_book, conformance_document, write_book};
 
 /// Checks of the repository
 #[derive(Debug, Parser)]
@@ -26,6 +26,8 @@ enum Task {
         /// Programs to check; without any, those of the repository are built and checked
         programs: Vec<PathBuf>,
     },
+    /// Check the book and write its pages into target/book
+    Book,
     /// Write docs/CONFORMANCE.md: the tests that prove each row of the pipeline
     Conformance,
     /// Run random tests for long: `fuzz raster` draws triangles that share edges and counts how
@@ -44,6 +46,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Check => check(),
         Task::Asm { programs } => asm(programs),
+        Task::Book => book(),
         Task::Conformance => conformance(),
         Task::Fuzz { arguments } => fuzz(&arguments),
     };
@@ -107,6 +110,22 @@ fn asm(programs: Vec<PathBuf>) -> Outcome {
         );
         passed &= report.offences.is_empty();
     }
+    Ok(passed)
+}
+
+/// Checks the book, and writes its pages even if something is wrong, for a look at them.
+fn book() -> Outcome {
+    let repository = Repository::of_this_build()?;
+    let documents = xtask::check_documents(&repository).into_iter();
+    let of_the_book = documents.filter(|finding| finding.path.starts_with("book"));
+    let mut passed = true;
+    for finding in check_book(&repository).into_iter().chain(of_the_book) {
+        eprintln!("  {finding}");
+        passed &= !finding.is_error();
+    }
+    let folder = repository.root().join("target/book");
+    let count = write_book(&repository, &folder)?;
+    eprintln!("{count} chapters: {}", folder.join("index.html").display());
     Ok(passed)
 }
 

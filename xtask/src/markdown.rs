@@ -123,7 +123,7 @@ impl Open {
 }
 
 /// The anchor of a heading: lower case, letters and digits, `-` for spaces.
-fn anchor(heading: &str) -> String {
+pub(crate) fn anchor(heading: &str) -> String {
     heading
         .trim()
         .chars()

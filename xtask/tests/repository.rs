@@ -49,6 +49,11 @@ fn documents_point_at_what_exists() {
 }
 
 #[test]
+fn the_book_shows_what_tests_keep() {
+    passes(xtask::check_book);
+}
+
+#[test]
 fn every_row_of_the_pipeline_has_its_tests() {
     passes(xtask::check_conformance);
 }
