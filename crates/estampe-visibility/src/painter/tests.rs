@@ -2,7 +2,9 @@
 
 use super::*;
 use crate::bsp::{BspOptions, BspTree};
+use crate::eye::Eye;
 use crate::picture::{Hiding, View, differing_pixels, draw, draw_with_depths};
+use crate::polygon::Polygon;
 use crate::random_scene;
 use estampe::{Device, DeviceDescriptor, Level, Mat4};
 use fastrand::Rng;
