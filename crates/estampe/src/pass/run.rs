@@ -82,7 +82,7 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     let (attachments, groups) = check_objects(limits, pass)?;
     let textures = reserved_order(&attachments, &groups);
     let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
-    let mut stores = StoredTextures::default();
+    let mut stores = StoredTextures::in_place();
     let resources = groups.resources(context, &mut stores)?;
     let data = DrawData::new(pass.draws, &groups, &resources);
     let draws = data.draws(pass.draws);
@@ -93,15 +93,10 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     let drawn = draw(device, &mut target, pass, core_pass);
     attachments.finish(context, target, depth_newest)?;
     drop(draws);
-    // Shared texels would be copied when they are written back.
+    // Nobody else holds the words that were stored to from now on.
     drop(data);
     drop(resources);
-    stores
-        .write_back(context)
-        .map_err(|error| PassErrorKind::Texture {
-            attachment: "a storage texture".to_owned(),
-            error,
-        })?;
+    stores.finish();
     drop(reserved);
     // The pass was checked, but it may have been cancelled.
     Ok(drawn?)
@@ -117,7 +112,7 @@ pub(crate) fn prepared<T>(
     let (attachments, groups) = check_objects(device.limits(), pass)?;
     let textures = reserved_order(&attachments, &groups);
     let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
-    let resources = groups.resources(device.context(), &mut StoredTextures::default())?;
+    let resources = groups.resources(device.context(), &mut StoredTextures::copies())?;
     let data = DrawData::new(pass.draws, &groups, &resources);
     let used = use_data(&attachments, &data);
     drop(reserved);

@@ -1,10 +1,10 @@
 //! The texels of a texture: rows, tiles of the images that were rendered to, and which are newest.
 
 use super::blocks::Blocks;
-use super::{Texture, TextureError};
+use super::{Texture, TextureError, TextureView};
 use estampe_core::{ColorTexels, Context, DepthStencilTexels, row_order_words};
 use estampe_texture::MipGeneration;
-use estampe_types::{Limits, ShadowMap, TexelData, TextureFormat};
+use estampe_types::{Limits, ShadowMap, StorageTexture, TexelData, TextureFormat};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -33,6 +33,24 @@ pub(crate) enum Newest {
     Discarded,
 }
 
+/// A mip level in atomic words.
+#[derive(Debug)]
+struct StoredLevel {
+    words: StorageTexture,
+    state: WordsState,
+}
+
+/// How the words of a level stand to its rows and tiles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum WordsState {
+    /// Rows or tiles are newer.
+    OutOfDate,
+    /// The rows are the same; tiles may be.
+    AsRows,
+    /// Shaders have stored to the words since: rows and tiles are out of date.
+    Newest,
+}
+
 /// The texels of a texture; zeros where neither rows nor tiles have been needed yet, of compressed
 /// formats blocks of zero bytes.
 #[derive(Debug, Default)]
@@ -41,6 +59,8 @@ pub(crate) struct Contents {
     rows: Option<Arc<TexelData>>,
     /// Images in the order in which passes render to them.
     images: BTreeMap<ImageKey, (Image, Newest)>,
+    /// Mip levels as shaders store to them, all layers or slices of a level together.
+    stored: BTreeMap<u32, StoredLevel>,
     /// The blocks of compressed images.
     pub(super) blocks: Blocks,
     /// True if the host wrote rows since their opacity was found out.
@@ -70,7 +90,81 @@ impl Contents {
     pub(super) fn set_rows(&mut self, data: TexelData) {
         self.rows = Some(Arc::new(data));
         self.images.clear();
+        self.stored.clear();
         self.is_written = false;
+    }
+
+    /// The level of a view as shaders store to it: without a copy if that is what was last done
+    /// with it, else in memory that is kept. After stores, [`Contents::put_stored`] must be called.
+    pub(super) fn stored_level(
+        &mut self,
+        context: &Context,
+        view: &TextureView,
+        create: impl Fn(&TextureView) -> Result<StorageTexture, TextureError>,
+    ) -> Result<StorageTexture, TextureError> {
+        let level = view.mip_levels()[0];
+        let is_of_view = |words: &StorageTexture| words.format() == view.format();
+        if let Some(stored) = self.stored.get(&level)
+            && stored.state != WordsState::OutOfDate
+            && is_of_view(&stored.words)
+        {
+            return Ok(stored.words.clone());
+        }
+        self.update_rows(view.texture(), context)?;
+        let kept = self.stored.remove(&level).map(|stored| stored.words);
+        let rows = self.rows.as_ref().expect("the rows were made");
+        let first = words_of(rows, ImageKey { level, layer: 0 }).start;
+        let mut words = match kept.filter(is_of_view) {
+            Some(words) => words,
+            None => create(view)?,
+        };
+        let from = &rows.texels[first..][..words.len()];
+        if !words.fill_from(from) {
+            // A shader has kept a clone of the words for itself.
+            words = create(view)?;
+            let is_filled = words.fill_from(from);
+            debug_assert!(is_filled, "it was just made");
+        }
+        let state = WordsState::AsRows;
+        let clone = words.clone();
+        self.stored.insert(level, StoredLevel { words, state });
+        Ok(clone)
+    }
+
+    /// Says that shaders have stored to a level: rows and tiles of it are out of date.
+    pub(super) fn put_stored(&mut self, level: u32) {
+        if let Some(stored) = self.stored.get_mut(&level) {
+            stored.state = WordsState::Newest;
+        }
+        for (key, (_, newest)) in &mut self.images {
+            if key.level == level {
+                *newest = Newest::Rows;
+            }
+        }
+    }
+
+    /// Says that rows or tiles of a level change: its words are out of date.
+    fn outdate_words(&mut self, level: u32) {
+        if let Some(stored) = self.stored.get_mut(&level) {
+            debug_assert_ne!(stored.state, WordsState::Newest, "the rows are up to date");
+            stored.state = WordsState::OutOfDate;
+        }
+    }
+
+    /// Brings the rows, which must have been made, up to date with the words.
+    fn update_rows_from_words(&mut self) {
+        let stored = self.stored.iter_mut();
+        let newest = stored.filter(|(_, stored)| stored.state == WordsState::Newest);
+        for (&level, stored) in newest {
+            let data = Arc::make_mut(self.rows.as_mut().expect("the rows were made"));
+            let first = words_of(data, ImageKey { level, layer: 0 }).start;
+            let mut texels = std::mem::take(&mut data.texels);
+            let rows = &mut Arc::make_mut(&mut texels)[first..][..stored.words.len()];
+            stored.words.copy_into(rows);
+            data.texels = texels;
+            stored.state = WordsState::AsRows;
+            self.is_written = true;
+        }
     }
 
     /// Lets `write` change the rows of some images; the tiles of these are out of date afterwards.
@@ -86,6 +180,7 @@ impl Contents {
             if let Some((_, newest)) = self.images.get_mut(&key) {
                 *newest = Newest::Rows;
             }
+            self.outdate_words(key.level);
         }
         self.is_written = true;
         let data = Arc::make_mut(self.rows.as_mut().expect("the rows were made"));
@@ -95,7 +190,7 @@ impl Contents {
         Ok(result)
     }
 
-    /// Makes the rows, and brings them up to date with the tiles.
+    /// Makes the rows, and brings them up to date with words and tiles.
     fn update_rows(&mut self, texture: &Texture, context: &Context) -> Result<(), TextureError> {
         if self.rows.is_none() {
             let limits = Limits::default();
@@ -104,6 +199,7 @@ impl Contents {
                 .create(&[], MipGeneration::None, &limits)?;
             self.rows = Some(Arc::new(data));
         }
+        self.update_rows_from_words();
         let images = self.images.iter_mut();
         let mut newer = images
             .filter(|(_, (_, newest))| matches!(newest, Newest::Tiles | Newest::Discarded))
@@ -141,6 +237,10 @@ impl Contents {
         key: ImageKey,
         keeps: bool,
     ) -> Result<(Image, Newest), TextureError> {
+        let stored = self.stored.get(&key.level);
+        if stored.is_some_and(|stored| stored.state == WordsState::Newest) {
+            self.update_rows(texture, context)?;
+        }
         let (mut image, mut newest) = match self.images.remove(&key) {
             Some((_, Newest::Discarded)) if keeps => {
                 if self.rows.is_some() {
@@ -170,6 +270,7 @@ impl Contents {
 
     /// Puts an image back that a pass has changed.
     pub(crate) fn put(&mut self, key: ImageKey, image: Image) {
+        self.outdate_words(key.level);
         self.images.insert(key, (image, Newest::Tiles));
     }
 
@@ -180,6 +281,7 @@ impl Contents {
 
     /// Puts an image back whose texels are not kept: they read as zeros.
     pub(crate) fn discard(&mut self, key: ImageKey, image: Image) {
+        self.outdate_words(key.level);
         self.images.insert(key, (image, Newest::Discarded));
     }
 

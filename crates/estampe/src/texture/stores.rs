@@ -1,4 +1,4 @@
-//! Textures that the shaders of a pass store to: atomic words for the time of the pass.
+//! Textures that the shaders of a pass store to, as atomic words.
 
 use super::contents::words_of;
 use super::{ImageKey, TextureError, TextureView};
@@ -7,12 +7,30 @@ use estampe_texture::is_storable;
 use estampe_types::{StorageTexture, ViewDimension};
 
 /// The textures that the shaders of a pass store to.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct StoredTextures {
     stored: Vec<(TextureView, StorageTexture)>,
+    /// If set, shaders store to copies, which are dropped.
+    copies: bool,
 }
 
 impl StoredTextures {
+    /// Textures whose texels change.
+    pub(crate) fn in_place() -> Self {
+        Self {
+            stored: Vec::new(),
+            copies: false,
+        }
+    }
+
+    /// Copies of textures, which stay as they are.
+    pub(crate) fn copies() -> Self {
+        Self {
+            stored: Vec::new(),
+            copies: true,
+        }
+    }
+
     /// The texture as shaders store to it: one for all views of the same level.
     pub(crate) fn get(
         &mut self,
@@ -26,42 +44,41 @@ impl StoredTextures {
             return Ok(storage.clone());
         }
         let texture = view.texture();
-        let level = view.mip_levels()[0];
-        let size = texture.level_size(level);
-        let layers = size.depth_or_array_layers;
-        let sides = (size.width, size.height);
-        let storage = StorageTexture::zeros(view.format(), sides, texture.dimension(), layers);
-        let storage = storage.ok_or(TextureError::OutOfMemory {
-            bytes: u64::from(size.width) * u64::from(size.height) * u64::from(layers) * 4,
-        })?;
-        let rows = texture.lock().rows(texture, context)?;
-        let words = words_of(&rows, ImageKey { level, layer: 0 }).start;
-        let all = rows.texels.iter().skip(words).take(storage.len());
-        for (index, word) in all.enumerate() {
-            storage.store(index, *word);
-        }
+        let storage = if self.copies {
+            let mut storage = zeros(view)?;
+            let rows = texture.lock().rows(texture, context)?;
+            let level = view.mip_levels()[0];
+            let first = words_of(&rows, ImageKey { level, layer: 0 }).start;
+            let is_filled = storage.fill_from(&rows.texels[first..][..storage.len()]);
+            debug_assert!(is_filled, "it was just made");
+            storage
+        } else {
+            texture.lock().stored_level(context, view, zeros)?
+        };
         self.stored.push((view.clone(), storage.clone()));
         Ok(storage)
     }
 
-    /// Writes what shaders have stored to the textures.
-    pub(crate) fn write_back(self, context: &Context) -> Result<(), TextureError> {
-        for (view, storage) in self.stored {
-            let texture = view.texture();
+    /// Says to the textures that shaders have stored to them.
+    pub(crate) fn finish(self) {
+        debug_assert!(!self.copies, "copies are dropped");
+        for (view, _) in self.stored {
             let level = view.mip_levels()[0];
-            let layers = 0..texture.level_size(level).depth_or_array_layers;
-            let keys = layers.map(|layer| ImageKey { level, layer });
-            let mut contents = texture.lock();
-            contents.write_rows(texture, context, keys, |data, words| {
-                let first = words_of(data, ImageKey { level, layer: 0 }).start;
-                let words = &mut words[first..][..storage.len()];
-                for (index, word) in words.iter_mut().enumerate() {
-                    *word = storage.load(index);
-                }
-            })?;
+            view.texture().lock().put_stored(level);
         }
-        Ok(())
     }
+}
+
+/// The level of a view in words of zeros, all layers or slices together.
+fn zeros(view: &TextureView) -> Result<StorageTexture, TextureError> {
+    let texture = view.texture();
+    let size = texture.level_size(view.mip_levels()[0]);
+    let layers = size.depth_or_array_layers;
+    let sides = (size.width, size.height);
+    let storage = StorageTexture::zeros(view.format(), sides, texture.dimension(), layers);
+    storage.ok_or(TextureError::OutOfMemory {
+        bytes: u64::from(size.width) * u64::from(size.height) * u64::from(layers) * 4,
+    })
 }
 
 impl TextureView {
