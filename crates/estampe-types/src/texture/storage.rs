@@ -113,8 +113,8 @@ impl StorageTexture {
         }
     }
 
-    /// Replaces all words at the rate of a copy; false if a clone of the texture lives, which is not
-    /// changed then.
+    /// Replaces all words at the rate of a copy; false if a clone of the texture lives, which is
+    /// not changed then.
     ///
     /// # Panics
     /// If `words` has another number of words.
