@@ -118,8 +118,7 @@ impl Conversion {
 }
 
 /// The header of the table. GB/s count the bytes of the image once.
-pub const HEADER: &str =
-    "conversion                                          ms    GB/s   memcpy ms    GB/s   of memcpy";
+pub const HEADER: &str = "conversion                                          ms    GB/s   memcpy ms    GB/s   of memcpy";
 
 /// A texture that changes its role.
 struct Image<'d> {
