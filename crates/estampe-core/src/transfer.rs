@@ -66,7 +66,7 @@ impl Context {
     }
 
     /// Fills a depth and stencil image from rows: the inverse of
-    /// [`Context::depth_stencil_to_rows`]. Depths are clamped to 0..=1, NaN becomes 0.
+    /// [`Context::depth_stencil_to_rows`]. Depths are clamped to 0..=1, −0 stays, NaN becomes 0.
     pub fn rows_to_depth_stencil(&self, rows: &[u32], texels: &mut DepthStencilTexels) {
         let mut jobs: Vec<_> = texels.storage_jobs(rows).collect();
         let level = self.level();

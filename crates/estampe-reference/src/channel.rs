@@ -211,6 +211,13 @@ pub fn clear_depth(format: TextureFormat, depth: f32) -> f32 {
     quantised_depth(format, min(max(depth, 0.0), 1.0))
 }
 
+/// The depth that an attachment of floats holds where a texel is loaded: clamped to 0..=1; −0,
+/// which passes can store, stays; NaN gives 0.
+#[must_use]
+pub fn loaded_depth(depth: f32) -> f32 {
+    if depth >= 0.0 { min(depth, 1.0) } else { 0.0 }
+}
+
 /// 2ⁿ − 1, exactly.
 fn greatest(bits: u32) -> f32 {
     (u32::MAX >> (32 - bits)) as f32

@@ -145,7 +145,7 @@ fn color_words<S: Lanes, const WORDS: usize>(
 }
 
 /// Fills the bands of a square that the image has whole with depths and stencil values; either
-/// may be empty. Depths are clamped to 0..=1, NaN becomes 0.
+/// may be empty. Depths are clamped to 0..=1, −0 stays, NaN becomes 0.
 pub(super) fn depth_stencil(
     level: Level,
     from: SquareRows<'_>,
@@ -211,7 +211,8 @@ fn depth_of_words<S: Lanes>(s: S, words: u32x4<S>, fixed: Option<FixedDepth>) ->
             let (zero, one) = (f32x4::splat(s, 0.0), f32x4::splat(s, 1.0));
             let depth: f32x4<S> = words.bitcast();
             let not_above_one = depth.simd_lt(one).select(depth, one);
-            depth.simd_gt(zero).select(not_above_one, zero)
+            // −0 is a depth that passes store: it stays.
+            depth.simd_ge(zero).select(not_above_one, zero)
         }
     }
 }

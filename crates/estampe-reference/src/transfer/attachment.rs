@@ -2,7 +2,7 @@
 
 use super::PlainImage;
 use super::texel::{aspect_of, set_aspect};
-use crate::arithmetic::{max, min};
+use crate::channel::loaded_depth;
 use crate::{Target, color};
 use estampe_types::{TexelEncoding, TextureAspect, TextureFormat};
 
@@ -33,7 +33,7 @@ pub fn resolve_color(target: &Target, attachment: usize, image: &mut PlainImage)
     }
 }
 
-/// Loads an image into the depth-stencil attachment. Depths are clamped to 0..=1, NaN becomes 0.
+/// Loads an image into the depth-stencil attachment. Depths are clamped to 0..=1, −0 stays, NaN becomes 0.
 ///
 /// # Panics
 /// If the target has no depth-stencil attachment.
@@ -74,7 +74,7 @@ pub fn depth(format: TextureFormat, texel: &[u8]) -> f32 {
     let code = u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
     match greatest_code(format) {
         Some(greatest) => code as f32 / greatest as f32,
-        None => min(max(f32::from_bits(code), 0.0), 1.0),
+        None => loaded_depth(f32::from_bits(code)),
     }
 }
 

@@ -109,7 +109,7 @@ fn depth_of(format: TextureFormat, words: &[u32]) -> f32 {
     match format.encoding() {
         TexelEncoding::Depth16 => (words[0] & 0xFFFF) as f32 / 65_535.0,
         TexelEncoding::Depth24 => (words[0] & 0x00FF_FFFF) as f32 / 16_777_215.0,
-        _ => channel::clear_depth(format, f32::from_bits(words[0])),
+        _ => channel::loaded_depth(f32::from_bits(words[0])),
     }
 }
 

@@ -31,7 +31,7 @@ impl ColorTexels {
 }
 
 impl DepthStencilTexels {
-    /// Cuts the storing of rows into jobs. Depths are clamped to 0..=1, NaN becomes 0.
+    /// Cuts the storing of rows into jobs. Depths are clamped to 0..=1, −0 stays, NaN becomes 0.
     pub(crate) fn storage_jobs<'a>(
         &'a mut self,
         rows: &'a [u32],
@@ -203,7 +203,8 @@ fn store_depth(fixed: Option<FixedDepth>, words: &[u32], to: Option<&mut f32>) {
         Some(fixed) => fixed.decode(words[0] & fixed.greatest_code()),
         None => {
             let depth = f32::from_bits(words[0]);
-            if depth > 0.0 { depth.min(1.0) } else { 0.0 }
+            // −0 is a depth that passes store: it stays.
+            if depth >= 0.0 { depth.min(1.0) } else { 0.0 }
         }
     };
 }

@@ -151,6 +151,10 @@ mod tests {
                 assert_eq!(whole, cut, "{}", format.name());
                 let depths = whole.iter().filter_map(|value| value.0);
                 assert!(depths.map(f32::from_bits).all(|d| (0.0..=1.0).contains(&d)));
+                let is_float = format.has_depth()
+                    && format.encoding() == estampe_types::TexelEncoding::Depth32;
+                let negative_zeros = whole.iter().filter(|value| value.0 == Some(1 << 31));
+                assert_eq!(is_float, negative_zeros.count() > 0, "{}", format.name());
             }
         }
     }
