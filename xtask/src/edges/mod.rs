@@ -21,6 +21,11 @@ const CRATES: &[(&str, &[&str])] = &[
         "estampe-core",
         &["estampe-types", "estampe-simd", "estampe-format"],
     ),
+    (
+        "estampe-ir",
+        &["estampe-types", "estampe-simd", "estampe-format"],
+    ),
+    ("estampe-shader", &["estampe-ir", "estampe-types"]),
     // `Device::inspect` runs a pass with the oracle, for one pixel.
     (
         "estampe",
@@ -121,6 +126,8 @@ const OUTSIDE: &[(&str, Users)] = &[
     ),
     // Blocks of compressed textures, decoded when a texture is made.
     ("bcdec_rs", Users::Only(&["estampe-texture"])),
+    // Shaders as text.
+    ("naga", Users::Only(&["estampe-shader"])),
     ("earcut", Users::Only(&["estampe-shapes"])),
     // File formats: all other crates see decoded images. `estampe` writes PNG as an option.
     (

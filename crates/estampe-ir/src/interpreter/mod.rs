@@ -1,0 +1,1 @@
+//! Runs a kernel: vector bytecode, many lanes an operation, in safe Rust.

@@ -1,0 +1,466 @@
+//! Making a tree, one node after the other.
+//!
+//! Operations on constants are done at once, and an operation that was done before, in a place that
+//! is seen from here, gives the value of then.
+
+use super::passes::fold::{Known, fold};
+use super::{Label, Node, Tree};
+use crate::interface::{Input, Interface, Output, Stage};
+use crate::op::{Binary, Compare, MaskBinary, Math, Unary};
+use crate::{Op, Type, Value};
+use std::collections::{HashMap, HashSet};
+
+/// A tree that grows.
+///
+/// ```
+/// use estampe_ir::interface::{Input, Output, Stage};
+/// use estampe_ir::op::{Binary, Compare};
+/// use estampe_ir::tree::Builder;
+///
+/// // Count down from the index of the vertex, and give the number of steps.
+/// let mut b = Builder::new(Stage::Vertex);
+/// let start = b.input(Input::VertexIndex);
+/// let [zero, one] = [0, 1].map(|word| b.word(word));
+/// let done = b.block(1);
+/// let again = b.start_loop(&[start, zero]);
+/// let [left, steps] = [again.parameters[0], again.parameters[1]];
+/// let is_over = b.compare(Compare::Eq, left, zero);
+/// b.start_if(is_over);
+/// b.branch(done, &[steps]);
+/// b.end_if();
+/// let left = b.binary(Binary::Sub, left, one);
+/// let steps = b.binary(Binary::Add, steps, one);
+/// b.branch(again.label, &[left, steps]);
+/// b.end_loop();
+/// let results = b.end_block();
+/// let tree = b.finish(vec![(Output::Varying(0), results[0])]);
+/// estampe_ir::tree::verify(&tree).unwrap();
+/// ```
+#[derive(Debug)]
+pub struct Builder {
+    tree: Tree,
+    /// The bodies that are open, from the outermost on.
+    open: Vec<Open>,
+    /// What is known of each value.
+    known: Vec<Known>,
+    /// The values of operations that are seen from here.
+    seen: HashMap<Op, Value>,
+    labels: u32,
+    /// The labels that are branched to.
+    used_labels: HashSet<Label>,
+}
+
+/// A construct that is open.
+#[derive(Debug)]
+struct Open {
+    construct: Construct,
+    nodes: Vec<Node>,
+    /// The operations that were first done in this body.
+    done: Vec<Op>,
+    /// True after a branch: nothing more is executed here.
+    has_ended: bool,
+}
+
+#[derive(Debug)]
+enum Construct {
+    Body,
+    Accept(Value),
+    Reject(Value, Vec<Node>),
+    Block(Label, Vec<Value>),
+    Loop(Label, Vec<Value>, Vec<Value>),
+}
+
+/// A loop that was begun.
+#[derive(Debug, Clone)]
+pub struct OpenLoop {
+    /// Its label.
+    pub label: Label,
+    /// Its parameters.
+    pub parameters: Vec<Value>,
+}
+
+impl Builder {
+    /// An empty tree.
+    #[must_use]
+    pub fn new(stage: Stage) -> Self {
+        let tree = Tree {
+            stage,
+            interface: Interface::default(),
+            types: Vec::new(),
+            body: Vec::new(),
+            outputs: Vec::new(),
+        };
+        Self {
+            tree,
+            open: vec![Open::new(Construct::Body)],
+            known: Vec::new(),
+            seen: HashMap::new(),
+            labels: 0,
+            used_labels: HashSet::new(),
+        }
+    }
+
+    /// The interface, to add buffers, textures, arrays and the work-group's memory. Buffers that
+    /// are written must be marked so before the first load from them.
+    pub fn interface_mut(&mut self) -> &mut Interface {
+        &mut self.tree.interface
+    }
+
+    /// The interface.
+    #[must_use]
+    pub fn interface(&self) -> &Interface {
+        &self.tree.interface
+    }
+
+    /// The number of values so far, which bounds the memory that a tree takes.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.tree.len()
+    }
+
+    /// True if there is no value yet.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.tree.is_empty()
+    }
+
+    /// True after a branch: what is added here is never executed, and dropped.
+    #[must_use]
+    pub fn has_ended(&self) -> bool {
+        self.last().has_ended
+    }
+
+    /// The word that a value is known to be.
+    #[must_use]
+    pub fn constant_of(&self, value: Value) -> Option<u32> {
+        match self.known[value.index()] {
+            Known::Word(word) => Some(word),
+            _ => None,
+        }
+    }
+
+    /// The boolean that a mask is known to be.
+    #[must_use]
+    pub fn mask_of(&self, value: Value) -> Option<bool> {
+        match self.known[value.index()] {
+            Known::Mask(mask) => Some(mask),
+            _ => None,
+        }
+    }
+
+    /// Adds an operation, and returns its results: constants, where the operands are.
+    pub fn op(&mut self, op: Op) -> Vec<Value> {
+        let is_pure = op.is_pure(|buffer| self.tree.is_written(buffer));
+        let op = if is_pure {
+            match fold(op, &self.known) {
+                Ok(value) => return vec![value],
+                Err(op) => op,
+            }
+        } else {
+            op
+        };
+        if is_pure && let Some(&value) = self.seen.get(&op) {
+            return vec![value];
+        }
+        let types = op.results();
+        let first = self.define(types);
+        if let [one] = types {
+            self.known[first.index()] = match (&op, one) {
+                (Op::Constant(word), _) => Known::Word(*word),
+                (Op::MaskConstant(mask), _) => Known::Mask(*mask),
+                (Op::MaskNot(of), _) => Known::Not(*of),
+                _ => Known::Nothing,
+            };
+        }
+        let results = first.and_next(types.len());
+        if !self.has_ended() {
+            if is_pure {
+                self.seen.insert(op.clone(), first);
+                self.last_mut().done.push(op.clone());
+            }
+            self.push(Node::Op { op, first });
+        }
+        results
+    }
+
+    /// Adds an operation with one result.
+    ///
+    /// # Panics
+    /// If it has none.
+    pub fn op1(&mut self, op: Op) -> Value {
+        self.op(op)[0]
+    }
+
+    /// A word that is known.
+    pub fn word(&mut self, word: u32) -> Value {
+        self.op1(Op::Constant(word))
+    }
+
+    /// A float that is known.
+    pub fn float(&mut self, number: f32) -> Value {
+        self.word(number.to_bits())
+    }
+
+    /// A mask that is known.
+    pub fn mask(&mut self, mask: bool) -> Value {
+        self.op1(Op::MaskConstant(mask))
+    }
+
+    /// An input. Its entry in the interface is made where it is missing.
+    pub fn input(&mut self, input: Input) -> Value {
+        let inputs = &mut self.tree.interface.inputs;
+        let at = inputs.iter().position(|&one| one == input);
+        let at = at.unwrap_or_else(|| {
+            inputs.push(input);
+            inputs.len() - 1
+        });
+        self.op1(Op::Input(position(at)))
+    }
+
+    /// An operation on a word.
+    pub fn unary(&mut self, kind: Unary, a: Value) -> Value {
+        self.op1(Op::Unary(kind, a))
+    }
+
+    /// An operation on two words.
+    pub fn binary(&mut self, kind: Binary, a: Value, b: Value) -> Value {
+        self.op1(Op::Binary(kind, [a, b]))
+    }
+
+    /// A comparison.
+    pub fn compare(&mut self, kind: Compare, a: Value, b: Value) -> Value {
+        self.op1(Op::Compare(kind, [a, b]))
+    }
+
+    /// An operation on two masks.
+    pub fn mask_binary(&mut self, kind: MaskBinary, a: Value, b: Value) -> Value {
+        self.op1(Op::MaskBinary(kind, [a, b]))
+    }
+
+    /// The opposite of a mask.
+    pub fn mask_not(&mut self, a: Value) -> Value {
+        self.op1(Op::MaskNot(a))
+    }
+
+    /// A function of a float.
+    pub fn math(&mut self, function: Math, x: Value) -> Value {
+        self.op1(Op::Math(function, x))
+    }
+
+    /// `yes` where the mask is set, else `no`; both words, or both masks.
+    pub fn select(&mut self, mask: Value, yes: Value, no: Value) -> Value {
+        if self.tree.types[yes.index()] == Type::Word {
+            return self.op1(Op::Select { mask, yes, no });
+        }
+        let yes = self.mask_binary(MaskBinary::And, mask, yes);
+        let no = self.mask_binary(MaskBinary::AndNot, no, mask);
+        self.mask_binary(MaskBinary::Or, yes, no)
+    }
+
+    /// The type of a value.
+    #[must_use]
+    pub fn kind(&self, value: Value) -> Type {
+        self.tree.types[value.index()]
+    }
+
+    /// Begins a block whose results have these types.
+    pub fn block_of(&mut self, types: &[Type]) -> Label {
+        let label = self.label();
+        let first = self.define(types);
+        let results = first.and_next(types.len());
+        self.open(Construct::Block(label, results));
+        label
+    }
+
+    /// Begins a block with so many words as results.
+    pub fn block(&mut self, results: usize) -> Label {
+        self.block_of(&vec![Type::Word; results])
+    }
+
+    /// Ends the block that was begun last, and returns its results.
+    ///
+    /// # Panics
+    /// If the construct that was begun last is no block, or if it has results and its end can be
+    /// reached.
+    pub fn end_block(&mut self) -> Vec<Value> {
+        let open = self.close();
+        let Construct::Block(label, results) = open.construct else {
+            panic!("the construct that is open is no block");
+        };
+        assert!(
+            open.has_ended || results.is_empty(),
+            "the end of a block with results is reached without a branch"
+        );
+        let is_left = !open.has_ended || self.used_labels.contains(&label);
+        self.push(Node::Block {
+            label,
+            results: results.clone(),
+            body: open.nodes,
+        });
+        self.last_mut().has_ended |= !is_left;
+        results
+    }
+
+    /// Begins a loop with these values of its parameters in the first iteration.
+    pub fn start_loop(&mut self, initial: &[Value]) -> OpenLoop {
+        let label = self.label();
+        let types: Vec<_> = initial.iter().map(|value| self.kind(*value)).collect();
+        let first = self.define(&types);
+        let parameters = first.and_next(types.len());
+        self.open(Construct::Loop(label, parameters.clone(), initial.to_vec()));
+        OpenLoop { label, parameters }
+    }
+
+    /// Ends the loop that was begun last.
+    ///
+    /// # Panics
+    /// If the construct that was begun last is no loop.
+    pub fn end_loop(&mut self) {
+        let open = self.close();
+        let Construct::Loop(label, parameters, initial) = open.construct else {
+            panic!("the construct that is open is no loop");
+        };
+        self.push(Node::Loop {
+            label,
+            parameters,
+            initial,
+            body: open.nodes,
+        });
+        self.last_mut().has_ended |= open.has_ended;
+    }
+
+    /// Begins what is executed where a mask is set.
+    pub fn start_if(&mut self, condition: Value) {
+        self.open(Construct::Accept(condition));
+    }
+
+    /// Ends the first part of an `if`, and begins what is executed where the mask is not set.
+    ///
+    /// # Panics
+    /// If the construct that was begun last is no `if`.
+    pub fn start_else(&mut self) {
+        let open = self.close();
+        let Construct::Accept(condition) = open.construct else {
+            panic!("the construct that is open is no `if` without `else`");
+        };
+        self.open(Construct::Reject(condition, open.nodes));
+    }
+
+    /// Ends the `if` that was begun last.
+    ///
+    /// # Panics
+    /// If the construct that was begun last is no `if`.
+    pub fn end_if(&mut self) {
+        let open = self.close();
+        let (condition, accept, reject) = match open.construct {
+            Construct::Accept(condition) => (condition, open.nodes, Vec::new()),
+            Construct::Reject(condition, accept) => (condition, accept, open.nodes),
+            _ => panic!("the construct that is open is no `if`"),
+        };
+        let ends = |nodes: &[Node]| matches!(nodes.last(), Some(Node::Branch { .. }));
+        let both_end = ends(&accept) && ends(&reject);
+        match self.mask_of(condition) {
+            Some(chosen) => {
+                let nodes = if chosen { accept } else { reject };
+                let is_over = ends(&nodes);
+                if !self.has_ended() {
+                    self.last_mut().nodes.extend(nodes);
+                    self.last_mut().has_ended |= is_over;
+                }
+            }
+            None if accept.is_empty() && reject.is_empty() => {}
+            None => {
+                self.push(Node::If {
+                    condition,
+                    accept,
+                    reject,
+                });
+                self.last_mut().has_ended |= both_end;
+            }
+        }
+    }
+
+    /// Goes to a label of a construct that is open.
+    pub fn branch(&mut self, label: Label, arguments: &[Value]) {
+        if !self.has_ended() {
+            self.used_labels.insert(label);
+        }
+        self.push(Node::Branch {
+            label,
+            arguments: arguments.to_vec(),
+        });
+        self.last_mut().has_ended = true;
+    }
+
+    /// The tree, with these outputs.
+    ///
+    /// # Panics
+    /// If a construct is open.
+    #[must_use]
+    pub fn finish(mut self, outputs: Vec<(Output, Value)>) -> Tree {
+        let body = self.open.pop().expect("the body of the tree");
+        assert!(self.open.is_empty(), "a construct is open");
+        self.tree.body = body.nodes;
+        (self.tree.interface.outputs, self.tree.outputs) = outputs.into_iter().unzip();
+        self.tree
+    }
+
+    fn label(&mut self) -> Label {
+        self.labels += 1;
+        Label(self.labels - 1)
+    }
+
+    fn define(&mut self, types: &[Type]) -> Value {
+        let first = Value(position(self.tree.types.len()));
+        self.tree.types.extend_from_slice(types);
+        self.known.resize(self.tree.types.len(), Known::Nothing);
+        first
+    }
+
+    fn last(&self) -> &Open {
+        self.open.last().expect("the body of the tree is open")
+    }
+
+    fn last_mut(&mut self) -> &mut Open {
+        self.open.last_mut().expect("the body of the tree is open")
+    }
+
+    fn push(&mut self, node: Node) {
+        let last = self.last_mut();
+        if !last.has_ended {
+            last.nodes.push(node);
+        }
+    }
+
+    fn open(&mut self, construct: Construct) {
+        let has_ended = self.has_ended();
+        self.open.push(Open {
+            has_ended,
+            ..Open::new(construct)
+        });
+    }
+
+    fn close(&mut self) -> Open {
+        let open = self.open.pop().expect("a construct is open");
+        for op in &open.done {
+            self.seen.remove(op);
+        }
+        open
+    }
+}
+
+impl Open {
+    fn new(construct: Construct) -> Self {
+        Self {
+            construct,
+            nodes: Vec::new(),
+            done: Vec::new(),
+            has_ended: false,
+        }
+    }
+}
+
+/// A position as the number that operations hold.
+fn position(at: usize) -> u32 {
+    u32::try_from(at).expect("a tree of fewer than 2^32 values")
+}

@@ -1,0 +1,9 @@
+//! Shaders as text: from WGSL, GLSL or SPIR-V to the intermediate representation.
+//!
+//! | module | does |
+//! |---|---|
+//! | [`front`] | source text to a checked module: versions of GLSL, errors with their place, reflection |
+//! | [`lower`] | an entry point of a module to a [`Tree`](estampe_ir::tree::Tree) |
+
+pub mod front;
+pub mod lower;
