@@ -57,79 +57,97 @@ impl Checker<'_> {
     ) -> Result<(), VerifyError> {
         let mut defined = Vec::new();
         for (at, node) in nodes.iter().enumerate() {
-            let is_last = at + 1 == nodes.len();
-            let place = |what: String| VerifyError {
+            let inside = self.begin(node, &mut defined);
+            let inside = inside.map_err(|what| VerifyError {
                 what,
                 place: summary(node),
-            };
-            match node {
-                Node::Op { op, first } => {
-                    self.op(op).map_err(place)?;
-                    for (offset, kind) in (0..).zip(op.results()) {
-                        let value = Value(first.0 + offset);
-                        self.define(value, *kind, &mut defined).map_err(place)?;
-                    }
-                }
-                Node::If {
-                    condition,
-                    accept,
-                    reject,
-                } => {
-                    self.uses(*condition, Type::Mask).map_err(place)?;
-                    self.body(accept, |_| Ok(()))?;
-                    self.body(reject, |_| Ok(()))?;
-                }
-                Node::Block {
-                    label,
-                    results,
-                    body,
-                } => {
-                    let types = self.types(results).map_err(place)?;
-                    self.enter(*label, types.clone()).map_err(place)?;
-                    self.body(body, |_| Ok(()))?;
-                    self.labels.pop();
-                    if !results.is_empty() && !ends(body) {
-                        return Err(place("the end of a block with results is reached".into()));
-                    }
-                    for (value, kind) in results.iter().zip(types) {
-                        self.define(*value, kind, &mut defined).map_err(place)?;
-                    }
-                }
-                Node::Loop {
-                    label,
-                    parameters,
-                    initial,
-                    body,
-                } => {
-                    let types = self.types(parameters).map_err(place)?;
-                    self.all_use(initial, &types).map_err(place)?;
-                    let mut of_body = Vec::new();
-                    for (value, kind) in parameters.iter().zip(&types) {
-                        self.define(*value, *kind, &mut of_body).map_err(place)?;
-                    }
-                    self.enter(*label, types).map_err(place)?;
-                    self.body(body, |_| Ok(()))?;
-                    self.labels.pop();
-                    self.leave(of_body);
-                }
-                Node::Branch { label, arguments } => {
-                    if !is_last {
-                        return Err(place("a branch is not the last of its body".into()));
-                    }
-                    let around = self.labels.iter().find(|(name, _)| name == label);
-                    let types = around.map(|(_, types)| types.clone());
-                    let types = types.ok_or_else(|| {
-                        place("the label is not that of a construct around".into())
-                    })?;
-                    self.all_use(arguments, &types).map_err(place)?;
-                }
+            })?;
+            for body in bodies(node) {
+                self.body(body, |_| Ok(()))?;
             }
+            let is_last = at + 1 == nodes.len();
+            let ended = self.end(node, is_last, inside, &mut defined);
+            ended.map_err(|what| VerifyError {
+                what,
+                place: summary(node),
+            })?;
         }
         at_end(self).map_err(|what| VerifyError {
             what,
             place: "the outputs".to_owned(),
         })?;
         self.leave(defined);
+        Ok(())
+    }
+
+    /// Checks what comes before the bodies of a node. Returns the values that are seen in them
+    /// alone.
+    fn begin(&mut self, node: &Node, defined: &mut Vec<Value>) -> Result<Vec<Value>, String> {
+        let mut inside = Vec::new();
+        match node {
+            Node::Op { op, first } => {
+                self.op(op)?;
+                for (offset, kind) in (0..).zip(op.results()) {
+                    self.define(Value(first.0 + offset), *kind, defined)?;
+                }
+            }
+            Node::If { condition, .. } => self.uses(*condition, Type::Mask)?,
+            Node::Block { label, results, .. } => {
+                let types = self.types(results)?;
+                self.enter(*label, types)?;
+            }
+            Node::Loop {
+                label,
+                parameters,
+                initial,
+                ..
+            } => {
+                let types = self.types(parameters)?;
+                self.all_use(initial, &types)?;
+                for (value, kind) in parameters.iter().zip(&types) {
+                    self.define(*value, *kind, &mut inside)?;
+                }
+                self.enter(*label, types)?;
+            }
+            Node::Branch { .. } => {}
+        }
+        Ok(inside)
+    }
+
+    /// Checks what comes after the bodies of a node.
+    fn end(
+        &mut self,
+        node: &Node,
+        is_last: bool,
+        inside: Vec<Value>,
+        defined: &mut Vec<Value>,
+    ) -> Result<(), String> {
+        match node {
+            Node::Op { .. } | Node::If { .. } => {}
+            Node::Block { results, body, .. } => {
+                let (_, types) = self.labels.pop().expect("the block was entered");
+                if !results.is_empty() && !ends(body) {
+                    return Err("the end of a block with results is reached".to_owned());
+                }
+                for (value, kind) in results.iter().zip(types) {
+                    self.define(*value, kind, defined)?;
+                }
+            }
+            Node::Loop { .. } => {
+                self.labels.pop();
+                self.leave(inside);
+            }
+            Node::Branch { label, arguments } => {
+                if !is_last {
+                    return Err("a branch is not the last of its body".to_owned());
+                }
+                let around = self.labels.iter().find(|(name, _)| name == label);
+                let Some((_, types)) = around else {
+                    return Err("the label is not that of a construct around".to_owned());
+                };
+                self.all_use(arguments, types)?;
+            }
+        }
         Ok(())
     }
 
@@ -216,6 +234,15 @@ impl Checker<'_> {
         self.used_labels.push(label);
         self.labels.push((label, types));
         Ok(())
+    }
+}
+
+/// The bodies of a node.
+fn bodies(node: &Node) -> [&[Node]; 2] {
+    match node {
+        Node::Op { .. } | Node::Branch { .. } => [&[], &[]],
+        Node::If { accept, reject, .. } => [accept, reject],
+        Node::Block { body, .. } | Node::Loop { body, .. } => [body, &[]],
     }
 }
 
