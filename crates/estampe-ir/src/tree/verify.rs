@@ -27,7 +27,7 @@ pub fn verify(tree: &Tree) -> Result<(), VerifyError> {
         used_labels: Vec::new(),
     };
     // The outputs are seen from the outermost body, so they are checked before it is left.
-    checker.body(&tree.body, |checker| {
+    checker.body(&tree.body, &|checker| {
         let outputs = &tree.interface.outputs;
         if outputs.len() != tree.outputs.len() {
             return Err("the numbers of outputs and of their values differ".to_owned());
@@ -53,7 +53,7 @@ impl Checker<'_> {
     fn body(
         &mut self,
         nodes: &[Node],
-        at_end: impl FnOnce(&Self) -> Result<(), String>,
+        at_end: &dyn Fn(&Self) -> Result<(), String>,
     ) -> Result<(), VerifyError> {
         let mut defined = Vec::new();
         for (at, node) in nodes.iter().enumerate() {
@@ -63,7 +63,7 @@ impl Checker<'_> {
                 place: summary(node),
             })?;
             for body in bodies(node) {
-                self.body(body, |_| Ok(()))?;
+                self.body(body, &|_| Ok(()))?;
             }
             let is_last = at + 1 == nodes.len();
             let ended = self.end(node, is_last, inside, &mut defined);
