@@ -1,3 +1,4 @@
+#![forbid(unsafe_code)]
 //! The intermediate representations of the shader compiler, and the interpreter.
 //!
 //! A shader is compiled in three steps:

@@ -1,3 +1,4 @@
+#![forbid(unsafe_code)]
 //! Shaders as text: from WGSL, GLSL or SPIR-V to the intermediate representation.
 //!
 //! | module | does |

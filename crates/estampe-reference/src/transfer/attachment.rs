@@ -33,7 +33,8 @@ pub fn resolve_color(target: &Target, attachment: usize, image: &mut PlainImage)
     }
 }
 
-/// Loads an image into the depth-stencil attachment. Depths are clamped to 0..=1, −0 stays, NaN becomes 0.
+/// Loads an image into the depth-stencil attachment. Depths are clamped to 0..=1, −0 stays, NaN
+/// becomes 0.
 ///
 /// # Panics
 /// If the target has no depth-stencil attachment.

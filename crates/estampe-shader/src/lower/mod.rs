@@ -1,1 +1,3 @@
-//! An entry point of a module to a tree: calls inlined, aggregates taken apart, variables as values.
+//! An entry point of a module to a tree.
+//!
+//! Calls are inlined, aggregates are taken apart, and variables become values.
