@@ -2,7 +2,7 @@
 
 use crate::attachment::RenderTarget;
 use crate::bounds::chunk::{Chunk, ChunkIndex};
-use crate::commands::{OcclusionQueries, RenderPass};
+use crate::commands::{Draw, OcclusionQueries, RenderPass};
 use crate::geometry::chunk::{ChunkScratch, Neighbours, add_part};
 use crate::geometry::shaded_vertices::{ShadedVertices, VertexJob};
 use crate::geometry::shading::{ShadingScratch, shade};
@@ -35,7 +35,7 @@ pub struct Context {
 
 /// Memory of a pass, kept for the next one: a frame like the one before allocates nothing.
 #[derive(Debug, Default)]
-struct Memory {
+pub(crate) struct Memory {
     lists: Lists,
     vertices: ShadedVertices,
     chunk_plan: ChunkPlan,
@@ -152,12 +152,18 @@ impl Context {
         let kept = || self.memory.lock().unwrap_or_else(PoisonError::into_inner);
         let memory = kept().pop();
         let mut memory = memory.unwrap_or_else(|| Memory::new(self.executor.threads()));
-        let drawn = self.render_checked(target, pass, &mut memory);
+        let is_amplified = |draw: &Draw<'_>| draw.pipeline.amplified().is_some();
+        let drawn = if pass.draws.iter().any(is_amplified) {
+            self.render_amplified(target, pass, &mut memory)
+        } else {
+            self.render_checked(target, pass, &mut memory)
+        };
         kept().push(memory);
         drawn
     }
 
-    fn render_checked(
+    /// Draws a pass of plain draws that was checked.
+    pub(crate) fn render_checked(
         &self,
         target: &mut RenderTarget,
         pass: &RenderPass<'_>,

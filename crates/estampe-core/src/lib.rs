@@ -36,6 +36,8 @@ pub mod pipeline;
 
 mod plan;
 
+mod amplification;
+
 mod geometry;
 
 mod bounds;
@@ -50,6 +52,7 @@ pub mod attachment;
 
 pub mod commands;
 
+mod amplified_pass;
 pub mod draw;
 pub mod profile;
 mod schedule;
@@ -58,13 +61,14 @@ mod tile_pass;
 pub mod tile_path;
 mod transfer;
 
+pub use amplification::domain::TessellatedDomain;
 pub use attachment::{
     ColorTexels, DepthStencilTexels, ImageSize, RenderTarget, ResolveMode, TargetShape,
     row_order_words,
 };
 pub use commands::{Draw, LoadOp, OcclusionQueries, PassControl, RenderPass};
 pub use draw::Context;
-pub use pipeline::{PipelineError, RenderPipeline, RenderPipelineDescriptor};
+pub use pipeline::{PipelineError, RenderPipeline, RenderPipelineDescriptor, TessellationState};
 pub use plan::pass_check::RenderPassError;
 pub use schedule::{ThreadError, ThreadPool, ThreadPoolBuilder};
 pub use statistics::Statistics;

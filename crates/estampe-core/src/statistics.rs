@@ -9,7 +9,16 @@ use std::time::Duration;
 pub struct Statistics {
     /// Vertices that went through the vertex shader.
     pub vertices_shaded: u64,
-    /// Primitives that the draws name.
+    /// Patches whose control points were made.
+    pub patches: u64,
+    /// Vertices that tessellation evaluated.
+    pub evaluations: u64,
+    /// Invocations of geometry shaders.
+    pub geometry_invocations: u64,
+    /// Primitives that geometry shaders emitted.
+    pub geometry_primitives: u64,
+    /// Primitives that the draws name; of draws with tessellation or a geometry shader, those that
+    /// the last of these stages made.
     pub primitives_in: u64,
     /// Primitives that were cut, or dropped whole, by the view volume's planes.
     pub primitives_clipped: u64,
@@ -34,6 +43,10 @@ pub struct Statistics {
 impl std::ops::AddAssign for Statistics {
     fn add_assign(&mut self, other: Self) {
         self.vertices_shaded += other.vertices_shaded;
+        self.patches += other.patches;
+        self.evaluations += other.evaluations;
+        self.geometry_invocations += other.geometry_invocations;
+        self.geometry_primitives += other.geometry_primitives;
         self.primitives_in += other.primitives_in;
         self.primitives_clipped += other.primitives_clipped;
         self.primitives_culled += other.primitives_culled;

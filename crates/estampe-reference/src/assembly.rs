@@ -50,9 +50,11 @@ pub fn primitives(topology: PrimitiveTopology, count: u32) -> impl Iterator<Item
         T::LineStripAdjacency => count.saturating_sub(3),
         T::TriangleListAdjacency => count / 6,
         T::TriangleStripAdjacency => (count / 2).saturating_sub(2),
+        // Patches become primitives in `tessellation`.
+        T::PatchList => 0,
     };
     (0..number).map(move |i| match topology {
-        T::PointList => Primitive::Point(i),
+        T::PointList | T::PatchList => Primitive::Point(i),
         T::LineList => Primitive::Line([2 * i, 2 * i + 1]),
         T::LineStrip => Primitive::Line([i, i + 1]),
         T::LineLoop if i == count - 1 => Primitive::Line([i, 0]),

@@ -33,7 +33,8 @@
 //!
 //! Beside them: [`texture`] and [`depth_map`] (sampling), [`color`], [`channel`], [`srgb`],
 //! [`small_float`] and [`shared_exponent`] (encoding and decoding), [`compare`] (comparison
-//! functions), [`line`](mod@line), [`rectangle`] and [`point`] (the other primitives),
+//! functions), [`tessellation`] and [`geometry_shader`] (the vertices that [`draw_vertices`] draws),
+//! [`line`](mod@line), [`rectangle`] and [`point`] (the other primitives),
 //! [`depth_bias`], [`conservative`] (conservative rasterization), [`bresenham`] (integer lines) and
 //! [`scan_conversion`] (triangles) in the textbook forms, and [`exact`], the formulas in f64 with
 //! bounds for the error of the f32 ones. [`transfer`] has what happens to images outside of draws:
@@ -56,6 +57,7 @@
 //! | `maths`: `exp2`, `log2`, `sin`, `exp`, `pow`, `powi` | `estampe-types/src/tests/mod.rs` and `tests/shared/numbers.rs`: error bounds against f64 |
 //! | `Vec2`, `Vec3`, `Vec4`, `Mat4` | `tests/shared/vectors.rs`, by hand, the order of sums included |
 //! | how attributes and varyings are split into scalars and assembled; `FragmentOut`, `VertexOut` | `tests/shared/layouts.rs`; `tests/drawing.rs` |
+//! | the points that a tessellation or geometry shader reads: `Points`, `ShadedPoint` | `estampe-types/src/shader/amplification/tests.rs`, by hand |
 //! | the interface of a shader: `interface_of` | `estampe-types/src/shader/dry_run/tests.rs` |
 //! | `BufferData::words`, and how bytes become words; `Bindings` | `tests/shared/layouts.rs`, by hand |
 //! | the layout of textures: `stored_format`, `words_per_texel`, `slices`; `StorageTexture::index` | `tests/shared/layouts.rs`, by hand |
@@ -80,6 +82,7 @@ pub mod depth_map;
 pub mod exact;
 pub mod fetch;
 pub mod fragment;
+pub mod geometry_shader;
 pub mod illumination;
 pub mod line;
 pub mod logic;
@@ -98,11 +101,12 @@ pub mod small_float;
 pub mod srgb;
 pub mod stencil;
 mod target;
+pub mod tessellation;
 pub mod texture;
 pub mod transfer;
 pub mod viewport;
 
-pub use pipeline::{Counts, Draw, State, TargetState, draw, draw_observed};
+pub use pipeline::{Counts, Draw, State, TargetState, draw, draw_observed, draw_vertices};
 pub use shading::ClipVertex;
 pub use target::{StoredSample, Target};
 pub use texture::ReferenceTexture;

@@ -191,41 +191,45 @@ pub fn draw_observed(
     draw: &Draw<'_>,
     observer: &mut dyn Observer,
 ) -> Counts {
-    if !is_drawable(&state.viewport) {
+    let Some(mut pass) = Pass::new(target, shaders, state, draw.bindings, observer) else {
         return Counts::default();
-    }
-    let size = [target.width, target.height];
-    let bounds = PixelBounds::new(&state.viewport, &state.scissor, size, target.samples)
-        .intersection(target.stored());
-    if bounds.x.is_empty() || bounds.y.is_empty() {
-        return Counts::default();
-    }
-    let interface = shaders.interface();
-    let mut pass = Pass {
-        target,
-        shaders,
-        state,
-        bindings: draw.bindings,
-        viewport: ViewportTransform::new(&state.viewport)
-            .with_unclipped_depth(state.primitive.unclipped_depth),
-        bounds,
-        viewport_samples: ViewportSamples::new(&state.viewport),
-        is_by_sample: state.sample_shading || interface.per_sample,
-        interface,
-        stipple: 0,
-        counts: Counts::default(),
-        observer,
-    };
-    let count = draw.vertices.end.saturating_sub(draw.vertices.start);
-    let runs = match draw.indices {
-        Some(_) if state.primitive.primitive_restart => runs(count, |at| draw.is_restart(at)),
-        _ => std::iter::once(0..count).collect(),
     };
     for instance in draw.instances.clone() {
-        for run in &runs {
-            pass.run(draw, run, instance);
+        for run in draw_runs(state, draw) {
+            let shade = |at: u32| shade_vertex(shaders, draw, at, instance);
+            pass.run(&run, instance, shade);
         }
     }
+    pass.counts
+}
+
+/// The runs of a draw's positions without a restart between them.
+pub(crate) fn draw_runs(state: &State, draw: &Draw<'_>) -> Vec<Range<u32>> {
+    let count = draw.vertices.end.saturating_sub(draw.vertices.start);
+    match draw.indices {
+        Some(_) if state.primitive.primitive_restart => runs(count, |at| draw.is_restart(at)),
+        _ => std::iter::once(0..count).collect(),
+    }
+}
+
+/// Draws vertices that tessellation or a geometry shader made, a list of the points, lines or
+/// triangles of the state's topology, with the fragment shader of `shader`.
+pub fn draw_vertices<S: Shader>(
+    target: &mut Target,
+    shader: &S,
+    state: &State,
+    bindings: &Bindings,
+    vertices: &[ClipVertex],
+) -> Counts {
+    let Ok(shaders) = RustShaders::new(shader) else {
+        return Counts::default();
+    };
+    let observer = &mut ();
+    let Some(mut pass) = Pass::new(target, &shaders, state, bindings, observer) else {
+        return Counts::default();
+    };
+    let count = u32::try_from(vertices.len()).unwrap_or(u32::MAX);
+    pass.run(&(0..count), 0, |at| vertices[at as usize].clone());
     pass.counts
 }
 
@@ -256,16 +260,53 @@ struct Parent<'a> {
     bias: Option<f32>,
 }
 
+impl<'a> Pass<'a> {
+    /// The pass of a draw; `None` if it draws nothing.
+    fn new(
+        target: &'a mut Target,
+        shaders: &'a dyn Shaders,
+        state: &'a State,
+        bindings: &'a Bindings,
+        observer: &'a mut dyn Observer,
+    ) -> Option<Self> {
+        if !is_drawable(&state.viewport) {
+            return None;
+        }
+        let size = [target.width, target.height];
+        let bounds = PixelBounds::new(&state.viewport, &state.scissor, size, target.samples)
+            .intersection(target.stored());
+        if bounds.x.is_empty() || bounds.y.is_empty() {
+            return None;
+        }
+        let interface = shaders.interface();
+        Some(Self {
+            target,
+            shaders,
+            state,
+            bindings,
+            viewport: ViewportTransform::new(&state.viewport)
+                .with_unclipped_depth(state.primitive.unclipped_depth),
+            bounds,
+            viewport_samples: ViewportSamples::new(&state.viewport),
+            is_by_sample: state.sample_shading || interface.per_sample,
+            interface,
+            stipple: 0,
+            counts: Counts::default(),
+            observer,
+        })
+    }
+}
+
 impl Pass<'_> {
     /// Draws the primitives of a run of consecutive vertices without a restart between them.
-    fn run(&mut self, draw: &Draw<'_>, run: &Range<u32>, instance: u32) {
+    /// `shade` gives the vertex at a position in the draw's range.
+    fn run(&mut self, run: &Range<u32>, instance: u32, shade: impl Fn(u32) -> ClipVertex) {
         let PrimitiveState {
             topology,
             provoking_vertex: mode,
             ..
         } = self.state.primitive;
-        let shaders = self.shaders;
-        let shade = |at: u32| shade_vertex(shaders, draw, run.start + at, instance);
+        let shade = |at: u32| shade(run.start + at);
         for (index, primitive) in primitives(topology, run.end - run.start).enumerate() {
             let number = self.counts.primitives;
             self.counts.primitives += 1;

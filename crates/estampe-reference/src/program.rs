@@ -6,7 +6,7 @@
 use crate::ClipVertex;
 use estampe_types::shader::{
     Attributes, DepthOutput, FragmentBatch, FragmentIn, LANES, Level, Packet, Shader, ShaderError,
-    Sink, Source, Varyings, VertexBatch, VertexIn, interface_of,
+    Source, Varyings, VertexBatch, VertexIn, interface_of,
 };
 use estampe_types::{Bindings, Interface, Program, Quad, Real, Vec4};
 
@@ -98,16 +98,8 @@ impl<S: Shader> Shaders for RustShaders<'_, S> {
             zero: 0.0_f32,
         };
         let output = self.shader.vertex(input, attributes);
-        let mut varyings = Collected(Vec::new());
-        output.varyings.store(&mut varyings);
-        let p = output.position;
-        ClipVertex {
-            position: [p.x, p.y, p.z, p.w],
-            varyings: varyings.0,
-            point_size: output.point_size.unwrap_or(1.0),
-            clip_distances: given(&output.clip_distances[..self.interface.clip_distances]),
-            cull_distances: given(&output.cull_distances[..self.interface.cull_distances]),
-        }
+        let distances = [self.interface.clip_distances, self.interface.cull_distances];
+        ClipVertex::of(output, distances)
     }
 
     fn quad(&self, input: &QuadInput<'_>) -> [ShadedFragment; 4] {
@@ -271,29 +263,12 @@ fn low_bits(mask: i32) -> u16 {
     u16::from_le_bytes([low, high])
 }
 
-/// The distances; 0 for those that the shader did not write.
-fn given(distances: &[Option<f32>]) -> Vec<f32> {
-    distances
-        .iter()
-        .map(|distance| distance.unwrap_or(0.0))
-        .collect()
-}
-
 /// A source of scalars for a shader, in order; zeros after the last.
 struct Scalars<'a>(std::slice::Iter<'a, f32>);
 
 impl Source<f32> for Scalars<'_> {
     fn take(&mut self) -> f32 {
         self.0.next().copied().unwrap_or_default()
-    }
-}
-
-/// The scalars that a shader wrote, in order.
-struct Collected(Vec<f32>);
-
-impl Sink<f32> for Collected {
-    fn put(&mut self, value: f32) {
-        self.0.push(value);
     }
 }
 

@@ -4,6 +4,7 @@
 
 use crate::program::{Shaders, VertexInput};
 use crate::{Draw, fetch};
+use estampe_types::shader::{Sink, Varyings, VertexOut};
 
 /// The outputs of the vertex shader.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,4 +56,51 @@ pub fn shade_vertex(
         bindings: draw.bindings,
     };
     shaders.vertex(&input, &attributes)
+}
+
+impl ClipVertex {
+    /// The outputs of a shader that has so many clip and cull distances.
+    pub(crate) fn of<V: Varyings<f32>>(
+        output: VertexOut<f32, V>,
+        [clip, cull]: [usize; 2],
+    ) -> Self {
+        let p = output.position;
+        Self {
+            position: [p.x, p.y, p.z, p.w],
+            varyings: scalars_of(output.varyings),
+            point_size: output.point_size.unwrap_or(1.0),
+            clip_distances: given(&output.clip_distances[..clip]),
+            cull_distances: given(&output.cull_distances[..cull]),
+        }
+    }
+
+    /// The words that a later stage reads: the position, then the varyings.
+    pub(crate) fn words(&self) -> impl Iterator<Item = u32> {
+        let scalars = self.position.iter().chain(&self.varyings);
+        scalars.map(|scalar| scalar.to_bits())
+    }
+}
+
+/// The scalars of a value, in order.
+pub(crate) fn scalars_of(value: impl Varyings<f32>) -> Vec<f32> {
+    let mut scalars = Collected(Vec::new());
+    value.store(&mut scalars);
+    scalars.0
+}
+
+/// The distances; 0 for those that the shader did not write.
+fn given(distances: &[Option<f32>]) -> Vec<f32> {
+    distances
+        .iter()
+        .map(|distance| distance.unwrap_or(0.0))
+        .collect()
+}
+
+/// The scalars that a shader wrote, in order.
+struct Collected(Vec<f32>);
+
+impl Sink<f32> for Collected {
+    fn put(&mut self, value: f32) {
+        self.0.push(value);
+    }
 }

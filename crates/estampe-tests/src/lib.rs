@@ -19,6 +19,7 @@
 //! times as many cases, each on every level at every number of threads; `ESTAMPE_TEST_SEED=7` draws
 //! only the case of that seed.
 
+pub mod amplification;
 pub mod case;
 pub mod compare;
 pub mod expected_paths;

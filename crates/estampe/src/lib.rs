@@ -89,15 +89,20 @@ pub(crate) use estampe_core::Context;
 pub use estampe_core::profile::JobTimings;
 pub use estampe_core::{
     LoadOp, OcclusionQueries, PassControl, PathCounts, PipelineError, RenderPassError as DrawError,
-    RenderPipeline, RenderPipelineDescriptor, ResolveMode, Statistics, ThreadPool,
-    ThreadPoolBuilder, TilePath,
+    RenderPipeline, RenderPipelineDescriptor, ResolveMode, Statistics, TessellatedDomain,
+    TessellationState, ThreadPool, ThreadPoolBuilder, TilePath,
 };
 pub use estampe_simd::{Level, LevelError};
 pub use estampe_texture::{
     Coordinates, Lod, SampledTexture, TexelView, TextureBindings, TextureCoordinates,
     sample_compare_level, sample_compare_sum, storage_load, storage_store,
 };
-pub use estampe_types::shader::{DepthOutput, Interpolation, Sample2d, Sampling, VertexOut};
+pub use estampe_types::shader::{
+    ControlIn, DepthOutput, Emit, EmittedVertex, EvaluationIn, GeometryIn, GeometryPrimitive,
+    GeometryProgram, GeometryShader, GeometryShaderProgram, GeometryTopology, Interpolation,
+    PatchIn, Points, Sample2d, Sampling, ShadedPoint, TessellationLevels, TessellationProgram,
+    TessellationShader, TessellationShaderProgram, VertexOut,
+};
 pub use estampe_types::{
     AddressMode, Attributes, BindGroupLayout, BindGroupLayoutEntry, BindingType, Bindings,
     BorderColor, BufferBindingType, Centroid, FilterMode, Flat, FragmentIn, FragmentOut,

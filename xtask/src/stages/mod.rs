@@ -53,7 +53,8 @@ const LAYERS: &[&[&str]] = &[
     &["attachment"],
     // The modules that call the stages.
     &["plan", "schedule"],
-    &["draw", "tile_pass"],
+    &["amplification"],
+    &["draw", "amplified_pass", "tile_pass"],
     &["transfer"],
 ];
 

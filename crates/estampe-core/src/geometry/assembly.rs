@@ -30,6 +30,8 @@ pub(crate) fn primitive_count(topology: PrimitiveTopology, elements: u32) -> u32
         T::LineStripAdjacency => elements.saturating_sub(3),
         T::TriangleListAdjacency => elements / 6,
         T::TriangleStripAdjacency => (elements / 2).saturating_sub(2),
+        // Patches become primitives before assembly.
+        T::PatchList => 0,
     }
 }
 
@@ -70,7 +72,7 @@ fn by_last(topology: PrimitiveTopology, p: u32, [a, b, c]: [u32; 3]) -> [u32; 3]
 pub(crate) fn elements_of(topology: PrimitiveTopology, p: u32, elements: u32) -> [u32; 3] {
     use PrimitiveTopology as T;
     match topology {
-        T::PointList => [p; 3],
+        T::PointList | T::PatchList => [p; 3],
         T::LineList => [p * 2, p * 2 + 1, p * 2],
         T::LineStrip => [p, p + 1, p],
         T::LineLoop => [p, if p + 1 == elements { 0 } else { p + 1 }, p],

@@ -1,5 +1,7 @@
 //! Why a pipeline was refused.
 
+use estampe_types::shader::GeometryPrimitive;
+use estampe_types::state::PrimitiveTopology;
 use estampe_types::{ShaderError, TextureFormat};
 
 /// Why a pipeline was refused: the rule that its descriptor breaks.
@@ -163,4 +165,57 @@ pub enum PipelineError {
         /// The largest number allowed.
         limit: u32,
     },
+    /// Patches without tessellation, or tessellation of something else.
+    #[error(
+        "the topology is {topology:?}: a pipeline has tessellation if, and only if, its topology is \
+         PatchList"
+    )]
+    PatchTopology {
+        /// The topology.
+        topology: PrimitiveTopology,
+    },
+    /// A patch without vertices, or with too many.
+    #[error("a patch has {0} vertices (patch_points); it must have 1 to 32")]
+    PatchPoints(u32),
+    /// Too many scalars of control points or patches.
+    #[error("{what} of the tessellation shader has {count} scalars; there are at most {limit}")]
+    PatchScalars {
+        /// A control point, or the values of a patch.
+        what: &'static str,
+        /// The number of scalars.
+        count: usize,
+        /// The largest number allowed.
+        limit: usize,
+    },
+    /// A stage reads other varyings than the stage before gives.
+    #[error(
+        "the {from} gives {gives} scalars of varyings and the {to} reads {reads}: they must agree \
+         (vertex_program names a vertex shader whose varyings differ from the fragments')"
+    )]
+    StageScalars {
+        /// The stage that gives them.
+        from: &'static str,
+        /// The scalars that it gives.
+        gives: usize,
+        /// The stage that reads them.
+        to: &'static str,
+        /// The scalars that it reads.
+        reads: usize,
+    },
+    /// The geometry shader reads other primitives than it is given.
+    #[error("the {from} gives {made:?} and the geometry shader reads {reads:?}: they must agree")]
+    GeometryInput {
+        /// The state that gives the primitives.
+        from: &'static str,
+        /// The primitives that it gives.
+        made: GeometryPrimitive,
+        /// The primitives that the shader reads.
+        reads: GeometryPrimitive,
+    },
+    /// A vertex program without a stage that needs it.
+    #[error(
+        "the pipeline has a vertex_program and neither tessellation nor a geometry shader; give the \
+         vertex shader in `program`"
+    )]
+    VertexProgramUnused,
 }

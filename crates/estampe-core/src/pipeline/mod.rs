@@ -1,17 +1,20 @@
 //! The state of a draw: an untrusted descriptor, validated once into an immutable pipeline.
 
+pub(crate) mod amplified;
 mod binding_limits;
 pub(crate) mod color_target;
 mod error;
 pub(crate) mod primitive_kind;
 mod stage_key;
 
+pub use amplified::TessellationState;
 pub use error::PipelineError;
 pub(crate) use stage_key::StageKey;
 
+use amplified::Amplified;
 use binding_limits::check_bindings;
 use color_target::ColorTarget;
-use estampe_types::shader::MAX_DISTANCES;
+use estampe_types::shader::{GeometryProgram, MAX_DISTANCES};
 use estampe_types::state::{
     BlendFactor, BlendState, ColorTargetState, DepthStencilState, LineState, LineStipple,
     LogicOperation, MultisampleState, PrimitiveState, VertexBufferLayout,
@@ -26,6 +29,17 @@ use std::sync::Arc;
 pub struct RenderPipelineDescriptor {
     /// The vertex and fragment shader.
     pub program: Arc<dyn Program>,
+    /// The program whose vertex shader is used in place of `program`'s, in pipelines with
+    /// tessellation or a geometry shader: its varyings are those that these stages read, while
+    /// `program`'s are those that fragments read. Default none.
+    pub vertex_program: Option<Arc<dyn Program>>,
+    /// Tessellation of patches. Its topology is [`PatchList`]. Default none.
+    ///
+    /// [`PatchList`]: estampe_types::state::PrimitiveTopology::PatchList
+    pub tessellation: Option<TessellationState>,
+    /// A geometry shader, which reads the primitives of the topology, or of tessellation. Default
+    /// none.
+    pub geometry: Option<Arc<dyn GeometryProgram>>,
     /// The bind groups that the shaders read, by group number: each draw must bind groups of these
     /// layouts. Default none.
     pub bind_group_layouts: Vec<BindGroupLayout>,
@@ -55,6 +69,9 @@ impl RenderPipelineDescriptor {
     pub fn with_program(program: Arc<dyn Program>) -> Self {
         Self {
             program,
+            vertex_program: None,
+            tessellation: None,
+            geometry: None,
             bind_group_layouts: Vec::new(),
             vertex_buffers: Vec::new(),
             primitive: PrimitiveState::default(),
@@ -104,6 +121,10 @@ struct Inner {
     attributes: Vec<AttributeSource>,
     key: StageKey,
     color_targets: Vec<ColorTarget>,
+    /// The stages between vertices and primitives, if there are any.
+    amplified: Option<Amplified>,
+    /// The vertices are records that other stages made.
+    has_finished_vertices: bool,
 }
 
 impl RenderPipeline {
@@ -121,23 +142,21 @@ impl RenderPipeline {
         check_targets(descriptor, interface, limits)?;
         check_interface(interface, limits)?;
         check_lines(&descriptor.primitive.line)?;
-        let attributes = attribute_sources(descriptor, interface, limits)?;
-        let targets = descriptor.targets.iter().enumerate();
-        let color_targets: Vec<_> = targets
-            .filter_map(|(output, target)| {
-                let target = target.as_ref()?;
-                Some(ColorTarget::new(target, output, descriptor.logic_operation))
-            })
-            .collect();
-        let key = StageKey::new(descriptor, interface, &color_targets);
-        Ok(Self {
-            inner: Arc::new(Inner {
-                descriptor: descriptor.clone(),
-                attributes,
-                key,
-                color_targets,
-            }),
-        })
+        let amplified = Amplified::new(descriptor, limits)?;
+        // The vertex shader of an amplified pipeline belongs to another one.
+        let attributes = match &amplified {
+            Some(_) => Vec::new(),
+            None => attribute_sources(descriptor, interface, limits)?,
+        };
+        let mut inner = Inner::new(descriptor.clone(), attributes);
+        inner.amplified = amplified;
+        Ok(Self::of(inner))
+    }
+
+    fn of(inner: Inner) -> Self {
+        Self {
+            inner: Arc::new(inner),
+        }
     }
 
     /// Returns the descriptor from which the pipeline was made.
@@ -160,6 +179,16 @@ impl RenderPipeline {
         self.program().interface()
     }
 
+    /// The stages between vertices and primitives, if there are any.
+    pub(crate) fn amplified(&self) -> Option<&Amplified> {
+        self.inner.amplified.as_ref()
+    }
+
+    /// True if the vertices are records that other stages made.
+    pub(crate) fn has_finished_vertices(&self) -> bool {
+        self.inner.has_finished_vertices
+    }
+
     pub(crate) fn attributes(&self) -> &[AttributeSource] {
         &self.inner.attributes
     }
@@ -176,6 +205,29 @@ impl RenderPipeline {
     /// Returns true if both are clones of one pipeline.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.inner, &other.inner)
+    }
+}
+
+impl Inner {
+    /// The parts of a plain pipeline of what was checked.
+    fn new(descriptor: RenderPipelineDescriptor, attributes: Vec<AttributeSource>) -> Self {
+        let interface = descriptor.program.interface();
+        let targets = descriptor.targets.iter().enumerate();
+        let color_targets: Vec<_> = targets
+            .filter_map(|(output, target)| {
+                let target = target.as_ref()?;
+                Some(ColorTarget::new(target, output, descriptor.logic_operation))
+            })
+            .collect();
+        let key = StageKey::new(&descriptor, interface, &color_targets);
+        Self {
+            descriptor,
+            attributes,
+            key,
+            color_targets,
+            amplified: None,
+            has_finished_vertices: false,
+        }
     }
 }
 

@@ -22,6 +22,8 @@ pub(crate) fn kind_of(topology: PrimitiveTopology) -> PrimitiveKind {
         | T::TriangleStrip
         | T::TriangleFan
         | T::TriangleListAdjacency
-        | T::TriangleStripAdjacency => PrimitiveKind::Triangles,
+        | T::TriangleStripAdjacency
+        // What patches become is drawn by another pipeline.
+        | T::PatchList => PrimitiveKind::Triangles,
     }
 }

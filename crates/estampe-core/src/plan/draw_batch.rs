@@ -102,8 +102,12 @@ impl<'a> DrawBatch<'a> {
         self.sub_draws.iter().map(|sub_draw| &sub_draw.span)
     }
 
-    /// Vertices of all sub-draws.
+    /// Vertices of all sub-draws that a shader of the caller's shades.
     pub(crate) fn total_vertices(&self) -> usize {
-        self.spans().map(|span| span.count).sum()
+        let shaded = self.sub_draws.iter();
+        shaded
+            .filter(|sub_draw| !sub_draw.draw.pipeline.has_finished_vertices())
+            .map(|sub_draw| sub_draw.span.count)
+            .sum()
     }
 }

@@ -161,7 +161,7 @@ pub(super) fn is_stippled_strip(draw: &Draw<'_>) -> bool {
 pub(super) fn part_of(topology: PrimitiveTopology, first: u32, count: u32, whole: u32) -> [u32; 2] {
     use PrimitiveTopology as T;
     let [each, more] = match topology {
-        T::PointList => [1, 0],
+        T::PointList | T::PatchList => [1, 0],
         T::LineList => [2, 0],
         T::LineStrip => [1, 1],
         T::TriangleList => [3, 0],

@@ -1,7 +1,9 @@
 //! Contradictions between a shader's body and what it declares.
 
+use super::amplification::{MAX_GEOMETRY_INVOCATIONS, MAX_GEOMETRY_VERTICES};
 use super::fragment::MAX_COLORS;
 use super::vertex::MAX_DISTANCES;
+use crate::state::MAX_PATCH_POINTS;
 use std::fmt;
 
 /// Why no pipeline can be made of a shader: its body contradicts a constant of
@@ -34,6 +36,21 @@ pub enum ShaderError {
     Derivatives,
     /// `COLOR_PASSTHROUGH` is set, and the fragment does more than that.
     NoPassthrough,
+    /// A tessellation shader makes no control points, or too many.
+    ControlPoints {
+        /// The constant `CONTROL_POINTS`.
+        count: usize,
+    },
+    /// A geometry shader emits no vertices, or too many.
+    GeometryVertices {
+        /// The constant `MAX_VERTICES`.
+        count: usize,
+    },
+    /// A geometry shader has no invocations, or too many.
+    GeometryInvocations {
+        /// The constant `INVOCATIONS`.
+        count: usize,
+    },
     /// The shader panicked.
     Panicked {
         /// The message of the panic.
@@ -72,6 +89,21 @@ impl fmt::Display for ShaderError {
             Self::NoPassthrough => f.write_str(
                 "the shader sets COLOR_PASSTHROUGH, but its fragment does more than return the \
                  first four scalars of its varyings as its one colour; remove the constant",
+            ),
+            Self::ControlPoints { count } => write!(
+                f,
+                "the tessellation shader's CONTROL_POINTS is {count}; a patch has 1 to \
+                 {MAX_PATCH_POINTS} control points"
+            ),
+            Self::GeometryVertices { count } => write!(
+                f,
+                "the geometry shader's MAX_VERTICES is {count}; an invocation emits 1 to \
+                 {MAX_GEOMETRY_VERTICES} vertices"
+            ),
+            Self::GeometryInvocations { count } => write!(
+                f,
+                "the geometry shader's INVOCATIONS is {count}; it has 1 to \
+                 {MAX_GEOMETRY_INVOCATIONS} for each primitive"
             ),
             Self::Panicked { message } => write!(
                 f,

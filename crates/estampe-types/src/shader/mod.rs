@@ -5,6 +5,7 @@
 //! holds its uniforms and shares its textures. [`ShaderProgram`] erases its type once, when a
 //! pipeline is created, into a [`Program`], the interface that compiled text shaders implement too.
 
+mod amplification;
 mod declaration;
 mod dry_run;
 mod erased;
@@ -18,6 +19,13 @@ mod structs;
 mod varyings;
 mod vertex;
 
+pub use amplification::{
+    ControlBatch, ControlIn, Emit, EmittedVertex, EvaluationBatch, EvaluationIn, GeometryBatch,
+    GeometryIn, GeometryInterface, GeometryPrimitive, GeometryProgram, GeometryShader,
+    GeometryShaderProgram, GeometryTopology, MAX_GEOMETRY_INVOCATIONS, MAX_GEOMETRY_VERTICES,
+    OutputInterface, PatchIn, Points, ShadedPoint, TessellationInterface, TessellationLevels,
+    TessellationProgram, TessellationShader, TessellationShaderProgram,
+};
 pub use dry_run::interface_of;
 pub use erased::ShaderProgram;
 pub use error::ShaderError;

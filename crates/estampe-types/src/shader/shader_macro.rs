@@ -8,6 +8,9 @@
 /// `#[inline(always)]`. A function outside must carry that attribute itself: without it, shaders
 /// run 5 to 14 times slower.
 ///
+/// It implements [`TessellationShader`](trait@crate::shader::TessellationShader) and
+/// [`GeometryShader`](trait@crate::shader::GeometryShader) in the same way.
+///
 /// # An implementation
 ///
 /// `shader! { impl Shader for Type { … } }` takes generics, bounds and a `where` clause. Beside the
@@ -124,10 +127,22 @@
 #[macro_export]
 macro_rules! shader {
     ($(#[$meta:meta])* impl Shader for $shader:ty { $($items:tt)* }) => {
-        $crate::__shader_items! { [[$(#[$meta])*] [] [$shader] []] [] [] $($items)* }
+        $crate::__shader_items! { [Shader [$(#[$meta])*] [] [$shader] []] [] [] $($items)* }
     };
     ($(#[$meta:meta])* impl Shader for $shader:ty where $($rest:tt)*) => {
-        $crate::__shader_header! { @where [[$(#[$meta])*] [] [$shader]] [where] $($rest)* }
+        $crate::__shader_header! { @where [Shader [$(#[$meta])*] [] [$shader]] [where] $($rest)* }
+    };
+    ($(#[$meta:meta])* impl TessellationShader for $shader:ty { $($items:tt)* }) => {
+        $crate::__shader_items! { [TessellationShader [$(#[$meta])*] [] [$shader] []] [] [] $($items)* }
+    };
+    ($(#[$meta:meta])* impl TessellationShader for $shader:ty where $($rest:tt)*) => {
+        $crate::__shader_header! { @where [TessellationShader [$(#[$meta])*] [] [$shader]] [where] $($rest)* }
+    };
+    ($(#[$meta:meta])* impl GeometryShader for $shader:ty { $($items:tt)* }) => {
+        $crate::__shader_items! { [GeometryShader [$(#[$meta])*] [] [$shader] []] [] [] $($items)* }
+    };
+    ($(#[$meta:meta])* impl GeometryShader for $shader:ty where $($rest:tt)*) => {
+        $crate::__shader_header! { @where [GeometryShader [$(#[$meta])*] [] [$shader]] [where] $($rest)* }
     };
     ($(#[$meta:meta])* impl < $($rest:tt)*) => {
         $crate::__shader_header! { @generics [$(#[$meta])*] [] $($rest)* }
@@ -137,7 +152,7 @@ macro_rules! shader {
     };
     ($($other:tt)*) => {
         ::core::compile_error! {
-            "shader! takes `impl Shader for Type { … }`, or functions `fn name<R: Real>(…) { … }`; \
+            "shader! takes `impl Shader for Type { … }` (or `TessellationShader`, `GeometryShader`), or functions `fn name<R: Real>(…) { … }`; \
              declare types, traits and other implementations outside of shader!"
         }
     };
@@ -149,17 +164,43 @@ macro_rules! shader {
 macro_rules! __shader_header {
     (@generics [$($meta:tt)*] [$($generics:tt)*] > Shader for $shader:ty { $($items:tt)* }) => {
         $crate::__shader_items! {
-            [[$($meta)*] [<$($generics)*>] [$shader] []] [] [] $($items)*
+            [Shader [$($meta)*] [<$($generics)*>] [$shader] []] [] [] $($items)*
         }
     };
     (@generics [$($meta:tt)*] [$($generics:tt)*] > Shader for $shader:ty where $($rest:tt)*) => {
         $crate::__shader_header! {
-            @where [[$($meta)*] [<$($generics)*>] [$shader]] [where] $($rest)*
+            @where [Shader [$($meta)*] [<$($generics)*>] [$shader]] [where] $($rest)*
         }
     };
     // A generic argument at the end of the generics: `<T: Into<f32>>`.
     (@generics $meta:tt [$($generics:tt)*] >> Shader for $($rest:tt)*) => {
         $crate::__shader_header! { @generics $meta [$($generics)* >] > Shader for $($rest)* }
+    };
+    (@generics [$($meta:tt)*] [$($generics:tt)*] > TessellationShader for $shader:ty { $($items:tt)* }) => {
+        $crate::__shader_items! {
+            [TessellationShader [$($meta)*] [<$($generics)*>] [$shader] []] [] [] $($items)*
+        }
+    };
+    (@generics [$($meta:tt)*] [$($generics:tt)*] > TessellationShader for $shader:ty where $($rest:tt)*) => {
+        $crate::__shader_header! {
+            @where [TessellationShader [$($meta)*] [<$($generics)*>] [$shader]] [where] $($rest)*
+        }
+    };
+    (@generics $meta:tt [$($generics:tt)*] >> TessellationShader for $($rest:tt)*) => {
+        $crate::__shader_header! { @generics $meta [$($generics)* >] > TessellationShader for $($rest)* }
+    };
+    (@generics [$($meta:tt)*] [$($generics:tt)*] > GeometryShader for $shader:ty { $($items:tt)* }) => {
+        $crate::__shader_items! {
+            [GeometryShader [$($meta)*] [<$($generics)*>] [$shader] []] [] [] $($items)*
+        }
+    };
+    (@generics [$($meta:tt)*] [$($generics:tt)*] > GeometryShader for $shader:ty where $($rest:tt)*) => {
+        $crate::__shader_header! {
+            @where [GeometryShader [$($meta)*] [<$($generics)*>] [$shader]] [where] $($rest)*
+        }
+    };
+    (@generics $meta:tt [$($generics:tt)*] >> GeometryShader for $($rest:tt)*) => {
+        $crate::__shader_header! { @generics $meta [$($generics)* >] > GeometryShader for $($rest)* }
     };
     (@generics $meta:tt [$($generics:tt)*] $next:tt $($rest:tt)*) => {
         $crate::__shader_header! { @generics $meta [$($generics)* $next] $($rest)* }
@@ -207,15 +248,17 @@ macro_rules! __shader_functions {
 macro_rules! __shader_items {
     // The end.
     (
-        [[$($meta:tt)*] [$($generics:tt)*] [$shader:ty] [$($clause:tt)*]]
+        [$kind:ident [$($meta:tt)*] [$($generics:tt)*] [$shader:ty] [$($clause:tt)*]]
         [$($of_trait:tt)*] [$($of_type:tt)*]
     ) => {
         const _: () = {
             #[allow(unused_imports, reason = "for the shader's body, which may not need all")]
             use $crate::{Int, Operand, Real, Shader, shader::Sample2d};
+            #[allow(unused_imports, reason = "the trait that is implemented may be another one")]
+            use $crate::shader::{Emit, GeometryShader, TessellationShader};
 
             $($meta)*
-            impl $($generics)* Shader for $shader $($clause)* {
+            impl $($generics)* $kind for $shader $($clause)* {
                 // As in the shader's crate: dependencies are often built without assertions.
                 const ASSERTS_OUTPUTS: bool = ::core::cfg!(debug_assertions);
 
@@ -237,14 +280,40 @@ macro_rules! __shader_items {
     ($header:tt $trait:tt $type:tt $(#[$meta:meta])* type $($rest:tt)*) => {
         $crate::__shader_items! { @trait $header $trait $type [] $(#[$meta])* type $($rest)* }
     };
-    ($header:tt $trait:tt $type:tt $(#[$meta:meta])* fn vertex $($rest:tt)*) => {
+    ([Shader $($header:tt)*] $trait:tt $type:tt $(#[$meta:meta])* fn vertex $($rest:tt)*) => {
         $crate::__shader_items! {
-            @trait $header $trait $type [#[inline(always)]] $(#[$meta])* fn vertex $($rest)*
+            @trait [Shader $($header)*] $trait $type [#[inline(always)]]
+            $(#[$meta])* fn vertex $($rest)*
         }
     };
-    ($header:tt $trait:tt $type:tt $(#[$meta:meta])* fn fragment $($rest:tt)*) => {
+    ([Shader $($header:tt)*] $trait:tt $type:tt $(#[$meta:meta])* fn fragment $($rest:tt)*) => {
         $crate::__shader_items! {
-            @trait $header $trait $type [#[inline(always)]] $(#[$meta])* fn fragment $($rest)*
+            @trait [Shader $($header)*] $trait $type [#[inline(always)]]
+            $(#[$meta])* fn fragment $($rest)*
+        }
+    };
+    ([TessellationShader $($header:tt)*] $trait:tt $type:tt $(#[$meta:meta])* fn control $($rest:tt)*) => {
+        $crate::__shader_items! {
+            @trait [TessellationShader $($header)*] $trait $type [#[inline(always)]]
+            $(#[$meta])* fn control $($rest)*
+        }
+    };
+    ([TessellationShader $($header:tt)*] $trait:tt $type:tt $(#[$meta:meta])* fn patch $($rest:tt)*) => {
+        $crate::__shader_items! {
+            @trait [TessellationShader $($header)*] $trait $type [#[inline(always)]]
+            $(#[$meta])* fn patch $($rest)*
+        }
+    };
+    ([TessellationShader $($header:tt)*] $trait:tt $type:tt $(#[$meta:meta])* fn evaluate $($rest:tt)*) => {
+        $crate::__shader_items! {
+            @trait [TessellationShader $($header)*] $trait $type [#[inline(always)]]
+            $(#[$meta])* fn evaluate $($rest)*
+        }
+    };
+    ([GeometryShader $($header:tt)*] $trait:tt $type:tt $(#[$meta:meta])* fn geometry $($rest:tt)*) => {
+        $crate::__shader_items! {
+            @trait [GeometryShader $($header)*] $trait $type [#[inline(always)]]
+            $(#[$meta])* fn geometry $($rest)*
         }
     };
     ($header:tt $trait:tt $type:tt $(#[$meta:meta])* $visibility:vis fn $($rest:tt)*) => {
@@ -296,6 +365,27 @@ macro_rules! __shader_constant {
     (WRITES_POINT_SIZE $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
     (CLIP_DISTANCES $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
     (CULL_DISTANCES $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
+    (CONTROL_POINTS [[TessellationShader $($header:tt)*] $($state:tt)*] $($rest:tt)*) => {
+        $crate::__shader_constant! { @trait [[TessellationShader $($header)*] $($state)*] $($rest)* }
+    };
+    (INPUT [[GeometryShader $($header:tt)*] $($state:tt)*] $($rest:tt)*) => {
+        $crate::__shader_constant! { @trait [[GeometryShader $($header)*] $($state)*] $($rest)* }
+    };
+    (OUTPUT [[GeometryShader $($header:tt)*] $($state:tt)*] $($rest:tt)*) => {
+        $crate::__shader_constant! { @trait [[GeometryShader $($header)*] $($state)*] $($rest)* }
+    };
+    (MAX_VERTICES [[GeometryShader $($header:tt)*] $($state:tt)*] $($rest:tt)*) => {
+        $crate::__shader_constant! { @trait [[GeometryShader $($header)*] $($state)*] $($rest)* }
+    };
+    (INVOCATIONS [[GeometryShader $($header:tt)*] $($state:tt)*] $($rest:tt)*) => {
+        $crate::__shader_constant! { @trait [[GeometryShader $($header)*] $($state)*] $($rest)* }
+    };
+    (WRITES_LAYER [[GeometryShader $($header:tt)*] $($state:tt)*] $($rest:tt)*) => {
+        $crate::__shader_constant! { @trait [[GeometryShader $($header)*] $($state)*] $($rest)* }
+    };
+    (WRITES_VIEWPORT_INDEX [[GeometryShader $($header:tt)*] $($state:tt)*] $($rest:tt)*) => {
+        $crate::__shader_constant! { @trait [[GeometryShader $($header)*] $($state)*] $($rest)* }
+    };
     (@trait [$($state:tt)*] $($rest:tt)*) => {
         $crate::__shader_items! { @trait $($state)* $($rest)* }
     };

@@ -5,6 +5,7 @@ mod blend;
 mod depth_stencil;
 mod multisample;
 mod primitive;
+mod tessellation;
 mod vertex;
 mod viewport;
 
@@ -20,6 +21,10 @@ pub use multisample::MultisampleState;
 pub use primitive::{
     ConservativeMode, CullMode, FrontFace, LineRasterization, LineState, LineStipple, PolygonMode,
     PrimitiveState, PrimitiveTopology, ProvokingVertex,
+};
+pub use tessellation::{
+    MAX_PATCH_POINTS, MAX_TESSELLATION_LEVEL, TessellationDomain, TessellationMode,
+    TessellationSpacing,
 };
 pub use vertex::{VertexAttribute, VertexBufferLayout, VertexStepMode};
 pub use viewport::{ScissorRect, Viewport};

@@ -31,6 +31,9 @@ pub enum PrimitiveTopology {
     /// A triangle strip of the even vertices; the odd ones are the vertices opposite its outer
     /// edges.
     TriangleStripAdjacency,
+    /// Each so many vertices as the pipeline's tessellation state says are the control points of a
+    /// patch. Only pipelines with tessellation have it.
+    PatchList,
 }
 
 /// Winding of front faces in the window.

@@ -15,10 +15,13 @@
 //! The rejected alternative, accessors in place of the fields of `FragmentIn`, would find less: a
 //! body that reads an input and ignores it looks like one that uses it.
 
+mod amplification;
 mod found;
 mod number;
 mod recorder;
 mod runs;
+
+pub(super) use amplification::{of_geometry, of_tessellation};
 
 use super::{DepthOutput, Sampling};
 use crate::{Attributes, Interface, Shader, ShaderError, Varyings};

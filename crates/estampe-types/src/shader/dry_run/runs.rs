@@ -147,7 +147,7 @@ fn numbers(out: &FragmentOut<Recorded<'_>>) -> Vec<[f32; 4]> {
 }
 
 /// The result of a run, or its panic.
-fn unwound<U>(run: impl FnOnce() -> U) -> Result<U, ShaderError> {
+pub(super) fn unwound<U>(run: impl FnOnce() -> U) -> Result<U, ShaderError> {
     // The shader is shared by reference, and what it may have left half done is its own affair:
     // every thread that shades has this freedom.
     catch_unwind(AssertUnwindSafe(run)).map_err(|panic| {

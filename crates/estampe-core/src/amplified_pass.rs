@@ -1,0 +1,159 @@
+//! Passes with tessellation or geometry shaders: their draws become pieces, which are drawn as
+//! ordinary draws between the others.
+
+use crate::amplification::amplify::Amplifier;
+use crate::amplification::piece::Piece;
+use crate::attachment::RenderTarget;
+use crate::commands::{Draw, LoadOp, PassControl, RenderPass};
+use crate::draw::{Context, Memory};
+use crate::plan::pass_check::RenderPassError;
+use crate::statistics::Statistics;
+use estampe_types::{BufferData, IndexFormat};
+use std::time::Instant;
+
+/// Words of pieces that wait until they are drawn: 64 MiB.
+const WAITING_WORDS: usize = 1 << 24;
+
+/// Draws of a pass that wait until they are drawn together.
+struct Waiting<'a> {
+    pass: &'a RenderPass<'a>,
+    entries: Vec<Entry>,
+    /// Words of the pieces.
+    words: usize,
+    /// Nothing was drawn yet, so attachments are to be loaded as the pass says.
+    is_first: bool,
+}
+
+/// A draw that waits, by its number in the pass.
+struct Entry {
+    draw: usize,
+    piece: Option<([BufferData; 1], Piece)>,
+}
+
+impl Context {
+    /// Draws a pass of which some draws have tessellation or a geometry shader.
+    pub(crate) fn render_amplified(
+        &self,
+        target: &mut RenderTarget,
+        pass: &RenderPass<'_>,
+        memory: &mut Memory,
+    ) -> Result<Statistics, RenderPassError> {
+        let mut waiting = Waiting {
+            pass,
+            entries: Vec::new(),
+            words: 0,
+            is_first: true,
+        };
+        let mut statistics = Statistics::default();
+        let amplifier = Amplifier {
+            executor: self.executor(),
+            level: self.level(),
+            layers: 1,
+        };
+        for (number, draw) in pass.draws.iter().enumerate() {
+            let Some(amplified) = draw.pipeline.amplified() else {
+                waiting.entries.push(Entry {
+                    draw: number,
+                    piece: None,
+                });
+                continue;
+            };
+            let mut failed = None;
+            let mut start = Instant::now();
+            amplifier.amplify(draw, amplified, &mut statistics, |pieces, statistics| {
+                statistics.geometry += start.elapsed();
+                for piece in pieces {
+                    if piece.index_count > 0 {
+                        waiting.push(number, piece);
+                    }
+                }
+                let drawn = if pass.control.is_cancelled() {
+                    Err(RenderPassError::Cancelled)
+                } else if waiting.words > WAITING_WORDS {
+                    waiting.draw(self, target, memory, statistics)
+                } else {
+                    Ok(())
+                };
+                start = Instant::now();
+                failed = drawn.err();
+                failed.is_none()
+            });
+            if let Some(error) = failed {
+                // What waits is not drawn.
+                return Err(error);
+            }
+            statistics.geometry += start.elapsed();
+        }
+        waiting.draw(self, target, memory, &mut statistics)?;
+        Ok(statistics)
+    }
+}
+
+impl Waiting<'_> {
+    fn push(&mut self, draw: usize, piece: Piece) {
+        self.words += piece.words();
+        self.entries.push(Entry {
+            draw,
+            piece: Some(([piece.vertices.clone()], piece)),
+        });
+    }
+
+    /// Draws what waits.
+    fn draw(
+        &mut self,
+        context: &Context,
+        target: &mut RenderTarget,
+        memory: &mut Memory,
+        statistics: &mut Statistics,
+    ) -> Result<(), RenderPassError> {
+        let all = self.pass.draws;
+        let draws: Vec<Draw<'_>> = self
+            .entries
+            .iter()
+            .map(|entry| entry.as_drawn(&all[entry.draw]))
+            .collect();
+        let begun = |draws: usize, _: usize| {
+            let last = draws.checked_sub(1).and_then(|at| self.entries.get(at));
+            let begun = last.map_or(0, |entry| entry.draw + 1);
+            self.pass.control.report(begun, all.len());
+        };
+        let mut part = RenderPass {
+            control: PassControl {
+                progress: Some(&begun),
+                ..self.pass.control
+            },
+            draws: &draws,
+            ..self.pass.clone()
+        };
+        if !self.is_first {
+            part.load_colors = vec![LoadOp::Load; target.shape().color_formats.len()];
+            part.load_depth = LoadOp::Load;
+            part.load_stencil = LoadOp::Load;
+        }
+        let drawn = context.render_checked(target, &part, memory)?;
+        *statistics += drawn;
+        self.entries.clear();
+        self.words = 0;
+        self.is_first = false;
+        Ok(())
+    }
+}
+
+impl Entry {
+    /// The draw of a piece, or the plain draw itself.
+    fn as_drawn<'a>(&'a self, draw: &'a Draw<'a>) -> Draw<'a> {
+        let amplified = draw.pipeline.amplified();
+        match (&self.piece, amplified) {
+            (Some((vertices, piece)), Some(amplified)) => Draw {
+                pipeline: &amplified.rasterized,
+                vertex_buffers: vertices,
+                indices: Some((&piece.indices, IndexFormat::Uint32)),
+                elements: 0..piece.index_count,
+                instances: 0..1,
+                base_vertex: 0,
+                ..draw.clone()
+            },
+            _ => draw.clone(),
+        }
+    }
+}
