@@ -34,6 +34,15 @@ pub enum InspectError {
         /// Rows of the pass.
         height: u32,
     },
+    /// A draw's pipeline has stages that the history does not follow yet.
+    #[error(
+        "draw {draw} has a tessellation or geometry shader, which the history of a pixel does \
+             not follow: leave the draw out, or inspect the primitives drawn plainly"
+    )]
+    Amplified {
+        /// The number of the draw.
+        draw: usize,
+    },
     /// The pass has shaders that store, so that all of its pixels are drawn, and these need too
     /// much memory.
     #[error(
@@ -63,6 +72,15 @@ pub(crate) fn inspect(
         let checked = attachments.with_shape(|shape| core_pass.check(shape));
         checked.map_err(|error| refused(pass, error.into()))?;
         let stored = stored_part(attachments, pass, pixel)?;
+        let is_amplified = |draw: &crate::Draw<'_>| {
+            let descriptor = draw.pipeline.descriptor();
+            descriptor.tessellation.is_some()
+                || descriptor.geometry.is_some()
+                || descriptor.vertex_program.is_some()
+        };
+        if let Some(draw) = pass.draws.iter().position(is_amplified) {
+            return Err(InspectError::Amplified { draw });
+        }
         let target = initial::target(device.context(), attachments, stored);
         let mut target = target.map_err(|kind| refused(pass, kind))?;
         Ok(history(device, attachments, &draws, &mut target, pixel))
