@@ -1,10 +1,10 @@
-//! Passes with tessellation or geometry shaders: their draws become pieces, which are drawn as
-//! ordinary draws between the others.
+//! Passes with tessellation, geometry shaders or several layers: amplified draws become pieces, which are drawn as
+//! ordinary draws between the others, in each layer those that it is the layer of.
 
 use crate::amplification::amplify::Amplifier;
 use crate::amplification::piece::Piece;
 use crate::attachment::RenderTarget;
-use crate::commands::{Draw, LoadOp, PassControl, RenderPass};
+use crate::commands::{Draw, LoadOp, PassControl, RenderPass, ViewportScissor};
 use crate::draw::{Context, Memory};
 use crate::plan::pass_check::RenderPassError;
 use crate::statistics::Statistics;
@@ -31,10 +31,10 @@ struct Entry {
 }
 
 impl Context {
-    /// Draws a pass of which some draws have tessellation or a geometry shader.
+    /// Draws a pass that was checked, of which draws may have tessellation or a geometry shader.
     pub(crate) fn render_amplified(
         &self,
-        target: &mut RenderTarget,
+        layers: &mut [RenderTarget],
         pass: &RenderPass<'_>,
         memory: &mut Memory,
     ) -> Result<Statistics, RenderPassError> {
@@ -48,7 +48,8 @@ impl Context {
         let amplifier = Amplifier {
             executor: self.executor(),
             level: self.level(),
-            layers: 1,
+            // Memory is short before there are 2³².
+            layers: u32::try_from(layers.len()).unwrap_or(u32::MAX),
         };
         for (number, draw) in pass.draws.iter().enumerate() {
             let Some(amplified) = draw.pipeline.amplified() else {
@@ -70,7 +71,7 @@ impl Context {
                 let drawn = if pass.control.is_cancelled() {
                     Err(RenderPassError::Cancelled)
                 } else if waiting.words > WAITING_WORDS {
-                    waiting.draw(self, target, memory, statistics)
+                    waiting.draw(self, layers, memory, statistics)
                 } else {
                     Ok(())
                 };
@@ -84,7 +85,7 @@ impl Context {
             }
             statistics.geometry += start.elapsed();
         }
-        waiting.draw(self, target, memory, &mut statistics)?;
+        waiting.draw(self, layers, memory, &mut statistics)?;
         Ok(statistics)
     }
 }
@@ -102,24 +103,45 @@ impl Waiting<'_> {
     fn draw(
         &mut self,
         context: &Context,
-        target: &mut RenderTarget,
+        layers: &mut [RenderTarget],
         memory: &mut Memory,
         statistics: &mut Statistics,
     ) -> Result<(), RenderPassError> {
+        for (layer, target) in (0..).zip(layers) {
+            *statistics += self.draw_layer(context, (layer, target), memory)?;
+        }
+        self.entries.clear();
+        self.words = 0;
+        self.is_first = false;
+        Ok(())
+    }
+
+    /// Draws what waits for one layer.
+    fn draw_layer(
+        &self,
+        context: &Context,
+        (layer, target): (u32, &mut RenderTarget),
+        memory: &mut Memory,
+    ) -> Result<Statistics, RenderPassError> {
         let all = self.pass.draws;
-        let draws: Vec<Draw<'_>> = self
-            .entries
+        let entries = self.entries.iter().filter(|entry| entry.layer() == layer);
+        let entries: Vec<&Entry> = entries.collect();
+        if entries.is_empty() && !self.is_first {
+            return Ok(Statistics::default());
+        }
+        let draws: Vec<Draw<'_>> = entries
             .iter()
             .map(|entry| entry.as_drawn(&all[entry.draw]))
             .collect();
         let begun = |draws: usize, _: usize| {
-            let last = draws.checked_sub(1).and_then(|at| self.entries.get(at));
+            let last = draws.checked_sub(1).and_then(|at| entries.get(at));
             let begun = last.map_or(0, |entry| entry.draw + 1);
             self.pass.control.report(begun, all.len());
         };
         let mut part = RenderPass {
             control: PassControl {
-                progress: Some(&begun),
+                // The first layer has the draws that select none.
+                progress: (layer == 0).then_some(&begun),
                 ..self.pass.control
             },
             draws: &draws,
@@ -130,19 +152,31 @@ impl Waiting<'_> {
             part.load_depth = LoadOp::Load;
             part.load_stencil = LoadOp::Load;
         }
-        let drawn = context.render_checked(target, &part, memory)?;
-        *statistics += drawn;
-        self.entries.clear();
-        self.words = 0;
-        self.is_first = false;
-        Ok(())
+        context.render_checked(target, &part, memory)
     }
 }
 
 impl Entry {
+    fn layer(&self) -> u32 {
+        self.piece.as_ref().map_or(0, |(_, piece)| piece.layer)
+    }
+
+    /// The viewport of a piece.
+    fn viewport(&self, draw: &Draw<'_>) -> ViewportScissor {
+        let first = ViewportScissor {
+            viewport: draw.viewport,
+            scissor: draw.scissor,
+        };
+        let number = self.piece.as_ref().map_or(0, |(_, piece)| piece.viewport);
+        let more = (number as usize).checked_sub(1);
+        let more = more.and_then(|at| draw.more_viewports.get(at));
+        more.copied().unwrap_or(first)
+    }
+
     /// The draw of a piece, or the plain draw itself.
     fn as_drawn<'a>(&'a self, draw: &'a Draw<'a>) -> Draw<'a> {
         let amplified = draw.pipeline.amplified();
+        let ViewportScissor { viewport, scissor } = self.viewport(draw);
         match (&self.piece, amplified) {
             (Some((vertices, piece)), Some(amplified)) => Draw {
                 pipeline: &amplified.rasterized,
@@ -151,6 +185,8 @@ impl Entry {
                 elements: 0..piece.index_count,
                 instances: 0..1,
                 base_vertex: 0,
+                viewport,
+                scissor,
                 ..draw.clone()
             },
             _ => draw.clone(),

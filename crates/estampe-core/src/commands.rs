@@ -29,6 +29,9 @@ pub struct Draw<'a> {
     pub viewport: Option<Viewport>,
     /// The rectangle of pixels that may change. Default all.
     pub scissor: Option<ScissorRect>,
+    /// The viewports and scissors that a geometry shader's viewport index selects: 0 is that of
+    /// `viewport` and `scissor`, i is number i − 1 of these. Default none.
+    pub more_viewports: &'a [ViewportScissor],
     /// The constant of blending. Default zeros.
     pub blend_constant: [f32; 4],
     /// The stencil references of front-facing and back-facing primitives. Default zeros.
@@ -55,6 +58,7 @@ impl<'a> Draw<'a> {
             bindings: None,
             viewport: None,
             scissor: None,
+            more_viewports: &[],
             blend_constant: [0.0; 4],
             stencil_reference: [0; 2],
             depth_bounds: None,
@@ -79,6 +83,16 @@ impl<'a> Draw<'a> {
             ..Self::new(pipeline, first..first.saturating_add(count))
         }
     }
+}
+
+/// A viewport of a draw that has several.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ViewportScissor {
+    /// The rectangle that NDC is mapped to, and the range of depths. Default the whole target,
+    /// depth 0..1.
+    pub viewport: Option<Viewport>,
+    /// The rectangle of pixels that may change. Default all.
+    pub scissor: Option<ScissorRect>,
 }
 
 /// The operation on an attachment's old contents when a pass begins.

@@ -148,15 +148,31 @@ impl Context {
         target: &mut RenderTarget,
         pass: &RenderPass<'_>,
     ) -> Result<Statistics, RenderPassError> {
-        pass.check(&target.shape())?;
+        self.render_layers(std::slice::from_mut(target), pass)
+    }
+
+    /// Draws a pass into the layers of a target, which have one shape. Draws without a geometry
+    /// shader that selects a layer are drawn into the first.
+    ///
+    /// # Errors
+    /// As [`Context::render`].
+    pub fn render_layers(
+        &self,
+        layers: &mut [RenderTarget],
+        pass: &RenderPass<'_>,
+    ) -> Result<Statistics, RenderPassError> {
+        for target in layers.iter() {
+            pass.check(&target.shape())?;
+        }
         let kept = || self.memory.lock().unwrap_or_else(PoisonError::into_inner);
         let memory = kept().pop();
         let mut memory = memory.unwrap_or_else(|| Memory::new(self.executor.threads()));
         let is_amplified = |draw: &Draw<'_>| draw.pipeline.amplified().is_some();
-        let drawn = if pass.draws.iter().any(is_amplified) {
-            self.render_amplified(target, pass, &mut memory)
-        } else {
-            self.render_checked(target, pass, &mut memory)
+        let drawn = match layers {
+            [target] if !pass.draws.iter().any(is_amplified) => {
+                self.render_checked(target, pass, &mut memory)
+            }
+            layers => self.render_amplified(layers, pass, &mut memory),
         };
         kept().push(memory);
         drawn

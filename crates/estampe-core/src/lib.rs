@@ -66,7 +66,7 @@ pub use attachment::{
     ColorTexels, DepthStencilTexels, ImageSize, RenderTarget, ResolveMode, TargetShape,
     row_order_words,
 };
-pub use commands::{Draw, LoadOp, OcclusionQueries, PassControl, RenderPass};
+pub use commands::{Draw, LoadOp, OcclusionQueries, PassControl, RenderPass, ViewportScissor};
 pub use draw::Context;
 pub use pipeline::{PipelineError, RenderPipeline, RenderPipelineDescriptor, TessellationState};
 pub use plan::pass_check::RenderPassError;

@@ -57,7 +57,7 @@
 //! | `maths`: `exp2`, `log2`, `sin`, `exp`, `pow`, `powi` | `estampe-types/src/tests/mod.rs` and `tests/shared/numbers.rs`: error bounds against f64 |
 //! | `Vec2`, `Vec3`, `Vec4`, `Mat4` | `tests/shared/vectors.rs`, by hand, the order of sums included |
 //! | how attributes and varyings are split into scalars and assembled; `FragmentOut`, `VertexOut` | `tests/shared/layouts.rs`; `tests/drawing.rs` |
-//! | the points that a tessellation or geometry shader reads: `Points`, `ShadedPoint` | `estampe-types/src/shader/amplification/tests.rs`, by hand |
+//! | the points that a tessellation or geometry shader reads: `Points`, `ShadedPoint` | `tests/shared/points.rs`, by hand |
 //! | the interface of a shader: `interface_of` | `estampe-types/src/shader/dry_run/tests.rs` |
 //! | `BufferData::words`, and how bytes become words; `Bindings` | `tests/shared/layouts.rs`, by hand |
 //! | the layout of textures: `stored_format`, `words_per_texel`, `slices`; `StorageTexture::index` | `tests/shared/layouts.rs`, by hand |

@@ -7,8 +7,8 @@ use estampe::{
 };
 use estampe_reference::{ClipVertex, State, Target, TargetState, geometry_shader, tessellation};
 use estampe_types::shader::{
-    ControlIn, Emit, EvaluationIn, GeometryIn, GeometryPrimitive, GeometryProgram, GeometryShader,
-    GeometryShaderProgram, GeometryTopology, PatchIn, TessellationLevels, TessellationShader,
+    ControlIn, EvaluationIn, GeometryIn, GeometryPrimitive, GeometryProgram, GeometryShader,
+    GeometryShaderProgram, GeometryTopology, PatchIn, TessellationLevels,
     TessellationShaderProgram, VertexOut,
 };
 use estampe_types::state::{
@@ -111,8 +111,8 @@ estampe_types::shader! {
                 }
             };
             let (mut position, mut values) = input.points.get(0);
-            position = position * weights[0];
-            values = values * weights[0];
+            position *= weights[0];
+            values *= weights[0];
             for (corner, weight) in weights.into_iter().enumerate().skip(1) {
                 // Of the last corner by a number that lanes choose.
                 let (place, value) = if corner == 3 {
@@ -120,8 +120,8 @@ estampe_types::shader! {
                 } else {
                     input.points.get(corner)
                 };
-                position = position + place * weight;
-                values = values + value * weight;
+                position += place * weight;
+                values += value * weight;
             }
             position.x += position.y * position.y * self.bend;
             values.x += (number * 0.37).fract() * 0.25;

@@ -152,15 +152,15 @@ fn shared_edges_have_no_cracks() {
     for spacing in [S::Equal, S::FractionalOdd, S::FractionalEven] {
         for kind in [Kind::Grid, Kind::Fan, Kind::Cuts] {
             let triangles = mesh(&mut random, kind, size);
-            let seed = f64::from(random.below(1000));
+            let seed = random.bits().cast_signed();
             let mut vertices = Vec::new();
             for mut triangle in triangles {
                 // The edges of neighbours have other numbers and directions.
                 triangle.rotate_left(random.index(3));
                 for [x, y] in triangle {
                     // The level of a corner belongs to its place.
-                    let hash = (f64::from(x) * 12.9898 + f64::from(y) * 78.233 + seed).abs();
-                    let level = (hash * 0.618_034).fract() as f32 * 4.0;
+                    let hash = x.wrapping_mul(7919) ^ y.wrapping_mul(104_729) ^ seed;
+                    let level = (hash.wrapping_mul(40_503) >> 8 & 1023) as f32 / 256.0;
                     let at = [x as f32 / 256.0, y as f32 / 256.0];
                     vertices.push(Vertex {
                         position: clip_at(size, at, 0.5, 1.0),

@@ -90,7 +90,7 @@ pub use estampe_core::profile::JobTimings;
 pub use estampe_core::{
     LoadOp, OcclusionQueries, PassControl, PathCounts, PipelineError, RenderPassError as DrawError,
     RenderPipeline, RenderPipelineDescriptor, ResolveMode, Statistics, TessellatedDomain,
-    TessellationState, ThreadPool, ThreadPoolBuilder, TilePath,
+    TessellationState, ThreadPool, ThreadPoolBuilder, TilePath, ViewportScissor,
 };
 pub use estampe_simd::{Level, LevelError};
 pub use estampe_texture::{

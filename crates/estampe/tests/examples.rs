@@ -12,18 +12,26 @@
 
 #[path = "../examples/bloom.rs"]
 mod bloom;
+#[path = "../examples/cube_map_one_pass.rs"]
+mod cube_map_one_pass;
 #[path = "../examples/deferred.rs"]
 mod deferred;
 #[path = "../examples/instancing.rs"]
 mod instancing;
 #[path = "../examples/multisampling.rs"]
 mod multisampling;
+#[path = "../examples/normals.rs"]
+mod normals;
 #[path = "../examples/picking.rs"]
 mod picking;
 #[path = "../examples/reflections.rs"]
 mod reflections;
 #[path = "../examples/shadow_map.rs"]
 mod shadow_map;
+#[path = "../examples/silhouette.rs"]
+mod silhouette;
+#[path = "../examples/tessellated_teapot.rs"]
+mod tessellated_teapot;
 #[path = "../examples/textured_cube.rs"]
 mod textured_cube;
 #[path = "../examples/triangle.rs"]
@@ -38,6 +46,11 @@ use std::path::Path;
 #[test]
 fn bloom_draws_its_picture() {
     check("bloom", bloom::picture);
+}
+
+#[test]
+fn cube_map_one_pass_draws_its_picture() {
+    check("cube_map_one_pass", cube_map_one_pass::picture);
 }
 
 #[test]
@@ -56,6 +69,11 @@ fn multisampling_draws_its_picture() {
 }
 
 #[test]
+fn normals_draws_its_picture() {
+    check("normals", normals::picture);
+}
+
+#[test]
 fn picking_draws_its_picture() {
     check("picking", picking::picture);
 }
@@ -68,6 +86,16 @@ fn reflections_draws_its_picture() {
 #[test]
 fn shadow_map_draws_its_picture() {
     check("shadow_map", shadow_map::picture);
+}
+
+#[test]
+fn silhouette_draws_its_picture() {
+    check("silhouette", silhouette::picture);
+}
+
+#[test]
+fn tessellated_teapot_draws_its_picture() {
+    check("tessellated_teapot", tessellated_teapot::picture);
 }
 
 #[test]

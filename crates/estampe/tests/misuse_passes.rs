@@ -85,7 +85,7 @@ fn attachments() {
         },
         E::NotAnImage { .. },
         "colour attachment 0 is a view of 4 mip levels and 1 layers: render to a view of one level \
-         of one layer (`Texture::image`), of a 3D texture with `depth_slice`"
+         (`Texture::image`), of a 3D texture with `depth_slice`"
     );
     refused_pass!(
         &device,

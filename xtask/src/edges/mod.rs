@@ -85,6 +85,7 @@ const LIBRARIES: &[&str] = &[
 
 /// The workspace crates that only the tests and examples of a crate may use.
 const TESTS: &[(&str, &[&str])] = &[
+    ("estampe", &["estampe-shapes"]),
     ("estampe-renderer", &["estampe-shapes", "estampe-reference"]),
     // Pictures of examples and tests as files.
     ("estampe-visibility", &["estampe-assets"]),

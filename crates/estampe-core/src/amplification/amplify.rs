@@ -114,7 +114,8 @@ impl Amplifier<'_> {
                 provoking: descriptor.primitive.provoking_vertex,
                 bindings,
                 layers: self.layers,
-                viewports: 1,
+                // Memory is short before there are 2³².
+                viewports: u32::try_from(draw.more_viewports.len()).map_or(1, |more| more + 1),
             }),
         }
     }

@@ -207,7 +207,7 @@ impl TessellatedDomain {
     fn quads(&mut self, edges: &Subdivisions) {
         let [left, bottom, right, top] = edges.outer;
         // Counter-clockwise from (0, 0), each with the place of its point j.
-        let sides: [(Subdivision, fn(u32) -> [u32; 3]); 4] = [
+        let sides: [(Subdivision, PlaceOnSide); 4] = [
             (bottom, |at| [at, 0, 0]),
             (right, |at| [ONE, at, 0]),
             (top, |at| [ONE - at, ONE, 0]),
@@ -274,6 +274,9 @@ impl TessellatedDomain {
         }
     }
 }
+
+/// The place of a point from its place along a side.
+type PlaceOnSide = fn(u32) -> [u32; 3];
 
 /// One side of a ring: the points from a corner to the next, both included.
 #[derive(Debug)]

@@ -145,7 +145,7 @@ fn strip_with_adjacency(p: u32, count: u32) -> [u32; 6] {
     let before = if p == 0 { 1 } else { first - 1 };
     let ahead = if is_last { first + 5 } else { first + 6 };
     let beside = first + 3;
-    if p % 2 == 0 {
+    if p.is_multiple_of(2) {
         [first, before, first + 2, ahead, first + 4, beside]
     } else {
         [first, beside, first + 4, ahead, first + 2, before]

@@ -153,14 +153,13 @@ fn check_draw(
     {
         return Err(RenderPassError::NoStencil { draw: number });
     }
-    match draw.viewport {
-        Some(viewport) if !is_valid(&viewport) => {
-            return Err(RenderPassError::Viewport {
-                draw: number,
-                viewport,
-            });
-        }
-        _ => {}
+    let more = draw.more_viewports.iter().filter_map(|more| more.viewport);
+    let mut viewports = draw.viewport.into_iter().chain(more);
+    if let Some(viewport) = viewports.find(|viewport| !is_valid(viewport)) {
+        return Err(RenderPassError::Viewport {
+            draw: number,
+            viewport,
+        });
     }
     match draw.occlusion_query {
         Some(query) if query as usize >= queries => Err(RenderPassError::OcclusionQuery {

@@ -17,6 +17,9 @@ pub struct Domain {
 /// A line of points, each with its place along the edge that it runs beside.
 type Line = Vec<(usize, u32)>;
 
+/// The place of a point from its place along a side.
+type PlaceOnSide = fn(u32) -> [u32; 3];
+
 /// Divides a domain; empty if the patch is dropped.
 #[must_use]
 pub fn divide(mode: &TessellationMode, outer: [f32; 4], inner: [f32; 2]) -> Domain {
@@ -145,7 +148,7 @@ impl Domain {
     fn quads(&mut self, outer: &[Edge; 4], [columns, rows]: &[Edge; 2]) {
         let [left, bottom, right, top] = outer;
         // Counter-clockwise from the corner (0, 0): a place from the place along the side.
-        let sides: [(&Edge, fn(u32) -> [u32; 3]); 4] = [
+        let sides: [(&Edge, PlaceOnSide); 4] = [
             (bottom, |at| [at, 0, 0]),
             (right, |at| [ONE, at, 0]),
             (top, |at| [ONE - at, ONE, 0]),

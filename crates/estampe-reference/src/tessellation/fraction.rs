@@ -33,6 +33,7 @@ impl Fraction {
 
     /// A float of 1 to 64, exactly: a multiple of 2⁻²³.
     #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "at most 64 · 2²³")]
     pub fn of_level(level: f32) -> Self {
         Self::new((f64::from(level) * 8_388_608.0) as i128, 8_388_608)
     }

@@ -2,6 +2,7 @@
 
 #![expect(dead_code, reason = "each example uses a part")]
 
+pub(crate) mod bezier;
 pub(crate) mod page;
 
 use estampe::state::{BlendState, ColorTargetState, MultisampleState, VertexBufferLayout};
@@ -281,7 +282,12 @@ impl Solid {
         Self::new(device, &vertices, indices)
     }
 
-    fn new(device: &Device, vertices: &[Vertex], indices: Vec<u32>) -> Outcome<Self> {
+    /// A mesh of any numbers for each vertex.
+    pub(crate) fn new<const N: usize>(
+        device: &Device,
+        vertices: &[[f32; N]],
+        indices: Vec<u32>,
+    ) -> Outcome<Self> {
         let vertices = estampe::bytes_of(vertices.as_flattened());
         let vertices = device.create_buffer_with_contents(vertices)?;
         let count = u32::try_from(indices.len())?;

@@ -3,6 +3,7 @@
 use crate::{
     BindGroup, Buffer, BufferError, BufferSlice, BufferUsages, IndexFormat, RenderPipeline,
 };
+use estampe_core::ViewportScissor;
 use estampe_types::state::{ScissorRect, Viewport};
 use std::ops::Range;
 
@@ -57,6 +58,9 @@ pub struct Draw<'a> {
     pub viewport: Option<Viewport>,
     /// The rectangle of pixels that may change. Default all.
     pub scissor: Option<ScissorRect>,
+    /// The viewports and scissors that a geometry shader's viewport index selects: 0 is that of
+    /// `viewport` and `scissor`, i is number i − 1 of these. Default none.
+    pub more_viewports: &'a [ViewportScissor],
     /// The constant of blending. Default zeros.
     pub blend_constant: [f32; 4],
     /// The stencil references of front-facing and back-facing primitives. Default zeros.
@@ -84,6 +88,7 @@ impl<'a> Draw<'a> {
             dynamic_offsets: &[],
             viewport: None,
             scissor: None,
+            more_viewports: &[],
             blend_constant: [0.0; 4],
             stencil_reference: [0; 2],
             depth_bounds: None,

@@ -135,6 +135,7 @@ impl DrawData {
                 bindings: bindings.map(|at| &self.bindings[at]),
                 viewport: draw.viewport,
                 scissor: draw.scissor,
+                more_viewports: draw.more_viewports,
                 blend_constant: draw.blend_constant,
                 stencil_reference: draw.stencil_reference,
                 depth_bounds: draw.depth_bounds,

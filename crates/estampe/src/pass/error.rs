@@ -57,8 +57,8 @@ pub enum PassErrorKind {
     },
     /// A view that is not one image.
     #[error(
-        "{attachment} is a view of {levels} mip levels and {layers} layers: render to a view of one level of \
-         one layer (`Texture::image`), of a 3D texture with `depth_slice`"
+        "{attachment} is a view of {levels} mip levels and {layers} layers: render to a view of one level \
+         (`Texture::image`), of a 3D texture with `depth_slice`"
     )]
     NotAnImage {
         /// The attachment.
@@ -67,6 +67,16 @@ pub enum PassErrorKind {
         levels: u32,
         /// The layers of the view.
         layers: u32,
+    },
+    /// Attachments of different numbers of layers.
+    #[error(
+        "its attachments are views of {} and of {} layers: all of them, and their resolve targets, \
+         have the same number",
+        counts[0], counts[1]
+    )]
+    Layers {
+        /// The smallest and the largest number of layers.
+        counts: [u32; 2],
     },
     /// Attachments of different sizes or samples.
     #[error(

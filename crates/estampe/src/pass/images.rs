@@ -40,7 +40,8 @@ impl Attachments<'_> {
         Ok(taken)
     }
 
-    fn put_back(&self, taken: Taken, error: PassErrorKind) -> PassErrorKind {
+    /// Puts images back as they were taken.
+    pub(super) fn put_back(&self, taken: Taken, error: PassErrorKind) -> PassErrorKind {
         for (color, image) in self.colors.iter().zip(taken.colors) {
             let mut contents = color.image.view.texture().lock();
             contents.put_unchanged(color.image.key, image);

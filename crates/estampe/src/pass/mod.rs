@@ -6,6 +6,7 @@ mod draw;
 mod draw_data;
 mod error;
 mod images;
+mod layers;
 mod queries;
 mod run;
 
@@ -80,7 +81,9 @@ pub enum StoreOp {
 /// A colour attachment: WebGPU's `GPURenderPassColorAttachment`.
 #[derive(Debug, Clone)]
 pub struct ColorAttachment {
-    /// The image that is rendered to: one level of one layer.
+    /// The image that is rendered to: one level of one layer, or of as many layers as the views of
+    /// all attachments of the pass have. Draws go to the first layer, but for primitives whose
+    /// geometry shader [selects](crate::EmittedVertex::with_layer) another one.
     pub view: TextureView,
     /// The slice of a 3D texture that is rendered to; of others `None`.
     pub depth_slice: Option<u32>,
@@ -153,7 +156,8 @@ impl<T> AspectOperations<T> {
 /// A depth and stencil attachment: WebGPU's `GPURenderPassDepthStencilAttachment`.
 #[derive(Debug, Clone)]
 pub struct DepthStencilAttachment {
-    /// The image that is tested and written: one level of one layer.
+    /// The image that is tested and written: one level of one layer, or of as many as the colour
+    /// attachments have.
     pub view: TextureView,
     /// Of depth, a number in 0..=1; without effect if the format has none.
     pub depth: AspectOperations<f32>,

@@ -3,11 +3,13 @@
 use super::attachments::Attachments;
 use super::check::{check_draw, check_uses, check_vertices};
 use super::draw_data::{DrawData, Groups};
+use super::images::Taken;
+use super::layers::Layer;
 use super::queries::Parts;
 use super::{PassErrorKind, RenderPass, RenderPassError};
 use crate::bind_group::BindingResource;
 use crate::texture::{StoredTextures, Texture};
-use crate::{Device, Limits, LoadOp, Statistics};
+use crate::{Context, Device, Limits, LoadOp, Statistics};
 use estampe_core::{PassControl, RenderTarget};
 use std::sync::Arc;
 
@@ -22,13 +24,15 @@ pub(crate) fn render(
 /// Checks all that [`render`] checks before it draws.
 pub(crate) fn check(limits: &Limits, pass: &RenderPass<'_>) -> Result<(), RenderPassError> {
     let check = || {
-        let (attachments, groups) = check_objects(limits, pass)?;
+        let layers = Layer::of(pass)?;
+        let passes = passes(pass, &layers);
+        let (attachments, groups) = check_objects(limits, &passes)?;
         // The core's rules do not depend on what is bound.
         let resources = vec![Arc::default(); groups.distinct.len()];
         let data = DrawData::new(pass.draws, &groups, &resources);
         let draws = data.draws(pass.draws);
-        let core_pass = core_pass(pass, attachments.loads(), &draws);
-        Ok(attachments.with_shape(|shape| core_pass.check(shape))?)
+        let core_pass = core_pass(pass, attachments[0].loads(), &draws);
+        Ok(attachments[0].with_shape(|shape| core_pass.check(shape))?)
     };
     check().map_err(|kind| of_pass(pass, kind))
 }
@@ -40,14 +44,25 @@ fn of_pass(pass: &RenderPass<'_>, kind: PassErrorKind) -> RenderPassError {
     }
 }
 
-/// Checks attachments, draws and bind groups.
+/// The pass of each layer; at least one.
+fn passes<'a>(pass: &RenderPass<'a>, layers: &'a [Layer]) -> Vec<RenderPass<'a>> {
+    if layers.is_empty() {
+        return vec![pass.clone()];
+    }
+    layers.iter().map(|layer| layer.pass(pass)).collect()
+}
+
+/// Checks the attachments of each layer, draws and bind groups.
 fn check_objects<'a>(
     limits: &Limits,
-    pass: &'a RenderPass<'_>,
-) -> Result<(Attachments<'a>, Groups<'a>), PassErrorKind> {
-    let attachments = Attachments::check(pass, limits)?;
+    passes: &'a [RenderPass<'_>],
+) -> Result<(Vec<Attachments<'a>>, Groups<'a>), PassErrorKind> {
+    let attachments = passes.iter().map(|pass| Attachments::check(pass, limits));
+    let attachments = attachments.collect::<Result<Vec<_>, _>>()?;
+    // All layers have the same draws, and attachments of the same formats.
+    let pass = &passes[0];
     for (number, draw) in pass.draws.iter().enumerate() {
-        check_draw(number, draw, &attachments, limits)?;
+        check_draw(number, draw, &attachments[0], limits)?;
     }
     check_vertices(pass.draws, limits)?;
     if let Some(queries) = pass.range_queries {
@@ -55,7 +70,9 @@ fn check_objects<'a>(
     }
     let groups = Groups::of(pass.draws);
     for group in &groups.distinct {
-        check_uses(group, &attachments)?;
+        for layer in &attachments {
+            check_uses(group, layer)?;
+        }
     }
     Ok((attachments, groups))
 }
@@ -79,19 +96,31 @@ pub(crate) fn core_pass<'a>(
 
 fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKind> {
     let (context, limits) = (device.context(), device.limits());
-    let (attachments, groups) = check_objects(limits, pass)?;
+    let layers = Layer::of(pass)?;
+    let passes = passes(pass, &layers);
+    let (attachments, groups) = check_objects(limits, &passes)?;
     let textures = reserved_order(&attachments, &groups);
     let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
     let mut stores = StoredTextures::in_place();
     let resources = groups.resources(context, &mut stores)?;
     let data = DrawData::new(pass.draws, &groups, &resources);
     let draws = data.draws(pass.draws);
-    let core_pass = core_pass(pass, attachments.loads(), &draws);
+    let core_pass = core_pass(pass, attachments[0].loads(), &draws);
     // Before anything is taken, so that a pass that is refused changes nothing.
-    attachments.with_shape(|shape| core_pass.check(shape))?;
-    let (mut target, depth_newest) = attachments.target(attachments.take(context)?);
-    let drawn = draw(device, &mut target, pass, core_pass);
-    attachments.finish(context, target, depth_newest)?;
+    attachments[0].with_shape(|shape| core_pass.check(shape))?;
+    let taken = take_all(context, &attachments)?;
+    let layers = attachments.iter().zip(taken);
+    let (mut targets, depths_newest): (Vec<_>, Vec<_>) =
+        layers.map(|(layer, taken)| layer.target(taken)).unzip();
+    let drawn = draw(device, &mut targets, pass, core_pass);
+    let mut finished = Ok(());
+    for (layer, (target, newest)) in attachments
+        .iter()
+        .zip(targets.into_iter().zip(depths_newest))
+    {
+        finished = finished.and(layer.finish(context, target, newest));
+    }
+    finished?;
     drop(draws);
     // Nobody else holds the words that were stored to from now on.
     drop(data);
@@ -109,26 +138,49 @@ pub(crate) fn prepared<T>(
     pass: &RenderPass<'_>,
     use_data: impl FnOnce(&Attachments<'_>, &DrawData) -> T,
 ) -> Result<T, PassErrorKind> {
-    let (attachments, groups) = check_objects(device.limits(), pass)?;
+    let layers = Layer::of(pass)?;
+    let passes = passes(pass, &layers);
+    let (attachments, groups) = check_objects(device.limits(), &passes)?;
     let textures = reserved_order(&attachments, &groups);
     let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
     let resources = groups.resources(device.context(), &mut StoredTextures::copies())?;
     let data = DrawData::new(pass.draws, &groups, &resources);
-    let used = use_data(&attachments, &data);
+    // Draws without a geometry shader go to the first layer.
+    let used = use_data(&attachments[0], &data);
     drop(reserved);
     Ok(used)
+}
+
+/// Takes the images of all layers out of their textures; none if memory is short for one of them.
+fn take_all(
+    context: &Context,
+    attachments: &[Attachments<'_>],
+) -> Result<Vec<Taken>, PassErrorKind> {
+    let mut all = Vec::with_capacity(attachments.len());
+    for layer in attachments {
+        match layer.take(context) {
+            Ok(taken) => all.push(taken),
+            Err(mut error) => {
+                for (layer, taken) in attachments.iter().zip(all) {
+                    error = layer.put_back(taken, error);
+                }
+                return Err(error);
+            }
+        }
+    }
+    Ok(all)
 }
 
 /// Draws the parts between the ends of the queries' ranges one after the other: all draws at once
 /// without queries.
 fn draw(
     device: &Device,
-    target: &mut RenderTarget,
+    layers: &mut [RenderTarget],
     pass: &RenderPass<'_>,
     core_pass: estampe_core::RenderPass<'_>,
 ) -> Result<Statistics, estampe_core::RenderPassError> {
     let Some(queries) = pass.range_queries else {
-        return device.context().render(target, &core_pass);
+        return device.context().render_layers(layers, &core_pass);
     };
     queries.reset();
     let mut parts = Parts::new(queries, pass.draws.len());
@@ -158,7 +210,7 @@ fn draw(
             }
         };
         parts.times.push(device.age());
-        let part = device.context().render(target, &part)?;
+        let part = device.context().render_layers(layers, &part)?;
         statistics += part;
         parts.statistics.push(part);
     }
@@ -168,7 +220,7 @@ fn draw(
 }
 
 /// All textures of a pass, in the order in which they are reserved.
-fn reserved_order<'a>(attachments: &Attachments<'a>, groups: &Groups<'a>) -> Vec<&'a Texture> {
+fn reserved_order<'a>(attachments: &[Attachments<'a>], groups: &Groups<'a>) -> Vec<&'a Texture> {
     let bound = groups.distinct.iter().flat_map(|group| group.entries());
     let bound = bound.filter_map(|(_, resource)| match resource {
         BindingResource::Texture(view) | BindingResource::SampledTexture(view, _) => {
@@ -176,7 +228,8 @@ fn reserved_order<'a>(attachments: &Attachments<'a>, groups: &Groups<'a>) -> Vec
         }
         BindingResource::Buffer(_) | BindingResource::Sampler(_) => None,
     });
-    let mut textures: Vec<&Texture> = attachments.textures().chain(bound).collect();
+    let attached = attachments.iter().flat_map(Attachments::textures);
+    let mut textures: Vec<&Texture> = attached.chain(bound).collect();
     textures.sort_by_key(|texture| texture.id());
     textures.dedup_by_key(|texture| texture.id());
     textures

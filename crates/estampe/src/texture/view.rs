@@ -178,6 +178,15 @@ impl TextureView {
         self.layers
     }
 
+    /// The view of one layer, counted from the view's first.
+    pub(crate) fn layer(&self, layer: u32) -> Self {
+        Self {
+            dimension: ViewDimension::D2,
+            layers: [self.layers[0] + layer, 1],
+            ..self.clone()
+        }
+    }
+
     /// Width and height of the view's first mip level, in texels.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {

@@ -5,4 +5,5 @@
 mod formats;
 mod layouts;
 mod numbers;
+mod points;
 mod vectors;

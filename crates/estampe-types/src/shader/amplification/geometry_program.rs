@@ -248,14 +248,14 @@ impl<R: Real, T: GeometryShader> Emit<R, T::Output<R>> for Emitter<'_, T> {
         let zero = vertex.position.x.splat(0.0);
         let (mut first, mut kept) = ([0; MAX_LANES], 0);
         let wanted = R::mask_bits(lanes) & self.active;
-        for lane in 0..R::LANES {
+        for (lane, first) in first.iter_mut().enumerate().take(R::LANES) {
             if wanted >> lane & 1 == 0 {
                 continue;
             }
             let slot = self.slots[lane];
             let count = &mut self.counts[slot];
             if (*count as usize) < T::MAX_VERTICES {
-                first[lane] = (slot * T::MAX_VERTICES + *count as usize) * words;
+                *first = (slot * T::MAX_VERTICES + *count as usize) * words;
                 kept |= 1 << lane;
                 *count += 1;
             }
