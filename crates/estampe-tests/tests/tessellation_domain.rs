@@ -41,6 +41,10 @@ fn level(random: &mut Random) -> f32 {
     }
 }
 
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a whole number, at most 2²⁴"
+)]
 fn units(coordinates: &[[f32; 3]]) -> Vec<[i64; 3]> {
     let unit = |at: &f32| {
         let scaled = f64::from(*at) * ONE as f64;
