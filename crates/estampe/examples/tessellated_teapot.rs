@@ -10,7 +10,7 @@ use estampe::state::{
     TessellationSpacing, VertexBufferLayout,
 };
 use estampe::{
-    ControlIn, Device, EvaluationIn, FragmentIn, FragmentOut, Mat4, PatchIn, Real, RenderPass,
+    ControlIn, Device, EvaluationIn, FragmentIn, FragmentOut, Mat4, PatchIn, RenderPass,
     RenderPipelineDescriptor, TessellationLevels, TessellationShaderProgram, TessellationState,
     Texture, Vec2, Vec3, VertexFormat, VertexIn, VertexOut,
 };
@@ -97,6 +97,7 @@ estampe::shader! {
     }
 }
 
+#[expect(clippy::cast_possible_truncation, reason = "a few digits")]
 pub(crate) fn picture(device: &Device) -> Outcome<Texture> {
     let points = POINTS.map(|[x, y, z]| [x as f32, z as f32, -y as f32]);
     let indices = PATCHES.iter().flatten().map(|at| u32::from(*at) - 1);
