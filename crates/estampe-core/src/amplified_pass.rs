@@ -1,5 +1,5 @@
-//! Passes with tessellation, geometry shaders or several layers: amplified draws become pieces, which are drawn as
-//! ordinary draws between the others, in each layer those that it is the layer of.
+//! Passes with tessellation, geometry shaders or several layers: amplified draws become pieces,
+//! which are drawn as ordinary draws between the others, each in the layer that it selects.
 
 use crate::amplification::amplify::Amplifier;
 use crate::amplification::piece::Piece;

@@ -33,8 +33,8 @@
 //!
 //! Beside them: [`texture`] and [`depth_map`] (sampling), [`color`], [`channel`], [`srgb`],
 //! [`small_float`] and [`shared_exponent`] (encoding and decoding), [`compare`] (comparison
-//! functions), [`tessellation`] and [`geometry_shader`] (the vertices that [`draw_vertices`] draws),
-//! [`line`](mod@line), [`rectangle`] and [`point`] (the other primitives),
+//! functions), [`tessellation`] and [`geometry_shader`] (the vertices that [`draw_vertices`]
+//! draws), [`line`](mod@line), [`rectangle`] and [`point`] (the other primitives),
 //! [`depth_bias`], [`conservative`] (conservative rasterization), [`bresenham`] (integer lines) and
 //! [`scan_conversion`] (triangles) in the textbook forms, and [`exact`], the formulas in f64 with
 //! bounds for the error of the f32 ones. [`transfer`] has what happens to images outside of draws:

@@ -7,7 +7,7 @@ mod scene;
 
 use estampe::{
     ColorAttachment, DepthStencilAttachment, Device, EmittedVertex, FragmentIn, FragmentOut,
-    GeometryIn, GeometryPrimitive, GeometryShaderProgram, GeometryTopology, Mat4, Real, RenderPass,
+    GeometryIn, GeometryPrimitive, GeometryShaderProgram, GeometryTopology, Mat4, RenderPass,
     RenderPipelineDescriptor, SamplerDescriptor, Texture, TextureBindings, TextureDescriptor,
     TextureFormat, TextureViewDescriptor, Vec3, VertexIn, VertexOut, ViewDimension, maths,
 };

@@ -8,8 +8,8 @@ mod scene;
 use estampe::state::VertexBufferLayout;
 use estampe::{
     Device, FragmentIn, FragmentOut, GeometryIn, GeometryPrimitive, GeometryShaderProgram,
-    GeometryTopology, Mat4, Real, RenderPass, RenderPipelineDescriptor, Texture, Vec3,
-    VertexFormat, VertexIn, VertexOut,
+    GeometryTopology, Mat4, RenderPass, RenderPipelineDescriptor, Texture, Vec3, VertexFormat,
+    VertexIn, VertexOut,
 };
 use scene::{Outcome, Screen, Solid};
 use std::sync::Arc;

@@ -2,7 +2,8 @@
 //! draw.
 //!
 //! ```text
-//! elements ─▶ vertices ─▶ [tessellate: control ▸ levels ▸ domain ▸ evaluate] ─▶ [geometry] ─▶ pieces
+//! elements ─▶ vertices ─▶ [tessellate: control ▸ levels ▸ domain ▸ evaluate]
+//!                                                     ─▶ [geometry] ─▶ pieces
 //! ```
 //!
 //! A pipeline with such a stage holds two others: one that shades vertices, and one whose vertex

@@ -6,7 +6,8 @@
 //! An edge of n segments at the level f has its point j, 0 < j < n, at (f − n + 2j) / 2f: with
 //! equal spacing, f = n, that is j/n; with fractional spacing the first and the last segment are
 //! shorter. Places up to ½ are rounded to multiples of 2⁻²⁴, those above are 1 − the place of the
-//! point that lies symmetrically. So 1 − u is exact, and an edge has the same points from both ends.
+//! point that lies symmetrically. So 1 − u is exact, and an edge has the same points from both
+//! ends.
 
 use estampe_types::state::TessellationSpacing;
 
