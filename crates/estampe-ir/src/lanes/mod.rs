@@ -7,6 +7,9 @@
 //!
 //! Lanes that do not run compute all the same; their numbers are not used.
 
+mod from_tree;
+pub mod uniform;
+
 use crate::interface::{Interface, Stage};
 use crate::{Op, Type, Value};
 

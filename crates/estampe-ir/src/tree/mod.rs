@@ -17,10 +17,12 @@
 //! effect, and an output.
 
 mod builder;
+mod evaluate;
 pub mod passes;
 mod verify;
 
 pub use builder::Builder;
+pub use evaluate::{Surroundings, evaluate};
 pub use verify::{VerifyError, verify};
 
 use crate::interface::{Interface, Stage};

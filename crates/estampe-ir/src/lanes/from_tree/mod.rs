@@ -1,0 +1,424 @@
+//! From one invocation to many lanes: control flow that is not uniform becomes masks.
+//!
+//! In · Out: a tree · a kernel. Uniform `if`s, blocks and loops become branches and jumps. For the
+//! others, the *state* says where the lanes are: the mask of those that run, and for each divergent
+//! label around the mask of those that wait there, with the values that they brought.
+//!
+//! * A branch to a divergent label: the running lanes wait there, and none runs on.
+//! * The end of a divergent block: the lanes that wait run again.
+//! * The end of the body of a divergent loop: if lanes wait, they begin the next iteration.
+//! * An `if`: the lanes that chose a side run through it. It is skipped if there are none, and if
+//!   it costs more than a branch.
+//!
+//! Where ways of the flow graph join, a part of the state that differs becomes a parameter.
+
+mod flow;
+mod leaving;
+mod masks;
+
+use super::uniform::Uniformity;
+use super::{BlockId, Jump, Kernel, Terminator, ValueInfo};
+use crate::op::MaskBinary;
+use crate::tree::{Label, Node, Tree};
+use crate::{Op, Type, Value};
+use flow::Incoming;
+use leaving::{Leaving, WORTH_A_BRANCH, cost};
+
+impl Kernel {
+    /// The kernel of a tree: finds what is uniform, and turns the other control flow into masks.
+    #[must_use]
+    pub fn from_tree(tree: &Tree) -> Self {
+        let mut lowering = Lowering::new(tree);
+        lowering.body(&tree.body);
+        let outputs = lowering.mapped(&tree.outputs);
+        lowering.end(Terminator::Return(outputs));
+        lowering.kernel
+    }
+}
+
+/// Where the lanes are: the mask of those that run, then for each divergent label around the mask
+/// of those that wait, and what they brought.
+type State = Vec<Value>;
+
+/// The position of the running lanes in the state.
+const RUNNING: usize = 0;
+
+struct Lowering<'a> {
+    tree: &'a Tree,
+    uniformity: Uniformity,
+    leaving: Leaving,
+    kernel: Kernel,
+    /// The kernel's value of each value of the tree.
+    map: Vec<Value>,
+    /// The block that grows; `None` where nothing is executed.
+    current: Option<BlockId>,
+    state: State,
+    /// The blocks and loops around.
+    around: Vec<Around>,
+    constants: Constants,
+    /// The running lanes at the beginning.
+    entry: Value,
+    /// A mask that was found not to be empty.
+    not_empty: Value,
+}
+
+/// Values of the first block.
+#[derive(Debug, Clone, Copy)]
+struct Constants {
+    none: Value,
+    all: Value,
+    zero: Value,
+}
+
+/// A block or loop around.
+struct Around {
+    label: Label,
+    way: Way,
+}
+
+/// How a label is reached.
+enum Way {
+    /// Lanes wait: their mask stands at this place of the state, followed by so many values.
+    Waiting { slot: usize, values: usize },
+    /// Jumps to the end of a block.
+    Block(Vec<Incoming>),
+    /// Jumps to the first block of a loop.
+    Loop(BlockId),
+}
+
+/// The parameters of a loop, and their values in the first iteration.
+type Carried<'a> = (&'a [Value], &'a [Value]);
+
+impl<'a> Lowering<'a> {
+    fn body(&mut self, nodes: &'a [Node]) {
+        for node in nodes {
+            if self.current.is_none() {
+                return;
+            }
+            match node {
+                Node::Op { op, first } => self.op(op, *first),
+                Node::If {
+                    condition,
+                    accept,
+                    reject,
+                } => {
+                    let mask = self.map[condition.index()];
+                    if self.uniformity.is_uniform(*condition) {
+                        self.uniform_if(mask, [accept, reject]);
+                    } else {
+                        self.varying_if(node, mask, [accept, reject]);
+                    }
+                }
+                Node::Block {
+                    label,
+                    results,
+                    body,
+                } if self.uniformity.is_divergent(*label) => {
+                    self.divergent_block(node, *label, results, body);
+                }
+                Node::Block {
+                    label,
+                    results,
+                    body,
+                } => self.uniform_block(*label, results, body),
+                Node::Loop {
+                    label,
+                    parameters,
+                    initial,
+                    body,
+                } => {
+                    let skip = self.guard();
+                    if self.uniformity.is_divergent(*label) {
+                        self.divergent_loop(node, *label, (parameters, initial), body);
+                    } else {
+                        self.uniform_loop(*label, (parameters, initial), body);
+                    }
+                    if let Some(skip) = skip {
+                        let ended = self.incoming(Vec::new());
+                        self.join(ended.into_iter().chain([skip]).collect(), &[]);
+                    }
+                }
+                Node::Branch { label, arguments } => self.branch(*label, arguments),
+            }
+        }
+    }
+
+    fn op(&mut self, op: &Op, first: Value) {
+        let mut op = op.clone();
+        op.each_operand_mut(|value, _| *value = self.map[value.index()]);
+        let running = self.state[RUNNING];
+        if running != self.entry
+            && let Some(mask) = op.mask_mut()
+        {
+            let before = *mask;
+            let combined = self.mask_binary(MaskBinary::And, before, running);
+            if let Some(mask) = op.mask_mut() {
+                *mask = combined;
+            }
+        }
+        let types = op.results();
+        let results = first.and_next(types.len());
+        let defined = types
+            .iter()
+            .zip(&results)
+            .map(|(&kind, &result)| ValueInfo {
+                kind,
+                is_uniform: self.uniformity.is_uniform(result),
+            });
+        let defined: Vec<_> = defined.collect();
+        let new_first = self.push(op, &defined);
+        for (result, new) in results.iter().zip(new_first.and_next(types.len())) {
+            self.map[result.index()] = new;
+        }
+    }
+
+    fn uniform_if(&mut self, mask: Value, sides: [&'a [Node]; 2]) {
+        let Some(fork) = self.current else {
+            return;
+        };
+        let before = self.state.clone();
+        let mut incoming = Vec::new();
+        let [any, none] = sides.map(|body| {
+            let side = self.new_block();
+            self.current = Some(side);
+            self.state.clone_from(&before);
+            self.body(body);
+            incoming.extend(self.incoming(Vec::new()));
+            Jump::to(side)
+        });
+        self.set_terminator(fork, Terminator::Branch { mask, any, none });
+        self.join(incoming, &[]);
+    }
+
+    fn varying_if(&mut self, node: &Node, mask: Value, sides: [&'a [Node]; 2]) {
+        let running = self.state[RUNNING];
+        let masks = [
+            self.mask_binary(MaskBinary::And, running, mask),
+            self.mask_binary(MaskBinary::AndNot, running, mask),
+        ];
+        let mut after = self.constants.none;
+        for (side, mask) in sides.into_iter().zip(masks) {
+            self.state[RUNNING] = mask;
+            if !side.is_empty() {
+                self.side(side);
+            }
+            if self.current.is_none() {
+                return;
+            }
+            after = self.mask_binary(MaskBinary::Or, after, self.state[RUNNING]);
+        }
+        let all_stay = self.leaving.of(node).is_empty();
+        self.state[RUNNING] = if all_stay { running } else { after };
+    }
+
+    /// One side of an `if`, for the running lanes.
+    fn side(&mut self, body: &'a [Node]) {
+        let (Some(fork), mask) = (self.current, self.state[RUNNING]) else {
+            return;
+        };
+        if cost(body) < WORTH_A_BRANCH {
+            self.body(body);
+            return;
+        }
+        let mut skipped = self.state.clone();
+        skipped[RUNNING] = self.constants.none;
+        let side = self.new_block();
+        self.set_terminator(
+            fork,
+            Terminator::Branch {
+                mask,
+                any: Jump::to(side),
+                none: Jump::unknown(),
+            },
+        );
+        self.current = Some(side);
+        let not_empty = std::mem::replace(&mut self.not_empty, mask);
+        self.body(body);
+        self.not_empty = not_empty;
+        let ran = self.incoming(Vec::new());
+        let skipped = Incoming::if_none(fork, skipped);
+        self.join(ran.into_iter().chain([skipped]).collect(), &[]);
+    }
+
+    fn uniform_block(&mut self, label: Label, results: &[Value], body: &'a [Node]) {
+        self.around.push(Around {
+            label,
+            way: Way::Block(Vec::new()),
+        });
+        self.body(body);
+        let way = self.around.pop().map(|around| around.way);
+        if let Some(Way::Block(mut incoming)) = way {
+            incoming.extend(self.incoming(Vec::new()));
+            self.join(incoming, results);
+        }
+    }
+
+    fn divergent_block(&mut self, node: &Node, label: Label, results: &[Value], body: &'a [Node]) {
+        let before = self.state[RUNNING];
+        let none_brought = results.iter().map(|value| {
+            let Constants { none, zero, .. } = self.constants;
+            match self.tree.types[value.index()] {
+                Type::Word => zero,
+                Type::Mask => none,
+            }
+        });
+        let none_brought = none_brought.collect();
+        let slot = self.wait_at(label, none_brought);
+        self.body(body);
+        self.around.pop();
+        let waiting = self.state[slot];
+        for (result, brought) in results.iter().zip(self.state.drain(slot..).skip(1)) {
+            self.map[result.index()] = brought;
+        }
+        if self.current.is_none() {
+            return;
+        }
+        let running = self.state[RUNNING];
+        let after = self.mask_binary(MaskBinary::Or, running, waiting);
+        let all_stay = self.leaving.of(node).is_empty();
+        self.state[RUNNING] = if all_stay { before } else { after };
+    }
+
+    fn uniform_loop(&mut self, label: Label, carried: Carried<'_>, body: &'a [Node]) {
+        let (parameters, initial) = carried;
+        let initial = self.mapped(initial);
+        let header = self.start_header(initial);
+        self.define_parameters(header, parameters);
+        self.around.push(Around {
+            label,
+            way: Way::Loop(header),
+        });
+        self.body(body);
+        self.around.pop();
+    }
+
+    fn divergent_loop(
+        &mut self,
+        node: &Node,
+        label: Label,
+        (parameters, initial): Carried<'_>,
+        body: &'a [Node],
+    ) {
+        // The lanes that reached the end of the body, and so left the loop.
+        let left = self.state.len();
+        self.state.push(self.constants.none);
+        let changed = self.changed_in(node, left);
+        let carried = |state: &State| -> Vec<_> { changed.iter().map(|&at| state[at]).collect() };
+        let mut arguments = self.mapped(initial);
+        arguments.extend(carried(&self.state));
+        let header = self.start_header(arguments);
+        self.define_parameters(header, parameters);
+        for &at in &changed {
+            let kind = self.kernel.values[self.state[at].index()].kind;
+            self.state[at] = self.parameter(
+                header,
+                ValueInfo {
+                    kind,
+                    is_uniform: false,
+                },
+            );
+        }
+        let not_empty = std::mem::replace(&mut self.not_empty, self.state[RUNNING]);
+        let brought = self.mapped(parameters);
+        let slot = self.wait_at(label, brought);
+        self.body(body);
+        self.around.pop();
+        self.not_empty = not_empty;
+        let Some(end) = self.current else {
+            self.state.truncate(left);
+            return;
+        };
+        let (waiting, running) = (self.state[slot], self.state[RUNNING]);
+        let has_left = self.mask_binary(MaskBinary::Or, self.state[left], running);
+        self.state[left] = has_left;
+        self.state[RUNNING] = waiting;
+        let mut arguments = self.state[slot + 1..].to_vec();
+        arguments.extend(carried(&self.state));
+        let exit = self.new_block();
+        self.set_terminator(
+            end,
+            Terminator::Branch {
+                mask: waiting,
+                any: Jump {
+                    to: header,
+                    arguments,
+                },
+                none: Jump::to(exit),
+            },
+        );
+        self.current = Some(exit);
+        self.state[RUNNING] = has_left;
+        self.state.truncate(left);
+    }
+
+    /// The parts of the state that the body of a divergent loop may change.
+    fn changed_in(&self, node: &Node, left: usize) -> Vec<usize> {
+        let targets = self.leaving.of(node);
+        let mut changed = vec![RUNNING, left];
+        for around in &self.around {
+            if let Way::Waiting { slot, values } = around.way
+                && targets.contains(&around.label)
+            {
+                changed.extend(slot..=slot + values);
+            }
+        }
+        changed
+    }
+
+    fn branch(&mut self, label: Label, arguments: &[Value]) {
+        let arguments = self.mapped(arguments);
+        let around = self.around.iter().rposition(|around| around.label == label);
+        let Some(around) = around else {
+            return;
+        };
+        match self.around[around].way {
+            Way::Waiting { slot, .. } => self.wait(slot, &arguments),
+            Way::Loop(header) => self.end(Terminator::Jump(Jump {
+                to: header,
+                arguments,
+            })),
+            Way::Block(_) => {
+                let new = self.incoming(arguments);
+                if let Way::Block(incoming) = &mut self.around[around].way {
+                    incoming.extend(new);
+                }
+            }
+        }
+    }
+
+    /// The running lanes wait at a label.
+    fn wait(&mut self, slot: usize, brought: &[Value]) {
+        let (waiting, running) = (self.state[slot], self.state[RUNNING]);
+        for (offset, &new) in brought.iter().enumerate() {
+            let at = slot + 1 + offset;
+            let old = self.state[at];
+            self.state[at] = if waiting == self.constants.none {
+                new
+            } else {
+                self.select(running, new, old)
+            };
+        }
+        self.state[slot] = self.mask_binary(MaskBinary::Or, waiting, running);
+        self.state[RUNNING] = self.constants.none;
+    }
+
+    /// Begins to collect the lanes that wait at a label, and the values that they bring. Returns
+    /// the place of their mask in the state.
+    fn wait_at(&mut self, label: Label, brought: Vec<Value>) -> usize {
+        let slot = self.state.len();
+        self.around.push(Around {
+            label,
+            way: Way::Waiting {
+                slot,
+                values: brought.len(),
+            },
+        });
+        self.state.push(self.constants.none);
+        self.state.extend(brought);
+        slot
+    }
+
+    fn mapped(&self, values: &[Value]) -> Vec<Value> {
+        values.iter().map(|value| self.map[value.index()]).collect()
+    }
+}
