@@ -138,6 +138,11 @@ impl Context {
         self.executor.threads()
     }
 
+    /// Runs `work` for every item, on the threads that draw.
+    pub fn for_each<T: Send>(&self, items: &mut [T], work: impl Fn(&mut T) + Sync) {
+        self.executor.for_each_alone(items, work);
+    }
+
     /// Draws a pass. Buffers that a draw lacks read as zeros.
     ///
     /// # Errors

@@ -183,7 +183,8 @@ pub fn draw<S: Shader>(target: &mut Target, shader: &S, state: &State, draw: &Dr
     }
 }
 
-/// Draws with any shaders into the stored pixels of a target, and tells an observer what happens.
+/// Draws with any shaders into the stored pixels of a target, and tells an observer what happens:
+/// of each primitive its pieces, whether they have stored pixels or not.
 pub fn draw_observed(
     target: &mut Target,
     shaders: &dyn Shaders,
@@ -273,11 +274,11 @@ impl<'a> Pass<'a> {
             return None;
         }
         let size = [target.width, target.height];
-        let bounds = PixelBounds::new(&state.viewport, &state.scissor, size, target.samples)
-            .intersection(target.stored());
+        let bounds = PixelBounds::new(&state.viewport, &state.scissor, size, target.samples);
         if bounds.x.is_empty() || bounds.y.is_empty() {
             return None;
         }
+        let bounds = bounds.intersection(target.stored());
         let interface = shaders.interface();
         Some(Self {
             target,

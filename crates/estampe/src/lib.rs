@@ -113,8 +113,9 @@ pub use estampe_types::{
     state, varyings, vec2, vec3, vec4,
 };
 pub use inspect::{
-    FragmentRecord, InspectError, InspectedVertex, PieceVertex, PixelHistory, PrimitiveKind,
-    PrimitiveRecord, SampleRecord, SampleValues, TestOutcome,
+    BlockCounts, ClipOutcome, FragmentRecord, InspectError, InspectedVertex, PassStages,
+    PieceVertex, PixelCounts, PixelHistory, PolygonVertex, PrimitiveKind, PrimitiveRecord,
+    SampleRecord, SampleValues, StagePiece, StagePrimitive, StageVertex, TestOutcome,
 };
 pub use pass::{
     AspectOperations, ColorAttachment, DepthStencilAttachment, DepthStencilResolve, Draw,

@@ -4,8 +4,8 @@ use super::Device;
 use crate::texture::{self, TexelCopyLayout, Texture, TextureCopy};
 use crate::{
     BlitError, BlitRegion, Buffer, Command, CopyError, Extent3d, FilterMode, InspectError,
-    PixelHistory, RenderPass, RenderPassError, Statistics, SubmitError, TextureError, TextureView,
-    blit, command, copy, inspect, pass,
+    PassStages, PixelHistory, RenderPass, RenderPassError, Statistics, SubmitError, TextureError,
+    TextureView, blit, command, copy, inspect, pass,
 };
 
 impl Device {
@@ -52,6 +52,41 @@ impl Device {
         pixel: [u32; 2],
     ) -> Result<PixelHistory, InspectError> {
         inspect::inspect(self, pass, pixel)
+    }
+
+    /// What each stage of the pipeline makes of a pass: the vertices after the vertex shader, what
+    /// clipping leaves of the primitives, the tiles that the pieces are binned to, counts of what
+    /// covers, is shaded at, fails at and is stored to each pixel, the blocks that hierarchical z
+    /// rejects, and the depths.
+    ///
+    /// The pass is run with the reference pipeline over all pixels, in bands on the device's
+    /// threads; the result does not depend on their number, and nothing is drawn or stored. A pass
+    /// whose shaders store is run by one thread. It takes about a microsecond for each covered
+    /// pixel of a primitive, and for each vertex that a primitive names and each thread.
+    ///
+    /// ```
+    /// use estampe::{ColorAttachment, Device, DeviceDescriptor, RenderPass};
+    /// use estampe::{TextureDescriptor, TextureFormat};
+    ///
+    /// let device = Device::new(&DeviceDescriptor::default())?;
+    /// let descriptor = TextureDescriptor::new_2d(100, 70, TextureFormat::Rgba8Unorm);
+    /// let image = device.create_texture(&descriptor)?;
+    /// let pass = RenderPass {
+    ///     color_attachments: &[Some(ColorAttachment::clear(&image.view(), [1.0, 0.5, 0.0, 1.0]))],
+    ///     ..RenderPass::default()
+    /// };
+    /// let stages = device.inspect_stages(&pass)?;
+    /// assert!(stages.pieces.is_empty());
+    /// assert_eq!((stages.tile_side, stages.tile_columns_rows()), (64, [2, 2]));
+    /// assert_eq!(stages.pixel([99, 69]).map(|pixel| pixel.covered), Some(0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`InspectError`] if the pass does not fit, as of [`render`](Self::render), or if pixels and
+    /// primitives need more than a gigabyte.
+    pub fn inspect_stages(&self, pass: &RenderPass<'_>) -> Result<PassStages, InspectError> {
+        inspect::inspect_stages(self, pass)
     }
 
     /// Runs commands in order, after all of them were checked. Returns the sum of the passes'

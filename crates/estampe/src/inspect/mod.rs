@@ -8,8 +8,10 @@
 
 mod history;
 mod initial;
+mod oracle_draw;
 mod record;
 mod run;
+mod stages;
 
 pub use history::{
     FragmentRecord, InspectedVertex, PieceVertex, PixelHistory, PrimitiveKind, PrimitiveRecord,
@@ -17,6 +19,11 @@ pub use history::{
 };
 pub use run::InspectError;
 pub(crate) use run::inspect;
+pub(crate) use stages::inspect_stages;
+pub use stages::{
+    BlockCounts, ClipOutcome, PassStages, PixelCounts, PolygonVertex, StagePiece, StagePrimitive,
+    StageVertex,
+};
 
 /// The result of a sample's tests.
 pub use estampe_reference::per_sample::Outcome as TestOutcome;

@@ -2,15 +2,12 @@
 
 use super::history::PixelHistory;
 use super::initial;
+use super::oracle_draw::{OracleDraw, with_draw};
 use super::record::{Recorder, values};
 use crate::pass::{Attachments, PassErrorKind, core_pass, prepared};
 use crate::{Device, RenderPass, RenderPassError};
-use estampe_reference::program::ProgramShaders;
-use estampe_reference::{
-    Draw, PixelBounds, State, StoredSample, Target, TargetState, color, draw_observed,
-};
-use estampe_types::state::{DepthStencilState, VertexBufferLayout};
-use estampe_types::{Bindings, BufferData, TextureFormat};
+use estampe_reference::{PixelBounds, StoredSample, Target, color, draw_observed};
+use estampe_types::TextureFormat;
 
 /// The reason why a pixel cannot be inspected.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -34,20 +31,20 @@ pub enum InspectError {
         /// Rows of the pass.
         height: u32,
     },
-    /// A draw's pipeline has stages that the history does not follow yet.
+    /// A draw's pipeline has stages that inspecting does not follow yet.
     #[error(
-        "draw {draw} has a tessellation or geometry shader, which the history of a pixel does \
-             not follow: leave the draw out, or inspect the primitives drawn plainly"
+        "draw {draw} has a tessellation or geometry shader, which inspecting does not follow: \
+             leave the draw out, or inspect the primitives drawn plainly"
     )]
     Amplified {
         /// The number of the draw.
         draw: usize,
     },
-    /// The pass has shaders that store, so that all of its pixels are drawn, and these need too
-    /// much memory.
+    /// All pixels are drawn, for every stage of a pass or because its shaders store, and what is
+    /// written down needs too much memory.
     #[error(
-        "its shaders store, so that every pixel is drawn for the history of one; {bytes} bytes \
-             for that are more than {limit}: inspect a smaller picture"
+        "every pixel of the pass is drawn, and {bytes} bytes for that are more than {limit}: \
+             inspect a smaller picture, or fewer primitives"
     )]
     TooLarge {
         /// The bytes that are needed.
@@ -57,8 +54,8 @@ pub enum InspectError {
     },
 }
 
-/// The most bytes of the oracle's target.
-const MAX_TARGET: u64 = 1 << 30;
+/// The most bytes of the oracle's target, and of what is written down of all pixels.
+pub(super) const MAX_BYTES: u64 = 1 << 30;
 
 /// Runs a pass with the oracle, and writes down what happens to a pixel.
 pub(crate) fn inspect(
@@ -72,15 +69,7 @@ pub(crate) fn inspect(
         let checked = attachments.with_shape(|shape| core_pass.check(shape));
         checked.map_err(|error| refused(pass, error.into()))?;
         let stored = stored_part(attachments, pass, pixel)?;
-        let is_amplified = |draw: &crate::Draw<'_>| {
-            let descriptor = draw.pipeline.descriptor();
-            descriptor.tessellation.is_some()
-                || descriptor.geometry.is_some()
-                || descriptor.vertex_program.is_some()
-        };
-        if let Some(draw) = pass.draws.iter().position(is_amplified) {
-            return Err(InspectError::Amplified { draw });
-        }
+        check_stages(pass)?;
         let target = initial::target(device.context(), attachments, stored);
         let mut target = target.map_err(|kind| refused(pass, kind))?;
         Ok(history(device, attachments, &draws, &mut target, pixel))
@@ -88,7 +77,28 @@ pub(crate) fn inspect(
     .map_err(|kind| refused(pass, kind))?
 }
 
-fn refused(pass: &RenderPass<'_>, kind: PassErrorKind) -> RenderPassError {
+/// Refuses draws with stages that are not followed.
+pub(super) fn check_stages(pass: &RenderPass<'_>) -> Result<(), InspectError> {
+    let is_amplified = |draw: &crate::Draw<'_>| {
+        let descriptor = draw.pipeline.descriptor();
+        descriptor.tessellation.is_some()
+            || descriptor.geometry.is_some()
+            || descriptor.vertex_program.is_some()
+    };
+    match pass.draws.iter().position(is_amplified) {
+        Some(draw) => Err(InspectError::Amplified { draw }),
+        None => Ok(()),
+    }
+}
+
+/// The bytes of the oracle's target, if all pixels are stored.
+pub(super) fn target_bytes(attachments: &Attachments<'_>) -> u64 {
+    let (width, height) = (attachments.size.width, attachments.size.height);
+    let samples = u64::from(width) * u64::from(height) * u64::from(attachments.size.samples);
+    samples * (16 * attachments.formats.len() as u64 + 5)
+}
+
+pub(super) fn refused(pass: &RenderPass<'_>, kind: PassErrorKind) -> RenderPassError {
     RenderPassError {
         pass: pass.label.map(str::to_owned),
         kind,
@@ -117,12 +127,11 @@ fn stored_part(
             y: y & !1..((y & !1) + 2).min(height),
         });
     }
-    let samples = u64::from(width) * u64::from(height) * u64::from(attachments.size.samples);
-    let bytes = samples * (16 * attachments.formats.len() as u64 + 5);
-    if bytes > MAX_TARGET {
+    let bytes = target_bytes(attachments);
+    if bytes > MAX_BYTES {
         return Err(InspectError::TooLarge {
             bytes,
-            limit: MAX_TARGET,
+            limit: MAX_BYTES,
         });
     }
     Ok(PixelBounds {
@@ -151,32 +160,22 @@ fn history(
     let initial = all_values(target);
     let mut primitives = Vec::new();
     for (number, draw) in draws.iter().enumerate() {
-        let state = state(draw, target);
-        let descriptor = draw.pipeline.descriptor();
-        let shaders = ProgramShaders::new(&*descriptor.program, device.level());
-        let layouts = descriptor.vertex_buffers.iter().enumerate();
-        let buffers: Vec<(VertexBufferLayout, BufferData)> = layouts
-            .map(|(at, layout)| {
-                let buffer = draw.vertex_buffers.get(at).cloned();
-                (
-                    layout.clone(),
-                    buffer.unwrap_or_else(|| BufferData::from_bytes(&[])),
-                )
-            })
-            .collect();
-        let no_bindings = Bindings::default();
-        let command = Draw {
-            buffers: &buffers,
-            indices: draw.indices.map(|(buffer, format)| (format, buffer)),
-            vertices: draw.elements.clone(),
-            instances: draw.instances.clone(),
-            base_vertex: draw.base_vertex,
-            bindings: draw.bindings.unwrap_or(&no_bindings),
-        };
         let place = (pixel, target.samples);
-        let mut recorder = Recorder::new(place, number, &command, &shaders, formats);
-        draw_observed(target, &shaders, &state, &command, &mut recorder);
-        primitives.append(&mut recorder.primitives);
+        let drawn = with_draw(device, draw, target, |target, oracle| {
+            let reached = oracle.bounds(target).intersection(target.stored());
+            if reached.x.is_empty() || reached.y.is_empty() {
+                return Vec::new();
+            }
+            let OracleDraw {
+                shaders,
+                state,
+                draw,
+            } = *oracle;
+            let mut recorder = Recorder::new(place, number, draw, shaders, formats);
+            draw_observed(target, shaders, state, draw, &mut recorder);
+            recorder.primitives
+        });
+        primitives.extend(drawn);
     }
     let samples = stored(target);
     let texel = |(at, format): (usize, &Option<TextureFormat>)| {
@@ -194,41 +193,5 @@ fn history(
         primitives,
         last: all_values(target),
         texels: formats.iter().enumerate().map(texel).collect(),
-    }
-}
-
-/// The state of a draw, as the oracle names it.
-fn state(draw: &estampe_core::Draw<'_>, target: &Target) -> State {
-    let descriptor = draw.pipeline.descriptor();
-    let whole = State::new(target.width, target.height);
-    let tests = descriptor.depth_stencil;
-    let targets = descriptor.targets.iter().map(|target| {
-        target.map_or_else(TargetState::default, |target| TargetState {
-            blend: target.blend,
-            write_mask: target.write_mask,
-        })
-    });
-    State {
-        primitive: descriptor.primitive,
-        depth: tests.map(|tests| tests.depth()),
-        depth_bias: tests.map_or_else(Default::default, |tests: DepthStencilState| tests.bias),
-        depth_bias_unit: match target.depth_stencil {
-            Some(TextureFormat::Depth16Unorm) => Some(1.0 / 65_536.0),
-            Some(TextureFormat::Depth24Plus | TextureFormat::Depth24PlusStencil8) => {
-                Some(1.0 / 16_777_216.0)
-            }
-            _ => None,
-        },
-        stencil: tests.and_then(|tests| tests.stencil),
-        stencil_reference: draw.stencil_reference,
-        depth_bounds: draw.depth_bounds,
-        sample_mask: descriptor.multisample.mask,
-        alpha_to_coverage: descriptor.multisample.alpha_to_coverage_enabled,
-        sample_shading: descriptor.multisample.sample_shading_enabled,
-        logic_operation: descriptor.logic_operation,
-        targets: targets.collect(),
-        blend_constant: draw.blend_constant,
-        viewport: draw.viewport.unwrap_or(whole.viewport),
-        scissor: draw.scissor.unwrap_or(whole.scissor),
     }
 }
