@@ -1,11 +1,16 @@
 //! Any pixel explains itself: the history of random pixels of random passes ends with the pixel
 //! that is drawn, each record begins where the one before ended, and all kinds of records occur.
+//! And any stage can be inspected: what all stages made of a pass agrees with the histories of its
+//! pixels, whatever the number of threads.
 
 use estampe_tests::geometry::Style;
-use estampe_tests::inspection::{Told, check_pixel};
+use estampe_tests::inspection::{StagesTold, Told, check_pixel, check_stages};
 use estampe_tests::mixed_draws::Mixture;
 use estampe_tests::{Random, fast_path, oracle};
 use estampe_types::TextureFormat as F;
+use estampe_types::state::{
+    CullMode, LineRasterization, LineState, PolygonMode, PrimitiveTopology as T,
+};
 
 /// The histories of every pixel of some cases.
 fn check_all(topic: &str, cases: u64, mixture: impl Fn(&mut Random) -> Mixture) -> Told {
@@ -67,4 +72,64 @@ fn histories_of_several_samples_and_targets() {
     });
     assert!(told.primitives > 500 && told.passed > 500, "{told:?}");
     assert!(told.failed[0] > 0, "{told:?}");
+}
+
+/// What all stages made of some cases, compared with the histories of random pixels.
+fn check_all_stages(
+    topic: &str,
+    cases: u64,
+    mixture: impl Fn(&mut Random) -> Mixture,
+) -> StagesTold {
+    let mut told = StagesTold::default();
+    for seed in 0..cases {
+        let mut random = Random::new(topic, seed);
+        let mut case = mixture(&mut random).case(&mut random);
+        for draw in &mut case.draws {
+            let primitive = &mut draw.primitive;
+            if random.once_in(4) {
+                primitive.topology = random.pick(&[T::LineList, T::LineStrip, T::PointList]);
+            } else if random.once_in(5) {
+                primitive.polygon_mode = random.pick(&[PolygonMode::Line, PolygonMode::Point]);
+            }
+            if random.once_in(2) {
+                let kinds = [LineRasterization::Bresenham, LineRasterization::Rectangular];
+                primitive.line = LineState {
+                    width: random.pick(&[1.0, 2.5, 8.0]),
+                    rasterization: random.pick(&kinds),
+                    stipple: None,
+                };
+            }
+            if random.once_in(4) {
+                primitive.cull_mode = random.pick(&[CullMode::Front, CullMode::Back]);
+            }
+        }
+        let [width, height] = case.size;
+        let pixels = [0; 10].map(|_| [random.below(width), random.below(height)]);
+        let devices = fast_path::all_devices();
+        match check_stages(&devices[devices.len() - 3..], &case, &pixels) {
+            Ok(of_case) => told += of_case,
+            Err(how) => panic!("{topic}, seed {seed}: {how}"),
+        }
+    }
+    told
+}
+
+/// Rows: U2.
+#[test]
+fn stages_agree_with_the_histories_of_pixels_at_every_number_of_threads() {
+    let told = check_all_stages("inspection/stages", 60, |random| {
+        let samples = random.pick(&[1, 1, 1, 2, 4, 8, 16]);
+        let depth = random.pick(&[F::Depth16Unorm, F::Depth24PlusStencil8, F::Depth32Float]);
+        let mut mixture = Mixture::new(&[F::Rgba8Unorm, F::R32Float], Some(depth), samples);
+        if random.once_in(2) {
+            mixture.styles = Style::ALL.to_vec();
+        }
+        mixture
+    });
+    assert!(told.clipped.iter().all(|&count| count > 20), "{told:?}");
+    assert!(told.new.iter().all(|&count| count > 20), "{told:?}");
+    assert!(told.kinds.iter().all(|&count| count > 50), "{told:?}");
+    assert!(told.culled > 20 && told.tiles > 100, "{told:?}");
+    assert!(told.blocks[0] > 500 && told.blocks[1] > 50, "{told:?}");
+    assert!(told.pixels[1] > 100 && told.stored > 200, "{told:?}");
 }

@@ -1,5 +1,9 @@
 //! The history of a pixel against the image that was drawn.
 
+mod stages;
+
+pub use stages::{StagesTold, check_stages};
+
 use crate::case::Case;
 use crate::fast_path::{draw_pass, with_pass};
 use crate::oracle::Image;
