@@ -54,6 +54,9 @@ impl From<RenderError> for Failure {
             RenderError::Inspect(InspectError::Outside { .. }) => {
                 Self::Usage(format!("{error}; choose another --pixel"))
             }
+            RenderError::Inspect(InspectError::TooLarge { .. }) => {
+                Self::Output(format!("{error}; try a smaller --size or --samples 1"))
+            }
             RenderError::Size { .. } => Self::Usage(format!("{error}; choose another --size")),
             RenderError::TooManyElements { .. } | RenderError::Texture(_) => {
                 Self::Input(error.to_string())

@@ -89,7 +89,17 @@ fn main() -> ExitCode {
             args.report.json.then_some(args.output.is_standard_output()),
             shape::run(args),
         ),
-        Command::Inspect(args) => report("inspect", args.json.then_some(false), inspect::run(args)),
+        Command::Inspect(args) => {
+            let to = &args.output;
+            let on_standard_output = to
+                .as_ref()
+                .is_some_and(values::Destination::is_standard_output);
+            report(
+                "inspect",
+                args.json.then_some(on_standard_output),
+                inspect::run(args),
+            )
+        }
         Command::Info(args) => report("info", args.json.then_some(false), describe::run(args)),
         Command::Depth(args) => {
             let to = &args.output;

@@ -42,7 +42,7 @@ pub use estampe::state::CullMode;
 pub use estampe::transforms;
 pub use frame::{Frame, FrameTimings, RenderError, render};
 pub use options::{Fog, RenderOptions, Shading, Specular, SpecularModel, Up};
-pub use pixel_history::{FramePixel, VertexSpaces, inspect};
+pub use pixel_history::{FramePixel, FrameStages, VertexSpaces, inspect, inspect_stages};
 
 /// Version of the images. It rises whenever the same scene and options give other bytes than
 /// before; CHANGELOG lists the changes.

@@ -1,11 +1,11 @@
-//! The history of a pixel of a frame (row U1), with the spaces that the renderer knows: object,
-//! world and eye space.
+//! The history of a pixel of a frame (row U1) and what each stage made of it (row U2), with the
+//! spaces that the renderer knows: object, world and eye space.
 
 use crate::alpha::straighten;
 use crate::frame::{RenderError, encoding, with_pass};
 use crate::options::RenderOptions;
 use crate::scene_view::SceneView;
-use estampe::{Device, InspectedVertex, PixelHistory};
+use estampe::{Device, PassStages, PixelHistory};
 use estampe_scene::Scene;
 use glam::{DVec3, Vec3};
 
@@ -56,7 +56,12 @@ pub fn inspect(
         let records = history.primitives.iter();
         let spaces = records.map(|record| {
             let vertices = record.vertices.iter();
-            vertices.map(|vertex| spaces_of(view, vertex)).collect()
+            let attributes = vertices.map(|vertex| vertex.attributes.first());
+            let units = attributes.map(|attribute| match attribute.map(Vec::as_slice) {
+                Some(&[x, y, z]) => Vec3::new(x, y, z),
+                _ => Vec3::ZERO,
+            });
+            units.map(|unit| spaces_of(view, unit)).collect()
         });
         Ok(FramePixel {
             spaces: spaces.collect(),
@@ -66,12 +71,43 @@ pub fn inspect(
     })
 }
 
+/// What each stage made of a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrameStages {
+    /// What the stages made of the frame's pass.
+    pub stages: PassStages,
+    /// For each vertex of the stages, its position in the spaces before clip space.
+    pub spaces: Vec<VertexSpaces>,
+}
+
+/// What each stage made of the frame that [`render`](crate::render) draws of a scene with these
+/// options.
+///
+/// # Errors
+/// [`RenderError`] as of [`render`](crate::render), and [`RenderError::Inspect`] if the pixels and
+/// primitives need too much memory.
+pub fn inspect_stages(
+    scene: &Scene,
+    options: &RenderOptions,
+    device: &Device,
+) -> Result<FrameStages, RenderError> {
+    with_pass(scene, options, device, |pass, view, _| {
+        let stages = device.inspect_stages(pass)?;
+        let vertices = stages.vertices.iter();
+        let spaces = vertices.map(|vertex| {
+            let [x, y, z, _] = vertex.attribute;
+            spaces_of(view, Vec3::new(x, y, z))
+        });
+        Ok(FrameStages {
+            spaces: spaces.collect(),
+            stages,
+        })
+    })
+}
+
 /// The spaces of a vertex, from its first attribute: the position in unit space.
-fn spaces_of(view: &SceneView, vertex: &InspectedVertex) -> VertexSpaces {
-    let unit = match vertex.attributes.first().map(Vec::as_slice) {
-        Some(&[x, y, z]) => Vec3::new(x, y, z).as_dvec3(),
-        _ => DVec3::ZERO,
-    };
+fn spaces_of(view: &SceneView, unit: Vec3) -> VertexSpaces {
+    let unit = unit.as_dvec3();
     let space = &view.space;
     let world = space.world_from_unit(unit);
     let eye = view.camera.frame.view_from_world().transform_point3(unit);

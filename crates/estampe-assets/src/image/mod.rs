@@ -26,5 +26,5 @@ mod samples;
 
 pub use format::{AlphaChannel, ImageFormat, decode, encode};
 pub use jpeg::encode_jpeg;
-pub use png::encode_png;
+pub use png::{encode_drawing_png, encode_png};
 pub use transform::{flip_horizontal, flip_vertical, scale_nearest};

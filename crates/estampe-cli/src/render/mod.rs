@@ -15,7 +15,7 @@ mod report;
 
 pub(crate) use arguments::RenderArgs;
 pub(crate) use command::run;
-pub(crate) use draw::{STAGES, draw, prepare};
+pub(crate) use draw::{STAGES, draw, image_format, prepare};
 pub(crate) use picture::{PictureArgs, ReportArgs};
 pub(crate) use report::write as write_report;
 pub(crate) use report::{Report, counts, output_name, rounded_milliseconds};

@@ -51,11 +51,17 @@ pub struct Text {
 }
 
 impl Text {
+    /// The width in pixels, as images show it.
+    #[must_use]
+    pub fn width(&self) -> f32 {
+        glyphs::width(&self.text) * (self.height / glyphs::HEIGHT)
+    }
+
     /// The strokes of the letters.
     #[must_use]
     pub fn strokes(&self) -> Vec<Stroke> {
         let scale = self.height / glyphs::HEIGHT;
-        let width = glyphs::width(&self.text) * scale;
+        let width = self.width();
         let left = match self.anchor {
             Anchor::Start => self.at[0],
             Anchor::Middle => self.at[0] - width * 0.5,

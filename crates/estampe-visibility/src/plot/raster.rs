@@ -8,7 +8,7 @@ use estampe::state::{
 };
 use estampe::{
     ColorAttachment, Device, Draw, FragmentIn, FragmentOut, RenderPass, RenderPipelineDescriptor,
-    TextureDescriptor, TextureFormat, Vec2, Vec3, Vec4, VertexFormat, VertexIn, VertexOut,
+    Texture, TextureDescriptor, TextureFormat, Vec2, Vec3, Vec4, VertexFormat, VertexIn, VertexOut,
     bytes_of,
 };
 use estampe_scene::Image;
@@ -50,11 +50,35 @@ impl Drawing {
     /// # Errors
     /// If the size or a stroke does not fit the device.
     pub fn to_image(&self, device: &Device) -> Result<Image, DrawError> {
-        let texts = self.texts.iter().flat_map(super::Text::strokes);
-        let strokes: Vec<Stroke> = self.strokes.iter().cloned().chain(texts).collect();
         let [width, height] = self.size;
         let format = TextureFormat::Rgba8Unorm;
         let color = device.create_texture(&TextureDescriptor::new_2d(width, height, format))?;
+        let white = ColorAttachment::clear(&color.view(), [1.0; 4]);
+        self.draw(device, &color, white)
+    }
+
+    /// An image of this size with the drawing above it.
+    ///
+    /// # Errors
+    /// As of [`Drawing::to_image`], or if the image has another size.
+    pub fn over(&self, device: &Device, below: &Image) -> Result<Image, DrawError> {
+        let [width, height] = self.size;
+        let format = TextureFormat::Rgba8Unorm;
+        let descriptor = TextureDescriptor::new_2d(width, height, format);
+        let color = device.create_texture_with_data(&descriptor, &[&below.rgba])?;
+        let kept = ColorAttachment::load(&color.view());
+        self.draw(device, &color, kept)
+    }
+
+    fn draw(
+        &self,
+        device: &Device,
+        color: &Texture,
+        attachment: ColorAttachment,
+    ) -> Result<Image, DrawError> {
+        let texts = self.texts.iter().flat_map(super::Text::strokes);
+        let strokes: Vec<Stroke> = self.strokes.iter().cloned().chain(texts).collect();
+        let format = TextureFormat::Rgba8Unorm;
         // A draw has one width; neighbours in the order share it.
         let mut runs = Vec::new();
         for run in strokes.chunk_by(|a, b| a.width == b.width) {
@@ -74,16 +98,16 @@ impl Drawing {
                 ..Draw::new(pipeline, 0..*count)
             })
             .collect();
-        let white = ColorAttachment::clear(&color.view(), [1.0; 4]);
         device.render(&RenderPass {
-            color_attachments: &[Some(white)],
+            color_attachments: &[Some(attachment)],
             draws: &draws,
             ..RenderPass::default()
         })?;
+        let [width, height] = self.size;
         Ok(Image {
             width,
             height,
-            rgba: device.read_texture(&color)?,
+            rgba: device.read_texture(color)?,
         })
     }
 

@@ -79,3 +79,30 @@ fn any_number_is_drawn_or_left_out() {
         drawing.to_image(&device).expect("it is small");
     }
 }
+
+#[test]
+fn a_drawing_over_an_image_keeps_it_where_nothing_is_drawn() {
+    let device = Device::new(&DeviceDescriptor::default()).expect("the system starts threads");
+    let mut drawing = Drawing {
+        size: [9, 5],
+        ..Drawing::default()
+    };
+    let rgba: Vec<u8> = (0..45).flat_map(|at| [at, 200 - at, 7, 255]).collect();
+    let below = estampe_scene::Image {
+        width: 9,
+        height: 5,
+        rgba,
+    };
+    assert_eq!(drawing.over(&device, &below).expect("it is small"), below);
+    drawing.strokes.push(Stroke {
+        points: vec![[0.0, 2.5], [9.0, 2.5]],
+        color: [1, 2, 3],
+        width: 1.0,
+    });
+    let drawn = drawing.over(&device, &below).expect("it is small");
+    let row = |image: &estampe_scene::Image, y: usize| image.rgba[y * 36..][..36].to_vec();
+    assert_eq!(row(&drawn, 2), [1, 2, 3, 255].repeat(9));
+    for y in [0, 1, 3, 4] {
+        assert_eq!(row(&drawn, y), row(&below, y));
+    }
+}

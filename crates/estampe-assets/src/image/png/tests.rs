@@ -347,3 +347,29 @@ fn mend_checksums(bytes: &mut [u8]) {
         at += chunk.len();
     }
 }
+
+#[test]
+fn drawings_are_smaller_and_the_same() {
+    let mut image = noise(160, 120, 4);
+    for (at, pixel) in image.rgba.as_chunks_mut::<4>().0.iter_mut().enumerate() {
+        let is_line = at / 160 % 17 == 0 || at % 160 % 23 == 0;
+        *pixel = if is_line {
+            [200, 30, 20, 255]
+        } else {
+            [250, 250, 255, 255]
+        };
+    }
+    let drawing = encode_drawing_png(&image).expect("a valid image");
+    let picture = encode_png(&image, AlphaChannel::WhenNeeded).expect("a valid image");
+    assert!(
+        drawing.len() * 2 < picture.len(),
+        "{} {}",
+        drawing.len(),
+        picture.len()
+    );
+    let limits = crate::Limits::default();
+    assert_eq!(
+        crate::image::decode(&drawing, &limits).expect("a PNG"),
+        image
+    );
+}
