@@ -52,7 +52,13 @@ pub(crate) struct InspectArgs {
     pub(crate) stage: Option<StageName>,
 
     /// The stage's picture: a file named .png, .jpg or .tga, or - for standard output; of all stages a folder
-    #[arg(short, long, value_name = "OUT", requires = "stage")]
+    #[arg(
+        short,
+        long,
+        value_name = "OUT",
+        requires = "stage",
+        conflicts_with = "pixel"
+    )]
     pub(crate) output: Option<Destination>,
 
     /// The model's format: obj, stl or ply [default: by extension, else by content]

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 /// The largest picture of a page, in bytes.
-const MAX_PICTURE: usize = 40_000;
+const MAX_PICTURE: usize = 60_000;
 
 /// A fenced block of a page: the words after its fence, and its lines.
 struct Block<'a> {

@@ -47,7 +47,11 @@ pub(super) fn stored(stages: &PassStages) -> (Sheet, Totals) {
         .count("pixels", "pixels", pixels)
         .mean("mean", "a pixel", sum, pixels)
         .count("most", "at most", most)
-        .count("not_stored", "covered in vain", covered.saturating_sub(sum));
+        .count(
+            "not_stored",
+            "covered but not stored",
+            covered.saturating_sub(sum),
+        );
     let sheet = Sheet {
         title: format!("blend: {}", totals.text()),
         columns: 1,

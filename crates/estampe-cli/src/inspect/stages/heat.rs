@@ -28,7 +28,7 @@ pub(super) fn heat(count: u32, greatest: u32) -> Rgb {
 /// The colour of a number from 0 to 1.
 pub(super) fn share(share: f64) -> Rgb {
     let at = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
-    let from = (0..STOPS.len() - 2)
+    let from = (0..STOPS.len() - 1)
         .rev()
         .find(|&stop| stop as f64 <= at)
         .unwrap_or(0);

@@ -30,7 +30,8 @@ pub(super) fn sheet(stages: &PassStages) -> (Sheet, Totals) {
             // In proportion to the greatest, so that the middle is white.
             (Some(_), Some(shares)) => {
                 let greatest = shares.into_iter().fold(0.0, f64::max);
-                shares.map(|share| code(share.max(0.0) / greatest * 255.0))
+                let color = shares.map(|share| code(share.max(0.0) / greatest * 255.0));
+                mix(color, [255; 3], 0.15)
             }
         };
         let differs = |beside: [u32; 2]| visible(beside) != piece;
@@ -58,9 +59,9 @@ pub(super) fn sheet(stages: &PassStages) -> (Sheet, Totals) {
             color,
         )],
         legend: Legend::Names(vec![
-            ([255, 0, 0], "first vertex"),
-            ([0, 255, 0], "second"),
-            ([0, 0, 255], "third"),
+            ([255, 38, 38], "first vertex"),
+            ([38, 255, 38], "second"),
+            ([38, 38, 255], "third"),
             ([40, 40, 40], "edge"),
             (NOTHING, "nothing"),
         ]),

@@ -44,11 +44,7 @@ pub(super) fn sheet(frame: &FrameStages, device: &Device) -> Result<(Sheet, Tota
     let totals = Totals::default()
         .count("vertices", "vertices", stages.vertices.len() as u64)
         .count("primitives", "primitives", stages.primitives.len() as u64)
-        .count(
-            "behind_eye",
-            "vertices behind the eye",
-            behind.count() as u64,
-        )
+        .count("behind_eye", "behind the eye", behind.count() as u64)
         .value("ranges", ranges(&spaces));
     let sheet = Sheet {
         title: format!("vertex: {}", totals.text()),
@@ -142,6 +138,25 @@ fn ranges(spaces: &[Space]) -> Value {
     Value::Object(named.collect::<Map<_, _>>())
 }
 
+/// A range with as many digits as tell its ends apart.
+fn span([least, greatest]: [f64; 2]) -> String {
+    let steps = [(100.0, 0), (10.0, 1), (1.0, 2), (0.1, 3), (0.01, 4)];
+    let extent = greatest - least;
+    let digits = steps.iter().find(|(from, _)| extent >= *from);
+    let digits = digits.map_or(5, |&(_, digits)| digits);
+    let number = |value: f64| {
+        let text = format!("{value:.digits$}");
+        let is_whole = !text.contains('.');
+        let short = text.trim_end_matches('0').trim_end_matches('.');
+        match short {
+            _ if is_whole => text,
+            "-0" => "0".to_owned(),
+            _ => short.to_owned(),
+        }
+    };
+    format!("{}..{}", number(least), number(greatest))
+}
+
 /// A space seen along z: x to the right.
 fn panel(
     space: &Space,
@@ -151,16 +166,6 @@ fn panel(
 ) -> Result<Panel, Failure> {
     let found = range(space);
     let [x, y, z] = found.unwrap_or([[0.0; 2]; 3]);
-    let number = |value: f64| {
-        let text = format!("{value:.2}");
-        let text = text.trim_end_matches('0').trim_end_matches('.');
-        if text == "-0" {
-            "0".to_owned()
-        } else {
-            text.to_owned()
-        }
-    };
-    let span = |[least, greatest]: [f64; 2]| format!("{}..{}", number(least), number(greatest));
     let caption = match found {
         Some(_) => format!(
             "{}  x {}  y {}  z {}",
@@ -206,4 +211,18 @@ fn panel(
         panel.dot(place([*x, *y]), side, POINT);
     }
     Ok(panel)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spans_have_the_digits_that_tell_their_ends_apart() {
+        assert_eq!(span([-1.0, 1.0]), "-1..1");
+        assert_eq!(span([0.99971, 1.0]), "0.99971..1");
+        assert_eq!(span([-2166.67, 366.771]), "-2167..367");
+        assert_eq!(span([-0.001, 3.4301]), "0..3.43");
+        assert_eq!(span([100.0, 300.0]), "100..300");
+    }
 }
