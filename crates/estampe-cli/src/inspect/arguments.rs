@@ -51,7 +51,7 @@ pub(crate) struct InspectArgs {
     #[arg(requires = "output")]
     pub(crate) stage: Option<StageName>,
 
-    /// The stage's picture: a file named .png, .jpg or .tga, or - for standard output; of all stages a folder
+    /// The picture: a file named .png, .jpg or .tga, or - for standard output; for all a folder
     #[arg(
         short,
         long,
