@@ -11,6 +11,8 @@ const STROKES: usize = 50_000;
 
 /// The least width of a panel of pixels; smaller pictures are enlarged by a whole number.
 const LEAST_WIDTH: u32 = 200;
+/// The greatest height to which they are.
+const GREATEST_ENLARGED: u32 = 1024;
 
 const INK: Rgb = [30, 36, 48];
 const GREY: Rgb = [110, 118, 130];
@@ -163,8 +165,9 @@ impl Panel {
 }
 
 /// The whole number by which a panel of pixels is enlarged.
-pub(super) fn zoom([width, _]: [u32; 2]) -> u32 {
-    LEAST_WIDTH.div_ceil(width.max(1))
+pub(super) fn zoom([width, height]: [u32; 2]) -> u32 {
+    let that_fits = (GREATEST_ENLARGED / height.max(1)).max(1);
+    LEAST_WIDTH.div_ceil(width.max(1)).min(that_fits)
 }
 
 /// A place in a panel, in f32 as strokes have it.
