@@ -1,0 +1,124 @@
+//! The scalar level: each lane by the definitions of [`crate::op`].
+
+use super::super::instruction::Product;
+use super::arithmetic::Arithmetic;
+use super::state::{MaskOperand, Masks, Operand, Words, quads_with_all};
+use crate::op::{Axis, Binary, Compare, Math, Math2, Precision, Unary, fma};
+use estampe_simd::{LANES, Packet};
+
+#[derive(Clone, Copy)]
+pub(super) struct ByLane;
+
+impl Arithmetic for ByLane {
+    fn unary(self, kind: Unary, to: Words<'_>, a: Words<'_>) {
+        for (to, a) in to.iter().zip(a) {
+            to.set(Packet(a.get().0.map(|a| kind.evaluate(a))));
+        }
+    }
+
+    fn binary(self, kind: Binary, to: Words<'_>, pair: [Operand<'_>; 2]) {
+        each(to, |packet, lane| {
+            kind.evaluate(pair.map(|operand| operand.packet(packet)[lane]))
+        });
+    }
+
+    fn product(self, kind: Product, to: Words<'_>, three: [Operand<'_>; 3]) {
+        each(to, |packet, lane| {
+            let [a, b, c] = three.map(|operand| operand.packet(packet)[lane]);
+            let product = Binary::FMul.evaluate([a, b]);
+            match kind {
+                Product::Plus => Binary::FAdd.evaluate([product, c]),
+                Product::Minus => Binary::FSub.evaluate([product, c]),
+                Product::From => Binary::FSub.evaluate([c, product]),
+            }
+        });
+    }
+
+    fn fma(self, to: Words<'_>, three: [Words<'_>; 3]) {
+        each(to, |packet, lane| {
+            fma(three.map(|words| words[packet].get().0[lane]))
+        });
+    }
+
+    fn compare(self, kind: Compare, to: Masks<'_>, pair: [Operand<'_>; 2]) {
+        for (packet, to) in to.iter().enumerate() {
+            let mut bits = 0;
+            for lane in 0..LANES {
+                let is = kind.evaluate(pair.map(|operand| operand.packet(packet)[lane]));
+                bits |= u16::from(is) << lane;
+            }
+            to.set(bits);
+        }
+    }
+
+    fn select(self, to: Words<'_>, mask: MaskOperand<'_>, [yes, no]: [Operand<'_>; 2]) {
+        each(to, |packet, lane| {
+            let is_set = mask.packet(packet) >> lane & 1 == 1;
+            (if is_set { yes } else { no }).packet(packet)[lane]
+        });
+    }
+
+    fn math(self, function: Math, to: Words<'_>, x: Words<'_>) {
+        for (to, x) in to.iter().zip(x) {
+            let result = |x| function.evaluate(f32::from_bits(x)).to_bits();
+            to.set(Packet(x.get().0.map(result)));
+        }
+    }
+
+    fn math2(self, function: Math2, to: Words<'_>, pair: [Words<'_>; 2]) {
+        each(to, |packet, lane| {
+            let pair = pair.map(|words| f32::from_bits(words[packet].get().0[lane]));
+            function.evaluate(pair).to_bits()
+        });
+    }
+
+    fn derivative(
+        self,
+        (axis, precision): (Axis, Precision),
+        to: Words<'_>,
+        value: Words<'_>,
+        mask: MaskOperand<'_>,
+    ) {
+        for (packet, (to, value)) in to.iter().zip(value).enumerate() {
+            let (value, whole) = (value.get().0, quads_with_all(mask.packet(packet)));
+            let mut result = [0; LANES];
+            for (lane, result) in result.iter_mut().enumerate() {
+                // The lane of the quad from which the step along the axis begins.
+                let (step, across) = match axis {
+                    Axis::X => (1, 2),
+                    Axis::Y => (2, 1),
+                };
+                let from = match precision {
+                    Precision::Fine => lane & !3 | lane & across,
+                    Precision::Coarse => lane & !3,
+                };
+                if whole >> lane & 1 == 1 {
+                    *result = Binary::FSub.evaluate([value[from + step], value[from]]);
+                }
+            }
+            to.set(Packet(result));
+        }
+    }
+
+    fn gather(self, to: Words<'_>, table: &[u32], index: Words<'_>, shift: u32, is_clamped: bool) {
+        for (to, index) in to.iter().zip(index) {
+            let element = |index: u32| {
+                let element = table.get((index >> shift) as usize).copied();
+                let last = table.last().copied().filter(|_| is_clamped);
+                element.or(last).unwrap_or(0)
+            };
+            to.set(Packet(index.get().0.map(element)));
+        }
+    }
+}
+
+/// Sets each lane of a register to what a function of packet and lane gives.
+fn each(to: Words<'_>, word: impl Fn(usize, usize) -> u32) {
+    for (packet, to) in to.iter().enumerate() {
+        let mut result = [0; LANES];
+        for (lane, result) in result.iter_mut().enumerate() {
+            *result = word(packet, lane);
+        }
+        to.set(Packet(result));
+    }
+}

@@ -1,0 +1,92 @@
+//! Inputs to registers, and registers to outputs.
+
+use super::super::{InputData, OutputData};
+use super::state::{MaskOperand, Masks, Operand, State, Words};
+use estampe_simd::{LANES, Packet};
+
+impl State<'_> {
+    pub(super) fn input(&self, to: Words<'_>, at: u32) {
+        let input = self.run.inputs.get(at as usize);
+        match input.copied().unwrap_or(InputData::Uniform(0)) {
+            InputData::Words {
+                packets,
+                first,
+                stride,
+            } => {
+                for (to, at) in to.iter().zip(self.elements(first, stride)) {
+                    to.set(packets.get(at).copied().unwrap_or_default());
+                }
+            }
+            InputData::Floats {
+                packets,
+                first,
+                stride,
+            } => {
+                for (to, at) in to.iter().zip(self.elements(first, stride)) {
+                    let floats = packets.get(at).copied().unwrap_or_default();
+                    to.set(Packet(floats.0.map(f32::to_bits)));
+                }
+            }
+            InputData::Uniform(word) => to.iter().for_each(|to| to.set(Packet([word; LANES]))),
+            InputData::Mask(_) | InputData::SharedMask(_) => {
+                to.iter().for_each(|to| to.set(Packet::default()));
+            }
+        }
+    }
+
+    pub(super) fn input_mask(&self, to: Masks<'_>, at: u32) {
+        let input = self.run.inputs.get(at as usize);
+        let bits = |packet: usize| match input {
+            Some(InputData::Mask(bits)) => bits.get(packet).copied().unwrap_or(0),
+            Some(InputData::SharedMask(bits)) => bits.get(packet).map_or(0, |bits| bits.get()),
+            Some(InputData::Uniform(1..)) => u16::MAX,
+            _ => 0,
+        };
+        for (to, packet) in to.iter().zip(self.first..) {
+            to.set(bits(packet));
+        }
+    }
+
+    pub(super) fn output(&self, at: u32, from: Operand<'_>) {
+        let output = self.run.outputs.get(at as usize);
+        match output.copied().unwrap_or(OutputData::Dropped) {
+            OutputData::Words {
+                packets,
+                first,
+                stride,
+            } => {
+                for (packet, at) in (0..self.count).zip(self.elements(first, stride)) {
+                    if let Some(to) = packets.get(at) {
+                        to.set(Packet(from.packet(packet)));
+                    }
+                }
+            }
+            OutputData::Floats {
+                packets,
+                first,
+                stride,
+            } => {
+                for (packet, at) in (0..self.count).zip(self.elements(first, stride)) {
+                    if let Some(to) = packets.get(at) {
+                        to.set(Packet(from.packet(packet).map(f32::from_bits)));
+                    }
+                }
+            }
+            OutputData::Mask(_) | OutputData::Dropped => {}
+        }
+    }
+
+    pub(super) fn output_mask(&self, at: u32, from: MaskOperand<'_>) {
+        if let Some(OutputData::Mask(masks)) = self.run.outputs.get(at as usize) {
+            let places = masks.get(self.first..).unwrap_or_default();
+            for (packet, to) in (0..self.count).zip(places) {
+                to.set(from.packet(packet));
+            }
+        }
+    }
+
+    /// The elements of the chunk's packets.
+    fn elements(&self, first: usize, stride: usize) -> impl Iterator<Item = usize> {
+        (self.first..).map(move |packet| packet.saturating_mul(stride).saturating_add(first))
+    }
+}
