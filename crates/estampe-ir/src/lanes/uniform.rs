@@ -204,7 +204,7 @@ impl<'a> Graph<'a> {
     /// True if the results are not uniform even if the operands are.
     fn is_varying(&self, op: &Op) -> bool {
         match op {
-            Op::Input(at) => {
+            Op::Input(at) | Op::InputMask(at) => {
                 let input = self.tree.interface.inputs.get(*at as usize);
                 input.is_none_or(|input| !input.is_uniform())
             }

@@ -63,8 +63,10 @@ pub enum Op {
     Constant(u32),
     /// A mask that is the same in all lanes.
     MaskConstant(bool),
-    /// An input, by its position in the interface.
+    /// An input that is a word, by its position in the interface.
     Input(u32),
+    /// An input that is a mask, by its position in the interface.
+    InputMask(u32),
     /// A word of a word.
     Unary(Unary, Value),
     /// A word of two words.

@@ -9,6 +9,7 @@ impl Op {
         use Type::{Mask, Word};
         match self {
             Self::MaskConstant(_)
+            | Self::InputMask(_)
             | Self::Compare(..)
             | Self::MaskNot(_)
             | Self::MaskBinary(..)
@@ -39,6 +40,7 @@ impl Op {
             Self::Constant(_)
             | Self::MaskConstant(_)
             | Self::Input(_)
+            | Self::InputMask(_)
             | Self::BufferBytes(_)
             | Self::Barrier => {}
             Self::Unary(_, a)
@@ -127,6 +129,7 @@ impl Op {
             Self::Constant(_)
             | Self::MaskConstant(_)
             | Self::Input(_)
+            | Self::InputMask(_)
             | Self::Unary(..)
             | Self::Binary(..)
             | Self::Fma(_)

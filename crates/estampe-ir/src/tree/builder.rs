@@ -214,7 +214,10 @@ impl Builder {
             inputs.push(input);
             inputs.len() - 1
         });
-        self.op1(Op::Input(position(at)))
+        self.op1(match input.kind() {
+            Type::Word => Op::Input(position(at)),
+            Type::Mask => Op::InputMask(position(at)),
+        })
     }
 
     /// An operation on a word.

@@ -133,7 +133,7 @@ impl Invocation<'_> {
         let one = match op {
             Op::Constant(word) => *word,
             Op::MaskConstant(mask) => u32::from(*mask),
-            Op::Input(at) => self.surroundings.input(*at as usize),
+            Op::Input(at) | Op::InputMask(at) => self.surroundings.input(*at as usize),
             Op::Unary(kind, a) => kind.evaluate(self.get(*a)),
             Op::Binary(kind, pair) => kind.evaluate(pair.map(|value| self.get(value))),
             Op::Fma(three) => crate::op::fma(three.map(|value| self.get(value))),

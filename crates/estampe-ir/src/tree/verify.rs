@@ -157,7 +157,7 @@ impl Checker<'_> {
         }
         let interface = &self.tree.interface;
         let entry = match op {
-            Op::Input(at) => Some((*at, interface.inputs.len())),
+            Op::Input(at) | Op::InputMask(at) => Some((*at, interface.inputs.len())),
             Op::LoadLocal { array, .. } | Op::StoreLocal { array, .. } => {
                 Some((*array, interface.locals.len()))
             }

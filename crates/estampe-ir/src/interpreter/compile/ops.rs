@@ -19,7 +19,7 @@ impl Emitter<'_> {
                 let scalar = self.mask_constant(*mask);
                 self.set_mask(first, Mask::Scalar(scalar));
             }
-            Op::Input(at) => self.input(*at, first),
+            Op::Input(at) | Op::InputMask(at) => self.input(*at, first),
             Op::Unary(..)
             | Op::Binary(..)
             | Op::Fma(_)

@@ -25,14 +25,17 @@ fn straight(inputs: &[Input], ops: Vec<Op>) -> Kernel {
         ops: Vec::new(),
         terminator: Terminator::Return(Vec::new()),
     };
-    let reads = (0..).map(Op::Input).take(inputs.len());
+    let reads = (0..).zip(inputs).map(|(at, input)| match input.kind() {
+        Type::Word => Op::Input(at),
+        Type::Mask => Op::InputMask(at),
+    });
     let mut results = Vec::new();
     for op in reads.chain(ops) {
         let first = Value(u32::try_from(kernel.values.len()).unwrap());
         let kinds = op.results();
         results = first.and_next(kinds.len());
         let mut is_uniform = match op {
-            Op::Input(at) => inputs[at as usize].is_uniform(),
+            Op::Input(at) | Op::InputMask(at) => inputs[at as usize].is_uniform(),
             _ => true,
         };
         op.each_operand(|value, _| is_uniform &= kernel.values[value.index()].is_uniform);

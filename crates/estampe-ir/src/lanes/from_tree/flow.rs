@@ -97,7 +97,7 @@ impl<'a> Lowering<'a> {
             kind: Type::Mask,
             is_uniform: false,
         };
-        let cover = self.push(Op::Input(at), &[varying]);
+        let cover = self.push(Op::InputMask(at), &[varying]);
         match self.tree.stage {
             // Helper invocations run for the derivatives of their quads.
             Stage::Fragment => self.emit(Op::QuadAny(cover)),

@@ -71,7 +71,7 @@ pub(super) fn cost(nodes: &[Node]) -> usize {
 
 fn cost_of(op: &Op) -> usize {
     match op {
-        Op::Constant(_) | Op::MaskConstant(_) | Op::Input(_) => 0,
+        Op::Constant(_) | Op::MaskConstant(_) | Op::Input(_) | Op::InputMask(_) => 0,
         Op::Math(..) | Op::Math2(..) | Op::Texture(_) => WORTH_A_BRANCH,
         Op::Unary(Unary::FSqrt, _)
         | Op::Binary(Binary::FDiv | Binary::SDiv | Binary::SRem | Binary::UDiv | Binary::URem, _) => {

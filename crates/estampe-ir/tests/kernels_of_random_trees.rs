@@ -1,0 +1,197 @@
+//! Kernels of random trees against the trees, executed one invocation at a time.
+
+#[path = "random_trees/generate.rs"]
+mod generate;
+
+use estampe_ir::interface::Input;
+use estampe_ir::interpreter::{Buffer, Code, InputData, OutputData, Run, Scratch, Stopped, cells};
+use estampe_ir::lanes::Kernel;
+use estampe_ir::op::TextureOp;
+use estampe_ir::tree::{Surroundings, Tree, evaluate, verify};
+use estampe_simd::{Level, Packet};
+use fastrand::Rng;
+use generate::{Made, OWN_WORDS, READ, tree};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+const PACKETS: usize = 3;
+const LANES: usize = 16;
+const INVOCATIONS: usize = PACKETS * LANES;
+
+/// One invocation of a work-group.
+struct Invocation<'a> {
+    tree: &'a Tree,
+    index: u32,
+    uniforms: [u32; 3],
+    is_covered: bool,
+    read: Vec<u32>,
+    written: Vec<u32>,
+    workgroup: Vec<u32>,
+}
+
+impl Surroundings for Invocation<'_> {
+    fn input(&mut self, at: usize) -> u32 {
+        match self.tree.interface.inputs[at] {
+            Input::LocalInvocationIndex => self.index,
+            Input::PushConstant(at) => self.uniforms[at as usize],
+            Input::Cover => u32::from(self.is_covered),
+            other => panic!("the trees have no input {other:?}"),
+        }
+    }
+
+    fn buffer(&mut self, at: usize) -> &mut Vec<u32> {
+        if at == READ {
+            &mut self.read
+        } else {
+            &mut self.written
+        }
+    }
+
+    fn workgroup(&mut self) -> &mut Vec<u32> {
+        &mut self.workgroup
+    }
+
+    fn texture(&mut self, _op: &TextureOp, _operands: &[u32]) -> Vec<u32> {
+        Vec::new()
+    }
+}
+
+/// What a run is given, and what it leaves.
+struct Case {
+    uniforms: [u32; 3],
+    cover: [u16; PACKETS],
+    read: Vec<u32>,
+}
+
+impl Case {
+    fn new(random: &mut Rng) -> Self {
+        let word = |random: &mut Rng| match random.u32(0..3) {
+            0 => random.u32(0..5),
+            1 => (random.f32() * 8.0 - 4.0).to_bits(),
+            _ => random.u32(..),
+        };
+        Self {
+            uniforms: [0; 3].map(|_| word(random)),
+            cover: [0; PACKETS].map(|_| {
+                if random.bool() {
+                    u16::MAX
+                } else {
+                    random.u16(..)
+                }
+            }),
+            read: (0..9).map(|_| word(random)).collect(),
+        }
+    }
+
+    fn is_covered(&self, invocation: usize) -> bool {
+        self.cover[invocation / LANES] >> (invocation % LANES) & 1 == 1
+    }
+
+    /// Outputs by invocation, and the memory, one invocation after the other.
+    fn one_by_one(&self, tree: &Tree) -> (Vec<Vec<u32>>, Vec<u32>) {
+        let mut written = vec![0; INVOCATIONS * OWN_WORDS as usize];
+        let outputs = (0..INVOCATIONS).map(|at| {
+            let mut invocation = Invocation {
+                tree,
+                index: at as u32,
+                uniforms: self.uniforms,
+                is_covered: self.is_covered(at),
+                read: self.read.clone(),
+                written: std::mem::take(&mut written),
+                workgroup: Vec::new(),
+            };
+            let outputs = evaluate(tree, &mut invocation, 1 << 22).expect("they all end");
+            written = invocation.written;
+            outputs
+        });
+        (outputs.collect(), written)
+    }
+
+    /// The same on lanes.
+    fn on_lanes(&self, tree: &Tree, level: Level) -> (Vec<Vec<u32>>, Vec<u32>) {
+        let kernel = Kernel::from_tree(tree);
+        let code = Code::new(&kernel);
+        let indices: Vec<Packet<u32>> = (0..PACKETS)
+            .map(|packet| Packet(std::array::from_fn(|lane| (packet * LANES + lane) as u32)))
+            .collect();
+        let inputs = kernel.interface.inputs.iter().map(|input| match *input {
+            Input::LocalInvocationIndex => InputData::words(&indices, 0, 1),
+            Input::PushConstant(at) => InputData::Uniform(self.uniforms[at as usize]),
+            Input::Cover => InputData::Mask(&self.cover),
+            other => panic!("the trees have no input {other:?}"),
+        });
+        let inputs: Vec<_> = inputs.collect();
+        let count = kernel.interface.outputs.len();
+        let mut results = vec![Packet([0; LANES]); count * PACKETS];
+        let outputs = cells(&mut results);
+        let outputs: Vec<_> = (0..count)
+            .map(|at| OutputData::words(outputs, at, count))
+            .collect();
+        let zero = || AtomicU32::new(0);
+        let written: Vec<_> = std::iter::repeat_with(zero)
+            .take(INVOCATIONS * OWN_WORDS as usize)
+            .collect();
+        let buffers = [
+            Buffer::read_only(&self.read, self.read.len() * 4),
+            Buffer::shared(&written, written.len() * 4),
+        ];
+        let run = Run {
+            inputs: &inputs,
+            outputs: &outputs,
+            buffers: &buffers,
+            ..Run::new(PACKETS)
+        };
+        let ended: Result<(), Stopped> = code.run(level, &run, &mut Scratch::default());
+        ended.expect("they all end");
+        let of_lane = |at: usize| {
+            let outputs =
+                (0..count).map(|output| results[at / LANES * count + output].0[at % LANES]);
+            outputs.collect()
+        };
+        let outputs = (0..INVOCATIONS).map(of_lane).collect();
+        let written = written
+            .iter()
+            .map(|word| word.load(Ordering::Relaxed))
+            .collect();
+        (outputs, written)
+    }
+}
+
+fn check(seed: u64) -> Made {
+    let random = &mut Rng::with_seed(seed);
+    let (tree, made) = tree(random);
+    verify(&tree).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+    let case = Case::new(random);
+    let wanted = case.one_by_one(&tree);
+    for level in Level::all_available() {
+        let got = case.on_lanes(&tree, level);
+        assert_eq!(wanted.1, got.1, "seed {seed}, {level:?}: memory");
+        for (at, (wanted, got)) in wanted.0.iter().zip(&got.0).enumerate() {
+            if case.is_covered(at) {
+                assert_eq!(wanted, got, "seed {seed}, {level:?}: invocation {at}");
+            }
+        }
+    }
+    made
+}
+
+#[test]
+fn lanes_do_what_each_invocation_does_alone() {
+    let mut all = Made::default();
+    for seed in 0..600 {
+        let made = check(seed);
+        all.ifs += made.ifs;
+        all.loops += made.loops;
+        all.early_branches += made.early_branches;
+        all.stores += made.stores;
+    }
+    assert!(all.ifs > 500 && all.loops > 300, "{all:?}");
+    assert!(all.early_branches > 100 && all.stores > 300, "{all:?}");
+}
+
+#[test]
+#[ignore = "takes minutes: a hundred thousand trees"]
+fn lanes_do_what_each_invocation_does_alone_at_length() {
+    for seed in 0..100_000 {
+        check(seed << 20);
+    }
+}
