@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 const FORMAT: TextureFormat = TextureFormat::Rgba8UnormSrgb;
 const SIDE: u32 = 256;
-const EYE: [f32; 3] = [0.0, 2.3, 5.2];
+const EYE: [f32; 3] = [0.7, 1.9, 3.3];
 
 /// The fourth number of a mirror's colour.
 const MIRROR: f32 = 1.0;
