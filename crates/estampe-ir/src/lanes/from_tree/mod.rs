@@ -248,21 +248,16 @@ impl<'a> Lowering<'a> {
         self.body(body);
         let way = self.around.pop().map(|around| around.way);
         if let Some(Way::Block(mut incoming)) = way {
-            incoming.extend(self.incoming(Vec::new()));
+            // The end is reached by the flow graph even if all lanes wait elsewhere.
+            let nothing = self.nothing(results);
+            incoming.extend(self.incoming(nothing));
             self.join(incoming, results);
         }
     }
 
     fn divergent_block(&mut self, node: &Node, label: Label, results: &[Value], body: &'a [Node]) {
         let before = self.state[RUNNING];
-        let none_brought = results.iter().map(|value| {
-            let Constants { none, zero, .. } = self.constants;
-            match self.tree.types[value.index()] {
-                Type::Word => zero,
-                Type::Mask => none,
-            }
-        });
-        let none_brought = none_brought.collect();
+        let none_brought = self.nothing(results);
         let slot = self.wait_at(label, none_brought);
         self.body(body);
         self.around.pop();
@@ -416,6 +411,15 @@ impl<'a> Lowering<'a> {
         self.state.push(self.constants.none);
         self.state.extend(brought);
         slot
+    }
+
+    /// Values for results that no lane has brought.
+    fn nothing(&self, results: &[Value]) -> Vec<Value> {
+        let value = |result: &Value| match self.tree.types[result.index()] {
+            Type::Word => self.constants.zero,
+            Type::Mask => self.constants.none,
+        };
+        results.iter().map(value).collect()
     }
 
     fn mapped(&self, values: &[Value]) -> Vec<Value> {
