@@ -14,6 +14,7 @@ mod plan;
 mod registers;
 
 use super::instruction::{Instruction, Scalar, ScalarOp};
+use super::run::entry_of;
 use crate::lanes::Kernel;
 use crate::op::TextureQuery;
 use crate::{Op, Type};
@@ -30,7 +31,8 @@ const REGISTER_BYTES: usize = 32 << 10;
 pub struct Code {
     /// Executed once in a run.
     pub(super) preamble: Vec<(Scalar, ScalarOp)>,
-    pub(super) instructions: Vec<Instruction>,
+    /// Each with the place of its function.
+    pub(super) instructions: Vec<(u8, Instruction)>,
     /// The number of registers of words.
     pub(super) slots: usize,
     /// The number of registers of masks.
@@ -59,18 +61,19 @@ impl Code {
     pub fn new(kernel: &Kernel) -> Self {
         let mut emitter = Emitter::new(kernel);
         emitter.kernel();
+        let [slots, mask_slots] = registers::allocate(&mut emitter.instructions);
+        let instructions = emitter.instructions.into_iter();
         let mut code = Self {
             preamble: emitter.preamble,
-            instructions: emitter.instructions,
-            slots: 0,
-            mask_slots: 0,
+            instructions: instructions.map(|one| (entry_of(&one), one)).collect(),
+            slots,
+            mask_slots,
             scalars: emitter.scalars,
             tables: emitter.tables,
             locals: emitter.locals,
             workgroup_words: kernel.interface.workgroup_words as usize,
             chunk: Chunk::Workgroup,
         };
-        [code.slots, code.mask_slots] = registers::allocate(&mut code.instructions);
         if !is_workgroup(kernel) {
             let packets = if has_effects(kernel) {
                 1

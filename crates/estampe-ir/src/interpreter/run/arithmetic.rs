@@ -5,7 +5,9 @@ use super::state::{MaskOperand, Masks, Operand, Words};
 use crate::op::{Axis, Binary, Compare, Math, Math2, Precision, Unary};
 
 /// Operations on registers. The result may be one of the operands.
-pub(super) trait Arithmetic: Copy {
+pub(super) trait Arithmetic: Copy + 'static {
+    /// Runs a function with the instructions of the SIMD level.
+    fn enter(self, work: impl FnOnce());
     fn unary(self, kind: Unary, to: Words<'_>, a: Words<'_>);
     /// At least one operand is not the same in all lanes.
     fn binary(self, kind: Binary, to: Words<'_>, pair: [Operand<'_>; 2]);

@@ -4,12 +4,17 @@ use super::super::instruction::Product;
 use super::arithmetic::Arithmetic;
 use super::state::{MaskOperand, Masks, Operand, Words, quads_with_all};
 use crate::op::{Axis, Binary, Compare, Math, Math2, Precision, Unary, fma};
-use estampe_simd::{LANES, Packet};
+use estampe_simd::{LANES, Lane, Packet};
 
 #[derive(Clone, Copy)]
 pub(super) struct ByLane;
 
 impl Arithmetic for ByLane {
+    #[inline(always)]
+    fn enter(self, work: impl FnOnce()) {
+        work();
+    }
+
     fn unary(self, kind: Unary, to: Words<'_>, a: Words<'_>) {
         for (to, a) in to.iter().zip(a) {
             to.set(Packet(a.get().0.map(|a| kind.evaluate(a))));
@@ -17,14 +22,11 @@ impl Arithmetic for ByLane {
     }
 
     fn binary(self, kind: Binary, to: Words<'_>, pair: [Operand<'_>; 2]) {
-        each(to, |packet, lane| {
-            kind.evaluate(pair.map(|operand| operand.packet(packet)[lane]))
-        });
+        each(to, pair, |pair| kind.evaluate(pair));
     }
 
     fn product(self, kind: Product, to: Words<'_>, three: [Operand<'_>; 3]) {
-        each(to, |packet, lane| {
-            let [a, b, c] = three.map(|operand| operand.packet(packet)[lane]);
+        each(to, three, |[a, b, c]| {
             let product = Binary::FMul.evaluate([a, b]);
             match kind {
                 Product::Plus => Binary::FAdd.evaluate([product, c]),
@@ -35,27 +37,28 @@ impl Arithmetic for ByLane {
     }
 
     fn fma(self, to: Words<'_>, three: [Words<'_>; 3]) {
-        each(to, |packet, lane| {
-            fma(three.map(|words| words[packet].get().0[lane]))
-        });
+        each(to, three.map(Operand::Many), fma);
     }
 
     fn compare(self, kind: Compare, to: Masks<'_>, pair: [Operand<'_>; 2]) {
         for (packet, to) in to.iter().enumerate() {
+            let [a, b] = pair.map(|operand| operand.packet(packet));
             let mut bits = 0;
             for lane in 0..LANES {
-                let is = kind.evaluate(pair.map(|operand| operand.packet(packet)[lane]));
-                bits |= u16::from(is) << lane;
+                bits |= u16::from(kind.evaluate([a[lane], b[lane]])) << lane;
             }
             to.set(bits);
         }
     }
 
     fn select(self, to: Words<'_>, mask: MaskOperand<'_>, [yes, no]: [Operand<'_>; 2]) {
-        each(to, |packet, lane| {
-            let is_set = mask.packet(packet) >> lane & 1 == 1;
-            (if is_set { yes } else { no }).packet(packet)[lane]
-        });
+        for (packet, to) in to.iter().enumerate() {
+            let [mut words, yes] = [no, yes].map(|operand| operand.packet(packet));
+            for lane in Lane::all_of(mask.packet(packet)) {
+                words[lane.get()] = yes[lane.get()];
+            }
+            to.set(Packet(words));
+        }
     }
 
     fn math(self, function: Math, to: Words<'_>, x: Words<'_>) {
@@ -66,9 +69,8 @@ impl Arithmetic for ByLane {
     }
 
     fn math2(self, function: Math2, to: Words<'_>, pair: [Words<'_>; 2]) {
-        each(to, |packet, lane| {
-            let pair = pair.map(|words| f32::from_bits(words[packet].get().0[lane]));
-            function.evaluate(pair).to_bits()
+        each(to, pair.map(Operand::Many), |pair| {
+            function.evaluate(pair.map(f32::from_bits)).to_bits()
         });
     }
 
@@ -112,12 +114,13 @@ impl Arithmetic for ByLane {
     }
 }
 
-/// Sets each lane of a register to what a function of packet and lane gives.
-fn each(to: Words<'_>, word: impl Fn(usize, usize) -> u32) {
+/// Sets each lane of a register to a function of the operands' lanes.
+fn each<const N: usize>(to: Words<'_>, operands: [Operand<'_>; N], word: impl Fn([u32; N]) -> u32) {
     for (packet, to) in to.iter().enumerate() {
+        let operands = operands.map(|operand| operand.packet(packet));
         let mut result = [0; LANES];
         for (lane, result) in result.iter_mut().enumerate() {
-            *result = word(packet, lane);
+            *result = word(operands.map(|words| words[lane]));
         }
         to.set(Packet(result));
     }

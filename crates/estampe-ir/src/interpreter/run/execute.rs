@@ -4,15 +4,16 @@ use super::super::Stopped;
 use super::super::instruction::{Instruction, Mask};
 use super::arithmetic::Arithmetic;
 use super::state::{MaskOperand, Operand, State, quads_with_any};
+use super::table::Table;
 use crate::op::MaskBinary;
 use estampe_simd::{LANES, Packet};
 
 /// Executes the instructions on a chunk.
-#[inline(always)]
 pub(super) fn chunk<A: Arithmetic>(level: A, state: &State<'_>) -> Result<(), Stopped> {
+    let entries = const { &Table::<A>::ENTRIES };
     let mut budget = state.run.budget;
     let mut next = 0;
-    while let Some(instruction) = state.code.instructions.get(next) {
+    while let Some((entry, instruction)) = state.code.instructions.get(next) {
         next += 1;
         match instruction {
             Instruction::Jump(to) => {
@@ -24,59 +25,16 @@ pub(super) fn chunk<A: Arithmetic>(level: A, state: &State<'_>) -> Result<(), St
                 next = *if state.any(*mask) { any } else { none } as usize;
             }
             Instruction::Return => return Ok(()),
-            Instruction::Scalar(to, op) => state.scalar(*to, op),
-            _ => on_lanes(level, state, instruction),
+            _ => entries[usize::from(*entry)](level, state, instruction),
         }
     }
     Ok(())
 }
 
-/// Executes an instruction on registers.
-#[inline(always)]
-fn on_lanes<A: Arithmetic>(level: A, state: &State<'_>, instruction: &Instruction) {
-    match *instruction {
-        Instruction::Unary(kind, to, a) => level.unary(kind, state.slot(to), state.slot(a)),
-        Instruction::Binary(kind, to, pair) => {
-            level.binary(kind, state.slot(to), pair.map(|word| state.word(word)));
-        }
-        Instruction::Product(kind, to, three) => {
-            level.product(kind, state.slot(to), three.map(|word| state.word(word)));
-        }
-        Instruction::Fma(to, three) => {
-            level.fma(state.slot(to), three.map(|slot| state.slot(slot)));
-        }
-        Instruction::Compare(kind, to, pair) => {
-            level.compare(kind, state.mask_slot(to), pair.map(|word| state.word(word)));
-        }
-        Instruction::Select(to, mask, pair) => {
-            let pair = pair.map(|word| state.word(word));
-            level.select(state.slot(to), state.mask(mask), pair);
-        }
-        Instruction::Math(function, to, x) => {
-            level.math(function, state.slot(to), state.slot(x));
-        }
-        Instruction::Math2(function, to, pair) => {
-            level.math2(function, state.slot(to), pair.map(|slot| state.slot(slot)));
-        }
-        Instruction::Derivative(axis, precision, to, value, mask) => {
-            let (value, mask) = (state.slot(value), state.mask(mask));
-            level.derivative((axis, precision), state.slot(to), value, mask);
-        }
-        Instruction::LoadTable(table, to, index) => {
-            let table = &state.code.tables[table as usize];
-            level.gather(state.slot(to), table, state.slot(index), 0, true);
-        }
-        Instruction::LoadBuffer(to, buffer, offset) => {
-            state.load_buffer(level, state.slot(to), buffer, state.slot(offset));
-        }
-        _ => copies_and_memory(state, instruction),
-    }
-}
-
 /// Executes an instruction that is the same at all SIMD levels.
-#[inline(never)]
-fn copies_and_memory(state: &State<'_>, instruction: &Instruction) {
+pub(super) fn copies_and_memory(state: &State<'_>, instruction: &Instruction) {
     match instruction {
+        Instruction::Scalar(to, op) => state.scalar(*to, op),
         Instruction::Copy(to, word) => match state.word(*word) {
             Operand::Many(from) => {
                 for (to, from) in state.slot(*to).iter().zip(from) {
@@ -130,7 +88,7 @@ fn copies_and_memory(state: &State<'_>, instruction: &Instruction) {
         Instruction::Atomic(code) => state.atomic(code),
         Instruction::CompareExchange(code) => state.compare_exchange(code),
         Instruction::Texture(code) => state.texture(code),
-        // The loop, and the SIMD level, execute the others.
+        // The loop and the functions of the SIMD levels execute the others.
         _ => {}
     }
 }

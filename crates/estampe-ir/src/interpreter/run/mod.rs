@@ -6,6 +6,7 @@ mod by_lane;
 mod execute;
 mod scalars;
 mod state;
+mod table;
 mod transfer;
 mod wide;
 
@@ -15,6 +16,7 @@ use super::compile::{Chunk, Code};
 use estampe_simd::{Level, Packet, dispatch};
 use state::State;
 use std::cell::RefCell;
+pub(super) use table::entry_of;
 
 /// The registers of a run, kept for the next one. One for each thread.
 #[derive(Debug, Default)]

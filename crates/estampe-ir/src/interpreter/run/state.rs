@@ -67,6 +67,11 @@ impl<'a> State<'a> {
     }
 
     #[inline(always)]
+    pub(super) fn words_of(&self, [a, b]: [Word; 2]) -> [Operand<'a>; 2] {
+        [self.word(a), self.word(b)]
+    }
+
+    #[inline(always)]
     #[expect(
         clippy::cast_possible_truncation,
         reason = "all bits of a mask are equal"

@@ -19,6 +19,11 @@ pub(super) struct Wide<S>(pub(super) S);
 
 impl<S: Lanes> Arithmetic for Wide<S> {
     #[inline(always)]
+    fn enter(self, work: impl FnOnce()) {
+        self.0.vectorize(work);
+    }
+
+    #[inline(always)]
     fn unary(self, kind: Unary, to: Words<'_>, a: Words<'_>) {
         let s = self.0;
         macro_rules! floats {
@@ -303,12 +308,15 @@ impl<S: Lanes> Arithmetic for Wide<S> {
         let s = self.0;
         macro_rules! floats {
             ($name:ident) => {
-                map_out_of_line(
+                map(
                     s,
                     to,
                     x,
                     #[inline(always)]
-                    |x| maths::$name(x),
+                    |x| {
+                        let x: f32x16<S> = x.bitcast();
+                        maths::$name(x).bitcast()
+                    },
                 )
             };
         }
@@ -332,23 +340,16 @@ impl<S: Lanes> Arithmetic for Wide<S> {
     #[inline(always)]
     fn math2(self, function: Math2, to: Words<'_>, pair: [Words<'_>; 2]) {
         let s = self.0;
-        match function {
-            Math2::Pow => map2_out_of_line(
-                s,
+        let [x, y] = pair;
+        for ((to, x), y) in to.iter().zip(x).zip(y) {
+            let (x, y) = (float(s, x), float(s, y));
+            store_float(
                 to,
-                pair,
-                #[inline(always)]
-                |x, y| maths::pow(x, y),
-            ),
-            Math2::Atan2 => {
-                map2_out_of_line(
-                    s,
-                    to,
-                    pair,
-                    #[inline(always)]
-                    |x, y| maths::atan2(x, y),
-                );
-            }
+                match function {
+                    Math2::Pow => maths::pow(x, y),
+                    Math2::Atan2 => maths::atan2(x, y),
+                },
+            );
         }
     }
 
@@ -607,45 +608,4 @@ fn masks<S: Lanes>(
         }
         [Operand::One(_), Operand::One(_)] => {}
     }
-}
-
-/// [`map`] of floats as a function of its own: the long ones would make the interpreter's loop
-/// slow to compile.
-#[inline(never)]
-fn map_out_of_line<S: Lanes>(
-    s: S,
-    to: Words<'_>,
-    x: Words<'_>,
-    f: impl Fn(f32x16<S>) -> f32x16<S>,
-) {
-    s.vectorize(
-        #[inline(always)]
-        || {
-            map(
-                s,
-                to,
-                x,
-                #[inline(always)]
-                |x| f(x.bitcast()).bitcast(),
-            )
-        },
-    );
-}
-
-/// [`map2`] of floats as a function of its own.
-#[inline(never)]
-fn map2_out_of_line<S: Lanes>(
-    s: S,
-    to: Words<'_>,
-    [x, y]: [Words<'_>; 2],
-    f: impl Fn(f32x16<S>, f32x16<S>) -> f32x16<S>,
-) {
-    s.vectorize(
-        #[inline(always)]
-        || {
-            for ((to, x), y) in to.iter().zip(x).zip(y) {
-                store_float(to, f(float(s, x), float(s, y)));
-            }
-        },
-    );
 }
