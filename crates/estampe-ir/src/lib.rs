@@ -22,11 +22,13 @@
 //! | [`tree`] | one invocation's view: structured control flow |
 //! | [`lanes`] | many lanes' view: a flow graph with masks |
 //! | [`interpreter`] | runs a kernel |
+//! | [`text`] | trees and kernels as text, and back |
 
 pub mod interface;
 pub mod interpreter;
 pub mod lanes;
 pub mod op;
+pub mod text;
 pub mod tree;
 
 pub use op::{Op, Type, Value};

@@ -7,8 +7,12 @@
 //!
 //! Lanes that do not run compute all the same; their numbers are not used.
 
+mod dominators;
 mod from_tree;
 pub mod uniform;
+mod verify;
+
+pub use verify::{VerifyError, verify};
 
 use crate::interface::{Interface, Stage};
 use crate::{Op, Type, Value};

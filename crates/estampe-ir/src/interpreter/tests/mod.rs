@@ -1,5 +1,7 @@
 //! Tests of the interpreter.
 
+mod flow;
+mod memory;
 mod ops;
 
 use super::{Code, InputData, OutputData, Run, Scratch, cells};
