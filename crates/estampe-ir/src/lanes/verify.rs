@@ -164,7 +164,12 @@ impl Checker<'_> {
             is_written.then_some(()).ok_or_else(not)
         };
         match op {
-            Op::Input(at) => exists(*at, interface.inputs.len()),
+            Op::Input(at) | Op::InputMask(at) => {
+                exists(*at, interface.inputs.len())?;
+                let kind = interface.inputs[*at as usize].kind();
+                let differs = || "the input is of another type".to_owned();
+                (op.results() == [kind]).then_some(()).ok_or_else(differs)
+            }
             Op::LoadLocal { array, .. } | Op::StoreLocal { array, .. } => {
                 exists(*array, interface.locals.len())
             }
@@ -214,7 +219,9 @@ impl Checker<'_> {
     /// True if the operation may give lanes different results for the same operands.
     fn is_varying(&self, op: &Op) -> bool {
         match op {
-            Op::Input(at) => !self.kernel.interface.inputs[*at as usize].is_uniform(),
+            Op::Input(at) | Op::InputMask(at) => {
+                !self.kernel.interface.inputs[*at as usize].is_uniform()
+            }
             Op::LoadLocal { array, .. } => self.is_stored[*array as usize],
             Op::Atomic { .. } | Op::CompareExchange { .. } => true,
             Op::Texture(op) => match op.query {

@@ -44,6 +44,7 @@ impl Reader<'_> {
                 other => return self.error(format!("expected true or false, found `{other}`")),
             },
             "input" => Op::Input(self.number()?),
+            "input_mask" => Op::InputMask(self.number()?),
             "fma" => Op::Fma(self.list()?),
             "mnot" => Op::MaskNot(self.value()?),
             "select" => {

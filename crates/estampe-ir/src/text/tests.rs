@@ -28,7 +28,7 @@ workgroup 64 (8, 8, 1)
 undefined v40, um41
 b0:
   v0 = input 0
-  m1 = input 5
+  m1 = input_mask 5
   uv2 = const 7
   uv3 = const 1.5
   um4 = mask true

@@ -28,6 +28,7 @@ pub(super) fn op<N: Names + ?Sized>(op: &Op, names: &N) -> String {
         Op::Constant(constant) => format!("const {}", word(*constant)),
         Op::MaskConstant(mask) => format!("mask {mask}"),
         Op::Input(at) => format!("input {at}"),
+        Op::InputMask(at) => format!("input_mask {at}"),
         Op::Unary(kind, a) => with(kind.name(), &[*a]),
         Op::Binary(kind, pair) => with(kind.name(), pair),
         Op::Fma(three) => with("fma", three),

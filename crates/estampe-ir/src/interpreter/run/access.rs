@@ -5,7 +5,7 @@ use super::super::memory::{Words as BufferWords, atomic};
 use super::super::{Buffer, TextureAccess};
 use super::arithmetic::Arithmetic;
 use super::state::{MaskOperand, Operand, State, Words};
-use crate::op::Memory;
+use crate::op::{Atomic, Memory};
 use estampe_simd::{LANES, Lane, Packet};
 use std::sync::atomic::Ordering::Relaxed;
 
@@ -149,7 +149,12 @@ impl<'a> State<'a> {
                 Memory::Workgroup => self.workgroup.get(offset as usize).map_or(0, |word| {
                     let before = word.get();
                     word.set(code.kind.evaluate([before, operand]));
-                    before
+                    // As for buffers, where a store does not read.
+                    if code.kind == Atomic::Store {
+                        0
+                    } else {
+                        before
+                    }
                 }),
             },
         );

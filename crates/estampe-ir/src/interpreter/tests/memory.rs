@@ -114,7 +114,7 @@ output varying(0)
 buffer 0.0 written
 b0:
   v0 = input 0
-  m1 = input 1
+  m1 = input_mask 1
   uv2 = const 8
   uv3 = const 60
   v4 = and v0, uv3
@@ -181,7 +181,7 @@ buffer 0.0 written
 workgroup 4 (48, 1, 1)
 b0:
   v0 = input 0
-  m1 = input 1
+  m1 = input_mask 1
   v2 = input 2
   uv3 = const 2
   um4 = mask true
@@ -250,7 +250,7 @@ buffer 0.0 written
 workgroup 2 (32, 1, 1)
 b0:
   v0 = input 0
-  m1 = input 1
+  m1 = input_mask 1
   uv2 = const 0
   uv3 = const {place}
   uv4 = const 100
@@ -289,7 +289,7 @@ output varying(0)
 workgroup 1024 (32, 32, 1)
 b0:
   v0 = input 0
-  m1 = input 1
+  m1 = input_mask 1
   uv2 = const 512
   uv3 = const 1
   uv4 = const 0
