@@ -17,6 +17,11 @@ const PACKETS: usize = 3;
 const LANES: usize = 16;
 const INVOCATIONS: usize = PACKETS * LANES;
 
+/// The number of an invocation as a word.
+fn number(invocation: usize) -> u32 {
+    u32::try_from(invocation).expect("a few packets")
+}
+
 /// One invocation of a work-group.
 struct Invocation<'a> {
     tree: &'a Tree,
@@ -39,7 +44,7 @@ impl Surroundings for Invocation<'_> {
     }
 
     fn buffer(&mut self, at: usize) -> &mut Vec<u32> {
-        if at == READ {
+        if at == READ as usize {
             &mut self.read
         } else {
             &mut self.written
@@ -92,7 +97,7 @@ impl Case {
         let outputs = (0..INVOCATIONS).map(|at| {
             let mut invocation = Invocation {
                 tree,
-                index: at as u32,
+                index: number(at),
                 uniforms: self.uniforms,
                 is_covered: self.is_covered(at),
                 read: self.read.clone(),
@@ -111,7 +116,7 @@ impl Case {
         let kernel = Kernel::from_tree(tree);
         let code = Code::new(&kernel);
         let indices: Vec<Packet<u32>> = (0..PACKETS)
-            .map(|packet| Packet(std::array::from_fn(|lane| (packet * LANES + lane) as u32)))
+            .map(|packet| Packet(std::array::from_fn(|lane| number(packet * LANES + lane))))
             .collect();
         let inputs = kernel.interface.inputs.iter().map(|input| match *input {
             Input::LocalInvocationIndex => InputData::words(&indices, 0, 1),

@@ -3,8 +3,9 @@
 //! In · Out: a kernel · [`Code`], which reads inputs and memory and writes outputs.
 //!
 //! An instruction works on a *chunk*: as many packets of sixteen lanes as keep all registers in the
-//! processor's first cache, at most [`MAX_CHUNK`]. So the cost of finding out which instruction comes next
-//! is shared by up to 256 lanes. What is the same in all lanes is held once, as a scalar.
+//! processor's first cache, at most [`MAX_CHUNK`]. So the cost of finding out which instruction
+//! comes next is shared by up to 256 lanes. What is the same in all lanes is held once, as a
+//! scalar.
 //!
 //! | kernel | packets of a chunk |
 //! |---|---|
@@ -12,8 +13,8 @@
 //! | with stores to buffers or textures, or atomics | 1, so that lanes act in order |
 //! | with barriers or work-group memory | all: a run is one work-group |
 //!
-//! Results do not depend on the chunk or the SIMD level. Nothing panics, whatever numbers lanes have:
-//! accesses outside of memory read zeros and store nothing.
+//! Results do not depend on the chunk or the SIMD level. Nothing panics, whatever numbers lanes
+//! have: accesses outside of memory read zeros and store nothing.
 //!
 //! ```
 //! use estampe_ir::interface::{Input, Output, Stage};

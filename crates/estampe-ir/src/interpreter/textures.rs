@@ -5,8 +5,8 @@ use estampe_simd::{Level, Packet};
 
 /// The textures of a run.
 pub trait Textures: std::fmt::Debug {
-    /// Does an access: sets all results in the lanes of its mask. Lanes outside of the mask may have
-    /// any numbers as operands, NaN too, and results of any value.
+    /// Does an access: sets all results in the lanes of its mask. Lanes outside of the mask may
+    /// have any numbers as operands, NaN too, and results of any value.
     fn access(&self, access: TextureAccess<'_>);
 }
 
@@ -66,8 +66,8 @@ impl<'a> TextureAccess<'a> {
         }
     }
 
-    /// The derivative of a coordinate along a row (axis 0) or a column (axis 1), if the operation has
-    /// gradients.
+    /// The derivative of a coordinate along a row (axis 0) or a column (axis 1), if the operation
+    /// has gradients.
     #[must_use]
     pub fn gradient(&self, axis: usize, coordinate: usize) -> Option<&'a [Packet<u32>]> {
         let LevelOfDetail::Gradient { x, .. } = &self.op.level else {

@@ -5,8 +5,8 @@ use super::{BlockId, Kernel};
 /// The dominators of the blocks that are reached.
 #[derive(Debug, Default)]
 pub(super) struct Dominators {
-    /// For each block, where its part of the tree of dominators begins and ends in an order in which
-    /// each block comes before those that it dominates; `None` if it is never reached.
+    /// For each block, where its part of the tree of dominators begins and ends in an order in
+    /// which each block comes before those that it dominates; `None` if it is never reached.
     spans: Vec<Option<(usize, usize)>>,
 }
 

@@ -16,9 +16,9 @@ pub struct VerifyError {
 }
 
 /// Checks that each value is defined once, before it is used on all ways to its use; that types and
-/// numbers of arguments fit; that the entries of the interface exist; that what is called uniform is
-/// made of what is uniform; and that blocks stand in order. In blocks that are never reached, only
-/// values and entries must exist.
+/// numbers of arguments fit; that the entries of the interface exist; that what is called uniform
+/// is made of what is uniform; and that blocks stand in order. In blocks that are never reached,
+/// only values and entries must exist.
 ///
 /// # Errors
 /// The first thing that is wrong.
@@ -198,8 +198,8 @@ impl Checker<'_> {
         }
     }
 
-    /// A uniform result has uniform operands, and its operation gives all lanes the same. The mask in
-    /// which an operation acts may differ: results count in the lanes that run.
+    /// A uniform result has uniform operands, and its operation gives all lanes the same. The mask
+    /// in which an operation acts may differ: results count in the lanes that run.
     fn is_uniform_result(&self, op: &Op, first: Value) -> Checked {
         let results = first.and_next(op.results().len());
         if !results.iter().any(|&value| self.is_uniform(value)) || matches!(op, Op::Any(_)) {

@@ -7,21 +7,21 @@ use estampe_ir::{Op, Type, Value};
 use fastrand::Rng;
 
 /// The position of the buffer that is read.
-pub const READ: usize = 0;
+pub(crate) const READ: u32 = 0;
 /// The position of the buffer that is written: eight words for each invocation.
-pub const WRITTEN: usize = 1;
+pub(crate) const WRITTEN: u32 = 1;
 /// Words of an invocation in the buffer that is written.
-pub const OWN_WORDS: u32 = 8;
+pub(crate) const OWN_WORDS: u32 = 8;
 /// The number of outputs.
 const OUTPUTS: u32 = 3;
 
 /// What a tree has, so that a test can assert that all of it occurs.
 #[derive(Debug, Default, Clone, Copy)]
-pub struct Made {
-    pub ifs: u32,
-    pub loops: u32,
-    pub early_branches: u32,
-    pub stores: u32,
+pub(crate) struct Made {
+    pub(crate) ifs: u32,
+    pub(crate) loops: u32,
+    pub(crate) early_branches: u32,
+    pub(crate) stores: u32,
 }
 
 struct Generator<'a> {
@@ -45,7 +45,7 @@ enum Target {
 }
 
 /// A random compute shader.
-pub fn tree(random: &mut Rng) -> (Tree, Made) {
+pub(crate) fn tree(random: &mut Rng) -> (Tree, Made) {
     let mut builder = Builder::new(Stage::Compute);
     for is_written in [false, true] {
         builder.interface_mut().buffers.push(BufferSlot {
@@ -208,7 +208,7 @@ impl Generator<'_> {
                 let three = self.word();
                 let offset = self.builder.binary(Binary::And, three, a);
                 self.builder.op1(Op::LoadBuffer {
-                    buffer: READ as u32,
+                    buffer: READ,
                     offset,
                 })
             }
@@ -246,7 +246,7 @@ impl Generator<'_> {
             2 => {
                 let offset = self.own_place(at);
                 let loaded = self.builder.op1(Op::LoadBuffer {
-                    buffer: WRITTEN as u32,
+                    buffer: WRITTEN,
                     offset,
                 });
                 self.add(&[loaded]);
@@ -255,7 +255,7 @@ impl Generator<'_> {
                 let offset = self.own_place(at);
                 let mask = self.cover;
                 self.builder.op(Op::StoreBuffer {
-                    buffer: WRITTEN as u32,
+                    buffer: WRITTEN,
                     offset,
                     value,
                     mask,

@@ -1,11 +1,11 @@
 //! From a kernel to bytecode.
 //!
 //! 1. [`plan`] finds the operations whose results are needed, and products that are added at once.
-//! 2. [`emit`] writes instructions. Each value that differs between lanes has a register of its own;
-//!    what is the same in all lanes is a scalar. Operations on scalars that read nothing that
+//! 2. [`emit`] writes instructions. Each value that differs between lanes has a register of its
+//!    own; what is the same in all lanes is a scalar. Operations on scalars that read nothing that
 //!    changes are moved to the *preamble*, which is executed once in a run.
-//! 3. [`registers`] lets values share registers whose lives do not overlap (linear scan; Poletto and
-//!    Sarkar 1999).
+//! 3. [`registers`] lets values share registers whose lives do not overlap (linear scan; Poletto
+//!    and Sarkar 1999).
 
 mod emit;
 mod moves;

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// Puts the moves `(to, from)` in an order in which nothing is overwritten before it is moved. Cycles
-/// are broken by a new place. No two moves have the same `to`.
+/// Puts the moves `(to, from)` in an order in which nothing is overwritten before it is moved.
+/// Cycles are broken by a new place. No two moves have the same `to`.
 pub(super) fn sequence<T, P>(moves: Vec<(T, P)>, mut new: impl FnMut() -> P) -> Vec<(P, P)>
 where
     T: Into<P>,

@@ -4,7 +4,8 @@ use crate::lanes::{Kernel, Terminator};
 use crate::op::Binary;
 use crate::{Op, Value};
 
-/// How far a product may stand before the sum that it is fused with: its factors live on until then.
+/// How far a product may stand before the sum that it is fused with: its factors live on until
+/// then.
 const FUSION_DISTANCE: usize = 16;
 
 pub(super) struct Plan {

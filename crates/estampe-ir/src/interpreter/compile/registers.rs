@@ -1,7 +1,8 @@
 //! Linear scan: registers whose lives do not overlap become one.
 //!
-//! The life of a register is the range of instructions from the first that names it to the last. If a
-//! register that is written before a loop is read in it, its life goes on until the end of the loop.
+//! The life of a register is the range of instructions from the first that names it to the last. If
+//! a register that is written before a loop is read in it, its life goes on until the end of the
+//! loop.
 
 use super::super::instruction::{Instruction, Mask, MaskSlot, ScalarOp, Slot, Word};
 use std::cmp::Reverse;

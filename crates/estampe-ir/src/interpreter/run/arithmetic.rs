@@ -26,6 +26,7 @@ pub(super) trait Arithmetic: Copy + 'static {
         value: Words<'_>,
         mask: MaskOperand<'_>,
     );
-    /// Elements of a table. Indices beyond the end read the last element where `is_clamped`, else 0.
+    /// Elements of a table. Indices beyond the end read the last element where `is_clamped`, else
+    /// 0.
     fn gather(self, to: Words<'_>, table: &[u32], index: Words<'_>, shift: u32, is_clamped: bool);
 }

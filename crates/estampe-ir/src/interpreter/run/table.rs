@@ -1,5 +1,5 @@
-//! A function for each operation and SIMD level: small functions compile fast, and none pays for the
-//! registers of another one.
+//! A function for each operation and SIMD level: small functions compile fast, and none pays for
+//! the registers of another one.
 
 use super::super::instruction::{Instruction, Product};
 use super::arithmetic::Arithmetic;

@@ -101,8 +101,8 @@ b0:
     }
 }
 
-/// The last lane wins, packet after packet, whatever a chunk would be: what a packet stores, the next
-/// one loads.
+/// The last lane wins, packet after packet, whatever a chunk would be: what a packet stores, the
+/// next one loads.
 #[test]
 fn stores_are_in_the_order_of_lanes() {
     let kernel = parsed(

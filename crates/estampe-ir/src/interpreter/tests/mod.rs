@@ -10,8 +10,8 @@ use crate::lanes::{BasicBlock, Kernel, Terminator, ValueInfo};
 use crate::{Op, Type, Value};
 use estampe_simd::{LANES, Level, Packet};
 
-/// A kernel of one block: values are the inputs, then the results of the operations, and all results
-/// of the last one are outputs.
+/// A kernel of one block: values are the inputs, then the results of the operations, and all
+/// results of the last one are outputs.
 fn straight(inputs: &[Input], ops: Vec<Op>) -> Kernel {
     let mut kernel = Kernel {
         stage: Stage::Fragment,
