@@ -7,7 +7,7 @@ use estampe_ir::interface::Input;
 use estampe_ir::interpreter::{Buffer, Code, InputData, OutputData, Run, Scratch, Stopped, cells};
 use estampe_ir::lanes::Kernel;
 use estampe_ir::op::TextureOp;
-use estampe_ir::tree::{Surroundings, Tree, evaluate, verify};
+use estampe_ir::tree::{Node, Surroundings, Tree, evaluate, passes, verify};
 use estampe_simd::{Level, Packet};
 use fastrand::Rng;
 use generate::{Made, OWN_WORDS, READ, tree};
@@ -161,12 +161,61 @@ impl Case {
     }
 }
 
+fn size(nodes: &[Node]) -> usize {
+    let of_node = |node: &Node| match node {
+        Node::Op { .. } | Node::Branch { .. } => 1,
+        Node::If { accept, reject, .. } => 1 + size(accept) + size(reject),
+        Node::Block { body, .. } | Node::Loop { body, .. } => 1 + size(body),
+    };
+    nodes.iter().map(of_node).sum()
+}
+
+/// The passes change no result, and leave a tree that is one.
+fn check_passes(seed: u64) -> [usize; 2] {
+    let random = &mut Rng::with_seed(seed);
+    let (mut tree, _) = tree(random);
+    let case = Case::new(random);
+    let wanted = case.one_by_one(&tree);
+    let before = size(&tree.body);
+    let passes: [fn(&mut Tree); 5] = [
+        passes::redundant_parameters,
+        passes::loop_invariants,
+        passes::dead_code,
+        passes::redundant_parameters,
+        passes::optimise,
+    ];
+    for (number, pass) in passes.iter().enumerate() {
+        pass(&mut tree);
+        verify(&tree).unwrap_or_else(|error| panic!("seed {seed}, after pass {number}: {error}"));
+        assert_eq!(
+            wanted,
+            case.one_by_one(&tree),
+            "seed {seed}, after pass {number}"
+        );
+    }
+    [before, size(&tree.body)]
+}
+
+#[test]
+fn passes_change_no_result() {
+    let mut sizes = [0; 2];
+    for seed in 0..600 {
+        let of_tree = check_passes(seed);
+        sizes = [0, 1].map(|at: usize| sizes[at] + of_tree[at]);
+    }
+    let [before, after] = sizes;
+    assert!(after < before * 9 / 10, "{before} nodes became {after}");
+}
+
 fn check(seed: u64) -> Made {
     let random = &mut Rng::with_seed(seed);
-    let (tree, made) = tree(random);
+    let (mut tree, made) = tree(random);
     verify(&tree).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
     let case = Case::new(random);
     let wanted = case.one_by_one(&tree);
+    if random.bool() {
+        passes::optimise(&mut tree);
+    }
     for level in Level::all_available() {
         let got = case.on_lanes(&tree, level);
         assert_eq!(wanted.1, got.1, "seed {seed}, {level:?}: memory");
