@@ -159,9 +159,10 @@ fn turn() -> std::sync::MutexGuard<'static, ()> {
         .unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
-/// The lists of a pass (attachments, textures, buffers, draws) and a place in each texture.
-/// Geometry and tiles allocate nothing, and so does each further draw.
-const LISTS: usize = 12;
+/// The lists of a pass (attachments, textures, buffers, draws), a place in each texture, and four
+/// lists with an entry for each layer: its attachments, their images, the target, and which order
+/// of its depths is newer. Geometry and tiles allocate nothing, and so does each further draw.
+const LISTS: usize = 16;
 
 #[test]
 fn one_thread_allocates_the_lists_of_a_pass() {

@@ -25,8 +25,8 @@ pub(crate) fn render(
 pub(crate) fn check(limits: &Limits, pass: &RenderPass<'_>) -> Result<(), RenderPassError> {
     let check = || {
         let layers = Layer::of(pass)?;
-        let passes = passes(pass, &layers);
-        let (attachments, groups) = check_objects(limits, &passes)?;
+        let of_layers = passes(pass, &layers);
+        let (attachments, groups) = check_objects(limits, each_pass(pass, &of_layers))?;
         // The core's rules do not depend on what is bound.
         let resources = vec![Arc::default(); groups.distinct.len()];
         let data = DrawData::new(pass.draws, &groups, &resources);
@@ -44,12 +44,21 @@ fn of_pass(pass: &RenderPass<'_>, kind: PassErrorKind) -> RenderPassError {
     }
 }
 
-/// The pass of each layer; at least one.
+/// The pass of each layer; none if there is one layer.
 fn passes<'a>(pass: &RenderPass<'a>, layers: &'a [Layer]) -> Vec<RenderPass<'a>> {
-    if layers.is_empty() {
-        return vec![pass.clone()];
-    }
     layers.iter().map(|layer| layer.pass(pass)).collect()
+}
+
+/// The passes of several layers, or the pass itself, without a list.
+fn each_pass<'s, 'a>(
+    pass: &'s RenderPass<'a>,
+    of_layers: &'s [RenderPass<'a>],
+) -> &'s [RenderPass<'a>] {
+    if of_layers.is_empty() {
+        std::slice::from_ref(pass)
+    } else {
+        of_layers
+    }
 }
 
 /// Checks the attachments of each layer, draws and bind groups.
@@ -97,8 +106,8 @@ pub(crate) fn core_pass<'a>(
 fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKind> {
     let (context, limits) = (device.context(), device.limits());
     let layers = Layer::of(pass)?;
-    let passes = passes(pass, &layers);
-    let (attachments, groups) = check_objects(limits, &passes)?;
+    let of_layers = passes(pass, &layers);
+    let (attachments, groups) = check_objects(limits, each_pass(pass, &of_layers))?;
     let textures = reserved_order(&attachments, &groups);
     let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
     let mut stores = StoredTextures::in_place();
@@ -139,8 +148,8 @@ pub(crate) fn prepared<T>(
     use_data: impl FnOnce(&Attachments<'_>, &DrawData) -> T,
 ) -> Result<T, PassErrorKind> {
     let layers = Layer::of(pass)?;
-    let passes = passes(pass, &layers);
-    let (attachments, groups) = check_objects(device.limits(), &passes)?;
+    let of_layers = passes(pass, &layers);
+    let (attachments, groups) = check_objects(device.limits(), each_pass(pass, &of_layers))?;
     let textures = reserved_order(&attachments, &groups);
     let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
     let resources = groups.resources(device.context(), &mut StoredTextures::copies())?;
