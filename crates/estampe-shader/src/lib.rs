@@ -5,6 +5,8 @@
 //! |---|---|
 //! | [`front`] | source text to a checked module: versions of GLSL, errors with their place, reflection |
 //! | [`lower`] | an entry point of a module to a [`Tree`](estampe_ir::tree::Tree) |
+//! | [`program`] | lowered stages to a program of the pipeline |
 
 pub mod front;
 pub mod lower;
+pub mod program;

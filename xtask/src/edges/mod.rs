@@ -25,7 +25,15 @@ const CRATES: &[(&str, &[&str])] = &[
         "estampe-ir",
         &["estampe-types", "estampe-simd", "estampe-format"],
     ),
-    ("estampe-shader", &["estampe-ir", "estampe-types"]),
+    (
+        "estampe-shader",
+        &[
+            "estampe-ir",
+            "estampe-types",
+            "estampe-simd",
+            "estampe-texture",
+        ],
+    ),
     // `Device::inspect` runs a pass with the oracle, for one pixel.
     (
         "estampe",

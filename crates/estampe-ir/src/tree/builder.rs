@@ -100,6 +100,12 @@ impl Builder {
         }
     }
 
+    /// The stage.
+    #[must_use]
+    pub fn stage(&self) -> Stage {
+        self.tree.stage
+    }
+
     /// The interface, to add buffers, textures, arrays and the work-group's memory. Buffers that
     /// are written must be marked so before the first load from them.
     pub fn interface_mut(&mut self) -> &mut Interface {

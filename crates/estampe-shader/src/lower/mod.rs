@@ -1,3 +1,146 @@
 //! An entry point of a module to a tree.
 //!
-//! Calls are inlined, aggregates are taken apart, and variables become values.
+//! In · Out: a checked naga module · a [`Tree`](estampe_ir::tree::Tree), one invocation's view.
+//! Calls are inlined, vectors, matrices, arrays and structs are taken apart into 32-bit words, and
+//! variables become values: each scalar of a variable that is never indexed by a number that the
+//! shader computes is a *slot*, which has a value at each place. Constructs hand over the slots
+//! that they may change. Variables that are indexed so are arrays of the invocation.
+//!
+//! | file | does |
+//! |---|---|
+//! | `types` | the scalars of a type |
+//! | `summary` | what a function changes, and which variables are indexed |
+//! | `pointer` | places: slots, arrays, buffers, the work-group's memory; loads and stores |
+//! | `entry` | inputs and outputs of an entry point |
+//! | `statement` | control flow and effects |
+//! | `expression`, `arithmetic`, `math`, `image` | values |
+
+mod arithmetic;
+mod entry;
+mod expression;
+mod image;
+mod math;
+mod pointer;
+mod statement;
+mod summary;
+mod types;
+
+use crate::program::{StageSource, VaryingSlot};
+use estampe_ir::Value;
+use estampe_ir::interface::{Output, Stage};
+use estampe_ir::tree::{Builder, passes};
+use naga::valid::ModuleInfo;
+use naga::{Function, GlobalVariable, Handle, Module, ShaderStage};
+use pointer::Pointer;
+use std::collections::HashMap;
+use summary::Summaries;
+
+/// The most values of a tree, which bounds memory and time.
+const MAX_VALUES: usize = 1_000_000;
+
+/// The deepest nesting of calls.
+const MAX_CALLS: usize = 128;
+
+/// Why a module cannot be lowered.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LowerError {
+    /// The module has no such entry point.
+    #[error("there is no entry point number {0}")]
+    NoEntryPoint(usize),
+    /// Something that is not implemented.
+    #[error("{0} are not supported yet")]
+    Unsupported(&'static str),
+    /// The shader is too large when its calls are inlined.
+    #[error(
+        "the shader has more than {MAX_VALUES} operations when its functions are inlined: make \
+         arrays and functions smaller, or call them in a loop"
+    )]
+    TooLarge,
+}
+
+/// The value of an expression.
+#[derive(Debug, Clone)]
+enum Operand {
+    /// The scalars, in the order of the type.
+    Scalars(Vec<Value>),
+    /// A place.
+    Pointer(Pointer),
+    /// A texture or sampler.
+    Resource(Handle<GlobalVariable>),
+}
+
+/// Lowers an entry point.
+///
+/// # Errors
+/// [`LowerError`] if it uses something that is not supported, or is too large.
+pub fn lower(
+    module: &Module,
+    info: &ModuleInfo,
+    entry_point: usize,
+) -> Result<StageSource, LowerError> {
+    let point = module.entry_points.get(entry_point);
+    let point = point.ok_or(LowerError::NoEntryPoint(entry_point))?;
+    let stage = match point.stage {
+        ShaderStage::Vertex => Stage::Vertex,
+        ShaderStage::Fragment => Stage::Fragment,
+        ShaderStage::Compute => Stage::Compute,
+        _ => return Err(LowerError::Unsupported("mesh, task and ray shaders")),
+    };
+    let mut lowering = Lowering {
+        module,
+        info,
+        summaries: Summaries::new(module),
+        builder: Builder::new(stage),
+        slots: Vec::new(),
+        globals: HashMap::new(),
+        cover: 0,
+        calls: 0,
+        varyings: Vec::new(),
+        outputs: Vec::new(),
+    };
+    lowering.builder.interface_mut().workgroup_size = match stage {
+        Stage::Compute => point.workgroup_size,
+        Stage::Vertex | Stage::Fragment => [0; 3],
+    };
+    lowering.entry_point(point, info.get_entry_point(entry_point))?;
+    let mut tree = lowering.builder.finish(lowering.outputs);
+    passes::optimise(&mut tree);
+    Ok(StageSource {
+        tree,
+        varyings: lowering.varyings,
+    })
+}
+
+struct Lowering<'a> {
+    module: &'a Module,
+    info: &'a ModuleInfo,
+    summaries: Summaries,
+    builder: Builder,
+    /// The value of each slot.
+    slots: Vec<Value>,
+    globals: HashMap<Handle<GlobalVariable>, Operand>,
+    /// The slot of the mask of invocations that have effects.
+    cover: usize,
+    /// The calls that are being inlined.
+    calls: usize,
+    varyings: Vec<VaryingSlot>,
+    outputs: Vec<(Output, Value)>,
+}
+
+/// A function that is being inlined.
+struct Frame<'a> {
+    function: &'a Function,
+    info: &'a naga::valid::FunctionInfo,
+    arguments: Vec<Operand>,
+    locals: HashMap<Handle<naga::LocalVariable>, Pointer>,
+    /// Expressions that were evaluated.
+    done: HashMap<Handle<naga::Expression>, Operand>,
+    /// Where `return` goes.
+    leave: statement::Exit,
+    /// Where `break` and `continue` go, innermost last.
+    breaks: Vec<statement::Exit>,
+    continues: Vec<statement::Exit>,
+}
+
+type Lowered<T> = Result<T, LowerError>;

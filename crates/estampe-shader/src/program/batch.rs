@@ -1,0 +1,143 @@
+//! Batches of the pipeline as runs of a kernel.
+
+use super::stage::Stage;
+use estampe_ir::interface::{Input, Output};
+use estampe_ir::interpreter::{Buffer, InputData, OutputData, cells};
+use estampe_types::bindings::BoundResource;
+use estampe_types::{Bindings, FragmentBatch, VertexBatch};
+use std::cell::Cell;
+
+/// The scalars of a packet of each kind.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Widths {
+    pub(super) attributes: usize,
+    pub(super) varyings: usize,
+    pub(super) colors: usize,
+    pub(super) targets: usize,
+    pub(super) clip_distances: usize,
+}
+
+/// The places of a batch of vertices. `attributes` says at which scalar each location begins, and
+/// `varyings` to which scalar of the fragments each scalar of the vertices goes.
+pub(super) fn with_vertices<T>(
+    stage: &Stage,
+    (widths, varyings): (Widths, &[Option<u32>]),
+    attributes: &[usize],
+    batch: VertexBatch<'_>,
+    run: impl FnOnce(usize, &[InputData<'_>], &[OutputData<'_>]) -> T,
+) -> T {
+    let packets = batch.vertex_index.len();
+    let (positions, sizes) = (cells(batch.positions), cells(batch.point_sizes));
+    let (to_varyings, distances) = (cells(batch.varyings), cells(batch.distances));
+    let input = |input: &Input| match *input {
+        Input::Attribute {
+            location,
+            component,
+        } => {
+            let first = attributes.get(location as usize).copied();
+            let first = first
+                .unwrap_or(usize::MAX)
+                .saturating_add(component as usize);
+            InputData::floats(batch.attributes, first, widths.attributes)
+        }
+        Input::VertexIndex => InputData::words(batch.vertex_index, 0, 1),
+        Input::InstanceIndex => InputData::words(batch.instance_index, 0, 1),
+        Input::Cover => InputData::Uniform(1),
+        _ => InputData::Uniform(0),
+    };
+    let output = |output: &Output| match *output {
+        Output::Position(part) => OutputData::floats(positions, part as usize, 4),
+        Output::Varying(scalar) => match varyings.get(scalar as usize) {
+            Some(Some(to)) => OutputData::floats(to_varyings, *to as usize, widths.varyings),
+            _ => OutputData::Dropped,
+        },
+        Output::PointSize => OutputData::floats(sizes, 0, 1),
+        Output::ClipDistance(at) => {
+            OutputData::floats(distances, at as usize, widths.clip_distances)
+        }
+        _ => OutputData::Dropped,
+    };
+    let interface = stage.interface();
+    let inputs: Vec<_> = interface.inputs.iter().map(input).collect();
+    let outputs: Vec<_> = interface.outputs.iter().map(output).collect();
+    run(packets, &inputs, &outputs)
+}
+
+/// The places of a batch of fragments, of one packet each time if the sample index is read: it
+/// differs from packet to packet.
+pub(super) fn with_fragments<E>(
+    stage: &Stage,
+    widths: Widths,
+    batch: FragmentBatch<'_>,
+    mut run: impl FnMut(usize, &[InputData<'_>], &[OutputData<'_>]) -> Result<(), E>,
+) -> Result<(), E> {
+    let all = batch.coverage.len();
+    let interface = stage.interface();
+    let by_packet = interface.inputs.contains(&Input::SampleIndex);
+    let (coverage, colors) = (cells(batch.coverage), cells(batch.colors));
+    let (depths, masks) = (cells(batch.depths), cells(batch.sample_masks));
+    let step = if by_packet { 1 } else { all.max(1) };
+    for first in (0..all).step_by(step) {
+        let coverage: &[Cell<u16>] = &coverage[first..];
+        let floats = |packets, part: usize, stride: usize| {
+            InputData::floats(packets, first * stride + part, stride)
+        };
+        let input = |input: &Input| match *input {
+            Input::Varying(scalar) => floats(batch.varyings, scalar as usize, widths.varyings),
+            Input::Position(part) => floats(batch.positions, part as usize, 4),
+            Input::FrontFacing => {
+                InputData::Mask(batch.front_facing.get(first..).unwrap_or_default())
+            }
+            Input::SampleIndex => {
+                InputData::Uniform(batch.sample_index.get(first).copied().unwrap_or(0))
+            }
+            Input::SampleMask => InputData::words(batch.samples_covered, first, 1),
+            Input::Cover => InputData::SharedMask(coverage),
+            _ => InputData::Uniform(0),
+        };
+        let to = |packets, part: usize, stride: usize| {
+            OutputData::floats(packets, first * stride + part, stride)
+        };
+        let output = |output: &Output| match *output {
+            Output::Color { target, component } => {
+                let part = (target * 4 + component) as usize;
+                to(colors, part, widths.colors * 4)
+            }
+            Output::SecondColor(component) => {
+                let part = widths.targets * 4 + component as usize;
+                to(colors, part, widths.colors * 4)
+            }
+            Output::Depth => to(depths, 0, 1),
+            Output::SampleMask => OutputData::words(masks, first, 1),
+            Output::Cover => OutputData::Mask(coverage),
+            _ => OutputData::Dropped,
+        };
+        let inputs: Vec<_> = interface.inputs.iter().map(input).collect();
+        let outputs: Vec<_> = interface.outputs.iter().map(output).collect();
+        run(step.min(all - first), &inputs, &outputs)?;
+    }
+    Ok(())
+}
+
+/// The buffers of a stage among the resources that a draw binds. Those that are not bound are
+/// empty.
+pub(super) fn buffers<'a>(stage: &Stage, bindings: &'a Bindings) -> Vec<Buffer<'a>> {
+    let slots = stage.interface().buffers.iter();
+    let buffers = slots.map(|slot| {
+        let Some(BoundResource::Buffer {
+            buffer,
+            offset,
+            dynamic_offset,
+        }) = bindings.get(slot.group, slot.binding)
+        else {
+            return Buffer::default();
+        };
+        let offsets = bindings.groups.get(slot.group as usize);
+        let offsets = offsets.map(|group| &group.dynamic_offsets);
+        let dynamic = dynamic_offset.and_then(|at| offsets?.get(usize::from(at)).copied());
+        let start = *offset as usize + dynamic.unwrap_or(0) as usize;
+        let words = buffer.words().get(start / 4..).unwrap_or_default();
+        Buffer::read_only(words, buffer.len_bytes().saturating_sub(start))
+    });
+    buffers.collect()
+}

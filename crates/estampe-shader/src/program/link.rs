@@ -1,0 +1,200 @@
+//! Two stages as one interface: which scalar of the vertices goes to which of the fragments.
+
+use super::StageSource;
+use super::facts::Facts;
+use estampe_ir::interface::{Input, Output};
+use estampe_types::shader::{DepthOutput, Interface, Interpolation, Sampling};
+
+/// A varying: some scalars at a location.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct VaryingSlot {
+    /// The location.
+    pub location: u32,
+    /// The number of its scalars, 1 to 4.
+    pub components: u32,
+    /// The position of its first scalar among those of the stage.
+    pub first: u32,
+    /// How it is interpolated.
+    pub interpolation: Interpolation,
+    /// Where it is interpolated.
+    pub sampling: Sampling,
+}
+
+/// What two stages disagree about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LinkError {
+    /// The fragment stage reads a location that the vertex stage does not write.
+    #[error(
+        "the fragment shader reads location {location}, which the vertex shader does not write: \
+         write it there, or do not read it"
+    )]
+    NotWritten {
+        /// The location.
+        location: u32,
+    },
+    /// The fragment stage reads more scalars of a location than the vertex stage writes.
+    #[error(
+        "the fragment shader reads {read} scalars of location {location}, of which the vertex \
+         shader writes {written}: give both the same type"
+    )]
+    Components {
+        /// The location.
+        location: u32,
+        /// Scalars that the fragment stage reads.
+        read: u32,
+        /// Scalars that the vertex stage writes.
+        written: u32,
+    },
+    /// The stages declare a location to be interpolated in different ways.
+    #[error(
+        "location {location} is {vertex:?} in the vertex shader and {fragment:?} in the fragment \
+         shader: declare the same interpolation in both"
+    )]
+    Interpolation {
+        /// The location.
+        location: u32,
+        /// That of the vertex stage.
+        vertex: Interpolation,
+        /// That of the fragment stage.
+        fragment: Interpolation,
+    },
+}
+
+/// Where the scalars of the vertices go.
+#[derive(Debug)]
+pub(super) struct Links {
+    /// For each scalar of the vertices, the scalar of the fragments; `None` if no fragment reads
+    /// it.
+    of_vertex: Vec<Option<u32>>,
+}
+
+impl Links {
+    pub(super) fn new(
+        vertex: &StageSource,
+        fragment: Option<&StageSource>,
+    ) -> Result<Self, LinkError> {
+        let ends = vertex
+            .varyings
+            .iter()
+            .map(|slot| slot.first + slot.components);
+        let scalars = ends.max().unwrap_or(0);
+        let mut of_vertex = vec![None; scalars as usize];
+        for read in fragment.map_or(&[][..], |fragment| &fragment.varyings) {
+            let location = read.location;
+            let mut written = vertex
+                .varyings
+                .iter()
+                .filter(|slot| slot.location == location);
+            let written = written.next().ok_or(LinkError::NotWritten { location })?;
+            if written.components < read.components {
+                return Err(LinkError::Components {
+                    location,
+                    read: read.components,
+                    written: written.components,
+                });
+            }
+            if written.interpolation != read.interpolation {
+                return Err(LinkError::Interpolation {
+                    location,
+                    vertex: written.interpolation,
+                    fragment: read.interpolation,
+                });
+            }
+            for component in 0..read.components {
+                of_vertex[(written.first + component) as usize] = Some(read.first + component);
+            }
+        }
+        Ok(Self { of_vertex })
+    }
+
+    pub(super) fn of_vertex(&self) -> &[Option<u32>] {
+        &self.of_vertex
+    }
+}
+
+/// The interface of the program: the attributes of the vertices, and the varyings that fragments
+/// read.
+pub(super) fn interface(
+    vertex: &StageSource,
+    fragment: Option<&StageSource>,
+    links: &Links,
+) -> Interface {
+    let mut interface = Interface {
+        attributes: attributes(&vertex.tree.interface.inputs),
+        writes_point_size: vertex.tree.interface.outputs.contains(&Output::PointSize),
+        clip_distances: clip_distances(&vertex.tree.interface.outputs),
+        no_derivatives: true,
+        ..Interface::default()
+    };
+    debug_assert!(links.of_vertex.len() < 1 << 16, "a location has 4 scalars");
+    let Some(fragment) = fragment else {
+        return interface;
+    };
+    let ends = fragment
+        .varyings
+        .iter()
+        .map(|slot| slot.first + slot.components);
+    let scalars = ends.max().unwrap_or(0) as usize;
+    interface.varyings = vec![Interpolation::Flat; scalars];
+    interface.sampling = vec![Sampling::Center; scalars];
+    for slot in &fragment.varyings {
+        for scalar in slot.first..slot.first + slot.components {
+            interface.varyings[scalar as usize] = slot.interpolation;
+            interface.sampling[scalar as usize] = slot.sampling;
+        }
+    }
+    let (inputs, outputs) = (
+        &fragment.tree.interface.inputs,
+        &fragment.tree.interface.outputs,
+    );
+    let targets = outputs.iter().filter_map(|output| match output {
+        Output::Color { target, .. } => Some(*target as usize + 1),
+        _ => None,
+    });
+    interface.color_targets = targets.max().unwrap_or(0);
+    interface.dual_source = outputs
+        .iter()
+        .any(|output| matches!(output, Output::SecondColor(_)));
+    interface.depth_output = if outputs.contains(&Output::Depth) {
+        DepthOutput::Any
+    } else {
+        DepthOutput::None
+    };
+    interface.reads_position = inputs
+        .iter()
+        .any(|input| matches!(input, Input::Position(_)));
+    interface.per_sample =
+        inputs.contains(&Input::SampleIndex) || interface.sampling.contains(&Sampling::Sample);
+    interface.reads_coverage = inputs.contains(&Input::SampleMask);
+    interface.writes_sample_mask = outputs.contains(&Output::SampleMask);
+    Facts::of(&fragment.tree).add_to(&mut interface);
+    interface
+}
+
+/// The components of each attribute that is read, by location.
+fn attributes(inputs: &[Input]) -> Vec<usize> {
+    let mut attributes = Vec::new();
+    for input in inputs {
+        if let Input::Attribute {
+            location,
+            component,
+        } = *input
+        {
+            let at = location as usize;
+            if attributes.len() <= at {
+                attributes.resize(at + 1, 0);
+            }
+            attributes[at] = attributes[at].max(component as usize + 1);
+        }
+    }
+    attributes
+}
+
+fn clip_distances(outputs: &[Output]) -> usize {
+    let distances = outputs.iter().filter_map(|output| match output {
+        Output::ClipDistance(at) => Some(*at as usize + 1),
+        _ => None,
+    });
+    distances.max().unwrap_or(0)
+}

@@ -1,0 +1,118 @@
+//! Text shaders as programs of the pipeline.
+//!
+//! [`TextProgram`] is to shaders as text what
+//! [`ShaderProgram`](estampe_types::ShaderProgram) is to shaders in Rust: a vertex and a fragment
+//! stage behind the one interface by which all shaders run.
+
+mod batch;
+mod facts;
+mod link;
+mod stage;
+mod textures;
+
+pub use link::{LinkError, VaryingSlot};
+
+use batch::{Widths, buffers, with_fragments, with_vertices};
+use estampe_ir::tree::Tree;
+use estampe_simd::Level;
+use estampe_types::{Bindings, FragmentBatch, Interface, Program, VertexBatch};
+use facts::Facts;
+use link::Links;
+use stage::Stage;
+
+/// A stage that was lowered, with what its tree does not tell.
+#[derive(Debug, Clone)]
+pub struct StageSource {
+    /// The stage.
+    pub tree: Tree,
+    /// The varyings that it writes or reads.
+    pub varyings: Vec<VaryingSlot>,
+}
+
+/// A vertex shader, and a fragment shader if there is one, as a program.
+#[derive(Debug)]
+pub struct TextProgram {
+    interface: Interface,
+    /// The scalar at which each attribute begins.
+    attributes: Vec<usize>,
+    links: Links,
+    widths: Widths,
+    vertex: Stage,
+    fragment: Option<Stage>,
+}
+
+impl TextProgram {
+    /// Links the stages and compiles them. A run that executes more than `budget` jumps is
+    /// stopped, which leaves what it draws undefined, but not the program.
+    ///
+    /// # Errors
+    /// [`LinkError`] if the fragment stage reads what the vertex stage does not write.
+    pub fn new(
+        vertex: &StageSource,
+        fragment: Option<&StageSource>,
+        budget: u64,
+    ) -> Result<Self, LinkError> {
+        let links = Links::new(vertex, fragment)?;
+        let interface = link::interface(vertex, fragment, &links);
+        let starts = interface.attributes.iter().scan(0, |next, count| {
+            let start = *next;
+            *next += count;
+            Some(start)
+        });
+        Ok(Self {
+            attributes: starts.collect(),
+            widths: Widths {
+                attributes: interface.attribute_scalars(),
+                varyings: interface.varyings.len(),
+                colors: interface.colors(),
+                targets: interface.color_targets,
+                clip_distances: interface.distances(),
+            },
+            vertex: Stage::new(&vertex.tree, budget),
+            fragment: fragment.map(|fragment| Stage::new(&fragment.tree, budget)),
+            interface,
+            links,
+        })
+    }
+}
+
+impl Program for TextProgram {
+    fn interface(&self) -> &Interface {
+        &self.interface
+    }
+
+    fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>) {
+        let stage = &self.vertex;
+        let buffers = buffers(stage, bindings);
+        let places = (self.widths, self.links.of_vertex());
+        // A run that is stopped leaves its outputs as they are.
+        let _stopped = with_vertices(
+            stage,
+            places,
+            &self.attributes,
+            batch,
+            |packets, inputs, outputs| {
+                stage.run(level, (bindings, &buffers), packets, (inputs, outputs))
+            },
+        );
+    }
+
+    fn run_fragments(&self, level: Level, bindings: &Bindings, batch: FragmentBatch<'_>) {
+        let Some(stage) = &self.fragment else {
+            return;
+        };
+        let buffers = buffers(stage, bindings);
+        let _stopped = with_fragments(stage, self.widths, batch, |packets, inputs, outputs| {
+            stage.run(level, (bindings, &buffers), packets, (inputs, outputs))
+        });
+    }
+}
+
+impl Facts {
+    fn add_to(self, interface: &mut Interface) {
+        interface.discards = self.discards;
+        interface.color_passthrough = self.passes_color;
+        interface.no_derivatives = !self.takes_derivatives;
+        interface.stores = self.stores;
+    }
+}

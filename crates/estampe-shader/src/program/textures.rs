@@ -1,0 +1,302 @@
+//! Accesses to textures: what a kernel asks, answered by `estampe_texture`.
+
+use estampe_ir::interface::TextureSlot;
+use estampe_ir::interpreter::{TextureAccess, Textures};
+use estampe_ir::op::{LevelOfDetail, TextureQuery};
+use estampe_simd::{Bytes, Lanes, Packet, SimdBase, dispatch, f32x16, i32x16, mask32x16, u32x16};
+use estampe_texture::{
+    Coordinates, Lod, SampledTexture, TextureBindings, storage_load, storage_store,
+};
+use estampe_types::{Bindings, StorageTexture, Vec3, Vec4, ViewDimension};
+use std::cell::OnceCell;
+
+/// The textures that a draw binds, as a kernel numbers them.
+#[derive(Debug)]
+pub(super) struct BoundTextures<'a> {
+    bindings: &'a Bindings,
+    textures: &'a [TextureSlot],
+    samplers: &'a [TextureSlot],
+    /// For each texture and sampler, both together; made when it is first sampled. `None` inside
+    /// where the sampler cannot sample the texture.
+    sampled: Vec<OnceCell<Option<SampledTexture>>>,
+}
+
+impl<'a> BoundTextures<'a> {
+    pub(super) fn new(
+        bindings: &'a Bindings,
+        textures: &'a [TextureSlot],
+        samplers: &'a [TextureSlot],
+    ) -> Self {
+        let pairs = textures.len() * samplers.len();
+        Self {
+            bindings,
+            textures,
+            samplers,
+            sampled: vec![OnceCell::new(); pairs],
+        }
+    }
+
+    fn sampled(&self, texture: u32, sampler: u32) -> Option<&SampledTexture> {
+        let at = texture as usize * self.samplers.len() + sampler as usize;
+        let made = self.sampled.get(at)?.get_or_init(|| {
+            let TextureSlot { group, binding } = *self.samplers.get(sampler as usize)?;
+            let sampler = *self.bindings.sampler(group, binding)?;
+            let TextureSlot { group, binding } = *self.textures.get(texture as usize)?;
+            let view = self.bindings.texture(group, binding);
+            SampledTexture::new(view.clone(), sampler).ok()
+        });
+        made.as_ref()
+    }
+}
+
+impl Textures for BoundTextures<'_> {
+    fn access(&self, mut access: TextureAccess<'_>) {
+        for result in 0..access.results() {
+            access.result_mut(result).fill(Packet::default());
+        }
+        let level = access.level;
+        match access.op.query {
+            TextureQuery::Sample
+            | TextureQuery::SampleCompare
+            | TextureQuery::Gather(_)
+            | TextureQuery::GatherCompare => {
+                let sampler = access.op.sampler.unwrap_or(u32::MAX);
+                if let Some(texture) = self.sampled(access.op.texture, sampler) {
+                    dispatch!(level, s => sample(s, texture, &mut access));
+                }
+            }
+            TextureQuery::Load => dispatch!(level, s => self.load(s, &mut access)),
+            TextureQuery::Store => dispatch!(level, s => self.store(s, &access)),
+            TextureQuery::Size
+            | TextureQuery::Levels
+            | TextureQuery::Layers
+            | TextureQuery::Samples => self.query(&mut access),
+        }
+    }
+}
+
+impl BoundTextures<'_> {
+    fn slot(&self, access: &TextureAccess<'_>) -> (u32, u32) {
+        let slot = self.textures.get(access.op.texture as usize);
+        slot.map_or((u32::MAX, u32::MAX), |slot| (slot.group, slot.binding))
+    }
+
+    #[inline(always)]
+    fn load<S: Lanes>(&self, s: S, access: &mut TextureAccess<'_>) {
+        let (group, binding) = self.slot(access);
+        for packet in 0..access.packets {
+            let at = texel(s, access, packet);
+            let texel = match self.bindings.storage_texture(group, binding) {
+                Some(texture) => storage_load(texture, at),
+                None => {
+                    let zero = <i32x16<S> as SimdBase<S>>::splat(s, 0);
+                    let ints = |words: Option<&[Packet<u32>]>| {
+                        words.map_or(zero, |words| ints(s, words, packet))
+                    };
+                    let level = ints(access.level_of_detail());
+                    let sample = ints(access.sample());
+                    self.bindings
+                        .texture(group, binding)
+                        .fetch(at, level, sample)
+                }
+            };
+            set(access, packet, [texel.x, texel.y, texel.z, texel.w]);
+        }
+    }
+
+    #[inline(always)]
+    fn store<S: Lanes>(&self, s: S, access: &TextureAccess<'_>) {
+        let (group, binding) = self.slot(access);
+        let Some(texture) = self.bindings.storage_texture(group, binding) else {
+            return;
+        };
+        for packet in 0..access.packets {
+            let at = texel(s, access, packet);
+            let [x, y, z, w] =
+                [0, 1, 2, 3].map(|channel| floats(s, access.stored(channel), packet));
+            let mask: mask32x16<S> = s.mask_from_bits(access.mask[packet]);
+            storage_store(texture, mask, at, Vec4::new(x, y, z, w));
+        }
+    }
+
+    fn query(&self, access: &mut TextureAccess<'_>) {
+        let (group, binding) = self.slot(access);
+        let storage = self.bindings.storage_texture(group, binding);
+        let view = self.bindings.texture(group, binding);
+        let count = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
+        for packet in 0..access.packets {
+            for lane in 0..16 {
+                let level = access.level_of_detail();
+                let level = level.map_or(0, |level| level[packet].0[lane]);
+                let size = || match storage {
+                    Some(texture) => [texture.width(), texture.height(), slices(texture)],
+                    None if (level as usize) < view.level_count() => view.size(level as usize),
+                    None => [0; 3],
+                };
+                let words = match access.op.query {
+                    TextureQuery::Levels => [count(view.level_count()), 0, 0],
+                    TextureQuery::Layers => match storage {
+                        Some(texture) => [slices(texture), 0, 0],
+                        None => [view.layer_count(), 0, 0],
+                    },
+                    TextureQuery::Samples => [view.sample_count(), 0, 0],
+                    _ => size(),
+                };
+                for (at, word) in words.into_iter().enumerate().take(access.results()) {
+                    access.result_mut(at)[packet].0[lane] = word;
+                }
+            }
+        }
+    }
+}
+
+/// Samples, compares and gathers.
+#[inline(always)]
+fn sample<S: Lanes>(s: S, texture: &SampledTexture, access: &mut TextureAccess<'_>) {
+    let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
+    for packet in 0..access.packets {
+        let coordinate = |at: usize| {
+            if at < access.op.coordinates.len() {
+                floats(s, access.coordinate(at), packet)
+            } else {
+                zero
+            }
+        };
+        let uvw = Vec3::new(coordinate(0), coordinate(1), coordinate(2));
+        let layer = access.layer().map(|layer| ints(s, layer, packet));
+        let layer = layer.unwrap_or(<i32x16<S> as SimdBase<S>>::splat(s, 0));
+        // An array view takes the layer; of others it is 0.
+        let at = match texture.view().dimension() {
+            ViewDimension::CubeArray => Coordinates::cube_array(uvw, layer),
+            ViewDimension::D2Array => {
+                Coordinates::d2_array(estampe_types::Vec2::new(uvw.x, uvw.y), layer)
+            }
+            _ => Coordinates::d3(uvw),
+        };
+        let result = answer(s, texture, access, (packet, at), lod(s, access, packet));
+        let whole = whole_quads(access.mask[packet]);
+        let takes_derivatives = matches!(
+            access.op.level,
+            LevelOfDetail::Implicit | LevelOfDetail::Bias(_)
+        );
+        let result = if !takes_derivatives || whole == access.mask[packet] {
+            result
+        } else {
+            let none = Vec3::new(zero, zero, zero);
+            let alone = answer(s, texture, access, (packet, at), Lod::Gradients(none, none));
+            let mask: mask32x16<S> = s.mask_from_bits(whole);
+            [0, 1, 2, 3].map(|at| {
+                use estampe_types::Real;
+                f32x16::<S>::select(mask, result[at], alone[at])
+            })
+        };
+        set(access, packet, result);
+    }
+}
+
+#[inline(always)]
+fn answer<S: Lanes>(
+    s: S,
+    texture: &SampledTexture,
+    access: &TextureAccess<'_>,
+    (packet, at): (usize, Coordinates<f32x16<S>>),
+    lod: Lod<f32x16<S>>,
+) -> [f32x16<S>; 4] {
+    let [x, y, _] = access.op.offset;
+    let reference = access.reference().map(|words| floats(s, words, packet));
+    let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
+    let reference = reference.unwrap_or(zero);
+    let four = match access.op.query {
+        TextureQuery::SampleCompare => {
+            let share = texture.sample_compare(at, reference, lod, [x, y]);
+            return [share, zero, zero, zero];
+        }
+        TextureQuery::Gather(channel) => texture.gather(at, usize::from(channel), [x, y]),
+        TextureQuery::GatherCompare => texture.gather_compare(at, reference, [x, y]),
+        _ => texture.sample_with(at, lod, access.op.offset),
+    };
+    [four.x, four.y, four.z, four.w]
+}
+
+#[inline(always)]
+fn lod<S: Lanes>(s: S, access: &TextureAccess<'_>, packet: usize) -> Lod<f32x16<S>> {
+    let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
+    let value = access
+        .level_of_detail()
+        .map(|words| floats(s, words, packet));
+    let value = value.unwrap_or(zero);
+    match &access.op.level {
+        LevelOfDetail::Zero => Lod::Level(zero),
+        LevelOfDetail::Implicit => Lod::Implicit,
+        LevelOfDetail::Bias(_) => Lod::Bias(value),
+        LevelOfDetail::Explicit(_) => Lod::Level(value),
+        LevelOfDetail::Gradient { x, .. } => {
+            let along = |axis: usize| {
+                let part = |at: usize| {
+                    let words = access.gradient(axis, at).filter(|_| at < x.len());
+                    words.map_or(zero, |words| floats(s, words, packet))
+                };
+                Vec3::new(part(0), part(1), part(2))
+            };
+            Lod::Gradients(along(0), along(1))
+        }
+    }
+}
+
+/// The integer coordinates of a packet's texels, with the layer after them.
+#[inline(always)]
+fn texel<S: Lanes>(s: S, access: &TextureAccess<'_>, packet: usize) -> [i32x16<S>; 3] {
+    let zero = <i32x16<S> as SimdBase<S>>::splat(s, 0);
+    let count = access.op.coordinates.len();
+    let mut at = [zero; 3];
+    for (axis, place) in at.iter_mut().enumerate().take(count) {
+        let offset = <i32x16<S> as SimdBase<S>>::splat(s, access.op.offset[axis]);
+        *place = ints(s, access.coordinate(axis), packet) + offset;
+    }
+    if let Some(layer) = access.layer() {
+        at[2] = ints(s, layer, packet);
+    }
+    at
+}
+
+/// Layers, or the depth.
+fn slices(texture: &StorageTexture) -> u32 {
+    texture.shape().depth_or_layers
+}
+
+/// The lanes of quads that are wholly in a mask.
+fn whole_quads(mask: u16) -> u16 {
+    let pairs = mask & mask >> 1;
+    let firsts = pairs & pairs >> 2 & 0x1111;
+    firsts * 0xF
+}
+
+#[inline(always)]
+fn floats<S: Lanes>(s: S, words: &[Packet<u32>], packet: usize) -> f32x16<S> {
+    u32x16::load_array_ref(s, &words[packet].0).bitcast()
+}
+
+#[inline(always)]
+fn ints<S: Lanes>(s: S, words: &[Packet<u32>], packet: usize) -> i32x16<S> {
+    u32x16::load_array_ref(s, &words[packet].0).bitcast()
+}
+
+#[inline(always)]
+fn set<S: Lanes>(access: &mut TextureAccess<'_>, packet: usize, results: [f32x16<S>; 4]) {
+    for (at, result) in results.into_iter().enumerate().take(access.results()) {
+        let words: u32x16<S> = result.bitcast();
+        words.store_array(&mut access.result_mut(at)[packet].0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::whole_quads;
+
+    #[test]
+    fn quads_count_only_if_all_of_their_lanes_run() {
+        assert_eq!(whole_quads(0xFFFF), 0xFFFF);
+        assert_eq!(whole_quads(0xF7F0), 0xF0F0);
+        assert_eq!(whole_quads(0x8EEF), 0x000F);
+    }
+}
