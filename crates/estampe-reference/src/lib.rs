@@ -34,7 +34,7 @@
 //! Beside them: [`texture`] and [`depth_map`] (sampling), [`color`], [`channel`], [`srgb`],
 //! [`small_float`] and [`shared_exponent`] (encoding and decoding), [`compare`] (comparison
 //! functions), [`tessellation`] and [`geometry_shader`] (the vertices that [`draw_vertices`]
-//! draws), [`line`](mod@line), [`rectangle`] and [`point`] (the other primitives),
+//! draws; [`amplification`] joins the two), [`line`](mod@line), [`rectangle`] and [`point`] (the other primitives),
 //! [`depth_bias`], [`conservative`] (conservative rasterization), [`bresenham`] (integer lines) and
 //! [`scan_conversion`] (triangles) in the textbook forms, and [`exact`], the formulas in f64 with
 //! bounds for the error of the f32 ones. [`transfer`] has what happens to images outside of draws:
@@ -67,6 +67,7 @@
 //! `estampe-texture` makes of an image (decoded blocks, mip levels); its own tests have the
 //! specifications' numbers for those.
 
+pub mod amplification;
 pub mod arithmetic;
 pub mod assembly;
 pub mod blending;
@@ -106,7 +107,9 @@ pub mod texture;
 pub mod transfer;
 pub mod viewport;
 
-pub use pipeline::{Counts, Draw, State, TargetState, draw, draw_observed, draw_vertices};
+pub use pipeline::{
+    Counts, Draw, State, TargetState, draw, draw_observed, draw_vertices, draw_vertices_observed,
+};
 pub use shading::ClipVertex;
 pub use target::{StoredSample, Target};
 pub use texture::ReferenceTexture;

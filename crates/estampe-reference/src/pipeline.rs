@@ -225,8 +225,20 @@ pub fn draw_vertices<S: Shader>(
     let Ok(shaders) = RustShaders::new(shader) else {
         return Counts::default();
     };
-    let observer = &mut ();
-    let Some(mut pass) = Pass::new(target, &shaders, state, bindings, observer) else {
+    draw_vertices_observed(target, &shaders, state, bindings, vertices, &mut ())
+}
+
+/// Draws as [`draw_vertices`] does, with any shaders, and tells an observer what happens. The
+/// positions of a primitive are those in the list.
+pub fn draw_vertices_observed(
+    target: &mut Target,
+    shaders: &dyn Shaders,
+    state: &State,
+    bindings: &Bindings,
+    vertices: &[ClipVertex],
+    observer: &mut dyn Observer,
+) -> Counts {
+    let Some(mut pass) = Pass::new(target, shaders, state, bindings, observer) else {
         return Counts::default();
     };
     let count = u32::try_from(vertices.len()).unwrap_or(u32::MAX);

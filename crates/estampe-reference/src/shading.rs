@@ -4,7 +4,7 @@
 
 use crate::program::{Shaders, VertexInput};
 use crate::{Draw, fetch};
-use estampe_types::shader::{Sink, Varyings, VertexOut};
+use estampe_types::shader::{OutputInterface, Sink, Varyings, VertexOut};
 
 /// The outputs of the vertex shader.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,6 +71,23 @@ impl ClipVertex {
             point_size: output.point_size.unwrap_or(1.0),
             clip_distances: given(&output.clip_distances[..clip]),
             cull_distances: given(&output.cull_distances[..cull]),
+        }
+    }
+
+    /// The vertex of a record that a tessellation or geometry program wrote.
+    pub(crate) fn of_record(record: &[u32], output: &OutputInterface) -> Self {
+        let mut scalars = record.iter().map(|&word| f32::from_bits(word));
+        let mut next = |count: usize| scalars.by_ref().take(count).collect::<Vec<f32>>();
+        let position = next(4);
+        Self {
+            position: [0, 1, 2, 3].map(|k| position[k]),
+            varyings: next(output.varyings.len()),
+            clip_distances: next(output.clip_distances),
+            cull_distances: next(output.cull_distances),
+            point_size: match output.writes_point_size {
+                true => next(1)[0],
+                false => 1.0,
+            },
         }
     }
 

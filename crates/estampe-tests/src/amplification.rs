@@ -1,8 +1,9 @@
 //! Draws with tessellation and geometry shaders, on the fast path and by the oracle.
 
 use crate::geometry::{Vertex, vertex_buffer, vertex_layout};
+use crate::inspection;
 use estampe::{
-    ColorAttachment, Device, Draw, RenderPass, RenderPipelineDescriptor, Statistics,
+    ColorAttachment, Device, Draw, PixelHistory, RenderPass, RenderPipelineDescriptor, Statistics,
     TessellationState, Texture, TextureDescriptor,
 };
 use estampe_reference::{ClipVertex, State, Target, TargetState, geometry_shader, tessellation};
@@ -245,6 +246,76 @@ impl Scene {
         device: &Device,
         geometry: Option<&G>,
     ) -> (Vec<u8>, Statistics) {
+        self.with_pass(device, geometry, |pass, image| {
+            let statistics = device.render(pass).expect("the pass fits");
+            (
+                device.read_texture(image).expect("it was drawn"),
+                statistics,
+            )
+        })
+    }
+
+    /// Compares the history of a pixel with the image: of the last one that differs from the first
+    /// pixel, or one in the middle. Returns it.
+    ///
+    /// # Panics
+    /// If the history does not follow from record to record, or ends with another pixel.
+    pub fn inspect_one<G: GeometryShader + Clone>(
+        &self,
+        device: &Device,
+        geometry: Option<&G>,
+        image: &[u8],
+    ) -> PixelHistory {
+        let mut pixels = image.chunks(4);
+        let first = pixels.next();
+        let shown = pixels.rposition(|pixel| Some(pixel) != first);
+        let at = shown.map_or(image.len() / 8, |at| at + 1);
+        let column_row = [at % self.size[0] as usize, at / self.size[0] as usize];
+        let pixel = column_row.map(|at| u32::try_from(at).expect("a small image"));
+        let history = self.with_pass(device, geometry, |pass, _| {
+            device.inspect(pass, pixel).expect("the pass fits")
+        });
+        let drawn = image[at * 4..][..4].to_vec();
+        inspection::follow(&history).unwrap_or_else(|how| panic!("pixel {pixel:?}: {how}"));
+        assert_eq!(history.texels, [Some(drawn)], "pixel {pixel:?}: {self:?}");
+        // The target was cleared to zeros.
+        let is_covered = !history.primitives.is_empty();
+        assert!(is_covered || image[at * 4..][..4] == [0; 4], "{self:?}");
+        self.check_origins(&history, geometry.is_some());
+        history
+    }
+
+    /// Every primitive tells of each stage what it was made of.
+    fn check_origins(&self, history: &PixelHistory, has_geometry: bool) {
+        for primitive in &history.primitives {
+            let origin = primitive.origin.as_ref().expect("it was made");
+            assert!(self.instances.contains(&primitive.instance));
+            assert_eq!(origin.emitted.is_some(), has_geometry);
+            let Some((_, patch_points, _)) = &self.tessellation else {
+                assert_eq!(origin.tessellated, None);
+                continue;
+            };
+            assert_eq!(origin.vertices.len(), *patch_points as usize);
+            let made = origin.tessellated.as_ref().expect("it was tessellated");
+            if !has_geometry {
+                // The provoking vertex comes first.
+                let mut of_patch: Vec<_> = made.vertices.iter().map(|one| one.clip).collect();
+                let drawn: Vec<_> = primitive.vertices.iter().map(|one| one.clip).collect();
+                while of_patch != drawn {
+                    of_patch.rotate_left(1);
+                    assert_ne!(of_patch[0], made.vertices[0].clip, "{primitive:?}");
+                }
+            }
+        }
+    }
+
+    /// Gives the pass of the scene, and its image, to `use_pass`.
+    fn with_pass<G: GeometryShader + Clone, T>(
+        &self,
+        device: &Device,
+        geometry: Option<&G>,
+        use_pass: impl FnOnce(&RenderPass<'_>, &Texture) -> T,
+    ) -> T {
         let geometry = geometry.map(|shader| -> Arc<dyn GeometryProgram> {
             Arc::new(GeometryShaderProgram::new(shader.clone()))
         });
@@ -276,23 +347,18 @@ impl Scene {
             let buffer = device.create_buffer_with_contents(bytes).expect("a buffer");
             (estampe::BufferSlice::from(&buffer), *format)
         });
-        let statistics = device
-            .render(&RenderPass {
-                color_attachments: &[Some(ColorAttachment::clear(&image.view(), [0.0; 4]))],
-                draws: &[Draw {
-                    vertex_buffers: &[(&vertices).into()],
-                    index_buffer: indices.as_ref().map(|(slice, format)| (slice, *format)),
-                    instances: self.instances.clone(),
-                    base_vertex: self.base_vertex,
-                    ..Draw::new(&pipeline, self.elements.clone())
-                }],
-                ..RenderPass::default()
-            })
-            .expect("the pass fits");
-        (
-            device.read_texture(&image).expect("it was drawn"),
-            statistics,
-        )
+        let pass = RenderPass {
+            color_attachments: &[Some(ColorAttachment::clear(&image.view(), [0.0; 4]))],
+            draws: &[Draw {
+                vertex_buffers: &[(&vertices).into()],
+                index_buffer: indices.as_ref().map(|(slice, format)| (slice, *format)),
+                instances: self.instances.clone(),
+                base_vertex: self.base_vertex,
+                ..Draw::new(&pipeline, self.elements.clone())
+            }],
+            ..RenderPass::default()
+        };
+        use_pass(&pass, &image)
     }
 
     /// The oracle's image, and the number of primitives.

@@ -51,6 +51,8 @@ fn check<G: GeometryShader + Clone>(topic: &str, shader: &G, topologies: &[T]) {
             }
             let (wanted, primitives) = scene.draw_by_oracle(Some(shader));
             assert!(primitives > 0, "{topic}: {topology:?} makes primitives");
+            let history = scene.inspect_one(all_devices()[round], Some(shader), &wanted);
+            assert!(!history.primitives.is_empty(), "{topic}: {topology:?}");
             for device in all_devices() {
                 let (image, statistics) = scene.draw(device, Some(shader));
                 let on = name(device);

@@ -1,20 +1,22 @@
 //! Layers and viewports that a geometry shader selects, against the oracle.
 
 use estampe::{
-    ColorAttachment, DepthStencilAttachment, Draw, PassErrorKind, RenderPass,
-    RenderPipelineDescriptor, TextureDescriptor, ViewportScissor,
+    ColorAttachment, DepthStencilAttachment, Device, Draw, InspectError, Level, PassErrorKind,
+    RenderPass, RenderPipelineDescriptor, TextureDescriptor, ViewportScissor,
 };
 use estampe_reference::{State, Target, TargetState, draw_vertices, geometry_shader};
 use estampe_tests::Random;
 use estampe_tests::amplification::Passing;
 use estampe_tests::fast_path::{all_devices, name};
 use estampe_tests::geometry::{Vertex, clip_at, vertex_buffer, vertex_layout};
+use estampe_tests::inspection::follow;
 use estampe_types::shader::{
     EmittedVertex, GeometryIn, GeometryPrimitive, GeometryShaderProgram, GeometryTopology,
     VertexOut,
 };
 use estampe_types::state::{BlendState, ColorTargetState, DepthState, ScissorRect, Viewport};
 use estampe_types::{Bindings, TextureFormat, Vec4};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 const LAYERS: u32 = 4;
@@ -135,29 +137,28 @@ fn primitives_select_layers_and_viewports() {
         let words = vertex_buffer(&vertices).words().to_vec();
         let buffer = device.create_buffer_of_words(words).unwrap();
         let buffers = [(&buffer).into()];
-        let statistics = device
-            .render(&RenderPass {
-                color_attachments: &[Some(ColorAttachment::clear(
-                    &colors.view(),
-                    clear.map(f64::from),
-                ))],
-                depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depths.view(), 1.0)),
-                draws: &[
-                    Draw {
-                        vertex_buffers: &buffers,
-                        viewport: Some(first.0),
-                        scissor: Some(first.1),
-                        more_viewports: &more,
-                        ..Draw::new(&placing, 0..count)
-                    },
-                    Draw {
-                        vertex_buffers: &buffers,
-                        ..Draw::new(&plain, 0..30)
-                    },
-                ],
-                ..RenderPass::default()
-            })
-            .unwrap();
+        let pass = RenderPass {
+            color_attachments: &[Some(ColorAttachment::clear(
+                &colors.view(),
+                clear.map(f64::from),
+            ))],
+            depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depths.view(), 1.0)),
+            draws: &[
+                Draw {
+                    vertex_buffers: &buffers,
+                    viewport: Some(first.0),
+                    scissor: Some(first.1),
+                    more_viewports: &more,
+                    ..Draw::new(&placing, 0..count)
+                },
+                Draw {
+                    vertex_buffers: &buffers,
+                    ..Draw::new(&plain, 0..30)
+                },
+            ],
+            ..RenderPass::default()
+        };
+        let statistics = device.render(&pass).unwrap();
         let on = name(device);
         assert_eq!(
             statistics.geometry_invocations,
@@ -174,7 +175,46 @@ fn primitives_select_layers_and_viewports() {
             let got = device.read_sample(&view, 0).unwrap();
             assert!(got == *wanted, "{on}: layer {layer} differs");
         }
+        if device.level() == Level::best() {
+            check_histories(device, &pass, &wanted);
+        }
     }
+}
+
+/// Compares the histories of some pixels of each layer with the images.
+fn check_histories(device: &Device, pass: &RenderPass<'_>, wanted: &[Vec<u8>]) {
+    let mut seen = BTreeSet::new();
+    for (layer, image) in (0..).zip(wanted) {
+        for pixel in [[3, 2], [10, 5], [12, 14], [20, 25], [33, 13]] {
+            let history = device.inspect_layer(pass, pixel, layer).unwrap();
+            follow(&history).unwrap();
+            assert_eq!((history.pixel, history.layer), (pixel, layer));
+            let at = (pixel[1] * 40 + pixel[0]) as usize * 4;
+            let drawn = image[at..at + 4].to_vec();
+            assert_eq!(history.texels, [Some(drawn)], "layer {layer}, {pixel:?}");
+            for primitive in &history.primitives {
+                let emitted = primitive.origin.as_ref().and_then(|origin| origin.emitted);
+                let Some(emitted) = emitted else {
+                    assert_eq!((layer, primitive.draw), (0, 1));
+                    seen.insert("plain");
+                    continue;
+                };
+                let exists = emitted.layer < LAYERS;
+                assert_eq!(if exists { emitted.layer } else { 0 }, layer);
+                seen.insert(if exists { "a layer" } else { "none such" });
+                seen.insert(["first", "second"][emitted.invocation as usize]);
+                seen.insert(if emitted.viewport_index == 0 {
+                    "whole"
+                } else {
+                    "viewport"
+                });
+            }
+        }
+    }
+    assert_eq!(seen.len(), 7, "{seen:?}");
+    let error = device.inspect_layer(pass, [0, 0], LAYERS).unwrap_err();
+    let (layer, layers) = (LAYERS, LAYERS);
+    assert_eq!(error, InspectError::NoLayer { layer, layers });
 }
 
 /// The image of each layer.

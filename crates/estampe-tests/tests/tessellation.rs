@@ -25,6 +25,8 @@ fn check(scene: &Scene, geometry: Option<&NoGeometry>, turn: u64) -> Vec<u8> {
         assert_eq!(statistics.primitives_in, primitives, "{on}: {scene:?}");
         assert!(image == wanted, "{on} draws another image: {scene:?}");
     }
+    let device = some_devices(turn)[0];
+    let _ = scene.inspect_one(device, geometry, &wanted);
     wanted
 }
 

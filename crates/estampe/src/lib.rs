@@ -113,9 +113,10 @@ pub use estampe_types::{
     state, varyings, vec2, vec3, vec4,
 };
 pub use inspect::{
-    BlockCounts, ClipOutcome, FragmentRecord, InspectError, InspectedVertex, PassStages,
-    PieceVertex, PixelCounts, PixelHistory, PolygonVertex, PrimitiveKind, PrimitiveRecord,
-    SampleRecord, SampleValues, StagePiece, StagePrimitive, StageVertex, TestOutcome,
+    BlockCounts, ClipOutcome, EmittedRecord, FragmentRecord, InspectError, InspectedVertex,
+    PassStages, PieceVertex, PixelCounts, PixelHistory, PolygonVertex, PrimitiveKind,
+    PrimitiveOrigin, PrimitiveRecord, SampleRecord, SampleValues, StagePiece, StagePrimitive,
+    StageVertex, TessellatedRecord, TessellatedVertex, TestOutcome,
 };
 pub use pass::{
     AspectOperations, ColorAttachment, DepthStencilAttachment, DepthStencilResolve, Draw,

@@ -4,6 +4,7 @@ use super::Edge;
 use super::Fraction;
 use super::edge::ONE;
 use estampe_types::state::{FrontFace, TessellationDomain, TessellationMode, TessellationSpacing};
+use std::collections::HashSet;
 
 /// Points of a domain, and the primitives between them.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -73,8 +74,9 @@ impl Domain {
     /// Different places, in the order in which they were made, as points.
     fn keep_points(&mut self) {
         self.primitives.clear();
-        for point in 0..self.points.len() {
-            if !self.points[..point].contains(&self.points[point]) {
+        let mut seen = HashSet::new();
+        for (point, place) in self.points.iter().enumerate() {
+            if seen.insert(place) {
                 self.primitives.push(vec![point]);
             }
         }

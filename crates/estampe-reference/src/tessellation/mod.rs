@@ -6,27 +6,61 @@
 mod domain;
 mod edge;
 mod fraction;
+mod patch_shaders;
 
 pub use domain::{Domain, divide};
 pub use edge::Edge;
 pub use fraction::Fraction;
+pub use patch_shaders::{ControlledPatch, PatchShaders, ProgramPatches, RustPatches};
 
 use crate::pipeline::draw_runs;
-use crate::program::RustShaders;
-use crate::shading::{scalars_of, shade_vertex};
+use crate::program::{RustShaders, Shaders};
+use crate::shading::shade_vertex;
 use crate::{ClipVertex, Draw, State};
-use estampe_types::shader::{
-    ControlIn, EvaluationIn, PatchIn, Points, Shader, TessellationLevels, TessellationProgram,
-    TessellationShader, TessellationShaderProgram,
-};
+use estampe_types::shader::{Shader, TessellationShader};
 use estampe_types::state::TessellationMode;
-use estampe_types::{Bindings, Vec3};
 
-/// A patch with its control points.
-struct Patch {
-    /// The words of the control points, one after the other.
-    control: Vec<u32>,
-    number: i32,
+/// The tessellation stage of a draw.
+#[derive(Clone, Copy)]
+pub struct Tessellation<'a> {
+    /// The shaders of patches.
+    pub shaders: &'a dyn PatchShaders,
+    /// How domains are divided.
+    pub mode: &'a TessellationMode,
+    /// Vertices of a patch, at least 1.
+    pub patch_points: u32,
+}
+
+impl std::fmt::Debug for Tessellation<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Tessellation")
+            .field("mode", self.mode)
+            .field("patch_points", &self.patch_points)
+            .finish_non_exhaustive()
+    }
+}
+
+/// A patch, divided.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TessellatedPatch {
+    /// The index of the instance.
+    pub instance: u32,
+    /// The number of the patch in its instance.
+    pub number: i32,
+    /// The positions of its vertices in the draw's range.
+    pub positions: Vec<u32>,
+    /// Its vertices, as the vertex shader left them.
+    pub corners: Vec<ClipVertex>,
+    /// The outer levels, as the shader left them.
+    pub outer: [f32; 4],
+    /// The inner levels, as the shader left them.
+    pub inner: [f32; 2],
+    /// The points of the divided domain.
+    pub coordinates: Vec<[f32; 3]>,
+    /// The vertex of each point.
+    pub vertices: Vec<ClipVertex>,
+    /// The points of each primitive.
+    pub primitives: Vec<Vec<usize>>,
 }
 
 /// The vertices that tessellation makes of a draw's patches, and for each of its primitives the
@@ -38,32 +72,73 @@ pub fn tessellate<V: Shader, T: TessellationShader + Clone>(
     state: &State,
     draw: &Draw<'_>,
 ) -> (Vec<ClipVertex>, Vec<i32>) {
-    let program = TessellationShaderProgram::new(shader.clone());
-    let (Ok(shaders), Ok(())) = (RustShaders::new(vertex), program.validate()) else {
+    let (Ok(shaders), Ok(patches)) = (RustShaders::new(vertex), RustPatches::new(shader)) else {
         return Default::default();
     };
-    let distances = &program.interface().output;
-    let distances = [distances.clip_distances, distances.cull_distances];
+    let stage = Tessellation {
+        shaders: &patches,
+        mode,
+        patch_points,
+    };
     let (mut vertices, mut numbers) = (Vec::new(), Vec::new());
+    for_each_patch(&shaders, &stage, state, draw, &mut |patch| {
+        let points = patch.primitives.iter().flatten();
+        vertices.extend(points.map(|&point| patch.vertices[point].clone()));
+        numbers.resize(numbers.len() + patch.primitives.len(), patch.number);
+    });
+    (vertices, numbers)
+}
+
+/// Divides the patches of a draw, one after the other.
+pub fn for_each_patch(
+    vertex: &dyn Shaders,
+    stage: &Tessellation<'_>,
+    state: &State,
+    draw: &Draw<'_>,
+    visit: &mut dyn FnMut(&TessellatedPatch),
+) {
+    let points = stage.patch_points;
     for instance in draw.instances.clone() {
         let mut number = 0;
         for run in draw_runs(state, draw) {
-            for patch in 0..(run.end - run.start) / patch_points {
-                let corners = (0..patch_points).map(|corner| {
-                    let at = run.start + patch * patch_points + corner;
-                    shade_vertex(&shaders, draw, at, instance)
-                });
-                let corners: Vec<ClipVertex> = corners.collect();
-                let patch = Patch::new(shader, &corners, number, draw.bindings);
-                let of_patch = patch.vertices(shader, mode, distances, draw.bindings);
-                let corners = corners_of(mode);
-                numbers.resize(numbers.len() + of_patch.len() / corners, number);
-                vertices.extend(of_patch);
+            for patch in 0..(run.end - run.start) / points {
+                let first = run.start + patch * points;
+                let positions: Vec<u32> = (first..first + points).collect();
+                visit(&divided(vertex, stage, draw, positions, [instance, number]));
                 number += 1;
             }
         }
     }
-    (vertices, numbers)
+}
+
+fn divided(
+    vertex: &dyn Shaders,
+    stage: &Tessellation<'_>,
+    draw: &Draw<'_>,
+    positions: Vec<u32>,
+    [instance, number]: [u32; 2],
+) -> TessellatedPatch {
+    let corners = positions.iter();
+    let corners = corners.map(|&at| shade_vertex(vertex, draw, at, instance));
+    let corners: Vec<ClipVertex> = corners.collect();
+    let number = number.cast_signed();
+    let patch = stage.shaders.control(&corners, number, draw.bindings);
+    let domain = divide(stage.mode, patch.outer, patch.inner);
+    let places = domain.points.iter();
+    let places = places.map(|place| place.map(|place| place as f32 / 16_777_216.0));
+    let coordinates: Vec<[f32; 3]> = places.collect();
+    let vertices = stage.shaders.evaluate(&patch, &coordinates, draw.bindings);
+    TessellatedPatch {
+        instance,
+        number,
+        positions,
+        corners,
+        outer: patch.outer,
+        inner: patch.inner,
+        coordinates,
+        vertices,
+        primitives: domain.primitives,
+    }
 }
 
 /// The vertices of each primitive of a domain.
@@ -74,70 +149,5 @@ pub fn corners_of(mode: &TessellationMode) -> usize {
         (true, _) => 1,
         (false, D::Isolines) => 2,
         (false, D::Triangles | D::Quads) => 3,
-    }
-}
-
-impl Patch {
-    fn new<T: TessellationShader>(
-        shader: &T,
-        corners: &[ClipVertex],
-        number: i32,
-        bindings: &Bindings,
-    ) -> Self {
-        let records: Vec<u32> = corners.iter().flat_map(ClipVertex::words).collect();
-        let words = records.len() / corners.len();
-        let point = |index| {
-            let point = shader.control(ControlIn {
-                index,
-                points: Points::of_patch(0.0_f32, &records, words, corners.len()),
-                primitive_index: number,
-                bindings,
-                zero: 0.0,
-            });
-            scalars_of(point)
-        };
-        let control = (0..T::CONTROL_POINTS).flat_map(point);
-        Self {
-            control: control.map(f32::to_bits).collect(),
-            number,
-        }
-    }
-
-    fn points<T: TessellationShader>(&self) -> Points<'_, f32, T::Control<f32>> {
-        let words = self.control.len() / T::CONTROL_POINTS;
-        Points::of_patch(0.0, &self.control, words, T::CONTROL_POINTS)
-    }
-
-    /// The vertices of all primitives.
-    fn vertices<T: TessellationShader>(
-        &self,
-        shader: &T,
-        mode: &TessellationMode,
-        distances: [usize; 2],
-        bindings: &Bindings,
-    ) -> Vec<ClipVertex> {
-        let levels_and_values = || {
-            shader.patch(PatchIn {
-                points: self.points::<T>(),
-                primitive_index: self.number,
-                bindings,
-                zero: 0.0_f32,
-            })
-        };
-        let (TessellationLevels { outer, inner }, _) = levels_and_values();
-        let domain = divide(mode, outer, inner);
-        let evaluate = |at: &usize| {
-            let [x, y, z] = domain.points[*at].map(|place| place as f32 / 16_777_216.0);
-            let input = EvaluationIn {
-                coordinates: Vec3::new(x, y, z),
-                points: self.points::<T>(),
-                primitive_index: self.number,
-                bindings,
-                zero: 0.0_f32,
-            };
-            let (_, values) = levels_and_values();
-            ClipVertex::of(shader.evaluate(input, values), distances)
-        };
-        domain.primitives.iter().flatten().map(evaluate).collect()
     }
 }

@@ -80,7 +80,10 @@ pub fn check_pixel(
 }
 
 /// Each stored value is that which the record before left.
-fn follow(history: &PixelHistory) -> Result<(), String> {
+///
+/// # Errors
+/// The first that is not.
+pub fn follow(history: &PixelHistory) -> Result<(), String> {
     let mut stored = history.initial.clone();
     let fragments = history.primitives.iter().flat_map(|one| &one.fragments);
     for record in fragments.flat_map(|fragment| &fragment.samples) {

@@ -51,7 +51,21 @@ impl Device {
         pass: &RenderPass<'_>,
         pixel: [u32; 2],
     ) -> Result<PixelHistory, InspectError> {
-        inspect::inspect(self, pass, pixel)
+        self.inspect_layer(pass, pixel, 0)
+    }
+
+    /// Everything that happens to one pixel of one layer, in a pass whose attachments are views of
+    /// several layers: see [`inspect`](Self::inspect), which is that of layer 0.
+    ///
+    /// # Errors
+    /// [`InspectError`] as of [`inspect`](Self::inspect), or if there is no such layer.
+    pub fn inspect_layer(
+        &self,
+        pass: &RenderPass<'_>,
+        pixel: [u32; 2],
+        layer: u32,
+    ) -> Result<PixelHistory, InspectError> {
+        inspect::inspect(self, pass, pixel, layer)
     }
 
     /// What each stage of the pipeline makes of a pass: the vertices after the vertex shader, what

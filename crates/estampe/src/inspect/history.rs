@@ -7,6 +7,8 @@ use super::TestOutcome;
 pub struct PixelHistory {
     /// Column and row, from the top left.
     pub pixel: [u32; 2],
+    /// The layer of the attachments; 0 if they have one.
+    pub layer: u32,
     /// The stored values of each sample after the attachments were loaded or cleared.
     pub initial: Vec<SampleValues>,
     /// The primitives that cover the pixel, in the order in which they were drawn.
@@ -60,11 +62,15 @@ impl PrimitiveKind {
 pub struct PrimitiveRecord {
     /// The number of the draw in the pass.
     pub draw: usize,
-    /// The number of the primitive in the draw, over all instances.
+    /// The number of the primitive in the draw, over all instances; of primitives that
+    /// tessellation or a geometry shader made, over all of those, in all layers.
     pub primitive: u64,
     /// The index of the instance.
     pub instance: u32,
-    /// The vertices as the vertex shader left them; of a triangle the provoking one first.
+    /// What tessellation or a geometry shader made the primitive of; `None` without them.
+    pub origin: Option<PrimitiveOrigin>,
+    /// The vertices as the vertex shader, or the last stage after it, left them; of a triangle the
+    /// provoking one first.
     pub vertices: Vec<InspectedVertex>,
     /// The kind of the piece: lines and points of triangles that are drawn as such are those.
     pub kind: PrimitiveKind,
@@ -86,12 +92,62 @@ pub struct PrimitiveRecord {
     pub fragments: Vec<FragmentRecord>,
 }
 
-/// A vertex after the vertex shader.
+/// What tessellation or a geometry shader made a primitive of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PrimitiveOrigin {
+    /// The number of the patch or primitive in its instance, as shaders read it.
+    pub number: u32,
+    /// The vertices of the patch or primitive as the vertex shader left them, those of neighbours
+    /// included.
+    pub vertices: Vec<InspectedVertex>,
+    /// What tessellation made of the patch; `None` without it.
+    pub tessellated: Option<TessellatedRecord>,
+    /// What the geometry shader emitted; `None` without it.
+    pub emitted: Option<EmittedRecord>,
+}
+
+/// A primitive of a patch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TessellatedRecord {
+    /// The outer levels of the patch, as its shader left them.
+    pub outer: [f32; 4],
+    /// The inner levels of the patch, as its shader left them.
+    pub inner: [f32; 2],
+    /// The number of the primitive in the patch.
+    pub primitive: u32,
+    /// Its vertices.
+    pub vertices: Vec<TessellatedVertex>,
+}
+
+/// A vertex that tessellation made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TessellatedVertex {
+    /// The place in the domain: u, v, and in triangles w.
+    pub coordinates: [f32; 3],
+    /// x, y, z, w in clip space.
+    pub clip: [f32; 4],
+    /// The scalars of the varyings, in order.
+    pub varyings: Vec<f32>,
+}
+
+/// How a geometry shader emitted a primitive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct EmittedRecord {
+    /// The number of the shader's invocation on its primitive.
+    pub invocation: u32,
+    /// The layer that the provoking vertex names. One that does not exist counts as 0.
+    pub layer: u32,
+    /// The viewport that the provoking vertex names. One that does not exist counts as 0.
+    pub viewport_index: u32,
+}
+
+/// A vertex of a primitive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InspectedVertex {
-    /// The index of the vertex.
+    /// The index of the vertex; of a vertex that tessellation or a geometry shader made, its number
+    /// in its primitive.
     pub index: u32,
-    /// The attributes as they were fetched, by location.
+    /// The attributes as they were fetched, by location; none of a vertex that was made.
     pub attributes: Vec<Vec<f32>>,
     /// x, y, z, w in clip space.
     pub clip: [f32; 4],

@@ -6,6 +6,7 @@
 //! [`Device::render`](crate::Device::render) draws. Attachments and storage textures stay as they
 //! are.
 
+mod amplified;
 mod history;
 mod initial;
 mod oracle_draw;
@@ -14,8 +15,9 @@ mod run;
 mod stages;
 
 pub use history::{
-    FragmentRecord, InspectedVertex, PieceVertex, PixelHistory, PrimitiveKind, PrimitiveRecord,
-    SampleRecord, SampleValues,
+    EmittedRecord, FragmentRecord, InspectedVertex, PieceVertex, PixelHistory, PrimitiveKind,
+    PrimitiveOrigin, PrimitiveRecord, SampleRecord, SampleValues, TessellatedRecord,
+    TessellatedVertex,
 };
 pub use run::InspectError;
 pub(crate) use run::inspect;

@@ -33,12 +33,28 @@ impl OracleDraw<'_> {
     }
 }
 
+/// The target of a draw, as far as its state depends on it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TargetShape {
+    size: [u32; 2],
+    depth_stencil: Option<TextureFormat>,
+}
+
+impl TargetShape {
+    pub(super) fn of(target: &Target) -> Self {
+        Self {
+            size: [target.width, target.height],
+            depth_stencil: target.depth_stencil,
+        }
+    }
+}
+
 /// Gives a draw into a target to `use_draw` in the oracle's terms.
 pub(super) fn with_draw<T>(
     device: &Device,
     draw: &estampe_core::Draw<'_>,
-    target: &mut Target,
-    use_draw: impl FnOnce(&mut Target, &OracleDraw<'_>) -> T,
+    target: TargetShape,
+    use_draw: impl FnOnce(&OracleDraw<'_>) -> T,
 ) -> T {
     let state = state(draw, target);
     let descriptor = draw.pipeline.descriptor();
@@ -64,13 +80,13 @@ pub(super) fn with_draw<T>(
             bindings: draw.bindings.unwrap_or(&no_bindings),
         },
     };
-    use_draw(target, &oracle)
+    use_draw(&oracle)
 }
 
 /// The state of a draw, as the oracle names it.
-fn state(draw: &estampe_core::Draw<'_>, target: &Target) -> State {
+fn state(draw: &estampe_core::Draw<'_>, target: TargetShape) -> State {
     let descriptor = draw.pipeline.descriptor();
-    let whole = State::new(target.width, target.height);
+    let whole = State::new(target.size[0], target.size[1]);
     let tests = descriptor.depth_stencil;
     let targets = descriptor.targets.iter().map(|target| {
         target.map_or_else(TargetState::default, |target| TargetState {

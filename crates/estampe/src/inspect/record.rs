@@ -1,5 +1,6 @@
 //! The observer that writes the history of a pixel.
 
+use super::amplified::Made;
 use super::history::{
     FragmentRecord, InspectedVertex, PieceVertex, PrimitiveKind, PrimitiveRecord, SampleRecord,
     SampleValues,
@@ -22,6 +23,8 @@ pub(super) struct Recorder<'a> {
     pub(super) samples: u32,
     pub(super) formats: &'a [Option<TextureFormat>],
     pub(super) primitives: Vec<PrimitiveRecord>,
+    /// What the one primitive that is drawn was made of, if it was.
+    made: Option<Made<'a>>,
     /// The primitive at hand.
     current: Current,
     /// True if the piece at hand is the last of `primitives`.
@@ -56,9 +59,16 @@ impl<'a> Recorder<'a> {
             samples,
             formats,
             primitives: Vec::new(),
+            made: None,
             current: Current::default(),
             is_recorded: false,
         }
+    }
+
+    /// A recorder of one primitive that was made.
+    pub(super) fn of_made(mut self, made: Made<'a>) -> Self {
+        self.made = Some(made);
+        self
     }
 
     fn set_piece(&mut self, vertices: &[WindowVertex], face: Face) {
@@ -87,11 +97,19 @@ impl<'a> Recorder<'a> {
     fn new_record(&self) -> PrimitiveRecord {
         let current = &self.current;
         let positions = current.positions.iter().zip(&current.clip);
-        let vertices = positions.map(|(&position, (clip, varyings))| InspectedVertex {
-            index: self.draw.vertex_index(position),
-            attributes: fetch_attributes(self.shaders, self.draw, position, current.instance),
-            clip: *clip,
-            varyings: varyings.clone(),
+        let vertices = positions.map(|(&position, (clip, varyings))| match self.made {
+            Some(_) => InspectedVertex {
+                index: position,
+                attributes: Vec::new(),
+                clip: *clip,
+                varyings: varyings.clone(),
+            },
+            None => InspectedVertex {
+                index: self.draw.vertex_index(position),
+                attributes: fetch_attributes(self.shaders, self.draw, position, current.instance),
+                clip: *clip,
+                varyings: varyings.clone(),
+            },
         });
         let edges = <[[i32; 2]; 3]>::try_from(&current.snapped[..]).ok();
         let edges = edges.map(|corners| edge_functions(corners, self.pixel));
@@ -105,8 +123,11 @@ impl<'a> Recorder<'a> {
                 .eq(current.clip.iter().map(of_primitive));
         PrimitiveRecord {
             draw: self.draw_number,
-            primitive: current.number,
-            instance: current.instance,
+            primitive: self.made.map_or(current.number, |made| made.number),
+            instance: self
+                .made
+                .map_or(current.instance, |made| made.primitive.instance),
+            origin: self.made.map(|made| made.origin(self.draw)),
             vertices: vertices.collect(),
             kind: match current.piece.len() {
                 1 => PrimitiveKind::Point,

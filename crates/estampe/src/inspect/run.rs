@@ -1,8 +1,9 @@
 //! Running a pass for one pixel.
 
-use super::history::PixelHistory;
+use super::amplified::draw_amplified;
+use super::history::{PixelHistory, PrimitiveRecord, SampleValues};
 use super::initial;
-use super::oracle_draw::{OracleDraw, with_draw};
+use super::oracle_draw::{OracleDraw, TargetShape, with_draw};
 use super::record::{Recorder, values};
 use crate::pass::{Attachments, PassErrorKind, core_pass, prepared};
 use crate::{Device, RenderPass, RenderPassError};
@@ -31,10 +32,18 @@ pub enum InspectError {
         /// Rows of the pass.
         height: u32,
     },
-    /// A draw's pipeline has stages that inspecting does not follow yet.
+    /// The pass has fewer layers.
+    #[error("layer {layer} of a pass of {layers} layers: they count from 0")]
+    NoLayer {
+        /// The layer that was asked for.
+        layer: u32,
+        /// Layers of the attachments.
+        layers: u32,
+    },
+    /// A draw's pipeline has stages that [`Device::inspect_stages`] does not follow yet.
     #[error(
-        "draw {draw} has a tessellation or geometry shader, which inspecting does not follow: \
-             leave the draw out, or inspect the primitives drawn plainly"
+        "draw {draw} has a tessellation or geometry shader, which inspecting stages does not \
+             follow: leave the draw out, or inspect single pixels"
     )]
     Amplified {
         /// The number of the draw.
@@ -57,22 +66,39 @@ pub enum InspectError {
 /// The most bytes of the oracle's target, and of what is written down of all pixels.
 pub(super) const MAX_BYTES: u64 = 1 << 30;
 
-/// Runs a pass with the oracle, and writes down what happens to a pixel.
+/// Runs a pass with the oracle, and writes down what happens to a pixel of a layer.
 pub(crate) fn inspect(
     device: &Device,
     pass: &RenderPass<'_>,
     pixel: [u32; 2],
+    layer: u32,
 ) -> Result<PixelHistory, InspectError> {
-    prepared(device, pass, |attachments, data| {
+    prepared(device, pass, |layers, data| {
+        let Some(attachments) = layers.get(layer as usize) else {
+            let layers = u32::try_from(layers.len()).unwrap_or(u32::MAX);
+            return Err(InspectError::NoLayer { layer, layers });
+        };
         let draws = data.draws(pass.draws);
         let core_pass = core_pass(pass, attachments.loads(), &draws);
         let checked = attachments.with_shape(|shape| core_pass.check(shape));
         checked.map_err(|error| refused(pass, error.into()))?;
-        let stored = stored_part(attachments, pass, pixel)?;
-        check_stages(pass)?;
-        let target = initial::target(device.context(), attachments, stored);
-        let mut target = target.map_err(|kind| refused(pass, kind))?;
-        Ok(history(device, attachments, &draws, &mut target, pixel))
+        let stores = pass.draws.iter().any(|draw| draw.pipeline.stores());
+        let stored = stored_part(layers, attachments, stores, pixel)?;
+        // What is stored in one layer may be read in another.
+        let is_drawn = |at: usize| stores || at == layer as usize;
+        let targets = layers.iter().enumerate().map(|(at, attachments)| {
+            let target = || initial::target(device.context(), attachments, stored.clone());
+            is_drawn(at).then(target).transpose()
+        });
+        let targets = targets.collect::<Result<Vec<_>, _>>();
+        let inspected = Inspected {
+            device,
+            attachments,
+            pixel,
+            layer: layer as usize,
+        };
+        let mut targets = targets.map_err(|kind| refused(pass, kind))?;
+        Ok(inspected.history(&draws, &mut targets))
     })
     .map_err(|kind| refused(pass, kind))?
 }
@@ -108,8 +134,9 @@ pub(super) fn refused(pass: &RenderPass<'_>, kind: PassErrorKind) -> RenderPassE
 /// The pixels that are drawn: the quad of the pixel, or all where shaders may read what others
 /// store.
 fn stored_part(
+    layers: &[Attachments<'_>],
     attachments: &Attachments<'_>,
-    pass: &RenderPass<'_>,
+    stores: bool,
     [x, y]: [u32; 2],
 ) -> Result<PixelBounds, InspectError> {
     let (width, height) = (attachments.size.width, attachments.size.height);
@@ -121,13 +148,13 @@ fn stored_part(
             height,
         });
     }
-    if !pass.draws.iter().any(|draw| draw.pipeline.stores()) {
+    if !stores {
         return Ok(PixelBounds {
             x: x & !1..((x & !1) + 2).min(width),
             y: y & !1..((y & !1) + 2).min(height),
         });
     }
-    let bytes = target_bytes(attachments);
+    let bytes = target_bytes(attachments).saturating_mul(layers.len() as u64);
     if bytes > MAX_BYTES {
         return Err(InspectError::TooLarge {
             bytes,
@@ -140,28 +167,86 @@ fn stored_part(
     })
 }
 
-fn history(
-    device: &Device,
-    attachments: &Attachments<'_>,
-    draws: &[estampe_core::Draw<'_>],
-    target: &mut Target,
+/// The pixel that is inspected, and its layer.
+struct Inspected<'a> {
+    device: &'a Device,
+    attachments: &'a Attachments<'a>,
     pixel: [u32; 2],
-) -> PixelHistory {
-    let formats = &attachments.formats[..];
-    let stored = |target: &Target| -> Vec<StoredSample> {
+    layer: usize,
+}
+
+impl Inspected<'_> {
+    /// Draws into the layers that have a target.
+    fn history(
+        &self,
+        draws: &[estampe_core::Draw<'_>],
+        targets: &mut [Option<Target>],
+    ) -> PixelHistory {
+        let formats = &self.attachments.formats[..];
+        let initial = self.values(&self.samples(targets));
+        let mut primitives = Vec::new();
+        for (number, draw) in draws.iter().enumerate() {
+            primitives.extend(self.draw((number, draw), targets));
+        }
+        let samples = self.samples(targets);
+        let texel = |(at, format): (usize, &Option<TextureFormat>)| {
+            let format = (*format)?;
+            let codes: Vec<_> = samples.iter().map(|sample| sample.colors[at]).collect();
+            let codes = match &codes[..] {
+                [one] => *one,
+                several => color::resolve(format, several),
+            };
+            Some(color::bytes(format, codes))
+        };
+        PixelHistory {
+            pixel: self.pixel,
+            layer: u32::try_from(self.layer).unwrap_or(u32::MAX),
+            initial,
+            primitives,
+            last: self.values(&samples),
+            texels: formats.iter().enumerate().map(texel).collect(),
+        }
+    }
+
+    fn target<'t>(&self, targets: &'t [Option<Target>]) -> &'t Target {
+        let target = targets.get(self.layer).and_then(Option::as_ref);
+        target.expect("the layer that is inspected has a target")
+    }
+
+    /// The stored samples of the pixel.
+    fn samples(&self, targets: &[Option<Target>]) -> Vec<StoredSample> {
+        let target = self.target(targets);
         let samples = 0..target.samples;
-        let samples = samples.map(|sample| target.sample(target.index(pixel, sample)));
+        let samples = samples.map(|sample| target.sample(target.index(self.pixel, sample)));
         samples.collect()
-    };
-    let all_values = |target: &Target| {
-        let stored = stored(target);
-        stored.iter().map(|one| values(formats, one)).collect()
-    };
-    let initial = all_values(target);
-    let mut primitives = Vec::new();
-    for (number, draw) in draws.iter().enumerate() {
-        let place = (pixel, target.samples);
-        let drawn = with_draw(device, draw, target, |target, oracle| {
+    }
+
+    fn values(&self, samples: &[StoredSample]) -> Vec<SampleValues> {
+        let formats = &self.attachments.formats;
+        let samples = samples.iter();
+        samples.map(|sample| values(formats, sample)).collect()
+    }
+
+    /// Draws; returns what covers the pixel.
+    fn draw(
+        &self,
+        (number, draw): (usize, &estampe_core::Draw<'_>),
+        targets: &mut [Option<Target>],
+    ) -> Vec<PrimitiveRecord> {
+        let shape = TargetShape::of(self.target(targets));
+        let place = (self.pixel, self.target(targets).samples);
+        let formats = &self.attachments.formats[..];
+        with_draw(self.device, draw, shape, |oracle| {
+            let recorder = || Recorder::new(place, number, oracle.draw, oracle.shaders, formats);
+            let descriptor = draw.pipeline.descriptor();
+            if descriptor.tessellation.is_some() || descriptor.geometry.is_some() {
+                let level = self.device.level();
+                return draw_amplified((draw, level), oracle, targets, self.layer, recorder);
+            }
+            // Draws without a geometry shader go to the first layer.
+            let Some(target) = &mut targets[0] else {
+                return Vec::new();
+            };
             let reached = oracle.bounds(target).intersection(target.stored());
             if reached.x.is_empty() || reached.y.is_empty() {
                 return Vec::new();
@@ -171,27 +256,13 @@ fn history(
                 state,
                 draw,
             } = *oracle;
-            let mut recorder = Recorder::new(place, number, draw, shaders, formats);
+            let mut recorder = recorder();
             draw_observed(target, shaders, state, draw, &mut recorder);
-            recorder.primitives
-        });
-        primitives.extend(drawn);
-    }
-    let samples = stored(target);
-    let texel = |(at, format): (usize, &Option<TextureFormat>)| {
-        let format = (*format)?;
-        let codes: Vec<_> = samples.iter().map(|sample| sample.colors[at]).collect();
-        let codes = match &codes[..] {
-            [one] => *one,
-            several => color::resolve(format, several),
-        };
-        Some(color::bytes(format, codes))
-    };
-    PixelHistory {
-        pixel,
-        initial,
-        primitives,
-        last: all_values(target),
-        texels: formats.iter().enumerate().map(texel).collect(),
+            if self.layer == 0 {
+                recorder.primitives
+            } else {
+                Vec::new()
+            }
+        })
     }
 }

@@ -140,12 +140,12 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     Ok(drawn?)
 }
 
-/// Lets `use_data` read the attachments and the plain data of a pass's draws as they are; nothing
-/// is drawn, and what shaders store is dropped.
+/// Lets `use_data` read the attachments of each layer and the plain data of a pass's draws as they
+/// are; nothing is drawn, and what shaders store is dropped.
 pub(crate) fn prepared<T>(
     device: &Device,
     pass: &RenderPass<'_>,
-    use_data: impl FnOnce(&Attachments<'_>, &DrawData) -> T,
+    use_data: impl FnOnce(&[Attachments<'_>], &DrawData) -> T,
 ) -> Result<T, PassErrorKind> {
     let layers = Layer::of(pass)?;
     let of_layers = passes(pass, &layers);
@@ -154,8 +154,7 @@ pub(crate) fn prepared<T>(
     let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
     let resources = groups.resources(device.context(), &mut StoredTextures::copies())?;
     let data = DrawData::new(pass.draws, &groups, &resources);
-    // Draws without a geometry shader go to the first layer.
-    let used = use_data(&attachments[0], &data);
+    let used = use_data(&attachments, &data);
     drop(reserved);
     Ok(used)
 }

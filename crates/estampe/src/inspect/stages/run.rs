@@ -6,7 +6,7 @@ use super::geometry::{Geometry, GeometryRecorder};
 use super::hidden_blocks::Rejection;
 use super::pass_stages::{PassStages, PixelCounts};
 use crate::inspect::initial;
-use crate::inspect::oracle_draw::{OracleDraw, with_draw};
+use crate::inspect::oracle_draw::{OracleDraw, TargetShape, with_draw};
 use crate::inspect::run::{InspectError, MAX_BYTES, check_stages, refused, target_bytes};
 use crate::pass::{Attachments, core_pass, prepared};
 use crate::{Device, RenderPass};
@@ -22,7 +22,9 @@ pub(crate) fn inspect_stages(
     device: &Device,
     pass: &RenderPass<'_>,
 ) -> Result<PassStages, InspectError> {
-    prepared(device, pass, |attachments, data| {
+    prepared(device, pass, |layers, data| {
+        // Draws without a geometry shader go to the first layer.
+        let attachments = &layers[0];
         let draws = data.draws(pass.draws);
         let core_pass = core_pass(pass, attachments.loads(), &draws);
         let checked = attachments.with_shape(|shape| core_pass.check(shape));
@@ -155,7 +157,7 @@ impl Run<'_> {
     ) -> Vec<Binning> {
         let formats = &self.attachments.formats;
         let draws = (0u32..).zip(self.draws).map(|(number, draw)| {
-            with_draw(self.device, draw, target, |target, oracle| {
+            with_draw(self.device, draw, TargetShape::of(target), |oracle| {
                 let geometry = geometry.as_deref_mut();
                 let band = band.as_deref_mut();
                 let mut both = Both {

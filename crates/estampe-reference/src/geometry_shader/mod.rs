@@ -3,16 +3,17 @@
 //! In · Out: the vertices of primitives, with adjacency · the vertices of points, lines or
 //! triangles, as a list, with layer and viewport index. Spec: Vulkan §Geometry Shading.
 
+mod primitive_shaders;
+
+pub use primitive_shaders::{Placed, PrimitiveShaders, ProgramPrimitives, RustPrimitives};
+
 use crate::pipeline::draw_runs;
-use crate::program::RustShaders;
+use crate::program::{RustShaders, Shaders};
 use crate::shading::shade_vertex;
 use crate::{ClipVertex, Draw, State, assembly};
-use estampe_types::shader::{
-    Emit, EmittedVertex, GeometryIn, GeometryProgram, GeometryShader, GeometryShaderProgram,
-    GeometryTopology, Points, Shader,
-};
+use estampe_types::Bindings;
+use estampe_types::shader::{GeometryShader, GeometryTopology, Shader};
 use estampe_types::state::{PrimitiveTopology, ProvokingVertex};
-use estampe_types::{Bindings, Varyings};
 
 /// A primitive that was emitted.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +22,21 @@ pub struct EmittedPrimitive {
     pub vertices: Vec<ClipVertex>,
     /// The layer and the viewport index of the provoking vertex.
     pub place: [u32; 2],
+    /// The invocation that emitted it.
+    pub invocation: usize,
+}
+
+/// A primitive that a geometry shader reads.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InputPrimitive {
+    /// The index of the instance.
+    pub instance: u32,
+    /// The number of the primitive in its instance.
+    pub number: i32,
+    /// The positions of its vertices in the draw's range, those of neighbours included.
+    pub positions: Vec<u32>,
+    /// Its vertices.
+    pub vertices: Vec<ClipVertex>,
 }
 
 /// The vertices of a draw's primitives, all six of a triangle with adjacency, and for each
@@ -30,18 +46,38 @@ pub fn input<V: Shader>(vertex: &V, state: &State, draw: &Draw<'_>) -> (Vec<Clip
         return Default::default();
     };
     let (mut vertices, mut numbers) = (Vec::new(), Vec::new());
+    for_each_input(&shaders, state, draw, &mut |primitive| {
+        vertices.extend_from_slice(&primitive.vertices);
+        numbers.push(primitive.number);
+    });
+    (vertices, numbers)
+}
+
+/// Assembles the primitives of a draw, one after the other.
+pub fn for_each_input(
+    vertex: &dyn Shaders,
+    state: &State,
+    draw: &Draw<'_>,
+    visit: &mut dyn FnMut(&InputPrimitive),
+) {
     for instance in draw.instances.clone() {
         let mut number = 0;
         for run in draw_runs(state, draw) {
-            for corners in primitives(state.primitive.topology, run.end - run.start) {
-                let shade = |at| shade_vertex(&shaders, draw, run.start + at, instance);
-                vertices.extend(corners.into_iter().map(shade));
-                numbers.push(number);
+            for mut positions in primitives(state.primitive.topology, run.end - run.start) {
+                for position in &mut positions {
+                    *position += run.start;
+                }
+                let shade = |&at: &u32| shade_vertex(vertex, draw, at, instance);
+                visit(&InputPrimitive {
+                    instance,
+                    number,
+                    vertices: positions.iter().map(shade).collect(),
+                    positions,
+                });
                 number += 1;
             }
         }
     }
-    (vertices, numbers)
 }
 
 /// All positions of each primitive of `count` vertices, after Vulkan's table of primitives with
@@ -83,69 +119,35 @@ pub fn emit<G: GeometryShader + Clone>(
     provoking: ProvokingVertex,
     bindings: &Bindings,
 ) -> Vec<EmittedPrimitive> {
-    let program = GeometryShaderProgram::new(shader.clone());
-    if program.validate().is_err() {
+    let Ok(shaders) = RustPrimitives::new(shader) else {
         return Vec::new();
-    }
-    let output = &program.interface().output;
-    let distances = [output.clip_distances, output.cull_distances];
+    };
+    let primitives = vertices.chunks(G::INPUT.vertices()).zip(numbers);
+    let emitted = primitives
+        .flat_map(|(corners, &number)| emitted(&shaders, corners, number, provoking, bindings));
+    emitted.collect()
+}
+
+/// The primitives that a geometry shader makes of one.
+pub fn emitted(
+    shaders: &dyn PrimitiveShaders,
+    corners: &[ClipVertex],
+    number: i32,
+    provoking: ProvokingVertex,
+    bindings: &Bindings,
+) -> Vec<EmittedPrimitive> {
     let mut all = Vec::new();
-    for (corners, &number) in vertices.chunks(G::INPUT.vertices()).zip(numbers) {
-        let records: Vec<u32> = corners.iter().flat_map(ClipVertex::words).collect();
-        let words = records.len() / corners.len();
-        for invocation in 0..G::INVOCATIONS {
-            let mut strips = Strips {
-                strips: vec![Vec::new()],
-                left: G::MAX_VERTICES,
-                distances,
-            };
-            let input = GeometryIn {
-                points: Points::of_patch(0.0_f32, &records, words, corners.len()),
-                primitive_index: number,
-                invocation,
-                bindings,
-                zero: 0.0,
-            };
-            shader.geometry(input, &mut strips);
-            for strip in &strips.strips {
-                all.extend(primitives_of(strip, G::OUTPUT, provoking));
+    let invocations = shaders.strips(corners, number, bindings);
+    for (invocation, strips) in invocations.iter().enumerate() {
+        for strip in strips {
+            let mut primitives = primitives_of(strip, shaders.topology(), provoking);
+            for primitive in &mut primitives {
+                primitive.invocation = invocation;
             }
+            all.append(&mut primitives);
         }
     }
     all
-}
-
-/// A vertex with its layer and viewport index.
-type Placed = (ClipVertex, [u32; 2]);
-
-/// The strips that one invocation emits.
-struct Strips {
-    strips: Vec<Vec<Placed>>,
-    /// Vertices that may still be emitted.
-    left: usize,
-    distances: [usize; 2],
-}
-
-impl<V: Varyings<f32>> Emit<f32, V> for Strips {
-    fn emit(&mut self, lanes: bool, vertex: impl Into<EmittedVertex<f32, V>>) {
-        if !lanes || self.left == 0 {
-            return;
-        }
-        self.left -= 1;
-        let vertex = vertex.into();
-        let place = [vertex.layer, vertex.viewport_index];
-        let place = place.map(|number| number.unwrap_or(0).cast_unsigned());
-        let vertex = ClipVertex::of(vertex.vertex, self.distances);
-        if let Some(strip) = self.strips.last_mut() {
-            strip.push((vertex, place));
-        }
-    }
-
-    fn end_primitive(&mut self, lanes: bool) {
-        if lanes {
-            self.strips.push(Vec::new());
-        }
-    }
 }
 
 /// The primitives of a strip.
@@ -173,7 +175,11 @@ fn primitives_of(
                 vertices.swap(1, 2);
             }
         }
-        EmittedPrimitive { vertices, place }
+        EmittedPrimitive {
+            vertices,
+            place,
+            invocation: 0,
+        }
     });
     primitives.collect()
 }
