@@ -1,7 +1,7 @@
 //! Checks that a kernel is one.
 
-use super::dominators::Dominators;
-use super::{BasicBlock, BlockId, Jump, Kernel, Terminator};
+use crate::lanes::dominators::Dominators;
+use crate::lanes::{BasicBlock, BlockId, Jump, Kernel, Terminator};
 use crate::op::{LevelOfDetail, Memory, TextureQuery};
 use crate::{Op, Type, Value};
 
@@ -309,3 +309,6 @@ fn at(block: BlockId, op: Option<&Op>, what: String) -> VerifyError {
     };
     VerifyError { what, place }
 }
+
+#[cfg(test)]
+mod tests;
