@@ -1,6 +1,6 @@
 //! The time of a fragment in the interpreter: Blinn-Phong with two lights, about 300 operations.
 //!
-//! `cargo run --release -p estampe-ir --example interpreter_speed`
+//! `cargo run --release -p estampe-ir --example interpreter_speed [SIMD level]`
 
 #![expect(clippy::print_stdout, reason = "the program prints its measurements")]
 
@@ -173,7 +173,11 @@ fn main() {
         ..Run::new(PACKETS)
     };
     let mut scratch = Scratch::default();
+    let chosen = std::env::args().nth(1);
     for level in Level::all_available() {
+        if chosen.as_ref().is_some_and(|name| name != level.name()) {
+            continue;
+        }
         for chunk in [1, 2, 4, 8, 16] {
             let code = code.clone().with_chunk(chunk);
             let mut best = f64::INFINITY;

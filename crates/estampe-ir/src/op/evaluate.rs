@@ -10,6 +10,7 @@ pub const NAN: u32 = 0x7FC0_0000;
 impl Unary {
     /// The result.
     #[must_use]
+    #[inline]
     pub fn evaluate(self, a: u32) -> u32 {
         let x = f32::from_bits(a);
         match self {
@@ -63,6 +64,7 @@ fn u32_from_f32(x: f32) -> u32 {
 impl Binary {
     /// The result.
     #[must_use]
+    #[inline]
     pub fn evaluate(self, [a, b]: [u32; 2]) -> u32 {
         let [x, y] = [a, b].map(f32::from_bits);
         let [s, t] = [a, b].map(u32::cast_signed);
@@ -103,6 +105,7 @@ fn high(product: u64) -> u32 {
 impl Compare {
     /// The result.
     #[must_use]
+    #[inline]
     pub fn evaluate(self, [a, b]: [u32; 2]) -> bool {
         let [x, y] = [a, b].map(f32::from_bits);
         let [s, t] = [a, b].map(u32::cast_signed);
@@ -124,6 +127,7 @@ impl Compare {
 impl MaskBinary {
     /// The result.
     #[must_use]
+    #[inline]
     pub fn evaluate(self, [a, b]: [bool; 2]) -> bool {
         match self {
             Self::And => a & b,
@@ -137,6 +141,7 @@ impl MaskBinary {
 impl Math {
     /// The result.
     #[must_use]
+    #[inline]
     pub fn evaluate(self, x: f32) -> f32 {
         match self {
             Self::Sin => maths::sin(x),
@@ -159,6 +164,7 @@ impl Math {
 impl Math2 {
     /// The result.
     #[must_use]
+    #[inline]
     pub fn evaluate(self, [x, y]: [f32; 2]) -> f32 {
         match self {
             Self::Pow => maths::pow(x, y),
@@ -178,6 +184,7 @@ pub fn fma([a, b, c]: [u32; 3]) -> u32 {
 impl Atomic {
     /// The word that is stored, from the stored word and the operand.
     #[must_use]
+    #[inline]
     pub fn evaluate(self, [a, b]: [u32; 2]) -> u32 {
         match self {
             Self::Add => Binary::Add.evaluate([a, b]),

@@ -15,31 +15,41 @@ impl Arithmetic for ByLane {
         work();
     }
 
+    #[inline(always)]
     fn unary(self, kind: Unary, to: Words<'_>, a: Words<'_>) {
         for (to, a) in to.iter().zip(a) {
             to.set(Packet(a.get().0.map(|a| kind.evaluate(a))));
         }
     }
 
+    #[inline(always)]
     fn binary(self, kind: Binary, to: Words<'_>, pair: [Operand<'_>; 2]) {
         each(to, pair, |pair| kind.evaluate(pair));
     }
 
+    #[inline(always)]
     fn product(self, kind: Product, to: Words<'_>, three: [Operand<'_>; 3]) {
-        each(to, three, |[a, b, c]| {
-            let product = Binary::FMul.evaluate([a, b]);
-            match kind {
-                Product::Plus => Binary::FAdd.evaluate([product, c]),
-                Product::Minus => Binary::FSub.evaluate([product, c]),
-                Product::From => Binary::FSub.evaluate([c, product]),
+        let [a, b, c] = three;
+        for (packet, to) in to.iter().enumerate() {
+            let [mut words, b, c] = [a, b, c].map(|operand| operand.packet(packet));
+            for lane in 0..LANES {
+                let product = Binary::FMul.evaluate([words[lane], b[lane]]);
+                words[lane] = match kind {
+                    Product::Plus => Binary::FAdd.evaluate([product, c[lane]]),
+                    Product::Minus => Binary::FSub.evaluate([product, c[lane]]),
+                    Product::From => Binary::FSub.evaluate([c[lane], product]),
+                };
             }
-        });
+            to.set(Packet(words));
+        }
     }
 
+    #[inline(always)]
     fn fma(self, to: Words<'_>, three: [Words<'_>; 3]) {
         each(to, three.map(Operand::Many), fma);
     }
 
+    #[inline(always)]
     fn compare(self, kind: Compare, to: Masks<'_>, pair: [Operand<'_>; 2]) {
         for (packet, to) in to.iter().enumerate() {
             let [a, b] = pair.map(|operand| operand.packet(packet));
@@ -51,6 +61,7 @@ impl Arithmetic for ByLane {
         }
     }
 
+    #[inline(always)]
     fn select(self, to: Words<'_>, mask: MaskOperand<'_>, [yes, no]: [Operand<'_>; 2]) {
         for (packet, to) in to.iter().enumerate() {
             let [mut words, yes] = [no, yes].map(|operand| operand.packet(packet));
@@ -61,6 +72,7 @@ impl Arithmetic for ByLane {
         }
     }
 
+    #[inline(always)]
     fn math(self, function: Math, to: Words<'_>, x: Words<'_>) {
         for (to, x) in to.iter().zip(x) {
             let result = |x| function.evaluate(f32::from_bits(x)).to_bits();
@@ -68,12 +80,14 @@ impl Arithmetic for ByLane {
         }
     }
 
+    #[inline(always)]
     fn math2(self, function: Math2, to: Words<'_>, pair: [Words<'_>; 2]) {
         each(to, pair.map(Operand::Many), |pair| {
             function.evaluate(pair.map(f32::from_bits)).to_bits()
         });
     }
 
+    #[inline(always)]
     fn derivative(
         self,
         (axis, precision): (Axis, Precision),
@@ -102,6 +116,7 @@ impl Arithmetic for ByLane {
         }
     }
 
+    #[inline(always)]
     fn gather(self, to: Words<'_>, table: &[u32], index: Words<'_>, shift: u32, is_clamped: bool) {
         for (to, index) in to.iter().zip(index) {
             let element = |index: u32| {
@@ -115,6 +130,7 @@ impl Arithmetic for ByLane {
 }
 
 /// Sets each lane of a register to a function of the operands' lanes.
+#[inline(always)]
 fn each<const N: usize>(to: Words<'_>, operands: [Operand<'_>; N], word: impl Fn([u32; N]) -> u32) {
     for (packet, to) in to.iter().enumerate() {
         let operands = operands.map(|operand| operand.packet(packet));

@@ -3,10 +3,9 @@
 use super::super::Stopped;
 use super::super::instruction::{Instruction, Mask};
 use super::arithmetic::Arithmetic;
-use super::state::{MaskOperand, Operand, State, quads_with_any};
+use super::state::{MaskOperand, State, quads_with_any};
 use super::table::Table;
 use crate::op::MaskBinary;
-use estampe_simd::{LANES, Packet};
 
 /// Executes the instructions on a chunk.
 pub(super) fn chunk<A: Arithmetic>(level: A, state: &State<'_>) -> Result<(), Stopped> {
@@ -35,17 +34,6 @@ pub(super) fn chunk<A: Arithmetic>(level: A, state: &State<'_>) -> Result<(), St
 pub(super) fn copies_and_memory(state: &State<'_>, instruction: &Instruction) {
     match instruction {
         Instruction::Scalar(to, op) => state.scalar(*to, op),
-        Instruction::Copy(to, word) => match state.word(*word) {
-            Operand::Many(from) => {
-                for (to, from) in state.slot(*to).iter().zip(from) {
-                    to.set(from.get());
-                }
-            }
-            Operand::One(word) => {
-                let packet = Packet([word; LANES]);
-                state.slot(*to).iter().for_each(|to| to.set(packet));
-            }
-        },
         Instruction::CopyMask(to, mask) => {
             let mask = state.mask(*mask);
             for (packet, to) in state.mask_slot(*to).iter().enumerate() {
@@ -63,9 +51,7 @@ pub(super) fn copies_and_memory(state: &State<'_>, instruction: &Instruction) {
                 to.set(quads_with_any(a.get()));
             }
         }
-        Instruction::Input(to, at) => state.input(state.slot(*to), *at),
         Instruction::InputMask(to, at) => state.input_mask(state.mask_slot(*to), *at),
-        Instruction::Output(at, word) => state.output(*at, state.word(*word)),
         Instruction::OutputMask(at, mask) => state.output_mask(*at, state.mask(*mask)),
         Instruction::LoadLocal(to, array, index) => {
             state.load_local(state.slot(*to), state.array(*array), state.word(*index));

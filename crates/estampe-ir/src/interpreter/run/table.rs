@@ -20,8 +20,9 @@ const SELECT: usize = PRODUCT + PRODUCTS.len();
 const FMA: usize = SELECT + 1;
 const DERIVATIVE: usize = SELECT + 2;
 const GATHER: usize = SELECT + 3;
-const OTHER: usize = SELECT + 4;
-const COUNT: usize = SELECT + 5;
+const TRANSFER: usize = SELECT + 4;
+const OTHER: usize = SELECT + 5;
+const COUNT: usize = SELECT + 6;
 
 const PRODUCTS: [Product; 3] = [Product::Plus, Product::Minus, Product::From];
 
@@ -38,6 +39,7 @@ pub(in super::super) fn entry_of(instruction: &Instruction) -> u8 {
         Instruction::Fma(..) => FMA,
         Instruction::Derivative(..) => DERIVATIVE,
         Instruction::LoadTable(..) | Instruction::LoadBuffer(..) => GATHER,
+        Instruction::Copy(..) | Instruction::Input(..) | Instruction::Output(..) => TRANSFER,
         _ => OTHER,
     };
     u8::try_from(place).expect("fewer than 256 functions")
@@ -67,6 +69,7 @@ impl<A: Arithmetic> Table<A> {
         entries[FMA] = fma::<A>;
         entries[DERIVATIVE] = derivative::<A>;
         entries[GATHER] = gather::<A>;
+        entries[TRANSFER] = transfer::<A>;
         entries
     };
 }
@@ -148,6 +151,19 @@ fn gather<A: Arithmetic>(level: A, state: &State<'_>, instruction: &Instruction)
             Instruction::LoadBuffer(to, buffer, offset) => {
                 state.load_buffer(level, state.slot(to), buffer, state.slot(offset));
             }
+            _ => {}
+        },
+    );
+}
+
+/// Copies packets, with the widest registers of the SIMD level.
+fn transfer<A: Arithmetic>(level: A, state: &State<'_>, instruction: &Instruction) {
+    level.enter(
+        #[inline(always)]
+        move || match *instruction {
+            Instruction::Copy(to, word) => state.copy(state.slot(to), state.word(word)),
+            Instruction::Input(to, at) => state.input(state.slot(to), at),
+            Instruction::Output(at, word) => state.output(at, state.word(word)),
             _ => {}
         },
     );

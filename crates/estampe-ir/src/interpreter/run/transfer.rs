@@ -5,6 +5,25 @@ use super::state::{MaskOperand, Masks, Operand, State, Words};
 use estampe_simd::{LANES, Packet};
 
 impl State<'_> {
+    #[inline(always)]
+    pub(super) fn copy(&self, to: Words<'_>, from: Operand<'_>) {
+        match from {
+            // A register that stays where it is.
+            Operand::Many(from) if std::ptr::eq(to, from) => {}
+            Operand::Many(from) => {
+                for (to, from) in to.iter().zip(from) {
+                    to.set(from.get());
+                }
+            }
+            Operand::One(word) => {
+                for to in to {
+                    to.set(Packet([word; LANES]));
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
     pub(super) fn input(&self, to: Words<'_>, at: u32) {
         let input = self.run.inputs.get(at as usize);
         match input.copied().unwrap_or(InputData::Uniform(0)) {
@@ -14,7 +33,7 @@ impl State<'_> {
                 stride,
             } => {
                 for (to, at) in to.iter().zip(self.elements(first, stride)) {
-                    to.set(packets.get(at).copied().unwrap_or_default());
+                    to.set(packets.get(at).map_or(ZERO, |packet| *packet));
                 }
             }
             InputData::Floats {
@@ -23,8 +42,7 @@ impl State<'_> {
                 stride,
             } => {
                 for (to, at) in to.iter().zip(self.elements(first, stride)) {
-                    let floats = packets.get(at).copied().unwrap_or_default();
-                    to.set(Packet(floats.0.map(f32::to_bits)));
+                    to.set(packets.get(at).map_or(ZERO, bits));
                 }
             }
             InputData::Uniform(word) => to.iter().for_each(|to| to.set(Packet([word; LANES]))),
@@ -47,6 +65,7 @@ impl State<'_> {
         }
     }
 
+    #[inline(always)]
     pub(super) fn output(&self, at: u32, from: Operand<'_>) {
         let output = self.run.outputs.get(at as usize);
         match output.copied().unwrap_or(OutputData::Dropped) {
@@ -68,7 +87,7 @@ impl State<'_> {
             } => {
                 for (packet, at) in (0..self.count).zip(self.elements(first, stride)) {
                     if let Some(to) = packets.get(at) {
-                        to.set(Packet(from.packet(packet).map(f32::from_bits)));
+                        to.set(floats(from.packet(packet)));
                     }
                 }
             }
@@ -86,7 +105,28 @@ impl State<'_> {
     }
 
     /// The elements of the chunk's packets.
+    #[inline(always)]
     fn elements(&self, first: usize, stride: usize) -> impl Iterator<Item = usize> {
         (self.first..).map(move |packet| packet.saturating_mul(stride).saturating_add(first))
     }
+}
+
+const ZERO: Packet<u32> = Packet([0; LANES]);
+
+#[inline(always)]
+fn bits(floats: &Packet<f32>) -> Packet<u32> {
+    let mut bits = ZERO;
+    for (to, from) in bits.0.iter_mut().zip(&floats.0) {
+        *to = from.to_bits();
+    }
+    bits
+}
+
+#[inline(always)]
+fn floats(bits: [u32; LANES]) -> Packet<f32> {
+    let mut floats = Packet([0.0; LANES]);
+    for (to, from) in floats.0.iter_mut().zip(bits) {
+        *to = f32::from_bits(from);
+    }
+    floats
 }
