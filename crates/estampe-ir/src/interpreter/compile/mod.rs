@@ -4,9 +4,11 @@
 //! 2. [`emit`] writes instructions. Each value that differs between lanes has a register of its
 //!    own; what is the same in all lanes is a scalar. Operations on scalars that read nothing that
 //!    changes are moved to the *preamble*, which is executed once in a run.
-//! 3. [`registers`] lets values share registers whose lives do not overlap (linear scan; Poletto
+//! 3. [`coalesce`] computes what a loop carries on in its place.
+//! 4. [`registers`] lets values share registers whose lives do not overlap (linear scan; Poletto
 //!    and Sarkar 1999).
 
+mod coalesce;
 mod emit;
 mod moves;
 mod ops;
@@ -61,7 +63,9 @@ impl Code {
     pub fn new(kernel: &Kernel) -> Self {
         let mut emitter = Emitter::new(kernel);
         emitter.kernel();
+        coalesce::coalesce(&mut emitter.instructions);
         let [slots, mask_slots] = registers::allocate(&mut emitter.instructions);
+        coalesce::remove_idle_copies(&mut emitter.instructions);
         let instructions = emitter.instructions.into_iter();
         let mut code = Self {
             preamble: emitter.preamble,

@@ -9,11 +9,11 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
 /// Words, and masks.
-const KINDS: usize = 2;
+pub(super) const KINDS: usize = 2;
 
 /// How an instruction names a register.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Access {
+pub(super) enum Access {
     Read,
     Write,
 }
@@ -203,7 +203,10 @@ impl Loops {
 }
 
 /// Calls `visit` with the kind of each register that an instruction names, and its number.
-fn each_register(instruction: &mut Instruction, visit: impl FnMut(usize, &mut u32, Access)) {
+pub(super) fn each_register(
+    instruction: &mut Instruction,
+    visit: impl FnMut(usize, &mut u32, Access),
+) {
     let mut visit = Visitor(visit);
     match instruction {
         Instruction::Scalar(_, op) => match op {

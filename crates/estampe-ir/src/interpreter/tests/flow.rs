@@ -1,16 +1,9 @@
 //! Control flow, parameters, locals and budgets.
 
-use super::{Lanes, run};
+use super::{Lanes, parsed, run};
 use crate::interpreter::{Code, Run, Scratch, Stopped};
-use crate::lanes::{Kernel, verify};
-use crate::text::kernel;
+use crate::lanes::Kernel;
 use estampe_simd::{LANES, Level};
-
-fn parsed(text: &str) -> Kernel {
-    let kernel = kernel(text).unwrap();
-    verify(&kernel).unwrap();
-    kernel
-}
 
 /// Runs a kernel on one input at all levels, for several numbers of packets and chunks; the results
 /// must be those of a function of the lane's input.
@@ -78,6 +71,21 @@ fn lanes_leave_a_loop_one_after_the_other() {
             steps
         },
     );
+}
+
+/// Nothing is copied from one iteration to the next: the loop has ten operations and two jumps.
+#[test]
+fn loops_compute_in_place() {
+    let code = Code::new(&parsed(COLLATZ));
+    let copies = code.instructions.iter().filter(|(_, instruction)| {
+        use crate::interpreter::instruction::Instruction;
+        matches!(
+            instruction,
+            Instruction::Copy(..) | Instruction::CopyMask(..)
+        )
+    });
+    // The number of steps begins with a uniform 0.
+    assert_eq!(copies.count(), 1, "{:#?}", code.instructions);
 }
 
 /// The parameters of the loop change places: a cycle of moves, of words that are uniform and of

@@ -1,18 +1,12 @@
 //! Buffers, work-group memory, atomics and their order.
 
+use super::parsed;
 use crate::interpreter::{Buffer, Code, InputData, OutputData, Run, Scratch, cells};
-use crate::lanes::{Kernel, verify};
+use crate::lanes::Kernel;
 use crate::op::Atomic;
-use crate::text::kernel;
 use estampe_simd::{LANES, Level, Packet};
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
-
-fn parsed(text: &str) -> Kernel {
-    let kernel = kernel(text).unwrap();
-    verify(&kernel).unwrap();
-    kernel
-}
 
 fn packets(count: usize, word: impl Fn(usize) -> u32) -> Vec<Packet<u32>> {
     let packet = |packet| Packet(std::array::from_fn(|lane| word(packet * LANES + lane)));

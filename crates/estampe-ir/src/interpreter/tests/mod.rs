@@ -3,12 +3,20 @@
 mod flow;
 mod memory;
 mod ops;
+mod textures;
 
 use super::{Code, InputData, OutputData, Run, Scratch, cells};
 use crate::interface::{Input, Interface, Output, Stage};
-use crate::lanes::{BasicBlock, Kernel, Terminator, ValueInfo};
+use crate::lanes::{BasicBlock, Kernel, Terminator, ValueInfo, verify};
 use crate::{Op, Type, Value};
 use estampe_simd::{LANES, Level, Packet};
+
+/// The kernel of a text.
+fn parsed(text: &str) -> Kernel {
+    let kernel = crate::text::kernel(text).unwrap();
+    verify(&kernel).unwrap();
+    kernel
+}
 
 /// A kernel of one block: values are the inputs, then the results of the operations, and all
 /// results of the last one are outputs.
