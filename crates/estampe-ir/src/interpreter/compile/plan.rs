@@ -77,8 +77,9 @@ impl Plan {
                 let of_product = |value: Value| {
                     let (block, place) = defined[value.index()]?;
                     let place = place as usize;
-                    let is_near = block == of_block && at - place <= FUSION_DISTANCE;
-                    if !is_near || uses[value.index()] != 1 {
+                    let distance = at.checked_sub(place);
+                    let is_near = distance.is_some_and(|distance| distance <= FUSION_DISTANCE);
+                    if block != of_block || !is_near || uses[value.index()] != 1 {
                         return None;
                     }
                     let (op, _) = &kernel.blocks[block as usize].ops[place];

@@ -31,10 +31,12 @@ impl Textures for Sums {
                 if access.mask[packet] >> lane & 1 == 0 {
                     continue;
                 }
-                let digits = operands.iter().map(|operand| {
-                    operand.map_or(0, |words| words[packet].0[lane])
+                let digits = operands
+                    .iter()
+                    .map(|operand| operand.map_or(0, |words| words[packet].0[lane]));
+                let sum = digits.fold(0, |sum: u32, digit| {
+                    sum.wrapping_mul(10).wrapping_add(digit)
                 });
-                let sum = digits.fold(0, |sum: u32, digit| sum.wrapping_mul(10).wrapping_add(digit));
                 if access.op.query == TextureQuery::Store {
                     let word = access.stored(3)[packet].0[lane];
                     self.stored.borrow_mut().push(sum * 10 + word);
@@ -58,7 +60,11 @@ fn run(text: &str, level: Level, cover: &[u16], textures: &Sums) -> Vec<Vec<u32>
     let kernel = parsed(&format!("{header}{text}"));
     let packets = cover.len();
     let lanes: Vec<Packet<u32>> = (0..packets)
-        .map(|_| Packet(std::array::from_fn(|lane| u32::try_from(lane % 10).unwrap())))
+        .map(|_| {
+            Packet(std::array::from_fn(|lane| {
+                u32::try_from(lane % 10).unwrap()
+            }))
+        })
         .collect();
     let mut results = vec![Packet([0; LANES]); 2 * packets];
     let outputs = cells(&mut results);
@@ -75,7 +81,11 @@ fn run(text: &str, level: Level, cover: &[u16], textures: &Sums) -> Vec<Vec<u32>
     };
     let code = Code::new(&kernel);
     code.run(level, &run, &mut Scratch::default()).unwrap();
-    let output = |at: usize| (0..packets).flat_map(|packet| results[packet * 2 + at].0).collect();
+    let output = |at: usize| {
+        (0..packets)
+            .flat_map(|packet| results[packet * 2 + at].0)
+            .collect()
+    };
     [0, 1].map(output).to_vec()
 }
 
