@@ -1,5 +1,5 @@
-//! Random trees and their kernels: the verifier accepts them, and their texts are read back. Kernels
-//! in which something was exchanged are refused, or run without a panic.
+//! Random trees and their kernels: the verifier accepts them, and their texts are read back.
+//! Kernels in which something was exchanged are refused, or run without a panic.
 
 #[path = "random_trees/generate.rs"]
 mod generate;
