@@ -34,6 +34,7 @@ const CRATES: &[(&str, &[&str])] = &[
             "estampe-texture",
         ],
     ),
+    ("estampe-x86", &["estampe-ir", "estampe-simd"]),
     // `Device::inspect` runs a pass with the oracle, for one pixel.
     (
         "estampe",
@@ -147,8 +148,12 @@ const OUTSIDE: &[(&str, Users)] = &[
     ("image", Users::Only(&["estampe"])),
     ("zune-jpeg", Users::Only(&["estampe-assets"])),
     ("jpeg-encoder", Users::Only(&["estampe-assets"])),
-    // CPU time of the process.
-    ("rustix", Users::Only(&["estampe-bench"])),
+    // CPU time of the process; pages of machine code.
+    ("rustix", Users::Only(&["estampe-bench", "estampe-x86"])),
+    // Registers of machine code.
+    ("regalloc2", Users::Only(&["estampe-x86"])),
+    // A second opinion on machine code, in tests.
+    ("iced-x86", Users::Only(&["estampe-x86"])),
     // Command lines.
     (
         "clap",

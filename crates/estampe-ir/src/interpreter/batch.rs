@@ -98,7 +98,8 @@ impl<'a> InputData<'a> {
     }
 
     /// The first lane, for inputs that are the same in all lanes.
-    pub(super) fn first_word(&self) -> u32 {
+    #[must_use]
+    pub fn first_word(&self) -> u32 {
         match *self {
             Self::Words { packets, first, .. } => packets.get(first).map_or(0, |words| words.0[0]),
             Self::Floats { packets, first, .. } => {

@@ -11,9 +11,12 @@ pub struct Buffer<'a> {
     bytes: u32,
 }
 
+/// The words that are wholly inside of a bound range, for back ends.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Words<'a> {
+pub enum Words<'a> {
+    /// Nobody changes them during a run.
     ReadOnly(&'a [u32]),
+    /// Several threads may read and write them.
     Shared(&'a [AtomicU32]),
 }
 
@@ -52,12 +55,14 @@ impl<'a> Buffer<'a> {
     }
 
     /// The words that are wholly inside of the bound range.
-    pub(super) fn words(&self) -> Words<'a> {
+    #[must_use]
+    pub fn words(&self) -> Words<'a> {
         self.words
     }
 
     /// The word at a byte offset; 0 outside.
-    pub(super) fn load(&self, offset: u32) -> u32 {
+    #[must_use]
+    pub fn load(&self, offset: u32) -> u32 {
         let at = offset as usize / 4;
         match self.words {
             Words::ReadOnly(words) => words.get(at).copied().unwrap_or(0),
@@ -66,7 +71,8 @@ impl<'a> Buffer<'a> {
     }
 
     /// The word at a byte offset, to change it; `None` outside.
-    pub(super) fn at(&self, offset: u32) -> Option<&'a AtomicU32> {
+    #[must_use]
+    pub fn at(&self, offset: u32) -> Option<&'a AtomicU32> {
         match self.words {
             Words::ReadOnly(_) => None,
             Words::Shared(words) => words.get(offset as usize / 4),
@@ -82,7 +88,7 @@ fn range(words: usize, bytes: usize) -> (u32, usize) {
 }
 
 /// Does an atomic operation; the word that was read.
-pub(super) fn atomic(kind: Atomic, word: &AtomicU32, operand: u32) -> u32 {
+pub fn atomic(kind: Atomic, word: &AtomicU32, operand: u32) -> u32 {
     match kind {
         Atomic::Add => word.fetch_add(operand, Relaxed),
         Atomic::Sub => word.fetch_sub(operand, Relaxed),

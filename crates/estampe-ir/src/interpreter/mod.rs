@@ -50,7 +50,7 @@ mod textures;
 
 pub use batch::{InputData, OutputData, Run, Stopped, cells};
 pub use compile::{Code, MAX_CHUNK};
-pub use memory::Buffer;
+pub use memory::{Buffer, Words, atomic};
 pub use run::Scratch;
 pub use textures::{NoTextures, TextureAccess, Textures};
 

@@ -42,6 +42,26 @@ pub struct TextureAccess<'a> {
 }
 
 impl<'a> TextureAccess<'a> {
+    /// An access in the lanes of these masks, one mask for each packet. Operands that are words
+    /// stand in the order of [`Op::each_operand`](crate::Op::each_operand), each as many packets;
+    /// results likewise.
+    #[must_use]
+    pub fn new(
+        op: &'a TextureOp,
+        (level, mask): (Level, &'a [u16]),
+        operands: &'a [Packet<u32>],
+        results: &'a mut [Packet<u32>],
+    ) -> Self {
+        Self {
+            op,
+            level,
+            packets: mask.len(),
+            mask,
+            operands,
+            results,
+        }
+    }
+
     /// A coordinate: floats where a sampler is used, else integers.
     #[must_use]
     pub fn coordinate(&self, at: usize) -> &'a [Packet<u32>] {

@@ -1,0 +1,145 @@
+//! From a kernel to code: selection, allocation, encoding.
+
+use crate::encoder::Assembler;
+use crate::executable::Executable;
+use crate::frame::Frame;
+use crate::machine::{Function, allocate, emit};
+use crate::select::{self, Selected, calls::Served};
+use crate::{CompileError, Isa, Tier};
+use estampe_ir::lanes::{self, Kernel};
+use estampe_ir::{Op, Type};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Machine code of a kernel.
+#[derive(Debug)]
+pub struct Code {
+    pub(crate) executable: Executable,
+    /// The bytes that are instructions; constants follow.
+    code_bytes: usize,
+    /// Where the function begins that computes hoisted values, if there is one.
+    pub(crate) prepare: Option<usize>,
+    /// Where the function begins that runs a pass of a packet.
+    pub(crate) packet: usize,
+    pub(crate) passes: usize,
+    pub(crate) isa: Isa,
+    pub(crate) frame: Frame,
+    pub(crate) served: Vec<Served>,
+    pub(crate) table_inputs: Vec<(usize, u32)>,
+    pub(crate) fixed_words: Vec<u32>,
+    pub(crate) input_types: Vec<Type>,
+    pub(crate) output_types: Vec<Type>,
+    pub(crate) local_words: Vec<u32>,
+    /// For each array that is stored to, its first packet and the words at its start.
+    pub(crate) reset_locals: Vec<(u32, u32, Vec<u32>)>,
+    /// A number that no other code has.
+    pub(crate) id: u64,
+}
+
+static NEXT_ID: AtomicU64 = AtomicU64::new(1);
+
+/// The bytes of instructions and constants beyond which a kernel is refused.
+const MAX_CODE_BYTES: usize = 1 << 26;
+
+/// Instructions beyond which registers are allocated in one pass, whatever the tier: the careful
+/// allocator may take more than linear time.
+const MAX_CAREFUL: usize = 1 << 14;
+
+/// Makes code for a kernel.
+///
+/// # Errors
+/// [`CompileError`] says why the kernel must be interpreted.
+pub fn compile(kernel: &Kernel, isa: Isa, tier: Tier) -> Result<Code, CompileError> {
+    if !isa.is_available() {
+        return Err(CompileError::NoIsa(isa.name()));
+    }
+    lanes::verify(kernel).map_err(|error| CompileError::Malformed(error.to_string()))?;
+    let mut assembler = Assembler::default();
+    let Selected {
+        prepare,
+        packet,
+        mut frame,
+        served,
+        passes,
+        table_inputs,
+        fixed_words,
+    } = select::select(kernel, isa, &mut assembler)?;
+    let packet = finish(&mut assembler, &packet, (isa, tier), &mut frame)?;
+    let prepare = prepare
+        .map(|function| finish(&mut assembler, &function, (isa, tier), &mut frame))
+        .transpose()?;
+    if assembler.len() > MAX_CODE_BYTES {
+        return Err(CompileError::TooLarge);
+    }
+    let finished = assembler.finish();
+    let interface = &kernel.interface;
+    let ops = kernel.blocks.iter().flat_map(|block| &block.ops);
+    let mut is_stored = vec![false; interface.locals.len()];
+    for (op, _) in ops {
+        if let Op::StoreLocal { array, .. } = op
+            && let Some(is_stored) = is_stored.get_mut(*array as usize)
+        {
+            *is_stored = true;
+        }
+    }
+    let stored = frame.locals.iter().zip(&interface.locals).zip(is_stored);
+    let reset_locals = stored
+        .filter(|(_, is_stored)| *is_stored)
+        .map(|((&start, array), _)| (start, array.words, array.init.clone()));
+    Ok(Code {
+        executable: Executable::new(&finished.bytes)?,
+        code_bytes: finished.code_bytes,
+        prepare,
+        packet,
+        passes,
+        isa,
+        served,
+        table_inputs,
+        fixed_words,
+        input_types: interface.inputs.iter().map(|input| input.kind()).collect(),
+        output_types: interface
+            .outputs
+            .iter()
+            .map(|output| output.kind())
+            .collect(),
+        local_words: interface.locals.iter().map(|array| array.words).collect(),
+        reset_locals: reset_locals.collect(),
+        frame,
+        id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+    })
+}
+
+/// Allocates registers and encodes a function. Returns where it begins.
+fn finish(
+    assembler: &mut Assembler,
+    function: &Function,
+    (isa, tier): (Isa, Tier),
+    frame: &mut Frame,
+) -> Result<usize, CompileError> {
+    let tier = if function.instructions.len() > MAX_CAREFUL {
+        Tier::Fast
+    } else {
+        tier
+    };
+    let allocated = allocate::allocate(function, isa, tier)
+        .map_err(|error| CompileError::Malformed(format!("{error:?}")))?;
+    frame
+        .reserve_spills(allocated.num_spillslots)
+        .ok_or(CompileError::TooLarge)?;
+    let start = assembler.len();
+    emit::emit(assembler, function, &allocated, (isa, frame));
+    Ok(start)
+}
+
+impl Code {
+    /// The instruction set.
+    #[must_use]
+    pub fn isa(&self) -> Isa {
+        self.isa
+    }
+
+    /// The instructions, without the constants that follow them. For disassemblers.
+    #[must_use]
+    pub fn instructions(&self) -> &[u8] {
+        &self.executable.bytes()[..self.code_bytes]
+    }
+}

@@ -1,0 +1,103 @@
+//! Where Rust calls machine code, and machine code calls Rust.
+//!
+//! This module has `unsafe` code. What holds on both sides is written in `frame`: code reads and
+//! writes its frame alone, apart from reads of the inputs and buffers and writes of the outputs
+//! whose addresses the frame has, each of which was checked when it was put there.
+
+use crate::executable::Executable;
+use crate::frame::{self, Frame};
+use crate::serve::{Call, Context};
+use estampe_simd::Packet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// A cache line of a frame.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C, align(64))]
+pub(crate) struct Line(pub(crate) [u64; 8]);
+
+/// The type of the code's functions and of the one that it calls, whatever the system's own
+/// convention is.
+type Entry = unsafe extern "sysv64" fn(frame: *mut Line) -> u32;
+
+/// The address that code calls for what it does not do itself.
+pub(crate) fn serve_address() -> u64 {
+    let serve: unsafe extern "sysv64" fn(*mut Line, u32) = serve;
+    serve as usize as u64
+}
+
+/// Calls a function of the code. Returns what it returns: 0, or 1 if the budget was used up.
+///
+/// `lines` is a frame as the code lays it out. Its head has the address of `context`, whose layout
+/// is the same one.
+pub(crate) fn enter(
+    executable: &Executable,
+    offset: usize,
+    lines: &mut [Line],
+    context: &Context<'_>,
+) -> u32 {
+    let enough = context.frame.bytes as usize <= size_of_val(lines);
+    assert!(enough, "the frame is as large as its layout");
+    let head = &mut lines[0].0;
+    head[frame::CONTEXT as usize / 8] = std::ptr::from_ref(context).expose_provenance() as u64;
+    head[frame::SERVE as usize / 8] = serve_address();
+    let start = executable.start().wrapping_add(offset);
+    // SAFETY: `offset` is where `compile` put a function of this type, in pages that are executable.
+    let entry = unsafe { std::mem::transmute::<*const u8, Entry>(start) };
+    // SAFETY: the code was made for this layout of frames, which `lines` is large enough for, and
+    // for instructions that the processor has: `compile` checks that. The addresses in the frame
+    // are those of `context.run`, which is borrowed as long as `context`.
+    unsafe { entry(lines.as_mut_ptr()) }
+}
+
+/// What code calls for what it does not do itself.
+///
+/// # Safety
+/// `frame` is a frame that [`enter`] was given, and the code that it entered is running.
+unsafe extern "sysv64" fn serve(frame: *mut Line, call: u32) {
+    // SAFETY: a frame has at least one line.
+    let head = unsafe { *frame };
+    let context = head.0[frame::CONTEXT as usize / 8];
+    let context = usize::try_from(context).expect("addresses have 64 bits");
+    let context = std::ptr::with_exposed_provenance(context);
+    // SAFETY: `enter` put the address there of what it borrows while the code runs.
+    let context: &Context<'_> = unsafe { &*context };
+    let Some(served) = context.served.get(call as usize) else {
+        return;
+    };
+    let layout: &Frame = context.frame;
+    let packets = served.operands() + served.results();
+    let arguments = frame.cast::<u8>().wrapping_add(layout.arguments as usize);
+    // SAFETY: the frame has room for the operands and results of each call of the kernel from
+    // `arguments` on, aligned to lines; all words are initialised, and the code waits.
+    let arguments =
+        unsafe { std::slice::from_raw_parts_mut(arguments.cast::<Packet<u32>>(), packets) };
+    let locals = layout.locals.first().copied().unwrap_or(layout.spills);
+    let local_packets = (layout.spills - locals) / frame::PACKET;
+    let locals = frame.cast::<u8>().wrapping_add(locals as usize);
+    // SAFETY: the arrays lie between the arguments and the spilled registers, aligned to lines; the
+    // words are initialised, and the code waits.
+    let locals = unsafe {
+        std::slice::from_raw_parts_mut(locals.cast::<Packet<u32>>(), local_packets as usize)
+    };
+    let mask_argument = frame
+        .cast::<u8>()
+        .wrapping_add(frame::MASK_ARGUMENT as usize);
+    // SAFETY: the place is in the head, aligned to its four bytes.
+    let mask = unsafe { *mask_argument.cast::<u16>() };
+    let mut call = Call {
+        served,
+        arguments,
+        locals,
+        mask,
+        mask_result: 0,
+    };
+    // A panic, of a caller's texture, must not go through machine code: it goes on in `Code::run`.
+    let done = catch_unwind(AssertUnwindSafe(|| context.serve(&mut call)));
+    let mask_result = call.mask_result;
+    if let Err(panic) = done {
+        *context.panic.borrow_mut() = Some(panic);
+    }
+    let place = frame.cast::<u8>().wrapping_add(frame::MASK_RESULT as usize);
+    // SAFETY: as above; the code reads it when this function returns.
+    unsafe { *place.cast::<u16>() = mask_result };
+}

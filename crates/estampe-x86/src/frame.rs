@@ -1,0 +1,146 @@
+//! The frame: the memory that code and its callers share, laid out when code is made.
+//!
+//! `rbx` points to it while code runs. It holds, in this order:
+//!
+//! | part | has |
+//! |---|---|
+//! | head | the budget, and what calls need |
+//! | table | values that are the same in all lanes of a run, one word each (AVX2: one vector) |
+//! | buffers | the address and lengths of each |
+//! | pointers | where each input is read and each output written |
+//! | still | for each input a packet that does not move: zeros, or a uniform word |
+//! | sink | a packet for outputs that go nowhere |
+//! | arguments | operands and results of calls |
+//! | locals | the arrays of the lanes, a packet for each word |
+//! | spills | registers that did not fit |
+
+use estampe_ir::interface::Interface;
+
+/// Offsets in the head, in bytes.
+pub(crate) const BUDGET: i32 = 0;
+pub(crate) const CONTEXT: i32 = 8;
+pub(crate) const SERVE: i32 = 16;
+/// The mask that a call is given, and the one that it gives: 16 bits, the rest is 0.
+pub(crate) const MASK_ARGUMENT: i32 = 24;
+pub(crate) const MASK_RESULT: i32 = 28;
+/// A word for sequences of instructions.
+pub(crate) const TEMPORARY: i32 = 32;
+/// A word that stays 0.
+const ZERO: u32 = 36;
+const HEAD: u32 = 64;
+
+/// The bytes of a packet of words.
+pub(crate) const PACKET: u32 = 64;
+
+/// The bytes of a frame beyond which a kernel is refused.
+pub(crate) const MAX_BYTES: u32 = 1 << 26;
+
+/// Where the parts of a frame begin, in bytes from its start.
+#[derive(Debug, Clone)]
+pub(crate) struct Frame {
+    /// The bytes of a value of the table.
+    pub(crate) slot_bytes: u32,
+    pub(crate) buffers: u32,
+    pub(crate) pointers: u32,
+    pub(crate) inputs: u32,
+    pub(crate) outputs: u32,
+    pub(crate) still: u32,
+    pub(crate) sink: u32,
+    pub(crate) arguments: u32,
+    /// The first packet of each array.
+    pub(crate) locals: Vec<u32>,
+    pub(crate) spills: u32,
+    /// All bytes; known when registers were allocated.
+    pub(crate) bytes: u32,
+}
+
+impl Frame {
+    /// The layout for an interface, so many values in the table, and calls with so many packets of
+    /// operands and results. `None` if it is too large.
+    pub(crate) fn new(
+        interface: &Interface,
+        (slots, slot_bytes): (u32, u32),
+        argument_packets: u32,
+    ) -> Option<Self> {
+        let mut end = HEAD;
+        let mut part = |count: usize, bytes: u32| {
+            let start = end;
+            let size = u32::try_from(count).ok()?.checked_mul(bytes)?;
+            end = start.checked_add(size)?.checked_next_multiple_of(PACKET)?;
+            (end <= MAX_BYTES).then_some(start)
+        };
+        part(slots as usize, slot_bytes)?;
+        let (inputs, outputs) = (interface.inputs.len(), interface.outputs.len());
+        let buffers = part(interface.buffers.len(), 32)?;
+        let pointers = part(inputs + outputs, 8)?;
+        let still = part(inputs, PACKET)?;
+        let sink = part(1, PACKET)?;
+        let arguments = part(argument_packets as usize, PACKET)?;
+        let mut locals = Vec::new();
+        for array in &interface.locals {
+            locals.push(part(array.words as usize, PACKET)?);
+        }
+        let spills = part(0, 0)?;
+        Some(Self {
+            slot_bytes,
+            buffers,
+            pointers,
+            inputs: u32::try_from(inputs).ok()?,
+            outputs: u32::try_from(outputs).ok()?,
+            still,
+            sink,
+            arguments,
+            locals,
+            spills,
+            bytes: spills,
+        })
+    }
+
+    /// Adds room for spilled registers: so many units of eight bytes.
+    pub(crate) fn reserve_spills(&mut self, units: usize) -> Option<()> {
+        let bytes = u32::try_from(units).ok()?.checked_mul(8)?;
+        let end = self.spills.checked_add(bytes)?;
+        let end = end.checked_next_multiple_of(PACKET)?;
+        self.bytes = self.bytes.max(end);
+        (self.bytes <= MAX_BYTES).then_some(())
+    }
+
+    /// A word that stays 0.
+    #[expect(clippy::unused_self, reason = "a place of the frame like others")]
+    pub(crate) fn zero(&self) -> u32 {
+        ZERO
+    }
+
+    /// A value of the table.
+    pub(crate) fn slot(&self, slot: u32) -> u32 {
+        HEAD + slot * self.slot_bytes
+    }
+
+    /// The pointer to the packet of an input.
+    pub(crate) fn input(&self, at: u32) -> u32 {
+        self.pointers + at * 8
+    }
+
+    /// The pointer to the packet of an output.
+    pub(crate) fn output(&self, at: u32) -> u32 {
+        self.pointers + (self.inputs + at) * 8
+    }
+
+    /// The address of a buffer; its lengths follow.
+    pub(crate) fn buffer(&self, at: u32) -> u32 {
+        self.buffers + at * 32
+    }
+}
+
+/// The number of words of a buffer, from where its address stands.
+pub(crate) const BUFFER_WORDS: u32 = 8;
+/// The number of bytes of a buffer, from where its address stands.
+pub(crate) const BUFFER_BYTES: u32 = 12;
+/// The number of words of a buffer that may be stored to, from where its address stands: none of a
+/// buffer that is only read.
+pub(crate) const BUFFER_STORED_WORDS: u32 = 16;
+
+/// An offset as a displacement: frames are far smaller than 2 GiB.
+pub(crate) fn displacement(offset: u32) -> i32 {
+    offset.cast_signed()
+}

@@ -1,0 +1,157 @@
+//! Calls of what code does not do itself.
+//!
+//! Operands and results are packets in the frame; the mask has a place of its own. The code names
+//! the call by its number among those of the kernel.
+
+use super::Selector;
+use super::operands::Source;
+use crate::CompileError;
+use crate::encoder::vector_op;
+use crate::frame::{MASK_ARGUMENT, MASK_RESULT, PACKET, displacement};
+use crate::machine::{Instruction, Memory, MemoryBase};
+use estampe_ir::lanes::Kernel;
+use estampe_ir::op::{Atomic, Binary, Math, Math2, Memory as Shared, TextureOp, Unary};
+use estampe_ir::{Op, Type, Value};
+
+/// What a call asks for.
+#[derive(Debug, Clone)]
+pub(crate) enum Served {
+    Unary(Unary),
+    Binary(Binary),
+    Math(Math),
+    Math2(Math2),
+    /// Offset and word.
+    StoreBuffer {
+        buffer: u32,
+    },
+    /// Index and word.
+    StoreLocal {
+        array: u32,
+    },
+    /// Offset and operand; a word.
+    Atomic {
+        kind: Atomic,
+        buffer: u32,
+    },
+    /// Offset, expected word and new word; a word and a mask.
+    CompareExchange {
+        buffer: u32,
+    },
+    Texture(Box<TextureOp>),
+}
+
+impl Served {
+    /// The number of packets that are given; the results follow them.
+    pub(crate) fn operands(&self) -> usize {
+        match self {
+            Self::Unary(_) | Self::Math(_) => 1,
+            Self::Binary(_)
+            | Self::Math2(_)
+            | Self::StoreBuffer { .. }
+            | Self::StoreLocal { .. }
+            | Self::Atomic { .. } => 2,
+            Self::CompareExchange { .. } => 3,
+            Self::Texture(op) => words(&Op::Texture(op.clone())).len(),
+        }
+    }
+
+    /// The number of packets that are returned.
+    pub(crate) fn results(&self) -> usize {
+        match self {
+            Self::StoreBuffer { .. } | Self::StoreLocal { .. } => 0,
+            Self::Texture(op) => op.query.results() as usize,
+            _ => 1,
+        }
+    }
+
+    fn new(op: &Op) -> Option<Self> {
+        Some(match op {
+            Op::Unary(kind, _) => Self::Unary(*kind),
+            Op::Binary(kind, _) => Self::Binary(*kind),
+            Op::Math(function, _) => Self::Math(*function),
+            Op::Math2(function, _) => Self::Math2(*function),
+            Op::StoreBuffer { buffer, .. } => Self::StoreBuffer { buffer: *buffer },
+            Op::StoreLocal { array, .. } => Self::StoreLocal { array: *array },
+            Op::Atomic {
+                kind,
+                memory: Shared::Buffer(buffer),
+                ..
+            } => Self::Atomic {
+                kind: *kind,
+                buffer: *buffer,
+            },
+            Op::CompareExchange {
+                memory: Shared::Buffer(buffer),
+                ..
+            } => Self::CompareExchange { buffer: *buffer },
+            Op::Texture(op) => Self::Texture(op.clone()),
+            _ => return None,
+        })
+    }
+}
+
+/// The operands of an operation that are words.
+fn words(op: &Op) -> Vec<Value> {
+    let mut words = Vec::new();
+    op.each_operand(|value, kind| words.extend((kind == Type::Word).then_some(value)));
+    words
+}
+
+/// The most packets that a call of the kernel needs.
+pub(super) fn most_packets(kernel: &Kernel) -> u32 {
+    let ops = kernel.blocks.iter().flat_map(|block| &block.ops);
+    let packets = ops.filter_map(|(op, _)| Served::new(op));
+    let packets = packets.map(|served| served.operands() + served.results());
+    u32::try_from(packets.max().unwrap_or(0)).unwrap_or(u32::MAX)
+}
+
+impl Selector<'_> {
+    /// An operation that a call does.
+    pub(super) fn call(&mut self, op: &Op, first: Value) -> Result<(), CompileError> {
+        let served = Served::new(op).ok_or(CompileError::Workgroup)?;
+        let place = |packet: usize| {
+            let packet = u32::try_from(packet).unwrap_or(0);
+            displacement(self.frame.arguments + packet * PACKET)
+        };
+        let places: Vec<i32> = (0..served.operands() + served.results())
+            .map(place)
+            .collect();
+        let (operands, results) = places.split_at(served.operands());
+        let mask = op.clone().mask_mut().copied();
+        for half in 0..self.halves {
+            let offset = self.half_words(half);
+            for (value, to) in words(op).into_iter().zip(operands) {
+                let word = self.word_register(value, half);
+                self.store_words((MemoryBase::Frame, to + offset), None, word);
+            }
+            if let Some(mask) = mask {
+                let mask = self.mask(mask, half);
+                self.store_mask((MASK_ARGUMENT, half), None, mask);
+            }
+        }
+        let at = u32::try_from(self.served.len()).map_err(|_| CompileError::TooLarge)?;
+        self.served.push(served);
+        self.function.push(Instruction::Call(at), &[]);
+        self.buffer_pointers.fill(None);
+        for half in 0..self.halves {
+            let offset = self.half_words(half);
+            let types = op.results();
+            for (kind, value) in types.iter().zip(first.and_next(types.len())) {
+                let register = match kind {
+                    Type::Word => {
+                        let packet = (value.0 - first.0) as usize;
+                        let memory = Memory {
+                            base: MemoryBase::Frame,
+                            offset: results[packet] + offset,
+                            is_broadcast: false,
+                        };
+                        self.one(&vector_op::LOAD, Source::Memory(memory, None))
+                    }
+                    Type::Mask => self.load_mask(MemoryBase::Frame, (MASK_RESULT, half), None),
+                };
+                self.define(value, half, register);
+            }
+        }
+        Ok(())
+    }
+}

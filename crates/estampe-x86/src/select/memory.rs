@@ -1,0 +1,300 @@
+//! Inputs, outputs, buffers and arrays.
+
+use super::Selector;
+use super::operands::{Operands, Source};
+use crate::Isa;
+use crate::encoder::vector_op;
+use crate::frame::{BUFFER_STORED_WORDS, BUFFER_WORDS, PACKET, displacement};
+use crate::machine::{GPR, Instruction, MASK, Memory, MemoryBase, Role, VECTOR};
+use estampe_ir::{Op, Type, Value};
+use regalloc2::{Operand, VReg};
+
+impl Selector<'_> {
+    /// The displacement of a half in a packet of words.
+    pub(super) fn half_words(&self, half: usize) -> i32 {
+        if half == 0 {
+            0
+        } else {
+            displacement(PACKET / 2)
+        }
+    }
+
+    /// The displacement of a half in the 16 bits of a mask.
+    fn half_mask(half: usize) -> i32 {
+        i32::from(half != 0)
+    }
+
+    /// An input that is not the same in all lanes.
+    pub(super) fn input(&mut self, at: u32, half: usize) -> VReg {
+        let kinds = &self.kernel.interface.inputs;
+        let kind = kinds.get(at as usize).map(|input| input.kind());
+        let base = self.pointer(self.frame.input(at));
+        match kind {
+            Some(Type::Mask) => self.load_mask(MemoryBase::Operand, (0, half), Some(base)),
+            _ => {
+                let offset = self.half_words(half);
+                let memory = Memory {
+                    base: MemoryBase::Operand,
+                    offset,
+                    is_broadcast: false,
+                };
+                self.one(&vector_op::LOAD, Source::Memory(memory, Some(base)))
+            }
+        }
+    }
+
+    /// A mask whose bits are in memory.
+    pub(super) fn load_mask(
+        &mut self,
+        base: MemoryBase,
+        (offset, half): (i32, usize),
+        pointer: Option<VReg>,
+    ) -> VReg {
+        let memory = Memory {
+            base,
+            offset: offset + Self::half_mask(half),
+            is_broadcast: false,
+        };
+        let source = Source::Memory(memory, pointer);
+        match self.isa {
+            Isa::Avx2 => {
+                let bytes = self.one(&vector_op::BROADCAST_BYTE, source);
+                let bits: Vec<u32> = (0..8).map(|lane| 1 << lane).collect();
+                let bits = self.constant_lanes(&bits);
+                let bits = self.in_register(bits);
+                let own = self.two(&vector_op::AND, bytes, Source::Register(bits));
+                self.two(&vector_op::EQUAL, own, Source::Register(bits))
+            }
+            Isa::Avx512 => self.emit((&vector_op::MASK_LOAD, MASK), None, source, None),
+        }
+    }
+
+    /// Stores words of a register to memory.
+    pub(super) fn store_words(
+        &mut self,
+        (base, offset): (MemoryBase, i32),
+        pointer: Option<VReg>,
+        words: VReg,
+    ) {
+        let memory = Memory {
+            base,
+            offset,
+            is_broadcast: false,
+        };
+        let mut operands = Operands::new().with(Role::Reg, Operand::reg_use(words));
+        if let Some(pointer) = pointer {
+            operands = operands.with(Role::Base, Operand::reg_use(pointer));
+        }
+        self.push(&vector_op::STORE, (None, Some(memory)), &operands);
+    }
+
+    /// Stores the bits of a mask to memory: 16 bits, or with AVX2 those of a half.
+    pub(super) fn store_mask(
+        &mut self,
+        (offset, half): (i32, usize),
+        pointer: Option<VReg>,
+        mask: VReg,
+    ) {
+        let mut operands = Operands::new().with(Role::Reg, Operand::reg_use(mask));
+        match self.isa {
+            Isa::Avx2 => {
+                let temporary = self.temporary(GPR);
+                let mut operands = vec![Operand::reg_use(mask)];
+                operands.extend(pointer.map(Operand::reg_use));
+                operands.push(temporary);
+                let instruction = Instruction::StoreSigns {
+                    offset: offset + Self::half_mask(half),
+                    has_pointer: pointer.is_some(),
+                };
+                self.function.push(instruction, &operands);
+            }
+            Isa::Avx512 => {
+                let base = if pointer.is_some() {
+                    MemoryBase::Operand
+                } else {
+                    MemoryBase::Frame
+                };
+                if let Some(pointer) = pointer {
+                    operands = operands.with(Role::Base, Operand::reg_use(pointer));
+                }
+                let memory = Memory {
+                    base,
+                    offset,
+                    is_broadcast: false,
+                };
+                self.push(&vector_op::MASK_STORE, (None, Some(memory)), &operands);
+            }
+        }
+    }
+
+    /// Writes the outputs.
+    pub(super) fn outputs(&mut self, values: &[Value]) {
+        let outputs = &self.kernel.interface.outputs;
+        for (at, (output, &value)) in (0..).zip(outputs.iter().zip(values)) {
+            let pointer = self.pointer(self.frame.output(at));
+            for half in 0..self.halves {
+                match output.kind() {
+                    Type::Word => {
+                        let words = self.word_register(value, half);
+                        let offset = self.half_words(half);
+                        let place = (MemoryBase::Operand, offset);
+                        self.store_words(place, Some(pointer), words);
+                    }
+                    Type::Mask => {
+                        let mask = self.mask(value, half);
+                        self.store_mask((0, half), Some(pointer), mask);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Words at indices of four-byte elements, in the lanes of a mask; 0 in others.
+    fn gather(&mut self, base: VReg, index: VReg, mask: VReg) -> VReg {
+        let result = self.function.register(VECTOR);
+        let zero = self.zero();
+        // The instruction clears the mask, and no two of its registers may be the same.
+        let class = self.mask_class();
+        let cleared = self.function.register(class);
+        let role = match self.isa {
+            Isa::Avx2 => Role::Vvvv,
+            Isa::Avx512 => Role::Mask,
+        };
+        let operands = Operands::new()
+            .with(Role::Reg, Operand::reg_reuse_def(result, 2))
+            .with(role, Operand::reg_reuse_def(cleared, 3))
+            .with(Role::Silent, Operand::reg_use(zero))
+            .with(Role::Silent, Operand::reg_use(mask))
+            .with(Role::Index, Operand::reg_use_at_end(index))
+            .with(Role::Base, Operand::reg_use(base));
+        let memory = Memory {
+            base: MemoryBase::Operand,
+            offset: 0,
+            is_broadcast: false,
+        };
+        self.push(&vector_op::GATHER, (None, Some(memory)), &operands);
+        result
+    }
+
+    /// A word of a buffer.
+    pub(super) fn load_buffer(&mut self, buffer: u32, offset: Value, half: usize) -> VReg {
+        if self.plan.is_splat(offset) {
+            let offset = self.word_register(offset, half);
+            let result = self.function.register(VECTOR);
+            let operands = [
+                Operand::reg_def(result),
+                Operand::reg_use(offset),
+                self.temporary(GPR),
+                self.temporary(GPR),
+                self.temporary(GPR),
+            ];
+            self.function
+                .push(Instruction::LoadScalar { buffer }, &operands);
+            return result;
+        }
+        let offset = self.word_register(offset, half);
+        let index = self.shift_by(&vector_op::SHR_U_BY, offset, 2);
+        let is_inside = self.is_inside(index, self.frame.buffer(buffer) + BUFFER_WORDS);
+        let base = self.buffer_pointer(buffer);
+        self.gather(base, index, is_inside)
+    }
+
+    /// The lanes in which a word's number is less than one in the frame.
+    fn is_inside(&mut self, index: VReg, words: u32) -> VReg {
+        let words = Memory {
+            base: MemoryBase::Frame,
+            offset: displacement(words),
+            is_broadcast: self.isa == Isa::Avx512,
+        };
+        // Both numbers are less than 2³⁰, so the comparison may be one of signed integers.
+        match self.isa {
+            Isa::Avx2 => {
+                let words = Source::Memory(words, None);
+                let words = self.one(&vector_op::BROADCAST, words);
+                self.two(&vector_op::GREATER_S, words, Source::Register(index))
+            }
+            Isa::Avx512 => {
+                let words = Source::Memory(words, None);
+                self.emit((&vector_op::COMPARE_U, MASK), Some(index), words, Some(1))
+            }
+        }
+    }
+
+    /// Stores words to a buffer, with AVX-512. The instruction stores from the lowest lane to the
+    /// highest one, so the last one counts where several have the same offset.
+    pub(super) fn store_buffer(&mut self, buffer: u32, [offset, value]: [Value; 2], mask: Value) {
+        let offset = self.word_register(offset, 0);
+        let index = self.shift_by(&vector_op::SHR_U_BY, offset, 2);
+        let is_inside = self.is_inside(index, self.frame.buffer(buffer) + BUFFER_STORED_WORDS);
+        let mask = self.mask(mask, 0);
+        let mask = self.on_masks(&vector_op::MASK_AND, Some(mask), is_inside);
+        let value = self.word_register(value, 0);
+        let base = self.buffer_pointer(buffer);
+        let cleared = self.function.register(MASK);
+        let operands = Operands::new()
+            .with(Role::Mask, Operand::reg_reuse_def(cleared, 1))
+            .with(Role::Silent, Operand::reg_use(mask))
+            .with(Role::Reg, Operand::reg_use(value))
+            .with(Role::Index, Operand::reg_use(index))
+            .with(Role::Base, Operand::reg_use(base));
+        let memory = Memory {
+            base: MemoryBase::Operand,
+            offset: 0,
+            is_broadcast: false,
+        };
+        self.push(&vector_op::SCATTER, (None, Some(memory)), &operands);
+    }
+
+    /// A word of an array of the lane.
+    pub(super) fn load_local(&mut self, array: u32, index: Value, half: usize) -> VReg {
+        let at = array as usize;
+        let kernel = self.kernel;
+        let Some(of_kernel) = kernel.interface.locals.get(at) else {
+            return self.zero();
+        };
+        let last = of_kernel.words.saturating_sub(1);
+        let start = self.frame.locals[at];
+        let is_table = !self.is_stored(array);
+        if let (Some(index), false) = (self.plan.constant(index), is_table) {
+            let offset = displacement(start + index.min(last) * PACKET);
+            let memory = Memory {
+                base: MemoryBase::Frame,
+                offset: offset + self.half_words(half),
+                is_broadcast: false,
+            };
+            return self.one(&vector_op::LOAD, Source::Memory(memory, None));
+        }
+        let index = self.word_register(index, half);
+        let last = self.constant(last);
+        let index = self.two(&vector_op::MIN_U, index, last);
+        let mask = self.mask_constant(true);
+        let base = self.function.register(GPR);
+        let base_operand = [Operand::reg_def(base)];
+        if is_table {
+            let mut words = of_kernel.init.clone();
+            words.resize(of_kernel.words as usize, 0);
+            let offset = self.assembler.pool_words(&words);
+            self.function
+                .push(Instruction::PoolPointer(offset), &base_operand);
+            return self.gather(base, index, mask);
+        }
+        self.function.push(
+            Instruction::FramePointer(displacement(start)),
+            &base_operand,
+        );
+        // Sixteen lanes of a word lie side by side.
+        let index = self.shift_by(&vector_op::SHL_BY, index, 4);
+        let first = u32::try_from(half * self.isa.lanes()).unwrap_or(0);
+        let lanes: Vec<u32> = (first..).take(self.isa.lanes()).collect();
+        let lanes = self.constant_lanes(&lanes);
+        let index = self.two(&vector_op::ADD, index, lanes);
+        self.gather(base, index, mask)
+    }
+
+    /// True if something is stored to an array.
+    fn is_stored(&self, array: u32) -> bool {
+        let ops = self.kernel.blocks.iter().flat_map(|block| &block.ops);
+        ops.into_iter()
+            .any(|(op, _)| matches!(op, Op::StoreLocal { array: to, .. } if *to == array))
+    }
+}

@@ -1,0 +1,217 @@
+//! What is known of a kernel's values before instructions are selected.
+//!
+//! In · Out: a kernel · for each value whether it is needed, the same in all lanes, or *hoisted*:
+//! computed once a run, not once a packet. Values are hoisted if nothing that they depend on
+//! changes in a run. They live in memory, where instructions read them as operands.
+
+use estampe_ir::interface::Input;
+use estampe_ir::lanes::{Kernel, Terminator};
+use estampe_ir::{Op, Value};
+
+/// The blocks and values of a kernel.
+#[derive(Debug)]
+pub(crate) struct Plan {
+    /// Blocks that can be reached.
+    pub(crate) is_reached: Vec<bool>,
+    /// The number of jumps to each block from blocks that are reached.
+    pub(crate) predecessors: Vec<u32>,
+    /// Values that something needs.
+    is_needed: Vec<bool>,
+    /// Values that are the same in all lanes, whether those run or not.
+    is_splat: Vec<bool>,
+    is_hoisted: Vec<bool>,
+    /// Masks in which a quad has all of its lanes or none of those that run.
+    has_whole_quads: Vec<bool>,
+    constants: Vec<Option<u32>>,
+}
+
+impl Plan {
+    /// Analyses a kernel.
+    pub(crate) fn new(kernel: &Kernel) -> Self {
+        let values = kernel.values.len();
+        let mut plan = Self {
+            is_reached: vec![false; kernel.blocks.len()],
+            predecessors: vec![0; kernel.blocks.len()],
+            is_needed: vec![false; values],
+            is_splat: vec![true; values],
+            is_hoisted: vec![false; values],
+            has_whole_quads: vec![false; values],
+            constants: vec![None; values],
+        };
+        plan.reach(kernel);
+        plan.need(kernel);
+        plan.hoist(kernel);
+        plan.splat(kernel);
+        plan
+    }
+
+    /// True if an operation must be done.
+    pub(crate) fn is_needed(&self, op: &Op, first: Value) -> bool {
+        op.has_effect()
+            || op
+                .results()
+                .iter()
+                .zip(first.0..)
+                .any(|(_, at)| self.is_needed[at as usize])
+    }
+
+    /// True if something needs the value.
+    pub(crate) fn is_value_needed(&self, value: Value) -> bool {
+        self.is_needed[value.index()]
+    }
+
+    /// True if the value is computed once a run.
+    pub(crate) fn is_hoisted(&self, value: Value) -> bool {
+        self.is_hoisted[value.index()]
+    }
+
+    /// True if all lanes have the same value, whether they run or not.
+    pub(crate) fn is_splat(&self, value: Value) -> bool {
+        self.is_splat[value.index()]
+    }
+
+    /// True if derivatives with this mask need not be set to 0: the lanes of other quads never run.
+    pub(crate) fn has_whole_quads(&self, mask: Value) -> bool {
+        self.has_whole_quads[mask.index()]
+    }
+
+    /// The word that a value always is.
+    pub(crate) fn constant(&self, value: Value) -> Option<u32> {
+        self.constants[value.index()]
+    }
+
+    fn reach(&mut self, kernel: &Kernel) {
+        let mut open = vec![0];
+        while let Some(at) = open.pop() {
+            if std::mem::replace(&mut self.is_reached[at], true) {
+                continue;
+            }
+            for jump in kernel.blocks[at].terminator.jumps() {
+                self.predecessors[jump.to.index()] += 1;
+                open.push(jump.to.index());
+            }
+        }
+    }
+
+    fn need(&mut self, kernel: &Kernel) {
+        // Where each value comes from: an operation, or a parameter of a block.
+        let mut ops: Vec<Option<&Op>> = vec![None; kernel.values.len()];
+        let mut parameters: Vec<Option<(usize, usize)>> = vec![None; kernel.values.len()];
+        let mut jumps: Vec<Vec<&[Value]>> = vec![Vec::new(); kernel.blocks.len()];
+        let mut open: Vec<Value> = Vec::new();
+        for (at, block) in kernel.blocks.iter().enumerate() {
+            if !self.is_reached[at] {
+                continue;
+            }
+            for (position, value) in block.parameters.iter().enumerate() {
+                parameters[value.index()] = Some((at, position));
+            }
+            for (op, first) in &block.ops {
+                for value in first.and_next(op.results().len()) {
+                    ops[value.index()] = Some(op);
+                }
+                if op.has_effect() {
+                    op.each_operand(|value, _| open.push(value));
+                }
+            }
+            match &block.terminator {
+                Terminator::Return(values) => open.extend(values),
+                Terminator::Branch { mask, .. } => open.push(*mask),
+                Terminator::Jump(_) => {}
+            }
+            for jump in block.terminator.jumps() {
+                jumps[jump.to.index()].push(&jump.arguments);
+            }
+        }
+        while let Some(value) = open.pop() {
+            if std::mem::replace(&mut self.is_needed[value.index()], true) {
+                continue;
+            }
+            if let Some(op) = ops[value.index()] {
+                op.each_operand(|value, _| open.push(value));
+            }
+            if let Some((block, position)) = parameters[value.index()] {
+                open.extend(jumps[block].iter().map(|arguments| arguments[position]));
+            }
+        }
+    }
+
+    fn hoist(&mut self, kernel: &Kernel) {
+        let interface = &kernel.interface;
+        let is_written = |at: u32| {
+            let buffer = interface.buffers.get(at as usize);
+            buffer.is_none_or(|buffer| buffer.is_written)
+        };
+        // In the order of blocks every operand comes before, except parameters, which stay.
+        for block in &kernel.blocks {
+            for (op, first) in &block.ops {
+                let mut is_hoisted = op.is_pure(is_written);
+                if let Op::Input(at) | Op::InputMask(at) = op {
+                    let input = interface.inputs.get(*at as usize);
+                    is_hoisted = input.is_some_and(|input| input.is_uniform());
+                }
+                op.each_operand(|value, _| is_hoisted &= self.is_hoisted[value.index()]);
+                if op.results().len() == 1 {
+                    self.is_hoisted[first.index()] = is_hoisted;
+                    self.constants[first.index()] = match op {
+                        Op::Constant(word) => Some(*word),
+                        _ => None,
+                    };
+                    self.has_whole_quads[first.index()] = match op {
+                        Op::MaskConstant(mask) => *mask,
+                        Op::QuadAny(of) => self.is_cover(kernel, *of),
+                        _ => false,
+                    };
+                }
+            }
+        }
+    }
+
+    /// True for the input that says which lanes have effects: quads without any never run.
+    fn is_cover(&self, kernel: &Kernel, value: Value) -> bool {
+        let entry = kernel.blocks.first().map(|block| &block.ops);
+        let mut ops = entry.into_iter().flatten();
+        ops.any(|(op, first)| {
+            let is_cover =
+                |at: u32| kernel.interface.inputs.get(at as usize) == Some(&Input::Cover);
+            *first == value && matches!(op, Op::InputMask(at) if is_cover(*at))
+        })
+    }
+
+    /// Everything is the same in all lanes at first; what is not spreads.
+    fn splat(&mut self, kernel: &Kernel) {
+        let mut changes = true;
+        while changes {
+            changes = false;
+            for (at, block) in kernel.blocks.iter().enumerate() {
+                for (op, first) in &block.ops {
+                    let mut is_splat = match op {
+                        Op::Input(_) | Op::InputMask(_) => self.is_hoisted(*first),
+                        Op::Any(_) => true,
+                        Op::LoadBuffer { .. } => true,
+                        _ => op.is_pure(|_| true),
+                    };
+                    if !matches!(op, Op::Any(_)) {
+                        op.each_operand(|value, _| is_splat &= self.is_splat[value.index()]);
+                    }
+                    for value in first.and_next(op.results().len()) {
+                        changes |= !is_splat && self.is_splat[value.index()];
+                        self.is_splat[value.index()] &= is_splat;
+                    }
+                }
+                if !self.is_reached[at] {
+                    continue;
+                }
+                for jump in block.terminator.jumps() {
+                    let parameters = &kernel.blocks[jump.to.index()].parameters;
+                    for (parameter, argument) in parameters.iter().zip(&jump.arguments) {
+                        if !self.is_splat[argument.index()] && self.is_splat[parameter.index()] {
+                            self.is_splat[parameter.index()] = false;
+                            changes = true;
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

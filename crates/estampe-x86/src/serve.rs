@@ -1,0 +1,127 @@
+//! What code asks Rust for: functions, stores, atomic operations and textures.
+
+use crate::frame::{Frame, PACKET};
+use crate::select::calls::Served;
+use estampe_ir::interpreter::{Buffer, Run, TextureAccess, atomic};
+use estampe_simd::{LANES, Level, Packet};
+use std::any::Any;
+use std::cell::RefCell;
+use std::sync::atomic::Ordering::Relaxed;
+
+/// What calls of a run need to know.
+#[derive(Debug)]
+pub(crate) struct Context<'a> {
+    pub(crate) served: &'a [Served],
+    pub(crate) frame: &'a Frame,
+    pub(crate) run: &'a Run<'a>,
+    pub(crate) level: Level,
+    /// The words of each array.
+    pub(crate) local_words: &'a [u32],
+    /// A panic in a call, to go on with when the code has returned.
+    pub(crate) panic: RefCell<Option<Box<dyn Any + Send>>>,
+}
+
+/// A call.
+#[derive(Debug)]
+pub(crate) struct Call<'a> {
+    pub(crate) served: &'a Served,
+    /// The operands, then the results.
+    pub(crate) arguments: &'a mut [Packet<u32>],
+    /// The words of all arrays.
+    pub(crate) locals: &'a mut [Packet<u32>],
+    /// The lanes that act. Where a packet takes two passes, lanes 8 to 15 never do.
+    pub(crate) mask: u16,
+    pub(crate) mask_result: u16,
+}
+
+impl Context<'_> {
+    /// Does what the code asks for.
+    pub(crate) fn serve(&self, call: &mut Call<'_>) {
+        let is_set = |lane: usize| call.mask >> lane & 1 == 1;
+        let lanes = (0..LANES).filter(|&lane| is_set(lane));
+        let (operands, results) = call.arguments.split_at_mut(call.served.operands());
+        match (call.served, operands, results) {
+            (Served::Unary(kind), [a], [result]) => {
+                for (to, a) in result.0.iter_mut().zip(a.0) {
+                    *to = kind.evaluate(a);
+                }
+            }
+            (Served::Math(function), [x], [result]) => {
+                for (to, x) in result.0.iter_mut().zip(x.0) {
+                    *to = function.evaluate(f32::from_bits(x)).to_bits();
+                }
+            }
+            (Served::Binary(kind), [a, b], [result]) => {
+                for (to, (a, b)) in result.0.iter_mut().zip(a.0.into_iter().zip(b.0)) {
+                    *to = kind.evaluate([a, b]);
+                }
+            }
+            (Served::Math2(function), [x, y], [result]) => {
+                for (to, (x, y)) in result.0.iter_mut().zip(x.0.into_iter().zip(y.0)) {
+                    *to = function.evaluate([x, y].map(f32::from_bits)).to_bits();
+                }
+            }
+            (Served::StoreBuffer { buffer }, [offset, value], _) => {
+                let buffer = self.buffer(*buffer);
+                for lane in lanes {
+                    if let Some(word) = buffer.at(offset.0[lane]) {
+                        word.store(value.0[lane], Relaxed);
+                    }
+                }
+            }
+            (Served::StoreLocal { array }, [index, value], _) => {
+                let at = *array as usize;
+                let (Some(&start), Some(&words)) =
+                    (self.frame.locals.get(at), self.local_words.get(at))
+                else {
+                    return;
+                };
+                let start = (start - self.frame.locals[0]) / PACKET;
+                let (start, words) = (start as usize, words as usize);
+                let array = call
+                    .locals
+                    .get_mut(start..start + words)
+                    .unwrap_or_default();
+                for lane in lanes {
+                    if let Some(word) = array.get_mut(index.0[lane] as usize) {
+                        word.0[lane] = value.0[lane];
+                    }
+                }
+            }
+            (Served::Atomic { kind, buffer }, [offset, operand], [result]) => {
+                let buffer = self.buffer(*buffer);
+                *result = Packet::default();
+                for lane in lanes {
+                    let word = buffer.at(offset.0[lane]);
+                    let before = word.map_or(0, |word| atomic(*kind, word, operand.0[lane]));
+                    result.0[lane] = before;
+                }
+            }
+            (Served::CompareExchange { buffer }, [offset, expected, value], [result]) => {
+                let buffer = self.buffer(*buffer);
+                *result = Packet::default();
+                for lane in lanes {
+                    let Some(word) = buffer.at(offset.0[lane]) else {
+                        continue;
+                    };
+                    let (expected, value) = (expected.0[lane], value.0[lane]);
+                    let exchanged = word.compare_exchange(expected, value, Relaxed, Relaxed);
+                    let (Ok(before) | Err(before)) = exchanged;
+                    result.0[lane] = before;
+                    call.mask_result |= u16::from(exchanged.is_ok()) << lane;
+                }
+            }
+            (Served::Texture(op), operands, results) => {
+                let masks = [call.mask];
+                let access = TextureAccess::new(op, (self.level, &masks), operands, results);
+                self.run.textures.access(access);
+            }
+            _ => debug_assert!(false, "a call has the packets of its kind"),
+        }
+    }
+
+    fn buffer(&self, at: u32) -> Buffer<'_> {
+        let buffers = self.run.buffers;
+        buffers.get(at as usize).copied().unwrap_or_default()
+    }
+}
