@@ -27,6 +27,7 @@ mod hyperbolic;
 mod inverse_trigonometric;
 pub(crate) mod list;
 mod rounding;
+pub mod traced;
 mod trigonometric;
 
 pub use componentwise::Componentwise;
