@@ -53,6 +53,8 @@ pub fn compile(kernel: &Kernel, isa: Isa, tier: Tier) -> Result<Code, CompileErr
         return Err(CompileError::NoIsa(isa.name()));
     }
     lanes::verify(kernel).map_err(|error| CompileError::Malformed(error.to_string()))?;
+    let expanded = select::expand::expand(kernel);
+    let kernel = expanded.as_ref().unwrap_or(kernel);
     let mut assembler = Assembler::default();
     let Selected {
         prepare,
@@ -62,7 +64,7 @@ pub fn compile(kernel: &Kernel, isa: Isa, tier: Tier) -> Result<Code, CompileErr
         passes,
         table_inputs,
         fixed_words,
-    } = select::select(kernel, isa, &mut assembler)?;
+    } = select::select(kernel, (isa, tier), &mut assembler)?;
     let packet = finish(&mut assembler, &packet, (isa, tier), &mut frame)?;
     let prepare = prepare
         .map(|function| finish(&mut assembler, &function, (isa, tier), &mut frame))

@@ -1,4 +1,4 @@
-//! What code asks Rust for: functions, stores, atomic operations and textures.
+//! What code asks Rust for: rare operations, stores, atomic operations and textures.
 
 use crate::frame::{Frame, PACKET};
 use crate::select::calls::Served;
@@ -46,19 +46,9 @@ impl Context<'_> {
                     *to = kind.evaluate(a);
                 }
             }
-            (Served::Math(function), [x], [result]) => {
-                for (to, x) in result.0.iter_mut().zip(x.0) {
-                    *to = function.evaluate(f32::from_bits(x)).to_bits();
-                }
-            }
             (Served::Binary(kind), [a, b], [result]) => {
                 for (to, (a, b)) in result.0.iter_mut().zip(a.0.into_iter().zip(b.0)) {
                     *to = kind.evaluate([a, b]);
-                }
-            }
-            (Served::Math2(function), [x, y], [result]) => {
-                for (to, (x, y)) in result.0.iter_mut().zip(x.0.into_iter().zip(y.0)) {
-                    *to = function.evaluate([x, y].map(f32::from_bits)).to_bits();
                 }
             }
             (Served::StoreBuffer { buffer }, [offset, value], _) => {

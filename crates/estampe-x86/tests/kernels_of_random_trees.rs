@@ -1,7 +1,7 @@
 //! Machine code of random kernels against the interpreter.
 #![cfg(target_arch = "x86_64")]
 
-#[expect(
+#[allow(
     unreachable_pub,
     clippy::cast_possible_truncation,
     reason = "a file of the tests of another crate"

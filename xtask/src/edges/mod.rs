@@ -34,7 +34,10 @@ const CRATES: &[(&str, &[&str])] = &[
             "estampe-texture",
         ],
     ),
-    ("estampe-x86", &["estampe-ir", "estampe-simd"]),
+    (
+        "estampe-x86",
+        &["estampe-ir", "estampe-types", "estampe-simd"],
+    ),
     // `Device::inspect` runs a pass with the oracle, for one pixel.
     (
         "estampe",

@@ -10,7 +10,7 @@ use crate::encoder::vector_op;
 use crate::frame::{MASK_ARGUMENT, MASK_RESULT, PACKET, displacement};
 use crate::machine::{Instruction, Memory, MemoryBase};
 use estampe_ir::lanes::Kernel;
-use estampe_ir::op::{Atomic, Binary, Math, Math2, Memory as Shared, TextureOp, Unary};
+use estampe_ir::op::{Atomic, Binary, Memory as Shared, TextureOp, Unary};
 use estampe_ir::{Op, Type, Value};
 
 /// What a call asks for.
@@ -18,8 +18,6 @@ use estampe_ir::{Op, Type, Value};
 pub(crate) enum Served {
     Unary(Unary),
     Binary(Binary),
-    Math(Math),
-    Math2(Math2),
     /// Offset and word.
     StoreBuffer {
         buffer: u32,
@@ -44,9 +42,8 @@ impl Served {
     /// The number of packets that are given; the results follow them.
     pub(crate) fn operands(&self) -> usize {
         match self {
-            Self::Unary(_) | Self::Math(_) => 1,
+            Self::Unary(_) => 1,
             Self::Binary(_)
-            | Self::Math2(_)
             | Self::StoreBuffer { .. }
             | Self::StoreLocal { .. }
             | Self::Atomic { .. } => 2,
@@ -68,8 +65,6 @@ impl Served {
         Some(match op {
             Op::Unary(kind, _) => Self::Unary(*kind),
             Op::Binary(kind, _) => Self::Binary(*kind),
-            Op::Math(function, _) => Self::Math(*function),
-            Op::Math2(function, _) => Self::Math2(*function),
             Op::StoreBuffer { buffer, .. } => Self::StoreBuffer { buffer: *buffer },
             Op::StoreLocal { array, .. } => Self::StoreLocal { array: *array },
             Op::Atomic {

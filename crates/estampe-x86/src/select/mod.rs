@@ -13,7 +13,9 @@
 //!
 //! | module | selects |
 //! |---|---|
+//! | [`expand`] | nothing: replaces functions by operations |
 //! | [`plan`] | nothing: finds what is needed, uniform or hoisted |
+//! | [`schedule`] | nothing: orders the operations of a block |
 //! | [`operands`] | loads of values that are in memory; the instructions' forms |
 //! | [`words`] | operations on words |
 //! | [`masks`] | comparisons and operations on masks |
@@ -21,22 +23,25 @@
 //! | [`calls`] | calls of what code does not do itself |
 
 pub(crate) mod calls;
+pub(crate) mod expand;
 mod masks;
 mod memory;
 mod operands;
 mod plan;
+mod schedule;
 mod words;
 
 use crate::encoder::Assembler;
 use crate::frame::Frame;
 use crate::machine::{Function, Instruction, MASK, VECTOR};
-use crate::{CompileError, Isa};
+use crate::{CompileError, Isa, Tier};
 use calls::Served;
 use estampe_ir::lanes::{BlockId, Jump, Kernel, Terminator};
 use estampe_ir::op::Memory as Shared;
 use estampe_ir::{Op, Type, Value};
 use plan::Plan;
 use regalloc2::{Block, Operand, RegClass, VReg};
+use schedule::Scheduler;
 
 /// What selection makes of a kernel.
 #[derive(Debug)]
@@ -100,7 +105,7 @@ struct Selector<'a> {
 /// Selects instructions for a kernel.
 pub(crate) fn select(
     kernel: &Kernel,
-    isa: Isa,
+    (isa, tier): (Isa, Tier),
     assembler: &mut Assembler,
 ) -> Result<Selected, CompileError> {
     let operations: usize = kernel.blocks.iter().map(|block| block.ops.len()).sum();
@@ -138,7 +143,7 @@ pub(crate) fn select(
     };
     let prepare = selector.prepare()?;
     selector.halves = halves;
-    let packet = selector.packet()?;
+    let packet = selector.packet(tier)?;
     Ok(Selected {
         prepare,
         packet,
@@ -277,9 +282,10 @@ impl Selector<'_> {
     }
 
     /// The function that runs a pass of a packet.
-    fn packet(&mut self) -> Result<Function, CompileError> {
+    fn packet(&mut self, tier: Tier) -> Result<Function, CompileError> {
         let kernel = self.kernel;
         let order = self.blocks_and_edges();
+        let schedules = self.schedules(tier);
         let mut entries: Vec<Option<Block>> = vec![None; kernel.blocks.len()];
         for (position, part) in order.iter().enumerate() {
             let made = self.function.new_block();
@@ -304,11 +310,9 @@ impl Selector<'_> {
             match *part {
                 Part::Block(at) => {
                     let of_kernel = &kernel.blocks[at];
-                    for (op, first) in &of_kernel.ops {
-                        let is_hoisted = op.results().len() == 1 && self.plan.is_hoisted(*first);
-                        if !is_hoisted && self.plan.is_needed(op, *first) {
-                            self.operation(op, *first)?;
-                        }
+                    for &index in &schedules[at] {
+                        let (op, first) = &of_kernel.ops[index];
+                        self.operation(op, *first)?;
                     }
                     match &of_kernel.terminator {
                         Terminator::Jump(jump) => {
@@ -348,6 +352,19 @@ impl Selector<'_> {
             &mut self.function,
             Function::new(self.isa),
         ))
+    }
+
+    /// The order of the operations of each block that is reached, without those that are hoisted
+    /// and those that nothing needs.
+    fn schedules(&self, tier: Tier) -> Vec<Vec<usize>> {
+        let scheduler = Scheduler::new(self.kernel, &self.plan, self.isa, self.halves);
+        let blocks = 0..self.kernel.blocks.len();
+        let of_block = |at: usize| match tier {
+            _ if !self.plan.is_reached[at] => Vec::new(),
+            Tier::Fast => scheduler.as_written(at),
+            Tier::Optimised => scheduler.by_latency(at),
+        };
+        blocks.map(of_block).collect()
     }
 
     /// The kernel's blocks in order; after those with branches the edges that need a block.

@@ -1,0 +1,296 @@
+//! List scheduling: the order of a block's operations, by their latencies.
+//!
+//! Of the operations whose operands are ready, the one comes next from which the longest chain
+//! depends: divisions and square roots start early, and others fill the time. If more values live
+//! than there are registers, the operation that ends most of them comes next. Operations that touch
+//! memory which the kernel changes keep their order.
+
+use super::plan::Plan;
+use crate::Isa;
+use estampe_ir::lanes::{Kernel, Terminator};
+use estampe_ir::op::{Binary, Unary};
+use estampe_ir::{Op, Type, Value};
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap, HashMap};
+
+/// Of the operations that are ready, so many are compared when registers run out.
+const COMPARED: usize = 24;
+
+/// What is known of a kernel for all of its blocks.
+#[derive(Debug)]
+pub(super) struct Scheduler<'a> {
+    kernel: &'a Kernel,
+    plan: &'a Plan,
+    isa: Isa,
+    /// The registers that a value takes.
+    halves: usize,
+    /// For each value the block that defines it.
+    home: Vec<u32>,
+    /// Values that other blocks than their own use, or jumps.
+    is_used_elsewhere: Vec<bool>,
+}
+
+/// No block.
+const NOWHERE: u32 = u32::MAX;
+
+impl<'a> Scheduler<'a> {
+    pub(super) fn new(kernel: &'a Kernel, plan: &'a Plan, isa: Isa, halves: usize) -> Self {
+        let mut home = vec![NOWHERE; kernel.values.len()];
+        for (block, at) in kernel.blocks.iter().zip(0..) {
+            for &parameter in &block.parameters {
+                home[parameter.index()] = at;
+            }
+            for (op, first) in &block.ops {
+                for value in first.and_next(op.results().len()) {
+                    home[value.index()] = at;
+                }
+            }
+        }
+        let mut is_used_elsewhere = vec![false; kernel.values.len()];
+        for (block, at) in kernel.blocks.iter().zip(0..) {
+            for (op, first) in &block.ops {
+                if plan.is_needed(op, *first) {
+                    op.each_operand(|value, _| {
+                        is_used_elsewhere[value.index()] |= home[value.index()] != at;
+                    });
+                }
+            }
+            let mut used = |value: Value| is_used_elsewhere[value.index()] = true;
+            match &block.terminator {
+                Terminator::Return(values) => values.iter().copied().for_each(&mut used),
+                Terminator::Branch { mask, .. } => used(*mask),
+                Terminator::Jump(_) => {}
+            }
+            for jump in block.terminator.jumps() {
+                jump.arguments.iter().copied().for_each(&mut used);
+            }
+        }
+        Self {
+            kernel,
+            plan,
+            isa,
+            halves,
+            home,
+            is_used_elsewhere,
+        }
+    }
+
+    /// The operations of a block as they are written, without those that need not be done there.
+    pub(super) fn as_written(&self, at: usize) -> Vec<usize> {
+        let ops = &self.kernel.blocks[at].ops;
+        let is_done_here = |index: &usize| {
+            let (op, first) = &ops[*index];
+            let is_hoisted = op.results().len() == 1 && self.plan.is_hoisted(*first);
+            !is_hoisted && self.plan.is_needed(op, *first)
+        };
+        (0..ops.len()).filter(is_done_here).collect()
+    }
+
+    /// The same in a good order.
+    pub(super) fn by_latency(&self, at: usize) -> Vec<usize> {
+        let nodes = self.as_written(at);
+        let mut list = List::new(self, at, &nodes);
+        let order = list.order(self);
+        order.into_iter().map(|node| nodes[node]).collect()
+    }
+
+    /// True if the value takes a register of which there are few.
+    fn takes_register(&self, value: Value) -> bool {
+        let is_vector =
+            self.isa == Isa::Avx2 || self.kernel.values[value.index()].kind == Type::Word;
+        is_vector && !self.plan.is_hoisted(value)
+    }
+
+    /// The values that may live at once before those come first that end some.
+    fn limit(&self) -> usize {
+        match self.isa {
+            Isa::Avx2 => 13 / self.halves,
+            Isa::Avx512 => 28,
+        }
+    }
+}
+
+/// The cycles after which the result of an operation can be used.
+fn latency(op: &Op) -> u32 {
+    match op {
+        Op::Constant(_) | Op::MaskConstant(_) => 0,
+        Op::Unary(Unary::FSqrt, _) => 24,
+        Op::Unary(Unary::S32FromF32 | Unary::U32FromF32, _) => 12,
+        Op::Unary(Unary::FFloor | Unary::FCeil | Unary::FTrunc | Unary::FRound, _) => 8,
+        Op::Binary(Binary::FDiv, _) => 20,
+        Op::Binary(Binary::SDiv | Binary::SRem | Binary::UDiv | Binary::URem, _) => 60,
+        Op::Binary(Binary::Mul, _) => 10,
+        Op::Binary(Binary::FAdd | Binary::FSub | Binary::FMul | Binary::FMin | Binary::FMax, _)
+        | Op::Fma(_) => 4,
+        Op::Compare(..) => 4,
+        Op::Input(_) | Op::InputMask(_) | Op::Derivative { .. } => 7,
+        Op::LoadBuffer { .. } | Op::LoadLocal { .. } => 20,
+        _ => 2,
+    }
+}
+
+/// The operations of a block.
+#[derive(Default)]
+struct List {
+    /// The values that each needs and gives, of those that take registers.
+    uses: Vec<Vec<u32>>,
+    gives: Vec<u32>,
+    /// The operations that need the result of each, or must come after it.
+    followers: Vec<Vec<u32>>,
+    /// The number of operations that must still come before each.
+    waits: Vec<u32>,
+    latencies: Vec<u32>,
+    /// The cycles from the beginning of each to the end of the block.
+    heights: Vec<u32>,
+    /// For each value that takes a register the uses that are left.
+    uses_left: HashMap<u32, u32>,
+    live: usize,
+}
+
+impl List {
+    fn new(scheduler: &Scheduler<'_>, at: usize, nodes: &[usize]) -> Self {
+        let Scheduler { kernel, plan, .. } = *scheduler;
+        let ops = &kernel.blocks[at].ops;
+        let is_written = |buffer: u32| {
+            let buffers = &kernel.interface.buffers;
+            let buffer = buffers.get(buffer as usize);
+            buffer.is_none_or(|buffer| buffer.is_written)
+        };
+        let count = nodes.len();
+        let mut list = Self {
+            uses: vec![Vec::new(); count],
+            gives: vec![0; count],
+            followers: vec![Vec::new(); count],
+            waits: vec![0; count],
+            latencies: vec![0; count],
+            heights: vec![0; count],
+            uses_left: HashMap::new(),
+            live: 0,
+        };
+        let mut made_by = HashMap::new();
+        let mut ordered: Option<usize> = None;
+        for (node, &index) in nodes.iter().enumerate() {
+            let (op, first) = &ops[index];
+            let mut before = Vec::new();
+            op.each_operand(|value, _| {
+                before.extend(made_by.get(&value.0).copied());
+                if scheduler.takes_register(value) && !plan.is_hoisted(value) {
+                    list.uses[node].push(value.0);
+                }
+            });
+            list.uses[node].sort_unstable();
+            list.uses[node].dedup();
+            let is_free = op.is_pure(is_written)
+                || matches!(
+                    op,
+                    Op::Input(_) | Op::InputMask(_) | Op::Derivative { .. } | Op::QuadAny(_)
+                );
+            if !is_free {
+                before.extend(ordered);
+                ordered = Some(node);
+            }
+            before.sort_unstable();
+            before.dedup();
+            for earlier in &before {
+                list.followers[*earlier].push(u32::try_from(node).unwrap_or(u32::MAX));
+            }
+            list.waits[node] = u32::try_from(before.len()).unwrap_or(u32::MAX);
+            list.latencies[node] = latency(op);
+            for value in first.and_next(op.results().len()) {
+                made_by.insert(value.0, node);
+                list.gives[node] += u32::from(scheduler.takes_register(value));
+            }
+        }
+        for uses in &list.uses {
+            for &value in uses {
+                let index = value as usize;
+                let is_new = !list.uses_left.contains_key(&value);
+                let left = list.uses_left.entry(value).or_insert(0);
+                *left += 1;
+                // Values of before the block live from its beginning on.
+                let is_from_before = scheduler.home[index] as usize != at
+                    || kernel.blocks[at].parameters.contains(&Value(value));
+                list.live += usize::from(is_new && is_from_before);
+                // Values that are used later do not end here.
+                if is_new && scheduler.is_used_elsewhere[index] {
+                    *left += 1;
+                }
+            }
+        }
+        for node in (0..count).rev() {
+            let after = list.followers[node].iter();
+            let after = after.map(|&follower| list.heights[follower as usize]).max();
+            list.heights[node] = list.latencies[node] + after.unwrap_or(0);
+        }
+        list
+    }
+
+    /// The number of values that an operation ends, less those that it gives.
+    fn relief(&self, node: usize) -> i64 {
+        let uses = self.uses[node].iter();
+        let ends = uses.filter(|value| self.uses_left.get(value) == Some(&1));
+        i64::try_from(ends.count()).unwrap_or(0) - i64::from(self.gives[node])
+    }
+
+    fn order(&mut self, scheduler: &Scheduler<'_>) -> Vec<usize> {
+        let count = self.waits.len();
+        let limit = scheduler.limit();
+        let mut order = Vec::with_capacity(count);
+        // Operations whose operands are ready, the highest last; of equal ones the earliest last.
+        let mut ready: BTreeSet<(u32, Reverse<usize>)> = BTreeSet::new();
+        // Operations whose operands are computed, with the cycle in which they are ready.
+        let mut pending: BinaryHeap<Reverse<(u32, usize)>> = BinaryHeap::new();
+        let mut ready_at = vec![0_u32; count];
+        for node in 0..count {
+            if self.waits[node] == 0 {
+                ready.insert((self.heights[node], Reverse(node)));
+            }
+        }
+        let mut cycle = 0_u32;
+        while order.len() < count {
+            while let Some(&Reverse((at, node))) = pending.peek()
+                && (at <= cycle || ready.is_empty())
+            {
+                cycle = cycle.max(at);
+                pending.pop();
+                ready.insert((self.heights[node], Reverse(node)));
+            }
+            let best = if self.live < limit {
+                ready.last().copied()
+            } else {
+                let compared = ready.iter().rev().take(COMPARED);
+                compared
+                    .max_by_key(|(height, Reverse(node))| (self.relief(*node), *height))
+                    .copied()
+            };
+            let Some(best) = best else { break };
+            ready.remove(&best);
+            let Reverse(node) = best.1;
+            order.push(node);
+            self.begin(node);
+            // More than one begins in a cycle, but counting so was measured to be no better.
+            cycle += 1;
+            let done = cycle + self.latencies[node];
+            for at in 0..self.followers[node].len() {
+                let follower = self.followers[node][at] as usize;
+                ready_at[follower] = ready_at[follower].max(done);
+                self.waits[follower] -= 1;
+                if self.waits[follower] == 0 {
+                    pending.push(Reverse((ready_at[follower], follower)));
+                }
+            }
+        }
+        order
+    }
+
+    /// Counts the values that live once an operation began.
+    fn begin(&mut self, node: usize) {
+        for value in &self.uses[node] {
+            if let Some(left) = self.uses_left.get_mut(value) {
+                *left -= 1;
+                self.live -= usize::from(*left == 0 && self.live > 0);
+            }
+        }
+        self.live += self.gives[node] as usize;
+    }
+}
