@@ -68,7 +68,10 @@ pub use attachment::{
 };
 pub use commands::{Draw, LoadOp, OcclusionQueries, PassControl, RenderPass, ViewportScissor};
 pub use draw::Context;
-pub use pipeline::{PipelineError, RenderPipeline, RenderPipelineDescriptor, TessellationState};
+pub use pipeline::{
+    PipelineError, RenderPipeline, RenderPipelineDescriptor, TessellationState,
+    check_bind_group_layouts, check_declared,
+};
 pub use plan::pass_check::RenderPassError;
 pub use schedule::{ThreadError, ThreadPool, ThreadPoolBuilder};
 pub use statistics::Statistics;

@@ -119,6 +119,7 @@ fn check(descriptor: RenderPipelineDescriptor, samples: u32) {
             let binding = BoundResource::Buffer {
                 buffer: BufferData::from_f32s(&[0; 4].map(|_| random())),
                 offset: 0,
+                size: u32::MAX,
                 dynamic_offset: None,
             };
             let group = BoundResources {

@@ -208,6 +208,7 @@ fn bind_groups(device: &Device, bindings: &Bindings) -> Vec<(BindGroup, Vec<u32>
                 buffer,
                 offset,
                 dynamic_offset,
+                ..
             } = resource
             else {
                 panic!("cases bind buffers alone");

@@ -96,6 +96,7 @@ fn counting(size: [u32; 2], samples: u32, mut draw: CaseDraw, unit: [f32; 8]) ->
             BoundResource::Buffer {
                 buffer: BufferData::from_f32s(&unit),
                 offset: 0,
+                size: u32::MAX,
                 dynamic_offset: None,
             },
         )],

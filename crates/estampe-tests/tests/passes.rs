@@ -31,6 +31,7 @@ fn colors(random: &mut Random) -> Bindings {
     let entry = BoundResource::Buffer {
         buffer,
         offset: random.pick(&[0, 0, 4, 20]),
+        size: u32::MAX,
         dynamic_offset: random.once_in(2).then_some(0),
     };
     let group = BoundResources {

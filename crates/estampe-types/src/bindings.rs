@@ -6,19 +6,33 @@
 //! use bindings for values that change from draw to draw. A resource that is not bound reads as
 //! zeros.
 
-use crate::{BufferData, SamplerDescriptor, ShadowMap, StorageTexture};
+use crate::{BufferData, SamplerDescriptor, ShadowMap, StorageBuffer, StorageTexture};
 use std::any::Any;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// One resource.
 #[derive(Debug, Clone)]
 pub enum BoundResource {
-    /// Bytes of a uniform or storage buffer.
+    /// Bytes of a uniform or storage buffer that is only read.
     Buffer {
         /// The bytes; the binding starts at `offset`.
         buffer: BufferData,
         /// Start of the binding, in bytes from the start of the buffer.
         offset: u32,
+        /// Length of the binding in bytes. What lies beyond the buffer's end is no part of it.
+        size: u32,
+        /// If set, the index of the dynamic offset of this group that is added to `offset`.
+        dynamic_offset: Option<u8>,
+    },
+    /// Bytes of a storage buffer that shaders write; the fields are those of `Buffer`.
+    StorageBuffer {
+        /// The bytes.
+        buffer: StorageBuffer,
+        /// Start of the binding, in bytes from the start of the buffer.
+        offset: u32,
+        /// Length of the binding in bytes.
+        size: u32,
         /// If set, the index of the dynamic offset of this group that is added to `offset`.
         dynamic_offset: Option<u8>,
     },
@@ -91,14 +105,12 @@ impl Bindings {
             buffer,
             offset,
             dynamic_offset,
+            ..
         }) = self.get(group, binding)
         else {
-            return [0; N];
+            return self.stored_words(group, binding, offset_bytes);
         };
-        let offsets = &self.groups[group as usize].dynamic_offsets;
-        let dynamic = dynamic_offset.and_then(|index| offsets.get(usize::from(index)));
-        let dynamic = dynamic.copied().unwrap_or_default();
-        let start = *offset as usize + dynamic as usize + offset_bytes as usize;
+        let start = self.start(group, *offset, *dynamic_offset) + offset_bytes as usize;
         // Fast path for aligned offsets inside the buffer: programs read their uniforms once per
         // packet.
         if let Some(words) = buffer.words().get(start / 4..)
@@ -112,6 +124,67 @@ impl Bindings {
             *value = buffer.word_at(start + index * 4);
         }
         values
+    }
+
+    /// Words of a storage buffer that shaders write.
+    #[cold]
+    fn stored_words<const N: usize>(
+        &self,
+        group: u32,
+        binding: u32,
+        offset_bytes: u32,
+    ) -> [u32; N] {
+        let Some((buffer, range)) = self.storage_buffer(group, binding) else {
+            return [0; N];
+        };
+        let first = (range.start + offset_bytes as usize) / 4;
+        std::array::from_fn(|at| buffer.load(first + at))
+    }
+
+    /// The first byte of a binding.
+    #[inline(always)]
+    fn start(&self, group: u32, offset: u32, dynamic_offset: Option<u8>) -> usize {
+        let offsets = &self.groups[group as usize].dynamic_offsets;
+        let dynamic = dynamic_offset.and_then(|index| offsets.get(usize::from(index)));
+        offset as usize + dynamic.copied().unwrap_or_default() as usize
+    }
+
+    /// The buffer that is only read at a group and binding number, and the bytes of the binding.
+    #[must_use]
+    pub fn buffer(&self, group: u32, binding: u32) -> Option<(&BufferData, Range<usize>)> {
+        match self.get(group, binding)? {
+            BoundResource::Buffer {
+                buffer,
+                offset,
+                size,
+                dynamic_offset,
+            } => {
+                let start = self.start(group, *offset, *dynamic_offset);
+                Some((buffer, range(start, *size, buffer.len_bytes())))
+            }
+            _ => None,
+        }
+    }
+
+    /// The buffer that shaders write at a group and binding number, and the bytes of the binding.
+    #[must_use]
+    pub fn storage_buffer(
+        &self,
+        group: u32,
+        binding: u32,
+    ) -> Option<(&StorageBuffer, Range<usize>)> {
+        match self.get(group, binding)? {
+            BoundResource::StorageBuffer {
+                buffer,
+                offset,
+                size,
+                dynamic_offset,
+            } => {
+                let start = self.start(group, *offset, *dynamic_offset);
+                Some((buffer, range(start, *size, buffer.len_bytes())))
+            }
+            _ => None,
+        }
     }
 
     /// `N` consecutive 32-bit floats of the bound buffer, as [`Bindings::u32s`].
@@ -176,4 +249,10 @@ impl Bindings {
             _ => None,
         }
     }
+}
+
+/// The part of a binding that lies in its buffer.
+fn range(start: usize, size: u32, len_bytes: usize) -> Range<usize> {
+    let start = start.min(len_bytes);
+    start..start.saturating_add(size as usize).min(len_bytes)
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 /// An immutable buffer, shared by reference. The bytes are kept as little-endian 32-bit words, so
 /// that lanes can gather them.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 pub struct BufferData {
     // A vector, not `Arc<[u32]>`: a vector that several threads filled need not be copied.
     words: Arc<Vec<u32>>,
@@ -97,6 +97,19 @@ impl BufferData {
         )
     }
 
+    /// The words; without a copy if nothing shares the memory. The buffer itself if there is not
+    /// enough memory for a copy.
+    pub(crate) fn try_into_words(mut self) -> Result<Vec<u32>, Self> {
+        let count = self.len_bytes.div_ceil(4);
+        let range = self.first_word..self.first_word + count;
+        match Arc::try_unwrap(self.words) {
+            Ok(words) if range == (0..words.len()) => return Ok(words),
+            Ok(words) => self.words = Arc::new(words),
+            Err(shared) => self.words = shared,
+        }
+        try_to_vec(&self.words[range]).ok_or(self)
+    }
+
     /// The length in bytes.
     #[must_use]
     pub fn len_bytes(&self) -> usize {
@@ -129,6 +142,13 @@ impl BufferData {
         }
         u32::from_le_bytes([0, 1, 2, 3].map(|k| self.byte(offset.saturating_add(k))))
     }
+}
+
+fn try_to_vec(words: &[u32]) -> Option<Vec<u32>> {
+    let mut copy = Vec::new();
+    copy.try_reserve_exact(words.len()).ok()?;
+    copy.extend_from_slice(words);
+    Some(copy)
 }
 
 impl std::fmt::Debug for BufferData {

@@ -30,6 +30,7 @@ mod quad;
 mod real;
 pub mod shader;
 pub mod state;
+mod storage_buffer;
 pub mod texture;
 mod vector;
 mod wide;
@@ -57,6 +58,7 @@ pub use shader::{
     NoPerspective, PerSample, Program, Sampling, Shader, ShaderError, ShaderProgram, Varyings,
     VertexBatch, VertexIn,
 };
+pub use storage_buffer::StorageBuffer;
 pub use texture::{
     AddressMode, BorderColor, FilterMode, MipLevel, SamplerDescriptor, ShadowMap, StorageTexture,
     TexelData, TexelViewDescriptor, TextureAspect, TextureDimension, TextureShape, ViewDimension,

@@ -61,6 +61,22 @@ pub struct Limits {
     pub max_texture_array_layers: u32,
     /// Sides of a 3D texture, in texels. Default and maximum 2048.
     pub max_texture_dimension_3d: u32,
+    /// The most invocations of a work-group along x.
+    pub max_compute_workgroup_size_x: u32,
+    /// The most invocations of a work-group along y.
+    pub max_compute_workgroup_size_y: u32,
+    /// The most invocations of a work-group along z.
+    pub max_compute_workgroup_size_z: u32,
+    /// The most invocations of a work-group.
+    pub max_compute_invocations_per_workgroup: u32,
+    /// The most bytes that the invocations of a work-group share.
+    pub max_compute_workgroup_storage_size: u32,
+    /// The most work-groups of a dispatch along each axis.
+    pub max_compute_workgroups_per_dimension: u32,
+    /// The most jumps that a shader as text executes for a batch of vertices or fragments or for a
+    /// work-group, as a bound to loops that never end. What needs more is stopped: a dispatch with
+    /// an error, a draw with undefined results.
+    pub max_shader_jumps: u64,
 }
 
 impl Default for Limits {
@@ -93,6 +109,13 @@ impl Default for Limits {
             max_pass_vertices: 1 << 30,
             max_texture_array_layers: 256,
             max_texture_dimension_3d: 2048,
+            max_compute_workgroup_size_x: 1024,
+            max_compute_workgroup_size_y: 1024,
+            max_compute_workgroup_size_z: 1024,
+            max_compute_invocations_per_workgroup: 1024,
+            max_compute_workgroup_storage_size: 1 << 15,
+            max_compute_workgroups_per_dimension: 65_535,
+            max_shader_jumps: 1 << 26,
         }
     }
 }

@@ -3,8 +3,9 @@
 use crate::blit::{self, BlitRegion};
 use crate::texture::{self, TexelCopyLayout, TextureCopy};
 use crate::{
-    BlitError, Buffer, BufferError, CopyError, Device, Extent3d, FilterMode, RenderPass,
-    RenderPassError, Statistics, Texture, TextureError, TextureView, copy, pass,
+    BlitError, Buffer, BufferError, CopyError, Device, Dispatch, DispatchError, Extent3d,
+    FilterMode, RenderPass, RenderPassError, Statistics, Texture, TextureError, TextureView,
+    compute, copy, pass,
 };
 
 /// One command of a [submission](Device::submit): what the device's function of the same name does.
@@ -13,6 +14,8 @@ use crate::{
 pub enum Command<'a> {
     /// [`Device::render`].
     Render(RenderPass<'a>),
+    /// [`Device::dispatch`].
+    Dispatch(Dispatch<'a>),
     /// [`Buffer::write`].
     WriteBuffer {
         /// The buffer.
@@ -99,6 +102,12 @@ impl<'a> From<RenderPass<'a>> for Command<'a> {
     }
 }
 
+impl<'a> From<Dispatch<'a>> for Command<'a> {
+    fn from(dispatch: Dispatch<'a>) -> Self {
+        Self::Dispatch(dispatch)
+    }
+}
+
 /// The reason why a submission was refused, or ended early.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("command {command}: {error}")]
@@ -116,6 +125,9 @@ pub enum CommandError {
     /// A pass.
     #[error(transparent)]
     Pass(#[from] RenderPassError),
+    /// A dispatch.
+    #[error(transparent)]
+    Dispatch(#[from] DispatchError),
     /// A copy, or a clear of a buffer.
     #[error(transparent)]
     Copy(#[from] CopyError),
@@ -153,6 +165,7 @@ impl Command<'_> {
     fn check(&self, device: &Device) -> Result<(), CommandError> {
         match self {
             Self::Render(pass) => pass::check(device.limits(), pass)?,
+            Self::Dispatch(dispatch) => compute::check(device.limits(), dispatch)?,
             Self::WriteBuffer {
                 buffer,
                 offset,
@@ -195,6 +208,7 @@ impl Command<'_> {
     fn run(&self, device: &Device) -> Result<Statistics, CommandError> {
         match self {
             Self::Render(pass) => return Ok(device.render(pass)?),
+            Self::Dispatch(dispatch) => device.dispatch(dispatch)?,
             Self::WriteBuffer {
                 buffer,
                 offset,

@@ -44,6 +44,7 @@ mod bind_group;
 mod blit;
 mod buffer;
 mod command;
+mod compute;
 mod copy;
 mod device;
 mod inspect;
@@ -80,9 +81,14 @@ pub mod srgb {
 pub use bind_group::{BindGroup, BindGroupDescriptor, BindGroupError, BindingResource};
 pub use blit::{BlitError, BlitRegion};
 pub use buffer::{
-    Buffer, BufferDescriptor, BufferError, BufferNumber, BufferSlice, BufferUsages, bytes_of,
+    Buffer, BufferConflict, BufferDescriptor, BufferError, BufferNumber, BufferSlice, BufferUsages,
+    bytes_of,
 };
 pub use command::{Command, CommandError, SubmitError};
+pub use compute::{
+    ComputePipeline, ComputePipelineDescriptor, ComputePipelineError, Dispatch, DispatchError,
+    DispatchErrorKind, DispatchSize,
+};
 pub use copy::CopyError;
 pub use device::{Device, DeviceDescriptor, DeviceError};
 pub(crate) use estampe_core::Context;
@@ -98,19 +104,20 @@ pub use estampe_texture::{
     sample_compare_level, sample_compare_sum, storage_load, storage_store,
 };
 pub use estampe_types::shader::{
-    ControlIn, DepthOutput, Emit, EmittedVertex, EvaluationIn, GeometryIn, GeometryPrimitive,
-    GeometryProgram, GeometryShader, GeometryShaderProgram, GeometryTopology, Interpolation,
-    PatchIn, Points, Sample2d, Sampling, ShadedPoint, TessellationLevels, TessellationProgram,
-    TessellationShader, TessellationShaderProgram, VertexOut,
+    ComputeInterface, ComputeProgram, ComputeStopped, ControlIn, DepthOutput, Emit, EmittedVertex,
+    EvaluationIn, GeometryIn, GeometryPrimitive, GeometryProgram, GeometryShader,
+    GeometryShaderProgram, GeometryTopology, Interpolation, PatchIn, Points, Sample2d, Sampling,
+    ShadedPoint, TessellationLevels, TessellationProgram, TessellationShader,
+    TessellationShaderProgram, VertexOut, WorkgroupOrder, Workgroups,
 };
 pub use estampe_types::{
     AddressMode, Attributes, BindGroupLayout, BindGroupLayoutEntry, BindingType, Bindings,
     BorderColor, BufferBindingType, Centroid, FilterMode, Flat, FragmentIn, FragmentOut,
     IndexFormat, Int, Limits, Mat2, Mat3, Mat4, NoPerspective, Operand, PerSample, Program, Quad,
     Real, SampleType, SamplerDescriptor, Shader, ShaderError, ShaderProgram, ShadowMap,
-    TexelEncoding, TextureAspect, TextureDimension, TextureFormat, Varyings, Vec2, Vec3, Vec4,
-    VertexEncoding, VertexFormat, VertexIn, ViewDimension, attributes, maths, operand, shader,
-    state, varyings, vec2, vec3, vec4,
+    StorageBuffer, TexelEncoding, TextureAspect, TextureDimension, TextureFormat, Varyings, Vec2,
+    Vec3, Vec4, VertexEncoding, VertexFormat, VertexIn, ViewDimension, attributes, maths, operand,
+    shader, state, varyings, vec2, vec3, vec4,
 };
 pub use inspect::{
     BlockCounts, ClipOutcome, EmittedRecord, FragmentRecord, InspectError, InspectedVertex,
@@ -125,6 +132,6 @@ pub use pass::{
 #[cfg(feature = "png")]
 pub use png_file::PngError;
 pub use texture::{
-    Extent3d, Sampler, TexelCopyLayout, Texture, TextureCopy, TextureDescriptor, TextureError,
-    TextureUsages, TextureView, TextureViewDescriptor,
+    Extent3d, Sampler, TexelCopyLayout, Texture, TextureConflict, TextureCopy, TextureDescriptor,
+    TextureError, TextureUsages, TextureView, TextureViewDescriptor,
 };

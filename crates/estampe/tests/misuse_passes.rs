@@ -310,7 +310,7 @@ fn bind_groups_of_draws() {
     let dynamic = std::slice::from_ref(&dynamic);
     assert_eq!(
         group(&[], &[]),
-        "draw 1: bind group 0: the pipeline needs it, and the draw binds none"
+        "draw 1: bind group 0: the pipeline needs it, and none is bound"
     );
     let message = group(&[fixed], &[]);
     assert!(
@@ -321,11 +321,11 @@ fn bind_groups_of_draws() {
     assert_eq!(
         group(dynamic, &[]),
         "draw 1: bind group 0: the bind group `material` has 1 dynamic offsets, and 0 of the 0 that \
-         the draw gives are left for it"
+         are given are left for it"
     );
     assert_eq!(
         group(dynamic, &[0, 4]),
-        "draw 1: bind group 0: the draw gives 2 dynamic offsets, and its bind groups have 1"
+        "draw 1: bind group 0: 2 dynamic offsets are given, and the bind groups have 1"
     );
     assert_eq!(
         group(dynamic, &[6]),

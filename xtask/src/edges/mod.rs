@@ -85,6 +85,9 @@ const LIBRARIES: &[&str] = &[
     "estampe-types",
     "estampe-format",
     "estampe-texture",
+    "estampe-ir",
+    "estampe-shader",
+    "estampe-x86",
     "estampe-core",
     "estampe",
     "estampe-shapes",
@@ -140,7 +143,7 @@ const OUTSIDE: &[(&str, Users)] = &[
     // Blocks of compressed textures, decoded when a texture is made.
     ("bcdec_rs", Users::Only(&["estampe-texture"])),
     // Shaders as text.
-    ("naga", Users::Only(&["estampe-shader"])),
+    ("naga", Users::Only(&["estampe-shader", "estampe-tests"])),
     ("earcut", Users::Only(&["estampe-shapes"])),
     // File formats: all other crates see decoded images. `estampe` writes PNG as an option.
     (

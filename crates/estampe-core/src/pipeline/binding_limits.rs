@@ -2,14 +2,44 @@
 //! every binding in both stages.
 
 use super::{PipelineError, RenderPipelineDescriptor};
-use estampe_types::{BindingType, BufferBindingType, Limits};
+use estampe_types::{BindGroupLayout, BindingType, BufferBindingType, Limits};
 
 /// Checks the limits of bind groups, bindings, and bytes of colour per sample.
 pub(super) fn check_bindings(
     descriptor: &RenderPipelineDescriptor,
     limits: &Limits,
 ) -> Result<(), PipelineError> {
-    let groups = descriptor.bind_group_layouts.len();
+    check_bind_group_layouts(&descriptor.bind_group_layouts, limits)?;
+    let both = descriptor.bind_group_layouts.len() + descriptor.vertex_buffers.len();
+    let colors = descriptor.targets.iter().flatten();
+    let color_bytes = colors
+        .map(|target| target.format.block_bytes() as usize)
+        .sum();
+    check_counts(&[
+        (
+            "bind groups and vertex buffers",
+            both,
+            "max_bind_groups_plus_vertex_buffers",
+            limits.max_bind_groups_plus_vertex_buffers,
+        ),
+        (
+            "bytes of colour per sample",
+            color_bytes,
+            "max_color_attachment_bytes_per_sample",
+            limits.max_color_attachment_bytes_per_sample,
+        ),
+    ])
+}
+
+/// Checks the limits of bind groups and of the bindings in them.
+///
+/// # Errors
+/// [`PipelineError`] names the limit.
+pub fn check_bind_group_layouts(
+    layouts: &[BindGroupLayout],
+    limits: &Limits,
+) -> Result<(), PipelineError> {
+    let groups = layouts.len();
     if groups > limits.max_bind_groups as usize {
         return Err(PipelineError::TooManyBindGroups {
             count: groups,
@@ -17,24 +47,11 @@ pub(super) fn check_bindings(
         });
     }
     let all = || {
-        let groups = descriptor.bind_group_layouts.iter();
-        groups
-            .flat_map(|layout| layout.entries())
-            .map(|entry| entry.ty)
+        let entries = layouts.iter().flat_map(|layout| layout.entries());
+        entries.map(|entry| entry.ty)
     };
     let count = |is_counted: fn(BindingType) -> bool| all().filter(|ty| is_counted(*ty)).count();
-    let both = groups + descriptor.vertex_buffers.len();
-    let colors = descriptor.targets.iter().flatten();
-    let color_bytes = colors
-        .map(|target| target.format.block_bytes() as usize)
-        .sum();
-    let rules = [
-        (
-            "bind groups and vertex buffers",
-            both,
-            "max_bind_groups_plus_vertex_buffers",
-            limits.max_bind_groups_plus_vertex_buffers,
-        ),
+    check_counts(&[
         (
             "uniform buffers with a dynamic offset",
             count(|ty| is_buffer(ty, Some(true), is_uniform)),
@@ -89,14 +106,12 @@ pub(super) fn check_bindings(
             "max_storage_textures_per_shader_stage",
             limits.max_storage_textures_per_shader_stage,
         ),
-        (
-            "bytes of colour per sample",
-            color_bytes,
-            "max_color_attachment_bytes_per_sample",
-            limits.max_color_attachment_bytes_per_sample,
-        ),
-    ];
-    for (what, count, limit_name, limit) in rules {
+    ])
+}
+
+/// Rules: what is counted, the count, the limit's name and the limit.
+fn check_counts(rules: &[(&'static str, usize, &'static str, u32)]) -> Result<(), PipelineError> {
+    for &(what, count, limit_name, limit) in rules {
         if count > limit as usize {
             return Err(PipelineError::TooMany {
                 what,

@@ -2,7 +2,7 @@
 
 use estampe_types::shader::GeometryPrimitive;
 use estampe_types::state::PrimitiveTopology;
-use estampe_types::{ShaderError, TextureFormat};
+use estampe_types::{BindingType, ShaderError, TextureFormat};
 
 /// Why a pipeline was refused: the rule that its descriptor breaks.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -15,6 +15,22 @@ pub enum PipelineError {
         count: usize,
         /// The largest number allowed.
         limit: u32,
+    },
+    /// A binding of the shader that the layouts lack, or have as another kind.
+    #[error(
+        "the shader uses {shader} at group {group}, binding {binding}, where the bind group \
+         layouts of the pipeline have {}",
+        layout.map_or("nothing".to_owned(), |layout| layout.to_string())
+    )]
+    Binding {
+        /// The group.
+        group: usize,
+        /// The binding.
+        binding: u32,
+        /// What the shader uses.
+        shader: BindingType,
+        /// What the layouts have.
+        layout: Option<BindingType>,
     },
     /// Too many bindings of a kind, or too many bytes of colour.
     #[error("the pipeline has {count} {what}; the limit {limit_name} is {limit}")]

@@ -3,17 +3,20 @@
 pub(crate) mod amplified;
 mod binding_limits;
 pub(crate) mod color_target;
+mod declared_bindings;
 mod error;
 pub(crate) mod primitive_kind;
 mod stage_key;
 
 pub use amplified::TessellationState;
+pub use binding_limits::check_bind_group_layouts;
 pub use error::PipelineError;
 pub(crate) use stage_key::StageKey;
 
 use amplified::Amplified;
 use binding_limits::check_bindings;
 use color_target::ColorTarget;
+pub use declared_bindings::check_declared;
 use estampe_types::shader::{GeometryProgram, MAX_DISTANCES};
 use estampe_types::state::{
     BlendFactor, BlendState, ColorTargetState, DepthStencilState, LineState, LineStipple,
@@ -41,7 +44,8 @@ pub struct RenderPipelineDescriptor {
     /// none.
     pub geometry: Option<Arc<dyn GeometryProgram>>,
     /// The bind groups that the shaders read, by group number: each draw must bind groups of these
-    /// layouts. Default none.
+    /// layouts. Default those that the program declares: all that a shader as text uses, none of
+    /// a shader in Rust.
     pub bind_group_layouts: Vec<BindGroupLayout>,
     /// The layout of each vertex buffer of a draw. Default none.
     pub vertex_buffers: Vec<VertexBufferLayout>,
@@ -68,11 +72,11 @@ impl RenderPipelineDescriptor {
     #[must_use]
     pub fn with_program(program: Arc<dyn Program>) -> Self {
         Self {
+            bind_group_layouts: program.bind_group_layouts().to_vec(),
             program,
             vertex_program: None,
             tessellation: None,
             geometry: None,
-            bind_group_layouts: Vec::new(),
             vertex_buffers: Vec::new(),
             primitive: PrimitiveState::default(),
             depth_stencil: Some(DepthStencilState::LESS_WRITE),
@@ -139,6 +143,10 @@ impl RenderPipeline {
         descriptor.program.validate()?;
         let interface = descriptor.program.interface();
         check_bindings(descriptor, limits)?;
+        check_declared(
+            descriptor.program.bind_group_layouts(),
+            &descriptor.bind_group_layouts,
+        )?;
         check_targets(descriptor, interface, limits)?;
         check_interface(interface, limits)?;
         check_lines(&descriptor.primitive.line)?;

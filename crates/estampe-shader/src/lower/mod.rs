@@ -12,10 +12,12 @@
 //! | `summary` | what a function changes, and which variables are indexed |
 //! | `pointer` | places: slots, arrays, buffers, the work-group's memory; loads and stores |
 //! | `entry` | inputs and outputs of an entry point |
+//! | `bindings` | what it binds |
 //! | `statement` | control flow and effects |
 //! | `expression`, `arithmetic`, `math`, `image` | values |
 
 mod arithmetic;
+mod bindings;
 mod entry;
 mod expression;
 mod image;
@@ -103,12 +105,15 @@ pub fn lower(
         Stage::Compute => point.workgroup_size,
         Stage::Vertex | Stage::Fragment => [0; 3],
     };
-    lowering.entry_point(point, info.get_entry_point(entry_point))?;
+    let function = info.get_entry_point(entry_point);
+    let bindings = bindings::bindings(module, function)?;
+    lowering.entry_point(point, function)?;
     let mut tree = lowering.builder.finish(lowering.outputs);
     passes::optimise(&mut tree);
     Ok(StageSource {
         tree,
         varyings: lowering.varyings,
+        bindings,
     })
 }
 

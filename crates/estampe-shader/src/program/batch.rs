@@ -3,7 +3,6 @@
 use super::stage::Stage;
 use estampe_ir::interface::{Input, Output};
 use estampe_ir::interpreter::{Buffer, InputData, OutputData, cells};
-use estampe_types::bindings::BoundResource;
 use estampe_types::{Bindings, FragmentBatch, VertexBatch};
 use std::cell::Cell;
 
@@ -124,20 +123,16 @@ pub(super) fn with_fragments<E>(
 pub(super) fn buffers<'a>(stage: &Stage, bindings: &'a Bindings) -> Vec<Buffer<'a>> {
     let slots = stage.interface().buffers.iter();
     let buffers = slots.map(|slot| {
-        let Some(BoundResource::Buffer {
-            buffer,
-            offset,
-            dynamic_offset,
-        }) = bindings.get(slot.group, slot.binding)
-        else {
-            return Buffer::default();
-        };
-        let offsets = bindings.groups.get(slot.group as usize);
-        let offsets = offsets.map(|group| &group.dynamic_offsets);
-        let dynamic = dynamic_offset.and_then(|at| offsets?.get(usize::from(at)).copied());
-        let start = *offset as usize + dynamic.unwrap_or(0) as usize;
-        let words = buffer.words().get(start / 4..).unwrap_or_default();
-        Buffer::read_only(words, buffer.len_bytes().saturating_sub(start))
+        let (group, binding) = (slot.group, slot.binding);
+        if let Some((buffer, range)) = bindings.buffer(group, binding) {
+            let words = buffer.words().get(range.start / 4..).unwrap_or_default();
+            return Buffer::read_only(words, range.len());
+        }
+        let stored = bindings.storage_buffer(group, binding);
+        stored.map_or_else(Buffer::default, |(buffer, range)| {
+            let words = buffer.words().get(range.start / 4..).unwrap_or_default();
+            Buffer::shared(words, range.len())
+        })
     });
     buffers.collect()
 }

@@ -3,6 +3,7 @@
 use super::StageSource;
 use super::facts::Facts;
 use estampe_ir::interface::{Input, Output};
+use estampe_types::BindingType;
 use estampe_types::shader::{DepthOutput, Interface, Interpolation, Sampling};
 
 /// A varying: some scalars at a location.
@@ -58,6 +59,30 @@ pub enum LinkError {
         vertex: Interpolation,
         /// That of the fragment stage.
         fragment: Interpolation,
+    },
+    /// Work-groups are too large.
+    #[error(
+        "work-groups of {}x{}x{} invocations: at most {} together",
+        size[0], size[1], size[2], super::compute::MAX_INVOCATIONS
+    )]
+    Invocations {
+        /// The invocations along x, y and z.
+        size: [u32; 3],
+    },
+    /// The stages bind different kinds of resources at the same number.
+    #[error(
+        "group {group}, binding {binding} is {vertex} in the vertex shader and {fragment} in the \
+         fragment shader: give one of them another number"
+    )]
+    Binding {
+        /// The group.
+        group: u32,
+        /// The binding.
+        binding: u32,
+        /// That of the vertex stage.
+        vertex: BindingType,
+        /// That of the fragment stage.
+        fragment: BindingType,
     },
 }
 

@@ -2,20 +2,25 @@
 //!
 //! [`TextProgram`] is to shaders as text what
 //! [`ShaderProgram`](estampe_types::ShaderProgram) is to shaders in Rust: a vertex and a fragment
-//! stage behind the one interface by which all shaders run.
+//! stage behind the one interface by which all shaders run. [`TextCompute`] is a compute shader.
 
 mod batch;
+mod compute;
 mod facts;
+mod layouts;
 mod link;
 mod stage;
 mod textures;
 
+pub use compute::{MAX_INVOCATIONS, TextCompute};
 pub use link::{LinkError, VaryingSlot};
 
 use batch::{Widths, buffers, with_fragments, with_vertices};
 use estampe_ir::tree::Tree;
 use estampe_simd::Level;
-use estampe_types::{Bindings, FragmentBatch, Interface, Program, VertexBatch};
+use estampe_types::{
+    BindGroupLayout, BindGroupLayoutEntry, Bindings, FragmentBatch, Interface, Program, VertexBatch,
+};
 use facts::Facts;
 use link::Links;
 use stage::Stage;
@@ -27,12 +32,15 @@ pub struct StageSource {
     pub tree: Tree,
     /// The varyings that it writes or reads.
     pub varyings: Vec<VaryingSlot>,
+    /// The bind groups and entries that it uses.
+    pub bindings: Vec<(u32, BindGroupLayoutEntry)>,
 }
 
 /// A vertex shader, and a fragment shader if there is one, as a program.
 #[derive(Debug)]
 pub struct TextProgram {
     interface: Interface,
+    layouts: Vec<BindGroupLayout>,
     /// The scalar at which each attribute begins.
     attributes: Vec<usize>,
     links: Links,
@@ -46,7 +54,8 @@ impl TextProgram {
     /// stopped, which leaves what it draws undefined, but not the program.
     ///
     /// # Errors
-    /// [`LinkError`] if the fragment stage reads what the vertex stage does not write.
+    /// [`LinkError`] if the fragment stage reads what the vertex stage does not write, or the
+    /// stages bind different kinds of resources at the same number.
     pub fn new(
         vertex: &StageSource,
         fragment: Option<&StageSource>,
@@ -70,6 +79,7 @@ impl TextProgram {
             },
             vertex: Stage::new(&vertex.tree, budget),
             fragment: fragment.map(|fragment| Stage::new(&fragment.tree, budget)),
+            layouts: layouts::of_stages(std::iter::once(vertex).chain(fragment))?,
             interface,
             links,
         })
@@ -79,6 +89,10 @@ impl TextProgram {
 impl Program for TextProgram {
     fn interface(&self) -> &Interface {
         &self.interface
+    }
+
+    fn bind_group_layouts(&self) -> &[BindGroupLayout] {
+        &self.layouts
     }
 
     fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>) {

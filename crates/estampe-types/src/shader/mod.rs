@@ -6,6 +6,7 @@
 //! pipeline is created, into a [`Program`], the interface that compiled text shaders implement too.
 
 mod amplification;
+mod compute;
 mod declaration;
 mod dry_run;
 mod erased;
@@ -26,6 +27,7 @@ pub use amplification::{
     OutputInterface, PatchIn, Points, ShadedPoint, TessellationInterface, TessellationLevels,
     TessellationProgram, TessellationShader, TessellationShaderProgram,
 };
+pub use compute::{ComputeInterface, ComputeProgram, ComputeStopped, WorkgroupOrder, Workgroups};
 pub use dry_run::interface_of;
 pub use erased::ShaderProgram;
 pub use error::ShaderError;
@@ -36,7 +38,7 @@ pub use vertex::{MAX_DISTANCES, VertexBatch, VertexIn, VertexOut};
 
 pub use estampe_simd::{LANES, Level, Packet};
 
-use crate::{Bindings, Real, Vec2, Vec4};
+use crate::{BindGroupLayout, Bindings, Real, Vec2, Vec4};
 
 /// A vertex and a fragment shader in Rust.
 ///
@@ -205,6 +207,11 @@ pub trait Program: Send + Sync + std::fmt::Debug {
     /// [`ShaderError`] says what is wrong; no pipeline is then created.
     fn validate(&self) -> Result<(), ShaderError> {
         Ok(())
+    }
+    /// The layouts of the groups that the program binds, by group number; those that a pipeline of
+    /// it has if no others are given. Shaders in Rust do not declare them.
+    fn bind_group_layouts(&self) -> &[BindGroupLayout] {
+        &[]
     }
     /// Shades packets of vertices.
     fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>);

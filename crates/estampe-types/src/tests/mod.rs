@@ -243,6 +243,7 @@ fn bindings_read_zeros_where_nothing_is() {
             BoundResource::Buffer {
                 buffer: BufferData::from_f32s(&[1.0, 2.0, 3.0]),
                 offset: 4,
+                size: u32::MAX,
                 dynamic_offset: Some(0),
             },
         )],

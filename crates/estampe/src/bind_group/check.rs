@@ -126,7 +126,7 @@ fn sample_type_of(view: &TextureView) -> SampleType {
 }
 
 /// The multiple that the offset of a buffer binding must be of, in bytes.
-pub(crate) fn offset_alignment(ty: BufferBindingType, limits: &Limits) -> u32 {
+pub(super) fn offset_alignment(ty: BufferBindingType, limits: &Limits) -> u32 {
     let alignment = match ty {
         BufferBindingType::Uniform => limits.min_uniform_buffer_offset_alignment,
         BufferBindingType::Storage { .. } => limits.min_storage_buffer_offset_alignment,

@@ -1,10 +1,12 @@
 //! Bind groups: the resources that shaders find by group and binding number.
 
+mod bound;
 mod check;
 mod error;
 mod resources;
 
-pub(crate) use check::{create_layout, offset_alignment};
+pub(crate) use bound::{BoundError, bound, check_bound};
+pub(crate) use check::create_layout;
 pub use error::BindGroupError;
 
 use crate::texture::{Sampler, TextureView};

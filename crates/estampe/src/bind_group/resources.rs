@@ -1,18 +1,19 @@
 //! What a bind group binds, as programs read it.
 
 use super::{BindGroup, BindingResource};
+use crate::buffer::StoredBuffers;
 use crate::texture::{StoredTextures, TextureError, TextureView, sampled_texture};
 use crate::{BindingType, BufferSlice, Context};
 use estampe_types::bindings::{BoundResource, BoundResources, OtherResource};
 use std::sync::Arc;
 
 impl BindGroup {
-    /// The resources as they are now, as programs read them. Textures that shaders store to are
-    /// shared through `stores`.
+    /// The resources as they are now, as programs read them. What shaders store to is shared
+    /// through `textures` and `buffers`.
     pub(crate) fn resources(
         &self,
         context: &Context,
-        stores: &mut StoredTextures,
+        (textures, buffers): (&mut StoredTextures, &StoredBuffers<'_>),
     ) -> Result<Arc<BoundResources>, TextureError> {
         let layout = &self.inner.layout;
         let entries = self.inner.entries.iter().map(|(binding, resource)| {
@@ -20,12 +21,12 @@ impl BindGroup {
             let bound = match resource {
                 BindingResource::Buffer(slice) => {
                     let index = layout.dynamic_offset_index(*binding);
-                    bound_buffer(slice, index)
+                    bound_buffer(slice, index, buffers)
                 }
                 BindingResource::Texture(view) => match kind {
                     Some(BindingType::ShadowMap) => shadow_map(context, view)?,
                     Some(BindingType::StorageTexture { .. }) => {
-                        BoundResource::StorageTexture(stores.get(context, view)?)
+                        BoundResource::StorageTexture(textures.get(context, view)?)
                     }
                     _ => BoundResource::Other(OtherResource(Arc::new(view.texels(context)?))),
                 },
@@ -42,10 +43,25 @@ impl BindGroup {
     }
 }
 
-fn bound_buffer(slice: &BufferSlice, dynamic_offset: Option<usize>) -> BoundResource {
+fn bound_buffer(
+    slice: &BufferSlice,
+    dynamic_offset: Option<usize>,
+    stored: &StoredBuffers<'_>,
+) -> BoundResource {
+    // The slice was checked: it lies in the buffer.
+    let bytes = |value: u64| u32::try_from(value).unwrap_or(u32::MAX);
+    let (offset, size) = (bytes(slice.offset), bytes(slice.size));
+    let dynamic_offset = dynamic_offset.and_then(|index| u8::try_from(index).ok());
+    if let Some(buffer) = stored.get(&slice.buffer) {
+        return BoundResource::StorageBuffer {
+            buffer: buffer.clone(),
+            offset,
+            size,
+            dynamic_offset,
+        };
+    }
     let data = slice.buffer.data();
     let end = usize::try_from(slice.offset + slice.size).unwrap_or(usize::MAX);
-    let dynamic_offset = dynamic_offset.and_then(|index| u8::try_from(index).ok());
     BoundResource::Buffer {
         // What follows a dynamic binding is checked with the offset of the draw.
         buffer: if dynamic_offset.is_some() {
@@ -53,7 +69,8 @@ fn bound_buffer(slice: &BufferSlice, dynamic_offset: Option<usize>) -> BoundReso
         } else {
             data.slice(0, end)
         },
-        offset: u32::try_from(slice.offset).unwrap_or(u32::MAX),
+        offset,
+        size,
         dynamic_offset,
     }
 }

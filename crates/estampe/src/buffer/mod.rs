@@ -3,11 +3,14 @@
 mod bytes;
 mod error;
 mod slice;
+mod stores;
 
 pub use bytes::{BufferNumber, bytes_of};
 pub(crate) use bytes::{read_bytes, with_bytes, with_bytes_mut, write_bytes};
 pub use error::BufferError;
 pub use slice::BufferSlice;
+pub use stores::BufferConflict;
+pub(crate) use stores::{StoredBuffers, check_conflicts};
 
 use crate::Limits;
 use estampe_types::BufferData;
@@ -241,6 +244,18 @@ impl Buffer {
         // Plain data: after a panic elsewhere it is as good as before.
         let data = &self.inner.data;
         data.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub(crate) fn out_of_memory(&self) -> BufferError {
+        BufferError::OutOfMemory {
+            buffer: self.name(),
+            size: self.size(),
+        }
+    }
+
+    /// A number that tells buffers apart.
+    pub(crate) fn id(&self) -> usize {
+        Arc::as_ptr(&self.inner).addr()
     }
 
     /// Returns true if both are handles to the same memory.

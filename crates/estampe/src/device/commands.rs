@@ -3,9 +3,9 @@
 use super::Device;
 use crate::texture::{self, TexelCopyLayout, Texture, TextureCopy};
 use crate::{
-    BlitError, BlitRegion, Buffer, Command, CopyError, Extent3d, FilterMode, InspectError,
-    PassStages, PixelHistory, RenderPass, RenderPassError, Statistics, SubmitError, TextureError,
-    TextureView, blit, command, copy, inspect, pass,
+    BlitError, BlitRegion, Buffer, Command, CopyError, Dispatch, DispatchError, Extent3d,
+    FilterMode, InspectError, PassStages, PixelHistory, RenderPass, RenderPassError, Statistics,
+    SubmitError, TextureError, TextureView, blit, command, compute, copy, inspect, pass,
 };
 
 impl Device {
@@ -103,6 +103,16 @@ impl Device {
         inspect::inspect_stages(self, pass)
     }
 
+    /// Runs work-groups of a compute shader. The results do not depend on threads: work-groups
+    /// whose [order](crate::WorkgroupOrder) could be seen run one after the other.
+    ///
+    /// # Errors
+    /// [`DispatchError`] names the rule that the dispatch breaks; nothing has run then. If it is
+    /// [stopped](crate::DispatchErrorKind::Stopped), what was stored until then stays.
+    pub fn dispatch(&self, dispatch: &Dispatch<'_>) -> Result<(), DispatchError> {
+        compute::dispatch(self, dispatch)
+    }
+
     /// Runs commands in order, after all of them were checked. Returns the sum of the passes'
     /// statistics.
     ///
@@ -127,8 +137,8 @@ impl Device {
     ///
     /// # Errors
     /// [`SubmitError`] names the command and the reason. If the check fails, nothing has been done;
-    /// a command can fail later only for want of memory, or if a pass is cancelled: those before it
-    /// are done then.
+    /// a command can fail later only for want of memory, if a pass is cancelled, if a dispatch is
+    /// stopped, or if a buffer asks for too many work-groups: those before it are done then.
     pub fn submit(&self, commands: &[Command<'_>]) -> Result<Statistics, SubmitError> {
         command::submit(self, commands)
     }

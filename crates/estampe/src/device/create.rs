@@ -4,8 +4,9 @@ use super::Device;
 use crate::texture::{self, Sampler, Texture, TextureDescriptor};
 use crate::{
     BindGroup, BindGroupDescriptor, BindGroupError, BindGroupLayout, BindGroupLayoutEntry, Buffer,
-    BufferDescriptor, BufferError, BufferUsages, PipelineError, RenderPipeline,
-    RenderPipelineDescriptor, SampledTexture, SamplerDescriptor, TextureError, TextureView,
+    BufferDescriptor, BufferError, BufferUsages, ComputePipeline, ComputePipelineDescriptor,
+    ComputePipelineError, PipelineError, RenderPipeline, RenderPipelineDescriptor, SampledTexture,
+    SamplerDescriptor, TextureError, TextureView,
 };
 
 impl Device {
@@ -18,6 +19,17 @@ impl Device {
         descriptor: &RenderPipelineDescriptor,
     ) -> Result<RenderPipeline, PipelineError> {
         RenderPipeline::new(descriptor, &self.limits)
+    }
+
+    /// Creates a compute pipeline.
+    ///
+    /// # Errors
+    /// [`ComputePipelineError`] names the limit that the descriptor exceeds.
+    pub fn create_compute_pipeline(
+        &self,
+        descriptor: &ComputePipelineDescriptor<'_>,
+    ) -> Result<ComputePipeline, ComputePipelineError> {
+        ComputePipeline::new(descriptor, &self.limits)
     }
 
     /// Creates a buffer of zeros.

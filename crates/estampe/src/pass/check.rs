@@ -2,7 +2,8 @@
 
 use super::attachments::Attachments;
 use super::{Draw, PassErrorKind};
-use crate::bind_group::{BindingResource, offset_alignment};
+use crate::bind_group::{BindingResource, BoundError, check_bound};
+use crate::buffer::check_conflicts;
 use crate::{
     BindGroup, BindGroupLayoutEntry, BindingType, BufferError, BufferSlice, BufferUsages, Limits,
 };
@@ -132,98 +133,24 @@ fn check_slice(
 }
 
 fn check_groups(number: usize, draw: &Draw<'_>, limits: &Limits) -> Result<(), PassErrorKind> {
-    let layouts = &draw.pipeline.descriptor().bind_group_layouts;
-    let bad = |group: usize, rule: String| {
-        Err(PassErrorKind::BindGroup {
-            draw: number,
-            group,
-            rule,
-        })
+    let bad = |group: usize, rule: String| PassErrorKind::BindGroup {
+        draw: number,
+        group,
+        rule,
     };
-    let most = limits.max_bind_groups as usize;
-    if draw.bind_groups.len() > most {
-        return bad(most, format!("the limit max_bind_groups is {most}"));
-    }
-    for (index, layout) in layouts.iter().enumerate() {
-        let Some(bound) = draw.bind_groups.get(index) else {
-            let rule = "the pipeline needs it, and the draw binds none".to_owned();
-            return bad(index, rule);
-        };
-        if bound.layout() != layout {
-            let rule = format!(
-                "{} has the layout {:?}, and the pipeline needs {layout:?}",
-                bound.name(),
-                bound.layout()
-            );
-            return bad(index, rule);
-        }
-    }
-    let mut offsets = draw.dynamic_offsets;
+    let layouts = &draw.pipeline.descriptor().bind_group_layouts;
+    check_bound(layouts, draw.bind_groups, draw.dynamic_offsets, limits)
+        .map_err(|BoundError { group, rule }| bad(group, rule))?;
+    let is_storage =
+        |entry: &BindGroupLayoutEntry| matches!(entry.ty, BindingType::StorageTexture { .. });
     for (index, group) in draw.bind_groups.iter().enumerate() {
-        let is_storage =
-            |entry: &BindGroupLayoutEntry| matches!(entry.ty, BindingType::StorageTexture { .. });
         if !draw.pipeline.stores() && group.layout().entries().iter().any(is_storage) {
             let name = group.name();
             let rule = format!(
                 "{name} has a storage texture, and the shader declares no stores: set its constant \
                  `STORES`"
             );
-            return bad(index, rule);
-        }
-        let count = group.layout().dynamic_offset_count();
-        let Some((of_group, others)) = offsets.split_at_checked(count) else {
-            let (name, given) = (group.name(), draw.dynamic_offsets.len());
-            let rule = format!(
-                "{name} has {count} dynamic offsets, and {} of the {given} that the draw gives are left for it",
-                offsets.len()
-            );
-            return bad(index, rule);
-        };
-        offsets = others;
-        if count > 0
-            && let Err(rule) = check_dynamic_offsets(group, of_group, limits)
-        {
-            return bad(index, rule);
-        }
-    }
-    if !offsets.is_empty() {
-        let given = draw.dynamic_offsets.len();
-        let rule = format!(
-            "the draw gives {given} dynamic offsets, and its bind groups have {}",
-            given - offsets.len()
-        );
-        return bad(draw.bind_groups.len().saturating_sub(1), rule);
-    }
-    Ok(())
-}
-
-fn check_dynamic_offsets(
-    group: &BindGroup,
-    offsets: &[u32],
-    limits: &Limits,
-) -> Result<(), String> {
-    for (binding, resource) in group.entries() {
-        let index = group.layout().dynamic_offset_index(*binding);
-        let (Some(index), BindingResource::Buffer(slice)) = (index, resource) else {
-            continue;
-        };
-        let alignment = match group.layout().entry(*binding).map(|entry| entry.ty) {
-            Some(BindingType::Buffer { ty, .. }) => offset_alignment(ty, limits),
-            _ => 4,
-        };
-        let offset = offsets.get(index).copied().unwrap_or_default();
-        if !offset.is_multiple_of(alignment) {
-            return Err(format!(
-                "the dynamic offset {offset} of binding {binding} is not a multiple of {alignment}"
-            ));
-        }
-        let end = slice.offset + slice.size + u64::from(offset);
-        if end > slice.buffer.size() {
-            return Err(format!(
-                "binding {binding} with the dynamic offset {offset} ends at byte {end} of {}, which has {}",
-                slice.buffer.name(),
-                slice.buffer.size()
-            ));
+            return Err(bad(index, rule));
         }
     }
     Ok(())
@@ -255,4 +182,24 @@ pub(super) fn check_uses(
         }
     }
     Ok(())
+}
+
+/// Checks that no buffer which shaders write is used otherwise in the pass.
+pub(super) fn check_buffer_uses(
+    draws: &[Draw<'_>],
+    groups: &[&BindGroup],
+) -> Result<(), PassErrorKind> {
+    let fetched = draws.iter().enumerate().flat_map(|(number, draw)| {
+        let vertices = draw.vertex_buffers.iter().enumerate();
+        let vertices = vertices.map(|(at, slice)| (slice, Some(at)));
+        let indices = draw.index_buffer.iter().map(|(slice, _)| (*slice, None));
+        vertices.chain(indices).map(move |(slice, vertex_buffer)| {
+            let name = move || match vertex_buffer {
+                Some(at) => format!("vertex buffer {at} of draw {number}"),
+                None => format!("index buffer of draw {number}"),
+            };
+            (&slice.buffer, name)
+        })
+    });
+    Ok(check_conflicts(groups, fetched)?)
 }

@@ -1,10 +1,12 @@
 //! What the draws of a pass refer to, as the core sees it: plain data.
 
 use super::{Draw, PassErrorKind};
+use crate::bind_group::bound;
+use crate::buffer::StoredBuffers;
 use crate::texture::StoredTextures;
 use crate::{BindGroup, BufferSlice, Context};
 use estampe_types::bindings::BoundResources;
-use estampe_types::{Bindings, BoundGroup, BufferData, MAX_DYNAMIC_OFFSETS};
+use estampe_types::{Bindings, BufferData};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -46,10 +48,10 @@ impl<'a> Groups<'a> {
     pub(super) fn resources(
         &self,
         context: &Context,
-        stores: &mut StoredTextures,
+        (textures, buffers): (&mut StoredTextures, &StoredBuffers<'_>),
     ) -> Result<Vec<Arc<BoundResources>>, PassErrorKind> {
         let resources = self.distinct.iter().map(|group| {
-            let resources = group.resources(context, stores);
+            let resources = group.resources(context, (&mut *textures, buffers));
             resources.map_err(|error| PassErrorKind::Texture {
                 attachment: group.name(),
                 error,
@@ -101,17 +103,11 @@ impl DrawData {
             }
             if !is_same(same_groups) {
                 last.2 = (!draw.bind_groups.is_empty()).then(|| {
-                    let mut offsets = draw.dynamic_offsets;
-                    let bound = draw.bind_groups.iter();
-                    let bound = bound.map(|group| {
-                        let count = group.layout().dynamic_offset_count();
-                        let (of_group, others) = offsets.split_at(count.min(offsets.len()));
-                        offsets = others;
-                        bound_group(group, of_group, groups, resources)
+                    let bindings = bound(draw.bind_groups, draw.dynamic_offsets, |group| {
+                        let index = groups.index_of(group);
+                        index.map_or_else(Arc::default, |index| Arc::clone(&resources[index]))
                     });
-                    data.bindings.push(Bindings {
-                        groups: bound.collect(),
-                    });
+                    data.bindings.push(bindings);
                     data.bindings.len() - 1
                 });
             }
@@ -143,23 +139,6 @@ impl DrawData {
             }
         });
         draws.collect()
-    }
-}
-
-fn bound_group(
-    group: &BindGroup,
-    offsets: &[u32],
-    groups: &Groups<'_>,
-    resources: &[Arc<BoundResources>],
-) -> BoundGroup {
-    let index = groups.index_of(group);
-    let mut dynamic_offsets = [0; MAX_DYNAMIC_OFFSETS];
-    for (to, offset) in dynamic_offsets.iter_mut().zip(offsets) {
-        *to = *offset;
-    }
-    BoundGroup {
-        group: index.map_or_else(Arc::default, |index| Arc::clone(&resources[index])),
-        dynamic_offsets,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Errors of render passes.
 
-use crate::{BufferError, TextureError};
+use crate::{BufferConflict, BufferError, TextureConflict, TextureError};
 use estampe_core::RenderPassError as DrawError;
 use estampe_types::TextureFormat;
 
@@ -111,6 +111,12 @@ pub enum PassErrorKind {
         /// The other use.
         second: String,
     },
+    /// A buffer is written by shaders and used otherwise.
+    #[error(transparent)]
+    BufferUsedTwice(#[from] BufferConflict),
+    /// A texture is stored to and sampled.
+    #[error(transparent)]
+    TextureUsedTwice(#[from] TextureConflict),
     /// A resolve target that does not fit.
     #[error("the resolve target of {attachment} {rule}")]
     Resolve {
@@ -127,6 +133,9 @@ pub enum PassErrorKind {
         /// The reason.
         error: TextureError,
     },
+    /// A buffer that shaders write could not be made ready for that.
+    #[error(transparent)]
+    StorageBuffer(BufferError),
     /// More vertices than a pass may have.
     #[error(
         "draw {draw} brings the vertices of the pass to {vertices}, counted over all instances; the limit \

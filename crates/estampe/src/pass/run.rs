@@ -1,14 +1,15 @@
 //! Running a pass: objects become plain data, the core draws, results go back into the objects.
 
 use super::attachments::Attachments;
-use super::check::{check_draw, check_uses, check_vertices};
+use super::check::{check_buffer_uses, check_draw, check_uses, check_vertices};
 use super::draw_data::{DrawData, Groups};
 use super::images::Taken;
 use super::layers::Layer;
 use super::queries::Parts;
 use super::{PassErrorKind, RenderPass, RenderPassError};
 use crate::bind_group::BindingResource;
-use crate::texture::{StoredTextures, Texture};
+use crate::buffer::StoredBuffers;
+use crate::texture::{StoredTextures, Texture, check_texture_conflicts};
 use crate::{Context, Device, Limits, LoadOp, Statistics};
 use estampe_core::{PassControl, RenderTarget};
 use std::sync::Arc;
@@ -83,6 +84,8 @@ fn check_objects<'a>(
             check_uses(group, layer)?;
         }
     }
+    check_buffer_uses(pass.draws, &groups.distinct)?;
+    check_texture_conflicts(&groups.distinct)?;
     Ok((attachments, groups))
 }
 
@@ -111,7 +114,9 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     let textures = reserved_order(&attachments, &groups);
     let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
     let mut stores = StoredTextures::in_place();
-    let resources = groups.resources(context, &mut stores)?;
+    let buffers =
+        StoredBuffers::in_place(&groups.distinct).map_err(PassErrorKind::StorageBuffer)?;
+    let resources = groups.resources(context, (&mut stores, &buffers))?;
     let data = DrawData::new(pass.draws, &groups, &resources);
     let draws = data.draws(pass.draws);
     let core_pass = core_pass(pass, attachments[0].loads(), &draws);
@@ -135,6 +140,7 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     drop(data);
     drop(resources);
     stores.finish();
+    drop(buffers);
     drop(reserved);
     // The pass was checked, but it may have been cancelled.
     Ok(drawn?)
@@ -152,7 +158,9 @@ pub(crate) fn prepared<T>(
     let (attachments, groups) = check_objects(device.limits(), each_pass(pass, &of_layers))?;
     let textures = reserved_order(&attachments, &groups);
     let reserved: Vec<_> = textures.iter().map(|texture| texture.reserve()).collect();
-    let resources = groups.resources(device.context(), &mut StoredTextures::copies())?;
+    let buffers = StoredBuffers::copies(&groups.distinct).map_err(PassErrorKind::StorageBuffer)?;
+    let stores = (&mut StoredTextures::copies(), &buffers);
+    let resources = groups.resources(device.context(), stores)?;
     let data = DrawData::new(pass.draws, &groups, &resources);
     let used = use_data(&attachments, &data);
     drop(reserved);

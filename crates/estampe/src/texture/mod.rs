@@ -15,7 +15,8 @@ pub(crate) use copy_texels::{check_copy, copy};
 pub use error::TextureError;
 pub(crate) use host_access::{check_read, check_write, read, read_sample, read_tight, write, zero};
 pub use region::{TexelCopyLayout, TextureCopy};
-pub(crate) use stores::StoredTextures;
+pub use stores::TextureConflict;
+pub(crate) use stores::{StoredTextures, check_texture_conflicts};
 pub(crate) use view::sampled_texture;
 pub use view::{Sampler, TextureView, TextureViewDescriptor};
 

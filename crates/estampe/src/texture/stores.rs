@@ -2,7 +2,7 @@
 
 use super::contents::words_of;
 use super::{ImageKey, TextureError, TextureView};
-use crate::Context;
+use crate::{BindGroup, BindingResource, BindingType, Context};
 use estampe_texture::is_storable;
 use estampe_types::{StorageTexture, ViewDimension};
 
@@ -67,6 +67,65 @@ impl StoredTextures {
             view.texture().lock().put_stored(level);
         }
     }
+}
+
+/// A texture that shaders store to and sample in the same pass or dispatch.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{texture} is stored to as {stored} and sampled as {sampled}: sample another texture or mip \
+     level, or do one after the other"
+)]
+pub struct TextureConflict {
+    /// The texture.
+    pub texture: String,
+    /// The binding by which shaders store to it.
+    pub stored: String,
+    /// The binding by which they sample it.
+    pub sampled: String,
+}
+
+/// Checks that no mip level that shaders store to is sampled.
+pub(crate) fn check_texture_conflicts(groups: &[&BindGroup]) -> Result<(), TextureConflict> {
+    let all = || groups.iter().flat_map(|group| views(group));
+    let overlaps = |a: [u32; 2], b: [u32; 2]| a[0] < b[0] + b[1] && b[0] < a[0] + a[1];
+    for (stored, view, is_stored) in all() {
+        if !is_stored {
+            continue;
+        }
+        let conflict = all().find(|(_, other, is_stored)| {
+            !is_stored
+                && other.texture().is_same(view.texture())
+                && overlaps(other.mip_levels(), view.mip_levels())
+        });
+        if let Some((sampled, ..)) = conflict {
+            let name = |(binding, group): (u32, &BindGroup)| {
+                format!("binding {binding} of {}", group.name())
+            };
+            return Err(TextureConflict {
+                texture: view.texture().name(),
+                stored: name(stored),
+                sampled: name(sampled),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The views of a group: binding and group, view, and whether shaders store to it.
+fn views(group: &BindGroup) -> impl Iterator<Item = ((u32, &BindGroup), &TextureView, bool)> {
+    group
+        .entries()
+        .iter()
+        .filter_map(move |(binding, resource)| {
+            let entry = group.layout().entry(*binding)?;
+            let is_stored = matches!(entry.ty, BindingType::StorageTexture { .. });
+            match resource {
+                BindingResource::Texture(view) | BindingResource::SampledTexture(view, _) => {
+                    Some(((*binding, group), view, is_stored))
+                }
+                BindingResource::Buffer(_) | BindingResource::Sampler(_) => None,
+            }
+        })
 }
 
 /// The level of a view in words of zeros, all layers or slices together.

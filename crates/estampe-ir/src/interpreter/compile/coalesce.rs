@@ -1,5 +1,6 @@
 //! Coalescing: where one register is copied to another one, and their lives do not overlap, they
-//! become one (Chaitin 1982). So what a loop carries to the next iteration is computed in its place.
+//! become one (Chaitin 1982). So what a loop carries to the next iteration is computed in its
+//! place.
 //!
 //! Two registers may be one if none is written while the other one is still read. That is found by
 //! following the flow from each write, as long as the effort is within [`EFFORT`].

@@ -45,6 +45,7 @@ fn bindings_are_found_by_group_and_number() {
         let binding = BoundResource::Buffer {
             buffer,
             offset,
+            size: u32::MAX,
             dynamic_offset: is_dynamic.then_some(0),
         };
         (number, binding)
@@ -68,6 +69,7 @@ fn bindings_are_found_by_group_and_number() {
     let matrix = BoundResource::Buffer {
         buffer: BufferData::from_f32s(&numbers),
         offset: 0,
+        size: u32::MAX,
         dynamic_offset: None,
     };
     let bindings = Bindings {

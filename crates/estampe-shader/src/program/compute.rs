@@ -1,0 +1,135 @@
+//! A compute shader as text.
+
+use super::batch::buffers;
+use super::stage::Stage;
+use super::{LinkError, StageSource, layouts};
+use estampe_ir::interface::Input;
+use estampe_ir::interpreter::{InputData, Stopped};
+use estampe_simd::{LANES, Level, Packet};
+use estampe_types::shader::{
+    ComputeInterface, ComputeProgram, ComputeStopped, WorkgroupOrder, Workgroups,
+};
+use estampe_types::{BindGroupLayout, Bindings};
+
+/// The most invocations of a work-group, whatever the limits of a device are.
+pub const MAX_INVOCATIONS: u32 = 1 << 16;
+
+const LANE_NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+const PACKET: u32 = LANE_NUMBERS[LANES - 1] + 1;
+
+/// A compute shader.
+#[derive(Debug)]
+pub struct TextCompute {
+    interface: ComputeInterface,
+    layouts: Vec<BindGroupLayout>,
+    stage: Stage,
+    /// x, y and z of each invocation in its work-group, in packets.
+    local_ids: [Vec<Packet<u32>>; 3],
+    /// The number of each invocation in its work-group.
+    local_index: Vec<Packet<u32>>,
+    /// The lanes of each packet that are invocations.
+    cover: Vec<u16>,
+}
+
+impl TextCompute {
+    /// Compiles a stage. Work-groups that execute more than `budget` jumps are stopped.
+    ///
+    /// # Errors
+    /// [`LinkError`] if it has more than [`MAX_INVOCATIONS`] in a work-group, or binds too much.
+    pub fn new(
+        source: &StageSource,
+        order: WorkgroupOrder,
+        budget: u64,
+    ) -> Result<Self, LinkError> {
+        let tree = &source.tree;
+        let size = tree.interface.workgroup_size;
+        let invocations = size.iter().map(|side| u64::from(*side)).product::<u64>();
+        let invocations = u32::try_from(invocations).unwrap_or(u32::MAX);
+        if invocations > MAX_INVOCATIONS {
+            return Err(LinkError::Invocations { size });
+        }
+        let packets = invocations.div_ceil(PACKET);
+        let lanes = |of: &dyn Fn(u32) -> u32| -> Vec<Packet<u32>> {
+            let first = (0..packets).map(|packet| packet * PACKET);
+            let packet = |first: u32| {
+                Packet(LANE_NUMBERS.map(|lane| {
+                    // Lanes beyond the last invocation repeat the first one.
+                    let index = first + lane;
+                    of(if index < invocations { index } else { 0 })
+                }))
+            };
+            first.map(packet).collect()
+        };
+        let [width, height, _] = size.map(|side| side.max(1));
+        Ok(Self {
+            interface: ComputeInterface {
+                workgroup_size: size,
+                workgroup_storage_bytes: tree.interface.workgroup_words.saturating_mul(4),
+                order,
+            },
+            local_ids: [
+                lanes(&|index| index % width),
+                lanes(&|index| index / width % height),
+                lanes(&|index| index / width / height),
+            ],
+            local_index: lanes(&|index| index),
+            cover: (0..packets)
+                .map(|packet| {
+                    let left = invocations - packet * PACKET;
+                    u16::MAX >> (PACKET - left.min(PACKET))
+                })
+                .collect(),
+            layouts: layouts::of_stages(std::iter::once(source))?,
+            stage: Stage::new(tree, budget),
+        })
+    }
+
+    fn input(&self, input: Input, id: [u32; 3], count: [u32; 3]) -> InputData<'_> {
+        let part = |axes: [u32; 3], axis: u32| axes.get(axis as usize).copied().unwrap_or(0);
+        match input {
+            Input::LocalInvocationId(axis) => {
+                let ids = self.local_ids.get(axis as usize);
+                InputData::words(ids.map_or(&[][..], Vec::as_slice), 0, 1)
+            }
+            Input::LocalInvocationIndex => InputData::words(&self.local_index, 0, 1),
+            Input::WorkgroupId(axis) => InputData::Uniform(part(id, axis)),
+            Input::NumWorkgroups(axis) => InputData::Uniform(part(count, axis)),
+            Input::Cover => InputData::Mask(&self.cover),
+            _ => InputData::Uniform(0),
+        }
+    }
+}
+
+impl ComputeProgram for TextCompute {
+    fn interface(&self) -> &ComputeInterface {
+        &self.interface
+    }
+
+    fn bind_group_layouts(&self) -> &[BindGroupLayout] {
+        &self.layouts
+    }
+
+    fn run_workgroups(
+        &self,
+        level: Level,
+        bindings: &Bindings,
+        work: &Workgroups,
+    ) -> Result<(), ComputeStopped> {
+        let stage = &self.stage;
+        let buffers = buffers(stage, bindings);
+        let mut inputs = Vec::new();
+        for id in work.ids() {
+            let of_group = stage.interface().inputs.iter();
+            inputs.clear();
+            inputs.extend(of_group.map(|input| self.input(*input, id, work.count)));
+            let packets = self.cover.len();
+            stage
+                .run(level, (bindings, &buffers), packets, (&inputs, &[]))
+                .map_err(|stopped| match stopped {
+                    Stopped::Budget => ComputeStopped::Budget,
+                    Stopped::Memory => ComputeStopped::OutOfMemory,
+                })?;
+        }
+        Ok(())
+    }
+}

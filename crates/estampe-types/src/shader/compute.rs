@@ -1,0 +1,115 @@
+//! Compute shaders: the one interface by which all of them run.
+
+use crate::{BindGroupLayout, Bindings};
+use estampe_simd::Level;
+use std::fmt;
+use std::ops::Range;
+
+/// What a compute shader declares.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ComputeInterface {
+    /// The invocations of a work-group along x, y and z, each at least 1.
+    pub workgroup_size: [u32; 3],
+    /// Bytes of memory that the invocations of a work-group share.
+    pub workgroup_storage_bytes: u32,
+    /// Whether the order of work-groups can be seen.
+    pub order: WorkgroupOrder,
+}
+
+/// Whether the results of a dispatch depend on the order in which its work-groups run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WorkgroupOrder {
+    /// They do not: work-groups run on all threads.
+    Free,
+    /// They may: work-groups run one after the other, x fastest, then y, then z.
+    InOrder,
+}
+
+/// Work-groups of a dispatch.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Workgroups {
+    /// The work-groups of the whole dispatch along x, y and z.
+    pub count: [u32; 3],
+    /// Those to run, by number: work-group (x, y, z) is number (z · `count[1]` + y) · `count[0]` +
+    /// x.
+    pub range: Range<u64>,
+}
+
+impl Workgroups {
+    /// The x, y and z of the work-groups to run, in order.
+    pub fn ids(&self) -> impl Iterator<Item = [u32; 3]> {
+        let [width, height] = [self.count[0], self.count[1]].map(|side| u64::from(side.max(1)));
+        let small = |number: u64| u32::try_from(number).unwrap_or(u32::MAX);
+        self.range.clone().map(move |number| {
+            let row = number / width;
+            [
+                small(number % width),
+                small(row % height),
+                small(row / height),
+            ]
+        })
+    }
+}
+
+/// Why work-groups were stopped. What they had stored until then stays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ComputeStopped {
+    /// A work-group executed more jumps than [`Limits::max_shader_jumps`](crate::Limits).
+    Budget,
+    /// Memory is short.
+    OutOfMemory,
+}
+
+impl fmt::Display for ComputeStopped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Budget => {
+                "a work-group executed more jumps than the limit max_shader_jumps: does a loop \
+                 never end? Divide the work into more work-groups, or raise the limit"
+            }
+            Self::OutOfMemory => "there is not enough memory for the variables of the shader",
+        })
+    }
+}
+
+impl std::error::Error for ComputeStopped {}
+
+/// A compute shader.
+pub trait ComputeProgram: fmt::Debug + Send + Sync {
+    /// What it declares.
+    fn interface(&self) -> &ComputeInterface;
+
+    /// The layouts of the groups that it binds, by group number; those that a pipeline of it has if
+    /// no others are given.
+    fn bind_group_layouts(&self) -> &[BindGroupLayout] {
+        &[]
+    }
+
+    /// Runs some work-groups of a dispatch, in order. Several threads call this at once, with
+    /// different work-groups, if the [order](ComputeInterface::order) is free.
+    ///
+    /// # Errors
+    /// [`ComputeStopped`] if they cannot go on.
+    fn run_workgroups(
+        &self,
+        level: Level,
+        bindings: &Bindings,
+        work: &Workgroups,
+    ) -> Result<(), ComputeStopped>;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_groups_are_numbered_with_x_fastest() {
+        let work = Workgroups {
+            count: [3, 2, 2],
+            range: 4..8,
+        };
+        let ids: Vec<_> = work.ids().collect();
+        assert_eq!(ids, [[1, 1, 0], [2, 1, 0], [0, 0, 1], [1, 0, 1]]);
+    }
+}
