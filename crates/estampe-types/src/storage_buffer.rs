@@ -40,6 +40,12 @@ impl StorageBuffer {
         BufferData::from_words(words).slice(0, self.len_bytes)
     }
 
+    /// Returns true if both are clones that share their words.
+    #[must_use]
+    pub fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.words, &other.words)
+    }
+
     /// The length in bytes.
     #[must_use]
     pub fn len_bytes(&self) -> usize {

@@ -3,6 +3,7 @@
 use super::batch::buffers;
 use super::stage::Stage;
 use super::{LinkError, StageSource, layouts};
+use crate::order::Accesses;
 use estampe_ir::interface::Input;
 use estampe_ir::interpreter::{InputData, Stopped};
 use estampe_simd::{LANES, Level, Packet};
@@ -22,6 +23,7 @@ const PACKET: u32 = LANE_NUMBERS[LANES - 1] + 1;
 pub struct TextCompute {
     interface: ComputeInterface,
     layouts: Vec<BindGroupLayout>,
+    accesses: Accesses,
     stage: Stage,
     /// x, y and z of each invocation in its work-group, in packets.
     local_ids: [Vec<Packet<u32>>; 3],
@@ -32,15 +34,12 @@ pub struct TextCompute {
 }
 
 impl TextCompute {
-    /// Compiles a stage. Work-groups that execute more than `budget` jumps are stopped.
+    /// Compiles a stage. Its work-groups run in any order where that cannot be seen; those that
+    /// execute more than `budget` jumps are stopped.
     ///
     /// # Errors
     /// [`LinkError`] if it has more than [`MAX_INVOCATIONS`] in a work-group, or binds too much.
-    pub fn new(
-        source: &StageSource,
-        order: WorkgroupOrder,
-        budget: u64,
-    ) -> Result<Self, LinkError> {
+    pub fn new(source: &StageSource, budget: u64) -> Result<Self, LinkError> {
         let tree = &source.tree;
         let size = tree.interface.workgroup_size;
         let invocations = size.iter().map(|side| u64::from(*side)).product::<u64>();
@@ -65,8 +64,8 @@ impl TextCompute {
             interface: ComputeInterface {
                 workgroup_size: size,
                 workgroup_storage_bytes: tree.interface.workgroup_words.saturating_mul(4),
-                order,
             },
+            accesses: Accesses::of(tree),
             local_ids: [
                 lanes(&|index| index % width),
                 lanes(&|index| index / width % height),
@@ -107,6 +106,10 @@ impl ComputeProgram for TextCompute {
 
     fn bind_group_layouts(&self) -> &[BindGroupLayout] {
         &self.layouts
+    }
+
+    fn order(&self, bindings: &Bindings, count: [u32; 3]) -> WorkgroupOrder {
+        self.accesses.order(bindings, count)
     }
 
     fn run_workgroups(

@@ -3,14 +3,13 @@
 use super::{devices, stages};
 use estampe::{
     BindGroup, BindGroupDescriptor, BindingResource, Buffer, ComputePipeline,
-    ComputePipelineDescriptor, Device, Dispatch, DispatchErrorKind, DispatchSize, Limits,
-    WorkgroupOrder, bytes_of,
+    ComputePipelineDescriptor, Device, Dispatch, DispatchErrorKind, DispatchSize, Limits, bytes_of,
 };
 use estampe_shader::program::TextCompute;
 use std::sync::Arc;
 
-fn pipeline(device: &Device, source: &str, order: WorkgroupOrder) -> ComputePipeline {
-    let program = TextCompute::new(&stages(source)[0], order, 1 << 20).expect("it is small");
+fn pipeline(device: &Device, source: &str) -> ComputePipeline {
+    let program = TextCompute::new(&stages(source)[0], 1 << 20).expect("it is small");
     let pipeline = device.create_compute_pipeline(&ComputePipelineDescriptor {
         label: Some("test"),
         ..ComputePipelineDescriptor::new(Arc::new(program))
@@ -72,7 +71,7 @@ const SQUARES: &str = "
 fn invocations_write_buffers_and_what_is_beyond_them_is_dropped() {
     let numbers: Vec<u32> = (0..1000).map(|n| n * 3 + 1).collect();
     for (name, device) in devices() {
-        let pipeline = pipeline(&device, SQUARES, WorkgroupOrder::Free);
+        let pipeline = pipeline(&device, SQUARES);
         let [from, into] = [&numbers, &vec![0; 1000]].map(|words| buffer(&device, words));
         let groups = [group(&device, &pipeline, &[&from, &into])];
         run(&device, &pipeline, &groups, [42, 1, 1]);
@@ -121,7 +120,7 @@ fn barriers_order_the_memory_of_a_work_group() {
         })
         .collect();
     for (name, device) in devices() {
-        let pipeline = pipeline(&device, PREFIX_SUM, WorkgroupOrder::Free);
+        let pipeline = pipeline(&device, PREFIX_SUM);
         let data = buffer(&device, &numbers);
         run(
             &device,
@@ -146,7 +145,7 @@ struct List { count: atomic<u32>, items: array<u32> }
 #[test]
 fn atomics_whose_order_can_be_seen_run_in_order() {
     for (name, device) in devices() {
-        let pipeline = pipeline(&device, APPEND, WorkgroupOrder::InOrder);
+        let pipeline = pipeline(&device, APPEND);
         let list = buffer(&device, &[0; 1 + 400]);
         let histogram = buffer(&device, &[0; 4]);
         let groups = [group(&device, &pipeline, &[&list, &histogram])];
@@ -162,7 +161,7 @@ fn atomics_whose_order_can_be_seen_run_in_order() {
 #[test]
 fn a_buffer_gives_the_number_of_work_groups() {
     let device = Device::new(&Default::default()).expect("threads");
-    let pipeline = pipeline(&device, SQUARES, WorkgroupOrder::Free);
+    let pipeline = pipeline(&device, SQUARES);
     let [from, into] = [[2; 100], [0; 100]].map(|words| buffer(&device, &words));
     let groups = [group(&device, &pipeline, &[&from, &into])];
     let count = buffer(&device, &[9, 2, 1, 1, 70_000]);
@@ -205,7 +204,7 @@ fn what_does_not_fit_is_refused() {
     };
     let small = Device::new(&descriptor).expect("threads");
     let source = &stages(SQUARES)[0];
-    let program = TextCompute::new(source, WorkgroupOrder::Free, 1 << 20).expect("it is small");
+    let program = TextCompute::new(source, 1 << 20).expect("it is small");
     let program = Arc::new(program);
     let error = small.create_compute_pipeline(&ComputePipelineDescriptor::new(program.clone()));
     assert_eq!(
@@ -223,7 +222,7 @@ fn what_does_not_fit_is_refused() {
         "the shader uses a read-only storage buffer at group 0, binding 0, where the bind group \
          layouts of the pipeline have nothing"
     );
-    let pipeline = pipeline(&device, SQUARES, WorkgroupOrder::Free);
+    let pipeline = pipeline(&device, SQUARES);
     let one = buffer(&device, &[1; 50]);
     let both = [group(&device, &pipeline, &[&one, &one])];
     let refused = |bind_groups: &[BindGroup]| {
@@ -253,7 +252,7 @@ fn loops_without_end_are_stopped() {
             loop { count[0] += 1u; if count[0] == 0u { break; } }
         }";
     for (name, device) in devices() {
-        let program = TextCompute::new(&stages(source)[0], WorkgroupOrder::InOrder, 1000);
+        let program = TextCompute::new(&stages(source)[0], 1000);
         let descriptor = ComputePipelineDescriptor::new(Arc::new(program.expect("small")));
         let pipeline = device
             .create_compute_pipeline(&descriptor)

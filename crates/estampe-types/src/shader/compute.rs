@@ -12,8 +12,6 @@ pub struct ComputeInterface {
     pub workgroup_size: [u32; 3],
     /// Bytes of memory that the invocations of a work-group share.
     pub workgroup_storage_bytes: u32,
-    /// Whether the order of work-groups can be seen.
-    pub order: WorkgroupOrder,
 }
 
 /// Whether the results of a dispatch depend on the order in which its work-groups run.
@@ -86,8 +84,11 @@ pub trait ComputeProgram: fmt::Debug + Send + Sync {
         &[]
     }
 
+    /// Whether the order of the work-groups of a dispatch can be seen, so many along x, y and z.
+    fn order(&self, bindings: &Bindings, count: [u32; 3]) -> WorkgroupOrder;
+
     /// Runs some work-groups of a dispatch, in order. Several threads call this at once, with
-    /// different work-groups, if the [order](ComputeInterface::order) is free.
+    /// different work-groups, if their [order](Self::order) is free.
     ///
     /// # Errors
     /// [`ComputeStopped`] if they cannot go on.

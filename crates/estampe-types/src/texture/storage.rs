@@ -50,6 +50,12 @@ impl StorageTexture {
         Some(made)
     }
 
+    /// Returns true if both are clones that share their texels.
+    #[must_use]
+    pub fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.words, &other.words)
+    }
+
     /// Format of the texels.
     #[must_use]
     pub fn format(&self) -> TextureFormat {

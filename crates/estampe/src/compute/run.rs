@@ -73,7 +73,7 @@ fn run_workgroups(
         program.run_workgroups(device.level(), bindings, &work)
     };
     let threads = device.threads() as u64;
-    if program.interface().order == WorkgroupOrder::InOrder || threads == 1 {
+    if threads == 1 || program.order(bindings, count) == WorkgroupOrder::InOrder {
         return run(0..total);
     }
     let parts = total.min(threads * PARTS_PER_THREAD);

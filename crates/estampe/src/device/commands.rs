@@ -104,7 +104,7 @@ impl Device {
     }
 
     /// Runs work-groups of a compute shader. The results do not depend on threads: work-groups
-    /// whose [order](crate::WorkgroupOrder) could be seen run one after the other.
+    /// whose [order](crate::ComputeProgram::order) could be seen run one after the other.
     ///
     /// # Errors
     /// [`DispatchError`] names the rule that the dispatch breaks; nothing has run then. If it is

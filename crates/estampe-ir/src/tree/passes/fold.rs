@@ -42,6 +42,8 @@ pub(crate) fn fold(op: Op, known: &[Known]) -> Result<Value, Op> {
         }),
         Op::Compare(kind, pair) => Err(match pair.map(word) {
             [Some(a), Some(b)] => Op::MaskConstant(kind.evaluate([a, b])),
+            [_, Some(0)] if kind == Compare::ULt => Op::MaskConstant(false),
+            [Some(0), _] if kind == Compare::ULe => Op::MaskConstant(true),
             _ if pair[0] == pair[1] && kind.is_of_integers() => {
                 Op::MaskConstant(kind.evaluate([0, 0]))
             }
