@@ -169,8 +169,15 @@ const OUTSIDE: &[(&str, Users)] = &[
     ("serde", Users::Only(&["estampe-bench", "estampe-tests"])),
     (
         "serde_json",
-        Users::Only(&["estampe-cli", "estampe-bench", "estampe-tests"]),
+        Users::Only(&[
+            "estampe-cli",
+            "estampe-bench",
+            "estampe-tests",
+            "estampe-shader",
+        ]),
     ),
+    // The data of tests.
+    ("flate2", Users::Only(&["estampe-shader"])),
     // The checks of the repository.
     ("cargo_metadata", Users::Only(&["xtask"])),
     ("object", Users::Only(&["xtask"])),

@@ -173,8 +173,17 @@ impl<'a> Lowering<'a> {
                 let zero = self.builder.word(0);
                 self.builder.compare(Compare::Ne, value, zero)
             }
-            (K::Float, K::Sint) => self.builder.unary(Unary::S32FromF32, value),
-            (K::Float, K::Uint) => self.builder.unary(Unary::U32FromF32, value),
+            // What is too large becomes the greatest float that is an integer of the type.
+            (K::Float, K::Sint) => {
+                let most = self.builder.float(2_147_483_520.0);
+                let value = self.builder.binary(Binary::FMin, most, value);
+                self.builder.unary(Unary::S32FromF32, value)
+            }
+            (K::Float, K::Uint) => {
+                let most = self.builder.float(4_294_967_040.0);
+                let value = self.builder.binary(Binary::FMin, most, value);
+                self.builder.unary(Unary::U32FromF32, value)
+            }
             (K::Sint, K::Float) => self.builder.unary(Unary::F32FromS32, value),
             (K::Uint, K::Float) => self.builder.unary(Unary::F32FromU32, value),
             (K::Float, K::Float) | (K::Sint | K::Uint, K::Sint | K::Uint) => value,
