@@ -92,10 +92,17 @@ unsafe extern "sysv64" fn serve(frame: *mut Line, call: u32) {
         mask_result: 0,
     };
     // A panic, of a caller's texture, must not go through machine code: it goes on in `Code::run`.
+    // Until the code returns there are no more calls, and loops end at their next jump backwards.
+    if context.has_panicked() {
+        return;
+    }
     let done = catch_unwind(AssertUnwindSafe(|| context.serve(&mut call)));
     let mask_result = call.mask_result;
     if let Err(panic) = done {
         *context.panic.borrow_mut() = Some(panic);
+        let budget = frame.cast::<u8>().wrapping_add(frame::BUDGET as usize);
+        // SAFETY: the place is in the head, aligned to its eight bytes.
+        unsafe { *budget.cast::<u64>() = 0 };
     }
     let place = frame.cast::<u8>().wrapping_add(frame::MASK_RESULT as usize);
     // SAFETY: as above; the code reads it when this function returns.

@@ -56,18 +56,17 @@ impl Code {
         }
         self.set_still(run, &mut scratch.lines);
         let is_inside = self.set_pointers(run, scratch, 0);
-        let [after_first, after_last] = std::mem::take(&mut scratch.steps);
         let mut result = Ok(());
         for packet in 0..run.packets {
+            // Some slice is too short: each packet's places are looked for.
             if !is_inside && packet > 0 {
                 self.set_pointers(run, scratch, packet);
             }
-            result = self.packet(&context, &mut scratch.lines, [&after_first, &after_last]);
-            if result.is_err() {
+            result = self.packet(&context, scratch);
+            if result.is_err() || context.has_panicked() {
                 break;
             }
         }
-        scratch.steps = [after_first, after_last];
         if let Some(panic) = context.panic.take() {
             std::panic::resume_unwind(panic);
         }
@@ -75,12 +74,8 @@ impl Code {
     }
 
     /// Runs the passes of a packet, and moves the pointers to the next one.
-    fn packet(
-        &self,
-        context: &Context<'_>,
-        lines: &mut [Line],
-        steps: [&[Line]; 2],
-    ) -> Result<(), Stopped> {
+    fn packet(&self, context: &Context<'_>, scratch: &mut Scratch) -> Result<(), Stopped> {
+        let Scratch { lines, steps, .. } = scratch;
         for pass in 0..self.passes {
             lines[0].0[frame::BUDGET as usize / 8] = context.run.budget;
             for (start, words, init) in &self.reset_locals {
@@ -94,11 +89,7 @@ impl Code {
             if enter(&self.executable, self.packet, lines, context) != 0 {
                 return Err(Stopped::Budget);
             }
-            let steps = if pass + 1 < self.passes {
-                steps[0]
-            } else {
-                steps[1]
-            };
+            let steps = &steps[usize::from(pass + 1 == self.passes)];
             let pointers = &mut lines[(self.frame.pointers / LINE) as usize..];
             for (pointers, steps) in pointers.iter_mut().zip(steps) {
                 for (pointer, step) in pointers.0.iter_mut().zip(steps.0) {

@@ -35,6 +35,11 @@ pub(crate) struct Call<'a> {
 }
 
 impl Context<'_> {
+    /// True if a call panicked: the run ends as soon as the code returns.
+    pub(crate) fn has_panicked(&self) -> bool {
+        self.panic.borrow().is_some()
+    }
+
     /// Does what the code asks for.
     pub(crate) fn serve(&self, call: &mut Call<'_>) {
         let is_set = |lane: usize| call.mask >> lane & 1 == 1;
