@@ -12,7 +12,7 @@ use estampe_ir::interface::Input;
 use estampe_ir::interpreter::{self, Buffer, InputData, OutputData, Run, cells};
 use estampe_ir::lanes::Kernel;
 use estampe_simd::{LANES, Level, Packet};
-use estampe_x86::{Isa, Scratch, Tier, compile};
+use estampe_x86::{Code, Isa, Scratch, Tier};
 use lit_fragment::blinn_phong;
 use std::time::Instant;
 
@@ -73,7 +73,7 @@ fn main() {
     let mut scratch = Scratch::default();
     for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
         for tier in [Tier::Fast, Tier::Optimised] {
-            let make = || compile(&kernel, isa, tier).expect("an available instruction set");
+            let make = || Code::compile(&kernel, isa, tier).expect("an available instruction set");
             let made = best(100, || drop(make()));
             let code = make();
             let run_of = |packets: usize| Run { packets, ..run };

@@ -6,7 +6,7 @@ use crate::frame::Frame;
 use crate::machine::{Function, allocate, emit};
 use crate::select::{self, Selected, calls::Served};
 use crate::{CompileError, Isa, Tier};
-use estampe_ir::lanes::{self, Kernel};
+use estampe_ir::lanes::{self, BasicBlock, Kernel};
 use estampe_ir::{Op, Type};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -40,74 +40,108 @@ static NEXT_ID: AtomicU64 = AtomicU64::new(1);
 /// The bytes of instructions and constants beyond which a kernel is refused.
 const MAX_CODE_BYTES: usize = 1 << 26;
 
+/// Virtual registers beyond which a kernel is refused: regalloc2 counts up to 2²⁴ units of eight bytes
+/// in which they are spilled, and a register takes eight.
+const MAX_REGISTERS: usize = 1 << 20;
+
 /// Instructions beyond which registers are allocated in one pass, whatever the tier: the careful
 /// allocator may take more than linear time.
 const MAX_CAREFUL: usize = 1 << 14;
 
-/// Makes code for a kernel.
-///
-/// # Errors
-/// [`CompileError`] says why the kernel must be interpreted.
-pub fn compile(kernel: &Kernel, isa: Isa, tier: Tier) -> Result<Code, CompileError> {
-    if !isa.is_available() {
-        return Err(CompileError::NoIsa(isa.name()));
-    }
-    lanes::verify(kernel).map_err(|error| CompileError::Malformed(error.to_string()))?;
-    let expanded = select::expand::expand(kernel);
-    let kernel = expanded.as_ref().unwrap_or(kernel);
-    let mut assembler = Assembler::default();
-    let Selected {
-        prepare,
-        packet,
-        mut frame,
-        served,
-        passes,
-        table_inputs,
-        fixed_words,
-    } = select::select(kernel, (isa, tier), &mut assembler)?;
-    let packet = finish(&mut assembler, &packet, (isa, tier), &mut frame)?;
-    let prepare = prepare
-        .map(|function| finish(&mut assembler, &function, (isa, tier), &mut frame))
-        .transpose()?;
-    if assembler.len() > MAX_CODE_BYTES {
-        return Err(CompileError::TooLarge);
-    }
-    let finished = assembler.finish();
-    let interface = &kernel.interface;
-    let ops = kernel.blocks.iter().flat_map(|block| &block.ops);
-    let mut is_stored = vec![false; interface.locals.len()];
-    for (op, _) in ops {
-        if let Op::StoreLocal { array, .. } = op
-            && let Some(is_stored) = is_stored.get_mut(*array as usize)
-        {
-            *is_stored = true;
+/// Operations, parameters and arguments beyond which a kernel is refused, with functions replaced
+/// by their operations.
+const MAX_SIZE: usize = 1 << 16;
+
+impl Code {
+    /// Makes code for a kernel.
+    ///
+    /// # Errors
+    /// [`CompileError`] says why the kernel must be interpreted.
+    pub fn compile(kernel: &Kernel, isa: Isa, tier: Tier) -> Result<Self, CompileError> {
+        if !isa.is_available() {
+            return Err(CompileError::NoIsa(isa.name()));
         }
+        if size(kernel) > MAX_SIZE {
+            return Err(CompileError::TooLarge);
+        }
+        lanes::verify(kernel).map_err(|error| CompileError::Malformed(error.to_string()))?;
+        let expanded = select::expand::expand(kernel, MAX_SIZE)?;
+        let kernel = expanded.as_ref().unwrap_or(kernel);
+        let mut assembler = Assembler::default();
+        let Selected {
+            prepare,
+            packet,
+            mut frame,
+            served,
+            passes,
+            table_inputs,
+            fixed_words,
+        } = select::select(kernel, (isa, tier), &mut assembler)?;
+        let packet = finish(&mut assembler, &packet, (isa, tier), &mut frame)?;
+        let prepare = prepare
+            .map(|function| finish(&mut assembler, &function, (isa, tier), &mut frame))
+            .transpose()?;
+        if assembler.len() > MAX_CODE_BYTES {
+            return Err(CompileError::TooLarge);
+        }
+        let finished = assembler.finish();
+        let interface = &kernel.interface;
+        let ops = kernel.blocks.iter().flat_map(|block| &block.ops);
+        let mut is_stored = vec![false; interface.locals.len()];
+        for (op, _) in ops {
+            if let Op::StoreLocal { array, .. } = op
+                && let Some(is_stored) = is_stored.get_mut(*array as usize)
+            {
+                *is_stored = true;
+            }
+        }
+        let stored = frame.locals.iter().zip(&interface.locals).zip(is_stored);
+        let reset_locals = stored
+            .filter(|(_, is_stored)| *is_stored)
+            .map(|((&start, array), _)| (start, array.words, array.init.clone()));
+        Ok(Self {
+            executable: Executable::new(&finished.bytes)?,
+            code_bytes: finished.code_bytes,
+            prepare,
+            packet,
+            passes,
+            isa,
+            served,
+            table_inputs,
+            fixed_words,
+            input_types: interface.inputs.iter().map(|input| input.kind()).collect(),
+            output_types: interface
+                .outputs
+                .iter()
+                .map(|output| output.kind())
+                .collect(),
+            local_words: interface.locals.iter().map(|array| array.words).collect(),
+            reset_locals: reset_locals.collect(),
+            frame,
+            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+        })
     }
-    let stored = frame.locals.iter().zip(&interface.locals).zip(is_stored);
-    let reset_locals = stored
-        .filter(|(_, is_stored)| *is_stored)
-        .map(|((&start, array), _)| (start, array.words, array.init.clone()));
-    Ok(Code {
-        executable: Executable::new(&finished.bytes)?,
-        code_bytes: finished.code_bytes,
-        prepare,
-        packet,
-        passes,
-        isa,
-        served,
-        table_inputs,
-        fixed_words,
-        input_types: interface.inputs.iter().map(|input| input.kind()).collect(),
-        output_types: interface
-            .outputs
-            .iter()
-            .map(|output| output.kind())
-            .collect(),
-        local_words: interface.locals.iter().map(|array| array.words).collect(),
-        reset_locals: reset_locals.collect(),
-        frame,
-        id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
-    })
+
+    /// The instruction set.
+    #[must_use]
+    pub fn isa(&self) -> Isa {
+        self.isa
+    }
+
+    /// The instructions, without the constants that follow them. For disassemblers.
+    #[must_use]
+    pub fn instructions(&self) -> &[u8] {
+        &self.executable.bytes()[..self.code_bytes]
+    }
+}
+
+/// The operations, parameters and arguments of a kernel.
+fn size(kernel: &Kernel) -> usize {
+    let of_block = |block: &BasicBlock| {
+        let arguments = block.terminator.jumps().map(|jump| jump.arguments.len());
+        block.ops.len() + block.parameters.len() + arguments.sum::<usize>() + 1
+    };
+    kernel.blocks.iter().map(of_block).sum()
 }
 
 /// Allocates registers and encodes a function. Returns where it begins.
@@ -122,6 +156,9 @@ fn finish(
     } else {
         tier
     };
+    if function.registers() > MAX_REGISTERS {
+        return Err(CompileError::TooLarge);
+    }
     let allocated = allocate::allocate(function, isa, tier)
         .map_err(|error| CompileError::Malformed(format!("{error:?}")))?;
     frame
@@ -130,18 +167,4 @@ fn finish(
     let start = assembler.len();
     emit::emit(assembler, function, &allocated, (isa, frame));
     Ok(start)
-}
-
-impl Code {
-    /// The instruction set.
-    #[must_use]
-    pub fn isa(&self) -> Isa {
-        self.isa
-    }
-
-    /// The instructions, without the constants that follow them. For disassemblers.
-    #[must_use]
-    pub fn instructions(&self) -> &[u8] {
-        &self.executable.bytes()[..self.code_bytes]
-    }
 }

@@ -65,7 +65,7 @@ unsafe extern "sysv64" fn serve(frame: *mut Line, call: u32) {
         return;
     };
     let layout: &Frame = context.frame;
-    let packets = served.operands() + served.results();
+    let packets = served.operands + served.results;
     let arguments = frame.cast::<u8>().wrapping_add(layout.arguments as usize);
     // SAFETY: the frame has room for the operands and results of each call of the kernel from
     // `arguments` on, aligned to lines; all words are initialised, and the code waits.

@@ -23,7 +23,7 @@ impl Executable {
     ///
     /// # Errors
     /// [`CompileError::NoMemory`] if the system gives no memory, or none that may be executed.
-    #[cfg(unix)]
+    #[cfg(all(unix, target_pointer_width = "64"))]
     pub(crate) fn new(bytes: &[u8]) -> Result<Self, CompileError> {
         use rustix::mm::{MapFlags, MprotectFlags, ProtFlags};
         let len = bytes.len().max(1);
@@ -60,7 +60,7 @@ impl Executable {
     ///
     /// # Errors
     /// Always.
-    #[cfg(not(unix))]
+    #[cfg(not(all(unix, target_pointer_width = "64")))]
     pub(crate) fn new(_: &[u8]) -> Result<Self, CompileError> {
         let why = "this system's functions for it are not called yet";
         Err(CompileError::NoMemory(why.to_owned()))
@@ -79,13 +79,13 @@ impl Executable {
     }
 }
 
-#[cfg(unix)]
+#[cfg(all(unix, target_pointer_width = "64"))]
 fn refused(error: &rustix::io::Errno) -> CompileError {
     CompileError::NoMemory(error.to_string())
 }
 
 impl Drop for Executable {
-    #[cfg(unix)]
+    #[cfg(all(unix, target_pointer_width = "64"))]
     fn drop(&mut self) {
         // SAFETY: the pages were mapped by `new` with this length; whoever drops `self` is its only
         // owner, so no thread executes them.
@@ -93,6 +93,6 @@ impl Drop for Executable {
         debug_assert!(unmapped.is_ok(), "a whole mapping can be unmapped");
     }
 
-    #[cfg(not(unix))]
+    #[cfg(not(all(unix, target_pointer_width = "64")))]
     fn drop(&mut self) {}
 }

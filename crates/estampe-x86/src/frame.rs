@@ -35,6 +35,9 @@ pub(crate) const PACKET: u32 = 64;
 /// The bytes of a frame beyond which a kernel is refused.
 pub(crate) const MAX_BYTES: u32 = 1 << 26;
 
+/// The words of all tables of constants beyond which a kernel is refused.
+const MAX_TABLE_WORDS: u32 = 1 << 20;
+
 /// Where the parts of a frame begin, in bytes from its start.
 #[derive(Debug, Clone)]
 pub(crate) struct Frame {
@@ -47,7 +50,7 @@ pub(crate) struct Frame {
     pub(crate) still: u32,
     pub(crate) sink: u32,
     pub(crate) arguments: u32,
-    /// The first packet of each array.
+    /// The first packet of each array that is stored to; tables have none.
     pub(crate) locals: Vec<u32>,
     pub(crate) spills: u32,
     /// All bytes; known when registers were allocated.
@@ -55,10 +58,11 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// The layout for an interface, so many values in the table, and calls with so many packets of
-    /// operands and results. `None` if it is too large.
+    /// The layout for an interface with arrays of which some are stored to, so many values in the
+    /// table, and calls with so many packets of operands and results. `None` if it is too large.
     pub(crate) fn new(
         interface: &Interface,
+        is_stored: impl Fn(u32) -> bool,
         (slots, slot_bytes): (u32, u32),
         argument_packets: u32,
     ) -> Option<Self> {
@@ -77,8 +81,20 @@ impl Frame {
         let sink = part(1, PACKET)?;
         let arguments = part(argument_packets as usize, PACKET)?;
         let mut locals = Vec::new();
-        for array in &interface.locals {
-            locals.push(part(array.words as usize, PACKET)?);
+        let mut table_words = 0_u32;
+        for (at, array) in (0..).zip(&interface.locals) {
+            // Tables stand behind the code, once for all lanes.
+            let is_stored = is_stored(at);
+            locals.push(part(
+                if is_stored { array.words as usize } else { 0 },
+                PACKET,
+            )?);
+            if !is_stored {
+                table_words = table_words.checked_add(array.words)?;
+            }
+        }
+        if table_words > MAX_TABLE_WORDS {
+            return None;
         }
         let spills = part(0, 0)?;
         Some(Self {

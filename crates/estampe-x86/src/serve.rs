@@ -1,7 +1,7 @@
 //! What code asks Rust for: rare operations, stores, atomic operations and textures.
 
 use crate::frame::{Frame, PACKET};
-use crate::select::calls::Served;
+use crate::select::calls::{Kind, Served};
 use estampe_ir::interpreter::{Buffer, Run, TextureAccess, atomic};
 use estampe_simd::{LANES, Level, Packet};
 use std::any::Any;
@@ -44,19 +44,19 @@ impl Context<'_> {
     pub(crate) fn serve(&self, call: &mut Call<'_>) {
         let is_set = |lane: usize| call.mask >> lane & 1 == 1;
         let lanes = (0..LANES).filter(|&lane| is_set(lane));
-        let (operands, results) = call.arguments.split_at_mut(call.served.operands());
-        match (call.served, operands, results) {
-            (Served::Unary(kind), [a], [result]) => {
+        let (operands, results) = call.arguments.split_at_mut(call.served.operands);
+        match (&call.served.kind, operands, results) {
+            (Kind::Unary(kind), [a], [result]) => {
                 for (to, a) in result.0.iter_mut().zip(a.0) {
                     *to = kind.evaluate(a);
                 }
             }
-            (Served::Binary(kind), [a, b], [result]) => {
+            (Kind::Binary(kind), [a, b], [result]) => {
                 for (to, (a, b)) in result.0.iter_mut().zip(a.0.into_iter().zip(b.0)) {
                     *to = kind.evaluate([a, b]);
                 }
             }
-            (Served::StoreBuffer { buffer }, [offset, value], _) => {
+            (Kind::StoreBuffer { buffer }, [offset, value], _) => {
                 let buffer = self.buffer(*buffer);
                 for lane in lanes {
                     if let Some(word) = buffer.at(offset.0[lane]) {
@@ -64,7 +64,7 @@ impl Context<'_> {
                     }
                 }
             }
-            (Served::StoreLocal { array }, [index, value], _) => {
+            (Kind::StoreLocal { array }, [index, value], _) => {
                 let at = *array as usize;
                 let (Some(&start), Some(&words)) =
                     (self.frame.locals.get(at), self.local_words.get(at))
@@ -83,7 +83,7 @@ impl Context<'_> {
                     }
                 }
             }
-            (Served::Atomic { kind, buffer }, [offset, operand], [result]) => {
+            (Kind::Atomic { kind, buffer }, [offset, operand], [result]) => {
                 let buffer = self.buffer(*buffer);
                 *result = Packet::default();
                 for lane in lanes {
@@ -92,7 +92,7 @@ impl Context<'_> {
                     result.0[lane] = before;
                 }
             }
-            (Served::CompareExchange { buffer }, [offset, expected, value], [result]) => {
+            (Kind::CompareExchange { buffer }, [offset, expected, value], [result]) => {
                 let buffer = self.buffer(*buffer);
                 *result = Packet::default();
                 for lane in lanes {
@@ -106,7 +106,7 @@ impl Context<'_> {
                     call.mask_result |= u16::from(exchanged.is_ok()) << lane;
                 }
             }
-            (Served::Texture(op), operands, results) => {
+            (Kind::Texture(op), operands, results) => {
                 let masks = [call.mask];
                 let access = TextureAccess::new(op, (self.level, &masks), operands, results);
                 self.run.textures.access(access);

@@ -12,7 +12,7 @@ use estampe_ir::op::{
 use estampe_ir::tree::Builder;
 use estampe_ir::{Op, Value};
 use estampe_simd::{LANES, Level, Packet};
-use estampe_x86::{CompileError, Isa, Scratch, Tier, compile};
+use estampe_x86::{Code, CompileError, Isa, Scratch, Tier};
 use fastrand::Rng;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -32,7 +32,7 @@ fn compare<T: PartialEq + std::fmt::Debug>(kernel: &Kernel, case: &mut dyn FnMut
     let mut tested = 0;
     for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
         for tier in [Tier::Fast, Tier::Optimised] {
-            let code = compile(kernel, isa, tier).unwrap();
+            let code = Code::compile(kernel, isa, tier).unwrap();
             // The second run finds what the first one left in the scratch memory.
             for _ in 0..2 {
                 let got = case(&mut |run| code.run(Level::best(), run, &mut scratch));
@@ -262,6 +262,10 @@ fn arrays_of_lanes() {
     let mut b = Builder::new(Stage::Fragment);
     b.interface_mut().locals = vec![
         LocalArray {
+            words: 0,
+            init: vec![9],
+        },
+        LocalArray {
             words: 6,
             init: vec![5, 6, 7],
         },
@@ -269,20 +273,27 @@ fn arrays_of_lanes() {
             words: 5,
             init: vec![1, 2, 3, 4],
         },
+        LocalArray {
+            words: 0,
+            init: Vec::new(),
+        },
     ];
     let [index, value, other] = [0, 1, 2].map(|at| b.input(Input::Varying(at)));
     let mask = b.input(Input::FrontFacing);
     let [two, nine] = [b.word(2), b.word(9)];
-    for index in [index, two, nine] {
-        b.op(Op::StoreLocal {
-            array: 0,
-            index,
-            value,
-            mask,
-        });
+    // The last array but one is a table; the first one has no words, and nor has the last.
+    for array in [0, 1] {
+        for index in [index, two, nine] {
+            b.op(Op::StoreLocal {
+                array,
+                index,
+                value,
+                mask,
+            });
+        }
     }
     let mut results = Vec::new();
-    for array in [0, 1] {
+    for array in [0, 1, 2, 3] {
         for index in [index, other, two, nine] {
             results.push(b.op1(Op::LoadLocal { array, index }));
         }
@@ -376,7 +387,7 @@ fn panics_of_textures_leave_the_code() {
     let kernel = sampling();
     let given = Given::new(5, &mut |random| random.u32(..));
     for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
-        let code = compile(&kernel, isa, Tier::Fast).unwrap();
+        let code = Code::compile(&kernel, isa, Tier::Fast).unwrap();
         let mut scratch = Scratch::default();
         let left = catch_unwind(AssertUnwindSafe(|| {
             let go: Runner<'_> = &mut |run| code.run(Level::best(), run, &mut scratch);
@@ -484,7 +495,7 @@ fn loops_without_end_are_stopped() {
     let kernel = finish(b, &[result]);
     for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
         for tier in [Tier::Fast, Tier::Optimised] {
-            let code = compile(&kernel, isa, tier).unwrap();
+            let code = Code::compile(&kernel, isa, tier).unwrap();
             let run_with = |word: u32, budget: u64| {
                 let words = [Packet([word; LANES])];
                 let run = Run {
@@ -504,6 +515,38 @@ fn loops_without_end_are_stopped() {
 
 /// Rows: none yet; the shader compiler.
 #[test]
+fn threads_share_code() {
+    const fn is_shared<T: Send + Sync>() {}
+    is_shared::<Code>();
+    const fn is_sent<T: Send>() {}
+    is_sent::<Scratch>();
+    let mut b = Builder::new(Stage::Vertex);
+    let index = b.input(Input::VertexIndex);
+    let square = b.binary(Binary::Mul, index, index);
+    let kernel = finish(b, &[square]);
+    let Some(isa) = Isa::best() else { return };
+    let code = Code::compile(&kernel, isa, Tier::Fast).unwrap();
+    std::thread::scope(|scope| {
+        for thread in 0..4_u32 {
+            let code = &code;
+            scope.spawn(move || {
+                let indices = [Packet([thread; LANES])];
+                let mut squares = [Packet([0; LANES])];
+                let run = Run {
+                    inputs: &[InputData::words(&indices, 0, 1)],
+                    outputs: &[OutputData::words(cells(&mut squares), 0, 1)],
+                    ..Run::new(1)
+                };
+                code.run(Level::best(), &run, &mut Scratch::default())
+                    .unwrap();
+                assert_eq!(squares[0].0, [thread * thread; LANES]);
+            });
+        }
+    });
+}
+
+/// Rows: none yet; the shader compiler.
+#[test]
 fn what_is_not_compiled_is_refused() {
     let Some(isa) = Isa::best() else { return };
     let mut b = Builder::new(Stage::Compute);
@@ -513,7 +556,7 @@ fn what_is_not_compiled_is_refused() {
     let index = b.word(0);
     let loaded = b.op1(Op::LoadWorkgroup(index));
     let kernel = finish(b, &[loaded]);
-    let refused = compile(&kernel, isa, Tier::Fast).unwrap_err();
+    let refused = Code::compile(&kernel, isa, Tier::Fast).unwrap_err();
     assert_eq!(refused, CompileError::Workgroup);
 
     let mut b = Builder::new(Stage::Fragment);
@@ -531,6 +574,6 @@ fn what_is_not_compiled_is_refused() {
         mask,
     });
     let kernel = finish(b, &[value]);
-    let refused = compile(&kernel, isa, Tier::Fast).unwrap_err();
+    let refused = Code::compile(&kernel, isa, Tier::Fast).unwrap_err();
     assert_eq!(refused, CompileError::TooLarge);
 }

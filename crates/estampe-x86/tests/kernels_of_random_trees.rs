@@ -13,7 +13,7 @@ use estampe_ir::interface::Input;
 use estampe_ir::interpreter::{self, Buffer, InputData, OutputData, Run, Stopped, cells};
 use estampe_ir::lanes::Kernel;
 use estampe_simd::{Level, Packet};
-use estampe_x86::{Isa, Scratch, Tier, compile};
+use estampe_x86::{Code, Isa, Scratch, Tier};
 use fastrand::Rng;
 use generate::{Made, OWN_WORDS, tree};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -120,7 +120,7 @@ fn check(seed: u64) -> Made {
     let mut scratch = Scratch::default();
     for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
         for tier in [Tier::Fast, Tier::Optimised] {
-            let code = compile(&kernel, isa, tier)
+            let code = Code::compile(&kernel, isa, tier)
                 .unwrap_or_else(|error| panic!("seed {seed}, {isa:?} {tier:?}: {error}"));
             let got = case.run(&kernel, &mut |run| {
                 code.run(Level::best(), run, &mut scratch)

@@ -9,7 +9,7 @@ use estampe_ir::op::{Binary, Compare, MaskBinary, Math, Math2, NAN, Unary, fma};
 use estampe_ir::tree::{Builder, Tree};
 use estampe_ir::{Op, Value};
 use estampe_simd::{Level, Packet};
-use estampe_x86::{Isa, Scratch, Tier, compile};
+use estampe_x86::{Code, Isa, Scratch, Tier};
 
 /// The packets of a test.
 const PACKETS: usize = 120;
@@ -94,7 +94,7 @@ fn operands(seed: u64) -> Vec<Packet<u32>> {
 /// Runs a tree with one output on the operands.
 fn run(tree: &Tree, (isa, tier): (Isa, Tier), inputs: &[Packet<u32>]) -> Vec<Packet<u32>> {
     let kernel = Kernel::from_tree(tree);
-    let code = compile(&kernel, isa, tier).unwrap();
+    let code = Code::compile(&kernel, isa, tier).unwrap();
     check_instructions(code.instructions());
     let given: Vec<InputData<'_>> = kernel
         .interface

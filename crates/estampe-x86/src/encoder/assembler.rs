@@ -34,6 +34,7 @@ pub(crate) struct Assembler {
     fixups: Vec<Fixup>,
     pool: Vec<u32>,
     splats: HashMap<(u32, u32), u32>,
+    lanes: HashMap<Vec<u32>, u32>,
 }
 
 impl Assembler {
@@ -90,7 +91,17 @@ impl Assembler {
         })
     }
 
-    /// The place in the pool of these words, in bytes.
+    /// The place in the pool of the words of a register's lanes, in bytes.
+    pub(crate) fn pool_lanes(&mut self, words: &[u32]) -> u32 {
+        if let Some(&at) = self.lanes.get(words) {
+            return at;
+        }
+        let at = self.pool_words(words);
+        self.lanes.insert(words.to_vec(), at);
+        at
+    }
+
+    /// The place in the pool of these words, which are added, in bytes.
     pub(crate) fn pool_words(&mut self, words: &[u32]) -> u32 {
         let at = self.pool.len();
         self.pool.extend(words);

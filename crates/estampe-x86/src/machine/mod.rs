@@ -166,6 +166,11 @@ impl Function {
         VReg::new(self.registers - 1, class)
     }
 
+    /// The number of virtual registers.
+    pub(crate) fn registers(&self) -> usize {
+        self.registers
+    }
+
     /// Adds an instruction.
     pub(crate) fn push(&mut self, instruction: Instruction, operands: &[Operand]) {
         self.instructions.push(instruction);

@@ -13,9 +13,19 @@ use estampe_ir::lanes::Kernel;
 use estampe_ir::op::{Atomic, Binary, Memory as Shared, TextureOp, Unary};
 use estampe_ir::{Op, Type, Value};
 
+/// A call.
+#[derive(Debug, Clone)]
+pub(crate) struct Served {
+    pub(crate) kind: Kind,
+    /// The number of packets that are given; the results follow them.
+    pub(crate) operands: usize,
+    /// The number of packets that are returned.
+    pub(crate) results: usize,
+}
+
 /// What a call asks for.
 #[derive(Debug, Clone)]
-pub(crate) enum Served {
+pub(crate) enum Kind {
     Unary(Unary),
     Binary(Binary),
     /// Offset and word.
@@ -39,28 +49,17 @@ pub(crate) enum Served {
 }
 
 impl Served {
-    /// The number of packets that are given; the results follow them.
-    pub(crate) fn operands(&self) -> usize {
-        match self {
-            Self::Unary(_) => 1,
-            Self::Binary(_)
-            | Self::StoreBuffer { .. }
-            | Self::StoreLocal { .. }
-            | Self::Atomic { .. } => 2,
-            Self::CompareExchange { .. } => 3,
-            Self::Texture(op) => words(&Op::Texture(op.clone())).len(),
-        }
+    fn new(op: &Op) -> Option<Self> {
+        let results = op.results().iter();
+        Some(Self {
+            kind: Kind::new(op)?,
+            operands: words(op).len(),
+            results: results.filter(|kind| **kind == Type::Word).count(),
+        })
     }
+}
 
-    /// The number of packets that are returned.
-    pub(crate) fn results(&self) -> usize {
-        match self {
-            Self::StoreBuffer { .. } | Self::StoreLocal { .. } => 0,
-            Self::Texture(op) => op.query.results() as usize,
-            _ => 1,
-        }
-    }
-
+impl Kind {
     fn new(op: &Op) -> Option<Self> {
         Some(match op {
             Op::Unary(kind, _) => Self::Unary(*kind),
@@ -96,7 +95,7 @@ fn words(op: &Op) -> Vec<Value> {
 pub(super) fn most_packets(kernel: &Kernel) -> u32 {
     let ops = kernel.blocks.iter().flat_map(|block| &block.ops);
     let packets = ops.filter_map(|(op, _)| Served::new(op));
-    let packets = packets.map(|served| served.operands() + served.results());
+    let packets = packets.map(|served| served.operands + served.results);
     u32::try_from(packets.max().unwrap_or(0)).unwrap_or(u32::MAX)
 }
 
@@ -108,10 +107,8 @@ impl Selector<'_> {
             let packet = u32::try_from(packet).unwrap_or(0);
             displacement(self.frame.arguments + packet * PACKET)
         };
-        let places: Vec<i32> = (0..served.operands() + served.results())
-            .map(place)
-            .collect();
-        let (operands, results) = places.split_at(served.operands());
+        let places: Vec<i32> = (0..served.operands + served.results).map(place).collect();
+        let (operands, results) = places.split_at(served.operands);
         let mask = op.clone().mask_mut().copied();
         for half in 0..self.halves {
             let offset = self.half_words(half);

@@ -1,5 +1,6 @@
 //! Functions become operations: those of `estampe_types::maths`, of the definition that lanes use.
 
+use crate::CompileError;
 use estampe_ir::lanes::{Kernel, ValueInfo};
 use estampe_ir::op::{Binary, Compare, MaskBinary, Math, Math2, Unary};
 use estampe_ir::{Op, Type, Value};
@@ -37,11 +38,15 @@ impl Function {
 }
 
 /// Replaces functions by operations. `None` if the kernel has none.
-pub(crate) fn expand(kernel: &Kernel) -> Option<Kernel> {
+///
+/// # Errors
+/// [`CompileError::TooLarge`] if they are more than so many operations.
+pub(crate) fn expand(kernel: &Kernel, limit: usize) -> Result<Option<Kernel>, CompileError> {
     let mut ops = kernel.blocks.iter().flat_map(|block| &block.ops);
     if !ops.any(|(op, _)| matches!(op, Op::Math(..) | Op::Math2(..))) {
-        return None;
+        return Ok(None);
     }
+    let mut left = limit;
     let mut expanded = kernel.clone();
     let mut known: HashMap<Function, Vec<Step>> = HashMap::new();
     for (block, from) in expanded.blocks.iter_mut().zip(&kernel.blocks) {
@@ -55,14 +60,17 @@ pub(crate) fn expand(kernel: &Kernel) -> Option<Kernel> {
                     continue;
                 }
             };
+            // Each step makes two operations at most.
             let steps = known.entry(function).or_insert_with(|| function.steps());
             let is_uniform = kernel.values[first.index()].is_uniform;
+            let made = left.checked_sub(steps.len() * 2);
+            left = made.ok_or(CompileError::TooLarge)?;
             let values = &mut expanded.values;
             let ops = &mut block.ops;
             insert((steps, arguments), (*first, is_uniform), values, ops);
         }
     }
-    Some(expanded)
+    Ok(Some(expanded))
 }
 
 /// Adds the steps of a function, whose last one gives `result`.

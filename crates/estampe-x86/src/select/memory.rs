@@ -6,7 +6,7 @@ use crate::Isa;
 use crate::encoder::vector_op;
 use crate::frame::{BUFFER_STORED_WORDS, BUFFER_WORDS, PACKET, displacement};
 use crate::machine::{GPR, Instruction, MASK, Memory, MemoryBase, Role, VECTOR};
-use estampe_ir::{Op, Type, Value};
+use estampe_ir::{Type, Value};
 use regalloc2::{Operand, VReg};
 
 impl Selector<'_> {
@@ -249,12 +249,15 @@ impl Selector<'_> {
     pub(super) fn load_local(&mut self, array: u32, index: Value, half: usize) -> VReg {
         let at = array as usize;
         let kernel = self.kernel;
-        let Some(of_kernel) = kernel.interface.locals.get(at) else {
+        let of_kernel = kernel.interface.locals.get(at);
+        // An array without words has none to read.
+        let Some((of_kernel, last)) =
+            of_kernel.zip(of_kernel.and_then(|of| of.words.checked_sub(1)))
+        else {
             return self.zero();
         };
-        let last = of_kernel.words.saturating_sub(1);
         let start = self.frame.locals[at];
-        let is_table = !self.is_stored(array);
+        let is_table = !self.plan.is_array_stored(array);
         if let (Some(index), false) = (self.plan.constant(index), is_table) {
             let offset = displacement(start + index.min(last) * PACKET);
             let memory = Memory {
@@ -271,9 +274,12 @@ impl Selector<'_> {
         let base = self.function.register(GPR);
         let base_operand = [Operand::reg_def(base)];
         if is_table {
-            let mut words = of_kernel.init.clone();
-            words.resize(of_kernel.words as usize, 0);
-            let offset = self.assembler.pool_words(&words);
+            let offset = self.tables[at].unwrap_or_else(|| {
+                let mut words = of_kernel.init.clone();
+                words.resize(of_kernel.words as usize, 0);
+                self.assembler.pool_words(&words)
+            });
+            self.tables[at] = Some(offset);
             self.function
                 .push(Instruction::PoolPointer(offset), &base_operand);
             return self.gather(base, index, mask);
@@ -289,12 +295,5 @@ impl Selector<'_> {
         let lanes = self.constant_lanes(&lanes);
         let index = self.two(&vector_op::ADD, index, lanes);
         self.gather(base, index, mask)
-    }
-
-    /// True if something is stored to an array.
-    fn is_stored(&self, array: u32) -> bool {
-        let ops = self.kernel.blocks.iter().flat_map(|block| &block.ops);
-        ops.into_iter()
-            .any(|(op, _)| matches!(op, Op::StoreLocal { array: to, .. } if *to == array))
     }
 }

@@ -83,9 +83,6 @@ enum Place {
 /// Offsets in buffers up to this many bytes are operands of instructions.
 const MAX_FIXED_OFFSET: u32 = 1 << 16;
 
-/// Operations beyond which a kernel is refused.
-const MAX_OPERATIONS: usize = 1 << 16;
-
 struct Selector<'a> {
     kernel: &'a Kernel,
     plan: Plan,
@@ -100,6 +97,8 @@ struct Selector<'a> {
     fixed_words: Vec<u32>,
     /// The address of each buffer in this block, once loaded.
     buffer_pointers: Vec<Option<VReg>>,
+    /// The place in the pool of each array that is a table, once it is there.
+    tables: Vec<Option<u32>>,
 }
 
 /// Selects instructions for a kernel.
@@ -108,10 +107,6 @@ pub(crate) fn select(
     (isa, tier): (Isa, Tier),
     assembler: &mut Assembler,
 ) -> Result<Selected, CompileError> {
-    let operations: usize = kernel.blocks.iter().map(|block| block.ops.len()).sum();
-    if operations > MAX_OPERATIONS {
-        return Err(CompileError::TooLarge);
-    }
     let plan = Plan::new(kernel);
     check(kernel, &plan)?;
     let is_ordered = has_order(kernel, &plan);
@@ -126,7 +121,8 @@ pub(crate) fn select(
         Isa::Avx512 => 4,
     };
     let packets = calls::most_packets(kernel);
-    let frame = Frame::new(&kernel.interface, (slots, slot_bytes), packets)
+    let is_stored = |array: u32| plan.is_array_stored(array);
+    let frame = Frame::new(&kernel.interface, is_stored, (slots, slot_bytes), packets)
         .ok_or(CompileError::TooLarge)?;
     let mut selector = Selector {
         kernel,
@@ -140,6 +136,7 @@ pub(crate) fn select(
         served: Vec::new(),
         fixed_words: vec![0; kernel.interface.buffers.len()],
         buffer_pointers: vec![None; kernel.interface.buffers.len()],
+        tables: vec![None; kernel.interface.locals.len()],
     };
     let prepare = selector.prepare()?;
     selector.halves = halves;

@@ -124,7 +124,7 @@ impl Selector<'_> {
     pub(super) fn constant_lanes(&mut self, words: &[u32]) -> Source {
         let memory = Memory {
             base: MemoryBase::Pool,
-            offset: displacement(self.assembler.pool_words(words)),
+            offset: displacement(self.assembler.pool_lanes(words)),
             is_broadcast: false,
         };
         Source::Memory(memory, None)

@@ -20,6 +20,8 @@ pub(crate) struct Plan {
     /// Values that are the same in all lanes, whether those run or not.
     is_splat: Vec<bool>,
     is_hoisted: Vec<bool>,
+    /// Arrays to which something is stored. The others are tables of constants.
+    is_array_stored: Vec<bool>,
     /// Masks in which a quad has all of its lanes or none of those that run.
     has_whole_quads: Vec<bool>,
     constants: Vec<Option<u32>>,
@@ -35,6 +37,7 @@ impl Plan {
             is_needed: vec![false; values],
             is_splat: vec![true; values],
             is_hoisted: vec![false; values],
+            is_array_stored: vec![false; kernel.interface.locals.len()],
             has_whole_quads: vec![false; values],
             constants: vec![None; values],
         };
@@ -73,6 +76,12 @@ impl Plan {
     /// True if derivatives with this mask need not be set to 0: the lanes of other quads never run.
     pub(crate) fn has_whole_quads(&self, mask: Value) -> bool {
         self.has_whole_quads[mask.index()]
+    }
+
+    /// True if something is stored to an array; else it is a table of constants.
+    pub(crate) fn is_array_stored(&self, array: u32) -> bool {
+        let is_stored = self.is_array_stored.get(array as usize);
+        is_stored.is_none_or(|&is_stored| is_stored)
     }
 
     /// The word that a value always is.
@@ -142,13 +151,21 @@ impl Plan {
             let buffer = interface.buffers.get(at as usize);
             buffer.is_none_or(|buffer| buffer.is_written)
         };
+        let mut covers = vec![false; kernel.values.len()];
         // In the order of blocks every operand comes before, except parameters, which stay.
         for block in &kernel.blocks {
             for (op, first) in &block.ops {
+                if let Op::StoreLocal { array, .. } = op
+                    && let Some(is_stored) = self.is_array_stored.get_mut(*array as usize)
+                {
+                    *is_stored = true;
+                }
                 let mut is_hoisted = op.is_pure(is_written);
                 if let Op::Input(at) | Op::InputMask(at) = op {
                     let input = interface.inputs.get(*at as usize);
                     is_hoisted = input.is_some_and(|input| input.is_uniform());
+                    // Quads without a lane that has effects never run.
+                    covers[first.index()] = input == Some(&Input::Cover);
                 }
                 op.each_operand(|value, _| is_hoisted &= self.is_hoisted[value.index()]);
                 if op.results().len() == 1 {
@@ -159,7 +176,7 @@ impl Plan {
                     };
                     self.has_whole_quads[first.index()] = match op {
                         Op::MaskConstant(mask) => *mask,
-                        Op::QuadAny(of) => self.is_cover(kernel, *of),
+                        Op::QuadAny(of) => covers[of.index()],
                         _ => false,
                     };
                 }
@@ -167,50 +184,39 @@ impl Plan {
         }
     }
 
-    /// True for the input that says which lanes have effects: quads without any never run.
-    fn is_cover(&self, kernel: &Kernel, value: Value) -> bool {
-        let entry = kernel.blocks.first().map(|block| &block.ops);
-        let mut ops = entry.into_iter().flatten();
-        ops.any(|(op, first)| {
-            let is_cover =
-                |at: u32| kernel.interface.inputs.get(at as usize) == Some(&Input::Cover);
-            *first == value && matches!(op, Op::InputMask(at) if is_cover(*at))
-        })
-    }
-
-    /// Everything is the same in all lanes at first; what is not spreads.
+    /// Everything is the same in all lanes at first; what is not spreads from operands to results,
+    /// and from arguments to parameters.
     fn splat(&mut self, kernel: &Kernel) {
-        let mut changes = true;
-        while changes {
-            changes = false;
-            for (at, block) in kernel.blocks.iter().enumerate() {
-                for (op, first) in &block.ops {
-                    let mut is_splat = match op {
-                        Op::Input(_) | Op::InputMask(_) => self.is_hoisted(*first),
-                        Op::Any(_) => true,
-                        Op::LoadBuffer { .. } => true,
-                        _ => op.is_pure(|_| true),
-                    };
-                    if !matches!(op, Op::Any(_)) {
-                        op.each_operand(|value, _| is_splat &= self.is_splat[value.index()]);
-                    }
-                    for value in first.and_next(op.results().len()) {
-                        changes |= !is_splat && self.is_splat[value.index()];
-                        self.is_splat[value.index()] &= is_splat;
+        let mut next: Vec<Vec<Value>> = vec![Vec::new(); kernel.values.len()];
+        let mut open = Vec::new();
+        for (at, block) in kernel.blocks.iter().enumerate() {
+            for (op, first) in &block.ops {
+                let is_splat = match op {
+                    Op::Input(_) | Op::InputMask(_) => self.is_hoisted[first.index()],
+                    Op::Any(_) => continue,
+                    Op::LoadBuffer { .. } => true,
+                    _ => op.is_pure(|_| true),
+                };
+                for result in first.and_next(op.results().len()) {
+                    if is_splat {
+                        op.each_operand(|operand, _| next[operand.index()].push(result));
+                    } else {
+                        open.push(result);
                     }
                 }
-                if !self.is_reached[at] {
-                    continue;
-                }
-                for jump in block.terminator.jumps() {
-                    let parameters = &kernel.blocks[jump.to.index()].parameters;
-                    for (parameter, argument) in parameters.iter().zip(&jump.arguments) {
-                        if !self.is_splat[argument.index()] && self.is_splat[parameter.index()] {
-                            self.is_splat[parameter.index()] = false;
-                            changes = true;
-                        }
+            }
+            for jump in block.terminator.jumps() {
+                let parameters = &kernel.blocks[jump.to.index()].parameters;
+                if self.is_reached[at] {
+                    for (&parameter, argument) in parameters.iter().zip(&jump.arguments) {
+                        next[argument.index()].push(parameter);
                     }
                 }
+            }
+        }
+        while let Some(value) = open.pop() {
+            if std::mem::replace(&mut self.is_splat[value.index()], false) {
+                open.append(&mut next[value.index()]);
             }
         }
     }

@@ -1,0 +1,44 @@
+//! Processors for which no code is made: the same interface, which refuses every kernel.
+
+use crate::{CompileError, Isa, Tier};
+use estampe_ir::interpreter::{Run, Stopped};
+use estampe_ir::lanes::Kernel;
+use estampe_simd::Level;
+
+/// Machine code of a kernel. There is none for this processor.
+#[derive(Debug)]
+pub enum Code {}
+
+/// The memory of a run, kept for the next one. One for each thread.
+#[derive(Debug, Default)]
+pub struct Scratch {}
+
+impl Code {
+    /// Makes code for a kernel.
+    ///
+    /// # Errors
+    /// [`CompileError::NoIsa`], always.
+    pub fn compile(_: &Kernel, isa: Isa, _: Tier) -> Result<Self, CompileError> {
+        Err(CompileError::NoIsa(isa.name()))
+    }
+
+    /// Executes the kernel in all lanes of all packets.
+    ///
+    /// # Errors
+    /// None: there is no code to run.
+    pub fn run(&self, _: Level, _: &Run<'_>, _: &mut Scratch) -> Result<(), Stopped> {
+        match *self {}
+    }
+
+    /// The instruction set.
+    #[must_use]
+    pub fn isa(&self) -> Isa {
+        match *self {}
+    }
+
+    /// The instructions, without the constants that follow them. For disassemblers.
+    #[must_use]
+    pub fn instructions(&self) -> &[u8] {
+        match *self {}
+    }
+}
