@@ -110,6 +110,12 @@ impl Context<'_> {
                 let masks = [call.mask];
                 let access = TextureAccess::new(op, (self.level, &masks), operands, results);
                 self.run.textures.access(access);
+                for (bit, result) in results.iter_mut().enumerate() {
+                    if call.served.uniform >> bit & 1 == 1 {
+                        let first = lanes.clone().next();
+                        *result = Packet([first.map_or(0, |lane| result.0[lane]); LANES]);
+                    }
+                }
             }
             _ => debug_assert!(false, "a call has the packets of its kind"),
         }

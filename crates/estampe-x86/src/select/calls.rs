@@ -21,6 +21,9 @@ pub(crate) struct Served {
     pub(crate) operands: usize,
     /// The number of packets that are returned.
     pub(crate) results: usize,
+    /// Bit i is set if result i is uniform. Lanes outside of the mask are given it, too: code
+    /// branches where any lane of a uniform mask is set.
+    pub(crate) uniform: u8,
 }
 
 /// What a call asks for.
@@ -55,6 +58,7 @@ impl Served {
             kind: Kind::new(op)?,
             operands: words(op).len(),
             results: results.filter(|kind| **kind == Type::Word).count(),
+            uniform: 0,
         })
     }
 }
@@ -102,7 +106,11 @@ pub(super) fn most_packets(kernel: &Kernel) -> u32 {
 impl Selector<'_> {
     /// An operation that a call does.
     pub(super) fn call(&mut self, op: &Op, first: Value) -> Result<(), CompileError> {
-        let served = Served::new(op).ok_or(CompileError::Workgroup)?;
+        let mut served = Served::new(op).ok_or(CompileError::Workgroup)?;
+        for (bit, value) in first.and_next(served.results).iter().enumerate() {
+            let is_uniform = self.kernel.values[value.index()].is_uniform;
+            served.uniform |= u8::from(is_uniform) << bit;
+        }
         let place = |packet: usize| {
             let packet = u32::try_from(packet).unwrap_or(0);
             displacement(self.frame.arguments + packet * PACKET)

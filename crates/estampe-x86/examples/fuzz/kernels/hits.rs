@@ -1,0 +1,164 @@
+//! Which operations the kernels had.
+
+use estampe_ir::Op;
+use estampe_ir::lanes::{Kernel, Terminator};
+use estampe_ir::op::{
+    Atomic, Axis, Binary, Compare, LevelOfDetail, MaskBinary, Math, Math2, Memory, Precision,
+    TextureQuery, Unary,
+};
+use std::collections::BTreeMap;
+
+/// How often each operation occurred.
+#[derive(Debug, Default)]
+pub(crate) struct Hits {
+    counts: BTreeMap<String, u64>,
+}
+
+impl Hits {
+    /// Counts the operations of a kernel.
+    pub(crate) fn count(&mut self, kernel: &Kernel) {
+        for (at, block) in kernel.blocks.iter().enumerate() {
+            for (op, _) in &block.ops {
+                let name = name(op);
+                if let Some(count) = self.counts.get_mut(&name) {
+                    *count += 1;
+                } else {
+                    self.counts.insert(name, 1);
+                }
+            }
+            if matches!(block.terminator, Terminator::Branch { .. }) {
+                *self.counts.entry("branch".to_owned()).or_default() += 1;
+            }
+            if block.terminator.jumps().any(|jump| jump.to.index() <= at) {
+                *self.counts.entry("loop".to_owned()).or_default() += 1;
+            }
+        }
+    }
+
+    /// What can be compiled and did not occur.
+    pub(crate) fn missing(&self) -> Vec<String> {
+        let all = expected().into_iter();
+        all.filter(|name| !self.counts.contains_key(name)).collect()
+    }
+
+    /// The number of operations.
+    pub(crate) fn total(&self) -> u64 {
+        self.counts.values().sum()
+    }
+}
+
+fn name(op: &Op) -> String {
+    let name = match op {
+        Op::Unary(kind, _) => kind.name(),
+        Op::Binary(kind, _) => kind.name(),
+        Op::Compare(kind, _) => kind.name(),
+        Op::MaskBinary(kind, _) => kind.name(),
+        Op::Math(kind, _) => kind.name(),
+        Op::Math2(kind, _) => kind.name(),
+        Op::Derivative {
+            axis, precision, ..
+        } => return format!("derivative {} {}", axis.name(), precision.name()),
+        Op::Atomic {
+            kind,
+            memory: Memory::Buffer(_),
+            ..
+        } => return format!("atomic {}", kind.name()),
+        Op::Texture(op) => return texture_name(op.query, &op.level),
+        Op::Constant(_) => "constant",
+        Op::MaskConstant(_) => "mask constant",
+        Op::Input(_) => "input",
+        Op::InputMask(_) => "input mask",
+        Op::Fma(_) => "fma",
+        Op::MaskNot(_) => "mask not",
+        Op::Select { .. } => "select",
+        Op::QuadAny(_) => "quad any",
+        Op::Any(_) => "any",
+        Op::LoadLocal { .. } => "load local",
+        Op::StoreLocal { .. } => "store local",
+        Op::LoadBuffer { .. } => "load buffer",
+        Op::StoreBuffer { .. } => "store buffer",
+        Op::BufferBytes(_) => "buffer bytes",
+        Op::CompareExchange {
+            memory: Memory::Buffer(_),
+            ..
+        } => "compare exchange",
+        Op::Barrier
+        | Op::LoadWorkgroup(_)
+        | Op::StoreWorkgroup { .. }
+        | Op::Atomic { .. }
+        | Op::CompareExchange { .. } => "work-group",
+    };
+    name.to_owned()
+}
+
+fn texture_name(query: TextureQuery, level: &LevelOfDetail) -> String {
+    let query = match query {
+        TextureQuery::Gather(_) => "Gather".to_owned(),
+        query => format!("{query:?}"),
+    };
+    let level = match level {
+        LevelOfDetail::Zero => "zero",
+        LevelOfDetail::Implicit => "implicit",
+        LevelOfDetail::Bias(_) => "bias",
+        LevelOfDetail::Explicit(_) => "explicit",
+        LevelOfDetail::Gradient { .. } => "gradient",
+    };
+    match query.as_str() {
+        "Sample" => format!("Sample {level}"),
+        _ => query,
+    }
+}
+
+/// Everything that can be compiled, but for [`Op::Any`], which few kernels have.
+fn expected() -> Vec<String> {
+    let simple = [
+        "constant",
+        "mask constant",
+        "input",
+        "input mask",
+        "fma",
+        "mask not",
+        "select",
+        "quad any",
+        "load local",
+        "store local",
+        "load buffer",
+        "store buffer",
+        "buffer bytes",
+        "compare exchange",
+        "branch",
+        "loop",
+        "Sample zero",
+        "Sample implicit",
+        "Sample bias",
+        "Sample explicit",
+        "Sample gradient",
+        "SampleCompare",
+        "Gather",
+        "GatherCompare",
+        "Load",
+        "Store",
+        "Size",
+        "Levels",
+        "Layers",
+        "Samples",
+    ];
+    let mut all: Vec<String> = simple.map(str::to_owned).to_vec();
+    all.extend(Unary::ALL.iter().map(|kind| kind.name().to_owned()));
+    all.extend(Binary::ALL.iter().map(|kind| kind.name().to_owned()));
+    all.extend(Compare::ALL.iter().map(|kind| kind.name().to_owned()));
+    all.extend(MaskBinary::ALL.iter().map(|kind| kind.name().to_owned()));
+    all.extend(Math::ALL.iter().map(|kind| kind.name().to_owned()));
+    all.extend(Math2::ALL.iter().map(|kind| kind.name().to_owned()));
+    all.extend(
+        Atomic::ALL
+            .iter()
+            .map(|kind| format!("atomic {}", kind.name())),
+    );
+    for axis in Axis::ALL {
+        let of_axis =
+            |precision: &Precision| format!("derivative {} {}", axis.name(), precision.name());
+        all.extend(Precision::ALL.iter().map(of_axis));
+    }
+    all
+}

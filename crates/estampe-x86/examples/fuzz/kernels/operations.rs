@@ -1,0 +1,246 @@
+//! Random operations. Results of float operations become canonical, because payloads of NaNs are
+//! unspecified.
+
+use super::generate::{ARRAY, ARRAYS, Generator, READ, WRITTEN};
+use estampe_ir::op::{
+    Atomic, Axis, Binary, LevelOfDetail, MaskBinary, Math, Math2, Memory, Precision, TextureOp,
+    TextureQuery, Unary,
+};
+use estampe_ir::{Op, Value};
+
+impl Generator<'_> {
+    fn one_of<T: Copy>(&mut self, all: &[T]) -> T {
+        all[self.random.usize(..all.len())]
+    }
+
+    /// A statement that is one operation, or a few.
+    pub(super) fn operation(&mut self) {
+        let (a, b) = (self.word(), self.word());
+        let value = match self.random.u32(0..32) {
+            0..=2 => {
+                let kind = self.one_of(Unary::ALL);
+                let result = self.builder.unary(kind, a);
+                let is_integer = matches!(
+                    kind,
+                    Unary::F16FromF32
+                        | Unary::S32FromF32
+                        | Unary::U32FromF32
+                        | Unary::Not
+                        | Unary::CountOnes
+                        | Unary::ReverseBits
+                        | Unary::LeadingZeros
+                        | Unary::TrailingZeros
+                );
+                if is_integer {
+                    result
+                } else {
+                    self.canonical(result)
+                }
+            }
+            3 => {
+                let x = self.builder.unary(Unary::F32FromS32, a);
+                let function = self.one_of(Math::ALL);
+                let result = self.builder.math(function, x);
+                self.canonical(result)
+            }
+            4 => {
+                let function = self.one_of(Math2::ALL);
+                let result = self.builder.op1(Op::Math2(function, [a, b]));
+                self.canonical(result)
+            }
+            5 => {
+                let c = self.word();
+                let result = self.builder.op1(Op::Fma([a, b, c]));
+                self.canonical(result)
+            }
+            6 | 7 => {
+                let mask = self.mask();
+                self.builder.select(mask, a, b)
+            }
+            8 => {
+                let (a, b) = (self.mask(), self.mask());
+                let kind = self.one_of(MaskBinary::ALL);
+                self.builder.mask_binary(kind, a, b)
+            }
+            9 => {
+                let mask = self.mask();
+                self.builder.mask_not(mask)
+            }
+            10 => {
+                let mask = self.mask();
+                self.builder.op1(Op::QuadAny(mask))
+            }
+            11 => {
+                let axis = self.one_of(Axis::ALL);
+                let precision = self.one_of(Precision::ALL);
+                let whole = self.builder.mask(true);
+                let mask = if self.random.bool() {
+                    whole
+                } else {
+                    self.mask()
+                };
+                // Finite: the difference of a uniform infinity is NaN, yet 0 in quads that are
+                // not whole, and kernels call it uniform.
+                let value = self.builder.unary(Unary::F32FromS32, a);
+                let difference = self.builder.op1(Op::Derivative {
+                    axis,
+                    precision,
+                    value,
+                    mask,
+                });
+                self.canonical(difference)
+            }
+            12 | 13 => return self.memory([a, b]),
+            14 => return self.local([a, b]),
+            15 => return self.texture([a, b]),
+            _ => {
+                let kind = self.one_of(Binary::ALL);
+                let result = self.builder.binary(kind, a, b);
+                if kind.name().starts_with('f') {
+                    self.canonical(result)
+                } else {
+                    result
+                }
+            }
+        };
+        self.add(&[value]);
+    }
+
+    fn canonical(&mut self, result: Value) -> Value {
+        self.builder.unary(Unary::Canonical, result)
+    }
+
+    /// A byte offset, mostly one that is in a buffer.
+    fn offset(&mut self, of: Value) -> Value {
+        if self.random.u32(0..4) == 0 {
+            return of;
+        }
+        let limit = self.builder.word(127);
+        self.builder.binary(Binary::And, of, limit)
+    }
+
+    fn memory(&mut self, [at, value]: [Value; 2]) {
+        let offset = self.offset(at);
+        let buffer = self.one_of(&[READ, WRITTEN]);
+        let mask = self.mask();
+        let mask = self.builder.mask_binary(MaskBinary::And, mask, self.cover);
+        let memory = Memory::Buffer(WRITTEN);
+        let results = match self.random.u32(0..8) {
+            0..=2 => self.builder.op(Op::LoadBuffer { buffer, offset }),
+            3 => self.builder.op(Op::BufferBytes(buffer)),
+            4 | 5 => self.builder.op(Op::StoreBuffer {
+                buffer: WRITTEN,
+                offset,
+                value,
+                mask,
+            }),
+            6 => {
+                let kind = self.one_of(Atomic::ALL);
+                let result = self.builder.op(Op::Atomic {
+                    kind,
+                    memory,
+                    offset,
+                    value,
+                    mask,
+                });
+                // The result of a store is not used.
+                if kind == Atomic::Store {
+                    Vec::new()
+                } else {
+                    result
+                }
+            }
+            _ => {
+                let expected = self.word();
+                self.builder.op(Op::CompareExchange {
+                    memory,
+                    offset,
+                    expected,
+                    value,
+                    mask,
+                })
+            }
+        };
+        self.add(&results);
+    }
+
+    fn local(&mut self, [at, value]: [Value; 2]) {
+        let seven = self.builder.word(7);
+        let few = self.builder.binary(Binary::And, at, seven);
+        let index = if self.random.u32(0..4) == 0 { at } else { few };
+        if self.random.bool() {
+            let array = self.random.u32(0..ARRAYS);
+            let loaded = self.builder.op(Op::LoadLocal { array, index });
+            self.add(&loaded);
+        } else {
+            let mask = self.mask();
+            self.builder.op(Op::StoreLocal {
+                array: ARRAY,
+                index,
+                value,
+                mask,
+            });
+        }
+    }
+
+    fn texture(&mut self, [x, y]: [Value; 2]) {
+        use TextureQuery as Query;
+        let query = self.one_of(&[
+            Query::Sample,
+            Query::Sample,
+            Query::Sample,
+            Query::Sample,
+            Query::SampleCompare,
+            Query::Gather(1),
+            Query::GatherCompare,
+            Query::Load,
+            Query::Store,
+            Query::Size,
+            Query::Levels,
+            Query::Layers,
+            Query::Samples,
+        ]);
+        let is_sampled = matches!(
+            query,
+            Query::Sample | Query::SampleCompare | Query::Gather(_) | Query::GatherCompare
+        );
+        let is_compared = matches!(query, Query::SampleCompare | Query::GatherCompare);
+        let level = self.word();
+        let level = match (query, self.random.u32(0..5)) {
+            (Query::Sample, 1) => LevelOfDetail::Implicit,
+            (Query::Sample, 2) => LevelOfDetail::Bias(level),
+            (Query::Sample, 3) => LevelOfDetail::Gradient {
+                x: vec![level, x],
+                y: vec![y, level],
+            },
+            (Query::Sample | Query::Load | Query::Size, 4) => LevelOfDetail::Explicit(level),
+            _ => LevelOfDetail::Zero,
+        };
+        let is_located = is_sampled || matches!(query, Query::Load | Query::Store);
+        let always = self.builder.mask(true);
+        let stored = [self.word(), x, y, self.word()];
+        let operation = TextureOp {
+            query,
+            texture: 0,
+            sampler: is_sampled.then_some(0),
+            coordinates: if is_located { vec![x, y] } else { Vec::new() },
+            layer: (is_located && self.random.bool()).then_some(y),
+            offset: [0; 3],
+            level,
+            reference: is_compared.then_some(x),
+            sample: (query == Query::Load && self.random.bool()).then_some(x),
+            stored: if query == Query::Store {
+                stored.to_vec()
+            } else {
+                Vec::new()
+            },
+            mask: if query == Query::Store {
+                self.cover
+            } else {
+                always
+            },
+        };
+        let results = self.builder.op(Op::Texture(Box::new(operation)));
+        self.add(&results);
+    }
+}
