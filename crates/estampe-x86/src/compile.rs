@@ -2,7 +2,8 @@
 
 use crate::encoder::Assembler;
 use crate::executable::Executable;
-use crate::frame::Frame;
+use crate::frame::{Frame, PACKET};
+use crate::machine::emit::Passes;
 use crate::machine::{Function, allocate, emit};
 use crate::select::{self, Selected, calls::Served};
 use crate::{CompileError, Isa, Tier};
@@ -29,10 +30,19 @@ pub struct Code {
     pub(crate) input_types: Vec<Type>,
     pub(crate) output_types: Vec<Type>,
     pub(crate) local_words: Vec<u32>,
-    /// For each array that is stored to, its first packet and the words at its start.
-    pub(crate) reset_locals: Vec<(u32, u32, Vec<u32>)>,
+    pub(crate) reset_locals: Vec<ResetLocal>,
     /// A number that no other code has.
     pub(crate) id: u64,
+}
+
+/// An array that is stored to, and the words that it has at the start.
+#[derive(Debug)]
+pub(crate) struct ResetLocal {
+    /// The packet of its first word, from that of the first array on.
+    pub(crate) first: usize,
+    pub(crate) words: usize,
+    /// Words beyond the end of the list are 0.
+    pub(crate) init: Vec<u32>,
 }
 
 static NEXT_ID: AtomicU64 = AtomicU64::new(1);
@@ -77,28 +87,23 @@ impl Code {
             table_inputs,
             fixed_words,
         } = select::select(kernel, (isa, tier), &mut assembler)?;
-        let packet = finish(&mut assembler, &packet, (isa, tier), &mut frame)?;
+        let reset_locals = reset_locals(kernel, &frame);
+        let many = Passes::Many {
+            of_packet: passes,
+            resets_locals: !reset_locals.is_empty(),
+        };
+        let packet = finish(&mut assembler, (&packet, many), (isa, tier), &mut frame)?;
         let prepare = prepare
-            .map(|function| finish(&mut assembler, &function, (isa, tier), &mut frame))
+            .map(|function| {
+                let once = (&function, Passes::Once);
+                finish(&mut assembler, once, (isa, tier), &mut frame)
+            })
             .transpose()?;
         if assembler.len() > MAX_CODE_BYTES {
             return Err(CompileError::TooLarge);
         }
         let finished = assembler.finish();
         let interface = &kernel.interface;
-        let ops = kernel.blocks.iter().flat_map(|block| &block.ops);
-        let mut is_stored = vec![false; interface.locals.len()];
-        for (op, _) in ops {
-            if let Op::StoreLocal { array, .. } = op
-                && let Some(is_stored) = is_stored.get_mut(*array as usize)
-            {
-                *is_stored = true;
-            }
-        }
-        let stored = frame.locals.iter().zip(&interface.locals).zip(is_stored);
-        let reset_locals = stored
-            .filter(|(_, is_stored)| *is_stored)
-            .map(|((&start, array), _)| (start, array.words, array.init.clone()));
         Ok(Self {
             executable: Executable::new(&finished.bytes)?,
             code_bytes: finished.code_bytes,
@@ -116,7 +121,7 @@ impl Code {
                 .map(|output| output.kind())
                 .collect(),
             local_words: interface.locals.iter().map(|array| array.words).collect(),
-            reset_locals: reset_locals.collect(),
+            reset_locals,
             frame,
             id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
         })
@@ -135,6 +140,28 @@ impl Code {
     }
 }
 
+/// The arrays that are stored to.
+fn reset_locals(kernel: &Kernel, frame: &Frame) -> Vec<ResetLocal> {
+    let locals = &kernel.interface.locals;
+    let mut is_stored = vec![false; locals.len()];
+    for (op, _) in kernel.blocks.iter().flat_map(|block| &block.ops) {
+        if let Op::StoreLocal { array, .. } = op
+            && let Some(is_stored) = is_stored.get_mut(*array as usize)
+        {
+            *is_stored = true;
+        }
+    }
+    let places = frame.locals.iter().zip(locals).zip(is_stored);
+    let stored = places.filter(|(_, is_stored)| *is_stored);
+    stored
+        .map(|((start, array), _)| ResetLocal {
+            first: ((start - frame.locals[0]) / PACKET) as usize,
+            words: array.words as usize,
+            init: array.init.clone(),
+        })
+        .collect()
+}
+
 /// The operations, parameters and arguments of a kernel.
 fn size(kernel: &Kernel) -> usize {
     let of_block = |block: &BasicBlock| {
@@ -147,7 +174,7 @@ fn size(kernel: &Kernel) -> usize {
 /// Allocates registers and encodes a function. Returns where it begins.
 fn finish(
     assembler: &mut Assembler,
-    function: &Function,
+    (function, passes): (&Function, Passes),
     (isa, tier): (Isa, Tier),
     frame: &mut Frame,
 ) -> Result<usize, CompileError> {
@@ -165,6 +192,6 @@ fn finish(
         .reserve_spills(allocated.num_spillslots)
         .ok_or(CompileError::TooLarge)?;
     let start = assembler.len();
-    emit::emit(assembler, function, &allocated, (isa, frame));
+    emit::emit(assembler, (function, passes), &allocated, (isa, frame));
     Ok(start)
 }

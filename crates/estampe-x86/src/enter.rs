@@ -54,23 +54,18 @@ pub(crate) fn enter(
 /// # Safety
 /// `frame` is a frame that [`enter`] was given, and the code that it entered is running.
 unsafe extern "sysv64" fn serve(frame: *mut Line, call: u32) {
-    // SAFETY: a frame has at least one line.
-    let head = unsafe { *frame };
-    let context = head.0[frame::CONTEXT as usize / 8];
+    let context = frame.cast::<u8>().wrapping_add(frame::CONTEXT as usize);
+    // SAFETY: the place is in the head, aligned to its eight bytes.
+    let context = unsafe { *context.cast::<u64>() };
     let context = usize::try_from(context).expect("addresses have 64 bits");
     let context = std::ptr::with_exposed_provenance(context);
     // SAFETY: `enter` put the address there of what it borrows while the code runs.
     let context: &Context<'_> = unsafe { &*context };
-    let Some(served) = context.served.get(call as usize) else {
+    // Until the code returns there are no more calls after a panic.
+    if context.has_panicked() {
         return;
-    };
+    }
     let layout: &Frame = context.frame;
-    let packets = served.operands + served.results;
-    let arguments = frame.cast::<u8>().wrapping_add(layout.arguments as usize);
-    // SAFETY: the frame has room for the operands and results of each call of the kernel from
-    // `arguments` on, aligned to lines; all words are initialised, and the code waits.
-    let arguments =
-        unsafe { std::slice::from_raw_parts_mut(arguments.cast::<Packet<u32>>(), packets) };
     let locals = layout.locals.first().copied().unwrap_or(layout.spills);
     let local_packets = (layout.spills - locals) / frame::PACKET;
     let locals = frame.cast::<u8>().wrapping_add(locals as usize);
@@ -79,10 +74,24 @@ unsafe extern "sysv64" fn serve(frame: *mut Line, call: u32) {
     let locals = unsafe {
         std::slice::from_raw_parts_mut(locals.cast::<Packet<u32>>(), local_packets as usize)
     };
+    if call == frame::RESET_LOCALS {
+        context.reset_locals(locals);
+        return;
+    }
+    let Some(served) = context.served.get(call as usize) else {
+        return;
+    };
+    let packets = served.operands + served.results;
+    let arguments = frame.cast::<u8>().wrapping_add(layout.arguments as usize);
+    // SAFETY: the frame has room for the operands and results of each call of the kernel from
+    // `arguments` on, aligned to lines and before the arrays; all words are initialised, and the
+    // code waits.
+    let arguments =
+        unsafe { std::slice::from_raw_parts_mut(arguments.cast::<Packet<u32>>(), packets) };
     let mask_argument = frame
         .cast::<u8>()
         .wrapping_add(frame::MASK_ARGUMENT as usize);
-    // SAFETY: the place is in the head, aligned to its four bytes.
+    // SAFETY: the place is in the head, aligned to its two bytes.
     let mask = unsafe { *mask_argument.cast::<u16>() };
     let mut call = Call {
         served,
@@ -92,19 +101,19 @@ unsafe extern "sysv64" fn serve(frame: *mut Line, call: u32) {
         mask_result: 0,
     };
     // A panic, of a caller's texture, must not go through machine code: it goes on in `Code::run`.
-    // Until the code returns there are no more calls, and loops end at their next jump backwards.
-    if context.has_panicked() {
-        return;
-    }
     let done = catch_unwind(AssertUnwindSafe(|| context.serve(&mut call)));
     let mask_result = call.mask_result;
     if let Err(panic) = done {
         *context.panic.borrow_mut() = Some(panic);
-        let budget = frame.cast::<u8>().wrapping_add(frame::BUDGET as usize);
-        // SAFETY: the place is in the head, aligned to its eight bytes.
-        unsafe { *budget.cast::<u64>() = 0 };
+        // The code soon returns: loops end at their next jump backwards, and this pass is the last.
+        for (place, value) in [(frame::BUDGET, 0), (frame::LEFT, 1)] {
+            let place = frame.cast::<u8>().wrapping_add(place as usize);
+            // SAFETY: the place is in the head, aligned to its eight bytes.
+            unsafe { *place.cast::<u64>() = value };
+        }
     }
     let place = frame.cast::<u8>().wrapping_add(frame::MASK_RESULT as usize);
-    // SAFETY: as above; the code reads it when this function returns.
+    // SAFETY: the place is in the head, aligned to its two bytes; the code reads it when this function
+    // returns.
     unsafe { *place.cast::<u16>() = mask_result };
 }

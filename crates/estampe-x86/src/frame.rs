@@ -8,6 +8,7 @@
 //! | table | values that are the same in all lanes of a run, one word each (AVX2: one vector) |
 //! | buffers | the address and lengths of each |
 //! | pointers | where each input is read and each output written |
+//! | steps | what is added to each pointer after a pass; with two passes, the first's, then the last's |
 //! | still | for each input a packet that does not move: zeros, or a uniform word |
 //! | sink | a packet for outputs that go nowhere |
 //! | arguments | operands and results of calls |
@@ -27,7 +28,16 @@ pub(crate) const MASK_RESULT: i32 = 28;
 pub(crate) const TEMPORARY: i32 = 32;
 /// A word that stays 0.
 const ZERO: u32 = 36;
+/// The passes that are left, this one included: eight bytes.
+pub(crate) const LEFT: i32 = 40;
+/// Which steps the pointers make after this pass: 0, or the bytes of [`Frame::steps`]'s first half.
+pub(crate) const STEP_AT: i32 = 48;
+/// The budget of a pass.
+pub(crate) const PASS_BUDGET: i32 = 56;
 const HEAD: u32 = 64;
+
+/// The number of the call that sets arrays to their words at the start.
+pub(crate) const RESET_LOCALS: u32 = u32::MAX;
 
 /// The bytes of a packet of words.
 pub(crate) const PACKET: u32 = 64;
@@ -45,8 +55,8 @@ pub(crate) struct Frame {
     pub(crate) slot_bytes: u32,
     pub(crate) buffers: u32,
     pub(crate) pointers: u32,
+    pub(crate) steps: u32,
     pub(crate) inputs: u32,
-    pub(crate) outputs: u32,
     pub(crate) still: u32,
     pub(crate) sink: u32,
     pub(crate) arguments: u32,
@@ -77,6 +87,8 @@ impl Frame {
         let (inputs, outputs) = (interface.inputs.len(), interface.outputs.len());
         let buffers = part(interface.buffers.len(), 32)?;
         let pointers = part(inputs + outputs, 8)?;
+        let steps = part(inputs + outputs, 8)?;
+        part(inputs + outputs, 8)?;
         let still = part(inputs, PACKET)?;
         let sink = part(1, PACKET)?;
         let arguments = part(argument_packets as usize, PACKET)?;
@@ -101,8 +113,8 @@ impl Frame {
             slot_bytes,
             buffers,
             pointers,
+            steps,
             inputs: u32::try_from(inputs).ok()?,
-            outputs: u32::try_from(outputs).ok()?,
             still,
             sink,
             arguments,
@@ -140,6 +152,11 @@ impl Frame {
     /// The pointer to the packet of an output.
     pub(crate) fn output(&self, at: u32) -> u32 {
         self.pointers + (self.inputs + at) * 8
+    }
+
+    /// The bytes of the pointers, and of the steps after one pass: whole lines.
+    pub(crate) fn pointer_bytes(&self) -> u32 {
+        self.steps - self.pointers
     }
 
     /// The address of a buffer; its lengths follow.

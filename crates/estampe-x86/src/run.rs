@@ -3,9 +3,10 @@
 use crate::Code;
 use crate::enter::{Line, enter};
 use crate::frame::{self, PACKET};
+use crate::places::{Moving, Place, of_input, of_output};
 use crate::serve::Context;
 use estampe_ir::Type;
-use estampe_ir::interpreter::{Buffer, InputData, OutputData, Run, Stopped, Words};
+use estampe_ir::interpreter::{Buffer, InputData, Run, Stopped, Words};
 use estampe_simd::Level;
 use std::cell::RefCell;
 use std::sync::atomic::Ordering::Relaxed;
@@ -16,16 +17,12 @@ pub struct Scratch {
     lines: Vec<Line>,
     /// The code for which the lines were cleared.
     code: u64,
-    /// What is added to each pointer after the first pass and after the last one.
-    steps: [Vec<Line>; 2],
     /// Copies of buffers that are shorter than what instructions read at fixed places.
     padded: Vec<Vec<u32>>,
 }
 
 /// Bytes of a line.
 const LINE: u32 = PACKET;
-/// Pointers of a line.
-const POINTERS: u32 = LINE / 8;
 
 impl Code {
     /// Executes the kernel in all lanes of all packets.
@@ -46,25 +43,30 @@ impl Code {
             frame: &self.frame,
             run,
             level,
+            reset_locals: &self.reset_locals,
             local_words: &self.local_words,
             panic: RefCell::new(None),
         };
         self.set_table(run, &mut scratch.lines);
         self.set_buffers(run, scratch);
+        scratch.lines[0].0[frame::PASS_BUDGET as usize / 8] = run.budget;
         if let Some(prepare) = self.prepare {
             enter(&self.executable, prepare, &mut scratch.lines, &context);
         }
-        self.set_still(run, &mut scratch.lines);
-        let is_inside = self.set_pointers(run, scratch, 0);
+        let is_inside = self.set_pointers(run, &mut scratch.lines, 0);
         let mut result = Ok(());
-        for packet in 0..run.packets {
+        if is_inside {
+            result = self.packets(&context, &mut scratch.lines, run.packets);
+        } else {
             // Some slice is too short: each packet's places are looked for.
-            if !is_inside && packet > 0 {
-                self.set_pointers(run, scratch, packet);
-            }
-            result = self.packet(&context, scratch);
-            if result.is_err() || context.has_panicked() {
-                break;
+            for packet in 0..run.packets {
+                if packet > 0 {
+                    self.set_pointers(run, &mut scratch.lines, packet);
+                }
+                result = self.packets(&context, &mut scratch.lines, 1);
+                if result.is_err() || context.has_panicked() {
+                    break;
+                }
             }
         }
         if let Some(panic) = context.panic.take() {
@@ -73,31 +75,22 @@ impl Code {
         result
     }
 
-    /// Runs the passes of a packet, and moves the pointers to the next one.
-    fn packet(&self, context: &Context<'_>, scratch: &mut Scratch) -> Result<(), Stopped> {
-        let Scratch { lines, steps, .. } = scratch;
-        for pass in 0..self.passes {
-            lines[0].0[frame::BUDGET as usize / 8] = context.run.budget;
-            for (start, words, init) in &self.reset_locals {
-                let start = (start / LINE) as usize;
-                let words = &mut lines[start..start + *words as usize];
-                let init = init.iter().copied().chain(std::iter::repeat(0));
-                for (line, word) in words.iter_mut().zip(init) {
-                    *line = splat(word);
-                }
-            }
-            if enter(&self.executable, self.packet, lines, context) != 0 {
-                return Err(Stopped::Budget);
-            }
-            let steps = &steps[usize::from(pass + 1 == self.passes)];
-            let pointers = &mut lines[(self.frame.pointers / LINE) as usize..];
-            for (pointers, steps) in pointers.iter_mut().zip(steps) {
-                for (pointer, step) in pointers.0.iter_mut().zip(steps.0) {
-                    *pointer = pointer.wrapping_add(step);
-                }
-            }
+    /// Runs the passes of so many packets, from where the pointers are on.
+    fn packets(
+        &self,
+        context: &Context<'_>,
+        lines: &mut [Line],
+        count: usize,
+    ) -> Result<(), Stopped> {
+        // Slices have fewer than 2⁶³ elements, but runs without any may have more packets.
+        let passes = (count as u64).saturating_mul(self.passes as u64);
+        let head = &mut lines[0].0;
+        head[frame::LEFT as usize / 8] = passes;
+        head[frame::STEP_AT as usize / 8] = 0;
+        match enter(&self.executable, self.packet, lines, context) {
+            0 => Ok(()),
+            _ => Err(Stopped::Budget),
         }
-        Ok(())
     }
 
     fn make_room(&self, scratch: &mut Scratch) -> Result<(), Stopped> {
@@ -110,11 +103,6 @@ impl Code {
         if scratch.code != self.id {
             scratch.code = self.id;
             scratch.lines[..lines].fill(Line::default());
-            let pointers = (self.frame.inputs + self.frame.outputs).div_ceil(POINTERS);
-            for steps in &mut scratch.steps {
-                steps.clear();
-                steps.resize(pointers as usize, Line::default());
-            }
             scratch.padded.clear();
             scratch.padded.resize(self.fixed_words.len(), Vec::new());
         }
@@ -159,157 +147,63 @@ impl Code {
         }
     }
 
-    /// Packets that do not move: zeros for missing inputs, or a uniform word in all lanes.
-    fn set_still(&self, run: &Run<'_>, lines: &mut [Line]) {
-        for (at, kind) in self.input_types.iter().enumerate() {
-            let word = match run.inputs.get(at) {
-                Some(InputData::Uniform(word)) => *word,
-                _ => 0,
-            };
-            let word = match kind {
-                Type::Word => word,
-                Type::Mask if word == 0 => 0,
-                Type::Mask => u32::MAX,
-            };
-            lines[(self.frame.still / LINE) as usize + at] = splat(word);
-        }
-    }
-
     /// Sets the pointers of inputs and outputs to a packet, and their steps. Returns true if the
     /// steps lead to every later packet.
-    fn set_pointers(&self, run: &Run<'_>, scratch: &mut Scratch, packet: usize) -> bool {
-        let frame = scratch.lines.as_mut_ptr().expose_provenance();
+    fn set_pointers(&self, run: &Run<'_>, lines: &mut [Line], packet: usize) -> bool {
+        let frame = lines.as_mut_ptr().expose_provenance();
         let mut is_inside = true;
-        let left = run.packets - packet;
-        for at in 0..self.frame.inputs {
-            let kind = self.input_types[at as usize];
-            let still = frame + (self.frame.still + at * PACKET) as usize;
-            let place = run.inputs.get(at as usize);
-            let place = place.map_or(Place::Still, |input| of_input(input, kind, packet, left));
-            is_inside &= self.set(scratch, self.frame.input(at), (place, still), kind);
+        let packets = [packet, run.packets - 1];
+        for (at, &kind) in (0..).zip(&self.input_types) {
+            let given = run.inputs.get(at as usize);
+            let mut place = given.map_or(Place::Still, |input| of_input(input, kind, packets));
+            if !matches!(place, Place::At(_)) {
+                // A packet that does not move: zeros, or a uniform word in all lanes.
+                let word = match (given, kind) {
+                    (Some(InputData::Uniform(word)), Type::Word) => *word,
+                    (Some(InputData::Uniform(1..)), Type::Mask) => u32::MAX,
+                    _ => 0,
+                };
+                let still = self.frame.still + at * PACKET;
+                lines[(still / LINE) as usize] = splat(word);
+                is_inside &= matches!(place, Place::Still);
+                place = Place::At(Moving::still(frame + still as usize));
+            }
+            is_inside &= self.set(lines, at, (place, kind));
         }
-        for at in 0..self.frame.outputs {
-            let kind = self.output_types[at as usize];
-            let sink = frame + self.frame.sink as usize;
-            let place = run.outputs.get(at as usize);
-            let place = place.map_or(Place::Still, |output| of_output(output, kind, packet, left));
-            is_inside &= self.set(scratch, self.frame.output(at), (place, sink), kind);
+        for (at, &kind) in (self.frame.inputs..).zip(&self.output_types) {
+            let given = run.outputs.get((at - self.frame.inputs) as usize);
+            let mut place = given.map_or(Place::Still, |output| of_output(output, kind, packets));
+            if !matches!(place, Place::At(_)) {
+                is_inside &= matches!(place, Place::Still);
+                place = Place::At(Moving::still(frame + self.frame.sink as usize));
+            }
+            is_inside &= self.set(lines, at, (place, kind));
         }
         is_inside
     }
 
-    /// Sets a pointer and its steps; `still` is where it points that moves nowhere.
-    fn set(
-        &self,
-        scratch: &mut Scratch,
-        offset: u32,
-        (place, still): (Place, usize),
-        kind: Type,
-    ) -> bool {
+    /// Sets a pointer and its steps. Returns true if they lead to every later packet.
+    fn set(&self, lines: &mut [Line], at: u32, (place, kind): (Place, Type)) -> bool {
+        let Place::At(moving) = place else {
+            return false;
+        };
         let half = match kind {
+            _ if self.passes == 1 || moving.is_still => 0,
             Type::Word => (PACKET / 2) as usize,
             Type::Mask => 1,
         };
-        let (address, step, is_inside) = match place {
-            Place::Still => (still, 0, true),
-            // The next packet is looked for again.
-            Place::Outside => (still, 0, false),
-            Place::At {
-                address,
-                stride,
-                is_inside,
-            } => (address, if is_inside { stride } else { 0 }, is_inside),
-        };
-        set_pointer(&mut scratch.lines, offset, address);
+        let step = if moving.is_inside { moving.stride } else { 0 };
+        set_pointer(lines, self.frame.pointers + at * 8, moving.address);
+        let steps = self.frame.steps + at * 8;
         // With two passes the first one leads to the other half.
-        let [first, last] = if self.passes == 2 {
-            [half, step.wrapping_sub(half)]
+        if self.passes == 1 {
+            set_pointer(lines, steps, step);
         } else {
-            [0, step]
-        };
-        let of_steps = offset - self.frame.pointers;
-        set_pointer(&mut scratch.steps[0], of_steps, first);
-        set_pointer(&mut scratch.steps[1], of_steps, last);
-        is_inside
-    }
-}
-
-/// Where an input or output of a packet is.
-#[derive(Debug, Clone, Copy)]
-enum Place {
-    /// Nowhere in memory, for all packets.
-    Still,
-    /// Beyond the end of its slice.
-    Outside,
-    At {
-        address: usize,
-        /// Bytes to the next packet.
-        stride: usize,
-        /// True if the packets that are left are in the slice, too.
-        is_inside: bool,
-    },
-}
-
-/// Element `first + packet · stride` of a slice.
-fn element<T>(slice: &[T], (first, stride): (usize, usize), packet: usize, left: usize) -> Place {
-    let element = |packet: usize| {
-        let at = packet.checked_mul(stride)?.checked_add(first)?;
-        slice.get(at)
-    };
-    match element(packet) {
-        None => Place::Outside,
-        Some(found) => Place::At {
-            address: std::ptr::from_ref(found).expose_provenance(),
-            stride: stride.wrapping_mul(size_of::<T>()),
-            is_inside: element(packet + (left - 1)).is_some(),
-        },
-    }
-}
-
-fn of_input(input: &InputData<'_>, kind: Type, packet: usize, left: usize) -> Place {
-    match (*input, kind) {
-        (
-            InputData::Words {
-                packets,
-                first,
-                stride,
-            },
-            Type::Word,
-        ) => element(packets, (first, stride), packet, left),
-        (
-            InputData::Floats {
-                packets,
-                first,
-                stride,
-            },
-            Type::Word,
-        ) => element(packets, (first, stride), packet, left),
-        (InputData::Mask(bits), Type::Mask) => element(bits, (0, 1), packet, left),
-        (InputData::SharedMask(bits), Type::Mask) => element(bits, (0, 1), packet, left),
-        _ => Place::Still,
-    }
-}
-
-fn of_output(output: &OutputData<'_>, kind: Type, packet: usize, left: usize) -> Place {
-    match (*output, kind) {
-        (
-            OutputData::Words {
-                packets,
-                first,
-                stride,
-            },
-            Type::Word,
-        ) => element(packets, (first, stride), packet, left),
-        (
-            OutputData::Floats {
-                packets,
-                first,
-                stride,
-            },
-            Type::Word,
-        ) => element(packets, (first, stride), packet, left),
-        (OutputData::Mask(bits), Type::Mask) => element(bits, (0, 1), packet, left),
-        _ => Place::Still,
+            set_pointer(lines, steps, half);
+            let last = steps + self.frame.pointer_bytes();
+            set_pointer(lines, last, step.wrapping_sub(half));
+        }
+        moving.is_inside
     }
 }
 

@@ -1,5 +1,6 @@
 //! What code asks Rust for: rare operations, stores, atomic operations and textures.
 
+use crate::compile::ResetLocal;
 use crate::frame::{Frame, PACKET};
 use crate::select::calls::{Kind, Served};
 use estampe_ir::interpreter::{Buffer, Run, TextureAccess, atomic};
@@ -15,6 +16,7 @@ pub(crate) struct Context<'a> {
     pub(crate) frame: &'a Frame,
     pub(crate) run: &'a Run<'a>,
     pub(crate) level: Level,
+    pub(crate) reset_locals: &'a [ResetLocal],
     /// The words of each array.
     pub(crate) local_words: &'a [u32],
     /// A panic in a call, to go on with when the code has returned.
@@ -38,6 +40,17 @@ impl Context<'_> {
     /// True if a call panicked: the run ends as soon as the code returns.
     pub(crate) fn has_panicked(&self) -> bool {
         self.panic.borrow().is_some()
+    }
+
+    /// Sets arrays to their words at the start, in all lanes.
+    pub(crate) fn reset_locals(&self, locals: &mut [Packet<u32>]) {
+        for array in self.reset_locals {
+            let words = locals.iter_mut().skip(array.first).take(array.words);
+            let init = array.init.iter().copied().chain(std::iter::repeat(0));
+            for (packet, word) in words.zip(init) {
+                *packet = Packet([word; LANES]);
+            }
+        }
     }
 
     /// Does what the code asks for.

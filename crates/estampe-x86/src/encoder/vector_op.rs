@@ -129,6 +129,7 @@ table! {
     COMPARE_F = VectorOp::both("vcmpps", NONE, 1, 0xC2);
     // Integers and bits.
     ADD = VectorOp::both("vpaddd", P66, 1, 0xFE);
+    ADD_64 = VectorOp::both("vpaddq", P66, 1, 0xD4).wide();
     SUB = VectorOp::both("vpsubd", P66, 1, 0xFA);
     MUL = VectorOp::both("vpmulld", P66, 2, 0x40);
     MUL_U64 = VectorOp::both("vpmuludq", P66, 1, 0xF4).wide();

@@ -10,25 +10,43 @@ use crate::encoder::{
 use crate::frame::{self, Frame, displacement};
 use regalloc2::{Allocation, Block, Edit, InstOrEdit, Output};
 
+/// How often a function runs when it is called.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Passes {
+    Once,
+    /// As often as the frame says. Pointers make a step after each pass.
+    Many {
+        /// The passes of a packet, 1 or 2.
+        of_packet: usize,
+        /// Arrays are set to their words at the start of each pass.
+        resets_locals: bool,
+    },
+}
+
 /// Encodes a function. It is called with the frame, and returns 0, or 1 if its budget is used up.
 pub(crate) fn emit(
     assembler: &mut Assembler,
-    function: &Function,
+    (function, passes): (&Function, Passes),
     allocated: &Output,
     (isa, frame): (Isa, &Frame),
 ) {
     let labels = function.blocks.iter().map(|_| assembler.new_label());
     let labels: Vec<Label> = labels.collect();
-    let stop = assembler.new_label();
+    let [stop, again, advance] = [(); 3].map(|()| assembler.new_label());
     let mut emitter = Emitter {
         assembler,
         isa,
         frame,
         labels,
         stop,
+        advance,
     };
     emitter.assembler.push(Gpr::RBX);
     emitter.assembler.mov(Width::Qword, Gpr::RBX, Gpr::RDI);
+    if let Passes::Many { resets_locals, .. } = passes {
+        emitter.assembler.bind(again);
+        emitter.start_pass(function, resets_locals);
+    }
     for at in 0..function.blocks.len() {
         let block = Block::new(at);
         emitter.assembler.bind(emitter.labels[at]);
@@ -43,6 +61,11 @@ pub(crate) fn emit(
             }
         }
     }
+    emitter.assembler.bind(advance);
+    if let Passes::Many { of_packet, .. } = passes {
+        emitter.end_pass(of_packet, again);
+    }
+    emitter.end(0);
     emitter.assembler.bind(stop);
     emitter.end(1);
 }
@@ -52,7 +75,10 @@ struct Emitter<'a> {
     isa: Isa,
     frame: &'a Frame,
     labels: Vec<Label>,
+    /// Where the budget is used up.
     stop: Label,
+    /// The end of a pass.
+    advance: Label,
 }
 
 /// The number of a register.
@@ -210,12 +236,7 @@ impl Emitter<'_> {
                 self.assembler.store_byte(address, gpr(temporary));
             }
             Instruction::LoadScalar { buffer } => self.load_scalar(buffer, found),
-            Instruction::Call(at) => {
-                self.assembler.vzeroupper();
-                self.assembler.mov(Width::Qword, Gpr::RDI, Gpr::RBX);
-                self.assembler.mov_immediate(Gpr::RSI, at);
-                self.assembler.call(in_frame(frame::SERVE));
-            }
+            Instruction::Call(at) => self.call(at),
             Instruction::Jump { is_back } => {
                 let to = function.blocks[block].successors[0].index();
                 if is_back {
@@ -239,7 +260,11 @@ impl Emitter<'_> {
                 self.assembler.jump_if(Condition::Zero, self.labels[none]);
                 self.jump(any, block);
             }
-            Instruction::Return => self.end(0),
+            Instruction::Return => {
+                if block + 1 < function.blocks.len() {
+                    self.assembler.jump(self.advance);
+                }
+            }
         }
     }
 
@@ -374,6 +399,53 @@ impl Emitter<'_> {
         if to != from + 1 {
             self.assembler.jump(self.labels[to]);
         }
+    }
+
+    fn call(&mut self, at: u32) {
+        self.assembler.vzeroupper();
+        self.assembler.mov(Width::Qword, Gpr::RDI, Gpr::RBX);
+        self.assembler.mov_immediate(Gpr::RSI, at);
+        self.assembler.call(in_frame(frame::SERVE));
+    }
+
+    fn start_pass(&mut self, function: &Function, resets_locals: bool) {
+        if resets_locals {
+            self.call(frame::RESET_LOCALS);
+        }
+        let mut instructions = function.instructions.iter();
+        if instructions.any(|one| matches!(one, Instruction::Jump { is_back: true })) {
+            let [from, to] = [frame::PASS_BUDGET, frame::BUDGET].map(in_frame);
+            self.assembler.load(Width::Qword, Gpr::RAX, from);
+            self.assembler.store(Width::Qword, to, Gpr::RAX);
+        }
+    }
+
+    /// If passes are left, moves the pointers and goes on with the next one.
+    fn end_pass(&mut self, of_packet: usize, again: Label) {
+        let done = self.assembler.new_label();
+        self.assembler.sub_memory(in_frame(frame::LEFT), 1);
+        self.assembler.jump_if(Condition::Zero, done);
+        let bytes = self.frame.pointer_bytes();
+        let mut steps = Gpr::RBX;
+        if of_packet > 1 {
+            // The first steps and the last ones take turns.
+            steps = Gpr::RAX;
+            let at = in_frame(frame::STEP_AT);
+            self.assembler.load(Width::Qword, Gpr::RAX, at);
+            self.assembler.mov(Width::Dword, Gpr::RCX, Gpr::RAX);
+            self.assembler.xor_immediate(Gpr::RCX, bytes);
+            self.assembler.store(Width::Qword, at, Gpr::RCX);
+            self.assembler.add(Gpr::RAX, Gpr::RBX);
+        }
+        for offset in (0..bytes).step_by(self.isa.lanes() * 4) {
+            let step = Address::at(steps, displacement(self.frame.steps + offset));
+            let pointers = in_frame(displacement(self.frame.pointers + offset));
+            self.simple(&vector_op::LOAD, 0, Rm::Memory(step));
+            self.simple(&vector_op::ADD_64, 0, Rm::Memory(pointers));
+            self.simple(&vector_op::STORE, 0, Rm::Memory(pointers));
+        }
+        self.assembler.jump(again);
+        self.assembler.bind(done);
     }
 
     fn end(&mut self, result: u32) {
