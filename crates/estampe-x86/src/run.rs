@@ -3,7 +3,7 @@
 use crate::Code;
 use crate::enter::{Line, enter};
 use crate::frame::{self, PACKET};
-use crate::places::{Moving, Place, of_input, of_output};
+use crate::places::{Found, Slice, bytes_of};
 use crate::serve::Context;
 use estampe_ir::Type;
 use estampe_ir::interpreter::{Buffer, InputData, Run, Stopped, Words};
@@ -151,59 +151,67 @@ impl Code {
     /// steps lead to every later packet.
     fn set_pointers(&self, run: &Run<'_>, lines: &mut [Line], packet: usize) -> bool {
         let frame = lines.as_mut_ptr().expose_provenance();
-        let mut is_inside = true;
+        let mut are_inside = true;
         let packets = [packet, run.packets - 1];
         for (at, &kind) in (0..).zip(&self.input_types) {
             let given = run.inputs.get(at as usize);
-            let mut place = given.map_or(Place::Still, |input| of_input(input, kind, packets));
-            if !matches!(place, Place::At(_)) {
+            let slice = given.and_then(|input| Slice::of_input(input, kind));
+            let still = self.frame.still + at * PACKET;
+            let is_read_there;
+            (are_inside, is_read_there) = {
+                let place = (self.frame.pointers + at * 8, frame + still as usize);
+                let found = self.set(lines, place, (slice, kind), packets);
+                (are_inside & found.is_inside, found.address.is_none())
+            };
+            if is_read_there {
                 // A packet that does not move: zeros, or a uniform word in all lanes.
-                let word = match (given, kind) {
+                lines[(still / LINE) as usize] = splat(match (given, kind) {
                     (Some(InputData::Uniform(word)), Type::Word) => *word,
                     (Some(InputData::Uniform(1..)), Type::Mask) => u32::MAX,
                     _ => 0,
-                };
-                let still = self.frame.still + at * PACKET;
-                lines[(still / LINE) as usize] = splat(word);
-                is_inside &= matches!(place, Place::Still);
-                place = Place::At(Moving::still(frame + still as usize));
+                });
             }
-            is_inside &= self.set(lines, at, (place, kind));
         }
-        for (at, &kind) in (self.frame.inputs..).zip(&self.output_types) {
-            let given = run.outputs.get((at - self.frame.inputs) as usize);
-            let mut place = given.map_or(Place::Still, |output| of_output(output, kind, packets));
-            if !matches!(place, Place::At(_)) {
-                is_inside &= matches!(place, Place::Still);
-                place = Place::At(Moving::still(frame + self.frame.sink as usize));
-            }
-            is_inside &= self.set(lines, at, (place, kind));
+        let sink = frame + self.frame.sink as usize;
+        for (at, &kind) in (0..).zip(&self.output_types) {
+            let given = run.outputs.get(at as usize);
+            let slice = given.and_then(|output| Slice::of_output(output, kind));
+            let place = (self.frame.output(at), sink);
+            are_inside &= self.set(lines, place, (slice, kind), packets).is_inside;
         }
-        is_inside
+        are_inside
     }
 
-    /// Sets a pointer and its steps. Returns true if they lead to every later packet.
-    fn set(&self, lines: &mut [Line], at: u32, (place, kind): (Place, Type)) -> bool {
-        let Place::At(moving) = place else {
-            return false;
-        };
-        let half = match kind {
-            _ if self.passes == 1 || moving.is_still => 0,
-            Type::Word => (PACKET / 2) as usize,
-            Type::Mask => 1,
-        };
-        let step = if moving.is_inside { moving.stride } else { 0 };
-        set_pointer(lines, self.frame.pointers + at * 8, moving.address);
-        let steps = self.frame.steps + at * 8;
-        // With two passes the first one leads to the other half.
+    /// Sets a pointer and its steps: to a packet of a slice, or without one to a place that does not
+    /// move.
+    #[inline(always)]
+    fn set(
+        &self,
+        lines: &mut [Line],
+        (pointer, still): (u32, usize),
+        (slice, kind): (Option<Slice>, Type),
+        packets: [usize; 2],
+    ) -> Found {
+        let bytes = bytes_of(kind);
+        let found = slice.map_or(Found::STILL, |slice| slice.find(bytes, packets));
+        set_pointer(lines, pointer, found.address.unwrap_or(still));
+        let stride = slice.map_or(0, |slice| slice.step(bytes));
+        let step = if found.is_inside { stride } else { 0 };
+        let steps = pointer + self.frame.pointer_bytes();
         if self.passes == 1 {
             set_pointer(lines, steps, step);
         } else {
+            // The first pass leads to the other half.
+            let half = if found.address.is_some() {
+                bytes / 2
+            } else {
+                0
+            };
             set_pointer(lines, steps, half);
             let last = steps + self.frame.pointer_bytes();
             set_pointer(lines, last, step.wrapping_sub(half));
         }
-        moving.is_inside
+        found
     }
 }
 
