@@ -19,9 +19,10 @@ pub struct Code {
     code_bytes: usize,
     /// Where the function begins that computes hoisted values, if there is one.
     pub(crate) prepare: Option<usize>,
-    /// Where the function begins that runs a pass of a packet.
+    /// Where the function begins that runs packets one by one.
     pub(crate) packet: usize,
-    pub(crate) passes: usize,
+    /// Where the function begins that runs two packets in a pass, if there is one.
+    pub(crate) pair: Option<usize>,
     pub(crate) isa: Isa,
     pub(crate) frame: Frame,
     pub(crate) served: Vec<Served>,
@@ -81,18 +82,20 @@ impl Code {
         let Selected {
             prepare,
             packet,
+            pair,
             mut frame,
             served,
-            passes,
             table_inputs,
             fixed_words,
         } = select::select(kernel, (isa, tier), &mut assembler)?;
         let reset_locals = reset_locals(kernel, &frame);
         let many = Passes::Many {
-            of_packet: passes,
             resets_locals: !reset_locals.is_empty(),
         };
         let packet = finish(&mut assembler, (&packet, many), (isa, tier), &mut frame)?;
+        let pair = pair
+            .map(|function| finish(&mut assembler, (&function, many), (isa, tier), &mut frame))
+            .transpose()?;
         let prepare = prepare
             .map(|function| {
                 let once = (&function, Passes::Once);
@@ -109,7 +112,7 @@ impl Code {
             code_bytes: finished.code_bytes,
             prepare,
             packet,
-            passes,
+            pair,
             isa,
             served,
             table_inputs,

@@ -7,8 +7,8 @@
 //! | head | the budget, and what calls need |
 //! | table | values that are the same in all lanes of a run, one word each (AVX2: one vector) |
 //! | buffers | the address and lengths of each |
-//! | pointers | where each input is read and each output written |
-//! | steps | what is added to each pointer after a pass; with two passes, the first's, then the last's |
+//! | pointers | where each input is read and each output written, for each packet of a pass |
+//! | steps | what is added to each pointer after a pass |
 //! | still | for each input a packet that does not move: zeros, or a uniform word |
 //! | sink | a packet for outputs that go nowhere |
 //! | arguments | operands and results of calls |
@@ -30,8 +30,6 @@ pub(crate) const TEMPORARY: i32 = 32;
 const ZERO: u32 = 36;
 /// The passes that are left, this one included: eight bytes.
 pub(crate) const LEFT: i32 = 40;
-/// Which steps the pointers make after this pass: 0, or the bytes of [`Frame::steps`]'s first half.
-pub(crate) const STEP_AT: i32 = 48;
 /// The budget of a pass.
 pub(crate) const PASS_BUDGET: i32 = 56;
 const HEAD: u32 = 64;
@@ -56,7 +54,8 @@ pub(crate) struct Frame {
     pub(crate) buffers: u32,
     pub(crate) pointers: u32,
     pub(crate) steps: u32,
-    pub(crate) inputs: u32,
+    inputs: u32,
+    outputs: u32,
     pub(crate) still: u32,
     pub(crate) sink: u32,
     pub(crate) arguments: u32,
@@ -69,12 +68,13 @@ pub(crate) struct Frame {
 
 impl Frame {
     /// The layout for an interface with arrays of which some are stored to, so many values in the
-    /// table, and calls with so many packets of operands and results. `None` if it is too large.
+    /// table, calls with so many packets of operands and results, and so many packets that a pass
+    /// runs. `None` if it is too large.
     pub(crate) fn new(
         interface: &Interface,
         is_stored: impl Fn(u32) -> bool,
         (slots, slot_bytes): (u32, u32),
-        argument_packets: u32,
+        (argument_packets, packets_of_pass): (u32, usize),
     ) -> Option<Self> {
         let mut end = HEAD;
         let mut part = |count: usize, bytes: u32| {
@@ -86,9 +86,9 @@ impl Frame {
         part(slots as usize, slot_bytes)?;
         let (inputs, outputs) = (interface.inputs.len(), interface.outputs.len());
         let buffers = part(interface.buffers.len(), 32)?;
-        let pointers = part(inputs + outputs, 8)?;
-        let steps = part(inputs + outputs, 8)?;
-        part(inputs + outputs, 8)?;
+        let moving = (inputs + outputs).checked_mul(packets_of_pass)?;
+        let pointers = part(moving, 8)?;
+        let steps = part(moving, 8)?;
         let still = part(inputs, PACKET)?;
         let sink = part(1, PACKET)?;
         let arguments = part(argument_packets as usize, PACKET)?;
@@ -115,6 +115,7 @@ impl Frame {
             pointers,
             steps,
             inputs: u32::try_from(inputs).ok()?,
+            outputs: u32::try_from(outputs).ok()?,
             still,
             sink,
             arguments,
@@ -144,17 +145,17 @@ impl Frame {
         HEAD + slot * self.slot_bytes
     }
 
-    /// The pointer to the packet of an input.
-    pub(crate) fn input(&self, at: u32) -> u32 {
-        self.pointers + at * 8
+    /// The pointer to an input of a packet of the pass.
+    pub(crate) fn input(&self, at: u32, packet: u32) -> u32 {
+        self.pointers + (packet * (self.inputs + self.outputs) + at) * 8
     }
 
-    /// The pointer to the packet of an output.
-    pub(crate) fn output(&self, at: u32) -> u32 {
-        self.pointers + (self.inputs + at) * 8
+    /// The pointer to an output of a packet of the pass.
+    pub(crate) fn output(&self, at: u32, packet: u32) -> u32 {
+        self.input(self.inputs + at, packet)
     }
 
-    /// The bytes of the pointers, and of the steps after one pass: whole lines.
+    /// The bytes of the pointers, and of the steps: whole lines.
     pub(crate) fn pointer_bytes(&self) -> u32 {
         self.steps - self.pointers
     }

@@ -12,7 +12,8 @@
 //! defines, to the last bit, apart from the payloads of NaNs that no operation made canonical. Where
 //! no code can be made, [`CompileError`] says why, and the interpreter runs the kernel.
 //!
-//! * Code is made for one pass: a packet with AVX-512, half of one with AVX2 (`select` says when).
+//! * A pass of the code runs a packet, or two (`select` says when); the loop over packets is in the
+//!   code, too.
 //! * What is the same in all lanes of a run is computed once a run and lives in memory, from which
 //!   instructions read it as a broadcast operand; so do constants and the words of buffers at fixed
 //!   places. They need no registers.

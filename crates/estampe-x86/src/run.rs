@@ -53,44 +53,27 @@ impl Code {
         if let Some(prepare) = self.prepare {
             enter(&self.executable, prepare, &mut scratch.lines, &context);
         }
-        let is_inside = self.set_pointers(run, &mut scratch.lines, 0);
-        let mut result = Ok(());
-        if is_inside {
-            result = self.packets(&context, &mut scratch.lines, run.packets);
-        } else {
-            // Some slice is too short: each packet's places are looked for.
-            for packet in 0..run.packets {
-                if packet > 0 {
-                    self.set_pointers(run, &mut scratch.lines, packet);
-                }
-                result = self.packets(&context, &mut scratch.lines, 1);
-                if result.is_err() || context.has_panicked() {
-                    break;
-                }
+        let (mut result, mut packet) = (Ok(()), 0);
+        while packet < run.packets && result.is_ok() && !context.has_panicked() {
+            let left = run.packets - packet;
+            // The last packet of an odd number runs alone.
+            let (function, of_pass) = match self.pair {
+                Some(pair) if left > 1 => (pair, 2),
+                _ => (self.packet, 1),
+            };
+            let is_inside = self.set_pointers(run, &mut scratch.lines, (packet, of_pass));
+            // Where some slice is too short, the places of each pass are looked for.
+            let passes = if is_inside { left / of_pass } else { 1 };
+            scratch.lines[0].0[frame::LEFT as usize / 8] = passes as u64;
+            if enter(&self.executable, function, &mut scratch.lines, &context) != 0 {
+                result = Err(Stopped::Budget);
             }
+            packet += passes * of_pass;
         }
         if let Some(panic) = context.panic.take() {
             std::panic::resume_unwind(panic);
         }
         result
-    }
-
-    /// Runs the passes of so many packets, from where the pointers are on.
-    fn packets(
-        &self,
-        context: &Context<'_>,
-        lines: &mut [Line],
-        count: usize,
-    ) -> Result<(), Stopped> {
-        // Slices have fewer than 2⁶³ elements, but runs without any may have more packets.
-        let passes = (count as u64).saturating_mul(self.passes as u64);
-        let head = &mut lines[0].0;
-        head[frame::LEFT as usize / 8] = passes;
-        head[frame::STEP_AT as usize / 8] = 0;
-        match enter(&self.executable, self.packet, lines, context) {
-            0 => Ok(()),
-            _ => Err(Stopped::Budget),
-        }
     }
 
     fn make_room(&self, scratch: &mut Scratch) -> Result<(), Stopped> {
@@ -147,9 +130,29 @@ impl Code {
         }
     }
 
-    /// Sets the pointers of inputs and outputs to a packet, and their steps. Returns true if the
-    /// steps lead to every later packet.
-    fn set_pointers(&self, run: &Run<'_>, lines: &mut [Line], packet: usize) -> bool {
+    /// Sets the pointers of inputs and outputs to the packets of a pass, so many from the first on,
+    /// and their steps. Returns true if the steps lead to every later packet.
+    fn set_pointers(
+        &self,
+        run: &Run<'_>,
+        lines: &mut [Line],
+        (first, count): (usize, usize),
+    ) -> bool {
+        let mut are_inside = true;
+        for (packet, of_pass) in (first..).zip(0..).take(count) {
+            are_inside &= self.set_packet(run, lines, (packet, of_pass), count);
+        }
+        are_inside
+    }
+
+    /// Sets the pointers of a packet of a pass.
+    fn set_packet(
+        &self,
+        run: &Run<'_>,
+        lines: &mut [Line],
+        (packet, of_pass): (usize, u32),
+        count: usize,
+    ) -> bool {
         let frame = lines.as_mut_ptr().expose_provenance();
         let mut are_inside = true;
         let packets = [packet, run.packets - 1];
@@ -157,13 +160,10 @@ impl Code {
             let given = run.inputs.get(at as usize);
             let slice = given.and_then(|input| Slice::of_input(input, kind));
             let still = self.frame.still + at * PACKET;
-            let is_read_there;
-            (are_inside, is_read_there) = {
-                let place = (self.frame.pointers + at * 8, frame + still as usize);
-                let found = self.set(lines, place, (slice, kind), packets);
-                (are_inside & found.is_inside, found.address.is_none())
-            };
-            if is_read_there {
+            let place = (self.frame.input(at, of_pass), frame + still as usize);
+            let found = self.set(lines, place, (slice, kind), (packets, count));
+            are_inside &= found.is_inside;
+            if found.address.is_none() {
                 // A packet that does not move: zeros, or a uniform word in all lanes.
                 lines[(still / LINE) as usize] = splat(match (given, kind) {
                     (Some(InputData::Uniform(word)), Type::Word) => *word,
@@ -176,13 +176,14 @@ impl Code {
         for (at, &kind) in (0..).zip(&self.output_types) {
             let given = run.outputs.get(at as usize);
             let slice = given.and_then(|output| Slice::of_output(output, kind));
-            let place = (self.frame.output(at), sink);
-            are_inside &= self.set(lines, place, (slice, kind), packets).is_inside;
+            let place = (self.frame.output(at, of_pass), sink);
+            let found = self.set(lines, place, (slice, kind), (packets, count));
+            are_inside &= found.is_inside;
         }
         are_inside
     }
 
-    /// Sets a pointer and its steps: to a packet of a slice, or without one to a place that does not
+    /// Sets a pointer and its step: to a packet of a slice, or without one to a place that does not
     /// move.
     #[inline(always)]
     fn set(
@@ -190,27 +191,15 @@ impl Code {
         lines: &mut [Line],
         (pointer, still): (u32, usize),
         (slice, kind): (Option<Slice>, Type),
-        packets: [usize; 2],
+        (packets, count): ([usize; 2], usize),
     ) -> Found {
         let bytes = bytes_of(kind);
         let found = slice.map_or(Found::STILL, |slice| slice.find(bytes, packets));
         set_pointer(lines, pointer, found.address.unwrap_or(still));
         let stride = slice.map_or(0, |slice| slice.step(bytes));
         let step = if found.is_inside { stride } else { 0 };
-        let steps = pointer + self.frame.pointer_bytes();
-        if self.passes == 1 {
-            set_pointer(lines, steps, step);
-        } else {
-            // The first pass leads to the other half.
-            let half = if found.address.is_some() {
-                bytes / 2
-            } else {
-                0
-            };
-            set_pointer(lines, steps, half);
-            let last = steps + self.frame.pointer_bytes();
-            set_pointer(lines, last, step.wrapping_sub(half));
-        }
+        let step = step.wrapping_mul(count);
+        set_pointer(lines, pointer + self.frame.pointer_bytes(), step);
         found
     }
 }

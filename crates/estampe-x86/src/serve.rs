@@ -31,7 +31,7 @@ pub(crate) struct Call<'a> {
     pub(crate) arguments: &'a mut [Packet<u32>],
     /// The words of all arrays.
     pub(crate) locals: &'a mut [Packet<u32>],
-    /// The lanes that act. Where a packet takes two passes, lanes 8 to 15 never do.
+    /// The lanes that act.
     pub(crate) mask: u16,
     pub(crate) mask_result: u16,
 }

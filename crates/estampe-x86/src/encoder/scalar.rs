@@ -8,7 +8,6 @@ pub(crate) struct Gpr(pub(crate) u8);
 
 impl Gpr {
     pub(crate) const RAX: Self = Self(0);
-    pub(crate) const RCX: Self = Self(1);
     pub(crate) const RBX: Self = Self(3);
     pub(crate) const RSI: Self = Self(6);
     pub(crate) const RDI: Self = Self(7);
@@ -131,17 +130,6 @@ impl Assembler {
         self.byte(0x44 | (to.0 & 7) << 3);
         self.byte(0b10 << 6 | (index.0 & 7) << 3 | base.0 & 7);
         self.byte(0);
-    }
-
-    /// `add to, from`, 64 bits.
-    pub(crate) fn add(&mut self, to: Gpr, from: Gpr) {
-        self.registers(Width::Qword, &[0x03], to.0, from);
-    }
-
-    /// `xor register, immediate`, 32 bits.
-    pub(crate) fn xor_immediate(&mut self, register: Gpr, immediate: u32) {
-        self.registers(Width::Dword, &[0x81], 6, register);
-        self.dword(immediate);
     }
 
     /// `and to, from`, 32 bits.

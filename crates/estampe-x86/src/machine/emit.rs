@@ -16,8 +16,6 @@ pub(crate) enum Passes {
     Once,
     /// As often as the frame says. Pointers make a step after each pass.
     Many {
-        /// The passes of a packet, 1 or 2.
-        of_packet: usize,
         /// Arrays are set to their words at the start of each pass.
         resets_locals: bool,
     },
@@ -43,7 +41,7 @@ pub(crate) fn emit(
     };
     emitter.assembler.push(Gpr::RBX);
     emitter.assembler.mov(Width::Qword, Gpr::RBX, Gpr::RDI);
-    if let Passes::Many { resets_locals, .. } = passes {
+    if let Passes::Many { resets_locals } = passes {
         emitter.assembler.bind(again);
         emitter.start_pass(function, resets_locals);
     }
@@ -62,8 +60,8 @@ pub(crate) fn emit(
         }
     }
     emitter.assembler.bind(advance);
-    if let Passes::Many { of_packet, .. } = passes {
-        emitter.end_pass(of_packet, again);
+    if let Passes::Many { .. } = passes {
+        emitter.end_pass(again);
     }
     emitter.end(0);
     emitter.assembler.bind(stop);
@@ -421,24 +419,13 @@ impl Emitter<'_> {
     }
 
     /// If passes are left, moves the pointers and goes on with the next one.
-    fn end_pass(&mut self, of_packet: usize, again: Label) {
+    fn end_pass(&mut self, again: Label) {
         let done = self.assembler.new_label();
         self.assembler.sub_memory(in_frame(frame::LEFT), 1);
         self.assembler.jump_if(Condition::Zero, done);
         let bytes = self.frame.pointer_bytes();
-        let mut steps = Gpr::RBX;
-        if of_packet > 1 {
-            // The first steps and the last ones take turns.
-            steps = Gpr::RAX;
-            let at = in_frame(frame::STEP_AT);
-            self.assembler.load(Width::Qword, Gpr::RAX, at);
-            self.assembler.mov(Width::Dword, Gpr::RCX, Gpr::RAX);
-            self.assembler.xor_immediate(Gpr::RCX, bytes);
-            self.assembler.store(Width::Qword, at, Gpr::RCX);
-            self.assembler.add(Gpr::RAX, Gpr::RBX);
-        }
         for offset in (0..bytes).step_by(self.isa.lanes() * 4) {
-            let step = Address::at(steps, displacement(self.frame.steps + offset));
+            let step = in_frame(displacement(self.frame.steps + offset));
             let pointers = in_frame(displacement(self.frame.pointers + offset));
             self.simple(&vector_op::LOAD, 0, Rm::Memory(step));
             self.simple(&vector_op::ADD_64, 0, Rm::Memory(pointers));

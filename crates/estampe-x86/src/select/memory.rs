@@ -12,23 +12,27 @@ use regalloc2::{Operand, VReg};
 impl Selector<'_> {
     /// The displacement of a half in a packet of words.
     pub(super) fn half_words(&self, half: usize) -> i32 {
-        if half == 0 {
-            0
-        } else {
-            displacement(PACKET / 2)
+        match (self.isa, half) {
+            (Isa::Avx2, 1) => displacement(PACKET / 2),
+            _ => 0,
         }
     }
 
     /// The displacement of a half in the 16 bits of a mask.
-    fn half_mask(half: usize) -> i32 {
-        i32::from(half != 0)
+    fn half_mask(&self, half: usize) -> i32 {
+        i32::from(self.isa == Isa::Avx2 && half == 1)
+    }
+
+    /// The packet of the pass to which a half belongs.
+    fn packet_of(&self, half: usize) -> u32 {
+        u32::from(self.isa == Isa::Avx512 && half == 1)
     }
 
     /// An input that is not the same in all lanes.
     pub(super) fn input(&mut self, at: u32, half: usize) -> VReg {
         let kinds = &self.kernel.interface.inputs;
         let kind = kinds.get(at as usize).map(|input| input.kind());
-        let base = self.pointer(self.frame.input(at));
+        let base = self.pointer(self.frame.input(at, self.packet_of(half)));
         match kind {
             Some(Type::Mask) => self.load_mask(MemoryBase::Operand, (0, half), Some(base)),
             _ => {
@@ -52,7 +56,7 @@ impl Selector<'_> {
     ) -> VReg {
         let memory = Memory {
             base,
-            offset: offset + Self::half_mask(half),
+            offset: offset + self.half_mask(half),
             is_broadcast: false,
         };
         let source = Source::Memory(memory, pointer);
@@ -103,7 +107,7 @@ impl Selector<'_> {
                 operands.extend(pointer.map(Operand::reg_use));
                 operands.push(temporary);
                 let instruction = Instruction::StoreSigns {
-                    offset: offset + Self::half_mask(half),
+                    offset: offset + self.half_mask(half),
                     has_pointer: pointer.is_some(),
                 };
                 self.function.push(instruction, &operands);
@@ -131,8 +135,8 @@ impl Selector<'_> {
     pub(super) fn outputs(&mut self, values: &[Value]) {
         let outputs = &self.kernel.interface.outputs;
         for (at, (output, &value)) in (0..).zip(outputs.iter().zip(values)) {
-            let pointer = self.pointer(self.frame.output(at));
             for half in 0..self.halves {
+                let pointer = self.pointer(self.frame.output(at, self.packet_of(half)));
                 match output.kind() {
                     Type::Word => {
                         let words = self.word_register(value, half);

@@ -1,15 +1,18 @@
 //! Instruction selection: from a kernel to machine instructions with virtual registers.
 //!
-//! A value is in one register, or, where a packet takes two passes' worth of registers, in two:
+//! A pass runs sixteen lanes, or 32. A value is in one register, or in two, its *halves*:
 //!
-//! | instruction set | kernel | passes of a packet | registers of a value |
+//! | instruction set | kernel | lanes of a pass | registers of a value |
 //! |---|---|---|---|
-//! | AVX-512 | all | 1 | 1 |
-//! | AVX2 | without effects | 2 | 1 |
-//! | AVX2 | with effects on memory or accesses to textures | 1 | 2 |
+//! | AVX2 | all | 16: a packet | 2 |
+//! | AVX-512 | all | 16: a packet | 1 |
+//! | AVX-512, optimised | straight, without calls: a second function | 32: two packets | 2 |
 //!
-//! Two passes give the same bits, because quads lie in one of them, and spill less. Effects must
-//! happen in the order of sixteen lanes: those of all lanes before the next operation's.
+//! Most shaders are one long chain of operations, each of which waits for the one before: the
+//! halves, which are independent, fill the time. Lit fragments, ns each, with one register and with
+//! two: AVX2 13.1 and 9.7, AVX-512 8.8 and 7.05, though they spill more. Kernels with branches,
+//! which would be taken for both packets, and with effects, which must happen in the order of
+//! sixteen lanes, run single packets; so does the last packet of an odd number.
 //!
 //! | module | selects |
 //! |---|---|
@@ -48,13 +51,13 @@ use schedule::Scheduler;
 pub(crate) struct Selected {
     /// Computes hoisted values, once a run.
     pub(crate) prepare: Option<Function>,
-    /// Runs a pass of a packet.
+    /// Runs a packet.
     pub(crate) packet: Function,
+    /// Runs two packets.
+    pub(crate) pair: Option<Function>,
     pub(crate) frame: Frame,
     /// What calls ask for.
     pub(crate) served: Vec<Served>,
-    /// The passes of a packet.
-    pub(crate) passes: usize,
     /// The inputs that are words of the table, with their slots.
     pub(crate) table_inputs: Vec<(usize, u32)>,
     /// For each buffer the words that instructions read at fixed places.
@@ -109,12 +112,9 @@ pub(crate) fn select(
 ) -> Result<Selected, CompileError> {
     let plan = Plan::new(kernel);
     check(kernel, &plan)?;
-    let is_ordered = has_order(kernel, &plan);
-    let halves = if is_ordered {
-        estampe_simd::LANES / isa.lanes()
-    } else {
-        1
-    };
+    let may_pair = (isa, tier) == (Isa::Avx512, Tier::Optimised);
+    let has_pair = may_pair && is_straight(kernel, &plan);
+    let packets_of_pass = if has_pair { 2 } else { 1 };
     let (places, table_inputs, slots) = hoisted_places(kernel, &plan);
     let slot_bytes = match isa {
         Isa::Avx2 => 32,
@@ -122,8 +122,13 @@ pub(crate) fn select(
     };
     let packets = calls::most_packets(kernel);
     let is_stored = |array: u32| plan.is_array_stored(array);
-    let frame = Frame::new(&kernel.interface, is_stored, (slots, slot_bytes), packets)
-        .ok_or(CompileError::TooLarge)?;
+    let frame = Frame::new(
+        &kernel.interface,
+        is_stored,
+        (slots, slot_bytes),
+        (packets, packets_of_pass),
+    )
+    .ok_or(CompileError::TooLarge)?;
     let mut selector = Selector {
         kernel,
         plan,
@@ -139,12 +144,18 @@ pub(crate) fn select(
         tables: vec![None; kernel.interface.locals.len()],
     };
     let prepare = selector.prepare()?;
-    selector.halves = halves;
+    selector.halves = estampe_simd::LANES / isa.lanes();
     let packet = selector.packet(tier)?;
+    let pair = if has_pair {
+        selector.halves = 2;
+        Some(selector.packet(tier)?)
+    } else {
+        None
+    };
     Ok(Selected {
         prepare,
         packet,
-        passes: estampe_simd::LANES / (isa.lanes() * halves),
+        pair,
         frame: selector.frame,
         served: selector.served,
         table_inputs,
@@ -173,15 +184,21 @@ fn check(kernel: &Kernel, plan: &Plan) -> Result<(), CompileError> {
     Ok(())
 }
 
-/// True if lanes must go through the kernel together: it changes memory, or a value depends on all
-/// lanes.
-fn has_order(kernel: &Kernel, plan: &Plan) -> bool {
-    let mut ops = kernel.blocks.iter().flat_map(|block| &block.ops);
-    ops.any(|(op, first)| {
-        let is_private = matches!(op, Op::StoreLocal { .. });
-        let is_shared = matches!(op, Op::Any(_) | Op::Texture(_)) || op.has_effect();
-        is_shared && !is_private && plan.is_needed(op, *first)
-    })
+/// Operations up to which there is a function that runs two packets.
+const MAX_PAIRED: usize = 2048;
+
+/// True if the kernel has one block, and operations of which none is a call or has an effect.
+fn is_straight(kernel: &Kernel, plan: &Plan) -> bool {
+    let reached = plan.is_reached.iter().filter(|is_reached| **is_reached);
+    let Some(block) = kernel.blocks.first().filter(|_| reached.count() == 1) else {
+        return false;
+    };
+    let is_free = |(op, first): &(Op, Value)| {
+        let is_call = Served::is_call(op) || matches!(op, Op::Any(_));
+        let is_hoisted = op.results().len() == 1 && plan.is_hoisted(*first);
+        !op.has_effect() && (!is_call || is_hoisted || !plan.is_needed(op, *first))
+    };
+    block.ops.len() <= MAX_PAIRED && block.ops.iter().all(is_free)
 }
 
 /// Places of hoisted values, the inputs among them, and the number of slots.
@@ -278,7 +295,7 @@ impl Selector<'_> {
         Ok((!is_empty).then_some(function))
     }
 
-    /// The function that runs a pass of a packet.
+    /// The function that runs a pass: a packet, or two where the halves are more than one's.
     fn packet(&mut self, tier: Tier) -> Result<Function, CompileError> {
         let kernel = self.kernel;
         let order = self.blocks_and_edges();

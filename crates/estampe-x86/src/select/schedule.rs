@@ -105,7 +105,7 @@ impl<'a> Scheduler<'a> {
     fn limit(&self) -> usize {
         match self.isa {
             Isa::Avx2 => 13 / self.halves,
-            Isa::Avx512 => 28,
+            Isa::Avx512 => 28 / self.halves,
         }
     }
 }

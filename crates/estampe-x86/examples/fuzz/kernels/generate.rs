@@ -29,6 +29,8 @@ pub(super) struct Generator<'a> {
     /// Statements that may still be made.
     left: u32,
     pub(super) cover: Value,
+    /// No control flow, and operations that need no calls: a pass may run two packets.
+    pub(super) is_plain: bool,
 }
 
 #[derive(Clone)]
@@ -75,6 +77,7 @@ pub(super) fn tree(random: &mut Rng, statements: u32) -> Tree {
         left: statements,
         cover,
         builder,
+        is_plain: random.u32(0..4) == 0,
         random,
     };
     let mut types = vec![Type::Word; OUTPUTS as usize];
@@ -107,6 +110,10 @@ impl Generator<'_> {
                 break;
             }
             self.left -= 1;
+            if self.is_plain {
+                self.operation();
+                continue;
+            }
             let may_nest = self.labels.len() < 6;
             match self.random.u32(0..40) {
                 0..=2 if may_nest => self.if_else(),

@@ -18,7 +18,14 @@ impl Generator<'_> {
         let (a, b) = (self.word(), self.word());
         let value = match self.random.u32(0..32) {
             0..=2 => {
-                let kind = self.one_of(Unary::ALL);
+                let mut kind = self.one_of(Unary::ALL);
+                let is_call = matches!(
+                    kind,
+                    Unary::RoundF16 | Unary::F16FromF32 | Unary::F32FromF16 | Unary::ReverseBits
+                );
+                if self.is_plain && is_call {
+                    kind = Unary::FSqrt;
+                }
                 let result = self.builder.unary(kind, a);
                 let is_integer = matches!(
                     kind,
@@ -90,11 +97,26 @@ impl Generator<'_> {
                 });
                 self.canonical(difference)
             }
-            12 | 13 => return self.memory([a, b]),
-            14 => return self.local([a, b]),
-            15 => return self.texture([a, b]),
+            12 if self.is_plain => {
+                let (offset, buffer) = (self.offset(a), READ);
+                self.builder.op1(Op::LoadBuffer { buffer, offset })
+            }
+            13 if self.is_plain => {
+                let array = self.random.u32(ARRAY + 1..ARRAYS);
+                self.builder.op1(Op::LoadLocal { array, index: a })
+            }
+            12 | 13 if !self.is_plain => return self.memory([a, b]),
+            14 if !self.is_plain => return self.local([a, b]),
+            15 if !self.is_plain => return self.texture([a, b]),
             _ => {
-                let kind = self.one_of(Binary::ALL);
+                let mut kind = self.one_of(Binary::ALL);
+                let is_call = matches!(
+                    kind,
+                    Binary::SDiv | Binary::SRem | Binary::UDiv | Binary::URem
+                );
+                if self.is_plain && is_call {
+                    kind = Binary::FDiv;
+                }
                 let result = self.builder.binary(kind, a, b);
                 if kind.name().starts_with('f') {
                     self.canonical(result)
