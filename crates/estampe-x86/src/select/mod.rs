@@ -371,12 +371,13 @@ impl Selector<'_> {
     /// The order of the operations of each block that is reached, without those that are hoisted
     /// and those that nothing needs.
     fn schedules(&self, tier: Tier) -> Vec<Vec<usize>> {
-        let scheduler = Scheduler::new(self.kernel, &self.plan, self.isa, self.halves);
+        let mut scheduler = Scheduler::new(self.kernel, &self.plan, self.isa, self.halves);
         let blocks = 0..self.kernel.blocks.len();
         let of_block = |at: usize| match tier {
             _ if !self.plan.is_reached[at] => Vec::new(),
-            Tier::Fast => scheduler.as_written(at),
-            Tier::Optimised => scheduler.by_latency(at),
+            // Fewer registers need fewer spills, of which the fast allocator makes many.
+            Tier::Fast if self.isa == Isa::Avx2 => scheduler.as_written(at),
+            _ => scheduler.by_latency(at),
         };
         blocks.map(of_block).collect()
     }

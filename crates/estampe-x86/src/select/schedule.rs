@@ -11,7 +11,7 @@ use estampe_ir::lanes::{Kernel, Terminator};
 use estampe_ir::op::{Binary, Unary};
 use estampe_ir::{Op, Type, Value};
 use std::cmp::Reverse;
-use std::collections::{BTreeSet, BinaryHeap, HashMap};
+use std::collections::{BTreeSet, BinaryHeap};
 
 /// Of the operations that are ready, so many are compared when registers run out.
 const COMPARED: usize = 24;
@@ -28,6 +28,10 @@ pub(super) struct Scheduler<'a> {
     home: Vec<u32>,
     /// Values that other blocks than their own use, or jumps.
     is_used_elsewhere: Vec<bool>,
+    /// Values that are parameters of a block.
+    is_parameter: Vec<bool>,
+    /// The number of each value in the block that is ordered; [`NOWHERE`] between blocks.
+    numbers: Vec<u32>,
 }
 
 /// No block.
@@ -36,9 +40,11 @@ const NOWHERE: u32 = u32::MAX;
 impl<'a> Scheduler<'a> {
     pub(super) fn new(kernel: &'a Kernel, plan: &'a Plan, isa: Isa, halves: usize) -> Self {
         let mut home = vec![NOWHERE; kernel.values.len()];
+        let mut is_parameter = vec![false; kernel.values.len()];
         for (block, at) in kernel.blocks.iter().zip(0..) {
             for &parameter in &block.parameters {
                 home[parameter.index()] = at;
+                is_parameter[parameter.index()] = true;
             }
             for (op, first) in &block.ops {
                 for value in first.and_next(op.results().len()) {
@@ -72,6 +78,8 @@ impl<'a> Scheduler<'a> {
             halves,
             home,
             is_used_elsewhere,
+            is_parameter,
+            numbers: vec![NOWHERE; kernel.values.len()],
         }
     }
 
@@ -87,7 +95,7 @@ impl<'a> Scheduler<'a> {
     }
 
     /// The same in a good order.
-    pub(super) fn by_latency(&self, at: usize) -> Vec<usize> {
+    pub(super) fn by_latency(&mut self, at: usize) -> Vec<usize> {
         let nodes = self.as_written(at);
         let mut list = List::new(self, at, &nodes);
         let order = list.order(self);
@@ -142,14 +150,37 @@ struct List {
     latencies: Vec<u32>,
     /// The cycles from the beginning of each to the end of the block.
     heights: Vec<u32>,
-    /// For each value that takes a register the uses that are left.
-    uses_left: HashMap<u32, u32>,
+    /// For each value of the block, by its number, the uses that are left, of those that take
+    /// registers.
+    uses_left: Vec<u32>,
     live: usize,
 }
 
+/// The values of a block, numbered as they are met.
+struct Numbers<'a> {
+    numbers: &'a mut [u32],
+    met: Vec<u32>,
+}
+
+impl Numbers<'_> {
+    fn of(&mut self, value: Value) -> u32 {
+        let number = &mut self.numbers[value.index()];
+        if *number == NOWHERE {
+            *number = u32::try_from(self.met.len()).unwrap_or(NOWHERE);
+            self.met.push(value.0);
+        }
+        *number
+    }
+}
+
 impl List {
-    fn new(scheduler: &Scheduler<'_>, at: usize, nodes: &[usize]) -> Self {
-        let Scheduler { kernel, plan, .. } = *scheduler;
+    fn new(scheduler: &mut Scheduler<'_>, at: usize, nodes: &[usize]) -> Self {
+        let kernel = scheduler.kernel;
+        let mut taken = std::mem::take(&mut scheduler.numbers);
+        let mut numbers = Numbers {
+            numbers: &mut taken,
+            met: Vec::new(),
+        };
         let ops = &kernel.blocks[at].ops;
         let is_written = |buffer: u32| {
             let buffers = &kernel.interface.buffers;
@@ -164,18 +195,22 @@ impl List {
             waits: vec![0; count],
             latencies: vec![0; count],
             heights: vec![0; count],
-            uses_left: HashMap::new(),
+            uses_left: Vec::new(),
             live: 0,
         };
-        let mut made_by = HashMap::new();
+        // The operation that makes each value, by the value's number.
+        let mut made_by: Vec<usize> = Vec::new();
         let mut ordered: Option<usize> = None;
         for (node, &index) in nodes.iter().enumerate() {
             let (op, first) = &ops[index];
             let mut before = Vec::new();
             op.each_operand(|value, _| {
-                before.extend(made_by.get(&value.0).copied());
-                if scheduler.takes_register(value) && !plan.is_hoisted(value) {
-                    list.uses[node].push(value.0);
+                let number = numbers.of(value);
+                made_by.resize(numbers.met.len(), usize::MAX);
+                let maker = made_by[number as usize];
+                before.extend((maker != usize::MAX).then_some(maker));
+                if scheduler.takes_register(value) {
+                    list.uses[node].push(number);
                 }
             });
             list.uses[node].sort_unstable();
@@ -197,19 +232,23 @@ impl List {
             list.waits[node] = u32::try_from(before.len()).unwrap_or(u32::MAX);
             list.latencies[node] = latency(op);
             for value in first.and_next(op.results().len()) {
-                made_by.insert(value.0, node);
+                let number = numbers.of(value);
+                made_by.resize(numbers.met.len(), usize::MAX);
+                made_by[number as usize] = node;
                 list.gives[node] += u32::from(scheduler.takes_register(value));
             }
         }
+        let met = numbers.met;
+        list.uses_left.resize(met.len(), 0);
         for uses in &list.uses {
             for &value in uses {
-                let index = value as usize;
-                let is_new = !list.uses_left.contains_key(&value);
-                let left = list.uses_left.entry(value).or_insert(0);
+                let index = met[value as usize] as usize;
+                let left = &mut list.uses_left[value as usize];
+                let is_new = *left == 0;
                 *left += 1;
                 // Values of before the block live from its beginning on.
-                let is_from_before = scheduler.home[index] as usize != at
-                    || kernel.blocks[at].parameters.contains(&Value(value));
+                let is_from_before =
+                    scheduler.home[index] as usize != at || scheduler.is_parameter[index];
                 list.live += usize::from(is_new && is_from_before);
                 // Values that are used later do not end here.
                 if is_new && scheduler.is_used_elsewhere[index] {
@@ -217,6 +256,10 @@ impl List {
                 }
             }
         }
+        for value in met {
+            taken[value as usize] = NOWHERE;
+        }
+        scheduler.numbers = taken;
         for node in (0..count).rev() {
             let after = list.followers[node].iter();
             let after = after.map(|&follower| list.heights[follower as usize]).max();
@@ -228,7 +271,7 @@ impl List {
     /// The number of values that an operation ends, less those that it gives.
     fn relief(&self, node: usize) -> i64 {
         let uses = self.uses[node].iter();
-        let ends = uses.filter(|value| self.uses_left.get(value) == Some(&1));
+        let ends = uses.filter(|&&value| self.uses_left[value as usize] == 1);
         i64::try_from(ends.count()).unwrap_or(0) - i64::from(self.gives[node])
     }
 
@@ -286,10 +329,9 @@ impl List {
     /// Counts the values that live once an operation began.
     fn begin(&mut self, node: usize) {
         for value in &self.uses[node] {
-            if let Some(left) = self.uses_left.get_mut(value) {
-                *left -= 1;
-                self.live -= usize::from(*left == 0 && self.live > 0);
-            }
+            let left = &mut self.uses_left[*value as usize];
+            *left -= 1;
+            self.live -= usize::from(*left == 0 && self.live > 0);
         }
         self.live += self.gives[node] as usize;
     }
