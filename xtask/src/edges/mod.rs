@@ -32,6 +32,7 @@ const CRATES: &[(&str, &[&str])] = &[
             "estampe-types",
             "estampe-simd",
             "estampe-texture",
+            "estampe-x86",
         ],
     ),
     (

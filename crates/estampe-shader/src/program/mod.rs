@@ -9,6 +9,7 @@ mod compute;
 mod facts;
 mod layouts;
 mod link;
+mod machine;
 mod stage;
 mod textures;
 

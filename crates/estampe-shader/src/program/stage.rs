@@ -1,5 +1,6 @@
-//! A stage of a program: its kernel, as code.
+//! A stage of a program: its kernel, as machine code or as bytecode.
 
+use super::machine::MachineCode;
 use super::textures::BoundTextures;
 use estampe_ir::interface::Interface;
 use estampe_ir::interpreter::{Buffer, Code, InputData, OutputData, Run, Scratch, Stopped};
@@ -8,6 +9,7 @@ use estampe_ir::tree::Tree;
 use estampe_simd::Level;
 use estampe_types::Bindings;
 use std::cell::RefCell;
+use std::sync::OnceLock;
 
 thread_local! {
     /// The registers of the interpreter, kept from one batch to the next.
@@ -17,24 +19,26 @@ thread_local! {
 /// A stage that can run.
 #[derive(Debug)]
 pub(super) struct Stage {
-    interface: Interface,
-    code: Code,
+    kernel: Kernel,
+    machine: MachineCode,
+    /// What runs where there is no machine code.
+    bytecode: OnceLock<Code>,
     /// The number of jumps that a run may execute.
     budget: u64,
 }
 
 impl Stage {
     pub(super) fn new(tree: &Tree, budget: u64) -> Self {
-        let kernel = Kernel::from_tree(tree);
         Self {
-            code: Code::new(&kernel),
-            interface: kernel.interface,
+            kernel: Kernel::from_tree(tree),
+            machine: MachineCode::default(),
+            bytecode: OnceLock::new(),
             budget,
         }
     }
 
     pub(super) fn interface(&self) -> &Interface {
-        &self.interface
+        &self.kernel.interface
     }
 
     pub(super) fn run(
@@ -46,7 +50,7 @@ impl Stage {
     ) -> Result<(), Stopped> {
         let Interface {
             textures, samplers, ..
-        } = &self.interface;
+        } = self.interface();
         let textures = BoundTextures::new(bindings, textures, samplers);
         let run = Run {
             packets,
@@ -56,6 +60,10 @@ impl Stage {
             textures: &textures,
             budget: self.budget,
         };
-        SCRATCH.with_borrow_mut(|scratch| self.code.run(level, &run, scratch))
+        if let Some(stopped) = self.machine.run(&self.kernel, level, &run) {
+            return stopped;
+        }
+        let code = self.bytecode.get_or_init(|| Code::new(&self.kernel));
+        SCRATCH.with_borrow_mut(|scratch| code.run(level, &run, scratch))
     }
 }

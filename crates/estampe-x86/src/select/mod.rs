@@ -277,10 +277,14 @@ impl Selector<'_> {
                 continue;
             }
             for (op, first) in &of_kernel.ops {
+                // Operations without results name no value.
+                if op.results().len() != 1 {
+                    continue;
+                }
                 let Place::Table(slot) = self.places[first.index()] else {
                     continue;
                 };
-                if op.results().len() != 1 || matches!(op, Op::Input(_) | Op::InputMask(_)) {
+                if matches!(op, Op::Input(_) | Op::InputMask(_)) {
                     continue;
                 }
                 is_empty = false;

@@ -1,0 +1,71 @@
+//! Machine code of a stage, made when it is first run, and made better when it runs often.
+
+use estampe_ir::interpreter::{Run, Stopped};
+use estampe_ir::lanes::Kernel;
+use estampe_simd::Level;
+use estampe_x86::{Code, Isa, Scratch, Tier};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+/// The packets after which a stage is worth the time that better code takes to make: that of some
+/// thousand packets.
+const OFTEN: u64 = 4096;
+
+/// The code of a stage for each instruction set.
+#[derive(Debug, Default)]
+pub(super) struct MachineCode {
+    of_isa: [OfIsa; Isa::ALL.len()],
+}
+
+#[derive(Debug, Default)]
+struct OfIsa {
+    /// `None` inside: the kernel cannot be compiled.
+    fast: OnceLock<Option<Code>>,
+    optimised: OnceLock<Option<Code>>,
+    /// Packets that the fast code has run.
+    packets: AtomicU64,
+    /// Memory that no run uses now.
+    scratch: Mutex<Vec<Scratch>>,
+}
+
+impl MachineCode {
+    /// Runs a kernel by machine code; `None` if there is none for the level.
+    pub(super) fn run(
+        &self,
+        kernel: &Kernel,
+        level: Level,
+        run: &Run<'_>,
+    ) -> Option<Result<(), Stopped>> {
+        let at = Isa::ALL.iter().position(|isa| isa.name() == level.name())?;
+        let of_isa = &self.of_isa[at];
+        let code = of_isa.code(kernel, Isa::ALL[at], run.packets as u64)?;
+        let pool = || {
+            of_isa
+                .scratch
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+        };
+        let mut scratch = pool().pop().unwrap_or_default();
+        let stopped = code.run(level, run, &mut scratch);
+        pool().push(scratch);
+        Some(stopped)
+    }
+}
+
+impl OfIsa {
+    /// The best code there is. The run that makes a stage one that runs often compiles it again,
+    /// while others go on with the fast code.
+    fn code(&self, kernel: &Kernel, isa: Isa, packets: u64) -> Option<&Code> {
+        if let Some(Some(code)) = self.optimised.get() {
+            return Some(code);
+        }
+        let compile = |tier| Code::compile(kernel, isa, tier).ok();
+        let fast = self.fast.get_or_init(|| compile(Tier::Fast)).as_ref()?;
+        let before = self.packets.fetch_add(packets, Ordering::Relaxed);
+        if before < OFTEN && before + packets >= OFTEN {
+            let code = compile(Tier::Optimised);
+            return self.optimised.get_or_init(|| code).as_ref().or(Some(fast));
+        }
+        Some(fast)
+    }
+}
