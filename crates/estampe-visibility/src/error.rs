@@ -1,6 +1,7 @@
 //! Errors of drawing.
 
-use estampe::{BindGroupError, BufferError, PipelineError, RenderPassError, TextureError};
+use estampe::{BufferError, PipelineError, RenderPassError, TextureError};
+use estampe_transparency::TransparencyError;
 
 /// The reason why the pipeline draws no picture.
 #[derive(Debug, thiserror::Error)]
@@ -12,13 +13,19 @@ pub enum DrawError {
     /// The vertices are too many for the device.
     #[error(transparent)]
     Buffer(#[from] BufferError),
-    /// A texture of the device's own does not fit its binding.
-    #[error(transparent)]
-    BindGroup(#[from] BindGroupError),
     /// A state is not valid, such as a line's width that is not above 0 and at most 64.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
     /// The pass is not valid.
     #[error(transparent)]
     Pass(#[from] RenderPassError),
+    /// Layers or sums of transparent polygons do not fit the device.
+    #[error(transparent)]
+    Transparency(Box<TransparencyError>),
+}
+
+impl From<TransparencyError> for DrawError {
+    fn from(error: TransparencyError) -> Self {
+        Self::Transparency(Box::new(error))
+    }
 }

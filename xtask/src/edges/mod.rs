@@ -54,11 +54,17 @@ const CRATES: &[(&str, &[&str])] = &[
     ("estampe-shapes", &[]),
     ("estampe-scene", &[]),
     ("estampe-assets", &["estampe-scene", "estampe-shapes"]),
+    ("estampe-transparency", &["estampe"]),
     ("estampe-renderer", &["estampe", "estampe-scene"]),
     // Depths are rounded by the codec of the pipeline.
     (
         "estampe-visibility",
-        &["estampe", "estampe-format", "estampe-scene"],
+        &[
+            "estampe",
+            "estampe-format",
+            "estampe-scene",
+            "estampe-transparency",
+        ],
     ),
     // The oracle is a second opinion: it shares the types of the interface and no algorithm.
     ("estampe-reference", &["estampe-types"]),
@@ -94,6 +100,7 @@ const LIBRARIES: &[&str] = &[
     "estampe-shapes",
     "estampe-scene",
     "estampe-assets",
+    "estampe-transparency",
     "estampe-renderer",
     "estampe-visibility",
     "estampe-ladder",

@@ -45,10 +45,8 @@ pub fn draw(
                     .map(|number| transparent[*number as usize].corners()),
             )?;
         }
-        Transparency::Exact => {
-            passes.peel(all())?;
-        }
-        Transparency::Weighted => return passes.weigh(all()),
+        Transparency::Exact => passes.peel(all())?,
+        Transparency::Weighted => passes.weigh(all())?,
     }
     passes.image()
 }

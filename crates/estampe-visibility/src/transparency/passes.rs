@@ -5,21 +5,23 @@ use crate::DrawError;
 use crate::picture::View;
 use crate::polygon::{Corner, Polygon};
 use estampe::state::{
-    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTargetState, CompareFunction,
-    DepthState, VertexBufferLayout,
+    BlendState, ColorTargetState, CompareFunction, DepthState, DepthStencilState, PrimitiveState,
+    VertexBufferLayout,
 };
 use estampe::{
-    BindGroup, BindGroupDescriptor, BindGroupLayout, BindGroupLayoutEntry, BindingResource,
-    BindingType, BufferSlice, ColorAttachment, DepthStencilAttachment, Device, Draw,
-    OcclusionQueries, RenderPass, RenderPipeline, RenderPipelineDescriptor, SampleType, Texture,
-    TextureDescriptor, TextureFormat, ViewDimension, bytes_of,
+    BufferSlice, ColorAttachment, DepthStencilAttachment, Device, Draw, RenderPass, RenderPipeline,
+    RenderPipelineDescriptor, Texture, TextureDescriptor, TextureFormat, bytes_of,
 };
 use estampe_scene::Image;
+use estampe_transparency::{
+    DepthOrder, Finder, PeelDraws, Target, blend_weighted, layer_state, peel, weighted_targets,
+};
 
 /// Colours are blended without rounding to 8 bits.
 const COLOR: TextureFormat = TextureFormat::Rgba32Float;
-const REVEALAGE: TextureFormat = TextureFormat::R32Float;
 const DEPTH: TextureFormat = TextureFormat::Depth32Float;
+/// Views have reversed depth.
+const ORDER: DepthOrder = DepthOrder::NearIsOne;
 
 /// The picture of the opaque polygons, before which others are blended.
 pub(super) struct Passes<'d> {
@@ -58,16 +60,11 @@ impl<'d> Passes<'d> {
             write_enabled: true,
             compare: CompareFunction::GreaterEqual,
         };
-        let pipeline = passes.pipeline(Output::Color, vec![Some(COLOR.into())], depth, None)?;
+        let pipeline = passes.pipeline(Output::Color, vec![Some(COLOR.into())], depth.into())?;
         let [r, g, b] = view.background.map(f64::from);
         let cleared = ColorAttachment::clear(&passes.color.view(), [r, g, b, 1.0]);
         let depths = DepthStencilAttachment::clear(&passes.depth.view(), 0.0);
-        passes.run(
-            &[Some(cleared)],
-            depths,
-            vertices.draw(&pipeline, &[]),
-            None,
-        )?;
+        passes.run(cleared, depths, vertices.draw(&pipeline))?;
         Ok(passes)
     }
 
@@ -77,135 +74,55 @@ impl<'d> Passes<'d> {
         polygons: impl Iterator<Item = &'p [Corner<4>]>,
     ) -> Result<(), DrawError> {
         let vertices = self.vertices(polygons)?;
-        let nearer = DepthState {
-            write_enabled: false,
-            compare: CompareFunction::Greater,
-        };
-        let pipeline = self.pipeline(Output::Color, vec![Some(over())], nearer, None)?;
+        let pipeline = self.pipeline(Output::Color, vec![Some(over())], ORDER.nearer().into())?;
         let color = ColorAttachment::load(&self.color.view());
         let depths = DepthStencilAttachment::read_only(&self.depth.view());
-        self.run(&[Some(color)], depths, vertices.draw(&pipeline, &[]), None)
+        self.run(color, depths, vertices.draw(&pipeline))
     }
 
     /// Blends the fragments of each pixel from the farthest on, layer by layer. Each layer has a
     /// fragment in some pixel, and a pixel one fragment of each polygon: there are no more layers
-    /// than polygons. Returns their number.
+    /// than polygons.
     pub(super) fn peel<'p>(
         &self,
         polygons: impl Iterator<Item = &'p [Corner<4>]>,
-    ) -> Result<usize, DrawError> {
+    ) -> Result<(), DrawError> {
         let vertices = self.vertices(polygons)?;
-        let layout = self
-            .device
-            .create_bind_group_layout(&[BindGroupLayoutEntry {
-                binding: 0,
-                ty: BindingType::Texture {
-                    sample_type: SampleType::Depth,
-                    view_dimension: ViewDimension::D2,
-                    multisampled: false,
-                },
-            }])?;
-        let farthest = DepthState {
-            write_enabled: true,
-            compare: CompareFunction::LessEqual,
-        };
-        let layer = DepthState {
-            write_enabled: false,
-            compare: CompareFunction::Equal,
-        };
-        let finding = self.pipeline(Output::NearerDepth, Vec::new(), farthest, Some(&layout))?;
-        let blending = self.pipeline(
-            Output::NearerColor,
-            vec![Some(over())],
-            layer,
-            Some(&layout),
+        let finder = Finder::new(self.device, ORDER, 1)?;
+        let finding = finder.pipeline(
+            self.device,
+            self.view.clip_from_world,
+            vec![VertexBufferLayout::packed(&FORMATS)],
+            PrimitiveState::default(),
         )?;
-        let [width, height] = self.view.size;
-        let texture = TextureDescriptor::new_2d(width, height, DEPTH);
-        let mut next = self.device.create_texture(&texture)?;
-        let mut spare = Some(self.device.create_texture(&texture)?);
-        let mut peeled = self.depth.clone();
-        let mut layers = 0;
-        loop {
-            let behind = [self.bind(&layout, &peeled)?];
-            let mut found = OcclusionQueries::new(1);
-            // Pixels without a fragment have the depth 1: none is nearer in the next layer.
-            let depths = DepthStencilAttachment::clear(&next.view(), 1.0);
-            self.run(&[], depths, vertices.draw(&finding, &behind), Some(&found))?;
-            if found.samples_passed(0) == 0 {
-                return Ok(layers);
-            }
-            found.reset();
-            let color = ColorAttachment::load(&self.color.view());
-            let depths = DepthStencilAttachment::read_only(&next.view());
-            self.run(
-                &[Some(color)],
-                depths,
-                vertices.draw(&blending, &behind),
-                None,
-            )?;
-            layers += 1;
-            // The opaque depths are kept; from then on two textures take turns.
-            let free = spare.take().unwrap_or(peeled);
-            peeled = std::mem::replace(&mut next, free);
-        }
+        let blending = self.pipeline(Output::Color, vec![Some(over())], layer_state())?;
+        let draws = PeelDraws {
+            finding: &[vertices.draw(&finding)],
+            blending: &[vertices.draw(&blending)],
+            rest: &[],
+        };
+        peel(self.device, &self.target(), &finder, draws, u32::MAX)?;
+        Ok(())
     }
 
-    /// Sums the weighted fragments, and composes the picture of the sums.
+    /// Blends weighted sums of the fragments.
     pub(super) fn weigh<'p>(
         &self,
         polygons: impl Iterator<Item = &'p [Corner<4>]>,
-    ) -> Result<Image, DrawError> {
+    ) -> Result<(), DrawError> {
         let vertices = self.vertices(polygons)?;
-        let [width, height] = self.view.size;
-        let texture = |format| {
-            let descriptor = TextureDescriptor::new_2d(width, height, format);
-            self.device.create_texture(&descriptor)
-        };
-        let (sums, revealage) = (texture(COLOR)?, texture(REVEALAGE)?);
-        let nearer = DepthState {
-            write_enabled: false,
-            compare: CompareFunction::Greater,
-        };
-        let product = BlendComponent {
-            operation: BlendOperation::Add,
-            src_factor: BlendFactor::Zero,
-            dst_factor: BlendFactor::OneMinusSrc,
-        };
-        let targets = vec![
-            Some(blended(COLOR, BlendState::ADDITIVE)),
-            Some(blended(
-                REVEALAGE,
-                BlendState {
-                    color: product,
-                    alpha: product,
-                },
-            )),
-        ];
-        let pipeline = self.pipeline(Output::Weighted, targets, nearer, None)?;
-        let attachments = [
-            Some(ColorAttachment::clear(&sums.view(), [0.0; 4])),
-            Some(ColorAttachment::clear(&revealage.view(), [1.0; 4])),
-        ];
-        let depths = DepthStencilAttachment::read_only(&self.depth.view());
-        self.run(&attachments, depths, vertices.draw(&pipeline, &[]), None)?;
+        let pipeline =
+            self.pipeline(Output::Weighted, weighted_targets(), ORDER.nearer().into())?;
+        blend_weighted(self.device, &self.target(), &[vertices.draw(&pipeline)])?;
+        Ok(())
+    }
 
-        let [sums, revealage, opaque] = [
-            self.floats(&sums)?,
-            self.floats(&revealage)?,
-            self.floats(&self.color)?,
-        ];
-        let pixels = sums
-            .as_chunks::<4>()
-            .0
-            .iter()
-            .zip(opaque.as_chunks::<4>().0);
-        let pixels = pixels.zip(revealage).flat_map(|((sum, behind), revealed)| {
-            // The weights of one far fragment may be tiny.
-            let scale = (1.0 - revealed) / sum[3].max(1e-12);
-            [0, 1, 2].map(|k: usize| sum[k] * scale + behind[k] * revealed)
-        });
-        Ok(self.encoded(pixels))
+    fn target(&self) -> Target<'_> {
+        Target {
+            color: &self.color,
+            depth: &self.depth,
+            order: ORDER,
+        }
     }
 
     /// The picture as it is blended so far.
@@ -255,8 +172,7 @@ impl<'d> Passes<'d> {
         &self,
         output: Output,
         targets: Vec<Option<ColorTargetState>>,
-        depth: DepthState,
-        layout: Option<&BindGroupLayout>,
+        depth_stencil: DepthStencilState,
     ) -> Result<RenderPipeline, DrawError> {
         let shader = Tinted {
             clip_from_world: self.view.clip_from_world,
@@ -265,37 +181,22 @@ impl<'d> Passes<'d> {
         Ok(self
             .device
             .create_render_pipeline(&RenderPipelineDescriptor {
-                bind_group_layouts: layout.cloned().into_iter().collect(),
                 vertex_buffers: vec![VertexBufferLayout::packed(&FORMATS)],
                 targets,
-                depth_stencil: Some(depth.into()),
+                depth_stencil: Some(depth_stencil),
                 ..RenderPipelineDescriptor::new(shader)
             })?)
     }
 
-    fn bind(&self, layout: &BindGroupLayout, depths: &Texture) -> Result<BindGroup, DrawError> {
-        Ok(self.device.create_bind_group(&BindGroupDescriptor {
-            label: None,
-            layout,
-            entries: &[(0, BindingResource::Texture(depths.view()))],
-        })?)
-    }
-
     fn run(
         &self,
-        colors: &[Option<ColorAttachment>],
+        color: ColorAttachment,
         depths: DepthStencilAttachment,
         draw: Draw<'_>,
-        queries: Option<&OcclusionQueries>,
     ) -> Result<(), DrawError> {
-        let draw = Draw {
-            occlusion_query: queries.map(|_| 0),
-            ..draw
-        };
         self.device.render(&RenderPass {
-            color_attachments: colors,
+            color_attachments: &[Some(color)],
             depth_stencil_attachment: Some(depths),
-            occlusion_queries: queries,
             draws: &[draw],
             ..RenderPass::default()
         })?;
@@ -304,23 +205,18 @@ impl<'d> Passes<'d> {
 }
 
 impl Vertices {
-    fn draw<'a>(&'a self, pipeline: &'a RenderPipeline, groups: &'a [BindGroup]) -> Draw<'a> {
+    fn draw<'a>(&'a self, pipeline: &'a RenderPipeline) -> Draw<'a> {
         Draw {
             vertex_buffers: &self.buffers,
-            bind_groups: groups,
             ..Draw::new(pipeline, 0..self.count)
         }
     }
 }
 
-fn blended(format: TextureFormat, blend: BlendState) -> ColorTargetState {
-    ColorTargetState {
-        blend: Some(blend),
-        ..format.into()
-    }
-}
-
 /// Source over destination.
 fn over() -> ColorTargetState {
-    blended(COLOR, BlendState::ALPHA_BLENDING)
+    ColorTargetState {
+        blend: Some(BlendState::ALPHA_BLENDING),
+        ..COLOR.into()
+    }
 }

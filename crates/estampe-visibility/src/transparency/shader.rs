@@ -1,9 +1,8 @@
 //! The shader of all passes, and its vertices.
 
 use crate::polygon::Corner;
-use estampe::{
-    FragmentIn, FragmentOut, Mat4, TextureBindings, Vec3, Vec4, VertexFormat, VertexIn, VertexOut,
-};
+use estampe::{FragmentIn, FragmentOut, Mat4, Vec3, Vec4, VertexFormat, VertexIn, VertexOut};
+use estampe_transparency::{DepthOrder, weighted_fragment};
 
 /// The formats of a vertex: position and colour with alpha.
 pub(super) const FORMATS: [VertexFormat; 2] = [VertexFormat::Float32x3, VertexFormat::Float32x4];
@@ -13,10 +12,6 @@ pub(super) const FORMATS: [VertexFormat; 2] = [VertexFormat::Float32x3, VertexFo
 pub(super) enum Output {
     /// Colour and alpha.
     Color,
-    /// The depth alone, if the fragment is nearer than the depth in binding 0.
-    NearerDepth,
-    /// Colour and alpha, if the fragment is nearer than the depth in binding 0.
-    NearerColor,
     /// Weighted colour and alpha, and alpha in a second target.
     Weighted,
 }
@@ -52,26 +47,8 @@ estampe::shader! {
         fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, v: Tint<R>) -> FragmentOut<R> {
             match self.output {
                 Output::Color => FragmentOut::color(v.color),
-                Output::NearerDepth | Output::NearerColor => {
-                    let (x, y) = (input.position.x.to_int(), input.position.y.to_int());
-                    let zero = x.splat(0);
-                    let depths = input.bindings.texture(0, 0);
-                    let peeled = depths.fetch([x, y, zero], zero, zero).x;
-                    let is_nearer = input.position.z.gt(peeled);
-                    let fragment = match self.output {
-                        Output::NearerDepth => FragmentOut::none(),
-                        _ => FragmentOut::color(v.color),
-                    };
-                    fragment.discard_unless(is_nearer)
-                }
                 Output::Weighted => {
-                    // Depth is reversed: z = 1 − d.
-                    let (z, alpha) = (input.position.z, v.color.w);
-                    let weight = alpha * (z * z * z * 3e3).max(1e-2);
-                    let scale = alpha * weight;
-                    let Vec4 { x, y, z, .. } = v.color;
-                    let sum = Vec4::new(x * scale, y * scale, z * scale, scale);
-                    FragmentOut::color(sum).with_color(1, Vec3::repeat(alpha).point())
+                    weighted_fragment(DepthOrder::NearIsOne, v.color, input.position.z)
                 }
             }
         }
