@@ -2,17 +2,19 @@
 
 use crate::alpha::{Encoding, decode, straighten};
 use crate::draw_plan::{Planner, is_dark};
-use crate::options::RenderOptions;
+use crate::frame_passes::{DrawnPasses, FramePasses};
+use crate::options::{RenderOptions, Shading};
 use crate::scene_view::SceneView;
 use crate::shading::VertexTransforms;
+use crate::shading::surface::DEPTH_ORDER;
 use crate::shading::wireframe::Wireframe;
 use crate::surface_pipelines::FrameStyle;
 use estampe::{
     BufferError, ColorAttachment, DepthStencilAttachment, Device, InspectError, PipelineError,
-    RenderPass, RenderPassError, Statistics, Texture, TextureDescriptor, TextureError,
-    TextureFormat,
+    RenderPassError, Statistics, Texture, TextureDescriptor, TextureError, TextureFormat,
 };
 use estampe_scene::{Camera, Image, Scene, Workers};
+use estampe_transparency::{Finder, TransparencyError};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -27,6 +29,20 @@ pub struct Frame {
     pub timings: FrameTimings,
     /// The camera of the image, in world space.
     pub camera: Camera,
+    /// The layers of transparent surfaces that [`Transparency::Exact`](crate::Transparency) peeled;
+    /// `None` with other methods, and of scenes without transparent surfaces.
+    pub layers: Option<TransparentLayers>,
+}
+
+/// The layers of transparent surfaces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TransparentLayers {
+    /// The number of layers that were blended from the farthest on.
+    pub count: u32,
+    /// False if there were more than
+    /// [`Transparency::MOST_LAYERS`](crate::Transparency::MOST_LAYERS), and the fragments in front
+    /// of them are blended in the order of their triangles.
+    pub is_complete: bool,
 }
 
 /// Durations of the stages of a frame.
@@ -79,9 +95,17 @@ pub enum RenderError {
     /// A draw does not fit the target.
     #[error(transparent)]
     Pass(#[from] RenderPassError),
+    /// Layers or sums of transparent surfaces cannot be drawn.
+    #[error("transparent surfaces: {0}")]
+    Transparency(#[from] TransparencyError),
     /// A pixel cannot be inspected.
     #[error(transparent)]
     Inspect(#[from] InspectError),
+    /// A frame of several passes cannot be inspected.
+    #[error(
+        "only sorted transparency can be inspected: choose it for a model with transparent surfaces"
+    )]
+    InspectUnsorted,
 }
 
 /// Draws a scene.
@@ -95,11 +119,11 @@ pub fn render(
     device: &Device,
 ) -> Result<Frame, RenderError> {
     let start = Instant::now();
-    with_pass(scene, options, device, |pass, view, image| {
+    with_passes(scene, options, device, |passes, view| {
         let prepare = start.elapsed();
-        let statistics = device.render(pass)?;
+        let DrawnPasses { statistics, layers } = passes.draw(device)?;
         let start = Instant::now();
-        let mut rgba = device.read_texture(image)?;
+        let mut rgba = device.read_texture(&passes.attachments.image)?;
         if options.background.is_none() {
             straighten(&mut rgba, encoding(options));
         }
@@ -119,22 +143,22 @@ pub fn render(
             statistics,
             timings,
             camera: view.camera_world(),
+            layers,
         })
     })
 }
 
-/// Prepares all that a frame needs, and lets `use_pass` use its pass, its view and the texture of
-/// the image.
-pub(crate) fn with_pass<T>(
+/// Prepares all that a frame needs, and lets `use_passes` use its passes and its view.
+pub(crate) fn with_passes<T>(
     scene: &Scene,
     options: &RenderOptions,
     device: &Device,
-    use_pass: impl FnOnce(&RenderPass<'_>, &SceneView, &Texture) -> Result<T, RenderError>,
+    use_passes: impl FnOnce(&FramePasses<'_>, &SceneView) -> Result<T, RenderError>,
 ) -> Result<T, RenderError> {
     check_size(options, device)?;
     let workers = Workers::new(device.threads());
     let view = SceneView::new(scene, options, workers);
-    let style = frame_style(&view, options);
+    let style = frame_style(&view, options, device)?;
     let plan = Planner {
         scene,
         options,
@@ -146,25 +170,21 @@ pub(crate) fn with_pass<T>(
     .plan()?;
     let attachments =
         Attachments::new(options, style.format, device).map_err(RenderError::Target)?;
-    let draws = plan.draws();
-    let pass = RenderPass {
-        color_attachments: &[Some(attachments.color(options))],
-        depth_stencil_attachment: Some(DepthStencilAttachment::clear(
-            &attachments.depth.view(),
-            1.0,
-        )),
-        draws: &draws,
-        ..RenderPass::default()
+    let passes = FramePasses {
+        plan: &plan,
+        style: &style,
+        attachments: &attachments,
+        options,
     };
-    use_pass(&pass, &view, &attachments.image)
+    use_passes(&passes, &view)
 }
 
 /// The images of a frame.
-struct Attachments {
+pub(crate) struct Attachments {
     /// The samples, if there are several per pixel.
     samples: Option<Texture>,
-    image: Texture,
-    depth: Texture,
+    pub(crate) image: Texture,
+    pub(crate) depth: Texture,
 }
 
 impl Attachments {
@@ -193,7 +213,18 @@ impl Attachments {
         })
     }
 
-    fn color(&self, options: &RenderOptions) -> ColorAttachment {
+    /// The texture that is drawn to: that of the image, or of its samples.
+    pub(crate) fn samples(&self) -> &Texture {
+        self.samples.as_ref().unwrap_or(&self.image)
+    }
+
+    /// The depths, cleared.
+    pub(crate) fn cleared_depth(&self) -> DepthStencilAttachment {
+        DepthStencilAttachment::clear(&self.depth.view(), 1.0)
+    }
+
+    /// The colours, cleared, and resolved to the image.
+    pub(crate) fn color(&self, options: &RenderOptions) -> ColorAttachment {
         let clear = clear_color(options).map(f64::from);
         match &self.samples {
             Some(samples) => ColorAttachment {
@@ -230,6 +261,8 @@ pub(crate) fn encoding(options: &RenderOptions) -> Encoding {
 /// The background as the target's clear colour.
 fn clear_color(options: &RenderOptions) -> [f32; 4] {
     match options.background {
+        // Fragments are added to none.
+        Some(_) if options.shading == Shading::Overdraw => [0.0, 0.0, 0.0, 1.0],
         Some(codes) => {
             let [r, g, b] = codes.map(|code| decode(code, encoding(options)));
             [r, g, b, 1.0]
@@ -238,9 +271,13 @@ fn clear_color(options: &RenderOptions) -> [f32; 4] {
     }
 }
 
-fn frame_style(view: &SceneView, options: &RenderOptions) -> FrameStyle {
+fn frame_style(
+    view: &SceneView,
+    options: &RenderOptions,
+    device: &Device,
+) -> Result<FrameStyle, RenderError> {
     let transforms = view.transforms();
-    FrameStyle {
+    Ok(FrameStyle {
         shading: options.shading,
         transforms,
         lights: Arc::new(view.lights(options)),
@@ -252,6 +289,7 @@ fn frame_style(view: &SceneView, options: &RenderOptions) -> FrameStyle {
             view.fog(fog, linear, (options.width, options.height))
         }),
         wireframe: wireframe(transforms, options),
+        overlay: has_overlay(options).then(|| overlay(transforms, options)),
         depth_range: view.depth_range(),
         cull: options.cull,
         samples: options.samples,
@@ -259,7 +297,8 @@ fn frame_style(view: &SceneView, options: &RenderOptions) -> FrameStyle {
             Encoding::Srgb => TextureFormat::Rgba8UnormSrgb,
             Encoding::Linear => TextureFormat::Rgba8Unorm,
         },
-    }
+        finder: Finder::new(device, DEPTH_ORDER, options.samples)?,
+    })
 }
 
 /// Wireframe edges that contrast with the background, with a width in proportion to the image.
@@ -273,12 +312,37 @@ fn wireframe(transforms: VertexTransforms, options: &RenderOptions) -> Wireframe
         [0x1e, 0x2a, 0x38]
     };
     let [r, g, b] = color.map(|code| decode(code, Encoding::Srgb));
-    let shorter_px = options.width.min(options.height);
-    let sixteenths = u16::try_from((shorter_px / 64).clamp(8, 64)).unwrap_or(64);
     Wireframe {
         transforms,
         line: [r, g, b, 1.0],
         face: clear_color(options),
-        half_width_px: f32::from(sixteenths) / 16.0,
+        half_width_px: half_width_px(options),
     }
+}
+
+/// True if edges are drawn over the surfaces.
+fn has_overlay(options: &RenderOptions) -> bool {
+    options.wireframe && options.shading != Shading::Wireframe
+}
+
+/// Edges over shaded surfaces: dark, and light over the dark colours of overdraw.
+fn overlay(transforms: VertexTransforms, options: &RenderOptions) -> Wireframe {
+    let color = match options.shading {
+        Shading::Overdraw => [0xe4, 0xe8, 0xee],
+        _ => [0x10, 0x18, 0x20],
+    };
+    let [r, g, b] = color.map(|code| decode(code, encoding(options)));
+    Wireframe {
+        transforms,
+        line: [r, g, b, 0.85],
+        face: [0.0; 4],
+        half_width_px: half_width_px(options),
+    }
+}
+
+/// Half of the width of edges, in pixels: in proportion to the image.
+fn half_width_px(options: &RenderOptions) -> f32 {
+    let shorter_px = options.width.min(options.height);
+    let sixteenths = u16::try_from((shorter_px / 64).clamp(8, 64)).unwrap_or(64);
+    f32::from(sixteenths) / 16.0
 }

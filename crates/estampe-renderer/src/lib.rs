@@ -7,6 +7,7 @@
 //!        ├─ geometry        vertex buffers, unshared faces, back-to-front order
 //!        ├─ surface_pipelines   material programs × vertex streams -> pipelines
 //!        ├─ draw_plan       the draws, in order
+//!        ├─ frame_passes    the passes: one, or those of order-independent transparency
 //!        └─ frame           render: all of it, and reading back the pixels
 //! ```
 //!
@@ -23,6 +24,7 @@ pub mod camera;
 mod alpha;
 mod draw_plan;
 mod frame;
+mod frame_passes;
 mod geometry;
 mod materials;
 mod options;
@@ -40,8 +42,9 @@ pub use alpha::composite_over;
 pub use camera::{CameraOptions, Eye, ProjectionKind, ViewDirection};
 pub use estampe::state::CullMode;
 pub use estampe::transforms;
-pub use frame::{Frame, FrameTimings, RenderError, render};
-pub use options::{Fog, RenderOptions, Shading, Specular, SpecularModel, Up};
+pub use frame::{Frame, FrameTimings, RenderError, TransparentLayers, render};
+pub use geometry::face_colors::face_color;
+pub use options::{Fog, RenderOptions, Shading, Specular, SpecularModel, Transparency, Up};
 pub use pixel_history::{FramePixel, FrameStages, VertexSpaces, inspect, inspect_stages};
 
 /// Version of the images. It rises whenever the same scene and options give other bytes than

@@ -4,7 +4,7 @@ use crate::frame::RenderError;
 use crate::options::{RenderOptions, Shading, SpecularModel};
 use crate::shading::bump::BumpMap;
 use crate::shading::lighting::{Gloss, Highlight};
-use crate::surface_pipelines::{SurfaceStyle, Transparency};
+use crate::surface_pipelines::{SurfaceAlpha, SurfaceStyle};
 use estampe::{Device, SampledTexture, SamplerDescriptor, TextureDescriptor, TextureFormat};
 use estampe_scene::{AlphaMode, Image, Material, Mesh, Scene};
 use std::collections::HashMap;
@@ -52,11 +52,11 @@ impl<'a> Materials<'a> {
         } else {
             self.visible(material.base_color)
         };
-        let transparency = match material.alpha_mode {
-            _ if is_overridden => Transparency::Opaque,
-            AlphaMode::Opaque => Transparency::Opaque,
-            AlphaMode::Mask => Transparency::Masked,
-            AlphaMode::Blend => Transparency::Blended,
+        let alpha = match material.alpha_mode {
+            _ if is_overridden => SurfaceAlpha::Opaque,
+            AlphaMode::Opaque => SurfaceAlpha::Opaque,
+            AlphaMode::Mask => SurfaceAlpha::Masked,
+            AlphaMode::Blend => SurfaceAlpha::Blended,
         };
         let texture = if self.reads_textures() {
             self.texture(material, mesh)?
@@ -69,7 +69,7 @@ impl<'a> Materials<'a> {
             texture,
             bump: self.bump(material, mesh)?,
             has_vertex_colors,
-            transparency,
+            alpha,
         })
     }
 

@@ -40,6 +40,11 @@ pub struct RenderOptions {
     pub background: Option<[u8; 3]>,
     /// Faces that are culled. Default none.
     pub cull: CullMode,
+    /// The method by which transparent surfaces are blended. Default [`Transparency::Sorted`].
+    pub transparency: Transparency,
+    /// If set, the edges of all triangles are drawn over the surfaces, where no opaque surface
+    /// hides them. Default not; without effect on [`Shading::Wireframe`].
+    pub wireframe: bool,
 }
 
 impl RenderOptions {
@@ -65,6 +70,8 @@ impl Default for RenderOptions {
             texture: None,
             background: Some(Self::DEFAULT_BACKGROUND),
             cull: CullMode::None,
+            transparency: Transparency::default(),
+            wireframe: false,
         }
     }
 }
@@ -103,6 +110,27 @@ pub struct Fog {
     pub color: Option<[u8; 3]>,
 }
 
+/// The method by which transparent surfaces are blended, in front of the opaque ones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Transparency {
+    /// Triangles from the one with the farthest centre on: wrong where triangles cross, or overlap
+    /// in cycles.
+    #[default]
+    Sorted,
+    /// The fragments of each sample from the farthest on, by depth peeling: two passes for each
+    /// layer, of which there are at most [`Self::MOST_LAYERS`]. Fragments of one depth are blended
+    /// in the order of the scene.
+    Exact,
+    /// Weighted sums of all fragments (McGuire and Bavoil 2013): an approximation whose time does
+    /// not grow with the layers.
+    Weighted,
+}
+
+impl Transparency {
+    /// The most layers that are peeled. Fragments in front of them are sorted by triangles.
+    pub const MOST_LAYERS: u32 = 128;
+}
+
 /// Shading of surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Shading {
@@ -129,6 +157,15 @@ pub enum Shading {
     Depth,
     /// Texture coordinates as colours: u red, v green.
     Uv,
+    /// A colour for each triangle, by its number in the scene: [`face_color`](crate::face_color).
+    /// With one sample per pixel the colours are exact.
+    FaceId,
+    /// Barycentric coordinates as colours: 1 at the first corner of a triangle is red, at the
+    /// second green, at the third blue.
+    Barycentric,
+    /// The number n of fragments that cover each sample, hidden ones too: the codes 32·n, 8·n and
+    /// n, at most 255, on black. The background's colour is not used.
+    Overdraw,
 }
 
 impl Shading {
@@ -148,7 +185,22 @@ impl Shading {
     /// sRGB-encoded.
     #[must_use]
     pub fn holds_numbers(self) -> bool {
-        matches!(self, Self::Normals | Self::Depth | Self::Uv)
+        match self {
+            Self::Normals
+            | Self::Depth
+            | Self::Uv
+            | Self::FaceId
+            | Self::Barycentric
+            | Self::Overdraw => true,
+            Self::Flat
+            | Self::Gouraud
+            | Self::Phong
+            | Self::Toon
+            | Self::ToonFlat
+            | Self::ToonGouraud
+            | Self::Unlit
+            | Self::Wireframe => false,
+        }
     }
 }
 

@@ -2,8 +2,9 @@
 //! spaces that the renderer knows: object, world and eye space.
 
 use crate::alpha::straighten;
-use crate::frame::{RenderError, encoding, with_pass};
-use crate::options::RenderOptions;
+use crate::frame::{RenderError, encoding, with_passes};
+use crate::frame_passes::FramePasses;
+use crate::options::{RenderOptions, Transparency};
 use crate::scene_view::SceneView;
 use estampe::{Device, PassStages, PixelHistory};
 use estampe_scene::Scene;
@@ -36,16 +37,18 @@ pub struct VertexSpaces {
 /// [`render`](crate::render) draws of a scene with these options.
 ///
 /// # Errors
-/// [`RenderError`] as of [`render`](crate::render), and [`RenderError::Inspect`] if the pixel lies
-/// outside of the image.
+/// [`RenderError`] as of [`render`](crate::render), [`RenderError::Inspect`] if the pixel lies
+/// outside of the image, and [`RenderError::InspectUnsorted`] if transparent surfaces are drawn in
+/// several passes.
 pub fn inspect(
     scene: &Scene,
     options: &RenderOptions,
     device: &Device,
     pixel: [u32; 2],
 ) -> Result<FramePixel, RenderError> {
-    with_pass(scene, options, device, |pass, view, _| {
-        let history = device.inspect(pass, pixel)?;
+    with_passes(scene, options, device, |passes, view| {
+        check_one_pass(options, passes)?;
+        let history = passes.with_one_pass(|pass| Ok(device.inspect(pass, pixel)?))?;
         let texel = history.texels.first().and_then(Option::as_deref);
         let mut final_rgba8 = texel
             .and_then(|bytes| bytes.try_into().ok())
@@ -84,15 +87,17 @@ pub struct FrameStages {
 /// options.
 ///
 /// # Errors
-/// [`RenderError`] as of [`render`](crate::render), and [`RenderError::Inspect`] if the pixels and
-/// primitives need too much memory.
+/// [`RenderError`] as of [`render`](crate::render), [`RenderError::Inspect`] if the pixels and
+/// primitives need too much memory, and [`RenderError::InspectUnsorted`] if transparent surfaces
+/// are drawn in several passes.
 pub fn inspect_stages(
     scene: &Scene,
     options: &RenderOptions,
     device: &Device,
 ) -> Result<FrameStages, RenderError> {
-    with_pass(scene, options, device, |pass, view, _| {
-        let stages = device.inspect_stages(pass)?;
+    with_passes(scene, options, device, |passes, view| {
+        check_one_pass(options, passes)?;
+        let stages = passes.with_one_pass(|pass| Ok(device.inspect_stages(pass)?))?;
         let vertices = stages.vertices.iter();
         let spaces = vertices.map(|vertex| {
             let [x, y, z, _] = vertex.attribute;
@@ -103,6 +108,14 @@ pub fn inspect_stages(
             stages,
         })
     })
+}
+
+/// An error if the frame has several passes: only one can be inspected.
+fn check_one_pass(options: &RenderOptions, passes: &FramePasses<'_>) -> Result<(), RenderError> {
+    if options.transparency != Transparency::Sorted && passes.has_transparent_surfaces() {
+        return Err(RenderError::InspectUnsorted);
+    }
+    Ok(())
 }
 
 /// The spaces of a vertex, from its first attribute: the position in unit space.

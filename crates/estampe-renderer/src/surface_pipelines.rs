@@ -5,22 +5,25 @@ use crate::options::Shading;
 use crate::shading::VertexTransforms;
 use crate::shading::base_color::{Alpha, BaseColor, Painted, Plain};
 use crate::shading::bump::BumpMap;
-use crate::shading::inspection::{DepthGrey, Normals, UvColors};
+use crate::shading::inspection::{
+    Barycentrics, DepthGrey, FaceColors, Normals, Overdraw, UvColors,
+};
 use crate::shading::interpolation::{AtFragments, AtVertices, Interpolation, Viewer};
 use crate::shading::lighting::{Gloss, Lights};
 use crate::shading::output::{Fog, Output};
 use crate::shading::points_and_lines::PointsAndLines;
-use crate::shading::surface::Surface;
+use crate::shading::surface::{DEPTH_ORDER, Surface, Written};
 use crate::shading::terms::{Reflectance, Terms};
 use crate::shading::wireframe::Wireframe;
 use estampe::state::{
-    BlendState, ColorTargetState, ColorWrites, CullMode, DepthState, MultisampleState,
-    PrimitiveState, PrimitiveTopology,
+    BlendState, ColorTargetState, ColorWrites, CompareFunction, CullMode, DepthState,
+    DepthStencilState, MultisampleState, PrimitiveState, PrimitiveTopology,
 };
 use estampe::{
     Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor, SampledTexture,
     Shader, ShaderProgram, TextureFormat,
 };
+use estampe_transparency::{Finder, TransparencyError, layer_state, weighted_targets};
 use std::sync::Arc;
 
 /// Options that all surfaces of a frame share.
@@ -33,11 +36,28 @@ pub(crate) struct FrameStyle {
     pub(crate) levels: Option<u16>,
     pub(crate) fog: Option<Fog>,
     pub(crate) wireframe: Wireframe,
+    /// The edges over shaded surfaces, if they are drawn.
+    pub(crate) overlay: Option<Wireframe>,
     /// Distances of the model's nearest and furthest point.
     pub(crate) depth_range: (f32, f32),
     pub(crate) cull: CullMode,
     pub(crate) samples: u32,
     pub(crate) format: TextureFormat,
+    /// Makes the pipelines that find layers of transparent surfaces.
+    pub(crate) finder: Finder,
+}
+
+/// The pass that a surface is drawn in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Role {
+    /// Replaces colours and writes depths.
+    Opaque,
+    /// Blended in the order of the draws.
+    Blended,
+    /// Blended where it is the layer that was found.
+    Layer,
+    /// Added to weighted sums.
+    Weighted,
 }
 
 /// A surface's material, prepared for shaders.
@@ -49,18 +69,25 @@ pub(crate) struct SurfaceStyle {
     pub(crate) texture: Option<SampledTexture>,
     pub(crate) bump: Option<BumpMap>,
     pub(crate) has_vertex_colors: bool,
-    pub(crate) transparency: Transparency,
+    pub(crate) alpha: SurfaceAlpha,
 }
 
 /// Treatment of a surface's alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Transparency {
+pub(crate) enum SurfaceAlpha {
     /// Alpha is ignored.
     Opaque,
     /// Fragments below ½ are discarded.
     Masked,
     /// Blended, without writing depth.
     Blended,
+}
+
+/// A surface, and what its fragments write.
+#[derive(Debug, Clone, Copy)]
+struct WrittenSurface<'a> {
+    style: &'a SurfaceStyle,
+    written: Written,
 }
 
 /// Number of light steps in toon shading, unless the options say another one.
@@ -95,28 +122,87 @@ impl FrameStyle {
         device: &Device,
         surface: &SurfaceStyle,
         mesh: &MeshStreams,
+        role: Role,
     ) -> Result<StreamPipeline, PipelineError> {
-        let material = self.material_program(surface);
-        let is_blended = surface.transparency == Transparency::Blended && self.shows_transparency();
-        let primitive = PrimitiveState {
+        let material = self.material_program(surface, role);
+        let over = || self.targets(Some(BlendState::ALPHA_BLENDING));
+        let (depth_stencil, targets) = match role {
+            Role::Opaque => self.opaque(),
+            Role::Blended => (DEPTH_ORDER.nearer().into(), over()),
+            Role::Layer => (layer_state(), over()),
+            Role::Weighted => (DEPTH_ORDER.nearer().into(), weighted_targets()),
+        };
+        let state = PipelineState {
+            primitive: self.triangles(),
+            depth_stencil,
+            targets,
+        };
+        self.pipeline(device, material, mesh, state)
+    }
+
+    /// The pipeline that finds layers of a surface.
+    pub(crate) fn finding(
+        &self,
+        device: &Device,
+        mesh: &MeshStreams,
+    ) -> Result<StreamPipeline, TransparencyError> {
+        let layout = mesh.positions.layout(VertexStream::Position, 0);
+        let pipeline = self.finder.pipeline(
+            device,
+            self.transforms.clip_from_unit,
+            vec![layout],
+            self.triangles(),
+        )?;
+        Ok(StreamPipeline {
+            pipeline,
+            streams: vec![VertexStream::Position],
+        })
+    }
+
+    /// The pipeline of edges over surfaces: their depths are those of the surfaces, bit by bit.
+    pub(crate) fn edges(
+        &self,
+        device: &Device,
+        edges: &Wireframe,
+        mesh: &MeshStreams,
+    ) -> Result<StreamPipeline, PipelineError> {
+        let streams = [VertexStream::Position, VertexStream::Corner];
+        let material = MaterialProgram::new(edges.clone(), &streams);
+        let depth = DepthState {
+            write_enabled: false,
+            compare: CompareFunction::LessEqual,
+        };
+        let state = PipelineState {
+            primitive: self.triangles(),
+            depth_stencil: depth.into(),
+            targets: self.targets(Some(BlendState::PREMULTIPLIED_ALPHA_BLENDING)),
+        };
+        self.pipeline(device, material, mesh, state)
+    }
+
+    /// State and targets of what hides what is behind it; fragments that are counted hide nothing.
+    fn opaque(&self) -> (DepthStencilState, Vec<Option<ColorTargetState>>) {
+        if self.shading == Shading::Overdraw {
+            let sum = self.targets(Some(BlendState::ADDITIVE));
+            return (DepthStencilState::default(), sum);
+        }
+        (DepthState::LESS_WRITE.into(), self.targets(None))
+    }
+
+    fn triangles(&self) -> PrimitiveState {
+        PrimitiveState {
             cull_mode: self.cull,
             ..PrimitiveState::default()
-        };
-        let (depth, blend) = if is_blended {
-            (DepthState::LESS_READ, Some(BlendState::ALPHA_BLENDING))
-        } else {
-            (DepthState::LESS_WRITE, None)
-        };
-        self.pipeline(
-            device,
-            material,
-            mesh,
-            PipelineState {
-                primitive,
-                depth,
-                blend,
-            },
-        )
+        }
+    }
+
+    /// The target of the picture.
+    fn targets(&self, blend: Option<BlendState>) -> Vec<Option<ColorTargetState>> {
+        vec![Some(ColorTargetState {
+            format: self.format,
+            blend,
+            write_mask: ColorWrites::ALL,
+        })]
     }
 
     /// The pipeline of points or lines.
@@ -132,10 +218,11 @@ impl FrameStyle {
             topology,
             ..PrimitiveState::default()
         };
+        let (depth_stencil, targets) = self.opaque();
         let state = PipelineState {
             primitive,
-            depth: DepthState::LESS_WRITE,
-            blend: None,
+            depth_stencil,
+            targets,
         };
         self.pipeline(device, material, mesh, state)
     }
@@ -147,7 +234,14 @@ impl FrameStyle {
 
     /// True if each triangle needs separate vertices.
     pub(crate) fn needs_unshared_vertices(&self) -> bool {
-        self.shading.is_flat() || self.shading == Shading::Wireframe
+        matches!(
+            self.shading,
+            Shading::Flat
+                | Shading::ToonFlat
+                | Shading::Wireframe
+                | Shading::FaceId
+                | Shading::Barycentric
+        )
     }
 
     /// True if flat light differs between the vertices of a face, unless it is computed at the
@@ -156,18 +250,25 @@ impl FrameStyle {
         self.shading.is_flat() && !self.lights.positional.is_empty()
     }
 
-    fn material_program(&self, surface: &SurfaceStyle) -> MaterialProgram {
-        use VertexStream::{Corner, Normal, Position, Uv};
+    fn material_program(&self, surface: &SurfaceStyle, role: Role) -> MaterialProgram {
+        use VertexStream::{Corner, Face, Normal, Position, Uv};
         let transforms = self.transforms;
         let toon = Terms::Toon(self.levels.unwrap_or(TOON_LEVELS));
+        let surface = WrittenSurface {
+            style: surface,
+            written: match role {
+                Role::Weighted => Written::WeightedTerms,
+                Role::Opaque | Role::Blended | Role::Layer => Written::Color,
+            },
+        };
         match self.shading {
-            Shading::Phong => self.at_fragments(surface, Terms::All),
-            Shading::Toon => self.at_fragments(surface, toon),
-            Shading::ToonFlat => self.at_vertices(surface, toon, Viewer::Infinity),
-            Shading::ToonGouraud => self.at_vertices(surface, toon, Viewer::Eye),
-            Shading::Gouraud => self.at_vertices(surface, Terms::All, Viewer::Eye),
-            Shading::Flat => self.at_vertices(surface, Terms::All, Viewer::Infinity),
-            Shading::Unlit => self.at_vertices(surface, Terms::Unlit, Viewer::Infinity),
+            Shading::Phong => self.at_fragments(&surface, Terms::All),
+            Shading::Toon => self.at_fragments(&surface, toon),
+            Shading::ToonFlat => self.at_vertices(&surface, toon, Viewer::Infinity),
+            Shading::ToonGouraud => self.at_vertices(&surface, toon, Viewer::Eye),
+            Shading::Gouraud => self.at_vertices(&surface, Terms::All, Viewer::Eye),
+            Shading::Flat => self.at_vertices(&surface, Terms::All, Viewer::Infinity),
+            Shading::Unlit => self.at_vertices(&surface, Terms::Unlit, Viewer::Infinity),
             Shading::Wireframe => MaterialProgram::new(self.wireframe.clone(), &[Position, Corner]),
             Shading::Normals => MaterialProgram::new(Normals { transforms }, &[Position, Normal]),
             Shading::Depth => {
@@ -182,10 +283,15 @@ impl FrameStyle {
                 )
             }
             Shading::Uv => MaterialProgram::new(UvColors { transforms }, &[Position, Uv]),
+            Shading::FaceId => MaterialProgram::new(FaceColors { transforms }, &[Position, Face]),
+            Shading::Barycentric => {
+                MaterialProgram::new(Barycentrics { transforms }, &[Position, Corner])
+            }
+            Shading::Overdraw => MaterialProgram::new(Overdraw { transforms }, &[Position]),
         }
     }
 
-    fn at_fragments(&self, surface: &SurfaceStyle, terms: Terms) -> MaterialProgram {
+    fn at_fragments(&self, surface: &WrittenSurface<'_>, terms: Terms) -> MaterialProgram {
         let interpolation = AtFragments {
             transforms: self.transforms,
             reflectance: self.reflectance(surface, terms),
@@ -193,7 +299,12 @@ impl FrameStyle {
         self.painted_or_plain(surface, interpolation, &[VertexStream::Normal])
     }
 
-    fn at_vertices(&self, surface: &SurfaceStyle, terms: Terms, viewer: Viewer) -> MaterialProgram {
+    fn at_vertices(
+        &self,
+        surface: &WrittenSurface<'_>,
+        terms: Terms,
+        viewer: Viewer,
+    ) -> MaterialProgram {
         let interpolation = AtVertices {
             transforms: self.transforms,
             reflectance: self.reflectance(surface, terms),
@@ -203,27 +314,28 @@ impl FrameStyle {
         self.painted_or_plain(surface, interpolation, &streams)
     }
 
-    fn reflectance(&self, surface: &SurfaceStyle, terms: Terms) -> Reflectance {
+    fn reflectance(&self, surface: &WrittenSurface<'_>, terms: Terms) -> Reflectance {
         Reflectance {
             lights: Arc::clone(&self.lights),
-            gloss: surface.gloss,
+            gloss: surface.style.gloss,
             terms,
         }
     }
 
     fn painted_or_plain(
         &self,
-        surface: &SurfaceStyle,
+        surface: &WrittenSurface<'_>,
         interpolation: impl Interpolation,
         streams: &[VertexStream],
     ) -> MaterialProgram {
-        let (factor, texture, bump) = (surface.base, surface.texture.clone(), surface.bump.clone());
-        let alpha = match surface.transparency {
-            Transparency::Opaque => Alpha::Ignored,
-            Transparency::Masked => Alpha::CutsOut,
-            Transparency::Blended => Alpha::Kept,
+        let SurfaceStyle { texture, bump, .. } = surface.style.clone();
+        let factor = surface.style.base;
+        let alpha = match surface.style.alpha {
+            SurfaceAlpha::Opaque => Alpha::Ignored,
+            SurfaceAlpha::Masked => Alpha::CutsOut,
+            SurfaceAlpha::Blended => Alpha::Kept,
         };
-        let has_colors = texture.is_some() || surface.has_vertex_colors;
+        let has_colors = texture.is_some() || surface.style.has_vertex_colors;
         if has_colors || bump.is_some() || alpha == Alpha::CutsOut {
             let painted = Painted {
                 factor,
@@ -232,7 +344,8 @@ impl FrameStyle {
                 alpha,
             };
             let of_color = [VertexStream::Uv, VertexStream::Color];
-            return self.composed(painted, interpolation, &[streams, &of_color].concat());
+            let streams = [streams, &of_color].concat();
+            return self.composed(painted, interpolation, surface.written, &streams);
         }
         let [r, g, b, opacity] = factor;
         let opacity = if alpha == Alpha::Ignored {
@@ -240,7 +353,12 @@ impl FrameStyle {
         } else {
             opacity
         };
-        self.composed(Plain([r, g, b, opacity]), interpolation, streams)
+        self.composed(
+            Plain([r, g, b, opacity]),
+            interpolation,
+            surface.written,
+            streams,
+        )
     }
 
     /// The surface of these parts, which read these streams after the position.
@@ -248,6 +366,7 @@ impl FrameStyle {
         &self,
         base_color: impl BaseColor,
         interpolation: impl Interpolation,
+        written: Written,
         streams: &[VertexStream],
     ) -> MaterialProgram {
         let output = Output {
@@ -258,6 +377,7 @@ impl FrameStyle {
             base_color,
             interpolation,
             output,
+            written,
         };
         MaterialProgram::new(surface, &[&[VertexStream::Position], streams].concat())
     }
@@ -271,17 +391,12 @@ impl FrameStyle {
     ) -> Result<StreamPipeline, PipelineError> {
         let layouts = material.streams.iter().enumerate();
         let layouts = layouts.map(|(location, &stream)| mesh.get(stream).layout(stream, location));
-        let target = ColorTargetState {
-            format: self.format,
-            blend: state.blend,
-            write_mask: ColorWrites::ALL,
-        };
         let descriptor = RenderPipelineDescriptor {
             vertex_buffers: layouts.collect(),
             primitive: state.primitive,
-            depth_stencil: Some(state.depth.into()),
+            depth_stencil: Some(state.depth_stencil),
             multisample: MultisampleState::new(self.samples),
-            targets: vec![Some(target)],
+            targets: state.targets,
             ..RenderPipelineDescriptor::with_program(material.program)
         };
         let pipeline = device.create_render_pipeline(&descriptor)?;
@@ -295,6 +410,6 @@ impl FrameStyle {
 /// The fixed-function state of a pipeline.
 struct PipelineState {
     primitive: PrimitiveState,
-    depth: DepthState,
-    blend: Option<BlendState>,
+    depth_stencil: DepthStencilState,
+    targets: Vec<Option<ColorTargetState>>,
 }

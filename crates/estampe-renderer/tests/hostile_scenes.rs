@@ -3,12 +3,12 @@
 use estampe::{Device, DeviceDescriptor};
 use estampe_renderer::{
     CameraOptions, Eye, Fog, RenderError, RenderOptions, Shading, Specular, SpecularModel,
-    ViewDirection, render,
+    Transparency, ViewDirection, render,
 };
 use estampe_scene::{AlphaMode, Image, Light, LightSource, Material, Mesh, Scene, Surface};
 use glam::{DVec3, Vec2, Vec3};
 
-const SHADINGS: [Shading; 11] = [
+const SHADINGS: [Shading; 14] = [
     Shading::Flat,
     Shading::Gouraud,
     Shading::Phong,
@@ -20,6 +20,9 @@ const SHADINGS: [Shading; 11] = [
     Shading::Normals,
     Shading::Depth,
     Shading::Uv,
+    Shading::FaceId,
+    Shading::Barycentric,
+    Shading::Overdraw,
 ];
 
 fn device() -> Device {
@@ -148,6 +151,28 @@ fn broken_scenes_are_drawn_without_their_invalid_parts() {
                 ..options
             };
             render(&scene, &options, &device).expect("every scene can be drawn");
+        }
+    }
+}
+
+#[test]
+fn broken_scenes_are_drawn_by_every_method_of_transparency() {
+    let device = device();
+    for transparency in [
+        Transparency::Sorted,
+        Transparency::Exact,
+        Transparency::Weighted,
+    ] {
+        for shading in SHADINGS {
+            for samples in [1, 4] {
+                let options = RenderOptions {
+                    transparency,
+                    samples,
+                    wireframe: true,
+                    ..small(shading)
+                };
+                render(&broken(), &options, &device).expect("every scene can be drawn");
+            }
         }
     }
 }

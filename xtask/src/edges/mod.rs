@@ -55,7 +55,10 @@ const CRATES: &[(&str, &[&str])] = &[
     ("estampe-scene", &[]),
     ("estampe-assets", &["estampe-scene", "estampe-shapes"]),
     ("estampe-transparency", &["estampe"]),
-    ("estampe-renderer", &["estampe", "estampe-scene"]),
+    (
+        "estampe-renderer",
+        &["estampe", "estampe-scene", "estampe-transparency"],
+    ),
     // Depths are rounded by the codec of the pipeline.
     (
         "estampe-visibility",

@@ -1,5 +1,6 @@
 //! Triangles without shared vertices: each corner can then have attributes of its face.
 
+use super::face_colors::face_color;
 use super::unit_space::UnitSpace;
 use super::vertex_data::{MeshStreams, StreamData};
 use estampe::{BufferError, Device};
@@ -15,11 +16,19 @@ pub(crate) enum LitAt {
     Centroid,
 }
 
+/// What the vertices of a face have of it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FaceAttributes {
+    pub(crate) lit_at: LitAt,
+    /// The number of the mesh's first triangle in the scene, if faces have colours by their number.
+    pub(crate) first_number: Option<usize>,
+}
+
 /// The streams of a mesh with three separate vertices for each triangle, in the triangles' order,
 /// and with the faces' normals instead of the vertices'.
 pub(crate) fn unshared_streams(
     mesh: &Mesh,
-    lit_at: LitAt,
+    attributes: FaceAttributes,
     space: &UnitSpace,
     device: &Device,
 ) -> Result<MeshStreams, BufferError> {
@@ -38,7 +47,7 @@ pub(crate) fn unshared_streams(
     });
     let indicators = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     Ok(MeshStreams {
-        lit_at: match lit_at {
+        lit_at: match attributes.lit_at {
             LitAt::Vertices => positions.clone(),
             LitAt::Centroid => StreamData::per_vertex(device, centroids)?,
         },
@@ -59,6 +68,14 @@ pub(crate) fn unshared_streams(
             )?
         },
         corners: StreamData::per_vertex(device, mesh.triangles.iter().flat_map(|_| indicators))?,
+        faces: match attributes.first_number {
+            Some(first) => {
+                let color = |number| face_color(number).map(|code| f32::from(code) / 255.0);
+                let numbers = (0..mesh.triangles.len()).map(|index| first + index);
+                StreamData::per_vertex(device, numbers.flat_map(|number| [color(number); 3]))?
+            }
+            None => StreamData::constant(device, &[0.0; 3])?,
+        },
     })
 }
 

@@ -6,6 +6,7 @@
 //! * [`faces`]: triangles without shared vertices, for flat shading and wireframes;
 //! * [`order`]: back-to-front order.
 
+pub(crate) mod face_colors;
 pub(crate) mod faces;
 pub(crate) mod order;
 pub(crate) mod unit_space;

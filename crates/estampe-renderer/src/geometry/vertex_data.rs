@@ -21,12 +21,16 @@ pub(crate) enum VertexStream {
     LitAt,
     /// Three floats: 1 at one corner of a triangle, 0 at the others.
     Corner,
+    /// Three floats: the colour of a triangle's number.
+    Face,
 }
 
 impl VertexStream {
     const fn format(self) -> VertexFormat {
         match self {
-            Self::Position | Self::Normal | Self::LitAt | Self::Corner => VertexFormat::Float32x3,
+            Self::Position | Self::Normal | Self::LitAt | Self::Corner | Self::Face => {
+                VertexFormat::Float32x3
+            }
             Self::Uv => VertexFormat::Float32x2,
             Self::Color => VertexFormat::Float32x4,
         }
@@ -120,6 +124,7 @@ pub(crate) struct MeshStreams {
     pub(crate) colors: StreamData,
     pub(crate) lit_at: StreamData,
     pub(crate) corners: StreamData,
+    pub(crate) faces: StreamData,
 }
 
 impl MeshStreams {
@@ -157,6 +162,7 @@ impl MeshStreams {
                 StreamData::of_each(device, &mesh.colors, |color| color, workers)?
             },
             corners: StreamData::constant(device, &[0.0; 3])?,
+            faces: StreamData::constant(device, &[0.0; 3])?,
         })
     }
 
@@ -169,6 +175,7 @@ impl MeshStreams {
             VertexStream::Color => &self.colors,
             VertexStream::LitAt => &self.lit_at,
             VertexStream::Corner => &self.corners,
+            VertexStream::Face => &self.faces,
         }
     }
 }

@@ -1,9 +1,10 @@
-//! Normals, depth and uv as colours, for inspection.
+//! Normals, depth, texture coordinates, faces, barycentric coordinates and overdraw as colours, for
+//! inspection.
 //!
 //! These are numbers, not light: the target stores them without sRGB encoding.
 
 use super::{VertexTransforms, shading_normal};
-use estampe::{FragmentIn, FragmentOut, Real, Vec2, Vec3, VertexIn, VertexOut};
+use estampe::{Flat, FragmentIn, FragmentOut, Real, Vec2, Vec3, VertexIn, VertexOut};
 
 /// Unit shading normals in view space, (n + 1)/2: red to the right, green up, blue towards the eye.
 #[derive(Debug, Clone)]
@@ -100,4 +101,90 @@ estampe::shader! {
 fn wrapped<R: Real>(coordinate: R) -> R {
     let is_inside = coordinate.ge(coordinate.splat(0.0)) & coordinate.le(coordinate.splat(1.0));
     R::select(is_inside, coordinate, coordinate.fract())
+}
+
+/// The colours of faces.
+#[derive(Debug, Clone)]
+pub(crate) struct FaceColors {
+    pub(crate) transforms: VertexTransforms,
+}
+
+estampe::shader! {
+    impl Shader for FaceColors {
+        type Attributes<R: Real> = (Vec3<R>, Vec3<R>); // position, face
+        type Varyings<R: Real> = (Flat<Vec3<R>>,);
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, face): (Vec3<R>, Vec3<R>),
+        ) -> VertexOut<R, (Flat<Vec3<R>>,)> {
+            VertexOut::new(self.transforms.clip(position), (Flat(face),))
+        }
+
+        fn fragment<R: Real>(
+            &self,
+            _input: FragmentIn<'_, R>,
+            (Flat(face),): (Flat<Vec3<R>>,),
+        ) -> FragmentOut<R> {
+            FragmentOut::color(face.point())
+        }
+    }
+}
+
+/// Barycentric coordinates, perspective-correct: the share of the first corner is red, of the
+/// second green, of the third blue.
+#[derive(Debug, Clone)]
+pub(crate) struct Barycentrics {
+    pub(crate) transforms: VertexTransforms,
+}
+
+estampe::shader! {
+    impl Shader for Barycentrics {
+        type Attributes<R: Real> = (Vec3<R>, Vec3<R>); // position, corner
+        type Varyings<R: Real> = Vec3<R>;
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, corner): (Vec3<R>, Vec3<R>),
+        ) -> VertexOut<R, Vec3<R>> {
+            VertexOut::new(self.transforms.clip(position), corner)
+        }
+
+        fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, shares: Vec3<R>) -> FragmentOut<R> {
+            FragmentOut::color(shares.point())
+        }
+    }
+}
+
+/// One fragment of the count of fragments; the target adds them.
+#[derive(Debug, Clone)]
+pub(crate) struct Overdraw {
+    pub(crate) transforms: VertexTransforms,
+}
+
+impl Overdraw {
+    /// What a fragment adds to an 8-bit target: the codes 32, 8 and 1. Red is full at 8 fragments,
+    /// green at 32, and blue counts up to 255.
+    pub(crate) const ONE: [f32; 3] = [32.0 / 255.0, 8.0 / 255.0, 1.0 / 255.0];
+}
+
+estampe::shader! {
+    impl Shader for Overdraw {
+        type Attributes<R: Real> = (Vec3<R>,); // position
+        type Varyings<R: Real> = ();
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position,): (Vec3<R>,),
+        ) -> VertexOut<R, ()> {
+            VertexOut::new(self.transforms.clip(position), ())
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, (): ()) -> FragmentOut<R> {
+            FragmentOut::color(Vec3::uniform(input.zero, Self::ONE).point())
+        }
+    }
 }

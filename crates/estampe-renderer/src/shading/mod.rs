@@ -10,8 +10,8 @@
 //! | [`base_color`] | one colour, or texture and vertex colours |
 //! | [`output`] | quantised colours, fog |
 //! | [`surface`] | the shader of surfaces, composed of these parts |
-//! | [`wireframe`] | edges over faces that hide the edges behind them |
-//! | [`inspection`] | normals, depth and uv as colours |
+//! | [`wireframe`] | edges over faces that hide the edges behind them, or over shaded surfaces |
+//! | [`inspection`] | normals, depth, uv, faces, barycentric coordinates and overdraw as colours |
 //! | [`points_and_lines`] | points and lines |
 //!
 //! Lighting is computed in view space, in linear light.

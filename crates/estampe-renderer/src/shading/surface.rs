@@ -6,6 +6,7 @@
 //!   × interpolation    flat · Gouraud · Phong                                 interpolation
 //!   × terms            ambient + diffuse + specular · toon · unlit            terms, lighting
 //!   × output           plain · quantised · fogged                             output
+//!   × written          colour · terms of weighted transparency
 //! ```
 //!
 //! A part that needs other varyings is a type, and each combination of these is a shader of its
@@ -17,7 +18,11 @@
 use super::base_color::{Alpha, BaseColor};
 use super::interpolation::Interpolation;
 use super::output::Output;
-use estampe::{FragmentIn, FragmentOut, Vec3, VertexIn, VertexOut};
+use estampe::{FragmentIn, FragmentOut, Vec3, Vec4, VertexIn, VertexOut};
+use estampe_transparency::{DepthOrder, weighted_fragment};
+
+/// The order of depths of all cameras: 0 at the near plane.
+pub(crate) const DEPTH_ORDER: DepthOrder = DepthOrder::NearIsZero;
 
 /// A surface.
 #[derive(Debug, Clone)]
@@ -25,6 +30,17 @@ pub(crate) struct Surface<B, I> {
     pub(crate) base_color: B,
     pub(crate) interpolation: I,
     pub(crate) output: Output,
+    pub(crate) written: Written,
+}
+
+/// What a fragment writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Written {
+    /// Colour and alpha.
+    #[default]
+    Color,
+    /// The terms of weighted transparency, in two targets.
+    WeightedTerms,
 }
 
 estampe::shader! {
@@ -51,7 +67,16 @@ estampe::shader! {
             let bump = self.base_color.bump(painted);
             let color = self.interpolation.fragment(base.xyz(), bump, lit, input.front_facing);
             let color = self.output.color(&input, color);
-            let out = FragmentOut::color(color.extend(base.w));
+            let color = color.extend(base.w);
+            let out = match self.written {
+                Written::Color => FragmentOut::color(color),
+                Written::WeightedTerms => {
+                    // The sums are floats, and the picture would clamp the fragment.
+                    let Vec4 { x, y, z, w } = color;
+                    let color = Vec4::new(x.saturate(), y.saturate(), z.saturate(), w.saturate());
+                    weighted_fragment(DEPTH_ORDER, color, input.position.z)
+                }
+            };
             if self.base_color.alpha() == Alpha::CutsOut {
                 out.discard_unless(base.w.ge(input.real(0.5)))
             } else {

@@ -1,4 +1,4 @@
-//! Wireframe with hidden lines removed.
+//! Wireframe with hidden lines removed, alone or over shaded surfaces.
 //!
 //! Each triangle has separate vertices, with a 1 at one of three corners each: interpolated, the
 //! three numbers are the fragment's distances from the edges, as fractions of the triangle's
@@ -15,7 +15,8 @@ pub(crate) struct Wireframe {
     pub(crate) transforms: VertexTransforms,
     /// Linear colour and alpha of the edges.
     pub(crate) line: [f32; 4],
-    /// Linear premultiplied colour and alpha of the faces: those of the background.
+    /// Linear premultiplied colour and alpha of the faces: those of the background, or nothing over
+    /// shaded surfaces.
     pub(crate) face: [f32; 4],
     /// Half of an edge's width, in pixels; each of the two triangles at an edge draws one half.
     pub(crate) half_width_px: f32,

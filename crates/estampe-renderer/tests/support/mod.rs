@@ -6,7 +6,7 @@ use estampe_scene::Scene;
 use std::sync::LazyLock;
 
 /// A device of each SIMD level, by one and by three threads in turn; the last level by both.
-static DEVICES: LazyLock<Vec<Device>> = LazyLock::new(|| {
+pub(crate) static DEVICES: LazyLock<Vec<Device>> = LazyLock::new(|| {
     let levels = Level::all_available();
     let threads = [1, 3].into_iter().cycle();
     let mut kinds: Vec<_> = levels.iter().copied().zip(threads).collect();

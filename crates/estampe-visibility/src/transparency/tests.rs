@@ -43,6 +43,8 @@ fn difference(a: &Image, b: &Image) -> (u8, f64) {
 
 /// Peeled layers are the BSP tree's order, though no order of the uncut polygons is right; the
 /// given order changes nothing; sorting is wrong.
+///
+/// Rows: D6.
 #[test]
 fn exact_transparency_is_that_of_the_exact_order() {
     let device = random_scene::device();
@@ -86,6 +88,8 @@ fn exact_transparency_is_that_of_the_exact_order() {
 }
 
 /// One layer is blended alike by all methods; three layers as their formula says.
+///
+/// Rows: D6.
 #[test]
 fn layers_are_blended_by_their_formulas() {
     let device = random_scene::device();
@@ -160,6 +164,7 @@ fn layers_are_blended_by_their_formulas() {
     }
 }
 
+/// Rows: D6, U3.
 #[test]
 fn pictures_are_the_same_everywhere() {
     let mut random = Rng::with_seed(21);

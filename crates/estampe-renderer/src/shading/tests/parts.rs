@@ -5,7 +5,7 @@ use crate::shading::base_color::{Alpha, Painted};
 use crate::shading::output::{EyeDistance, Fog, Output};
 use crate::shading::shading_normal;
 use crate::shading::steps::quantised;
-use crate::shading::surface::Surface;
+use crate::shading::surface::{Surface, Written};
 use estampe::Shader;
 
 /// Rows: F3.
@@ -204,6 +204,7 @@ fn alpha_cuts_out_is_kept_or_ignored() {
         },
         interpolation: at_vertices(lights.clone(), DULL, Terms::Unlit, Viewer::Infinity),
         output: Output::default(),
+        written: Written::Color,
     };
     let bindings = Bindings::default();
     let (one, none) = (Vec3::repeat(1.0), Vec3::repeat(0.0));

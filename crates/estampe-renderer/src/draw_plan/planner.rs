@@ -1,0 +1,135 @@
+//! Plans the draws of a scene, mesh by mesh.
+
+use super::drawing::{DrawPlan, PlannedDraw};
+use super::surfaces::PipelineKey;
+use crate::frame::RenderError;
+use crate::geometry::faces::{FaceAttributes, LitAt, unshared_streams};
+use crate::geometry::order::{DistantTriangle, back_to_front};
+use crate::geometry::vertex_data::{MeshStreams, VertexStream};
+use crate::materials::Materials;
+use crate::options::{RenderOptions, Shading};
+use crate::scene_view::SceneView;
+use crate::surface_pipelines::{FrameStyle, StreamPipeline};
+use estampe::{BufferError, BufferSlice, Device};
+use estampe_scene::{Mesh, Scene, Workers};
+use std::collections::HashMap;
+
+/// Inputs of [`Planner::plan`].
+pub(crate) struct Planner<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) options: &'a RenderOptions,
+    pub(crate) view: &'a SceneView,
+    pub(crate) style: &'a FrameStyle,
+    pub(crate) device: &'a Device,
+    /// Threads that create buffers.
+    pub(crate) workers: Workers,
+}
+
+/// The parts of a plan that are complete so far.
+#[derive(Default)]
+pub(super) struct DrawPlanBuilder {
+    pub(super) plan: DrawPlan,
+    pub(super) pipeline_of_key: HashMap<PipelineKey, usize>,
+    /// The pipeline of edges over surfaces.
+    pub(super) edges: Option<usize>,
+    /// The triangles of all meshes before.
+    first_number: usize,
+    /// The triangles that are sorted.
+    pub(super) transparent: Vec<DistantTriangle>,
+    /// Pipeline and vertex buffers of each transparent surface.
+    pub(super) transparent_surfaces: Vec<(usize, Vec<BufferSlice>)>,
+}
+
+impl Planner<'_> {
+    /// Plans the draws of the whole scene.
+    pub(crate) fn plan(&self) -> Result<DrawPlan, RenderError> {
+        let mut materials = Materials::new(self.scene, self.options, self.device);
+        let mut builder = DrawPlanBuilder::default();
+        for mesh in &self.scene.meshes {
+            self.plan_mesh(mesh, &mut materials, &mut builder)?;
+        }
+        for run in back_to_front(std::mem::take(&mut builder.transparent)) {
+            let (pipeline, vertex_buffers) =
+                builder.transparent_surfaces[run.surface as usize].clone();
+            let elements = 0..element_count(run.indices.len())?;
+            let indices = Some(self.index_buffer_of(run.indices)?);
+            builder.plan.transparent.push(PlannedDraw {
+                pipeline,
+                vertex_buffers,
+                indices,
+                elements,
+            });
+        }
+        Ok(builder.plan)
+    }
+
+    fn plan_mesh(
+        &self,
+        mesh: &Mesh,
+        materials: &mut Materials<'_>,
+        builder: &mut DrawPlanBuilder,
+    ) -> Result<(), RenderError> {
+        let is_unshared = self.style.needs_unshared_vertices() || mesh.normals.is_empty();
+        let has_points_or_lines = !mesh.lines.is_empty() || !mesh.points.is_empty();
+        let shared = (!is_unshared && !mesh.triangles.is_empty() || has_points_or_lines)
+            .then(|| MeshStreams::shared(mesh, &self.view.space, self.device, self.workers))
+            .transpose()?;
+        if !mesh.triangles.is_empty() {
+            let unshared;
+            let streams = match &shared {
+                Some(shared) if !is_unshared => shared,
+                _ => {
+                    let attributes = FaceAttributes {
+                        lit_at: if self.style.needs_face_centers() {
+                            LitAt::Centroid
+                        } else {
+                            LitAt::Vertices
+                        },
+                        first_number: (self.style.shading == Shading::FaceId)
+                            .then_some(builder.first_number),
+                    };
+                    unshared = unshared_streams(mesh, attributes, &self.view.space, self.device)?;
+                    &unshared
+                }
+            };
+            self.plan_triangles(mesh, streams, is_unshared, materials, builder)?;
+        }
+        builder.first_number += mesh.triangles.len();
+        if let Some(shared) = &shared {
+            self.plan_points_and_lines(mesh, shared, builder)?;
+        }
+        Ok(())
+    }
+
+    /// The triangles' vertex indices, unchanged.
+    pub(super) fn index_buffer(&self, mesh: &Mesh) -> Result<BufferSlice, BufferError> {
+        /// Indices of a piece: some hundred microseconds of work, because touching new memory costs
+        /// more than copying.
+        const PIECE: usize = 1 << 16;
+        let corners = mesh.triangles.as_flattened();
+        let mut words = vec![0; corners.len()];
+        let parts = words.chunks_mut(PIECE).zip(corners.chunks(PIECE));
+        self.workers
+            .map(parts, |(to, from)| to.copy_from_slice(from));
+        self.index_buffer_of(words)
+    }
+
+    pub(super) fn index_buffer_of(&self, indices: Vec<u32>) -> Result<BufferSlice, BufferError> {
+        let buffer = self.device.create_buffer_of_words(indices)?;
+        Ok(BufferSlice::from(&buffer))
+    }
+}
+
+/// The vertex buffers of a pipeline's draws.
+pub(super) fn buffers_of(pipeline: &StreamPipeline, streams: &MeshStreams) -> Vec<BufferSlice> {
+    pipeline
+        .streams
+        .iter()
+        .map(|&stream: &VertexStream| streams.get(stream).buffer())
+        .collect()
+}
+
+/// A number of elements as draws count them.
+pub(super) fn element_count(elements: usize) -> Result<u32, RenderError> {
+    u32::try_from(elements).map_err(|_| RenderError::TooManyElements { elements })
+}
