@@ -4,7 +4,7 @@ use estampe::Level;
 use estampe_assets::ModelFormat;
 use estampe_assets::image::ImageFormat;
 use estampe_renderer::transforms::round_to_f32;
-use estampe_renderer::{CullMode, Shading, Up, ViewDirection};
+use estampe_renderer::{Up, ViewDirection};
 use estampe_scene::UpAxis;
 use glam::DVec3;
 use std::path::{Path, PathBuf};
@@ -287,72 +287,6 @@ impl From<ViewName> for ViewDirection {
             ViewName::Right => Self::RIGHT,
             ViewName::Top => Self::TOP,
             ViewName::Bottom => Self::BOTTOM,
-        }
-    }
-}
-
-/// Names of shadings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum ShadingName {
-    /// Lighting once per face
-    Flat,
-    /// Lighting at the vertices, interpolated
-    Gouraud,
-    /// Lighting at every pixel
-    Phong,
-    /// Lighting at every pixel, in four steps
-    Toon,
-    /// Lighting once per face, in four steps
-    ToonFlat,
-    /// Lighting at the vertices, interpolated, in four steps
-    ToonGouraud,
-    /// Colours and textures without lighting
-    Unlit,
-    /// Edges; faces hide the edges behind them
-    Wireframe,
-    /// Normals as colours: red right, green up, blue towards the eye
-    Normals,
-    /// White near, black far
-    Depth,
-    /// Texture coordinates: u red, v green
-    Uv,
-}
-
-impl From<ShadingName> for Shading {
-    fn from(name: ShadingName) -> Self {
-        match name {
-            ShadingName::Flat => Self::Flat,
-            ShadingName::Gouraud => Self::Gouraud,
-            ShadingName::Phong => Self::Phong,
-            ShadingName::Toon => Self::Toon,
-            ShadingName::ToonFlat => Self::ToonFlat,
-            ShadingName::ToonGouraud => Self::ToonGouraud,
-            ShadingName::Unlit => Self::Unlit,
-            ShadingName::Wireframe => Self::Wireframe,
-            ShadingName::Normals => Self::Normals,
-            ShadingName::Depth => Self::Depth,
-            ShadingName::Uv => Self::Uv,
-        }
-    }
-}
-
-/// Names of cull modes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum CullName {
-    /// None: both sides of every face are drawn
-    None,
-    /// Faces that face away
-    Back,
-    /// Faces that face the viewer
-    Front,
-}
-
-impl From<CullName> for CullMode {
-    fn from(name: CullName) -> Self {
-        match name {
-            CullName::None => Self::None,
-            CullName::Back => Self::Back,
-            CullName::Front => Self::Front,
         }
     }
 }

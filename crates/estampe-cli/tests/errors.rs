@@ -91,6 +91,8 @@ fn wrong_usage_is_2() {
         "render builtin:cube -o - --threads 0",
         "render builtin:cube -o - --simd mmx",
         "render builtin:cube -o - --shading pretty",
+        "render builtin:cube -o - --shading wireframe --wireframe",
+        "render builtin:cube -o - --transparency right",
         "render builtin:cube -o - --elevation 91",
         "render builtin:cube -o - --up x",
         "render - -o -",

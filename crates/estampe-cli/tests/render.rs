@@ -136,6 +136,9 @@ fn every_shading_has_its_own_look_at_every_level() {
         "normals",
         "depth",
         "uv",
+        "face-id",
+        "barycentric",
+        "overdraw",
     ] {
         let levels = [Level::all_available()[0], Level::best()];
         let pictures = levels.map(|level| {

@@ -14,7 +14,7 @@ mod support;
 use std::path::Path;
 use support::{Folder, Run};
 
-/// Rows: F3.
+/// Rows: D6, F3, I3.
 #[test]
 fn the_commands_of_the_page_draw_its_pictures() {
     let drawn = page::check_page("render");

@@ -27,8 +27,8 @@ files in the same way, --up y rotates nothing, and --up x,y,z rotates nothing an
 Exit codes: 0 success, 1 the model is missing or invalid, 2 wrong usage, 3 the image cannot be written.
 
 With --json one object is written to standard output, or to standard error with -o -: model, format, output \
-{path, format, width, height, samples, bytes}, shading, threads, simd, camera, counts {meshes, vertices, \
-triangles, lines, points, materials, textures}, pipeline {vertices_shaded, primitives_in, \
+{path, format, width, height, samples, bytes}, shading, transparency {method, layers or null}, threads, simd, \
+camera, counts {meshes, vertices, triangles, lines, points, materials, textures}, pipeline {vertices_shaded, primitives_in, \
 primitives_clipped, primitives_culled, primitives_binned, fragments_shaded}, timings_ms {read, parse, \
 texture, device, prepare, geometry, raster, read_back, encode, write, total}, warnings [text], \
 warning_count. The time of parse includes the computation of missing normals. An error gives {error, exit_code}.")]

@@ -34,7 +34,7 @@ pub(crate) fn draw(
     start: Instant,
     progress: &Progress,
 ) -> Result<Drawn, Failure> {
-    args.illumination.check()?;
+    args.check()?;
     check_drawable(model)?;
     let texture_start = Instant::now();
     let texture = texture_of(model, args)?;
@@ -76,7 +76,7 @@ pub(crate) fn prepare(
     args: &PictureArgs,
     default_view: ViewDirection,
 ) -> Result<(RenderOptions, Device), Failure> {
-    args.illumination.check()?;
+    args.check()?;
     check_drawable(model)?;
     let options = args.options(default_view, texture_of(model, args)?);
     Ok((options, device(args)?))

@@ -5,6 +5,7 @@
 //!           -> encode -> output (complete or not at all), report
 //! ```
 
+mod appearance_names;
 mod arguments;
 mod command;
 mod draw;

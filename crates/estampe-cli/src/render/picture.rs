@@ -1,8 +1,10 @@
 //! The options of a picture, which all commands that draw have, and the renderer's options from
 //! them.
 
+use super::appearance_names::{CullName, ShadingName, TransparencyName};
 use super::illumination::IlluminationArgs;
-use crate::values::{self, Background, CullName, ShadingName, ViewName};
+use crate::failure::Failure;
+use crate::values::{self, Background, ViewName};
 use clap::Args;
 use estampe::Level;
 use estampe_renderer::{CameraOptions, Eye, ProjectionKind, RenderOptions, Up, ViewDirection};
@@ -61,13 +63,16 @@ pub(crate) struct PictureArgs {
     #[arg(help_heading = "Camera")]
     pub(crate) margin: f64,
 
-    /// Shading: flat, gouraud, phong, toon, unlit, wireframe, normals, depth, uv (see --help)
+    /// Shading: flat, gouraud, phong, toon, unlit, wireframe, normals, depth, uv, … (see --help)
     ///
     /// flat: lighting once per face; gouraud: lighting at the vertices; phong: lighting at every
     /// pixel; toon, toon-flat, toon-gouraud: lighting at every pixel, once per face or at the
     /// vertices, in steps; unlit: colours and textures without lighting; wireframe: edges, hidden
     /// by faces; normals: red right, green up, blue towards the eye; depth: white near, black far;
-    /// uv: u red, v green. The last three store numbers without sRGB encoding.
+    /// uv: u red, v green; face-id: a colour for each triangle, by its number; barycentric: red,
+    /// green and blue at the corners of each triangle; overdraw: how many fragments each pixel has,
+    /// hidden ones too, from black over red to yellow. The last six store numbers without sRGB
+    /// encoding.
     #[arg(
         long,
         value_name = "STYLE",
@@ -101,6 +106,25 @@ pub(crate) struct PictureArgs {
     #[arg(help_heading = "Appearance")]
     pub(crate) cull: CullName,
 
+    /// Transparent surfaces: sorted, exact or weighted (see --help)
+    ///
+    /// sorted: triangles from the farthest centre on, wrong where they cross; exact: the fragments
+    /// of each sample from the farthest on, by depth peeling, two passes for each of up to 128
+    /// layers; weighted: depth-weighted means of all fragments, one pass.
+    #[arg(
+        long,
+        value_name = "METHOD",
+        value_enum,
+        default_value = "sorted",
+        hide_possible_values = true
+    )]
+    #[arg(help_heading = "Appearance")]
+    pub(crate) transparency: TransparencyName,
+
+    /// Draw the edges of all triangles over the shaded surfaces
+    #[arg(long, help_heading = "Appearance")]
+    pub(crate) wireframe: bool,
+
     /// Samples per pixel: 1, or 4 for smooth edges
     #[arg(long, value_name = "N", default_value = "4", value_parser = ["1", "4"])]
     #[arg(hide_possible_values = true, help_heading = "Appearance")]
@@ -130,6 +154,17 @@ pub(crate) struct ReportArgs {
 }
 
 impl PictureArgs {
+    /// Refuses combinations of options that would have no effect.
+    pub(super) fn check(&self) -> Result<(), Failure> {
+        if self.wireframe && self.shading == ShadingName::Wireframe {
+            return Err(Failure::Usage(
+                "--shading wireframe draws edges alone; omit --wireframe, or choose another shading"
+                    .to_owned(),
+            ));
+        }
+        self.illumination.check()
+    }
+
     /// The samples per pixel.
     pub(super) fn sample_count(&self) -> u32 {
         if self.samples == "1" { 1 } else { 4 }
@@ -170,6 +205,8 @@ impl PictureArgs {
             texture,
             background: self.background.0,
             cull: self.cull.into(),
+            transparency: self.transparency.into(),
+            wireframe: self.wireframe,
             ..RenderOptions::default()
         };
         self.illumination.apply(options)

@@ -38,6 +38,10 @@ impl Report<'_> {
     /// Writes the warnings, and the object or the line of text, as the options say.
     pub(crate) fn write(&self, args: &ReportArgs) -> Result<(), Failure> {
         let (width, height) = self.args.size;
+        if let Some(warning) = self.unpeeled().filter(|_| !args.quiet) {
+            // If standard error is closed, the warning is lost.
+            let _ = writeln!(io::stderr(), "warning: {warning}");
+        }
         let output = output_name(self.output);
         let subject = format!("{output}: {width}x{height}");
         write(
@@ -50,8 +54,23 @@ impl Report<'_> {
         )
     }
 
+    /// The warning of a picture with more layers than are peeled.
+    fn unpeeled(&self) -> Option<String> {
+        let layers = self.drawn.frame.layers?;
+        (!layers.is_complete).then(|| {
+            format!(
+                "more than {} layers of transparent surfaces: those in front of them are sorted by \
+                 triangles",
+                layers.count
+            )
+        })
+    }
+
     fn json(&self) -> Value {
         let shading = self.args.shading.to_possible_value();
+        let transparency = self.args.transparency.to_possible_value();
+        let warnings = self.model.warnings.iter().map(ToString::to_string);
+        let warnings: Vec<String> = warnings.chain(self.unpeeled()).collect();
         let Drawn {
             device, written, ..
         } = self.drawn;
@@ -67,14 +86,18 @@ impl Report<'_> {
                 "bytes": written.bytes,
             },
             "shading": shading.as_ref().map(clap::builder::PossibleValue::get_name),
+            "transparency": {
+                "method": transparency.as_ref().map(clap::builder::PossibleValue::get_name),
+                "layers": self.drawn.frame.layers.map(|layers| layers.count),
+            },
             "threads": device.threads(),
             "simd": device.level().name(),
             "camera": self.camera(),
             "counts": counts(self.model),
             "pipeline": self.pipeline(),
             "timings_ms": self.timings(),
-            "warnings": self.model.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
-            "warning_count": self.model.warning_count,
+            "warnings": warnings,
+            "warning_count": self.model.warning_count + u64::from(self.unpeeled().is_some()),
         });
         if let Some(shape) = &self.shape {
             object["shape"] = shape.clone();
