@@ -29,6 +29,8 @@ use std::time::Instant;
 pub struct Context {
     level: Level,
     executor: Executor,
+    /// The calling thread, for passes whose shaders store in an order that can be seen.
+    alone: Executor,
     /// Memory that no pass uses now: one for each pass that was drawn beside others.
     memory: Mutex<Vec<Memory>>,
 }
@@ -115,6 +117,7 @@ impl Context {
         Self {
             level,
             executor,
+            alone: Executor::alone(),
             memory,
         }
     }
@@ -191,6 +194,7 @@ impl Context {
         memory: &mut Memory,
     ) -> Result<Statistics, RenderPassError> {
         let mut statistics = Statistics::default();
+        let executor = self.executor_of(pass.draws);
         let mut cursor = DrawCursor::new(pass.draws);
         let mut batch = DrawBatch {
             states: recycled(std::mem::take(&mut memory.lists.states)),
@@ -201,7 +205,7 @@ impl Context {
         let mut is_cancelled = false;
         loop {
             let start = Instant::now();
-            let more = cursor.next_batch(&self.executor, target, &mut batch);
+            let more = cursor.next_batch(executor, target, &mut batch);
             if !more && clear.is_done() {
                 break;
             }
@@ -209,15 +213,15 @@ impl Context {
                 is_cancelled = true;
                 break;
             }
-            self.shade_vertices(&batch, memory);
+            self.shade_vertices(executor, &batch, memory);
             let chunks = self.build_chunks(&batch, target.samples() as usize, memory);
             statistics.geometry += start.elapsed();
             let start = Instant::now();
             statistics += self.draw_tiles(
-                target,
+                executor,
+                (&mut *target, &clear, pass.occlusion_queries),
                 &batch,
                 chunks,
-                (&clear, pass.occlusion_queries),
                 memory,
             );
             statistics.raster += start.elapsed();
@@ -241,21 +245,29 @@ impl Context {
         &self.executor
     }
 
+    /// The threads that may draw a pass.
+    fn executor_of(&self, draws: &[Draw<'_>]) -> &Executor {
+        if draws.iter().any(|draw| draw.pipeline.key().stores_in_order) {
+            &self.alone
+        } else {
+            &self.executor
+        }
+    }
+
     /// Geometry, first half: every vertex of the batch is shaded once and taken to the window.
-    fn shade_vertices(&self, batch: &DrawBatch<'_>, memory: &mut Memory) {
+    fn shade_vertices(&self, executor: &Executor, batch: &DrawBatch<'_>, memory: &mut Memory) {
         memory.vertices.resize_for(batch.spans());
         let mut jobs = recycled(std::mem::take(&mut memory.lists.vertex_jobs));
         memory
             .vertices
             .split(batch.spans(), VERTEX_CHUNK, &mut jobs);
-        self.executor
-            .for_each(&mut jobs, &memory.shading, |job, scratch| {
-                let sub_draw = &batch.sub_draws[job.sub_draw];
-                let source = sub_draw.vertex_source();
-                let transform = &batch.plan(sub_draw).transform;
-                let out = &mut job.out;
-                shade(self.level, &source, transform, job.first, out, scratch);
-            });
+        executor.for_each(&mut jobs, &memory.shading, |job, scratch| {
+            let sub_draw = &batch.sub_draws[job.sub_draw];
+            let source = sub_draw.vertex_source();
+            let transform = &batch.plan(sub_draw).transform;
+            let out = &mut job.out;
+            shade(self.level, &source, transform, job.first, out, scratch);
+        });
         memory.lists.vertex_jobs = recycled(jobs);
     }
 
@@ -300,10 +312,10 @@ impl Context {
     /// The tile side: every tile consumes the chunks in order.
     fn draw_tiles(
         &self,
-        target: &mut RenderTarget,
+        executor: &Executor,
+        (target, clear, occlusion_queries): (&mut RenderTarget, &Clear, Option<&OcclusionQueries>),
         batch: &DrawBatch<'_>,
         chunks: usize,
-        (clear, occlusion_queries): (&Clear, Option<&OcclusionQueries>),
         memory: &mut Memory,
     ) -> Statistics {
         let chunks = &memory.chunks[..chunks];
@@ -341,24 +353,21 @@ impl Context {
         let mut statistics = Statistics::default();
         match facts.samples {
             1 if !self.level.is_scalar() => {
-                self.executor
-                    .for_each(&mut jobs, &memory.tiles_1, |job, scratch| {
-                        tile_pass::draw(&pass, job, scratch);
-                    });
+                executor.for_each(&mut jobs, &memory.tiles_1, |job, scratch| {
+                    tile_pass::draw(&pass, job, scratch);
+                });
                 take_statistics(&mut memory.tiles_1, &mut statistics);
             }
             4 if !self.level.is_scalar() => {
-                self.executor
-                    .for_each(&mut jobs, &memory.tiles_4, |job, scratch| {
-                        tile_pass::draw(&pass, job, scratch);
-                    });
+                executor.for_each(&mut jobs, &memory.tiles_4, |job, scratch| {
+                    tile_pass::draw(&pass, job, scratch);
+                });
                 take_statistics(&mut memory.tiles_4, &mut statistics);
             }
             _ => {
-                self.executor
-                    .for_each(&mut jobs, &memory.tiles_many, |job, scratch| {
-                        tile_pass::draw(&pass, job, scratch);
-                    });
+                executor.for_each(&mut jobs, &memory.tiles_many, |job, scratch| {
+                    tile_pass::draw(&pass, job, scratch);
+                });
                 take_statistics(&mut memory.tiles_many, &mut statistics);
             }
         }

@@ -40,10 +40,7 @@ impl Executor {
         let available = || std::thread::available_parallelism().map_or(1, usize::from);
         let threads = if threads == 0 { available() } else { threads };
         if threads == 1 {
-            return Ok(Self {
-                helpers: None,
-                profiler: None,
-            });
+            return Ok(Self::alone());
         }
         let builder = rayon::ThreadPoolBuilder::new()
             .num_threads(threads - 1)
@@ -62,6 +59,14 @@ impl Executor {
     pub(crate) fn on_pool(pool: Arc<ThreadPool>) -> Self {
         Self {
             helpers: Some(pool),
+            profiler: None,
+        }
+    }
+
+    /// An executor of the calling thread.
+    pub(crate) fn alone() -> Self {
+        Self {
+            helpers: None,
             profiler: None,
         }
     }

@@ -37,6 +37,8 @@ pub(crate) struct StageKey {
     pub(crate) blends_blocks: bool,
     /// Packets may hold quads of several triangles.
     pub(crate) shares_packets: bool,
+    /// Fragments store, and what they store may depend on their order.
+    pub(crate) stores_in_order: bool,
     /// Fragments are shaded once for each sample.
     pub(crate) per_sample: bool,
     /// The alpha of target 0 selects samples.
@@ -75,7 +77,10 @@ impl StageKey {
             && primitive.polygon_mode == PolygonMode::Fill;
         let keeps_coverage = interface.reads_coverage || has_centroids;
         let is_shaded_by_pixel = !per_sample && !interface.per_sample && !keeps_coverage;
-        let shares_packets = fills_triangles && is_shaded_by_pixel;
+        // Packets that several triangles share would be shaded in an order that depends on the SIMD
+        // level.
+        let stores_in_order = interface.stores && !interface.stores_in_any_order;
+        let shares_packets = fills_triangles && is_shaded_by_pixel && !stores_in_order;
         let smooth_lines = primitive.line.rasterization == LineRasterization::RectangularSmooth;
         // A program of a caller's own may claim more than it has, and smooth lines scale alpha
         // after shading.
@@ -117,6 +122,7 @@ impl StageKey {
                 && interface.varyings[..4] == [Interpolation::Smooth; 4]
                 && first.is_some_and(ColorTarget::is_source_over),
             shares_packets,
+            stores_in_order,
             per_sample,
             alpha_to_coverage,
             keeps_coverage,

@@ -125,6 +125,11 @@ impl<const N: usize> CoverageList<N> {
         self.len = kept;
     }
 
+    /// Puts the packets in the order of their numbers, which is the same at every SIMD level.
+    pub(crate) fn sort(&mut self) {
+        self.items[..self.len].sort_unstable_by_key(|item| item.packet);
+    }
+
     /// Clips the list to a rectangle of the tile's pixels.
     pub(crate) fn clip(&mut self, rect: &PixelRect) {
         self.retain(|item| {

@@ -2,7 +2,7 @@
 
 use super::form::{Coefficient, Form, Symbol, Variable};
 use estampe_ir::interface::Input;
-use estampe_ir::op::{Atomic, Binary, Compare, Memory, TextureQuery};
+use estampe_ir::op::{Atomic, Binary, Compare, Memory, TextureQuery, Unary};
 use estampe_ir::tree::{Label, Node, Tree};
 use estampe_ir::{Op, Value};
 use std::collections::{HashMap, HashSet};
@@ -64,6 +64,7 @@ impl Accesses {
             accesses,
             forms: HashMap::new(),
             masks: HashMap::new(),
+            floats: HashMap::new(),
             used: HashSet::new(),
         };
         analysis.find_uses(&tree.body);
@@ -85,12 +86,23 @@ enum Mask {
     Choice(Value, Value, Value),
 }
 
+/// A float that is known.
+#[derive(Debug, Clone, Copy)]
+enum Float {
+    /// The centre of the fragment's pixel along an axis, or a place in that pixel.
+    Position(usize),
+    /// At least as much as positions can be.
+    Large,
+}
+
 struct Analysis<'a> {
     tree: &'a Tree,
     accesses: Accesses,
     /// The words that are known, refined by the conditions on the way here.
     forms: HashMap<Value, Form>,
     masks: HashMap<Value, Mask>,
+    /// The positions of fragments, and constants.
+    floats: HashMap<Value, Float>,
     used: HashSet<Value>,
 }
 
@@ -243,6 +255,9 @@ impl Analysis<'_> {
         if let Some(mask) = mask_of(op) {
             self.masks.insert(first, mask);
         }
+        if let Some(float) = self.float_of(op) {
+            self.floats.insert(first, float);
+        }
         if let Some(form) = self.form_of(op) {
             self.forms.insert(first, form);
         }
@@ -312,6 +327,25 @@ impl Analysis<'_> {
         }
     }
 
+    fn float_of(&self, op: &Op) -> Option<Float> {
+        match *op {
+            Op::Input(at) => match self.tree.interface.inputs.get(at as usize)? {
+                Input::Position(axis @ 0..2) => Some(Float::Position(*axis as usize)),
+                _ => None,
+            },
+            Op::Constant(word) if f32::from_bits(word) >= 65_536.0 => Some(Float::Large),
+            Op::Unary(Unary::FFloor | Unary::FTrunc, a) => self.floats.get(&a).copied(),
+            // What holds floats to those that an integer can be.
+            Op::Binary(Binary::FMin, [a, b]) => {
+                match (self.floats.get(&a)?, self.floats.get(&b)?) {
+                    (Float::Large, other) | (other, Float::Large) => Some(*other),
+                    (Float::Position(_), Float::Position(_)) => None,
+                }
+            }
+            _ => None,
+        }
+    }
+
     /// The word that an operation gives, if it is known.
     fn form_of(&self, op: &Op) -> Option<Form> {
         let size = self.accesses.size;
@@ -362,6 +396,10 @@ impl Analysis<'_> {
                 })
             }
             Op::Binary(kind, [a, b]) => self.binary(*kind, &self.form(*a), &self.form(*b)),
+            Op::Unary(Unary::S32FromF32 | Unary::U32FromF32, a) => match self.floats.get(a)? {
+                Float::Position(axis) => Some(Form::variable(Variable::Pixel(*axis))),
+                Float::Large => None,
+            },
             _ => None,
         }
     }

@@ -51,6 +51,32 @@ impl Accesses {
     }
 }
 
+impl Accesses {
+    /// True if what a fragment shader stores does not depend on the order of different pixels:
+    /// texels at the fragment's own pixel, and sums whose terms nobody sees. Aliases of a texture
+    /// are the same texels at the same pixel.
+    #[must_use]
+    pub fn is_free_of_pixels(&self) -> bool {
+        let is_pixel = |form: &Form, axis: usize| *form == Form::variable(Variable::Pixel(axis));
+        let is_own = |forms: &Vec<Form>| {
+            forms.len() >= 2 && is_pixel(&forms[0], 0) && is_pixel(&forms[1], 1)
+        };
+        let buffers = self.buffers.iter().filter(|buffer| buffer.is_stored);
+        let textures = self.textures.iter().filter(|texture| texture.is_stored);
+        buffers.into_iter().all(|buffer| buffer.is_sum())
+            && textures
+                .into_iter()
+                .all(|texture| texture.forms.iter().all(is_own))
+    }
+}
+
+impl OfBuffer {
+    /// Only added to, and so on, by operations whose results are not used.
+    fn is_sum(&self) -> bool {
+        !self.others && self.atomics.len() == 1
+    }
+}
+
 impl Numbers<'_> {
     /// True if the shader knows a buffer or texture that it writes by several names.
     fn has_aliases(&self) -> bool {
@@ -77,8 +103,7 @@ impl Numbers<'_> {
     }
 
     fn is_buffer_free(&self, buffer: &OfBuffer) -> bool {
-        // Sums whose terms nobody sees.
-        if !buffer.others && buffer.atomics.len() == 1 {
+        if buffer.is_sum() {
             return true;
         }
         let determined = self.determined(&buffer.forms, 4);
@@ -176,6 +201,7 @@ impl Numbers<'_> {
             let (axis, values, is_of_groups) = match *variable {
                 Variable::Local(axis) => (axis, u64::from(size[axis]), false),
                 Variable::Group(axis) => (axis, u64::from(self.count[axis]), true),
+                Variable::Pixel(_) => return None,
                 Variable::Global(axis) => {
                     let all = u64::from(self.count[axis]) * u64::from(size[axis]);
                     let bound = form.bounds[axis].map(|bound| self.number(bound));

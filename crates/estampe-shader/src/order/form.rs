@@ -27,6 +27,8 @@ pub(super) enum Variable {
     Local(usize),
     /// The number of the invocation among those of all work-groups.
     Global(usize),
+    /// The column or row of the fragment's pixel.
+    Pixel(usize),
 }
 
 /// The sum of variables times coefficients and of a number from `low` to `high`; modulo 2³² it is

@@ -1,5 +1,6 @@
 //! What a tree tells about its shader: facts that authors need not declare.
 
+use crate::order::Accesses;
 use estampe_ir::interface::{Input, Output};
 use estampe_ir::op::LevelOfDetail;
 use estampe_ir::tree::{Node, Tree};
@@ -12,6 +13,8 @@ pub(super) struct Facts {
     pub(super) takes_derivatives: bool,
     /// It stores to memory that others can see.
     pub(super) stores: bool,
+    /// It stores only to texels at its own pixel, and adds to words that it does not read.
+    pub(super) stores_in_any_order: bool,
     /// Its result [`Output::Cover`] may be less than [`Input::Cover`].
     pub(super) discards: bool,
     /// Its colour is the first four scalars of the varyings.
@@ -23,6 +26,7 @@ impl Facts {
         let mut facts = Self {
             discards: discards(tree),
             passes_color: passes_color(tree),
+            stores_in_any_order: Accesses::of(tree).is_free_of_pixels(),
             ..Self::default()
         };
         let mut open: Vec<&[Node]> = vec![&tree.body];

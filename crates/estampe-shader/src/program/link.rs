@@ -60,6 +60,12 @@ pub enum LinkError {
         /// That of the fragment stage.
         fragment: Interpolation,
     },
+    /// The vertex shader stores.
+    #[error(
+        "the vertex shader stores to a buffer or texture: vertices may be shaded more than once; \
+         store in the fragment shader or in a compute shader"
+    )]
+    VertexStores,
     /// Work-groups are too large.
     #[error(
         "work-groups of {}x{}x{} invocations: at most {} together",

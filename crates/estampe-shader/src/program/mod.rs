@@ -62,6 +62,9 @@ impl TextProgram {
         fragment: Option<&StageSource>,
         budget: u64,
     ) -> Result<Self, LinkError> {
+        if Facts::of(&vertex.tree).stores {
+            return Err(LinkError::VertexStores);
+        }
         let links = Links::new(vertex, fragment)?;
         let interface = link::interface(vertex, fragment, &links);
         let starts = interface.attributes.iter().scan(0, |next, count| {
@@ -129,5 +132,6 @@ impl Facts {
         interface.color_passthrough = self.passes_color;
         interface.no_derivatives = !self.takes_derivatives;
         interface.stores = self.stores;
+        interface.stores_in_any_order = self.stores_in_any_order;
     }
 }

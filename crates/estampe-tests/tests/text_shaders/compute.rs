@@ -8,7 +8,7 @@ use estampe::{
 use estampe_shader::program::TextCompute;
 use std::sync::Arc;
 
-fn pipeline(device: &Device, source: &str) -> ComputePipeline {
+fn compiled(device: &Device, source: &str) -> ComputePipeline {
     let program = TextCompute::new(&stages(source)[0], 1 << 20).expect("it is small");
     let pipeline = device.create_compute_pipeline(&ComputePipelineDescriptor {
         label: Some("test"),
@@ -71,7 +71,7 @@ const SQUARES: &str = "
 fn invocations_write_buffers_and_what_is_beyond_them_is_dropped() {
     let numbers: Vec<u32> = (0..1000).map(|n| n * 3 + 1).collect();
     for (name, device) in devices() {
-        let pipeline = pipeline(&device, SQUARES);
+        let pipeline = compiled(&device, SQUARES);
         let [from, into] = [&numbers, &vec![0; 1000]].map(|words| buffer(&device, words));
         let groups = [group(&device, &pipeline, &[&from, &into])];
         run(&device, &pipeline, &groups, [42, 1, 1]);
@@ -120,7 +120,7 @@ fn barriers_order_the_memory_of_a_work_group() {
         })
         .collect();
     for (name, device) in devices() {
-        let pipeline = pipeline(&device, PREFIX_SUM);
+        let pipeline = compiled(&device, PREFIX_SUM);
         let data = buffer(&device, &numbers);
         run(
             &device,
@@ -145,7 +145,7 @@ struct List { count: atomic<u32>, items: array<u32> }
 #[test]
 fn atomics_whose_order_can_be_seen_run_in_order() {
     for (name, device) in devices() {
-        let pipeline = pipeline(&device, APPEND);
+        let pipeline = compiled(&device, APPEND);
         let list = buffer(&device, &[0; 1 + 400]);
         let histogram = buffer(&device, &[0; 4]);
         let groups = [group(&device, &pipeline, &[&list, &histogram])];
@@ -161,7 +161,7 @@ fn atomics_whose_order_can_be_seen_run_in_order() {
 #[test]
 fn a_buffer_gives_the_number_of_work_groups() {
     let device = Device::new(&Default::default()).expect("threads");
-    let pipeline = pipeline(&device, SQUARES);
+    let pipeline = compiled(&device, SQUARES);
     let [from, into] = [[2; 100], [0; 100]].map(|words| buffer(&device, &words));
     let groups = [group(&device, &pipeline, &[&from, &into])];
     let count = buffer(&device, &[9, 2, 1, 1, 70_000]);
@@ -222,7 +222,7 @@ fn what_does_not_fit_is_refused() {
         "the shader uses a read-only storage buffer at group 0, binding 0, where the bind group \
          layouts of the pipeline have nothing"
     );
-    let pipeline = pipeline(&device, SQUARES);
+    let pipeline = compiled(&device, SQUARES);
     let one = buffer(&device, &[1; 50]);
     let both = [group(&device, &pipeline, &[&one, &one])];
     let refused = |bind_groups: &[BindGroup]| {
@@ -237,6 +237,23 @@ fn what_does_not_fit_is_refused() {
         "the dispatch of `test`: a buffer is written as binding 1 of a bind group and used as \
          binding 0 of a bind group: give one of them another buffer, or use them one after the \
          other"
+    );
+    let two = compiled(
+        &device,
+        "@group(0) @binding(0) var<storage, read_write> a: array<u32>;
+         @group(0) @binding(1) var<storage, read_write> b: array<u32>;
+         @compute @workgroup_size(1) fn main() { a[0] = 1u; b[0] = 2u; }",
+    );
+    let groups = [group(&device, &two, &[&one, &one])];
+    let error = device.dispatch(&Dispatch {
+        bind_groups: &groups,
+        ..Dispatch::new(&two, [1, 1, 1])
+    });
+    assert_eq!(
+        error.unwrap_err().to_string(),
+        "the dispatch of `test`: bind group 0: binding 1 of a bind group and binding 0 of a bind \
+         group are the same memory, which the shader may write by both: bind parts that do not \
+         overlap"
     );
     assert_eq!(
         refused(&[]),

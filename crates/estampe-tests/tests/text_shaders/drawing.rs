@@ -4,7 +4,7 @@ use super::{devices, stages};
 use estampe::state::VertexBufferLayout;
 use estampe::{
     BindGroup, BindGroupDescriptor, BindingResource, ColorAttachment, Coordinates, Device, Draw,
-    FragmentIn, FragmentOut, Mat4, RenderPass, RenderPipeline, RenderPipelineDescriptor,
+    FragmentIn, FragmentOut, Mat4, Program, RenderPass, RenderPipeline, RenderPipelineDescriptor,
     SampledTexture, Sampler, SamplerDescriptor, Texture, TextureDescriptor, TextureFormat, Vec2,
     Vec3, Vec4, VertexFormat, VertexIn, VertexOut, bytes_of,
 };
@@ -192,5 +192,82 @@ fn wgsl_draws_the_bytes_of_the_same_shader_in_rust() {
         let different = bytes.iter().zip(&expected).filter(|(a, b)| a != b).count();
         assert_eq!(different, 0, "{name}");
         before = Some(expected);
+    }
+}
+
+const STORING: &str = "
+struct List { count: atomic<u32>, pixels: array<u32> }
+@group(0) @binding(0) var<storage, read_write> list: List;
+@group(0) @binding(1) var image: texture_storage_2d<r32uint, read_write>;
+@vertex fn vertex(@location(0) position: vec3f) -> @builtin(position) vec4f {
+    return vec4f(position.xy / 3.0, 0.5, 1.0);
+}
+@fragment fn fragment(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    let pixel = vec2u(at.xy);
+    list.pixels[atomicAdd(&list.count, 1u)] = pixel.y * 150u + pixel.x;
+    return vec4f(1.0);
+}
+@fragment fn counting(@builtin(position) at: vec4f) -> @location(0) vec4f {
+    let pixel = vec2i(at.xy);
+    textureStore(image, pixel, textureLoad(image, pixel) + vec4u(1u));
+    atomicAdd(&list.count, 1u);
+    return vec4f(1.0);
+}
+";
+
+/// A list of the fragments in the order in which they were shaded, which is one at every level and
+/// on every number of threads; and counts by pixel, which are shaded on all threads.
+#[test]
+fn fragments_store_in_one_order() {
+    let sources = stages(STORING);
+    let mut before: Option<[Vec<u8>; 3]> = None;
+    for (name, device) in devices() {
+        let list = device
+            .create_buffer_of_words(vec![0; 1 + 200_000])
+            .expect("it is small");
+        let descriptor = TextureDescriptor::new_2d(150, 100, TextureFormat::R32Uint);
+        let image = device.create_texture(&descriptor).expect("a small texture");
+        let mut read = Vec::new();
+        for (at, fragment) in sources[1..].iter().enumerate() {
+            let program = TextProgram::new(&sources[0], Some(fragment), 1 << 20);
+            let program = program.unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(program.interface().stores_in_any_order, at == 1);
+            let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
+                vertex_buffers: vec![VertexBufferLayout {
+                    array_stride: 32,
+                    ..VertexBufferLayout::packed(&[VertexFormat::Float32x3])
+                }],
+                depth_stencil: None,
+                ..RenderPipelineDescriptor::with_program(Arc::new(program))
+            });
+            let pipeline = pipeline.unwrap_or_else(|error| panic!("{error}"));
+            let entries = [
+                (0, BindingResource::Buffer(list.slice(..))),
+                (1, BindingResource::Texture(image.view())),
+            ];
+            let group = device.create_bind_group(&BindGroupDescriptor {
+                label: None,
+                layout: &pipeline.descriptor().bind_group_layouts[0],
+                entries: &entries[..=at],
+            });
+            drawn(
+                &device,
+                &pipeline,
+                &[group.unwrap_or_else(|error| panic!("{error}"))],
+            );
+            let mut bytes = vec![0; 4 * 200_001];
+            list.read(0, &mut bytes).expect("a readable buffer");
+            read.push(bytes);
+        }
+        read.push(device.read_texture(&image).expect("a readable texture"));
+        let count = |bytes: &[u8]| u32::from_le_bytes(bytes[..4].try_into().expect("four"));
+        let fragments = count(&read[0]);
+        assert!((5_000..200_000).contains(&fragments), "{fragments}");
+        assert_eq!(count(&read[1]), 2 * fragments, "{name}");
+        let counted: u32 = read[2].chunks(4).map(count).sum();
+        assert_eq!(counted, fragments, "{name}");
+        let read: [Vec<u8>; 3] = read.try_into().expect("three");
+        assert!(before.is_none_or(|before| before == read), "{name}");
+        before = Some(read);
     }
 }

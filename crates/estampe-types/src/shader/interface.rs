@@ -75,6 +75,9 @@ pub struct Interface {
     /// True if fragments store to memory that other invocations or draws can see. They are then
     /// shaded before the tests.
     pub stores: bool,
+    /// True if what fragments store does not depend on the order in which different pixels are
+    /// shaded. Otherwise a pass in which fragments store is drawn by one thread.
+    pub stores_in_any_order: bool,
     /// True if fragments write a second colour for blending target 0, which is then the only
     /// target.
     pub dual_source: bool,

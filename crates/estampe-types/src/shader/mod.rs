@@ -142,6 +142,10 @@ pub trait Shader: Send + Sync + 'static {
     /// must exclude [helper invocations](FragmentIn::is_helper). Vertices must not store: lanes of
     /// a packet beyond the last vertex are shaded too.
     const STORES: bool = false;
+    /// Promises that what the fragment stores does not depend on the order in which different
+    /// pixels are shaded: each pixel has texels of its own. Without the promise, a pass with this
+    /// shader is drawn by one thread, so that its bits do not depend on threads.
+    const STORES_IN_ANY_ORDER: bool = false;
     /// Declares that the fragment may set a second colour for blending
     /// ([`FragmentOut::with_second_color`]). It then has one target.
     const DUAL_SOURCE: bool = false;

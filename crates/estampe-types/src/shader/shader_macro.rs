@@ -358,6 +358,7 @@ macro_rules! __shader_constant {
     (READS_COVERAGE $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
     (WRITES_SAMPLE_MASK $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
     (STORES $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
+    (STORES_IN_ANY_ORDER $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
     (DUAL_SOURCE $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
     (COLOR_PASSTHROUGH $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
     (NO_DERIVATIVES $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };

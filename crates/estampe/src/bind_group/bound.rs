@@ -2,9 +2,11 @@
 
 use super::check::offset_alignment;
 use super::{BindGroup, BindingResource};
-use crate::{BindGroupLayout, BindingType, Limits};
+use crate::texture::TextureView;
+use crate::{BindGroupLayout, BindingType, Buffer, BufferBindingType, Limits};
 use estampe_types::bindings::BoundResources;
 use estampe_types::{Bindings, BoundGroup, MAX_DYNAMIC_OFFSETS};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A rule that the bind groups of a draw or dispatch break.
@@ -66,6 +68,74 @@ pub(crate) fn check_bound(
         let used = given - offsets.len();
         let rule = format!("{given} dynamic offsets are given, and the bind groups have {used}");
         return bad(groups.len().saturating_sub(1), rule);
+    }
+    check_aliases(groups, dynamic_offsets)
+}
+
+/// Memory that shaders write.
+#[derive(Debug)]
+enum Written<'a> {
+    Buffer(&'a Buffer, Range<u64>),
+    Texture(&'a TextureView),
+}
+
+impl Written<'_> {
+    fn overlaps(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Written::Buffer(a, x), Written::Buffer(b, y)) => {
+                a.is_same(b) && x.start < y.end && y.start < x.end
+            }
+            (Written::Texture(a), Written::Texture(b)) => {
+                a.texture().is_same(b.texture()) && a.mip_levels()[0] == b.mip_levels()[0]
+            }
+            _ => false,
+        }
+    }
+}
+
+/// Checks that no two bindings by which shaders write overlap (WebGPU's *writable resource
+/// aliasing*).
+fn check_aliases(groups: &[BindGroup], dynamic_offsets: &[u32]) -> Result<(), BoundError> {
+    let mut written: Vec<(usize, u32, Written<'_>)> = Vec::new();
+    let mut offsets = dynamic_offsets;
+    for (number, group) in groups.iter().enumerate() {
+        let (of_group, others) = offsets.split_at(group.layout().dynamic_offset_count());
+        offsets = others;
+        for (binding, resource) in group.entries() {
+            let ty = group.layout().entry(*binding).map(|entry| entry.ty);
+            let memory = match (ty, resource) {
+                (
+                    Some(BindingType::Buffer {
+                        ty: BufferBindingType::Storage { read_only: false },
+                        ..
+                    }),
+                    BindingResource::Buffer(slice),
+                ) => {
+                    let dynamic = group.layout().dynamic_offset_index(*binding);
+                    let dynamic = dynamic.and_then(|at| of_group.get(at)).copied();
+                    let start = slice.offset + u64::from(dynamic.unwrap_or(0));
+                    Written::Buffer(&slice.buffer, start..start + slice.size)
+                }
+                (Some(BindingType::StorageTexture { .. }), BindingResource::Texture(view)) => {
+                    Written::Texture(view)
+                }
+                _ => continue,
+            };
+            let same = written.iter().find(|(.., other)| other.overlaps(&memory));
+            if let Some((first, at, _)) = same {
+                let rule = format!(
+                    "binding {binding} of {} and binding {at} of {} are the same memory, which the \
+                     shader may write by both: bind parts that do not overlap",
+                    group.name(),
+                    groups[*first].name()
+                );
+                return Err(BoundError {
+                    group: number,
+                    rule,
+                });
+            }
+            written.push((number, *binding, memory));
+        }
     }
     Ok(())
 }

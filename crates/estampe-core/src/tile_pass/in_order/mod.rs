@@ -105,6 +105,7 @@ fn draw_entries<S: Lanes, const N: usize>(
         uses_hiz: plan.timing != TestTiming::Late,
         blends_blocks: plan.path == TilePath::InOrderBlocks,
         shares_packets: plan.path != TilePath::InOrderPackets,
+        stores_in_order: pipeline.key().stores_in_order,
         passed: 0,
         planes,
         smooth: None,
@@ -145,6 +146,8 @@ struct InOrder<'a, 'j, 't, const N: usize> {
     blends_blocks: bool,
     /// True if quads of several triangles share packets.
     shares_packets: bool,
+    /// True if shaders store in an order that can be seen.
+    stores_in_order: bool,
     /// Samples that passed all tests, where a query counts them.
     passed: u64,
     /// Planes of the triangle at hand.
@@ -164,6 +167,9 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
         let Some(coverage) = self.cover(s, (packet, lane), &plane, blends_blocks) else {
             return;
         };
+        if self.stores_in_order {
+            self.scratch.in_order.list.sort();
+        }
         let mut interpolant = TriangleInterpolant {
             origin: PlaneOrigin::new(packet, lane),
             z: plane.z,

@@ -68,6 +68,7 @@ pub(super) fn declared<T: Shader>() -> Result<Interface, ShaderError> {
         writes_sample_mask: T::WRITES_SAMPLE_MASK,
         dual_source: T::DUAL_SOURCE,
         stores: T::STORES,
+        stores_in_any_order: T::STORES_IN_ANY_ORDER,
         ..Interface::default()
     };
     T::Attributes::<f32>::components(&mut interface.attributes);
