@@ -1,0 +1,206 @@
+//! WGSL: parsed by naga, whose messages speak of the text.
+
+use std::collections::BTreeSet;
+
+use naga::front::wgsl;
+
+use super::lines::Lines;
+use super::validate::CAPABILITIES;
+use super::{ShaderError, ShaderErrors, suggest};
+
+/// Parses WGSL.
+pub(super) fn parse(text: &str) -> Result<naga::Module, ShaderErrors> {
+    let options = wgsl::Options {
+        parse_doc_comments: false,
+        capabilities: CAPABILITIES,
+    };
+    let mut frontend = wgsl::Frontend::new_with_options(options);
+    frontend
+        .parse(text)
+        .map_err(|error| describe(text, &error).into())
+}
+
+fn describe(text: &str, error: &wgsl::ParseError) -> ShaderError {
+    let lines = Lines::new(text);
+    let mut labels_and_notes = error.labels().map(|(_, label)| label).chain(error.notes());
+    let nests = labels_and_notes.any(|text| text.contains("recursion limit"));
+    let message = if nests {
+        TOO_DEEP.to_owned()
+    } else {
+        plain(error.message())
+    };
+    let mut described = ShaderError::new(message.trim_end_matches('.'));
+    let mut labels = error.labels();
+    let first = labels
+        .next()
+        .and_then(|(span, label)| Some((span.to_range()?, label)));
+    let Some((range, label)) = first else {
+        return described;
+    };
+    described = described.at(&lines, range.start, range.end);
+    let mut advice: Vec<String> = Vec::new();
+    if let Some(near) = near_name(text, &message) {
+        advice.push(format!("did you mean `{near}`?"));
+    }
+    let adds_nothing = USELESS_LABELS.contains(&label) || label.starts_with("definition of");
+    if !label.is_empty() && !message.contains(label) && !adds_nothing && !nests {
+        advice.push(label.to_owned());
+    }
+    for (span, label) in labels.filter(|(_, label)| !label.is_empty()) {
+        if let Some(range) = span.to_range() {
+            let line = lines.place(range.start, range.end).line;
+            advice.push(format!("line {line}: {label}"));
+        }
+    }
+    if !nests {
+        advice.extend(error.notes().map(str::to_owned));
+    }
+    if !advice.is_empty() {
+        described = described.help(advice.join("; "));
+    }
+    described
+}
+
+/// What is said of texts that nest more deeply than naga follows.
+const TOO_DEEP: &str = "expressions or statements nest too deeply";
+
+/// Labels of naga that repeat the message, or say nothing of the text.
+const USELESS_LABELS: &[&str] = &[
+    "see msg",
+    "invalid accessor",
+    "unknown identifier",
+    "cannot assign to this expression",
+];
+
+/// A message of naga in plain words.
+fn plain(message: &str) -> String {
+    if message.contains("nesting limit") {
+        return TOO_DEEP.to_owned();
+    }
+    if let Some(before) = message.strip_suffix("found \"\"") {
+        return format!("{before}found the end of the file");
+    }
+    let mut characters = message.chars();
+    match characters.next() {
+        Some(first) => first.to_lowercase().chain(characters).collect(),
+        None => String::new(),
+    }
+}
+
+/// A name of the text or of the language near the unknown one that the message quotes.
+fn near_name<'a>(text: &'a str, message: &str) -> Option<&'a str> {
+    let unknown = [
+        "no definition in scope for identifier",
+        "unknown type",
+        "unknown builtin",
+        "unknown attribute",
+    ];
+    if !unknown.iter().any(|start| message.starts_with(start)) {
+        return None;
+    }
+    let name = message.split('`').nth(1)?;
+    let name = name.trim_matches('\'');
+    let words = words(text);
+    let known = words.into_iter().chain(BUILTINS.iter().copied());
+    suggest::nearest(name, known)
+}
+
+/// The distinct identifiers of a text.
+fn words(text: &str) -> BTreeSet<&str> {
+    text.split(|character: char| !character.is_alphanumeric() && character != '_')
+        .filter(|word| word.starts_with(|first: char| first.is_alphabetic() || first == '_'))
+        .collect()
+}
+
+/// Names of the language that are mistyped most.
+const BUILTINS: &[&str] = &[
+    "abs",
+    "acos",
+    "all",
+    "any",
+    "array",
+    "asin",
+    "atan",
+    "atan2",
+    "bool",
+    "ceil",
+    "clamp",
+    "cos",
+    "cross",
+    "degrees",
+    "distance",
+    "dot",
+    "dpdx",
+    "dpdy",
+    "exp",
+    "exp2",
+    "f16",
+    "f32",
+    "floor",
+    "fract",
+    "fwidth",
+    "i32",
+    "inverseSqrt",
+    "length",
+    "log",
+    "log2",
+    "mat2x2f",
+    "mat3x3f",
+    "mat4x4f",
+    "max",
+    "min",
+    "mix",
+    "normalize",
+    "pow",
+    "radians",
+    "reflect",
+    "refract",
+    "round",
+    "saturate",
+    "select",
+    "sign",
+    "sin",
+    "smoothstep",
+    "sqrt",
+    "step",
+    "tan",
+    "tanh",
+    "textureDimensions",
+    "textureLoad",
+    "textureSample",
+    "textureSampleCompare",
+    "textureSampleLevel",
+    "textureStore",
+    "transpose",
+    "trunc",
+    "u32",
+    "vec2",
+    "vec2f",
+    "vec2i",
+    "vec2u",
+    "vec3",
+    "vec3f",
+    "vec3i",
+    "vec3u",
+    "vec4",
+    "vec4f",
+    "vec4i",
+    "vec4u",
+];
+
+/// The bytes of a function's name where the text declares it.
+pub(super) fn declaration(text: &str, name: &str) -> Option<core::ops::Range<usize>> {
+    let is_word = |character: char| character.is_alphanumeric() || character == '_';
+    let mut from = 0;
+    while let Some(found) = text[from..].find(name) {
+        let start = from + found;
+        let end = start + name.len();
+        let before = text[..start].trim_end();
+        let is_whole = !text[end..].starts_with(is_word) && before.len() < start;
+        if is_whole && before.ends_with("fn") && !before[..before.len() - 2].ends_with(is_word) {
+            return Some(start..end);
+        }
+        from = end.max(start + 1);
+    }
+    None
+}
