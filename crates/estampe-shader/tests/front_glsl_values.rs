@@ -258,6 +258,19 @@ fn functions_and_loops() {
     );
 }
 
+/// Functions that are declared first and defined after their use.
+#[test]
+fn prototypes_are_enough_before_a_call() {
+    check(
+        "float twice(float x); float half_of(in float x);\n\
+         float both(float x) { return twice(x) + half_of(x); }\n\
+         float half_of(in float x) { return twice(x) * 0.25; }\n\
+         float twice(float x) { return x + x; }",
+        "c = vec4(both(v.y), half_of(v.w), twice(v.x), v.z);",
+        [5.0, 2.0, 2.0, 3.0],
+    );
+}
+
 /// Types that buffers hold otherwise: the author's offsets are those of std140.
 #[test]
 fn uniforms_that_naga_cannot_lay_out() {

@@ -15,7 +15,7 @@
 //! | `resources`, `opaque` | groups and bindings; combined textures and samplers |
 //! | `host` | types that buffers hold otherwise: `bool`, `mat2`, small structures |
 //! | `write`, `uniforms`, `output` | the rewritten text, and the author's places in it |
-//! | `body`, `indices`, `builtins` | functions and initial values, token by token |
+//! | `body`, `order`, `indices`, `builtins` | functions and initial values, token by token |
 //! | `mend` | what naga's modules of GLSL lack |
 //! | `errors`, `functions`, `fault` | naga's errors in the words of GLSL |
 //!
@@ -37,6 +37,7 @@ mod mend;
 mod nesting;
 mod number;
 mod opaque;
+mod order;
 mod output;
 mod preprocess;
 mod qualify;

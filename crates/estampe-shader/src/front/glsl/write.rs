@@ -1,7 +1,7 @@
 //! Writing a shader as the GLSL of Vulkan that naga reads.
 //!
-//! Order: structures · the block of loose uniforms · variables and functions as the author has
-//! them · `main`. The author's `main` gets another name; the new one copies what naga cannot take
+//! Order: structures · the block of loose uniforms · variables in the author's order ·
+//! functions · `main`. The author's `main` gets another name; the new one copies what naga cannot take
 //! as it is from inputs and uniforms, sets global variables, calls the author's, and copies to the
 //! outputs.
 
@@ -17,6 +17,7 @@ use super::body::Scopes;
 use super::builtins;
 use super::host::{Hosts, sizes};
 use super::link::Locations;
+use super::order;
 use super::output::Output;
 use super::resources::Resources;
 use super::token::Place;
@@ -107,8 +108,11 @@ impl<'a> Writer<'a> {
             match item {
                 Item::Variable(variable) => self.variable(variable)?,
                 Item::Block(block) => self.block(block)?,
-                Item::Function(function) => self.function(function)?,
+                Item::Function(_) => {}
             }
+        }
+        for function in order::functions(unit) {
+            self.function(function)?;
         }
         self.main()?;
         Ok((self.output, self.names))
