@@ -1,22 +1,23 @@
 #![forbid(unsafe_code)]
 //! **estampe**: a complete GPU in software. The whole real-time graphics pipeline on the CPU,
-//! programmable in Rust, with the same bits on every machine, and no driver, display or system
-//! library.
+//! programmable in Rust, WGSL and GLSL, with the same bits on every machine, and no driver, display
+//! or system library.
 //!
 //! The API has WebGPU's nouns: a [`Device`] creates [`Buffer`]s, [`Texture`]s, [`BindGroup`]s and
 //! [`RenderPipeline`]s, and draws a [`RenderPass`] of [`Draw`]s into views of textures. A shader is
-//! a Rust value that implements [`Shader`]: see [`shader!`], and `docs/from-glsl.md` for those who
-//! know GLSL or WGSL. It finds the textures that a draw binds through [`TextureBindings`].
-//! [`Mat4`] has the transforms of models and cameras, [`transforms`] all of them in f64. Spaces,
-//! rounding and the order of every operation are in
-//! `docs/NUMERICS.md`.
+//! text, of which [`Device::create_shader_module`] makes a [`ShaderModule`], or a Rust value that
+//! implements [`Shader`]: see [`shader!`], and `docs/from-glsl.md` for those who know GLSL or WGSL.
+//! It finds the textures that a draw binds through [`TextureBindings`]. [`Mat4`] has the transforms
+//! of models and cameras, [`transforms`] all of them in f64. Spaces, rounding and the order of
+//! every operation are in `docs/NUMERICS.md`.
 //!
 //! # Features
 //!
-//! None is on by default.
+//! `shader-text` is on by default.
 //!
 //! | feature | adds |
 //! |---|---|
+//! | `shader-text` | shaders as text: WGSL, GLSL and SPIR-V; a Rust shader needs none of it, and builds faster without |
 //! | `image` | `Device::create_texture_from_image` and `Device::read_image`: textures and the `image` crate |
 //! | `png` | `Device::encode_png` and `Device::write_png`: textures as PNG files |
 //! | `scalar-level` | the scalar SIMD level, for tests |
@@ -55,6 +56,8 @@ mod png_file;
 mod rgba;
 #[cfg(feature = "image")]
 mod rgba_image;
+#[cfg(feature = "shader-text")]
+mod shader_module;
 mod texture;
 pub mod transforms;
 
@@ -131,6 +134,13 @@ pub use pass::{
 };
 #[cfg(feature = "png")]
 pub use png_file::PngError;
+#[cfg(feature = "shader-text")]
+pub use shader_module::{
+    ClipSpace, EntryPoint, EntryPointDescriptor, GlslDialect, ProgramDescriptor, Reflection,
+    ScalarType, ShaderErrors, ShaderModule, ShaderModuleDescriptor, ShaderModuleError,
+    ShaderSource, ShaderSourceError, ShaderStage, UniformBlock, UniformError, UniformMember,
+    UniformValue, Uniforms, ValueType,
+};
 pub use texture::{
     Extent3d, Sampler, TexelCopyLayout, Texture, TextureConflict, TextureCopy, TextureDescriptor,
     TextureError, TextureUsages, TextureView, TextureViewDescriptor,

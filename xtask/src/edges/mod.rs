@@ -43,6 +43,8 @@ const CRATES: &[(&str, &[&str])] = &[
     (
         "estampe",
         &[
+            "estampe-ir",
+            "estampe-shader",
             "estampe-reference",
             "estampe-types",
             "estampe-simd",
@@ -154,7 +156,7 @@ const OUTSIDE: &[(&str, Users)] = &[
     // Blocks of compressed textures, decoded when a texture is made.
     ("bcdec_rs", Users::Only(&["estampe-texture"])),
     // Shaders as text.
-    ("naga", Users::Only(&["estampe-shader", "estampe-tests"])),
+    ("naga", Users::Only(&["estampe-shader"])),
     ("earcut", Users::Only(&["estampe-shapes"])),
     // File formats: all other crates see decoded images. `estampe` writes PNG as an option.
     (

@@ -1,20 +1,25 @@
 //! Compute shaders on the objects of the device.
 
-use super::{devices, stages};
+use super::{devices, module};
 use estampe::{
     BindGroup, BindGroupDescriptor, BindingResource, Buffer, ComputePipeline,
-    ComputePipelineDescriptor, Device, Dispatch, DispatchErrorKind, DispatchSize, Limits, bytes_of,
+    ComputePipelineDescriptor, ComputeProgram, Device, Dispatch, DispatchErrorKind, DispatchSize,
+    EntryPointDescriptor, Limits, ShaderSource, bytes_of,
 };
-use estampe_shader::program::TextCompute;
 use std::sync::Arc;
 
 fn compiled(device: &Device, source: &str) -> ComputePipeline {
-    let program = TextCompute::new(&stages(source)[0], 1 << 20).expect("it is small");
     let pipeline = device.create_compute_pipeline(&ComputePipelineDescriptor {
         label: Some("test"),
-        ..ComputePipelineDescriptor::new(Arc::new(program))
+        ..ComputePipelineDescriptor::new(program(device, source))
     });
     pipeline.unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn program(device: &Device, source: &str) -> Arc<dyn ComputeProgram> {
+    let module = module(device, ShaderSource::Wgsl(source));
+    let program = device.create_compute_program(&EntryPointDescriptor::new(&module));
+    program.unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn group(device: &Device, pipeline: &ComputePipeline, buffers: &[&Buffer]) -> BindGroup {
@@ -203,9 +208,7 @@ fn what_does_not_fit_is_refused() {
         ..Default::default()
     };
     let small = Device::new(&descriptor).expect("threads");
-    let source = &stages(SQUARES)[0];
-    let program = TextCompute::new(source, 1 << 20).expect("it is small");
-    let program = Arc::new(program);
+    let program = program(&small, SQUARES);
     let error = small.create_compute_pipeline(&ComputePipelineDescriptor::new(program.clone()));
     assert_eq!(
         error.unwrap_err().to_string(),
@@ -268,9 +271,19 @@ fn loops_without_end_are_stopped() {
         @compute @workgroup_size(1) fn main() {
             loop { count[0] += 1u; if count[0] == 0u { break; } }
         }";
-    for (name, device) in devices() {
-        let program = TextCompute::new(&stages(source)[0], 1000);
-        let descriptor = ComputePipelineDescriptor::new(Arc::new(program.expect("small")));
+    for level in estampe::Level::all_available() {
+        let name = format!("{level:?}");
+        let limits = Limits {
+            max_shader_jumps: 1000,
+            ..Limits::default()
+        };
+        let descriptor = estampe::DeviceDescriptor {
+            level,
+            limits,
+            ..Default::default()
+        };
+        let device = Device::new(&descriptor).expect("threads");
+        let descriptor = ComputePipelineDescriptor::new(program(&device, source));
         let pipeline = device
             .create_compute_pipeline(&descriptor)
             .expect("it fits");

@@ -1,16 +1,15 @@
 //! A shader as text draws the same bytes as the same formulas in Rust.
 
-use super::{devices, stages};
+use super::{devices, module};
 use estampe::state::VertexBufferLayout;
 use estampe::{
     BindGroup, BindGroupDescriptor, BindingResource, ColorAttachment, Coordinates, Device, Draw,
-    FragmentIn, FragmentOut, Mat4, Program, RenderPass, RenderPipeline, RenderPipelineDescriptor,
-    SampledTexture, Sampler, SamplerDescriptor, Texture, TextureDescriptor, TextureFormat, Vec2,
-    Vec3, Vec4, VertexFormat, VertexIn, VertexOut, bytes_of,
+    EntryPointDescriptor, FragmentIn, FragmentOut, Mat4, ProgramDescriptor, RenderPass,
+    RenderPipeline, RenderPipelineDescriptor, SampledTexture, Sampler, SamplerDescriptor,
+    ShaderSource, Texture, TextureDescriptor, TextureFormat, Vec2, Vec3, Vec4, VertexFormat,
+    VertexIn, VertexOut, bytes_of,
 };
-use estampe_shader::program::TextProgram;
 use estampe_tests::Random;
-use std::sync::Arc;
 
 const WGSL: &str = "
 struct Scene {
@@ -134,7 +133,6 @@ fn drawn(device: &Device, pipeline: &RenderPipeline, groups: &[BindGroup]) -> Ve
 
 #[test]
 fn wgsl_draws_the_bytes_of_the_same_shader_in_rust() {
-    let sources = stages(WGSL);
     let clip_from_object =
         Mat4::perspective(1.0, 1.5, 0.1, 10.0) * Mat4::translation([0.0, 0.0, -3.0]);
     let (towards_light, ambient) = ([0.6, 0.0, 0.8], 0.25);
@@ -164,9 +162,10 @@ fn wgsl_draws_the_bytes_of_the_same_shader_in_rust() {
         let expected = drawn(&device, &in_rust, &[]);
         assert!(before.is_none_or(|before| before == expected), "{name}");
 
-        let program = TextProgram::new(&sources[0], Some(&sources[1]), 1 << 20);
+        let module = module(&device, ShaderSource::Wgsl(WGSL));
+        let program = device.create_program(&module.program());
         let program = program.unwrap_or_else(|error| panic!("{error}"));
-        let in_wgsl = with_state(RenderPipelineDescriptor::with_program(Arc::new(program)));
+        let in_wgsl = with_state(RenderPipelineDescriptor::with_program(program));
         let in_wgsl = device.create_render_pipeline(&in_wgsl);
         let in_wgsl = in_wgsl.unwrap_or_else(|error| panic!("{error}"));
         let mut scene: Vec<f32> = clip_from_object.0.as_flattened().to_vec();
@@ -219,7 +218,6 @@ struct List { count: atomic<u32>, pixels: array<u32> }
 /// on every number of threads; and counts by pixel, which are shaded on all threads.
 #[test]
 fn fragments_store_in_one_order() {
-    let sources = stages(STORING);
     let mut before: Option<[Vec<u8>; 3]> = None;
     for (name, device) in devices() {
         let list = device
@@ -228,8 +226,15 @@ fn fragments_store_in_one_order() {
         let descriptor = TextureDescriptor::new_2d(150, 100, TextureFormat::R32Uint);
         let image = device.create_texture(&descriptor).expect("a small texture");
         let mut read = Vec::new();
-        for (at, fragment) in sources[1..].iter().enumerate() {
-            let program = TextProgram::new(&sources[0], Some(fragment), 1 << 20);
+        let module = module(&device, ShaderSource::Wgsl(STORING));
+        for (at, name) in ["fragment", "counting"].into_iter().enumerate() {
+            let program = device.create_program(&ProgramDescriptor {
+                fragment: Some(EntryPointDescriptor {
+                    name: Some(name),
+                    ..EntryPointDescriptor::new(&module)
+                }),
+                ..module.program()
+            });
             let program = program.unwrap_or_else(|error| panic!("{error}"));
             assert_eq!(program.interface().stores_in_any_order, at == 1);
             let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
@@ -238,7 +243,7 @@ fn fragments_store_in_one_order() {
                     ..VertexBufferLayout::packed(&[VertexFormat::Float32x3])
                 }],
                 depth_stencil: None,
-                ..RenderPipelineDescriptor::with_program(Arc::new(program))
+                ..RenderPipelineDescriptor::with_program(program)
             });
             let pipeline = pipeline.unwrap_or_else(|error| panic!("{error}"));
             let entries = [

@@ -2,11 +2,11 @@
 
 mod compute;
 mod drawing;
+mod glsl;
 
-use estampe::{Device, DeviceDescriptor, Level};
-use estampe_shader::lower::lower;
-use estampe_shader::program::StageSource;
-use naga::valid::{Capabilities, ValidationFlags, Validator};
+use estampe::{
+    Device, DeviceDescriptor, Level, ShaderModule, ShaderModuleDescriptor, ShaderSource,
+};
 
 /// A device for every SIMD level, with 1 and 3 threads.
 fn devices() -> impl Iterator<Item = (String, Device)> {
@@ -24,13 +24,7 @@ fn devices() -> impl Iterator<Item = (String, Device)> {
     })
 }
 
-/// The entry points of a WGSL module, in its order.
-fn stages(source: &str) -> Vec<StageSource> {
-    let module = naga::front::wgsl::parse_str(source)
-        .unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
-    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::default());
-    let info = validator.validate(&module).expect("a valid module");
-    (0..module.entry_points.len())
-        .map(|entry| lower(&module, &info, entry).expect("a shader that is supported"))
-        .collect()
+fn module(device: &Device, source: ShaderSource<'_>) -> ShaderModule {
+    let module = device.create_shader_module(&ShaderModuleDescriptor::new(source));
+    module.unwrap_or_else(|errors| panic!("{errors}"))
 }

@@ -21,6 +21,45 @@ impl Device {
         RenderPipeline::new(descriptor, &self.limits)
     }
 
+    /// Checks a shader that is text.
+    ///
+    /// # Errors
+    /// [`ShaderErrors`](crate::ShaderErrors): for each error file, line, column, the line itself
+    /// with a caret, and what to do.
+    #[cfg(feature = "shader-text")]
+    pub fn create_shader_module(
+        &self,
+        descriptor: &crate::ShaderModuleDescriptor<'_>,
+    ) -> Result<crate::ShaderModule, crate::ShaderErrors> {
+        crate::ShaderModule::new(descriptor)
+    }
+
+    /// Makes the program of a render pipeline of entry points of shader modules. It is compiled
+    /// when it is first drawn with.
+    ///
+    /// # Errors
+    /// [`ShaderModuleError`](crate::ShaderModuleError) if there are no such entry points, or they
+    /// do not fit each other.
+    #[cfg(feature = "shader-text")]
+    pub fn create_program(
+        &self,
+        descriptor: &crate::ProgramDescriptor<'_>,
+    ) -> Result<std::sync::Arc<dyn crate::Program>, crate::ShaderModuleError> {
+        descriptor.program(self.limits.max_shader_jumps)
+    }
+
+    /// Makes the program of a compute pipeline of an entry point of a shader module.
+    ///
+    /// # Errors
+    /// [`ShaderModuleError`](crate::ShaderModuleError) if there is no such entry point.
+    #[cfg(feature = "shader-text")]
+    pub fn create_compute_program(
+        &self,
+        entry_point: &crate::EntryPointDescriptor<'_>,
+    ) -> Result<std::sync::Arc<dyn crate::ComputeProgram>, crate::ShaderModuleError> {
+        entry_point.compute(self.limits.max_shader_jumps)
+    }
+
     /// Creates a compute pipeline.
     ///
     /// # Errors

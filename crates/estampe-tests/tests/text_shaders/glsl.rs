@@ -1,0 +1,164 @@
+//! A pair of GLSL shaders as courses write them: loose uniforms that both declare, set by name, and
+//! a structure between the stages. It draws the bytes of the same formulas in WGSL.
+
+use super::{devices, module};
+use estampe::state::VertexBufferLayout;
+use estampe::{
+    BindGroupDescriptor, BindingResource, ColorAttachment, DepthStencilAttachment, Device, Draw,
+    Mat4, RenderPass, RenderPipelineDescriptor, ShaderModule, ShaderSource, TextureDescriptor,
+    TextureFormat, VertexFormat, bytes_of,
+};
+use estampe_tests::Random;
+
+const VERTEX: &str = "#version 330 core
+layout (location = 0) in vec3 at;
+layout (location = 1) in vec3 normal;
+out struct Lit { vec3 at; vec3 normal; vec3 paint; } lit;
+uniform mat4 model;
+uniform mat4 view;
+uniform mat4 projection;
+uniform vec3 paint;
+void main() {
+    vec4 world = model * vec4(at, 1.0);
+    lit.at = world.xyz;
+    lit.normal = (model * vec4(normal, 0.0)).xyz;
+    lit.paint = paint;
+    gl_Position = projection * view * world;
+}";
+
+const FRAGMENT: &str = "#version 330 core
+in struct Lit { vec3 at; vec3 normal; vec3 paint; } lit;
+#define SHININESS 16.0
+uniform mat4 view;
+uniform vec3 lamp;
+uniform float ambient, diffuse, specular;
+layout (location = 0) out vec4 color;
+void main() {
+    vec3 n = normalize(lit.normal);
+    vec3 l = normalize(lamp - lit.at);
+    float shine = pow(max(reflect(-l, n).z, 0.0), SHININESS);
+    vec3 c = ambient * lit.paint;
+    c += diffuse * max(dot(n, l), 0.0) * lit.paint;
+    color = vec4(c + specular * shine, view[3][3]);
+}";
+
+const WGSL: &str = "
+struct Uniforms {
+    model: mat4x4f, view: mat4x4f, projection: mat4x4f,
+    paint: vec3f, lamp: vec3f, ambient: f32, diffuse: f32, specular: f32,
+}
+@group(0) @binding(0) var<uniform> u: Uniforms;
+struct Lit {
+    @builtin(position) position: vec4f,
+    @location(0) at: vec3f, @location(1) normal: vec3f, @location(2) paint: vec3f,
+}
+@vertex fn vs(@location(0) at: vec3f, @location(1) normal: vec3f) -> Lit {
+    let world = u.model * vec4f(at, 1.0);
+    var position = u.projection * u.view * world;
+    // The depths of OpenGL.
+    position.z = (position.z + position.w) * 0.5;
+    return Lit(position, world.xyz, (u.model * vec4f(normal, 0.0)).xyz, u.paint);
+}
+@fragment fn fs(lit: Lit) -> @location(0) vec4f {
+    let n = normalize(lit.normal);
+    let l = normalize(u.lamp - lit.at);
+    let shine = pow(max(reflect(-l, n).z, 0.0), 16.0);
+    var c = u.ambient * lit.paint;
+    c += u.diffuse * max(dot(n, l), 0.0) * lit.paint;
+    return vec4f(c + u.specular * shine, u.view[3][3]);
+}";
+
+/// Colours and depths that a module draws, whose uniforms are the block of this name.
+fn drawn(device: &Device, module: &ShaderModule, block: &str) -> (Vec<u8>, Vec<u8>) {
+    let program = device.create_program(&module.program());
+    let program = program.unwrap_or_else(|error| panic!("{error}"));
+    let formats = [VertexFormat::Float32x3, VertexFormat::Float32x3];
+    let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
+        vertex_buffers: vec![VertexBufferLayout::packed(&formats)],
+        ..RenderPipelineDescriptor::with_program(program)
+    });
+    let pipeline = pipeline.unwrap_or_else(|error| panic!("{error}"));
+    let mut uniforms = module.uniforms(block).expect("the block");
+    let mut set = |name: &str, value: f32| {
+        uniforms
+            .set(name, value)
+            .unwrap_or_else(|error| panic!("{error}"));
+    };
+    set("ambient", 0.2);
+    set("diffuse", 0.7);
+    set("specular", 0.4);
+    for (name, matrix) in [
+        ("model", Mat4::rotation_y(0.5)),
+        ("view", Mat4::translation([0.0, 0.0, -4.0])),
+        ("projection", Mat4::perspective_gl(1.0, 1.4, 0.5, 20.0)),
+    ] {
+        uniforms
+            .set(name, matrix)
+            .unwrap_or_else(|error| panic!("{error}"));
+    }
+    uniforms
+        .set("paint", [0.9_f32, 0.5, 0.2])
+        .expect("a uniform");
+    uniforms
+        .set("lamp", [2.0_f32, 3.0, 4.0])
+        .expect("a uniform");
+    let buffer = device.create_buffer_with_contents(uniforms.bytes());
+    let group = device.create_bind_group(&BindGroupDescriptor {
+        label: None,
+        layout: &pipeline.descriptor().bind_group_layouts[0],
+        entries: &[(
+            0,
+            BindingResource::Buffer(buffer.expect("a small buffer").slice(..)),
+        )],
+    });
+    let mut random = Random::new("glsl", 3);
+    let mut vertices = Vec::new();
+    for _ in 0..200 * 3 {
+        let ([x, y, z, _], [a, b, c, _]) = (random.four(-1.5, 1.5), random.four(-1.0, 1.0));
+        vertices.extend([x, y, z, a, b, c]);
+    }
+    let vertices = device.create_buffer_with_contents(bytes_of(&vertices));
+    let image = |format| {
+        let descriptor = TextureDescriptor::new_2d(140, 100, format);
+        device.create_texture(&descriptor).expect("a small texture")
+    };
+    let (color, depth) = (
+        image(TextureFormat::Rgba8Unorm),
+        image(TextureFormat::Depth32Float),
+    );
+    device
+        .render(&RenderPass {
+            color_attachments: &[Some(ColorAttachment::clear(&color.view(), [0.0; 4]))],
+            depth_stencil_attachment: Some(DepthStencilAttachment::clear(&depth.view(), 1.0)),
+            draws: &[Draw {
+                vertex_buffers: &[(&vertices.expect("a small buffer")).into()],
+                bind_groups: &[group.unwrap_or_else(|error| panic!("{error}"))],
+                ..Draw::new(&pipeline, 0..600)
+            }],
+            ..RenderPass::default()
+        })
+        .unwrap_or_else(|error| panic!("{error}"));
+    let read = |texture| device.read_texture(texture).expect("it can be read");
+    (read(&color), read(&depth))
+}
+
+#[test]
+fn glsl_draws_the_bytes_of_the_same_shader_in_wgsl() {
+    let mut before = None;
+    for (name, device) in devices() {
+        let glsl = module(
+            &device,
+            ShaderSource::Glsl {
+                vertex: VERTEX,
+                fragment: FRAGMENT,
+            },
+        );
+        let of_glsl = drawn(&device, &glsl, "");
+        let of_wgsl = drawn(&device, &module(&device, ShaderSource::Wgsl(WGSL)), "u");
+        assert!(of_glsl == of_wgsl, "{name}");
+        let colors: std::collections::BTreeSet<_> = of_glsl.0.chunks(4).collect();
+        assert!(colors.len() > 300, "{}", colors.len());
+        assert!(before.is_none_or(|before| before == of_glsl), "{name}");
+        before = Some(of_glsl);
+    }
+}
