@@ -51,8 +51,8 @@ static NEXT_ID: AtomicU64 = AtomicU64::new(1);
 /// The bytes of instructions and constants beyond which a kernel is refused.
 const MAX_CODE_BYTES: usize = 1 << 26;
 
-/// Virtual registers beyond which a kernel is refused: regalloc2 counts up to 2²⁴ units of eight bytes
-/// in which they are spilled, and a register takes eight.
+/// Virtual registers beyond which a kernel is refused: regalloc2 counts up to 2²⁴ units of eight
+/// bytes in which they are spilled, and a register takes eight.
 const MAX_REGISTERS: usize = 1 << 20;
 
 /// Instructions beyond which registers are allocated in one pass, whatever the tier: the careful

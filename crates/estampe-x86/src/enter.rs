@@ -41,7 +41,8 @@ pub(crate) fn enter(
     head[frame::CONTEXT as usize / 8] = std::ptr::from_ref(context).expose_provenance() as u64;
     head[frame::SERVE as usize / 8] = serve_address();
     let start = executable.start().wrapping_add(offset);
-    // SAFETY: `offset` is where `compile` put a function of this type, in pages that are executable.
+    // SAFETY: `offset` is where `compile` put a function of this type, in pages that are
+    // executable.
     let entry = unsafe { std::mem::transmute::<*const u8, Entry>(start) };
     // SAFETY: the code was made for this layout of frames, which `lines` is large enough for, and
     // for instructions that the processor has: `compile` checks that. The addresses in the frame
@@ -113,7 +114,7 @@ unsafe extern "sysv64" fn serve(frame: *mut Line, call: u32) {
         }
     }
     let place = frame.cast::<u8>().wrapping_add(frame::MASK_RESULT as usize);
-    // SAFETY: the place is in the head, aligned to its two bytes; the code reads it when this function
-    // returns.
+    // SAFETY: the place is in the head, aligned to its two bytes; the code reads it when this
+    // function returns.
     unsafe { *place.cast::<u16>() = mask_result };
 }

@@ -41,8 +41,8 @@ impl Executable {
         let pages = pages.ok_or_else(|| CompileError::NoMemory("it has no address".to_owned()))?;
         // From here on, dropping unmaps the pages.
         let executable = Self { pages, len };
-        // SAFETY: the pages were just mapped, are writable, and have at least as many bytes; nothing
-        // else points to them.
+        // SAFETY: the pages were just mapped, are writable, and have at least as many bytes;
+        // nothing else points to them.
         unsafe { std::ptr::copy_nonoverlapping(bytes.as_ptr(), pages.as_ptr(), bytes.len()) };
         // SAFETY: the pages are this mapping's, and nothing writes to them any more.
         let protected = unsafe {

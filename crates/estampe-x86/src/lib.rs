@@ -7,10 +7,10 @@
 //!            frame)                                                          executable)
 //! ```
 //!
-//! [`Code::compile`] makes [`Code`], which runs as `estampe_ir::interpreter::Code` does, on the same
-//! [`Run`](estampe_ir::interpreter::Run), with the same results: those that [`estampe_ir::Op`]
-//! defines, to the last bit, apart from the payloads of NaNs that no operation made canonical. Where
-//! no code can be made, [`CompileError`] says why, and the interpreter runs the kernel.
+//! [`Code::compile`] makes [`Code`], which runs as `estampe_ir::interpreter::Code` does, on the
+//! same [`Run`](estampe_ir::interpreter::Run), with the same results: those that [`estampe_ir::Op`]
+//! defines, to the last bit, apart from the payloads of NaNs that no operation made canonical.
+//! Where no code can be made, [`CompileError`] says why, and the interpreter runs the kernel.
 //!
 //! * A pass of the code runs a packet, or two (`select` says when); the loop over packets is in the
 //!   code, too.
@@ -18,8 +18,8 @@
 //!   instructions read it as a broadcast operand; so do constants and the words of buffers at fixed
 //!   places. They need no registers.
 //! * Operations that are rare, or act lane after lane, are calls of Rust functions (`serve`).
-//! * Code reads and writes its frame, and the inputs, outputs and buffers whose addresses are there.
-//!   Indices are compared with the length of the buffer first.
+//! * Code reads and writes its frame, and the inputs, outputs and buffers whose addresses are
+//!   there. Indices are compared with the length of the buffer first.
 //!
 //! ```
 //! use estampe_ir::interface::{Input, Output, Stage};

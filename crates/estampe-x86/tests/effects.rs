@@ -117,7 +117,6 @@ fn word_of_mask(builder: &mut Builder, mask: Value) -> Value {
     builder.select(mask, yes, no)
 }
 
-/// Rows: none yet; the shader compiler.
 #[test]
 fn derivatives_and_quads() {
     let mut b = Builder::new(Stage::Fragment);
@@ -154,7 +153,6 @@ fn written(b: &mut Builder) {
     });
 }
 
-/// Rows: none yet; the shader compiler.
 #[test]
 fn memory_changes_in_the_order_of_lanes() {
     let mut b = Builder::new(Stage::Compute);
@@ -223,7 +221,6 @@ fn memory_changes_in_the_order_of_lanes() {
     });
 }
 
-/// Rows: none yet; the shader compiler.
 #[test]
 fn words_beyond_a_buffer_are_zeros() {
     let mut b = Builder::new(Stage::Fragment);
@@ -256,7 +253,6 @@ fn words_beyond_a_buffer_are_zeros() {
     });
 }
 
-/// Rows: none yet; the shader compiler.
 #[test]
 fn arrays_of_lanes() {
     let mut b = Builder::new(Stage::Fragment);
@@ -371,7 +367,6 @@ fn sampling() -> Kernel {
     finish(b, &results)
 }
 
-/// Rows: none yet; the shader compiler.
 #[test]
 fn textures_are_asked() {
     let kernel = sampling();
@@ -381,7 +376,6 @@ fn textures_are_asked() {
     });
 }
 
-/// Rows: none yet; the shader compiler.
 #[test]
 fn panics_of_textures_leave_the_code() {
     let kernel = sampling();
@@ -400,7 +394,6 @@ fn panics_of_textures_leave_the_code() {
     }
 }
 
-/// Rows: none yet; the shader compiler.
 #[test]
 fn arguments_that_are_short_or_missing() {
     let mut b = Builder::new(Stage::Fragment);
@@ -474,7 +467,6 @@ fn arguments_that_are_short_or_missing() {
     }
 }
 
-/// Rows: none yet; the shader compiler.
 #[test]
 fn loops_without_end_are_stopped() {
     let mut b = Builder::new(Stage::Fragment);
@@ -513,7 +505,6 @@ fn loops_without_end_are_stopped() {
     }
 }
 
-/// Rows: none yet; the shader compiler.
 #[test]
 fn threads_share_code() {
     const fn is_shared<T: Send + Sync>() {}
@@ -545,7 +536,6 @@ fn threads_share_code() {
     });
 }
 
-/// Rows: none yet; the shader compiler.
 #[test]
 fn what_is_not_compiled_is_refused() {
     let Some(isa) = Isa::best() else { return };

@@ -204,7 +204,6 @@ fn test_operation(
     }
 }
 
-/// Rows: none yet; the operations of the shader compiler.
 #[test]
 fn unary_operations() {
     for &kind in Unary::ALL {
@@ -232,7 +231,6 @@ fn unary_operations() {
     }
 }
 
-/// Rows: none yet; the operations of the shader compiler.
 #[test]
 fn binary_operations() {
     for &kind in Binary::ALL {
@@ -247,7 +245,6 @@ fn binary_operations() {
     }
 }
 
-/// Rows: none yet; the operations of the shader compiler.
 #[test]
 fn comparisons_and_masks() {
     for &kind in Compare::ALL {
@@ -284,7 +281,6 @@ fn comparisons_and_masks() {
     }
 }
 
-/// Rows: none yet; the operations of the shader compiler.
 #[test]
 fn fused_products() {
     test_operation(
@@ -303,7 +299,6 @@ fn fused_products() {
     );
 }
 
-/// Rows: none yet; the operations of the shader compiler.
 #[test]
 fn functions() {
     for &function in Math::ALL {

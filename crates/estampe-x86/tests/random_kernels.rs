@@ -7,7 +7,6 @@ mod kernels;
 use estampe_x86::Isa;
 use kernels::{Hits, Memory, check, smallest, statements_of};
 
-/// Rows: none yet; the shader compiler.
 #[test]
 fn random_kernels_give_what_the_interpreter_gives() {
     let (mut memory, mut hits) = (Memory::default(), Hits::default());

@@ -91,7 +91,6 @@ fn forms(op: &VectorOp) -> Vec<(bool, Length)> {
     forms
 }
 
-/// Rows: none; the encoder alone.
 #[test]
 fn vector_instructions_between_registers() {
     use vector_op as v;
@@ -147,7 +146,6 @@ fn vector_instructions_between_registers() {
     }
 }
 
-/// Rows: none; the encoder alone.
 #[test]
 fn vector_instructions_with_memory() {
     use vector_op as v;
@@ -261,7 +259,6 @@ fn check_memory(decoded: &Instruction, address: Address, is_evex: bool) {
     }
 }
 
-/// Rows: none; the encoder alone.
 #[test]
 fn constants_follow_the_code() {
     let mut assembler = Assembler::default();
@@ -291,7 +288,6 @@ fn constants_follow_the_code() {
     assert_eq!(finished.bytes[at..at + 4], [9, 0, 0, 0]);
 }
 
-/// Rows: none; the encoder alone.
 #[test]
 fn scalar_instructions() {
     let random = &mut fastrand::Rng::with_seed(3);
@@ -364,7 +360,6 @@ fn scalar_instructions() {
     }
 }
 
-/// Rows: none; the encoder alone.
 #[test]
 fn jumps_go_to_labels_before_and_after() {
     let mut assembler = Assembler::default();

@@ -1,9 +1,8 @@
 //! Writing a shader as the GLSL of Vulkan that naga reads.
 //!
-//! Order: structures · the block of loose uniforms · variables in the author's order ·
-//! functions · `main`. The author's `main` gets another name; the new one copies what naga cannot take
-//! as it is from inputs and uniforms, sets global variables, calls the author's, and copies to the
-//! outputs.
+//! Order: structures · the block of loose uniforms · variables in the author's order · functions ·
+//! `main`. The author's `main` gets another name; the new one copies what naga cannot take as it is
+//! from inputs and uniforms, sets global variables, calls the author's, and copies to the outputs.
 
 use std::collections::HashMap;
 use std::rc::Rc;
