@@ -205,6 +205,7 @@ void main() {}
     ),
 ];
 
+/// Rows: G1
 #[test]
 fn errors_tell_the_place_and_what_to_do() {
     for (source, expected) in CASES {

@@ -183,6 +183,7 @@ const CASES: &[(&str, &str)] = &[
     ),
 ];
 
+/// Rows: G2
 #[test]
 fn errors_tell_the_place_and_what_to_do() {
     for (source, expected) in CASES {

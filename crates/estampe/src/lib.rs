@@ -72,7 +72,7 @@ struct Readme;
 struct FromGlsl;
 
 /// The snippets of the page for those who know wgpu.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "shader-text"))]
 #[doc = include_str!("../../../docs/from-wgpu.md")]
 struct FromWgpu;
 

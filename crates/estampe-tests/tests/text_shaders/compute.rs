@@ -72,6 +72,7 @@ const SQUARES: &str = "
 }
 ";
 
+/// Rows: G5
 #[test]
 fn invocations_write_buffers_and_what_is_beyond_them_is_dropped() {
     let numbers: Vec<u32> = (0..1000).map(|n| n * 3 + 1).collect();
@@ -111,6 +112,7 @@ fn main(
 }
 ";
 
+/// Rows: G5
 #[test]
 fn barriers_order_the_memory_of_a_work_group() {
     let count = [3, 2, 2];
@@ -147,6 +149,7 @@ struct List { count: atomic<u32>, items: array<u32> }
 }
 ";
 
+/// Rows: G5
 #[test]
 fn atomics_whose_order_can_be_seen_run_in_order() {
     for (name, device) in devices() {

@@ -131,6 +131,7 @@ fn drawn(device: &Device, pipeline: &RenderPipeline, groups: &[BindGroup]) -> Ve
     device.read_texture(&color).expect("a color attachment")
 }
 
+/// Rows: G2
 #[test]
 fn wgsl_draws_the_bytes_of_the_same_shader_in_rust() {
     let clip_from_object =

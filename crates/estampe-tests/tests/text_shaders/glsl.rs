@@ -142,6 +142,7 @@ fn drawn(device: &Device, module: &ShaderModule, block: &str) -> (Vec<u8>, Vec<u
     (read(&color), read(&depth))
 }
 
+/// Rows: G1
 #[test]
 fn glsl_draws_the_bytes_of_the_same_shader_in_wgsl() {
     let mut before = None;
