@@ -3,6 +3,7 @@
 mod compute;
 mod drawing;
 mod glsl;
+mod peers;
 
 use estampe::{
     Device, DeviceDescriptor, Level, ShaderModule, ShaderModuleDescriptor, ShaderSource,
