@@ -4,6 +4,7 @@ mod compute;
 mod drawing;
 mod glsl;
 mod peers;
+mod spirv;
 
 use estampe::{
     Device, DeviceDescriptor, Level, ShaderModule, ShaderModuleDescriptor, ShaderSource,
