@@ -3,7 +3,7 @@
 use crate::encoder::Assembler;
 use crate::executable::Executable;
 use crate::frame::{Frame, PACKET};
-use crate::machine::emit::Passes;
+use crate::machine::passes::Passes;
 use crate::machine::{Function, allocate, emit};
 use crate::select::{self, Selected, calls::Served};
 use crate::{CompileError, Isa, Tier};

@@ -41,8 +41,7 @@ pub(crate) fn enter(
     head[frame::CONTEXT as usize / 8] = std::ptr::from_ref(context).expose_provenance() as u64;
     head[frame::SERVE as usize / 8] = serve_address();
     let start = executable.start().wrapping_add(offset);
-    // SAFETY: `offset` is where `compile` put a function of this type, in pages that are
-    // executable.
+    // SAFETY: `offset` is where `compile` put a function of this type; the pages are executable.
     let entry = unsafe { std::mem::transmute::<*const u8, Entry>(start) };
     // SAFETY: the code was made for this layout of frames, which `lines` is large enough for, and
     // for instructions that the processor has: `compile` checks that. The addresses in the frame

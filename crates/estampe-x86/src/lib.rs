@@ -8,9 +8,10 @@
 //! ```
 //!
 //! [`Code::compile`] makes [`Code`], which runs as `estampe_ir::interpreter::Code` does, on the
-//! same [`Run`](estampe_ir::interpreter::Run), with the same results: those that [`estampe_ir::Op`]
-//! defines, to the last bit, apart from the payloads of NaNs that no operation made canonical.
-//! Where no code can be made, [`CompileError`] says why, and the interpreter runs the kernel.
+//! same [`Run`](estampe_ir::interpreter::Run), with the same results: those that
+//! [`estampe_ir::Op`] defines, to the last bit, apart from the payloads of NaNs that no operation
+//! made canonical. Where no code can be made, [`CompileError`] says why, and the interpreter runs
+//! the kernel.
 //!
 //! * A pass of the code runs a packet, or two (`select` says when); the loop over packets is in the
 //!   code, too.

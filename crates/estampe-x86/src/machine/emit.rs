@@ -1,5 +1,6 @@
 //! From machine instructions and the registers that were found to bytes.
 
+use super::passes::Passes;
 use super::{Function, GPR, Instruction, MASK, Memory, MemoryBase, Role, VECTOR};
 use crate::Isa;
 use crate::encoder::scalar::Width;
@@ -9,17 +10,6 @@ use crate::encoder::{
 };
 use crate::frame::{self, Frame, displacement};
 use regalloc2::{Allocation, Block, Edit, InstOrEdit, Output};
-
-/// How often a function runs when it is called.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Passes {
-    Once,
-    /// As often as the frame says. Pointers make a step after each pass.
-    Many {
-        /// Arrays are set to their words at the start of each pass.
-        resets_locals: bool,
-    },
-}
 
 /// Encodes a function. It is called with the frame, and returns 0, or 1 if its budget is used up.
 pub(crate) fn emit(
@@ -68,10 +58,10 @@ pub(crate) fn emit(
     emitter.end(1);
 }
 
-struct Emitter<'a> {
-    assembler: &'a mut Assembler,
-    isa: Isa,
-    frame: &'a Frame,
+pub(super) struct Emitter<'a> {
+    pub(super) assembler: &'a mut Assembler,
+    pub(super) isa: Isa,
+    pub(super) frame: &'a Frame,
     labels: Vec<Label>,
     /// Where the budget is used up.
     stop: Label,
@@ -89,7 +79,7 @@ fn gpr(found: Allocation) -> Gpr {
     Gpr(number(found))
 }
 
-fn in_frame(offset: i32) -> Address {
+pub(super) fn in_frame(offset: i32) -> Address {
     Address::at(Gpr::RBX, offset)
 }
 
@@ -102,7 +92,7 @@ impl Emitter<'_> {
     }
 
     /// A row of the table with two operands.
-    fn simple(&mut self, op: &'static VectorOp, reg: u8, rm: Rm) {
+    pub(super) fn simple(&mut self, op: &'static VectorOp, reg: u8, rm: Rm) {
         self.assembler.vector(&VectorInstruction {
             op,
             is_evex: self.isa == Isa::Avx512 && op.evex_w.is_some(),
@@ -397,48 +387,5 @@ impl Emitter<'_> {
         if to != from + 1 {
             self.assembler.jump(self.labels[to]);
         }
-    }
-
-    fn call(&mut self, at: u32) {
-        self.assembler.vzeroupper();
-        self.assembler.mov(Width::Qword, Gpr::RDI, Gpr::RBX);
-        self.assembler.mov_immediate(Gpr::RSI, at);
-        self.assembler.call(in_frame(frame::SERVE));
-    }
-
-    fn start_pass(&mut self, function: &Function, resets_locals: bool) {
-        if resets_locals {
-            self.call(frame::RESET_LOCALS);
-        }
-        let mut instructions = function.instructions.iter();
-        if instructions.any(|one| matches!(one, Instruction::Jump { is_back: true })) {
-            let [from, to] = [frame::PASS_BUDGET, frame::BUDGET].map(in_frame);
-            self.assembler.load(Width::Qword, Gpr::RAX, from);
-            self.assembler.store(Width::Qword, to, Gpr::RAX);
-        }
-    }
-
-    /// If passes are left, moves the pointers and goes on with the next one.
-    fn end_pass(&mut self, again: Label) {
-        let done = self.assembler.new_label();
-        self.assembler.sub_memory(in_frame(frame::LEFT), 1);
-        self.assembler.jump_if(Condition::Zero, done);
-        let bytes = self.frame.pointer_bytes();
-        for offset in (0..bytes).step_by(self.isa.lanes() * 4) {
-            let step = in_frame(displacement(self.frame.steps + offset));
-            let pointers = in_frame(displacement(self.frame.pointers + offset));
-            self.simple(&vector_op::LOAD, 0, Rm::Memory(step));
-            self.simple(&vector_op::ADD_64, 0, Rm::Memory(pointers));
-            self.simple(&vector_op::STORE, 0, Rm::Memory(pointers));
-        }
-        self.assembler.jump(again);
-        self.assembler.bind(done);
-    }
-
-    fn end(&mut self, result: u32) {
-        self.assembler.vzeroupper();
-        self.assembler.mov_immediate(Gpr::RAX, result);
-        self.assembler.pop(Gpr::RBX);
-        self.assembler.ret();
     }
 }

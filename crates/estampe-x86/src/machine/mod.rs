@@ -4,9 +4,11 @@
 //! |---|---|
 //! | [`mod@allocate`] | shows a function to regalloc2 and runs it |
 //! | [`emit`] | encodes instructions with the registers that were found |
+//! | [`passes`] | encodes the loop over packets around them |
 
 pub(crate) mod allocate;
 pub(crate) mod emit;
+pub(crate) mod passes;
 
 use crate::Isa;
 use crate::encoder::VectorOp;

@@ -1,0 +1,199 @@
+//! The functions of a kernel: one that computes hoisted values, and one that runs a pass. Basic
+//! blocks, and a block of its own for every edge between two that needs one.
+
+use super::schedule::Scheduler;
+use super::{Place, Selector};
+use crate::machine::{Function, Instruction};
+use crate::{CompileError, Isa, Tier};
+use estampe_ir::lanes::{BlockId, Jump, Terminator};
+use estampe_ir::{Op, Value};
+use regalloc2::{Block, Operand};
+
+impl Selector<'_> {
+    /// The function that computes hoisted values; `None` if there are none.
+    pub(super) fn prepare(&mut self) -> Result<Option<Function>, CompileError> {
+        // Places that are known without the frame's layout stood before it.
+        for place in &mut self.places {
+            if let Place::Buffer { buffer, offset } = *place {
+                if offset == u32::MAX {
+                    let at = self.frame.buffer(buffer) + crate::frame::BUFFER_BYTES;
+                    *place = Place::Frame(at);
+                } else if let Some(words) = self.fixed_words.get_mut(buffer as usize) {
+                    *words = (*words).max(offset / 4 + 1);
+                }
+            }
+        }
+        let block = self.function.new_block();
+        self.function.start_block();
+        let mut is_empty = true;
+        let kernel = self.kernel;
+        for (at, of_kernel) in kernel.blocks.iter().enumerate() {
+            if !self.plan.is_reached[at] {
+                continue;
+            }
+            for (op, first) in &of_kernel.ops {
+                if op.results().len() != 1 || matches!(op, Op::Input(_) | Op::InputMask(_)) {
+                    continue;
+                }
+                let Place::Table(slot) = self.places[first.index()] else {
+                    continue;
+                };
+                is_empty = false;
+                self.operation(op, *first)?;
+                self.keep(*first, slot);
+            }
+        }
+        self.function.push(Instruction::Return, &[]);
+        self.function.end_block(block, &[]);
+        self.buffer_pointers.fill(None);
+        let function = std::mem::replace(&mut self.function, Function::new(self.isa));
+        Ok((!is_empty).then_some(function))
+    }
+
+    /// The function that runs a pass: a packet, or two where the halves are more than one's.
+    pub(super) fn packet(&mut self, tier: Tier) -> Result<Function, CompileError> {
+        let kernel = self.kernel;
+        let order = self.blocks_and_edges();
+        let schedules = self.schedules(tier);
+        let mut entries: Vec<Option<Block>> = vec![None; kernel.blocks.len()];
+        for (position, part) in order.iter().enumerate() {
+            let made = self.function.new_block();
+            debug_assert_eq!(made.index(), position);
+            if let Part::Block(at) = part {
+                entries[*at] = Some(made);
+                for &parameter in &kernel.blocks[*at].parameters {
+                    if !self.plan.is_value_needed(parameter) {
+                        continue;
+                    }
+                    let registers = self.new_registers(parameter);
+                    let of_block = &mut self.function.blocks[position].parameters;
+                    of_block.extend(&registers[..self.halves]);
+                }
+            }
+        }
+        let entry = |to: BlockId| entries[to.index()].ok_or(CompileError::TooLarge);
+        for (position, part) in order.iter().enumerate() {
+            let block = Block::new(position);
+            self.function.start_block();
+            self.buffer_pointers.fill(None);
+            match *part {
+                Part::Block(at) => {
+                    let of_kernel = &kernel.blocks[at];
+                    for &index in &schedules[at] {
+                        let (op, first) = &of_kernel.ops[index];
+                        self.operation(op, *first)?;
+                    }
+                    match &of_kernel.terminator {
+                        Terminator::Jump(jump) => {
+                            self.jump(block, at, jump, entry(jump.to)?);
+                        }
+                        Terminator::Branch { mask, any, none } => {
+                            self.test(*mask);
+                            // The edges of this block follow it, in this order.
+                            let mut edge = position + 1;
+                            let mut successor = |jump: &Jump, is_any: bool| {
+                                if order.get(edge) == Some(&Part::Edge { from: at, is_any }) {
+                                    edge += 1;
+                                    Ok(Block::new(edge - 1))
+                                } else {
+                                    entry(jump.to)
+                                }
+                            };
+                            let successors = [successor(any, true)?, successor(none, false)?];
+                            self.function.end_block(block, &successors);
+                        }
+                        Terminator::Return(values) => {
+                            self.outputs(values);
+                            self.function.push(Instruction::Return, &[]);
+                            self.function.end_block(block, &[]);
+                        }
+                    }
+                }
+                Part::Edge { from, is_any } => {
+                    if let Terminator::Branch { any, none, .. } = &kernel.blocks[from].terminator {
+                        let jump = if is_any { any } else { none };
+                        self.jump(block, from, jump, entry(jump.to)?);
+                    }
+                }
+            }
+        }
+        Ok(std::mem::replace(
+            &mut self.function,
+            Function::new(self.isa),
+        ))
+    }
+
+    /// The order of the operations of each block that is reached, without those that are hoisted
+    /// and those that nothing needs.
+    fn schedules(&self, tier: Tier) -> Vec<Vec<usize>> {
+        let mut scheduler = Scheduler::new(self.kernel, &self.plan, self.isa, self.halves);
+        let blocks = 0..self.kernel.blocks.len();
+        let of_block = |at: usize| match tier {
+            _ if !self.plan.is_reached[at] => Vec::new(),
+            // Fewer registers need fewer spills, of which the fast allocator makes many.
+            Tier::Fast if self.isa == Isa::Avx2 => scheduler.as_written(at),
+            _ => scheduler.by_latency(at),
+        };
+        blocks.map(of_block).collect()
+    }
+
+    /// The kernel's blocks in order; after those with branches the edges that need a block.
+    fn blocks_and_edges(&self) -> Vec<Part> {
+        let mut order = Vec::new();
+        for (at, block) in self.kernel.blocks.iter().enumerate() {
+            if !self.plan.is_reached[at] {
+                continue;
+            }
+            order.push(Part::Block(at));
+            if let Terminator::Branch { any, none, .. } = &block.terminator {
+                for (jump, is_any) in [(any, true), (none, false)] {
+                    let has_others = self.plan.predecessors[jump.to.index()] > 1;
+                    if has_others || !jump.arguments.is_empty() || jump.to.index() <= at {
+                        order.push(Part::Edge { from: at, is_any });
+                    }
+                }
+            }
+        }
+        order
+    }
+
+    /// Ends a block with a jump that gives arguments.
+    fn jump(&mut self, block: Block, from: usize, jump: &Jump, to: Block) {
+        let mut arguments = Vec::new();
+        let parameters = &self.kernel.blocks[jump.to.index()].parameters;
+        for (&parameter, &argument) in parameters.iter().zip(&jump.arguments) {
+            if !self.plan.is_value_needed(parameter) {
+                continue;
+            }
+            for half in 0..self.halves {
+                arguments.push(self.any_register(argument, half));
+            }
+        }
+        self.function.blocks[block.index()].arguments = arguments;
+        let is_back = jump.to.index() <= from;
+        self.function.push(Instruction::Jump { is_back }, &[]);
+        self.function.end_block(block, &[to]);
+    }
+
+    /// Ends a block with a branch.
+    fn test(&mut self, mask: Value) {
+        let mut tested = self.mask(mask, 0);
+        for half in 1..self.halves {
+            let other = self.mask(mask, half);
+            tested = self.mask_or(tested, other);
+        }
+        let mut operands = vec![Operand::reg_use(tested)];
+        if self.isa == Isa::Avx2 {
+            let temporary = self.function.register(crate::machine::GPR);
+            operands.push(Operand::reg_temp(temporary));
+        }
+        self.function.push(Instruction::Branch, &operands);
+    }
+}
+
+/// A part of the layout.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Block(usize),
+    Edge { from: usize, is_any: bool },
+}
