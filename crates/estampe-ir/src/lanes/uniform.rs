@@ -210,6 +210,8 @@ impl<'a> Graph<'a> {
             }
             Op::LoadLocal { array, .. } => self.stored_arrays[*array as usize],
             Op::Atomic { .. } | Op::CompareExchange { .. } => true,
+            // That of an infinity is NaN in whole quads, and 0 in others.
+            Op::Derivative { .. } => true,
             Op::Texture(op) => match op.query {
                 TextureQuery::Size
                 | TextureQuery::Levels
