@@ -18,6 +18,8 @@ mod cube_map_one_pass;
 mod deferred;
 #[path = "../examples/instancing.rs"]
 mod instancing;
+#[path = "../examples/mandelbrot.rs"]
+mod mandelbrot;
 #[path = "../examples/multisampling.rs"]
 mod multisampling;
 #[path = "../examples/normals.rs"]
@@ -61,6 +63,11 @@ fn deferred_draws_its_picture() {
 #[test]
 fn instancing_draws_its_picture() {
     check("instancing", instancing::picture);
+}
+
+#[test]
+fn mandelbrot_draws_its_picture() {
+    check("mandelbrot", mandelbrot::picture);
 }
 
 #[test]
