@@ -380,3 +380,42 @@ void main() {
     assert!(module.reflection.uniform("material.shininess").is_some());
     lower(&module.module, &module.info, 0).expect("it lowers");
 }
+
+#[test]
+fn continue_in_do_while_evaluates_the_condition() {
+    let body = "float n = 0.0; float i = 0.0;
+        do { i += 1.0; if (i >= v.z) continue; n += i; } while (i < v.z);
+        c = vec4(n, i, 0.0, 1.0);";
+    check("", body, [3.0, 3.0, 0.0, 1.0]);
+}
+
+#[test]
+fn and_and_or_evaluate_the_second_operand_only_if_they_must() {
+    let head = "float calls = 0.0; bool yes(float by) { calls += by; return true; }";
+    let body = "bool a = v.x > 5.0 && yes(1.0); bool b = v.x < 5.0 || yes(2.0);
+        bool d = v.x < 5.0 && yes(4.0); bool e = v.x > 5.0 || yes(8.0);
+        c = vec4(calls, float(a) + 2.0 * float(b), float(d) + 2.0 * float(e), 1.0);";
+    check(head, body, [12.0, 2.0, 3.0, 1.0]);
+}
+
+#[test]
+fn lazy_operands_nest_in_every_form() {
+    let head = "float calls = 0.0;
+        bool f(float by, bool result) { calls += by; return result; }";
+    let body = "float n = 0.0, i = 0.0; bool[2] p = bool[2](false, false);
+        do if (v.x > i || f(1.0, false)) n += 1.0; else { n += 8.0; continue; }
+        while ((i += 1.0) < 2.0 && f(16.0, true) && !f(0.0, false));
+        int k = 0;
+        do { int j = 0; do { if (++j == 2) continue; k += j; } while (j < 3); } while (k < 9);
+        switch (k) {
+            case 12: p[f(32.0, true) && k > 9 ? 1 : 0] = v.x < 0.0 || v.y < 0.0 ^^ f(64.0, true);
+            default: for (int m = 0; m < 2 && f(128.0, true); m++) n += 0.25;
+        }
+        bool q = false;
+        if (v.x > 0.0 || (q = true)) c = vec4(calls, n, float(k), p[1] && !q ? 1.0 : 0.0);";
+    check(
+        head,
+        body,
+        [1.0 + 16.0 + 32.0 + 64.0 + 256.0, 9.5, 12.0, 1.0],
+    );
+}

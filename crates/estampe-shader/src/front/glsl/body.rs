@@ -394,7 +394,7 @@ impl Writer<'_> {
 }
 
 /// True for `=`, `+=` and the like.
-fn is_assignment(token: &Token) -> bool {
+pub(super) fn is_assignment(token: &Token) -> bool {
     let is_comparison = ["==", "!=", "<=", ">="].iter().any(|sign| token.is(sign));
     token.kind == Kind::Sign && token.text.ends_with('=') && !is_comparison
 }

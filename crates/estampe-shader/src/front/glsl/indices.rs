@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::Fault;
+use super::nesting::close;
 use super::preprocess::evaluate;
 use super::token::{Place, Token};
 use super::unit::Unit;
@@ -59,21 +60,5 @@ pub(super) fn constant(unit: &Unit, tokens: &[Token]) -> Result<i64, Fault> {
 
 /// The position of the `]` of the `[` at `at`.
 pub(super) fn group(tokens: &[Token], at: usize) -> Option<usize> {
-    if !tokens.get(at)?.is("[") {
-        return None;
-    }
-    let mut depth = 0_usize;
-    for (index, token) in tokens.iter().enumerate().skip(at) {
-        match &*token.text {
-            "[" => depth += 1,
-            "]" => {
-                depth -= 1;
-                if depth == 0 {
-                    return Some(index);
-                }
-            }
-            _ => {}
-        }
-    }
-    None
+    close(tokens, at).filter(|_| tokens[at].is("["))
 }

@@ -9,12 +9,13 @@
 //! |---|---|
 //! | `token`, `number` | tokens with their places, comments, joined lines; numbers |
 //! | `preprocess` | `#define`, `#if` and the other directives |
-//! | `nesting` | a limit on how deeply the text nests |
+//! | `nesting` | brackets, and a limit on how deeply the text nests |
 //! | `declare`, `items`, `qualify`, `unit`, `types` | the declarations at file scope |
 //! | `link` | locations of inputs and outputs, by name between two stages |
 //! | `resources`, `opaque` | groups and bindings; combined textures and samplers |
 //! | `host` | types that buffers hold otherwise: `bool`, `mat2`, small structures |
 //! | `write`, `uniforms`, `output` | the rewritten text, and the author's places in it |
+//! | `flow` | control flow that naga reads otherwise |
 //! | `body`, `order`, `indices`, `builtins` | functions and initial values, token by token |
 //! | `mend` | what naga's modules of GLSL lack |
 //! | `errors`, `functions`, `fault` | naga's errors in the words of GLSL |
@@ -28,6 +29,7 @@ mod builtins;
 mod declare;
 mod errors;
 mod fault;
+mod flow;
 mod functions;
 mod host;
 mod indices;

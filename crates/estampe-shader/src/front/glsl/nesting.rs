@@ -1,4 +1,4 @@
-//! A limit on how deeply a text nests, as what reads it recurses.
+//! Brackets, and a limit on how deeply a text nests, as what reads it recurses.
 
 use super::super::Limits;
 use super::Fault;
@@ -20,6 +20,25 @@ impl Counts {
         self.operators -= core::mem::take(operators);
         self.branches -= core::mem::take(branches);
     }
+}
+
+/// The position of the bracket that closes the one at `at`. `None` if none opens there.
+pub(super) fn close(tokens: &[Token], at: usize) -> Option<usize> {
+    let mut depth = 0_usize;
+    for (index, token) in tokens.iter().enumerate().skip(at) {
+        match (token.kind, &*token.text) {
+            (Kind::Sign, "(" | "[" | "{") => depth += 1,
+            (Kind::Sign, ")" | "]" | "}") => {
+                depth = depth.checked_sub(1)?;
+                if depth == 0 {
+                    return Some(index);
+                }
+            }
+            _ if depth == 0 => return None,
+            _ => {}
+        }
+    }
+    None
 }
 
 /// Checks brackets, chains of operators, and chains of `else if`.

@@ -14,6 +14,7 @@ use super::super::source::ClipSpace;
 use super::Fault;
 use super::body::Scopes;
 use super::builtins;
+use super::flow;
 use super::host::{Hosts, sizes};
 use super::link::Locations;
 use super::order;
@@ -329,7 +330,9 @@ impl<'a> Writer<'a> {
             return Ok(());
         }
         self.output.put(")", place);
-        self.rewrite(&function.body, &mut scopes)
+        let unit = self.unit;
+        let body = flow::rewrite(unit, &function.body, &mut |what| self.invent(what));
+        self.rewrite(&body, &mut scopes)
     }
 
     /// The name of a function: the author's `main` gets another one.
