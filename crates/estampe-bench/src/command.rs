@@ -5,7 +5,7 @@ use crate::measure::{Effort, measure};
 use crate::models::write_models;
 use crate::picture::{Difference, Picture};
 use crate::report::{self, Report, Row};
-use crate::scene::{self, Detail, Scene, SceneEntry};
+use crate::scene::{self, Detail, Scene, SceneEntry, ShaderLanguage};
 use crate::stages::conversions;
 use crate::states::{self, StatesArguments};
 use crate::versus::{self, CompareArguments};
@@ -42,6 +42,9 @@ pub struct Arguments {
         default_value = "1280x720"
     )]
     pub sizes: Vec<FrameSize>,
+    /// The language of the scenes' shaders
+    #[arg(long, value_enum, default_value = "rust")]
+    pub shaders: ShaderLanguage,
     /// Threads that draw; 0: one per processor
     #[arg(long, default_value_t = 0)]
     pub threads: usize,
@@ -199,7 +202,9 @@ pub fn run(arguments: &Arguments, out: &mut impl Write) -> Result<Outcome, Bench
     let mut comparisons = Vec::new();
     for entry in scenes {
         for &size in &arguments.sizes {
-            let scene = entry.make(Detail::Full, size);
+            let scene = entry
+                .make(Detail::Full, size)
+                .in_language(arguments.shaders);
             let (mut row, picture) = run_scene(&device, &scene, size, arguments.effort())?;
             print(out, &row.line())?;
             let file_name = format!("{}_{size}.png", scene.name);

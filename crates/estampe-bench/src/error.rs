@@ -2,7 +2,7 @@
 
 use estampe::{
     BindGroupError, BufferError, DeviceError, LevelError, PipelineError, RenderPassError,
-    TextureError,
+    ShaderErrors, ShaderModuleError, TextureError,
 };
 use std::path::PathBuf;
 
@@ -35,6 +35,12 @@ pub enum BenchError {
     /// A scene's pipeline was refused.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
+    /// A scene's module was refused.
+    #[error(transparent)]
+    Module(#[from] ShaderErrors),
+    /// The entry points of a scene's module do not make a program.
+    #[error(transparent)]
+    Program(#[from] ShaderModuleError),
     /// A buffer was refused.
     #[error(transparent)]
     Buffer(#[from] BufferError),

@@ -2,12 +2,12 @@
 //! memory.
 
 use crate::BenchError;
-use crate::scene::{CLEAR_COLOR, Scene, SceneDraw, shadow};
+use crate::resources::Resources;
+use crate::scene::{CLEAR_COLOR, Scene, SceneDraw};
 use crate::target::{Target, TargetDescriptor};
 use estampe::{
-    BindGroup, BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType,
-    BufferBindingType, BufferSlice, Device, Draw, Extent3d, IndexFormat, RenderPass,
-    RenderPipeline, Statistics, TexelCopyLayout, Texture,
+    BindGroup, Device, Draw, Extent3d, IndexFormat, RenderPass, Statistics, TexelCopyLayout,
+    Texture,
 };
 use std::ops::Range;
 use std::time::{Duration, Instant};
@@ -53,17 +53,6 @@ pub struct PreparedScene<'d> {
     target: Target,
     /// The image of the resolve, if the scene is multisampled.
     resolved: Option<Texture>,
-}
-
-/// The buffers and bindings to which draws refer.
-#[derive(Debug)]
-struct Resources {
-    pipelines: Vec<RenderPipeline>,
-    buffers: Vec<BufferSlice>,
-    /// Group 0: the uniforms, at each draw's dynamic offset.
-    uniforms: Option<BindGroup>,
-    /// Group 1: the depth map.
-    depth_map: Option<BindGroup>,
 }
 
 #[derive(Debug)]
@@ -143,12 +132,12 @@ impl<'d> PreparedScene<'d> {
             recording: Duration::ZERO,
             statistics: Statistics::default(),
         };
-        let uniforms = resources.uniforms.as_ref();
+        let uniforms = resources.group_0.as_ref();
         if let Some((target, draws)) = &self.depth_map {
             let groups = [uniforms, None];
             render(device, resources, groups, draws, (target, None), &mut times);
         }
-        let groups = [uniforms, resources.depth_map.as_ref()];
+        let groups = [uniforms, resources.group_1.as_ref()];
         let target = (&self.target, self.resolved.as_ref());
         render(device, resources, groups, &self.draws, target, &mut times);
         times
@@ -190,58 +179,6 @@ impl<'d> PreparedScene<'d> {
         let bytes = bytes.unwrap_or_default();
         let words = bytes.as_chunks().0.iter();
         words.map(|bytes| f32::from_le_bytes(*bytes)).collect()
-    }
-}
-
-impl Resources {
-    fn new(
-        device: &Device,
-        scene: &Scene,
-        depth_map: Option<&Texture>,
-    ) -> Result<Self, BenchError> {
-        let pipelines = scene.pipelines.iter();
-        let pipelines = pipelines.map(|descriptor| device.create_render_pipeline(descriptor));
-        let buffers = scene.buffers.iter();
-        let buffers = buffers.map(|bytes| {
-            let buffer = device.create_buffer_with_contents(bytes)?;
-            Ok(BufferSlice::from(&buffer))
-        });
-        let buffers: Vec<BufferSlice> = buffers.collect::<Result<_, BenchError>>()?;
-        let group = |binding: u32, ty: BindingType, resource: BindingResource| {
-            let entry = BindGroupLayoutEntry { binding, ty };
-            device.create_bind_group(&BindGroupDescriptor {
-                label: None,
-                layout: &device.create_bind_group_layout(&[entry])?,
-                entries: &[(binding, resource)],
-            })
-        };
-        let uniforms = scene.uniforms.map(|index| {
-            let ty = BindingType::Buffer {
-                ty: BufferBindingType::Uniform,
-                has_dynamic_offset: true,
-                min_binding_size: 0,
-            };
-            // What is left of the buffer at the greatest offset of a draw.
-            let buffer = &buffers[index].buffer;
-            let map = scene.depth_map.iter().flat_map(|map| &map.draws);
-            let offsets = scene
-                .draws
-                .iter()
-                .chain(map)
-                .map(|draw| draw.dynamic_offset);
-            let size = buffer.size() - u64::from(offsets.max().unwrap_or(0));
-            group(0, ty, BindingResource::Buffer(buffer.slice(0..size)))
-        });
-        let depth_map = depth_map.map(|map| {
-            let resource = BindingResource::Texture(map.view());
-            group(shadow::DEPTH_MAP, BindingType::ShadowMap, resource)
-        });
-        Ok(Self {
-            pipelines: pipelines.collect::<Result<_, _>>()?,
-            uniforms: uniforms.transpose()?,
-            depth_map: depth_map.transpose()?,
-            buffers,
-        })
     }
 }
 

@@ -12,5 +12,6 @@ pub(super) fn scene() -> Scene {
         uniforms: None,
         depth_map: None,
         draws: Vec::new(),
+        wgsl: None,
     }
 }

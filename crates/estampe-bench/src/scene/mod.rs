@@ -33,9 +33,11 @@ mod small_tris;
 mod textured;
 mod uniforms;
 mod upload;
+pub(crate) mod wgsl;
 
 use crate::frame::FrameSize;
 use crate::generate::{Fingerprint, MipChain};
+use clap::ValueEnum;
 use estampe::state::{VertexAttribute, VertexBufferLayout};
 use estampe::{RenderPipelineDescriptor, VertexFormat};
 use std::ops::Range;
@@ -84,6 +86,17 @@ pub struct Scene {
     pub depth_map: Option<DepthMap>,
     /// The draws of a frame, in order.
     pub draws: Vec<SceneDraw>,
+    /// The module that is used in place of the pipelines' shaders in Rust.
+    pub(crate) wgsl: Option<&'static wgsl::WgslShaders>,
+}
+
+/// The language of the scenes' shaders.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ShaderLanguage {
+    /// Rust.
+    Rust,
+    /// WGSL, compiled as the scene is prepared.
+    Wgsl,
 }
 
 /// A pass before the frame's, into a square target with depth only.
@@ -143,7 +156,18 @@ impl Scene {
             uniforms: None,
             depth_map: None,
             draws: vec![SceneDraw::new(0, 0, 1)],
+            wgsl: None,
         }
+    }
+
+    /// The scene with its shaders in a language.
+    #[must_use]
+    pub fn in_language(self, language: ShaderLanguage) -> Self {
+        let wgsl = match language {
+            ShaderLanguage::Rust => None,
+            ShaderLanguage::Wgsl => wgsl::of(self.name),
+        };
+        Self { wgsl, ..self }
     }
 
     /// The number of triangles that a frame submits, for triangle lists.

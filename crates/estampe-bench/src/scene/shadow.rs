@@ -177,6 +177,7 @@ pub(super) fn scene(detail: Detail) -> Scene {
                 ..SceneDraw::new(1, 2, 3)
             },
         ],
+        wgsl: None,
     }
 }
 

@@ -10,7 +10,7 @@
 //!                        sizes and uniforms of the dispatch ────┘
 //! ```
 //!
-//! A [form](form::Form) is a sum of indices of work-groups and invocations times coefficients, and
+//! A form is a sum of indices of work-groups and invocations times coefficients, and
 //! an interval. Coefficients may be words of read-only buffers, such as the width of a picture, so
 //! the last step is taken for each dispatch: numbers in mixed radix are different if each digit's
 //! weight is more than what the digits below it reach.
