@@ -177,10 +177,12 @@ fn check_passes(seed: u64) -> [usize; 2] {
     let case = Case::new(random);
     let wanted = case.one_by_one(&tree);
     let before = size(&tree.body);
-    let passes: [fn(&mut Tree); 5] = [
+    let passes: [fn(&mut Tree); 7] = [
+        passes::straight_blocks,
         passes::redundant_parameters,
         passes::loop_invariants,
         passes::dead_code,
+        passes::unused_inputs,
         passes::redundant_parameters,
         passes::optimise,
     ];

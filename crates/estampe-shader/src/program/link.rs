@@ -98,12 +98,16 @@ pub(super) struct Links {
     /// For each scalar of the vertices, the scalar of the fragments; `None` if no fragment reads
     /// it.
     of_vertex: Vec<Option<u32>>,
+    /// The interpolation and the place of each scalar that fragments read.
+    read: Vec<(Interpolation, Sampling)>,
 }
 
 impl Links {
+    /// Links two stages. The varyings that the fragment stage does not read are dropped, and those
+    /// that it reads are numbered anew.
     pub(super) fn new(
         vertex: &StageSource,
-        fragment: Option<&StageSource>,
+        fragment: Option<&mut StageSource>,
     ) -> Result<Self, LinkError> {
         let ends = vertex
             .varyings
@@ -111,7 +115,16 @@ impl Links {
             .map(|slot| slot.first + slot.components);
         let scalars = ends.max().unwrap_or(0);
         let mut of_vertex = vec![None; scalars as usize];
-        for read in fragment.map_or(&[][..], |fragment| &fragment.varyings) {
+        let mut read_scalars = Vec::new();
+        let Some(fragment) = fragment else {
+            return Ok(Self {
+                of_vertex,
+                read: read_scalars,
+            });
+        };
+        let inputs = &mut fragment.tree.interface.inputs;
+        let unlinked = inputs.clone();
+        for read in &fragment.varyings {
             let location = read.location;
             let mut written = vertex
                 .varyings
@@ -133,10 +146,20 @@ impl Links {
                 });
             }
             for component in 0..read.components {
-                of_vertex[(written.first + component) as usize] = Some(read.first + component);
+                let scalar = Input::Varying(read.first + component);
+                let Some(input) = unlinked.iter().position(|input| *input == scalar) else {
+                    continue;
+                };
+                let number = u32::try_from(read_scalars.len()).unwrap_or(u32::MAX);
+                inputs[input] = Input::Varying(number);
+                of_vertex[(written.first + component) as usize] = Some(number);
+                read_scalars.push((read.interpolation, read.sampling));
             }
         }
-        Ok(Self { of_vertex })
+        Ok(Self {
+            of_vertex,
+            read: read_scalars,
+        })
     }
 
     pub(super) fn of_vertex(&self) -> &[Option<u32>] {
@@ -162,19 +185,7 @@ pub(super) fn interface(
     let Some(fragment) = fragment else {
         return interface;
     };
-    let ends = fragment
-        .varyings
-        .iter()
-        .map(|slot| slot.first + slot.components);
-    let scalars = ends.max().unwrap_or(0) as usize;
-    interface.varyings = vec![Interpolation::Flat; scalars];
-    interface.sampling = vec![Sampling::Center; scalars];
-    for slot in &fragment.varyings {
-        for scalar in slot.first..slot.first + slot.components {
-            interface.varyings[scalar as usize] = slot.interpolation;
-            interface.sampling[scalar as usize] = slot.sampling;
-        }
-    }
+    (interface.varyings, interface.sampling) = links.read.iter().copied().unzip();
     let (inputs, outputs) = (
         &fragment.tree.interface.inputs,
         &fragment.tree.interface.outputs,

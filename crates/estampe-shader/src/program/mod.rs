@@ -65,8 +65,10 @@ impl TextProgram {
         if Facts::of(&vertex.tree).stores {
             return Err(LinkError::VertexStores);
         }
-        let links = Links::new(vertex, fragment)?;
-        let interface = link::interface(vertex, fragment, &links);
+        let layouts = layouts::of_stages(std::iter::once(vertex).chain(fragment))?;
+        let mut fragment = fragment.cloned();
+        let links = Links::new(vertex, fragment.as_mut())?;
+        let interface = link::interface(vertex, fragment.as_ref(), &links);
         let starts = interface.attributes.iter().scan(0, |next, count| {
             let start = *next;
             *next += count;
@@ -83,7 +85,7 @@ impl TextProgram {
             },
             vertex: Stage::new(&vertex.tree, budget),
             fragment: fragment.map(|fragment| Stage::new(&fragment.tree, budget)),
-            layouts: layouts::of_stages(std::iter::once(vertex).chain(fragment))?,
+            layouts,
             interface,
             links,
         })

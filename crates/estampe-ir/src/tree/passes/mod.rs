@@ -3,29 +3,37 @@
 //! [`Builder`](super::Builder) folds constants and finds common subexpressions while a tree grows.
 //! [`optimise`] does what needs the whole tree:
 //!
-//! 1. [`redundant_parameters`]: results and parameters that are the same value on every way. Front
+//! 1. [`straight_blocks`]: blocks that are left only at their end, which become their bodies.
+//! 2. [`redundant_parameters`]: results and parameters that are the same value on every way. Front
 //!    ends pass every variable that a construct may change; most are not changed.
-//! 2. [`loop_invariants`]: operations that give the same value in each iteration move before the
+//! 3. [`loop_invariants`]: operations that give the same value in each iteration move before the
 //!    loop.
-//! 3. [`dead_code`]: operations, results and parameters that nothing uses.
+//! 4. [`dead_code`]: operations, results and parameters that nothing uses.
+//! 5. [`unused_inputs`]: inputs that nothing reads.
 
 mod dead;
 pub(crate) mod fold;
 mod invariant;
 mod redundant;
+mod straight;
+mod unused_inputs;
 
 pub use dead::dead_code;
 pub use invariant::loop_invariants;
 pub use redundant::redundant_parameters;
+pub use straight::straight_blocks;
+pub use unused_inputs::unused_inputs;
 
 use super::{Label, Node, Tree};
 use crate::Value;
 
 /// All passes, in order.
 pub fn optimise(tree: &mut Tree) {
+    straight_blocks(tree);
     redundant_parameters(tree);
     loop_invariants(tree);
     dead_code(tree);
+    unused_inputs(tree);
 }
 
 /// Calls `visit` with each branch, in order.
