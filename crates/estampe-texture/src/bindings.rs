@@ -1,8 +1,8 @@
 //! The textures among the resources that a draw binds.
 
-use crate::{SampledTexture, TexelDescriptor, TexelView};
+use crate::{BoundTexture, SampledTexture, TexelDescriptor, TexelView};
 use estampe_types::{Bindings, Limits, SamplerDescriptor, TextureFormat};
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 /// Textures by group and binding number. Shaders call this on the
 /// [`Bindings`] of their input; where no texture of the kind is bound, they read zeros.
@@ -12,6 +12,14 @@ pub trait TextureBindings {
 
     /// The texture without a sampler at a group and binding number, to fetch texels from.
     fn texture(&self, group: u32, binding: u32) -> &TexelView;
+
+    /// The texture at one group and binding number with the sampler at another one; `None` if
+    /// either is not bound, or the sampler cannot sample the texture.
+    fn texture_with_sampler(
+        &self,
+        texture: [u32; 2],
+        sampler: [u32; 2],
+    ) -> Option<Arc<SampledTexture>>;
 }
 
 /// One texel of zeros.
@@ -31,7 +39,17 @@ impl TextureBindings for Bindings {
 
     #[inline]
     fn texture(&self, group: u32, binding: u32) -> &TexelView {
-        self.other(group, binding).unwrap_or_else(|| ZERO.view())
+        self.other(group, binding)
+            .map_or_else(|| ZERO.view(), BoundTexture::view)
+    }
+
+    fn texture_with_sampler(
+        &self,
+        texture: [u32; 2],
+        sampler: [u32; 2],
+    ) -> Option<Arc<SampledTexture>> {
+        let bound: &BoundTexture = self.other(texture[0], texture[1])?;
+        bound.sampled(self.sampler(sampler[0], sampler[1])?)
     }
 }
 
@@ -39,9 +57,9 @@ impl TextureBindings for Bindings {
 mod tests {
     use super::*;
     use crate::{Coordinates, MipGeneration, create_texture};
+    use estampe_simd::Level;
     use estampe_types::Vec2;
     use estampe_types::bindings::{BoundGroup, BoundResource, BoundResources, OtherResource};
-    use std::sync::Arc;
 
     fn white() -> SampledTexture {
         let (format, limits) = (TextureFormat::Rgba8Unorm, Limits::default());
@@ -57,7 +75,15 @@ mod tests {
         let other = |resource| BoundResource::Other(OtherResource(resource));
         let entries = vec![
             (3, other(Arc::new(white.clone()))),
-            (5, other(Arc::new(white.view().clone()))),
+            (
+                5,
+                other(Arc::new(BoundTexture::new(
+                    white.view().clone(),
+                    None,
+                    Level::best(),
+                ))),
+            ),
+            (6, BoundResource::Sampler(SamplerDescriptor::linear())),
         ];
         let bindings = Bindings {
             groups: vec![BoundGroup {
@@ -83,5 +109,15 @@ mod tests {
             );
         }
         assert_eq!([sample(0, 5), fetch(0, 3)], [[0.0; 4]; 2]);
+        // A texture and a sampler become one, once.
+        let pair = |texture, sampler| bindings.texture_with_sampler([0, texture], [0, sampler]);
+        let first = pair(5, 6).expect("both are bound");
+        let second = pair(5, 6).expect("both are bound");
+        assert!(Arc::ptr_eq(&first, &second));
+        assert!(
+            [pair(3, 6), pair(5, 3), pair(4, 6)]
+                .iter()
+                .all(Option::is_none)
+        );
     }
 }

@@ -12,7 +12,8 @@
 //!   WebGPU's address modes.
 //! * [`sample_compare_level`] and [`sample_compare_sum`] compare a depth attachment with a
 //!   reference, without a copy; [`texture_from_depth`] copies it to a texture like others.
-//! * [`TextureBindings`] finds the textures of a draw by group and binding number.
+//! * [`TextureBindings`] finds the textures of a draw by group and binding number; a texture that
+//!   is bound without a sampler is a [`BoundTexture`].
 //! * [`StorageTexture`] is a texture that shaders load from and store to: [`storage_load`],
 //!   [`storage_store`].
 //!
@@ -64,6 +65,7 @@
 
 mod bindings;
 mod blocks;
+mod bound_texture;
 mod compare;
 mod create;
 mod descriptor;
@@ -84,6 +86,7 @@ mod view;
 mod wrap;
 
 pub use bindings::TextureBindings;
+pub use bound_texture::BoundTexture;
 pub use compare::{sample_compare_level, sample_compare_sum};
 pub use create::{MipGeneration, create_texture, create_texture_with_levels};
 pub use descriptor::TexelDescriptor;

@@ -116,6 +116,28 @@ impl<'a> Lowering<'a> {
         }
     }
 
+    /// xʸ. A constant exponent of 1 to 64 without a fraction becomes multiplications, in the order
+    /// of the `powi` of shaders in Rust: fewer operations, and a smaller error than of a logarithm.
+    fn power(&mut self, x: Value, y: Value) -> Value {
+        let b = &mut self.builder;
+        let constant = b.constant_of(y).map(f32::from_bits);
+        let whole = (1..=64_u8).find(|&n| constant == Some(f32::from(n)));
+        let Some(mut left) = whole else {
+            return b.op1(Op::Math2(Math2::Pow, [x, y]));
+        };
+        let (mut power, mut base) = (None, x);
+        loop {
+            if left & 1 == 1 {
+                power = Some(power.map_or(base, |power| b.binary(Binary::FMul, power, base)));
+            }
+            left >>= 1;
+            if left == 0 {
+                return power.unwrap_or(x);
+            }
+            base = b.binary(Binary::FMul, base, base);
+        }
+    }
+
     fn of_floats(&mut self, function: MathFunction, values: &[Value]) -> Lowered<Value> {
         use Binary as B;
         use MathFunction as F;
@@ -138,7 +160,7 @@ impl<'a> Lowering<'a> {
                 b.binary(B::FSub, x, whole)
             }
             F::Ldexp => self.ldexp(x, y),
-            F::Pow => b.op1(Op::Math2(Math2::Pow, [x, y])),
+            F::Pow => self.power(x, y),
             F::Atan2 => b.op1(Op::Math2(Math2::Atan2, [x, y])),
             F::Fma => {
                 let product = b.binary(B::FMul, x, y);

@@ -9,6 +9,7 @@ use estampe_texture::{
 };
 use estampe_types::{Bindings, StorageTexture, Vec3, Vec4, ViewDimension};
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 /// The textures that a draw binds, as a kernel numbers them.
 #[derive(Debug)]
@@ -18,7 +19,7 @@ pub(super) struct BoundTextures<'a> {
     samplers: &'a [TextureSlot],
     /// For each texture and sampler, both together; made when it is first sampled. `None` inside
     /// where the sampler cannot sample the texture.
-    sampled: Vec<OnceCell<Option<SampledTexture>>>,
+    sampled: Vec<OnceCell<Option<Arc<SampledTexture>>>>,
 }
 
 impl<'a> BoundTextures<'a> {
@@ -39,13 +40,15 @@ impl<'a> BoundTextures<'a> {
     fn sampled(&self, texture: u32, sampler: u32) -> Option<&SampledTexture> {
         let at = texture as usize * self.samplers.len() + sampler as usize;
         let made = self.sampled.get(at)?.get_or_init(|| {
-            let TextureSlot { group, binding } = *self.samplers.get(sampler as usize)?;
-            let sampler = *self.bindings.sampler(group, binding)?;
-            let TextureSlot { group, binding } = *self.textures.get(texture as usize)?;
-            let view = self.bindings.texture(group, binding);
-            SampledTexture::new(view.clone(), sampler).ok()
+            let slot = |slots: &[TextureSlot], at: u32| {
+                let TextureSlot { group, binding } = *slots.get(at as usize)?;
+                Some([group, binding])
+            };
+            let texture = slot(self.textures, texture)?;
+            self.bindings
+                .texture_with_sampler(texture, slot(self.samplers, sampler)?)
         });
-        made.as_ref()
+        made.as_deref()
     }
 }
 
@@ -213,6 +216,7 @@ fn answer<S: Lanes>(
         }
         TextureQuery::Gather(channel) => texture.gather(at, usize::from(channel), [x, y]),
         TextureQuery::GatherCompare => texture.gather_compare(at, reference, [x, y]),
+        _ if matches!(lod, Lod::Implicit) && access.op.offset == [0; 3] => texture.sample(at),
         _ => texture.sample_with(at, lod, access.op.offset),
     };
     [four.x, four.y, four.z, four.w]

@@ -4,10 +4,11 @@ use super::TexelView;
 use super::coordinates::{Answers, Lanes, Lod, TextureCoordinates, by_sixteen};
 use super::packet::PacketFormat;
 use crate::rgba8_texture::is_rgba8;
-use crate::{Rgba8Texture, TextureError};
+use crate::{Rgba8Texture, TextureError, sample_compare_level};
 use estampe_simd::Level;
-use estampe_types::ViewDimension;
 use estampe_types::shader::Sample2d;
+use estampe_types::state::CompareFunction;
+use estampe_types::{AddressMode, ShadowMap, TextureFormat, ViewDimension};
 use estampe_types::{FilterMode, Real, SampleType, SamplerDescriptor, TexelData};
 use estampe_types::{Vec2, Vec3, Vec4};
 
@@ -29,6 +30,8 @@ pub struct SampledTexture {
     pub(crate) is_simple: bool,
     /// The SIMD level of packet code.
     pub(crate) level: Level,
+    /// The depths, if comparisons read them as [`sample_compare_level`] does.
+    depths: Option<ShadowMap>,
 }
 
 impl Sample2d for SampledTexture {
@@ -59,6 +62,7 @@ impl SampledTexture {
             view,
             sampler,
             common,
+            depths: None,
         })
     }
 
@@ -74,6 +78,25 @@ impl SampledTexture {
     #[must_use]
     pub fn at_level(self, level: Level) -> Self {
         Self { level, ..self }
+    }
+
+    /// The texture with its depths as a shadow map, which comparisons read if view and sampler are
+    /// those of [`sample_compare_level`]. The results are the same.
+    #[must_use]
+    pub fn with_depths(self, depths: ShadowMap) -> Self {
+        let (view, sampler) = (&self.view, &self.sampler);
+        let size = view.size(0);
+        let is_common = view.dimension() == ViewDimension::D2
+            && view.level_count() == 1
+            && view.texture.stored_format() == TextureFormat::Depth32Float
+            && [size[0], size[1]] == [depths.width(), depths.height()]
+            && [sampler.mag_filter, sampler.min_filter] == [FilterMode::Linear; 2]
+            && [sampler.address_mode_u, sampler.address_mode_v] == [AddressMode::ClampToEdge; 2]
+            && sampler.compare == Some(CompareFunction::LessEqual);
+        Self {
+            depths: is_common.then_some(depths),
+            ..self
+        }
     }
 
     /// The texture with its sampler, if it is of the common kind: 2D, four 8-bit channels, WebGPU's
@@ -233,6 +256,9 @@ impl SampledTexture {
         offset: [i32; 2],
     ) -> R {
         let at = at.coordinates();
+        if let Some(depths) = self.depths.as_ref().filter(|_| offset == [0; 2]) {
+            return sample_compare_level(depths, Vec2::new(at.uvw.x, at.uvw.y), reference);
+        }
         reference.out_of_line(
             #[inline(always)]
             || {

@@ -4,7 +4,9 @@ use super::{BindGroup, BindingResource};
 use crate::buffer::StoredBuffers;
 use crate::texture::{StoredTextures, TextureError, TextureView, sampled_texture};
 use crate::{BindingType, BufferSlice, Context};
+use estampe_texture::BoundTexture;
 use estampe_types::bindings::{BoundResource, BoundResources, OtherResource};
+use estampe_types::{ShadowMap, TextureFormat};
 use std::sync::Arc;
 
 impl BindGroup {
@@ -28,7 +30,12 @@ impl BindGroup {
                     Some(BindingType::StorageTexture { .. }) => {
                         BoundResource::StorageTexture(textures.get(context, view)?)
                     }
-                    _ => BoundResource::Other(OtherResource(Arc::new(view.texels(context)?))),
+                    _ => {
+                        let depths = newest_depths(context, view)?;
+                        let bound =
+                            BoundTexture::new(view.texels(context)?, depths, context.level());
+                        BoundResource::Other(OtherResource(Arc::new(bound)))
+                    }
                 },
                 BindingResource::Sampler(sampler) => BoundResource::Sampler(*sampler.descriptor()),
                 BindingResource::SampledTexture(view, sampler) => {
@@ -82,4 +89,18 @@ fn shadow_map(context: &Context, view: &TextureView) -> Result<BoundResource, Te
         None => None,
     };
     Ok(BoundResource::ShadowMap(map.unwrap_or_default()))
+}
+
+/// The depths of a view for comparisons, in the attachment's memory: those that a pass has written.
+fn newest_depths(context: &Context, view: &TextureView) -> Result<Option<ShadowMap>, TextureError> {
+    let texture = view.texture();
+    let is_depth = view.format() == TextureFormat::Depth32Float && texture.sample_count() == 1;
+    let Some(key) = view.image_key(None).filter(|_| is_depth) else {
+        return Ok(None);
+    };
+    let mut contents = texture.lock();
+    if contents.newest_tiles(key).is_none() {
+        return Ok(None);
+    }
+    contents.shadow_map(texture, context, key)
 }
