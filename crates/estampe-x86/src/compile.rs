@@ -64,6 +64,12 @@ const MAX_CAREFUL: usize = 1 << 14;
 const MAX_SIZE: usize = 1 << 16;
 
 impl Code {
+    /// True if a pass runs two packets where so many are left.
+    #[must_use]
+    pub fn runs_pairs(&self) -> bool {
+        self.pair.is_some()
+    }
+
     /// Makes code for a kernel.
     ///
     /// # Errors

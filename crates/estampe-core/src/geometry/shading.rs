@@ -14,10 +14,8 @@ use estampe_simd::{
 };
 use estampe_types::{Bindings, BufferData, Interface, VertexBatch};
 
-/// Packets that a program shades in one call. Few, because fetching and storing wait for memory
-/// while programs compute: of a million triangles' half a million vertices, with 2, 4, 8 and 16
-/// packets, the geometry side took 9.6, 9.9, 10.5 and 11.6 ms of CPU time.
-const BATCH: usize = 2;
+/// The most packets that a program shades in one call: see [`vertex_packets`](estampe_types::Program::vertex_packets).
+const BATCH: usize = 8;
 
 /// Vertices of a packet.
 #[expect(clippy::cast_possible_truncation, reason = "sixteen")]
@@ -79,13 +77,24 @@ struct ShadeBatch {
     first: u32,
     done: usize,
     total: usize,
+    /// The most packets of the batch.
+    most: usize,
 }
 
 impl ShadeBatch {
+    fn new(source: &VertexSource<'_>, first: u32, total: usize) -> Self {
+        Self {
+            first,
+            done: 0,
+            total,
+            most: source.pipeline.program().vertex_packets().clamp(1, BATCH),
+        }
+    }
+
     /// Returns the number of packets in the batch.
     #[inline(always)]
     fn packets(self) -> usize {
-        (self.total - self.done).div_ceil(LANES).min(BATCH)
+        (self.total - self.done).div_ceil(LANES).min(self.most)
     }
 }
 
@@ -100,11 +109,7 @@ pub(crate) fn shade(
 ) {
     let interface = source.pipeline.interface();
     let total = out.window.len();
-    let mut batch = ShadeBatch {
-        first,
-        done: 0,
-        total,
-    };
+    let mut batch = ShadeBatch::new(source, first, total);
     while batch.done < total {
         run(level, source, batch, scratch);
         dispatch!(level, s => store_batch(s, transform, batch, out, scratch));
@@ -112,7 +117,7 @@ pub(crate) fn shade(
             let window = &mut out.window[batch.done..];
             mark_outside_distances(interface, &scratch.distances, window);
         }
-        batch.done += BATCH * LANES;
+        batch.done += batch.most * LANES;
     }
 }
 
@@ -124,11 +129,7 @@ pub(crate) fn shade_positions(
     scratch: &mut ShadingScratch,
 ) -> [Packet<f32>; 4] {
     let total = source.total().saturating_sub(first).min(PACKET) as usize;
-    let batch = ShadeBatch {
-        first,
-        done: 0,
-        total,
-    };
+    let batch = ShadeBatch::new(source, first, total);
     run(level, source, batch, scratch);
     scratch.positions[0]
 }

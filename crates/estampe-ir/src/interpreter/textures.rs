@@ -63,12 +63,14 @@ impl<'a> TextureAccess<'a> {
     }
 
     /// A coordinate: floats where a sampler is used, else integers.
+    #[inline]
     #[must_use]
     pub fn coordinate(&self, at: usize) -> &'a [Packet<u32>] {
         self.operand(at)
     }
 
     /// The layer, if the operation has one.
+    #[inline]
     #[must_use]
     pub fn layer(&self) -> Option<&'a [Packet<u32>]> {
         let at = self.op.coordinates.len();
@@ -76,6 +78,7 @@ impl<'a> TextureAccess<'a> {
     }
 
     /// The explicit level, or the bias, if the operation has one.
+    #[inline]
     #[must_use]
     pub fn level_of_detail(&self) -> Option<&'a [Packet<u32>]> {
         match self.op.level {
@@ -88,6 +91,7 @@ impl<'a> TextureAccess<'a> {
 
     /// The derivative of a coordinate along a row (axis 0) or a column (axis 1), if the operation
     /// has gradients.
+    #[inline]
     #[must_use]
     pub fn gradient(&self, axis: usize, coordinate: usize) -> Option<&'a [Packet<u32>]> {
         let LevelOfDetail::Gradient { x, .. } = &self.op.level else {
@@ -97,6 +101,7 @@ impl<'a> TextureAccess<'a> {
     }
 
     /// The depth that is compared, if the operation has one.
+    #[inline]
     #[must_use]
     pub fn reference(&self) -> Option<&'a [Packet<u32>]> {
         let at = self.first_of_level() + self.words_of_level();
@@ -104,6 +109,7 @@ impl<'a> TextureAccess<'a> {
     }
 
     /// The sample, if the operation names one.
+    #[inline]
     #[must_use]
     pub fn sample(&self) -> Option<&'a [Packet<u32>]> {
         let at = self.first_of_level() + self.words_of_level();
@@ -112,6 +118,7 @@ impl<'a> TextureAccess<'a> {
     }
 
     /// A word that is stored.
+    #[inline]
     #[must_use]
     pub fn stored(&self, at: usize) -> &'a [Packet<u32>] {
         let before = [self.op.reference, self.op.sample];
@@ -120,12 +127,14 @@ impl<'a> TextureAccess<'a> {
     }
 
     /// The number of results.
+    #[inline]
     #[must_use]
     pub fn results(&self) -> usize {
         self.op.query.results() as usize
     }
 
     /// A result, to set it.
+    #[inline]
     pub fn result_mut(&mut self, at: usize) -> &mut [Packet<u32>] {
         let (first, count) = (at * self.packets, self.packets);
         self.results
@@ -134,10 +143,12 @@ impl<'a> TextureAccess<'a> {
             .unwrap_or_default()
     }
 
+    #[inline]
     fn first_of_level(&self) -> usize {
         self.op.coordinates.len() + usize::from(self.op.layer.is_some())
     }
 
+    #[inline]
     fn words_of_level(&self) -> usize {
         match &self.op.level {
             LevelOfDetail::Zero | LevelOfDetail::Implicit => 0,
@@ -146,6 +157,7 @@ impl<'a> TextureAccess<'a> {
         }
     }
 
+    #[inline]
     fn operand(&self, at: usize) -> &'a [Packet<u32>] {
         let (first, count) = (at * self.packets, self.packets);
         self.operands

@@ -44,9 +44,15 @@ enum Target {
     Loop(Value, Vec<Type>),
 }
 
-/// A random compute shader.
+/// A random shader.
 pub(crate) fn tree(random: &mut Rng) -> (Tree, Made) {
-    let mut builder = Builder::new(Stage::Compute);
+    // Two packets of a fragment stage may run together. This draws no number from `random`.
+    let is_compute = random.clone().bool();
+    let mut builder = Builder::new(if is_compute {
+        Stage::Compute
+    } else {
+        Stage::Fragment
+    });
     for is_written in [false, true] {
         builder.interface_mut().buffers.push(BufferSlot {
             group: 0,

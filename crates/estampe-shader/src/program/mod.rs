@@ -101,6 +101,10 @@ impl Program for TextProgram {
         &self.layouts
     }
 
+    fn vertex_packets(&self) -> usize {
+        8
+    }
+
     fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>) {
         let stage = &self.vertex;
         let buffers = buffers(stage, bindings);

@@ -5,9 +5,10 @@ use estampe_ir::interpreter::{TextureAccess, Textures};
 use estampe_ir::op::{LevelOfDetail, TextureQuery};
 use estampe_simd::{Bytes, Lanes, Packet, SimdBase, dispatch, f32x16, i32x16, mask32x16, u32x16};
 use estampe_texture::{
-    Coordinates, Lod, SampledTexture, TextureBindings, storage_load, storage_store,
+    Coordinates, Lod, Rgba8Texture, SampledTexture, TextureBindings, sample_compare_level,
+    storage_load, storage_store,
 };
-use estampe_types::{Bindings, StorageTexture, Vec3, Vec4, ViewDimension};
+use estampe_types::{Bindings, ShadowMap, StorageTexture, Vec2, Vec3, Vec4, ViewDimension};
 use std::cell::OnceCell;
 use std::sync::Arc;
 
@@ -54,6 +55,9 @@ impl<'a> BoundTextures<'a> {
 
 impl Textures for BoundTextures<'_> {
     fn access(&self, mut access: TextureAccess<'_>) {
+        if self.common_access(&mut access) {
+            return;
+        }
         for result in 0..access.results() {
             access.result_mut(result).fill(Packet::default());
         }
@@ -79,6 +83,42 @@ impl Textures for BoundTextures<'_> {
 }
 
 impl BoundTextures<'_> {
+    /// Does an access of one packet whose form and whose texture are the common ones; otherwise
+    /// false is returned, and nothing done.
+    #[inline]
+    fn common_access(&self, access: &mut TextureAccess<'_>) -> bool {
+        let op = access.op;
+        let (Some(sampler), [_, _], [0, 0, 0], None, &[mask]) = (
+            op.sampler,
+            &op.coordinates[..],
+            op.offset,
+            op.layer,
+            access.mask,
+        ) else {
+            return false;
+        };
+        let level = access.level;
+        match (op.query, &op.level) {
+            (TextureQuery::Sample, LevelOfDetail::Implicit) if mask == whole_quads(mask) => {
+                let texture = self.sampled(op.texture, sampler);
+                let Some(texture) = texture.and_then(SampledTexture::common) else {
+                    return false;
+                };
+                dispatch!(level, s => plain(s, texture, access));
+                true
+            }
+            (TextureQuery::SampleCompare, _) => {
+                let texture = self.sampled(op.texture, sampler);
+                let Some(depths) = texture.and_then(SampledTexture::depths) else {
+                    return false;
+                };
+                dispatch!(level, s => compare(s, depths, access));
+                true
+            }
+            _ => false,
+        }
+    }
+
     fn slot(&self, access: &TextureAccess<'_>) -> (u32, u32) {
         let slot = self.textures.get(access.op.texture as usize);
         slot.map_or((u32::MAX, u32::MAX), |slot| (slot.group, slot.binding))
@@ -153,27 +193,47 @@ impl BoundTextures<'_> {
     }
 }
 
+/// Samples a texture of the common kind in one packet. Operands and results are loaded and stored
+/// by whole registers: a load waits long for several stores to the same line.
+#[inline(always)]
+fn plain<S: Lanes>(s: S, texture: &Rgba8Texture, access: &mut TextureAccess<'_>) {
+    let [u, v] = [0, 1].map(
+        #[inline(always)]
+        |at| floats(s, access.coordinate(at), 0),
+    );
+    let color = texture.sample(Vec2::new(u, v));
+    set(access, 0, [color.x, color.y, color.z, color.w]);
+}
+
+/// Compares the depths of a shadow map.
+#[inline(always)]
+fn compare<S: Lanes>(s: S, depths: &ShadowMap, access: &mut TextureAccess<'_>) {
+    let uv = Vec2::new(
+        floats(s, access.coordinate(0), 0),
+        floats(s, access.coordinate(1), 0),
+    );
+    let reference = access.reference().unwrap_or_default();
+    let share = sample_compare_level(depths, uv, floats(s, reference, 0));
+    let words: u32x16<S> = share.bitcast();
+    words.store_array(&mut access.result_mut(0)[0].0);
+}
+
 /// Samples, compares and gathers.
 #[inline(always)]
 fn sample<S: Lanes>(s: S, texture: &SampledTexture, access: &mut TextureAccess<'_>) {
     let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
     for packet in 0..access.packets {
-        let coordinate = |at: usize| {
-            if at < access.op.coordinates.len() {
-                floats(s, access.coordinate(at), packet)
-            } else {
-                zero
-            }
-        };
-        let uvw = Vec3::new(coordinate(0), coordinate(1), coordinate(2));
+        let [u, v, w] = [0, 1, 2].map(
+            #[inline(always)]
+            |at| coordinate(s, access, (at, packet)),
+        );
+        let uvw = Vec3::new(u, v, w);
         let layer = access.layer().map(|layer| ints(s, layer, packet));
         let layer = layer.unwrap_or(<i32x16<S> as SimdBase<S>>::splat(s, 0));
         // An array view takes the layer; of others it is 0.
         let at = match texture.view().dimension() {
             ViewDimension::CubeArray => Coordinates::cube_array(uvw, layer),
-            ViewDimension::D2Array => {
-                Coordinates::d2_array(estampe_types::Vec2::new(uvw.x, uvw.y), layer)
-            }
+            ViewDimension::D2Array => Coordinates::d2_array(Vec2::new(uvw.x, uvw.y), layer),
             _ => Coordinates::d3(uvw),
         };
         let result = answer(s, texture, access, (packet, at), lod(s, access, packet));
@@ -194,6 +254,20 @@ fn sample<S: Lanes>(s: S, texture: &SampledTexture, access: &mut TextureAccess<'
             })
         };
         set(access, packet, result);
+    }
+}
+
+/// A coordinate, 0 if the operation has fewer.
+#[inline(always)]
+fn coordinate<S: Lanes>(
+    s: S,
+    access: &TextureAccess<'_>,
+    (at, packet): (usize, usize),
+) -> f32x16<S> {
+    if at < access.op.coordinates.len() {
+        floats(s, access.coordinate(at), packet)
+    } else {
+        <f32x16<S> as SimdBase<S>>::splat(s, 0.0)
     }
 }
 

@@ -99,6 +99,12 @@ impl SampledTexture {
         }
     }
 
+    /// The depths that comparisons read: see [`Self::with_depths`].
+    #[must_use]
+    pub fn depths(&self) -> Option<&ShadowMap> {
+        self.depths.as_ref()
+    }
+
     /// The texture with its sampler, if it is of the common kind: 2D, four 8-bit channels, WebGPU's
     /// address modes.
     #[must_use]

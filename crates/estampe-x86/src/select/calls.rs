@@ -137,7 +137,7 @@ impl Selector<'_> {
     /// An operation that a call does.
     pub(super) fn call(&mut self, op: &Op, first: Value) -> Result<(), CompileError> {
         if self.isa == Isa::Avx512 && self.halves > 1 {
-            // A call serves one packet: `is_straight` and this module differ.
+            // A call serves one packet: `can_pair` and this module differ.
             debug_assert!(false, "no kernel with calls runs two packets");
             return Err(CompileError::TooLarge);
         }

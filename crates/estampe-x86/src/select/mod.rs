@@ -6,12 +6,12 @@
 //! |---|---|---|---|
 //! | AVX2 | all | 16: a packet | 2 |
 //! | AVX-512 | all | 16: a packet | 1 |
-//! | AVX-512, optimised | straight, without calls: a second function | 32: two packets | 2 |
+//! | AVX-512, optimised | without calls and effects: a second function | 32: two packets | 2 |
 //!
 //! Most shaders are one long chain of operations, each of which waits for the one before: the
 //! halves, which are independent, fill the time. Lit fragments, ns each, with one register and with
-//! two: AVX2 13.1 and 9.7, AVX-512 8.8 and 7.05, though they spill more. Kernels with branches,
-//! which would be taken for both packets, and with effects, which must happen in the order of
+//! two: AVX2 13.1 and 9.7, AVX-512 8.8 and 7.05, though they spill more. Branches are taken if a lane
+//! of either packet asks for it. Kernels with calls and effects, which must happen in the order of
 //! sixteen lanes, run single packets; so does the last packet of an odd number.
 //!
 //! | module | selects |
@@ -41,6 +41,7 @@ use crate::frame::Frame;
 use crate::machine::{Function, MASK, VECTOR};
 use crate::{CompileError, Isa, Tier};
 use calls::Served;
+use estampe_ir::interface::Stage;
 use estampe_ir::lanes::Kernel;
 use estampe_ir::op::Memory as Shared;
 use estampe_ir::{Op, Type, Value};
@@ -114,7 +115,7 @@ pub(crate) fn select(
     let plan = Plan::new(kernel);
     check(kernel, &plan)?;
     let may_pair = (isa, tier) == (Isa::Avx512, Tier::Optimised);
-    let has_pair = may_pair && is_straight(kernel, &plan);
+    let has_pair = may_pair && can_pair(kernel, &plan);
     let packets_of_pass = if has_pair { 2 } else { 1 };
     let (places, table_inputs, slots) = hoisted_places(kernel, &plan);
     let slot_bytes = match isa {
@@ -188,18 +189,28 @@ fn check(kernel: &Kernel, plan: &Plan) -> Result<(), CompileError> {
 /// Operations up to which there is a function that runs two packets.
 const MAX_PAIRED: usize = 2048;
 
-/// True if the kernel has one block, and operations of which none is a call or has an effect.
-fn is_straight(kernel: &Kernel, plan: &Plan) -> bool {
-    let reached = plan.is_reached.iter().filter(|is_reached| **is_reached);
-    let Some(block) = kernel.blocks.first().filter(|_| reached.count() == 1) else {
-        return false;
-    };
+/// True if two packets can run together: no operation is a call or has an effect, and what is
+/// uniform in a packet is so in all packets of a run, so that they take uniform branches together.
+fn can_pair(kernel: &Kernel, plan: &Plan) -> bool {
     let is_free = |(op, first): &(Op, Value)| {
         let is_call = Served::is_call(op) || matches!(op, Op::Any(_));
         let is_hoisted = op.results().len() == 1 && plan.is_hoisted(*first);
         !op.has_effect() && (!is_call || is_hoisted || !plan.is_needed(op, *first))
     };
-    block.ops.len() <= MAX_PAIRED && block.ops.iter().all(is_free)
+    let blocks = kernel.blocks.iter().enumerate();
+    let ops = || {
+        let reached = blocks.clone().filter(|(at, _)| plan.is_reached[*at]);
+        reached.flat_map(|(_, block)| &block.ops)
+    };
+    let is_straight = plan
+        .is_reached
+        .iter()
+        .filter(|is_reached| **is_reached)
+        .count()
+        == 1;
+    (is_straight || kernel.stage != Stage::Compute)
+        && ops().count() <= MAX_PAIRED
+        && ops().all(is_free)
 }
 
 /// Places of hoisted values, the inputs among them, and the number of slots.

@@ -29,8 +29,9 @@ pub(super) struct Generator<'a> {
     /// Statements that may still be made.
     left: u32,
     pub(super) cover: Value,
-    /// No control flow, and operations that need no calls: a pass may run two packets.
-    pub(super) is_plain: bool,
+    /// Operations that need no calls and have no effects: a pass may run two packets.
+    pub(super) is_free: bool,
+    has_flow: bool,
 }
 
 #[derive(Clone)]
@@ -70,6 +71,7 @@ pub(super) fn tree(random: &mut Rng, statements: u32) -> Tree {
     words.extend((0..VARYINGS).map(|at| builder.input(Input::Varying(at))));
     let cover = builder.input(Input::Cover);
     let facing = builder.input(Input::FrontFacing);
+    let is_free = random.u32(0..3) == 0;
     let mut generator = Generator {
         words,
         masks: vec![cover, facing],
@@ -77,7 +79,8 @@ pub(super) fn tree(random: &mut Rng, statements: u32) -> Tree {
         left: statements,
         cover,
         builder,
-        is_plain: random.u32(0..4) == 0,
+        is_free,
+        has_flow: !is_free || random.bool(),
         random,
     };
     let mut types = vec![Type::Word; OUTPUTS as usize];
@@ -110,7 +113,7 @@ impl Generator<'_> {
                 break;
             }
             self.left -= 1;
-            if self.is_plain {
+            if !self.has_flow {
                 self.operation();
                 continue;
             }

@@ -6,6 +6,7 @@ use estampe_ir::op::{
     Atomic, Axis, Binary, Compare, LevelOfDetail, MaskBinary, Math, Math2, Memory, Precision,
     TextureQuery, Unary,
 };
+use estampe_x86::{Code, Isa};
 use std::collections::BTreeMap;
 
 /// How often each operation occurred.
@@ -35,9 +36,24 @@ impl Hits {
         }
     }
 
+    /// Counts code that runs pairs of packets.
+    pub(crate) fn count_pairs(&mut self, kernel: &Kernel, code: &Code) {
+        let mut blocks = kernel.blocks.iter().enumerate();
+        let has_loop = blocks.any(|(at, block)| {
+            let mut jumps = block.terminator.jumps();
+            jumps.any(|jump| jump.to.index() <= at)
+        });
+        if code.runs_pairs() {
+            let kind = if has_loop { "pairs that loop" } else { "pairs" };
+            *self.counts.entry(kind.to_owned()).or_default() += 1;
+        }
+    }
+
     /// What can be compiled and did not occur.
     pub(crate) fn missing(&self) -> Vec<String> {
-        let all = expected().into_iter();
+        let of_avx512 = ["pairs", "pairs that loop"].map(str::to_owned).into_iter();
+        let all = of_avx512.filter(|_| Isa::Avx512.is_available());
+        let all = all.chain(expected());
         all.filter(|name| !self.counts.contains_key(name)).collect()
     }
 

@@ -60,6 +60,7 @@ pub(crate) fn check(
             };
             let code = Code::compile(&kernel, isa, tier)
                 .map_err(|error| failed(&format!("no code: {error}")))?;
+            hits.count_pairs(&kernel, &code);
             let got = case.run(&mut |run| code.run(Level::best(), run, &mut memory.scratch));
             if let Some(difference) = case.difference(&wanted, &got) {
                 return Err(failed(&difference));

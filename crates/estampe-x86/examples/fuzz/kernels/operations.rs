@@ -23,7 +23,7 @@ impl Generator<'_> {
                     kind,
                     Unary::RoundF16 | Unary::F16FromF32 | Unary::F32FromF16 | Unary::ReverseBits
                 );
-                if self.is_plain && is_call {
+                if self.is_free && is_call {
                     kind = Unary::FSqrt;
                 }
                 let result = self.builder.unary(kind, a);
@@ -97,24 +97,24 @@ impl Generator<'_> {
                 });
                 self.canonical(difference)
             }
-            12 if self.is_plain => {
+            12 if self.is_free => {
                 let (offset, buffer) = (self.offset(a), READ);
                 self.builder.op1(Op::LoadBuffer { buffer, offset })
             }
-            13 if self.is_plain => {
+            13 if self.is_free => {
                 let array = self.random.u32(ARRAY + 1..ARRAYS);
                 self.builder.op1(Op::LoadLocal { array, index: a })
             }
-            12 | 13 if !self.is_plain => return self.memory([a, b]),
-            14 if !self.is_plain => return self.local([a, b]),
-            15 if !self.is_plain => return self.texture([a, b]),
+            12 | 13 if !self.is_free => return self.memory([a, b]),
+            14 if !self.is_free => return self.local([a, b]),
+            15 if !self.is_free => return self.texture([a, b]),
             _ => {
                 let mut kind = self.one_of(Binary::ALL);
                 let is_call = matches!(
                     kind,
                     Binary::SDiv | Binary::SRem | Binary::UDiv | Binary::URem
                 );
-                if self.is_plain && is_call {
+                if self.is_free && is_call {
                     kind = Binary::FDiv;
                 }
                 let result = self.builder.binary(kind, a, b);
