@@ -7,6 +7,7 @@
 //! * [`describe`]: describes the contents of a model;
 //! * [`diff`]: measures the difference of two images;
 //! * [`depth`]: measures the precision of depth buffers;
+//! * [`shader`]: checks shaders as text;
 //! * [`ladder`]: draws the pictures of the ladder, from one pixel to shapes.
 //!
 //! [`input`] reads models from files, standard input or by built-in name, [`output`] writes files
@@ -23,6 +24,7 @@ mod ladder;
 mod output;
 mod progress;
 mod render;
+mod shader;
 mod shape;
 mod values;
 
@@ -46,6 +48,7 @@ Examples:
   estampe info model.stl
   estampe depth --near 0.1 --far 1000 --format d24
   estampe diff expected.png actual.png
+  estampe shader check sky.wgsl
   estampe ladder all -o ladder
 
 `estampe help COMMAND` explains all options of a command.")]
@@ -64,6 +67,7 @@ enum Command {
     Inspect(Box<inspect::InspectArgs>),
     Diff(diff::DiffArgs),
     Depth(depth::DepthArgs),
+    Shader(shader::ShaderArgs),
     Ladder(ladder::LadderArgs),
 }
 
@@ -112,6 +116,10 @@ fn main() -> ExitCode {
                 depth::run(args),
             )
         }
+        Command::Shader(args) => match shader::run(args) {
+            Ok(code) => code,
+            Err(failure) => report(args.name(), args.json(), Err(failure)),
+        },
         Command::Ladder(args) => report("ladder", None, ladder::run(args)),
         Command::Diff(args) => {
             let (mut out, mut err) = (BufWriter::new(io::stdout().lock()), io::stderr().lock());
