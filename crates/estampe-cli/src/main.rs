@@ -7,13 +7,15 @@
 //! * [`describe`]: describes the contents of a model;
 //! * [`diff`]: measures the difference of two images;
 //! * [`depth`]: measures the precision of depth buffers;
-//! * [`shader`]: checks shaders as text;
+//! * [`shader`]: checks and draws shaders as text;
+//! * [`compute`]: runs a compute shader;
 //! * [`ladder`]: draws the pictures of the ladder, from one pixel to shapes.
 //!
 //! [`input`] reads models from files, standard input or by built-in name, [`output`] writes files
 //! completely or not at all, [`values`] parses the options' values, and [`failure`] has the exit
 //! codes.
 
+mod compute;
 mod depth;
 mod describe;
 mod diff;
@@ -49,6 +51,8 @@ Examples:
   estampe depth --near 0.1 --far 1000 --format d24
   estampe diff expected.png actual.png
   estampe shader check sky.wgsl
+  estampe shader image sky.wgsl -o sky.png
+  estampe compute squares.wgsl --groups 4 --buffer 0,0=zeros:1024 --write 0,0=squares.bin
   estampe ladder all -o ladder
 
 `estampe help COMMAND` explains all options of a command.")]
@@ -68,6 +72,8 @@ enum Command {
     Diff(diff::DiffArgs),
     Depth(depth::DepthArgs),
     Shader(shader::ShaderArgs),
+    // Boxed, because it has many options.
+    Compute(Box<compute::ComputeArgs>),
     Ladder(ladder::LadderArgs),
 }
 
@@ -120,6 +126,7 @@ fn main() -> ExitCode {
             Ok(code) => code,
             Err(failure) => report(args.name(), args.json(), Err(failure)),
         },
+        Command::Compute(args) => report("compute", None, compute::run(args)),
         Command::Ladder(args) => report("ladder", None, ladder::run(args)),
         Command::Diff(args) => {
             let (mut out, mut err) = (BufWriter::new(io::stdout().lock()), io::stderr().lock());

@@ -1,5 +1,6 @@
 //! `estampe shader check`: parses, validates and lowers a shader.
 
+use super::place::function;
 use super::source::{ShaderFile, SourceArgs, StageName, stage_name};
 use crate::failure::{DONE, Failure};
 use clap::Args;
@@ -101,12 +102,13 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
 /// A shader of a program in GLSL.
 fn glsl(path: &Path, stage: ShaderStage, args: &CheckArgs) -> Result<ShaderFile, Failure> {
     let file = ShaderFile::read(path, None, &args.source)?;
-    let name = file.name.clone();
-    file.with_stage(stage).ok_or_else(|| {
-        Failure::Usage(format!(
+    if !file.is_glsl() {
+        let name = &file.name;
+        return Err(Failure::Usage(format!(
             "{name}: --vertex and --fragment take GLSL; give other languages as FILE"
-        ))
-    })
+        )));
+    }
+    Ok(file.with_stage(stage))
 }
 
 /// The module if it is right.
@@ -194,19 +196,6 @@ fn placed(file: &ShaderFile, error: &ShaderModuleError) -> ShaderSourceError {
     }
 }
 
-/// The line and the column in characters, from 0, of a function's name after its keyword.
-fn function(text: &str, keyword: &str, name: &str) -> Option<(usize, usize)> {
-    let is_name = |c: char| c.is_alphanumeric() || c == '_';
-    text.lines().enumerate().find_map(|(number, line)| {
-        let (start, _) = line.match_indices(name).find(|(start, _)| {
-            let before = line[..*start].trim_end();
-            let after = line[start + name.len()..].chars().next();
-            before.len() < *start && before.ends_with(keyword) && !after.is_some_and(is_name)
-        })?;
-        Some((number, line[..start].chars().count()))
-    })
-}
-
 fn report(args: &CheckArgs, subject: &str, checked: &Checked) -> Result<u8, Failure> {
     let errors = checked.as_ref().err();
     if args.json {
@@ -231,17 +220,4 @@ fn report(args: &CheckArgs, subject: &str, checked: &Checked) -> Result<u8, Fail
         let _ = writeln!(io::stderr(), "{subject}: right: {}", entries.join(", "));
     }
     Ok(if errors.is_some() { WRONG } else { DONE })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::function;
-
-    #[test]
-    fn functions_are_found_by_keyword_and_name() {
-        let text = "// main\n  fn  mains() {}\n\u{e9} fn main() {}\n";
-        assert_eq!(function(text, "fn", "main"), Some((2, 5)));
-        assert_eq!(function(text, "fn", "other"), None);
-        assert_eq!(function("void main(){}", "void", "main"), Some((0, 5)));
-    }
 }

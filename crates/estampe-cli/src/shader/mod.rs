@@ -1,16 +1,25 @@
 //! `estampe shader`: shaders as text on the command line.
 //!
 //! ```text
-//! source (file, language, stage) -> module -> check: errors with their place
+//! source (file, language, stage; shader toys) -> module -> check: errors with their place
+//!                                                       -> image: the picture of a fragment shader
 //! ```
+//!
+//! [`resources`] and [`uniforms`] make what shaders bind of the options in [`values`].
 
 mod check;
-mod source;
+mod image;
+mod place;
+pub(crate) mod resources;
+pub(crate) mod source;
+mod toy;
+pub(crate) mod uniforms;
+pub(crate) mod values;
 
-use crate::failure::Failure;
+use crate::failure::{DONE, Failure};
 use clap::{Args, Subcommand};
 
-/// Checks shaders as text: WGSL, GLSL and SPIR-V.
+/// Checks and draws shaders as text: WGSL, GLSL and SPIR-V.
 #[derive(Debug, Clone, Args)]
 #[command(arg_required_else_help = true)]
 pub(crate) struct ShaderArgs {
@@ -21,6 +30,8 @@ pub(crate) struct ShaderArgs {
 #[derive(Debug, Clone, Subcommand)]
 enum ShaderCommand {
     Check(check::CheckArgs),
+    // Boxed, because it has many options.
+    Image(Box<image::ImageArgs>),
 }
 
 impl ShaderArgs {
@@ -28,6 +39,7 @@ impl ShaderArgs {
     pub(crate) fn name(&self) -> &'static str {
         match self.command {
             ShaderCommand::Check(_) => "shader check",
+            ShaderCommand::Image(_) => "shader image",
         }
     }
 
@@ -35,6 +47,7 @@ impl ShaderArgs {
     pub(crate) fn json(&self) -> Option<bool> {
         match &self.command {
             ShaderCommand::Check(args) => args.json.then_some(false),
+            ShaderCommand::Image(_) => None,
         }
     }
 }
@@ -43,5 +56,6 @@ impl ShaderArgs {
 pub(crate) fn run(args: &ShaderArgs) -> Result<u8, Failure> {
     match &args.command {
         ShaderCommand::Check(args) => check::run(args),
+        ShaderCommand::Image(args) => image::run(args).map(|()| DONE),
     }
 }

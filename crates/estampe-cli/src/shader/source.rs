@@ -1,5 +1,6 @@
 //! The shader that a command reads: its language and stage, and the module of it.
 
+use super::toy::{self, Wrapping};
 use crate::failure::Failure;
 use crate::input;
 use crate::values::shown;
@@ -85,6 +86,8 @@ pub(crate) struct ShaderFile {
     pub(crate) name: String,
     pub(crate) contents: Contents,
     defines: Vec<(String, String)>,
+    /// The lines that were added to a shader toy.
+    wrapping: Option<Wrapping>,
 }
 
 /// The contents of a shader's file.
@@ -143,17 +146,24 @@ impl ShaderFile {
             name,
             contents,
             defines: args.defines.clone(),
+            wrapping: None,
         })
     }
 
-    /// The same as GLSL of this stage; `None` for other languages.
-    pub(crate) fn with_stage(self, stage: ShaderStage) -> Option<Self> {
+    /// The shader, or its errors as those of the input.
+    pub(crate) fn module(&self, device: &Device) -> Result<ShaderModule, Failure> {
+        let module = self.load(device);
+        module.map_err(|errors| Failure::Input(errors.to_string()))
+    }
+
+    /// The same with this stage, if it is GLSL.
+    pub(crate) fn with_stage(self, stage: ShaderStage) -> Self {
         match self.contents {
-            Contents::Glsl { text, .. } => Some(Self {
+            Contents::Glsl { text, .. } => Self {
                 contents: Contents::Glsl { stage, text },
                 ..self
-            }),
-            _ => None,
+            },
+            _ => self,
         }
     }
 
@@ -180,11 +190,33 @@ impl ShaderFile {
             },
             Contents::SpirV(bytes) => ShaderSource::SpirVBytes(bytes),
         };
-        device.create_shader_module(&ShaderModuleDescriptor {
+        let module = device.create_shader_module(&ShaderModuleDescriptor {
             label: Some(&self.name),
             defines: &self.macros(),
             ..ShaderModuleDescriptor::new(source)
+        });
+        module.map_err(|errors| match &self.wrapping {
+            Some(wrapping) => wrapping.in_authors_lines(errors),
+            None => errors,
         })
+    }
+
+    /// A fragment shader; a shader toy of GLSL gets its `main`.
+    pub(crate) fn into_fragment(self) -> Self {
+        let Contents::Glsl { text, .. } = &self.contents else {
+            return self;
+        };
+        let wrapped = toy::wrap(text);
+        let (text, wrapping) = match wrapped {
+            Some((text, wrapping)) => (text, Some(wrapping)),
+            None => (text.clone(), None),
+        };
+        let stage = ShaderStage::Fragment;
+        Self {
+            contents: Contents::Glsl { stage, text },
+            wrapping,
+            ..self
+        }
     }
 
     /// The macros of GLSL.
