@@ -3,6 +3,7 @@
 //! ```text
 //! source (file, language, stage; shader toys) -> module -> check: errors with their place
 //!                                                       -> image: the picture of a fragment shader
+//!                                                       -> reflect: what it reads and writes
 //! ```
 //!
 //! [`resources`] and [`uniforms`] make what shaders bind of the options in [`values`].
@@ -10,6 +11,7 @@
 mod check;
 mod image;
 mod place;
+mod reflect;
 pub(crate) mod resources;
 pub(crate) mod source;
 mod toy;
@@ -32,6 +34,7 @@ enum ShaderCommand {
     Check(check::CheckArgs),
     // Boxed, because it has many options.
     Image(Box<image::ImageArgs>),
+    Reflect(reflect::ReflectArgs),
 }
 
 impl ShaderArgs {
@@ -40,6 +43,7 @@ impl ShaderArgs {
         match self.command {
             ShaderCommand::Check(_) => "shader check",
             ShaderCommand::Image(_) => "shader image",
+            ShaderCommand::Reflect(_) => "shader reflect",
         }
     }
 
@@ -48,6 +52,7 @@ impl ShaderArgs {
         match &self.command {
             ShaderCommand::Check(args) => args.json.then_some(false),
             ShaderCommand::Image(_) => None,
+            ShaderCommand::Reflect(args) => args.json.then_some(false),
         }
     }
 }
@@ -57,5 +62,6 @@ pub(crate) fn run(args: &ShaderArgs) -> Result<u8, Failure> {
     match &args.command {
         ShaderCommand::Check(args) => check::run(args),
         ShaderCommand::Image(args) => image::run(args).map(|()| DONE),
+        ShaderCommand::Reflect(args) => reflect::run(args).map(|()| DONE),
     }
 }
