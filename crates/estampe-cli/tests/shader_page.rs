@@ -15,6 +15,6 @@ mod support;
 #[test]
 fn the_commands_of_the_page_draw_its_pictures() {
     let drawn = page::check_page("shader");
-    assert_eq!(drawn.len(), 3, "{drawn:?}");
+    assert_eq!(drawn.len(), 5, "{drawn:?}");
     assert_eq!(drawn, page::committed("shader"));
 }

@@ -26,7 +26,7 @@ pub(crate) fn run(args: &ComputeArgs) -> Result<(), Failure> {
     let device =
         device.map_err(|error| Failure::Output(format!("{error}; try fewer --threads")))?;
     let module = file.module(&device)?;
-    let constants = file.constants(&module)?;
+    let constants = file.constants(module.reflections())?;
     let wrong = |error: &dyn std::fmt::Display| Failure::Input(format!("{}: {error}", file.name));
     let program = device.create_compute_program(&EntryPointDescriptor {
         module: &module,

@@ -115,7 +115,7 @@ fn glsl(path: &Path, stage: ShaderStage, args: &CheckArgs) -> Result<ShaderFile,
 type Checked = Result<ShaderModule, ShaderErrors>;
 
 fn check_entry_points(module: &ShaderModule, file: &ShaderFile) -> Result<Checked, Failure> {
-    let constants = file.constants(module)?;
+    let constants = file.constants(module.reflections())?;
     let found = module.check_entry_points(&constants);
     Ok(right_unless(module, found, |error| placed(file, error)))
 }

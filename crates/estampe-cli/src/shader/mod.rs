@@ -4,17 +4,22 @@
 //! source (file, language, stage; shader toys) -> module -> check: errors with their place
 //!                                                       -> image: the picture of a fragment shader
 //!                                                       -> reflect: what it reads and writes
+//!                                                       -> dump: what the compiler makes of it
 //! ```
 //!
-//! [`resources`] and [`uniforms`] make what shaders bind of the options in [`values`].
+//! `template` writes shaders for surfaces, which `crate::render` draws. [`resources`] and [`uniforms`]
+//! make what shaders bind of the options in [`values`].
 
 mod check;
+mod dump;
 mod image;
 mod place;
 mod reflect;
 pub(crate) mod resources;
 pub(crate) mod source;
+mod template;
 mod toy;
+pub(crate) mod triangle;
 pub(crate) mod uniforms;
 pub(crate) mod values;
 
@@ -35,6 +40,8 @@ enum ShaderCommand {
     // Boxed, because it has many options.
     Image(Box<image::ImageArgs>),
     Reflect(reflect::ReflectArgs),
+    Dump(dump::DumpArgs),
+    Template(template::TemplateArgs),
 }
 
 impl ShaderArgs {
@@ -44,6 +51,8 @@ impl ShaderArgs {
             ShaderCommand::Check(_) => "shader check",
             ShaderCommand::Image(_) => "shader image",
             ShaderCommand::Reflect(_) => "shader reflect",
+            ShaderCommand::Dump(_) => "shader dump",
+            ShaderCommand::Template(_) => "shader template",
         }
     }
 
@@ -51,7 +60,7 @@ impl ShaderArgs {
     pub(crate) fn json(&self) -> Option<bool> {
         match &self.command {
             ShaderCommand::Check(args) => args.json.then_some(false),
-            ShaderCommand::Image(_) => None,
+            ShaderCommand::Image(_) | ShaderCommand::Dump(_) | ShaderCommand::Template(_) => None,
             ShaderCommand::Reflect(args) => args.json.then_some(false),
         }
     }
@@ -63,5 +72,7 @@ pub(crate) fn run(args: &ShaderArgs) -> Result<u8, Failure> {
         ShaderCommand::Check(args) => check::run(args),
         ShaderCommand::Image(args) => image::run(args).map(|()| DONE),
         ShaderCommand::Reflect(args) => reflect::run(args).map(|()| DONE),
+        ShaderCommand::Dump(args) => dump::run(args).map(|()| DONE),
+        ShaderCommand::Template(args) => template::run(args).map(|()| DONE),
     }
 }

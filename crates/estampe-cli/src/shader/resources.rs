@@ -35,6 +35,20 @@ pub(crate) struct ResourceArgs {
     set: Vec<(String, String)>,
 }
 
+impl ResourceArgs {
+    /// Uniforms, and the texture of each of these bindings.
+    pub(crate) fn of_surfaces(set: &[(String, String)], textures: Vec<(Slot, PathBuf)>) -> Self {
+        let textures = textures.into_iter();
+        Self {
+            buffer: Vec::new(),
+            texture: textures
+                .map(|(slot, path)| (TextureName::Slot(slot), path))
+                .collect(),
+            set: set.to_vec(),
+        }
+    }
+}
+
 /// The first row of textures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FirstRow {
@@ -296,7 +310,8 @@ impl Binder<'_> {
     }
 }
 
-fn is_texture(ty: BindingType) -> bool {
+/// True for textures that are sampled.
+pub(crate) fn is_texture(ty: BindingType) -> bool {
     matches!(ty, BindingType::Texture { .. })
 }
 

@@ -10,6 +10,7 @@ use estampe::{
     ShaderStage,
 };
 use estampe_assets::{Limits, read_stream};
+use estampe_shader::front::{Module, Options, Source, load};
 use std::io;
 use std::path::Path;
 
@@ -71,7 +72,7 @@ pub(crate) fn stage_name(stage: ShaderStage) -> &'static str {
 }
 
 /// `NAME` or `NAME=VALUE`; a name alone is 1, as in C compilers.
-fn define(text: &str) -> Result<(String, String), String> {
+pub(crate) fn define(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once('=').unwrap_or((text, "1"));
     if name.trim().is_empty() {
         return Err("write NAME=VALUE, as in LIGHTS=3".to_owned());
@@ -219,15 +220,39 @@ impl ShaderFile {
         }
     }
 
+    /// The module as the compiler reads it.
+    pub(crate) fn front(&self) -> Result<Module, ShaderErrors> {
+        let source = match &self.contents {
+            Contents::Wgsl(text) => Source::Wgsl(text),
+            Contents::Glsl { stage, text } => Source::Glsl {
+                stage: *stage,
+                text,
+            },
+            Contents::SpirV(bytes) => Source::SpirVBytes(bytes),
+        };
+        let owned = |(name, value): (&str, &str)| (name.to_owned(), value.to_owned());
+        let options = Options {
+            file: Some(self.name.clone()),
+            defines: self.macros().into_iter().map(owned).collect(),
+            ..Options::default()
+        };
+        load(source, &options)
+    }
+
     /// The macros of GLSL.
     pub(crate) fn macros(&self) -> Vec<(&str, &str)> {
         let defines = self.defines.iter().filter(|_| self.is_glsl());
         defines.map(|(name, value)| (&**name, &**value)).collect()
     }
 
-    /// The values of constants, by name or by the digits of their id.
-    pub(crate) fn constants(&self, module: &ShaderModule) -> Result<Vec<(&str, f64)>, Failure> {
-        let overrides = || module.reflections().flat_map(|one| &one.overrides);
+    /// The values of constants, by name or by the digits of their id, of modules with these
+    /// reflections.
+    pub(crate) fn constants<'r>(
+        &self,
+        reflections: impl IntoIterator<Item = &'r Reflection>,
+    ) -> Result<Vec<(&str, f64)>, Failure> {
+        let reflections: Vec<&Reflection> = reflections.into_iter().collect();
+        let overrides = || reflections.iter().flat_map(|one| &one.overrides);
         let defines = self.defines.iter().filter(|_| !self.is_glsl());
         let constants = defines.map(|(name, value)| {
             let is_key = |id: &u16| name.parse() == Ok(*id);
@@ -236,7 +261,11 @@ impl ShaderFile {
             });
             if !is_there {
                 let file = &self.name;
-                let names: Vec<String> = module.reflections().flat_map(constant_names).collect();
+                let names: Vec<String> = reflections
+                    .iter()
+                    .copied()
+                    .flat_map(constant_names)
+                    .collect();
                 let there_are = if names.is_empty() {
                     "it has none".to_owned()
                 } else {

@@ -3,7 +3,7 @@
 
 use super::values::{AnyValue, Slot, components, word};
 use crate::failure::Failure;
-use estampe::{ScalarType, ShaderModule, UniformMember, Uniforms};
+use estampe::{Mat4, ScalarType, ShaderModule, UniformMember, Uniforms, ValueType};
 use estampe_shader::front::BindingKind;
 
 /// The uniform blocks of a module.
@@ -41,20 +41,23 @@ impl Blocks {
         found.map(|(_, uniforms)| uniforms.bytes())
     }
 
-    /// Sets the uniforms of common names, as many components as they have: `value` gives the
-    /// numbers of a name without its prefix.
-    pub(crate) fn set_common(&mut self, value: impl Fn(&str) -> Option<[f32; 4]>) {
+    /// These blocks, and those of another module.
+    pub(crate) fn and(mut self, others: Self) -> Self {
+        self.blocks.extend(others.blocks);
+        self
+    }
+
+    /// Sets the uniforms of common names: `value` gives the value of a name in snake case without
+    /// prefix.
+    pub(crate) fn set_common(&mut self, value: impl Fn(&str) -> Option<Common>) {
         for (_, uniforms) in &mut self.blocks {
             for member in uniforms.block().members.clone() {
                 let last = member.name.rsplit('.').next().unwrap_or_default();
-                let (scalar, count) = components(member.kind);
-                let is_float = scalar == ScalarType::F32 && member.array_length.is_none();
-                let Some(numbers) = value(&common(last)).filter(|_| is_float && count <= 4) else {
-                    continue;
-                };
-                let words = numbers[..count].iter().map(|number| number.to_bits());
-                // The value has the type of the member.
-                let _ = uniforms.set(&member.name, AnyValue::new(member.kind, words.collect()));
+                let value = value(&common(last)).filter(|_| member.array_length.is_none());
+                if let Some(words) = value.and_then(|value| value.words(member.kind)) {
+                    // The value has the type of the member.
+                    let _ = uniforms.set(&member.name, AnyValue::new(member.kind, words));
+                }
             }
         }
     }
@@ -143,16 +146,75 @@ fn element_path(name: &str, member: &UniformMember) -> String {
     }
 }
 
-/// A name without the prefixes of shader toys and courses: `time` of `iTime`, `u_time`, `uTime`.
+/// The value of a uniform that has one by itself.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Common {
+    /// A number, or the first components of a vector.
+    Numbers([f32; 4]),
+    /// A matrix, or the upper left part of it.
+    Matrix(Mat4),
+}
+
+impl Common {
+    /// The words of the value as this type; `None` if it is another kind of value.
+    fn words(self, kind: ValueType) -> Option<Vec<u32>> {
+        let numbers = match (self, kind) {
+            (Self::Numbers([first, ..]), ValueType::Scalar(ScalarType::F32)) => vec![first],
+            (Self::Numbers(numbers), ValueType::Vector(ScalarType::F32, rows)) => {
+                numbers[..usize::from(rows).min(4)].to_vec()
+            }
+            (
+                Self::Matrix(matrix),
+                ValueType::Matrix {
+                    scalar: ScalarType::F32,
+                    columns,
+                    rows,
+                },
+            ) => {
+                let columns = matrix.0.iter().take(usize::from(columns));
+                columns
+                    .flat_map(|column| column.iter().take(usize::from(rows)).copied())
+                    .collect()
+            }
+            _ => return None,
+        };
+        Some(numbers.into_iter().map(f32::to_bits).collect())
+    }
+}
+
+/// The value of a uniform that all pictures have.
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "the sides of a picture are at most 16384"
+)]
+pub(crate) fn of_picture(name: &str, time: f32, [width, height]: [u32; 2]) -> Option<Common> {
+    let numbers = match name {
+        "time" | "global_time" => [time, 0.0, 0.0, 0.0],
+        "time_delta" => [1.0 / 60.0, 0.0, 0.0, 0.0],
+        "frame_rate" => [60.0, 0.0, 0.0, 0.0],
+        "resolution" => [width as f32, height as f32, 1.0, 1.0],
+        "mouse" => [0.0; 4],
+        _ => return None,
+    };
+    Some(Common::Numbers(numbers))
+}
+
+/// A name in snake case without the prefixes of shader toys and courses: `time` of `iTime`,
+/// `u_time` and `uTime`, `model_view` of `modelView`.
 fn common(name: &str) -> String {
     let rest = name.strip_prefix("u_").unwrap_or(name);
     let rest = rest
         .strip_prefix(['i', 'u'])
         .filter(|rest| rest.starts_with(char::is_uppercase))
         .unwrap_or(rest);
-    let mut characters = rest.chars();
-    let first = characters.next().map(|first| first.to_ascii_lowercase());
-    first.into_iter().chain(characters).collect()
+    let mut snake = String::new();
+    for character in rest.chars() {
+        if character.is_uppercase() && !snake.is_empty() && !snake.ends_with('_') {
+            snake.push('_');
+        }
+        snake.extend(character.to_lowercase());
+    }
+    snake
 }
 
 /// `3 numbers`, in the words of the type.
@@ -176,6 +238,7 @@ mod tests {
             assert_eq!(common(name), "time");
         }
         assert_eq!(common("iResolution"), "resolution");
+        assert_eq!(common("uModelView_Matrix"), "model_view_matrix");
         assert_eq!(common("index"), "index");
         assert_eq!(common("u_"), "");
     }

@@ -52,6 +52,11 @@ impl MachineArgs {
 }
 
 impl Via {
+    /// The SIMD level, unless shaders are interpreted.
+    pub(crate) fn level_name(self) -> Option<&'static str> {
+        (!self.is_interpreted).then(|| self.level.name())
+    }
+
     /// The device, but for its threads.
     pub(crate) fn device(self) -> DeviceDescriptor {
         DeviceDescriptor {

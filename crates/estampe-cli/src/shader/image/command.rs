@@ -1,13 +1,13 @@
 //! Runs `estampe shader image`, from arguments to a written picture.
 
 use super::arguments::{ImageArgs, Origin};
-use super::triangle;
 use crate::failure::Failure;
 use crate::output;
 use crate::render::{image_format, output_name};
 use crate::shader::resources::{Binder, Bound, FirstRow, flipped};
 use crate::shader::source::ShaderFile;
-use crate::shader::uniforms::Blocks;
+use crate::shader::triangle::{linked, triangle_text};
+use crate::shader::uniforms::{Blocks, of_picture};
 use estampe::{
     ColorAttachment, Device, Draw, EntryPoint, EntryPointDescriptor, RenderPass,
     RenderPipelineDescriptor, ShaderModule, ShaderStage, TextureDescriptor, TextureFormat,
@@ -52,7 +52,7 @@ fn draw(
     module: &ShaderModule,
 ) -> Result<Vec<u8>, Failure> {
     let wrong = |error: &dyn std::fmt::Display| Failure::Input(format!("{}: {error}", file.name));
-    let constants = file.constants(module)?;
+    let constants = file.constants(module.reflections())?;
     let (number, entry) = entry_point(args, file, module)?;
     let inputs = module.reflections().flat_map(|one| &one.inputs).nth(number);
     let fragment = EntryPointDescriptor {
@@ -61,8 +61,8 @@ fn draw(
         constants: &constants,
     };
     let inputs = inputs.map_or(&[][..], Vec::as_slice);
-    let program = triangle::program(device, fragment, inputs);
-    let program = program.map_err(|failure| wrong(&failure))?;
+    let program = linked(device, fragment, inputs, triangle_text);
+    let (program, _) = program.map_err(|failure| wrong(&failure))?;
     let layouts = program.bind_group_layouts().to_vec();
     let format = TextureFormat::Rgba8Unorm;
     let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
@@ -79,7 +79,7 @@ fn draw(
     });
     let (width, height) = args.size;
     let mut blocks = Blocks::new(module);
-    blocks.set_common(|name| common(name, args.time, args.size));
+    blocks.set_common(|name| of_picture(name, args.time, [width, height]));
     let binder = Binder {
         device,
         module,
@@ -138,21 +138,5 @@ fn entry_point<'a>(
                 "--entry {name}: no fragment shader of {file} has this name; there are {names}"
             ))
         }),
-    }
-}
-
-/// The value of a uniform that has one by itself.
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "the sides of a picture are at most 16384"
-)]
-fn common(name: &str, time: f32, (width, height): (u32, u32)) -> Option<[f32; 4]> {
-    match name {
-        "time" | "globalTime" => Some([time, 0.0, 0.0, 0.0]),
-        "timeDelta" => Some([1.0 / 60.0, 0.0, 0.0, 0.0]),
-        "frameRate" => Some([60.0, 0.0, 0.0, 0.0]),
-        "resolution" => Some([width as f32, height as f32, 1.0, 1.0]),
-        "mouse" => Some([0.0; 4]),
-        _ => None,
     }
 }

@@ -7,7 +7,6 @@
 
 mod arguments;
 mod command;
-mod triangle;
 
 pub(crate) use arguments::ImageArgs;
 pub(crate) use command::run;
