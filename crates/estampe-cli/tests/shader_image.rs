@@ -172,6 +172,25 @@ fn buffers_and_textures_are_those_of_the_options() {
     );
 }
 
+/// A picture whose shader never ends is drawn all the same, in seconds.
+#[test]
+fn endless_loops_are_stopped() {
+    let folder = Folder::new();
+    folder.with_file(
+        "a.wgsl",
+        "@group(0) @binding(0) var<uniform> zero: f32;\n\
+         @fragment fn f(@location(0) uv: vec2f) -> @location(0) vec4f {\n\
+         var x = uv.x; loop { x = x * 0.5 + zero; if x > 2.0 { break; } } return vec4f(x); }\n",
+    );
+    for machine in ["", "--via interpreter"] {
+        draw(
+            &folder,
+            &format!("a.wgsl --size 32x16 --max-jumps 10000 {machine}"),
+        );
+    }
+    draw(&folder, "a.wgsl --size 16x8");
+}
+
 #[test]
 fn mistakes_say_what_to_do() {
     let folder = Folder::new();

@@ -35,7 +35,7 @@ fn kernel() -> Kernel {
     Kernel::from_tree(&b.finish(vec![(color(0), sum), (color(1), x)]))
 }
 
-/// Each line of the listing has the address, the bytes and the mnemonic that the disassembler finds.
+/// Each line has the address, the bytes and the mnemonic that the disassembler finds.
 #[test]
 fn listings_are_what_a_disassembler_reads() {
     let kernel = kernel();

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::input::{self, Model};
 use crate::output;
 use crate::progress::Progress;
-use crate::shader::values::Via;
+use crate::shader::values::{FRAGMENT_JUMPS, Via};
 use crate::values::{Destination, ImageFormatName, shown};
 use estampe::{Device, DeviceDescriptor};
 use estampe_assets::Limits;
@@ -155,10 +155,11 @@ fn device(args: &PictureArgs) -> Result<Device, Failure> {
         level: args.simd,
         ..DeviceDescriptor::default()
     };
-    let descriptor = DeviceDescriptor {
+    let mut descriptor = DeviceDescriptor {
         threads: args.thread_count(),
         ..args.shader.via.map_or_else(with_level, Via::device)
     };
+    descriptor.limits.max_shader_jumps = FRAGMENT_JUMPS;
     Device::new(&descriptor)
         .map_err(|error| Failure::Output(format!("{error}; try fewer --threads")))
 }

@@ -132,8 +132,8 @@ impl SurfaceShaderArgs {
         }))
     }
 
-    /// An error of the renderer as one of the shader, if there is a shader and the pipeline of it is
-    /// refused.
+    /// An error of the renderer; if it is that the pipeline of the shader is refused, one of the
+    /// shader.
     pub(super) fn failure(&self, error: RenderError) -> Failure {
         match (&self.shader, &error) {
             (Some(path), RenderError::Pipeline(_)) => {

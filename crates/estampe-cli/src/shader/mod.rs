@@ -7,8 +7,8 @@
 //!                                                       -> dump: what the compiler makes of it
 //! ```
 //!
-//! `template` writes shaders for surfaces, which `crate::render` draws. [`resources`] and [`uniforms`]
-//! make what shaders bind of the options in [`values`].
+//! `template` writes shaders for surfaces, which `crate::render` draws. [`resources`] and
+//! [`uniforms`] make what shaders bind of the options in [`values`].
 
 mod check;
 mod dump;
@@ -26,9 +26,19 @@ pub(crate) mod values;
 use crate::failure::{DONE, Failure};
 use clap::{Args, Subcommand};
 
-/// Checks and draws shaders as text: WGSL, GLSL and SPIR-V.
+/// Checks, draws, describes and compiles shaders as text: WGSL, GLSL and SPIR-V.
 #[derive(Debug, Clone, Args)]
 #[command(arg_required_else_help = true)]
+#[command(after_help = "\
+Examples:
+  estampe shader check sky.wgsl
+  estampe shader image sky.wgsl -o sky.png
+  estampe shader reflect model.vert
+  estampe shader dump sky.wgsl --stage asm
+  estampe shader template > my.wgsl
+
+`estampe help shader COMMAND` explains all options of a command. `estampe compute` runs compute shaders, `estampe render \
+--shader` draws models.")]
 pub(crate) struct ShaderArgs {
     #[command(subcommand)]
     command: ShaderCommand,

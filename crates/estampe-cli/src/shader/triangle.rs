@@ -1,5 +1,5 @@
-//! Vertex shaders that write what a fragment shader reads, among them that of a triangle that covers
-//! the picture.
+//! Vertex shaders that write what a fragment shader reads, among them that of a triangle that
+//! covers the picture.
 
 use crate::failure::Failure;
 use estampe::{

@@ -67,6 +67,10 @@ impl Via {
     }
 }
 
+/// The jumps that sixteen fragments may execute in a command, fewer than a device allows: a picture
+/// has thousands of packets, and one whose loops never end must end in seconds.
+pub(crate) const FRAGMENT_JUMPS: u64 = 1 << 20;
+
 /// A bind group and a binding in it.
 pub(crate) type Slot = (u32, u32);
 

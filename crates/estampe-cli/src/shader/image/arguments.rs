@@ -75,6 +75,11 @@ pub(crate) struct ImageArgs {
     #[command(flatten)]
     pub(super) machine: MachineArgs,
 
+    /// Jumps after which the shader of sixteen fragments is stopped; their colours are undefined
+    #[arg(long, value_name = "N", default_value_t = values::FRAGMENT_JUMPS)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=1 << 40), help_heading = "Machine")]
+    pub(super) max_jumps: u64,
+
     /// Write no summary
     #[arg(short, long, help_heading = "Report")]
     pub(super) quiet: bool,

@@ -23,7 +23,9 @@ pub(crate) fn run(args: &ImageArgs) -> Result<(), Failure> {
     let format = image_format(args.output_format, &args.output)?;
     output::check(&args.output)?;
     let file = ShaderFile::read(&args.file, None, &args.source)?.into_fragment();
-    let device = Device::new(&args.machine.descriptor());
+    let mut descriptor = args.machine.descriptor();
+    descriptor.limits.max_shader_jumps = args.max_jumps;
+    let device = Device::new(&descriptor);
     let device =
         device.map_err(|error| Failure::Output(format!("{error}; try fewer --threads")))?;
     let module = file.module(&device)?;
