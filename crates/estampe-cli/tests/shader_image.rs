@@ -172,6 +172,40 @@ fn buffers_and_textures_are_those_of_the_options() {
     );
 }
 
+/// SPIR-V is checked, described, and drawn as the WGSL of which naga wrote it.
+/// Rows: G3.
+#[test]
+fn spirv_draws_what_its_wgsl_does() {
+    let folder = Folder::new();
+    folder.with_file("a.spv", include_bytes!("support/tinted.spv"));
+    folder.with_file(
+        "a.wgsl",
+        "@group(0) @binding(0) var<uniform> tint: vec4f;\n\
+         @fragment fn fs(@location(0) color: vec3f) -> @location(0) vec4f {\n\
+         return vec4f(color, 1.0) * tint; }\n",
+    );
+    let tint: Vec<u8> = [0.5_f32, 1.0, 0.25, 1.0]
+        .iter()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    folder.with_file("tint.bin", tint);
+    for (command, said) in [
+        ("check a.spv", "a.spv: right: vertex `vs`, fragment `fs`"),
+        ("reflect a.spv", "binding 0,0: uniform buffer"),
+        ("dump a.spv --entry fs --stage ir", "kernel fragment"),
+    ] {
+        let done = run(&format!("estampe shader {command}"), &folder);
+        let all = String::from_utf8_lossy(&done.out).into_owned() + &done.err;
+        assert!(done.code == 0 && all.contains(said), "{command}: {all}");
+    }
+    let picture = draw(&folder, "a.spv --size 4x2 --buffer 0,0=tint.bin");
+    assert_eq!(picture.pixel(3, 1), [112, 191, 0, 255]);
+    std::fs::rename(folder.path("out.png"), folder.path("spv.png")).expect("it was drawn");
+    draw(&folder, "a.wgsl --size 4x2 --set tint=0.5,1,0.25,1");
+    let bytes = ["out.png", "spv.png"].map(|name| std::fs::read(folder.path(name)).expect("drawn"));
+    assert_eq!(bytes[0], bytes[1]);
+}
+
 /// A picture whose shader never ends is drawn all the same, in seconds.
 #[test]
 fn endless_loops_are_stopped() {
