@@ -58,9 +58,9 @@ impl From<RenderError> for Failure {
                 Self::Output(format!("{error}; try a smaller --size or --samples 1"))
             }
             RenderError::Size { .. } => Self::Usage(format!("{error}; choose another --size")),
-            RenderError::TooManyElements { .. } | RenderError::Texture(_) => {
-                Self::Input(error.to_string())
-            }
+            RenderError::TooManyElements { .. }
+            | RenderError::Texture(_)
+            | RenderError::Bindings(_) => Self::Input(error.to_string()),
             RenderError::Target(_) | RenderError::Pass(_) => {
                 Self::Output(format!("{error}; try a smaller --size or --samples 1"))
             }

@@ -7,12 +7,15 @@
 //! * [`describe`]: describes the contents of a model;
 //! * [`diff`]: measures the difference of two images;
 //! * [`depth`]: measures the precision of depth buffers;
+//! * [`shader`]: checks and draws shaders as text;
+//! * [`compute`]: runs a compute shader;
 //! * [`ladder`]: draws the pictures of the ladder, from one pixel to shapes.
 //!
 //! [`input`] reads models from files, standard input or by built-in name, [`output`] writes files
 //! completely or not at all, [`values`] parses the options' values, and [`failure`] has the exit
 //! codes.
 
+mod compute;
 mod depth;
 mod describe;
 mod diff;
@@ -23,6 +26,7 @@ mod ladder;
 mod output;
 mod progress;
 mod render;
+mod shader;
 mod shape;
 mod values;
 
@@ -46,6 +50,9 @@ Examples:
   estampe info model.stl
   estampe depth --near 0.1 --far 1000 --format d24
   estampe diff expected.png actual.png
+  estampe shader check sky.wgsl
+  estampe shader image sky.wgsl -o sky.png
+  estampe compute squares.wgsl --groups 4 --buffer 0,0=zeros:1024 --write 0,0=squares.bin
   estampe ladder all -o ladder
 
 `estampe help COMMAND` explains all options of a command.")]
@@ -64,6 +71,9 @@ enum Command {
     Inspect(Box<inspect::InspectArgs>),
     Diff(diff::DiffArgs),
     Depth(depth::DepthArgs),
+    Shader(shader::ShaderArgs),
+    // Boxed, because it has many options.
+    Compute(Box<compute::ComputeArgs>),
     Ladder(ladder::LadderArgs),
 }
 
@@ -112,6 +122,11 @@ fn main() -> ExitCode {
                 depth::run(args),
             )
         }
+        Command::Shader(args) => match shader::run(args) {
+            Ok(code) => code,
+            Err(failure) => report(args.name(), args.json(), Err(failure)),
+        },
+        Command::Compute(args) => report("compute", None, compute::run(args)),
         Command::Ladder(args) => report("ladder", None, ladder::run(args)),
         Command::Diff(args) => {
             let (mut out, mut err) = (BufWriter::new(io::stdout().lock()), io::stderr().lock());

@@ -209,6 +209,33 @@ fn help_has_examples_limits_and_exit_codes() {
 }
 
 #[test]
+fn every_command_has_examples_and_exit_codes() {
+    for command in [
+        "shape",
+        "info",
+        "inspect",
+        "diff",
+        "depth",
+        "compute",
+        "shader check",
+        "shader image",
+        "shader reflect",
+        "shader dump",
+        "shader template",
+    ] {
+        let run = estampe(&format!("help {command}"), &[]);
+        let help = String::from_utf8_lossy(&run.out).into_owned();
+        assert_eq!(run.code, 0, "{command}");
+        for word in ["Examples:", "Exit codes:", &format!("estampe {command} ")] {
+            assert!(
+                help.contains(word),
+                "{word} is missing in the help:\n{help}"
+            );
+        }
+    }
+}
+
+#[test]
 fn info_counts_the_contents_of_a_model() {
     let folder = Folder::new();
     let model = folder.with_file("m.obj", TETRAHEDRON);

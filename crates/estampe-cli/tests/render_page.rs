@@ -27,12 +27,13 @@ fn the_commands_of_the_page_draw_its_pictures() {
 }
 
 /// Options that change no picture, or its file alone.
-const WITHOUT_PICTURES: [&str; 8] = [
+const WITHOUT_PICTURES: [&str; 9] = [
     "--output",
     "--format",
     "--output-format",
     "--threads",
     "--simd",
+    "--via",
     "--quiet",
     "--json",
     "--help",

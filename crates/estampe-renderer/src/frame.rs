@@ -9,6 +9,7 @@ use crate::shading::VertexTransforms;
 use crate::shading::surface::DEPTH_ORDER;
 use crate::shading::wireframe::Wireframe;
 use crate::surface_pipelines::FrameStyle;
+use crate::surface_program::SurfaceValues;
 use estampe::{
     BufferError, ColorAttachment, DepthStencilAttachment, Device, InspectError, PipelineError,
     RenderPassError, Statistics, Texture, TextureDescriptor, TextureError, TextureFormat,
@@ -98,6 +99,9 @@ pub enum RenderError {
     /// Layers or sums of transparent surfaces cannot be drawn.
     #[error("transparent surfaces: {0}")]
     Transparency(#[from] TransparencyError),
+    /// The bind groups of [`RenderOptions::program`] cannot be made.
+    #[error("{0}")]
+    Bindings(String),
     /// A pixel cannot be inspected.
     #[error(transparent)]
     Inspect(#[from] InspectError),
@@ -277,10 +281,17 @@ fn frame_style(
     device: &Device,
 ) -> Result<FrameStyle, RenderError> {
     let transforms = view.transforms();
+    let lights = view.lights(options);
+    let size_px = [options.width, options.height];
+    let program = options.program.clone().map(|program| {
+        let values = SurfaceValues::new(view, &transforms, &lights, size_px);
+        (program, values)
+    });
     Ok(FrameStyle {
         shading: options.shading,
+        program,
         transforms,
-        lights: Arc::new(view.lights(options)),
+        lights: Arc::new(lights),
         levels: options.levels,
         fog: options.fog.as_ref().map(|fog| {
             let color = fog.color.or(options.background);

@@ -5,6 +5,7 @@
 //! Scene ─┬─ scene_view      unit space, fitted camera, lights
 //!        ├─ materials       surface styles and textures
 //!        ├─ geometry        vertex buffers, unshared faces, back-to-front order
+//!        ├─ surface_program     a program of the caller's, in place of those of `shading`
 //!        ├─ surface_pipelines   material programs × vertex streams -> pipelines
 //!        ├─ draw_plan       the draws, in order
 //!        ├─ frame_passes    the passes: one, or those of order-independent transparency
@@ -32,6 +33,7 @@ mod pixel_history;
 mod scene_view;
 mod shading;
 mod surface_pipelines;
+mod surface_program;
 
 /// The README's snippet, compiled and run as a test.
 #[cfg(doctest)]
@@ -46,6 +48,7 @@ pub use frame::{Frame, FrameTimings, RenderError, TransparentLayers, render};
 pub use geometry::face_colors::face_color;
 pub use options::{Fog, RenderOptions, Shading, Specular, SpecularModel, Transparency, Up};
 pub use pixel_history::{FramePixel, FrameStages, VertexSpaces, inspect, inspect_stages};
+pub use surface_program::{SurfaceBindings, SurfaceProgram, SurfaceValues};
 
 /// Version of the images. It rises whenever the same scene and options give other bytes than
 /// before; CHANGELOG lists the changes.

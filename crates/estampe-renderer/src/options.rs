@@ -1,6 +1,7 @@
 //! Options of a rendered image.
 
 use crate::camera::CameraOptions;
+use crate::surface_program::SurfaceProgram;
 use estampe::state::CullMode;
 use estampe_scene::{Image, Light, UpAxis};
 use glam::DVec3;
@@ -20,6 +21,9 @@ pub struct RenderOptions {
     pub up: Up,
     /// Shading of surfaces. Default [`Shading::Phong`].
     pub shading: Shading,
+    /// A program that draws all surfaces, in place of [`Self::shading`], which says no more than
+    /// which vertices faces share. Default none.
+    pub program: Option<SurfaceProgram>,
     /// Lights in world space, which replace the default lights. Default none.
     pub lights: Vec<Light>,
     /// Ambient light, times the base colour. `None` (default) is 0.18.
@@ -61,6 +65,7 @@ impl Default for RenderOptions {
             camera: CameraOptions::default(),
             up: Up::default(),
             shading: Shading::default(),
+            program: None,
             lights: Vec::new(),
             ambient: None,
             specular: Specular::default(),

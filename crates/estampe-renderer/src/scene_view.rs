@@ -8,6 +8,7 @@ use crate::shading::VertexTransforms;
 use crate::shading::lighting::{DEFAULT_AMBIENT, Directional, Lights, Positional, ViewLight};
 use crate::shading::output::{EyeDistance, Fog};
 use crate::transforms::{round_to_f32, to_f32, transform_point, transform_vector};
+use estampe::Mat4;
 use estampe_scene::{Camera, LightSource, Projection, Scene, UpAxis, Workers};
 use glam::{DMat3, DMat4, DVec3};
 
@@ -65,6 +66,11 @@ impl SceneView {
             view_from_object_normal: to_f32(&DMat4::from_mat3(turn)).into(),
             is_orthographic: matches!(self.camera.lens, Lens::Orthographic(_)),
         }
+    }
+
+    /// From view space to clip space.
+    pub(crate) fn clip_from_view(&self) -> Mat4 {
+        to_f32(&self.camera.clip_from_view(self.aspect)).into()
     }
 
     /// The lights of the options in view space, or the default lights.

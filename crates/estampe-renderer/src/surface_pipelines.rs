@@ -1,5 +1,6 @@
 //! Chooses the shader, vertex streams and fixed-function state of each surface.
 
+use crate::frame::RenderError;
 use crate::geometry::vertex_data::{MeshStreams, VertexStream};
 use crate::options::Shading;
 use crate::shading::VertexTransforms;
@@ -15,13 +16,14 @@ use crate::shading::points_and_lines::PointsAndLines;
 use crate::shading::surface::{DEPTH_ORDER, Surface, Written};
 use crate::shading::terms::{Reflectance, Terms};
 use crate::shading::wireframe::Wireframe;
+use crate::surface_program::{SurfaceProgram, SurfaceValues};
 use estampe::state::{
     BlendState, ColorTargetState, ColorWrites, CompareFunction, CullMode, DepthState,
     DepthStencilState, MultisampleState, PrimitiveState, PrimitiveTopology,
 };
 use estampe::{
-    Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor, SampledTexture,
-    Shader, ShaderProgram, TextureFormat,
+    BindGroup, Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor,
+    SampledTexture, Shader, ShaderProgram, TextureFormat,
 };
 use estampe_transparency::{Finder, TransparencyError, layer_state, weighted_targets};
 use std::sync::Arc;
@@ -30,6 +32,8 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub(crate) struct FrameStyle {
     pub(crate) shading: Shading,
+    /// The program of surfaces, in place of the shading's, and what it may want to know.
+    pub(crate) program: Option<(SurfaceProgram, SurfaceValues)>,
     pub(crate) transforms: VertexTransforms,
     pub(crate) lights: Arc<Lights>,
     /// The levels of the options: steps of toon shading, else levels of colours.
@@ -113,6 +117,8 @@ impl MaterialProgram {
 pub(crate) struct StreamPipeline {
     pub(crate) pipeline: RenderPipeline,
     pub(crate) streams: Vec<VertexStream>,
+    /// What the program binds, by group number.
+    pub(crate) bind_groups: Vec<BindGroup>,
 }
 
 impl FrameStyle {
@@ -123,7 +129,10 @@ impl FrameStyle {
         surface: &SurfaceStyle,
         mesh: &MeshStreams,
         role: Role,
-    ) -> Result<StreamPipeline, PipelineError> {
+    ) -> Result<StreamPipeline, RenderError> {
+        if let Some((program, values)) = &self.program {
+            return self.surface_of_program(device, (program, values), surface, mesh);
+        }
         let material = self.material_program(surface, role);
         let over = || self.targets(Some(BlendState::ALPHA_BLENDING));
         let (depth_stencil, targets) = match role {
@@ -137,7 +146,39 @@ impl FrameStyle {
             depth_stencil,
             targets,
         };
-        self.pipeline(device, material, mesh, state)
+        Ok(self.pipeline(device, material, mesh, state)?)
+    }
+
+    /// The pipeline of a surface that the caller's program draws.
+    fn surface_of_program(
+        &self,
+        device: &Device,
+        (program, values): (&SurfaceProgram, &SurfaceValues),
+        surface: &SurfaceStyle,
+        mesh: &MeshStreams,
+    ) -> Result<StreamPipeline, RenderError> {
+        use VertexStream::{Color, Normal, Position, Uv};
+        let read = program.program.interface().attributes.len();
+        let streams = [Position, Normal, Uv, Color];
+        let material = MaterialProgram {
+            program: Arc::clone(&program.program),
+            streams: streams[..read.min(streams.len())].to_vec(),
+        };
+        let (depth_stencil, targets) = self.opaque();
+        let state = PipelineState {
+            primitive: self.triangles(),
+            depth_stencil,
+            targets,
+        };
+        let values = SurfaceValues {
+            base_color: surface.base,
+            ..*values
+        };
+        let bind_groups = program.bindings.bind_groups(device, &values);
+        Ok(StreamPipeline {
+            bind_groups: bind_groups.map_err(RenderError::Bindings)?,
+            ..self.pipeline(device, material, mesh, state)?
+        })
     }
 
     /// The pipeline that finds layers of a surface.
@@ -156,6 +197,7 @@ impl FrameStyle {
         Ok(StreamPipeline {
             pipeline,
             streams: vec![VertexStream::Position],
+            bind_groups: Vec::new(),
         })
     }
 
@@ -229,7 +271,8 @@ impl FrameStyle {
 
     /// True if surfaces behind a transparent surface are visible.
     pub(crate) fn shows_transparency(&self) -> bool {
-        !self.shading.holds_numbers() && self.shading != Shading::Wireframe
+        let is_solid = self.shading.holds_numbers() || self.shading == Shading::Wireframe;
+        self.program.is_none() && !is_solid
     }
 
     /// True if each triangle needs separate vertices.
@@ -403,6 +446,7 @@ impl FrameStyle {
         Ok(StreamPipeline {
             pipeline,
             streams: material.streams,
+            bind_groups: Vec::new(),
         })
     }
 }

@@ -1,12 +1,13 @@
 //! From a kernel to code: selection, allocation, encoding.
 
 use crate::encoder::Assembler;
+use crate::encoder::text::{Note, Text};
 use crate::executable::Executable;
 use crate::frame::{Frame, PACKET};
 use crate::machine::passes::Passes;
 use crate::machine::{Function, allocate, emit};
 use crate::select::{self, Selected, calls::Served};
-use crate::{CompileError, Isa, Tier};
+use crate::{CompileError, Isa, Tier, listing};
 use estampe_ir::lanes::{self, BasicBlock, Kernel};
 use estampe_ir::{Op, Type};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -75,6 +76,29 @@ impl Code {
     /// # Errors
     /// [`CompileError`] says why the kernel must be interpreted.
     pub fn compile(kernel: &Kernel, isa: Isa, tier: Tier) -> Result<Self, CompileError> {
+        Ok(Self::assembled(kernel, (isa, tier), Assembler::default())?.0)
+    }
+
+    /// The machine code of a kernel as text: for each instruction its address from the start of
+    /// the code, its bytes in hexadecimal digits, and its text.
+    ///
+    /// # Errors
+    /// [`CompileError`] as for [`Code::compile`].
+    pub fn listing(kernel: &Kernel, isa: Isa, tier: Tier) -> Result<String, CompileError> {
+        let assembler = Assembler::with_notes();
+        let (code, notes) = Self::assembled(kernel, (isa, tier), assembler)?;
+        Ok(listing::listing(
+            code.executable.bytes(),
+            code.code_bytes,
+            &notes,
+        ))
+    }
+
+    fn assembled(
+        kernel: &Kernel,
+        (isa, tier): (Isa, Tier),
+        mut assembler: Assembler,
+    ) -> Result<(Self, Vec<Note>), CompileError> {
         if !isa.is_available() {
             return Err(CompileError::NoIsa(isa.name()));
         }
@@ -84,7 +108,6 @@ impl Code {
         lanes::verify(kernel).map_err(|error| CompileError::Malformed(error.to_string()))?;
         let expanded = select::expand::expand(kernel, MAX_SIZE)?;
         let kernel = expanded.as_ref().unwrap_or(kernel);
-        let mut assembler = Assembler::default();
         let Selected {
             prepare,
             packet,
@@ -98,12 +121,17 @@ impl Code {
         let many = Passes::Many {
             resets_locals: !reset_locals.is_empty(),
         };
+        assembler.note(|| Text::Part("packets one by one"));
         let packet = finish(&mut assembler, (&packet, many), (isa, tier), &mut frame)?;
         let pair = pair
-            .map(|function| finish(&mut assembler, (&function, many), (isa, tier), &mut frame))
+            .map(|function| {
+                assembler.note(|| Text::Part("two packets in a pass"));
+                finish(&mut assembler, (&function, many), (isa, tier), &mut frame)
+            })
             .transpose()?;
         let prepare = prepare
             .map(|function| {
+                assembler.note(|| Text::Part("what is the same in all lanes, once a run"));
                 let once = (&function, Passes::Once);
                 finish(&mut assembler, once, (isa, tier), &mut frame)
             })
@@ -113,7 +141,7 @@ impl Code {
         }
         let finished = assembler.finish();
         let interface = &kernel.interface;
-        Ok(Self {
+        let code = Self {
             executable: Executable::new(&finished.bytes)?,
             code_bytes: finished.code_bytes,
             prepare,
@@ -133,7 +161,8 @@ impl Code {
             reset_locals,
             frame,
             id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
-        })
+        };
+        Ok((code, finished.notes))
     }
 
     /// The instruction set.

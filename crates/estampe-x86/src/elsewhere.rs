@@ -22,6 +22,14 @@ impl Code {
         Err(CompileError::NoIsa(isa.name()))
     }
 
+    /// The machine code of a kernel as text.
+    ///
+    /// # Errors
+    /// [`CompileError::NoIsa`], always.
+    pub fn listing(_: &Kernel, isa: Isa, _: Tier) -> Result<String, CompileError> {
+        Err(CompileError::NoIsa(isa.name()))
+    }
+
     /// Executes the kernel in all lanes of all packets.
     ///
     /// # Errors

@@ -15,6 +15,7 @@ Examples:
   estampe render scan.ply -o scan.jpg --size 640x480 --samples 1
   estampe render model.obj -o lit.png --light 1,1,1 --light -1,0.3,0:4080ff:0.5 --ambient 0.1
   estampe render model.obj -o lamp.png --light pos:2,3,4 --attenuation 9 --specular blinn:0.6 --shininess 80
+  estampe render builtin:teapot -o mine.png --shader my.wgsl --set gloss=0.5
   curl -s https://example.org/m.stl | estampe render - --format stl -o - > m.png
 
 Built-in models: builtin:teapot, builtin:sphere, builtin:torus, builtin:cube, builtin:plane.

@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::input::{self, Model};
 use crate::output;
 use crate::progress::Progress;
+use crate::shader::values::{FRAGMENT_JUMPS, Via};
 use crate::values::{Destination, ImageFormatName, shown};
 use estampe::{Device, DeviceDescriptor};
 use estampe_assets::Limits;
@@ -44,7 +45,9 @@ pub(crate) fn draw(
     let device_start = Instant::now();
     let device = device(args)?;
     let device_time = device_start.elapsed();
-    let frame = render(&model.scene, &args.options(default_view, texture), &device)?;
+    let options = options(args, default_view, texture, &device)?;
+    let frame = render(&model.scene, &options, &device);
+    let frame = frame.map_err(|error| args.shader.failure(error))?;
 
     progress.stage("encoding");
     let encode_start = Instant::now();
@@ -78,8 +81,23 @@ pub(crate) fn prepare(
 ) -> Result<(RenderOptions, Device), Failure> {
     args.check()?;
     check_drawable(model)?;
-    let options = args.options(default_view, texture_of(model, args)?);
-    Ok((options, device(args)?))
+    let device = device(args)?;
+    let options = options(args, default_view, texture_of(model, args)?, &device)?;
+    Ok((options, device))
+}
+
+/// The renderer's options, with the program of a shader.
+fn options(
+    args: &PictureArgs,
+    default_view: ViewDirection,
+    texture: Option<Image>,
+    device: &Device,
+) -> Result<RenderOptions, Failure> {
+    let program = args.shader.program(device, args.texture.as_deref())?;
+    Ok(RenderOptions {
+        program,
+        ..args.options(default_view, texture)
+    })
 }
 
 /// The texture of the options, if they name one.
@@ -133,11 +151,15 @@ fn read_texture(path: &std::path::Path, model: &Model) -> Result<Image, Failure>
 }
 
 fn device(args: &PictureArgs) -> Result<Device, Failure> {
-    let descriptor = DeviceDescriptor {
-        threads: args.thread_count(),
+    let with_level = || DeviceDescriptor {
         level: args.simd,
         ..DeviceDescriptor::default()
     };
+    let mut descriptor = DeviceDescriptor {
+        threads: args.thread_count(),
+        ..args.shader.via.map_or_else(with_level, Via::device)
+    };
+    descriptor.limits.max_shader_jumps = FRAGMENT_JUMPS;
     Device::new(&descriptor)
         .map_err(|error| Failure::Output(format!("{error}; try fewer --threads")))
 }

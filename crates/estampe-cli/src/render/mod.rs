@@ -13,6 +13,7 @@ mod illumination;
 mod illumination_values;
 mod picture;
 mod report;
+mod surface_shader;
 
 pub(crate) use arguments::RenderArgs;
 pub(crate) use command::run;

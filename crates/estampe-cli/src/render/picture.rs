@@ -3,6 +3,7 @@
 
 use super::appearance_names::{CullName, ShadingName, TransparencyName};
 use super::illumination::IlluminationArgs;
+use super::surface_shader::SurfaceShaderArgs;
 use crate::failure::Failure;
 use crate::values::{self, Background, ViewName};
 use clap::Args;
@@ -85,6 +86,9 @@ pub(crate) struct PictureArgs {
 
     #[command(flatten)]
     pub(crate) illumination: IlluminationArgs,
+
+    #[command(flatten)]
+    pub(crate) shader: SurfaceShaderArgs,
 
     /// A base-colour texture (PNG, JPEG, TGA; sRGB), instead of the model's colours and textures
     #[arg(long, value_name = "FILE", help_heading = "Appearance")]

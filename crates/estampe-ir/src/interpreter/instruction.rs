@@ -5,29 +5,29 @@ use crate::op::{
 };
 
 /// A register of words: a packet for each packet of the chunk.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Slot(pub(super) u32);
 
 /// A register of a mask: 16 bits for each packet of the chunk.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct MaskSlot(pub(super) u32);
 
 /// A word that is the same in all lanes. A mask has the words 0 and [`TRUE`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Scalar(pub(super) u32);
 
 /// The scalar of a mask that is set.
 pub(super) const TRUE: u32 = u32::MAX;
 
 /// Where a word is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Word {
     Slot(Slot),
     Scalar(Scalar),
 }
 
 /// Where a mask is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Mask {
     Slot(MaskSlot),
     Scalar(Scalar),

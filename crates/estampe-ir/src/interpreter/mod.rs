@@ -13,6 +13,8 @@
 //! | with stores to buffers or textures, or atomics | 1, so that lanes act in order |
 //! | with barriers or work-group memory | all: a run is one work-group |
 //!
+//! `Display` of [`Code`] lists its instructions.
+//!
 //! Results do not depend on the chunk or the SIMD level. Nothing panics, whatever numbers lanes
 //! have: accesses outside of memory read zeros and store nothing.
 //!
@@ -44,6 +46,7 @@
 mod batch;
 mod compile;
 mod instruction;
+mod listing;
 mod memory;
 mod run;
 mod textures;

@@ -67,6 +67,7 @@ impl DrawPlan {
     fn draws<'a>(&'a self, planned: &'a [PlannedDraw]) -> Vec<Draw<'a>> {
         let draw = |planned: &'a PlannedDraw| Draw {
             vertex_buffers: &planned.vertex_buffers,
+            bind_groups: &self.pipelines[planned.pipeline].bind_groups,
             index_buffer: planned
                 .indices
                 .as_ref()

@@ -83,6 +83,13 @@ impl TextCompute {
         })
     }
 
+    /// The same without machine code: the interpreter runs it at every level.
+    #[must_use]
+    pub fn interpreted(mut self) -> Self {
+        self.stage.interpret();
+        self
+    }
+
     fn input(&self, input: Input, id: [u32; 3], count: [u32; 3]) -> InputData<'_> {
         let part = |axes: [u32; 3], axis: u32| axes.get(axis as usize).copied().unwrap_or(0);
         match input {

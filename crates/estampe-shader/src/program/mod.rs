@@ -90,6 +90,14 @@ impl TextProgram {
             links,
         })
     }
+
+    /// The same without machine code: the interpreter runs it at every level.
+    #[must_use]
+    pub fn interpreted(mut self) -> Self {
+        self.vertex.interpret();
+        self.fragment.iter_mut().for_each(Stage::interpret);
+        self
+    }
 }
 
 impl Program for TextProgram {

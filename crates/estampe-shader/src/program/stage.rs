@@ -23,6 +23,8 @@ pub(super) struct Stage {
     machine: MachineCode,
     /// What runs where there is no machine code.
     bytecode: OnceLock<Code>,
+    /// No machine code is made: all runs are by bytecode.
+    is_interpreted: bool,
     /// The number of jumps that a run may execute.
     budget: u64,
 }
@@ -33,8 +35,14 @@ impl Stage {
             kernel: Kernel::from_tree(tree),
             machine: MachineCode::default(),
             bytecode: OnceLock::new(),
+            is_interpreted: false,
             budget,
         }
+    }
+
+    /// Runs by bytecode from now on.
+    pub(super) fn interpret(&mut self) {
+        self.is_interpreted = true;
     }
 
     pub(super) fn interface(&self) -> &Interface {
@@ -60,7 +68,9 @@ impl Stage {
             textures: &textures,
             budget: self.budget,
         };
-        if let Some(stopped) = self.machine.run(&self.kernel, level, &run) {
+        if !self.is_interpreted
+            && let Some(stopped) = self.machine.run(&self.kernel, level, &run)
+        {
             return stopped;
         }
         let code = self.bytecode.get_or_init(|| Code::new(&self.kernel));

@@ -1,5 +1,6 @@
 //! Bytes of machine code, labels, and the pool of constants behind the code.
 
+use super::text::{Note, Text};
 use std::collections::HashMap;
 
 /// A place in the code, known or not yet.
@@ -35,9 +36,27 @@ pub(crate) struct Assembler {
     pool: Vec<u32>,
     splats: HashMap<(u32, u32), u32>,
     lanes: HashMap<Vec<u32>, u32>,
+    /// The texts of a listing, if one is made.
+    notes: Option<Vec<Note>>,
 }
 
 impl Assembler {
+    /// An assembler that keeps the text of each instruction.
+    pub(crate) fn with_notes() -> Self {
+        Self {
+            notes: Some(Vec::new()),
+            ..Self::default()
+        }
+    }
+
+    /// Keeps the text of what comes next, if a listing is made.
+    pub(crate) fn note(&mut self, text: impl FnOnce() -> Text) {
+        let at = self.bytes.len();
+        if let Some(notes) = &mut self.notes {
+            notes.push(Note { at, text: text() });
+        }
+    }
+
     /// The number of bytes so far.
     pub(crate) fn len(&self) -> usize {
         self.bytes.len()
@@ -59,6 +78,7 @@ impl Assembler {
 
     /// Says that a label is here.
     pub(crate) fn bind(&mut self, label: Label) {
+        self.note(|| Text::Label(label));
         self.labels[label.0 as usize] = Some(self.bytes.len());
     }
 
@@ -127,6 +147,7 @@ impl Assembler {
         Finished {
             bytes: self.bytes,
             code_bytes,
+            notes: self.notes.unwrap_or_default(),
         }
     }
 }
@@ -138,4 +159,6 @@ pub(crate) struct Finished {
     pub(crate) bytes: Vec<u8>,
     /// The number of bytes that are instructions.
     pub(crate) code_bytes: usize,
+    /// The texts of a listing, in the order of the bytes.
+    pub(crate) notes: Vec<Note>,
 }

@@ -10,12 +10,14 @@
 //! | [`vector_op`] | the table of vector instructions |
 //! | [`vector`] | VEX and EVEX prefixes |
 //! | [`scalar`] | instructions on general-purpose registers, jumps |
+//! | [`mod@text`] | the texts of instructions, for listings |
 //!
 //! Source: Intel 64 and IA-32 Architectures Software Developer's Manual, volume 2.
 
 pub(crate) mod address;
 pub(crate) mod assembler;
 pub(crate) mod scalar;
+pub(crate) mod text;
 pub(crate) mod vector;
 pub(crate) mod vector_op;
 

@@ -25,38 +25,6 @@ fn registers(instruction: &Instruction) -> Vec<usize> {
         .collect()
 }
 
-/// True if the instruction has an operand in the prefix that is not the destination.
-fn has_vvvv(op: &VectorOp) -> bool {
-    use vector_op as v;
-    let two: &[&VectorOp] = &[
-        &v::SQRT_F,
-        &v::ROUND_F,
-        &v::COUNT_ONES,
-        &v::LEADING_ZEROS,
-        &v::F32_FROM_S32,
-        &v::F32_FROM_U32,
-        &v::S32_FROM_F32,
-        &v::U32_FROM_F32,
-        &v::PERMUTE,
-        &v::BROADCAST,
-        &v::BROADCAST_BYTE,
-        &v::SIGNS,
-        &v::LOAD,
-        &v::STORE,
-        &v::MOVE,
-        &v::STORE_LOWEST,
-        &v::GATHER,
-        &v::SCATTER,
-        &v::MASK_LOAD,
-        &v::MASK_STORE,
-        &v::MASK_FROM_GPR,
-        &v::GPR_FROM_MASK,
-        &v::MASK_NOT,
-        &v::MASK_TEST,
-    ];
-    !two.contains(&op)
-}
-
 fn has_immediate(op: &VectorOp) -> bool {
     op.map == 3 || op.digit.is_some() || op.name == "vcmpps"
 }
@@ -100,7 +68,7 @@ fn vector_instructions_between_registers() {
         for (is_evex, length) in forms(op) {
             for _ in 0..200 {
                 let [reg, vvvv, rm] = limits(op, is_evex).map(|limit| random.u8(..limit));
-                let vvvv = if has_vvvv(op) { vvvv } else { 0 };
+                let vvvv = if op.has_vvvv() { vvvv } else { 0 };
                 // Destinations alone can be masked, and comparisons.
                 let can_mask = is_evex && !matches!(op.tuple, Tuple::Bytes(_));
                 let mask = if can_mask { random.u8(..8) } else { 0 };
@@ -123,7 +91,7 @@ fn vector_instructions_between_registers() {
                 let mut expected = vec![reg, vvvv, rm];
                 if op.digit.is_some() {
                     expected = vec![vvvv, rm];
-                } else if !has_vvvv(op) {
+                } else if !op.has_vvvv() {
                     expected.remove(1);
                 }
                 if **op == v::STORE || **op == v::STORE_LOWEST {
@@ -178,7 +146,7 @@ fn vector_instructions_with_memory() {
                 if is_gather && (index == Some(reg) || overlaps_mask) {
                     continue;
                 }
-                let vvvv = if has_vvvv(op) || reads_mask { vvvv } else { 0 };
+                let vvvv = if op.has_vvvv() || reads_mask { vvvv } else { 0 };
                 let mask = if is_gather && is_evex {
                     random.u8(1..8)
                 } else {
@@ -225,7 +193,7 @@ fn vector_instructions_with_memory() {
                     () if **op == v::BLEND_BY_SIGN => {
                         vec![reg, vvvv, immediate.unwrap_or(0) >> 4]
                     }
-                    () if has_vvvv(op) || reads_mask => vec![reg, vvvv],
+                    () if op.has_vvvv() || reads_mask => vec![reg, vvvv],
                     () => vec![reg],
                 };
                 let expected: Vec<usize> = expected.into_iter().map(usize::from).collect();

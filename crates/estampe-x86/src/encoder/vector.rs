@@ -1,7 +1,7 @@
 //! VEX and EVEX prefixes.
 
 use super::vector_op::Tuple;
-use super::{Address, Assembler, Base, VectorOp};
+use super::{Address, Assembler, Base, VectorOp, text};
 
 /// The length of vectors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,6 +55,7 @@ pub(crate) struct VectorInstruction {
 impl Assembler {
     /// Encodes a vector or mask-register instruction.
     pub(crate) fn vector(&mut self, instruction: &VectorInstruction) {
+        self.note(|| text::vector(instruction));
         let VectorInstruction { op, rm, .. } = *instruction;
         let reg = op.digit.unwrap_or(instruction.reg);
         let scale = if instruction.is_evex {

@@ -187,3 +187,36 @@ table! {
     MASK_XOR = VectorOp::mask("kxorw", NONE, 0x47, true);
     MASK_TEST = VectorOp::mask("kortestw", NONE, 0x98, false);
 }
+
+impl VectorOp {
+    /// True if the instruction has an operand in the prefix that is not the destination.
+    pub(crate) fn has_vvvv(&self) -> bool {
+        let two: &[&Self] = &[
+            &SQRT_F,
+            &ROUND_F,
+            &COUNT_ONES,
+            &LEADING_ZEROS,
+            &F32_FROM_S32,
+            &F32_FROM_U32,
+            &S32_FROM_F32,
+            &U32_FROM_F32,
+            &PERMUTE,
+            &BROADCAST,
+            &BROADCAST_BYTE,
+            &SIGNS,
+            &LOAD,
+            &STORE,
+            &MOVE,
+            &STORE_LOWEST,
+            &GATHER,
+            &SCATTER,
+            &MASK_LOAD,
+            &MASK_STORE,
+            &MASK_FROM_GPR,
+            &GPR_FROM_MASK,
+            &MASK_NOT,
+            &MASK_TEST,
+        ];
+        !two.contains(&self)
+    }
+}

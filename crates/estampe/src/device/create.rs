@@ -45,7 +45,11 @@ impl Device {
         &self,
         descriptor: &crate::ProgramDescriptor<'_>,
     ) -> Result<std::sync::Arc<dyn crate::Program>, crate::ShaderModuleError> {
-        descriptor.program(self.limits.max_shader_jumps)
+        let program = descriptor.program(self.limits.max_shader_jumps)?;
+        Ok(match self.interprets_shaders {
+            true => std::sync::Arc::new(program.interpreted()),
+            false => std::sync::Arc::new(program),
+        })
     }
 
     /// Makes the program of a compute pipeline of an entry point of a shader module.
@@ -57,7 +61,11 @@ impl Device {
         &self,
         entry_point: &crate::EntryPointDescriptor<'_>,
     ) -> Result<std::sync::Arc<dyn crate::ComputeProgram>, crate::ShaderModuleError> {
-        entry_point.compute(self.limits.max_shader_jumps)
+        let program = entry_point.compute(self.limits.max_shader_jumps)?;
+        Ok(match self.interprets_shaders {
+            true => std::sync::Arc::new(program.interpreted()),
+            false => std::sync::Arc::new(program),
+        })
     }
 
     /// Creates a compute pipeline.

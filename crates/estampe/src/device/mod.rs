@@ -24,6 +24,9 @@ pub struct DeviceDescriptor {
     pub level: Level,
     /// The largest sizes of resources and pipelines.
     pub limits: Limits,
+    /// If set, shaders as text are interpreted and no machine code is made, as on processors for
+    /// which there is none. Default false. The image does not depend on it.
+    pub interprets_shaders: bool,
 }
 
 /// Errors of [`Device::new`].
@@ -56,6 +59,8 @@ pub enum DeviceError {
 pub struct Device {
     context: Context,
     limits: Limits,
+    #[cfg(feature = "shader-text")]
+    interprets_shaders: bool,
     created: Instant,
 }
 
@@ -76,6 +81,8 @@ impl Device {
         Ok(Self {
             context,
             limits: descriptor.limits.clone(),
+            #[cfg(feature = "shader-text")]
+            interprets_shaders: descriptor.interprets_shaders,
             created: Instant::now(),
         })
     }
@@ -87,6 +94,8 @@ impl Device {
         Self {
             context: Context::profiling(level),
             limits: Limits::default(),
+            #[cfg(feature = "shader-text")]
+            interprets_shaders: false,
             created: Instant::now(),
         }
     }

@@ -177,6 +177,31 @@ impl ShaderModule {
         Ok(Uniforms::new(found.clone()))
     }
 
+    /// Lowers every entry point: what is left between a valid text and one that runs. `constants`
+    /// are values of pipeline-overridable constants; those without a default or a value are 1, and
+    /// names that there are not are ignored. Returns the errors of all entry points, none if each
+    /// can be compiled.
+    #[must_use]
+    pub fn check_entry_points(&self, constants: &[(&str, f64)]) -> Vec<ShaderModuleError> {
+        let mut errors = Vec::new();
+        for module in &*self.modules {
+            let constants = programs::constants_of(module, constants);
+            let constants: Vec<(&str, f64)> = constants
+                .iter()
+                .map(|(key, value)| (&**key, *value))
+                .collect();
+            errors.extend(module.entry_points.iter().filter_map(|entry| {
+                let descriptor = EntryPointDescriptor {
+                    module: self,
+                    name: Some(&entry.name),
+                    constants: &constants,
+                };
+                descriptor.check(entry.stage).err()
+            }));
+        }
+        errors
+    }
+
     /// The vertex shader and the fragment shader of the module, if it has one of each.
     #[must_use]
     pub fn program(&self) -> ProgramDescriptor<'_> {

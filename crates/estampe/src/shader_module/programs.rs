@@ -2,12 +2,9 @@
 
 use super::error::ShaderModuleError;
 use super::{ShaderModule, ShaderStage};
-use estampe_shader::front::Module;
+use estampe_shader::front::{Module, Override};
 use estampe_shader::lower::lower;
 use estampe_shader::program::{StageSource, TextCompute, TextProgram};
-use estampe_types::Program;
-use estampe_types::shader::ComputeProgram;
-use std::sync::Arc;
 
 /// An entry point of a module: WebGPU's `GPUProgrammableStage`.
 #[derive(Debug, Clone, Copy)]
@@ -56,27 +53,31 @@ impl<'a> ProgramDescriptor<'a> {
         }
     }
 
-    pub(crate) fn program(&self, budget: u64) -> Result<Arc<dyn Program>, ShaderModuleError> {
+    pub(crate) fn program(&self, budget: u64) -> Result<TextProgram, ShaderModuleError> {
         let vertex = self.vertex.stage(ShaderStage::Vertex)?;
         let fragment = self
             .fragment
             .map(|entry| entry.stage(ShaderStage::Fragment));
         let fragment = fragment.transpose()?;
-        Ok(Arc::new(TextProgram::new(
-            &vertex,
-            fragment.as_ref(),
-            budget,
-        )?))
+        Ok(TextProgram::new(&vertex, fragment.as_ref(), budget)?)
     }
 }
 
 impl EntryPointDescriptor<'_> {
-    pub(crate) fn compute(
-        &self,
-        budget: u64,
-    ) -> Result<Arc<dyn ComputeProgram>, ShaderModuleError> {
+    pub(crate) fn compute(&self, budget: u64) -> Result<TextCompute, ShaderModuleError> {
         let source = self.stage(ShaderStage::Compute)?;
-        Ok(Arc::new(TextCompute::new(&source, budget)?))
+        Ok(TextCompute::new(&source, budget)?)
+    }
+
+    /// Checks that the entry point can be compiled.
+    pub(super) fn check(&self, stage: ShaderStage) -> Result<(), ShaderModuleError> {
+        let source = self.stage(stage)?;
+        match stage {
+            ShaderStage::Vertex => TextProgram::new(&source, None, 0).map(|_| ())?,
+            ShaderStage::Fragment => {}
+            ShaderStage::Compute => TextCompute::new(&source, 0).map(|_| ())?,
+        }
+        Ok(())
     }
 
     fn stage(&self, stage: ShaderStage) -> Result<StageSource, ShaderModuleError> {
@@ -127,4 +128,19 @@ impl EntryPointDescriptor<'_> {
             None => ShaderModuleError::WhichEntryPoint { stage, there_are },
         })
     }
+}
+
+/// The values of a module's constants, by name or by the digits of their id: those that are given,
+/// and 1 for others without a default.
+pub(super) fn constants_of(module: &Module, given: &[(&str, f64)]) -> Vec<(String, f64)> {
+    let of = |constant: &Override| {
+        let id = constant.id.map(|id| id.to_string());
+        let is_key =
+            |key: &str| id.as_deref() == Some(key) || constant.name.as_deref() == Some(key);
+        let value = given.iter().find(|(key, _)| is_key(key));
+        let value = value.map(|(_, value)| *value);
+        let value = value.or(constant.default.is_none().then_some(1.0))?;
+        Some((id.clone().or_else(|| constant.name.clone())?, value))
+    };
+    module.reflection.overrides.iter().filter_map(of).collect()
 }

@@ -1,6 +1,7 @@
 //! Tests of the interpreter.
 
 mod flow;
+mod listing;
 mod memory;
 mod ops;
 mod textures;
