@@ -11,7 +11,8 @@
 //! * [`generate`] makes the scenes' data, equal to `peerbench`'s bit for bit, as their fingerprints
 //!   prove;
 //! * [`scene`] has one file per scene: its data, its shader, its pipeline;
-//! * [`frame`] draws a scene once, with the objects of `resources`; [`measure`] draws it many times and measures with the [`clock`];
+//! * [`frame`] draws a scene once, with the objects of `resources`; [`measure`] draws it many
+//!   times and measures with the [`clock`];
 //! * [`picture`] writes, reads and compares pictures; [`report`] writes tables and JSON;
 //! * [`stages`] has loads that stress one stage each; [`states`] measures the cost of each state of
 //!   the pipeline; [`growth`] measures how cost grows with triangles, pixels and cores;

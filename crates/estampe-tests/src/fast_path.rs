@@ -6,8 +6,8 @@ use crate::readback;
 use crate::target::Target;
 use estampe::{
     BindGroup, BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType,
-    BufferBindingType, BufferSlice, Device, DeviceDescriptor, Draw, Level, Limits,
-    OcclusionQueries, RenderPass, RenderPipeline, RenderPipelineDescriptor, Statistics,
+    BufferBindingType, BufferSlice, Device, DeviceDescriptor, Draw, Level, OcclusionQueries,
+    RenderPass, RenderPipeline, RenderPipelineDescriptor, Statistics,
 };
 use estampe_types::state::{ColorTargetState, DepthStencilState, MultisampleState};
 use estampe_types::{Bindings, BoundResource, BufferData, TextureFormat};
@@ -22,8 +22,7 @@ static DEVICES: LazyLock<Vec<Device>> = LazyLock::new(|| {
         Device::new(&DeviceDescriptor {
             threads,
             level,
-            limits: Limits::default(),
-            pool: None,
+            ..DeviceDescriptor::default()
         })
         .expect("the system starts a few threads")
     };

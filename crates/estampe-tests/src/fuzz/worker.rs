@@ -5,7 +5,7 @@ use crate::Random;
 use crate::fast_path;
 use crate::target::Target;
 use estampe::{
-    BufferSlice, ColorAttachment, Device, DeviceDescriptor, Draw, Level, Limits, RenderPass,
+    BufferSlice, ColorAttachment, Device, DeviceDescriptor, Draw, Level, RenderPass,
     RenderPipeline, RenderPipelineDescriptor,
 };
 use estampe_types::shader::VertexOut;
@@ -57,8 +57,7 @@ impl Fuzzer {
             Device::new(&DeviceDescriptor {
                 threads: 1,
                 level,
-                limits: Limits::default(),
-                pool: None,
+                ..DeviceDescriptor::default()
             })
             .expect("a device without threads of its own")
         };
