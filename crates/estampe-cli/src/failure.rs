@@ -73,9 +73,7 @@ impl From<LadderError> for Failure {
     fn from(error: LadderError) -> Self {
         let message = error.to_string();
         match error {
-            LadderError::NoSuchRung { .. } | LadderError::WaitsForGlsl | LadderError::Usage(_) => {
-                Self::Usage(message)
-            }
+            LadderError::NoSuchRung { .. } | LadderError::Usage(_) => Self::Usage(message),
             LadderError::Asset(_) | LadderError::NoTriangles { .. } => Self::Input(message),
             _ => Self::Output(message),
         }

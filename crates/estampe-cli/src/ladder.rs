@@ -21,7 +21,7 @@ Examples:
   estampe ladder 12 --model head.obj --texture head_diffuse.tga -o ladder
 
 The pictures are DIR/ladder_01_pixel.png to DIR/ladder_23_shapes.png; all also writes DIR/sheet.png with all of \
-them. Each is the picture of an example of the crate estampe-ladder. Rung 22 waits for shaders in GLSL.
+them. Each is the picture of an example of the crate estampe-ladder.
 
 Exit codes: 0 success, 1 the model is missing or invalid, 2 wrong usage, 3 a picture cannot be written.")]
 pub(crate) struct LadderArgs {

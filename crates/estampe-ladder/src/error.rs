@@ -1,6 +1,9 @@
 //! Errors of the ladder.
 
-use estampe::{BindGroupError, BufferError, DeviceError, PipelineError, TextureError};
+use estampe::{
+    BindGroupError, BufferError, DeviceError, PipelineError, ShaderErrors, ShaderModuleError,
+    TextureError, UniformError,
+};
 use estampe_assets::AssetError;
 use estampe_shapes::expression::ExpressionError;
 use estampe_shapes::implicit::ImplicitError;
@@ -16,12 +19,6 @@ pub enum LadderError {
         /// The given number.
         number: u32,
     },
-    /// Rung 22 runs shaders in GLSL, which the pipeline does not read yet.
-    #[error(
-        "rung 22 runs shaders written in GLSL, which estampe does not read yet (row G1 of \
-         docs/PIPELINE.md); take another rung, docs/from-glsl.md translates GLSL to Rust"
-    )]
-    WaitsForGlsl,
     /// The command line of an example is wrong.
     #[error("{0}")]
     Usage(String),
@@ -63,6 +60,15 @@ pub enum LadderError {
     /// A bind group does not fit its layout.
     #[error(transparent)]
     BindGroup(#[from] BindGroupError),
+    /// The text of a shader has mistakes.
+    #[error(transparent)]
+    ShaderText(#[from] ShaderErrors),
+    /// The shaders of a program do not fit each other.
+    #[error(transparent)]
+    ShaderModule(#[from] ShaderModuleError),
+    /// A shader has no uniform of this name and type.
+    #[error(transparent)]
+    Uniform(#[from] UniformError),
     /// A pipeline is not valid.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),

@@ -158,8 +158,8 @@ fn nothing(function: &Function, interruptions: u64) -> Failure {
              another --range or a higher --resolution"
         ),
         Function::ExplicitCurve(_) | Function::ExplicitSurface(_) => format!(
-            "the {kind} is empty: the function is not defined in these ranges, or all of its \
-             values are outside of theirs; choose another --range"
+            "the {kind} is empty: the function is not defined in these ranges, all of its values are \
+             outside of theirs, or its points coincide as 32-bit floats; choose another --range"
         ),
         Function::ParametricCurve(..) | Function::ParametricSurface(_) => format!(
             "the {kind} is empty: its points coincide, or are not defined in these ranges; choose \

@@ -6,7 +6,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::{Curve, Strand};
-use crate::continuity::{Break, SEARCH_BUDGET, Sample, find_break, last_that};
+use crate::continuity::{Break, SEARCH_BUDGET, Sample, find_break, has_limit, last_that};
 use crate::parametric::between;
 
 /// The maximum number of steps of a curve; larger numbers are clamped.
@@ -18,8 +18,8 @@ pub(crate) type Point = (f64, DVec3);
 /// Samples a function at `steps` + 1 parameters, and divides the points where it is interrupted.
 ///
 /// A run ends where the function jumps, has a pole or is not defined, at the last parameter before
-/// it that bisection finds. At a pole this point is left out unless `keeps_poles`, because it is
-/// far away.
+/// it that bisection finds. At a pole this point, which is far away, is left out unless
+/// `keeps_poles`.
 pub(crate) fn runs(
     range: &Range<f64>,
     steps: u32,
@@ -28,41 +28,44 @@ pub(crate) fn runs(
 ) -> Vec<Vec<Point>> {
     let steps = steps.clamp(1, MAX_STEPS);
     let budget = Cell::new(SEARCH_BUDGET);
-    let is_defined = |t: f64| sample(t).is_defined();
+    let position = |t: f64| sample(t).position;
+    // The end of the domain between a parameter inside and one outside, if it belongs to the curve.
+    let end = |inside: f64, outside: f64| {
+        let end = last_that(|t| sample(t).is_defined(), inside, outside);
+        (keeps_poles || has_limit(position, inside, end)).then_some(end)
+    };
     let mut runs = Vec::new();
     let mut run: Vec<Point> = Vec::new();
     let mut previous: Option<(f64, Sample)> = None;
     for step in 0..=steps {
         let t = between(range, step, steps);
         let here = sample(t);
-        let (before, after) = match &previous {
+        // The first parameter behind an interruption, if there is one.
+        let after = match &previous {
             Some((from, last)) if last.is_defined() => {
                 if here.is_defined() {
                     match find_break(&sample, (*from, *last), (t, here), &budget) {
-                        None => (None, None),
+                        None => None,
                         Some(Break {
                             before,
                             after,
                             is_step,
                         }) => {
                             let is_kept = is_step || keeps_poles;
-                            runs.push(finished(&mut run, is_kept.then_some(before), &sample));
-                            (None, is_kept.then_some(after))
+                            runs.push(finished(&mut run, is_kept.then_some(before), position));
+                            is_kept.then_some(after)
                         }
                     }
                 } else {
-                    let before = last_that(is_defined, *from, t);
-                    (Some(before), None)
+                    runs.push(finished(&mut run, end(*from, t), position));
+                    None
                 }
             }
-            Some((from, _)) if here.is_defined() => (None, Some(last_that(is_defined, t, *from))),
-            _ => (None, None),
+            Some((from, _)) if here.is_defined() => end(t, *from),
+            _ => None,
         };
-        if let Some(before) = before {
-            runs.push(finished(&mut run, Some(before), &sample));
-        }
         if let Some(after) = after.filter(|after| *after != t) {
-            run.push((after, sample(after).position));
+            run.push((after, position(after)));
         }
         if here.is_defined() {
             run.push((t, here.position));
@@ -75,11 +78,11 @@ pub(crate) fn runs(
 }
 
 /// Takes the run, after adding the point at its end.
-fn finished(run: &mut Vec<Point>, end: Option<f64>, sample: impl Fn(f64) -> Sample) -> Vec<Point> {
+fn finished(run: &mut Vec<Point>, end: Option<f64>, position: impl Fn(f64) -> DVec3) -> Vec<Point> {
     if let (Some(end), Some(&(last, _))) = (end, run.last())
         && end != last
     {
-        run.push((end, sample(end).position));
+        run.push((end, position(end)));
     }
     std::mem::take(run)
 }

@@ -42,7 +42,7 @@ pub fn surface(
             tt: DVec3::ZERO,
         }
     });
-    draft.cut_to_domain();
+    draft.cut_to_domain(values.is_some());
     if let Some(values) = values {
         let (low, high) = limits(values);
         draft.cut(

@@ -115,6 +115,36 @@ fn curves_are_interrupted_where_functions_are() {
 
 /// Rows: M3.
 #[test]
+fn curves_end_one_sample_before_a_pole() {
+    let nearest = |text: &str, pieces: usize, x: Range<f64>, steps: u32| {
+        let found = ends(&plotted(text, x, None, steps));
+        assert_eq!(found.len(), pieces, "{text}");
+        let distances = found.iter().flatten().map(|p| p.x.abs());
+        distances.fold(f64::MAX, f64::min)
+    };
+    for steps in [10, 100, 1000] {
+        let step = 10.0 / f64::from(steps);
+        for (text, pieces) in [("1/x", 2), ("1/x^2", 2), ("ln(x)", 1), ("x^-0.5", 1)] {
+            // The pole is a sample, or a third of a step away from one.
+            let at = nearest(text, pieces, -5.0..5.0, steps);
+            assert!((at - step).abs() < 1e-9, "{text} {at}");
+            let near = -5.0 - step / 3.0..5.0 - step / 3.0;
+            let at = nearest(text, pieces, near, steps);
+            assert!(at >= step * 0.33, "{text} {at}");
+        }
+        // Functions that tend to a point reach it, however steep.
+        for text in ["sqrt(x)", "x^0.2", "x*ln(x)", "sin(x)/sqrt(x)"] {
+            for offset in [0.0, 1.0 / 3.0] {
+                let moved = -5.0 - step * offset..5.0 - step * offset;
+                let at = nearest(text, 1, moved, steps);
+                assert!(at < step * 1e-9, "{text} {at}");
+            }
+        }
+    }
+}
+
+/// Rows: M3.
+#[test]
 fn a_range_of_values_cuts_curves_at_its_limits() {
     for steps in [20, 33, 500] {
         let cut = plotted("1/x", -4.0..4.0, Some(&(-2.0..3.0)), steps);
@@ -239,6 +269,14 @@ fn surfaces_are_cut_where_functions_end_or_jump() {
             "vertices at the cut are on the surface: {p}"
         );
     }
+    // Without a range, the cells at a pole are left out.
+    let pole = surface_of("1/(x^2 + y^2)", -1.0..1.0, None, 16);
+    assert!(pole.positions.iter().all(|p| p.z <= 64.0));
+    assert_eq!(
+        topology(&pole).euler_characteristic,
+        0,
+        "a disc with a hole"
+    );
     let poles = surface_of("1/(x^2 + y^2)", -1.0..1.0, Some(&(0.0..4.0)), 16);
     assert_eq!(
         topology(&poles).euler_characteristic,

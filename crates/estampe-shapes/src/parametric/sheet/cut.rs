@@ -5,13 +5,28 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::draft::{Draft, NEARBY, Vertex};
-use crate::continuity::{is_defined, last_that};
+use crate::continuity::{has_limit, is_defined, last_that};
 use crate::parametric::jet::SurfaceJet;
 
 impl<F: Fn(f64, f64) -> SurfaceJet> Draft<F> {
-    /// Cuts the sheet at the ends of the function's domain.
-    pub(crate) fn cut_to_domain(&mut self) {
+    /// Cuts the sheet at the ends of the function's domain. Triangles that reach to a pole there
+    /// are left out unless `keeps_poles`, because it is far away.
+    pub(crate) fn cut_to_domain(&mut self, keeps_poles: bool) {
+        let whole = self.vertices.len();
         self.cut(is_defined, |position| position);
+        if keeps_poles {
+            return;
+        }
+        for number in whole..self.vertices.len() {
+            let vertex = self.vertices[number];
+            let Some(from) = vertex.cut_from else {
+                continue;
+            };
+            let at = |f: f64| [0, 1].map(|i| from[i] * (1.0 - f) + vertex.at[i] * f);
+            if !has_limit(|f| self.jet(at(f)).position, 0.0, 1.0) {
+                self.vertices[number].position = DVec3::NAN;
+            }
+        }
     }
 
     /// Keeps the parts whose positions satisfy a condition; `moved` puts a vertex at the cut onto
@@ -94,6 +109,7 @@ impl<F: Fn(f64, f64) -> SurfaceJet> Draft<F> {
         }
         let mut vertex = self.vertex(at(last), &self.jet(at(last)));
         vertex.position = moved(vertex.position);
+        vertex.cut_from = Some(from.at);
         if self.jet(at(last)).normal([0.0; 2]).is_none() {
             // At the rim of a half sphere the derivatives are infinite: look inside, on the edge.
             let inside = |step: f64| self.jet(at(last * (1.0 - step))).normal([0.0; 2]);

@@ -20,6 +20,8 @@ pub(super) struct Vertex {
     /// Zero if the derivatives do not tell it.
     pub(super) normal: DVec3,
     pub(super) uv: Vec2,
+    /// The parameters from which a cut along an edge came here.
+    pub(super) cut_from: Option<[f64; 2]>,
 }
 
 /// Fractions of a range or edge at which a normal is tried that does not exist at a vertex itself.
@@ -82,6 +84,7 @@ impl<F: Fn(f64, f64) -> SurfaceJet> Draft<F> {
             position: jet.position,
             normal: self.normal(at, jet),
             uv: glam::DVec2::new(u, 1.0 - v).as_vec2(),
+            cut_from: None,
         }
     }
 

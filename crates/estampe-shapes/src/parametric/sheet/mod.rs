@@ -57,12 +57,12 @@ pub struct Grid {
 /// Normals have the side of ∂S/∂s × ∂S/∂t; at poles they are limits ([`SurfaceJet::normal`]).
 /// Positions that differ by less than 1e-9 of the surface's extent are equal at poles and seams.
 /// Triangles over a jump are left out, and where the function ends (it is NaN, infinite or beyond
-/// 1e30) the surface is cut at the last parameter that bisection finds. Texture coordinates have u
-/// = 0 at the beginning of s and v = 0 at the end of t.
+/// 1e30) the surface is cut at the last parameter that bisection finds, unless it has a pole there.
+/// Texture coordinates have u = 0 at the beginning of s and v = 0 at the end of t.
 #[must_use]
 pub fn sheet(name: &str, grid: &Grid, point: impl Fn(f64, f64) -> SurfaceJet) -> ShapeMesh {
     let mut draft = Draft::new(grid, point);
-    draft.cut_to_domain();
+    draft.cut_to_domain(false);
     draft.into_mesh(name)
 }
 

@@ -6,7 +6,7 @@ use glam::Vec2;
 use super::oracle::{Fraction, doubled_area};
 use super::rings::{Kind, in_f32, slices};
 use crate::polygon::arrangement::{Corner, arrange};
-use crate::polygon::exact::ExactPoint;
+use crate::polygon::exact::{ExactPoint, MAX_COORDINATE};
 use crate::polygon::sweep::triangulate;
 use crate::polygon::*;
 
@@ -100,6 +100,37 @@ fn triangles_touch_along_whole_edges() {
             }
         }
     }
+}
+
+/// Decisions are the same at the largest coordinates, where intermediate results are longest.
+#[test]
+fn the_largest_coordinates_change_nothing() {
+    let mut random = Rng::with_seed(61);
+    let mut tested = 0;
+    for case in 0..5_000 {
+        let kind = Kind::ALL[case % Kind::ALL.len()];
+        let small = kind.rings(16, &mut random);
+        let scale = MAX_COORDINATE / 16;
+        let large: Vec<Vec<Corner>> = small
+            .iter()
+            .map(|ring| {
+                ring.iter()
+                    .map(|c| c.map(|x| (x - 8) * 2 * scale))
+                    .collect()
+            })
+            .collect();
+        let is_inside =
+            |ring: &Vec<Corner>| ring.iter().flatten().all(|x| x.abs() <= MAX_COORDINATE);
+        if !large.iter().all(is_inside) {
+            continue;
+        }
+        tested += 1;
+        for rule in RULES {
+            let triangles = |rings| triangulate(&arrange(rings).unwrap(), rule);
+            assert_eq!(triangles(&small), triangles(&large), "{small:?}");
+        }
+    }
+    assert!(tested > 2_000, "{tested} cases fit");
 }
 
 /// The public form gives the same triangles in f32, at any scale and place.
