@@ -1,8 +1,10 @@
 //! What the passes make of small trees.
 
+use estampe_ir::Type;
+use estampe_ir::interface::{Input, Output, Stage};
 use estampe_ir::text;
-use estampe_ir::tree::passes;
 use estampe_ir::tree::verify;
+use estampe_ir::tree::{Builder, passes};
 
 fn optimised(source: &str) -> String {
     let mut tree = text::tree(source).unwrap_or_else(|error| panic!("{error}"));
@@ -59,4 +61,31 @@ block l0 (v3) {
 outputs v3
 ";
     assert_eq!(optimised(text), text);
+}
+
+#[test]
+fn an_if_ends_where_both_sides_end_in_ifs() {
+    let mut b = Builder::new(Stage::Fragment);
+    let cover = b.input(Input::Cover);
+    let (one, two) = (b.float(1.0), b.float(2.0));
+    let label = b.block_of(&[Type::Word]);
+    b.start_if(cover);
+    b.start_if(cover);
+    b.branch(label, &[one]);
+    b.start_else();
+    b.branch(label, &[two]);
+    b.end_if();
+    b.start_else();
+    b.branch(label, &[two]);
+    b.end_if();
+    assert!(b.has_ended());
+    let result = b.end_block()[0];
+    let color = Output::Color {
+        target: 0,
+        component: 0,
+    };
+    let mut tree = b.finish(vec![(color, result)]);
+    verify(&tree).unwrap_or_else(|error| panic!("{error}"));
+    passes::optimise(&mut tree);
+    verify(&tree).unwrap_or_else(|error| panic!("{error}"));
 }

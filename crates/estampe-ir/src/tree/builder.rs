@@ -65,7 +65,8 @@ struct Open {
 enum Construct {
     Body,
     Accept(Value),
-    Reject(Value, Vec<Node>),
+    /// The condition, the first part, and whether its end cannot be reached.
+    Reject(Value, Vec<Node>, bool),
     Block(Label, Vec<Value>),
     Loop(Label, Vec<Value>, Vec<Value>),
 }
@@ -352,7 +353,7 @@ impl Builder {
         let Construct::Accept(condition) = open.construct else {
             panic!("the construct that is open is no `if` without `else`");
         };
-        self.open(Construct::Reject(condition, open.nodes));
+        self.open(Construct::Reject(condition, open.nodes, open.has_ended));
     }
 
     /// Ends the `if` that was begun last.
@@ -361,17 +362,21 @@ impl Builder {
     /// If the construct that was begun last is no `if`.
     pub fn end_if(&mut self) {
         let open = self.close();
-        let (condition, accept, reject) = match open.construct {
-            Construct::Accept(condition) => (condition, open.nodes, Vec::new()),
-            Construct::Reject(condition, accept) => (condition, accept, open.nodes),
+        let is_over = open.has_ended;
+        let (condition, [accept, reject], [accept_ends, reject_ends]) = match open.construct {
+            Construct::Accept(condition) => (condition, [open.nodes, Vec::new()], [is_over, false]),
+            Construct::Reject(condition, accept, accept_ends) => {
+                (condition, [accept, open.nodes], [accept_ends, is_over])
+            }
             _ => panic!("the construct that is open is no `if`"),
         };
-        let ends = |nodes: &[Node]| matches!(nodes.last(), Some(Node::Branch { .. }));
-        let both_end = ends(&accept) && ends(&reject);
         match self.mask_of(condition) {
             Some(chosen) => {
-                let nodes = if chosen { accept } else { reject };
-                let is_over = ends(&nodes);
+                let (nodes, is_over) = if chosen {
+                    (accept, accept_ends)
+                } else {
+                    (reject, reject_ends)
+                };
                 if !self.has_ended() {
                     self.last_mut().nodes.extend(nodes);
                     self.last_mut().has_ended |= is_over;
@@ -384,7 +389,7 @@ impl Builder {
                     accept,
                     reject,
                 });
-                self.last_mut().has_ended |= both_end;
+                self.last_mut().has_ended |= accept_ends && reject_ends;
             }
         }
     }
