@@ -3,9 +3,10 @@
 use crate::{Target, TransparencyError};
 use estampe::state::{BlendState, ColorTargetState, MultisampleState};
 use estampe::{
-    BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType, ColorAttachment,
-    Device, Draw, FragmentIn, FragmentOut, RenderPass, RenderPipelineDescriptor, SampleType,
-    Statistics, Texture, TextureBindings, Vec4, VertexIn, VertexOut, ViewDimension,
+    BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType, Bindings,
+    ColorAttachment, Device, Draw, FragmentIn, FragmentOut, Int, Real, RenderPass,
+    RenderPipelineDescriptor, SampleType, Statistics, Texture, TextureBindings, Vec4, VertexIn,
+    VertexOut, ViewDimension,
 };
 
 /// The least divisor: the weights of one far and nearly clear fragment may be tiny.
@@ -33,11 +34,9 @@ estampe::shader! {
             let [x, y] = [input.position.x.to_int(), input.position.y.to_int()];
             let zero = x.splat(0);
             let sample = if self.is_multisampled { input.sample_index } else { zero };
-            let texel = |binding| {
-                let texture = input.bindings.texture(0, binding);
-                texture.fetch([x, y, zero], zero, sample)
-            };
-            let (sum, revealage) = (texel(0), texel(1).x);
+            let at = ([x, y, zero], sample);
+            let sum = texel::<R>(input.bindings, 0, at);
+            let revealage = texel::<R>(input.bindings, 1, at).x;
             let alpha = -revealage + 1.0;
             let scale = alpha / sum.w.max(LEAST_SUM);
             let color = Vec4::new(sum.x * scale, sum.y * scale, sum.z * scale, alpha);
@@ -45,6 +44,17 @@ estampe::shader! {
             FragmentOut::color(color).discard_unless(revealage.lt(1.0))
         }
     }
+}
+
+/// A texel of the base level of a texture of group 0.
+#[inline(always)]
+fn texel<R: Real>(
+    bindings: &Bindings,
+    binding: u32,
+    (at, sample): ([R::Int; 3], R::Int),
+) -> Vec4<R> {
+    let zero = sample.splat(0);
+    bindings.texture(0, binding).fetch(at, zero, sample)
 }
 
 /// Draws the composition over the picture.

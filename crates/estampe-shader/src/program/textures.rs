@@ -8,7 +8,7 @@ use estampe_texture::{
     Coordinates, Lod, Rgba8Texture, SampledTexture, TextureBindings, sample_compare_level,
     storage_load, storage_store,
 };
-use estampe_types::{Bindings, ShadowMap, StorageTexture, Vec2, Vec3, Vec4, ViewDimension};
+use estampe_types::{Bindings, Real, ShadowMap, StorageTexture, Vec2, Vec3, Vec4, ViewDimension};
 use std::cell::OnceCell;
 use std::sync::Arc;
 
@@ -155,8 +155,10 @@ impl BoundTextures<'_> {
         };
         for packet in 0..access.packets {
             let at = texel(s, access, packet);
-            let [x, y, z, w] =
-                [0, 1, 2, 3].map(|channel| floats(s, access.stored(channel), packet));
+            let x = floats(s, access.stored(0), packet);
+            let y = floats(s, access.stored(1), packet);
+            let z = floats(s, access.stored(2), packet);
+            let w = floats(s, access.stored(3), packet);
             let mask: mask32x16<S> = s.mask_from_bits(access.mask[packet]);
             storage_store(texture, mask, at, Vec4::new(x, y, z, w));
         }
@@ -197,10 +199,8 @@ impl BoundTextures<'_> {
 /// by whole registers: a load waits long for several stores to the same line.
 #[inline(always)]
 fn plain<S: Lanes>(s: S, texture: &Rgba8Texture, access: &mut TextureAccess<'_>) {
-    let [u, v] = [0, 1].map(
-        #[inline(always)]
-        |at| floats(s, access.coordinate(at), 0),
-    );
+    let u = floats(s, access.coordinate(0), 0);
+    let v = floats(s, access.coordinate(1), 0);
     let color = texture.sample(Vec2::new(u, v));
     set(access, 0, [color.x, color.y, color.z, color.w]);
 }
@@ -223,10 +223,9 @@ fn compare<S: Lanes>(s: S, depths: &ShadowMap, access: &mut TextureAccess<'_>) {
 fn sample<S: Lanes>(s: S, texture: &SampledTexture, access: &mut TextureAccess<'_>) {
     let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
     for packet in 0..access.packets {
-        let [u, v, w] = [0, 1, 2].map(
-            #[inline(always)]
-            |at| coordinate(s, access, (at, packet)),
-        );
+        let u = coordinate(s, access, (0, packet));
+        let v = coordinate(s, access, (1, packet));
+        let w = coordinate(s, access, (2, packet));
         let uvw = Vec3::new(u, v, w);
         let layer = access.layer().map(|layer| ints(s, layer, packet));
         let layer = layer.unwrap_or(<i32x16<S> as SimdBase<S>>::splat(s, 0));
@@ -248,10 +247,14 @@ fn sample<S: Lanes>(s: S, texture: &SampledTexture, access: &mut TextureAccess<'
             let none = Vec3::new(zero, zero, zero);
             let alone = answer(s, texture, access, (packet, at), Lod::Gradients(none, none));
             let mask: mask32x16<S> = s.mask_from_bits(whole);
-            [0, 1, 2, 3].map(|at| {
-                use estampe_types::Real;
-                f32x16::<S>::select(mask, result[at], alone[at])
-            })
+            let [a, b, c, d] = result;
+            let [of_a, of_b, of_c, of_d] = alone;
+            [
+                f32x16::<S>::select(mask, a, of_a),
+                f32x16::<S>::select(mask, b, of_b),
+                f32x16::<S>::select(mask, c, of_c),
+                f32x16::<S>::select(mask, d, of_d),
+            ]
         };
         set(access, packet, result);
     }
@@ -309,16 +312,31 @@ fn lod<S: Lanes>(s: S, access: &TextureAccess<'_>, packet: usize) -> Lod<f32x16<
         LevelOfDetail::Bias(_) => Lod::Bias(value),
         LevelOfDetail::Explicit(_) => Lod::Level(value),
         LevelOfDetail::Gradient { x, .. } => {
-            let along = |axis: usize| {
-                let part = |at: usize| {
-                    let words = access.gradient(axis, at).filter(|_| at < x.len());
-                    words.map_or(zero, |words| floats(s, words, packet))
-                };
-                Vec3::new(part(0), part(1), part(2))
-            };
-            Lod::Gradients(along(0), along(1))
+            let count = x.len();
+            let along_x = gradient(s, access, (0, count), packet);
+            let along_y = gradient(s, access, (1, count), packet);
+            Lod::Gradients(along_x, along_y)
         }
     }
+}
+
+/// The derivative of the coordinates, so many, along an axis of the picture.
+#[inline(always)]
+fn gradient<S: Lanes>(
+    s: S,
+    access: &TextureAccess<'_>,
+    (axis, count): (usize, usize),
+    packet: usize,
+) -> Vec3<f32x16<S>> {
+    let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
+    let mut parts = [zero; 3];
+    for (at, part) in parts.iter_mut().enumerate().take(count) {
+        if let Some(words) = access.gradient(axis, at) {
+            *part = floats(s, words, packet);
+        }
+    }
+    let [x, y, z] = parts;
+    Vec3::new(x, y, z)
 }
 
 /// The integer coordinates of a packet's texels, with the layer after them.

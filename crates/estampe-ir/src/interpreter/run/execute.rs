@@ -8,6 +8,7 @@ use super::table::Table;
 use crate::op::MaskBinary;
 
 /// Executes the instructions on a chunk.
+#[inline(always)]
 pub(super) fn chunk<A: Arithmetic>(level: A, state: &State<'_>) -> Result<(), Stopped> {
     let entries = const { &Table::<A>::ENTRIES };
     let mut budget = state.run.budget;
