@@ -63,15 +63,15 @@ pub(crate) enum Expression {
     Literal(Value),
     Variable(usize),
     /// An element of an array or a vector: the index is a `u32`, taken modulo the length.
-    Element(usize, Type, Box<Expression>),
-    Unary(Unary, Box<Expression>),
-    Binary(Binary, Box<[Expression; 2]>),
+    Element(usize, Type, Box<Self>),
+    Unary(Unary, Box<Self>),
+    Binary(Binary, Box<[Self; 2]>),
     /// `select(if_false, if_true, condition)`.
-    Select(Box<[Expression; 3]>),
+    Select(Box<[Self; 3]>),
     /// A conversion to a type.
-    Convert(Type, Box<Expression>),
+    Convert(Type, Box<Self>),
     /// A call of a function: its values, and the `i32` variable to which it gets a pointer.
-    Call(usize, Vec<Expression>, usize),
+    Call(usize, Vec<Self>, usize),
 }
 
 /// What is assigned to.
@@ -92,25 +92,25 @@ pub(crate) enum Statement {
     Assign(Place, Expression),
     /// `+=` and the like.
     Compound(Place, Binary, Expression),
-    If(Expression, Vec<Statement>, Vec<Statement>),
+    If(Expression, Vec<Self>, Vec<Self>),
     /// A loop that its own counter ends, after so many iterations.
     Loop {
         counter: usize,
         most: i32,
-        body: Vec<Statement>,
-        continuing: Vec<Statement>,
+        body: Vec<Self>,
+        continuing: Vec<Self>,
         break_if: Option<Expression>,
     },
     /// `for` over a new variable, up to an `i32` of which the lowest bits count.
-    For(usize, Expression, Vec<Statement>),
+    For(usize, Expression, Vec<Self>),
     /// `while`, with a counter of its own.
-    While(usize, Expression, Vec<Statement>),
+    While(usize, Expression, Vec<Self>),
     /// Cases of one or more selectors; the one at the number is the default, too.
-    Switch(Expression, Vec<(Vec<i32>, Vec<Statement>)>, usize),
+    Switch(Expression, Vec<(Vec<i32>, Vec<Self>)>, usize),
     Break,
     Continue,
     Return(Expression),
-    Block(Vec<Statement>),
+    Block(Vec<Self>),
 }
 
 /// A function of scalars and, last, a pointer to an `i32`.
