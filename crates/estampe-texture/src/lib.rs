@@ -81,6 +81,7 @@ mod request;
 mod rgba8_texture;
 mod storage;
 mod texel;
+mod unorm8;
 mod upload;
 mod view;
 mod wrap;
@@ -103,6 +104,7 @@ pub use storage::{
     create_storage_texture, is_storable, storage_bytes, storage_load, storage_store,
     storage_texture_to_texture,
 };
+pub use unorm8::store_unorm8;
 pub use upload::LevelData;
 pub use view::{Coordinates, Lod, SampledTexture, TexelView, TextureCoordinates};
 

@@ -6,6 +6,7 @@ mod blocks;
 mod codes;
 mod create;
 mod descriptors;
+mod fetch;
 mod gather;
 mod naive;
 mod several;

@@ -40,6 +40,9 @@ impl TexelView {
     #[inline(never)]
     fn fetch_lanes(&self, places: &[Packet<i32>; 5], count: usize) -> Answers {
         let mut texels = Answers::default();
+        if count == LANES && self.fetch_packet(self.level, places, &mut texels) {
+            return texels;
+        }
         for lane in 0..count {
             let place = places.each_ref().map(|of_lanes| of_lanes.0[lane]);
             answer(&mut texels, lane, self.fetch_one(place).unwrap_or_default());
@@ -47,7 +50,7 @@ impl TexelView {
         texels
     }
 
-    fn fetch_one(&self, [x, y, z, level, sample]: [i32; 5]) -> Option<[f32; 4]> {
+    pub(crate) fn fetch_one(&self, [x, y, z, level, sample]: [i32; 5]) -> Option<[f32; 4]> {
         use ViewDimension as V;
         let plane = self.planes.get(usize::try_from(level).ok()?)?;
         let sample = u32::try_from(sample).ok()?;

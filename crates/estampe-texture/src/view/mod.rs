@@ -21,7 +21,8 @@
 //!   the scalar SIMD level, and the lanes that the packet code leaves out (texels across a border
 //!   or a cube's edge, or with an offset).
 //!
-//! Gathers (`gather.rs`) and fetches (`fetch.rs`) are lane by lane as well.
+//! Gathers (`gather.rs`) are lane by lane as well; so are fetches (`fetch.rs`) that their packet
+//! code (`packet_fetch.rs`) cannot do.
 
 mod axis;
 mod compare;
@@ -31,6 +32,7 @@ mod fetch;
 mod footprint;
 mod gather;
 mod packet;
+mod packet_fetch;
 mod packet_texel;
 mod plane;
 mod sample;

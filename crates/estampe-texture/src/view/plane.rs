@@ -2,6 +2,7 @@
 
 use crate::TextureError;
 use estampe_format::TexelCodec;
+use estampe_simd::Level;
 use estampe_types::{
     TexelData, TexelViewDescriptor, TextureAspect, TextureDimension, ViewDimension,
 };
@@ -38,6 +39,8 @@ pub struct TexelView {
     pub(crate) codec: TexelCodec,
     /// True if the view contains all layers and levels of the texture.
     pub(crate) is_whole: bool,
+    /// The SIMD level of packet code.
+    pub(crate) level: Level,
 }
 
 impl TexelView {
@@ -121,6 +124,7 @@ impl TexelView {
             layers: layers.cast_signed(),
             codec: TexelCodec::of_aspect(texture.stored_format(), descriptor.aspect),
             is_whole,
+            level: Level::best(),
             texture,
         })
     }
@@ -177,6 +181,17 @@ impl TexelView {
             self.dimension,
             ViewDimension::Cube | ViewDimension::CubeArray
         )
+    }
+
+    /// The words of a level of the view's first slice, with one sample and one word a texel.
+    #[inline]
+    pub(crate) fn slice_words(&self, plane: &Plane) -> Option<&[u32]> {
+        let [width, height, _] = plane.sides.map(|side| side as usize);
+        let slice = self.base_layer as usize * width * height;
+        let begin = plane.offset.checked_add(slice)?;
+        self.texture
+            .texels
+            .get(begin..begin.checked_add(width * height)?)
     }
 
     /// The words of a sample of a texel inside its level: `slice` is a depth, or a layer of the

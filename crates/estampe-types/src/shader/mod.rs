@@ -16,6 +16,7 @@ mod interface;
 mod packets;
 mod scalar;
 mod shader_macro;
+mod stopped;
 mod structs;
 mod varyings;
 mod vertex;
@@ -33,6 +34,7 @@ pub use erased::ShaderProgram;
 pub use error::ShaderError;
 pub use fragment::{FragmentBatch, FragmentIn, FragmentOut};
 pub use interface::{DepthOutput, Interface, Interpolation, Sampling};
+pub use stopped::StoppedBatches;
 pub use varyings::{Attributes, Centroid, Flat, NoPerspective, PerSample, Sink, Source, Varyings};
 pub use vertex::{MAX_DISTANCES, VertexBatch, VertexIn, VertexOut};
 
@@ -216,6 +218,11 @@ pub trait Program: Send + Sync + std::fmt::Debug {
     /// it has if no others are given. Shaders in Rust do not declare them.
     fn bind_group_layouts(&self) -> &[BindGroupLayout] {
         &[]
+    }
+    /// The batches that were stopped, of programs that may not end. Shaders in Rust are not
+    /// stopped.
+    fn stopped_batches(&self) -> Option<&StoppedBatches> {
+        None
     }
     /// The packets of vertices that a call of [`Self::run_vertices`] is best given, 1 to 8. Few, as
     /// fetching and storing wait for memory while programs compute: of a million triangles' half a

@@ -1,0 +1,130 @@
+//! Fetches by packets give the same bits as fetches one by one.
+
+use super::Random;
+use crate::view::Answers;
+use crate::{
+    Limits, MipGeneration, TexelDescriptor, TexelView, TexelViewDescriptor, TextureDimension,
+    TextureFormat, ViewDimension,
+};
+use estampe_simd::{LANES, Level, Packet};
+use estampe_types::SampleType;
+
+/// Every format, dimension and level; places inside and outside.
+#[test]
+fn packets_fetch_what_single_lanes_fetch() {
+    use ViewDimension as V;
+    let mut random = Random::new(31);
+    let (mut by_packets, mut one_by_one, mut outside) = (0, 0, 0);
+    for &format in TextureFormat::ALL {
+        for dimension in [V::D1, V::D2, V::D2Array, V::Cube, V::CubeArray, V::D3] {
+            let Some(view) = view_of(format, dimension, &mut random) else {
+                continue;
+            };
+            for level in Level::all_available() {
+                let mips = u32::try_from(view.level_count()).unwrap();
+                let mip = (random.bits() % mips).cast_signed();
+                let mut place = |side: u32| {
+                    Packet([0; LANES].map(|_| (random.bits() % (side + 2)).cast_signed() - 1))
+                };
+                let places = [
+                    place(8),
+                    place(8),
+                    place(13),
+                    Packet([mip; LANES]),
+                    Packet([0; LANES]),
+                ];
+                let mut texels = Answers::default();
+                let is_number = matches!(
+                    view.codec.sample_type(),
+                    SampleType::Float | SampleType::Depth
+                );
+                let done = view.fetch_packet(level, &places, &mut texels);
+                let has_packets = is_number && !level.is_scalar();
+                assert_eq!(done, has_packets, "{format:?} at {}", level.name());
+                if !done {
+                    one_by_one += 1;
+                    continue;
+                }
+                by_packets += 1;
+                for lane in 0..LANES {
+                    let found = view.fetch_one(places.each_ref().map(|place| place.0[lane]));
+                    outside += u32::from(found.is_none());
+                    let expected = found.unwrap_or_default().map(f32::to_bits);
+                    let got = texels.each_ref().map(|channel| channel.0[lane].to_bits());
+                    assert_eq!(
+                        got,
+                        expected,
+                        "{format:?} {dimension:?} at {}",
+                        level.name()
+                    );
+                }
+            }
+        }
+    }
+    assert!(by_packets > 100 && one_by_one > 20 && outside > 1000);
+}
+
+#[test]
+fn packets_with_different_levels_are_fetched_one_by_one() {
+    let mut random = Random::new(32);
+    let view = view_of(TextureFormat::Rgba8Unorm, ViewDimension::D2, &mut random);
+    let view = view.expect("8-bit colours are 2D");
+    let none = Packet([0; LANES]);
+    for (mips, samples) in [
+        ([1, 0], [0, 0]),
+        ([0, 0], [0, 1]),
+        ([9, 9], [0, 0]),
+        ([-1, -1], [0, 0]),
+    ] {
+        let alternating = |[even, odd]: [i32; 2]| {
+            Packet(std::array::from_fn(
+                |lane| if lane % 2 == 0 { even } else { odd },
+            ))
+        };
+        let places = [none, none, none, alternating(mips), alternating(samples)];
+        let mut texels = Answers::default();
+        assert!(!view.fetch_packet(Level::best(), &places, &mut texels));
+    }
+}
+
+/// A view of two levels of random bytes, all of the texture but its first layer; `None` if the
+/// format does not have the dimension.
+fn view_of(
+    format: TextureFormat,
+    dimension: ViewDimension,
+    random: &mut Random,
+) -> Option<TexelView> {
+    use ViewDimension as V;
+    let (of_texture, height, layers) = match dimension {
+        V::D1 => (TextureDimension::D1, 1, 1),
+        V::D3 => (TextureDimension::D3, 8, 8),
+        V::D2 => (TextureDimension::D2, 8, 2),
+        V::D2Array | V::Cube | V::CubeArray => (TextureDimension::D2, 8, 13),
+    };
+    let descriptor = TexelDescriptor {
+        dimension: of_texture,
+        width: 8,
+        height,
+        depth_or_layers: layers,
+        mip_level_count: if dimension == V::D1 { 1 } else { 2 },
+        sample_count: 1,
+        format,
+    };
+    let created = descriptor.create(&[], MipGeneration::None, &Limits::default());
+    let mut texture = created.ok()?;
+    let words = texture
+        .texels
+        .iter()
+        .map(|_| (random.bits() << 8) ^ random.bits());
+    texture.texels = words.collect();
+    let base_array_layer = u32::from(matches!(
+        dimension,
+        V::D2 | V::D2Array | V::Cube | V::CubeArray
+    ));
+    let descriptor = TexelViewDescriptor {
+        dimension: Some(dimension),
+        base_array_layer,
+        ..TexelViewDescriptor::default()
+    };
+    TexelView::new(texture, &descriptor).ok()
+}

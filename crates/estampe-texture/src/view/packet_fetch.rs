@@ -1,0 +1,138 @@
+//! Fetches of sixteen texels at once, with the results of the scalar code in `fetch.rs`: of every
+//! format that [`PacketFormat`] decodes, in every dimension, if all lanes read the same mip level
+//! of a texture with one sample.
+
+use super::coordinates::{Answers, packet};
+use super::packet_texel::{OTHERS, PacketFormat, RGBA8, RGBA8_SRGB, RGBA16F};
+use super::plane::{Plane, TexelView};
+use estampe_simd::{
+    Bytes, LANES, Lanes as SimdLanes, Level, Packet, SimdBase, dispatch, f32x16, i32x16, u32x16,
+};
+use estampe_types::{Int, ViewDimension};
+
+impl TexelView {
+    /// Fetches sixteen texels at a SIMD level; `false`, with nothing stored, if packet code cannot
+    /// do it.
+    pub(crate) fn fetch_packet(
+        &self,
+        level: Level,
+        places: &[Packet<i32>; 5],
+        texels: &mut Answers,
+    ) -> bool {
+        let [x, y, z, mips, samples] = places;
+        let Some(format) = PacketFormat::new(self) else {
+            return false;
+        };
+        let plane = usize::try_from(mips.0[0]).ok();
+        let Some(plane) = plane.and_then(|mip| self.planes.get(mip)) else {
+            return false;
+        };
+        let is_uniform = mips.0 == [mips.0[0]; LANES] && samples.0 == [0; LANES];
+        if !is_uniform || self.texture.shape.samples != 1 || self.texture.texels.is_empty() {
+            return false;
+        }
+        let fetch = PacketFetch {
+            view: self,
+            format,
+            plane,
+            places: [x, y, z],
+        };
+        match (format.components, format.kind()) {
+            (1, _) => fetch.enter::<1, OTHERS>(level, texels),
+            (_, RGBA8) => fetch.enter::<4, RGBA8>(level, texels),
+            (_, RGBA8_SRGB) => fetch.enter::<4, RGBA8_SRGB>(level, texels),
+            (_, RGBA16F) => fetch.enter::<4, RGBA16F>(level, texels),
+            _ => fetch.enter::<4, OTHERS>(level, texels),
+        }
+    }
+}
+
+/// A request for sixteen texels of a level.
+struct PacketFetch<'a> {
+    view: &'a TexelView,
+    format: PacketFormat,
+    plane: &'a Plane,
+    places: [&'a Packet<i32>; 3],
+}
+
+impl PacketFetch<'_> {
+    /// Fetches at a SIMD level; the scalar one has no packet code.
+    fn enter<const C: usize, const KIND: u8>(&self, level: Level, texels: &mut Answers) -> bool {
+        dispatch!(@wide_move level, s => {
+            self.fetch::<_, C, KIND>(s, texels);
+            true
+        }, scalar => false)
+    }
+
+    #[inline(always)]
+    fn fetch<S: SimdLanes, const C: usize, const KIND: u8>(&self, s: S, texels: &mut Answers) {
+        use ViewDimension as V;
+        let (view, plane) = (self.view, self.plane);
+        let zero: i32x16<S> = SimdBase::splat(s, 0);
+        let load = |axis: usize| <i32x16<S> as SimdBase<S>>::from_slice(s, &self.places[axis].0);
+        let [width, height, depth] = plane.sides;
+        let slices = match view.dimension {
+            V::D3 => depth,
+            _ if view.is_cube() => view.layers * 6,
+            _ => view.layers,
+        };
+        // The index of the texel; of lanes outside the level any number, as gathers clamp theirs.
+        let x = load(0);
+        let mut index = x;
+        let y = match view.dimension {
+            V::D1 => zero,
+            _ => load(1),
+        };
+        let z = match view.dimension {
+            V::D1 | V::D2 => zero,
+            _ => load(2),
+        };
+        let slice = z + Int::splat(zero, view.base_layer.cast_signed());
+        let row = Int::wrapping_mul(slice, Int::splat(zero, height)) + y;
+        index += Int::wrapping_mul(row, Int::splat(zero, width));
+        let size = self.format.words;
+        let begin = Int::splat(zero, plane.begin_words(size));
+        let index: u32x16<S> = (Int::wrapping_mul(index, Int::splat(zero, size)) + begin).bitcast();
+
+        let words = self.words(s, index);
+        let mut units = [<f32x16<S> as SimdBase<S>>::splat(s, 0.0); C];
+        self.format.units::<S, C, KIND>(s, &words, &mut units);
+        let alpha = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
+        let inside = |value: f32x16<S>| {
+            let bits: i32x16<S> = value.bitcast();
+            let bits = Int::select(x.is_outside(width), zero, bits);
+            let bits = Int::select(y.is_outside(height), zero, bits);
+            let value: f32x16<S> = Int::select(z.is_outside(slices), zero, bits).bitcast();
+            packet(value, 0)
+        };
+        let scale = view.codec.scale();
+        for (k, unit) in units.into_iter().enumerate() {
+            // A channel that the format does not store is 0, or 1 if it is alpha.
+            texels[k] = match k {
+                k if k < self.format.components => inside(unit * scale[k]),
+                3 => inside(alpha),
+                _ => Packet::default(),
+            };
+        }
+        if C == 1 {
+            texels[3] = inside(alpha);
+        }
+    }
+
+    /// The words of each lane's texel.
+    #[inline(always)]
+    fn words<S: SimdLanes>(&self, s: S, index: u32x16<S>) -> [u32x16<S>; 4] {
+        let texels = &self.view.texture.texels[..];
+        let mut words = [<u32x16<S> as SimdBase<S>>::splat(s, 0); 4];
+        match self.format.words {
+            1 => words[0] = s.gather(texels, index),
+            2 => {
+                let next = index + <u32x16<S> as SimdBase<S>>::splat(s, 1);
+                words[0] = s.gather(texels, index);
+                words[1] = s.gather(texels, next);
+            }
+            _ => words = s.gather_four(texels, index),
+        }
+        words
+    }
+}
