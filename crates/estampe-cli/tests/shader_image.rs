@@ -216,13 +216,17 @@ fn endless_loops_are_stopped() {
          @fragment fn f(@location(0) uv: vec2f) -> @location(0) vec4f {\n\
          var x = uv.x; loop { x = x * 0.5 + zero; if x > 2.0 { break; } } return vec4f(x); }\n",
     );
-    for machine in ["", "--via interpreter"] {
-        draw(
-            &folder,
-            &format!("a.wgsl --size 32x16 --max-jumps 10000 {machine}"),
-        );
+    for options in [
+        "--max-jumps 10000",
+        "--max-jumps 10000 --via interpreter",
+        "",
+    ] {
+        let words = format!("a.wgsl --size 32x16 {options} -q -o out.png");
+        let done = run(&format!("estampe shader image {words}"), &folder);
+        assert_eq!(done.code, 1, "{words}");
+        assert!(done.err.contains("max_shader_jumps"), "{}", done.err);
+        assert!(!folder.path("out.png").exists());
     }
-    draw(&folder, "a.wgsl --size 16x8");
 }
 
 #[test]

@@ -381,6 +381,59 @@ void main() {
     lower(&module.module, &module.info, 0).expect("it lowers");
 }
 
+/// A program may leave a uniform unused, whether the block that it becomes is used or not.
+#[test]
+fn uniforms_may_be_unused() {
+    let v = [1.0, 2.0, 3.0, 4.0];
+    check("uniform float time;", "c = v;", v);
+    let head = "uniform float time; uniform vec3 tints[4]; uniform sampler2D map;";
+    check(head, "c = v + texture(map, v.xy);", [1.25, 2.5, 3.75, 5.0]);
+    let head = "layout(std140) uniform Block { mat4 a; vec2 b[3]; };";
+    check(head, "c = v;", v);
+}
+
+/// Without derivatives `texture` reads the base level.
+#[test]
+fn vertex_shaders_sample_textures() {
+    let text = "#version 330 core
+        in vec2 at;
+        uniform sampler2D heights;
+        uniform samplerCube sky;
+        float raised(sampler2D map, vec2 at) { return texture(map, at).y; }
+        void main() {
+            float height = raised(heights, at) + texture(sky, vec3(at, 1.0)).z;
+            gl_Position = vec4(at, height, textureProj(heights, vec3(at, 1.0)).x);
+        }";
+    let stage = Stage::Vertex;
+    let module = load(Source::Glsl { text, stage }, &Options::default()).expect("it loads");
+    let outputs = run(&module, World::default());
+    // OpenGL's depth, −w to w.
+    assert_eq!(outputs[&Output::Position(2)], (0.5 + 0.75 + 0.25) * 0.5);
+    assert_eq!(outputs[&Output::Position(3)], 0.25);
+}
+
+/// Types are unique: the array of clip distances may have the type of one of the author.
+#[test]
+fn clip_distances_beside_an_array_of_their_size() {
+    let text = "#version 330 core
+        in vec4 at;
+        void main() {
+            float weights[2] = float[](at.x, 2.0);
+            gl_Position = at;
+            gl_ClipDistance[0] = weights[1];
+            gl_ClipDistance[1] = weights[0];
+        }";
+    let stage = Stage::Vertex;
+    let module = load(Source::Glsl { text, stage }, &Options::default()).expect("it loads");
+    let outputs = run(&module, World::default());
+    assert_eq!(outputs[&Output::ClipDistance(0)], 2.0);
+    assert_eq!(outputs[&Output::ClipDistance(1)], 0.0);
+
+    let text = "void main() { gl_ClipDistance[0] = 1.0; }";
+    let error = load(Source::Glsl { text, stage }, &Options::default()).expect_err("no position");
+    assert!(error.to_string().contains("`gl_Position`"), "{error}");
+}
+
 #[test]
 fn continue_in_do_while_evaluates_the_condition() {
     let body = "float n = 0.0; float i = 0.0;

@@ -191,7 +191,8 @@ void main() {}
 "#,
         r##"shader:1:1: error: expected global item (`struct`, `const`, `var`, `alias`, `fn`, `diagnostic`, `enable`, `requires`, `;`) or the end of the file, found "#"
   #version 330 core
-  ^"##,
+  ^
+  help: `#version` is of GLSL, and this is read as WGSL"##,
     ),
     (
         r#"@compute @workgroup_size(64) fn main(@builtin(subgroup_size) s: u32) { }

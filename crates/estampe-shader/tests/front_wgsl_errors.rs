@@ -181,6 +181,41 @@ const CASES: &[(&str, &str)] = &[
       return vec4f(a[5]);
                    ^^^^"#,
     ),
+    (
+        r#"#import noise::fbm
+@fragment fn main() -> @location(0) vec4f { return vec4f(1.0); }
+"#,
+        r##"shader:1:1: error: expected global item (`struct`, `const`, `var`, `alias`, `fn`, `diagnostic`, `enable`, `requires`, `;`) or the end of the file, found "#"
+  #import noise::fbm
+  ^
+  help: `#import` is of a preprocessor, and WGSL has none: give the text that the preprocessor makes of it"##,
+    ),
+    (
+        r#"import noise::fbm;
+@fragment fn main() -> @location(0) vec4f { return vec4f(1.0); }
+"#,
+        r##"shader:1:1: error: expected global item (`struct`, `const`, `var`, `alias`, `fn`, `diagnostic`, `enable`, `requires`, `;`) or the end of the file, found "import"
+  import noise::fbm;
+  ^^^^^^
+  help: `import` is of a preprocessor, and WGSL has none: give the text that the preprocessor makes of it"##,
+    ),
+    (
+        r#"@if(FOG) const density = 0.5;
+@fragment fn main() -> @location(0) vec4f { return vec4f(1.0); }
+"#,
+        r##"shader:1:2: error: unknown attribute: `if`
+  @if(FOG) const density = 0.5;
+   ^^
+  help: `if` is of a preprocessor, and WGSL has none: give the text that the preprocessor makes of it"##,
+    ),
+    (
+        r#"[[group(0), binding(0)]] var<uniform> tint: vec4<f32>;
+"#,
+        r##"shader:1:1: error: expected global item (`struct`, `const`, `var`, `alias`, `fn`, `diagnostic`, `enable`, `requires`, `;`) or the end of the file, found "["
+  [[group(0), binding(0)]] var<uniform> tint: vec4<f32>;
+  ^
+  help: write attributes as in `@location(0)`"##,
+    ),
 ];
 
 /// Rows: G2
@@ -192,5 +227,5 @@ fn errors_tell_the_place_and_what_to_do() {
         let errors = loaded.expect_err(source);
         assert_eq!(errors.to_string(), *expected, "{source}");
     }
-    assert_eq!(CASES.len(), 17);
+    assert_eq!(CASES.len(), 21);
 }

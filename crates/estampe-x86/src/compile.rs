@@ -31,6 +31,10 @@ pub struct Code {
     pub(crate) fixed_words: Vec<u32>,
     pub(crate) input_types: Vec<Type>,
     pub(crate) output_types: Vec<Type>,
+    /// True if there are jumps backwards, which the budget counts.
+    pub(crate) has_loops: bool,
+    /// The words of the memory of a work-group; `None` if a run is not one.
+    pub(crate) workgroup_words: Option<usize>,
     pub(crate) local_words: Vec<u32>,
     pub(crate) reset_locals: Vec<ResetLocal>,
     /// A number that no other code has.
@@ -118,22 +122,27 @@ impl Code {
             fixed_words,
         } = select::select(kernel, (isa, tier), &mut assembler)?;
         let reset_locals = reset_locals(kernel, &frame);
-        let many = Passes::Many {
-            resets_locals: !reset_locals.is_empty(),
+        let resets_locals = !reset_locals.is_empty();
+        let is_workgroup = kernel.runs_workgroups();
+        let many = if is_workgroup {
+            Passes::Workgroup { resets_locals }
+        } else {
+            Passes::Many { resets_locals }
         };
+        // First, as the frame has its final size where code steps from state to state.
+        let prepare = prepare
+            .map(|function| {
+                assembler.note(|| Text::Part("what is the same in all lanes, once a run"));
+                let once = (&function, Passes::Once);
+                finish(&mut assembler, once, (isa, tier), &mut frame)
+            })
+            .transpose()?;
         assembler.note(|| Text::Part("packets one by one"));
         let packet = finish(&mut assembler, (&packet, many), (isa, tier), &mut frame)?;
         let pair = pair
             .map(|function| {
                 assembler.note(|| Text::Part("two packets in a pass"));
                 finish(&mut assembler, (&function, many), (isa, tier), &mut frame)
-            })
-            .transpose()?;
-        let prepare = prepare
-            .map(|function| {
-                assembler.note(|| Text::Part("what is the same in all lanes, once a run"));
-                let once = (&function, Passes::Once);
-                finish(&mut assembler, once, (isa, tier), &mut frame)
             })
             .transpose()?;
         if assembler.len() > MAX_CODE_BYTES {
@@ -157,6 +166,8 @@ impl Code {
                 .iter()
                 .map(|output| output.kind())
                 .collect(),
+            has_loops: kernel.has_loops(),
+            workgroup_words: is_workgroup.then_some(interface.workgroup_words as usize),
             local_words: interface.locals.iter().map(|array| array.words).collect(),
             reset_locals,
             frame,

@@ -35,11 +35,16 @@ pub(crate) fn enter(
     lines: &mut [Line],
     context: &Context<'_>,
 ) -> u32 {
-    let enough = context.frame.bytes as usize <= size_of_val(lines);
-    assert!(enough, "the frame is as large as its layout");
+    let needed = context.frame.lines(context.states);
+    assert!(
+        needed.is_some_and(|needed| needed <= lines.len()),
+        "the frame is as large as its layout"
+    );
+    let state = lines.as_mut_ptr().expose_provenance() as u64;
     let head = &mut lines[0].0;
     head[frame::CONTEXT as usize / 8] = std::ptr::from_ref(context).expose_provenance() as u64;
     head[frame::SERVE as usize / 8] = serve_address();
+    head[frame::STATE as usize / 8] = state;
     let start = executable.start().wrapping_add(offset);
     // SAFETY: `offset` is where `compile` put a function of this type; the pages are executable.
     let entry = unsafe { std::mem::transmute::<*const u8, Entry>(start) };
@@ -68,9 +73,17 @@ unsafe extern "sysv64" fn serve(frame: *mut Line, call: u32) {
     let layout: &Frame = context.frame;
     let locals = layout.locals.first().copied().unwrap_or(layout.spills);
     let local_packets = (layout.spills - locals) / frame::PACKET;
-    let locals = frame.cast::<u8>().wrapping_add(locals as usize);
-    // SAFETY: the arrays lie between the arguments and the spilled registers, aligned to lines; the
-    // words are initialised, and the code waits.
+    let state = frame.cast::<u8>().wrapping_add(frame::STATE as usize);
+    // SAFETY: the place is in the head, aligned to its eight bytes.
+    let state = unsafe { *state.cast::<u64>() };
+    let first = frame.expose_provenance() as u64;
+    let state = usize::try_from(state.wrapping_sub(first)).expect("addresses have 64 bits");
+    let last = (context.states - 1) * layout.state_bytes() as usize;
+    let is_state = state <= last && state.is_multiple_of(size_of::<Line>());
+    assert!(is_state, "code is in the state of one of its packets");
+    let locals = frame.cast::<u8>().wrapping_add(state + locals as usize);
+    // SAFETY: the arrays lie between the pointers and the spilled registers of a state, aligned to
+    // lines; the words are initialised, and the code waits.
     let locals = unsafe {
         std::slice::from_raw_parts_mut(locals.cast::<Packet<u32>>(), local_packets as usize)
     };

@@ -7,9 +7,9 @@ pub enum CompileError {
     /// The processor lacks the instruction set.
     #[error("this processor has no {0}: choose another instruction set, or interpret the kernel")]
     NoIsa(&'static str),
-    /// The kernel uses barriers or the memory of a work-group.
-    #[error("barriers and work-group memory are not compiled yet: interpret the kernel")]
-    Workgroup,
+    /// The kernel has an operation for which there is no code.
+    #[error("the kernel has an operation that is not compiled: interpret it")]
+    Unknown,
     /// The kernel, its arrays or its code are too large.
     #[error("the kernel has too many operations or words of arrays: interpret it")]
     TooLarge,

@@ -1,21 +1,23 @@
 //! The frame: the memory that code and its callers share, laid out when code is made.
 //!
-//! `rbx` points to it while code runs. It holds, in this order:
+//! `rbx` points to it while code runs, and `r12` to where its first byte would be if the *state* of
+//! the packet that runs were the first one. It holds, in this order:
 //!
 //! | part | has |
 //! |---|---|
 //! | head | the budget, and what calls need |
 //! | table | values that are the same in all lanes of a run, one word each (AVX2: one vector) |
-//! | buffers | the address and lengths of each |
-//! | pointers | where each input is read and each output written, for each packet of a pass |
-//! | steps | what is added to each pointer after a pass |
+//! | buffers | the address and lengths of each, and of the memory of a work-group |
 //! | still | for each input a packet that does not move: zeros, or a uniform word |
 //! | sink | a packet for outputs that go nowhere |
 //! | arguments | operands and results of calls |
+//! | state | where the packet goes on; this part and those below are there for each packet of a work-group, one after the other |
+//! | pointers | where each input is read and each output written, for each packet of a pass |
+//! | steps | what is added to each pointer after a pass |
 //! | locals | the arrays of the lanes, a packet for each word |
 //! | spills | registers that did not fit |
 
-use estampe_ir::interface::Interface;
+use estampe_ir::lanes::Kernel;
 
 /// Offsets in the head, in bytes.
 pub(crate) const BUDGET: i32 = 0;
@@ -30,9 +32,14 @@ pub(crate) const TEMPORARY: i32 = 32;
 const ZERO: u32 = 36;
 /// The passes that are left, this one included: eight bytes.
 pub(crate) const LEFT: i32 = 40;
-/// The budget of a pass.
+/// Where the state is of the packet that runs, as `r12` has it.
+pub(crate) const STATE: i32 = 48;
+/// The budget of a pass, or of a work-group.
 pub(crate) const PASS_BUDGET: i32 = 56;
-const HEAD: u32 = 64;
+/// The packets of a work-group, and those that have not ended: eight bytes each.
+pub(crate) const PACKETS: i32 = 64;
+pub(crate) const LIVE: i32 = 72;
+const HEAD: u32 = 128;
 
 /// The number of the call that sets arrays to their words at the start.
 pub(crate) const RESET_LOCALS: u32 = u32::MAX;
@@ -42,6 +49,10 @@ pub(crate) const PACKET: u32 = 64;
 
 /// The bytes of a frame beyond which a kernel is refused.
 pub(crate) const MAX_BYTES: u32 = 1 << 26;
+
+/// The bytes of a frame with the states of all packets of a work-group, beyond which a run is
+/// refused.
+const MAX_STATES_BYTES: usize = 1 << 30;
 
 /// The words of all tables of constants beyond which a kernel is refused.
 const MAX_TABLE_WORDS: u32 = 1 << 20;
@@ -56,26 +67,32 @@ pub(crate) struct Frame {
     pub(crate) steps: u32,
     inputs: u32,
     outputs: u32,
+    /// The first byte of the state of the first packet.
+    state: u32,
+    /// The buffer that is the memory of the work-group.
+    pub(crate) workgroup: u32,
     pub(crate) still: u32,
     pub(crate) sink: u32,
     pub(crate) arguments: u32,
     /// The first packet of each array that is stored to; tables have none.
     pub(crate) locals: Vec<u32>,
     pub(crate) spills: u32,
-    /// All bytes; known when registers were allocated.
+    /// All bytes, with one state; known when registers were allocated.
     pub(crate) bytes: u32,
 }
 
 impl Frame {
-    /// The layout for an interface with arrays of which some are stored to, so many values in the
+    /// The layout for a kernel with arrays of which some are stored to, so many values in the
     /// table, calls with so many packets of operands and results, and so many packets that a pass
     /// runs. `None` if it is too large.
     pub(crate) fn new(
-        interface: &Interface,
+        kernel: &Kernel,
         is_stored: impl Fn(u32) -> bool,
         (slots, slot_bytes): (u32, u32),
         (argument_packets, packets_of_pass): (u32, usize),
     ) -> Option<Self> {
+        let interface = &kernel.interface;
+        let is_workgroup = kernel.runs_workgroups();
         let mut end = HEAD;
         let mut part = |count: usize, bytes: u32| {
             let start = end;
@@ -85,13 +102,14 @@ impl Frame {
         };
         part(slots as usize, slot_bytes)?;
         let (inputs, outputs) = (interface.inputs.len(), interface.outputs.len());
-        let buffers = part(interface.buffers.len(), 32)?;
-        let moving = (inputs + outputs).checked_mul(packets_of_pass)?;
-        let pointers = part(moving, 8)?;
-        let steps = part(moving, 8)?;
+        let buffers = part(interface.buffers.len() + usize::from(is_workgroup), 32)?;
         let still = part(inputs, PACKET)?;
         let sink = part(1, PACKET)?;
         let arguments = part(argument_packets as usize, PACKET)?;
+        let state = part(usize::from(is_workgroup), PACKET)?;
+        let moving = (inputs + outputs).checked_mul(packets_of_pass)?;
+        let pointers = part(moving, 8)?;
+        let steps = part(moving, 8)?;
         let mut locals = Vec::new();
         let mut table_words = 0_u32;
         for (at, array) in (0..).zip(&interface.locals) {
@@ -116,6 +134,8 @@ impl Frame {
             steps,
             inputs: u32::try_from(inputs).ok()?,
             outputs: u32::try_from(outputs).ok()?,
+            state,
+            workgroup: u32::try_from(interface.buffers.len()).ok()?,
             still,
             sink,
             arguments,
@@ -132,6 +152,30 @@ impl Frame {
         let end = end.checked_next_multiple_of(PACKET)?;
         self.bytes = self.bytes.max(end);
         (self.bytes <= MAX_BYTES).then_some(())
+    }
+
+    /// The bytes of the state of a packet.
+    pub(crate) fn state_bytes(&self) -> u32 {
+        self.bytes - self.state
+    }
+
+    /// The lines of a frame with so many states. `None` if there are too many.
+    pub(crate) fn lines(&self, states: usize) -> Option<usize> {
+        let more = states
+            .checked_sub(1)?
+            .checked_mul(self.state_bytes() as usize)?;
+        let bytes = more.checked_add(self.bytes as usize)?;
+        (bytes <= MAX_STATES_BYTES).then_some(bytes / PACKET as usize)
+    }
+
+    /// Where a packet goes on: the place is in its state.
+    pub(crate) fn resume(&self) -> i32 {
+        displacement(self.state)
+    }
+
+    /// True if a place is in the state of a packet.
+    pub(crate) fn is_in_state(&self, offset: i32) -> bool {
+        offset >= displacement(self.state)
     }
 
     /// A word that stays 0.
@@ -166,13 +210,13 @@ impl Frame {
     }
 }
 
-/// The number of words of a buffer, from where its address stands.
+/// The number of words of a buffer, from where its address stands: eight bytes, the upper half 0.
 pub(crate) const BUFFER_WORDS: u32 = 8;
-/// The number of bytes of a buffer, from where its address stands.
-pub(crate) const BUFFER_BYTES: u32 = 12;
 /// The number of words of a buffer that may be stored to, from where its address stands: none of a
 /// buffer that is only read.
 pub(crate) const BUFFER_STORED_WORDS: u32 = 16;
+/// The number of bytes of a buffer, from where its address stands.
+pub(crate) const BUFFER_BYTES: u32 = 20;
 
 /// An offset as a displacement: frames are far smaller than 2 GiB.
 pub(crate) fn displacement(offset: u32) -> i32 {

@@ -18,6 +18,8 @@
 //! * What is the same in all lanes of a run is computed once a run and lives in memory, from which
 //!   instructions read it as a broadcast operand; so do constants and the words of buffers at fixed
 //!   places. They need no registers.
+//! * In a work-group each packet has the part of the frame where its registers are spilled for
+//!   itself. At a barrier code goes on with the next packet (`machine::passes`).
 //! * Operations that are rare, or act lane after lane, are calls of Rust functions (`serve`).
 //! * Code reads and writes its frame, and the inputs, outputs and buffers whose addresses are
 //!   there. Indices are compared with the length of the buffer first.
@@ -61,14 +63,15 @@
 //! | The processor and the system have the instructions. | `Code::compile` asks `Isa::is_available` |
 //! | The bytes are the instructions that were meant. | `encoder`: every row of its table is compared with a decoder |
 //! | The kernel is well formed: values are defined before their uses, entries of the interface exist. | `Code::compile` verifies it |
-//! | A frame is as large as its layout, in units of lines, and was cleared when this code saw it first. | `run`: `make_room`; `enter` asserts it |
+//! | A frame is as large as its layout with the states of all packets of a work-group, in units of lines, and was cleared when this code saw it first. | `run`: `make_room`; `enter` asserts it |
 //! | Places in the frame lie in their part of it. | `frame`: offsets are computed once, in checked arithmetic, and are below 64 MiB |
 //! | Inputs and outputs: each pointer has a packet (64 bytes of words, 2 of a mask) behind it, of the slice, or of the frame where the slice has none. | `places`, `run`: `set_pointers` |
 //! | Buffers at fixed places: as many words are there, if need be of a copy that ends in zeros. | `run`: `set_buffers` |
 //! | Buffers at computed places: the word's number is compared with the number of words, and lanes beyond neither read nor write. Nothing is stored to buffers that are bound for reading. | `select::memory`, `serve` |
 //! | Arrays: reads clamp the index, stores compare it. | `select::memory`, `serve` |
 //! | Code ends: jumps backwards use up the budget. | `select`: every one is an edge of its own; `machine::emit` |
-//! | Code changes only registers that its callers may lose (`rbx` is saved), uses eight bytes of stack, calls with the stack aligned to 16 bytes and the upper halves of vectors cleared, and does not touch MXCSR: rounding and denormals are those of Rust, as in the interpreter. | `machine::allocate`, `machine::emit` |
+//! | A packet of a work-group goes on at an address that its code has put into its state, which nothing else writes. | `machine::passes` |
+//! | Code changes only registers that its callers may lose (`rbx` and `r12` are saved), uses 24 bytes of stack at most, calls with the stack aligned to 16 bytes and the upper halves of vectors cleared, and does not touch MXCSR: rounding and denormals are those of Rust, as in the interpreter. | `machine::allocate`, `machine::emit` |
 //! | No panic passes through code. A call catches it, code returns, and `Code::run` goes on with it. | `enter`: `serve` |
 //! | A run's scratch memory is one thread's; code is shared by threads and changes nothing of its own. | `&mut Scratch`; constants are in executable, that is read-only pages |
 //!
@@ -78,9 +81,8 @@
 //!
 //! # Not there yet
 //!
-//! * Barriers and the memory of work-groups: such kernels are refused.
-//! * Atomic operations, integer division, conversions of binary16, stores to arrays and, with AVX2,
-//!   stores to buffers are calls.
+//! * Integer division with AVX2, conversions of binary16, stores to arrays, and some atomic
+//!   operations whose results are used, are calls.
 //! * Windows: there is no executable memory yet.
 //!
 //! On other processors [`Code::compile`] always returns [`CompileError::NoIsa`].

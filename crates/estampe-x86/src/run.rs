@@ -9,6 +9,7 @@ use estampe_ir::Type;
 use estampe_ir::interpreter::{Buffer, InputData, Run, Stopped, Words};
 use estampe_simd::Level;
 use std::cell::RefCell;
+use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
 /// The memory of a run, kept for the next one. One for each thread.
@@ -19,10 +20,30 @@ pub struct Scratch {
     code: u64,
     /// Copies of buffers that are shorter than what instructions read at fixed places.
     padded: Vec<Vec<u32>>,
+    /// The memory of a work-group.
+    workgroup: Vec<AtomicU32>,
 }
 
 /// Bytes of a line.
 const LINE: u32 = PACKET;
+
+impl Scratch {
+    /// The jumps backwards of the last run of a code, about: those of its last pass for every
+    /// packet; of a work-group all.
+    #[must_use]
+    pub fn jumps(&self, code: &Code, run: &Run<'_>) -> u64 {
+        let left = self
+            .lines
+            .first()
+            .map_or(0, |head| head.0[frame::BUDGET as usize / 8]);
+        let jumps = run.budget.saturating_sub(left);
+        match code.workgroup_words {
+            _ if !code.has_loops => 0,
+            Some(_) => jumps,
+            None => jumps.saturating_mul(run.packets as u64),
+        }
+    }
+}
 
 impl Code {
     /// Executes the kernel in all lanes of all packets.
@@ -37,47 +58,88 @@ impl Code {
         if run.packets == 0 {
             return Ok(());
         }
-        self.make_room(scratch)?;
+        let states = self.workgroup_words.map_or(1, |_| run.packets);
+        self.make_room(states, scratch)?;
+        self.set_table(run, &mut scratch.lines);
+        self.set_buffers(run, scratch);
+        let Scratch {
+            lines, workgroup, ..
+        } = scratch;
         let context = Context {
             served: &self.served,
             frame: &self.frame,
             run,
             level,
             reset_locals: &self.reset_locals,
+            workgroup,
+            states,
             local_words: &self.local_words,
             panic: RefCell::new(None),
         };
-        self.set_table(run, &mut scratch.lines);
-        self.set_buffers(run, scratch);
-        scratch.lines[0].0[frame::PASS_BUDGET as usize / 8] = run.budget;
+        set_head(lines, frame::PASS_BUDGET, run.budget);
         if let Some(prepare) = self.prepare {
-            enter(&self.executable, prepare, &mut scratch.lines, &context);
+            enter(&self.executable, prepare, lines, &context);
         }
-        let (mut result, mut packet) = (Ok(()), 0);
-        while packet < run.packets && result.is_ok() && !context.has_panicked() {
+        let stopped = if self.workgroup_words.is_some() {
+            self.run_workgroup(run, lines, &context)
+        } else {
+            self.run_packets(run, lines, &context)
+        };
+        if let Some(panic) = context.panic.take() {
+            std::panic::resume_unwind(panic);
+        }
+        stopped
+    }
+
+    /// Runs all packets of a work-group, each of which has a state.
+    fn run_workgroup(
+        &self,
+        run: &Run<'_>,
+        lines: &mut [Line],
+        context: &Context<'_>,
+    ) -> Result<(), Stopped> {
+        let state_bytes = self.frame.state_bytes();
+        for (packet, state) in (0..run.packets).zip((0..).step_by(state_bytes as usize)) {
+            self.set_packet(run, lines, (packet, 0), (1, state));
+        }
+        set_head(lines, frame::PACKETS, run.packets as u64);
+        match enter(&self.executable, self.packet, lines, context) {
+            0 => Ok(()),
+            _ => Err(Stopped::Budget),
+        }
+    }
+
+    /// Runs packets one by one or two by two.
+    fn run_packets(
+        &self,
+        run: &Run<'_>,
+        lines: &mut [Line],
+        context: &Context<'_>,
+    ) -> Result<(), Stopped> {
+        let mut packet = 0;
+        while packet < run.packets && !context.has_panicked() {
             let left = run.packets - packet;
             // The last packet of an odd number runs alone.
             let (function, of_pass) = match self.pair {
                 Some(pair) if left > 1 => (pair, 2),
                 _ => (self.packet, 1),
             };
-            let is_inside = self.set_pointers(run, &mut scratch.lines, (packet, of_pass));
+            let is_inside = self.set_pointers(run, lines, (packet, of_pass));
             // Where some slice is too short, the places of each pass are looked for.
             let passes = if is_inside { left / of_pass } else { 1 };
-            scratch.lines[0].0[frame::LEFT as usize / 8] = passes as u64;
-            if enter(&self.executable, function, &mut scratch.lines, &context) != 0 {
-                result = Err(Stopped::Budget);
+            set_head(lines, frame::LEFT, passes as u64);
+            if enter(&self.executable, function, lines, context) != 0 {
+                return Err(Stopped::Budget);
             }
             packet += passes * of_pass;
         }
-        if let Some(panic) = context.panic.take() {
-            std::panic::resume_unwind(panic);
-        }
-        result
+        Ok(())
     }
 
-    fn make_room(&self, scratch: &mut Scratch) -> Result<(), Stopped> {
-        let lines = (self.frame.bytes / LINE) as usize;
+    /// Makes room for a frame with so many states, and for the memory of a work-group, which is
+    /// cleared.
+    fn make_room(&self, states: usize, scratch: &mut Scratch) -> Result<(), Stopped> {
+        let lines = self.frame.lines(states).ok_or(Stopped::Memory)?;
         if let Some(more) = lines.checked_sub(scratch.lines.len()) {
             let reserved = scratch.lines.try_reserve_exact(more);
             reserved.map_err(|_| Stopped::Memory)?;
@@ -88,6 +150,16 @@ impl Code {
             scratch.lines[..lines].fill(Line::default());
             scratch.padded.clear();
             scratch.padded.resize(self.fixed_words.len(), Vec::new());
+        }
+        if let Some(words) = self.workgroup_words {
+            let memory = &mut scratch.workgroup;
+            memory.truncate(words);
+            for word in &mut *memory {
+                *word.get_mut() = 0;
+            }
+            let reserved = memory.try_reserve_exact(words - memory.len());
+            reserved.map_err(|_| Stopped::Memory)?;
+            memory.resize_with(words, AtomicU32::default);
         }
         Ok(())
     }
@@ -119,7 +191,7 @@ impl Code {
                 address = padded.as_ptr().expose_provenance();
             }
             let offset = self.frame.buffer(at);
-            set_pointer(&mut scratch.lines, offset, address);
+            set_pointer(&mut scratch.lines, offset as usize, address);
             // Buffers have less than 2³² bytes, and so less than 2³⁰ words.
             let [words, stored] = [words, stored].map(|words| u32::try_from(words).unwrap_or(0));
             set_word(&mut scratch.lines, offset + frame::BUFFER_WORDS, words);
@@ -127,6 +199,16 @@ impl Code {
             set_word(&mut scratch.lines, place, stored);
             let bytes = buffer.bytes();
             set_word(&mut scratch.lines, offset + frame::BUFFER_BYTES, bytes);
+        }
+        if self.workgroup_words.is_some() {
+            let memory = &scratch.workgroup;
+            let offset = self.frame.buffer(self.frame.workgroup);
+            let address = memory.as_ptr().expose_provenance();
+            set_pointer(&mut scratch.lines, offset as usize, address);
+            let words = u32::try_from(memory.len()).unwrap_or(0);
+            for place in [frame::BUFFER_WORDS, frame::BUFFER_STORED_WORDS] {
+                set_word(&mut scratch.lines, offset + place, words);
+            }
         }
     }
 
@@ -140,27 +222,29 @@ impl Code {
     ) -> bool {
         let mut are_inside = true;
         for (packet, of_pass) in (first..).zip(0..).take(count) {
-            are_inside &= self.set_packet(run, lines, (packet, of_pass), count);
+            are_inside &= self.set_packet(run, lines, (packet, of_pass), (count, 0));
         }
         are_inside
     }
 
-    /// Sets the pointers of a packet of a pass.
+    /// Sets the pointers of a packet of a pass, in the state that is so many bytes after the first
+    /// one.
     fn set_packet(
         &self,
         run: &Run<'_>,
         lines: &mut [Line],
         (packet, of_pass): (usize, u32),
-        count: usize,
+        (count, state): (usize, usize),
     ) -> bool {
         let frame = lines.as_mut_ptr().expose_provenance();
+        let place = |pointer: u32| pointer as usize + state;
         let mut are_inside = true;
         let packets = [packet, run.packets - 1];
         for (at, &kind) in (0..).zip(&self.input_types) {
             let given = run.inputs.get(at as usize);
             let slice = given.and_then(|input| Slice::of_input(input, kind));
             let still = self.frame.still + at * PACKET;
-            let place = (self.frame.input(at, of_pass), frame + still as usize);
+            let place = (place(self.frame.input(at, of_pass)), frame + still as usize);
             let found = self.set(lines, place, (slice, kind), (packets, count));
             are_inside &= found.is_inside;
             if found.address.is_none() {
@@ -176,7 +260,7 @@ impl Code {
         for (at, &kind) in (0..).zip(&self.output_types) {
             let given = run.outputs.get(at as usize);
             let slice = given.and_then(|output| Slice::of_output(output, kind));
-            let place = (self.frame.output(at, of_pass), sink);
+            let place = (place(self.frame.output(at, of_pass)), sink);
             let found = self.set(lines, place, (slice, kind), (packets, count));
             are_inside &= found.is_inside;
         }
@@ -189,7 +273,7 @@ impl Code {
     fn set(
         &self,
         lines: &mut [Line],
-        (pointer, still): (u32, usize),
+        (pointer, still): (usize, usize),
         (slice, kind): (Option<Slice>, Type),
         (packets, count): ([usize; 2], usize),
     ) -> Found {
@@ -199,7 +283,7 @@ impl Code {
         let stride = slice.map_or(0, |slice| slice.step(bytes));
         let step = if found.is_inside { stride } else { 0 };
         let step = step.wrapping_mul(count);
-        set_pointer(lines, pointer + self.frame.pointer_bytes(), step);
+        set_pointer(lines, pointer + self.frame.pointer_bytes() as usize, step);
         found
     }
 }
@@ -219,9 +303,15 @@ fn splat(word: u32) -> Line {
 }
 
 /// Sets eight bytes of lines.
-fn set_pointer(lines: &mut [Line], offset: u32, address: usize) {
-    let at = (offset / 8) as usize;
+fn set_pointer(lines: &mut [Line], offset: usize, address: usize) {
+    let at = offset / 8;
     lines[at / 8].0[at % 8] = address as u64;
+}
+
+/// Sets eight bytes of the head.
+fn set_head(lines: &mut [Line], offset: i32, value: u64) {
+    let at = offset.unsigned_abs() as usize / 8;
+    lines[at / 8].0[at % 8] = value;
 }
 
 /// Sets four bytes of lines.

@@ -4,9 +4,11 @@ use crate::compile::ResetLocal;
 use crate::frame::{Frame, PACKET};
 use crate::select::calls::{Kind, Served};
 use estampe_ir::interpreter::{Buffer, Run, TextureAccess, atomic};
+use estampe_ir::op::Memory;
 use estampe_simd::{LANES, Level, Packet};
 use std::any::Any;
 use std::cell::RefCell;
+use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
 /// What calls of a run need to know.
@@ -17,6 +19,10 @@ pub(crate) struct Context<'a> {
     pub(crate) run: &'a Run<'a>,
     pub(crate) level: Level,
     pub(crate) reset_locals: &'a [ResetLocal],
+    /// The memory of the work-group.
+    pub(crate) workgroup: &'a [AtomicU32],
+    /// The packets that have a state.
+    pub(crate) states: usize,
     /// The words of each array.
     pub(crate) local_words: &'a [u32],
     /// A panic in a call, to go on with when the code has returned.
@@ -69,10 +75,10 @@ impl Context<'_> {
                     *to = kind.evaluate([a, b]);
                 }
             }
-            (Kind::StoreBuffer { buffer }, [offset, value], _) => {
-                let buffer = self.buffer(*buffer);
+            (Kind::Store { memory }, [offset, value], _) => {
+                let memory = self.memory(*memory);
                 for lane in lanes {
-                    if let Some(word) = buffer.at(offset.0[lane]) {
+                    if let Some(word) = memory.at(offset.0[lane]) {
                         word.store(value.0[lane], Relaxed);
                     }
                 }
@@ -96,20 +102,20 @@ impl Context<'_> {
                     }
                 }
             }
-            (Kind::Atomic { kind, buffer }, [offset, operand], [result]) => {
-                let buffer = self.buffer(*buffer);
+            (Kind::Atomic { kind, memory }, [offset, operand], [result]) => {
+                let memory = self.memory(*memory);
                 *result = Packet::default();
                 for lane in lanes {
-                    let word = buffer.at(offset.0[lane]);
+                    let word = memory.at(offset.0[lane]);
                     let before = word.map_or(0, |word| atomic(*kind, word, operand.0[lane]));
                     result.0[lane] = before;
                 }
             }
-            (Kind::CompareExchange { buffer }, [offset, expected, value], [result]) => {
-                let buffer = self.buffer(*buffer);
+            (Kind::CompareExchange { memory }, [offset, expected, value], [result]) => {
+                let memory = self.memory(*memory);
                 *result = Packet::default();
                 for lane in lanes {
-                    let Some(word) = buffer.at(offset.0[lane]) else {
+                    let Some(word) = memory.at(offset.0[lane]) else {
                         continue;
                     };
                     let (expected, value) = (expected.0[lane], value.0[lane]);
@@ -134,8 +140,30 @@ impl Context<'_> {
         }
     }
 
-    fn buffer(&self, at: u32) -> Buffer<'_> {
-        let buffers = self.run.buffers;
-        buffers.get(at as usize).copied().unwrap_or_default()
+    fn memory(&self, memory: Memory) -> Places<'_> {
+        match memory {
+            Memory::Buffer(at) => {
+                let buffer = self.run.buffers.get(at as usize);
+                Places::Buffer(buffer.copied().unwrap_or_default())
+            }
+            Memory::Workgroup => Places::Workgroup(self.workgroup),
+        }
+    }
+}
+
+/// Memory that is stored to.
+#[derive(Debug, Clone, Copy)]
+enum Places<'a> {
+    Buffer(Buffer<'a>),
+    Workgroup(&'a [AtomicU32]),
+}
+
+impl<'a> Places<'a> {
+    /// The word at an offset, as operations count it; `None` outside.
+    fn at(&self, offset: u32) -> Option<&'a AtomicU32> {
+        match self {
+            Self::Buffer(buffer) => buffer.at(offset),
+            Self::Workgroup(words) => words.get(offset as usize),
+        }
     }
 }

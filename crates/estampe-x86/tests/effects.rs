@@ -539,16 +539,6 @@ fn threads_share_code() {
 #[test]
 fn what_is_not_compiled_is_refused() {
     let Some(isa) = Isa::best() else { return };
-    let mut b = Builder::new(Stage::Compute);
-    b.interface_mut().workgroup_words = 4;
-    b.interface_mut().workgroup_size = [16, 1, 1];
-    b.op(Op::Barrier);
-    let index = b.word(0);
-    let loaded = b.op1(Op::LoadWorkgroup(index));
-    let kernel = finish(b, &[loaded]);
-    let refused = Code::compile(&kernel, isa, Tier::Fast).unwrap_err();
-    assert_eq!(refused, CompileError::Workgroup);
-
     let mut b = Builder::new(Stage::Fragment);
     b.interface_mut().locals = vec![LocalArray {
         words: u32::MAX,

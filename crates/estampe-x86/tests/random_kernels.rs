@@ -10,7 +10,7 @@ use kernels::{Hits, Memory, check, smallest, statements_of};
 #[test]
 fn random_kernels_give_what_the_interpreter_gives() {
     let (mut memory, mut hits) = (Memory::default(), Hits::default());
-    for seed in 0..160 {
+    for seed in 0..400 {
         let statements = statements_of(seed);
         if let Err(found) = check(seed, statements, &mut memory, &mut hits) {
             panic!("{}", smallest(seed, statements, found));

@@ -88,7 +88,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<u8, Failure> {
         _ => {
             let path = args.file.as_deref().unwrap_or(Path::new("-"));
             let stage = args.stage.map(ShaderStage::from);
-            let file = ShaderFile::read(path, stage, &args.source)?;
+            let file = ShaderFile::read(path, stage, &args.source)?.with_main();
             let checked = match file.load(&device) {
                 Ok(module) => check_entry_points(&module, &file)?,
                 Err(errors) => Err(errors),

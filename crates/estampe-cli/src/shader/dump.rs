@@ -74,7 +74,7 @@ pub(crate) enum CompilerStage {
 
 /// Runs the command.
 pub(crate) fn run(args: &DumpArgs) -> Result<(), Failure> {
-    let file = ShaderFile::read(&args.file, None, &args.source)?;
+    let file = ShaderFile::read(&args.file, None, &args.source)?.with_main();
     if args.optimised && args.stage != CompilerStage::Asm {
         return Err(Failure::Usage(
             "--optimised is for --stage asm; omit it".to_owned(),

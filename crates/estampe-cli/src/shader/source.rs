@@ -220,6 +220,14 @@ impl ShaderFile {
         }
     }
 
+    /// A fragment shader if it is a shader toy, else as it is.
+    pub(crate) fn with_main(self) -> Self {
+        match &self.contents {
+            Contents::Glsl { text, .. } if toy::wrap(text).is_some() => self.into_fragment(),
+            _ => self,
+        }
+    }
+
     /// The module as the compiler reads it.
     pub(crate) fn front(&self) -> Result<Module, ShaderErrors> {
         let source = match &self.contents {

@@ -17,7 +17,7 @@ use amplified::Amplified;
 use binding_limits::check_bindings;
 use color_target::ColorTarget;
 pub use declared_bindings::check_declared;
-use estampe_types::shader::{GeometryProgram, MAX_DISTANCES};
+use estampe_types::shader::{GeometryProgram, MAX_DISTANCES, StoppedBatches};
 use estampe_types::state::{
     BlendFactor, BlendState, ColorTargetState, DepthStencilState, LineState, LineStipple,
     LogicOperation, MultisampleState, PrimitiveState, VertexBufferLayout,
@@ -159,6 +159,17 @@ impl RenderPipeline {
         let mut inner = Inner::new(descriptor.clone(), attributes);
         inner.amplified = amplified;
         Ok(Self::of(inner))
+    }
+
+    /// The batches of its programs that were stopped.
+    pub fn stopped_batches(&self) -> impl Iterator<Item = &StoppedBatches> {
+        let descriptor = &self.inner.descriptor;
+        let programs = [
+            Some(&descriptor.program),
+            descriptor.vertex_program.as_ref(),
+        ];
+        let programs = programs.into_iter().flatten();
+        programs.filter_map(|program| program.stopped_batches())
     }
 
     fn of(inner: Inner) -> Self {

@@ -8,7 +8,7 @@
 //! *Precision* exact 64-bit integers · *Spec* Vulkan §Bresenham Line Segment Rasterization,
 //! §Rectangular.
 
-use super::{CoverageList, MAX_PACKETS, TileShape, packet_origin};
+use super::{CoverageList, MAX_PACKETS, TileShape};
 use crate::bounds::pixel_rect::PixelRect;
 use crate::bounds::primitives::LinePrimitive;
 use crate::geometry::line_style::{LineAxis, LineRectangle, LineShape, LineStyle, along, length};
@@ -144,15 +144,17 @@ fn cover_rectangle<const N: usize>(
     let columns = (x0 - tile.x).max(rect.x0)..(x1 + 1 - tile.x).min(rect.x1);
     let rows = (y0 - tile.y).max(rect.y0)..(y1 + 1 - tile.y).min(rect.y1);
     let length = length(line);
-    for packet in 0..1u32 << (2 * (tile.log2 - 2)) {
-        let (px, py) = packet_origin(packet);
-        let is_near = px + 4 > columns.start && px < columns.end;
-        if !is_near || py + 4 <= rows.start || py >= rows.end {
-            continue;
-        }
+    // The packets that the box touches; the rectangle of a short line touches one or two.
+    let first = [columns.start & !3, rows.start & !3];
+    let places = (first[1]..rows.end).step_by(4).flat_map(|py| {
+        let columns = (first[0]..columns.end).step_by(4);
+        columns.map(move |px| [px, py])
+    });
+    for [px, py] in places {
         if misses(rectangle, [tile.x + px, tile.y + py]) {
             continue;
         }
+        let (packet, _) = lane_of(i64::from(px), i64::from(py));
         let mut masks = [0u16; N];
         for lane in 0..LANES {
             let (x, y) = (px + i32::from(LANE_X[lane]), py + i32::from(LANE_Y[lane]));

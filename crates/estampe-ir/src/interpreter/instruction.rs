@@ -118,6 +118,8 @@ pub(super) enum Instruction {
     Atomic(Box<AtomicCode>),
     CompareExchange(Box<CompareExchangeCode>),
     Texture(Box<TextureCode>),
+    /// Waits for the other packets of the work-group.
+    Barrier,
     Jump(u32),
     Branch(Mask, [u32; 2]),
     Return,

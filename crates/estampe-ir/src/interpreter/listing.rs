@@ -12,7 +12,7 @@ impl Display for Code {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self.chunk {
             Chunk::Packets(packets) => writeln!(f, "chunks of {packets} packets")?,
-            Chunk::Workgroup => writeln!(f, "chunks of a work-group")?,
+            Chunk::Workgroup => writeln!(f, "chunks of a packet, which wait at barriers")?,
         }
         let (words, masks) = (self.slots, self.mask_slots);
         writeln!(f, "registers: {words} of words, {masks} of masks")?;

@@ -11,7 +11,10 @@
 //! |---|---|
 //! | without effects on memory | 1 to 16, by the number of its registers |
 //! | with stores to buffers or textures, or atomics | 1, so that lanes act in order |
-//! | with barriers or work-group memory | all: a run is one work-group |
+//! | with barriers or work-group memory | 1; a run is one work-group |
+//!
+//! The packets of a work-group run one after the other, each up to the next barrier, with registers
+//! of their own: so what they do to shared memory has an order, which machine code keeps.
 //!
 //! `Display` of [`Code`] lists its instructions.
 //!

@@ -44,6 +44,25 @@ pub struct Kernel {
     pub blocks: Vec<BasicBlock>,
 }
 
+impl Kernel {
+    /// True if a jump leads backwards.
+    #[must_use]
+    pub fn has_loops(&self) -> bool {
+        let mut blocks = self.blocks.iter().enumerate();
+        blocks.any(|(at, block)| {
+            let mut jumps = block.terminator.jumps();
+            jumps.any(|jump| jump.to.index() <= at)
+        })
+    }
+
+    /// True if a run must be one work-group: there are barriers, or memory that it shares.
+    #[must_use]
+    pub fn runs_workgroups(&self) -> bool {
+        let mut ops = self.blocks.iter().flat_map(|block| &block.ops);
+        self.interface.workgroup_words > 0 || ops.any(|(op, _)| matches!(op, Op::Barrier))
+    }
+}
+
 /// What is known of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ValueInfo {

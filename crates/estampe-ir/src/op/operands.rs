@@ -141,6 +141,7 @@ impl Op {
             | Self::Math2(..)
             | Self::BufferBytes(_) => true,
             Self::LoadBuffer { buffer, .. } => !is_written(*buffer),
+            Self::Texture(op) => op.query.is_of_shape(),
             _ => false,
         }
     }

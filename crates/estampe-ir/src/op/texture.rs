@@ -57,6 +57,15 @@ pub enum TextureQuery {
 }
 
 impl TextureQuery {
+    /// True if the texture's shape is asked for: no texel is touched, and no mask counts.
+    #[must_use]
+    pub fn is_of_shape(self) -> bool {
+        matches!(
+            self,
+            Self::Size | Self::Levels | Self::Layers | Self::Samples
+        )
+    }
+
     /// The number of words that the access gives.
     #[must_use]
     pub fn results(self) -> u32 {

@@ -167,7 +167,7 @@ impl Builder {
             op
         };
         if is_pure && let Some(&value) = self.seen.get(&op) {
-            return vec![value];
+            return value.and_next(op.results().len());
         }
         let types = op.results();
         let first = self.define(types);
@@ -234,6 +234,9 @@ impl Builder {
 
     /// An operation on two words.
     pub fn binary(&mut self, kind: Binary, a: Value, b: Value) -> Value {
+        if let Some(result) = self.division(kind, a, b) {
+            return result;
+        }
         self.op1(Op::Binary(kind, [a, b]))
     }
 

@@ -17,6 +17,7 @@
 //! effect, and an output.
 
 mod builder;
+mod division;
 mod evaluate;
 pub mod passes;
 mod verify;

@@ -55,10 +55,51 @@ fn describe(text: &str, error: &wgsl::ParseError) -> ShaderError {
     if !nests {
         advice.extend(error.notes().map(str::to_owned));
     }
+    if let Some(word) = preprocessed(text, range.start) {
+        advice.push(match word {
+            "#version" => "`#version` is of GLSL, and this is read as WGSL".to_owned(),
+            _ => format!(
+                "`{word}` is of a preprocessor, and WGSL has none: give the text that the preprocessor makes of it"
+            ),
+        });
+    }
+    if text[range.start..].starts_with("[[") {
+        advice.push("write attributes as in `@location(0)`".to_owned());
+    }
     if !advice.is_empty() {
         described = described.help(advice.join("; "));
     }
     described
+}
+
+/// The word of a preprocessor at a place where WGSL has none: a directive of naga_oil, of the C
+/// preprocessor and its like, an import or a condition of WESL, or the bracket of a template.
+fn preprocessed(text: &str, start: usize) -> Option<&str> {
+    let (before, rest) = text.split_at(start);
+    let line = rest.lines().next().unwrap_or_default();
+    let is_word = |character: char| character.is_alphanumeric() || character == '_';
+    if let Some(directive) = line.strip_prefix('#') {
+        let name = directive.trim_start();
+        let length = name.find(|one| !is_word(one)).unwrap_or(name.len());
+        let end = line.len() - name.len() + length;
+        return (length > 0).then(|| &line[..end]);
+    }
+    let mut brackets = ["{{", "{%", "{$", "${", "$$"].into_iter();
+    if let Some(bracket) = brackets.find(|open| line.starts_with(open)) {
+        return Some(bracket);
+    }
+    let end = line.find(|one| !is_word(one)).unwrap_or(line.len());
+    let word = &line[..end];
+    let is_wesl = match word {
+        "import" => {
+            before.is_empty()
+                || before.trim_end().ends_with([';', '}', '/'])
+                || before.ends_with('\n')
+        }
+        "if" | "elif" | "else" => before.ends_with('@'),
+        _ => false,
+    };
+    is_wesl.then_some(word)
 }
 
 /// What is said of texts that nest more deeply than naga follows.

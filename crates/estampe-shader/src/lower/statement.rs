@@ -202,6 +202,10 @@ impl<'a> Lowering<'a> {
         match statement {
             Statement::Emit(range) => {
                 for handle in range.clone() {
+                    // naga names each member of GLSL's uniforms in every function.
+                    if frame.info[handle].ref_count == 0 {
+                        continue;
+                    }
                     let operand = self.evaluate(frame, handle)?;
                     frame.done.insert(handle, operand);
                 }

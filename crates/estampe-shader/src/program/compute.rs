@@ -126,7 +126,7 @@ impl ComputeProgram for TextCompute {
         work: &Workgroups,
     ) -> Result<(), ComputeStopped> {
         let stage = &self.stage;
-        let buffers = buffers(stage, bindings);
+        let (buffers, textures) = (buffers(stage, bindings), stage.textures(bindings));
         let mut inputs = Vec::new();
         for id in work.ids() {
             let of_group = stage.interface().inputs.iter();
@@ -134,7 +134,7 @@ impl ComputeProgram for TextCompute {
             inputs.extend(of_group.map(|input| self.input(*input, id, work.count)));
             let packets = self.cover.len();
             stage
-                .run(level, (bindings, &buffers), packets, (&inputs, &[]))
+                .run(level, (&textures, &buffers), packets, (&inputs, &[]))
                 .map_err(|stopped| match stopped {
                     Stopped::Budget => ComputeStopped::Budget,
                     Stopped::Memory => ComputeStopped::OutOfMemory,

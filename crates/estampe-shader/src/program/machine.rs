@@ -7,8 +7,8 @@ use estampe_x86::{Code, Isa, Scratch, Tier};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-/// The packets after which a stage is worth the time that better code takes to make: that of some
-/// thousand packets.
+/// The packets, or their iterations of loops, after which a stage is worth the time that better
+/// code takes to make: that of some thousand packets.
 const OFTEN: u64 = 4096;
 
 /// The code of a stage for each instruction set.
@@ -22,8 +22,8 @@ struct OfIsa {
     /// `None` inside: the kernel cannot be compiled.
     fast: OnceLock<Option<Code>>,
     optimised: OnceLock<Option<Code>>,
-    /// Packets that the fast code has run.
-    packets: AtomicU64,
+    /// Packets that the fast code has run, and their jumps backwards, about.
+    work: AtomicU64,
     /// Memory that no run uses now.
     scratch: Mutex<Vec<Scratch>>,
 }
@@ -38,7 +38,8 @@ impl MachineCode {
     ) -> Option<Result<(), Stopped>> {
         let at = Isa::ALL.iter().position(|isa| isa.name() == level.name())?;
         let of_isa = &self.of_isa[at];
-        let code = of_isa.code(kernel, Isa::ALL[at], run.packets as u64)?;
+        let isa = Isa::ALL[at];
+        let code = of_isa.code(kernel, isa)?;
         let pool = || {
             of_isa
                 .scratch
@@ -47,25 +48,34 @@ impl MachineCode {
         };
         let mut scratch = pool().pop().unwrap_or_default();
         let stopped = code.run(level, run, &mut scratch);
+        let jumps = scratch.jumps(code, run);
         pool().push(scratch);
+        of_isa.count(kernel, isa, (run.packets as u64).saturating_add(jumps));
         Some(stopped)
     }
 }
 
 impl OfIsa {
-    /// The best code there is. The run that makes a stage one that runs often compiles it again,
-    /// while others go on with the fast code.
-    fn code(&self, kernel: &Kernel, isa: Isa, packets: u64) -> Option<&Code> {
+    /// The best code there is.
+    fn code(&self, kernel: &Kernel, isa: Isa) -> Option<&Code> {
         if let Some(Some(code)) = self.optimised.get() {
             return Some(code);
         }
-        let compile = |tier| Code::compile(kernel, isa, tier).ok();
-        let fast = self.fast.get_or_init(|| compile(Tier::Fast)).as_ref()?;
-        let before = self.packets.fetch_add(packets, Ordering::Relaxed);
-        if before < OFTEN && before + packets >= OFTEN {
-            let code = compile(Tier::Optimised);
-            return self.optimised.get_or_init(|| code).as_ref().or(Some(fast));
+        let compile = || Code::compile(kernel, isa, Tier::Fast).ok();
+        self.fast.get_or_init(compile).as_ref()
+    }
+
+    /// Counts what a run did. The one that makes a stage one that runs often compiles it again,
+    /// while others go on with the fast code.
+    fn count(&self, kernel: &Kernel, isa: Isa, work: u64) {
+        if self.work.load(Ordering::Relaxed) >= OFTEN {
+            return;
         }
-        Some(fast)
+        let before = self.work.fetch_add(work, Ordering::Relaxed);
+        if before < OFTEN && before.saturating_add(work) >= OFTEN {
+            let code = Code::compile(kernel, isa, Tier::Optimised).ok();
+            // Only one run counts from below to above.
+            let _ = self.optimised.set(code);
+        }
     }
 }

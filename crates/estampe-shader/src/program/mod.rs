@@ -17,8 +17,9 @@ pub use compute::{MAX_INVOCATIONS, TextCompute};
 pub use link::{LinkError, VaryingSlot};
 
 use batch::{Widths, buffers, with_fragments, with_vertices};
-use estampe_ir::tree::Tree;
+use estampe_ir::tree::{Tree, passes};
 use estampe_simd::Level;
+use estampe_types::shader::StoppedBatches;
 use estampe_types::{
     BindGroupLayout, BindGroupLayoutEntry, Bindings, FragmentBatch, Interface, Program, VertexBatch,
 };
@@ -37,6 +38,14 @@ pub struct StageSource {
     pub bindings: Vec<(u32, BindGroupLayoutEntry)>,
 }
 
+impl StageSource {
+    /// Lets products and sums be rounded once, together.
+    pub fn contract(&mut self) {
+        passes::contract(&mut self.tree);
+        passes::dead_code(&mut self.tree);
+    }
+}
+
 /// A vertex shader, and a fragment shader if there is one, as a program.
 #[derive(Debug)]
 pub struct TextProgram {
@@ -48,11 +57,12 @@ pub struct TextProgram {
     widths: Widths,
     vertex: Stage,
     fragment: Option<Stage>,
+    stopped: StoppedBatches,
 }
 
 impl TextProgram {
     /// Links the stages and compiles them. A run that executes more than `budget` jumps is
-    /// stopped, which leaves what it draws undefined, but not the program.
+    /// stopped, and with it the pass.
     ///
     /// # Errors
     /// [`LinkError`] if the fragment stage reads what the vertex stage does not write, or the
@@ -88,6 +98,7 @@ impl TextProgram {
             layouts,
             interface,
             links,
+            stopped: StoppedBatches::default(),
         })
     }
 
@@ -109,34 +120,50 @@ impl Program for TextProgram {
         &self.layouts
     }
 
+    fn stopped_batches(&self) -> Option<&StoppedBatches> {
+        Some(&self.stopped)
+    }
+
     fn vertex_packets(&self) -> usize {
         8
     }
 
     fn run_vertices(&self, level: Level, bindings: &Bindings, batch: VertexBatch<'_>) {
         let stage = &self.vertex;
-        let buffers = buffers(stage, bindings);
+        if self.stopped.is_stopped() {
+            return;
+        }
+        let (buffers, textures) = (buffers(stage, bindings), stage.textures(bindings));
         let places = (self.widths, self.links.of_vertex());
         // A run that is stopped leaves its outputs as they are.
-        let _stopped = with_vertices(
+        let run = with_vertices(
             stage,
             places,
             &self.attributes,
             batch,
             |packets, inputs, outputs| {
-                stage.run(level, (bindings, &buffers), packets, (inputs, outputs))
+                stage.run(level, (&textures, &buffers), packets, (inputs, outputs))
             },
         );
+        if run.is_err() {
+            self.stopped.stop();
+        }
     }
 
     fn run_fragments(&self, level: Level, bindings: &Bindings, batch: FragmentBatch<'_>) {
         let Some(stage) = &self.fragment else {
             return;
         };
-        let buffers = buffers(stage, bindings);
-        let _stopped = with_fragments(stage, self.widths, batch, |packets, inputs, outputs| {
-            stage.run(level, (bindings, &buffers), packets, (inputs, outputs))
+        if self.stopped.is_stopped() {
+            return;
+        }
+        let (buffers, textures) = (buffers(stage, bindings), stage.textures(bindings));
+        let run = with_fragments(stage, self.widths, batch, |packets, inputs, outputs| {
+            stage.run(level, (&textures, &buffers), packets, (inputs, outputs))
         });
+        if run.is_err() {
+            self.stopped.stop();
+        }
     }
 }
 

@@ -49,23 +49,27 @@ impl Stage {
         &self.kernel.interface
     }
 
-    pub(super) fn run(
-        &self,
-        level: Level,
-        (bindings, buffers): (&Bindings, &[Buffer<'_>]),
-        packets: usize,
-        (inputs, outputs): (&[InputData<'_>], &[OutputData<'_>]),
-    ) -> Result<(), Stopped> {
+    /// The textures among the resources that a draw or dispatch binds.
+    pub(super) fn textures<'a>(&'a self, bindings: &'a Bindings) -> BoundTextures<'a> {
         let Interface {
             textures, samplers, ..
         } = self.interface();
-        let textures = BoundTextures::new(bindings, textures, samplers);
+        BoundTextures::new(bindings, textures, samplers)
+    }
+
+    pub(super) fn run(
+        &self,
+        level: Level,
+        (textures, buffers): (&BoundTextures<'_>, &[Buffer<'_>]),
+        packets: usize,
+        (inputs, outputs): (&[InputData<'_>], &[OutputData<'_>]),
+    ) -> Result<(), Stopped> {
         let run = Run {
             packets,
             inputs,
             outputs,
             buffers,
-            textures: &textures,
+            textures,
             budget: self.budget,
         };
         if !self.is_interpreted

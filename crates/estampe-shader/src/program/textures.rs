@@ -3,10 +3,12 @@
 use estampe_ir::interface::TextureSlot;
 use estampe_ir::interpreter::{TextureAccess, Textures};
 use estampe_ir::op::{LevelOfDetail, TextureQuery};
-use estampe_simd::{Bytes, Lanes, Packet, SimdBase, dispatch, f32x16, i32x16, mask32x16, u32x16};
+use estampe_simd::{
+    Bytes, LANES, Lanes, Packet, SimdBase, dispatch, f32x16, i32x16, mask32x16, u32x16,
+};
 use estampe_texture::{
     Coordinates, Lod, Rgba8Texture, SampledTexture, TextureBindings, sample_compare_level,
-    storage_load, storage_store,
+    storage_load, storage_store, store_unorm8,
 };
 use estampe_types::{Bindings, Real, ShadowMap, StorageTexture, Vec2, Vec3, Vec4, ViewDimension};
 use std::cell::OnceCell;
@@ -88,16 +90,19 @@ impl BoundTextures<'_> {
     #[inline]
     fn common_access(&self, access: &mut TextureAccess<'_>) -> bool {
         let op = access.op;
-        let (Some(sampler), [_, _], [0, 0, 0], None, &[mask]) = (
-            op.sampler,
-            &op.coordinates[..],
-            op.offset,
-            op.layer,
-            access.mask,
-        ) else {
+        let ([_, _], [0, 0, 0], None, &[mask]) =
+            (&op.coordinates[..], op.offset, op.layer, access.mask)
+        else {
             return false;
         };
         let level = access.level;
+        let Some(sampler) = op.sampler else {
+            return match op.query {
+                TextureQuery::Load => dispatch!(level, s => self.load_common(s, access)),
+                TextureQuery::Store => dispatch!(level, s => self.store_common(s, access, mask)),
+                _ => false,
+            };
+        };
         match (op.query, &op.level) {
             (TextureQuery::Sample, LevelOfDetail::Implicit) if mask == whole_quads(mask) => {
                 let texture = self.sampled(op.texture, sampler);
@@ -117,6 +122,41 @@ impl BoundTextures<'_> {
             }
             _ => false,
         }
+    }
+
+    /// Loads a packet of texels of the finest level; false if the texture is not a common one.
+    #[inline(always)]
+    fn load_common<S: Lanes>(&self, s: S, access: &mut TextureAccess<'_>) -> bool {
+        let (group, binding) = self.slot(access);
+        let level = access.level_of_detail();
+        let is_finest = level.is_none_or(|level| level[0].0 == [0; LANES]);
+        let is_stored = self.bindings.storage_texture(group, binding).is_some();
+        if !is_finest || is_stored || access.sample().is_some() {
+            return false;
+        }
+        let [x, y, _] = texel(s, access, 0);
+        let Some(texels) = self.bindings.texture(group, binding).load_unorm8(s, [x, y]) else {
+            return false;
+        };
+        set(access, 0, texels);
+        true
+    }
+
+    /// Stores a packet of texels; false if the texture is not a common one.
+    #[inline(always)]
+    fn store_common<S: Lanes>(&self, s: S, access: &TextureAccess<'_>, mask: u16) -> bool {
+        let (group, binding) = self.slot(access);
+        let Some(texture) = self.bindings.storage_texture(group, binding) else {
+            return false;
+        };
+        let [x, y, _] = texel(s, access, 0);
+        let channels = [
+            floats(s, access.stored(0), 0),
+            floats(s, access.stored(1), 0),
+            floats(s, access.stored(2), 0),
+            floats(s, access.stored(3), 0),
+        ];
+        store_unorm8(s, texture, ([x, y], mask), channels)
     }
 
     fn slot(&self, access: &TextureAccess<'_>) -> (u32, u32) {
@@ -377,9 +417,25 @@ fn ints<S: Lanes>(s: S, words: &[Packet<u32>], packet: usize) -> i32x16<S> {
     u32x16::load_array_ref(s, &words[packet].0).bitcast()
 }
 
+/// Stores as many of the results as the access has, each by a whole register.
 #[inline(always)]
 fn set<S: Lanes>(access: &mut TextureAccess<'_>, packet: usize, results: [f32x16<S>; 4]) {
-    for (at, result) in results.into_iter().enumerate().take(access.results()) {
+    let count = access.results();
+    let [a, b, c, d] = results;
+    put(access, (0, packet), a, count);
+    put(access, (1, packet), b, count);
+    put(access, (2, packet), c, count);
+    put(access, (3, packet), d, count);
+}
+
+#[inline(always)]
+fn put<S: Lanes>(
+    access: &mut TextureAccess<'_>,
+    (at, packet): (usize, usize),
+    result: f32x16<S>,
+    count: usize,
+) {
+    if at < count {
         let words: u32x16<S> = result.bitcast();
         words.store_array(&mut access.result_mut(at)[packet].0);
     }

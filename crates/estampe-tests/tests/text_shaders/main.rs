@@ -1,7 +1,9 @@
 //! Shaders as text on the objects of the device: drawing and compute.
 
 mod compute;
+mod contraction;
 mod drawing;
+mod endless;
 mod glsl;
 mod peers;
 mod spirv;

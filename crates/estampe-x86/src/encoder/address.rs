@@ -35,25 +35,40 @@ impl Address {
     }
 }
 
+impl Address {
+    /// `displacement` bytes after the start of the pool.
+    pub(crate) fn in_pool(displacement: i32) -> Self {
+        Self {
+            base: Base::Pool,
+            ..Self::at(Gpr::RAX, displacement)
+        }
+    }
+}
+
 impl Assembler {
     /// ModRM of two registers, of which the low three bits are used.
     pub(super) fn modrm_register(&mut self, reg: u8, rm: u8) {
         self.byte(0xC0 | (reg & 7) << 3 | rm & 7);
     }
 
+    /// ModRM of a place that is named by its distance from the end of the instruction.
+    pub(super) fn modrm_relative(&mut self, reg: u8) {
+        self.byte((reg & 7) << 3 | 0b101);
+    }
+
     /// ModRM, SIB and displacement of a memory operand. A displacement of eight bits counts in
     /// multiples of `scale`; `trailing` bytes of the instruction follow.
     pub(super) fn modrm_memory(&mut self, reg: u8, address: Address, scale: i32, trailing: usize) {
-        let reg = (reg & 7) << 3;
         let base = match address.base {
             Base::Gpr(base) => base.0 & 7,
             Base::Pool => {
-                self.byte(reg | 0b101);
+                self.modrm_relative(reg);
                 let offset = u32::try_from(address.displacement).unwrap_or(0);
                 self.distance_to_pool(offset, trailing);
                 return;
             }
         };
+        let reg = (reg & 7) << 3;
         let displacement = address.displacement;
         let short = (displacement % scale == 0)
             .then(|| i8::try_from(displacement / scale).ok())

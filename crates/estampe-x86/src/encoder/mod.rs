@@ -9,6 +9,7 @@
 //! | [`address`] | memory operands, ModRM and SIB bytes |
 //! | [`vector_op`] | the table of vector instructions |
 //! | [`vector`] | VEX and EVEX prefixes |
+//! | [`element`] | instructions on one of many words |
 //! | [`scalar`] | instructions on general-purpose registers, jumps |
 //! | [`mod@text`] | the texts of instructions, for listings |
 //!
@@ -16,6 +17,7 @@
 
 pub(crate) mod address;
 pub(crate) mod assembler;
+pub(crate) mod element;
 pub(crate) mod scalar;
 pub(crate) mod text;
 pub(crate) mod vector;

@@ -9,6 +9,7 @@ pub(crate) struct Gpr(pub(crate) u8);
 impl Gpr {
     pub(crate) const RAX: Self = Self(0);
     pub(crate) const RBX: Self = Self(3);
+    pub(crate) const R12: Self = Self(12);
     pub(crate) const RSI: Self = Self(6);
     pub(crate) const RDI: Self = Self(7);
 
@@ -26,6 +27,13 @@ pub(crate) enum Condition {
     NotBelow = 3,
     /// Equal, zero.
     Zero = 4,
+    NotZero = 5,
+    /// Unsigned greater.
+    Above = 7,
+    /// Signed less.
+    Less = 12,
+    /// Signed greater.
+    Greater = 15,
 }
 
 /// The width of a scalar operation.
@@ -47,7 +55,7 @@ impl Assembler {
     }
 
     /// An instruction `opcode reg, rm` of two registers.
-    fn registers(&mut self, width: Width, opcode: &[u8], reg: u8, rm: Gpr) {
+    pub(super) fn registers(&mut self, width: Width, opcode: &[u8], reg: u8, rm: Gpr) {
         self.rex(width, reg, rm.0);
         self.bytes.extend(opcode);
         self.modrm_register(reg, rm.0);
@@ -131,6 +139,15 @@ impl Assembler {
         self.memory(Width::Qword, &[0x8D], to.0, (address, 0));
     }
 
+    /// `lea to, [label]`: the address of a place in the code.
+    pub(crate) fn lea_label(&mut self, to: Gpr, label: Label) {
+        self.note(|| text::lea_label(to, label));
+        self.byte(0x48 | to.high() << 2);
+        self.byte(0x8D);
+        self.modrm_relative(to.0);
+        self.distance_to(label);
+    }
+
     /// `lea to, [base + 4·index]`.
     pub(crate) fn lea_element(&mut self, to: Gpr, base: Gpr, index: Gpr) {
         self.note(|| text::lea_element(to, base, index));
@@ -139,18 +156,6 @@ impl Assembler {
         self.byte(0x44 | (to.0 & 7) << 3);
         self.byte(0b10 << 6 | (index.0 & 7) << 3 | base.0 & 7);
         self.byte(0);
-    }
-
-    /// `and to, from`, 32 bits.
-    pub(crate) fn and(&mut self, to: Gpr, from: Gpr) {
-        self.note(|| text::two("and", Width::Dword, to, from));
-        self.registers(Width::Dword, &[0x23], to.0, from);
-    }
-
-    /// `or to, from`, 32 bits.
-    pub(crate) fn or(&mut self, to: Gpr, from: Gpr) {
-        self.note(|| text::two("or", Width::Dword, to, from));
-        self.registers(Width::Dword, &[0x0B], to.0, from);
     }
 
     /// `sbb to, from`, 32 bits.
@@ -192,6 +197,12 @@ impl Assembler {
         self.memory(Width::Dword, &[0x3B], register.0, (address, 0));
     }
 
+    /// `cmp register, [address]`, 64 bits.
+    pub(crate) fn cmp_memory_wide(&mut self, register: Gpr, address: Address) {
+        self.note(|| text::load("cmp", Width::Qword, register, address));
+        self.memory(Width::Qword, &[0x3B], register.0, (address, 0));
+    }
+
     /// `test register, register`, 32 bits.
     pub(crate) fn test(&mut self, register: Gpr) {
         self.note(|| text::two("test", Width::Dword, register, register));
@@ -200,7 +211,7 @@ impl Assembler {
 
     /// `cmovcc to, from`, 64 bits.
     pub(crate) fn cmov(&mut self, condition: Condition, to: Gpr, from: Gpr) {
-        self.note(|| text::cmov(condition, to, from));
+        self.note(|| text::cmov(condition, Width::Qword, [to, from]));
         self.registers(Width::Qword, &[0x0F, 0x40 | condition as u8], to.0, from);
     }
 
@@ -215,6 +226,12 @@ impl Assembler {
     pub(crate) fn call(&mut self, address: Address) {
         self.note(|| text::call(address));
         self.memory(Width::Dword, &[0xFF], 2, (address, 0));
+    }
+
+    /// `jmp [address]`.
+    pub(crate) fn jump_to(&mut self, address: Address) {
+        self.note(|| text::jump_to(address));
+        self.memory(Width::Dword, &[0xFF], 4, (address, 0));
     }
 
     /// `ret`.

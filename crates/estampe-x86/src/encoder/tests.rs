@@ -1,5 +1,6 @@
 //! Every row of the table and every scalar instruction, decoded by an independent disassembler.
 
+use super::element::{Arithmetic, Element};
 use super::scalar::Width;
 use super::vector_op::{self, ALL, Tuple};
 use super::{Address, Assembler, Base, Condition, Gpr, Length, Rm, VectorInstruction, VectorOp};
@@ -119,6 +120,9 @@ fn vector_instructions_with_memory() {
     use vector_op as v;
     let random = &mut fastrand::Rng::with_seed(2);
     let only_registers = [
+        // Half of a vector: they are used with registers.
+        &v::F64_FROM_S32,
+        &v::F64_FROM_U32,
         &v::MASK_FROM_GPR,
         &v::GPR_FROM_MASK,
         &v::SIGNS,
@@ -304,8 +308,17 @@ fn scalar_instructions() {
             assert_eq!(element.memory_index_scale(), 4);
             assert_eq!(element.memory_displacement64(), 0);
         }
-        check(&|x| x.and(a, b), Mnemonic::And, &[a, b]);
-        check(&|x| x.or(a, b), Mnemonic::Or, &[a, b]);
+        for (kind, name) in ARITHMETIC {
+            check(&|x| x.arithmetic(kind, a, b), name, &[a, b]);
+        }
+        check(&|x| x.cmp(a, b), Mnemonic::Cmp, &[a, b]);
+        let moved = check(
+            &|x| x.cmov_word(Condition::Greater, a, b),
+            Mnemonic::Cmovg,
+            &[a, b],
+        );
+        assert!(moved.op0_register().is_gpr32());
+        check(&|x| x.lowest_bit(a, b), Mnemonic::Bsf, &[a, b]);
         check(&|x| x.sbb(a, b), Mnemonic::Sbb, &[a, b]);
         check(&|x| x.neg(a), Mnemonic::Neg, &[a]);
         let masked = check(&|x| x.and_immediate(a, immediate), Mnemonic::And, &[a]);
@@ -323,8 +336,71 @@ fn scalar_instructions() {
         let decremented = check(&|x| x.sub_memory(address, 1), Mnemonic::Sub, &[b]);
         assert_eq!(decremented.memory_size(), MemorySize::UInt64);
         check(&|x| x.call(address), Mnemonic::Call, &[b]);
+        check(&|x| x.jump_to(address), Mnemonic::Jmp, &[b]);
         check(&Assembler::ret, Mnemonic::Ret, &[]);
         check(&Assembler::vzeroupper, Mnemonic::Vzeroupper, &[]);
+    }
+}
+
+const ARITHMETIC: [(Arithmetic, Mnemonic); 5] = [
+    (Arithmetic::Add, Mnemonic::Add),
+    (Arithmetic::Or, Mnemonic::Or),
+    (Arithmetic::And, Mnemonic::And),
+    (Arithmetic::Sub, Mnemonic::Sub),
+    (Arithmetic::Xor, Mnemonic::Xor),
+];
+
+#[test]
+fn instructions_on_elements() {
+    let random = &mut fastrand::Rng::with_seed(4);
+    for _ in 0..400 {
+        let [base, index, register] = [0; 3].map(|_| Gpr(random.u8(..16)));
+        let index = Gpr(if index.0 == 4 { 5 } else { index.0 });
+        let element = Element {
+            base,
+            index,
+            displacement: random.i32(..),
+        };
+        let check = |emit: &dyn Fn(&mut Assembler), name: Mnemonic, is_locked: bool| {
+            let mut assembler = Assembler::default();
+            emit(&mut assembler);
+            let decoded = decode(&assembler.finish_code());
+            assert_eq!(decoded.mnemonic(), name);
+            assert_eq!(decoded.has_lock_prefix(), is_locked);
+            assert_eq!(registers(&decoded), [usize::from(register.0)]);
+            assert_eq!(decoded.memory_base().number(), usize::from(base.0));
+            assert_eq!(decoded.memory_index().number(), usize::from(index.0));
+            assert_eq!(decoded.memory_index_scale(), 4);
+            assert_eq!(decoded.memory_size().size(), 4);
+            let displacement = i64::from(element.displacement).cast_unsigned();
+            assert_eq!(decoded.memory_displacement64(), displacement);
+            decoded.op0_kind()
+        };
+        let kind = check(&|x| x.load_element(register, element), Mnemonic::Mov, false);
+        assert_eq!(kind, OpKind::Register);
+        let kind = check(
+            &|x| x.store_element(element, register),
+            Mnemonic::Mov,
+            false,
+        );
+        assert_eq!(kind, OpKind::Memory);
+        check(
+            &|x| x.exchange_element(element, register),
+            Mnemonic::Xchg,
+            false,
+        );
+        for is_locked in [false, true] {
+            let operands = (element, register);
+            for (kind, name) in ARITHMETIC {
+                check(
+                    &|x| x.update_element(kind, is_locked, operands),
+                    name,
+                    is_locked,
+                );
+            }
+            let add = |x: &mut Assembler| x.exchange_and_add(is_locked, element, register);
+            check(&add, Mnemonic::Xadd, is_locked);
+        }
     }
 }
 
@@ -336,6 +412,7 @@ fn jumps_go_to_labels_before_and_after() {
     assembler.jump(after);
     assembler.jump_if(Condition::Zero, before);
     assembler.jump_if(Condition::Below, after);
+    assembler.lea_label(Gpr(9), after);
     assembler.bind(after);
     let end = assembler.len();
     let bytes = assembler.finish_code();
@@ -346,6 +423,10 @@ fn jumps_go_to_labels_before_and_after() {
         assert_eq!(jump.mnemonic(), mnemonic);
         assert_eq!(jump.near_branch_target(), target);
     }
+    let address = decoder.decode();
+    assert_eq!(address.mnemonic(), Mnemonic::Lea);
+    assert_eq!(address.op0_register(), Register::R9);
+    assert_eq!(address.ip_rel_memory_address(), end);
 }
 
 impl Assembler {

@@ -1,5 +1,6 @@
 //! The texts of instructions, in the manner of Intel's manual: the destination first.
 
+use super::element::Element;
 use super::scalar::Width;
 use super::{
     Address, Base, Condition, Gpr, Label, Length, Rm, VectorInstruction, VectorOp, vector_op,
@@ -100,9 +101,32 @@ pub(super) fn store_byte(address: Address, from: Gpr) -> Text {
     ))
 }
 
+pub(super) fn lea_label(to: Gpr, label: Label) -> Text {
+    instruction(format!("lea {}, [L{}]", gpr(to, Width::Qword), label.0))
+}
+
 pub(super) fn lea_element(to: Gpr, base: Gpr, index: Gpr) -> Text {
     let [to, base, index] = [to, base, index].map(|one| gpr(one, Width::Qword));
     instruction(format!("lea {to}, [{base} + 4*{index}]"))
+}
+
+fn element(of: Element) -> String {
+    let [base, index] = [of.base, of.index].map(|one| gpr(one, Width::Qword));
+    format!("[{base} + 4*{index} + {:#x}]", of.displacement)
+}
+
+pub(super) fn load_element(to: Gpr, from: Element) -> Text {
+    instruction(format!("mov {}, {}", gpr(to, Width::Dword), element(from)))
+}
+
+pub(super) fn of_element(name: &str, to: Element, from: Gpr) -> Text {
+    locked(name, false, to, from)
+}
+
+pub(super) fn locked(name: &str, is_locked: bool, to: Element, from: Gpr) -> Text {
+    let prefix = if is_locked { "lock " } else { "" };
+    let (to, from) = (element(to), gpr(from, Width::Dword));
+    instruction(format!("{prefix}{name} {to}, {from}"))
 }
 
 pub(super) fn imul(to: Gpr, from: Gpr, immediate: u8) -> Text {
@@ -110,13 +134,17 @@ pub(super) fn imul(to: Gpr, from: Gpr, immediate: u8) -> Text {
     instruction(format!("imul {to}, {from}, {immediate:#x}"))
 }
 
-pub(super) fn cmov(condition: Condition, to: Gpr, from: Gpr) -> Text {
-    let [to, from] = [to, from].map(|one| gpr(one, Width::Qword));
+pub(super) fn cmov(condition: Condition, width: Width, [to, from]: [Gpr; 2]) -> Text {
+    let [to, from] = [to, from].map(|one| gpr(one, width));
     instruction(format!("cmov{} {to}, {from}", suffix(condition)))
 }
 
 pub(super) fn sub_memory(address: Address, immediate: u8) -> Text {
     instruction(format!("sub qword {}, {immediate:#x}", memory(address, "")))
+}
+
+pub(super) fn jump_to(address: Address) -> Text {
+    instruction(format!("jmp {}", memory(address, "")))
 }
 
 pub(super) fn call(address: Address) -> Text {
@@ -136,6 +164,10 @@ fn suffix(condition: Condition) -> &'static str {
         Condition::Below => "b",
         Condition::NotBelow => "ae",
         Condition::Zero => "e",
+        Condition::NotZero => "ne",
+        Condition::Above => "a",
+        Condition::Less => "l",
+        Condition::Greater => "g",
     }
 }
 

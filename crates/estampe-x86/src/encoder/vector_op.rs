@@ -160,10 +160,17 @@ table! {
     F32_FROM_U32 = VectorOp::both("vcvtudq2ps", F2, 1, 0x7A).evex_only();
     S32_FROM_F32 = VectorOp::both("vcvttps2dq", F3, 1, 0x5B);
     U32_FROM_F32 = VectorOp::both("vcvttps2udq", NONE, 1, 0x78).evex_only();
+    // Eight lanes of 64 bits, from or to the lower eight of 32.
+    F64_FROM_S32 = VectorOp::both("vcvtdq2pd", F3, 1, 0xE6).evex_only();
+    F64_FROM_U32 = VectorOp::both("vcvtudq2pd", F3, 1, 0x7A).evex_only();
+    S32_FROM_F64 = VectorOp::both("vcvttpd2dq", P66, 1, 0xE6).evex_only().wide();
+    U32_FROM_F64 = VectorOp::both("vcvttpd2udq", NONE, 1, 0x78).evex_only().wide();
+    DIV_F64 = VectorOp::both("vdivpd", P66, 1, 0x5E).evex_only().wide();
     // Choice and order of lanes.
     BLEND = VectorOp::both("vblendmps", P66, 2, 0x65).evex_only();
     BLEND_BY_SIGN = VectorOp::both("vblendvps", P66, 3, 0x4A).vex_only();
     PERMUTE = VectorOp::both("vpermilps", P66, 3, 0x04);
+    PERMUTE_TWO = VectorOp::both("vpermt2d", P66, 2, 0x7E).evex_only();
     BROADCAST = VectorOp::both("vbroadcastss", P66, 2, 0x18).tuple(Tuple::Bytes(4));
     BROADCAST_BYTE = VectorOp::both("vpbroadcastb", P66, 2, 0x78).tuple(Tuple::Bytes(1));
     SIGNS = VectorOp::both("vmovmskps", NONE, 1, 0x50).vex_only();
@@ -200,6 +207,10 @@ impl VectorOp {
             &F32_FROM_U32,
             &S32_FROM_F32,
             &U32_FROM_F32,
+            &F64_FROM_S32,
+            &F64_FROM_U32,
+            &S32_FROM_F64,
+            &U32_FROM_F64,
             &PERMUTE,
             &BROADCAST,
             &BROADCAST_BYTE,

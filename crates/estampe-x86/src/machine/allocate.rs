@@ -106,7 +106,7 @@ impl regalloc2::Function for Function {
 
     fn inst_clobbers(&self, instruction: Inst) -> PRegSet {
         match self.instructions[instruction.index()] {
-            Instruction::Call(_) => self.clobbers,
+            Instruction::Call(_) | Instruction::Barrier => self.clobbers,
             _ => PRegSet::empty(),
         }
     }

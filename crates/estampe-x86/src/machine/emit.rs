@@ -3,6 +3,7 @@
 use super::passes::Passes;
 use super::{Function, GPR, Instruction, MASK, Memory, MemoryBase, Role, VECTOR};
 use crate::Isa;
+use crate::encoder::element::Arithmetic;
 use crate::encoder::scalar::Width;
 use crate::encoder::{
     Address, Assembler, Base, Condition, Gpr, Label, Length, Rm, VectorInstruction, VectorOp,
@@ -12,6 +13,7 @@ use crate::frame::{self, Frame, displacement};
 use regalloc2::{Allocation, Block, Edit, InstOrEdit, Output};
 
 /// Encodes a function. It is called with the frame, and returns 0, or 1 if its budget is used up.
+/// Parts of the frame that are there for each packet of a work-group count from `r12`.
 pub(crate) fn emit(
     assembler: &mut Assembler,
     (function, passes): (&Function, Passes),
@@ -20,7 +22,7 @@ pub(crate) fn emit(
 ) {
     let labels = function.blocks.iter().map(|_| assembler.new_label());
     let labels: Vec<Label> = labels.collect();
-    let [stop, again, advance] = [(); 3].map(|()| assembler.new_label());
+    let [stop, again, advance, next] = [(); 4].map(|()| assembler.new_label());
     let mut emitter = Emitter {
         assembler,
         isa,
@@ -28,12 +30,17 @@ pub(crate) fn emit(
         labels,
         stop,
         advance,
+        next,
+        has_states: matches!(passes, Passes::Workgroup { .. }),
     };
-    emitter.assembler.push(Gpr::RBX);
-    emitter.assembler.mov(Width::Qword, Gpr::RBX, Gpr::RDI);
-    if let Passes::Many { resets_locals } = passes {
-        emitter.assembler.bind(again);
-        emitter.start_pass(function, resets_locals);
+    emitter.start();
+    match passes {
+        Passes::Once => {}
+        Passes::Many { resets_locals } => {
+            emitter.assembler.bind(again);
+            emitter.start_pass(function, resets_locals);
+        }
+        Passes::Workgroup { resets_locals } => emitter.start_workgroup(resets_locals),
     }
     for at in 0..function.blocks.len() {
         let block = Block::new(at);
@@ -50,8 +57,10 @@ pub(crate) fn emit(
         }
     }
     emitter.assembler.bind(advance);
-    if let Passes::Many { .. } = passes {
-        emitter.end_pass(again);
+    match passes {
+        Passes::Once => {}
+        Passes::Many { .. } => emitter.end_pass(again),
+        Passes::Workgroup { .. } => emitter.end_packet(),
     }
     emitter.end(0);
     emitter.assembler.bind(stop);
@@ -65,26 +74,44 @@ pub(super) struct Emitter<'a> {
     labels: Vec<Label>,
     /// Where the budget is used up.
     stop: Label,
-    /// The end of a pass.
+    /// The end of a pass, or of a packet of a work-group.
     advance: Label,
+    /// Where the next packet of the work-group goes on.
+    pub(super) next: Label,
+    /// Each packet has a state of its own.
+    pub(super) has_states: bool,
 }
 
 /// The number of a register.
-fn number(found: Allocation) -> u8 {
+pub(super) fn number(found: Allocation) -> u8 {
     let register = found.as_reg().map_or(0, regalloc2::PReg::hw_enc);
     u8::try_from(register).unwrap_or(0)
 }
 
-fn gpr(found: Allocation) -> Gpr {
+pub(super) fn gpr(found: Allocation) -> Gpr {
     Gpr(number(found))
 }
 
+/// A place in the frame that all packets share.
 pub(super) fn in_frame(offset: i32) -> Address {
     Address::at(Gpr::RBX, offset)
 }
 
 impl Emitter<'_> {
-    fn length(&self) -> Length {
+    /// A place in the frame that may be in the state of the packet.
+    fn in_state(&self, offset: i32) -> Address {
+        Address::at(self.frame_base(offset), offset)
+    }
+
+    fn frame_base(&self, offset: i32) -> Gpr {
+        if self.has_states && self.frame.is_in_state(offset) {
+            Gpr::R12
+        } else {
+            Gpr::RBX
+        }
+    }
+
+    pub(super) fn length(&self) -> Length {
         match self.isa {
             Isa::Avx2 => Length::L256,
             Isa::Avx512 => Length::L512,
@@ -107,7 +134,7 @@ impl Emitter<'_> {
 
     fn spill_slot(&self, found: Allocation) -> Option<Address> {
         let slot = u32::try_from(found.as_stack()?.index()).ok()?;
-        Some(in_frame(displacement(self.frame.spills + slot * 8)))
+        Some(self.in_state(displacement(self.frame.spills + slot * 8)))
     }
 
     /// Moves a value between registers and where it is spilled.
@@ -171,19 +198,16 @@ impl Emitter<'_> {
             }
             Instruction::LoadPointer(offset) => {
                 let to = gpr(found[0]);
-                self.assembler.load(Width::Qword, to, in_frame(offset));
+                let from = self.in_state(offset);
+                self.assembler.load(Width::Qword, to, from);
             }
             Instruction::PoolPointer(offset) => {
-                let address = Address {
-                    base: Base::Pool,
-                    index: None,
-                    displacement: displacement(offset),
-                    is_broadcast: false,
-                };
+                let address = Address::in_pool(displacement(offset));
                 self.assembler.lea(gpr(found[0]), address);
             }
             Instruction::FramePointer(offset) => {
-                self.assembler.lea(gpr(found[0]), in_frame(offset));
+                let address = self.in_state(offset);
+                self.assembler.lea(gpr(found[0]), address);
             }
             Instruction::Quads { needs_all } => self.quads(needs_all, found),
             Instruction::AnyMask => {
@@ -223,8 +247,15 @@ impl Emitter<'_> {
                 let address = Address::at(base, offset);
                 self.assembler.store_byte(address, gpr(temporary));
             }
-            Instruction::LoadScalar { buffer } => self.load_scalar(buffer, found),
+            Instruction::LoadScalar { buffer, shift } => self.load_scalar((buffer, shift), found),
+            Instruction::LoadStrided(load) => self.strided(load, found),
+            Instruction::LoadQuadruple(load) => self.quadruple(load, found),
             Instruction::Call(at) => self.call(at),
+            Instruction::Barrier => self.barrier(),
+            Instruction::EachLane(loops) => {
+                let registers = std::array::from_fn(|at| gpr(found[at]));
+                self.each_lane(loops, registers);
+            }
             Instruction::Jump { is_back } => {
                 let to = function.blocks[block].successors[0].index();
                 if is_back {
@@ -264,10 +295,12 @@ impl Emitter<'_> {
         found: &[Allocation],
     ) {
         let (mut reg, mut vvvv, mut rm, mut mask) = (0, 0, Rm::Register(0), 0);
-        let (mut base, mut index, mut immediate) = (Base::Gpr(Gpr::RBX), None, immediate);
-        if memory.is_some_and(|memory| memory.base == MemoryBase::Pool) {
-            base = Base::Pool;
-        }
+        let (mut index, mut immediate) = (None, immediate);
+        let mut base = match memory {
+            Some(memory) if memory.base == MemoryBase::Pool => Base::Pool,
+            Some(memory) => Base::Gpr(self.frame_base(memory.offset)),
+            None => Base::Gpr(Gpr::RBX),
+        };
         for (role, &one) in roles.iter().zip(found) {
             match role {
                 Role::Reg => reg = number(one),
@@ -303,7 +336,7 @@ impl Emitter<'_> {
         });
     }
 
-    fn zero(&mut self, register: u8) {
+    pub(super) fn zero(&mut self, register: u8) {
         // The upper part of the register becomes 0, too.
         self.assembler.vector(&VectorInstruction {
             op: &vector_op::XOR,
@@ -343,9 +376,9 @@ impl Emitter<'_> {
             self.assembler.mov(Width::Dword, shifted, bits);
             self.assembler.shr(shifted, by);
             if needs_all {
-                self.assembler.and(bits, shifted);
+                self.assembler.arithmetic(Arithmetic::And, bits, shifted);
             } else {
-                self.assembler.or(bits, shifted);
+                self.assembler.arithmetic(Arithmetic::Or, bits, shifted);
             }
         }
         // The lowest bit of each quad, then four copies of it.
@@ -358,14 +391,16 @@ impl Emitter<'_> {
         );
     }
 
-    fn load_scalar(&mut self, buffer: u32, found: &[Allocation]) {
+    fn load_scalar(&mut self, (buffer, shift): (u32, u8), found: &[Allocation]) {
         let [index, address, outside] = [2, 3, 4].map(|at| gpr(found[at]));
         let buffer = displacement(self.frame.buffer(buffer));
         // Outside of the buffer the word is read from a 0 in the frame.
         self.assembler
             .lea(outside, in_frame(displacement(self.frame.zero())));
         self.simple_lowest(index, found[1]);
-        self.assembler.shr(index, 2);
+        if shift > 0 {
+            self.assembler.shr(index, shift);
+        }
         self.assembler.load(Width::Qword, address, in_frame(buffer));
         self.assembler.lea_element(address, address, index);
         let words = in_frame(buffer + displacement(frame::BUFFER_WORDS));

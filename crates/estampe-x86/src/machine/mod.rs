@@ -4,15 +4,24 @@
 //! |---|---|
 //! | [`mod@allocate`] | shows a function to regalloc2 and runs it |
 //! | [`emit`] | encodes instructions with the registers that were found |
+//! | [`lane_loop`] | encodes loops over the lanes of a packet |
+//! | [`strided`] | encodes loads of words with a stride |
+//! | [`quadruple`] | encodes loads of four words beside each other |
 //! | [`passes`] | encodes the loop over packets around them |
 
 pub(crate) mod allocate;
 pub(crate) mod emit;
+pub(crate) mod lane_loop;
 pub(crate) mod passes;
+pub(crate) mod quadruple;
+pub(crate) mod strided;
 
 use crate::Isa;
 use crate::encoder::VectorOp;
+use lane_loop::LaneLoop;
+use quadruple::Quadruple;
 use regalloc2::{InstRange, Operand, PRegSet, RegClass, VReg};
+use strided::Strided;
 
 /// The class of general-purpose registers.
 pub(crate) const GPR: RegClass = RegClass::Int;
@@ -91,11 +100,22 @@ pub(crate) enum Instruction {
     /// The signs of a vector's lanes as bits of a byte in memory: `[vector, pointer, temporary]`;
     /// without a pointer in the frame.
     StoreSigns { offset: i32, has_pointer: bool },
-    /// A word of a buffer in all lanes, by the offset in the lowest lane: `[def, use, temporary,
-    /// temporary, temporary]`.
-    LoadScalar { buffer: u32 },
+    /// A word of a buffer in all lanes, by its number in the lowest lane, which is shifted to the
+    /// left: `[def, use, temporary, temporary, temporary]`.
+    LoadScalar { buffer: u32, shift: u8 },
+    /// Words of a buffer whose numbers have a stride: `[def, numbers, pointer, temporary,
+    /// temporary, temporary mask]`, and with a stride over 1 a temporary vector.
+    LoadStrided(Strided),
+    /// Four words of a buffer beside each other: `[def, def, def, def, numbers, pointer, temporary,
+    /// temporary, temporary mask, temporary vector, temporary vector]`.
+    LoadQuadruple(Quadruple),
     /// Calls the function that serves what code does not do itself.
     Call(u32),
+    /// Changes words of memory, lane after lane: `[pointer, temporary, temporary, temporary,
+    /// temporary, temporary]`.
+    EachLane(LaneLoop),
+    /// Waits until all packets of the work-group are here.
+    Barrier,
     /// Goes to the only successor. Jumps backwards use the budget.
     Jump { is_back: bool },
     /// Goes to the first successor if a lane is set, else to the second: `[mask]`, with masks in

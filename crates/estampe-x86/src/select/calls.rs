@@ -5,10 +5,10 @@
 
 use super::Selector;
 use super::operands::Source;
+use crate::CompileError;
 use crate::encoder::vector_op;
 use crate::frame::{MASK_ARGUMENT, MASK_RESULT, PACKET, displacement};
 use crate::machine::{Instruction, Memory, MemoryBase};
-use crate::{CompileError, Isa};
 use estampe_ir::lanes::Kernel;
 use estampe_ir::op::{Atomic, Binary, Memory as Shared, TextureOp, Unary};
 use estampe_ir::{Op, Type, Value};
@@ -32,8 +32,8 @@ pub(crate) enum Kind {
     Unary(Unary),
     Binary(Binary),
     /// Offset and word.
-    StoreBuffer {
-        buffer: u32,
+    Store {
+        memory: Shared,
     },
     /// Index and word.
     StoreLocal {
@@ -42,46 +42,16 @@ pub(crate) enum Kind {
     /// Offset and operand; a word.
     Atomic {
         kind: Atomic,
-        buffer: u32,
+        memory: Shared,
     },
     /// Offset, expected word and new word; a word and a mask.
     CompareExchange {
-        buffer: u32,
+        memory: Shared,
     },
     Texture(Box<TextureOp>),
 }
 
 impl Served {
-    /// True for operations that calls do on all instruction sets.
-    pub(super) fn is_call(op: &Op) -> bool {
-        match op {
-            Op::Unary(kind, _) => !matches!(
-                kind,
-                Unary::FNeg
-                    | Unary::FAbs
-                    | Unary::FSqrt
-                    | Unary::FFloor
-                    | Unary::FCeil
-                    | Unary::FTrunc
-                    | Unary::FRound
-                    | Unary::Canonical
-                    | Unary::S32FromF32
-                    | Unary::U32FromF32
-                    | Unary::F32FromS32
-                    | Unary::F32FromU32
-                    | Unary::Not
-                    | Unary::CountOnes
-                    | Unary::LeadingZeros
-                    | Unary::TrailingZeros
-            ),
-            Op::Binary(kind, _) => matches!(
-                kind,
-                Binary::SDiv | Binary::SRem | Binary::UDiv | Binary::URem
-            ),
-            _ => Self::new(op).is_some(),
-        }
-    }
-
     fn new(op: &Op) -> Option<Self> {
         let results = op.results().iter();
         Some(Self {
@@ -98,20 +68,18 @@ impl Kind {
         Some(match op {
             Op::Unary(kind, _) => Self::Unary(*kind),
             Op::Binary(kind, _) => Self::Binary(*kind),
-            Op::StoreBuffer { buffer, .. } => Self::StoreBuffer { buffer: *buffer },
-            Op::StoreLocal { array, .. } => Self::StoreLocal { array: *array },
-            Op::Atomic {
-                kind,
-                memory: Shared::Buffer(buffer),
-                ..
-            } => Self::Atomic {
-                kind: *kind,
-                buffer: *buffer,
+            Op::StoreBuffer { buffer, .. } => Self::Store {
+                memory: Shared::Buffer(*buffer),
             },
-            Op::CompareExchange {
-                memory: Shared::Buffer(buffer),
-                ..
-            } => Self::CompareExchange { buffer: *buffer },
+            Op::StoreWorkgroup { .. } => Self::Store {
+                memory: Shared::Workgroup,
+            },
+            Op::StoreLocal { array, .. } => Self::StoreLocal { array: *array },
+            Op::Atomic { kind, memory, .. } => Self::Atomic {
+                kind: *kind,
+                memory: *memory,
+            },
+            Op::CompareExchange { memory, .. } => Self::CompareExchange { memory: *memory },
             Op::Texture(op) => Self::Texture(op.clone()),
             _ => return None,
         })
@@ -136,12 +104,7 @@ pub(super) fn most_packets(kernel: &Kernel) -> u32 {
 impl Selector<'_> {
     /// An operation that a call does.
     pub(super) fn call(&mut self, op: &Op, first: Value) -> Result<(), CompileError> {
-        if self.isa == Isa::Avx512 && self.halves > 1 {
-            // A call serves one packet: `can_pair` and this module differ.
-            debug_assert!(false, "no kernel with calls runs two packets");
-            return Err(CompileError::TooLarge);
-        }
-        let mut served = Served::new(op).ok_or(CompileError::Workgroup)?;
+        let mut served = Served::new(op).ok_or(CompileError::Unknown)?;
         for (bit, value) in first.and_next(served.results).iter().enumerate() {
             let is_uniform = self.kernel.values[value.index()].is_uniform;
             served.uniform |= u8::from(is_uniform) << bit;
@@ -153,40 +116,47 @@ impl Selector<'_> {
         let places: Vec<i32> = (0..served.operands + served.results).map(place).collect();
         let (operands, results) = places.split_at(served.operands);
         let mask = op.clone().mask_mut().copied();
-        for half in 0..self.halves {
-            let offset = self.half_words(half);
-            for (value, to) in words(op).into_iter().zip(operands) {
-                let word = self.word_register(value, half);
-                self.store_words((MemoryBase::Frame, to + offset), None, word);
-            }
-            if let Some(mask) = mask {
-                let mask = self.mask(mask, half);
-                self.store_mask((MASK_ARGUMENT, half), None, mask);
-            }
-        }
         let at = u32::try_from(self.served.len()).map_err(|_| CompileError::TooLarge)?;
         self.served.push(served);
-        self.function.push(Instruction::Call(at), &[]);
-        self.buffer_pointers.fill(None);
-        for half in 0..self.halves {
-            let offset = self.half_words(half);
-            let types = op.results();
-            for (kind, value) in types.iter().zip(first.and_next(types.len())) {
-                let register = match kind {
-                    Type::Word => {
-                        let packet = (value.0 - first.0) as usize;
-                        let memory = Memory {
-                            base: MemoryBase::Frame,
-                            offset: results[packet] + offset,
-                            is_broadcast: false,
-                        };
-                        self.one(&vector_op::LOAD, Source::Memory(memory, None))
-                    }
-                    Type::Mask => self.load_mask(MemoryBase::Frame, (MASK_RESULT, half), None),
-                };
-                self.define(value, half, register);
+        for halves in self.packets_of_pass() {
+            for half in halves.clone() {
+                let offset = self.half_words(half);
+                for (value, to) in words(op).into_iter().zip(operands) {
+                    let word = self.word_register(value, half);
+                    self.store_words((MemoryBase::Frame, to + offset), None, word);
+                }
+                if let Some(mask) = mask {
+                    let mask = self.mask(mask, half);
+                    self.store_mask((MASK_ARGUMENT, half), None, mask);
+                }
+            }
+            self.function.push(Instruction::Call(at), &[]);
+            self.buffer_pointers.fill(None);
+            for half in halves {
+                self.results(op, (first, half), results);
             }
         }
         Ok(())
+    }
+
+    /// Loads the results of a call, of which words lie at these places.
+    fn results(&mut self, op: &Op, (first, half): (Value, usize), places: &[i32]) {
+        let offset = self.half_words(half);
+        let types = op.results();
+        for (kind, value) in types.iter().zip(first.and_next(types.len())) {
+            let register = match kind {
+                Type::Word => {
+                    let packet = (value.0 - first.0) as usize;
+                    let memory = Memory {
+                        base: MemoryBase::Frame,
+                        offset: places[packet] + offset,
+                        is_broadcast: false,
+                    };
+                    self.one(&vector_op::LOAD, Source::Memory(memory, None))
+                }
+                Type::Mask => self.load_mask(MemoryBase::Frame, (MASK_RESULT, half), None),
+            };
+            self.define(value, half, register);
+        }
     }
 }

@@ -32,15 +32,23 @@ impl Selector<'_> {
                 continue;
             }
             for (op, first) in &of_kernel.ops {
-                if op.results().len() != 1 || matches!(op, Op::Input(_) | Op::InputMask(_)) {
+                if matches!(op, Op::Input(_) | Op::InputMask(_)) {
                     continue;
                 }
-                let Place::Table(slot) = self.places[first.index()] else {
-                    continue;
+                let results = first.and_next(op.results().len());
+                let place = |value: &Value| match self.places[value.index()] {
+                    Place::Table(slot) => Some((*value, slot)),
+                    _ => None,
                 };
+                let slots: Vec<(Value, u32)> = results.iter().filter_map(place).collect();
+                if slots.is_empty() {
+                    continue;
+                }
                 is_empty = false;
                 self.operation(op, *first)?;
-                self.keep(*first, slot);
+                for (value, slot) in slots {
+                    self.keep(value, slot);
+                }
             }
         }
         self.function.push(Instruction::Return, &[]);
@@ -79,6 +87,7 @@ impl Selector<'_> {
             match *part {
                 Part::Block(at) => {
                     let of_kernel = &kernel.blocks[at];
+                    self.find_groups(at);
                     for &index in &schedules[at] {
                         let (op, first) = &of_kernel.ops[index];
                         self.operation(op, *first)?;

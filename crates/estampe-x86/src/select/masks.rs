@@ -127,6 +127,13 @@ impl Selector<'_> {
         }
     }
 
+    pub(super) fn mask_and(&mut self, a: VReg, b: VReg) -> VReg {
+        match self.isa {
+            Isa::Avx2 => self.two(&vector_op::AND, a, Source::Register(b)),
+            Isa::Avx512 => self.on_masks(&vector_op::MASK_AND, Some(a), b),
+        }
+    }
+
     /// Quads of which a lane, or every lane, is set.
     pub(super) fn quads(&mut self, mask: VReg, needs_all: bool) -> VReg {
         match self.isa {

@@ -2,9 +2,11 @@
 
 use super::Selector;
 use super::operands::{Operands, Source};
+use super::strides::Stride;
 use crate::Isa;
 use crate::encoder::vector_op;
-use crate::frame::{BUFFER_STORED_WORDS, BUFFER_WORDS, PACKET, displacement};
+use crate::frame::{BUFFER_WORDS, PACKET, displacement};
+use crate::machine::strided::Strided;
 use crate::machine::{GPR, Instruction, MASK, Memory, MemoryBase, Role, VECTOR};
 use estampe_ir::{Type, Value};
 use regalloc2::{Operand, VReg};
@@ -154,7 +156,7 @@ impl Selector<'_> {
     }
 
     /// Words at indices of four-byte elements, in the lanes of a mask; 0 in others.
-    fn gather(&mut self, base: VReg, index: VReg, mask: VReg) -> VReg {
+    pub(super) fn gather(&mut self, base: VReg, index: VReg, mask: VReg) -> VReg {
         let result = self.function.register(VECTOR);
         let zero = self.zero();
         // The instruction clears the mask, and no two of its registers may be the same.
@@ -182,35 +184,120 @@ impl Selector<'_> {
 
     /// A word of a buffer.
     pub(super) fn load_buffer(&mut self, buffer: u32, offset: Value, half: usize) -> VReg {
-        if self.plan.is_splat(offset) {
-            let offset = self.word_register(offset, half);
-            let result = self.function.register(VECTOR);
-            let operands = [
-                Operand::reg_def(result),
-                Operand::reg_use(offset),
-                self.temporary(GPR),
-                self.temporary(GPR),
-                self.temporary(GPR),
-            ];
-            self.function
-                .push(Instruction::LoadScalar { buffer }, &operands);
-            return result;
+        let stride = self.strides.of(offset);
+        if stride.is_some_and(Stride::is_none) {
+            return self.load_scalar((buffer, 2), offset, half);
         }
+        // Offsets of words that are a multiple of four bytes apart.
+        let stride = stride.filter(|stride| stride.words.is_multiple_of(4));
+        let stride = stride.map(|stride| Stride {
+            words: stride.words / 4,
+            ..stride
+        });
+        let index = self.number_of_word(offset, half);
+        self.load_words(buffer, index, stride)
+    }
+
+    /// The numbers of words at byte offsets.
+    pub(super) fn number_of_word(&mut self, offset: Value, half: usize) -> VReg {
         let offset = self.word_register(offset, half);
-        let index = self.shift_by(&vector_op::SHR_U_BY, offset, 2);
+        self.shift_by(&vector_op::SHR_U_BY, offset, 2)
+    }
+
+    /// A word of the memory of the work-group.
+    pub(super) fn load_workgroup(&mut self, index: Value, half: usize) -> VReg {
+        let memory = self.frame.workgroup;
+        let stride = self.strides.of(index);
+        if stride.is_some_and(Stride::is_none) {
+            return self.load_scalar((memory, 0), index, half);
+        }
+        let index = self.workgroup_index(index, half);
+        self.load_words(memory, index, stride)
+    }
+
+    /// The words with these numbers, which have a stride.
+    fn load_strided(&mut self, (buffer, of): (u32, Stride), index: VReg) -> VReg {
+        let stride = of.words;
+        let steps = (!of.is_certain).then(|| {
+            let steps = (0..16).map(|lane| lane * stride).collect::<Vec<_>>();
+            self.assembler.pool_lanes(&steps)
+        });
+        let orders = (1..stride).map(|at| Strided::order(stride, at));
+        let orders = orders.collect::<Vec<_>>().concat();
+        let orders = self.assembler.pool_lanes(&orders);
+        let base = self.buffer_pointer(buffer);
+        let result = self.function.register(VECTOR);
+        let mut operands = vec![
+            Operand::reg_def_at_start(result),
+            Operand::reg_use_at_end(index),
+            Operand::reg_use_at_end(base),
+            self.temporary(GPR),
+            self.temporary(GPR),
+            self.temporary(self.mask_class()),
+        ];
+        if stride > 1 || steps.is_some() {
+            operands.push(self.temporary(VECTOR));
+        }
+        let load = Strided {
+            buffer,
+            stride,
+            orders,
+            steps,
+        };
+        self.function
+            .push(Instruction::LoadStrided(load), &operands);
+        result
+    }
+
+    /// The numbers of words of the memory of the work-group, less than 2³⁰.
+    pub(super) fn workgroup_index(&mut self, index: Value, half: usize) -> VReg {
+        let index = self.word_register(index, half);
+        match self.isa {
+            // Larger ones are outside as well.
+            Isa::Avx2 => {
+                let largest = self.constant((1 << 30) - 1);
+                self.two(&vector_op::MIN_U, index, largest)
+            }
+            Isa::Avx512 => index,
+        }
+    }
+
+    /// The word at a place that is the same in all lanes: its number, times a power of two.
+    fn load_scalar(&mut self, (buffer, shift): (u32, u8), offset: Value, half: usize) -> VReg {
+        let offset = self.word_register(offset, half);
+        let result = self.function.register(VECTOR);
+        let operands = [
+            Operand::reg_def(result),
+            Operand::reg_use(offset),
+            self.temporary(GPR),
+            self.temporary(GPR),
+            self.temporary(GPR),
+        ];
+        let instruction = Instruction::LoadScalar { buffer, shift };
+        self.function.push(instruction, &operands);
+        result
+    }
+
+    /// The words with these numbers, which may have a stride; 0 outside.
+    fn load_words(&mut self, buffer: u32, index: VReg, stride: Option<Stride>) -> VReg {
+        if let Some(stride) = stride
+            && (1..=Strided::most(self.isa)).contains(&stride.words)
+        {
+            return self.load_strided((buffer, stride), index);
+        }
         let is_inside = self.is_inside(index, self.frame.buffer(buffer) + BUFFER_WORDS);
         let base = self.buffer_pointer(buffer);
         self.gather(base, index, is_inside)
     }
 
     /// The lanes in which a word's number is less than one in the frame.
-    fn is_inside(&mut self, index: VReg, words: u32) -> VReg {
+    pub(super) fn is_inside(&mut self, index: VReg, words: u32) -> VReg {
         let words = Memory {
             base: MemoryBase::Frame,
             offset: displacement(words),
             is_broadcast: self.isa == Isa::Avx512,
         };
-        // Both numbers are less than 2³⁰, so the comparison may be one of signed integers.
+        // With AVX2 both are less than 2³⁰, so the comparison may be one of signed integers.
         match self.isa {
             Isa::Avx2 => {
                 let words = Source::Memory(words, None);
@@ -224,16 +311,9 @@ impl Selector<'_> {
         }
     }
 
-    /// Stores words to a buffer, with AVX-512. The instruction stores from the lowest lane to the
-    /// highest one, so the last one counts where several have the same offset.
-    pub(super) fn store_buffer(&mut self, buffer: u32, [offset, value]: [Value; 2], mask: Value) {
-        let offset = self.word_register(offset, 0);
-        let index = self.shift_by(&vector_op::SHR_U_BY, offset, 2);
-        let is_inside = self.is_inside(index, self.frame.buffer(buffer) + BUFFER_STORED_WORDS);
-        let mask = self.mask(mask, 0);
-        let mask = self.on_masks(&vector_op::MASK_AND, Some(mask), is_inside);
-        let value = self.word_register(value, 0);
-        let base = self.buffer_pointer(buffer);
+    /// Stores words by their numbers in the lanes of a mask, with AVX-512: to a place in memory, at
+    /// these indices.
+    pub(super) fn scatter_words(&mut self, [base, index]: [VReg; 2], value: VReg, mask: VReg) {
         let cleared = self.function.register(MASK);
         let operands = Operands::new()
             .with(Role::Mask, Operand::reg_reuse_def(cleared, 1))

@@ -6,48 +6,59 @@
 //! |---|---|---|---|
 //! | AVX2 | all | 16: a packet | 2 |
 //! | AVX-512 | all | 16: a packet | 1 |
-//! | AVX-512, optimised | without calls and effects: a second function | 32: two packets | 2 |
+//! | AVX-512, optimised | most: a second function | 32: two packets | 2 |
 //!
 //! Most shaders are one long chain of operations, each of which waits for the one before: the
 //! halves, which are independent, fill the time. Lit fragments, ns each, with one register and with
 //! two: AVX2 13.1 and 9.7, AVX-512 8.8 and 7.05, though they spill more; traced rays, which loop,
 //! at 720p with AVX-512: 122 ms and 87. Branches are taken if a lane of either packet asks for it.
-//! Kernels with calls and effects, which must happen in the order of sixteen lanes, run single
-//! packets; so does the last packet of an odd number.
+//! Calls serve one packet after the other. Kernels with several effects on memory, or arrays, or
+//! barriers, run single packets; so does the last packet of an odd number.
 //!
 //! | module | selects |
 //! |---|---|
 //! | [`expand`] | nothing: replaces functions by operations |
 //! | [`plan`] | nothing: finds what is needed, uniform or hoisted |
+//! | [`quadruples`] | loads of the components of vectors |
+//! | [`strides`] | nothing: finds what grows by the same number from lane to lane |
 //! | [`schedule`] | nothing: orders the operations of a block |
 //! | [`functions`] | blocks, edges, jumps and branches |
 //! | [`operands`] | loads of values that are in memory; the instructions' forms |
 //! | [`words`] | operations on words |
+//! | [`lane_loops`] | stores and atomic operations |
 //! | [`masks`] | comparisons and operations on masks |
+//! | [`division`] | integer division |
 //! | [`memory`] | inputs, outputs, buffers and arrays |
 //! | [`calls`] | calls of what code does not do itself |
 
 pub(crate) mod calls;
+mod division;
 pub(crate) mod expand;
 mod functions;
+mod lane_loops;
 mod masks;
 mod memory;
 mod operands;
 mod plan;
+mod quadruples;
 mod schedule;
+mod strides;
 mod words;
 
 use crate::encoder::Assembler;
 use crate::frame::Frame;
-use crate::machine::{Function, MASK, VECTOR};
+use crate::machine::{Function, Instruction, MASK, VECTOR};
 use crate::{CompileError, Isa, Tier};
 use calls::Served;
-use estampe_ir::interface::Stage;
 use estampe_ir::lanes::Kernel;
-use estampe_ir::op::Memory as Shared;
+use estampe_ir::op::TextureQuery;
 use estampe_ir::{Op, Type, Value};
 use plan::Plan;
+use quadruples::Group;
 use regalloc2::{RegClass, VReg};
+use std::collections::HashMap;
+use std::ops::Range;
+use strides::Strides;
 
 /// What selection makes of a kernel.
 #[derive(Debug)]
@@ -92,6 +103,7 @@ const MAX_FIXED_OFFSET: u32 = 1 << 16;
 struct Selector<'a> {
     kernel: &'a Kernel,
     plan: Plan,
+    strides: Strides,
     isa: Isa,
     /// The registers of a value.
     halves: usize,
@@ -105,6 +117,8 @@ struct Selector<'a> {
     buffer_pointers: Vec<Option<VReg>>,
     /// The place in the pool of each array that is a table, once it is there.
     tables: Vec<Option<u32>>,
+    /// The loads of this block that are done together, by their results; `None` once they are done.
+    groups: HashMap<Value, Option<Group>>,
 }
 
 /// Selects instructions for a kernel.
@@ -114,9 +128,8 @@ pub(crate) fn select(
     assembler: &mut Assembler,
 ) -> Result<Selected, CompileError> {
     let plan = Plan::new(kernel);
-    check(kernel, &plan)?;
     let may_pair = (isa, tier) == (Isa::Avx512, Tier::Optimised);
-    let has_pair = may_pair && can_pair(kernel, &plan);
+    let has_pair = may_pair && !kernel.runs_workgroups() && can_pair(kernel, &plan);
     let packets_of_pass = if has_pair { 2 } else { 1 };
     let (places, table_inputs, slots) = hoisted_places(kernel, &plan);
     let slot_bytes = match isa {
@@ -126,15 +139,17 @@ pub(crate) fn select(
     let packets = calls::most_packets(kernel);
     let is_stored = |array: u32| plan.is_array_stored(array);
     let frame = Frame::new(
-        &kernel.interface,
+        kernel,
         is_stored,
         (slots, slot_bytes),
         (packets, packets_of_pass),
     )
     .ok_or(CompileError::TooLarge)?;
+    let strides = Strides::new(kernel, &plan);
     let mut selector = Selector {
         kernel,
         plan,
+        strides,
         isa,
         halves: 1,
         assembler,
@@ -143,8 +158,10 @@ pub(crate) fn select(
         places,
         served: Vec::new(),
         fixed_words: vec![0; kernel.interface.buffers.len()],
-        buffer_pointers: vec![None; kernel.interface.buffers.len()],
+        // The memory of a work-group comes after the buffers.
+        buffer_pointers: vec![None; kernel.interface.buffers.len() + 1],
         tables: vec![None; kernel.interface.locals.len()],
+        groups: HashMap::new(),
     };
     let prepare = selector.prepare()?;
     selector.halves = estampe_simd::LANES / isa.lanes();
@@ -166,52 +183,60 @@ pub(crate) fn select(
     })
 }
 
-/// Refuses kernels with operations that are not selected.
-fn check(kernel: &Kernel, plan: &Plan) -> Result<(), CompileError> {
-    for (at, block) in kernel.blocks.iter().enumerate() {
-        for (op, _) in block.ops.iter().filter(|_| plan.is_reached[at]) {
-            let workgroup = Shared::Workgroup;
-            match op {
-                Op::Barrier | Op::LoadWorkgroup(_) | Op::StoreWorkgroup { .. } => {
-                    return Err(CompileError::Workgroup);
-                }
-                Op::Atomic { memory, .. } | Op::CompareExchange { memory, .. }
-                    if *memory == workgroup =>
-                {
-                    return Err(CompileError::Workgroup);
-                }
-                _ => {}
-            }
-        }
-    }
-    Ok(())
-}
-
 /// Operations up to which there is a function that runs two packets.
 const MAX_PAIRED: usize = 2048;
 
-/// True if two packets can run together: no operation is a call or has an effect, and what is
-/// uniform in a packet is so in all packets of a run, so that they take uniform branches together.
+/// True if two packets can run together: what is uniform in a packet is so in all packets of a run,
+/// so that they take uniform branches together, and what they do to memory has the order that it
+/// has if one ends before the other begins.
 fn can_pair(kernel: &Kernel, plan: &Plan) -> bool {
-    let is_free = |(op, first): &(Op, Value)| {
-        let is_call = Served::is_call(op) || matches!(op, Op::Any(_));
-        let is_hoisted = op.results().len() == 1 && plan.is_hoisted(*first);
-        !op.has_effect() && (!is_call || is_hoisted || !plan.is_needed(op, *first))
+    let is_written = |at: u32| {
+        let buffer = kernel.interface.buffers.get(at as usize);
+        buffer.is_none_or(|buffer| buffer.is_written)
     };
-    let blocks = kernel.blocks.iter().enumerate();
-    let ops = || {
-        let reached = blocks.clone().filter(|(at, _)| plan.is_reached[*at]);
-        reached.flat_map(|(_, block)| &block.ops)
-    };
-    let is_straight = plan
-        .is_reached
-        .iter()
-        .filter(|is_reached| **is_reached)
-        .count()
-        == 1;
-    (is_straight || kernel.stage != Stage::Compute)
-        && ops().count() <= MAX_PAIRED
-        && ops().all(is_free)
+    let (mut ops, mut effects, mut stored, mut loaded) = (0, 0, None, Vec::new());
+    for (at, block) in kernel.blocks.iter().enumerate() {
+        for (op, first) in block.ops.iter().filter(|_| plan.is_reached[at]) {
+            ops += 1;
+            let is_ordered = match op {
+                // A lane of the other packet may be set.
+                Op::Any(_) => true,
+                // Arrays are those of one packet.
+                Op::StoreLocal { .. } => true,
+                Op::LoadLocal { array, .. } => plan.is_array_stored(*array),
+                Op::LoadBuffer { buffer, .. } => is_written(*buffer),
+                _ => op.has_effect() && is_in_loop(kernel, at),
+            };
+            if is_ordered {
+                return false;
+            }
+            effects += usize::from(op.has_effect());
+            if let Op::Texture(op) = op {
+                let count = op.query.results() as usize;
+                let mut results = first.and_next(count).into_iter();
+                // The packet whose lanes do not run has other words.
+                if results.any(|value| kernel.values[value.index()].is_uniform)
+                    && !plan.is_hoisted(*first)
+                {
+                    return false;
+                }
+                match op.query {
+                    TextureQuery::Store => stored = Some(op.texture),
+                    TextureQuery::Load => loaded.push(op.texture),
+                    _ => {}
+                }
+            }
+        }
+    }
+    let is_loaded = stored.is_some_and(|stored| loaded.contains(&stored));
+    ops <= MAX_PAIRED && effects <= 1 && !is_loaded
+}
+
+/// True if a block can be reached from itself: a jump back goes around it.
+fn is_in_loop(kernel: &Kernel, at: usize) -> bool {
+    let later = kernel.blocks.iter().skip(at);
+    let mut jumps = later.flat_map(|block| block.terminator.jumps());
+    jumps.any(|jump| jump.to.index() <= at)
 }
 
 /// Places of hoisted values, the inputs among them, and the number of slots.
@@ -220,29 +245,32 @@ fn hoisted_places(kernel: &Kernel, plan: &Plan) -> (Vec<Place>, Vec<(usize, u32)
     let mut inputs = Vec::new();
     let mut slots = 0;
     for (op, first) in kernel.blocks.iter().flat_map(|block| &block.ops) {
-        if !plan.is_needed(op, *first) || op.results().len() != 1 || !plan.is_hoisted(*first) {
+        let results = op.results().len();
+        if !plan.is_needed(op, *first) || results == 0 || !plan.is_hoisted(*first) {
             continue;
         }
         let place = match op {
-            Op::Constant(word) => Place::Constant(*word),
-            Op::MaskConstant(mask) => Place::MaskConstant(*mask),
-            Op::BufferBytes(buffer) => Place::Buffer {
+            Op::Constant(word) => Some(Place::Constant(*word)),
+            Op::MaskConstant(mask) => Some(Place::MaskConstant(*mask)),
+            Op::BufferBytes(buffer) => Some(Place::Buffer {
                 buffer: *buffer,
                 offset: u32::MAX,
-            },
-            Op::LoadBuffer { buffer, offset } if is_fixed(plan, *offset) => Place::Buffer {
+            }),
+            Op::LoadBuffer { buffer, offset } if is_fixed(plan, *offset) => Some(Place::Buffer {
                 buffer: *buffer,
                 offset: plan.constant(*offset).unwrap_or(0) & !3,
-            },
-            _ => {
-                slots += 1;
-                if let Op::Input(at) | Op::InputMask(at) = op {
-                    inputs.push((*at as usize, slots - 1));
-                }
-                Place::Table(slots - 1)
-            }
+            }),
+            _ => None,
         };
-        places[first.index()] = place;
+        for value in first.and_next(results) {
+            places[value.index()] = place.unwrap_or_else(|| {
+                slots += 1;
+                Place::Table(slots - 1)
+            });
+        }
+        if let Op::Input(at) | Op::InputMask(at) = op {
+            inputs.push((*at as usize, slots - 1));
+        }
     }
     (places, inputs, slots)
 }
@@ -288,18 +316,26 @@ impl Selector<'_> {
         self.places[value.index()] = Place::Registers(registers);
     }
 
+    /// The halves of each packet of a pass.
+    fn packets_of_pass(&self) -> Vec<Range<usize>> {
+        let of_packet = match self.isa {
+            Isa::Avx2 => self.halves,
+            Isa::Avx512 => 1,
+        };
+        let firsts = (0..self.halves).step_by(of_packet);
+        firsts.map(|first| first..first + of_packet).collect()
+    }
+
     fn operation(&mut self, op: &Op, first: Value) -> Result<(), CompileError> {
-        if let (
-            Isa::Avx512,
-            Op::StoreBuffer {
-                buffer,
-                offset,
-                value,
-                mask,
-            },
-        ) = (self.isa, op)
-        {
-            self.store_buffer(*buffer, [*offset, *value], *mask);
+        if self.effect_on_memory(op, first) {
+            return Ok(());
+        }
+        if matches!(op, Op::LoadBuffer { .. } | Op::LoadWorkgroup(_)) && self.group(first) {
+            return Ok(());
+        }
+        if matches!(op, Op::Barrier) {
+            self.function.push(Instruction::Barrier, &[]);
+            self.buffer_pointers.fill(None);
             return Ok(());
         }
         for half in 0..self.halves {
@@ -326,6 +362,7 @@ impl Selector<'_> {
                 Op::Input(at) | Op::InputMask(at) => Some(self.input(*at, half)),
                 Op::LoadLocal { array, index } => Some(self.load_local(*array, *index, half)),
                 Op::LoadBuffer { buffer, offset } => Some(self.load_buffer(*buffer, *offset, half)),
+                Op::LoadWorkgroup(index) => Some(self.load_workgroup(*index, half)),
                 _ => None,
             };
             let Some(register) = register else {

@@ -168,8 +168,10 @@ impl Plan {
                     covers[first.index()] = input == Some(&Input::Cover);
                 }
                 op.each_operand(|value, _| is_hoisted &= self.is_hoisted[value.index()]);
+                for value in first.and_next(op.results().len()) {
+                    self.is_hoisted[value.index()] = is_hoisted;
+                }
                 if op.results().len() == 1 {
-                    self.is_hoisted[first.index()] = is_hoisted;
                     self.constants[first.index()] = match op {
                         Op::Constant(word) => Some(*word),
                         _ => None,
@@ -194,7 +196,7 @@ impl Plan {
                 let is_splat = match op {
                     Op::Input(_) | Op::InputMask(_) => self.is_hoisted[first.index()],
                     Op::Any(_) => continue,
-                    Op::LoadBuffer { .. } => true,
+                    Op::LoadBuffer { .. } | Op::LoadWorkgroup(_) => true,
                     _ => op.is_pure(|_| true),
                 };
                 for result in first.and_next(op.results().len()) {

@@ -88,7 +88,7 @@ impl<'a> Scheduler<'a> {
         let ops = &self.kernel.blocks[at].ops;
         let is_done_here = |index: &usize| {
             let (op, first) = &ops[*index];
-            let is_hoisted = op.results().len() == 1 && self.plan.is_hoisted(*first);
+            let is_hoisted = !op.results().is_empty() && self.plan.is_hoisted(*first);
             !is_hoisted && self.plan.is_needed(op, *first)
         };
         (0..ops.len()).filter(is_done_here).collect()
@@ -132,7 +132,7 @@ fn latency(op: &Op) -> u32 {
         | Op::Fma(_) => 4,
         Op::Compare(..) => 4,
         Op::Input(_) | Op::InputMask(_) | Op::Derivative { .. } => 7,
-        Op::LoadBuffer { .. } | Op::LoadLocal { .. } => 20,
+        Op::LoadBuffer { .. } | Op::LoadWorkgroup(_) | Op::LoadLocal { .. } => 20,
         _ => 2,
     }
 }

@@ -179,7 +179,9 @@ impl Selector<'_> {
             }
             Binary::UMulHigh => return Some(self.high(&vector_op::MUL_U64, pair, half)),
             Binary::SMulHigh => return Some(self.high(&vector_op::MUL_S64, pair, half)),
-            Binary::SDiv | Binary::SRem | Binary::UDiv | Binary::URem => return None,
+            Binary::SDiv | Binary::SRem | Binary::UDiv | Binary::URem => {
+                return self.divide(kind, pair, half);
+            }
         };
         // The operand in memory comes second.
         let is_in_memory =

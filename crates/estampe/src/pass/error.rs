@@ -5,7 +5,7 @@ use estampe_core::RenderPassError as DrawError;
 use estampe_types::TextureFormat;
 
 /// The reason why a pass was refused. Nothing has been drawn or cleared, unless it was
-/// [cancelled](crate::DrawError::Cancelled).
+/// [cancelled](crate::DrawError::Cancelled) or a [shader was stopped](PassErrorKind::Stopped).
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{}: {kind}", name(pass.as_deref()))]
 pub struct RenderPassError {
@@ -176,6 +176,17 @@ pub enum PassErrorKind {
         pipeline: Vec<Option<TextureFormat>>,
         /// The formats of the pass's attachments.
         attachments: Vec<Option<TextureFormat>>,
+    },
+    /// A shader was stopped, and the rest of the pass with it: what it drew is undefined.
+    #[error(
+        "draw {draw}: a shader of its pipeline executed more jumps than the limit max_shader_jumps, {limit}: \
+         does a loop never end? Draw less at once, or raise the limit"
+    )]
+    Stopped {
+        /// The first draw with the pipeline.
+        draw: usize,
+        /// The limit.
+        limit: u64,
     },
     /// A draw that does not fit the attachments.
     #[error(transparent)]

@@ -12,6 +12,7 @@ use crate::buffer::StoredBuffers;
 use crate::texture::{StoredTextures, Texture, check_texture_conflicts};
 use crate::{Context, Device, Limits, LoadOp, Statistics};
 use estampe_core::{PassControl, RenderTarget};
+use estampe_types::shader::StoppedBatches;
 use std::sync::Arc;
 
 /// Draws a pass.
@@ -126,7 +127,14 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     let layers = attachments.iter().zip(taken);
     let (mut targets, depths_newest): (Vec<_>, Vec<_>) =
         layers.map(|(layer, taken)| layer.target(taken)).unzip();
+    let stops = stops(pass);
     let drawn = draw(device, &mut targets, pass, core_pass);
+    let mut stopped = None;
+    for stops in stops.iter().rev() {
+        if stops.end_pass() {
+            stopped = Some(stops.draw);
+        }
+    }
     let mut finished = Ok(());
     for (layer, (target, newest)) in attachments
         .iter()
@@ -142,8 +150,52 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     stores.finish();
     drop(buffers);
     drop(reserved);
-    // The pass was checked, but it may have been cancelled.
-    Ok(drawn?)
+    // The pass was checked, but it may have been cancelled, or a shader stopped.
+    let drawn = drawn?;
+    match stopped {
+        Some(draw) => Err(PassErrorKind::Stopped {
+            draw,
+            limit: limits.max_shader_jumps,
+        }),
+        None => Ok(drawn),
+    }
+}
+
+/// The programs of a draw that may be stopped.
+struct Stops<'a> {
+    draw: usize,
+    programs: Vec<(&'a StoppedBatches, u64)>,
+}
+
+impl Stops<'_> {
+    /// Lets the programs run again; true if one was stopped in the pass.
+    fn end_pass(&self) -> bool {
+        let stopped = self.programs.iter().filter(|(stopped, before)| {
+            stopped.end_pass();
+            stopped.count() != *before
+        });
+        stopped.count() > 0
+    }
+}
+
+/// The first draw of each pipeline in a row.
+fn stops<'a>(pass: &RenderPass<'a>) -> Vec<Stops<'a>> {
+    let draws = pass.draws.iter().enumerate();
+    let firsts = draws.filter(|(draw, of)| {
+        let before = draw
+            .checked_sub(1)
+            .map(|before| pass.draws[before].pipeline);
+        before.is_none_or(|before| !std::ptr::eq(before, of.pipeline))
+    });
+    let stops = firsts.map(|(draw, of)| Stops {
+        draw,
+        programs: of
+            .pipeline
+            .stopped_batches()
+            .map(|one| (one, one.count()))
+            .collect(),
+    });
+    stops.filter(|stops| !stops.programs.is_empty()).collect()
 }
 
 /// Lets `use_data` read the attachments of each layer and the plain data of a pass's draws as they

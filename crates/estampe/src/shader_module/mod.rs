@@ -60,6 +60,10 @@ pub struct ShaderModuleDescriptor<'a> {
     pub clip_space: Option<ClipSpace>,
     /// The dialect of GLSL. Default what the text looks like.
     pub dialect: Option<GlslDialect>,
+    /// If set, each operation on floats is rounded. Otherwise a product that is added or subtracted
+    /// is rounded together with the sum, once (*contraction*): faster, mostly more exact, and the
+    /// same on all machines, but not the bits of the strict shader. Default true.
+    pub strict_math: bool,
 }
 
 impl<'a> ShaderModuleDescriptor<'a> {
@@ -72,6 +76,7 @@ impl<'a> ShaderModuleDescriptor<'a> {
             defines: &[],
             clip_space: None,
             dialect: None,
+            strict_math: true,
         }
     }
 }
@@ -108,6 +113,7 @@ impl<'a> ShaderModuleDescriptor<'a> {
 pub struct ShaderModule {
     /// One module, or those of the stages of a program.
     modules: Arc<[Module]>,
+    strict_math: bool,
 }
 
 impl ShaderModule {
@@ -147,6 +153,7 @@ impl ShaderModule {
         };
         Ok(Self {
             modules: modules?.into(),
+            strict_math: descriptor.strict_math,
         })
     }
 

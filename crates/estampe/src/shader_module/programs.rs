@@ -92,12 +92,15 @@ impl EntryPointDescriptor<'_> {
             |entry: &estampe_shader::front::EntryPoint| entry.stage == stage && entry.name == name;
         let number = special.entry_points.iter().position(of_stage);
         // An entry point that is not there is refused by `lower`.
-        lower(&special.module, &special.info, number.unwrap_or(usize::MAX)).map_err(|error| {
-            ShaderModuleError::Lower {
-                name: name.to_owned(),
-                error,
-            }
-        })
+        let lowered = lower(&special.module, &special.info, number.unwrap_or(usize::MAX));
+        let mut source = lowered.map_err(|error| ShaderModuleError::Lower {
+            name: name.to_owned(),
+            error,
+        })?;
+        if !self.module.strict_math {
+            source.contract();
+        }
+        Ok(source)
     }
 
     fn find(&self, stage: ShaderStage) -> Result<(&Module, &str), ShaderModuleError> {

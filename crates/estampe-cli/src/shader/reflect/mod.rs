@@ -48,7 +48,7 @@ pub(crate) struct ReflectArgs {
 /// Runs the command.
 pub(crate) fn run(args: &ReflectArgs) -> Result<(), Failure> {
     let stage = args.stage.map(ShaderStage::from);
-    let file = ShaderFile::read(&args.file, stage, &args.source)?;
+    let file = ShaderFile::read(&args.file, stage, &args.source)?.with_main();
     // Nothing is drawn.
     let device = Device::new(&DeviceDescriptor {
         threads: 1,

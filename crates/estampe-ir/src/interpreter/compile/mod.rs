@@ -22,7 +22,7 @@ use crate::op::TextureQuery;
 use crate::{Op, Type};
 use emit::Emitter;
 
-/// The most packets of a chunk, but for work-groups.
+/// The most packets of a chunk.
 pub const MAX_CHUNK: usize = 16;
 
 /// The bytes of registers that stay in the first cache, with room for what they are computed from.
@@ -53,7 +53,7 @@ pub struct Code {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Chunk {
     Packets(usize),
-    /// All of the run, which is a work-group.
+    /// One, until the next barrier, where it waits for the others: a run is a work-group.
     Workgroup,
 }
 
@@ -78,7 +78,7 @@ impl Code {
             workgroup_words: kernel.interface.workgroup_words as usize,
             chunk: Chunk::Workgroup,
         };
-        if !is_workgroup(kernel) {
+        if !kernel.runs_workgroups() {
             let packets = if has_effects(kernel) {
                 1
             } else {
@@ -109,10 +109,6 @@ impl Code {
 fn ops(kernel: &Kernel) -> impl Iterator<Item = &Op> {
     let blocks = kernel.blocks.iter();
     blocks.flat_map(|block| block.ops.iter().map(|(op, _)| op))
-}
-
-fn is_workgroup(kernel: &Kernel) -> bool {
-    kernel.interface.workgroup_words > 0 || ops(kernel).any(|op| matches!(op, Op::Barrier))
 }
 
 /// True if lanes of different packets must act in order.

@@ -44,7 +44,7 @@ impl Emitter<'_> {
                 }
             }
             Op::Texture(op) => self.texture(op, first),
-            Op::Barrier => {}
+            Op::Barrier => self.push(Instruction::Barrier),
             _ => self.memory(op, first),
         }
     }

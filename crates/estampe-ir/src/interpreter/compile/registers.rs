@@ -297,7 +297,7 @@ pub(super) fn each_register(
             visit.mask(&mut code.mask);
             code.results.iter_mut().for_each(|slot| visit.write(slot));
         }
-        Instruction::Jump(_) | Instruction::Return => {}
+        Instruction::Barrier | Instruction::Jump(_) | Instruction::Return => {}
     }
 }
 

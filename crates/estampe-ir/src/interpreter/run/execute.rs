@@ -7,12 +7,30 @@ use super::state::{MaskOperand, State, quads_with_any};
 use super::table::Table;
 use crate::op::MaskBinary;
 
-/// Executes the instructions on a chunk.
+/// How far a chunk is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Progress {
+    /// The next instruction; `None` at the end.
+    pub(super) next: Option<usize>,
+    /// The jumps that it may still execute.
+    pub(super) budget: u64,
+}
+
+/// Executes the instructions on a chunk, up to the next barrier or to the end.
 #[inline(always)]
-pub(super) fn chunk<A: Arithmetic>(level: A, state: &State<'_>) -> Result<(), Stopped> {
+pub(super) fn chunk<A: Arithmetic>(
+    level: A,
+    state: &State<'_>,
+    from: Progress,
+) -> Result<Progress, Stopped> {
     let entries = const { &Table::<A>::ENTRIES };
-    let mut budget = state.run.budget;
-    let mut next = 0;
+    let Progress {
+        next: Some(mut next),
+        mut budget,
+    } = from
+    else {
+        return Ok(from);
+    };
     while let Some((entry, instruction)) = state.code.instructions.get(next) {
         next += 1;
         match instruction {
@@ -24,11 +42,15 @@ pub(super) fn chunk<A: Arithmetic>(level: A, state: &State<'_>) -> Result<(), St
                 budget = budget.checked_sub(1).ok_or(Stopped::Budget)?;
                 next = *if state.any(*mask) { any } else { none } as usize;
             }
-            Instruction::Return => return Ok(()),
+            Instruction::Barrier => {
+                let next = Some(next);
+                return Ok(Progress { next, budget });
+            }
+            Instruction::Return => break,
             _ => entries[usize::from(*entry)](level, state, instruction),
         }
     }
-    Ok(())
+    Ok(Progress { next: None, budget })
 }
 
 /// Executes an instruction that is the same at all SIMD levels.

@@ -199,16 +199,20 @@ b0:
             let operand = packets(3, |lane| operands[lane]);
             let mut expected = [0; 4];
             let mut results = vec![0_u32; 48];
-            for (turn, kind) in [Atomic::Xor, kind, Atomic::Load].into_iter().enumerate() {
-                for (lane, result) in results.iter_mut().enumerate() {
-                    let is_set = cover[lane / LANES] >> (lane % LANES) & 1 == 1;
-                    let place = places[lane / LANES].0[lane % LANES] as usize;
+            // A packet does all that comes before the barrier, then the next one does.
+            let before = (0..3).flat_map(|packet| [(packet, Atomic::Xor), (packet, kind)]);
+            let after = (0..3).map(|packet| (packet, Atomic::Load));
+            for (packet, kind) in before.chain(after) {
+                for lane in packet * LANES..(packet + 1) * LANES {
+                    let is_set = cover[packet] >> (lane % LANES) & 1 == 1;
+                    let place = places[packet].0[lane % LANES] as usize;
                     if is_set && place < 4 {
                         let before = expected[place];
                         expected[place] = kind.evaluate([before, operands[lane]]);
                         // What a store reads is not used: the interpreter gives 0.
-                        let is_store = turn == 1 && kind == Atomic::Store;
-                        *result = result.wrapping_add(if is_store { 0 } else { before });
+                        if kind != Atomic::Store {
+                            results[lane] = results[lane].wrapping_add(before);
+                        }
                     }
                 }
             }

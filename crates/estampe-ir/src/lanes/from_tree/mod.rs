@@ -148,6 +148,7 @@ impl<'a> Lowering<'a> {
         op.each_operand_mut(|value, _| *value = self.map[value.index()]);
         let running = self.state[RUNNING];
         if running != self.entry
+            && !op.is_pure(|_| true)
             && let Some(mask) = op.mask_mut()
         {
             let before = *mask;

@@ -100,6 +100,7 @@ fn binary(kind: Binary, [a, b]: [Value; 2], words: [Option<u32>; 2]) -> Result<V
         (B::Mul, [Some(1), _]) => Ok(b),
         (B::Mul | B::SDiv | B::UDiv, [_, Some(1)]) => Ok(a),
         (B::Mul | B::And, [Some(0), _] | [_, Some(0)]) => Err(Op::Constant(0)),
+        (B::SRem | B::URem, [_, Some(1)]) => Err(Op::Constant(0)),
         (B::And, [Some(u32::MAX), _]) => Ok(b),
         (B::And, [_, Some(u32::MAX)]) => Ok(a),
         (B::FMul, [Some(ONE), _]) => Ok(b),

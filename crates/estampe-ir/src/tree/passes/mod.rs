@@ -10,7 +10,10 @@
 //!    loop.
 //! 4. [`dead_code`]: operations, results and parameters that nothing uses.
 //! 5. [`unused_inputs`]: inputs that nothing reads.
+//!
+//! [`contract`], which does change results, is for those who ask for it.
 
+mod contract;
 mod dead;
 pub(crate) mod fold;
 mod invariant;
@@ -18,6 +21,7 @@ mod redundant;
 mod straight;
 mod unused_inputs;
 
+pub use contract::contract;
 pub use dead::dead_code;
 pub use invariant::loop_invariants;
 pub use redundant::redundant_parameters;

@@ -1,9 +1,14 @@
 //! Mending the modules that naga's GLSL front end makes.
 //!
-//! naga leaves the size of `gl_ClipDistance` open, which its validator then refuses, and makes
-//! `barrier()` a barrier of subgroups too, which estampe does not have.
+//! naga leaves the size of `gl_ClipDistance` open, which its validator then refuses, makes
+//! `barrier()` a barrier of subgroups too, which estampe does not have, and lets `texture` choose a
+//! level of detail by derivatives in stages without them.
 
-use naga::{ArraySize, Barrier, Binding, Block, BuiltIn, Statement, StructMember, Type, TypeInner};
+use estampe_ir::interface::Stage;
+use naga::{
+    ArraySize, Barrier, Binding, Block, BuiltIn, Expression, SampleLevel, Statement, StructMember,
+    Type, TypeInner,
+};
 
 use super::indices;
 use super::unit::Unit;
@@ -16,6 +21,21 @@ pub(super) fn mend(module: &mut naga::Module, unit: &Unit) {
     size_clip_distances(module, unit);
     for (_, function) in module.functions.iter_mut() {
         mend_barriers(&mut function.body);
+        if unit.stage != Stage::Fragment {
+            sample_the_base(function);
+        }
+    }
+}
+
+/// Takes the base level where a shader of a stage without derivatives leaves the choice of the
+/// level (GLSL 4.60, section 8.9).
+fn sample_the_base(function: &mut naga::Function) {
+    for (_, expression) in function.expressions.iter_mut() {
+        if let Expression::ImageSample { level, .. } = expression
+            && matches!(level, SampleLevel::Auto | SampleLevel::Bias(_))
+        {
+            *level = SampleLevel::Zero;
+        }
     }
 }
 
@@ -71,7 +91,9 @@ fn size_clip_distances(module: &mut naga::Module, unit: &Unit) {
             size: ArraySize::Constant(size),
             stride,
         };
-        module.types.replace(ty, Type { name: None, inner });
+        // The name sets it apart from an array of the author: types are unique.
+        let name = Some("distances".to_owned());
+        module.types.replace(ty, Type { name, inner });
     }
     // The outputs follow each other without a gap.
     let results: Vec<_> = module
@@ -100,6 +122,9 @@ fn size_clip_distances(module: &mut naga::Module, unit: &Unit) {
         }
         let name = module.types[result].name.clone();
         let inner = TypeInner::Struct { members, span };
-        module.types.replace(result, Type { name, inner });
+        let mended = Type { name, inner };
+        if module.types[result] != mended {
+            module.types.replace(result, mended);
+        }
     }
 }

@@ -25,6 +25,8 @@ pub(super) struct Case {
     /// Packets of the varyings that are there.
     given_varyings: usize,
     uniforms: Vec<u32>,
+    /// The number of each lane.
+    index: Vec<Packet<u32>>,
     /// A varying that is the same in all lanes.
     flat: Option<u32>,
     cover: Vec<u16>,
@@ -95,6 +97,12 @@ impl Textures for Told {
     }
 }
 
+/// The numbers of the lanes of a packet.
+fn numbers(packet: usize) -> Packet<u32> {
+    let number = |lane| u32::try_from(packet * LANES + lane).unwrap_or(0);
+    Packet(std::array::from_fn(number))
+}
+
 fn word(random: &mut Rng) -> u32 {
     match random.u32(0..5) {
         0 | 1 => random.u32(0..9),
@@ -129,6 +137,7 @@ impl Case {
                 .map(|_| Packet([(); LANES].map(|()| word(random))))
                 .collect(),
             given_varyings: some(random, varyings),
+            index: (0..packets).map(numbers).collect(),
             uniforms: (0..UNIFORMS).map(|_| word(random)).collect(),
             flat: random.bool().then(|| word(random)),
             cover: masks(random),
@@ -153,6 +162,7 @@ impl Case {
             }
             Input::Varying(at) => InputData::words(varyings, at as usize, VARYINGS as usize),
             Input::PushConstant(at) => InputData::Uniform(self.uniforms[at as usize]),
+            Input::LocalInvocationIndex => InputData::words(&self.index, 0, 1),
             Input::Cover if self.is_cover_shared => InputData::SharedMask(cover),
             Input::Cover => InputData::Mask(&self.cover),
             _ => InputData::Mask(&self.facing),

@@ -20,6 +20,9 @@ pub(super) const WRITTEN: u32 = 1;
 pub(super) const ARRAY: u32 = 0;
 pub(super) const ARRAYS: u32 = 3;
 
+/// The words of the memory of work-groups, where there is some.
+const WORKGROUP_WORDS: u32 = 24;
+
 pub(super) struct Generator<'a> {
     pub(super) random: &'a mut Rng,
     pub(super) builder: Builder,
@@ -31,6 +34,10 @@ pub(super) struct Generator<'a> {
     pub(super) cover: Value,
     /// Operations that need no calls and have no effects: a pass may run two packets.
     pub(super) is_free: bool,
+    /// A run is a work-group.
+    pub(super) has_workgroup: bool,
+    /// The index of the invocation, of compute shaders.
+    pub(super) index: Option<Value>,
     has_flow: bool,
 }
 
@@ -72,6 +79,14 @@ pub(super) fn tree(random: &mut Rng, statements: u32) -> Tree {
     let cover = builder.input(Input::Cover);
     let facing = builder.input(Input::FrontFacing);
     let is_free = random.u32(0..3) == 0;
+    let index = (stage == Stage::Compute).then(|| {
+        builder.interface_mut().workgroup_size = [64, 1, 1];
+        builder.input(Input::LocalInvocationIndex)
+    });
+    let has_workgroup = stage == Stage::Compute && !is_free && random.bool();
+    if has_workgroup {
+        builder.interface_mut().workgroup_words = WORKGROUP_WORDS;
+    }
     let mut generator = Generator {
         words,
         masks: vec![cover, facing],
@@ -80,6 +95,8 @@ pub(super) fn tree(random: &mut Rng, statements: u32) -> Tree {
         cover,
         builder,
         is_free,
+        has_workgroup,
+        index,
         has_flow: !is_free || random.bool(),
         random,
     };

@@ -9,6 +9,14 @@ use estampe_ir::op::{
 use estampe_x86::{Code, Isa};
 use std::collections::BTreeMap;
 
+/// Kinds of kernels of which a pass runs two packets.
+const PAIRS: [&str; 4] = [
+    "pairs",
+    "pairs that loop",
+    "pairs with an effect",
+    "pairs with textures",
+];
+
 /// How often each operation occurred.
 #[derive(Debug, Default)]
 pub(crate) struct Hits {
@@ -38,23 +46,32 @@ impl Hits {
 
     /// Counts code that runs pairs of packets.
     pub(crate) fn count_pairs(&mut self, kernel: &Kernel, code: &Code) {
+        if !code.runs_pairs() {
+            return;
+        }
         let mut blocks = kernel.blocks.iter().enumerate();
         let has_loop = blocks.any(|(at, block)| {
             let mut jumps = block.terminator.jumps();
             jumps.any(|jump| jump.to.index() <= at)
         });
-        if code.runs_pairs() {
-            let kind = if has_loop { "pairs that loop" } else { "pairs" };
-            *self.counts.entry(kind.to_owned()).or_default() += 1;
+        let ops = || kernel.blocks.iter().flat_map(|block| &block.ops);
+        let has_effect = ops().any(|(op, _)| op.has_effect());
+        let has_texture = ops().any(|(op, _)| matches!(op, Op::Texture(_)));
+        for (name, occurs) in PAIRS
+            .into_iter()
+            .zip([true, has_loop, has_effect, has_texture])
+        {
+            *self.counts.entry(name.to_owned()).or_default() += u64::from(occurs);
         }
     }
 
     /// What can be compiled and did not occur.
     pub(crate) fn missing(&self) -> Vec<String> {
-        let of_avx512 = ["pairs", "pairs that loop"].map(str::to_owned).into_iter();
+        let of_avx512 = PAIRS.map(str::to_owned).into_iter();
         let all = of_avx512.filter(|_| Isa::Avx512.is_available());
         let all = all.chain(expected());
-        all.filter(|name| !self.counts.contains_key(name)).collect()
+        let is_missing = |name: &String| self.counts.get(name).is_none_or(|&count| count == 0);
+        all.filter(is_missing).collect()
     }
 
     /// The number of operations.
@@ -74,11 +91,12 @@ fn name(op: &Op) -> String {
         Op::Derivative {
             axis, precision, ..
         } => return format!("derivative {} {}", axis.name(), precision.name()),
-        Op::Atomic {
-            kind,
-            memory: Memory::Buffer(_),
-            ..
-        } => return format!("atomic {}", kind.name()),
+        Op::Atomic { kind, memory, .. } => {
+            return format!("atomic {}{}", kind.name(), suffix(*memory));
+        }
+        Op::CompareExchange { memory, .. } => {
+            return format!("compare exchange{}", suffix(*memory));
+        }
         Op::Texture(op) => return texture_name(op.query, &op.level),
         Op::Constant(_) => "constant",
         Op::MaskConstant(_) => "mask constant",
@@ -94,17 +112,18 @@ fn name(op: &Op) -> String {
         Op::LoadBuffer { .. } => "load buffer",
         Op::StoreBuffer { .. } => "store buffer",
         Op::BufferBytes(_) => "buffer bytes",
-        Op::CompareExchange {
-            memory: Memory::Buffer(_),
-            ..
-        } => "compare exchange",
-        Op::Barrier
-        | Op::LoadWorkgroup(_)
-        | Op::StoreWorkgroup { .. }
-        | Op::Atomic { .. }
-        | Op::CompareExchange { .. } => "work-group",
+        Op::Barrier => "barrier",
+        Op::LoadWorkgroup(_) => "load of the work-group",
+        Op::StoreWorkgroup { .. } => "store of the work-group",
     };
     name.to_owned()
+}
+
+fn suffix(memory: Memory) -> &'static str {
+    match memory {
+        Memory::Buffer(_) => "",
+        Memory::Workgroup => " of the work-group",
+    }
 }
 
 fn texture_name(query: TextureQuery, level: &LevelOfDetail) -> String {
@@ -142,6 +161,10 @@ fn expected() -> Vec<String> {
         "store buffer",
         "buffer bytes",
         "compare exchange",
+        "compare exchange of the work-group",
+        "barrier",
+        "load of the work-group",
+        "store of the work-group",
         "branch",
         "loop",
         "Sample zero",
@@ -166,11 +189,10 @@ fn expected() -> Vec<String> {
     all.extend(MaskBinary::ALL.iter().map(|kind| kind.name().to_owned()));
     all.extend(Math::ALL.iter().map(|kind| kind.name().to_owned()));
     all.extend(Math2::ALL.iter().map(|kind| kind.name().to_owned()));
-    all.extend(
-        Atomic::ALL
-            .iter()
-            .map(|kind| format!("atomic {}", kind.name())),
-    );
+    for suffix in ["", suffix(Memory::Workgroup)] {
+        let atomics = Atomic::ALL.iter();
+        all.extend(atomics.map(|kind| format!("atomic {}{suffix}", kind.name())));
+    }
     for axis in Axis::ALL {
         let of_axis =
             |precision: &Precision| format!("derivative {} {}", axis.name(), precision.name());

@@ -1,7 +1,7 @@
 //! Random operations. Results of float operations become canonical, because payloads of NaNs are
 //! unspecified.
 
-use super::generate::{ARRAY, ARRAYS, Generator, READ, WRITTEN};
+use super::generate::{ARRAY, ARRAYS, Generator, READ, UNIFORMS, WRITTEN};
 use estampe_ir::op::{
     Atomic, Axis, Binary, LevelOfDetail, MaskBinary, Math, Math2, Memory, Precision, TextureOp,
     TextureQuery, Unary,
@@ -105,6 +105,8 @@ impl Generator<'_> {
                 let array = self.random.u32(ARRAY + 1..ARRAYS);
                 self.builder.op1(Op::LoadLocal { array, index: a })
             }
+            20 if self.index.is_some() => return self.vectors(),
+            12 | 16..=19 if self.has_workgroup => return self.workgroup([a, b]),
             12 | 13 if !self.is_free => return self.memory([a, b]),
             14 if !self.is_free => return self.local([a, b]),
             15 if !self.is_free => return self.texture([a, b]),
@@ -134,6 +136,9 @@ impl Generator<'_> {
 
     /// A byte offset, mostly one that is in a buffer.
     fn offset(&mut self, of: Value) -> Value {
+        if let Some(place) = self.strided(4) {
+            return place;
+        }
         if self.random.u32(0..4) == 0 {
             return of;
         }
@@ -141,12 +146,54 @@ impl Generator<'_> {
         self.builder.binary(Binary::And, of, limit)
     }
 
+    /// A number that grows by the same number from invocation to invocation, a multiple of this one
+    /// mostly.
+    fn strided(&mut self, unit: u32) -> Option<Value> {
+        let index = self.index.filter(|_| self.random.bool())?;
+        let stride = self.builder.word(unit * self.random.u32(0..6));
+        let product = self.builder.binary(Binary::Mul, index, stride);
+        let first = match self.random.u32(0..4) {
+            0 => self
+                .builder
+                .word(0_u32.wrapping_sub(self.random.u32(0..400))),
+            1 => self.words[self.random.usize(..UNIFORMS as usize)],
+            _ => self.builder.word(unit * self.random.u32(0..8)),
+        };
+        Some(self.builder.binary(Binary::Add, first, product))
+    }
+
+    /// Components of vectors that lie side by side.
+    fn vectors(&mut self) {
+        let of_buffer = !self.has_workgroup || self.random.bool();
+        let unit = if of_buffer { 4 } else { 1 };
+        let Some(mut place) = self.strided(unit * 4) else {
+            return;
+        };
+        if self.random.bool() {
+            let last = self.builder.word(self.random.u32(0..100));
+            place = self.builder.binary(Binary::UMin, place, last);
+        }
+        for component in 0..4 {
+            let added = self.builder.word(component * unit);
+            let at = self.builder.binary(Binary::Add, place, added);
+            if self.random.u32(0..4) == 0 {
+                continue;
+            }
+            let loaded = if of_buffer {
+                let buffer = self.one_of(&[READ, WRITTEN]);
+                self.builder.op(Op::LoadBuffer { buffer, offset: at })
+            } else {
+                self.builder.op(Op::LoadWorkgroup(at))
+            };
+            self.add(&loaded);
+        }
+    }
+
     fn memory(&mut self, [at, value]: [Value; 2]) {
         let offset = self.offset(at);
         let buffer = self.one_of(&[READ, WRITTEN]);
         let mask = self.mask();
         let mask = self.builder.mask_binary(MaskBinary::And, mask, self.cover);
-        let memory = Memory::Buffer(WRITTEN);
         let results = match self.random.u32(0..8) {
             0..=2 => self.builder.op(Op::LoadBuffer { buffer, offset }),
             3 => self.builder.op(Op::BufferBytes(buffer)),
@@ -156,34 +203,53 @@ impl Generator<'_> {
                 value,
                 mask,
             }),
-            6 => {
-                let kind = self.one_of(Atomic::ALL);
-                let result = self.builder.op(Op::Atomic {
-                    kind,
-                    memory,
-                    offset,
-                    value,
-                    mask,
-                });
-                // The result of a store is not used.
-                if kind == Atomic::Store {
-                    Vec::new()
-                } else {
-                    result
-                }
-            }
-            _ => {
-                let expected = self.word();
-                self.builder.op(Op::CompareExchange {
-                    memory,
-                    offset,
-                    expected,
-                    value,
-                    mask,
-                })
-            }
+            _ => self.atomic(Memory::Buffer(WRITTEN), [offset, value], mask),
         };
         self.add(&results);
+    }
+
+    /// A barrier, or an access to the memory of the work-group.
+    fn workgroup(&mut self, [at, value]: [Value; 2]) {
+        let few = self.builder.word(31);
+        let few = self.builder.binary(Binary::And, at, few);
+        let index = if self.random.u32(0..4) == 0 { at } else { few };
+        let index = self.strided(1).unwrap_or(index);
+        let mask = self.mask();
+        let mask = self.builder.mask_binary(MaskBinary::And, mask, self.cover);
+        let results = match self.random.u32(0..8) {
+            0 | 1 => self.builder.op(Op::Barrier),
+            2 | 3 => self.builder.op(Op::LoadWorkgroup(index)),
+            4 => self.builder.op(Op::StoreWorkgroup { index, value, mask }),
+            _ => self.atomic(Memory::Workgroup, [index, value], mask),
+        };
+        self.add(&results);
+    }
+
+    fn atomic(&mut self, memory: Memory, [offset, value]: [Value; 2], mask: Value) -> Vec<Value> {
+        if self.random.u32(0..6) == 0 {
+            let expected = self.word();
+            return self.builder.op(Op::CompareExchange {
+                memory,
+                offset,
+                expected,
+                value,
+                mask,
+            });
+        }
+        let kind = self.one_of(Atomic::ALL);
+        let result = self.builder.op(Op::Atomic {
+            kind,
+            memory,
+            offset,
+            value,
+            mask,
+        });
+        // The result of a store is not used.
+        if kind == Atomic::Store {
+            Vec::new()
+        } else {
+            result
+        }
     }
 
     fn local(&mut self, [at, value]: [Value; 2]) {

@@ -1,0 +1,89 @@
+//! Integer division with AVX-512, by binary64: eight lanes at a time.
+//!
+//! A quotient of two 32-bit integers, rounded to binary64 and then towards 0, is exact. Below a
+//! whole number n, a ÷ b ends at least 1 ÷ b before it, while the rounding moves it by at most
+//! a ÷ b · 2⁻⁵³, which is less, as a < 2⁵³.
+
+use super::Selector;
+use super::operands::{Operands, Source};
+use crate::Isa;
+use crate::encoder::{VectorOp, vector_op};
+use crate::machine::{MASK, Role, VECTOR};
+use estampe_ir::Value;
+use estampe_ir::op::Binary;
+use regalloc2::{Operand, VReg};
+
+/// The lower halves of two vectors, and the upper half of one.
+const LOWER: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23];
+const UPPER: [u32; 16] = [8, 9, 10, 11, 12, 13, 14, 15, 8, 9, 10, 11, 12, 13, 14, 15];
+
+impl Selector<'_> {
+    /// A quotient or remainder; `None` where it is a call.
+    pub(super) fn divide(&mut self, kind: Binary, [a, b]: [Value; 2], half: usize) -> Option<VReg> {
+        if self.isa == Isa::Avx2 {
+            return None;
+        }
+        let is_signed = matches!(kind, Binary::SDiv | Binary::SRem);
+        let is_remainder = matches!(kind, Binary::SRem | Binary::URem);
+        let [a, b] = [a, b].map(|value| self.word_register(value, half));
+        let lower = self.quotient([a, b], is_signed);
+        let uppers = [a, b].map(|vector| self.two_vectors(vector, UPPER, vector));
+        let upper = self.quotient(uppers, is_signed);
+        let quotient = self.two_vectors(lower, LOWER, upper);
+        // Nothing is divided by 0: the quotient is then a, and the remainder 0.
+        let zero = self.zero();
+        let is_zero = self.compare_equal(b, zero);
+        if !is_remainder {
+            return Some(self.blend(is_zero, Source::Register(a), quotient));
+        }
+        let whole = self.two(&vector_op::MUL, quotient, Source::Register(b));
+        let rest = self.two(&vector_op::SUB, a, Source::Register(whole));
+        Some(self.blend(is_zero, Source::Register(zero), rest))
+    }
+
+    /// The quotients of the lower eight lanes.
+    fn quotient(&mut self, pair: [VReg; 2], is_signed: bool) -> VReg {
+        let (to, from): (&VectorOp, &VectorOp) = if is_signed {
+            (&vector_op::F64_FROM_S32, &vector_op::S32_FROM_F64)
+        } else {
+            (&vector_op::F64_FROM_U32, &vector_op::U32_FROM_F64)
+        };
+        let [a, b] = pair.map(|vector| self.in_registers(to, vector));
+        let quotient = self.two(&vector_op::DIV_F64, a, Source::Register(b));
+        self.in_registers(from, quotient)
+    }
+
+    /// An operation on a register.
+    fn in_registers(&mut self, op: &'static VectorOp, from: VReg) -> VReg {
+        let result = self.function.register(VECTOR);
+        let operands = Operands::new()
+            .with(Role::Reg, Operand::reg_def(result))
+            .with(Role::Rm, Operand::reg_use(from));
+        self.push(op, (None, None), &operands);
+        result
+    }
+
+    /// Lanes of two vectors.
+    fn two_vectors(&mut self, first: VReg, order: [u32; 16], second: VReg) -> VReg {
+        let order = self.constant_lanes(&order);
+        let order = self.in_register(order);
+        let result = self.function.register(VECTOR);
+        let operands = Operands::new()
+            .with(Role::Reg, Operand::reg_reuse_def(result, 1))
+            .with(Role::Silent, Operand::reg_use(first))
+            .with(Role::Vvvv, Operand::reg_use(order))
+            .with(Role::Rm, Operand::reg_use(second));
+        self.push(&vector_op::PERMUTE_TWO, (None, None), &operands);
+        result
+    }
+
+    fn compare_equal(&mut self, a: VReg, b: VReg) -> VReg {
+        let equal = Some(0);
+        self.emit(
+            (&vector_op::COMPARE_U, MASK),
+            Some(a),
+            Source::Register(b),
+            equal,
+        )
+    }
+}
