@@ -150,6 +150,19 @@ impl Arguments {
         };
         asked.iter().map(find).collect()
     }
+
+    /// The scenes that the language of `--shaders` can draw, and the names of the others.
+    fn in_language(
+        &self,
+        mut scenes: Vec<&'static SceneEntry>,
+    ) -> (Vec<&'static SceneEntry>, Vec<&'static str>) {
+        let is_drawn =
+            |entry: &&SceneEntry| self.shaders == ShaderLanguage::Wgsl || !entry.is_wgsl_only;
+        let others = scenes.iter().filter(|entry| !is_drawn(entry));
+        let others = others.map(|entry| entry.name).collect();
+        scenes.retain(is_drawn);
+        (scenes, others)
+    }
 }
 
 /// Executes the command line; tables are written to `out`.
@@ -196,6 +209,16 @@ pub fn run(arguments: &Arguments, out: &mut impl Write) -> Result<Outcome, Bench
         })?;
     }
 
+    let (scenes, without_rust) = arguments.in_language(scenes);
+    if !without_rust.is_empty() {
+        let error = BenchError::WgslOnly {
+            scenes: without_rust.join(", "),
+        };
+        if !arguments.scenes.is_empty() {
+            return Err(error);
+        }
+        print(out, &format!("not drawn: {error}"))?;
+    }
     let mut report = Report::new(arguments.label.clone(), &device);
     print(out, &report.driver)?;
     print(out, &report::header())?;

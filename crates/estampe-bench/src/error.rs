@@ -1,8 +1,8 @@
 //! Errors of the benchmarks.
 
 use estampe::{
-    BindGroupError, BufferError, DeviceError, LevelError, PipelineError, RenderPassError,
-    ShaderErrors, ShaderModuleError, TextureError,
+    BindGroupError, BufferError, ComputePipelineError, DeviceError, LevelError, PipelineError,
+    RenderPassError, ShaderErrors, ShaderModuleError, TextureError,
 };
 use std::path::PathBuf;
 
@@ -26,6 +26,12 @@ pub enum BenchError {
         /// The names of all states.
         known: String,
     },
+    /// The scenes have no shaders in Rust.
+    #[error("{scenes}: written in WGSL alone; draw with --shaders wgsl")]
+    WgslOnly {
+        /// Their names.
+        scenes: String,
+    },
     /// The SIMD level cannot be used.
     #[error(transparent)]
     Level(#[from] LevelError),
@@ -35,6 +41,9 @@ pub enum BenchError {
     /// A scene's pipeline was refused.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
+    /// A scene's compute pipeline was refused.
+    #[error(transparent)]
+    ComputePipeline(#[from] ComputePipelineError),
     /// A scene's module was refused.
     #[error(transparent)]
     Module(#[from] ShaderErrors),
@@ -95,6 +104,7 @@ impl BenchError {
             self,
             Self::UnknownScene { .. }
                 | Self::UnknownState { .. }
+                | Self::WgslOnly { .. }
                 | Self::Level(_)
                 | Self::Device(_)
                 | Self::Buffer(_)

@@ -3,6 +3,7 @@
 
 use crate::BenchError;
 use crate::resources::Resources;
+use crate::scene::passes::PreparedFrame;
 use crate::scene::{CLEAR_COLOR, Scene, SceneDraw};
 use crate::target::{Target, TargetDescriptor};
 use estampe::{
@@ -46,6 +47,21 @@ impl std::str::FromStr for FrameSize {
 #[derive(Debug)]
 pub struct PreparedScene<'d> {
     device: &'d Device,
+    work: Work<'d>,
+}
+
+#[derive(Debug)]
+enum Work<'d> {
+    /// One pass, and perhaps a depth map before it.
+    Draws(Box<PreparedDraws<'d>>),
+    /// Any passes and dispatches.
+    Frame(PreparedFrame<'d>),
+}
+
+/// A scene of one pass, and perhaps a depth map before it.
+#[derive(Debug)]
+struct PreparedDraws<'d> {
+    device: &'d Device,
     resources: Resources,
     /// The depth-map pass before the frame's pass, if the scene has one.
     depth_map: Option<(Target, Vec<PreparedDraw>)>,
@@ -76,6 +92,77 @@ impl<'d> PreparedScene<'d> {
     /// # Errors
     /// [`BenchError`] if the size exceeds the device's limits.
     pub fn new(device: &'d Device, scene: &Scene, size: FrameSize) -> Result<Self, BenchError> {
+        let work = match &scene.frame {
+            Some(frame) => Work::Frame(PreparedFrame::new(device, scene, frame)?),
+            None => Work::Draws(Box::new(PreparedDraws::new(device, scene, size)?)),
+        };
+        Ok(Self { device, work })
+    }
+
+    /// Records and draws a frame; nothing of the previous frame is reused.
+    pub fn draw(&mut self) -> FrameTimes {
+        match &mut self.work {
+            Work::Draws(draws) => draws.draw(),
+            Work::Frame(frame) => frame.draw(),
+        }
+    }
+
+    /// The last frame's colours: RGBA8, row by row from the top; of sRGB formats as stored.
+    #[must_use]
+    pub fn read_color(&self) -> Vec<u8> {
+        let picture = self.picture();
+        let read = self.device.read_texture(picture);
+        let mut bytes = read.expect("a texture of one sample for all uses");
+        if picture.format().is_bgra() {
+            for pixel in bytes.as_chunks_mut::<4>().0 {
+                pixel.swap(0, 2);
+            }
+        }
+        bytes
+    }
+
+    /// The number of bytes of [`Self::read_color`].
+    #[must_use]
+    pub fn color_len_bytes(&self) -> usize {
+        let picture = self.picture();
+        picture.width() as usize * picture.height() as usize * 4
+    }
+
+    /// The bytes of the last frame's colours in the order of their format, into memory of
+    /// [`Self::color_len_bytes`], on the device's threads.
+    pub fn read_color_into(&self, image: &mut [u8]) {
+        let picture = self.picture();
+        let size = Extent3d::new_2d(picture.width(), picture.height());
+        let layout = TexelCopyLayout::default();
+        let read = self.device.read_texture_into(picture, image, &layout, size);
+        debug_assert_eq!(read, Ok(()), "memory of color_len_bytes");
+    }
+
+    /// The image that holds the frame with one sample per pixel.
+    fn picture(&self) -> &Texture {
+        match &self.work {
+            Work::Draws(draws) => draws.picture(),
+            Work::Frame(frame) => frame.picture(),
+        }
+    }
+
+    /// The last frame's depths, row by row from the top; nothing if they have several samples, or
+    /// the frame has several steps.
+    #[must_use]
+    pub fn read_depth(&self) -> Vec<f32> {
+        let Work::Draws(draws) = &self.work else {
+            return Vec::new();
+        };
+        let depth = draws.target.depth_stencil.as_ref();
+        let bytes = depth.and_then(|depth| self.device.read_texture(depth).ok());
+        let bytes = bytes.unwrap_or_default();
+        let words = bytes.as_chunks().0.iter();
+        words.map(|bytes| f32::from_le_bytes(*bytes)).collect()
+    }
+}
+
+impl<'d> PreparedDraws<'d> {
+    fn new(device: &'d Device, scene: &Scene, size: FrameSize) -> Result<Self, BenchError> {
         let prepared = |draws: &[SceneDraw]| -> Vec<PreparedDraw> {
             let draws = draws.iter().map(|draw| PreparedDraw {
                 draw: *draw,
@@ -125,8 +212,7 @@ impl<'d> PreparedScene<'d> {
         })
     }
 
-    /// Records and draws a frame; nothing of the previous frame is reused.
-    pub fn draw(&mut self) -> FrameTimes {
+    fn draw(&self) -> FrameTimes {
         let (device, resources) = (self.device, &self.resources);
         let mut times = FrameTimes {
             recording: Duration::ZERO,
@@ -143,42 +229,9 @@ impl<'d> PreparedScene<'d> {
         times
     }
 
-    /// The last frame's colours: RGBA8, row by row from the top.
-    #[must_use]
-    pub fn read_color(&self) -> Vec<u8> {
-        let read = self.device.read_texture(self.picture());
-        read.expect("a texture of one sample for all uses")
-    }
-
-    /// The number of bytes of [`Self::read_color`].
-    #[must_use]
-    pub fn color_len_bytes(&self) -> usize {
-        let picture = self.picture();
-        picture.width() as usize * picture.height() as usize * 4
-    }
-
-    /// [`Self::read_color`] into memory of [`Self::color_len_bytes`], on the device's threads.
-    pub fn read_color_into(&self, image: &mut [u8]) {
-        let picture = self.picture();
-        let size = Extent3d::new_2d(picture.width(), picture.height());
-        let layout = TexelCopyLayout::default();
-        let read = self.device.read_texture_into(picture, image, &layout, size);
-        debug_assert_eq!(read, Ok(()), "memory of color_len_bytes");
-    }
-
     /// The image that holds the frame with one sample per pixel.
     fn picture(&self) -> &Texture {
         self.resolved.as_ref().unwrap_or(&self.target.colors[0])
-    }
-
-    /// The last frame's depths, row by row from the top; nothing if they have several samples.
-    #[must_use]
-    pub fn read_depth(&self) -> Vec<f32> {
-        let depth = self.target.depth_stencil.as_ref();
-        let bytes = depth.and_then(|depth| self.device.read_texture(depth).ok());
-        let bytes = bytes.unwrap_or_default();
-        let words = bytes.as_chunks().0.iter();
-        words.map(|bytes| f32::from_le_bytes(*bytes)).collect()
     }
 }
 

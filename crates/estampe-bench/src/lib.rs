@@ -10,7 +10,8 @@
 //!
 //! * [`generate`] makes the scenes' data, equal to `peerbench`'s bit for bit, as their fingerprints
 //!   prove;
-//! * [`scene`] has one file per scene: its data, its shader, its pipeline;
+//! * [`scene`] has one file per scene: its data, its shader, its pipeline; or, for the scenes of
+//!   real programs, its [passes](scene::passes) in WGSL;
 //! * [`frame`] draws a scene once, with the objects of `resources`; [`measure`] draws it many
 //!   times and measures with the [`clock`];
 //! * [`picture`] writes, reads and compares pictures; [`report`] writes tables and JSON;

@@ -53,6 +53,25 @@ impl LittleEndian {
         self.bytes.extend(values);
     }
 
+    /// Appends numbers in 0..256, each rounded down to a byte.
+    pub fn color(&mut self, channels: [f64; 4]) {
+        for channel in channels {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a whole number in 0..=255"
+            )]
+            let byte = channel.floor() as u8;
+            self.bytes.push(byte);
+        }
+    }
+
+    /// The number of written bytes.
+    #[must_use]
+    pub fn len_bytes(&self) -> usize {
+        self.bytes.len()
+    }
+
     /// The written bytes.
     #[must_use]
     pub fn into_bytes(self) -> Vec<u8> {

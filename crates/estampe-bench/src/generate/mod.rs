@@ -15,8 +15,10 @@
 mod bytes;
 mod fingerprint;
 mod hash;
+mod leaves;
 mod mesh;
 mod noise;
+mod sky;
 mod texture;
 mod transform;
 mod turns;
@@ -24,9 +26,13 @@ mod turns;
 pub use bytes::LittleEndian;
 pub use fingerprint::Fingerprint;
 pub use hash::{hash32, unit_hash};
+pub use leaves::leaf_textures;
 pub use mesh::{IndexedMesh, QUAD_CORNERS, quad_indices, torus, uv_sphere};
+pub use sky::sky_cube;
 pub use texture::{MipChain, diffuse_texture, normal_texture};
-pub use transform::{Matrix, Vector, dot, look_at, normalize, orthographic, perspective};
+pub use transform::{
+    Matrix, Vector, cross, dot, look_at, normalize, orthographic, perspective, view_rays,
+};
 pub use turns::sin_cos_turns;
 
 #[cfg(test)]

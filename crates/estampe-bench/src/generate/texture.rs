@@ -3,12 +3,12 @@
 use super::noise::fractal_noise;
 use super::normalize;
 
-/// The levels of a square RGBA8 texture, down to 1×1.
+/// The levels of a square texture of 8-bit channels, RGBA unless said otherwise.
 #[derive(Debug, Clone)]
 pub struct MipChain {
     /// The first level's side in texels, a power of two.
     pub size: u32,
-    /// The texels of each level, row by row.
+    /// The texels of each level, row by row, and layer after layer.
     pub levels: Vec<Vec<u8>>,
 }
 
@@ -56,35 +56,54 @@ pub fn normal_texture(size: u32, seed: u32) -> MipChain {
 
 impl MipChain {
     /// All mip levels: the first from a function of the texel, the others by halving.
-    fn below(size: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Self {
+    pub(crate) fn below(size: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Self {
         let mut first = Vec::with_capacity((size * size * 4) as usize);
         for y in 0..size {
             for x in 0..size {
                 first.extend(texel(x, y));
             }
         }
+        Self::halving(size, 4, first)
+    }
+
+    /// All mip levels of texels with so many channels, down to 1×1, by halving the first.
+    pub(crate) fn halving(size: u32, channels: usize, first: Vec<u8>) -> Self {
         let mut levels = vec![first];
         let mut side = size as usize;
         while side > 1 {
-            levels.push(halved(&levels[levels.len() - 1], side));
+            levels.push(halved(&levels[levels.len() - 1], side, channels));
             side /= 2;
         }
         Self { size, levels }
     }
+
+    /// A texture with these layers, all of the same size.
+    pub(crate) fn of_layers(layers: &[Self]) -> Self {
+        let level = |number: usize| {
+            let layers = layers.iter();
+            layers.flat_map(move |layer| layer.levels[number].iter().copied())
+        };
+        let count = layers[0].levels.len();
+        Self {
+            size: layers[0].size,
+            levels: (0..count).map(|number| level(number).collect()).collect(),
+        }
+    }
 }
 
 /// The next mip level of one with this side: each texel is the mean of four, rounded half up.
-fn halved(texels: &[u8], side: usize) -> Vec<u8> {
+fn halved(texels: &[u8], side: usize, channels: usize) -> Vec<u8> {
     let mut below = Vec::with_capacity(texels.len() / 4);
-    for rows in texels.chunks_exact(side * 8) {
-        let (upper, lower) = rows.split_at(side * 4);
-        for (top, bottom) in upper.chunks_exact(8).zip(lower.chunks_exact(8)) {
-            for channel in 0..4 {
+    for rows in texels.chunks_exact(side * channels * 2) {
+        let (upper, lower) = rows.split_at(side * channels);
+        let pairs = (upper.chunks_exact(channels * 2)).zip(lower.chunks_exact(channels * 2));
+        for (top, bottom) in pairs {
+            for channel in 0..channels {
                 let sum = [
                     top[channel],
-                    top[channel + 4],
+                    top[channel + channels],
                     bottom[channel],
-                    bottom[channel + 4],
+                    bottom[channel + channels],
                 ]
                 .map(u32::from)
                 .iter()

@@ -18,7 +18,9 @@ pub fn normalize(v: Vector) -> Vector {
     v.map(|component| component / length)
 }
 
-fn cross(a: Vector, b: Vector) -> Vector {
+/// Outer product.
+#[must_use]
+pub fn cross(a: Vector, b: Vector) -> Vector {
     let minor = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
@@ -89,6 +91,27 @@ impl Matrix {
         });
         Self { columns }
     }
+
+    /// A point under an affine matrix; the products are summed in order.
+    #[must_use]
+    pub fn point(&self, [x, y, z]: Vector) -> Vector {
+        let a = &self.columns;
+        [0, 1, 2].map(|row| a[0][row] * x + a[1][row] * y + a[2][row] * z + a[3][row])
+    }
+}
+
+/// The view rays of a perspective camera: at normalised device coordinates (x, y) it looks along
+/// `x · [0] + y · [1] + [2]` in world space, which has length 1 along the view axis.
+#[must_use]
+pub fn view_rays(view_from_world: &Matrix, clip_from_view: &Matrix) -> [Vector; 3] {
+    let axes = &view_from_world.columns;
+    let scales = &clip_from_view.columns;
+    let row = |row: usize, scale: f64| [0, 1, 2].map(|column: usize| axes[column][row] * scale);
+    [
+        row(0, 1.0 / scales[0][0]),
+        row(1, 1.0 / scales[1][1]),
+        row(2, -1.0),
+    ]
 }
 
 /// View from world: the camera at `eye` looks down −z at `target`.

@@ -13,5 +13,6 @@ pub(super) fn scene() -> Scene {
         depth_map: None,
         draws: Vec::new(),
         wgsl: None,
+        frame: None,
     }
 }

@@ -17,7 +17,7 @@ use estampe::{
 };
 
 /// The camera's position in world space; it looks at the origin.
-const EYE: [f64; 3] = [0.0, 2.0, 2.3];
+pub(super) const EYE: [f64; 3] = [0.0, 2.0, 2.3];
 /// Seed of both textures, so that bumps and colours agree.
 pub(super) const NOISE_SEED: u32 = 11;
 
@@ -137,10 +137,15 @@ pub(super) fn towards_light() -> Vector {
     normalize([0.5, 1.0, 0.3])
 }
 
+/// View from world and clip from view.
+pub(super) fn camera() -> [Matrix; 2] {
+    let view_from_world = look_at(EYE, [0.0; 3], [0.0, 1.0, 0.0]);
+    [view_from_world, perspective(0.125, ASPECT, 0.1, 10.0)]
+}
+
 /// Appends clip from object and world from object: 128 bytes.
 pub(super) fn append_matrices(bytes: &mut LittleEndian, world_from_object: &Matrix) {
-    let clip_from_view = perspective(0.125, ASPECT, 0.1, 10.0);
-    let view_from_world = look_at(EYE, [0.0; 3], [0.0, 1.0, 0.0]);
+    let [view_from_world, clip_from_view] = camera();
     let clip_from_world = clip_from_view.times(&view_from_world);
     bytes.matrix(&clip_from_world.times(world_from_object));
     bytes.matrix(world_from_object);

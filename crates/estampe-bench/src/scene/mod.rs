@@ -20,20 +20,50 @@
 //! | quad_draws | 10,000 draws of a quad, a dynamic uniform offset each; not in `peerbench` | 20,000 |
 //!
 //! Targets are RGBA8 and 32-bit depth, cleared to [`CLEAR_COLOR`] and 1.
+//!
+//! Scenes of real programs, whose frames are [`passes`] in WGSL alone, with targets of their own:
+//!
+//! | scene | work | triangles |
+//! |---|---|---:|
+//! | ui | 30 windows of panels and text, 150 draws with scissors, premultiplied blending | 46,800 |
+//! | gbuffer | deferred shading, two targets, depth read back, 16 point lights, tone mapping | 69,700 |
+//! | stencil | shadow volumes by depth fail, without colour, and a darkening draw | 69,357 |
+//! | postfx | bloom and blur: 15 passes over images of RGBA16F | 1,514 |
+//! | particles | 100,000 instanced soft quads, added into RGBA16F | 209,025 |
+//! | foliage | 60,000 cards, 4 samples, discarding and alpha to coverage | 120,002 |
+//! | wire | a terrain with a depth bias, and 150,700 hidden lines | 150,152 |
+//! | mandelbrot_compute | a dispatch with a divergent loop writes a storage texture | 0 |
+//! | blur_compute | a blur of 31 texels along rows, then columns, by memory of work-groups | 0 |
+//! | nbody_compute | 8,192 bodies attract each other, by tiles; painted, and drawn as points | 0 |
+//! | histogram_compute | 4 million integers counted by atomics, running sums, painted | 0 |
+//! | skybox | 200 reflecting spheres and a sky from a cube map, an anisotropic ground | 100,003 |
 
 mod blend;
+mod blur_compute;
 mod clear;
 mod fill;
+mod foliage;
+mod gbuffer;
 mod heavy_fs;
+mod histogram_compute;
 mod instances;
+mod mandelbrot_compute;
 mod mid_tris;
+mod nbody_compute;
+mod particles;
+pub mod passes;
+mod postfx;
 mod quad_draws;
 pub(crate) mod shadow;
+mod skybox;
 mod small_tris;
+mod stencil;
 mod textured;
+mod ui;
 mod uniforms;
 mod upload;
 pub(crate) mod wgsl;
+mod wire;
 
 use crate::frame::FrameSize;
 use crate::generate::{Fingerprint, MipChain};
@@ -88,6 +118,8 @@ pub struct Scene {
     pub draws: Vec<SceneDraw>,
     /// The module that is used in place of the pipelines' shaders in Rust.
     pub(crate) wgsl: Option<&'static wgsl::WgslShaders>,
+    /// A frame of several steps in WGSL, in place of the pipelines and draws above.
+    pub frame: Option<passes::Frame>,
 }
 
 /// The language of the scenes' shaders.
@@ -157,6 +189,28 @@ impl Scene {
             depth_map: None,
             draws: vec![SceneDraw::new(0, 0, 1)],
             wgsl: None,
+            frame: None,
+        }
+    }
+
+    /// A scene whose frame has several steps, in WGSL alone.
+    pub(crate) fn of_frame(
+        name: &'static str,
+        buffers: Vec<Vec<u8>>,
+        textures: Vec<MipChain>,
+        frame: passes::Frame,
+    ) -> Self {
+        Self {
+            name,
+            buffers,
+            textures,
+            samples: 1,
+            pipelines: Vec::new(),
+            uniforms: None,
+            depth_map: None,
+            draws: Vec::new(),
+            wgsl: None,
+            frame: Some(frame),
         }
     }
 
@@ -170,9 +224,12 @@ impl Scene {
         Self { wgsl, ..self }
     }
 
-    /// The number of triangles that a frame submits, for triangle lists.
+    /// The number of triangles that a frame submits.
     #[must_use]
     pub fn triangles(&self) -> u64 {
+        if let Some(frame) = &self.frame {
+            return frame.triangles();
+        }
         let triangles = |draw: &SceneDraw| {
             let indices = self.elements(draw).len() as u64;
             indices / 3 * u64::from(draw.instances)
@@ -224,6 +281,8 @@ pub struct SceneEntry {
     pub name: &'static str,
     /// True if `peerbench` has the scene, so that it can be compared.
     pub is_peers: bool,
+    /// True if there are no shaders in Rust, so that the scene is drawn in WGSL alone.
+    pub is_wgsl_only: bool,
     make: fn(Detail, FrameSize) -> Scene,
 }
 
@@ -257,6 +316,20 @@ pub const ALL: &[SceneEntry] = &[
     entry("fill_draws", |_, _| fill::as_draws()),
     entry("textured_draws", |detail, _| textured::as_draws(detail)),
     entry("many_draws", |detail, _| instances::many_draws(detail)),
+    in_wgsl("ui", ui::scene),
+    in_wgsl("gbuffer", gbuffer::scene),
+    in_wgsl("stencil", stencil::scene),
+    in_wgsl("postfx", |_, size| postfx::scene(size)),
+    in_wgsl("particles", particles::scene),
+    in_wgsl("foliage", foliage::scene),
+    in_wgsl("wire", wire::scene),
+    in_wgsl("skybox", skybox::scene),
+    in_wgsl("mandelbrot_compute", |_, size| {
+        mandelbrot_compute::scene(size)
+    }),
+    in_wgsl("blur_compute", blur_compute::scene),
+    in_wgsl("nbody_compute", nbody_compute::scene),
+    in_wgsl("histogram_compute", histogram_compute::scene),
     SceneEntry {
         is_peers: false,
         ..entry("quad_draws", |detail, _| quad_draws::scene(detail))
@@ -267,7 +340,16 @@ const fn entry(name: &'static str, make: fn(Detail, FrameSize) -> Scene) -> Scen
     SceneEntry {
         name,
         is_peers: true,
+        is_wgsl_only: false,
         make,
+    }
+}
+
+/// A scene whose frame is [`passes`].
+const fn in_wgsl(name: &'static str, make: fn(Detail, FrameSize) -> Scene) -> SceneEntry {
+    SceneEntry {
+        is_wgsl_only: true,
+        ..entry(name, make)
     }
 }
 

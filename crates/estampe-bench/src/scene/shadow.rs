@@ -178,10 +178,11 @@ pub(super) fn scene(detail: Detail) -> Scene {
             },
         ],
         wgsl: None,
+        frame: None,
     }
 }
 
-fn ground_vertices() -> Vec<u8> {
+pub(super) fn ground_vertices() -> Vec<u8> {
     let mut vertices = LittleEndian::default();
     for [x, z] in [[-4.0, 4.0], [4.0, 4.0], [4.0, -4.0], [-4.0, -4.0]] {
         vertices.reals(&[x, -0.8, z]);

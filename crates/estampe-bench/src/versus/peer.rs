@@ -6,6 +6,7 @@ use crate::BenchError;
 use crate::frame::FrameSize;
 use crate::process::run;
 use crate::provenance::repository;
+use crate::scene::SceneEntry;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -101,6 +102,9 @@ impl Session {
         let json = self.folder.join("estampe.json");
         let mut command = pinned(&program, cores, scene, sizes, effort);
         command.args(["--threads", &cores.to_string()]);
+        if SceneEntry::named(scene).is_some_and(|entry| entry.is_wgsl_only) {
+            command.args(["--shaders", "wgsl"]);
+        }
         command.arg("--json").arg(&json);
         command.arg("--images").arg(self.folder.join("estampe"));
         run(&mut command)?;
