@@ -6,7 +6,8 @@ use super::coordinates::{Answers, packet};
 use super::packet_texel::{OTHERS, PacketFormat, RGBA8, RGBA8_SRGB, RGBA16F};
 use super::plane::{Plane, TexelView};
 use estampe_simd::{
-    Bytes, LANES, Lanes as SimdLanes, Level, Packet, SimdBase, dispatch, f32x16, i32x16, u32x16,
+    Bytes, LANES, Lanes as SimdLanes, Level, Packet, SimdBase, dispatch, f32x16, i32x16, mask32x16,
+    u32x16,
 };
 use estampe_types::{Int, ViewDimension};
 
@@ -69,7 +70,6 @@ impl PacketFetch<'_> {
         use ViewDimension as V;
         let (view, plane) = (self.view, self.plane);
         let zero: i32x16<S> = SimdBase::splat(s, 0);
-        let load = |axis: usize| <i32x16<S> as SimdBase<S>>::from_slice(s, &self.places[axis].0);
         let [width, height, depth] = plane.sides;
         let slices = match view.dimension {
             V::D3 => depth,
@@ -77,15 +77,15 @@ impl PacketFetch<'_> {
             _ => view.layers,
         };
         // The index of the texel; of lanes outside the level any number, as gathers clamp theirs.
-        let x = load(0);
+        let x = self.place(s, 0);
         let mut index = x;
         let y = match view.dimension {
             V::D1 => zero,
-            _ => load(1),
+            _ => self.place(s, 1),
         };
         let z = match view.dimension {
             V::D1 | V::D2 => zero,
-            _ => load(2),
+            _ => self.place(s, 2),
         };
         let slice = z + Int::splat(zero, view.base_layer.cast_signed());
         let row = Int::wrapping_mul(slice, Int::splat(zero, height)) + y;
@@ -98,25 +98,25 @@ impl PacketFetch<'_> {
         let mut units = [<f32x16<S> as SimdBase<S>>::splat(s, 0.0); C];
         self.format.units::<S, C, KIND>(s, &words, &mut units);
         let alpha = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
-        let inside = |value: f32x16<S>| {
-            let bits: i32x16<S> = value.bitcast();
-            let bits = Int::select(x.is_outside(width), zero, bits);
-            let bits = Int::select(y.is_outside(height), zero, bits);
-            let value: f32x16<S> = Int::select(z.is_outside(slices), zero, bits).bitcast();
-            packet(value, 0)
-        };
+        let is_outside = x.is_outside(width) | y.is_outside(height) | z.is_outside(slices);
         let scale = view.codec.scale();
         for (k, unit) in units.into_iter().enumerate() {
             // A channel that the format does not store is 0, or 1 if it is alpha.
             texels[k] = match k {
-                k if k < self.format.components => inside(unit * scale[k]),
-                3 => inside(alpha),
+                k if k < self.format.components => zero_where(is_outside, unit * scale[k]),
+                3 => zero_where(is_outside, alpha),
                 _ => Packet::default(),
             };
         }
         if C == 1 {
-            texels[3] = inside(alpha);
+            texels[3] = zero_where(is_outside, alpha);
         }
+    }
+
+    /// A coordinate of each lane's texel.
+    #[inline(always)]
+    fn place<S: SimdLanes>(&self, s: S, axis: usize) -> i32x16<S> {
+        SimdBase::from_slice(s, &self.places[axis].0)
     }
 
     /// The words of each lane's texel.
@@ -135,4 +135,13 @@ impl PacketFetch<'_> {
         }
         words
     }
+}
+
+/// A channel, with 0 in the lanes of a mask.
+#[inline(always)]
+fn zero_where<S: SimdLanes>(mask: mask32x16<S>, channel: f32x16<S>) -> Packet<f32> {
+    let zero = Int::splat(channel.bitcast::<i32x16<S>>(), 0);
+    let bits: i32x16<S> = Int::select(mask, zero, channel.bitcast());
+    let channel: f32x16<S> = bits.bitcast();
+    packet(channel, 0)
 }
