@@ -1,5 +1,6 @@
 //! A frame that repeats the previous one allocates a fixed, small number of lists.
 
+#[path = "api/support/mod.rs"]
 mod support;
 
 use estampe::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut};

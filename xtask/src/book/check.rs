@@ -25,17 +25,17 @@ const KEPT_PICTURES: &[(&str, &str, &str)] = &[
     ),
     (
         "docs/images/shapes",
-        "crates/estampe-cli/tests/shapes_page.rs",
+        "crates/estampe-cli/tests/command/shapes_page.rs",
         "check_page(\"shapes\")",
     ),
     (
         "docs/images/render",
-        "crates/estampe-cli/tests/render_page.rs",
+        "crates/estampe-cli/tests/command/render_page.rs",
         "check_page(\"render\")",
     ),
     (
         "docs/images/depth",
-        "crates/estampe-cli/tests/depth_page.rs",
+        "crates/estampe-cli/tests/command/depth_page.rs",
         "check_page(\"depth\")",
     ),
     (
@@ -45,7 +45,7 @@ const KEPT_PICTURES: &[(&str, &str, &str)] = &[
     ),
     (
         "book/src/images",
-        "crates/estampe-cli/tests/book.rs",
+        "crates/estampe-cli/tests/command/book.rs",
         "book/src",
     ),
 ];

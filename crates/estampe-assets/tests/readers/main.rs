@@ -1,0 +1,10 @@
+//! Readers of models and images.
+
+mod images_tga_suite;
+mod models_data;
+mod models_hostile;
+mod models_obj;
+mod models_ply;
+mod models_speed;
+mod models_stl;
+mod models_written;

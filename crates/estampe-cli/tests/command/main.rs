@@ -1,0 +1,24 @@
+//! The command, end to end: its subcommands, errors and pages.
+
+mod book;
+mod compute;
+mod depth;
+mod depth_page;
+mod errors;
+mod inspect;
+mod inspect_page;
+mod ladder;
+mod polygon_fill;
+mod render;
+mod render_page;
+mod render_shader;
+mod shader_check;
+mod shader_dump;
+mod shader_image;
+mod shader_page;
+mod shader_reflect;
+mod shape;
+mod shapes_page;
+mod support;
+mod system_libraries;
+mod transparency;

@@ -1,0 +1,9 @@
+//! Pictures of scenes, against the oracle and against themselves.
+
+mod bump_maps;
+mod hostile_scenes;
+mod illumination;
+mod inspection_views;
+mod named_attributes;
+mod support;
+mod transparency;

@@ -1,0 +1,37 @@
+//! The objects of the API: what they do, and what they say of misuse.
+
+mod bind_groups;
+mod blits;
+mod buffers;
+mod copies;
+mod copies_multisampled;
+mod copy_regions;
+mod depth_texture;
+mod discarded_attachments;
+mod every_limit;
+mod false_claims;
+mod hostile_counts;
+mod inspect_stages;
+mod interfaces;
+mod large_targets;
+mod limits;
+mod misuse;
+mod misuse_groups;
+mod misuse_objects;
+mod misuse_passes;
+mod pass_control;
+mod png;
+mod primitive_limits;
+mod range_queries;
+mod read_only_depth;
+mod render_to_layers;
+mod render_to_texture;
+mod resolve;
+mod several_targets;
+mod several_threads;
+mod storage_textures;
+mod submissions;
+mod support;
+mod texture_levels;
+mod transforms;
+mod zero_blocks;
