@@ -49,7 +49,7 @@ pub enum Input {
     WorkgroupId(u32),
     /// The number of work-groups along x, y or z. Uniform.
     NumWorkgroups(u32),
-    /// A word of the push constants (immediate data), by its number. Uniform.
+    /// A word of the immediates (push constants), by its number. Uniform.
     PushConstant(u32),
 }
 
@@ -124,6 +124,16 @@ pub struct BufferSlot {
     pub binding: u32,
     /// True if the kernel stores to it.
     pub is_written: bool,
+}
+
+impl BufferSlot {
+    /// The immediates as a buffer that is only read, for words whose place is computed; all others
+    /// are [`Input::PushConstant`]. No resource is bound here: there are never so many bind groups.
+    pub const IMMEDIATES: Self = Self {
+        group: u32::MAX,
+        binding: u32::MAX,
+        is_written: false,
+    };
 }
 
 /// Memory of its own that each invocation has.

@@ -76,13 +76,14 @@
 //! | A run's scratch memory is one thread's; code is shared by threads and changes nothing of its own. | `&mut Scratch`; constants are in executable, that is read-only pages |
 //!
 //! Buffers may be changed by other threads during a run. Code reads and writes their words with
-//! moves, gathers and scatters of aligned four-byte elements, each of which the processor does at
-//! once, as a relaxed atomic access is.
+//! moves, gathers and scatters of aligned four-byte elements, and halves of words with moves of
+//! aligned two-byte elements, each of which the processor does at once, as a relaxed atomic access
+//! is.
 //!
 //! # Not there yet
 //!
-//! * Integer division with AVX2, conversions of binary16, stores to arrays, and some atomic
-//!   operations whose results are used, are calls.
+//! * Integer division with AVX2, stores to arrays, and some atomic operations whose results are
+//!   used, are calls.
 //! * Windows: there is no executable memory yet.
 //!
 //! On other processors [`Code::compile`] always returns [`CompileError::NoIsa`].

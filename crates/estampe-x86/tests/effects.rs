@@ -136,6 +136,11 @@ fn derivatives_and_quads() {
             }
         }
     }
+    for lane in 0..4 {
+        for mask in [mask, always] {
+            results.push(b.op1(Op::QuadLane { lane, value, mask }));
+        }
+    }
     let quads = b.op1(Op::QuadAny(mask));
     results.push(word_of_mask(&mut b, quads));
     let kernel = finish(b, &results);
@@ -180,6 +185,14 @@ fn memory_changes_in_the_order_of_lanes() {
             mask,
         });
     }
+    // Code stores halves of words where nothing uses what was there before.
+    b.op(Op::Atomic {
+        kind: Atomic::StoreHalf,
+        memory,
+        offset,
+        value: other,
+        mask,
+    });
     let exchanged = b.op(Op::CompareExchange {
         memory,
         offset,

@@ -100,6 +100,8 @@ pub(super) enum Instruction {
     Math(Math, Slot, Slot),
     Math2(Math2, Slot, [Slot; 2]),
     Derivative(Axis, Precision, Slot, Slot, Mask),
+    /// The lane of the quad, its words and the lanes that run.
+    QuadLane(u8, Slot, Slot, Mask),
     QuadAny(MaskSlot, MaskSlot),
     Copy(Slot, Word),
     CopyMask(MaskSlot, Mask),

@@ -103,7 +103,7 @@ pub fn atomic(kind: Atomic, word: &AtomicU32, operand: u32) -> u32 {
             word.store(operand, Relaxed);
             0
         }
-        Atomic::SMin | Atomic::SMax => {
+        Atomic::SMin | Atomic::SMax | Atomic::StoreHalf => {
             let changed = |before| Some(kind.evaluate([before, operand]));
             let (Ok(before) | Err(before)) = word.fetch_update(Relaxed, Relaxed, changed);
             before

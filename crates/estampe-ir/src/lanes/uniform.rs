@@ -212,6 +212,8 @@ impl<'a> Graph<'a> {
             Op::Atomic { .. } | Op::CompareExchange { .. } => true,
             // That of an infinity is NaN in whole quads, and 0 in others.
             Op::Derivative { .. } => true,
+            // 0 in quads in which the lane does not run.
+            Op::QuadLane { .. } => true,
             Op::Texture(op) => match op.query {
                 TextureQuery::Size
                 | TextureQuery::Levels

@@ -197,6 +197,8 @@ impl Atomic {
             Self::UMin => a.min(b),
             Self::UMax => a.max(b),
             Self::Exchange | Self::Store => b,
+            Self::StoreHalf if b >> 31 == 1 => b << 16 | a & 0xFFFF,
+            Self::StoreHalf => a & 0xFFFF_0000 | b & 0xFFFF,
             Self::Load => a,
         }
     }

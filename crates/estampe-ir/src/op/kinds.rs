@@ -252,5 +252,8 @@ kinds! {
         Load "load",
         /// b; the result is not used.
         Store "store",
+        /// The low 16 bits of b in the place of a's high ones if b's highest bit is set, else of
+        /// a's low ones.
+        StoreHalf "store_half",
     }
 }

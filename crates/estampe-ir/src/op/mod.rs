@@ -104,6 +104,16 @@ pub enum Op {
         /// The lanes that run.
         mask: Value,
     },
+    /// The word of one lane of the quad, in all four; 0 where that lane is not in the mask. What
+    /// subgroups, which are quads, exchange.
+    QuadLane {
+        /// The lane, 0 to 3. The lower two bits count.
+        lane: u8,
+        /// The word.
+        value: Value,
+        /// The lanes that run.
+        mask: Value,
+    },
     /// A mask: each quad in which a lane of the operand is set, as a whole.
     QuadAny(Value),
     /// A mask that is the same in all lanes: true if a lane of the operand is set. Kernels only.

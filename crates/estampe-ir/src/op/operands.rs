@@ -59,7 +59,7 @@ impl Op {
                 word(no);
                 visit(m, mask);
             }
-            Self::Derivative { value, mask: m, .. } => {
+            Self::Derivative { value, mask: m, .. } | Self::QuadLane { value, mask: m, .. } => {
                 word(value);
                 visit(m, mask);
             }
@@ -110,6 +110,7 @@ impl Op {
     pub fn mask_mut(&mut self) -> Option<&mut Value> {
         match self {
             Self::Derivative { mask, .. }
+            | Self::QuadLane { mask, .. }
             | Self::StoreLocal { mask, .. }
             | Self::StoreBuffer { mask, .. }
             | Self::StoreWorkgroup { mask, .. }

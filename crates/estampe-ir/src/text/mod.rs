@@ -21,7 +21,8 @@
 //! A value's name is its type and its number: `v` is a word, `m` a mask, and a `u` before it says
 //! that it is uniform, in kernels. Numbers are decimal, hexadecimal with `0x`, or floats with a
 //! point or an exponent, which stand for their bits. The interface comes first, in the order of its
-//! entries; a buffer, texture or sampler is `group.binding`. Values that nothing defines are listed
+//! entries; a buffer, texture or sampler is `group.binding`, and `buffer immediates` holds the
+//! immediates. Values that nothing defines are listed
 //! as `undefined`. Line breaks mean nothing. Comments go from `//` to the end of the line.
 //!
 //! A tree has nested bodies:

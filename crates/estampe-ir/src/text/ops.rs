@@ -52,6 +52,15 @@ impl Reader<'_> {
                 Op::Select { mask, yes, no }
             }
             "derivative" => self.derivative()?,
+            "quad_lane" => {
+                let number = self.number()?;
+                let lane = u8::try_from(number).ok().filter(|lane| *lane < 4);
+                let Some(lane) = lane else {
+                    return self.error(format!("a quad has no lane {number}"));
+                };
+                let [value, mask] = self.list()?;
+                Op::QuadLane { lane, value, mask }
+            }
             "quad_any" => Op::QuadAny(self.value()?),
             "any" => Op::Any(self.value()?),
             "barrier" => Op::Barrier,

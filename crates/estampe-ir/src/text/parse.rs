@@ -100,6 +100,10 @@ impl Reader<'_> {
             }
             "buffer" => {
                 self.next()?;
+                if self.eat("immediates") {
+                    to.buffers.push(BufferSlot::IMMEDIATES);
+                    return Ok(true);
+                }
                 let (group, binding) = self.slot()?;
                 to.buffers.push(BufferSlot {
                     group,

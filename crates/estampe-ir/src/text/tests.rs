@@ -20,6 +20,7 @@ output clip_distance(7)
 output cover
 buffer 0.1
 buffer 2.3 written
+buffer immediates
 texture_at 0.2
 sampler_at 0.4
 local 16 [1, 2.5, 0xffffffff]

@@ -2,7 +2,7 @@
 
 use super::interface::{STAGES, of_input, of_output};
 use super::write_ops::{op, word};
-use crate::interface::{Interface, Stage};
+use crate::interface::{BufferSlot, Interface, Stage};
 use crate::lanes::{Jump, Kernel, Terminator};
 use crate::tree::{Node, Tree};
 use crate::{Op, Type, Value};
@@ -231,6 +231,10 @@ fn header(f: &mut Formatter<'_>, kind: &str, stage: Stage, interface: &Interface
         writeln!(f, "output {}", of_output(output))?;
     }
     for buffer in &interface.buffers {
+        if *buffer == BufferSlot::IMMEDIATES {
+            writeln!(f, "buffer immediates")?;
+            continue;
+        }
         let written = if buffer.is_written { " written" } else { "" };
         writeln!(f, "buffer {}.{}{written}", buffer.group, buffer.binding)?;
     }

@@ -47,6 +47,7 @@ pub(super) fn op<N: Names + ?Sized>(op: &Op, names: &N) -> String {
             let way = format!("derivative {} {}", axis.name(), precision.name());
             with(&way, &[*value, *mask])
         }
+        Op::QuadLane { lane, value, mask } => with(&format!("quad_lane {lane}"), &[*value, *mask]),
         Op::QuadAny(a) => with("quad_any", &[*a]),
         Op::Any(a) => with("any", &[*a]),
         Op::LoadLocal { array, index } => format!("load_local {array} [{}]", name(*index)),

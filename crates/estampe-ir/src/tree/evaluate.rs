@@ -155,6 +155,11 @@ impl Invocation<'_> {
                 axis: Axis::X | Axis::Y,
                 ..
             } => 0,
+            // Of a quad whose other lanes do not run.
+            Op::QuadLane { lane, value, mask } => match (lane & 3, self.get(*mask)) {
+                (0, 1..) => self.get(*value),
+                _ => 0,
+            },
             Op::QuadAny(a) | Op::Any(a) => self.get(*a),
             Op::Barrier => return Vec::new(),
             Op::Texture(op) => return self.texture(op),

@@ -37,6 +37,11 @@ impl Arithmetic {
 impl Assembler {
     /// An instruction `opcode element, reg` on 32 bits.
     fn element(&mut self, opcode: &[u8], reg: Gpr, element: Element) {
+        self.scaled_element(opcode, reg, (element, 2));
+    }
+
+    /// The same, with an index times a power of two.
+    fn scaled_element(&mut self, opcode: &[u8], reg: Gpr, (element, scale_log2): (Element, u8)) {
         let Element {
             base,
             index,
@@ -48,7 +53,7 @@ impl Assembler {
         }
         self.bytes.extend(opcode);
         self.byte(0b10 << 6 | (reg.0 & 7) << 3 | 0b100);
-        self.byte(0b10 << 6 | (index.0 & 7) << 3 | base.0 & 7);
+        self.byte(scale_log2 << 6 | (index.0 & 7) << 3 | base.0 & 7);
         self.dword(displacement.cast_unsigned());
     }
 
@@ -68,6 +73,13 @@ impl Assembler {
     pub(crate) fn store_element(&mut self, element: Element, from: Gpr) {
         self.note(|| text::of_element("mov", element, from));
         self.element(&[0x89], from, element);
+    }
+
+    /// `mov word [base + 2·index + displacement], from`, the low 16 bits.
+    pub(crate) fn store_half_element(&mut self, element: Element, from: Gpr) {
+        self.note(|| text::store_half_element(element, from));
+        self.byte(0x66);
+        self.scaled_element(&[0x89], from, (element, 1));
     }
 
     /// `add element, from` and the like; with a prefix `lock` if other threads use the word.

@@ -95,7 +95,13 @@ fn vector_instructions_between_registers() {
                 } else if !op.has_vvvv() {
                     expected.remove(1);
                 }
-                if **op == v::STORE || **op == v::STORE_LOWEST {
+                let stores = [
+                    &v::STORE,
+                    &v::STORE_LOWEST,
+                    &v::F16_FROM_F32,
+                    &v::HALVES_FROM_WORDS,
+                ];
+                if stores.contains(op) {
                     expected.reverse();
                 }
                 if **op == v::BLEND_BY_SIGN {
@@ -123,6 +129,10 @@ fn vector_instructions_with_memory() {
         // Half of a vector: they are used with registers.
         &v::F64_FROM_S32,
         &v::F64_FROM_U32,
+        &v::F32_FROM_F16,
+        &v::F16_FROM_F32,
+        &v::WORDS_FROM_HALVES,
+        &v::HALVES_FROM_WORDS,
         &v::MASK_FROM_GPR,
         &v::GPR_FROM_MASK,
         &v::SIGNS,
@@ -361,7 +371,7 @@ fn instructions_on_elements() {
             index,
             displacement: random.i32(..),
         };
-        let check = |emit: &dyn Fn(&mut Assembler), name: Mnemonic, is_locked: bool| {
+        let check_sized = |emit: &dyn Fn(&mut Assembler), name, (is_locked, size)| {
             let mut assembler = Assembler::default();
             emit(&mut assembler);
             let decoded = decode(&assembler.finish_code());
@@ -370,12 +380,20 @@ fn instructions_on_elements() {
             assert_eq!(registers(&decoded), [usize::from(register.0)]);
             assert_eq!(decoded.memory_base().number(), usize::from(base.0));
             assert_eq!(decoded.memory_index().number(), usize::from(index.0));
-            assert_eq!(decoded.memory_index_scale(), 4);
-            assert_eq!(decoded.memory_size().size(), 4);
+            assert_eq!(decoded.memory_index_scale(), size);
+            assert_eq!(decoded.memory_size().size(), size as usize);
             let displacement = i64::from(element.displacement).cast_unsigned();
             assert_eq!(decoded.memory_displacement64(), displacement);
             decoded.op0_kind()
         };
+        let check = |emit: &dyn Fn(&mut Assembler), name: Mnemonic, is_locked: bool| {
+            check_sized(emit, name, (is_locked, 4))
+        };
+        let half = |x: &mut Assembler| x.store_half_element(element, register);
+        assert_eq!(
+            check_sized(&half, Mnemonic::Mov, (false, 2)),
+            OpKind::Memory
+        );
         let kind = check(&|x| x.load_element(register, element), Mnemonic::Mov, false);
         assert_eq!(kind, OpKind::Register);
         let kind = check(

@@ -111,8 +111,18 @@ pub(super) fn lea_element(to: Gpr, base: Gpr, index: Gpr) -> Text {
 }
 
 fn element(of: Element) -> String {
+    scaled_element(of, 4)
+}
+
+fn scaled_element(of: Element, scale: u8) -> String {
     let [base, index] = [of.base, of.index].map(|one| gpr(one, Width::Qword));
-    format!("[{base} + 4*{index} + {:#x}]", of.displacement)
+    format!("[{base} + {scale}*{index} + {:#x}]", of.displacement)
+}
+
+pub(super) fn store_half_element(to: Element, from: Gpr) -> Text {
+    // The disassembly gives registers by their 32-bit names.
+    let (to, from) = (scaled_element(to, 2), gpr(from, Width::Dword));
+    instruction(format!("mov word {to}, {from}"))
 }
 
 pub(super) fn load_element(to: Gpr, from: Element) -> Text {
@@ -222,7 +232,14 @@ pub(super) fn vector(one: &VectorInstruction) -> Text {
     } else {
         vec![reg, rm]
     };
-    let stores = [&v::STORE, &v::STORE_LOWEST, &v::SCATTER, &v::MASK_STORE];
+    let stores = [
+        &v::STORE,
+        &v::STORE_LOWEST,
+        &v::SCATTER,
+        &v::MASK_STORE,
+        &v::F16_FROM_F32,
+        &v::HALVES_FROM_WORDS,
+    ];
     if stores.into_iter().any(is) {
         operands.reverse();
     }

@@ -84,6 +84,13 @@ impl VectorOp {
         self
     }
 
+    /// VEX.W1 alone, and vectors of 256 bits alone.
+    const fn wide_256(mut self) -> Self {
+        self.vex_w = Some(true);
+        self.fixed_length = Some(true);
+        self.vex_only()
+    }
+
     const fn digit(mut self, digit: u8) -> Self {
         self.digit = Some(digit);
         self
@@ -166,6 +173,13 @@ table! {
     S32_FROM_F64 = VectorOp::both("vcvttpd2dq", P66, 1, 0xE6).evex_only().wide();
     U32_FROM_F64 = VectorOp::both("vcvttpd2udq", NONE, 1, 0x78).evex_only().wide();
     DIV_F64 = VectorOp::both("vdivpd", P66, 1, 0x5E).evex_only().wide();
+    // Lanes of 16 bits, side by side in the lower half of a register.
+    F32_FROM_F16 = VectorOp::both("vcvtph2ps", P66, 2, 0x13);
+    F16_FROM_F32 = VectorOp::both("vcvtps2ph", P66, 3, 0x1D);
+    WORDS_FROM_HALVES = VectorOp::both("vpmovzxwd", P66, 2, 0x33);
+    HALVES_FROM_WORDS = VectorOp::both("vpmovdw", F3, 2, 0x33).evex_only();
+    PACK_WORDS = VectorOp::both("vpackusdw", P66, 2, 0x2B).vex_only();
+    PERMUTE_64 = VectorOp::both("vpermq", P66, 3, 0x00).wide_256();
     // Choice and order of lanes.
     BLEND = VectorOp::both("vblendmps", P66, 2, 0x65).evex_only();
     BLEND_BY_SIGN = VectorOp::both("vblendvps", P66, 3, 0x4A).vex_only();
@@ -209,6 +223,11 @@ impl VectorOp {
             &U32_FROM_F32,
             &F64_FROM_S32,
             &F64_FROM_U32,
+            &F32_FROM_F16,
+            &F16_FROM_F32,
+            &WORDS_FROM_HALVES,
+            &HALVES_FROM_WORDS,
+            &PERMUTE_64,
             &S32_FROM_F64,
             &U32_FROM_F64,
             &PERMUTE,

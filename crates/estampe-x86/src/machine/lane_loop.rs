@@ -28,6 +28,7 @@ impl LaneLoop {
             Atomic::Load => false,
             Atomic::And | Atomic::Or | Atomic::Xor => !(self.is_shared && self.gives),
             Atomic::UMin | Atomic::UMax | Atomic::SMin | Atomic::SMax => !self.is_shared,
+            Atomic::StoreHalf => !self.gives,
         }
     }
 }
@@ -124,6 +125,14 @@ impl Emitter<'_> {
                 assembler.exchange_and_add(of.is_shared, word, value);
             }
             (Atomic::Exchange, _) => assembler.exchange_element(word, value),
+            (Atomic::StoreHalf, _) => {
+                // The number of the half: twice that of the word, and the operand's highest bit.
+                assembler.mov(Width::Dword, old, value);
+                assembler.shr(old, 31);
+                assembler.arithmetic(Arithmetic::Add, word.index, word.index);
+                assembler.arithmetic(Arithmetic::Add, word.index, old);
+                assembler.store_half_element(word, value);
+            }
             (_, Some(kind)) => {
                 assembler.load_element(old, word);
                 assembler.arithmetic(kind, value, old);

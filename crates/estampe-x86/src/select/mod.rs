@@ -25,6 +25,7 @@
 //! | [`functions`] | blocks, edges, jumps and branches |
 //! | [`operands`] | loads of values that are in memory; the instructions' forms |
 //! | [`words`] | operations on words |
+//! | [`halves`] | conversions of binary16 |
 //! | [`lane_loops`] | stores and atomic operations |
 //! | [`masks`] | comparisons and operations on masks |
 //! | [`division`] | integer division |
@@ -35,6 +36,7 @@ pub(crate) mod calls;
 mod division;
 pub(crate) mod expand;
 mod functions;
+mod halves;
 mod lane_loops;
 mod masks;
 mod memory;
@@ -350,6 +352,9 @@ impl Selector<'_> {
                     value,
                     mask,
                 } => Some(self.derivative((*axis, *precision), (*value, *mask), half)),
+                Op::QuadLane { lane, value, mask } => {
+                    Some(self.quad_lane(*lane, (*value, *mask), half))
+                }
                 Op::Compare(kind, pair) => Some(self.compare(*kind, *pair, half)),
                 Op::MaskNot(a) => Some(self.mask_not(*a, half)),
                 Op::MaskBinary(kind, pair) => Some(self.mask_binary(*kind, *pair, half)),

@@ -123,7 +123,14 @@ fn latency(op: &Op) -> u32 {
     match op {
         Op::Constant(_) | Op::MaskConstant(_) => 0,
         Op::Unary(Unary::FSqrt, _) => 24,
-        Op::Unary(Unary::S32FromF32 | Unary::U32FromF32, _) => 12,
+        Op::Unary(
+            Unary::S32FromF32
+            | Unary::U32FromF32
+            | Unary::RoundF16
+            | Unary::F16FromF32
+            | Unary::F32FromF16,
+            _,
+        ) => 12,
         Op::Unary(Unary::FFloor | Unary::FCeil | Unary::FTrunc | Unary::FRound, _) => 8,
         Op::Binary(Binary::FDiv, _) => 20,
         Op::Binary(Binary::SDiv | Binary::SRem | Binary::UDiv | Binary::URem, _) => 60,
@@ -132,6 +139,7 @@ fn latency(op: &Op) -> u32 {
         | Op::Fma(_) => 4,
         Op::Compare(..) => 4,
         Op::Input(_) | Op::InputMask(_) | Op::Derivative { .. } => 7,
+        Op::QuadLane { .. } => 3,
         Op::LoadBuffer { .. } | Op::LoadWorkgroup(_) | Op::LoadLocal { .. } => 20,
         _ => 2,
     }
@@ -218,7 +226,11 @@ impl List {
             let is_free = op.is_pure(is_written)
                 || matches!(
                     op,
-                    Op::Input(_) | Op::InputMask(_) | Op::Derivative { .. } | Op::QuadAny(_)
+                    Op::Input(_)
+                        | Op::InputMask(_)
+                        | Op::Derivative { .. }
+                        | Op::QuadLane { .. }
+                        | Op::QuadAny(_)
                 );
             if !is_free {
                 before.extend(ordered);

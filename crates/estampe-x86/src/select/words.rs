@@ -40,6 +40,9 @@ impl Selector<'_> {
                 let nan = self.constant(NAN);
                 self.blend(is_nan, nan, a)
             }
+            Unary::RoundF16 => self.round_f16(a, half),
+            Unary::F16FromF32 => self.f16_from_f32(a, half),
+            Unary::F32FromF16 => self.f32_from_f16(a, half),
             Unary::S32FromF32 => self.s32_from_f32(a, half),
             Unary::U32FromF32 => self.u32_from_f32(a, half),
             Unary::F32FromS32 => {
@@ -287,5 +290,22 @@ impl Selector<'_> {
         let mask = self.mask(mask, half);
         let whole = self.quads(mask, true);
         self.where_set(whole, difference)
+    }
+
+    /// The word of one lane of the quad, 0 if the lane is not set.
+    pub(super) fn quad_lane(
+        &mut self,
+        lane: u8,
+        (value, mask): (Value, Value),
+        half: usize,
+    ) -> VReg {
+        let mut value_of = self.word_register(value, half);
+        if !self.plan.has_whole_quads(mask) {
+            let mask = self.mask(mask, half);
+            value_of = self.where_set(mask, value_of);
+        }
+        let order = (lane & 3) * 0b01_01_01_01;
+        let source = Source::Register(value_of);
+        self.emit((&vector_op::PERMUTE, VECTOR), None, source, Some(order))
     }
 }

@@ -26,7 +26,8 @@ impl Emitter<'_> {
             | Op::Select { .. }
             | Op::Math(..)
             | Op::Math2(..)
-            | Op::Derivative { .. } => self.arithmetic(op, first),
+            | Op::Derivative { .. }
+            | Op::QuadLane { .. } => self.arithmetic(op, first),
             Op::Compare(..) | Op::MaskNot(_) | Op::MaskBinary(..) | Op::QuadAny(_) | Op::Any(_) => {
                 self.on_masks(op, first)
             }
@@ -117,6 +118,10 @@ impl Emitter<'_> {
                 let (value, mask) = (self.word_slot(value), self.mask(mask));
                 let to = *result.insert(self.new_slot());
                 Instruction::Derivative(axis, precision, to, value, mask)
+            }
+            Op::QuadLane { lane, value, mask } => {
+                let (value, mask) = (self.word_slot(value), self.mask(mask));
+                Instruction::QuadLane(lane, *result.insert(self.new_slot()), value, mask)
             }
             _ => return,
         };

@@ -258,7 +258,7 @@ pub(super) fn each_register(
             pair.iter_mut().for_each(|slot| visit.read(slot));
             visit.write(to);
         }
-        Instruction::Derivative(_, _, to, a, mask) => {
+        Instruction::Derivative(_, _, to, a, mask) | Instruction::QuadLane(_, to, a, mask) => {
             visit.read(a);
             visit.mask(mask);
             visit.write(to);

@@ -1,11 +1,12 @@
 //! The interpreter's loop.
 
 use super::super::Stopped;
-use super::super::instruction::{Instruction, Mask};
+use super::super::instruction::{Instruction, Mask, Slot};
 use super::arithmetic::Arithmetic;
 use super::state::{MaskOperand, State, quads_with_any};
 use super::table::Table;
 use crate::op::MaskBinary;
+use estampe_simd::Packet;
 
 /// How far a chunk is.
 #[derive(Debug, Clone, Copy)]
@@ -69,6 +70,9 @@ pub(super) fn copies_and_memory(state: &State<'_>, instruction: &Instruction) {
             }
         }
         Instruction::MaskBinary(kind, to, pair) => mask_binary(state, *kind, (*to, *pair)),
+        Instruction::QuadLane(lane, to, value, mask) => {
+            quad_lane(state, *lane, (*to, *value), state.mask(*mask));
+        }
         Instruction::QuadAny(to, a) => {
             for (to, a) in state.mask_slot(*to).iter().zip(state.mask_slot(*a)) {
                 to.set(quads_with_any(a.get()));
@@ -99,6 +103,18 @@ pub(super) fn copies_and_memory(state: &State<'_>, instruction: &Instruction) {
         Instruction::Texture(code) => state.texture(code),
         // The loop and the functions of the SIMD levels execute the others.
         _ => {}
+    }
+}
+
+fn quad_lane(state: &State<'_>, lane: u8, (to, value): (Slot, Slot), mask: MaskOperand<'_>) {
+    let words = state.slot(to).iter().zip(state.slot(value));
+    for (packet, (to, value)) in words.enumerate() {
+        let (value, mask) = (value.get().0, mask.packet(packet));
+        let of_lane = |at: usize| {
+            let from = at & !3 | usize::from(lane & 3);
+            value[from] * u32::from(mask >> from & 1)
+        };
+        to.set(Packet(core::array::from_fn(of_lane)));
     }
 }
 

@@ -250,3 +250,24 @@ fn derivatives_are_differences_in_whole_quads() {
         }
     }
 }
+
+#[test]
+fn a_lane_of_a_quad_is_seen_by_all_four() {
+    for lane in 0..4 {
+        let op = Op::QuadLane {
+            lane,
+            value: V[0],
+            mask: V[1],
+        };
+        let kinds = [Type::Word, Type::Mask];
+        check(
+            &format!("quad_lane {lane}"),
+            (op, &kinds),
+            false,
+            &|given, at| {
+                let from = at & !3 | usize::from(lane);
+                given[0][from] * given[1][from]
+            },
+        );
+    }
+}

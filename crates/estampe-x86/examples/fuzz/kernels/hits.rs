@@ -105,6 +105,7 @@ fn name(op: &Op) -> String {
         Op::Fma(_) => "fma",
         Op::MaskNot(_) => "mask not",
         Op::Select { .. } => "select",
+        Op::QuadLane { .. } => "quad lane",
         Op::QuadAny(_) => "quad any",
         Op::Any(_) => "any",
         Op::LoadLocal { .. } => "load local",

@@ -19,11 +19,8 @@ impl Generator<'_> {
         let value = match self.random.u32(0..32) {
             0..=2 => {
                 let mut kind = self.one_of(Unary::ALL);
-                let is_call = matches!(
-                    kind,
-                    Unary::RoundF16 | Unary::F16FromF32 | Unary::F32FromF16 | Unary::ReverseBits
-                );
-                if self.is_free && is_call {
+                // A call.
+                if self.is_free && kind == Unary::ReverseBits {
                     kind = Unary::FSqrt;
                 }
                 let result = self.builder.unary(kind, a);
@@ -86,16 +83,22 @@ impl Generator<'_> {
                 } else {
                     self.mask()
                 };
-                // Finite: the difference of a uniform infinity is NaN, yet 0 in quads that are
-                // not whole, and kernels call it uniform.
-                let value = self.builder.unary(Unary::F32FromS32, a);
-                let difference = self.builder.op1(Op::Derivative {
-                    axis,
-                    precision,
-                    value,
-                    mask,
-                });
-                self.canonical(difference)
+                if self.random.bool() {
+                    let lane = self.random.u8(0..4);
+                    let value = a;
+                    self.builder.op1(Op::QuadLane { lane, value, mask })
+                } else {
+                    // Finite: the difference of a uniform infinity is NaN, yet 0 in quads that are
+                    // not whole, and kernels call it uniform.
+                    let value = self.builder.unary(Unary::F32FromS32, a);
+                    let difference = self.builder.op1(Op::Derivative {
+                        axis,
+                        precision,
+                        value,
+                        mask,
+                    });
+                    self.canonical(difference)
+                }
             }
             12 if self.is_free => {
                 let (offset, buffer) = (self.offset(a), READ);
@@ -244,8 +247,8 @@ impl Generator<'_> {
             value,
             mask,
         });
-        // The result of a store is not used.
-        if kind == Atomic::Store {
+        // The result of a store is not used, and that of a half need not be.
+        if kind == Atomic::Store || kind == Atomic::StoreHalf && self.random.bool() {
             Vec::new()
         } else {
             result
