@@ -70,7 +70,7 @@ pub use commands::{Draw, LoadOp, OcclusionQueries, PassControl, RenderPass, View
 pub use draw::Context;
 pub use pipeline::{
     PipelineError, RenderPipeline, RenderPipelineDescriptor, TessellationState,
-    check_bind_group_layouts, check_declared,
+    check_bind_group_layouts, check_declared, check_immediates,
 };
 pub use plan::pass_check::RenderPassError;
 pub use schedule::{ThreadError, ThreadPool, ThreadPoolBuilder};

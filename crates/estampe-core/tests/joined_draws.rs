@@ -130,6 +130,7 @@ fn check(descriptor: RenderPipelineDescriptor, samples: u32) {
                     group: Arc::new(group),
                     ..BoundGroup::default()
                 }],
+                ..Bindings::default()
             };
             ([BufferData::from_f32s(&positions)], bindings, vertices)
         })

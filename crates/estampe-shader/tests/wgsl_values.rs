@@ -274,6 +274,14 @@ fn functions_are_those_of_maths() {
             ]
         },
     );
+    check_expression(
+        "vec4f(vec4i(sign(vec2i(i)), vec2i(sign(vec2u(u, u | 0x80000000u)))))",
+        |[x, y, ..]| {
+            let (i, u) = (x as i32, y.abs() as u32);
+            let sign = i.signum() as f32;
+            [sign, sign, u.min(1) as f32, 1.0]
+        },
+    );
     check_expression("unpack4x8unorm(pack4x8unorm(v))", |v| {
         v.map(|one| (0.5 + one.clamp(0.0, 1.0) * 255.0).floor() / 255.0)
     });

@@ -15,7 +15,7 @@ const WORDS: usize = 700;
 fn compiled(source: &str) -> TextCompute {
     let module = naga::front::wgsl::parse_str(source)
         .unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
-    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::default());
+    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::IMMEDIATES);
     let info = validator.validate(&module).expect("a valid module");
     let stage = lower(&module, &info, 0).expect("a shader that is supported");
     TextCompute::new(&stage, 1 << 20).expect("it is small")
@@ -25,6 +25,8 @@ fn compiled(source: &str) -> TextCompute {
 fn shader(body: &str) -> String {
     format!(
         "@group(0) @binding(0) var<uniform> width: u32;\n\
+         struct Pushed {{ other: u32, width: u32, list: array<u32, 2> }}\n\
+         var<immediate> pushed: Pushed;\n\
          @group(0) @binding(1) var<storage, read_write> out: array<u32>;\n\
          @group(0) @binding(2) var<storage, read> data: array<u32>;\n\
          @group(0) @binding(3) var<storage, read_write> sums: array<atomic<u32>>;\n\
@@ -70,6 +72,7 @@ fn run(program: &TextCompute, width: u32, count: [u32; 3]) -> (WorkgroupOrder, [
                 group,
                 ..BoundGroup::default()
             }],
+            immediates: vec![7, width],
         };
         order = Some(program.order(&bindings, count));
         let total = count.iter().map(|side| u64::from(*side)).product::<u64>();
@@ -94,6 +97,7 @@ fn run(program: &TextCompute, width: u32, count: [u32; 3]) -> (WorkgroupOrder, [
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "one list of shaders")]
 fn the_order_is_free_where_no_two_work_groups_meet() {
     use WorkgroupOrder::{Free, InOrder};
     let wide = [5, 3, 1];
@@ -104,6 +108,21 @@ fn the_order_is_free_where_no_two_work_groups_meet() {
         ("out[id.y * width + id.x] = id.x;", 20, wide, Free),
         // Wider than the picture: the last column of one row is the first of the next.
         ("out[id.y * width + id.x] = id.x;", 18, wide, InOrder),
+        ("out[id.y * pushed.width + id.x] = id.x;", 20, wide, Free),
+        ("out[id.y * pushed.width + id.x] = id.x;", 18, wide, InOrder),
+        (
+            "if id.x < pushed.width { out[id.y * pushed.width + id.x] = 1u; }",
+            18,
+            wide,
+            Free,
+        ),
+        // A number that is not seen to be one in the whole dispatch.
+        (
+            "out[id.y * pushed.list[width % 2u] + id.x] = id.x;",
+            20,
+            wide,
+            InOrder,
+        ),
         (
             "if id.x >= width { return; } out[id.y * width + id.x] = 1u;",
             18,

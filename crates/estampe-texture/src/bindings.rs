@@ -90,6 +90,7 @@ mod tests {
                 group: Arc::new(BoundResources { entries }),
                 ..BoundGroup::default()
             }],
+            ..Bindings::default()
         };
         let sample = |group, binding| {
             let at = Coordinates::d2(Vec2::new(0.5, 0.5));

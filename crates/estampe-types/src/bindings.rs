@@ -1,5 +1,5 @@
 //! Bindings: the uniforms, buffers and textures of a draw, found by group and binding number as in
-//! WebGPU.
+//! WebGPU, and its immediates.
 //!
 //! A draw names up to [`Limits::max_bind_groups`](crate::Limits) groups. Text shaders read all
 //! their resources through bindings. A Rust shader may own its uniforms and textures instead, and
@@ -80,6 +80,9 @@ pub struct BoundGroup {
 pub struct Bindings {
     /// By group number.
     pub groups: Vec<BoundGroup>,
+    /// The words of the immediates (Vulkan's push constants): few bytes that are part of the draw
+    /// or dispatch itself. Words beyond the end read as zeros.
+    pub immediates: Vec<u32>,
 }
 
 impl Bindings {
@@ -209,6 +212,23 @@ impl Bindings {
         let v: [f32; 16] = self.f32s(group, binding, offset_bytes);
         let column = |c: usize| [v[c * 4], v[c * 4 + 1], v[c * 4 + 2], v[c * 4 + 3]];
         crate::Mat4([column(0), column(1), column(2), column(3)])
+    }
+
+    /// `N` consecutive words of the immediates, from a word on.
+    ///
+    /// ```
+    /// let bindings = estampe_types::Bindings {
+    ///     immediates: vec![7, 1.5_f32.to_bits()],
+    ///     ..Default::default()
+    /// };
+    /// assert_eq!(bindings.immediate_words(0), [7]);
+    /// assert_eq!(bindings.immediate_words(1).map(f32::from_bits), [1.5, 0.0]);
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn immediate_words<const N: usize>(&self, first_word: usize) -> [u32; N] {
+        let word = |at: usize| self.immediates.get(first_word.saturating_add(at));
+        std::array::from_fn(|at| word(at).copied().unwrap_or_default())
     }
 
     /// The resource of a crate above this one at a group and binding number, if it is of this type.

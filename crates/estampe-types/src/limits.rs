@@ -54,6 +54,9 @@ pub struct Limits {
     pub min_uniform_buffer_offset_alignment: u32,
     /// Multiple that offsets of storage buffers must be of, in bytes. Default and minimum 4.
     pub min_storage_buffer_offset_alignment: u32,
+    /// Bytes of the immediates (Vulkan's push constants) of a draw or dispatch. Default 128, which
+    /// every implementation of Vulkan has; WebGPU's default is 64.
+    pub max_immediate_size: u32,
     /// Vertices or indices of all draws of a pass, times their instances: what keeps a hostile draw
     /// from running for hours. Default 2³⁰.
     pub max_pass_vertices: u64,
@@ -106,6 +109,7 @@ impl Default for Limits {
             max_storage_buffer_binding_size: 1 << 30,
             min_uniform_buffer_offset_alignment: 4,
             min_storage_buffer_offset_alignment: 4,
+            max_immediate_size: 128,
             max_pass_vertices: 1 << 30,
             max_texture_array_layers: 256,
             max_texture_dimension_3d: 2048,

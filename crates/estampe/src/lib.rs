@@ -48,6 +48,7 @@ mod command;
 mod compute;
 mod copy;
 mod device;
+mod immediates;
 mod inspect;
 mod pass;
 #[cfg(feature = "png")]
@@ -122,6 +123,7 @@ pub use estampe_types::{
     Vec3, Vec4, VertexEncoding, VertexFormat, VertexIn, ViewDimension, attributes, maths, operand,
     shader, state, varyings, vec2, vec3, vec4,
 };
+pub use immediates::ImmediatesError;
 pub use inspect::{
     BlockCounts, ClipOutcome, EmittedRecord, FragmentRecord, InspectError, InspectedVertex,
     PassStages, PieceVertex, PixelCounts, PixelHistory, PolygonVertex, PrimitiveKind,

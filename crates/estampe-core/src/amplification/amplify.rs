@@ -38,7 +38,10 @@ const UNIT_WORDS: usize = 1 << 19;
 const WAVE_WORDS: usize = 1 << 24;
 
 /// Bindings of draws that have none.
-static NO_BINDINGS: Bindings = Bindings { groups: Vec::new() };
+static NO_BINDINGS: Bindings = Bindings {
+    groups: Vec::new(),
+    immediates: Vec::new(),
+};
 
 /// What amplification needs besides a draw.
 #[derive(Debug, Clone, Copy)]

@@ -1,5 +1,5 @@
 //! The limits of what a pipeline binds, counted over all of its bind group layouts: a shader sees
-//! every binding in both stages.
+//! every binding in both stages. And the limit of the immediates that it reads.
 
 use super::{PipelineError, RenderPipelineDescriptor};
 use estampe_types::{BindGroupLayout, BindingType, BufferBindingType, Limits};
@@ -10,6 +10,7 @@ pub(super) fn check_bindings(
     limits: &Limits,
 ) -> Result<(), PipelineError> {
     check_bind_group_layouts(&descriptor.bind_group_layouts, limits)?;
+    check_immediates(descriptor.immediate_size(), limits)?;
     let both = descriptor.bind_group_layouts.len() + descriptor.vertex_buffers.len();
     let colors = descriptor.targets.iter().flatten();
     let color_bytes = colors
@@ -107,6 +108,19 @@ pub fn check_bind_group_layouts(
             limits.max_storage_textures_per_shader_stage,
         ),
     ])
+}
+
+/// Checks the limit of the bytes of immediates that shaders read.
+///
+/// # Errors
+/// [`PipelineError`] names the limit.
+pub fn check_immediates(bytes: u32, limits: &Limits) -> Result<(), PipelineError> {
+    check_counts(&[(
+        "bytes of immediates",
+        bytes as usize,
+        "max_immediate_size",
+        limits.max_immediate_size,
+    )])
 }
 
 /// Rules: what is counted, the count, the limit's name and the limit.

@@ -9,7 +9,7 @@ pub(crate) mod primitive_kind;
 mod stage_key;
 
 pub use amplified::TessellationState;
-pub use binding_limits::check_bind_group_layouts;
+pub use binding_limits::{check_bind_group_layouts, check_immediates};
 pub use error::PipelineError;
 pub(crate) use stage_key::StageKey;
 
@@ -84,6 +84,14 @@ impl RenderPipelineDescriptor {
             logic_operation: None,
             targets: vec![Some(TextureFormat::Rgba8Unorm.into())],
         }
+    }
+
+    /// The bytes of immediates that its programs read: each draw must give at least as many.
+    #[must_use]
+    pub fn immediate_size(&self) -> u32 {
+        let vertices = self.vertex_program.as_ref();
+        let of_vertices = vertices.map_or(0, |program| program.immediate_size());
+        self.program.immediate_size().max(of_vertices)
     }
 }
 

@@ -12,7 +12,10 @@ use estampe_simd::Level;
 use estampe_types::Bindings;
 
 /// Bindings of draws that have none.
-static NO_BINDINGS: Bindings = Bindings { groups: Vec::new() };
+static NO_BINDINGS: Bindings = Bindings {
+    groups: Vec::new(),
+    immediates: Vec::new(),
+};
 
 /// A draw, or part of one: a range of vertices that is shaded once, and the primitives between
 /// them.

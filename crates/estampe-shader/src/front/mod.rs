@@ -25,6 +25,7 @@ mod spirv;
 mod suggest;
 mod validate;
 mod wgsl;
+mod wgsl_enable;
 
 pub use errors::{ShaderError, ShaderErrors};
 pub use load::{load, load_pair};

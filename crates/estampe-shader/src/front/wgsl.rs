@@ -6,7 +6,7 @@ use naga::front::wgsl;
 
 use super::lines::Lines;
 use super::validate::CAPABILITIES;
-use super::{ShaderError, ShaderErrors, suggest};
+use super::{ShaderError, ShaderErrors, suggest, wgsl_enable};
 
 /// Parses WGSL.
 pub(super) fn parse(text: &str) -> Result<naga::Module, ShaderErrors> {
@@ -16,7 +16,7 @@ pub(super) fn parse(text: &str) -> Result<naga::Module, ShaderErrors> {
     };
     let mut frontend = wgsl::Frontend::new_with_options(options);
     frontend
-        .parse(text)
+        .parse(&wgsl_enable::without_subgroups(text))
         .map_err(|error| describe(text, &error).into())
 }
 

@@ -1,24 +1,29 @@
 //! Operators, conversions and choices.
 
-use super::{Frame, LowerError, Lowered, Lowering};
+use super::half::is_half;
+use super::types::{is_wide, words};
+use super::{Frame, LowerError, Lowered, Lowering, wide};
 use estampe_ir::op::{Axis, Binary, Compare, MaskBinary, Precision, Unary};
 use estampe_ir::{Op, Value};
 use naga::{
     BinaryOperator, DerivativeAxis, DerivativeControl, Expression, Handle, RelationalFunction,
-    ScalarKind, TypeInner, UnaryOperator,
+    Scalar, ScalarKind, TypeInner, UnaryOperator,
 };
 
 impl<'a> Lowering<'a> {
+    /// The type of the scalars of an expression.
+    pub(super) fn scalar(&self, frame: &Frame<'a>, handle: Handle<Expression>) -> Lowered<Scalar> {
+        let scalar = self.inner(frame, handle).scalar();
+        scalar.ok_or(LowerError::Unsupported("operations on structs"))
+    }
+
     /// The kind of the scalars of an expression.
     pub(super) fn scalar_kind(
         &self,
         frame: &Frame<'a>,
         handle: Handle<Expression>,
     ) -> Lowered<ScalarKind> {
-        let scalar = self.inner(frame, handle).scalar();
-        scalar
-            .map(|scalar| scalar.kind)
-            .ok_or(LowerError::Unsupported("operations on structs"))
+        Ok(self.scalar(frame, handle)?.kind)
     }
 
     pub(super) fn computed(
@@ -29,8 +34,12 @@ impl<'a> Lowering<'a> {
         let function = frame.function;
         match function.expressions[handle] {
             Expression::Unary { op, expr } => {
-                let kind = self.scalar_kind(frame, expr)?;
+                let scalar = self.scalar(frame, expr)?;
+                let kind = scalar.kind;
                 let values = self.values(frame, expr)?;
+                if is_wide(scalar) {
+                    return Ok(wide::unary(&mut self.builder, op, &values));
+                }
                 let one = |value: Value| match (op, kind) {
                     (UnaryOperator::Negate, ScalarKind::Float) => {
                         self.builder.unary(Unary::FNeg, value)
@@ -52,10 +61,11 @@ impl<'a> Lowering<'a> {
                 reject,
             } => {
                 let condition = self.values(frame, condition)?;
+                let width = self.inner(frame, accept).scalar().map_or(1, words) as usize;
                 let (accept, reject) = (self.values(frame, accept)?, self.values(frame, reject)?);
                 let pairs = accept.into_iter().zip(reject).enumerate();
                 let chosen = pairs.map(|(at, (yes, no))| {
-                    let mask = condition[at.min(condition.len() - 1)];
+                    let mask = condition[(at / width).min(condition.len() - 1)];
                     self.builder.select(mask, yes, no)
                 });
                 Ok(chosen.collect())
@@ -86,15 +96,24 @@ impl<'a> Lowering<'a> {
                 kind,
                 convert,
             } => {
-                let from = self.scalar_kind(frame, expr)?;
+                let of_expression = self.scalar(frame, expr)?;
+                let from = of_expression.kind;
                 let values = self.values(frame, expr)?;
+                let is_to_half = (kind, convert) == (ScalarKind::Float, Some(2));
                 let Some(width) = convert else {
+                    if is_half(of_expression) && kind != ScalarKind::Float {
+                        return Err(LowerError::Unsupported("16-bit integers"));
+                    }
                     let bits = values.into_iter();
                     return Ok(bits
                         .map(|value| self.bits(value, from == ScalarKind::Float))
                         .collect());
                 };
-                if kind != ScalarKind::Bool && width != 4 {
+                let to = Scalar { kind, width };
+                if is_wide(of_expression) || is_wide(to) {
+                    return wide::convert(&mut self.builder, &values, [of_expression, to]);
+                }
+                if kind != ScalarKind::Bool && width != 4 && !is_to_half {
                     return Err(LowerError::Unsupported("numbers of this width"));
                 }
                 values
@@ -198,8 +217,22 @@ impl<'a> Lowering<'a> {
         [left, right]: [Handle<Expression>; 2],
     ) -> Lowered<Vec<Value>> {
         let (of_left, of_right) = (self.inner(frame, left), self.inner(frame, right));
-        let kind = self.scalar_kind(frame, left)?;
-        let (a, b) = (self.values(frame, left)?, self.values(frame, right)?);
+        let scalar = self.scalar(frame, left)?;
+        let kind = scalar.kind;
+        let a = self.values(frame, left)?;
+        // The amount of a shift has a type of its own.
+        let is_shift = matches!(
+            operator,
+            BinaryOperator::ShiftLeft | BinaryOperator::ShiftRight
+        );
+        let b = if is_shift {
+            self.shift_amounts(frame, right)?
+        } else {
+            self.values(frame, right)?
+        };
+        if is_wide(scalar) {
+            return wide::binary(&mut self.builder, operator, kind, [&a, &b]);
+        }
         if operator == BinaryOperator::Multiply {
             match (of_left, of_right) {
                 (&TypeInner::Matrix { rows, .. }, TypeInner::Vector { .. }) => {
@@ -223,6 +256,17 @@ impl<'a> Lowering<'a> {
         (0..count)
             .map(|k| self.operator(operator, kind, [at(&a, k), at(&b, k)]))
             .collect()
+    }
+
+    /// The amounts of a shift, of which only the low word counts.
+    fn shift_amounts(
+        &mut self,
+        frame: &mut Frame<'a>,
+        handle: Handle<Expression>,
+    ) -> Lowered<Vec<Value>> {
+        let width = words(self.scalar(frame, handle)?) as usize;
+        let values = self.values(frame, handle)?;
+        Ok(values.into_iter().step_by(width).collect())
     }
 
     /// The sum of the columns, each times a component, from the first on.

@@ -25,7 +25,8 @@ pub(super) fn bindings(
         let buffer = |ty| BindingType::Buffer {
             ty,
             has_dynamic_offset: false,
-            min_binding_size: u64::from(inner.size(module.to_ctx())),
+            // In whole words, of which the last may have one 16-bit float.
+            min_binding_size: u64::from(inner.size(module.to_ctx()).next_multiple_of(4)),
         };
         let ty = match global.space {
             AddressSpace::Uniform => buffer(BufferBindingType::Uniform),

@@ -1,14 +1,15 @@
 //! Inputs and outputs of an entry point.
 
-use super::pointer::{Base, Pointer};
-use super::types::{kinds, scalars_of};
+use super::half::is_half;
+use super::pointer::{Base, InWord, Pointer};
+use super::types::{is_wide, kinds, scalars_of};
 use super::{LowerError, Lowered, Lowering, Operand};
 use crate::program::VaryingSlot;
 use estampe_ir::Value;
 use estampe_ir::interface::{BufferSlot, Input, Output, Stage};
 use estampe_ir::op::Binary;
 use estampe_types::shader::{Interpolation, Sampling};
-use naga::{AddressSpace, Binding, BuiltIn, EntryPoint, Handle, StorageAccess, TypeInner};
+use naga::{AddressSpace, Binding, BuiltIn, EntryPoint, Handle, Module, StorageAccess, TypeInner};
 
 impl<'a> Lowering<'a> {
     pub(super) fn entry_point(
@@ -89,6 +90,10 @@ impl<'a> Lowering<'a> {
                 AddressSpace::Storage { access } => {
                     self.buffer(handle, access.contains(StorageAccess::STORE), inner)?
                 }
+                AddressSpace::Immediate => {
+                    let base = Base::Immediates(self.builder.word(0));
+                    Operand::Pointer(Pointer { base, inner })
+                }
                 _ => return Err(LowerError::Unsupported("variables of this address space")),
             };
             self.globals.insert(handle, operand);
@@ -112,7 +117,11 @@ impl<'a> Lowering<'a> {
         });
         let buffer = u32::try_from(buffers.len() - 1).expect("few buffers");
         let byte = self.builder.word(0);
-        let base = Base::Buffer { buffer, byte };
+        let base = Base::Buffer {
+            buffer,
+            byte,
+            place: InWord::After(0),
+        };
         Ok(Operand::Pointer(Pointer { base, inner }))
     }
 
@@ -134,14 +143,15 @@ impl<'a> Lowering<'a> {
             }
             Some(Binding::BuiltIn(built_in)) => values.extend(self.built_in(*built_in)?),
             Some(Binding::Location { location, .. }) => {
-                let count = u32::try_from(scalars_of(module, ty)?.len()).unwrap_or(4);
+                let scalars = scalars_of(module, ty)?;
+                let count = components(module, ty)?;
                 let is_vertex = self.builder.stage() == Stage::Vertex;
                 let first = if is_vertex {
                     0
                 } else {
                     self.varying(*location, count, binding)
                 };
-                for component in 0..count {
+                for (component, scalar) in (0..).zip(scalars) {
                     let input = if is_vertex {
                         Input::Attribute {
                             location: *location,
@@ -150,7 +160,13 @@ impl<'a> Lowering<'a> {
                     } else {
                         Input::Varying(first + component)
                     };
-                    values.push(self.builder.input(input));
+                    let value = vec![self.builder.input(input)];
+                    // Attributes and interpolated numbers are binary32.
+                    values.extend(if is_half(scalar) {
+                        self.rounded_to_half(value)
+                    } else {
+                        value
+                    });
                 }
             }
         }
@@ -212,7 +228,7 @@ impl<'a> Lowering<'a> {
             BuiltIn::SampleIndex => vec![self.builder.input(Input::SampleIndex)],
             BuiltIn::SampleMask => vec![self.builder.input(Input::SampleMask)],
             BuiltIn::LocalInvocationIndex => vec![self.builder.input(Input::LocalInvocationIndex)],
-            _ => return Err(LowerError::Unsupported("built-in inputs of this kind")),
+            _ => vec![self.subgroup_input(built_in)?],
         })
     }
 
@@ -228,8 +244,6 @@ impl<'a> Lowering<'a> {
         values: &mut std::vec::IntoIter<Value>,
     ) -> Lowered<()> {
         let module = self.module;
-        let count = scalars_of(module, ty)?.len();
-        let count = u32::try_from(count).unwrap_or(u32::MAX);
         match binding {
             None => {
                 let TypeInner::Struct { members, .. } = &module.types[ty].inner else {
@@ -240,7 +254,7 @@ impl<'a> Lowering<'a> {
                 }
             }
             Some(Binding::BuiltIn(built_in)) => {
-                for part in 0..count {
+                for part in 0..components(module, ty)? {
                     let output = match built_in {
                         BuiltIn::Position { .. } => Output::Position(part),
                         BuiltIn::PointSize => Output::PointSize,
@@ -258,6 +272,7 @@ impl<'a> Lowering<'a> {
                 blend_src,
                 ..
             }) => {
+                let count = components(module, ty)?;
                 let is_vertex = self.builder.stage() == Stage::Vertex;
                 let first = if is_vertex {
                     self.varying(*location, count, binding)
@@ -280,4 +295,13 @@ impl<'a> Lowering<'a> {
         }
         Ok(())
     }
+}
+
+/// The number of 32-bit components of an input or output. Attributes, varyings and targets have no
+/// integers of 64 bits.
+fn components(module: &Module, ty: Handle<naga::Type>) -> Lowered<u32> {
+    if module.types[ty].inner.scalar().is_some_and(is_wide) {
+        return Err(LowerError::Unsupported("64-bit inputs and outputs"));
+    }
+    Ok(u32::try_from(scalars_of(module, ty)?.len()).unwrap_or(u32::MAX))
 }

@@ -1,7 +1,8 @@
 //! Expressions: places, parts, and values that are put together.
 
 use super::pointer::{Base, Pointer};
-use super::types::{kinds, part, scalars};
+use super::types::{is_wide, kinds, part, scalars, words};
+use super::wide::{self, Wide};
 use super::{Frame, LowerError, Lowered, Lowering, Operand};
 use estampe_ir::op::{Binary, Compare, MaskBinary, Unary};
 use estampe_ir::{Op, Type, Value};
@@ -25,13 +26,29 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// The only scalar of an expression.
+    /// The values of an expression. A 64-bit integer is the nearest one of 32 bits.
+    pub(super) fn narrow_values(
+        &mut self,
+        frame: &mut Frame<'a>,
+        handle: Handle<Expression>,
+    ) -> Lowered<Vec<Value>> {
+        let values = self.values(frame, handle)?;
+        Ok(match self.inner(frame, handle).scalar() {
+            Some(scalar) if is_wide(scalar) => {
+                wide::nearest_words(&mut self.builder, &values, scalar.kind)
+            }
+            _ => values,
+        })
+    }
+
+    /// The only scalar of an expression. A 64-bit integer is the nearest one of 32 bits: indices
+    /// and mip levels that are too large stay so.
     pub(super) fn value(
         &mut self,
         frame: &mut Frame<'a>,
         handle: Handle<Expression>,
     ) -> Lowered<Value> {
-        let values = self.values(frame, handle)?;
+        let values = self.narrow_values(frame, handle)?;
         values
             .first()
             .copied()
@@ -79,7 +96,7 @@ impl<'a> Lowering<'a> {
     ) -> Lowered<Operand> {
         let function = frame.function;
         let scalars = match function.expressions[handle] {
-            Expression::Literal(literal) => vec![self.literal(literal)?],
+            Expression::Literal(literal) => self.literal(literal)?,
             Expression::Constant(constant) => {
                 self.constant(self.module.constants[constant].init)?
             }
@@ -108,8 +125,8 @@ impl<'a> Lowering<'a> {
                 }
             },
             Expression::Splat { size, value } => {
-                let value = self.value(frame, value)?;
-                vec![value; size as usize]
+                let value = self.values(frame, value)?;
+                value.repeat(size as usize)
             }
             Expression::Swizzle {
                 size,
@@ -117,9 +134,12 @@ impl<'a> Lowering<'a> {
                 pattern,
             } => {
                 let values = self.values(frame, vector)?;
+                let scalar = self.inner(frame, vector).scalar();
+                let width = scalar.map_or(1, words) as usize;
                 let chosen = pattern.iter().take(size as usize);
                 chosen
-                    .map(|component| values[*component as usize])
+                    .flat_map(|component| &values[*component as usize * width..][..width])
+                    .copied()
                     .collect()
             }
             Expression::FunctionArgument(at) => {
@@ -146,7 +166,10 @@ impl<'a> Lowering<'a> {
             Expression::ImageSample { .. }
             | Expression::ImageLoad { .. }
             | Expression::ImageQuery { .. } => self.image(frame, handle)?,
-            _ => self.computed(frame, handle)?,
+            _ => {
+                let values = self.computed(frame, handle)?;
+                self.rounded(frame, handle, values)
+            }
         };
         Ok(Operand::Scalars(scalars))
     }
@@ -226,12 +249,18 @@ impl<'a> Lowering<'a> {
         Ok(Operand::Scalars(chosen))
     }
 
-    pub(super) fn literal(&mut self, literal: Literal) -> Lowered<Value> {
+    pub(super) fn literal(&mut self, literal: Literal) -> Lowered<Vec<Value>> {
         Ok(match literal {
-            Literal::F32(number) => self.builder.float(number),
-            Literal::U32(number) => self.builder.word(number),
-            Literal::I32(number) => self.builder.word(number.cast_unsigned()),
-            Literal::Bool(mask) => self.builder.mask(mask),
+            Literal::F32(number) => vec![self.builder.float(number)],
+            Literal::F16(number) => vec![self.builder.float(f32::from(number))],
+            Literal::U32(number) => vec![self.builder.word(number)],
+            Literal::I32(number) => vec![self.builder.word(number.cast_unsigned())],
+            Literal::U64(number) => Wide::constant(&mut self.builder, number).to_vec(),
+            Literal::I64(number) => {
+                Wide::constant(&mut self.builder, number.cast_unsigned()).to_vec()
+            }
+            Literal::Bool(mask) => vec![self.builder.mask(mask)],
+            Literal::F64(_) => return Err(LowerError::Unsupported("64-bit floats")),
             _ => return Err(LowerError::Unsupported("numbers of this width")),
         })
     }
@@ -240,7 +269,7 @@ impl<'a> Lowering<'a> {
     pub(super) fn constant(&mut self, handle: Handle<Expression>) -> Lowered<Vec<Value>> {
         let module: &'a naga::Module = self.module;
         Ok(match module.global_expressions[handle] {
-            Expression::Literal(literal) => vec![self.literal(literal)?],
+            Expression::Literal(literal) => self.literal(literal)?,
             Expression::Constant(constant) => self.constant(module.constants[constant].init)?,
             Expression::ZeroValue(ty) => {
                 let types = kinds(module, ty)?;
@@ -254,8 +283,8 @@ impl<'a> Lowering<'a> {
                 values
             }
             Expression::Splat { size, value } => {
-                let value = self.constant(value)?[0];
-                vec![value; size as usize]
+                let value = self.constant(value)?;
+                value.repeat(size as usize)
             }
             _ => return Err(LowerError::Unsupported("constants of this kind")),
         })
@@ -263,11 +292,18 @@ impl<'a> Lowering<'a> {
 
     /// The number of elements of an array at the end of a buffer.
     fn array_length(&mut self, pointer: &Pointer) -> Lowered<Value> {
-        let (Base::Buffer { buffer, byte }, TypeInner::Array { stride, .. }) =
-            (pointer.base, &pointer.inner)
+        let (
+            Base::Buffer {
+                buffer,
+                byte,
+                place,
+            },
+            TypeInner::Array { stride, .. },
+        ) = (pointer.base, &pointer.inner)
         else {
             return Err(LowerError::Unsupported("lengths of this memory"));
         };
+        let byte = self.first_byte(byte, place);
         let bytes = self.builder.op1(Op::BufferBytes(buffer));
         let left = self.builder.binary(Binary::Sub, bytes, byte);
         let stride = self.builder.word((*stride).max(1));

@@ -41,7 +41,7 @@ impl<'a> Lowering<'a> {
                     (Some(_), true) => TextureQuery::GatherCompare,
                     (Some(component), false) => TextureQuery::Gather(component as u8),
                 };
-                op.coordinates = self.values(frame, coordinate)?;
+                op.coordinates = self.narrow_values(frame, coordinate)?;
                 op.layer = self.optional(frame, array_index)?;
                 op.reference = self.optional(frame, depth_ref)?;
                 op.offset = self.offset(frame, offset)?;
@@ -64,7 +64,7 @@ impl<'a> Lowering<'a> {
                 level,
             } => {
                 let mut op = self.texture_op(frame, image, TextureQuery::Load)?;
-                op.coordinates = self.values(frame, coordinate)?;
+                op.coordinates = self.narrow_values(frame, coordinate)?;
                 op.layer = self.optional(frame, array_index)?;
                 op.sample = self.optional(frame, sample)?;
                 if let Some(level) = self.optional(frame, level)? {
@@ -91,9 +91,9 @@ impl<'a> Lowering<'a> {
         value: Handle<Expression>,
     ) -> Lowered<()> {
         let mut op = self.texture_op(frame, image, TextureQuery::Store)?;
-        op.coordinates = self.values(frame, coordinate)?;
+        op.coordinates = self.narrow_values(frame, coordinate)?;
         op.layer = self.optional(frame, layer)?;
-        op.stored = self.values(frame, value)?;
+        op.stored = self.narrow_values(frame, value)?;
         op.mask = self.slots[self.cover];
         self.builder.op(Op::Texture(Box::new(op)));
         Ok(())
@@ -195,7 +195,7 @@ impl<'a> Lowering<'a> {
         let mut offset = [0; 3];
         let values = match handle {
             // Offsets are constants of the module or of the function.
-            Some(handle) => self.values(frame, handle)?,
+            Some(handle) => self.narrow_values(frame, handle)?,
             None => Vec::new(),
         };
         for (to, value) in offset.iter_mut().zip(values) {

@@ -1,6 +1,7 @@
 //! Built-in functions, in the order of operations of `estampe_types::maths`.
 
-use super::{Frame, LowerError, Lowered, Lowering};
+use super::types::is_wide;
+use super::{Frame, LowerError, Lowered, Lowering, wide};
 use estampe_ir::op::{Binary, Compare, Math, Math2, Unary};
 use estampe_ir::{Op, Value};
 use naga::{Expression, Handle, MathFunction, ScalarKind, TypeInner};
@@ -14,11 +15,15 @@ impl<'a> Lowering<'a> {
     ) -> Lowered<Vec<Value>> {
         use MathFunction as F;
         let first = handles[0].ok_or(LowerError::Unsupported("missing arguments"))?;
-        let kind = self.scalar_kind(frame, first)?;
+        let scalar = self.scalar(frame, first)?;
+        let kind = scalar.kind;
         let inner = self.inner(frame, first);
         let mut arguments = Vec::new();
         for handle in handles.into_iter().flatten() {
             arguments.push(self.values(frame, handle)?);
+        }
+        if is_wide(scalar) {
+            return wide::math(&mut self.builder, function, kind, &arguments);
         }
         let of_vectors = match function {
             F::Dot if kind != ScalarKind::Float => Some(vec![self.integer_dot(&arguments)]),
@@ -283,6 +288,10 @@ impl<'a> Lowering<'a> {
             F::Clamp => {
                 let raised = self.builder.binary(max, x, y);
                 self.builder.binary(min, raised, z)
+            }
+            F::Sign if !is_signed => {
+                let one = self.builder.word(1);
+                self.builder.binary(B::UMin, x, one)
             }
             F::Sign => {
                 let (low, high) = (self.signed(-1), self.builder.word(1));

@@ -1,31 +1,38 @@
 //! An entry point of a module to a tree.
 //!
 //! In · Out: a checked naga module · a [`Tree`](estampe_ir::tree::Tree), one invocation's view.
-//! Calls are inlined, vectors, matrices, arrays and structs are taken apart into 32-bit words, and
-//! variables become values: each scalar of a variable that is never indexed by a number that the
-//! shader computes is a *slot*, which has a value at each place. Constructs hand over the slots
-//! that they may change. Variables that are indexed so are arrays of the invocation.
+//! Calls are inlined, vectors, matrices, arrays, structs and 64-bit integers are taken apart into
+//! 32-bit words, and variables become values: each scalar of a variable that is never indexed by a
+//! number that the shader computes is a *slot*, which has a value at each place. Constructs hand
+//! over the slots that they may change. Variables that are indexed so are arrays of the invocation.
 //!
 //! | file | does |
 //! |---|---|
 //! | `types` | the scalars of a type |
 //! | `summary` | what a function changes, and which variables are indexed |
-//! | `pointer` | places: slots, arrays, buffers, the work-group's memory; loads and stores |
+//! | `pointer` | places: slots, arrays, buffers, immediates, the work-group's memory; loads and stores |
+//! | `half_memory` | 16-bit floats in buffers |
 //! | `entry` | inputs and outputs of an entry point |
 //! | `bindings` | what it binds |
 //! | `statement` | control flow and effects |
-//! | `expression`, `arithmetic`, `math`, `image` | values |
+//! | `subgroup` | what the invocations of a quad exchange |
+//! | `expression`, `arithmetic`, `math`, `half`, `image` | values |
+//! | `wide` | 64-bit integers: two words |
 
 mod arithmetic;
 mod bindings;
 mod entry;
 mod expression;
+mod half;
+mod half_memory;
 mod image;
 mod math;
 mod pointer;
 mod statement;
+mod subgroup;
 mod summary;
 mod types;
+mod wide;
 
 use crate::program::{StageSource, VaryingSlot};
 use estampe_ir::Value;
@@ -100,6 +107,7 @@ pub fn lower(
         calls: 0,
         varyings: Vec::new(),
         outputs: Vec::new(),
+        immediate_size: 0,
     };
     lowering.builder.interface_mut().workgroup_size = match stage {
         Stage::Compute => point.workgroup_size,
@@ -114,6 +122,7 @@ pub fn lower(
         tree,
         varyings: lowering.varyings,
         bindings,
+        immediate_size: lowering.immediate_size,
     })
 }
 
@@ -131,6 +140,8 @@ struct Lowering<'a> {
     calls: usize,
     varyings: Vec<VaryingSlot>,
     outputs: Vec<(Output, Value)>,
+    /// The bytes of the immediates up to the last one that is read.
+    immediate_size: u32,
 }
 
 /// A function that is being inlined.

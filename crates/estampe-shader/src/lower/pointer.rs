@@ -1,7 +1,10 @@
 //! Places, and what is loaded from and stored to them.
 
-use super::types::{Part, kind_of, part, scalars};
+use super::half::is_half;
+use super::half_memory::Halves;
+use super::types::{Part, is_wide, kind_of, part, scalars};
 use super::{LowerError, Lowered, Lowering};
+use estampe_ir::interface::{BufferSlot, Input};
 use estampe_ir::op::{Binary, Compare, Unary};
 use estampe_ir::{Op, Type, Value};
 use naga::{Scalar, ScalarKind, TypeInner};
@@ -23,7 +26,31 @@ pub(super) enum Base {
     /// The work-group's memory, from this word on.
     Workgroup(Value),
     /// A buffer, from this byte on.
-    Buffer { buffer: u32, byte: Value },
+    Buffer {
+        buffer: u32,
+        byte: Value,
+        place: InWord,
+    },
+    /// The immediates, from this byte on.
+    Immediates(Value),
+}
+
+/// Where in a word of a buffer a place begins: 16-bit floats need not begin where a word does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum InWord {
+    /// So many bytes, 0 or 2, after the byte that the place names, with which a word begins.
+    After(u32),
+    /// At the byte that the place names, with which a word or its second half begins.
+    Computed,
+}
+
+/// A scalar at a place; in buffers also the components of a vector of 16-bit floats, which share
+/// words.
+#[derive(Debug, Clone, Copy)]
+struct Scalars {
+    base: Base,
+    scalar: Scalar,
+    count: u32,
 }
 
 impl Lowering<'_> {
@@ -49,10 +76,23 @@ impl Lowering<'_> {
                 word: self.moved(word, &part, part.scalars, index),
             },
             Base::Workgroup(word) => Base::Workgroup(self.moved(word, &part, part.scalars, index)),
-            Base::Buffer { buffer, byte } => Base::Buffer {
+            Base::Buffer {
                 buffer,
-                byte: self.moved(byte, &part, part.bytes, index),
-            },
+                byte,
+                place,
+            } => self.moved_in_buffer((buffer, byte, place), &part, index),
+            Base::Immediates(byte) => {
+                let moved = self.moved(byte, &part, part.bytes, index);
+                if let (Some(first), None) = (
+                    self.builder.constant_of(byte),
+                    self.builder.constant_of(moved),
+                ) {
+                    // Any of the elements is read.
+                    let size = pointer.inner.size(self.module.to_ctx());
+                    self.read_immediates(first, size);
+                }
+                Base::Immediates(moved)
+            }
         };
         Ok(Pointer {
             base,
@@ -61,7 +101,7 @@ impl Lowering<'_> {
     }
 
     /// A place moved by an index, which is held to those that exist.
-    fn moved(
+    pub(super) fn moved(
         &mut self,
         at: Value,
         part: &Part,
@@ -99,7 +139,16 @@ impl Lowering<'_> {
             return Ok(self.slots[first..first + count].to_vec());
         }
         let mut loaded = Vec::new();
-        self.each_scalar(pointer, &mut |lowering, base, scalar| {
+        self.each_scalar(pointer, &mut |lowering, scalars| {
+            let Scalars { base, scalar, .. } = scalars;
+            if let Some(halves) = scalars.halves() {
+                loaded.extend(lowering.load_halves(&halves));
+                return Ok(());
+            }
+            if let (Base::Immediates(byte), true) = (base, is_half(scalar)) {
+                loaded.push(lowering.load_half_immediate(byte));
+                return Ok(());
+            }
             let word = lowering.load_word(base);
             loaded.push(lowering.loaded_from_word(word, scalar)?);
             Ok(())
@@ -113,9 +162,13 @@ impl Lowering<'_> {
             self.slots[first..first + values.len()].copy_from_slice(values);
             return Ok(());
         }
-        let mut values = values.iter();
-        self.each_scalar(pointer, &mut |lowering, base, scalar| {
-            if let Some(&value) = values.next() {
+        let mut values = values.iter().copied();
+        self.each_scalar(pointer, &mut |lowering, scalars| {
+            let Scalars { base, scalar, .. } = scalars;
+            if let Some(halves) = scalars.halves() {
+                let values: Vec<_> = values.by_ref().take(scalars.count as usize).collect();
+                lowering.store_halves(&halves, &values);
+            } else if let Some(value) = values.next() {
                 let word = lowering.word_to_store(value, scalar, &base)?;
                 lowering.store_word(base, word);
             }
@@ -123,18 +176,34 @@ impl Lowering<'_> {
         })
     }
 
-    /// Calls `visit` with the place of each scalar.
+    /// Calls `visit` with each scalar, or with several that share words; of a 64-bit integer with
+    /// both words.
     fn each_scalar(
         &mut self,
         pointer: &Pointer,
-        visit: &mut dyn FnMut(&mut Self, Base, Scalar) -> Lowered<()>,
+        visit: &mut dyn FnMut(&mut Self, Scalars) -> Lowered<()>,
     ) -> Lowered<()> {
         if self.builder.len() > super::MAX_VALUES {
             return Err(LowerError::TooLarge);
         }
+        let some = |scalar, count| Scalars {
+            base: pointer.base,
+            scalar,
+            count,
+        };
         match pointer.inner {
-            TypeInner::Scalar(scalar) | TypeInner::Atomic(scalar) => {
-                visit(self, pointer.base, scalar)
+            TypeInner::Scalar(scalar) if is_wide(scalar) => {
+                visit(self, some(Scalar::U32, 1))?;
+                let base = self.next_word(pointer.base);
+                let high = Scalars {
+                    base,
+                    ..some(Scalar::U32, 1)
+                };
+                visit(self, high)
+            }
+            TypeInner::Scalar(scalar) | TypeInner::Atomic(scalar) => visit(self, some(scalar, 1)),
+            TypeInner::Vector { size, scalar } if some(scalar, size as u32).halves().is_some() => {
+                visit(self, some(scalar, size as u32))
             }
             TypeInner::Struct { ref members, .. } => {
                 for index in 0..u32::try_from(members.len()).unwrap_or(u32::MAX) {
@@ -155,12 +224,66 @@ impl Lowering<'_> {
         }
     }
 
+    /// The place of the word behind another.
+    fn next_word(&mut self, base: Base) -> Base {
+        let mut after = |at: Value, step: u32| {
+            let step = self.builder.word(step);
+            self.builder.binary(Binary::Add, at, step)
+        };
+        match base {
+            Base::Slots(slot) => Base::Slots(slot + 1),
+            Base::Local { array, word } => Base::Local {
+                array,
+                word: after(word, 1),
+            },
+            Base::Workgroup(word) => Base::Workgroup(after(word, 1)),
+            Base::Buffer {
+                buffer,
+                byte,
+                place,
+            } => Base::Buffer {
+                buffer,
+                byte: after(byte, 4),
+                place,
+            },
+            Base::Immediates(byte) => Base::Immediates(after(byte, 4)),
+        }
+    }
+
+    /// Notes that the bytes from `first` on are read.
+    fn read_immediates(&mut self, first: u32, size: u32) {
+        let end = first.saturating_add(size);
+        self.immediate_size = self.immediate_size.max(end);
+    }
+
+    /// A word of the immediates: an input, or at a computed place one of a buffer that holds them.
+    pub(super) fn immediate_word(&mut self, byte: Value) -> Value {
+        if let Some(byte) = self.builder.constant_of(byte) {
+            self.read_immediates(byte, 4);
+            return self.builder.input(Input::PushConstant(byte / 4));
+        }
+        let buffers = &mut self.builder.interface_mut().buffers;
+        let found = buffers
+            .iter()
+            .position(|slot| *slot == BufferSlot::IMMEDIATES);
+        let buffer = found.unwrap_or_else(|| {
+            buffers.push(BufferSlot::IMMEDIATES);
+            buffers.len() - 1
+        });
+        let buffer = u32::try_from(buffer).expect("few buffers");
+        self.builder.op1(Op::LoadBuffer {
+            buffer,
+            offset: byte,
+        })
+    }
+
     fn load_word(&mut self, base: Base) -> Value {
         self.builder.op1(match base {
             Base::Slots(slot) => return self.slots[slot],
+            Base::Immediates(byte) => return self.immediate_word(byte),
             Base::Local { array, word } => Op::LoadLocal { array, index: word },
             Base::Workgroup(word) => Op::LoadWorkgroup(word),
-            Base::Buffer { buffer, byte } => Op::LoadBuffer {
+            Base::Buffer { buffer, byte, .. } => Op::LoadBuffer {
                 buffer,
                 offset: byte,
             },
@@ -175,6 +298,7 @@ impl Lowering<'_> {
                 self.slots[slot] = value;
                 return;
             }
+            Base::Immediates(_) => unreachable!("a module that stores to immediates is refused"),
             Base::Local { array, word } => Op::StoreLocal {
                 array,
                 index: word,
@@ -182,7 +306,7 @@ impl Lowering<'_> {
                 mask: always,
             },
             Base::Workgroup(index) => Op::StoreWorkgroup { index, value, mask },
-            Base::Buffer { buffer, byte } => Op::StoreBuffer {
+            Base::Buffer { buffer, byte, .. } => Op::StoreBuffer {
                 buffer,
                 offset: byte,
                 value,
@@ -216,5 +340,12 @@ impl Lowering<'_> {
             }
             Type::Word => value,
         })
+    }
+}
+
+impl Scalars {
+    /// The 16-bit floats in a buffer, if these are such.
+    fn halves(&self) -> Option<Halves> {
+        Halves::of(&self.base, self.scalar, self.count)
     }
 }

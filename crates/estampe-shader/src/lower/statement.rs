@@ -2,13 +2,13 @@
 
 use super::pointer::{Base, Pointer};
 use super::summary::{Root, Summary};
-use super::types::{kinds, scalars_of};
+use super::types::{is_wide, kinds, scalars_of};
 use super::{Frame, LowerError, Lowered, Lowering, MAX_CALLS, Operand};
 use estampe_ir::interface::LocalArray;
 use estampe_ir::op::{Atomic, Compare, MaskBinary, Memory};
 use estampe_ir::tree::Label;
 use estampe_ir::{Op, Type, Value};
-use naga::{AtomicFunction, Block, Expression, Handle, Statement, SwitchValue};
+use naga::{AtomicFunction, Barrier, Block, Expression, Handle, Statement, SwitchValue};
 use std::collections::HashMap;
 
 /// The end of a construct, to which branches go.
@@ -220,6 +220,9 @@ impl<'a> Lowering<'a> {
                 self.if_else(frame, condition, [accept, reject])?;
             }
             Statement::Switch { selector, cases } => {
+                if is_wide(self.scalar(frame, *selector)?) {
+                    return Err(LowerError::Unsupported("switches on 64-bit integers"));
+                }
                 let selector = self.value(frame, *selector)?;
                 self.switch(frame, selector, cases)?;
             }
@@ -248,11 +251,12 @@ impl<'a> Lowering<'a> {
                 self.leave(&exit, &values);
             }
             Statement::Kill => self.slots[self.cover] = self.builder.mask(false),
+            // The lanes of a quad are always at the same place, and see each other's stores at
+            // once, in order.
+            Statement::ControlBarrier(Barrier::SUB_GROUP) | Statement::MemoryBarrier(_) => {}
             Statement::ControlBarrier(_) => {
                 self.builder.op(Op::Barrier);
             }
-            // Lanes see each other's stores at once, in order.
-            Statement::MemoryBarrier(_) => {}
             Statement::Store { pointer, value } => {
                 let pointer = self.pointer(frame, *pointer)?;
                 let values = self.values(frame, *value)?;
@@ -295,7 +299,7 @@ impl<'a> Lowering<'a> {
                 array_index,
                 value,
             } => self.image_store(frame, *image, (*coordinate, *array_index), *value)?,
-            _ => return Err(LowerError::Unsupported("statements of this kind")),
+            _ => self.subgroup(frame, statement)?,
         }
         Ok(())
     }
@@ -454,11 +458,14 @@ impl<'a> Lowering<'a> {
     ) -> Lowered<Vec<Value>> {
         let pointer = self.pointer(frame, pointer)?;
         let is_signed = match pointer.inner {
+            naga::TypeInner::Atomic(scalar) if is_wide(scalar) => {
+                return Err(LowerError::Unsupported("64-bit atomics"));
+            }
             naga::TypeInner::Atomic(scalar) => scalar.kind == naga::ScalarKind::Sint,
             _ => false,
         };
         let (memory, offset) = match pointer.base {
-            Base::Buffer { buffer, byte } => (Memory::Buffer(buffer), byte),
+            Base::Buffer { buffer, byte, .. } => (Memory::Buffer(buffer), byte),
             Base::Workgroup(word) => (Memory::Workgroup, word),
             _ => return Err(LowerError::Unsupported("atomics in this memory")),
         };

@@ -1,4 +1,4 @@
-//! The scalars of a type.
+//! The scalars of a type. A 64-bit integer counts as two: its low word, and its high word.
 
 use super::{LowerError, Lowered};
 use estampe_ir::Type;
@@ -11,11 +11,22 @@ const MAX_SCALARS: u64 = 1 << 16;
 pub(super) fn kind_of(scalar: Scalar) -> Lowered<Type> {
     match (scalar.kind, scalar.width) {
         (ScalarKind::Bool, _) => Ok(Type::Mask),
-        (ScalarKind::Float | ScalarKind::Sint | ScalarKind::Uint, 4) => Ok(Type::Word),
-        (ScalarKind::Float, 2) => Err(LowerError::Unsupported("16-bit floats")),
-        (_, 8) => Err(LowerError::Unsupported("64-bit numbers")),
+        (ScalarKind::Float | ScalarKind::Sint | ScalarKind::Uint, 4) | (ScalarKind::Float, 2) => {
+            Ok(Type::Word)
+        }
+        (ScalarKind::Float, 8) => Err(LowerError::Unsupported("64-bit floats")),
         _ => Err(LowerError::Unsupported("numbers of this width")),
     }
+}
+
+/// True for integers of 64 bits, which are two words.
+pub(super) fn is_wide(scalar: Scalar) -> bool {
+    matches!(scalar.kind, ScalarKind::Sint | ScalarKind::Uint) && scalar.width == 8
+}
+
+/// The words or masks of a scalar.
+pub(super) fn words(scalar: Scalar) -> u32 {
+    if is_wide(scalar) { 2 } else { 1 }
 }
 
 /// The scalars of a type, in order: components, columns, elements, members.
@@ -36,11 +47,16 @@ pub(super) fn kinds(module: &Module, ty: Handle<naga::Type>) -> Lowered<Vec<Type
 
 fn add(module: &Module, inner: &TypeInner, out: &mut Vec<Scalar>) -> Lowered<()> {
     let mut repeat = |scalar: Scalar, count: usize| {
-        kind_of(scalar)?;
-        out.extend(std::iter::repeat_n(scalar, count));
+        let word = if is_wide(scalar) { Scalar::U32 } else { scalar };
+        kind_of(word)?;
+        let count = count * words(scalar) as usize;
+        out.extend(std::iter::repeat_n(word, count));
         Ok(())
     };
     match *inner {
+        TypeInner::Atomic(scalar) if is_wide(scalar) => {
+            Err(LowerError::Unsupported("64-bit atomics"))
+        }
         TypeInner::Scalar(scalar) | TypeInner::Atomic(scalar) => repeat(scalar, 1),
         TypeInner::Vector { size, scalar } => repeat(scalar, size as usize),
         TypeInner::Matrix {
@@ -90,7 +106,7 @@ pub(super) fn part(module: &Module, inner: &TypeInner, index: Option<u32>) -> Lo
     Ok(match *inner {
         TypeInner::Vector { size, scalar } => Part {
             inner: TypeInner::Scalar(scalar),
-            scalars: [0, 1],
+            scalars: [0, words(scalar)],
             bytes: [0, u32::from(scalar.width)],
             count: Some(size as u32),
         },

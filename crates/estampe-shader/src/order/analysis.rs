@@ -1,7 +1,8 @@
 //! The accesses of a shader to memory that it writes.
 
+use super::bytes::Bytes;
 use super::form::{Coefficient, Form, Symbol, Variable};
-use estampe_ir::interface::Input;
+use estampe_ir::interface::{BufferSlot, Input};
 use estampe_ir::op::{Atomic, Binary, Compare, Memory, TextureQuery, Unary};
 use estampe_ir::tree::{Label, Node, Tree};
 use estampe_ir::{Op, Value};
@@ -23,7 +24,7 @@ pub struct Accesses {
 pub(super) struct OfBuffer {
     /// The group and binding.
     pub(super) place: (u32, u32),
-    /// Byte offsets.
+    /// The bytes that are used.
     pub(super) forms: Vec<Form>,
     pub(super) is_stored: bool,
     /// The kinds of atomic operations whose results are not used.
@@ -66,6 +67,7 @@ impl Accesses {
             masks: HashMap::new(),
             floats: HashMap::new(),
             used: HashSet::new(),
+            bytes: Bytes::of(tree),
         };
         analysis.find_uses(&tree.body);
         analysis.body(&tree.body);
@@ -104,6 +106,7 @@ struct Analysis<'a> {
     /// The positions of fragments, and constants.
     floats: HashMap<Value, Float>,
     used: HashSet<Value>,
+    bytes: Bytes<'a>,
 }
 
 impl Analysis<'_> {
@@ -263,14 +266,14 @@ impl Analysis<'_> {
         }
         match op {
             Op::LoadBuffer { buffer, offset } if self.tree.is_written(*buffer) => {
-                let form = self.form(*offset);
+                let form = self.bytes_at(*offset, (op, first));
                 self.buffer(*buffer, |accesses| {
                     accesses.forms.push(form);
                     accesses.others = true;
                 });
             }
             Op::StoreBuffer { buffer, offset, .. } => {
-                let form = self.form(*offset);
+                let form = self.bytes_at(*offset, (op, first));
                 self.buffer(*buffer, |accesses| {
                     accesses.forms.push(form);
                     accesses.is_stored = true;
@@ -283,7 +286,7 @@ impl Analysis<'_> {
                 offset,
                 ..
             } => {
-                let form = self.form(*offset);
+                let form = self.bytes_at(*offset, (op, first));
                 let is_used = self.used.contains(&first);
                 let kind = *kind;
                 self.buffer(*buffer, |accesses| {
@@ -298,7 +301,7 @@ impl Analysis<'_> {
                 offset,
                 ..
             } => {
-                let form = self.form(*offset);
+                let form = self.bytes_at(*offset, (op, first));
                 self.buffer(*buffer, |accesses| {
                     accesses.forms.push(form);
                     accesses.is_stored = true;
@@ -319,6 +322,12 @@ impl Analysis<'_> {
             }
             _ => {}
         }
+    }
+
+    /// The bytes that an operation uses.
+    fn bytes_at(&self, offset: Value, op: (&Op, Value)) -> Form {
+        let form = self.form(offset);
+        self.bytes.used(op, (offset, &form), self.accesses.size)
     }
 
     fn buffer(&mut self, buffer: u32, change: impl FnOnce(&mut OfBuffer)) {
@@ -369,6 +378,7 @@ impl Analysis<'_> {
                 Input::NumWorkgroups(axis) if axis < 3 => {
                     Some(Form::symbol(Symbol::Workgroups(axis as usize)))
                 }
+                Input::PushConstant(at) => Some(Form::symbol(Symbol::Immediate(at))),
                 _ => None,
             },
             Op::LoadBuffer { buffer, offset } if !self.tree.is_written(*buffer) => {
@@ -376,8 +386,13 @@ impl Analysis<'_> {
                 let offset = u32::try_from(offset[0])
                     .ok()
                     .filter(|_| offset[0] == offset[1])?;
-                let buffer = *buffer;
-                Some(Form::symbol(Symbol::Word { buffer, offset }))
+                let (buffer, offset) = (*buffer, offset & !3);
+                Some(Form::symbol(
+                    match self.tree.interface.buffers.get(buffer as usize) {
+                        Some(&BufferSlot::IMMEDIATES) => Symbol::Immediate(offset / 4),
+                        _ => Symbol::Word { buffer, offset },
+                    },
+                ))
             }
             Op::BufferBytes(buffer) => Some(Form::symbol(Symbol::Elements {
                 buffer: *buffer,
@@ -462,7 +477,10 @@ impl Analysis<'_> {
 }
 
 fn is_commutative(kind: Atomic) -> bool {
-    !matches!(kind, Atomic::Exchange | Atomic::Load | Atomic::Store)
+    !matches!(
+        kind,
+        Atomic::Exchange | Atomic::Load | Atomic::Store | Atomic::StoreHalf
+    )
 }
 
 fn mask_of(op: &Op) -> Option<Mask> {

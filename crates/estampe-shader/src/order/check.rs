@@ -106,7 +106,7 @@ impl Numbers<'_> {
         if buffer.is_sum() {
             return true;
         }
-        let determined = self.determined(&buffer.forms, 4);
+        let determined = self.determined(&buffer.forms);
         determined.is_some_and(|axes| self.are_all(axes))
     }
 
@@ -119,7 +119,7 @@ impl Numbers<'_> {
                 .iter()
                 .map(|forms| forms.get(part).cloned())
                 .collect();
-            let determined = forms.and_then(|forms| self.determined(&forms, 1));
+            let determined = forms.and_then(|forms| self.determined(&forms));
             for axis in 0..3 {
                 axes[axis] |= determined.is_some_and(|determined| determined[axis]);
             }
@@ -134,9 +134,9 @@ impl Numbers<'_> {
             .all(|(is, count)| *is || count <= 1)
     }
 
-    /// The axes along which work-groups have different places, if all forms are alike: numbers of
-    /// `width` places each, in mixed radix.
-    fn determined(&self, forms: &[Form], width: u64) -> Option<[bool; 3]> {
+    /// The axes along which work-groups have different places, if all forms are alike: numbers in
+    /// mixed radix.
+    fn determined(&self, forms: &[Form]) -> Option<[bool; 3]> {
         let mut all: Option<Digits> = None;
         for form in forms {
             let mut digits = self.digits(form)?;
@@ -162,7 +162,7 @@ impl Numbers<'_> {
             });
         }
         let all = all?;
-        let mut reach = u128::try_from(all.high - all.low).ok()? + u128::from(width);
+        let mut reach = u128::try_from(all.high - all.low).ok()? + 1;
         let mut axes = [false; 3];
         for (axis, values, weight) in all.digits {
             if u128::from(weight) < reach {
@@ -235,6 +235,9 @@ impl Numbers<'_> {
         let word = match coefficient.symbol {
             None => 1,
             Some(Symbol::Workgroups(axis)) => i128::from(self.count[axis]),
+            Some(Symbol::Immediate(at)) => {
+                i128::from(self.bindings.immediate_words::<1>(at as usize)[0])
+            }
             Some(Symbol::Word { buffer, offset }) => {
                 let (group, binding) = self.accesses.buffers.get(buffer as usize)?.place;
                 i128::from(self.bindings.u32s::<1>(group, binding, offset)[0])

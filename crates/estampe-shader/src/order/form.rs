@@ -12,6 +12,8 @@ pub(super) struct Coefficient {
 pub(super) enum Symbol {
     /// The word at a byte offset of a buffer that is only read, by its position in the interface.
     Word { buffer: u32, offset: u32 },
+    /// A word of the immediates.
+    Immediate(u32),
     /// The elements of so many bytes that a buffer holds.
     Elements { buffer: u32, bytes: u32 },
     /// The work-groups along an axis.

@@ -11,11 +11,13 @@
 //! ```
 //!
 //! A form is a sum of indices of work-groups and invocations times coefficients, and
-//! an interval. Coefficients may be words of read-only buffers, such as the width of a picture, so
-//! the last step is taken for each dispatch: numbers in mixed radix are different if each digit's
-//! weight is more than what the digits below it reach.
+//! an interval; `bytes` says which bytes from there on an access uses. Coefficients may be words of
+//! read-only buffers, such as the width of a picture, so the last step is taken for each dispatch:
+//! numbers in mixed radix are different if each digit's weight is more than what the digits below
+//! it reach.
 
 mod analysis;
+mod bytes;
 mod check;
 mod form;
 

@@ -1,7 +1,7 @@
 //! Batches of the pipeline as runs of a kernel.
 
 use super::stage::Stage;
-use estampe_ir::interface::{Input, Output};
+use estampe_ir::interface::{BufferSlot, Input, Output};
 use estampe_ir::interpreter::{Buffer, InputData, OutputData, cells};
 use estampe_types::{Bindings, FragmentBatch, VertexBatch};
 use std::cell::Cell;
@@ -20,7 +20,7 @@ pub(super) struct Widths {
 /// `varyings` to which scalar of the fragments each scalar of the vertices goes.
 pub(super) fn with_vertices<T>(
     stage: &Stage,
-    (widths, varyings): (Widths, &[Option<u32>]),
+    (widths, varyings, immediates): (Widths, &[Option<u32>], &[u32]),
     attributes: &[usize],
     batch: VertexBatch<'_>,
     run: impl FnOnce(usize, &[InputData<'_>], &[OutputData<'_>]) -> T,
@@ -42,6 +42,7 @@ pub(super) fn with_vertices<T>(
         Input::VertexIndex => InputData::words(batch.vertex_index, 0, 1),
         Input::InstanceIndex => InputData::words(batch.instance_index, 0, 1),
         Input::Cover => InputData::Uniform(1),
+        Input::PushConstant(at) => immediate(immediates, at),
         _ => InputData::Uniform(0),
     };
     let output = |output: &Output| match *output {
@@ -66,7 +67,7 @@ pub(super) fn with_vertices<T>(
 /// differs from packet to packet.
 pub(super) fn with_fragments<E>(
     stage: &Stage,
-    widths: Widths,
+    (widths, immediates): (Widths, &[u32]),
     batch: FragmentBatch<'_>,
     mut run: impl FnMut(usize, &[InputData<'_>], &[OutputData<'_>]) -> Result<(), E>,
 ) -> Result<(), E> {
@@ -92,6 +93,7 @@ pub(super) fn with_fragments<E>(
             }
             Input::SampleMask => InputData::words(batch.samples_covered, first, 1),
             Input::Cover => InputData::SharedMask(coverage),
+            Input::PushConstant(at) => immediate(immediates, at),
             _ => InputData::Uniform(0),
         };
         let to = |packets, part: usize, stride: usize| {
@@ -118,11 +120,20 @@ pub(super) fn with_fragments<E>(
     Ok(())
 }
 
+/// A word of the immediates.
+pub(super) fn immediate(immediates: &[u32], at: u32) -> InputData<'static> {
+    InputData::Uniform(immediates.get(at as usize).copied().unwrap_or(0))
+}
+
 /// The buffers of a stage among the resources that a draw binds. Those that are not bound are
 /// empty.
 pub(super) fn buffers<'a>(stage: &Stage, bindings: &'a Bindings) -> Vec<Buffer<'a>> {
     let slots = stage.interface().buffers.iter();
     let buffers = slots.map(|slot| {
+        if *slot == BufferSlot::IMMEDIATES {
+            let words = &bindings.immediates[..];
+            return Buffer::read_only(words, words.len() * 4);
+        }
         let (group, binding) = (slot.group, slot.binding);
         if let Some((buffer, range)) = bindings.buffer(group, binding) {
             let words = buffer.words().get(range.start / 4..).unwrap_or_default();

@@ -1,6 +1,6 @@
 //! A compute shader as text.
 
-use super::batch::buffers;
+use super::batch::{buffers, immediate};
 use super::stage::Stage;
 use super::{LinkError, StageSource, layouts};
 use crate::order::Accesses;
@@ -23,6 +23,7 @@ const PACKET: u32 = LANE_NUMBERS[LANES - 1] + 1;
 pub struct TextCompute {
     interface: ComputeInterface,
     layouts: Vec<BindGroupLayout>,
+    immediate_size: u32,
     accesses: Accesses,
     stage: Stage,
     /// x, y and z of each invocation in its work-group, in packets.
@@ -79,6 +80,7 @@ impl TextCompute {
                 })
                 .collect(),
             layouts: layouts::of_stages(std::iter::once(source))?,
+            immediate_size: source.immediate_size,
             stage: Stage::new(tree, budget),
         })
     }
@@ -90,7 +92,7 @@ impl TextCompute {
         self
     }
 
-    fn input(&self, input: Input, id: [u32; 3], count: [u32; 3]) -> InputData<'_> {
+    fn input(&self, input: Input, [id, count]: [[u32; 3]; 2], immediates: &[u32]) -> InputData<'_> {
         let part = |axes: [u32; 3], axis: u32| axes.get(axis as usize).copied().unwrap_or(0);
         match input {
             Input::LocalInvocationId(axis) => {
@@ -101,6 +103,7 @@ impl TextCompute {
             Input::WorkgroupId(axis) => InputData::Uniform(part(id, axis)),
             Input::NumWorkgroups(axis) => InputData::Uniform(part(count, axis)),
             Input::Cover => InputData::Mask(&self.cover),
+            Input::PushConstant(at) => immediate(immediates, at),
             _ => InputData::Uniform(0),
         }
     }
@@ -113,6 +116,10 @@ impl ComputeProgram for TextCompute {
 
     fn bind_group_layouts(&self) -> &[BindGroupLayout] {
         &self.layouts
+    }
+
+    fn immediate_size(&self) -> u32 {
+        self.immediate_size
     }
 
     fn order(&self, bindings: &Bindings, count: [u32; 3]) -> WorkgroupOrder {
@@ -131,7 +138,8 @@ impl ComputeProgram for TextCompute {
         for id in work.ids() {
             let of_group = stage.interface().inputs.iter();
             inputs.clear();
-            inputs.extend(of_group.map(|input| self.input(*input, id, work.count)));
+            let immediates = &bindings.immediates[..];
+            inputs.extend(of_group.map(|input| self.input(*input, [id, work.count], immediates)));
             let packets = self.cover.len();
             stage
                 .run(level, (&textures, &buffers), packets, (&inputs, &[]))

@@ -45,7 +45,7 @@ impl Facts {
 
     fn add(&mut self, op: &Op) {
         match op {
-            Op::Derivative { .. } => self.takes_derivatives = true,
+            Op::Derivative { .. } | Op::QuadLane { .. } => self.takes_derivatives = true,
             Op::Texture(op) => {
                 let of_quad = matches!(op.level, LevelOfDetail::Implicit | LevelOfDetail::Bias(_));
                 self.takes_derivatives |= of_quad && op.sampler.is_some();

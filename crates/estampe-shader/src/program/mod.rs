@@ -36,6 +36,8 @@ pub struct StageSource {
     pub varyings: Vec<VaryingSlot>,
     /// The bind groups and entries that it uses.
     pub bindings: Vec<(u32, BindGroupLayoutEntry)>,
+    /// The bytes of the immediates up to the last one that it reads.
+    pub immediate_size: u32,
 }
 
 impl StageSource {
@@ -55,6 +57,7 @@ pub struct TextProgram {
     attributes: Vec<usize>,
     links: Links,
     widths: Widths,
+    immediate_size: u32,
     vertex: Stage,
     fragment: Option<Stage>,
     stopped: StoppedBatches,
@@ -93,6 +96,11 @@ impl TextProgram {
                 targets: interface.color_targets,
                 clip_distances: interface.distances(),
             },
+            immediate_size: vertex.immediate_size.max(
+                fragment
+                    .as_ref()
+                    .map_or(0, |fragment| fragment.immediate_size),
+            ),
             vertex: Stage::new(&vertex.tree, budget),
             fragment: fragment.map(|fragment| Stage::new(&fragment.tree, budget)),
             layouts,
@@ -120,6 +128,10 @@ impl Program for TextProgram {
         &self.layouts
     }
 
+    fn immediate_size(&self) -> u32 {
+        self.immediate_size
+    }
+
     fn stopped_batches(&self) -> Option<&StoppedBatches> {
         Some(&self.stopped)
     }
@@ -134,7 +146,11 @@ impl Program for TextProgram {
             return;
         }
         let (buffers, textures) = (buffers(stage, bindings), stage.textures(bindings));
-        let places = (self.widths, self.links.of_vertex());
+        let places = (
+            self.widths,
+            self.links.of_vertex(),
+            &bindings.immediates[..],
+        );
         // A run that is stopped leaves its outputs as they are.
         let run = with_vertices(
             stage,
@@ -158,7 +174,8 @@ impl Program for TextProgram {
             return;
         }
         let (buffers, textures) = (buffers(stage, bindings), stage.textures(bindings));
-        let run = with_fragments(stage, self.widths, batch, |packets, inputs, outputs| {
+        let places = (self.widths, &bindings.immediates[..]);
+        let run = with_fragments(stage, places, batch, |packets, inputs, outputs| {
             stage.run(level, (&textures, &buffers), packets, (inputs, outputs))
         });
         if run.is_err() {

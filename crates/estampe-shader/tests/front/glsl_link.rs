@@ -301,6 +301,69 @@ void main() {
     assert!(settled.reflection.overrides.is_empty());
 }
 
+/// Push constants have the layout of storage buffers, the offsets that are given, and truth values.
+#[test]
+fn push_constants_are_laid_out_as_std430() {
+    let text = |members: &str, layout: &str| {
+        format!(
+            "#version 450
+struct Item {{ vec3 at; float size; }};
+layout({layout}) uniform Push {{ {members} }} push;
+layout(location = 0) out vec4 color;
+void main() {{ color = vec4(float(push.last)); }}
+"
+        )
+    };
+    let places = |members: &str, layout: &str| -> Vec<(String, u32)> {
+        let module = loaded(&text(members, layout), Stage::Fragment);
+        let block = &module.reflection.blocks[0];
+        assert_eq!(block.slot, None);
+        let members = block.members.iter();
+        members
+            .map(|member| (member.name.clone(), member.offset))
+            .collect()
+    };
+    let named = |list: &[(&str, u32)]| -> Vec<(String, u32)> {
+        let list = list.iter();
+        list.map(|(name, offset)| ((*name).to_owned(), *offset))
+            .collect()
+    };
+    let members = "float list[3]; mat2 m; bool flag; Item items[2]; float last;";
+    let expected = [
+        ("list", 0),
+        ("m", 16),
+        ("flag", 32),
+        ("items[0].at", 48),
+        ("items[0].size", 60),
+        ("items[1].at", 64),
+        ("items[1].size", 76),
+        ("last", 80),
+    ];
+    assert_eq!(places(members, "push_constant"), named(&expected));
+    let expected = [("list", 0), ("last", 48)];
+    assert_eq!(
+        places("float list[3]; float last;", "push_constant, std140"),
+        named(&expected)
+    );
+    let members = "layout(offset = 64) float first; layout(offset = 80) vec2 list[2]; vec3 last3; \
+                   layout(offset = 124) bool last;";
+    let expected = [("first", 64), ("list", 80), ("last3", 96), ("last", 124)];
+    assert_eq!(places(members, "push_constant"), named(&expected));
+
+    let source = text(
+        "vec4 first; layout(offset = 8) float last;",
+        "push_constant",
+    );
+    let source = Source::Glsl {
+        text: &source,
+        stage: Stage::Fragment,
+    };
+    let errors = load(source, &Options::default()).expect_err("it overlaps");
+    let error = errors.to_string();
+    assert!(error.contains("`last` cannot begin at byte 8"), "{error}");
+    assert!(error.contains("ends at byte 16"), "{error}");
+}
+
 #[test]
 fn clip_space_is_an_option() {
     let text = "#version 330\nin vec4 p;\nvoid main() { gl_Position = p; }\n";

@@ -23,14 +23,15 @@ void main() {
         r#"#version 330 core
 out vec4 color;
 uniform sampler2D maps[2];
+vec4 middle(sampler2D map) { return texture(map, vec2(0.5)); }
 void main() {
     color = vec4(0.0);
-    for (int i = 0; i < 2; i++) color += texture(maps[i], vec2(0.5));
+    for (int i = 0; i < 2; i++) color += middle(maps[i]);
 }
 "#,
-        r#"shader:6:54: error: samplers need a constant index
-      for (int i = 0; i < 2; i++) color += texture(maps[i], vec2(0.5));
-                                                       ^^^
+        r#"shader:7:53: error: samplers need a constant index
+      for (int i = 0; i < 2; i++) color += middle(maps[i]);
+                                                      ^^^
   help: use an array texture, such as `sampler2DArray`, or `switch`"#,
     ),
     (
@@ -99,15 +100,15 @@ void main() {
     (
         r#"#version 330 core
 out vec4 color;
-uniform float x = 1.0;
+uniform sampler2D x = 1;
 void main() {
-    color = vec4(x);
+    color = texture(x, vec2(0));
 }
 "#,
-        r#"shader:3:15: error: the uniform `x` cannot have a value in the shader
-  uniform float x = 1.0;
-                ^
-  help: remove `= …` and let the program set it, or make it `const`"#,
+        r#"shader:3:19: error: the uniform `x` holds a texture, which cannot have a value
+  uniform sampler2D x = 1;
+                    ^
+  help: remove `= …`, and bind the texture in the program"#,
     ),
     (
         r#"#version 330 core
@@ -228,13 +229,53 @@ void main() {
 out vec4 color;
 uniform sampler2D tex;
 void main() {
-    color = textureGather(tex, vec2(0.5));
+    color = textureGather(tex, vec2(0.5), 4);
 }
 "#,
-        r#"shader:5:13: error: `textureGather` is not supported
-      color = textureGather(tex, vec2(0.5));
-              ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+        r#"shader:5:13: error: the arguments of `textureGather` are not known
+      color = textureGather(tex, vec2(0.5), 4);
+              ^^^^^^^^^^^^^
+  help: the component is a constant, 0 to 3, and so is the offset, an `ivec2`"#,
+    ),
+    (
+        r#"#version 330 core
+out vec4 color;
+in vec4 tint;
+void main() {
+    color = interpolateAtCentroid(tint);
+}
+"#,
+        r#"shader:5:13: error: `interpolateAtCentroid` is not supported
+      color = interpolateAtCentroid(tint);
+              ^^^^^^^^^^^^^^^^^^^^^^^^^^^
   help: do without it"#,
+    ),
+    (
+        r#"#version 430
+layout(local_size_x = 1) in;
+void main() {
+    uint count = 0u;
+    atomicAdd(count, 1u);
+}
+"#,
+        r#"shader:5:5: error: the first argument of an atomic function is a number of a buffer or of shared memory
+      atomicAdd(count, 1u);
+      ^^^^^^^^^
+  help: give a member of a buffer that is an `int` or `uint`, an element of an array of them, or a `shared` variable"#,
+    ),
+    (
+        r#"#version 330 core
+out vec4 color;
+uniform sampler2D maps[2];
+uniform int i;
+void main() {
+    color = texture(maps[i], texture(maps[i], vec2(0.5)).xy);
+}
+"#,
+        r#"shader:6:43: error: this index of samplers is not simple enough
+      color = texture(maps[i], texture(maps[i], vec2(0.5)).xy);
+                                            ^
+  help: compute it before, and read one texture after the other"#,
     ),
     (
         r#"#version 330 core
@@ -326,5 +367,5 @@ fn errors_tell_the_place_and_what_to_do() {
         let errors = loaded.expect_err(source);
         assert_eq!(errors.to_string(), *expected, "{source}");
     }
-    assert_eq!(CASES.len(), 24);
+    assert_eq!(CASES.len(), 27);
 }

@@ -195,11 +195,11 @@ void main() {}
   help: `#version` is of GLSL, and this is read as WGSL"##,
     ),
     (
-        r#"@compute @workgroup_size(64) fn main(@builtin(subgroup_size) s: u32) { }
+        r#"@fragment fn main(@builtin(barycentric) b: vec3f) { }
 "#,
-        r#"shader:1:33: error: input `s` of `main`: subgroup operations are not supported
-  @compute @workgroup_size(64) fn main(@builtin(subgroup_size) s: u32) { }
-                                  ^^^^"#,
+        r#"shader:1:14: error: input `b` of `main`: barycentric coordinates are not supported
+  @fragment fn main(@builtin(barycentric) b: vec3f) { }
+               ^^^^"#,
     ),
     (
         r#"@compute @workgroup_size(0) fn main() { }

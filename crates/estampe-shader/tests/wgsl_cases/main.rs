@@ -88,7 +88,8 @@ fn expression(file: &str, list: &str, inputs: &[Type]) -> Option<String> {
 fn run(source: &str, count: usize, data: Vec<u32>) -> Vec<u32> {
     let module = naga::front::wgsl::parse_str(source)
         .unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)));
-    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::default());
+    let capabilities = Capabilities::default() | Capabilities::SHADER_FLOAT16;
+    let mut validator = Validator::new(ValidationFlags::all(), capabilities);
     let info = validator.validate(&module).expect("a valid module");
     let stage = lower(&module, &info, 0).unwrap_or_else(|error| panic!("{error}: {source}"));
     let program = TextCompute::new(&stage, 1 << 20).expect("it is small");
@@ -119,6 +120,7 @@ fn run(source: &str, count: usize, data: Vec<u32>) -> Vec<u32> {
             group: Arc::new(BoundResources { entries }),
             ..BoundGroup::default()
         }],
+        ..Bindings::default()
     };
     let groups = count.div_ceil(64);
     let work = Workgroups {
@@ -150,7 +152,8 @@ fn check(file: &str, list: &str, names: &[String], cases: &Cases) -> (usize, Opt
     }
     let stored = types::stored(&cases[0].1);
     let source = format!(
-        "@group(0) @binding(0) var<storage, read> data: array<u32>;\n\
+        "enable f16;\n\
+         @group(0) @binding(0) var<storage, read> data: array<u32>;\n\
          @group(0) @binding(1) var<storage, read_write> results: array<u32>;\n\
          @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {{\n\
          let first = id.x * {width}u; let to = id.x * {RESULT_WORDS}u;\n\

@@ -6,10 +6,11 @@ use serde_json::Value;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Scalar {
     F32,
+    F16,
     I32,
     U32,
     Bool,
-    /// Not a type of words: abstract numbers, f16.
+    /// Abstract numbers.
     Other,
 }
 
@@ -36,6 +37,7 @@ impl Type {
         };
         let scalar = match scalar {
             "f32" => Scalar::F32,
+            "f16" => Scalar::F16,
             "i32" => Scalar::I32,
             "u32" => Scalar::U32,
             "bool" => Scalar::Bool,
@@ -52,7 +54,7 @@ impl Type {
         self.columns * self.rows
     }
 
-    /// The name of a matrix.
+    /// The name of a matrix of this shape of `f32`.
     pub(crate) fn name(&self) -> String {
         format!("mat{}x{}f", self.columns, self.rows)
     }
@@ -63,6 +65,7 @@ impl Type {
             let word = format!("data[first + {}u]", first + at);
             match self.scalar {
                 Scalar::F32 => format!("bitcast<f32>({word})"),
+                Scalar::F16 => format!("f16(bitcast<f32>({word}))"),
                 Scalar::I32 => format!("bitcast<i32>({word})"),
                 Scalar::U32 | Scalar::Other => word,
                 Scalar::Bool => format!("({word} != 0u)"),
@@ -70,6 +73,7 @@ impl Type {
         };
         let scalar = match self.scalar {
             Scalar::F32 => "f32",
+            Scalar::F16 => "f16",
             Scalar::I32 => "i32",
             Scalar::U32 | Scalar::Other => "u32",
             Scalar::Bool => "bool",
@@ -78,7 +82,7 @@ impl Type {
         match (self.columns, self.rows) {
             (1, 1) => words.concat(),
             (1, rows) => format!("vec{rows}<{scalar}>({})", words.join(", ")),
-            _ => format!("{}({})", self.name(), words.join(", ")),
+            (columns, rows) => format!("mat{columns}x{rows}<{scalar}>({})", words.join(", ")),
         }
     }
 }
@@ -90,7 +94,7 @@ pub(crate) fn words(value: &Value, scalar: Scalar) -> Vec<u32> {
         Value::Bool(is) => vec![u32::from(*is)],
         _ => vec![match scalar {
             #[expect(clippy::cast_possible_truncation, reason = "values of f32")]
-            Scalar::F32 => (number(value) as f32).to_bits(),
+            Scalar::F32 | Scalar::F16 => (number(value) as f32).to_bits(),
             Scalar::I32 => {
                 let number = value.as_i64().and_then(|number| i32::try_from(number).ok());
                 number.expect("an i32").cast_unsigned()
@@ -123,6 +127,9 @@ pub(crate) fn stored(accepted: &Value) -> String {
     let accepted = first(accepted);
     let scalar = |value: &str, at: usize, ty: Scalar| match ty {
         Scalar::Bool => format!("results[to + {at}u] = select(0u, 1u, {value});\n"),
+        Scalar::F32 | Scalar::F16 => {
+            format!("results[to + {at}u] = bitcast<u32>(f32({value}));\n")
+        }
         _ => format!("results[to + {at}u] = bitcast<u32>({value});\n"),
     };
     if let Some(value) = accepted.get("val") {

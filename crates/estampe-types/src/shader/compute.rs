@@ -84,6 +84,11 @@ pub trait ComputeProgram: fmt::Debug + Send + Sync {
         &[]
     }
 
+    /// The bytes of immediates that it reads: each dispatch must give at least as many.
+    fn immediate_size(&self) -> u32 {
+        0
+    }
+
     /// Whether the order of the work-groups of a dispatch can be seen, so many along x, y and z.
     fn order(&self, bindings: &Bindings, count: [u32; 3]) -> WorkgroupOrder;
 

@@ -219,6 +219,11 @@ pub trait Program: Send + Sync + std::fmt::Debug {
     fn bind_group_layouts(&self) -> &[BindGroupLayout] {
         &[]
     }
+    /// The bytes of immediates that the program reads: each draw must give at least as many.
+    /// Shaders in Rust do not declare them.
+    fn immediate_size(&self) -> u32 {
+        0
+    }
     /// The batches that were stopped, of programs that may not end. Shaders in Rust are not
     /// stopped.
     fn stopped_batches(&self) -> Option<&StoppedBatches> {

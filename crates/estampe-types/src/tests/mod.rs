@@ -253,6 +253,7 @@ fn bindings_read_zeros_where_nothing_is() {
             group: std::sync::Arc::new(group),
             dynamic_offsets: [4; crate::MAX_DYNAMIC_OFFSETS],
         }],
+        ..Bindings::default()
     };
     assert_eq!(bindings.f32s::<1>(0, 3, 0), [3.0]);
     assert_eq!(bindings.f32s::<2>(0, 3, 0), [3.0, 0.0]);

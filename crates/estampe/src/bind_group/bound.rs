@@ -5,7 +5,7 @@ use super::{BindGroup, BindingResource};
 use crate::texture::TextureView;
 use crate::{BindGroupLayout, BindingType, Buffer, BufferBindingType, Limits};
 use estampe_types::bindings::BoundResources;
-use estampe_types::{Bindings, BoundGroup, MAX_DYNAMIC_OFFSETS};
+use estampe_types::{BoundGroup, MAX_DYNAMIC_OFFSETS};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -177,7 +177,7 @@ pub(crate) fn bound(
     groups: &[BindGroup],
     dynamic_offsets: &[u32],
     resources: impl Fn(&BindGroup) -> Arc<BoundResources>,
-) -> Bindings {
+) -> Vec<BoundGroup> {
     let mut offsets = dynamic_offsets;
     let groups = groups.iter().map(|group| {
         let count = group.layout().dynamic_offset_count();
@@ -192,7 +192,5 @@ pub(crate) fn bound(
             dynamic_offsets,
         }
     });
-    Bindings {
-        groups: groups.collect(),
-    }
+    groups.collect()
 }

@@ -3,6 +3,7 @@
 use super::{ComputePipelineError, Dispatch, DispatchError, DispatchErrorKind, DispatchSize};
 use crate::bind_group::{BoundError, check_bound};
 use crate::buffer::check_conflicts;
+use crate::immediates::check_immediates;
 use crate::texture::check_texture_conflicts;
 use crate::{BindGroup, Buffer, BufferUsages, Limits};
 use estampe_types::shader::ComputeInterface;
@@ -77,6 +78,8 @@ pub(super) fn check_kind(
         limits,
     )
     .map_err(|BoundError { group, rule }| DispatchErrorKind::BindGroup { group, rule })?;
+    let needed = dispatch.pipeline.program().immediate_size();
+    check_immediates(dispatch.immediates, needed, limits)?;
     let groups: Vec<&BindGroup> = dispatch.bind_groups.iter().collect();
     let indirect = match dispatch.size {
         DispatchSize::Workgroups(count) => {

@@ -1,13 +1,15 @@
 //! Errors of compute pipelines and dispatches.
 
-use crate::{BufferConflict, BufferError, PipelineError, TextureConflict, TextureError};
+use crate::{
+    BufferConflict, BufferError, ImmediatesError, PipelineError, TextureConflict, TextureError,
+};
 use estampe_types::shader::ComputeStopped;
 
 /// The rule that a compute pipeline breaks.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ComputePipelineError {
-    /// Too many bind groups or bindings.
+    /// Too many bind groups, bindings or immediates.
     #[error(transparent)]
     Bindings(#[from] PipelineError),
     /// A work-group is too large, or empty.
@@ -75,6 +77,9 @@ pub enum DispatchErrorKind {
         /// The rule that it breaks.
         rule: String,
     },
+    /// Too few or too many immediates.
+    #[error(transparent)]
+    Immediates(#[from] ImmediatesError),
     /// A buffer is written and used otherwise.
     #[error(transparent)]
     BufferUsedTwice(#[from] BufferConflict),

@@ -58,6 +58,7 @@ impl ComputePipeline {
             descriptor.program.bind_group_layouts(),
             &descriptor.bind_group_layouts,
         )?;
+        estampe_core::check_immediates(descriptor.program.immediate_size(), limits)?;
         check::check_interface(descriptor.program.interface(), limits)?;
         Ok(Self {
             inner: Arc::new(Inner {
@@ -110,6 +111,8 @@ pub struct Dispatch<'a> {
     /// The dynamic offsets in bytes: those of the first group in the order of its binding numbers,
     /// then those of the next. Default none.
     pub dynamic_offsets: &'a [u32],
+    /// The immediates, as those of a [draw](crate::Draw::immediates). Default none.
+    pub immediates: &'a [u8],
     /// The number of work-groups.
     pub size: DispatchSize<'a>,
 }
@@ -122,6 +125,7 @@ impl<'a> Dispatch<'a> {
             pipeline,
             bind_groups: &[],
             dynamic_offsets: &[],
+            immediates: &[],
             size: size.into(),
         }
     }

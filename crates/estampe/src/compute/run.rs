@@ -4,6 +4,7 @@ use super::check::{check_count, check_kind, of_dispatch};
 use super::{Dispatch, DispatchError, DispatchErrorKind, DispatchSize};
 use crate::bind_group::{BindingResource, bound};
 use crate::buffer::StoredBuffers;
+use crate::immediates::immediate_words;
 use crate::texture::{StoredTextures, Texture};
 use crate::{BindGroup, Device};
 use estampe_types::Bindings;
@@ -45,10 +46,14 @@ fn run(device: &Device, dispatch: &Dispatch<'_>) -> Result<(), DispatchErrorKind
         })?;
         resources.push((group.id(), bound));
     }
-    let bindings = bound(dispatch.bind_groups, dispatch.dynamic_offsets, |group| {
+    let groups = bound(dispatch.bind_groups, dispatch.dynamic_offsets, |group| {
         let found = resources.iter().find(|(id, _)| *id == group.id());
         found.map_or_else(Arc::default, |(_, bound)| Arc::clone(bound))
     });
+    let bindings = Bindings {
+        groups,
+        immediates: immediate_words(dispatch.immediates),
+    };
     let program = &**dispatch.pipeline.program();
     let stopped = run_workgroups(device, program, &bindings, count);
     // Nobody else holds the words that were stored to from now on.

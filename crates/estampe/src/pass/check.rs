@@ -4,6 +4,7 @@ use super::attachments::Attachments;
 use super::{Draw, PassErrorKind};
 use crate::bind_group::{BindingResource, BoundError, check_bound};
 use crate::buffer::check_conflicts;
+use crate::immediates::check_immediates;
 use crate::{
     BindGroup, BindGroupLayoutEntry, BindingType, BufferError, BufferSlice, BufferUsages, Limits,
 };
@@ -19,7 +20,12 @@ pub(super) fn check_draw(
     check_formats(number, draw, attachments)?;
     check_read_only(number, draw, attachments.read_only())?;
     check_buffers(number, draw)?;
-    check_groups(number, draw, limits)
+    check_groups(number, draw, limits)?;
+    let needed = draw.pipeline.descriptor().immediate_size();
+    check_immediates(draw.immediates, needed, limits).map_err(|error| PassErrorKind::Immediates {
+        draw: number,
+        error,
+    })
 }
 
 /// Checks that the vertices of all draws together keep the limit.

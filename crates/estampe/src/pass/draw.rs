@@ -53,6 +53,50 @@ pub struct Draw<'a> {
     /// The dynamic offsets in bytes, each a multiple of 4: those of the first group in the order of
     /// its binding numbers, then those of the next. Default none.
     pub dynamic_offsets: &'a [u32],
+    /// The immediates (WebGPU's `setImmediates`, Vulkan's push constants): bytes that are part of
+    /// the draw itself, as a uniform block without a buffer. A multiple of 4 bytes, at least as
+    /// many as the pipeline's shaders read and at most
+    /// [`max_immediate_size`](crate::Limits::max_immediate_size). Default none.
+    ///
+    /// ```
+    /// use estampe::{ColorAttachment, Device, DeviceDescriptor, Draw, RenderPass};
+    /// use estampe::{RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource};
+    /// use estampe::{TextureDescriptor, TextureFormat, bytes_of};
+    ///
+    /// let device = Device::new(&DeviceDescriptor::default())?;
+    /// let module = device.create_shader_module(&ShaderModuleDescriptor::new(ShaderSource::Wgsl(
+    ///     "struct Rect { at: vec2f, size: vec2f, color: vec4f }
+    ///      var<immediate> rect: Rect;
+    ///      @vertex fn vs(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
+    ///          let corner = vec2f(f32(i & 1u), f32(i >> 1u));
+    ///          return vec4f(rect.at + corner * rect.size, 0.0, 1.0);
+    ///      }
+    ///      @fragment fn fs() -> @location(0) vec4f { return rect.color; }",
+    /// )))?;
+    /// let mut descriptor =
+    ///     RenderPipelineDescriptor::with_program(device.create_program(&module.program())?);
+    /// descriptor.depth_stencil = None;
+    /// descriptor.primitive.topology = estampe::state::PrimitiveTopology::TriangleStrip;
+    /// let pipeline = device.create_render_pipeline(&descriptor)?;
+    /// let descriptor = TextureDescriptor::new_2d(8, 8, TextureFormat::Rgba8Unorm);
+    /// let image = device.create_texture(&descriptor)?;
+    /// let left = [-1.0_f32, -1.0, 1.0, 2.0, 1.0, 0.0, 0.0, 1.0];
+    /// let right = [0.0_f32, -1.0, 1.0, 2.0, 0.0, 0.0, 1.0, 1.0];
+    /// let draw = |rect| Draw {
+    ///     immediates: bytes_of(rect),
+    ///     ..Draw::new(&pipeline, 0..4)
+    /// };
+    /// device.render(&RenderPass {
+    ///     color_attachments: &[Some(ColorAttachment::clear(&image.view(), [0.0; 4]))],
+    ///     draws: &[draw(&left), draw(&right)],
+    ///     ..RenderPass::default()
+    /// })?;
+    /// let texels = device.read_texture(&image)?;
+    /// assert_eq!(texels[..4], [255, 0, 0, 255]);
+    /// assert_eq!(texels[7 * 4..8 * 4], [0, 0, 255, 255]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub immediates: &'a [u8],
     /// The rectangle that NDC is mapped to, and the range of depths. Default the whole attachment,
     /// depth 0..1.
     pub viewport: Option<Viewport>,
@@ -86,6 +130,7 @@ impl<'a> Draw<'a> {
             base_vertex: 0,
             bind_groups: &[],
             dynamic_offsets: &[],
+            immediates: &[],
             viewport: None,
             scissor: None,
             more_viewports: &[],

@@ -3,6 +3,7 @@
 use super::{Draw, PassErrorKind};
 use crate::bind_group::bound;
 use crate::buffer::StoredBuffers;
+use crate::immediates::immediate_words;
 use crate::texture::StoredTextures;
 use crate::{BindGroup, BufferSlice, Context};
 use estampe_types::bindings::BoundResources;
@@ -101,13 +102,17 @@ impl DrawData {
                     data.buffers.len() - 1
                 });
             }
-            if !is_same(same_groups) {
-                last.2 = (!draw.bind_groups.is_empty()).then(|| {
-                    let bindings = bound(draw.bind_groups, draw.dynamic_offsets, |group| {
+            if !is_same(|a, b| a.immediates == b.immediates && same_groups(a, b)) {
+                let is_bound = !draw.bind_groups.is_empty() || !draw.immediates.is_empty();
+                last.2 = is_bound.then(|| {
+                    let groups = bound(draw.bind_groups, draw.dynamic_offsets, |group| {
                         let index = groups.index_of(group);
                         index.map_or_else(Arc::default, |index| Arc::clone(&resources[index]))
                     });
-                    data.bindings.push(bindings);
+                    data.bindings.push(Bindings {
+                        groups,
+                        immediates: immediate_words(draw.immediates),
+                    });
                     data.bindings.len() - 1
                 });
             }

@@ -1,6 +1,6 @@
 //! Errors of render passes.
 
-use crate::{BufferConflict, BufferError, TextureConflict, TextureError};
+use crate::{BufferConflict, BufferError, ImmediatesError, TextureConflict, TextureError};
 use estampe_core::RenderPassError as DrawError;
 use estampe_types::TextureFormat;
 
@@ -235,6 +235,14 @@ pub enum PassErrorKind {
         offset: u64,
         /// The multiple that it must be of, in bytes.
         alignment: u32,
+    },
+    /// Too few or too many immediates.
+    #[error("draw {draw}: {error}")]
+    Immediates {
+        /// The draw.
+        draw: usize,
+        /// The reason.
+        error: ImmediatesError,
     },
     /// A bind group that is missing, of another layout, or beyond the pipeline's.
     #[error("draw {draw}: bind group {group}: {rule}")]

@@ -174,14 +174,15 @@ impl ShaderModule {
     /// [`UniformError::NoBlock`] if there is no such block.
     pub fn uniforms(&self, block: &str) -> Result<Uniforms, UniformError> {
         // The later stage's block begins with the other one's.
-        let blocks = self.reflections().flat_map(|reflection| &reflection.blocks);
-        let found = blocks
-            .filter(|one| one.name == block)
-            .max_by_key(|one| one.size);
+        let blocks = || {
+            let all = self.reflections().flat_map(|reflection| &reflection.blocks);
+            all.filter(|one| one.name == block)
+        };
+        let found = blocks().max_by_key(|one| one.size);
         let found = found.ok_or_else(|| UniformError::NoBlock {
             block: block.to_owned(),
         })?;
-        Ok(Uniforms::new(found.clone()))
+        Ok(Uniforms::new(found.clone(), blocks()))
     }
 
     /// Lowers every entry point: what is left between a valid text and one that runs. `constants`

@@ -1,9 +1,11 @@
 //! The bytes of a uniform block, set by name.
 
 use super::{ScalarType, UniformBlock, UniformError, UniformMember, ValueType};
+use estampe_format::half;
 use estampe_types::{Mat2, Mat3, Mat4};
 
-/// The bytes of a uniform block. They begin as zeros.
+/// The bytes of a uniform block. They begin as the values that the shader gives its uniforms
+/// (`uniform float gain = 0.5;` in GLSL), and as zeros where it gives none.
 ///
 /// ```
 /// use estampe::{Device, DeviceDescriptor, Mat4, ShaderModuleDescriptor, ShaderSource};
@@ -35,9 +37,26 @@ pub struct Uniforms {
 }
 
 impl Uniforms {
-    pub(super) fn new(block: UniformBlock) -> Self {
-        let bytes = vec![0; block.size as usize];
-        Self { block, bytes }
+    /// The bytes of a block. Other shaders have the same block, or its beginning, and may give
+    /// values to other uniforms.
+    pub(super) fn new<'a>(
+        block: UniformBlock,
+        same: impl Iterator<Item = &'a UniformBlock>,
+    ) -> Self {
+        // In whole words: a block may end with one 16-bit float.
+        let bytes = vec![0; block.size.next_multiple_of(4) as usize];
+        let mut uniforms = Self { block, bytes };
+        for member in same.flat_map(|block| &block.members) {
+            if let Some(words) = &member.initial_value {
+                let count = member.array_length.unwrap_or(1).max(1) as usize;
+                let length = words.len().div_ceil(count).max(1);
+                for (element, words) in words.chunks(length).enumerate() {
+                    let offset = member.offset as usize + member.array_stride as usize * element;
+                    uniforms.put(member, offset, words);
+                }
+            }
+        }
+        uniforms
     }
 
     /// The names, types and offsets.
@@ -46,42 +65,56 @@ impl Uniforms {
         &self.block
     }
 
-    /// The bytes, for a uniform buffer.
+    /// The bytes, for a uniform buffer or for immediates.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
         &self.bytes
     }
 
-    /// Sets a uniform: `model`, `lights[2].color`, or an element of an array, `weights[3]`.
+    /// Sets a uniform: `model`, `lights[2].color`, or an element of an array, `weights[3]`. Values
+    /// of `f32` are rounded to 16 bits for uniforms of `f16`.
     ///
     /// # Errors
     /// [`UniformError`] if there is no such uniform, or it has another type.
     pub fn set(&mut self, name: &str, value: impl UniformValue) -> Result<(), UniformError> {
         let (member, offset) = self.find(name)?;
         let actual = value.value_type();
-        if without_bool(actual) != without_bool(member.kind) {
+        if of_host(actual) != of_host(member.kind) {
             return Err(UniformError::Type {
                 name: name.to_owned(),
                 expected: member.kind.to_string(),
                 actual: actual.to_string(),
             });
         }
+        self.put(&member, offset, &value.words());
+        Ok(())
+    }
+
+    /// Writes the words of a member, or of an element of it, from a byte on.
+    fn put(&mut self, member: &UniformMember, offset: usize, words: &[u32]) {
         let rows = match member.kind {
             ValueType::Scalar(_) => 1,
             ValueType::Vector(_, rows) | ValueType::Matrix { rows, .. } => usize::from(rows),
         };
+        let is_half = member.kind.scalar() == ScalarType::F16;
+        let size = if is_half { 2 } else { 4 };
         let stride = member.matrix_stride as usize;
-        for (column, words) in value.words().chunks(rows).enumerate() {
+        let words_of_column = rows * words_of(member.kind);
+        for (column, words) in words.chunks(words_of_column).enumerate() {
             let first = offset + column * stride;
-            for (row, word) in words.iter().enumerate() {
-                let at = first + row * 4;
+            for (row, &word) in words.iter().enumerate() {
+                let at = first + row * size;
+                let word = if is_half {
+                    half::encode(f32::from_bits(word))
+                } else {
+                    word
+                };
                 // A member lies in its block.
-                if let Some(bytes) = self.bytes.get_mut(at..at + 4) {
-                    bytes.copy_from_slice(&word.to_le_bytes());
+                if let Some(bytes) = self.bytes.get_mut(at..at + size) {
+                    bytes.copy_from_slice(&word.to_le_bytes()[..size]);
                 }
             }
         }
-        Ok(())
     }
 
     /// The member of a name, and the first byte of it or of its element.
@@ -120,16 +153,38 @@ impl Uniforms {
 pub trait UniformValue {
     /// Its type.
     fn value_type(&self) -> ValueType;
-    /// Its words, column after column.
+    /// Its words, column after column. A 64-bit integer is two: the low one, then the high one.
     fn words(&self) -> Vec<u32>;
 }
 
-/// The type in a buffer, where a truth value is a word.
-fn without_bool(ty: ValueType) -> ValueType {
+/// The words of a number of a type.
+fn words_of(ty: ValueType) -> usize {
+    match ty.scalar() {
+        ScalarType::I64 | ScalarType::U64 | ScalarType::F64 => 2,
+        _ => 1,
+    }
+}
+
+/// The words of a 64-bit integer.
+fn halves(number: u64) -> [u32; 2] {
+    [(number & 0xFFFF_FFFF) as u32, (number >> 32) as u32]
+}
+
+/// The type of the host's values: a truth value is a word, and a 16-bit float one of 32 bits.
+fn of_host(ty: ValueType) -> ValueType {
+    let scalar = match ty.scalar() {
+        ScalarType::Bool => ScalarType::U32,
+        ScalarType::F16 => ScalarType::F32,
+        other => other,
+    };
     match ty {
-        ValueType::Scalar(ScalarType::Bool) => ValueType::Scalar(ScalarType::U32),
-        ValueType::Vector(ScalarType::Bool, size) => ValueType::Vector(ScalarType::U32, size),
-        _ => ty,
+        ValueType::Scalar(_) => ValueType::Scalar(scalar),
+        ValueType::Vector(_, rows) => ValueType::Vector(scalar, rows),
+        ValueType::Matrix { columns, rows, .. } => ValueType::Matrix {
+            scalar,
+            columns,
+            rows,
+        },
     }
 }
 
@@ -141,7 +196,7 @@ macro_rules! numbers {
             }
 
             fn words(&self) -> Vec<u32> {
-                vec![$bits(*self)]
+                $bits(*self).to_vec()
             }
         }
 
@@ -154,17 +209,19 @@ macro_rules! numbers {
             }
 
             fn words(&self) -> Vec<u32> {
-                self.iter().copied().map($bits).collect()
+                self.iter().copied().flat_map($bits).collect()
             }
         }
     )*};
 }
 
 numbers! {
-    f32, F32, f32::to_bits;
-    i32, I32, i32::cast_unsigned;
-    u32, U32, u32::from;
-    bool, Bool, u32::from;
+    f32, F32, |number: f32| [number.to_bits()];
+    i32, I32, |number: i32| [number.cast_unsigned()];
+    u32, U32, |number: u32| [number];
+    bool, Bool, |truth: bool| [u32::from(truth)];
+    i64, I64, |number: i64| halves(number.cast_unsigned());
+    u64, U64, halves;
 }
 
 macro_rules! matrices {
@@ -203,4 +260,38 @@ matrices! {
     Mat2, 2;
     Mat3, 3;
     Mat4, 4;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn integers_of_64_bits_are_two_words() {
+        let member = |name: &str, kind, offset, array_length| UniformMember {
+            name: name.to_owned(),
+            kind,
+            array_length,
+            array_stride: 16,
+            matrix_stride: 0,
+            offset,
+            initial_value: None,
+        };
+        let block = UniformBlock {
+            name: String::new(),
+            slot: None,
+            size: 48,
+            members: vec![
+                member("count", ValueType::Scalar(ScalarType::U64), 0, None),
+                member("steps", ValueType::Vector(ScalarType::I64, 2), 16, Some(2)),
+            ],
+        };
+        let mut uniforms = Uniforms::new(block, std::iter::empty());
+        uniforms.set("count", 0x1_0000_0002_u64).expect("a number");
+        uniforms.set("steps[1]", [-1_i64, 5]).expect("a vector");
+        let numbers = uniforms.bytes().as_chunks::<8>().0;
+        let numbers: Vec<_> = numbers.iter().copied().map(u64::from_le_bytes).collect();
+        assert_eq!(numbers, [0x1_0000_0002, 0, 0, 0, u64::MAX, 5]);
+        uniforms.set("count", 1_i64).expect_err("another type");
+    }
 }

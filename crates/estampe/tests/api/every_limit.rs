@@ -299,6 +299,7 @@ fn default_limits_are_at_least_webgpus() {
         (limits.max_inter_stage_scalars, 16 * 4),
         (limits.max_color_attachments, 8),
         (limits.max_color_attachment_bytes_per_sample, 32),
+        (limits.max_immediate_size, 64),
     ];
     for (index, (limit, guaranteed)) in most.into_iter().enumerate() {
         assert!(limit >= guaranteed, "{index}: {limit} < {guaranteed}");

@@ -59,6 +59,7 @@ fn bindings_are_found_by_group_and_number() {
             group(vec![bound(5, 10.0, 0, false)], 8),
             group(vec![bound(5, 20.0, 4, false), bound(0, 30.0, 0, true)], 4),
         ],
+        ..Bindings::default()
     };
     assert_eq!(bindings.f32s(0, 5, 0), [10.0, 11.0, 12.0]);
     assert_eq!(bindings.f32s(1, 5, 0), [21.0, 22.0, 0.0]);
@@ -74,6 +75,7 @@ fn bindings_are_found_by_group_and_number() {
     };
     let bindings = Bindings {
         groups: vec![group(vec![(0, matrix)], 0)],
+        ..Bindings::default()
     };
     assert_eq!(bindings.mat4(0, 0, 0).0[1], [4.0, 5.0, 6.0, 7.0]);
 }

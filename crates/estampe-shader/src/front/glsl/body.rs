@@ -18,6 +18,7 @@ use super::token::{Kind, Place, Token};
 use super::types::{self, Type};
 use super::unit::Unit;
 use super::write::{Pair, Writer};
+use super::{atomics, gather};
 
 /// The names that functions declare, innermost scope last. A pair is that of a sampler.
 #[derive(Debug, Default)]
@@ -44,6 +45,16 @@ impl Scopes {
         }
     }
 
+    /// The sampler that a parameter is.
+    pub(super) fn sampler(&self, name: &str) -> Option<&Pair> {
+        self.find(name)?.as_ref()
+    }
+
+    /// True if a function declares the name.
+    pub(super) fn is_declared(&self, name: &str) -> bool {
+        self.find(name).is_some()
+    }
+
     fn find(&self, name: &str) -> Option<&Option<Pair>> {
         self.scopes.iter().rev().find_map(|scope| scope.get(name))
     }
@@ -60,10 +71,29 @@ enum Bracket {
 
 /// The state of rewriting.
 #[derive(Default)]
-struct State {
+pub(super) struct State {
     brackets: Vec<Bracket>,
     /// The number of open brackets where a declaration goes on, if one does.
     declares_at: Option<usize>,
+    /// True in a call that is written once for each sampler of an array.
+    pub(super) is_chosen: bool,
+}
+
+impl State {
+    /// Goes into the arguments of a function of the language.
+    pub(super) fn open_call(&mut self) {
+        self.brackets.push(Bracket::Call);
+    }
+
+    /// Goes into the arguments of a function like the author's.
+    pub(super) fn open_own_call(&mut self) {
+        self.brackets.push(Bracket::OwnCall);
+    }
+
+    /// Leaves brackets.
+    pub(super) fn close(&mut self) {
+        self.brackets.pop();
+    }
 }
 
 impl Writer<'_> {
@@ -73,7 +103,7 @@ impl Writer<'_> {
         self.rewrite_range(tokens, 0..tokens.len(), scopes, &mut state)
     }
 
-    fn rewrite_range(
+    pub(super) fn rewrite_range(
         &mut self,
         tokens: &[Token],
         range: core::ops::Range<usize>,
@@ -168,6 +198,19 @@ impl Writer<'_> {
             return self.sizes(tokens, at + 1, scopes, state);
         }
         if is_call {
+            if gather::is_gather(self.unit, name)
+                && let Some(end) = self.gather_call(tokens, at, scopes, state)?
+            {
+                return Ok(end);
+            }
+            if !self.unit.has_function(name)
+                && let Some(end) = self.choice(tokens, at, scopes, state)?
+            {
+                return Ok(end);
+            }
+            if atomics::is_atomic(self.unit, name) {
+                return self.atomic_call(tokens, at, scopes, state);
+            }
             return Ok(self.call(tokens, at));
         }
         // Declarations: a name after a type, or after a comma in a declaration.
@@ -376,11 +419,7 @@ impl Writer<'_> {
         let is_argument = next.is_some_and(|next| next.is(",") || next.is(")"));
         let text = match state.brackets.last() {
             Some(Bracket::OwnCall) if is_argument => format!("{} , {}", pair.texture, pair.sampler),
-            Some(Bracket::Call) if is_argument => {
-                let kind = pair.ty.texture.replace("texture", "sampler");
-                let shadow = if pair.ty.is_shadow { "Shadow" } else { "" };
-                format!("{kind}{shadow} ( {} , {} )", pair.texture, pair.sampler)
-            }
+            Some(Bracket::Call) if is_argument => pair.combined(),
             _ => {
                 let message = format!("the sampler `{name}` can only be handed to a function");
                 return Err(Fault::new(message, place).help(format!(

@@ -135,33 +135,6 @@ pub(super) fn is_memory_barrier(name: &str) -> bool {
     )
 }
 
-/// Functions that naga does not have, as GLSL.
-const PRELUDE: &[(&str, &str)] = &[
-    (
-        "modf",
-        "float modf(float x, out float i) { i = trunc(x); return x - i; } \
-         vec2 modf(vec2 x, out vec2 i) { i = trunc(x); return x - i; } \
-         vec3 modf(vec3 x, out vec3 i) { i = trunc(x); return x - i; } \
-         vec4 modf(vec4 x, out vec4 i) { i = trunc(x); return x - i; }",
-    ),
-    (
-        "matrixCompMult",
-        "mat2 matrixCompMult(mat2 a, mat2 b) { return mat2(a[0] * b[0], a[1] * b[1]); } \
-         mat3 matrixCompMult(mat3 a, mat3 b) \
-         { return mat3(a[0] * b[0], a[1] * b[1], a[2] * b[2]); } \
-         mat4 matrixCompMult(mat4 a, mat4 b) \
-         { return mat4(a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]); }",
-    ),
-];
-
-/// The text of the functions that a shader uses and naga does not have.
-pub(super) fn prelude(unit: &Unit) -> impl Iterator<Item = &'static str> {
-    let needed = PRELUDE
-        .iter()
-        .filter(|(name, _)| unit.used.contains(*name) && !unit.has_function(name));
-    needed.map(|(_, text)| *text)
-}
-
 /// True for a word that naga keeps for itself, but which the version leaves to the author.
 pub(super) fn is_naga_word(unit: &Unit, word: &str) -> bool {
     let version = unit.version.number;

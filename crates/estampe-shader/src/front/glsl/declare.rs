@@ -346,6 +346,7 @@ impl<'a> Reader<'a> {
                         name: ty.name.clone(),
                         dimensions,
                     },
+                    offset: qualifiers.value("offset"),
                 });
                 if !self.skip(",") {
                     break;

@@ -13,12 +13,19 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use super::super::reflect::{Names, Scalar, ValueType};
+use super::Fault;
 use super::output::Output;
 use super::token::Place;
 use super::types::{Member, Structures, Type, value_type};
 
 /// The bytes of the vector to which std140 aligns arrays and structures.
 const VEC4: u32 = 16;
+
+/// The bytes of a number, to which std430 aligns them at least.
+const NUMBER: u32 = 4;
+
+/// The largest offset of a member, so that no text makes a block of gigabytes.
+const MOST_OFFSET: u32 = 1 << 16;
 
 /// True if the buffer holds the type as the author declares it.
 pub(super) fn is_same(structures: &Structures, ty: &Type) -> bool {
@@ -36,6 +43,14 @@ pub(super) fn is_same(structures: &Structures, ty: &Type) -> bool {
         (None, Some(ValueType::Matrix { rows, .. })) => rows != 2,
         (None, None) => true,
     }
+}
+
+/// True for truth values, vectors of them, and arrays of these.
+pub(super) fn is_bool(ty: &Type) -> bool {
+    matches!(
+        value_type(&ty.name),
+        Some(ValueType::Scalar(Scalar::Bool) | ValueType::Vector(Scalar::Bool, _))
+    )
 }
 
 /// The type of a structure alone.
@@ -58,23 +73,24 @@ fn natural_align(structures: &Structures, ty: &Type) -> u32 {
                 .map(|member| natural_align(structures, &member.ty));
             aligns.max().unwrap_or(4)
         }
-        None => layout(structures, ty).0,
+        None => layout(structures, ty, VEC4).0,
     }
 }
 
-/// The alignment and size of a type in std140. Samplers take no room.
-fn layout(structures: &Structures, ty: &Type) -> (u32, u32) {
+/// The alignment and size of a type. Samplers take no room. `least` is the least alignment of
+/// arrays, structures and columns: that of a `vec4` in std140, of a number in std430.
+fn layout(structures: &Structures, ty: &Type, least: u32) -> (u32, u32) {
     if let Some(&size) = ty.dimensions.first() {
-        let (align, element) = layout(structures, &ty.element());
-        let align = align.max(VEC4);
+        let (align, element) = layout(structures, &ty.element(), least);
+        let align = align.max(least);
         let stride = element.next_multiple_of(align);
         return (align, stride.saturating_mul(size));
     }
     if let Some(members) = structures.get(&ty.name) {
         let mut end = 0_u32;
-        let mut align = VEC4;
+        let mut align = least;
         for member in members.iter() {
-            let (own, size) = layout(structures, &member.ty);
+            let (own, size) = layout(structures, &member.ty, least);
             align = align.max(own);
             end = aligned(end, own).saturating_add(size);
         }
@@ -86,7 +102,10 @@ fn layout(structures: &Structures, ty: &Type) -> (u32, u32) {
             let size = u32::from(size);
             (4 * size.next_power_of_two(), 4 * size)
         }
-        Some(ValueType::Matrix { columns, .. }) => (VEC4, VEC4 * u32::from(columns)),
+        Some(ValueType::Matrix { columns, rows, .. }) => {
+            let column = (4 * u32::from(rows).next_power_of_two()).max(least);
+            (column, column * u32::from(columns))
+        }
         None => (1, 0),
     }
 }
@@ -130,7 +149,7 @@ impl Hosts<'_> {
         if !self.structures.has_value(member.ty) {
             return text;
         }
-        let (align, size) = layout(self.structures, member.ty);
+        let (align, size) = layout(self.structures, member.ty, VEC4);
         self.pad(
             end,
             align,
@@ -145,6 +164,35 @@ impl Hosts<'_> {
         let ty = self.ty(member.ty, &member.invented, output, names);
         text.push((format!("{ty} ;"), member.place));
         text
+    }
+
+    /// What brings a member of a block in std430 to the byte that `layout(offset = …)` says;
+    /// nothing without. `end` is that of the member before, and becomes that of the member.
+    pub(super) fn pad_to_offset(
+        &mut self,
+        member: &Member,
+        end: &mut u32,
+        names: &mut Names,
+    ) -> Result<Option<String>, Fault> {
+        let (align, size) = layout(self.structures, &member.ty, NUMBER);
+        let natural = aligned(*end, align);
+        let offset = member.offset.unwrap_or(natural);
+        if offset < natural || !offset.is_multiple_of(align) || offset > MOST_OFFSET {
+            let message = format!("`{}` cannot begin at byte {offset}", member.name);
+            return Err(Fault::new(message, member.place).help(format!(
+                "the member before it ends at byte {end}, and its offset is a multiple of {align} \
+                 and at most {MOST_OFFSET}"
+            )));
+        }
+        let numbers = (offset - *end) / NUMBER;
+        *end = offset.saturating_add(size);
+        if offset == natural {
+            return Ok(None);
+        }
+        let name = format!("{}pad{}", self.prefix, self.pads);
+        self.pads += 1;
+        names.hide(&name);
+        Ok(Some(format!("float {name} [ {numbers} ] ;")))
     }
 
     /// Adds numbers until `end` is a multiple of `align`, if naga aligns to less.
@@ -169,7 +217,13 @@ impl Hosts<'_> {
     }
 
     /// The declaration of a member: its type, name and sizes.
-    fn ty(&mut self, ty: &Type, name: &str, output: &mut Output, names: &mut Names) -> String {
+    pub(super) fn ty(
+        &mut self,
+        ty: &Type,
+        name: &str,
+        output: &mut Output,
+        names: &mut Names,
+    ) -> String {
         let sizes = sizes(&ty.dimensions);
         if self.structures.get(&ty.name).is_some() {
             let structure = self.structure(&ty.name, output, names);

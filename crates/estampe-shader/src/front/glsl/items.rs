@@ -115,12 +115,14 @@ impl Reader<'_> {
                     self.unit.constants.insert(name.clone(), value);
                 }
             }
-            Storage::Uniform if !variable.init.is_empty() => {
+            Storage::Uniform
+                if !variable.init.is_empty() && self.unit.structures.has_sampler(&variable.ty) =>
+            {
                 return Err(Fault::new(
-                    format!("the uniform `{name}` cannot have a value in the shader"),
+                    format!("the uniform `{name}` holds a texture, which cannot have a value"),
                     variable.place,
                 )
-                .help("remove `= …` and let the program set it, or make it `const`"));
+                .help("remove `= …`, and bind the texture in the program"));
             }
             _ => {}
         }

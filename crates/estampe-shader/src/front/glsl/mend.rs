@@ -1,8 +1,8 @@
 //! Mending the modules that naga's GLSL front end makes.
 //!
 //! naga leaves the size of `gl_ClipDistance` open, which its validator then refuses, makes
-//! `barrier()` a barrier of subgroups too, which estampe does not have, and lets `texture` choose a
-//! level of detail by derivatives in stages without them.
+//! `barrier()` a barrier of subgroups too, which it does not allow in all stages, and lets
+//! `texture` choose a level of detail by derivatives in stages without them.
 
 use estampe_ir::interface::Stage;
 use naga::{
@@ -10,21 +10,24 @@ use naga::{
     Type, TypeInner,
 };
 
-use super::indices;
+use super::super::validate;
 use super::unit::Unit;
+use super::{atomics, gather, indices};
 
 /// The most clip distances (OpenGL 4.6, `GL_MAX_CLIP_DISTANCES`).
 const MOST_DISTANCES: u32 = 8;
 
 /// Mends a module.
-pub(super) fn mend(module: &mut naga::Module, unit: &Unit) {
+pub(super) fn mend(module: &mut naga::Module, unit: &Unit) -> Result<(), validate::Fault> {
     size_clip_distances(module, unit);
     for (_, function) in module.functions.iter_mut() {
         mend_barriers(&mut function.body);
+        gather::mend(function, unit);
         if unit.stage != Stage::Fragment {
             sample_the_base(function);
         }
     }
+    atomics::mend(module, unit)
 }
 
 /// Takes the base level where a shader of a stage without derivatives leaves the choice of the

@@ -17,20 +17,26 @@
 //! | `write`, `uniforms`, `output` | the rewritten text, and the author's places in it |
 //! | `flow` | control flow that naga reads otherwise |
 //! | `body`, `order`, `indices`, `builtins` | functions and initial values, token by token |
+//! | `prelude` | functions that naga does not have, in GLSL |
+//! | `choice` | samplers at computed indices |
+//! | `gather`, `atomics` | functions that naga has in WGSL alone |
 //! | `mend` | what naga's modules of GLSL lack |
 //! | `errors`, `functions`, `fault` | naga's errors in the words of GLSL |
 //!
 //! What differs from OpenGL: `gl_FragCoord.y` counts from the top, as in WebGPU; `gl_InstanceID`
-//! counts from the first instance of the draw; samplers in arrays need a constant index; uniforms
-//! have no values in the shader; `double`, `textureGather`, atomics and subroutines are not there.
+//! counts from the first instance of the draw; samplers in arrays that are handed to functions need
+//! a constant index; `double` and subroutines are not there.
 
+mod atomics;
 mod body;
 mod builtins;
+mod choice;
 mod declare;
 mod errors;
 mod fault;
 mod flow;
 mod functions;
+mod gather;
 mod host;
 mod indices;
 mod items;
@@ -41,6 +47,7 @@ mod number;
 mod opaque;
 mod order;
 mod output;
+mod prelude;
 mod preprocess;
 mod qualify;
 mod resources;
@@ -162,14 +169,15 @@ fn finish(
     let writer = write::Writer::new(units, index, resources, locations, clip_space);
     let (output, names) = writer.write().map_err(|fault| fault.in_text(&lines))?;
     let mut module = parse(text, unit, &output, &names)?;
-    mend::mend(&mut module, unit);
+    let mended = mend::mend(&mut module, unit);
     let origin = Origin {
         text,
         unit,
         output: &output,
         names: &names,
     };
-    let info = validate::check(&module, Words::Glsl)
+    let info = mended
+        .and_then(|()| validate::check(&module, Words::Glsl))
         .map_err(|fault| errors::validation_fault(&origin, fault).in_text(&lines))?;
     let mut module = Module::new(module, info, names, Words::Glsl)?;
     module.reflection.combined_samplers = combined(&module, resources);

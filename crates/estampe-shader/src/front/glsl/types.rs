@@ -40,6 +40,8 @@ pub(super) struct Member {
     pub name: Rc<str>,
     pub place: Place,
     pub ty: Type,
+    /// The byte that `layout(offset = …)` says.
+    pub offset: Option<u32>,
 }
 
 /// The structures of a shader by name.

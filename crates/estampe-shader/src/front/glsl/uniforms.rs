@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use super::Fault;
+use super::body::Scopes;
 use super::host::{self, Held, sizes};
 use super::opaque;
 use super::token::Place;
@@ -49,6 +50,10 @@ impl<'a> Writer<'a> {
                 _ => format!("{}u_{}", self.unit.prefix, loose.name),
             };
             let place = own.map(|variable| variable.place);
+            if own.is_some_and(|variable| !variable.init.is_empty()) {
+                let constant = format!("{}initial_{}", self.unit.prefix, loose.name);
+                self.names.add_initial(&invented, &constant);
+            }
             let held = Held {
                 name: &loose.name,
                 invented: invented.clone(),
@@ -76,6 +81,22 @@ impl<'a> Writer<'a> {
             self.output.put(&member, place);
         }
         self.output.put("} ;", None);
+        Ok(())
+    }
+
+    /// The value that a loose uniform begins with, as a constant that reflection reads.
+    pub(super) fn initial_value(&mut self, variable: &'a Variable) -> Result<(), Fault> {
+        if variable.init.is_empty() {
+            return Ok(());
+        }
+        let place = Some(variable.place);
+        let ty = &variable.ty;
+        let name = format!("{}initial_{}", self.unit.prefix, variable.name);
+        self.names.add(&name, &variable.name);
+        let declared = format!("const {} {name} {} =", ty.name, sizes(&ty.dimensions));
+        self.output.put(&declared, place);
+        self.rewrite(&variable.init, &mut Scopes::default())?;
+        self.output.put(";", place);
         Ok(())
     }
 
@@ -133,8 +154,11 @@ impl<'a> Writer<'a> {
     /// A uniform or storage buffer.
     pub(super) fn block(&mut self, block: &'a Block) -> Result<(), Fault> {
         let place = Some(block.place);
-        let is_uniform = block.qualifiers.storage() == Storage::Uniform;
         let is_pushed = block.qualifiers.has("push_constant");
+        // Push constants are laid out as storage buffers, unless the text says otherwise.
+        let is_std430 = is_pushed && !block.qualifiers.has("std140");
+        let is_uniform = block.qualifiers.storage() == Storage::Uniform;
+        let is_std140 = is_uniform && !is_std430;
         let slot = self
             .resources
             .slots
@@ -142,7 +166,8 @@ impl<'a> Writer<'a> {
             .copied()
             .unwrap_or_default();
         let layout = match (is_pushed, is_uniform) {
-            (true, _) => "push_constant".to_owned(),
+            (true, _) if is_std430 => "push_constant , std430".to_owned(),
+            (true, _) => "push_constant , std140".to_owned(),
             (_, true) => format!("std140 , set = {} , binding = {}", slot.0, slot.1),
             _ => {
                 let rules = if block.qualifiers.has("std140") {
@@ -154,10 +179,17 @@ impl<'a> Writer<'a> {
             }
         };
         let storage = if is_uniform { "uniform" } else { "buffer" };
-        let memory = block.qualifiers.memory.join(" ");
+        // naga has buffers that are read, and those that are written too.
+        let memory = block.qualifiers.memory.iter();
+        let memory = memory.filter(|word| &***word != "writeonly").cloned();
+        let memory = memory.collect::<Vec<_>>().join(" ");
         let open = format!("layout ( {layout} ) {memory} {storage} {} {{", block.name);
         let structures = &self.unit.structures;
-        let as_declared = |ty: &Type| !is_uniform || host::is_same(structures, ty);
+        let as_declared = |ty: &Type| match (is_std140, is_std430) {
+            (true, _) => host::is_same(structures, ty),
+            (_, true) => !host::is_bool(ty),
+            _ => true,
+        };
         if let Some(opaque) = block
             .members
             .iter()
@@ -167,7 +199,9 @@ impl<'a> Writer<'a> {
                 .help("declare the sampler as a uniform outside of the block"));
         }
         let is_whole = block.members.iter().all(|member| as_declared(&member.ty));
-        let copied = block.instance.clone().filter(|_| !is_whole);
+        // Of an instance naga loads all members to read one, which a buffer's last one may forbid.
+        let is_apart = !is_whole || !is_uniform;
+        let copied = block.instance.clone().filter(|_| is_apart);
         let mut text = Vec::new();
         let mut end = 0;
         let mut copies = Vec::new();
@@ -187,7 +221,12 @@ impl<'a> Writer<'a> {
                 true => seen.clone(),
                 false => format!("{}b_{}_{}", self.unit.prefix, block.name, member.name),
             };
-            if is_uniform {
+            if is_std430
+                && let Some(pad) = self.own.pad_to_offset(member, &mut end, &mut self.names)?
+            {
+                text.push((pad, None));
+            }
+            if is_std140 {
                 let held = Held {
                     name: &member.name,
                     invented: invented.clone(),
@@ -199,9 +238,17 @@ impl<'a> Writer<'a> {
                         .member_at(&held, &mut end, &mut self.output, &mut self.names),
                 );
             } else {
-                let sizes = sizes(&member.ty.dimensions);
-                let declared = format!("{} {invented} {sizes} ;", member.ty.name);
-                text.push((declared, Some(member.place)));
+                if copied.is_some() || !is_same {
+                    self.names.add(&invented, &member.name);
+                }
+                let declared = if is_same {
+                    let sizes = sizes(&member.ty.dimensions);
+                    format!("{} {invented} {sizes}", member.ty.name)
+                } else {
+                    let (output, names) = (&mut self.output, &mut self.names);
+                    self.own.ty(&member.ty, &invented, output, names)
+                };
+                text.push((format!("{declared} ;"), Some(member.place)));
             }
             if !is_same {
                 let sizes = sizes(&member.ty.dimensions);

@@ -12,13 +12,16 @@ use estampe_ir::interface::Stage;
 use super::super::reflect::Names;
 use super::super::source::ClipSpace;
 use super::Fault;
+use super::atomics;
 use super::body::Scopes;
 use super::builtins;
 use super::flow;
+use super::gather::Gather;
 use super::host::{Hosts, sizes};
 use super::link::Locations;
 use super::order;
 use super::output::Output;
+use super::prelude;
 use super::resources::Resources;
 use super::token::Place;
 use super::types::{self, SamplerType, Type};
@@ -30,6 +33,15 @@ pub(super) struct Pair {
     pub texture: String,
     pub sampler: String,
     pub ty: SamplerType,
+}
+
+impl Pair {
+    /// The texture with its sampler, as functions of the language take it.
+    pub(super) fn combined(&self) -> String {
+        let kind = self.ty.texture.replace("texture", "sampler");
+        let shadow = if self.ty.is_shadow { "Shadow" } else { "" };
+        format!("{kind}{shadow} ( {} , {} )", self.texture, self.sampler)
+    }
 }
 
 /// A shader that is being written.
@@ -51,6 +63,8 @@ pub(super) struct Writer<'a> {
     pub before: Vec<(String, Option<Place>)>,
     after: Vec<(String, Option<Place>)>,
     pub invented: usize,
+    /// What is gathered from textures.
+    pub gathers: Vec<Gather>,
     /// What buffers hold of this shader's types, and of those of the shader before.
     pub own: Hosts<'a>,
     pub foreign: Hosts<'a>,
@@ -88,6 +102,7 @@ impl<'a> Writer<'a> {
             before: Vec::new(),
             after: Vec::new(),
             invented: 0,
+            gathers: Vec::new(),
         }
     }
 
@@ -101,9 +116,8 @@ impl<'a> Writer<'a> {
         self.loose_uniforms()?;
         self.built_in_outputs();
         self.layouts();
-        for text in builtins::prelude(unit) {
-            self.output.put(text, None);
-        }
+        self.output.put(&prelude::functions(unit), None);
+        self.output.put(&atomics::functions(unit), None);
         for item in &unit.items {
             match item {
                 Item::Variable(variable) => self.variable(variable)?,
@@ -111,6 +125,7 @@ impl<'a> Writer<'a> {
                 Item::Function(_) => {}
             }
         }
+        self.gathers()?;
         for function in order::functions(unit) {
             self.function(function)?;
         }
@@ -195,7 +210,10 @@ impl<'a> Writer<'a> {
         let name = self.spell(&variable.name);
         let declared = format!("{} {name} {}", ty.name, sizes(&ty.dimensions));
         match variable.qualifiers.storage() {
-            Storage::Uniform => self.uniform(variable),
+            Storage::Uniform => {
+                self.initial_value(variable)?;
+                self.uniform(variable)
+            }
             Storage::In | Storage::Out => {
                 self.between_stages(variable, &name, &declared);
                 Ok(())

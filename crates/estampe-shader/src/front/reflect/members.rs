@@ -2,7 +2,7 @@
 
 use naga::{AddressSpace, ArraySize, Handle, Type, TypeInner};
 
-use super::{Names, ValueType};
+use super::{Names, ValueType, initial};
 
 /// The most members that are listed of one block: arrays of structures are listed element by
 /// element, and may have millions.
@@ -39,6 +39,22 @@ pub struct UniformMember {
     pub matrix_stride: u32,
     /// The bytes from the block's start.
     pub offset: u32,
+    /// The value that the shader gives it: the words of its components, column after column,
+    /// element after element, without gaps. `None` if there is none, which only GLSL's uniforms may
+    /// have.
+    pub initial_value: Option<Vec<u32>>,
+}
+
+impl UniformMember {
+    /// The words of its components. A run-time sized array has none.
+    fn words(&self) -> usize {
+        let components = match self.kind {
+            ValueType::Scalar(_) => 1,
+            ValueType::Vector(_, rows) => u32::from(rows),
+            ValueType::Matrix { columns, rows, .. } => u32::from(columns) * u32::from(rows),
+        };
+        (components * self.array_length.unwrap_or(1)) as usize
+    }
 }
 
 /// The buffers of a module in the order of group and binding, and its push constants.
@@ -122,7 +138,12 @@ impl Walk<'_> {
                         format!("{name}.{last}")
                     };
                     let offset = offset.saturating_add(member.offset);
+                    let first = self.members.len();
                     self.visit(&path, member.name.as_deref(), member.ty, offset, depth + 1);
+                    if let Some(constant) = self.names.initial(member.name.as_deref()) {
+                        let words = initial::words(self.module, constant);
+                        give(&mut self.members[first..], &words.unwrap_or_default());
+                    }
                 }
             }
             TypeInner::Array { base, size, stride } => {
@@ -166,6 +187,7 @@ impl Walk<'_> {
             array_stride: array.map_or(0, |(_, stride)| stride),
             matrix_stride: column_stride(inner),
             offset,
+            initial_value: None,
         };
         // A matrix that naga sees as an array of columns.
         if let (Some(ValueType::Matrix { columns, .. }), Some((length, stride))) = (declared, array)
@@ -180,6 +202,17 @@ impl Walk<'_> {
             };
         }
         self.members.push(member);
+    }
+}
+
+/// Divides the words of a value among the members that it consists of.
+fn give(members: &mut [UniformMember], mut words: &[u32]) {
+    for member in members {
+        let Some((own, rest)) = words.split_at_checked(member.words()) else {
+            return;
+        };
+        member.initial_value = Some(own.to_vec());
+        words = rest;
     }
 }
 

@@ -6,9 +6,11 @@
 //! | [`resources`] | bind group layout entries and the stages that see them |
 //! | [`members`] | names, types and byte offsets in buffers |
 //! | [`varyings`] | inputs and outputs of entry points |
+//! | [`initial`] | values with which uniforms begin |
 //! | [`overrides`] | pipeline-overridable constants |
 //! | [`names`] | author's names for those that the GLSL pass invents |
 
+mod initial;
 mod members;
 mod names;
 mod overrides;

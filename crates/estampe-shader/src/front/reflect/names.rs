@@ -10,6 +10,7 @@ pub(in crate::front) struct Names {
     names: HashMap<String, String>,
     types: HashMap<String, ValueType>,
     hidden: HashSet<String>,
+    initial: HashMap<String, String>,
 }
 
 impl Names {
@@ -26,6 +27,17 @@ impl Names {
     /// Notes that the author knows nothing of `invented`.
     pub(in crate::front) fn hide(&mut self, invented: &str) {
         self.hidden.insert(invented.to_owned());
+    }
+
+    /// Notes the constant that has the value with which the uniform `invented` begins.
+    pub(in crate::front) fn add_initial(&mut self, invented: &str, constant: &str) {
+        self.initial
+            .insert(invented.to_owned(), constant.to_owned());
+    }
+
+    /// The constant that has the value with which a uniform begins.
+    pub(in crate::front) fn initial(&self, name: Option<&str>) -> Option<&str> {
+        self.initial.get(name?).map(String::as_str)
     }
 
     /// True if the author knows nothing of the name.

@@ -136,6 +136,14 @@ impl ValueType {
         }
     }
 
+    /// The type of its numbers.
+    #[must_use]
+    pub fn scalar(self) -> Scalar {
+        match self {
+            Self::Scalar(scalar) | Self::Vector(scalar, _) | Self::Matrix { scalar, .. } => scalar,
+        }
+    }
+
     /// The name in GLSL: `vec3`, `mat4`, `uint`.
     #[must_use]
     pub fn glsl_name(self) -> String {

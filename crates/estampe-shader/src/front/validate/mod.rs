@@ -9,12 +9,11 @@
 //! | early depth test | GLSL's `early_fragment_tests`, WGSL's `early_depth_test` |
 //! | cube arrays, 16-bit normalized storage | formats and views that textures have |
 //! | f16, f16 packed in f32, 64-bit integers | exact in software on every machine |
+//! | subgroups | quads on every machine, whatever its registers hold |
 //!
-//! Refused: subgroups, as their results show how many lanes run together, and images must not
-//! differ between machines; 64-bit floats, 16-bit integers, ray queries and pipelines, mesh and
-//! task shaders, multiview, barycentrics, binding arrays, atomics on textures and on floats,
-//! external textures, cooperative matrices, `primitive_index` and `draw_index`: nothing below
-//! executes them.
+//! Refused: 64-bit floats and atomics, 16-bit integers, ray queries and pipelines, mesh and task
+//! shaders, multiview, barycentrics, binding arrays, atomics on textures and on floats, external
+//! textures, cooperative matrices, `primitive_index` and `draw_index`: nothing below executes them.
 
 mod entry;
 mod function;
@@ -22,7 +21,9 @@ mod words;
 
 pub(super) use words::{Words, plain};
 
-use naga::valid::{Capabilities, ModuleInfo, ValidationError, ValidationFlags, Validator};
+use naga::valid::{
+    Capabilities, ModuleInfo, TypeError, ValidationError, ValidationFlags, Validator,
+};
 use naga::{Span, WithSpan};
 
 /// What shaders may use.
@@ -34,6 +35,8 @@ pub(super) const CAPABILITIES: Capabilities = Capabilities::IMMEDIATES
     .union(Capabilities::EARLY_DEPTH_TEST)
     .union(Capabilities::CUBE_ARRAY_TEXTURES)
     .union(Capabilities::STORAGE_TEXTURE_16BIT_NORM_FORMATS)
+    .union(Capabilities::SUBGROUP)
+    .union(Capabilities::SUBGROUP_BARRIER)
     .union(Capabilities::SHADER_FLOAT16)
     .union(Capabilities::SHADER_FLOAT16_IN_FLOAT32)
     .union(Capabilities::SHADER_INT64);
@@ -96,6 +99,10 @@ pub(super) fn describe(
         ValidationError::GlobalVariable { name, source, .. } => {
             entry::describe_variable(module, name, source, words)
         }
+        ValidationError::Type {
+            source: TypeError::MissingCapability(missing),
+            ..
+        } => (function::not_supported(*missing), None),
         ValidationError::Type { name, source, .. } => (
             format!("{}: {}", words.type_named(name), words.chain(source)),
             None,

@@ -146,6 +146,10 @@ pub(in crate::front) fn plain(message: &str) -> String {
 pub(super) fn capability(capabilities: Capabilities) -> String {
     let names = [
         (Capabilities::FLOAT64, "64-bit floating point"),
+        (
+            Capabilities::SHADER_INT64_ATOMIC_ALL_OPS,
+            "atomic operations on 64-bit integers",
+        ),
         (Capabilities::SUBGROUP, "subgroup operations"),
         (Capabilities::SUBGROUP_BARRIER, "subgroup barriers"),
         (Capabilities::SHADER_INT16, "16-bit integers"),
