@@ -13,10 +13,12 @@ use std::path::PathBuf;
 Examples:
   estampe compute squares.wgsl --groups 4 --buffer 0,0=zeros:1024 --write 0,0=squares.bin
   estampe compute blur.comp --groups 40,30 --buffer 0,0=in.bin --buffer 0,1=zeros:4915200 --write 0,1=out.bin
+  estampe compute scale.wgsl --groups 16 --buffer 0,0=in.bin --immediates hex:0000003f --write 0,0=half.bin
   estampe compute steps.wgsl --entry count --groups 8,8,2 -D width=64 --set scale=0.5 --buffer 0,0=zeros:4096
 
 Buffers are bytes: 32-bit words are little-endian, as on all machines on which estampe runs. Each storage buffer that \
-the entry point uses must be given; uniform blocks are zeros, but for the uniforms that --set names. --write writes \
+the entry point uses must be given; uniform blocks are zeros, but for the uniforms that --set names. Immediates (push \
+constants) that it reads must be given, too. --write writes \
 the bytes of a buffer as they are after all work-groups have run. Textures are sampled as `estampe shader image` has \
 them; their first row is the file's.
 

@@ -43,6 +43,8 @@ pub(crate) fn run(args: &ComputeArgs) -> Result<(), Failure> {
         first_row: FirstRow::Top,
     };
     let bound = binder.bind(pipeline.bind_group_layouts(), Blocks::new(&module))?;
+    let needed = pipeline.program().immediate_size();
+    let immediates = args.resources.immediates(needed)?;
     let written: Result<Vec<_>, Failure> = args
         .write
         .iter()
@@ -53,6 +55,7 @@ pub(crate) fn run(args: &ComputeArgs) -> Result<(), Failure> {
     let start = Instant::now();
     let dispatch = Dispatch {
         bind_groups: &bound.groups,
+        immediates: &immediates,
         ..Dispatch::new(&pipeline, args.groups)
     };
     let done = device.dispatch(&dispatch);

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::shader::resources::{Binder, FirstRow, ResourceArgs, is_texture};
 use crate::shader::source::{ShaderFile, SourceArgs};
-use crate::shader::triangle::{Input, linked, value_as};
+use crate::shader::triangle::{Input, linked, value_as, written_type};
 use crate::shader::uniforms::{Blocks, Common, of_picture};
 use crate::shader::values::{self, Via};
 use crate::values::shown;
@@ -115,6 +115,11 @@ impl SurfaceShaderArgs {
                 "the vertex shader reads location {last}; there are 0 (position), 1 (normal), \
                  2 (uv) and 3 (colour)"
             )));
+        }
+        if program.immediate_size() > 0 {
+            return Err(wrong(
+                &"it reads immediates (push constants), which surfaces do not have: use uniforms",
+            ));
         }
         let layouts = program.bind_group_layouts().to_vec();
         let bindings = Bindings {
@@ -280,7 +285,7 @@ fn vertex_text(inputs: &[Input<'_>], group: u32) -> String {
         interpolation,
     } in inputs
     {
-        let (at, kind) = (varying.location, varying.kind);
+        let (at, kind) = (varying.location, written_type(varying.kind));
         let value = value_as(kind, value_of(varying));
         // Writing to strings cannot fail.
         let _ = write!(

@@ -1,7 +1,7 @@
 //! What a shader binds: buffers, textures and uniform blocks of the command line.
 
 use super::uniforms::Blocks;
-use super::values::{self, BufferContents, Slot, TextureName};
+use super::values::{self, BufferContents, Immediates, Slot, TextureName};
 use crate::failure::Failure;
 use crate::input;
 use crate::values::shown;
@@ -29,6 +29,11 @@ pub(crate) struct ResourceArgs {
     #[arg(help_heading = "Resources")]
     texture: Vec<(TextureName, PathBuf)>,
 
+    /// The immediates (push constants): the bytes of a file, or hexadecimal digits
+    #[arg(long, value_name = "FILE|hex:DIGITS", value_parser = values::immediates)]
+    #[arg(help_heading = "Resources")]
+    immediates: Option<Immediates>,
+
     /// A uniform by name: numbers with commas between; repeatable
     #[arg(long, value_name = "NAME=VALUE", value_parser = values::setting)]
     #[arg(allow_hyphen_values = true, help_heading = "Resources")]
@@ -36,6 +41,35 @@ pub(crate) struct ResourceArgs {
 }
 
 impl ResourceArgs {
+    /// The bytes of the immediates, of which the shader reads `needed`.
+    pub(crate) fn immediates(&self, needed: u32) -> Result<Vec<u8>, Failure> {
+        let bytes = match &self.immediates {
+            None if needed > 0 => {
+                return Err(Failure::Usage(format!(
+                    "the shader reads {needed} bytes of immediates (push constants): give them by \
+                     --immediates FILE or --immediates hex:DIGITS"
+                )));
+            }
+            None => Vec::new(),
+            Some(Immediates::File(path)) => input::read_file(path, &Limits::default())?,
+            Some(Immediates::Bytes(bytes)) => bytes.clone(),
+        };
+        let most = estampe::Limits::default().max_immediate_size;
+        let given = bytes.len();
+        let rule = if given < needed as usize {
+            format!("the shader reads {needed}; give more")
+        } else if given > most as usize {
+            format!("{most} are possible")
+        } else if !given.is_multiple_of(4) {
+            "a multiple of 4 is possible".to_owned()
+        } else {
+            return Ok(bytes);
+        };
+        Err(Failure::Usage(format!(
+            "--immediates: {given} bytes, but {rule}"
+        )))
+    }
+
     /// Uniforms, and the texture of each of these bindings.
     pub(crate) fn of_surfaces(set: &[(String, String)], textures: Vec<(Slot, PathBuf)>) -> Self {
         let textures = textures.into_iter();
@@ -44,6 +78,7 @@ impl ResourceArgs {
             texture: textures
                 .map(|(slot, path)| (TextureName::Slot(slot), path))
                 .collect(),
+            immediates: None,
             set: set.to_vec(),
         }
     }

@@ -71,7 +71,17 @@ pub(crate) fn linked(
     ))
 }
 
-/// The value of an input of this type from `value`, an expression of four floats.
+/// The type that is written for an input of this type: between stages, 16-bit floats are those of
+/// 32 bits.
+pub(crate) fn written_type(kind: ValueType) -> ValueType {
+    match kind {
+        ValueType::Scalar(ScalarType::F16) => ValueType::Scalar(ScalarType::F32),
+        ValueType::Vector(ScalarType::F16, rows) => ValueType::Vector(ScalarType::F32, rows),
+        other => other,
+    }
+}
+
+/// The value of an output of this type from `value`, an expression of four floats.
 pub(crate) fn value_as(kind: ValueType, value: &str) -> String {
     match kind {
         ValueType::Scalar(ScalarType::F32) => format!("{value}.x"),
@@ -92,7 +102,7 @@ pub(crate) fn triangle_text(inputs: &[Input<'_>]) -> String {
         interpolation,
     } in inputs
     {
-        let (at, kind) = (varying.location, varying.kind);
+        let (at, kind) = (varying.location, written_type(varying.kind));
         let value = value_as(kind, "value");
         // Writing to strings cannot fail.
         let _ = write!(

@@ -1,7 +1,7 @@
 //! The contents of uniform blocks: values that are set by name, on the command line or by
 //! themselves.
 
-use super::values::{AnyValue, Slot, components, word};
+use super::values::{AnyValue, Slot, components, words};
 use crate::failure::Failure;
 use estampe::{Mat4, ScalarType, ShaderModule, UniformMember, Uniforms, ValueType};
 use estampe_shader::front::BindingKind;
@@ -76,13 +76,14 @@ impl Blocks {
             return Err(usage(message));
         };
         let (scalar, count) = components(member.kind);
-        let words: Option<Vec<u32>> = text.split(',').map(|text| word(scalar, text)).collect();
+        let numbers_given: Option<Vec<Vec<u32>>> =
+            text.split(',').map(|text| words(scalar, text)).collect();
         let elements = match member.array_length {
             Some(length) if !element => length as usize,
             _ => 1,
         };
-        let words = words.filter(|words| words.len() == count * elements);
-        let words = words.ok_or_else(|| {
+        let numbers_given = numbers_given.filter(|given| given.len() == count * elements);
+        let numbers_given = numbers_given.ok_or_else(|| {
             let kind = member.kind;
             let times = if elements > 1 {
                 format!("{elements} times ")
@@ -96,13 +97,13 @@ impl Blocks {
             ))
         })?;
         let uniforms = &mut self.blocks[at].1;
-        for (index, words) in words.chunks(count).enumerate() {
+        for (index, numbers) in numbers_given.chunks(count).enumerate() {
             let path = if member.array_length.is_some() && !element {
                 format!("{}[{index}]", member.name)
             } else {
                 element_path(name, &member)
             };
-            let value = AnyValue::new(member.kind, words.to_vec());
+            let value = AnyValue::new(member.kind, numbers.concat());
             uniforms
                 .set(&path, value)
                 .map_err(|error| usage(error.to_string()))?;
@@ -159,14 +160,17 @@ impl Common {
     /// The words of the value as this type; `None` if it is another kind of value.
     fn words(self, kind: ValueType) -> Option<Vec<u32>> {
         let numbers = match (self, kind) {
-            (Self::Numbers([first, ..]), ValueType::Scalar(ScalarType::F32)) => vec![first],
-            (Self::Numbers(numbers), ValueType::Vector(ScalarType::F32, rows)) => {
-                numbers[..usize::from(rows).min(4)].to_vec()
+            (Self::Numbers([first, ..]), ValueType::Scalar(ScalarType::F32 | ScalarType::F16)) => {
+                vec![first]
             }
+            (
+                Self::Numbers(numbers),
+                ValueType::Vector(ScalarType::F32 | ScalarType::F16, rows),
+            ) => numbers[..usize::from(rows).min(4)].to_vec(),
             (
                 Self::Matrix(matrix),
                 ValueType::Matrix {
-                    scalar: ScalarType::F32,
+                    scalar: ScalarType::F32 | ScalarType::F16,
                     columns,
                     rows,
                 },
@@ -222,8 +226,8 @@ fn numbers(scalar: ScalarType, count: usize) -> String {
     let plural = if count == 1 { "" } else { "s" };
     match scalar {
         ScalarType::Bool => format!("{count} of true and false"),
-        ScalarType::I32 => format!("{count} integer{plural}"),
-        ScalarType::U32 => format!("{count} integer{plural} of at least 0"),
+        ScalarType::I32 | ScalarType::I64 => format!("{count} integer{plural}"),
+        ScalarType::U32 | ScalarType::U64 => format!("{count} integer{plural} of at least 0"),
         _ => format!("{count} number{plural}"),
     }
 }

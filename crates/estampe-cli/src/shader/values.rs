@@ -102,6 +102,38 @@ pub(crate) fn buffer(text: &str) -> Result<(Slot, BufferContents), String> {
     Ok((slot, contents))
 }
 
+/// The bytes of immediates.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Immediates {
+    /// Those of a file.
+    File(PathBuf),
+    /// Those on the command line.
+    Bytes(Vec<u8>),
+}
+
+/// `FILE` or `hex:DIGITS`.
+pub(crate) fn immediates(text: &str) -> Result<Immediates, String> {
+    let wrong = || {
+        "write FILE or hex: and two digits for each byte, words little-endian, as in hex:0000803f \
+         for 1.0"
+            .to_owned()
+    };
+    let Some(digits) = text.strip_prefix("hex:") else {
+        return match text {
+            "" => Err(wrong()),
+            path => Ok(Immediates::File(path.into())),
+        };
+    };
+    // Blanks and underscores may part the words.
+    let digits = digits.chars().filter(|digit| !" _".contains(*digit));
+    let digits: Option<Vec<u32>> = digits.map(|digit| digit.to_digit(16)).collect();
+    let digits = digits.filter(|digits| digits.len().is_multiple_of(2));
+    let bytes = digits.ok_or_else(wrong)?;
+    let (pairs, _) = bytes.as_chunks::<2>();
+    let byte = |[high, low]: &[u32; 2]| u8::try_from(high * 16 + low).unwrap_or(u8::MAX);
+    Ok(Immediates::Bytes(pairs.iter().map(byte).collect()))
+}
+
 /// `G,B=OUT`.
 pub(crate) fn written(text: &str) -> Result<(Slot, Destination), String> {
     let parts = text.split_once('=').filter(|(_, out)| !out.is_empty());
@@ -197,11 +229,12 @@ pub(crate) fn components(kind: ValueType) -> (ScalarType, usize) {
     }
 }
 
-/// The word of a number in a text; `None` if it is none of this type.
-pub(crate) fn word(scalar: ScalarType, text: &str) -> Option<u32> {
+/// The words of a number in a text, the low one first; `None` if it is none of this type.
+pub(crate) fn words(scalar: ScalarType, text: &str) -> Option<Vec<u32>> {
     let text = text.trim();
-    match scalar {
-        ScalarType::F32 => {
+    let word = match scalar {
+        // Of 16 bits, too: the block rounds it.
+        ScalarType::F32 | ScalarType::F16 => {
             let number = text.parse().ok().filter(|number: &f32| number.is_finite());
             number.map(f32::to_bits)
         }
@@ -212,8 +245,11 @@ pub(crate) fn word(scalar: ScalarType, text: &str) -> Option<u32> {
             "false" | "0" => Some(0),
             _ => None,
         },
+        ScalarType::I64 => return text.parse().ok().map(|number: i64| number.words()),
+        ScalarType::U64 => return text.parse().ok().map(|number: u64| number.words()),
         _ => None,
-    }
+    };
+    word.map(|word| vec![word])
 }
 
 #[cfg(test)]
@@ -241,6 +277,18 @@ mod tests {
     }
 
     #[test]
+    fn immediates_are_a_file_or_digits() {
+        let bytes = Immediates::Bytes(vec![0x00, 0x00, 0x80, 0x3f]);
+        assert_eq!(immediates("hex:0000803f"), Ok(bytes.clone()));
+        assert_eq!(immediates("hex:00 00_80 3F"), Ok(bytes));
+        assert_eq!(immediates("hex:"), Ok(Immediates::Bytes(Vec::new())));
+        assert_eq!(immediates("a.bin"), Ok(Immediates::File("a.bin".into())));
+        for wrong in ["", "hex:0", "hex:0g"] {
+            assert!(immediates(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
     fn groups_are_one_to_three_numbers() {
         assert_eq!(groups("4"), Ok([4, 1, 1]));
         assert_eq!(groups("4,5"), Ok([4, 5, 1]));
@@ -250,17 +298,26 @@ mod tests {
 
     #[test]
     fn words_are_those_of_their_type() {
-        assert_eq!(word(ScalarType::F32, " 1.5"), Some(1.5_f32.to_bits()));
-        assert_eq!(word(ScalarType::I32, "-1"), Some(u32::MAX));
-        assert_eq!(word(ScalarType::Bool, "true"), Some(1));
+        assert_eq!(
+            words(ScalarType::F32, " 1.5"),
+            Some(vec![1.5_f32.to_bits()])
+        );
+        assert_eq!(words(ScalarType::I32, "-1"), Some(vec![u32::MAX]));
+        assert_eq!(words(ScalarType::Bool, "true"), Some(vec![1]));
+        assert_eq!(words(ScalarType::U64, "4294967298"), Some(vec![2, 1]));
+        assert_eq!(
+            words(ScalarType::I64, "-2"),
+            Some(vec![u32::MAX - 1, u32::MAX])
+        );
         for (scalar, text) in [
             (ScalarType::F32, "inf"),
             (ScalarType::U32, "-1"),
             (ScalarType::I32, "1.5"),
             (ScalarType::Bool, "2"),
             (ScalarType::F64, "1"),
+            (ScalarType::U64, "18446744073709551616"),
         ] {
-            assert_eq!(word(scalar, text), None, "{text}");
+            assert_eq!(words(scalar, text), None, "{text}");
         }
     }
 }

@@ -145,3 +145,56 @@ fn mistakes_say_what_to_do() {
         );
     }
 }
+
+/// Rows: G1, G5.
+#[test]
+fn immediates_are_a_file_or_digits() {
+    let folder = Folder::new();
+    folder.with_file(
+        "scale.comp",
+        "#version 450\nlayout(local_size_x = 4) in;\n\
+         layout(push_constant) uniform P { uint first; uint list[4]; } p;\n\
+         layout(std430, set = 0, binding = 0) buffer Out { uint words[]; };\n\
+         void main() { uint i = gl_LocalInvocationID.x; words[i] = p.first + p.list[i]; }\n",
+    );
+    let numbers: Vec<u8> = [100_u32, 1, 2, 3, 4]
+        .iter()
+        .flat_map(|n| n.to_le_bytes())
+        .collect();
+    folder.with_file("p.bin", &numbers);
+    folder.with_file("short.bin", &numbers[..16]);
+    let line = "estampe compute scale.comp --groups 1 -q --buffer 0,0=zeros:16 --write 0,0=-";
+    let digits: String = numbers.iter().map(|byte| format!("{byte:02x}")).collect();
+    for given in ["p.bin".to_owned(), format!("hex:{digits}")] {
+        for machine in ["", "--via interpreter"] {
+            let done = run(&format!("{line} --immediates {given} {machine}"), &folder);
+            assert_eq!((done.code, &*done.err), (0, ""));
+            assert_eq!(words(&done.out), [101, 102, 103, 104], "{given} {machine}");
+        }
+    }
+    for (given, expected) in [
+        (
+            "",
+            "the shader reads 20 bytes of immediates (push constants): give them by --immediates FILE",
+        ),
+        (
+            "--immediates short.bin",
+            "--immediates: 16 bytes, but the shader reads 20; give more",
+        ),
+        (
+            "--immediates hex:0",
+            "write FILE or hex: and two digits for each byte",
+        ),
+    ] {
+        let done = run(&format!("{line} {given}"), &folder);
+        assert_eq!(done.code, 2, "{given}: {}", done.err);
+        assert!(done.err.contains(expected), "{}", done.err);
+    }
+    let long = format!("--immediates hex:{}", "00".repeat(132));
+    let done = run(&format!("{line} {long}"), &folder);
+    assert!(
+        done.err.contains("132 bytes, but 128 are possible"),
+        "{}",
+        done.err
+    );
+}

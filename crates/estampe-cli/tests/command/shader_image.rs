@@ -44,6 +44,24 @@ fn inputs_are_the_place_in_the_picture() {
     assert_eq!(turned.pixel(0, 1), [32, 64, 0, 255]);
 }
 
+#[test]
+fn uniforms_and_inputs_of_16_bits_are_set() {
+    let text = "enable f16;
+        struct Small { tint: vec3h, time: f16, turn: mat2x2h, last: f16 }
+        @group(0) @binding(0) var<uniform> small: Small;
+        @fragment fn main(@location(0) uv: vec2h) -> @location(0) vec4f {
+            let at = small.turn * uv;
+            return vec4f(f32(at.x), f32(small.tint.y), f32(small.tint.z * small.time + small.last), 1.0);
+        }";
+    let folder = Folder::new();
+    folder.with_file("a.wgsl", text);
+    let options = "--size 2x2 --set tint=0,0.2,0.4 --time 0.5 --set turn=0,0,1,0 --set last=0.2";
+    let picture = draw(&folder, &format!("a.wgsl {options}"));
+    // The first row's v, 1/4, and the second one's; 0.2 + 0.4 / 2.
+    assert_eq!(picture.pixel(0, 0), [64, 51, 102, 255]);
+    assert_eq!(picture.pixel(1, 1), [191, 51, 102, 255]);
+}
+
 /// GLSL has its first row at the bottom; toys get a main; common uniforms are set.
 /// Rows: G1.
 #[test]
@@ -281,4 +299,30 @@ fn mistakes_say_what_to_do() {
             "{words}"
         );
     }
+}
+
+/// Rows: G2.
+#[test]
+fn immediates_are_given_with_the_picture() {
+    let folder = Folder::new();
+    folder.with_file(
+        "a.wgsl",
+        "struct P { red: f32, greens: array<f32, 2> }\nvar<immediate> p: P;\n\
+         @fragment fn fs(@builtin(position) at: vec4f) -> @location(0) vec4f {\n\
+             return vec4f(p.red, p.greens[u32(at.x)], 0.0, 1.0);\n}\n",
+    );
+    // 1.0, 0.0, 0.5: 0x3f800000, 0, 0x3f000000.
+    let picture = draw(
+        &folder,
+        "a.wgsl --size 2x1 --immediates hex:0000803f_00000000_0000003f",
+    );
+    assert_eq!(picture.pixel(0, 0), [255, 0, 0, 255]);
+    assert_eq!(picture.pixel(1, 0), [255, 128, 0, 255]);
+    let done = run("estampe shader image a.wgsl --size 2x1 -o b.png", &folder);
+    assert_eq!(done.code, 2);
+    assert!(
+        done.err.contains("the shader reads 12 bytes of immediates"),
+        "{}",
+        done.err
+    );
 }

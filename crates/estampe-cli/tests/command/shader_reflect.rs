@@ -100,7 +100,7 @@ fn everything_that_a_module_exchanges_is_listed() {
 #[test]
 fn loose_uniforms_of_glsl_have_offsets() {
     let folder = Folder::new();
-    let text = "uniform mat4 model;\nuniform float size;\nuniform sampler2D wood;\n\
+    let text = "uniform mat4 model;\nuniform float size = 0.5 * 3.0;\nuniform sampler2D wood;\n\
                 attribute vec3 position;\nvarying vec2 uv;\n\
                 void main() { uv = texture2DLod(wood, position.xy, 0.0).xy; gl_Position = model * vec4(position * size, 1.0); }\n";
     folder.with_file("a.glsl", text);
@@ -111,9 +111,56 @@ fn loose_uniforms_of_glsl_have_offsets() {
         (&members[1]["name"], &members[1]["offset"]),
         (&json!("size"), &json!(64))
     );
+    assert_eq!(members[1]["initial_value"], json!([1.5]));
+    assert_eq!(members[0]["initial_value"], Value::Null);
+    let done = run("estampe shader reflect a.glsl --stage vertex", &folder);
+    let text = String::from_utf8(done.out).expect("text");
+    assert!(text.contains("     64: f32 `size` = 1.5\n"), "{text}");
     assert_eq!(object["samplers"][0]["name"], "wood");
     let done = run("estampe shader reflect missing.glsl --json", &folder);
     assert_eq!(done.code, 1);
     let object: Value = serde_json::from_slice(&done.out).expect("one object");
     assert_eq!(object["exit_code"], 1);
+}
+
+/// Rows: G1, G2.
+#[test]
+fn immediates_have_offsets() {
+    let folder = Folder::new();
+    folder.with_file(
+        "a.wgsl",
+        "struct P { at: vec2f, tint: vec3f, n: u32 }\nvar<immediate> p: P;\n\
+         @fragment fn fs() -> @location(0) vec4f { return vec4f(p.tint * p.at.x, f32(p.n)); }\n",
+    );
+    folder.with_file(
+        "a.frag",
+        "#version 450\nlayout(push_constant) uniform P { float list[3]; layout(offset = 32) vec4 tint; } p;\n\
+         layout(location = 0) out vec4 color;\nvoid main() { color = p.tint * p.list[1]; }\n",
+    );
+    let member = |name: &str, kind: &str, offset: u32| {
+        json!({
+            "name": name, "type": kind, "offset": offset,
+            "array_length": null, "array_stride": 0, "matrix_stride": 0,
+        })
+    };
+    let mut list = member("list", "f32", 0);
+    (list["array_length"], list["array_stride"]) = (json!(3), json!(4));
+    let of_wgsl = [
+        member("at", "vec2<f32>", 0),
+        member("tint", "vec3<f32>", 16),
+        member("n", "u32", 28),
+    ];
+    let of_glsl = [list, member("tint", "vec4<f32>", 32)];
+    for (file, name, size, members) in [
+        ("a.wgsl", "p", 32, &of_wgsl[..]),
+        ("a.frag", "P", 48, &of_glsl[..]),
+    ] {
+        let object = reflect(&folder, file);
+        let expected = json!({"name": name, "size": size, "members": members});
+        assert_eq!(object["push_constants"], expected);
+    }
+    let done = run("estampe shader reflect a.wgsl", &folder);
+    let text = String::from_utf8(done.out).expect("text");
+    let expected = "immediates (push constants) `p`, 32 bytes\n      0: vec2<f32> `at`\n";
+    assert!(text.contains(expected), "{text}");
 }

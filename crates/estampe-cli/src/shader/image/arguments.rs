@@ -26,8 +26,8 @@ the bottom for GLSL, as in OpenGL; --origin says otherwise. The first rows of te
 Uniforms of these names have values by themselves, in any uniform block, also with the prefixes u, u_ and i as in \
 uTime, u_time and iTime: time, globalTime (--time), timeDelta (1/60), frameRate (60), resolution (width, height, 1), \
 mouse (zeros). All others are zeros unless --set says their value; a member of a structure or an array has a name as \
-in light.color, lights[2].color, weights[3]; an array may be set as a whole. Storage buffers and textures must be \
-given. Samplers repeat, and filter linearly between texels and mip levels.
+in light.color, lights[2].color, weights[3]; an array may be set as a whole. Storage buffers, textures and immediates (push \
+constants) must be given. Samplers repeat, and filter linearly between texels and mip levels.
 
 A text of GLSL with mainImage(out vec4, in vec2) and without main is a shader toy: it gets a main, and the uniforms \
 of shader toys that it uses need no declaration. Its alpha is 1.

@@ -92,6 +92,9 @@ fn draw(
         },
     };
     let Bound { groups, .. } = binder.bind(&layouts, blocks)?;
+    let immediates = args
+        .resources
+        .immediates(pipeline.descriptor().immediate_size())?;
 
     let too_large =
         |error: &dyn std::fmt::Display| Failure::Output(format!("{error}; try a smaller --size"));
@@ -102,6 +105,7 @@ fn draw(
             color_attachments: &[Some(ColorAttachment::clear(&image.view(), [0.0; 4]))],
             draws: &[Draw {
                 bind_groups: &groups,
+                immediates: &immediates,
                 ..Draw::new(&pipeline, 0..3)
             }],
             ..RenderPass::default()

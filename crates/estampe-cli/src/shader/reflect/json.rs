@@ -2,7 +2,7 @@
 
 use super::text::{kind, names_of, type_name};
 use crate::shader::source::stage_name;
-use estampe::{Reflection, ShaderModule, ShaderStage, UniformMember};
+use estampe::{Reflection, ScalarType, ShaderModule, ShaderStage, UniformMember};
 use estampe_shader::front::{Binding, BindingKind, Override, OverrideValue, Varying};
 use serde_json::{Value, json};
 
@@ -27,7 +27,7 @@ pub(super) fn object(file: &str, module: &ShaderModule) -> Value {
     let push = |one: &Reflection| {
         let block = one.blocks.iter().find(|block| block.slot.is_none())?;
         let members = block.members.iter().map(member).collect::<Vec<_>>();
-        Some(json!({"size": one.push_constant_size, "members": members}))
+        Some(json!({"name": block.name, "size": block.size, "members": members}))
     };
     json!({
         "shader": file,
@@ -92,7 +92,20 @@ fn member(member: &UniformMember) -> Value {
         "array_length": member.array_length,
         "array_stride": member.array_stride,
         "matrix_stride": member.matrix_stride,
+        "initial_value": member.initial_value.as_ref().map(|words| {
+            let scalar = member.kind.scalar();
+            words.iter().map(|word| number(scalar, *word)).collect::<Vec<_>>()
+        }),
     })
+}
+
+fn number(scalar: ScalarType, word: u32) -> Value {
+    match scalar {
+        ScalarType::Bool => json!(word != 0),
+        ScalarType::F32 => json!(f32::from_bits(word)),
+        ScalarType::I32 => json!(word.cast_signed()),
+        _ => json!(word),
+    }
 }
 
 fn constant(constant: &Override) -> Value {

@@ -26,8 +26,8 @@ written.
 With --json one object is written: shader, entry_points [{name, stage, workgroup_size (null but for compute), inputs, \
 outputs [{name, location, type, flat}]}], bindings [{group, binding, name, kind, type, size (null but for buffers), \
 read_only, stages, members [{name, type, offset, array_length (null if it is no array, 0 if the buffer's size tells), \
-array_stride, matrix_stride}]}], samplers (GLSL's textures with samplers) [{name, texture, sampler [group, binding]}], \
-push_constants {size, members}, constants [{name, id, type, default}]. An error gives {error, exit_code}.")]
+array_stride, matrix_stride, initial_value}]}], samplers (GLSL's textures with samplers) [{name, texture, sampler [group, binding]}], \
+push_constants (immediates) {name, size, members}, constants [{name, id, type, default}]. An error gives {error, exit_code}.")]
 pub(crate) struct ReflectArgs {
     /// The shader, or - for standard input
     #[arg(value_name = "FILE")]

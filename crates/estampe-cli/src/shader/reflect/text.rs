@@ -1,7 +1,7 @@
 //! A shader's reflection as text.
 
 use crate::shader::source::stage_name;
-use estampe::{Reflection, ShaderModule, ShaderStage, UniformMember};
+use estampe::{Reflection, ScalarType, ShaderModule, ShaderStage, UniformMember};
 use estampe_shader::front::{
     Binding, BindingKind, Override, OverrideValue, SampleType, Stages, TextureDimension, Varying,
 };
@@ -39,8 +39,12 @@ pub(super) fn text(module: &ShaderModule) -> String {
             .iter()
             .filter(|block| block.slot.is_none())
         {
-            let size = reflection.push_constant_size;
-            let _ = writeln!(text, "push constants, {size} bytes");
+            let (name, size) = (&block.name, block.size);
+            let _ = write!(text, "immediates (push constants)");
+            if !name.is_empty() {
+                let _ = write!(text, " `{name}`");
+            }
+            let _ = writeln!(text, ", {size} bytes");
             members(&mut text, &block.members);
         }
         for constant in &reflection.overrides {
@@ -115,7 +119,21 @@ fn members(text: &mut String, members: &[UniformMember]) {
             }
             None => {}
         }
+        if let Some(words) = &member.initial_value {
+            let scalar = member.kind.scalar();
+            let numbers: Vec<_> = words.iter().map(|word| number(scalar, *word)).collect();
+            let _ = write!(text, " = {}", numbers.join(", "));
+        }
         text.push('\n');
+    }
+}
+
+fn number(scalar: ScalarType, word: u32) -> String {
+    match scalar {
+        ScalarType::Bool => (word != 0).to_string(),
+        ScalarType::F32 => f32::from_bits(word).to_string(),
+        ScalarType::I32 => word.cast_signed().to_string(),
+        _ => word.to_string(),
     }
 }
 
