@@ -106,6 +106,7 @@ fn counting(size: [u32; 2], samples: u32, mut draw: CaseDraw, unit: [f32; 8]) ->
             group: Arc::new(group),
             ..BoundGroup::default()
         }],
+        ..Bindings::default()
     };
     draw.blend = Some(BlendState::ADDITIVE);
     draw.depth = None;

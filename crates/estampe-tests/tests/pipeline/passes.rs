@@ -42,6 +42,7 @@ fn colors(random: &mut Random) -> Bindings {
             group: Arc::new(group),
             dynamic_offsets: [random.pick(&[0, 8]); MAX_DYNAMIC_OFFSETS],
         }],
+        ..Bindings::default()
     }
 }
 

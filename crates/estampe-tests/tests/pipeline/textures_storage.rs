@@ -244,6 +244,7 @@ fn uploaded_bytes_are_kept() {
                 group: group.into(),
                 ..BoundGroup::default()
             }],
+            ..Bindings::default()
         };
         // The binding is the same texture, not a copy.
         let found = bindings.storage_texture(0, 3).expect("bound");

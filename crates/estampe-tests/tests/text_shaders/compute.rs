@@ -8,7 +8,7 @@ use estampe::{
 };
 use std::sync::Arc;
 
-fn compiled(device: &Device, source: &str) -> ComputePipeline {
+pub(super) fn compiled(device: &Device, source: &str) -> ComputePipeline {
     let pipeline = device.create_compute_pipeline(&ComputePipelineDescriptor {
         label: Some("test"),
         ..ComputePipelineDescriptor::new(program(device, source))
@@ -22,7 +22,7 @@ fn program(device: &Device, source: &str) -> Arc<dyn ComputeProgram> {
     program.unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn group(device: &Device, pipeline: &ComputePipeline, buffers: &[&Buffer]) -> BindGroup {
+pub(super) fn group(device: &Device, pipeline: &ComputePipeline, buffers: &[&Buffer]) -> BindGroup {
     let entries: Vec<_> = (0..)
         .zip(buffers)
         .map(|(binding, buffer)| (binding, BindingResource::Buffer(buffer.slice(..))))
@@ -35,13 +35,13 @@ fn group(device: &Device, pipeline: &ComputePipeline, buffers: &[&Buffer]) -> Bi
     group.unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn buffer(device: &Device, words: &[u32]) -> Buffer {
+pub(super) fn buffer(device: &Device, words: &[u32]) -> Buffer {
     device
         .create_buffer_of_words(words.to_vec())
         .expect("a small buffer")
 }
 
-fn words(buffer: &Buffer) -> Vec<u32> {
+pub(super) fn words(buffer: &Buffer) -> Vec<u32> {
     let read = buffer.map_read(0..buffer.size(), |bytes| {
         let words = bytes.chunks_exact(4);
         words
@@ -51,7 +51,12 @@ fn words(buffer: &Buffer) -> Vec<u32> {
     read.expect("a readable buffer")
 }
 
-fn run(device: &Device, pipeline: &ComputePipeline, groups: &[BindGroup], count: [u32; 3]) {
+pub(super) fn run(
+    device: &Device,
+    pipeline: &ComputePipeline,
+    groups: &[BindGroup],
+    count: [u32; 3],
+) {
     let dispatch = Dispatch {
         bind_groups: groups,
         ..Dispatch::new(pipeline, count)

@@ -163,3 +163,61 @@ fn glsl_draws_the_bytes_of_the_same_shader_in_wgsl() {
         before = Some(of_glsl);
     }
 }
+
+/// Rows: G1
+#[test]
+fn uniforms_begin_with_the_values_that_the_shader_gives() {
+    let (_, device) = devices().next().expect("a device");
+    let device = &device;
+    let glsl = module(
+        device,
+        ShaderSource::Glsl {
+            vertex: "#version 330 core
+                struct Lamp { vec3 at; bool lit; float reach; };
+                const float TWO = 2.0;
+                uniform float size = TWO * 0.75;
+                uniform mat2 turn = mat2(1.0, 2.0, 3.0, 4.0);
+                uniform Lamp lamps[2] = Lamp[2](Lamp(vec3(1), true, 5.0), Lamp(vec3(2, 3, 4), false, 6.0));
+                uniform vec2 plain;
+                void main() { gl_Position = vec4(turn * plain * size, lamps[1].reach, lamps[0].at.x); }",
+            fragment: "#version 330 core
+                uniform int counts[3] = int[](-1, 2, 3);
+                uniform vec4 tint = vec4(0.25), shade;
+                uniform float size = 1.5;
+                out vec4 color;
+                void main() { color = tint * shade * size * float(counts[1]); }",
+        },
+    );
+    let uniforms = glsl.uniforms("").expect("loose uniforms");
+    let expected: [(&str, &[u32]); 11] = [
+        ("size", &[1.5_f32.to_bits()]),
+        ("turn", &[1.0, 2.0, 3.0, 4.0].map(f32::to_bits)),
+        ("lamps[0].at", &[1.0; 3].map(f32::to_bits)),
+        ("lamps[0].lit", &[1]),
+        ("lamps[0].reach", &[5.0_f32.to_bits()]),
+        ("lamps[1].at", &[2.0, 3.0, 4.0].map(f32::to_bits)),
+        ("lamps[1].lit", &[0]),
+        ("lamps[1].reach", &[6.0_f32.to_bits()]),
+        ("counts", &[u32::MAX, 2, 3]),
+        ("tint", &[0.25; 4].map(f32::to_bits)),
+        ("plain", &[0, 0]),
+    ];
+    let mut described = vec![0; uniforms.bytes().len()];
+    for (name, words) in expected {
+        let members = &uniforms.block().members;
+        let member = members.iter().find(|member| member.name == name);
+        let member = member.unwrap_or_else(|| panic!("{name}"));
+        // A column of `turn`, an element of `counts`, or all of it.
+        let (length, stride) = match name {
+            "turn" => (2, member.matrix_stride),
+            "counts" => (1, member.array_stride),
+            _ => (words.len(), 0),
+        };
+        for (part, words) in words.chunks(length).enumerate() {
+            let offset = member.offset as usize + part * stride as usize;
+            let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+            described[offset..][..bytes.len()].copy_from_slice(&bytes);
+        }
+    }
+    assert_eq!(uniforms.bytes(), described);
+}

@@ -5,8 +5,12 @@ mod contraction;
 mod drawing;
 mod endless;
 mod glsl;
+mod glsl_functions;
+mod immediates;
+mod immediates_compute;
 mod peers;
 mod spirv;
+mod subgroups;
 
 use estampe::{
     Device, DeviceDescriptor, Level, ShaderModule, ShaderModuleDescriptor, ShaderSource,
