@@ -140,7 +140,7 @@ fn immediates_have_offsets() {
     let member = |name: &str, kind: &str, offset: u32| {
         json!({
             "name": name, "type": kind, "offset": offset,
-            "array_length": null, "array_stride": 0, "matrix_stride": 0,
+            "array_length": null, "array_stride": 0, "matrix_stride": 0, "initial_value": null,
         })
     };
     let mut list = member("list", "f32", 0);

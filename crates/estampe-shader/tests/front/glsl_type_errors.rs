@@ -1,7 +1,6 @@
 //! GLSL with wrong names, types and functions: the exact messages.
 
-use estampe_ir::interface::Stage;
-use estampe_shader::front::{Options, Source, load};
+use super::errors;
 
 /// A shader that is wrong, and what is said of it.
 const CASES: &[(&str, &str)] = &[
@@ -207,17 +206,5 @@ void man() { color = vec4(1.0); }
 
 #[test]
 fn errors_tell_the_place_and_what_to_do() {
-    for (source, expected) in CASES {
-        let source = *source;
-        let loaded = load(
-            Source::Glsl {
-                text: source,
-                stage: Stage::Fragment,
-            },
-            &Options::default(),
-        );
-        let errors = loaded.expect_err(source);
-        assert_eq!(errors.to_string(), *expected, "{source}");
-    }
-    assert_eq!(CASES.len(), 16);
+    assert_eq!(errors::glsl(CASES), 16);
 }

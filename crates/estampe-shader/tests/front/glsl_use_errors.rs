@@ -1,7 +1,6 @@
 //! GLSL that does not use the language as it is: the exact messages, at the author's places.
 
-use estampe_ir::interface::Stage;
-use estampe_shader::front::{Options, Source, load};
+use super::errors;
 
 /// A shader that is wrong, and what is said of it.
 const CASES: &[(&str, &str)] = &[
@@ -355,17 +354,5 @@ void main() {
 
 #[test]
 fn errors_tell_the_place_and_what_to_do() {
-    for (source, expected) in CASES {
-        let source = *source;
-        let loaded = load(
-            Source::Glsl {
-                text: source,
-                stage: Stage::Fragment,
-            },
-            &Options::default(),
-        );
-        let errors = loaded.expect_err(source);
-        assert_eq!(errors.to_string(), *expected, "{source}");
-    }
-    assert_eq!(CASES.len(), 27);
+    assert_eq!(errors::glsl(CASES), 27);
 }

@@ -1,5 +1,6 @@
 //! The front end: modules that load, their values, and errors.
 
+mod errors;
 mod glsl_link;
 mod glsl_text_errors;
 mod glsl_type_errors;

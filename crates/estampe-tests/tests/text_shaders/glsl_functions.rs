@@ -6,12 +6,12 @@
 )]
 
 use super::compute::{buffer, group, run, words};
+use super::picture::{drawn, pipeline};
 use super::{devices, module};
 use estampe::state::CompareFunction;
 use estampe::{
-    BindGroupDescriptor, BindingResource, ColorAttachment, ComputePipeline,
-    ComputePipelineDescriptor, Device, Draw, EntryPointDescriptor, RenderPass,
-    RenderPipelineDescriptor, SamplerDescriptor, ShaderSource, ShaderStage, TextureDescriptor,
+    BindGroupDescriptor, BindingResource, ComputePipeline, ComputePipelineDescriptor, Device,
+    EntryPointDescriptor, SamplerDescriptor, ShaderSource, ShaderStage, TextureDescriptor,
     TextureFormat,
 };
 use estampe_tests::Random;
@@ -258,14 +258,7 @@ const GATHERS_IN_WGSL: &str = "
 
 /// The picture of a module that gathers.
 fn gathered(device: &Device, source: ShaderSource<'_>) -> Vec<u8> {
-    let module = module(device, source);
-    let program = device.create_program(&module.program());
-    let program = program.unwrap_or_else(|error| panic!("{error}"));
-    let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
-        depth_stencil: None,
-        ..RenderPipelineDescriptor::with_program(program)
-    });
-    let pipeline = pipeline.unwrap_or_else(|error| panic!("{error}"));
+    let pipeline = pipeline(device, &module(device, source));
     let mut random = Random::new("glsl functions", 3);
     let mut noise = |format, bytes| {
         let texels: Vec<u8> = (0..7 * 5 * bytes)
@@ -294,18 +287,8 @@ fn gathered(device: &Device, source: ShaderSource<'_>) -> Vec<u8> {
             ),
         ],
     });
-    let target = TextureDescriptor::new_2d(37, 29, TextureFormat::Rgba8Unorm);
-    let target = device.create_texture(&target).expect("a small texture");
-    let drawn = device.render(&RenderPass {
-        color_attachments: &[Some(ColorAttachment::clear(&target.view(), [0.0; 4]))],
-        draws: &[Draw {
-            bind_groups: &[group.unwrap_or_else(|error| panic!("{error}"))],
-            ..Draw::new(&pipeline, 0..3)
-        }],
-        ..RenderPass::default()
-    });
-    drawn.unwrap_or_else(|error| panic!("{error}"));
-    device.read_texture(&target).expect("it can be read")
+    let group = group.unwrap_or_else(|error| panic!("{error}"));
+    drawn(device, &pipeline, &[group], [37, 29])
 }
 
 /// Rows: G1
@@ -346,13 +329,7 @@ fn samplers_are_chosen_by_computed_indices() {
             fragment: CHOICES,
         };
         let module = module(&device, glsl);
-        let program = device.create_program(&module.program());
-        let program = program.unwrap_or_else(|error| panic!("{error}"));
-        let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
-            depth_stencil: None,
-            ..RenderPipelineDescriptor::with_program(program)
-        });
-        let pipeline = pipeline.unwrap_or_else(|error| panic!("{error}"));
+        let pipeline = pipeline(&device, &module);
         // A texture of one value and size for each sampler.
         let level = |path: &str| match path {
             "materials[1].images[0]" => 10,
@@ -386,18 +363,8 @@ fn samplers_are_chosen_by_computed_indices() {
             layout,
             entries: &entries,
         });
-        let target = TextureDescriptor::new_2d(size[0], size[1], TextureFormat::Rgba8Unorm);
-        let target = device.create_texture(&target).expect("a small texture");
-        let drawn = device.render(&RenderPass {
-            color_attachments: &[Some(ColorAttachment::clear(&target.view(), [0.0; 4]))],
-            draws: &[Draw {
-                bind_groups: &[group.unwrap_or_else(|error| panic!("{error}"))],
-                ..Draw::new(&pipeline, 0..3)
-            }],
-            ..RenderPass::default()
-        });
-        drawn.unwrap_or_else(|error| panic!("{error}"));
-        let drawn = device.read_texture(&target).expect("it can be read");
+        let group = group.unwrap_or_else(|error| panic!("{error}"));
+        let drawn = drawn(&device, &pipeline, &[group], size);
         for (at, pixel) in drawn.chunks(4).enumerate() {
             let (x, y) = (at % size[0] as usize, at / size[0] as usize);
             let column = x / 4;

@@ -5,9 +5,9 @@ use super::{devices, module};
 use estampe::state::{PrimitiveTopology, VertexBufferLayout};
 use estampe::{
     ColorAttachment, ComputePipelineDescriptor, Device, DeviceDescriptor, Draw,
-    EntryPointDescriptor, Level, Limits, PassErrorKind, RenderPass, RenderPassError,
-    RenderPipeline, RenderPipelineDescriptor, ShaderModule, ShaderSource, TextureDescriptor,
-    TextureFormat, bytes_of,
+    EntryPointDescriptor, Limits, PassErrorKind, RenderPass, RenderPassError, RenderPipeline,
+    RenderPipelineDescriptor, ShaderModule, ShaderSource, TextureDescriptor, TextureFormat,
+    bytes_of,
 };
 use estampe_tests::Random;
 
@@ -64,18 +64,6 @@ layout(push_constant) uniform Paint { layout(offset = 16) uint turn; layout(offs
 layout(location = 0) out vec4 color;
 void main() { color = colors[(uint(gl_FragCoord.x) + turn) % 2u]; }
 ";
-
-/// Devices that run machine code, and one that interprets.
-pub(super) fn all_devices() -> impl Iterator<Item = (String, Device)> {
-    let interpreter = Device::new(&DeviceDescriptor {
-        threads: 2,
-        level: Level::best(),
-        interprets_shaders: true,
-        ..DeviceDescriptor::default()
-    });
-    let interpreter = interpreter.expect("a few threads");
-    devices().chain([("interpreter".to_owned(), interpreter)])
-}
 
 fn pipeline(device: &Device, module: &ShaderModule) -> RenderPipeline {
     let program = device.create_program(&module.program());
@@ -166,7 +154,7 @@ fn each_draw_of_a_pass_has_its_own() {
         let rects = rects(count);
         let expected = filled(&rects);
         let immediates: Vec<_> = rects.iter().map(Rect::bytes).collect();
-        for (name, device) in all_devices() {
+        for (name, device) in devices() {
             for source in [
                 ShaderSource::Wgsl(WGSL),
                 ShaderSource::Glsl {
@@ -218,7 +206,7 @@ fn draws_without_immediates_stand_beside_draws_with_them() {
     };
     let bytes = rect.bytes();
     let expected = filled(&[whole, rect]);
-    for (name, device) in all_devices() {
+    for (name, device) in devices() {
         let [plain, tinted] = [plain, tinted]
             .map(|text| pipeline(&device, &module(&device, ShaderSource::Wgsl(text))));
         // What a pipeline does not read may be given.

@@ -1,8 +1,7 @@
 //! Immediates of compute shaders, at places that are known and that are computed, against the same
 //! sums in Rust.
 
-use super::immediates::all_devices;
-use super::module;
+use super::{devices, module};
 use estampe::{
     BindGroupDescriptor, BindingResource, ComputePipelineDescriptor, Device, Dispatch,
     DispatchError, DispatchErrorKind, EntryPointDescriptor, ImmediatesError, ShaderModule,
@@ -104,7 +103,7 @@ fn work_groups_read_them_at_any_place() {
     let immediates = compute_words();
     let expected = computed(&immediates);
     let bytes = bytes_of(&immediates);
-    for (name, device) in all_devices() {
+    for (name, device) in devices() {
         for source in [
             ShaderSource::Wgsl(WGSL),
             ShaderSource::GlslStage {
@@ -174,7 +173,7 @@ fn spirv() -> Vec<u32> {
 /// Rows: G3
 #[test]
 fn push_constants_of_spirv_are_immediates() {
-    for (name, device) in all_devices() {
+    for (name, device) in devices() {
         let module = module(&device, ShaderSource::SpirV(&spirv()));
         let block = module.uniforms("").expect("it has no name");
         let offsets = block.block().members.iter().map(|member| member.offset);

@@ -9,6 +9,7 @@ mod glsl_functions;
 mod immediates;
 mod immediates_compute;
 mod peers;
+mod picture;
 mod spirv;
 mod subgroups;
 
@@ -16,19 +17,29 @@ use estampe::{
     Device, DeviceDescriptor, Level, ShaderModule, ShaderModuleDescriptor, ShaderSource,
 };
 
-/// A device for every SIMD level, with 1 and 3 threads.
+/// A device for every SIMD level, with 1 and 3 threads, and one that interprets shaders.
 fn devices() -> impl Iterator<Item = (String, Device)> {
-    let levels = Level::all_available();
-    levels.into_iter().flat_map(|level| {
-        [1, 3].map(|threads| {
-            let descriptor = DeviceDescriptor {
-                threads,
-                level,
-                ..DeviceDescriptor::default()
-            };
-            let device = Device::new(&descriptor).expect("a few threads");
-            (format!("{level:?}, {threads} threads"), device)
+    let compiled = Level::all_available().into_iter().flat_map(|level| {
+        [1, 3].map(|threads| DeviceDescriptor {
+            threads,
+            level,
+            ..DeviceDescriptor::default()
         })
+    });
+    let interpreted = DeviceDescriptor {
+        threads: 2,
+        level: Level::best(),
+        interprets_shaders: true,
+        ..DeviceDescriptor::default()
+    };
+    compiled.chain([interpreted]).map(|descriptor| {
+        let (level, threads) = (descriptor.level, descriptor.threads);
+        let way = match descriptor.interprets_shaders {
+            true => ", interpreted",
+            false => "",
+        };
+        let device = Device::new(&descriptor).expect("a few threads");
+        (format!("{level:?}, {threads} threads{way}"), device)
     })
 }
 

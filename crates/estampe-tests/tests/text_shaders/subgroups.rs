@@ -5,11 +5,9 @@
 )]
 
 use super::compute::{buffer, compiled, group, run, words};
+use super::picture::{drawn, pipeline};
 use super::{devices, module};
-use estampe::{
-    ColorAttachment, Draw, RenderPass, RenderPipelineDescriptor, ShaderSource, TextureDescriptor,
-    TextureFormat,
-};
+use estampe::ShaderSource;
 
 /// The invocations of a work-group: the last subgroup has one alone.
 const GROUP: usize = 13;
@@ -207,22 +205,7 @@ fn subgroups_of_fragment_shaders_are_quads() {
     let size = [16, 10];
     for (name, device) in devices() {
         let module = module(&device, ShaderSource::Wgsl(QUADS));
-        let program = device.create_program(&module.program());
-        let program = program.unwrap_or_else(|error| panic!("{error}"));
-        let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
-            depth_stencil: None,
-            ..RenderPipelineDescriptor::with_program(program)
-        });
-        let pipeline = pipeline.unwrap_or_else(|error| panic!("{error}"));
-        let descriptor = TextureDescriptor::new_2d(size[0], size[1], TextureFormat::Rgba8Unorm);
-        let image = device.create_texture(&descriptor).expect("a small texture");
-        let drawn = device.render(&RenderPass {
-            color_attachments: &[Some(ColorAttachment::clear(&image.view(), [0.0; 4]))],
-            draws: &[Draw::new(&pipeline, 0..3)],
-            ..RenderPass::default()
-        });
-        drawn.unwrap_or_else(|error| panic!("{error}"));
-        let drawn = device.read_texture(&image).expect("it can be read");
+        let drawn = drawn(&device, &pipeline(&device, &module), &[], size);
         for (at, pixel) in drawn.chunks(4).enumerate() {
             let (x, y) = (at as u32 % size[0], at as u32 / size[0]);
             let number = |x: u32, y: u32| (x + y * 16) as u8;
