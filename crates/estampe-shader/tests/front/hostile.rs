@@ -57,6 +57,41 @@ out vec4 c;
 void main() { c = texture(tex[1], vs.n.xy) * m[0] + vec4(vs.tbn[2], vs.list[1]); }
 ";
 
+/// What the front end writes functions for, and mends in naga's module.
+const COMPUTE: &str = "#version 450
+layout(local_size_x = 8) in;
+struct Bin { int least; uint count[2]; };
+layout(std430, binding = 0) buffer Bins { Bin bins[4]; uint owner; uint more[]; } all;
+layout(std430, binding = 1) writeonly buffer Out { float sums[]; };
+uniform float gain = 0.5 * 2.0;
+struct Range { int least; vec2 ends; };
+uniform Range first = Range(1, vec2(2.0, 3.0));
+uniform sampler2D maps[3];
+uniform sampler2DShadow depth;
+shared uint total;
+const ivec2 BESIDE = ivec2(1, -1);
+void main() {
+    uint n = gl_GlobalInvocationID.x; int power; uint carry, high, low;
+    if (n == 0u) { total = 0u; }
+    barrier();
+    atomicMin(all.bins[n & 3u].least, int(n));
+    uint before = atomicAdd(all.bins[1].count[n & 1u], 1u) + atomicAdd(total, 2u);
+    if (atomicCompSwap(all.owner, n, n + 1u) == before) { atomicExchange(all.more[2], before); }
+    float x = frexp(gain, power); before = uaddCarry(n, before, carry);
+    umulExtended(n, before, high, low);
+    vec4 sum = texture(maps[int(n) % 3], vec2(x)) + textureGather(maps[1], vec2(x), 1);
+    sum += textureGatherOffset(maps[0], vec2(x), BESIDE, 3) + textureGather(depth, vec2(x), 0.5);
+    sums[n] = dot(sum, vec4(float(power), float(carry), float(high + low), first.least));
+}
+";
+
+fn compute(text: &str) -> Source<'_> {
+    Source::Glsl {
+        text,
+        stage: Stage::Compute,
+    }
+}
+
 fn glsl(text: &str) -> Source<'_> {
     Source::Glsl {
         text,
@@ -158,6 +193,16 @@ fn mutated_glsl_ends() {
     let mut random = fastrand::Rng::with_seed(2);
     let good = accepted(800, |_| timed(glsl(&mutated(VERTEX, &mut random))).is_ok());
     assert!((10..760).contains(&good), "{good}");
+}
+
+#[test]
+fn mutated_functions_of_glsl_end() {
+    timed(compute(COMPUTE)).unwrap_or_else(|errors| panic!("{errors}"));
+    let mut random = fastrand::Rng::with_seed(6);
+    let good = accepted(600, |_| {
+        timed(compute(&mutated(COMPUTE, &mut random))).is_ok()
+    });
+    assert!((5..570).contains(&good), "{good}");
 }
 
 #[test]
@@ -358,6 +403,35 @@ fn types_that_grow_are_refused() {
         let text = format!("#version 330\n{head}\nvoid main() {{ gl_Position = vec4(0.0); }}\n");
         refused(glsl(&text));
     }
+}
+
+/// Calls that are written once for each sampler, or need a function of their own.
+#[test]
+fn calls_that_grow_are_refused() {
+    let call = format!(
+        "sum += texture(maps[i], vec2({}0.5));\n",
+        "0.1 + ".repeat(100)
+    );
+    let text = |calls: usize| {
+        format!(
+            "#version 330\nuniform sampler2D maps[64]; uniform int i;\n\
+             void main() {{ vec4 sum = vec4(0.0);\n{}gl_Position = sum; }}\n",
+            call.repeat(calls)
+        )
+    };
+    timed(glsl(&text(1))).expect("one call");
+    assert!(refused(glsl(&text(30))).contains("too many calls with samplers"));
+    let text = |gathers: usize| {
+        let gathers = (0..gathers)
+            .map(|at| format!("sum += textureGatherOffset(map, vec2(0.5), ivec2({at}, 1));\n"));
+        format!(
+            "#version 430\nuniform sampler2D map;\n\
+             void main() {{ vec4 sum = vec4(0.0);\n{}gl_Position = sum; }}\n",
+            gathers.collect::<String>()
+        )
+    };
+    timed(glsl(&text(7))).expect("seven gathers");
+    assert!(refused(glsl(&text(9_000))).contains("more than 64 gathers differ"));
 }
 
 #[test]

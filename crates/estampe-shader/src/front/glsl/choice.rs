@@ -15,6 +15,10 @@ use super::token::Token;
 use super::types;
 use super::write::{Pair, Writer};
 
+/// The most tokens that are written for the choices of a shader: a call is written once for each
+/// sampler of the array.
+const MOST_TOKENS: usize = 1 << 18;
+
 /// A path to a sampler with one index that is computed.
 struct Choice {
     /// The tokens of the index.
@@ -55,6 +59,12 @@ impl Writer<'_> {
                 Fault::new("this index of samplers is not simple enough", place)
                     .help("compute it before, and read one texture after the other"),
             );
+        }
+        self.chosen_tokens += choice.pairs.len() * (end - at);
+        if self.chosen_tokens > MOST_TOKENS {
+            let message = "there are too many calls with samplers at computed indices";
+            return Err(Fault::new(message, tokens[at].place)
+                .help("use an array texture, such as `sampler2DArray`"));
         }
         state.is_chosen = true;
         self.output.put("(", place);

@@ -16,6 +16,9 @@ use super::token::Token;
 use super::unit::Unit;
 use super::write::Writer;
 
+/// The most gathers that differ in component or offset.
+const MOST_GATHERS: usize = 64;
+
 /// What a function gathers: a component, and the tokens of the offset if there is one.
 #[derive(Debug, Clone)]
 pub(super) struct Gather {
@@ -143,10 +146,16 @@ impl Writer<'_> {
                 let call = call(unit, &function.body, at).into_iter();
                 let wanted = call.flat_map(|call| [call.plain, call.comparing]).flatten();
                 for gather in wanted {
-                    if !self.gathers.iter().any(|known| known.is_same(&gather)) {
-                        self.gather(&gather)?;
-                        self.gathers.push(gather);
+                    if self.gathers.iter().any(|known| known.is_same(&gather)) {
+                        continue;
                     }
+                    if self.gathers.len() == MOST_GATHERS {
+                        let message = format!("more than {MOST_GATHERS} gathers differ");
+                        return Err(Fault::new(message, token.place)
+                            .help("use fewer offsets, or `texelFetch`"));
+                    }
+                    self.gather(&gather)?;
+                    self.gathers.push(gather);
                 }
             }
         }

@@ -63,6 +63,8 @@ pub(super) struct Writer<'a> {
     pub before: Vec<(String, Option<Place>)>,
     after: Vec<(String, Option<Place>)>,
     pub invented: usize,
+    /// The tokens of calls with samplers at computed indices.
+    pub chosen_tokens: usize,
     /// What is gathered from textures.
     pub gathers: Vec<Gather>,
     /// What buffers hold of this shader's types, and of those of the shader before.
@@ -102,6 +104,7 @@ impl<'a> Writer<'a> {
             before: Vec::new(),
             after: Vec::new(),
             invented: 0,
+            chosen_tokens: 0,
             gathers: Vec::new(),
         }
     }
