@@ -170,24 +170,39 @@ fn size(nodes: &[Node]) -> usize {
     nodes.iter().map(of_node).sum()
 }
 
-/// The passes change no result, and leave a tree that is one.
-fn check_passes(seed: u64) -> [usize; 2] {
+fn loops(nodes: &[Node]) -> usize {
+    let of_node = |node: &Node| match node {
+        Node::Op { .. } | Node::Branch { .. } => 0,
+        Node::If { accept, reject, .. } => loops(accept) + loops(reject),
+        Node::Block { body, .. } => loops(body),
+        Node::Loop { body, .. } => 1 + loops(body),
+    };
+    nodes.iter().map(of_node).sum()
+}
+
+/// The passes change no result, and leave a tree that is one. Returns its sizes, and true if loops
+/// were unrolled.
+fn check_passes(seed: u64) -> ([usize; 2], bool) {
     let random = &mut Rng::with_seed(seed);
     let (mut tree, _) = tree(random);
     let case = Case::new(random);
     let wanted = case.one_by_one(&tree);
     let before = size(&tree.body);
-    let passes: [fn(&mut Tree); 7] = [
+    let passes: [fn(&mut Tree); 8] = [
         passes::straight_blocks,
         passes::redundant_parameters,
         passes::loop_invariants,
+        passes::unroll_loops,
         passes::dead_code,
         passes::unused_inputs,
         passes::redundant_parameters,
         passes::optimise,
     ];
+    let mut unrolls = false;
     for (number, pass) in passes.iter().enumerate() {
+        let loops_before = loops(&tree.body);
         pass(&mut tree);
+        unrolls |= number == 3 && loops(&tree.body) < loops_before;
         verify(&tree).unwrap_or_else(|error| panic!("seed {seed}, after pass {number}: {error}"));
         assert_eq!(
             wanted,
@@ -195,18 +210,24 @@ fn check_passes(seed: u64) -> [usize; 2] {
             "seed {seed}, after pass {number}"
         );
     }
-    [before, size(&tree.body)]
+    ([before, size(&tree.body)], unrolls)
 }
 
 #[test]
 fn passes_change_no_result() {
     let mut sizes = [0; 2];
+    let mut unrolled = 0;
     for seed in 0..600 {
-        let of_tree = check_passes(seed);
+        let (of_tree, unrolls) = check_passes(seed);
+        unrolled += usize::from(unrolls);
         sizes = [0, 1].map(|at: usize| sizes[at] + of_tree[at]);
     }
     let [before, after] = sizes;
     assert!(after < before * 9 / 10, "{before} nodes became {after}");
+    assert!(
+        unrolled > 50,
+        "{unrolled} trees with loops that are unrolled"
+    );
 }
 
 fn check(seed: u64) -> Made {

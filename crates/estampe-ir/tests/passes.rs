@@ -89,3 +89,49 @@ fn an_if_ends_where_both_sides_end_in_ifs() {
     passes::optimise(&mut tree);
     verify(&tree).unwrap_or_else(|error| panic!("{error}"));
 }
+
+/// Sums up the numbers below a limit, with an input that leaves early.
+fn sum_below(limit: u32) -> String {
+    let text = format!(
+        "tree fragment
+input cover
+input varying(0)
+output color(0, 0)
+m0 = input_mask 0
+v1 = input 1
+v2 = const 0
+v3 = const 1
+v4 = const {limit}
+block l0 (v5) {{
+  loop l1 (v6 = v2, v7 = v1) {{
+    m8 = ult v6, v4
+    if m8 {{
+    }} else {{
+      branch l0(v7)
+    }}
+    v9 = f32_from_u32 v6
+    v10 = fadd v7, v9
+    v11 = add v6, v3
+    branch l1(v11, v10)
+  }}
+}}
+outputs v5
+"
+    );
+    optimised(&text)
+}
+
+#[test]
+fn short_loops_are_unrolled() {
+    let short = sum_below(3);
+    assert!(
+        !short.contains("loop") && !short.contains("block"),
+        "{short}"
+    );
+    // The first iteration adds 0, which changes −0.
+    assert_eq!(short.matches("fadd").count(), 3, "{short}");
+    assert_eq!(short.matches("f32_from_u32").count(), 0, "{short}");
+    let long = sum_below(500);
+    assert!(long.contains("loop"), "{long}");
+    assert!(sum_below(0).ends_with("outputs v1\n"), "{}", sum_below(0));
+}

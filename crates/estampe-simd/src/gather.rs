@@ -6,7 +6,7 @@
 //! elements, were measured to take longer on Zen 4, and half of the processors have no gather at
 //! all. For single elements the gather is faster. This module has the crate's only `unsafe` code.
 
-use crate::LANES;
+use crate::{LANES, Packet};
 use fearless_simd::{Simd, SimdBase, u32x16};
 
 /// The last valid index, or `None` for an empty table. Elements from 2³¹ on are not reachable,
@@ -27,6 +27,24 @@ pub fn bits_of(table: &[f32]) -> &[u32] {
     // SAFETY: f32 and u32 have the same size and alignment, every bit pattern of either is valid,
     // and the result borrows what the argument borrows.
     unsafe { std::slice::from_raw_parts(table.as_ptr().cast(), table.len()) }
+}
+
+/// Packets of words as packets of the floats that have these bits.
+#[inline(always)]
+#[must_use]
+#[expect(unsafe_code, reason = "safe transmutation is not stable")]
+pub fn floats_of(words: &[Packet<u32>]) -> &[Packet<f32>] {
+    // SAFETY: packets of f32 and of u32 are arrays of as many values with the same alignment, every
+    // bit pattern of either is valid, and the result borrows what the argument borrows.
+    unsafe { std::slice::from_raw_parts(words.as_ptr().cast(), words.len()) }
+}
+
+/// [`floats_of`], to store floats.
+#[inline(always)]
+#[expect(unsafe_code, reason = "safe transmutation is not stable")]
+pub fn floats_of_mut(words: &mut [Packet<u32>]) -> &mut [Packet<f32>] {
+    // SAFETY: as in `floats_of`; the borrow is exclusive, as the argument's is.
+    unsafe { std::slice::from_raw_parts_mut(words.as_mut_ptr().cast(), words.len()) }
 }
 
 /// The last index for which all of `index`, `index + 1`, `index + stride` and `index + stride + 1`

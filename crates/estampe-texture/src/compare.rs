@@ -15,8 +15,9 @@
 //! compared instead of 36.
 
 use crate::texel::mix;
+use crate::view::{load, packet};
 use crate::wrap::place;
-use estampe_simd::bits_of;
+use estampe_simd::{LANES, Level, Packet, SimdBase, bits_of, dispatch, f32x16};
 use estampe_types::morton::spread_lanes;
 use estampe_types::{AddressMode, FilterMode, Int, Real, ShadowMap, Vec2};
 
@@ -60,6 +61,32 @@ fn sum_of_lane(map: &Map<'_>, uv: Vec2<f32>, offsets: &[[f32; 2]], reference: f3
     map.sum(uv, offsets, reference)
 }
 
+/// The shares of [`sample_compare_level`] for sixteen lanes at each of some coordinates, with one
+/// reference.
+///
+/// Shaders filter shadows with several samples near each other: the depth min/max of the blocks
+/// around all of them often decides all.
+#[inline(never)]
+pub fn compare_packets(
+    texture: &ShadowMap,
+    level: Level,
+    (at, reference): (&[[&Packet<f32>; 2]], &Packet<f32>),
+    shares: &mut [Packet<f32>],
+) {
+    let map = Map::new(texture);
+    dispatch!(@wide level, s => {
+        let zero: f32x16<_> = SimdBase::splat(s, 0.0);
+        map.packets(zero, (at, reference), shares);
+    }, scalar => {
+        for ([u, v], share) in at.iter().zip(shares) {
+            for lane in 0..LANES {
+                let uv = Vec2::new(u.0[lane], v.0[lane]);
+                share.0[lane] = map.sample(uv, reference.0[lane]);
+            }
+        }
+    });
+}
+
 /// A depth image as lane code reads it.
 struct Map<'a> {
     depths: &'a [u32],
@@ -87,10 +114,20 @@ impl<'a> Map<'a> {
     #[inline(always)]
     fn sum<R: Real>(&self, uv: Vec2<R>, offsets: &[[f32; 2]], reference: R) -> R {
         // A single sample is as fast as a lookup of its bounds.
-        if offsets.len() > 1
-            && let Some(lit) = self.decided(uv, offsets, reference)
-        {
-            return R::select(lit, uv.x.splat(offsets.len() as f32), uv.x.splat(0.0));
+        if offsets.len() > 1 {
+            let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+            for offset in offsets {
+                for axis in 0..2 {
+                    low[axis] = low[axis].min(offset[axis]);
+                    high[axis] = high[axis].max(offset[axis]);
+                }
+            }
+            // Rounding is monotonic, so every texel of every sample lies between these.
+            let low = Vec2::new(uv.x + low[0], uv.y + low[1]);
+            let high = Vec2::new(uv.x + high[0], uv.y + high[1]);
+            if let Some(lit) = self.decided([low, high], reference) {
+                return R::select(lit, uv.x.splat(offsets.len() as f32), uv.x.splat(0.0));
+            }
         }
         if let Some(offsets) = square_of_three(offsets)
             && let Some(sum) = self.sum_of_square(uv, offsets, reference)
@@ -104,26 +141,54 @@ impl<'a> Map<'a> {
         sum
     }
 
-    /// The lit lanes, if the bounds decide every lane: all texels of its samples pass, or all fail.
+    /// The shares of sixteen lanes at each of some coordinates.
     #[inline(always)]
-    fn decided<R: Real>(
+    fn packets<R: Real>(
         &self,
-        uv: Vec2<R>,
-        offsets: &[[f32; 2]],
-        reference: R,
-    ) -> Option<R::SelectMask> {
-        let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
-        for offset in offsets {
-            for axis in 0..2 {
-                low[axis] = low[axis].min(offset[axis]);
-                high[axis] = high[axis].max(offset[axis]);
+        like: R,
+        (at, reference): (&[[&Packet<f32>; 2]], &Packet<f32>),
+        shares: &mut [Packet<f32>],
+    ) {
+        let reference = load(like, reference, 0);
+        if let [first, others @ ..] = at
+            && !others.is_empty()
+        {
+            let first = Vec2::new(load(like, first[0], 0), load(like, first[1], 0));
+            let (mut low, mut high) = (first, first);
+            let mut is_number = first.x.eq(first.x) & first.y.eq(first.y);
+            for [u, v] in others {
+                let uv = Vec2::new(load(like, u, 0), load(like, v, 0));
+                low = Vec2::new(low.x.min(uv.x), low.y.min(uv.y));
+                high = Vec2::new(high.x.max(uv.x), high.y.max(uv.y));
+                is_number = is_number & uv.x.eq(uv.x) & uv.y.eq(uv.y);
+            }
+            // A least number says nothing of those that are none.
+            if !R::any(!is_number)
+                && let Some(lit) = self.decided([low, high], reference)
+            {
+                let share = packet(R::select(lit, like.splat(1.0), like.splat(0.0)), 0);
+                shares.fill(share);
+                return;
             }
         }
-        // Rounding is monotonic, so every texel of every sample lies between these.
-        let x0 = axis(uv.x + low[0], self.width).texel;
-        let y0 = axis(uv.y + low[1], self.height).texel;
-        let x1 = axis(uv.x + high[0], self.width).texel;
-        let y1 = axis(uv.y + high[1], self.height).texel;
+        for ([u, v], share) in at.iter().zip(shares) {
+            let uv = Vec2::new(load(like, u, 0), load(like, v, 0));
+            *share = packet(self.sample(uv, reference), 0);
+        }
+    }
+
+    /// The lit lanes, if the bounds decide every lane: all texels of samples between two corners
+    /// pass, or all fail.
+    #[inline(always)]
+    fn decided<R: Real>(&self, [low, high]: [Vec2<R>; 2], reference: R) -> Option<R::SelectMask> {
+        let (x0, y0) = (
+            axis(low.x, self.width).texel,
+            axis(low.y, self.height).texel,
+        );
+        let (x1, y1) = (
+            axis(high.x, self.width).texel,
+            axis(high.y, self.height).texel,
+        );
         let one = x0.splat(1);
         let x1 = (x1 + one).min(x0.splat(self.width - 1));
         let y1 = (y1 + one).min(x0.splat(self.height - 1));

@@ -88,7 +88,7 @@ mod wrap;
 
 pub use bindings::TextureBindings;
 pub use bound_texture::BoundTexture;
-pub use compare::{sample_compare_level, sample_compare_sum};
+pub use compare::{compare_packets, sample_compare_level, sample_compare_sum};
 pub use create::{MipGeneration, create_texture, create_texture_with_levels};
 pub use descriptor::TexelDescriptor;
 pub use error::TextureError;
@@ -106,7 +106,9 @@ pub use storage::{
 };
 pub use unorm8::store_unorm8;
 pub use upload::LevelData;
-pub use view::{Coordinates, Lod, SampledTexture, TexelView, TextureCoordinates};
+pub use view::{
+    Coordinates, Lod, PacketLod, PacketRequest, SampledTexture, TexelView, TextureCoordinates,
+};
 
 #[cfg(test)]
 mod tests;

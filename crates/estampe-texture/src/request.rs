@@ -20,35 +20,42 @@ use estampe_types::{Int, Quad, Real, Vec2, Vec4};
 
 /// Coordinates and levels of detail of up to sixteen lanes. Each number is a packet, a cache line,
 /// which a register of sixteen lanes stores and loads at once.
-#[derive(Debug)]
-pub(crate) struct Request {
-    uv: [Packet<f32>; 2],
-    /// Levels of detail, if [`Request::has_lod`].
-    lod: Packet<f32>,
-    /// True if levels of detail are given; otherwise they are computed from the quads.
-    has_lod: bool,
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Request<'a> {
+    pub(crate) uv: [&'a Packet<f32>; 2],
+    /// Levels of detail; without them, they are computed from the quads.
+    pub(crate) lod: Option<&'a Packet<f32>>,
 }
 
 /// Lanes of a quad.
 const QUAD: usize = 4;
 
-impl Request {
-    /// A request for the lanes from `first` on: sixteen, or all if there are fewer.
+impl Request<'_> {
+    /// Calls `ask` with a request for the lanes from `first` on: sixteen, or all if there are
+    /// fewer.
     #[inline(always)]
-    fn new<R: Real>(uv: Vec2<R>, lod: Option<R>, first: usize) -> Self {
-        Self {
-            uv: [packet(uv.x, first), packet(uv.y, first)],
-            lod: match lod {
-                Some(lod) => packet(lod, first),
-                None => Packet::default(),
-            },
-            has_lod: lod.is_some(),
+    fn with<R: Real, T>(
+        uv: Vec2<R>,
+        lod: Option<R>,
+        first: usize,
+        ask: impl FnOnce(&Request<'_>) -> T,
+    ) -> T {
+        let (u, v) = (packet(uv.x, first), packet(uv.y, first));
+        let lods;
+        let mut request = Request {
+            uv: [&u, &v],
+            lod: None,
+        };
+        if let Some(lod) = lod {
+            lods = packet(lod, first);
+            request.lod = Some(&lods);
         }
+        ask(&request)
     }
 
     #[inline(always)]
     fn uv<R: Real>(&self, like: R, first: usize) -> Vec2<R> {
-        let [u, v] = &self.uv;
+        let [u, v] = self.uv;
         Vec2::new(load(like, u, first), load(like, v, first))
     }
 
@@ -59,8 +66,8 @@ impl Request {
 
     /// The level of detail of a packet's lane: the given one, or that of its quad.
     fn lod_of_lane(&self, lane: usize, size: [f32; 2]) -> f32 {
-        if self.has_lod {
-            return self.lod.0[lane];
+        if let Some(lod) = self.lod {
+            return lod.0[lane];
         }
         let [first, right, below] = [0, 1, 2].map(|k| self.of_lane((lane & !3) + k));
         let minus = |a: Vec2<f32>, b: Vec2<f32>| Vec2::new(a.x - b.x, a.y - b.y);
@@ -77,12 +84,21 @@ impl Rgba8Texture {
         lod: Option<R>,
         first: usize,
     ) -> Answers {
-        let request = Request::new(uv, lod, first);
-        match uv.x.level() {
-            Some(level) => self.sample_packet(level, &request),
-            None if R::LANES == 1 => self.sample_fragment(&request),
-            None => self.sample_quads(&request, R::LANES.min(LANES)),
-        }
+        Request::with(
+            uv,
+            lod,
+            first,
+            #[inline(always)]
+            |request| {
+                let mut colors = Answers::default();
+                match uv.x.level() {
+                    Some(level) => self.sample_packet(level, request, &mut colors),
+                    None if R::LANES == 1 => colors = self.sample_fragment(request),
+                    None => colors = self.sample_quads(request, R::LANES.min(LANES)),
+                }
+                colors
+            },
+        )
     }
 
     /// Samples several textures, as many as there are `colors`, for the lanes from `first` on:
@@ -95,7 +111,13 @@ impl Rgba8Texture {
         colors: &mut [Answers],
     ) {
         if let Some(level) = uv.x.level() {
-            Self::sample_all_packets(textures, level, &Request::new(uv, None, first), colors);
+            Request::with(
+                uv,
+                None,
+                first,
+                #[inline(always)]
+                |request| Self::sample_all_packets(textures, level, request, colors),
+            );
             return;
         }
         for (texture, colors) in textures.iter().zip(colors) {
@@ -103,31 +125,31 @@ impl Rgba8Texture {
         }
     }
 
-    /// Samples a packet. The code inside `dispatch!` captures two references, which registers hold.
+    /// Samples a packet.
     #[inline(never)]
-    fn sample_packet(&self, level: Level, request: &Request) -> Answers {
+    pub(crate) fn sample_packet(&self, level: Level, request: &Request<'_>, colors: &mut Answers) {
         dispatch!(@wide_move level, s => {
             let zero: f32x16<_> = SimdBase::splat(s, 0.0);
             let (uv, lod, guess) = self.place(request, zero, 0);
             match self.inside(uv, lod, guess) {
-                Some(inside) => stored(inside.color(&self.texture, self.is_srgb)),
-                None => self.sample_rare_packet(s.as_level(), request),
+                Some(inside) => *colors = stored(inside.color(&self.texture, self.is_srgb)),
+                None => self.sample_rare_packet(s.as_level(), request, colors),
             }
-        }, scalar => self.sample_each(request))
+        }, scalar => *colors = self.sample_each(request));
     }
 
     /// Samples a packet that is not the common case.
     #[inline(never)]
-    fn sample_rare_packet(&self, level: Level, request: &Request) -> Answers {
+    fn sample_rare_packet(&self, level: Level, request: &Request<'_>, colors: &mut Answers) {
         dispatch!(@wide level, s => {
             let zero: f32x16<_> = SimdBase::splat(s, 0.0);
             let (uv, lod, _) = self.place(request, zero, 0);
-            stored(self.sample_outside(uv, lod))
-        }, scalar => self.sample_each(request))
+            *colors = stored(self.sample_outside(uv, lod));
+        }, scalar => *colors = self.sample_each(request));
     }
 
     #[inline(never)]
-    fn sample_quads(&self, request: &Request, lanes: usize) -> Answers {
+    fn sample_quads(&self, request: &Request<'_>, lanes: usize) -> Answers {
         let mut colors = Answers::default();
         for first in (0..lanes).step_by(QUAD) {
             let Vec4 { x, y, z, w } = self.sample_numbers(request, Quad([0.0; QUAD]), first);
@@ -139,22 +161,22 @@ impl Rgba8Texture {
     }
 
     #[inline(never)]
-    fn sample_fragment(&self, request: &Request) -> Answers {
+    fn sample_fragment(&self, request: &Request<'_>) -> Answers {
         stored(self.sample_numbers(request, 0.0_f32, 0))
     }
 
     #[inline(always)]
-    fn sample_numbers<R: Number>(&self, request: &Request, like: R, first: usize) -> Vec4<R> {
+    fn sample_numbers<R: Number>(&self, request: &Request<'_>, like: R, first: usize) -> Vec4<R> {
         let (uv, lod, guess) = self.place(request, like, first);
         self.sample_at(uv, lod, guess)
     }
 
     /// The coordinates, their level of detail, and a guess of the finer level of the first lane.
     #[inline(always)]
-    fn place<R: Real>(&self, request: &Request, like: R, first: usize) -> (Vec2<R>, R, i32) {
+    fn place<R: Real>(&self, request: &Request<'_>, like: R, first: usize) -> (Vec2<R>, R, i32) {
         let uv = request.uv(like, first);
-        if request.has_lod {
-            let lod = load(like, &request.lod, first);
+        if let Some(lod) = request.lod {
+            let lod = load(like, lod, first);
             let within = lod.clamp(self.lod_range[0], self.lod_range[1]);
             let (level, _) = mixture(within, self.sampler.mipmap_filter);
             return (uv, lod, level.to_int_within_range().lane(0));
@@ -166,10 +188,10 @@ impl Rgba8Texture {
     /// Samples a packet from several textures. If they are [alike](Self::is_like), the footprint in
     /// the first one serves all.
     #[inline(never)]
-    fn sample_all_packets(
+    pub(crate) fn sample_all_packets(
         textures: &[&Self],
         level: Level,
-        request: &Request,
+        request: &Request<'_>,
         colors: &mut [Answers],
     ) {
         let Some((first, others)) = textures.split_first() else {
@@ -180,7 +202,7 @@ impl Rgba8Texture {
             return;
         }
         for (texture, colors) in textures.iter().zip(colors) {
-            *colors = texture.sample_packet(level, request);
+            texture.sample_packet(level, request, colors);
         }
     }
 
@@ -190,7 +212,7 @@ impl Rgba8Texture {
         &self,
         textures: &[&Self],
         level: Level,
-        request: &Request,
+        request: &Request<'_>,
         colors: &mut [Answers],
     ) {
         dispatch!(@wide level, s => {
@@ -211,7 +233,7 @@ impl Rgba8Texture {
         &self,
         textures: &[&Self],
         level: Level,
-        request: &Request,
+        request: &Request<'_>,
         colors: &mut [Answers],
     ) {
         dispatch!(@wide level, s => {
@@ -230,7 +252,7 @@ impl Rgba8Texture {
 
     /// Samples a packet lane by lane, at the scalar SIMD level.
     #[inline(never)]
-    fn sample_each(&self, request: &Request) -> Answers {
+    fn sample_each(&self, request: &Request<'_>) -> Answers {
         let mut colors = Answers::default();
         for lane in 0..LANES {
             let lod = request.lod_of_lane(lane, self.levels[0].size);

@@ -3,7 +3,7 @@
 use crate::compile::ResetLocal;
 use crate::frame::{Frame, PACKET};
 use crate::select::calls::{Kind, Served};
-use estampe_ir::interpreter::{Buffer, Run, TextureAccess, atomic};
+use estampe_ir::interpreter::{Buffer, Run, TextureAccess, TextureAccesses, atomic};
 use estampe_ir::op::Memory;
 use estampe_simd::{LANES, Level, Packet};
 use std::any::Any;
@@ -125,10 +125,20 @@ impl Context<'_> {
                     call.mask_result |= u16::from(exchanged.is_ok()) << lane;
                 }
             }
-            (Kind::Texture(op), operands, results) => {
+            (Kind::Textures(ops, common), operands, results) => {
                 let masks = [call.mask];
-                let access = TextureAccess::new(op, (self.level, &masks), operands, results);
-                self.run.textures.access(access);
+                if let [op] = &ops[..] {
+                    let access = TextureAccess::new(op, (self.level, &masks), operands, results);
+                    self.run.textures.access(access);
+                } else {
+                    let ops = (&ops[..], *common);
+                    let accesses =
+                        TextureAccesses::new(ops, (self.level, &masks), operands, results);
+                    self.run.textures.access_all(accesses);
+                }
+                if call.served.uniform == 0 {
+                    return;
+                }
                 for (bit, result) in results.iter_mut().enumerate() {
                     if call.served.uniform >> bit & 1 == 1 {
                         let first = lanes.clone().next();

@@ -231,6 +231,72 @@ fn unary_operations() {
     }
 }
 
+/// Compares inverse square roots of so many numbers with their definition, from these bits on.
+fn check_inverse_square_roots(first: u32, count: u32) {
+    const PACKETS_OF_RUN: usize = 1 << 12;
+    let mut builder = Builder::new(Stage::Vertex);
+    let x = builder.input(Input::Varying(0));
+    // Twice: there are two ways, which take turns.
+    let zero = builder.input(Input::PushConstant(0));
+    let same = builder.binary(Binary::Add, x, zero);
+    let results = [x, same].map(|x| builder.unary(Unary::FInverseSqrt, x));
+    let outputs = [0, 1].map(Output::Varying);
+    let tree = builder.finish(outputs.into_iter().zip(results).collect());
+    let kernel = Kernel::from_tree(&tree);
+    let mut inputs = vec![Packet([0; 16]); PACKETS_OF_RUN];
+    let mut outputs = [inputs.clone(), inputs.clone()];
+    for isa in isas() {
+        let code = Code::compile(&kernel, isa, Tier::Optimised).unwrap();
+        let mut scratch = Scratch::default();
+        let mut bits = first;
+        while bits < first + count {
+            for x in inputs.iter_mut().flat_map(|packet| &mut packet.0) {
+                *x = bits;
+                bits += 1;
+            }
+            let [first, second] = outputs.each_mut().map(|output| cells(output));
+            let given = kernel.interface.inputs.iter().map(|input| match input {
+                Input::Varying(_) => InputData::words(&inputs, 0, 1),
+                _ => InputData::Uniform(0),
+            });
+            let run = Run {
+                inputs: &given.collect::<Vec<_>>(),
+                outputs: &[
+                    OutputData::words(first, 0, 1),
+                    OutputData::words(second, 0, 1),
+                ],
+                ..Run::new(PACKETS_OF_RUN)
+            };
+            code.run(Level::best(), &run, &mut scratch).unwrap();
+            for ((x, first), second) in inputs.iter().zip(&outputs[0]).zip(&outputs[1]) {
+                for lane in 0..16 {
+                    let (x, found) = (x.0[lane], [first.0[lane], second.0[lane]]);
+                    let wanted = (1.0 / f32::from_bits(x).sqrt()).to_bits();
+                    assert!(
+                        found == [wanted; 2],
+                        "{isa:?}: of {x:x} {found:x?}, not {wanted:x}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// All significands with an even and with an odd exponent, at the limits of the quick sequence: the
+/// results of other exponents are these times a power of two.
+#[test]
+fn inverse_square_roots_are_correctly_rounded() {
+    for exponent in [127_u32 - 61, 127 - 59, 127, 127 + 99] {
+        check_inverse_square_roots(exponent << 23, 2 << 23);
+    }
+}
+
+#[test]
+#[ignore = "takes minutes: every positive float"]
+fn all_inverse_square_roots_are_correctly_rounded() {
+    check_inverse_square_roots(0, 0x7F80_0000);
+}
+
 #[test]
 fn binary_operations() {
     for &kind in Binary::ALL {

@@ -29,9 +29,7 @@ impl Shader {
     }
 
     fn inverse_sqrt(&mut self, x: Value) -> Value {
-        let one = self.0.float(1.0);
-        let root = self.0.unary(Unary::FSqrt, x);
-        self.op(Binary::FDiv, one, root)
+        self.0.unary(Unary::FInverseSqrt, x)
     }
 
     fn normalized(&mut self, a: Vec3) -> Vec3 {

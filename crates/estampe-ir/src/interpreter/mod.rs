@@ -58,7 +58,7 @@ pub use batch::{InputData, OutputData, Run, Stopped, cells};
 pub use compile::{Code, MAX_CHUNK};
 pub use memory::{Buffer, Words, atomic};
 pub use run::Scratch;
-pub use textures::{NoTextures, TextureAccess, Textures};
+pub use textures::{Common, NoTextures, TextureAccess, TextureAccesses, Textures};
 
 #[cfg(test)]
 mod tests;

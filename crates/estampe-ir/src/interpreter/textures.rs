@@ -1,6 +1,6 @@
 //! Accesses to textures, which the caller of the interpreter does.
 
-use crate::op::{LevelOfDetail, TextureOp};
+use crate::op::{LevelOfDetail, TextureOp, TextureQuery};
 use estampe_simd::{Level, Packet};
 
 /// The textures of a run.
@@ -8,6 +8,13 @@ pub trait Textures: std::fmt::Debug {
     /// Does an access: sets all results in the lanes of its mask. Lanes outside of the mask may
     /// have any numbers as operands, NaN too, and results of any value.
     fn access(&self, access: TextureAccess<'_>);
+
+    /// Does several accesses in the same lanes of one packet.
+    fn access_all(&self, mut accesses: TextureAccesses<'_>) {
+        while let Some(access) = accesses.next() {
+            self.access(access);
+        }
+    }
 }
 
 /// No textures: all results are 0.
@@ -143,6 +150,12 @@ impl<'a> TextureAccess<'a> {
             .unwrap_or_default()
     }
 
+    /// All results of a single packet.
+    #[inline]
+    pub fn results_mut(&mut self) -> &mut [Packet<u32>] {
+        self.results
+    }
+
     #[inline]
     fn first_of_level(&self) -> usize {
         self.op.coordinates.len() + usize::from(self.op.layer.is_some())
@@ -164,5 +177,114 @@ impl<'a> TextureAccess<'a> {
             .get(first..)
             .and_then(|operands| operands.get(..count))
             .unwrap_or_default()
+    }
+}
+
+/// What several accesses have in common, so that they can be done together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Common {
+    /// Nothing that is known.
+    Nothing,
+    /// All sample two coordinates, the same ones, with the level of detail of the quad.
+    Coordinates,
+    /// All compare texels of one texture with the same depth, at two coordinates each.
+    Reference,
+}
+
+impl Common {
+    /// What these accesses have in common.
+    #[must_use]
+    pub fn of(ops: &[TextureOp]) -> Self {
+        let Some((first, others)) = ops.split_first() else {
+            return Self::Nothing;
+        };
+        let is_flat =
+            |op: &TextureOp| op.coordinates.len() == 2 && op.layer.is_none() && op.offset == [0; 3];
+        let is_plain = |op: &TextureOp| {
+            op.query == TextureQuery::Sample && op.level == LevelOfDetail::Implicit && is_flat(op)
+        };
+        let compares = |op: &TextureOp| {
+            op.query == TextureQuery::SampleCompare
+                && matches!(op.level, LevelOfDetail::Zero | LevelOfDetail::Implicit)
+                && is_flat(op)
+        };
+        let is_like = |op: &TextureOp| {
+            [op.texture, op.sampler.unwrap_or(u32::MAX)]
+                == [first.texture, first.sampler.unwrap_or(u32::MAX)]
+                && op.level == first.level
+                && op.reference == first.reference
+        };
+        if ops.iter().all(is_plain) && others.iter().all(|op| op.coordinates == first.coordinates) {
+            Self::Coordinates
+        } else if ops.iter().all(compares) && others.iter().all(is_like) {
+            Self::Reference
+        } else {
+            Self::Nothing
+        }
+    }
+}
+
+/// Several accesses to textures in the same lanes of one packet.
+#[derive(Debug)]
+pub struct TextureAccesses<'a> {
+    /// What they are, in order, without those that were taken.
+    pub ops: &'a [TextureOp],
+    /// What all of them have in common.
+    pub common: Common,
+    level: Level,
+    mask: &'a [u16; 1],
+    /// The operands of each, as a [`TextureAccess`] has them, one after the other.
+    operands: &'a [Packet<u32>],
+    results: &'a mut [Packet<u32>],
+}
+
+impl<'a> TextureAccesses<'a> {
+    /// Accesses in the lanes of a mask; operands and results are those of each
+    /// [`TextureAccess`], one after the other.
+    #[must_use]
+    pub fn new(
+        (ops, common): (&'a [TextureOp], Common),
+        (level, mask): (Level, &'a [u16; 1]),
+        operands: &'a [Packet<u32>],
+        results: &'a mut [Packet<u32>],
+    ) -> Self {
+        Self {
+            ops,
+            common,
+            level,
+            mask,
+            operands,
+            results,
+        }
+    }
+
+    /// Takes the next access.
+    #[expect(
+        clippy::should_implement_trait,
+        reason = "an access borrows what an item could not"
+    )]
+    pub fn next(&mut self) -> Option<TextureAccess<'a>> {
+        let (op, ops) = self.ops.split_first()?;
+        self.ops = ops;
+        let (operands, others) = self.operands.split_at_checked(op.words())?;
+        self.operands = others;
+        let results = std::mem::take(&mut self.results);
+        let (results, others) = results.split_at_mut_checked(op.query.results() as usize)?;
+        self.results = others;
+        let context = (self.level, &self.mask[..]);
+        Some(TextureAccess::new(op, context, operands, results))
+    }
+
+    /// The lanes that run.
+    #[inline]
+    #[must_use]
+    pub fn mask(&self) -> u16 {
+        self.mask[0]
+    }
+
+    /// All operands, and all results to set.
+    #[inline]
+    pub fn all(&mut self) -> (&'a [Packet<u32>], &mut [Packet<u32>]) {
+        (self.operands, self.results)
     }
 }

@@ -165,6 +165,18 @@ impl Op {
 }
 
 impl TextureOp {
+    /// The number of operands that are words.
+    #[must_use]
+    pub fn words(&self) -> usize {
+        let of_level = match &self.level {
+            LevelOfDetail::Zero | LevelOfDetail::Implicit => 0,
+            LevelOfDetail::Bias(_) | LevelOfDetail::Explicit(_) => 1,
+            LevelOfDetail::Gradient { x, y } => x.len() + y.len(),
+        };
+        let single = [self.layer, self.reference, self.sample];
+        self.coordinates.len() + of_level + single.into_iter().flatten().count() + self.stored.len()
+    }
+
     fn each_operand_mut(&mut self, mut visit: impl FnMut(&mut Value, Type)) {
         let mut word = |value: &mut Value| visit(value, Type::Word);
         self.coordinates.iter_mut().for_each(&mut word);

@@ -3,12 +3,13 @@
 //! Operations on constants are done at once, and an operation that was done before, in a place that
 //! is seen from here, gives the value of then.
 
+use super::passes::each_branch;
 use super::passes::fold::{Known, fold};
 use super::{Label, Node, Tree};
 use crate::interface::{Input, Interface, Output, Stage};
 use crate::op::{Binary, Compare, MaskBinary, Math, Unary};
 use crate::{Op, Type, Value};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// A tree that grows.
 ///
@@ -46,8 +47,8 @@ pub struct Builder {
     /// The values of operations that are seen from here.
     seen: HashMap<Op, Value>,
     labels: u32,
-    /// The labels that are branched to.
-    used_labels: HashSet<Label>,
+    /// The number of branches to each label.
+    branches: HashMap<Label, usize>,
 }
 
 /// A construct that is open.
@@ -97,7 +98,7 @@ impl Builder {
             known: Vec::new(),
             seen: HashMap::new(),
             labels: 0,
-            used_labels: HashSet::new(),
+            branches: HashMap::new(),
         }
     }
 
@@ -153,6 +154,11 @@ impl Builder {
             Known::Mask(mask) => Some(mask),
             _ => None,
         }
+    }
+
+    /// What is known of a value.
+    pub(crate) fn known(&self, value: Value) -> Known {
+        self.known[value.index()]
     }
 
     /// Adds an operation, and returns its results: constants, where the operands are.
@@ -296,7 +302,7 @@ impl Builder {
     /// If the construct that was begun last is no block, or if it has results and its end can be
     /// reached.
     pub fn end_block(&mut self) -> Vec<Value> {
-        let open = self.close();
+        let mut open = self.close();
         let Construct::Block(label, results) = open.construct else {
             panic!("the construct that is open is no block");
         };
@@ -304,13 +310,31 @@ impl Builder {
             open.has_ended || results.is_empty(),
             "the end of a block with results is reached without a branch"
         );
-        let is_left = !open.has_ended || self.used_labels.contains(&label);
+        let branches = self.branches.get(&label).copied().unwrap_or(0);
+        // A block that is left at its end alone is its body.
+        if branches == 1
+            && let Some(Node::Branch {
+                label: to,
+                arguments,
+            }) = open.nodes.last()
+            && *to == label
+        {
+            let results = arguments.clone();
+            open.nodes.pop();
+            self.last_mut().nodes.append(&mut open.nodes);
+            return results;
+        }
+        if branches == 0 {
+            let last = self.last_mut();
+            last.nodes.append(&mut open.nodes);
+            last.has_ended |= open.has_ended;
+            return results;
+        }
         self.push(Node::Block {
             label,
             results: results.clone(),
             body: open.nodes,
         });
-        self.last_mut().has_ended |= !is_left;
         results
     }
 
@@ -375,11 +399,16 @@ impl Builder {
         };
         match self.mask_of(condition) {
             Some(chosen) => {
-                let (nodes, is_over) = if chosen {
-                    (accept, accept_ends)
+                let (nodes, is_over, dropped) = if chosen {
+                    (accept, accept_ends, reject)
                 } else {
-                    (reject, reject_ends)
+                    (reject, reject_ends, accept)
                 };
+                each_branch(&dropped, &mut |label, _| {
+                    if let Some(count) = self.branches.get_mut(&label) {
+                        *count -= 1;
+                    }
+                });
                 if !self.has_ended() {
                     self.last_mut().nodes.extend(nodes);
                     self.last_mut().has_ended |= is_over;
@@ -400,7 +429,7 @@ impl Builder {
     /// Goes to a label of a construct that is open.
     pub fn branch(&mut self, label: Label, arguments: &[Value]) {
         if !self.has_ended() {
-            self.used_labels.insert(label);
+            *self.branches.entry(label).or_default() += 1;
         }
         self.push(Node::Branch {
             label,

@@ -10,6 +10,7 @@ mod facts;
 mod layouts;
 mod link;
 mod machine;
+mod samples;
 mod stage;
 mod textures;
 

@@ -1,16 +1,14 @@
 //! Accesses to textures: what a kernel asks, answered by `estampe_texture`.
 
+use super::samples::{MOST, compare_all, sample, sample_all};
 use estampe_ir::interface::TextureSlot;
-use estampe_ir::interpreter::{TextureAccess, Textures};
-use estampe_ir::op::{LevelOfDetail, TextureQuery};
+use estampe_ir::interpreter::{Common, TextureAccess, TextureAccesses, Textures};
+use estampe_ir::op::TextureQuery;
 use estampe_simd::{
     Bytes, LANES, Lanes, Packet, SimdBase, dispatch, f32x16, i32x16, mask32x16, u32x16,
 };
-use estampe_texture::{
-    Coordinates, Lod, Rgba8Texture, SampledTexture, TextureBindings, sample_compare_level,
-    storage_load, storage_store, store_unorm8,
-};
-use estampe_types::{Bindings, Real, ShadowMap, StorageTexture, Vec2, Vec3, Vec4, ViewDimension};
+use estampe_texture::{SampledTexture, TextureBindings, storage_load, storage_store, store_unorm8};
+use estampe_types::{Bindings, StorageTexture, Vec4};
 use std::cell::OnceCell;
 use std::sync::Arc;
 
@@ -57,36 +55,61 @@ impl<'a> BoundTextures<'a> {
 
 impl Textures for BoundTextures<'_> {
     fn access(&self, mut access: TextureAccess<'_>) {
+        if let Some(sampler) = access.op.sampler {
+            match self.sampled(access.op.texture, sampler) {
+                Some(texture) => sample(texture, &mut access),
+                None => clear(&mut access),
+            }
+            return;
+        }
         if self.common_access(&mut access) {
             return;
         }
-        for result in 0..access.results() {
-            access.result_mut(result).fill(Packet::default());
-        }
+        clear(&mut access);
         let level = access.level;
         match access.op.query {
-            TextureQuery::Sample
-            | TextureQuery::SampleCompare
-            | TextureQuery::Gather(_)
-            | TextureQuery::GatherCompare => {
-                let sampler = access.op.sampler.unwrap_or(u32::MAX);
-                if let Some(texture) = self.sampled(access.op.texture, sampler) {
-                    dispatch!(level, s => sample(s, texture, &mut access));
-                }
-            }
             TextureQuery::Load => dispatch!(level, s => self.load(s, &mut access)),
             TextureQuery::Store => dispatch!(level, s => self.store(s, &access)),
             TextureQuery::Size
             | TextureQuery::Levels
             | TextureQuery::Layers
             | TextureQuery::Samples => self.query(&mut access),
+            TextureQuery::Sample
+            | TextureQuery::SampleCompare
+            | TextureQuery::Gather(_)
+            | TextureQuery::GatherCompare => {}
+        }
+    }
+
+    fn access_all(&self, mut accesses: TextureAccesses<'_>) {
+        let mut textures = [None; MOST];
+        for (to, op) in textures.iter_mut().zip(accesses.ops) {
+            *to = self.sampled(op.texture, op.sampler.unwrap_or(u32::MAX));
+        }
+        let textures = textures.get(..accesses.ops.len()).unwrap_or_default();
+        let is_done = match accesses.common {
+            Common::Coordinates => sample_all(textures, &mut accesses),
+            Common::Reference => compare_all(textures, &mut accesses),
+            Common::Nothing => false,
+        };
+        if !is_done {
+            while let Some(access) = accesses.next() {
+                self.access(access);
+            }
         }
     }
 }
 
+/// Sets all results to 0.
+fn clear(access: &mut TextureAccess<'_>) {
+    for result in 0..access.results() {
+        access.result_mut(result).fill(Packet::default());
+    }
+}
+
 impl BoundTextures<'_> {
-    /// Does an access of one packet whose form and whose texture are the common ones; otherwise
-    /// false is returned, and nothing done.
+    /// Loads or stores one packet of texels of the common kind; otherwise false is returned, and
+    /// nothing done.
     #[inline]
     fn common_access(&self, access: &mut TextureAccess<'_>) -> bool {
         let op = access.op;
@@ -96,30 +119,9 @@ impl BoundTextures<'_> {
             return false;
         };
         let level = access.level;
-        let Some(sampler) = op.sampler else {
-            return match op.query {
-                TextureQuery::Load => dispatch!(level, s => self.load_common(s, access)),
-                TextureQuery::Store => dispatch!(level, s => self.store_common(s, access, mask)),
-                _ => false,
-            };
-        };
-        match (op.query, &op.level) {
-            (TextureQuery::Sample, LevelOfDetail::Implicit) if mask == whole_quads(mask) => {
-                let texture = self.sampled(op.texture, sampler);
-                let Some(texture) = texture.and_then(SampledTexture::common) else {
-                    return false;
-                };
-                dispatch!(level, s => plain(s, texture, access));
-                true
-            }
-            (TextureQuery::SampleCompare, _) => {
-                let texture = self.sampled(op.texture, sampler);
-                let Some(depths) = texture.and_then(SampledTexture::depths) else {
-                    return false;
-                };
-                dispatch!(level, s => compare(s, depths, access));
-                true
-            }
+        match op.query {
+            TextureQuery::Load => dispatch!(level, s => self.load_common(s, access)),
+            TextureQuery::Store => dispatch!(level, s => self.store_common(s, access, mask)),
             _ => false,
         }
     }
@@ -235,150 +237,6 @@ impl BoundTextures<'_> {
     }
 }
 
-/// Samples a texture of the common kind in one packet. Operands and results are loaded and stored
-/// by whole registers: a load waits long for several stores to the same line.
-#[inline(always)]
-fn plain<S: Lanes>(s: S, texture: &Rgba8Texture, access: &mut TextureAccess<'_>) {
-    let u = floats(s, access.coordinate(0), 0);
-    let v = floats(s, access.coordinate(1), 0);
-    let color = texture.sample(Vec2::new(u, v));
-    set(access, 0, [color.x, color.y, color.z, color.w]);
-}
-
-/// Compares the depths of a shadow map.
-#[inline(always)]
-fn compare<S: Lanes>(s: S, depths: &ShadowMap, access: &mut TextureAccess<'_>) {
-    let uv = Vec2::new(
-        floats(s, access.coordinate(0), 0),
-        floats(s, access.coordinate(1), 0),
-    );
-    let reference = access.reference().unwrap_or_default();
-    let share = sample_compare_level(depths, uv, floats(s, reference, 0));
-    let words: u32x16<S> = share.bitcast();
-    words.store_array(&mut access.result_mut(0)[0].0);
-}
-
-/// Samples, compares and gathers.
-#[inline(always)]
-fn sample<S: Lanes>(s: S, texture: &SampledTexture, access: &mut TextureAccess<'_>) {
-    let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
-    for packet in 0..access.packets {
-        let u = coordinate(s, access, (0, packet));
-        let v = coordinate(s, access, (1, packet));
-        let w = coordinate(s, access, (2, packet));
-        let uvw = Vec3::new(u, v, w);
-        let layer = access.layer().map(|layer| ints(s, layer, packet));
-        let layer = layer.unwrap_or(<i32x16<S> as SimdBase<S>>::splat(s, 0));
-        // An array view takes the layer; of others it is 0.
-        let at = match texture.view().dimension() {
-            ViewDimension::CubeArray => Coordinates::cube_array(uvw, layer),
-            ViewDimension::D2Array => Coordinates::d2_array(Vec2::new(uvw.x, uvw.y), layer),
-            _ => Coordinates::d3(uvw),
-        };
-        let result = answer(s, texture, access, (packet, at), lod(s, access, packet));
-        let whole = whole_quads(access.mask[packet]);
-        let takes_derivatives = matches!(
-            access.op.level,
-            LevelOfDetail::Implicit | LevelOfDetail::Bias(_)
-        );
-        let result = if !takes_derivatives || whole == access.mask[packet] {
-            result
-        } else {
-            let none = Vec3::new(zero, zero, zero);
-            let alone = answer(s, texture, access, (packet, at), Lod::Gradients(none, none));
-            let mask: mask32x16<S> = s.mask_from_bits(whole);
-            let [a, b, c, d] = result;
-            let [of_a, of_b, of_c, of_d] = alone;
-            [
-                f32x16::<S>::select(mask, a, of_a),
-                f32x16::<S>::select(mask, b, of_b),
-                f32x16::<S>::select(mask, c, of_c),
-                f32x16::<S>::select(mask, d, of_d),
-            ]
-        };
-        set(access, packet, result);
-    }
-}
-
-/// A coordinate, 0 if the operation has fewer.
-#[inline(always)]
-fn coordinate<S: Lanes>(
-    s: S,
-    access: &TextureAccess<'_>,
-    (at, packet): (usize, usize),
-) -> f32x16<S> {
-    if at < access.op.coordinates.len() {
-        floats(s, access.coordinate(at), packet)
-    } else {
-        <f32x16<S> as SimdBase<S>>::splat(s, 0.0)
-    }
-}
-
-#[inline(always)]
-fn answer<S: Lanes>(
-    s: S,
-    texture: &SampledTexture,
-    access: &TextureAccess<'_>,
-    (packet, at): (usize, Coordinates<f32x16<S>>),
-    lod: Lod<f32x16<S>>,
-) -> [f32x16<S>; 4] {
-    let [x, y, _] = access.op.offset;
-    let reference = access.reference().map(|words| floats(s, words, packet));
-    let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
-    let reference = reference.unwrap_or(zero);
-    let four = match access.op.query {
-        TextureQuery::SampleCompare => {
-            let share = texture.sample_compare(at, reference, lod, [x, y]);
-            return [share, zero, zero, zero];
-        }
-        TextureQuery::Gather(channel) => texture.gather(at, usize::from(channel), [x, y]),
-        TextureQuery::GatherCompare => texture.gather_compare(at, reference, [x, y]),
-        _ if matches!(lod, Lod::Implicit) && access.op.offset == [0; 3] => texture.sample(at),
-        _ => texture.sample_with(at, lod, access.op.offset),
-    };
-    [four.x, four.y, four.z, four.w]
-}
-
-#[inline(always)]
-fn lod<S: Lanes>(s: S, access: &TextureAccess<'_>, packet: usize) -> Lod<f32x16<S>> {
-    let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
-    let value = access
-        .level_of_detail()
-        .map(|words| floats(s, words, packet));
-    let value = value.unwrap_or(zero);
-    match &access.op.level {
-        LevelOfDetail::Zero => Lod::Level(zero),
-        LevelOfDetail::Implicit => Lod::Implicit,
-        LevelOfDetail::Bias(_) => Lod::Bias(value),
-        LevelOfDetail::Explicit(_) => Lod::Level(value),
-        LevelOfDetail::Gradient { x, .. } => {
-            let count = x.len();
-            let along_x = gradient(s, access, (0, count), packet);
-            let along_y = gradient(s, access, (1, count), packet);
-            Lod::Gradients(along_x, along_y)
-        }
-    }
-}
-
-/// The derivative of the coordinates, so many, along an axis of the picture.
-#[inline(always)]
-fn gradient<S: Lanes>(
-    s: S,
-    access: &TextureAccess<'_>,
-    (axis, count): (usize, usize),
-    packet: usize,
-) -> Vec3<f32x16<S>> {
-    let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
-    let mut parts = [zero; 3];
-    for (at, part) in parts.iter_mut().enumerate().take(count) {
-        if let Some(words) = access.gradient(axis, at) {
-            *part = floats(s, words, packet);
-        }
-    }
-    let [x, y, z] = parts;
-    Vec3::new(x, y, z)
-}
-
 /// The integer coordinates of a packet's texels, with the layer after them.
 #[inline(always)]
 fn texel<S: Lanes>(s: S, access: &TextureAccess<'_>, packet: usize) -> [i32x16<S>; 3] {
@@ -398,13 +256,6 @@ fn texel<S: Lanes>(s: S, access: &TextureAccess<'_>, packet: usize) -> [i32x16<S
 /// Layers, or the depth.
 fn slices(texture: &StorageTexture) -> u32 {
     texture.shape().depth_or_layers
-}
-
-/// The lanes of quads that are wholly in a mask.
-fn whole_quads(mask: u16) -> u16 {
-    let pairs = mask & mask >> 1;
-    let firsts = pairs & pairs >> 2 & 0x1111;
-    firsts * 0xF
 }
 
 #[inline(always)]
@@ -438,17 +289,5 @@ fn put<S: Lanes>(
     if at < count {
         let words: u32x16<S> = result.bitcast();
         words.store_array(&mut access.result_mut(at)[packet].0);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::whole_quads;
-
-    #[test]
-    fn quads_count_only_if_all_of_their_lanes_run() {
-        assert_eq!(whole_quads(0xFFFF), 0xFFFF);
-        assert_eq!(whole_quads(0xF7F0), 0xF0F0);
-        assert_eq!(whole_quads(0x8EEF), 0x000F);
     }
 }

@@ -1,8 +1,9 @@
 //! Comparison samplers: texels are compared with a reference, and the results, 1 or 0, are
 //! filtered.
 
+use super::PacketRequest;
 use super::SampledTexture;
-use super::coordinates::{Answers, Lanes, answer};
+use super::coordinates::{Answers, answer};
 use super::sample::Tap;
 use estampe_types::state::CompareFunction;
 use estampe_types::{Real, TexelEncoding};
@@ -41,18 +42,16 @@ impl SampledTexture {
     /// Compares lanes: by packet code if possible, else lane by lane. The results are in the first
     /// channel.
     #[inline(never)]
-    pub(crate) fn compare_lanes(&self, lanes: &Lanes<'_>) -> Answers {
-        let mut answers = Answers::default();
-        if !self.sample_packet(lanes, &mut answers, true) {
+    pub(crate) fn compare_lanes(&self, lanes: &PacketRequest<'_>, answers: &mut Answers) {
+        if !self.sample_packet(lanes, answers, true) {
             for lane in 0..lanes.count {
-                answer(&mut answers, lane, self.compare_lane(lanes, lane));
+                answer(answers, lane, self.compare_lane(lanes, lane));
             }
         }
-        answers
     }
 
     /// Compares one lane.
-    pub(crate) fn compare_lane(&self, lanes: &Lanes<'_>, lane: usize) -> [f32; 4] {
+    pub(crate) fn compare_lane(&self, lanes: &PacketRequest<'_>, lane: usize) -> [f32; 4] {
         let footprint = super::footprint::Footprint {
             probes: 1,
             ..self.footprint(lanes, lane)

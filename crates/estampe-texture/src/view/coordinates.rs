@@ -1,5 +1,5 @@
-//! Requests to views: the lanes' coordinates, how the level of detail is determined, and both as
-//! packets.
+//! What a shader asks of a view: coordinates, and how the level of detail is determined; and lanes
+//! as packets.
 
 use estampe_simd::{LANES, Packet};
 use estampe_types::{Int, Real, Vec2, Vec3, Vec4};
@@ -104,121 +104,6 @@ pub enum Lod<R: Real> {
 /// Sample results of up to sixteen lanes, one packet per channel. Each packet is a cache line, so
 /// that a register of sixteen lanes is stored and loaded at once.
 pub(crate) type Answers = [Packet<f32>; 4];
-
-/// A request as packets, for code that is not generic over the shader's numbers. A packet pair
-/// makes two requests.
-///
-/// Packets that a request does not need are [`ZEROS`], so that nothing is stored for them.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Lanes<'a> {
-    /// The number of lanes.
-    pub(crate) count: usize,
-    pub(crate) at: &'a [Packet<f32>; 3],
-    pub(crate) layer: &'a Packet<i32>,
-    pub(crate) lod: LodOfLanes,
-    /// The bias, or the level of detail.
-    pub(crate) value: &'a Packet<f32>,
-    /// Derivatives along x, then along y.
-    pub(crate) gradients: &'a [Packet<f32>; 6],
-    /// The reference of comparisons.
-    pub(crate) reference: &'a Packet<f32>,
-    /// Offset in texels.
-    pub(crate) offset: [i32; 3],
-}
-
-/// Zeros for the packets that a request does not need.
-static ZEROS: [Packet<f32>; 6] = [Packet([0.0; LANES]); 6];
-
-/// The numbers of [`Lanes`] that determine the level of detail.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum LodOfLanes {
-    Bias,
-    Level,
-    Gradients,
-}
-
-impl Lanes<'_> {
-    /// Calls `ask` with the lanes from `first` on.
-    #[inline(always)]
-    pub(crate) fn with<R: Real, T>(
-        at: &Coordinates<R>,
-        lod: &Lod<R>,
-        (reference, offset): (Option<R>, [i32; 3]),
-        first: usize,
-        ask: impl FnOnce(&Lanes<'_>) -> T,
-    ) -> T {
-        let layer = packet_of_ints(at.layer, first);
-        let at = [
-            packet(at.uvw.x, first),
-            packet(at.uvw.y, first),
-            packet(at.uvw.z, first),
-        ];
-        let (values, derivatives, references);
-        let mut lanes = Lanes {
-            count: if R::LANES < LANES { R::LANES } else { LANES },
-            at: &at,
-            layer: &layer,
-            lod: LodOfLanes::Bias,
-            value: &ZEROS[0],
-            gradients: &ZEROS,
-            reference: &ZEROS[0],
-            offset,
-        };
-        match lod {
-            Lod::Implicit => {}
-            Lod::Bias(value) | Lod::Level(value) => {
-                values = packet(*value, first);
-                lanes.value = &values;
-                if let Lod::Level(_) = lod {
-                    lanes.lod = LodOfLanes::Level;
-                }
-            }
-            Lod::Gradients(dx, dy) => {
-                derivatives = [
-                    packet(dx.x, first),
-                    packet(dx.y, first),
-                    packet(dx.z, first),
-                    packet(dy.x, first),
-                    packet(dy.y, first),
-                    packet(dy.z, first),
-                ];
-                lanes.gradients = &derivatives;
-                lanes.lod = LodOfLanes::Gradients;
-            }
-        }
-        if let Some(reference) = reference {
-            references = packet(reference, first);
-            lanes.reference = &references;
-        }
-        ask(&lanes)
-    }
-
-    /// A lane's coordinates.
-    pub(crate) fn at(&self, lane: usize) -> [f32; 3] {
-        [self.at[0].0[lane], self.at[1].0[lane], self.at[2].0[lane]]
-    }
-
-    /// A lane's derivatives, along x and along y.
-    pub(crate) fn gradients(&self, lane: usize) -> [[f32; 3]; 2] {
-        let [a, b, c, d, e, f] = self.gradients.each_ref().map(|of_lanes| of_lanes.0[lane]);
-        [[a, b, c], [d, e, f]]
-    }
-
-    /// The first lane of a lane's quad; of a single fragment the lane itself.
-    pub(crate) fn first_of_quad(&self, lane: usize) -> usize {
-        if self.count >= 4 { lane & !3 } else { lane }
-    }
-
-    /// The differences within a quad that begins at a lane, along x and along y; 0 for a single
-    /// fragment.
-    pub(crate) fn differences(&self, first: usize) -> [[f32; 3]; 2] {
-        if self.count < 4 {
-            return [[0.0; 3]; 2];
-        }
-        [1, 2]
-            .map(|other| std::array::from_fn(|k| self.at[k].0[first + other] - self.at[k].0[first]))
-    }
-}
 
 /// Stores the lanes from `first` on as a packet: sixteen, or all if there are fewer.
 #[inline(always)]

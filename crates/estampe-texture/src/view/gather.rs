@@ -1,9 +1,10 @@
 //! Texel gathering: one channel of the four texels around a coordinate in the base level, lane by
 //! lane.
 
+use super::PacketRequest;
 use super::SampledTexture;
 use super::axis;
-use super::coordinates::{Answers, Lanes, answer};
+use super::coordinates::{Answers, answer};
 use super::sample::{Channels, Tap};
 use estampe_types::ViewDimension;
 
@@ -14,7 +15,7 @@ const ORDER: [usize; 4] = [2, 3, 1, 0];
 impl SampledTexture {
     /// Gathers a channel, lane by lane.
     #[inline(never)]
-    pub(crate) fn gather_lanes(&self, lanes: &Lanes<'_>, channel: usize) -> Answers {
+    pub(crate) fn gather_lanes(&self, lanes: &PacketRequest<'_>, channel: usize) -> Answers {
         let mut texels = Answers::default();
         let codec = &self.view.codec;
         for lane in 0..lanes.count {
@@ -27,7 +28,7 @@ impl SampledTexture {
 
     /// Gathers comparison results, lane by lane.
     #[inline(never)]
-    pub(crate) fn gather_compare_lanes(&self, lanes: &Lanes<'_>) -> Answers {
+    pub(crate) fn gather_compare_lanes(&self, lanes: &PacketRequest<'_>) -> Answers {
         let mut answers = Answers::default();
         for lane in 0..lanes.count {
             let comparison = self.comparison(lanes.reference.0[lane]);
@@ -39,12 +40,12 @@ impl SampledTexture {
 
     /// The four texels around a lane's coordinates: upper left, upper right, lower left, lower
     /// right.
-    fn four(&self, lanes: &Lanes<'_>, lane: usize, tap: &impl Tap) -> [[f32; 4]; 4] {
+    fn four(&self, lanes: &PacketRequest<'_>, lane: usize, tap: &impl Tap) -> [[f32; 4]; 4] {
         if matches!(self.view.dimension, ViewDimension::D1 | ViewDimension::D3) {
             return [[0.0; 4]; 4];
         }
         let plane = &self.view.planes[0];
-        let spot = self.spot(lanes.at(lane), lanes.layer.0[lane]);
+        let spot = self.spot(lanes.at(lane), lanes.layer(lane));
         if self.view.is_cube() {
             return self.four_of_cube(plane, &spot, plane.sides[0], tap).0;
         }

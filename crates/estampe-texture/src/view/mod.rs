@@ -33,6 +33,7 @@ mod footprint;
 mod gather;
 mod packet;
 mod packet_fetch;
+mod packet_request;
 mod packet_texel;
 mod plane;
 mod sample;
@@ -40,6 +41,7 @@ mod sampled_texture;
 
 pub(crate) use coordinates::{Answers, answer, by_sixteen, load, packed, packet, packet_of_ints};
 pub use coordinates::{Coordinates, Lod, TextureCoordinates};
+pub use packet_request::{PacketLod, PacketRequest};
 pub use plane::TexelView;
 #[cfg(test)]
 pub(crate) use sample::border_unit;

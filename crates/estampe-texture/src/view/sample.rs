@@ -4,10 +4,10 @@
 //! level, and the lanes that packet code leaves out.
 
 use super::axis::{self, Place};
-use super::coordinates::{Answers, Lanes, LodOfLanes, answer};
+use super::coordinates::{Answers, answer};
 use super::footprint::Footprint;
 use super::plane::Plane;
-use super::{SampledTexture, cube};
+use super::{PacketLod, PacketRequest, SampledTexture, cube};
 use estampe_format::TexelCodec;
 use estampe_types::ViewDimension;
 use estampe_types::{AddressMode, BorderColor, FilterMode, Real};
@@ -47,7 +47,7 @@ impl Tap for Channels {
 impl SampledTexture {
     /// Samples lanes: by packet code if possible, else lane by lane.
     #[inline(never)]
-    pub(crate) fn sample_lanes(&self, lanes: &Lanes<'_>, colors: &mut Answers) {
+    pub(crate) fn sample_lanes(&self, lanes: &PacketRequest<'_>, colors: &mut Answers) {
         if !self.sample_packet(lanes, colors, false) {
             for lane in 0..lanes.count {
                 answer(colors, lane, self.sample_lane(lanes, lane));
@@ -56,28 +56,28 @@ impl SampledTexture {
     }
 
     /// Samples one lane.
-    pub(crate) fn sample_lane(&self, lanes: &Lanes<'_>, lane: usize) -> [f32; 4] {
+    pub(crate) fn sample_lane(&self, lanes: &PacketRequest<'_>, lane: usize) -> [f32; 4] {
         let footprint = self.footprint(lanes, lane);
         let unit = self.probes(lanes, lane, &footprint, &Channels);
         self.view.codec.finish(unit)
     }
 
     /// The footprint of a lane; every bias is added to its λ.
-    pub(crate) fn footprint(&self, lanes: &Lanes<'_>, lane: usize) -> Footprint {
+    pub(crate) fn footprint(&self, lanes: &PacketRequest<'_>, lane: usize) -> Footprint {
         let (view, sampler) = (&self.view, &self.sampler);
         let mut footprint = match lanes.lod {
-            LodOfLanes::Level => Footprint::of_level(lanes.value.0[lane]),
-            LodOfLanes::Bias => {
+            PacketLod::Level => Footprint::of_level(lanes.value.0[lane]),
+            PacketLod::Implicit | PacketLod::Bias => {
                 let first = lanes.first_of_quad(lane);
                 Footprint::new(view, sampler, lanes.at(first), lanes.differences(first))
             }
-            LodOfLanes::Gradients => {
+            PacketLod::Gradients => {
                 Footprint::new(view, sampler, lanes.at(lane), lanes.gradients(lane))
             }
         };
         let bias = match lanes.lod {
-            LodOfLanes::Bias => sampler.lod_bias + lanes.value.0[lane],
-            LodOfLanes::Level | LodOfLanes::Gradients => sampler.lod_bias,
+            PacketLod::Implicit | PacketLod::Bias => sampler.lod_bias + lanes.value.0[lane],
+            PacketLod::Level | PacketLod::Gradients => sampler.lod_bias,
         };
         footprint.lod += Real::clamp(bias, -16.0, 15.99);
         footprint
@@ -86,7 +86,7 @@ impl SampledTexture {
     /// The mean of the probes along the footprint, in units.
     pub(crate) fn probes(
         &self,
-        lanes: &Lanes<'_>,
+        lanes: &PacketRequest<'_>,
         lane: usize,
         footprint: &Footprint,
         tap: &impl Tap,
@@ -102,7 +102,7 @@ impl SampledTexture {
                     *at += step * t;
                 }
             }
-            let spot = self.spot(uvw, lanes.layer.0[lane]);
+            let spot = self.spot(uvw, lanes.layer(lane));
             let color = self.levels(&spot, footprint.lod, lanes.offset, tap);
             sum = if probe == 1 {
                 color

@@ -1,8 +1,8 @@
 //! [`SampledTexture`]: a view with a sampler, as a shader holds it.
 
-use super::TexelView;
-use super::coordinates::{Answers, Lanes, Lod, TextureCoordinates, by_sixteen};
+use super::coordinates::{Answers, Lod, TextureCoordinates, by_sixteen};
 use super::packet::PacketFormat;
+use super::{PacketRequest, TexelView};
 use crate::rgba8_texture::is_rgba8;
 use crate::{Rgba8Texture, TextureError, sample_compare_level};
 use estampe_simd::Level;
@@ -97,6 +97,12 @@ impl SampledTexture {
             depths: is_common.then_some(depths),
             ..self
         }
+    }
+
+    /// The SIMD level at which packets are sampled.
+    #[must_use]
+    pub fn level(&self) -> Level {
+        self.level
     }
 
     /// The depths that comparisons read: see [`Self::with_depths`].
@@ -202,7 +208,7 @@ impl SampledTexture {
             at.uvw.x,
             #[inline(always)]
             |first| {
-                Lanes::with(
+                PacketRequest::with(
                     &at,
                     &lod,
                     (None, offset),
@@ -237,7 +243,7 @@ impl SampledTexture {
                     at.uvw.x,
                     #[inline(always)]
                     |first| {
-                        Lanes::with(
+                        PacketRequest::with(
                             &at,
                             &Lod::Implicit,
                             more,
@@ -273,13 +279,17 @@ impl SampledTexture {
                     reference,
                     #[inline(always)]
                     |first| {
-                        Lanes::with(
+                        PacketRequest::with(
                             &at,
                             &lod,
                             more,
                             first,
                             #[inline(always)]
-                            |lanes| self.compare_lanes(lanes),
+                            |lanes| {
+                                let mut answers = Answers::default();
+                                self.compare_lanes(lanes, &mut answers);
+                                answers
+                            },
                         )
                     },
                 )
@@ -306,7 +316,7 @@ impl SampledTexture {
                     reference,
                     #[inline(always)]
                     |first| {
-                        Lanes::with(
+                        PacketRequest::with(
                             &at,
                             &Lod::Implicit,
                             more,

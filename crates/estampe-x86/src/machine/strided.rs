@@ -194,7 +194,12 @@ impl Emitter<'_> {
         self.assembler.vector(&row);
     }
 
-    fn row(&self, op: &'static VectorOp, [reg, vvvv]: [u8; 2], rm: Rm) -> VectorInstruction {
+    pub(super) fn row(
+        &self,
+        op: &'static VectorOp,
+        [reg, vvvv]: [u8; 2],
+        rm: Rm,
+    ) -> VectorInstruction {
         VectorInstruction {
             op,
             is_evex: self.isa == Isa::Avx512 && op.evex_w.is_some(),

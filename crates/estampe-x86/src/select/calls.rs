@@ -9,6 +9,7 @@ use crate::CompileError;
 use crate::encoder::vector_op;
 use crate::frame::{MASK_ARGUMENT, MASK_RESULT, PACKET, displacement};
 use crate::machine::{Instruction, Memory, MemoryBase};
+use estampe_ir::interpreter::Common;
 use estampe_ir::lanes::Kernel;
 use estampe_ir::op::{Atomic, Binary, Memory as Shared, TextureOp, Unary};
 use estampe_ir::{Op, Type, Value};
@@ -23,7 +24,7 @@ pub(crate) struct Served {
     pub(crate) results: usize,
     /// Bit i is set if result i is uniform. Lanes outside of the mask are given it, too: code
     /// branches where any lane of a uniform mask is set.
-    pub(crate) uniform: u8,
+    pub(crate) uniform: u64,
 }
 
 /// What a call asks for.
@@ -48,7 +49,8 @@ pub(crate) enum Kind {
     CompareExchange {
         memory: Shared,
     },
-    Texture(Box<TextureOp>),
+    /// Accesses to textures in the same lanes, none of which needs another's results.
+    Textures(Vec<TextureOp>, Common),
 }
 
 impl Served {
@@ -80,7 +82,7 @@ impl Kind {
                 memory: *memory,
             },
             Op::CompareExchange { memory, .. } => Self::CompareExchange { memory: *memory },
-            Op::Texture(op) => Self::Texture(op.clone()),
+            Op::Texture(op) => Self::Textures(vec![TextureOp::clone(op)], Common::Nothing),
             _ => return None,
         })
     }
@@ -93,21 +95,116 @@ fn words(op: &Op) -> Vec<Value> {
     words
 }
 
+/// The most accesses to textures that are one call.
+const MOST_JOINED: usize = 16;
+
+/// The most accesses among which those that can be one call are looked for.
+const MOST_ADJACENT: usize = 64;
+
 /// The most packets that a call of the kernel needs.
 pub(super) fn most_packets(kernel: &Kernel) -> u32 {
-    let ops = kernel.blocks.iter().flat_map(|block| &block.ops);
-    let packets = ops.filter_map(|(op, _)| Served::new(op));
-    let packets = packets.map(|served| served.operands + served.results);
-    u32::try_from(packets.max().unwrap_or(0)).unwrap_or(u32::MAX)
+    let of_block = |ops: &[(Op, Value)]| {
+        let (mut most, mut joined) = (0, 0);
+        for (op, _) in ops {
+            let Some(served) = Served::new(op) else {
+                continue;
+            };
+            most = most.max(served.operands + served.results);
+            joined += usize::from(can_join(op));
+        }
+        most * joined.clamp(1, MOST_JOINED)
+    };
+    let most = kernel.blocks.iter().map(|block| of_block(&block.ops));
+    u32::try_from(most.max().unwrap_or(0)).unwrap_or(u32::MAX)
+}
+
+/// True if the operation may be one call together with others: it accesses a texture with a
+/// sampler, which nothing changes while the kernel runs.
+pub(super) fn can_join(op: &Op) -> bool {
+    matches!(op, Op::Texture(op) if op.sampler.is_some())
+}
+
+/// How many operations, from the first on, are accesses to textures in the same lanes of which none
+/// needs another's result: at least one.
+pub(super) fn joined(ops: &[&(Op, Value)]) -> usize {
+    let Some((op, _)) = ops.first().filter(|(op, _)| can_join(op)) else {
+        return 1;
+    };
+    let mask = op.clone().mask_mut().copied();
+    let mut results: Vec<Value> = Vec::new();
+    let mut count = 0;
+    for (op, first) in ops.iter().take(MOST_ADJACENT) {
+        let mut needs_another = false;
+        op.each_operand(|value, _| needs_another |= results.contains(&value));
+        if !can_join(op) || op.clone().mask_mut().copied() != mask || needs_another {
+            break;
+        }
+        results.extend(first.and_next(op.results().len()));
+        count += 1;
+    }
+    count.max(1)
+}
+
+/// Accesses that need no other's results, in groups: what those of a group have in common makes
+/// them cheaper together.
+pub(super) fn groups<'o>(ops: &[&'o (Op, Value)]) -> Vec<Vec<&'o (Op, Value)>> {
+    let mut groups: Vec<Vec<&(Op, Value)>> = Vec::new();
+    for &one in ops {
+        let is_like = |group: &&mut Vec<&(Op, Value)>| match (&group[0].0, &one.0) {
+            (Op::Texture(a), Op::Texture(b)) => {
+                let pair = [TextureOp::clone(a), TextureOp::clone(b)];
+                group.len() < MOST_JOINED && Common::of(&pair) != Common::Nothing
+            }
+            _ => false,
+        };
+        match groups.iter_mut().find(is_like) {
+            Some(group) => group.push(one),
+            None => groups.push(vec![one]),
+        }
+    }
+    groups
 }
 
 impl Selector<'_> {
     /// An operation that a call does.
     pub(super) fn call(&mut self, op: &Op, first: Value) -> Result<(), CompileError> {
-        let mut served = Served::new(op).ok_or(CompileError::Unknown)?;
-        for (bit, value) in first.and_next(served.results).iter().enumerate() {
+        let served = Served::new(op).ok_or(CompileError::Unknown)?;
+        self.serve(&[&(op.clone(), first)], served)
+    }
+
+    /// Accesses to textures that are one call.
+    pub(super) fn call_joined(&mut self, ops: &[&(Op, Value)]) -> Result<(), CompileError> {
+        let mut textures = Vec::new();
+        let (mut operands, mut results) = (0, 0);
+        for (op, _) in ops {
+            if let Op::Texture(op) = op {
+                operands += op.words();
+                results += op.query.results() as usize;
+                textures.push(TextureOp::clone(op));
+            }
+        }
+        let common = match textures.len() {
+            1 => Common::Nothing,
+            _ => Common::of(&textures),
+        };
+        let served = Served {
+            kind: Kind::Textures(textures, common),
+            operands,
+            results,
+            uniform: 0,
+        };
+        self.serve(ops, served)
+    }
+
+    /// Stores the operands, calls, and loads the results of operations that are one call.
+    fn serve(&mut self, ops: &[&(Op, Value)], mut served: Served) -> Result<(), CompileError> {
+        let is_word = |value: &Value| self.kernel.values[value.index()].kind == Type::Word;
+        let values = ops
+            .iter()
+            .flat_map(|(op, first)| first.and_next(op.results().len()));
+        for (bit, value) in values.filter(is_word).enumerate() {
             let is_uniform = self.kernel.values[value.index()].is_uniform;
-            served.uniform |= u8::from(is_uniform) << bit;
+            served.uniform |= u64::from(is_uniform) << bit;
         }
         let place = |packet: usize| {
             let packet = u32::try_from(packet).unwrap_or(0);
@@ -115,13 +212,16 @@ impl Selector<'_> {
         };
         let places: Vec<i32> = (0..served.operands + served.results).map(place).collect();
         let (operands, results) = places.split_at(served.operands);
-        let mask = op.clone().mask_mut().copied();
+        let mask = ops
+            .first()
+            .and_then(|(op, _)| op.clone().mask_mut().copied());
         let at = u32::try_from(self.served.len()).map_err(|_| CompileError::TooLarge)?;
         self.served.push(served);
         for halves in self.packets_of_pass() {
             for half in halves.clone() {
                 let offset = self.half_words(half);
-                for (value, to) in words(op).into_iter().zip(operands) {
+                let words = ops.iter().flat_map(|(op, _)| words(op));
+                for (value, to) in words.zip(operands) {
                     let word = self.word_register(value, half);
                     self.store_words((MemoryBase::Frame, to + offset), None, word);
                 }
@@ -133,23 +233,30 @@ impl Selector<'_> {
             self.function.push(Instruction::Call(at), &[]);
             self.buffer_pointers.fill(None);
             for half in halves {
-                self.results(op, (first, half), results);
+                let mut places = results.iter();
+                for (op, first) in ops {
+                    self.results((op, *first), half, &mut places);
+                }
             }
         }
         Ok(())
     }
 
-    /// Loads the results of a call, of which words lie at these places.
-    fn results(&mut self, op: &Op, (first, half): (Value, usize), places: &[i32]) {
+    /// Loads the results of an operation, of which words lie at the next of these places.
+    fn results<'p>(
+        &mut self,
+        (op, first): (&Op, Value),
+        half: usize,
+        places: &mut impl Iterator<Item = &'p i32>,
+    ) {
         let offset = self.half_words(half);
         let types = op.results();
         for (kind, value) in types.iter().zip(first.and_next(types.len())) {
             let register = match kind {
                 Type::Word => {
-                    let packet = (value.0 - first.0) as usize;
                     let memory = Memory {
                         base: MemoryBase::Frame,
-                        offset: places[packet] + offset,
+                        offset: places.next().copied().unwrap_or(0) + offset,
                         is_broadcast: false,
                     };
                     self.one(&vector_op::LOAD, Source::Memory(memory, None))

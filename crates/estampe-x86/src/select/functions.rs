@@ -2,7 +2,7 @@
 //! blocks, and a block of its own for every edge between two that needs one.
 
 use super::schedule::Scheduler;
-use super::{Place, Selector};
+use super::{Place, Selector, calls};
 use crate::machine::{Function, Instruction};
 use crate::{CompileError, Isa, Tier};
 use estampe_ir::lanes::{BlockId, Jump, Terminator};
@@ -88,9 +88,20 @@ impl Selector<'_> {
                 Part::Block(at) => {
                     let of_kernel = &kernel.blocks[at];
                     self.find_groups(at);
-                    for &index in &schedules[at] {
-                        let (op, first) = &of_kernel.ops[index];
-                        self.operation(op, *first)?;
+                    let ops = schedules[at].iter().map(|&index| &of_kernel.ops[index]);
+                    let ops: Vec<&(Op, Value)> = ops.collect();
+                    let mut left = &ops[..];
+                    while let Some(&(op, first)) = left.first() {
+                        let count = calls::joined(left);
+                        let (together, others) = left.split_at(count);
+                        left = others;
+                        if count == 1 {
+                            self.operation(op, *first)?;
+                            continue;
+                        }
+                        for group in calls::groups(together) {
+                            self.call_joined(&group)?;
+                        }
                     }
                     match &of_kernel.terminator {
                         Terminator::Jump(jump) => {

@@ -25,6 +25,7 @@
 //! | [`functions`] | blocks, edges, jumps and branches |
 //! | [`operands`] | loads of values that are in memory; the instructions' forms |
 //! | [`words`] | operations on words |
+//! | [`inverse_sqrt`] | reciprocals of square roots |
 //! | [`halves`] | conversions of binary16 |
 //! | [`lane_loops`] | stores and atomic operations |
 //! | [`masks`] | comparisons and operations on masks |
@@ -37,6 +38,7 @@ mod division;
 pub(crate) mod expand;
 mod functions;
 mod halves;
+mod inverse_sqrt;
 mod lane_loops;
 mod masks;
 mod memory;
@@ -119,6 +121,8 @@ struct Selector<'a> {
     buffer_pointers: Vec<Option<VReg>>,
     /// The place in the pool of each array that is a table, once it is there.
     tables: Vec<Option<u32>>,
+    /// True if the last reciprocal of a square root was divided.
+    is_divider_busy: bool,
     /// The loads of this block that are done together, by their results; `None` once they are done.
     groups: HashMap<Value, Option<Group>>,
 }
@@ -164,6 +168,7 @@ pub(crate) fn select(
         buffer_pointers: vec![None; kernel.interface.buffers.len() + 1],
         tables: vec![None; kernel.interface.locals.len()],
         groups: HashMap::new(),
+        is_divider_busy: false,
     };
     let prepare = selector.prepare()?;
     selector.halves = estampe_simd::LANES / isa.lanes();

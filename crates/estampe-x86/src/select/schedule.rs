@@ -4,7 +4,12 @@
 //! depends: divisions and square roots start early, and others fill the time. If more values live
 //! than there are registers, the operation that ends most of them comes next. Operations that touch
 //! memory which the kernel changes keep their order.
+//!
+//! Accesses to textures that need no other's result come together, because one call serves them:
+//! first what they need, then they themselves, then the rest, of which few values live across the
+//! call.
 
+use super::calls::can_join;
 use super::plan::Plan;
 use crate::Isa;
 use estampe_ir::lanes::{Kernel, Terminator};
@@ -123,6 +128,7 @@ fn latency(op: &Op) -> u32 {
     match op {
         Op::Constant(_) | Op::MaskConstant(_) => 0,
         Op::Unary(Unary::FSqrt, _) => 24,
+        Op::Unary(Unary::FInverseSqrt, _) => 44,
         Op::Unary(
             Unary::S32FromF32
             | Unary::U32FromF32
@@ -145,6 +151,23 @@ fn latency(op: &Op) -> u32 {
     }
 }
 
+/// The turn of an operation before others, of which the first has this turn. Accesses to textures
+/// have even turns, twice the number of accesses in a chain of which each needs the one before;
+/// what they need has the turn after.
+fn turn(is_access: bool, after: u32) -> u32 {
+    match (is_access, is_of_accesses(after)) {
+        (true, true) => after + 2,
+        (true, false) => after.saturating_sub(1) + 2,
+        (false, true) => after + 1,
+        (false, false) => after,
+    }
+}
+
+/// True if accesses to textures have this turn.
+fn is_of_accesses(turn: u32) -> bool {
+    turn >= 2 && turn.is_multiple_of(2)
+}
+
 /// The operations of a block.
 #[derive(Default)]
 struct List {
@@ -158,6 +181,8 @@ struct List {
     latencies: Vec<u32>,
     /// The cycles from the beginning of each to the end of the block.
     heights: Vec<u32>,
+    /// Operations of a greater one come first: see [`turn`].
+    turns: Vec<u32>,
     /// For each value of the block, by its number, the uses that are left, of those that take
     /// registers.
     uses_left: Vec<u32>,
@@ -203,6 +228,7 @@ impl List {
             waits: vec![0; count],
             latencies: vec![0; count],
             heights: vec![0; count],
+            turns: vec![0; count],
             uses_left: Vec::new(),
             live: 0,
         };
@@ -224,6 +250,7 @@ impl List {
             list.uses[node].sort_unstable();
             list.uses[node].dedup();
             let is_free = op.is_pure(is_written)
+                || can_join(op)
                 || matches!(
                     op,
                     Op::Input(_)
@@ -276,6 +303,9 @@ impl List {
             let after = list.followers[node].iter();
             let after = after.map(|&follower| list.heights[follower as usize]).max();
             list.heights[node] = list.latencies[node] + after.unwrap_or(0);
+            let after = list.followers[node].iter();
+            let after = after.map(|&follower| list.turns[follower as usize]).max();
+            list.turns[node] = turn(can_join(&ops[nodes[node]].0), after.unwrap_or(0));
         }
         list
     }
@@ -292,35 +322,41 @@ impl List {
         let limit = scheduler.limit();
         let mut order = Vec::with_capacity(count);
         // Operations whose operands are ready, the highest last; of equal ones the earliest last.
-        let mut ready: BTreeSet<(u32, Reverse<usize>)> = BTreeSet::new();
+        let mut ready: BTreeSet<(u32, u32, Reverse<usize>)> = BTreeSet::new();
+        let key = |list: &Self, node: usize| (list.turns[node], list.heights[node], Reverse(node));
         // Operations whose operands are computed, with the cycle in which they are ready.
         let mut pending: BinaryHeap<Reverse<(u32, usize)>> = BinaryHeap::new();
         let mut ready_at = vec![0_u32; count];
         for node in 0..count {
             if self.waits[node] == 0 {
-                ready.insert((self.heights[node], Reverse(node)));
+                ready.insert(key(self, node));
             }
         }
         let mut cycle = 0_u32;
         while order.len() < count {
+            // Accesses to textures wait for those that could come together with them.
+            let waits = |ready: &BTreeSet<(u32, u32, Reverse<usize>)>| {
+                ready.last().is_none_or(|(turn, ..)| is_of_accesses(*turn))
+            };
             while let Some(&Reverse((at, node))) = pending.peek()
-                && (at <= cycle || ready.is_empty())
+                && (at <= cycle || waits(&ready))
             {
                 cycle = cycle.max(at);
                 pending.pop();
-                ready.insert((self.heights[node], Reverse(node)));
+                ready.insert(key(self, node));
             }
+            let Some(&next) = ready.last() else { break };
             let best = if self.live < limit {
-                ready.last().copied()
+                next
             } else {
                 let compared = ready.iter().rev().take(COMPARED);
-                compared
-                    .max_by_key(|(height, Reverse(node))| (self.relief(*node), *height))
-                    .copied()
+                let compared = compared.take_while(|(turn, ..)| *turn == next.0);
+                let best =
+                    compared.max_by_key(|(_, height, Reverse(node))| (self.relief(*node), *height));
+                best.copied().unwrap_or(next)
             };
-            let Some(best) = best else { break };
             ready.remove(&best);
-            let Reverse(node) = best.1;
+            let Reverse(node) = best.2;
             order.push(node);
             self.begin(node);
             // More than one begins in a cycle, but counting so was measured to be no better.

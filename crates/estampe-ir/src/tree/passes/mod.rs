@@ -8,8 +8,10 @@
 //!    ends pass every variable that a construct may change; most are not changed.
 //! 3. [`loop_invariants`]: operations that give the same value in each iteration move before the
 //!    loop.
-//! 4. [`dead_code`]: operations, results and parameters that nothing uses.
-//! 5. [`unused_inputs`]: inputs that nothing reads.
+//! 4. [`unroll_loops`]: loops of a few iterations become straight code. Blocks and parameters are
+//!    looked at again after it.
+//! 5. [`dead_code`]: operations, results and parameters that nothing uses.
+//! 6. [`unused_inputs`]: inputs that nothing reads.
 //!
 //! [`contract`], which does change results, is for those who ask for it.
 
@@ -19,6 +21,7 @@ pub(crate) mod fold;
 mod invariant;
 mod redundant;
 mod straight;
+mod unroll;
 mod unused_inputs;
 
 pub use contract::contract;
@@ -26,6 +29,7 @@ pub use dead::dead_code;
 pub use invariant::loop_invariants;
 pub use redundant::redundant_parameters;
 pub use straight::straight_blocks;
+pub use unroll::unroll_loops;
 pub use unused_inputs::unused_inputs;
 
 use super::{Label, Node, Tree};
@@ -36,12 +40,15 @@ pub fn optimise(tree: &mut Tree) {
     straight_blocks(tree);
     redundant_parameters(tree);
     loop_invariants(tree);
+    unroll_loops(tree);
+    straight_blocks(tree);
+    redundant_parameters(tree);
     dead_code(tree);
     unused_inputs(tree);
 }
 
 /// Calls `visit` with each branch, in order.
-fn each_branch<'a>(nodes: &'a [Node], visit: &mut impl FnMut(Label, &'a [Value])) {
+pub(super) fn each_branch<'a>(nodes: &'a [Node], visit: &mut impl FnMut(Label, &'a [Value])) {
     for node in nodes {
         match node {
             Node::Op { .. } => {}

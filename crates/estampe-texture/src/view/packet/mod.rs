@@ -18,10 +18,10 @@ mod places;
 
 pub(crate) use super::packet_texel::PacketFormat;
 
-use super::SampledTexture;
-use super::coordinates::{Answers, Lanes, LodOfLanes, answer, load, packet};
+use super::coordinates::{Answers, answer, load, packet};
 use super::packet_texel::{OTHERS, RGBA8, RGBA8_SRGB, RGBA16F, passes};
 use super::plane::Plane;
+use super::{PacketLod, PacketRequest, SampledTexture};
 use estampe_simd::{
     Bytes, LANES, Lanes as SimdLanes, Level, SimdBase, dispatch, f32x16, i32x16, u32x16,
 };
@@ -35,7 +35,7 @@ impl SampledTexture {
     #[inline(always)]
     pub(crate) fn sample_packet(
         &self,
-        lanes: &Lanes<'_>,
+        lanes: &PacketRequest<'_>,
         answers: &mut Answers,
         compares: bool,
     ) -> bool {
@@ -85,7 +85,7 @@ impl SampledTexture {
 struct Packet<'a> {
     of: &'a SampledTexture,
     format: PacketFormat,
-    lanes: &'a Lanes<'a>,
+    lanes: &'a PacketRequest<'a>,
     compares: Option<CompareFunction>,
     /// True if view, sampler and request allow the common case.
     is_simple: bool,
@@ -116,9 +116,9 @@ impl Packet<'_> {
     #[inline(always)]
     fn gradient<R: Real>(&self, like: R, first: usize) -> [R; 3] {
         [
-            load(like, &self.lanes.gradients[first], 0),
-            load(like, &self.lanes.gradients[first + 1], 0),
-            load(like, &self.lanes.gradients[first + 2], 0),
+            load(like, self.lanes.gradients[first], 0),
+            load(like, self.lanes.gradients[first + 1], 0),
+            load(like, self.lanes.gradients[first + 2], 0),
         ]
     }
 
@@ -132,15 +132,15 @@ impl Packet<'_> {
         let like: f32x16<S> = SimdBase::splat(s, 0.0);
         let sampler = &self.of.sampler;
         let at = [
-            load(like, &self.lanes.at[0], 0),
-            load(like, &self.lanes.at[1], 0),
-            load(like, &self.lanes.at[2], 0),
+            load(like, self.lanes.at[0], 0),
+            load(like, self.lanes.at[1], 0),
+            load(like, self.lanes.at[2], 0),
         ];
         let value = load(like, self.lanes.value, 0);
         let one = like.splat(1.0);
         let (lod, bias, probes, step) = match self.lanes.lod {
-            LodOfLanes::Level => (value, like, one, [like; 3]),
-            LodOfLanes::Bias => {
+            PacketLod::Level => (value, like, one, [like; 3]),
+            PacketLod::Implicit | PacketLod::Bias => {
                 let first = of_quad(at, 0);
                 if sampler.max_anisotropy <= 1 {
                     (self.lod_of_quads(first, at), value, one, [like; 3])
@@ -150,7 +150,7 @@ impl Packet<'_> {
                     (lod, value, probes, step)
                 }
             }
-            LodOfLanes::Gradients => {
+            PacketLod::Gradients => {
                 let d = [self.gradient(like, 0), self.gradient(like, 3)];
                 let (lod, probes, step) = self.footprint(at, d);
                 (lod, like, probes, step)

@@ -7,7 +7,7 @@ use crate::view::axis::FAR;
 use crate::view::coordinates::load;
 use crate::view::plane::Plane;
 use crate::wrap::{place, tile, wrap};
-use estampe_simd as simd;
+use estampe_simd::floats_of;
 use estampe_types::{AddressMode, FilterMode, Int, Real};
 
 /// Coordinates of all lanes, in the form that is independent of the mip level.
@@ -40,11 +40,10 @@ impl Packet<'_> {
     #[inline(always)]
     pub(super) fn spots<R: Real>(&self, at: [R; 3]) -> Spots<R> {
         let view = &self.of.view;
-        let mut layers = simd::Packet::default();
-        for (to, layer) in layers.0.iter_mut().zip(self.lanes.layer.0) {
-            *to = f32::from_bits(layer.cast_unsigned());
-        }
-        let layer = load(at[0], &layers, 0).to_bits();
+        let [layers] = floats_of(std::slice::from_ref(self.lanes.layer)) else {
+            unreachable!("as many packets as were given")
+        };
+        let layer = load(at[0], layers, 0).to_bits();
         let layer = layer.max(layer.splat(0)).min(layer.splat(view.layers - 1));
         let base = layer.splat(view.base_layer.cast_signed());
         if view.is_cube() {

@@ -1,0 +1,257 @@
+//! [`PacketRequest`]: what up to sixteen lanes ask of a view, as packets in memory.
+//!
+//! A shader in Rust stores its lanes as packets; a compiled shader has them in memory and asks with
+//! references alone.
+
+use super::SampledTexture;
+use super::coordinates::{Answers as Colors, Coordinates, Lod, packet};
+use crate::Rgba8Texture;
+use crate::compare::compare_packets;
+use crate::request::Request;
+use estampe_simd::{LANES, Packet};
+use estampe_types::{Int, Real};
+
+/// What up to sixteen lanes ask of a texture.
+///
+/// Packets that a request does not need are [`ZEROS`](Self::ZEROS), so that nothing is stored for
+/// them.
+#[derive(Debug, Clone, Copy)]
+pub struct PacketRequest<'a> {
+    /// The number of lanes, from the first one on: [`LANES`], or fewer.
+    pub count: usize,
+    /// Coordinates: as many as the view's dimension has.
+    pub at: [&'a Packet<f32>; 3],
+    /// Array layers, as signed integers.
+    pub layer: &'a Packet<u32>,
+    /// The source of the level of detail.
+    pub lod: PacketLod,
+    /// The bias, or the level of detail.
+    pub value: &'a Packet<f32>,
+    /// Derivatives of the coordinates along x, then along y.
+    pub gradients: [&'a Packet<f32>; 6],
+    /// The reference of comparisons.
+    pub reference: &'a Packet<f32>,
+    /// Offset in texels.
+    pub offset: [i32; 3],
+}
+
+/// The numbers of a [`PacketRequest`] that determine the level of detail.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PacketLod {
+    /// The coordinates' differences within each 2×2 quad.
+    Implicit,
+    /// The same, with a bias.
+    Bias,
+    /// The given level.
+    Level,
+    /// The given derivatives.
+    Gradients,
+}
+
+static FLOATS: Packet<f32> = Packet([0.0; LANES]);
+static WORDS: Packet<u32> = Packet([0; LANES]);
+
+impl PacketRequest<'static> {
+    /// Sixteen lanes at zeros, with the level of detail of their quads.
+    pub const ZEROS: Self = Self {
+        count: LANES,
+        at: [&FLOATS; 3],
+        layer: &WORDS,
+        lod: PacketLod::Implicit,
+        value: &FLOATS,
+        gradients: [&FLOATS; 6],
+        reference: &FLOATS,
+        offset: [0; 3],
+    };
+}
+
+impl PacketRequest<'_> {
+    /// Calls `ask` with the lanes from `first` on.
+    #[inline(always)]
+    pub(crate) fn with<R: Real, T>(
+        at: &Coordinates<R>,
+        lod: &Lod<R>,
+        (reference, offset): (Option<R>, [i32; 3]),
+        first: usize,
+        ask: impl FnOnce(&PacketRequest<'_>) -> T,
+    ) -> T {
+        let layer = packet_of_layers(at.layer, first);
+        let [u, v, w] = [
+            packet(at.uvw.x, first),
+            packet(at.uvw.y, first),
+            packet(at.uvw.z, first),
+        ];
+        let (values, derivatives, references);
+        let mut request = PacketRequest {
+            count: if R::LANES < LANES { R::LANES } else { LANES },
+            at: [&u, &v, &w],
+            layer: &layer,
+            offset,
+            ..PacketRequest::ZEROS
+        };
+        match lod {
+            Lod::Implicit => {}
+            Lod::Bias(value) | Lod::Level(value) => {
+                values = packet(*value, first);
+                request.value = &values;
+                request.lod = match lod {
+                    Lod::Level(_) => PacketLod::Level,
+                    _ => PacketLod::Bias,
+                };
+            }
+            Lod::Gradients(dx, dy) => {
+                derivatives = [
+                    packet(dx.x, first),
+                    packet(dx.y, first),
+                    packet(dx.z, first),
+                    packet(dy.x, first),
+                    packet(dy.y, first),
+                    packet(dy.z, first),
+                ];
+                let [a, b, c, d, e, f] = &derivatives;
+                request.gradients = [a, b, c, d, e, f];
+                request.lod = PacketLod::Gradients;
+            }
+        }
+        if let Some(reference) = reference {
+            references = packet(reference, first);
+            request.reference = &references;
+        }
+        ask(&request)
+    }
+
+    /// A lane's coordinates.
+    pub(crate) fn at(&self, lane: usize) -> [f32; 3] {
+        self.at.map(|of_lanes| of_lanes.0[lane])
+    }
+
+    /// A lane's layer.
+    pub(crate) fn layer(&self, lane: usize) -> i32 {
+        self.layer.0[lane].cast_signed()
+    }
+
+    /// A lane's derivatives, along x and along y.
+    pub(crate) fn gradients(&self, lane: usize) -> [[f32; 3]; 2] {
+        let [a, b, c, d, e, f] = self.gradients.map(|of_lanes| of_lanes.0[lane]);
+        [[a, b, c], [d, e, f]]
+    }
+
+    /// The first lane of a lane's quad; of a single fragment the lane itself.
+    pub(crate) fn first_of_quad(&self, lane: usize) -> usize {
+        if self.count >= 4 { lane & !3 } else { lane }
+    }
+
+    /// The differences within a quad that begins at a lane, along x and along y; 0 for a single
+    /// fragment.
+    pub(crate) fn differences(&self, first: usize) -> [[f32; 3]; 2] {
+        if self.count < 4 {
+            return [[0.0; 3]; 2];
+        }
+        [1, 2]
+            .map(|other| std::array::from_fn(|k| self.at[k].0[first + other] - self.at[k].0[first]))
+    }
+
+    /// True if sixteen lanes ask for their coordinates alone.
+    fn is_plain(&self) -> bool {
+        self.count == LANES && self.lod == PacketLod::Implicit && self.offset == [0; 3]
+    }
+
+    /// The coordinates alone.
+    fn plain(&self) -> Request<'_> {
+        Request {
+            uv: [self.at[0], self.at[1]],
+            lod: None,
+        }
+    }
+}
+
+/// Stores the layers of the lanes from `first` on: sixteen, or all if there are fewer.
+#[inline(always)]
+fn packet_of_layers<I: Int>(layer: I, first: usize) -> Packet<u32> {
+    let mut lanes = Packet::default();
+    let all = <I::Real as Real>::LANES;
+    let count = if all < LANES { all } else { LANES };
+    for (lane, to) in lanes.0.iter_mut().enumerate().take(count) {
+        *to = layer.lane(first + lane).cast_unsigned();
+    }
+    lanes
+}
+
+/// The most textures that [`SampledTexture::sample_requests`] samples together.
+const TOGETHER: usize = 8;
+
+impl SampledTexture {
+    /// The colours of sixteen lanes at (u, v), as [`sample`](Self::sample) gives them, if the texture
+    /// is of the [common](Self::common) kind; otherwise false is returned, and nothing done.
+    #[inline]
+    pub fn sample_common(&self, uv: [&Packet<f32>; 2], colors: &mut Colors) -> bool {
+        let Some(common) = self.common() else {
+            return false;
+        };
+        common.sample_packet(self.level, &Request { uv, lod: None }, colors);
+        true
+    }
+
+    /// The colours of sixteen lanes, as [`sample_with`](Self::sample_with) gives them.
+    pub fn sample_request(&self, request: &PacketRequest<'_>, colors: &mut Colors) {
+        match self.common().filter(|_| request.is_plain()) {
+            Some(common) => common.sample_packet(self.level, &request.plain(), colors),
+            None => self.sample_lanes(request, colors),
+        }
+    }
+
+    /// The colours of several textures at the same coordinates, as
+    /// [`sample_request`](Self::sample_request) gives them for each.
+    pub fn sample_requests(textures: &[&Self], request: &PacketRequest<'_>, colors: &mut [Colors]) {
+        let Some(first) = textures.first() else {
+            return;
+        };
+        if let Some(common) = first.common()
+            && request.is_plain()
+            && textures.len() <= TOGETHER
+        {
+            let mut all = [common; TOGETHER];
+            let mut common = all
+                .iter_mut()
+                .zip(textures)
+                .map(|(to, texture)| texture.common().map(|common| *to = common));
+            if common.all(|is_common| is_common.is_some()) {
+                let all = &all[..textures.len()];
+                Rgba8Texture::sample_all_packets(all, first.level, &request.plain(), colors);
+                return;
+            }
+        }
+        for (texture, colors) in textures.iter().zip(colors) {
+            texture.sample_request(request, colors);
+        }
+    }
+
+    /// The shares of sixteen lanes in the first packet, as
+    /// [`sample_compare`](Self::sample_compare) gives them.
+    pub fn compare_request(&self, request: &PacketRequest<'_>, shares: &mut Packet<f32>) {
+        if let Some(depths) = self.depths().filter(|_| request.offset == [0; 3]) {
+            let at = [[request.at[0], request.at[1]]];
+            compare_packets(
+                depths,
+                self.level,
+                (&at, request.reference),
+                std::slice::from_mut(shares),
+            );
+            return;
+        }
+        let mut answers = Colors::default();
+        self.compare_lanes(request, &mut answers);
+        [*shares, ..] = answers;
+    }
+
+    /// A channel of four texels for sixteen lanes, as [`gather`](Self::gather) gives them.
+    pub fn gather_request(&self, request: &PacketRequest<'_>, channel: usize, texels: &mut Colors) {
+        *texels = self.gather_lanes(request, channel);
+    }
+
+    /// The comparisons of four texels for sixteen lanes, as
+    /// [`gather_compare`](Self::gather_compare) gives them.
+    pub fn gather_compare_request(&self, request: &PacketRequest<'_>, results: &mut Colors) {
+        *results = self.gather_compare_lanes(request);
+    }
+}
