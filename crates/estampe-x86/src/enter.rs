@@ -94,28 +94,35 @@ unsafe extern "sysv64" fn serve(frame: *mut Line, call: u32) {
     let Some(served) = context.served.get(call as usize) else {
         return;
     };
-    let packets = served.operands + served.results;
+    let packets = (served.operands + served.results) * served.lanes;
     let arguments = frame.cast::<u8>().wrapping_add(layout.arguments as usize);
     // SAFETY: the frame has room for the operands and results of each call of the kernel from
     // `arguments` on, aligned to lines and before the arrays; all words are initialised, and the
     // code waits.
     let arguments =
         unsafe { std::slice::from_raw_parts_mut(arguments.cast::<Packet<u32>>(), packets) };
-    let mask_argument = frame
-        .cast::<u8>()
-        .wrapping_add(frame::MASK_ARGUMENT as usize);
-    // SAFETY: the place is in the head, aligned to its two bytes.
-    let mask = unsafe { *mask_argument.cast::<u16>() };
-    let mut call = Call {
-        served,
-        arguments,
-        locals,
-        mask,
-        mask_result: 0,
-    };
+    let masks = [frame::MASK_ARGUMENT, frame::SECOND_MASK_ARGUMENT].map(|place| {
+        let place = frame.cast::<u8>().wrapping_add(place as usize);
+        // SAFETY: the places are in the head, aligned to their two bytes.
+        unsafe { *place.cast::<u16>() }
+    });
+    let mut mask_result = 0;
     // A panic, of a caller's texture, must not go through machine code: it goes on in `Code::run`.
-    let done = catch_unwind(AssertUnwindSafe(|| context.serve(&mut call)));
-    let mask_result = call.mask_result;
+    let done = catch_unwind(AssertUnwindSafe(|| {
+        let of_packet = (served.operands + served.results).max(1);
+        // An operation without operands and results is none that is served.
+        for (arguments, mask) in arguments.chunks_mut(of_packet).zip(masks) {
+            let mut call = Call {
+                served,
+                arguments,
+                locals,
+                mask,
+                mask_result: 0,
+            };
+            context.serve(&mut call);
+            mask_result = call.mask_result;
+        }
+    }));
     if let Err(panic) = done {
         *context.panic.borrow_mut() = Some(panic);
         // The code soon returns: loops end at their next jump backwards, and this pass is the last.

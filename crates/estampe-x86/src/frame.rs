@@ -39,6 +39,8 @@ pub(crate) const PASS_BUDGET: i32 = 56;
 /// The packets of a work-group, and those that have not ended: eight bytes each.
 pub(crate) const PACKETS: i32 = 64;
 pub(crate) const LIVE: i32 = 72;
+/// The mask of the second packet of a call that serves two.
+pub(crate) const SECOND_MASK_ARGUMENT: i32 = 80;
 const HEAD: u32 = 128;
 
 /// The number of the call that sets arrays to their words at the start.

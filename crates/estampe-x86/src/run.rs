@@ -100,7 +100,7 @@ impl Code {
     ) -> Result<(), Stopped> {
         let state_bytes = self.frame.state_bytes();
         for (packet, state) in (0..run.packets).zip((0..).step_by(state_bytes as usize)) {
-            self.set_packet(run, lines, (packet, 0), (1, state));
+            self.set_packets(run, lines, (packet, 1), state);
         }
         set_head(lines, frame::PACKETS, run.packets as u64);
         match enter(&self.executable, self.packet, lines, context) {
@@ -124,7 +124,7 @@ impl Code {
                 Some(pair) if left > 1 => (pair, 2),
                 _ => (self.packet, 1),
             };
-            let is_inside = self.set_pointers(run, lines, (packet, of_pass));
+            let is_inside = self.set_packets(run, lines, (packet, of_pass), 0);
             // Where some slice is too short, the places of each pass are looked for.
             let passes = if is_inside { left / of_pass } else { 1 };
             set_head(lines, frame::LEFT, passes as u64);
@@ -213,41 +213,36 @@ impl Code {
     }
 
     /// Sets the pointers of inputs and outputs to the packets of a pass, so many from the first on,
-    /// and their steps. Returns true if the steps lead to every later packet.
-    fn set_pointers(
+    /// and their steps, in the state that is so many bytes after the first one. Returns true if the
+    /// steps lead to every later packet.
+    fn set_packets(
         &self,
         run: &Run<'_>,
         lines: &mut [Line],
         (first, count): (usize, usize),
-    ) -> bool {
-        let mut are_inside = true;
-        for (packet, of_pass) in (first..).zip(0..).take(count) {
-            are_inside &= self.set_packet(run, lines, (packet, of_pass), (count, 0));
-        }
-        are_inside
-    }
-
-    /// Sets the pointers of a packet of a pass, in the state that is so many bytes after the first
-    /// one.
-    fn set_packet(
-        &self,
-        run: &Run<'_>,
-        lines: &mut [Line],
-        (packet, of_pass): (usize, u32),
-        (count, state): (usize, usize),
+        state: usize,
     ) -> bool {
         let frame = lines.as_mut_ptr().expose_provenance();
         let place = |pointer: u32| pointer as usize + state;
         let mut are_inside = true;
-        let packets = [packet, run.packets - 1];
         for (at, &kind) in (0..).zip(&self.input_types) {
             let given = run.inputs.get(at as usize);
             let slice = given.and_then(|input| Slice::of_input(input, kind));
             let still = self.frame.still + at * PACKET;
-            let place = (place(self.frame.input(at, of_pass)), frame + still as usize);
-            let found = self.set(lines, place, (slice, kind), (packets, count));
-            are_inside &= found.is_inside;
-            if found.address.is_none() {
+            let mut is_still = slice.is_none();
+            for (packet, of_pass) in (first..).zip(0..).take(count) {
+                let place = place(self.frame.input(at, of_pass));
+                let packets = ([packet, run.packets - 1], count);
+                let found = self.set(
+                    lines,
+                    (place, frame + still as usize),
+                    (slice, kind),
+                    packets,
+                );
+                are_inside &= found.is_inside;
+                is_still |= found.address.is_none();
+            }
+            if is_still {
                 // A packet that does not move: zeros, or a uniform word in all lanes.
                 lines[(still / LINE) as usize] = splat(match (given, kind) {
                     (Some(InputData::Uniform(word)), Type::Word) => *word,
@@ -260,9 +255,12 @@ impl Code {
         for (at, &kind) in (0..).zip(&self.output_types) {
             let given = run.outputs.get(at as usize);
             let slice = given.and_then(|output| Slice::of_output(output, kind));
-            let place = (place(self.frame.output(at, of_pass)), sink);
-            let found = self.set(lines, place, (slice, kind), (packets, count));
-            are_inside &= found.is_inside;
+            for (packet, of_pass) in (first..).zip(0..).take(count) {
+                let place = place(self.frame.output(at, of_pass));
+                let packets = ([packet, run.packets - 1], count);
+                let found = self.set(lines, (place, sink), (slice, kind), packets);
+                are_inside &= found.is_inside;
+            }
         }
         are_inside
     }

@@ -29,7 +29,9 @@ impl Shader {
     }
 
     fn inverse_sqrt(&mut self, x: Value) -> Value {
-        self.0.unary(Unary::FInverseSqrt, x)
+        let one = self.0.float(1.0);
+        let root = self.0.unary(Unary::FSqrt, x);
+        self.op(Binary::FDiv, one, root)
     }
 
     fn normalized(&mut self, a: Vec3) -> Vec3 {

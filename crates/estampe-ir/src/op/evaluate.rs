@@ -17,7 +17,6 @@ impl Unary {
             Self::FNeg => a ^ 1 << 31,
             Self::FAbs => a & !(1 << 31),
             Self::FSqrt => x.sqrt().to_bits(),
-            Self::FInverseSqrt => (1.0 / x.sqrt()).to_bits(),
             Self::FFloor => x.floor().to_bits(),
             Self::FCeil => x.ceil().to_bits(),
             Self::FTrunc => x.trunc().to_bits(),

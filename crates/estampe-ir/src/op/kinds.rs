@@ -30,8 +30,6 @@ kinds! {
         FAbs "fabs",
         /// The square root, correctly rounded.
         FSqrt "fsqrt",
-        /// 1 divided by the square root, both correctly rounded.
-        FInverseSqrt "finverse_sqrt",
         /// The greatest whole float that is not above.
         FFloor "ffloor",
         /// The least whole float that is not below.

@@ -181,7 +181,10 @@ impl<'a> Lowering<'a> {
                 self.word_of_mask(is_after, 1.0_f32.to_bits())
             }
             F::SmoothStep => self.smooth_step([x, y], z),
-            F::InverseSqrt => b.unary(Unary::FInverseSqrt, x),
+            F::InverseSqrt => {
+                let root = b.unary(Unary::FSqrt, x);
+                b.binary(B::FDiv, one, root)
+            }
             F::Sign => {
                 let (zero, minus) = (b.float(0.0), b.float(-1.0));
                 let is_negative = b.compare(Compare::FLt, x, zero);

@@ -9,6 +9,7 @@ mod descriptors;
 mod fetch;
 mod gather;
 mod naive;
+mod requests;
 mod several;
 mod values;
 

@@ -133,8 +133,6 @@ table! {
     SQRT_F = VectorOp::both("vsqrtps", NONE, 1, 0x51);
     ROUND_F = VectorOp::both("vroundps", P66, 3, 0x08).evex_name("vrndscaleps");
     FMA_F = VectorOp::both("vfmadd213ps", P66, 2, 0xA8);
-    FMA_NEGATED_F = VectorOp::both("vfnmadd213ps", P66, 2, 0xAC);
-    INVERSE_SQRT_ESTIMATE = VectorOp::both("vrsqrt14ps", P66, 2, 0x4E).evex_only();
     COMPARE_F = VectorOp::both("vcmpps", NONE, 1, 0xC2);
     // Integers and bits.
     ADD = VectorOp::both("vpaddd", P66, 1, 0xFE);
@@ -216,7 +214,6 @@ impl VectorOp {
     pub(crate) fn has_vvvv(&self) -> bool {
         let two: &[&Self] = &[
             &SQRT_F,
-            &INVERSE_SQRT_ESTIMATE,
             &ROUND_F,
             &COUNT_ONES,
             &LEADING_ZEROS,

@@ -250,7 +250,6 @@ impl Emitter<'_> {
             Instruction::LoadScalar { buffer, shift } => self.load_scalar((buffer, shift), found),
             Instruction::LoadStrided(load) => self.strided(load, found),
             Instruction::LoadQuadruple(load) => self.quadruple(load, found),
-            Instruction::InverseSqrtElsewhere(of) => self.inverse_sqrt_elsewhere(of, found),
             Instruction::Call(at) => self.call(at),
             Instruction::Barrier => self.barrier(),
             Instruction::EachLane(loops) => {

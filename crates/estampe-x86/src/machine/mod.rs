@@ -5,14 +5,12 @@
 //! | [`mod@allocate`] | shows a function to regalloc2 and runs it |
 //! | [`emit`] | encodes instructions with the registers that were found |
 //! | [`lane_loop`] | encodes loops over the lanes of a packet |
-//! | [`inverse_sqrt`] | encodes 1 ÷ √x where a quicker sequence does not hold |
 //! | [`strided`] | encodes loads of words with a stride |
 //! | [`quadruple`] | encodes loads of four words beside each other |
 //! | [`passes`] | encodes the loop over packets around them |
 
 pub(crate) mod allocate;
 pub(crate) mod emit;
-pub(crate) mod inverse_sqrt;
 pub(crate) mod lane_loop;
 pub(crate) mod passes;
 pub(crate) mod quadruple;
@@ -20,7 +18,6 @@ pub(crate) mod strided;
 
 use crate::Isa;
 use crate::encoder::VectorOp;
-use inverse_sqrt::InverseSqrt;
 use lane_loop::LaneLoop;
 use quadruple::Quadruple;
 use regalloc2::{InstRange, Operand, PRegSet, RegClass, VReg};
@@ -112,10 +109,6 @@ pub(crate) enum Instruction {
     /// Four words of a buffer beside each other: `[def, def, def, def, numbers, pointer, temporary,
     /// temporary, temporary mask, temporary vector, temporary vector]`.
     LoadQuadruple(Quadruple),
-    /// 1 divided by the square root of a vector, in the lanes for which a sequence of instructions
-    /// before does not hold: `[def, use of what that gave, use, temporary, temporary, temporary
-    /// mask]`.
-    InverseSqrtElsewhere(InverseSqrt),
     /// Calls the function that serves what code does not do itself.
     Call(u32),
     /// Changes words of memory, lane after lane: `[pointer, temporary, temporary, temporary,

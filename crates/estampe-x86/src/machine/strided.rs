@@ -194,12 +194,7 @@ impl Emitter<'_> {
         self.assembler.vector(&row);
     }
 
-    pub(super) fn row(
-        &self,
-        op: &'static VectorOp,
-        [reg, vvvv]: [u8; 2],
-        rm: Rm,
-    ) -> VectorInstruction {
+    fn row(&self, op: &'static VectorOp, [reg, vvvv]: [u8; 2], rm: Rm) -> VectorInstruction {
         VectorInstruction {
             op,
             is_evex: self.isa == Isa::Avx512 && op.evex_w.is_some(),

@@ -7,12 +7,13 @@ use super::Selector;
 use super::operands::Source;
 use crate::CompileError;
 use crate::encoder::vector_op;
-use crate::frame::{MASK_ARGUMENT, MASK_RESULT, PACKET, displacement};
+use crate::frame::{MASK_ARGUMENT, MASK_RESULT, PACKET, SECOND_MASK_ARGUMENT, displacement};
 use crate::machine::{Instruction, Memory, MemoryBase};
 use estampe_ir::interpreter::Common;
 use estampe_ir::lanes::Kernel;
 use estampe_ir::op::{Atomic, Binary, Memory as Shared, TextureOp, Unary};
 use estampe_ir::{Op, Type, Value};
+use std::ops::Range;
 
 /// A call.
 #[derive(Debug, Clone)]
@@ -22,6 +23,8 @@ pub(crate) struct Served {
     pub(crate) operands: usize,
     /// The number of packets that are returned.
     pub(crate) results: usize,
+    /// The packets of lanes that are served, one after the other: 1, or 2.
+    pub(crate) lanes: usize,
     /// Bit i is set if result i is uniform. Lanes outside of the mask are given it, too: code
     /// branches where any lane of a uniform mask is set.
     pub(crate) uniform: u64,
@@ -60,6 +63,7 @@ impl Served {
             kind: Kind::new(op)?,
             operands: words(op).len(),
             results: results.filter(|kind| **kind == Type::Word).count(),
+            lanes: 1,
             uniform: 0,
         })
     }
@@ -101,8 +105,8 @@ const MOST_JOINED: usize = 16;
 /// The most accesses among which those that can be one call are looked for.
 const MOST_ADJACENT: usize = 64;
 
-/// The most packets that a call of the kernel needs.
-pub(super) fn most_packets(kernel: &Kernel) -> u32 {
+/// The most packets that a call of the kernel needs, for so many packets of lanes.
+pub(super) fn most_packets(kernel: &Kernel, lanes: usize) -> u32 {
     let of_block = |ops: &[(Op, Value)]| {
         let (mut most, mut joined) = (0, 0);
         for (op, _) in ops {
@@ -112,7 +116,7 @@ pub(super) fn most_packets(kernel: &Kernel) -> u32 {
             most = most.max(served.operands + served.results);
             joined += usize::from(can_join(op));
         }
-        most * joined.clamp(1, MOST_JOINED)
+        most * joined.clamp(1, MOST_JOINED) * lanes
     };
     let most = kernel.blocks.iter().map(|block| of_block(&block.ops));
     u32::try_from(most.max().unwrap_or(0)).unwrap_or(u32::MAX)
@@ -143,6 +147,12 @@ pub(super) fn joined(ops: &[&(Op, Value)]) -> usize {
         count += 1;
     }
     count.max(1)
+}
+
+/// The halves of packets, each with the number of its packet.
+fn each_half(packets: &[Range<usize>]) -> impl Iterator<Item = (usize, usize)> {
+    let packets = packets.iter().cloned().enumerate();
+    packets.flat_map(|(packet, halves)| halves.map(move |half| (packet, half)))
 }
 
 /// Accesses that need no other's results, in groups: what those of a group have in common makes
@@ -191,6 +201,7 @@ impl Selector<'_> {
             kind: Kind::Textures(textures, common),
             operands,
             results,
+            lanes: 1,
             uniform: 0,
         };
         self.serve(ops, served)
@@ -210,30 +221,42 @@ impl Selector<'_> {
             let packet = u32::try_from(packet).unwrap_or(0);
             displacement(self.frame.arguments + packet * PACKET)
         };
-        let places: Vec<i32> = (0..served.operands + served.results).map(place).collect();
-        let (operands, results) = places.split_at(served.operands);
+        // Nothing sees in which order textures are sampled: a call serves all packets of the pass.
+        let passes = self.packets_of_pass();
+        if ops.iter().all(|(op, _)| can_join(op)) {
+            served.lanes = passes.len();
+        }
+        let (lanes, inputs) = (served.lanes, served.operands);
+        let packets = inputs + served.results;
+        let places: Vec<i32> = (0..packets * lanes).map(place).collect();
+        let places: Vec<&[i32]> = places.chunks(packets.max(1)).collect();
+        let places = |of_call: usize| places.get(of_call).copied().unwrap_or_default();
         let mask = ops
             .first()
             .and_then(|(op, _)| op.clone().mask_mut().copied());
         let at = u32::try_from(self.served.len()).map_err(|_| CompileError::TooLarge)?;
         self.served.push(served);
-        for halves in self.packets_of_pass() {
-            for half in halves.clone() {
+        for served in passes.chunks(lanes) {
+            for (of_call, half) in each_half(served) {
                 let offset = self.half_words(half);
                 let words = ops.iter().flat_map(|(op, _)| words(op));
-                for (value, to) in words.zip(operands) {
+                for (value, to) in words.zip(places(of_call)) {
                     let word = self.word_register(value, half);
                     self.store_words((MemoryBase::Frame, to + offset), None, word);
                 }
                 if let Some(mask) = mask {
                     let mask = self.mask(mask, half);
-                    self.store_mask((MASK_ARGUMENT, half), None, mask);
+                    let place = match of_call {
+                        0 => MASK_ARGUMENT,
+                        _ => SECOND_MASK_ARGUMENT,
+                    };
+                    self.store_mask((place, half), None, mask);
                 }
             }
             self.function.push(Instruction::Call(at), &[]);
             self.buffer_pointers.fill(None);
-            for half in halves {
-                let mut places = results.iter();
+            for (of_call, half) in each_half(served) {
+                let mut places = places(of_call).iter().skip(inputs);
                 for (op, first) in ops {
                     self.results((op, *first), half, &mut places);
                 }

@@ -25,7 +25,6 @@
 //! | [`functions`] | blocks, edges, jumps and branches |
 //! | [`operands`] | loads of values that are in memory; the instructions' forms |
 //! | [`words`] | operations on words |
-//! | [`inverse_sqrt`] | reciprocals of square roots |
 //! | [`halves`] | conversions of binary16 |
 //! | [`lane_loops`] | stores and atomic operations |
 //! | [`masks`] | comparisons and operations on masks |
@@ -38,7 +37,6 @@ mod division;
 pub(crate) mod expand;
 mod functions;
 mod halves;
-mod inverse_sqrt;
 mod lane_loops;
 mod masks;
 mod memory;
@@ -121,8 +119,6 @@ struct Selector<'a> {
     buffer_pointers: Vec<Option<VReg>>,
     /// The place in the pool of each array that is a table, once it is there.
     tables: Vec<Option<u32>>,
-    /// True if the last reciprocal of a square root was divided.
-    is_divider_busy: bool,
     /// The loads of this block that are done together, by their results; `None` once they are done.
     groups: HashMap<Value, Option<Group>>,
 }
@@ -142,7 +138,7 @@ pub(crate) fn select(
         Isa::Avx2 => 32,
         Isa::Avx512 => 4,
     };
-    let packets = calls::most_packets(kernel);
+    let packets = calls::most_packets(kernel, packets_of_pass);
     let is_stored = |array: u32| plan.is_array_stored(array);
     let frame = Frame::new(
         kernel,
@@ -168,7 +164,6 @@ pub(crate) fn select(
         buffer_pointers: vec![None; kernel.interface.buffers.len() + 1],
         tables: vec![None; kernel.interface.locals.len()],
         groups: HashMap::new(),
-        is_divider_busy: false,
     };
     let prepare = selector.prepare()?;
     selector.halves = estampe_simd::LANES / isa.lanes();

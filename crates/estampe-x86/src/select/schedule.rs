@@ -128,7 +128,6 @@ fn latency(op: &Op) -> u32 {
     match op {
         Op::Constant(_) | Op::MaskConstant(_) => 0,
         Op::Unary(Unary::FSqrt, _) => 24,
-        Op::Unary(Unary::FInverseSqrt, _) => 44,
         Op::Unary(
             Unary::S32FromF32
             | Unary::U32FromF32

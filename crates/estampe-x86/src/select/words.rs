@@ -29,7 +29,6 @@ impl Selector<'_> {
                 let a = self.word(a, half);
                 self.one(&vector_op::SQRT_F, a)
             }
-            Unary::FInverseSqrt => self.inverse_sqrt(a, half),
             // Bit 3 keeps "inexact" quiet; bits 0 to 1 are the direction.
             Unary::FRound => self.round(a, half, 0b1000),
             Unary::FFloor => self.round(a, half, 0b1001),

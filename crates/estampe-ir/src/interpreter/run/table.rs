@@ -58,7 +58,7 @@ impl<A: Arithmetic> Table<A> {
                 $(entries[$first + $kind] = $function::<A, $kind>;)*
             };
         }
-        fill!(0, unary, Unary::ALL, [0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20]);
+        fill!(0, unary, Unary::ALL, [0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19]);
         fill!(BINARY, binary, Binary::ALL,
             [0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24]);
         fill!(COMPARE, compare, Compare::ALL, [0 1 2 3 4 5 6 7 8 9]);

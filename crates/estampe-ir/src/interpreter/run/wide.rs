@@ -58,7 +58,6 @@ impl<S: Lanes> Arithmetic for Wide<S> {
                 |a| a & splat(s, u32::MAX >> 1),
             ),
             Unary::FSqrt => floats!(|x| SimdFloat::sqrt(x)),
-            Unary::FInverseSqrt => floats!(|x| Real::splat(x, 1.0) / SimdFloat::sqrt(x)),
             Unary::FFloor => floats!(|x| Real::floor(x)),
             Unary::FCeil => floats!(|x| maths::ceil(x)),
             Unary::FTrunc => floats!(|x| maths::trunc(x)),

@@ -140,7 +140,6 @@ fn unary_operations_are_as_defined() {
         let is_float = matches!(
             kind,
             Unary::FSqrt
-                | Unary::FInverseSqrt
                 | Unary::FFloor
                 | Unary::FCeil
                 | Unary::FTrunc

@@ -73,7 +73,7 @@ fn cost_of(op: &Op) -> usize {
     match op {
         Op::Constant(_) | Op::MaskConstant(_) | Op::Input(_) | Op::InputMask(_) => 0,
         Op::Math(..) | Op::Math2(..) | Op::Texture(_) => WORTH_A_BRANCH,
-        Op::Unary(Unary::FSqrt | Unary::FInverseSqrt, _)
+        Op::Unary(Unary::FSqrt, _)
         | Op::Binary(Binary::FDiv | Binary::SDiv | Binary::SRem | Binary::UDiv | Binary::URem, _) => {
             6
         }

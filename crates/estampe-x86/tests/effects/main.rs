@@ -1,21 +1,18 @@
-//! Derivatives, memory, textures and odd arguments: machine code against the interpreter.
+//! Derivatives, memory and odd arguments: machine code against the interpreter.
 #![cfg(target_arch = "x86_64")]
 
-use estampe_ir::interface::{BufferSlot, Input, LocalArray, Output, Stage, TextureSlot};
-use estampe_ir::interpreter::{
-    self, Buffer, InputData, OutputData, Run, Stopped, TextureAccess, Textures, cells,
-};
+mod textures;
+
+use estampe_ir::interface::{BufferSlot, Input, LocalArray, Output, Stage};
+use estampe_ir::interpreter::{self, Buffer, InputData, OutputData, Run, Stopped, Textures, cells};
 use estampe_ir::lanes::Kernel;
-use estampe_ir::op::{
-    Atomic, Axis, Binary, Compare, LevelOfDetail, Memory, Precision, TextureOp, TextureQuery,
-};
+use estampe_ir::op::{Atomic, Axis, Binary, Compare, Memory, Precision};
 use estampe_ir::tree::Builder;
 use estampe_ir::{Op, Value};
 use estampe_simd::{LANES, Level, Packet};
 use estampe_x86::{Code, CompileError, Isa, Scratch, Tier};
 use fastrand::Rng;
 use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 const PACKETS: usize = 5;
@@ -315,96 +312,6 @@ fn arrays_of_lanes() {
     compare(&kernel, &mut |go| {
         words_of(&kernel, &given, &[], &interpreter::NoTextures, go)
     });
-}
-
-/// Texels that say what was asked.
-#[derive(Debug)]
-struct Told {
-    panics: bool,
-}
-
-impl Textures for Told {
-    fn access(&self, mut access: TextureAccess<'_>) {
-        assert!(!self.panics, "a texture that cannot be read");
-        // The interpreter asks for many packets at once, machine code for one.
-        for packet in 0..access.packets {
-            let [x, y] = [0, 1].map(|at| access.coordinate(at)[packet]);
-            let level = access.level_of_detail();
-            let level = level.map_or(Packet([7; LANES]), |level| level[packet]);
-            let mask = access.mask[packet];
-            for at in 0..access.results() {
-                let result = &mut access.result_mut(at)[packet].0;
-                for (lane, to) in result.iter_mut().enumerate() {
-                    if mask >> lane & 1 == 1 {
-                        let sum = x.0[lane].wrapping_add(y.0[lane].rotate_left(9));
-                        *to = sum.wrapping_add(level.0[lane]) ^ u32::try_from(at).unwrap();
-                    }
-                }
-            }
-        }
-    }
-}
-
-fn sampling() -> Kernel {
-    let mut b = Builder::new(Stage::Fragment);
-    let slot = TextureSlot {
-        group: 0,
-        binding: 0,
-    };
-    b.interface_mut().textures.push(slot);
-    b.interface_mut().samplers.push(slot);
-    let coordinates = vec![b.input(Input::Varying(0)), b.input(Input::Varying(1))];
-    let level = b.input(Input::Varying(2));
-    let mask = b.input(Input::FrontFacing);
-    let mut results = Vec::new();
-    for level in [LevelOfDetail::Zero, LevelOfDetail::Explicit(level)] {
-        let texels = b.op(Op::Texture(Box::new(TextureOp {
-            query: TextureQuery::Sample,
-            texture: 0,
-            sampler: Some(0),
-            coordinates: coordinates.clone(),
-            layer: None,
-            offset: [0; 3],
-            level,
-            reference: None,
-            sample: None,
-            stored: Vec::new(),
-            mask,
-        })));
-        // Results are those of the lanes in the mask.
-        for texel in texels {
-            let nothing = b.word(0);
-            results.push(b.select(mask, texel, nothing));
-        }
-    }
-    finish(b, &results)
-}
-
-#[test]
-fn textures_are_asked() {
-    let kernel = sampling();
-    let given = Given::new(5, &mut |random| random.u32(..));
-    compare(&kernel, &mut |go| {
-        words_of(&kernel, &given, &[], &Told { panics: false }, go)
-    });
-}
-
-#[test]
-fn panics_of_textures_leave_the_code() {
-    let kernel = sampling();
-    let given = Given::new(5, &mut |random| random.u32(..));
-    for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
-        let code = Code::compile(&kernel, isa, Tier::Fast).unwrap();
-        let mut scratch = Scratch::default();
-        let left = catch_unwind(AssertUnwindSafe(|| {
-            let go: Runner<'_> = &mut |run| code.run(Level::best(), run, &mut scratch);
-            words_of(&kernel, &given, &[], &Told { panics: true }, go)
-        }));
-        let panic = left.expect_err("the texture panics");
-        assert_eq!(panic.downcast_ref(), Some(&"a texture that cannot be read"));
-        let go: Runner<'_> = &mut |run| code.run(Level::best(), run, &mut scratch);
-        words_of(&kernel, &given, &[], &Told { panics: false }, go);
-    }
 }
 
 #[test]

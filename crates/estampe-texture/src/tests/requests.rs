@@ -1,0 +1,121 @@
+//! Requests of compiled shaders: together they give what each gives alone.
+
+use super::{Random, noise};
+use crate::{
+    AddressMode, FilterMode, PacketRequest, SampledTexture, SamplerDescriptor, ShadowMap,
+    TexelView, TexelViewDescriptor, TextureFormat, compare_packets,
+};
+use estampe_simd::{LANE_X, LANE_Y, LANES, Level, Packet};
+
+type Colors = [Packet<f32>; 4];
+
+fn bits(colors: &[Packet<f32>]) -> Vec<[u32; LANES]> {
+    let bits = colors.iter().map(|packet| packet.0.map(f32::to_bits));
+    bits.collect()
+}
+
+/// Coordinates of neighbouring pixels from a place on.
+fn packets([u, v]: [f32; 2], step: f32) -> [Packet<f32>; 2] {
+    let axis = |lanes: [u8; LANES], from: f32| Packet(lanes.map(|at| from + f32::from(at) * step));
+    [axis(LANE_X, u), axis(LANE_Y, v)]
+}
+
+#[test]
+fn textures_at_the_same_coordinates_are_sampled_as_alone() {
+    let trilinear = SamplerDescriptor::trilinear_repeat();
+    let clamped = SamplerDescriptor {
+        address_mode_u: AddressMode::ClampToEdge,
+        mag_filter: FilterMode::Nearest,
+        ..trilinear
+    };
+    let from_level = |side: u32, base_mip_level, sampler| {
+        let descriptor = TexelViewDescriptor {
+            base_mip_level,
+            ..TexelViewDescriptor::default()
+        };
+        let view = TexelView::new(noise(side, 32, TextureFormat::Rgba8Unorm), &descriptor);
+        SampledTexture::new(view.unwrap(), sampler).unwrap()
+    };
+    let of = |side, sampler| from_level(side, 0, sampler);
+    // Alike, of another size, with another sampler, of another kind.
+    let textures = [
+        of(64, trilinear),
+        of(64, trilinear),
+        of(32, trilinear),
+        of(64, clamped),
+        from_level(64, 1, trilinear),
+    ];
+    assert!(textures[0].common().is_some() && textures[4].common().is_none());
+    let random = &mut Random::new(31);
+    for level in Level::all_available() {
+        let textures = textures.clone().map(|texture| texture.at_level(level));
+        for _ in 0..60 {
+            let step = random.unit() * random.unit() * 0.1;
+            let [u, v] = packets([random.unit() * 1.2 - 0.1, random.unit()], step);
+            let request = PacketRequest {
+                at: [&u, &v, PacketRequest::ZEROS.at[2]],
+                ..PacketRequest::ZEROS
+            };
+            for count in 1..=textures.len() {
+                let all: Vec<&SampledTexture> = textures[..count].iter().collect();
+                let mut together = vec![Colors::default(); count];
+                SampledTexture::sample_requests(&all, &request, &mut together);
+                for (texture, together) in all.iter().zip(&together) {
+                    let mut alone = Colors::default();
+                    texture.sample_request(&request, &mut alone);
+                    assert_eq!(bits(together), bits(&alone), "{level:?} {u:?} {v:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn comparisons_with_one_depth_are_those_alone() {
+    // A plane at ½ with a rough square in it.
+    let random = &mut Random::new(8);
+    let rows: Vec<f32> = (0..64 * 64)
+        .map(|at| match [at % 64, at / 64] {
+            [20..40, 20..40] => random.unit(),
+            _ => 0.5,
+        })
+        .collect();
+    let map = ShadowMap::from_rows(64, 64, &rows);
+    let [mut lit, mut dark, mut mixed] = [0; 3];
+    for level in Level::all_available() {
+        for round in 0..400 {
+            let place = [random.unit() * 1.4 - 0.2, random.unit() * 1.4 - 0.2];
+            let step = [0.0, 1.0 / 64.0, 0.2][round % 3];
+            let mut at: Vec<[Packet<f32>; 2]> = (0..9_u8)
+                .map(|sample| {
+                    let [column, row] = [sample % 3, sample / 3].map(|at| f32::from(at) / 64.0);
+                    packets([place[0] + column, place[1] + row], step)
+                })
+                .collect();
+            if round % 20 == 0 {
+                at[round % 9][round % 2].0[5] = f32::NAN;
+            }
+            let reference = Packet([0.3 + random.unit() * 0.4; LANES]);
+            let at: Vec<[&Packet<f32>; 2]> = at.iter().map(|[u, v]| [u, v]).collect();
+            let mut together = vec![Packet([7.0; LANES]); 9];
+            compare_packets(&map, level, (&at, &reference), &mut together);
+            let mut alone = vec![Packet([7.0; LANES]); 9];
+            for (at, share) in at.iter().zip(&mut alone) {
+                let share = std::slice::from_mut(share);
+                compare_packets(&map, level, (&[*at], &reference), share);
+            }
+            assert_eq!(bits(&together), bits(&alone), "{level:?} {at:?}");
+            for share in together.iter().flat_map(|packet| packet.0) {
+                match share {
+                    1.0 => lit += 1,
+                    0.0 => dark += 1,
+                    _ => mixed += 1,
+                }
+            }
+        }
+    }
+    assert!(
+        lit > 1000 && dark > 1000 && mixed > 1000,
+        "{lit} {dark} {mixed}"
+    );
+}
