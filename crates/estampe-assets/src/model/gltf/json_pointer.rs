@@ -1,0 +1,111 @@
+//! The JSON Pointer (RFC 6901) of a place in a text.
+
+/// An object or an array around the place.
+enum Level<'a> {
+    /// The last key, between its quotes; `None` before the first one.
+    Object(Option<&'a [u8]>),
+    /// The element's number.
+    Array(usize),
+}
+
+/// Levels of a pointer; deeper ones are left out. serde_json refuses deeper texts.
+const MAX_DEPTH: usize = 128;
+
+/// The pointer of the value that contains the byte `offset`, or ends there. The text before the
+/// place should be valid.
+pub(super) fn at(json: &[u8], offset: usize) -> String {
+    let mut levels = Vec::new();
+    let mut is_key = false;
+    let mut rest = &json[..offset.saturating_add(1).min(json.len())];
+    while let Some((&byte, after)) = rest.split_first() {
+        rest = after;
+        match byte {
+            b'{' | b'[' if levels.len() >= MAX_DEPTH => break,
+            b'{' => {
+                levels.push(Level::Object(None));
+                is_key = true;
+            }
+            b'[' => {
+                levels.push(Level::Array(0));
+                is_key = false;
+            }
+            b'}' | b']' => {
+                levels.pop();
+                is_key = false;
+            }
+            b',' if !rest.is_empty() => match levels.last_mut() {
+                Some(Level::Array(index)) => *index += 1,
+                Some(Level::Object(_)) => is_key = true,
+                None => {}
+            },
+            b'"' => {
+                let string = after;
+                rest = after_quote(after);
+                let length = string.len() - rest.len();
+                if is_key && let Some(Level::Object(key)) = levels.last_mut() {
+                    *key = Some(&string[..length.saturating_sub(1)]);
+                    is_key = false;
+                }
+            }
+            _ => {}
+        }
+    }
+    levels.iter().map(segment).collect()
+}
+
+fn segment(level: &Level<'_>) -> String {
+    match level {
+        Level::Object(None) => String::new(),
+        Level::Object(Some(key)) => {
+            let key = String::from_utf8_lossy(key);
+            format!("/{}", key.replace('~', "~0").replace('/', "~1"))
+        }
+        Level::Array(index) => format!("/{index}"),
+    }
+}
+
+/// The text after the string at its start.
+pub(super) fn after_string(json: &[u8]) -> &[u8] {
+    after_quote(json.get(1..).unwrap_or_default())
+}
+
+/// The text after the next quote that is not escaped.
+fn after_quote(mut json: &[u8]) -> &[u8] {
+    while let Some(at) = json.iter().position(|&b| b == b'"' || b == b'\\') {
+        let skipped = if json[at] == b'"' { at + 1 } else { at + 2 };
+        let is_end = json[at] == b'"';
+        json = json.get(skipped..).unwrap_or_default();
+        if is_end {
+            return json;
+        }
+    }
+    &[]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::at;
+
+    #[test]
+    fn the_pointer_names_the_value_at_the_place() {
+        let json = br#"{"a":[1,{"b/c":"x]\"{","d":[[],{}]}],"e":2}"#;
+        let find = |text: &str| {
+            let text = text.as_bytes();
+            json.windows(text.len())
+                .position(|part| part == text)
+                .unwrap()
+        };
+        for (text, pointer) in [
+            ("{\"a", ""),
+            ("1,", "/a/0"),
+            ("x]", "/a/1/b~1c"),
+            ("[]", "/a/1/d/0"),
+            ("{}]", "/a/1/d/1"),
+            ("2}", "/e"),
+        ] {
+            assert_eq!(at(json, find(text)), pointer, "{text}");
+        }
+        assert_eq!(at(json, json.len() + 5), "");
+        assert_eq!(at(br#"{"a":{"b":["#, 99), "/a/b/0");
+    }
+}

@@ -1,0 +1,6 @@
+//! Reader of glTF 2.0. The files are made here, by a small builder.
+
+mod builder;
+mod geometry;
+
+use builder::{Builder, error, load, mesh};
