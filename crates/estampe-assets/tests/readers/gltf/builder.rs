@@ -1,7 +1,9 @@
 //! Files of tests: JSON with one buffer, as GLB or with a data URI.
 
 use estampe_assets::model::{ModelOptions, NoResources};
-use estampe_assets::{Limits, Loaded, ModelFormat, ModelInput, parse_model, parse_model_with};
+use estampe_assets::{
+    AssetError, Limits, Loaded, ModelFormat, ModelInput, parse_model, parse_model_with,
+};
 use estampe_scene::Mesh;
 use serde_json::{Value, json};
 
@@ -157,6 +159,12 @@ impl Builder {
 
     /// Reads the file as GLB with options.
     pub(super) fn load_with(&self, options: &ModelOptions) -> Loaded {
+        let result = self.try_load_with(options);
+        result.unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// [`Self::load_with`], or the error.
+    pub(super) fn try_load_with(&self, options: &ModelOptions) -> Result<Loaded, AssetError> {
         let bytes = self.glb();
         let input = ModelInput {
             bytes: &bytes,
@@ -165,7 +173,6 @@ impl Builder {
             resources: &NoResources,
         };
         parse_model_with(&input, options, &Limits::default())
-            .unwrap_or_else(|error| panic!("{error}"))
     }
 }
 

@@ -2,5 +2,7 @@
 
 mod builder;
 mod geometry;
+mod nodes;
+mod poses;
 
 use builder::{Builder, error, load, mesh};
