@@ -1,11 +1,12 @@
 //! Files of tests: JSON with one buffer, as GLB or with a data URI.
 
-use estampe_assets::model::{ModelOptions, NoResources};
+use estampe_assets::model::{ModelOptions, NoResources, ResourceError, Resources};
 use estampe_assets::{
     AssetError, Limits, Loaded, ModelFormat, ModelInput, parse_model, parse_model_with,
 };
 use estampe_scene::Mesh;
 use serde_json::{Value, json};
+use std::collections::HashMap;
 
 /// Codes of component types.
 pub(super) const U8: u32 = 5121;
@@ -249,4 +250,35 @@ pub(super) fn error(file: &Builder) -> String {
         &Limits::default(),
     );
     result.expect_err("the file is wrong").to_string()
+}
+
+/// Reads a file that has side files.
+pub(super) fn with_files(
+    bytes: &[u8],
+    files: &[(&str, Vec<u8>)],
+    limits: &Limits,
+) -> Result<Loaded, AssetError> {
+    let files = files
+        .iter()
+        .map(|(name, bytes)| ((*name).to_owned(), bytes.clone()));
+    let files = Files(files.collect());
+    parse_model(bytes, ModelFormat::Gltf, "a.glb", &files, limits)
+}
+
+/// Side files by name.
+struct Files(HashMap<String, Vec<u8>>);
+
+impl Resources for Files {
+    fn resolve(&self, name: &str) -> Result<String, ResourceError> {
+        let found = self.0.get_key_value(name).map(|(name, _)| name.clone());
+        found.ok_or(ResourceError::NotFound)
+    }
+
+    fn read(&self, resolved: &str, max_bytes: u64) -> Result<Vec<u8>, ResourceError> {
+        let bytes = &self.0[resolved];
+        if bytes.len() as u64 > max_bytes {
+            return Err(ResourceError::TooLarge(max_bytes));
+        }
+        Ok(bytes.clone())
+    }
 }

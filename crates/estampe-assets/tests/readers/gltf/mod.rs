@@ -2,6 +2,7 @@
 
 mod builder;
 mod geometry;
+mod materials;
 mod nodes;
 mod poses;
 
