@@ -21,12 +21,13 @@ pub(super) fn parse<'a>(container: &Container<'a>) -> Result<Document<'a>, Asset
         let message = message
             .rfind(" at line ")
             .map_or(&*message, |end| &message[..end]);
-        let what = if error.is_data() {
-            message.to_owned()
+        // A wrong value was read up to and with this byte; other errors are before it.
+        let (end, what) = if error.is_data() {
+            (offset + 1, message.to_owned())
         } else {
-            format!("the JSON is not valid: {message}")
+            (offset, format!("the JSON is not valid: {message}"))
         };
-        malformed(json_pointer::at(json, offset), what)
+        malformed(json_pointer::of_end(json, end), what)
             .at(Location::Byte((container.json_offset + offset) as u64))
     })
 }

@@ -11,12 +11,11 @@ enum Level<'a> {
 /// Levels of a pointer; deeper ones are left out. serde_json refuses deeper texts.
 const MAX_DEPTH: usize = 128;
 
-/// The pointer of the value that contains the byte `offset`, or ends there. The text before the
-/// place should be valid.
-pub(super) fn at(json: &[u8], offset: usize) -> String {
+/// The pointer of the value that the first `end` bytes end with, or within. They should be valid.
+pub(super) fn of_end(json: &[u8], end: usize) -> String {
     let mut levels = Vec::new();
     let mut is_key = false;
-    let mut rest = &json[..offset.saturating_add(1).min(json.len())];
+    let mut rest = &json[..end.min(json.len())];
     while let Some((&byte, after)) = rest.split_first() {
         rest = after;
         match byte {
@@ -33,7 +32,7 @@ pub(super) fn at(json: &[u8], offset: usize) -> String {
                 levels.pop();
                 is_key = false;
             }
-            b',' if !rest.is_empty() => match levels.last_mut() {
+            b',' => match levels.last_mut() {
                 Some(Level::Array(index)) => *index += 1,
                 Some(Level::Object(_)) => is_key = true,
                 None => {}
@@ -84,28 +83,27 @@ fn after_quote(mut json: &[u8]) -> &[u8] {
 
 #[cfg(test)]
 mod tests {
-    use super::at;
+    use super::of_end;
 
     #[test]
     fn the_pointer_names_the_value_at_the_place() {
-        let json = br#"{"a":[1,{"b/c":"x]\"{","d":[[],{}]}],"e":2}"#;
-        let find = |text: &str| {
-            let text = text.as_bytes();
-            json.windows(text.len())
-                .position(|part| part == text)
-                .unwrap()
-        };
         for (text, pointer) in [
-            ("{\"a", ""),
-            ("1,", "/a/0"),
-            ("x]", "/a/1/b~1c"),
-            ("[]", "/a/1/d/0"),
-            ("{}]", "/a/1/d/1"),
-            ("2}", "/e"),
+            (r#""#, ""),
+            (r#"{"#, ""),
+            (r#"{"a""#, "/a"),
+            (r#"{"a":[1"#, "/a/0"),
+            (r#"{"a":[1,"#, "/a/1"),
+            (r#"{"a":[1,{"b/c~":"x]\"{""#, "/a/1/b~1c~0"),
+            (r#"{"a":[1,{"b":"x]","d":[[],{"#, "/a/1/d/1"),
+            (r#"{"a":[1,{"b":"x]","d":[[],{}"#, "/a/1/d/1"),
+            (r#"{"a":[1,{"b":"x]","d":[[],{}]}],"e":2"#, "/e"),
+            (r#"{"a":{"b":1}}"#, ""),
+            (r#"]]}"#, ""),
         ] {
-            assert_eq!(at(json, find(text)), pointer, "{text}");
+            assert_eq!(of_end(text.as_bytes(), text.len()), pointer, "{text}");
         }
-        assert_eq!(at(json, json.len() + 5), "");
-        assert_eq!(at(br#"{"a":{"b":["#, 99), "/a/b/0");
+        assert_eq!(of_end(br#"{"a":{"b":["#, 99), "/a/b/0");
+        let deep = "[".repeat(1000);
+        assert_eq!(of_end(deep.as_bytes(), 1000).len(), 2 * super::MAX_DEPTH);
     }
 }

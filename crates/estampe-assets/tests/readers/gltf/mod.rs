@@ -1,7 +1,9 @@
 //! Reader of glTF 2.0. The files are made here, by a small builder.
 
 mod builder;
+mod containers;
 mod geometry;
+mod hostile;
 mod materials;
 mod nodes;
 mod poses;
