@@ -178,7 +178,8 @@ impl<'a> Views<'a> {
             let pointer = format!("/bufferViews/{at}");
             if let Some(meshopt) = &view.extensions.meshopt {
                 let pointer = format!("{pointer}/extensions/EXT_meshopt_compression");
-                let source = meshopt::Compressed::new(meshopt, buffers, &pointer)?;
+                let source =
+                    meshopt::Compressed::new(meshopt, view.byte_length.0, buffers, &pointer)?;
                 let length = source.decoded_length();
                 bytes_left = bytes_left.checked_sub(length).ok_or_else(|| {
                     let limit = limits.max_file_bytes;

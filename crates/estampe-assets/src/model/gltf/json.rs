@@ -14,7 +14,7 @@ const MAX_OBJECTS: u64 = 4_000_000;
 pub(super) fn parse<'a>(container: &Container<'a>) -> Result<Document<'a>, AssetError> {
     let json = container.json;
     Limits::check("JSON objects", count_objects(json), MAX_OBJECTS)?;
-    // Nesting is limited by serde_json, to 128 levels.
+    // The types have a fixed depth, and serde_json skips everything else without recursion.
     serde_json::from_slice(json).map_err(|error| {
         let offset = offset_of(json, error.line(), error.column());
         let message = error.to_string();

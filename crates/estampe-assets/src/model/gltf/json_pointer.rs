@@ -8,7 +8,7 @@ enum Level<'a> {
     Array(usize),
 }
 
-/// Levels of a pointer; deeper ones are left out. serde_json refuses deeper texts.
+/// Levels of a pointer; deeper ones are left out. No property that is read is so deep.
 const MAX_DEPTH: usize = 128;
 
 /// The pointer of the value that the first `end` bytes end with, or within. They should be valid.

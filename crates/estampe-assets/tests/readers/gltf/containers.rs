@@ -105,13 +105,12 @@ fn wrong_json_is_refused_with_its_place() {
         missing.contains("/accessors/0, byte 41: missing field `componentType`"),
         "{missing}"
     );
-    assert!(message("[1]").contains("invalid type: sequence"));
+    assert!(message("7").contains("invalid type: integer `7`"));
     assert!(message("").contains("the JSON is not valid: EOF"));
-    let deep = format!(
-        r#"{{"asset":{{"version":"2.0"}},"extras":{}"#,
-        "[".repeat(500)
-    );
-    assert!(message(&deep).contains("recursion limit exceeded"));
+    // What is not read may be nested to any depth.
+    let [open, close] = ["[", "]"].map(|bracket| bracket.repeat(100_000));
+    let deep = format!(r#"{{"asset":{{"version":"2.0"}},"extras":{open}{close}}}"#);
+    assert_eq!(load(deep.as_bytes()).scene.meshes.len(), 0);
     // In a GLB the offset is that in the file.
     let inside = refused(&glb(br#"{"asset":7}"#, b""));
     assert_eq!(inside.fault().location, Some(Location::Byte(20 + 9)));

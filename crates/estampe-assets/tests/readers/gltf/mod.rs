@@ -5,6 +5,7 @@ mod containers;
 mod geometry;
 mod hostile;
 mod materials;
+mod meshopt;
 mod nodes;
 mod poses;
 
