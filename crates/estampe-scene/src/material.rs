@@ -3,8 +3,8 @@
 use crate::PbrMaterial;
 use glam::Vec3;
 
-/// A surface material, as OBJ's MTL describes it, and its physically based description if the file has
-/// one.
+/// A surface material, as OBJ's MTL describes it, and its physically based description if the file
+/// has one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Name in the file; may be empty.

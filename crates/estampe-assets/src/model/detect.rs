@@ -36,8 +36,9 @@ impl ModelFormat {
 
     /// The format by content, for input without a name.
     ///
-    /// GLB and PLY have magic words, glTF is a JSON object with an `asset`, and binary STL a length that must fit its triangle count; ASCII STL
-    /// and OBJ are recognised by their first statements.
+    /// GLB and PLY have magic words, glTF is a JSON object with an `asset`, and binary STL has a
+    /// length that must fit its triangle count; ASCII STL and OBJ are recognised by their first
+    /// statements.
     #[must_use]
     pub fn from_content(bytes: &[u8]) -> Option<Self> {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);

@@ -30,8 +30,8 @@ const READ: [&str; 20] = [
     "KHR_xmp_json_ld",
 ];
 
-/// Common extensions that are not read: what to do if a file requires them, and what is used instead
-/// if it does not.
+/// Common extensions that are not read: what to do if a file requires them, and what is used
+/// instead if it does not.
 const NOT_READ: [(&str, &str, &str); 3] = [
     (
         "KHR_draco_mesh_compression",

@@ -5,8 +5,8 @@
 //! | "glTF" |      2 | length | length | "JSON" | text … | length | "BIN\0" | bytes … |
 //! ```
 //!
-//! Numbers are u32, little-endian. The first length is that of the file, those of chunks are of their
-//! contents, which are padded to multiples of four bytes.
+//! Numbers are u32, little-endian. The first length is that of the file, those of chunks are of
+//! their contents, which are padded to multiples of four bytes.
 //!
 //! Source: glTF 2.0 specification, §4 "GLB File Format".
 

@@ -7,7 +7,8 @@ use super::hierarchy::transform;
 use crate::{AssetError, Limits};
 use glam::DAffine3;
 
-/// The transforms from each instance's space to the node's. `pointer` is the place of the extension.
+/// The transforms from each instance's space to the node's. `pointer` is the place of the
+/// extension.
 pub(super) fn transforms(
     instancing: &Instancing,
     accessors: &Accessors<'_>,

@@ -41,8 +41,8 @@ pub(super) struct Keys {
 }
 
 impl Keys {
-    /// The keyframes around a time; the first or the last one outside of them. `times` increase, and
-    /// there is at least one.
+    /// The keyframes around a time; the first or the last one outside of them. `times` increase,
+    /// and there is at least one.
     pub(super) fn find(times: &[[f32; 1]], time_s: f32) -> Self {
         let after = times.partition_point(|&[time]| time <= time_s);
         let last = times.len() - 1;

@@ -10,9 +10,9 @@
 //!       -> material (images), cameras_lights
 //! ```
 //!
-//! All meshes are in world space: one for each primitive of each node. Errors have the JSON Pointer of
-//! the value (`/accessors/3/count`). What cannot be interpreted is an error; what is merely forbidden
-//! or missing for a better picture is a warning.
+//! All meshes are in world space: one for each primitive of each node. Errors have the JSON Pointer
+//! of the value (`/accessors/3/count`). What cannot be interpreted is an error; what is merely
+//! forbidden, or missing for a better picture, is a warning.
 //!
 //! Source: Khronos Group, "glTF 2.0 Specification", 2021 (ISO/IEC 12113:2022), and its registry of
 //! extensions.

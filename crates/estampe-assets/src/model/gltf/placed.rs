@@ -1,8 +1,8 @@
 //! A primitive's vertices in world space: once, several times as instances, or moved by a skin.
 //!
 //! Normals n are transformed by the inverse transpose of the linear part M, whose direction is
-//! that of sign(det M) · cof M, which exists for every M. Tangents are transformed by M. A mirroring
-//! M turns triangles inside out, so their winding and the bitangent's sign change.
+//! that of sign(det M) · cof M, which exists for every M. Tangents are transformed by M. A
+//! mirroring M turns triangles inside out, so their winding and the bitangent's sign change.
 
 use super::connectivity::Connectivity;
 use super::skin::Joint;

@@ -91,7 +91,7 @@ impl Skin {
                 let joints = influences.joints[vertex];
                 for (joint, weight) in joints.into_iter().zip(influences.weights[vertex]) {
                     // Joints without weight may have any number; weights below 0 or NaN are none.
-                    if !(weight > 0.0) {
+                    if weight <= 0.0 || weight.is_nan() {
                         continue;
                     }
                     let Some(transform) = self.world_from_bind.get(joint as usize) else {

@@ -155,8 +155,8 @@ impl Vertices {
     /// Colours in 0..1, and finite texture coordinates and tangents.
     fn make_valid(&mut self) {
         for value in self.colors.as_flattened_mut() {
-            // NaN becomes 0.
-            *value = value.max(0.0).min(1.0);
+            // `max` turns NaN into 0.
+            *value = value.max(0.0).clamp(0.0, 1.0);
         }
         for uv in &mut self.uvs1 {
             if !(uv[0].is_finite() && uv[1].is_finite()) {

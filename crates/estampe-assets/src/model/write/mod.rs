@@ -27,7 +27,8 @@ use estampe_scene::{Mesh, Scene};
 /// coordinates differ at a seam is closed.
 ///
 /// # Errors
-/// [`AssetError::Unsupported`] for glTF, which is only read, for lines or points in STL, and for positions that are not finite.
+/// [`AssetError::Unsupported`] for glTF, which is only read, for lines or points in STL, and for
+/// positions that are not finite.
 pub fn encode_model(scene: &Scene, format: ModelFormat) -> Result<Vec<u8>, AssetError> {
     for mesh in &scene.meshes {
         check_finite(mesh)?;

@@ -140,7 +140,7 @@ fn attributes_are_decoded() {
     let accessor = json!({ "bufferView": 0, "componentType": U16, "count": 40, "type": "VEC3" });
     let decoded = mesh(&points(&bytes(ROWS), [40, 8], None, accessor)).positions;
     let expected = (0..40_u32).map(|i| {
-        let hash = i * 40503 & 0xffff;
+        let hash = (i * 40503) & 0xffff;
         Vec3::new(i as f32, (i * i / 4) as f32, hash as f32)
     });
     assert_eq!(decoded, expected.collect::<Vec<_>>());

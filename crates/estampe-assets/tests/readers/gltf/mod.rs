@@ -8,5 +8,6 @@ mod materials;
 mod meshopt;
 mod nodes;
 mod poses;
+mod rules;
 
 use builder::{Builder, error, load, mesh};

@@ -101,7 +101,7 @@ fn splines_have_tangents() {
     file.vec3s(&[x(99.0), x(0.0), x(3.0), x(-1.0), x(10.0), x(99.0)]);
     let hermite = |t: f32| {
         let (t2, t3) = (t * t, t * t * t);
-        2.0 * (t3 - 2.0 * t2 + t) * 3.0 + (3.0 * t2 - 2.0 * t3) * 10.0 + 2.0 * (t3 - t2) * -1.0
+        2.0 * (t3 - 2.0 * t2 + t) * 3.0 + (3.0 * t2 - 2.0 * t3) * 10.0 - 2.0 * (t3 - t2)
     };
     for time in [0.0, 0.5, 1.0, 1.5, 2.0, 5.0] {
         let expected = hermite((time / 2.0_f32).min(1.0));

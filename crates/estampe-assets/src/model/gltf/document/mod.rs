@@ -1,22 +1,24 @@
 //! The JSON part of a file as plain data: glTF 2.0's properties that are read, and no others.
 //!
-//! Types say what serde can check: kinds of values and required properties. Everything else (indices,
-//! names of enumerations, ranges) is checked where it is used, where the message can say more.
+//! Types say what serde can check: kinds of values and required properties. Everything else
+//! (indices, names of enumerations, ranges) is checked where it is used, where the message can say
+//! more.
 //! The crate `gltf-json` was not used: it refuses extensions that it does not know in typed places,
 //! and has no types for half of those that are read here.
 
 mod animation;
-mod data;
+
 mod material;
 mod node;
+mod storage;
 mod value;
 
 pub(super) use animation::{Animation, AnimationSampler};
-pub(super) use data::{Accessor, Buffer, BufferView, MeshoptView, Sparse};
 pub(super) use material::{
     Image, Material, MaterialExtensions, Sampler, SpecularGlossiness, Texture, TextureInfo,
 };
 pub(super) use node::{Camera, Instancing, Light, Mesh, Node, Primitive, Skin};
+pub(super) use storage::{Accessor, Buffer, BufferView, MeshoptView, Sparse};
 pub(super) use value::{Index, Text};
 
 use serde::Deserialize;

@@ -4,7 +4,8 @@ use serde::de::{self, Deserialize, Deserializer, Visitor};
 use std::borrow::Cow;
 use std::fmt;
 
-/// A count, an offset or an index into a list. JSON's integers may have a fraction of zero, as `3.0`.
+/// A count, an offset or an index into a list. JSON's integers may have a fraction of zero, as in
+/// `3.0`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub(crate) struct Index(pub(crate) usize);
 

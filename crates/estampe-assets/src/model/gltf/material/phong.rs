@@ -1,12 +1,12 @@
 //! A physically based material as the Phong model draws it.
 //!
-//! | Phong              | from                                                                  |
-//! |--------------------|-----------------------------------------------------------------------|
-//! | colour, texture    | base colour, of metals too: there is no environment for them to reflect |
-//! | opacity            | alpha where it counts; · (1 − 0.75 · transmission), which then blends |
-//! | specular colour    | 0.3 · (1 − roughness) · (white, of metals the base colour) · factors  |
-//! | shininess          | 2 ÷ roughness⁴ − 2, the exponent whose lobe is as wide as GGX's       |
-//! | emitted light      | factor · strength; with a texture none, for its mean is not known     |
+//! | Phong           | from                                                               |
+//! |-----------------|--------------------------------------------------------------------|
+//! | colour, texture | base colour, of metals too: they have no environment to reflect    |
+//! | opacity         | alpha where it counts; · (1 − 0.75 · transmission), which blends   |
+//! | specular colour | 0.3 · (1 − roughness) · (white, of metals base colour) · factors   |
+//! | shininess       | 2 ÷ roughness⁴ − 2, the exponent whose lobe is as wide as GGX's    |
+//! | emitted light   | factor · strength; none with a texture, whose mean is not known    |
 //!
 //! The exponent follows B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces",
 //! 2007, §5.2, with α = roughness².

@@ -1,16 +1,17 @@
 //! KHR_materials_pbrSpecularGlossiness as a metallic-roughness material.
 //!
-//! | of the extension          | becomes                                                          |
-//! |---------------------------|------------------------------------------------------------------|
-//! | diffuse colour, texture   | base colour, texture; metallic 0                                 |
-//! | specular colour           | KHR_materials_specular's colour, with an index of refraction of 0 |
-//! | RGB of its texture        | the colour's texture                                             |
-//! | glossiness g              | roughness 1 − g                                                  |
-//! | glossiness · texture's A  | a texture whose green is 1 − g · A; roughness 1                  |
+//! | of the extension         | becomes                                                     |
+//! |--------------------------|-------------------------------------------------------------|
+//! | diffuse colour, texture  | base colour, texture; metallic 0                            |
+//! | specular colour          | KHR_materials_specular's colour, index of refraction 0      |
+//! | RGB of its texture       | the colour's texture                                        |
+//! | glossiness g             | roughness 1 − g                                             |
+//! | glossiness · texture's A | a texture whose green is 1 − g · A; roughness 1             |
 //!
-//! The index 0 makes ((ior − 1) ÷ (ior + 1))² = 1, so reflection at normal incidence is the specular
-//! colour itself, and nothing is lost. The usual conversion to a metallic factor by the brightness of
-//! the specular colour was not chosen: it changes colours, and needs two textures of the same size.
+//! The index 0 makes ((ior − 1) ÷ (ior + 1))² = 1, so reflection at normal incidence is the
+//! specular colour itself, and nothing is lost. The usual conversion to a metallic factor by the
+//! brightness of the specular colour was not chosen: it changes colours, and needs two textures of
+//! the same size.
 
 use super::super::document::SpecularGlossiness;
 use super::super::images::Images;

@@ -30,7 +30,7 @@ impl Filter {
 
     /// True if elements may have so many bytes.
     pub(super) fn accepts(self, stride: usize) -> bool {
-        let is_valid = stride % 4 == 0 && (4..=256).contains(&stride);
+        let is_valid = stride.is_multiple_of(4) && (4..=256).contains(&stride);
         match self {
             Self::None | Self::Exponential => is_valid,
             Self::Octahedral => stride == 4 || stride == 8,
