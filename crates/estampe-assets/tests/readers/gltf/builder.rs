@@ -178,7 +178,7 @@ impl Builder {
 }
 
 /// A GLB file of two chunks.
-pub(super) fn glb(json: &[u8], bin: &[u8]) -> Vec<u8> {
+pub(crate) fn glb(json: &[u8], bin: &[u8]) -> Vec<u8> {
     let mut json = json.to_vec();
     json.resize(json.len().next_multiple_of(4), b' ');
     let mut bin = bin.to_vec();

@@ -8,8 +8,8 @@
 //! | shininess       | 2 ÷ roughness⁴ − 2, the exponent whose lobe is as wide as GGX's    |
 //! | emitted light   | factor · strength; none with a texture, whose mean is not known    |
 //!
-//! The exponent follows B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces",
-//! 2007, §5.2, with α = roughness².
+//! The exponent follows B. Walter et al., "Microfacet Models for Refraction through Rough
+//! Surfaces", 2007, §5.2, with α = roughness².
 
 use estampe_scene::{AlphaMode, Material, PbrMaterial};
 use glam::Vec3;
