@@ -152,7 +152,7 @@ impl<'a> Accessors<'a> {
             }
         };
         let sparse = accessor.sparse.as_deref();
-        let sparse = sparse.map(|sparse| self.replacements(sparse, index, size));
+        let sparse = sparse.map(|sparse| self.replacements(sparse, index, [count, size]));
         Ok(Elements {
             count,
             width,
@@ -168,11 +168,15 @@ impl<'a> Accessors<'a> {
         &self,
         sparse: &Sparse,
         index: Index,
-        size: usize,
+        [of_count, size]: [usize; 2],
     ) -> Result<Replacements<'a>, AssetError> {
         let pointer = format!("/accessors/{index}/sparse");
         let place = |property: &str| format!("{pointer}{property}");
         let count = sparse.count.0;
+        if count > of_count {
+            let what = format!("{count} elements replace some of {of_count}");
+            return Err(malformed(place("/count"), what));
+        }
         let indices = &sparse.indices;
         let component = component(indices.component_type, || place("/indices/componentType"))?;
         let bytes = self

@@ -3,8 +3,8 @@
 //! Both look along −z of their node; its scale does not count.
 
 use super::document::{Document, Index, Light};
-use super::fault::{element, malformed};
-use crate::AssetError;
+use super::fault::{element, malformed, shortened};
+use crate::{AssetError, Limits};
 use estampe_scene::{Camera, NamedCamera, Projection, PunctualLight, PunctualLightKind};
 use glam::{DAffine3, DVec3, Vec3};
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -14,6 +14,7 @@ pub(super) fn cameras(
     nodes: &[usize],
     document: &Document<'_>,
     world_from_node: &[DAffine3],
+    limits: &Limits,
 ) -> Result<Vec<NamedCamera>, AssetError> {
     let mut cameras = Vec::new();
     for &node in nodes {
@@ -21,6 +22,8 @@ pub(super) fn cameras(
             continue;
         };
         let place = || format!("/nodes/{node}/camera");
+        Limits::check("cameras", cameras.len() as u64 + 1, limits.max_meshes)
+            .map_err(|error| error.at_json(place()))?;
         let source = element(&document.cameras, index, "camera", place)?;
         let (projection, aspect) = projection(index, document)?;
         let world_from_node = &world_from_node[node];
@@ -97,6 +100,7 @@ pub(super) fn lights(
     nodes: &[usize],
     document: &Document<'_>,
     world_from_node: &[DAffine3],
+    limits: &Limits,
 ) -> Result<Vec<PunctualLight>, AssetError> {
     let mut lights = Vec::new();
     for &node in nodes {
@@ -106,6 +110,8 @@ pub(super) fn lights(
         };
         let index = used.light;
         let place = || format!("/nodes/{node}/extensions/KHR_lights_punctual/light");
+        Limits::check("lights", lights.len() as u64 + 1, limits.max_meshes)
+            .map_err(|error| error.at_json(place()))?;
         let light = element(&document.extensions.lights.lights, index, "light", place)?;
         let color = Vec3::from_array(light.color.unwrap_or([1.0; 3]));
         let limit = Vec3::splat(f32::MAX);
@@ -172,5 +178,5 @@ fn unit_or(vector: DVec3, default: Vec3) -> Vec3 {
 }
 
 fn named(own: &str, of_node: &str) -> String {
-    if own.is_empty() { of_node } else { own }.to_owned()
+    shortened(if own.is_empty() { of_node } else { own })
 }

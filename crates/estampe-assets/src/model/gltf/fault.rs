@@ -28,6 +28,12 @@ pub(super) fn element<'a, T>(
     })
 }
 
+/// A name of a sensible length. Many meshes may have the name of one node.
+pub(super) fn shortened(name: &str) -> String {
+    const MAX_CHARACTERS: usize = 256;
+    name.chars().take(MAX_CHARACTERS).collect()
+}
+
 /// Adds a warning about the value at `pointer`.
 pub(super) fn warn(context: &mut Context<'_>, pointer: impl Into<String>, what: impl Into<String>) {
     let name = context.name;

@@ -2,10 +2,9 @@
 
 use super::buffers::{Views, find_side_file};
 use super::data_uri;
-use super::document::{Document, Image as ImageSource};
+use super::document::{Document, Image as ImageSource, Index};
 use super::fault::warn;
 use crate::model::load::Context;
-use crate::model::resources::ResourceError;
 use crate::{AssetError, Limits};
 use estampe_scene::Image;
 use std::borrow::Cow;
@@ -18,6 +17,18 @@ pub(super) struct Images {
     /// By index in the file; `None` was not used, or could not be read.
     pub(super) of_file: Vec<Option<usize>>,
     pixels_left: u64,
+    /// Encoded bytes that may still be read.
+    bytes_left: u64,
+}
+
+/// Where an image's bytes are; images with the same place are decoded once.
+#[derive(Debug, PartialEq, Eq, Hash)]
+enum Place {
+    /// A side file, by its resolved name.
+    File(String),
+    View(Index),
+    /// A data URI of the image with this index.
+    Uri(usize),
 }
 
 impl Images {
@@ -32,36 +43,27 @@ impl Images {
             images: Vec::new(),
             of_file: vec![None; document.images.len()],
             pixels_left: context.limits.max_total_image_pixels,
+            bytes_left: context.limits.max_file_bytes,
         };
-        // One image for all that name the same file.
-        let mut same_file: HashMap<String, usize> = HashMap::new();
+        let mut first_at: HashMap<Place, usize> = HashMap::new();
         let mut copies = Vec::new();
         let mut encoded = Vec::new();
-        // The files of all images are in memory at once.
-        let mut bytes_left = context.limits.max_file_bytes;
         for (at, source) in document.images.iter().enumerate() {
             if !is_used[at] {
                 continue;
             }
-            let found = match resolved_file(source, context) {
-                Some(Ok(name)) => {
-                    if let Some(&first) = same_file.get(&name) {
-                        copies.push((at, first));
-                        continue;
-                    }
-                    let bytes = context.resources.read(&name, bytes_left);
-                    same_file.insert(name, at);
-                    if let Ok(bytes) = &bytes {
-                        bytes_left -= bytes.len() as u64;
-                    }
-                    let unreadable = |error: ResourceError| AssetError::io(error.to_string(), "");
-                    bytes.map(Cow::Owned).map_err(unreadable)
+            let found = Place::of(source, at, context).and_then(|place| {
+                if let Some(&first) = first_at.get(&place) {
+                    copies.push((at, first));
+                    return Ok(None);
                 }
-                Some(Err(error)) => Err(error),
-                None => embedded(source, at, views),
-            };
-            match found.and_then(|bytes| images.within_limits(bytes, context.limits)) {
-                Ok(bytes) => encoded.push((at, bytes)),
+                let bytes = images.bytes_at(&place, source, views, context);
+                first_at.insert(place, at);
+                images.within_limits(bytes?, context.limits).map(Some)
+            });
+            match found {
+                Ok(Some(bytes)) => encoded.push((at, bytes)),
+                Ok(None) => {}
                 Err(error) => warn_omitted(at, &error, context),
             }
         }
@@ -84,6 +86,30 @@ impl Images {
         images
     }
 
+    fn bytes_at<'b>(
+        &self,
+        place: &Place,
+        source: &ImageSource<'_>,
+        views: &'b Views<'_>,
+        context: &Context<'_>,
+    ) -> Result<Cow<'b, [u8]>, AssetError> {
+        let bytes = match *place {
+            Place::File(ref name) => context
+                .resources
+                .read(name, self.bytes_left)
+                .map_err(|error| AssetError::io(error.to_string(), ""))?,
+            Place::View(view) => {
+                let place = || "/images".to_owned();
+                return views.bytes(view, place).map(Cow::Borrowed);
+            }
+            Place::Uri(_) => {
+                let uri = source.uri.as_ref().map_or("", |uri| &uri.0);
+                data_uri::data(uri).unwrap_or_else(|| Ok(Vec::new()))?
+            }
+        };
+        Ok(Cow::Owned(bytes))
+    }
+
     /// Passes the bytes on if the image in them is within the limits of all images together, which
     /// must be known before several are decoded at once.
     fn within_limits<'b>(
@@ -91,6 +117,9 @@ impl Images {
         bytes: Cow<'b, [u8]>,
         limits: &Limits,
     ) -> Result<Cow<'b, [u8]>, AssetError> {
+        // Decoding takes time for bytes that add no pixels, too.
+        Limits::check("bytes", bytes.len() as u64, self.bytes_left)?;
+        self.bytes_left -= bytes.len() as u64;
         let Some((width, height)) = crate::image::stated_size(&bytes) else {
             return Err(AssetError::unsupported(
                 "an image that is neither PNG nor JPEG cannot be read",
@@ -122,36 +151,26 @@ impl Images {
     }
 }
 
-/// The name of the image's file; `None` if it is in the model.
-fn resolved_file(
-    source: &ImageSource<'_>,
-    context: &mut Context<'_>,
-) -> Option<Result<String, AssetError>> {
-    let uri = &source.uri.as_ref()?.0;
-    if data_uri::is_data(uri) {
-        return None;
-    }
-    let unreadable = |error| AssetError::io(format!("`{uri}`: {error}"), "");
-    Some(find_side_file(uri, context).map_err(unreadable))
-}
-
-/// The bytes of an image in a data URI or a buffer view.
-fn embedded<'a>(
-    source: &ImageSource<'_>,
-    at: usize,
-    views: &'a Views<'_>,
-) -> Result<Cow<'a, [u8]>, AssetError> {
-    let data = source.uri.as_ref().and_then(|uri| data_uri::data(&uri.0));
-    match (data, source.buffer_view) {
-        (Some(data), _) => data.map(Cow::Owned),
-        (None, Some(view)) => {
-            let place = || format!("/images/{at}/bufferView");
-            views.bytes(view, place).map(Cow::Borrowed)
+impl Place {
+    fn of(
+        source: &ImageSource<'_>,
+        at: usize,
+        context: &mut Context<'_>,
+    ) -> Result<Self, AssetError> {
+        match (&source.uri, source.buffer_view) {
+            (Some(uri), _) if data_uri::is_data(&uri.0) => Ok(Self::Uri(at)),
+            (Some(uri), _) => {
+                let unreadable = |error| AssetError::io(format!("`{}`: {error}", uri.0), "");
+                find_side_file(&uri.0, context)
+                    .map(Self::File)
+                    .map_err(unreadable)
+            }
+            (None, Some(view)) => Ok(Self::View(view)),
+            (None, None) => Err(AssetError::malformed(
+                "the image has neither `uri` nor `bufferView`",
+                "",
+            )),
         }
-        (None, None) => Err(AssetError::malformed(
-            "the image has neither `uri` nor `bufferView`",
-            "",
-        )),
     }
 }
 

@@ -8,10 +8,11 @@ use crate::{AssetError, Limits};
 use glam::DAffine3;
 
 /// The transforms from each instance's space to the node's. `pointer` is the place of the
-/// extension.
+/// extension, `counted` the number of instances of other nodes.
 pub(super) fn transforms(
     instancing: &Instancing,
     accessors: &Accessors<'_>,
+    counted: u64,
     limits: &Limits,
     pointer: &str,
 ) -> Result<Vec<DAffine3>, AssetError> {
@@ -36,8 +37,9 @@ pub(super) fn transforms(
             "the attributes have different numbers of instances",
         ));
     }
-    // Each instance has at least one vertex.
-    Limits::check("instances", count as u64, limits.max_vertices)
+    // Each instance has at least one vertex, or is of no use.
+    let total = counted.saturating_add(count as u64);
+    Limits::check("instances", total, limits.max_vertices)
         .map_err(|error| error.at_json(pointer))?;
     let translations = translations
         .map(|elements| elements.floats::<3>())

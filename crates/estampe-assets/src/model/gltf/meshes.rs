@@ -4,11 +4,11 @@ use super::accessor::Accessors;
 use super::choice::Choice;
 use super::connectivity::Connectivity;
 use super::document::{Document, Index, Primitive};
-use super::fault::{element, warn};
+use super::fault::{element, shortened, warn};
 use super::instances;
 use super::placed::Placed;
 use super::pose::Pose;
-use super::skin::{Joint, Skin};
+use super::skin::{Joint, Skin, Skins};
 use super::vertices::{Vertices, active_targets};
 use crate::model::load::Context;
 use crate::{AssetError, Limits};
@@ -25,12 +25,13 @@ pub(super) struct Source<'a> {
 }
 
 /// The meshes, and which materials they use.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(super) struct Meshes {
     pub(super) meshes: Vec<Mesh>,
     /// The material of each mesh; `None` is the default material.
     pub(super) materials: Vec<Option<usize>>,
     totals: Totals,
+    skins: Skins,
 }
 
 /// Numbers of elements so far, which limits bound.
@@ -39,6 +40,11 @@ struct Totals {
     vertices: u64,
     elements: u64,
     morphed_vertices: u64,
+    instances: u64,
+    /// Primitives of all nodes, with and without vertices.
+    primitives: u64,
+    /// Morph targets and variants of these primitives.
+    alternatives: u64,
 }
 
 /// A node with a mesh.
@@ -82,19 +88,18 @@ impl Meshes {
         let node_from_instances = match instancing {
             Some(instancing) => {
                 let pointer = format!("/nodes/{index}/extensions/EXT_mesh_gpu_instancing");
-                instances::transforms(instancing, source.accessors, context.limits, &pointer)?
+                let counted = self.totals.instances;
+                let accessors = source.accessors;
+                instances::transforms(instancing, accessors, counted, context.limits, &pointer)?
             }
             None => vec![DAffine3::IDENTITY],
         };
+        if instancing.is_some() {
+            self.totals.instances += node_from_instances.len() as u64;
+        }
         let skin = node.skin.map(|skin| {
             let place = || format!("/nodes/{index}/skin");
-            Skin::new(
-                skin,
-                document,
-                source.world_from_node,
-                source.accessors,
-                place,
-            )
+            self.skins.get(skin, source, context.limits, place)
         });
         let animated = source.pose.of_node(index);
         let animated = animated.and_then(|pose| pose.weights.as_deref());
@@ -126,6 +131,9 @@ impl Meshes {
         context: &mut Context<'_>,
     ) -> Result<(), AssetError> {
         let accessors = source.accessors;
+        self.totals
+            .add_primitive(primitive, context.limits)
+            .map_err(|error| error.at_json(pointer))?;
         let Some(&positions) = primitive.attributes.get("POSITION") else {
             warn(context, pointer, "a primitive without POSITION is left out");
             return Ok(());
@@ -139,10 +147,6 @@ impl Meshes {
         let morphs = active_targets(primitive, place.weights).count();
         self.totals
             .add([count, element_count, morphs], instances, context.limits)
-            .and_then(|()| {
-                let count = self.meshes.len() as u64 + 1;
-                Limits::check("meshes", count, context.limits.max_meshes)
-            })
             .map_err(|error| error.at_json(pointer))?;
         let vertices = Vertices::read(primitive, place.weights, count, accessors, pointer)?;
         let connected = Connectivity::read(primitive, count, accessors, pointer, context)?;
@@ -162,7 +166,7 @@ impl Meshes {
             }
         }
         let mut mesh = placed.into_mesh();
-        place.name.clone_into(&mut mesh.name);
+        mesh.name = shortened(place.name);
         mesh.surfaces = vec![Surface {
             material: None,
             triangles: 0..mesh.triangles.len(),
@@ -174,6 +178,17 @@ impl Meshes {
 }
 
 impl Totals {
+    /// Counts a primitive of a node before it is looked at.
+    fn add_primitive(&mut self, primitive: &Primitive, limits: &Limits) -> Result<(), AssetError> {
+        self.primitives += 1;
+        Limits::check("primitives of nodes", self.primitives, limits.max_meshes)?;
+        let variants = primitive.extensions.variants.as_deref();
+        let variants = variants.map_or(0, |variants| variants.mappings.len());
+        self.alternatives += (primitive.targets.len() + variants) as u64;
+        let what = "morph targets and variants of nodes";
+        Limits::check(what, self.alternatives, limits.max_vertices)
+    }
+
     /// Adds a primitive of `count` vertices, `elements` and `morphs` active targets.
     fn add(
         &mut self,

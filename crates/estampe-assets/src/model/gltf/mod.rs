@@ -106,14 +106,15 @@ pub(super) fn parse(
         }
         paint_lines_and_points(mesh, &materials.materials[index]);
     }
+    let limits = context.limits;
     Ok(Parsed {
         scene: Scene {
             meshes,
             materials: materials.materials,
             images: materials.images,
             up: UpAxis::Y,
-            cameras: cameras_lights::cameras(&nodes, &document, &world_from_node)?,
-            lights: cameras_lights::lights(&nodes, &document, &world_from_node)?,
+            cameras: cameras_lights::cameras(&nodes, &document, &world_from_node, limits)?,
+            lights: cameras_lights::lights(&nodes, &document, &world_from_node, limits)?,
         },
         // The specification asks for it (§3.7.2.1).
         has_flat_normals: true,

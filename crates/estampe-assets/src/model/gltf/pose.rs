@@ -4,7 +4,7 @@
 
 use super::accessor::{Accessors, Elements};
 use super::choice::Choice;
-use super::document::{AnimationSampler, Document, Index};
+use super::document::{AnimationSampler, Document, Index, Node};
 use super::fault::{element, malformed};
 use super::interpolation::{self, Interpolation, Keys};
 use crate::{AssetError, Limits};
@@ -65,7 +65,9 @@ impl Pose {
             let sampler_pointer = format!("/animations/{index}/samplers/{}", channel.sampler);
             let keys = times.of(sampler, choice.time_s, accessors, &sampler_pointer)?;
             let output = accessors.get(sampler.output, || format!("{sampler_pointer}/output"))?;
-            times.charge(output.replaced_count(), &sampler_pointer)?;
+            let weights = morph_target_count(target, document);
+            let cost = output.replaced_count().saturating_add(weights);
+            times.charge(cost, &sampler_pointer)?;
             let curve = Curve {
                 interpolation: interpolation_of(sampler, &sampler_pointer)?,
                 keys,
@@ -76,12 +78,7 @@ impl Pose {
                 "translation" => changed.translation = curve.vector()?,
                 "scale" => changed.scale = curve.vector()?,
                 "rotation" => changed.rotation = curve.rotation()?,
-                "weights" => {
-                    let mesh = target.mesh.and_then(|mesh| document.meshes.get(mesh.0));
-                    let targets = mesh.and_then(|mesh| mesh.primitives.first());
-                    let count = targets.map_or(0, |primitive| primitive.targets.len());
-                    changed.weights = Some(curve.weights(count)?);
-                }
+                "weights" => changed.weights = Some(curve.weights(weights)?),
                 // `pointer` and others belong to extensions.
                 _ => {}
             }
@@ -90,10 +87,21 @@ impl Pose {
     }
 }
 
+/// The number of morph targets of a node's mesh.
+fn morph_target_count(node: &Node, document: &Document<'_>) -> usize {
+    let mesh = node.mesh.and_then(|mesh| document.meshes.get(mesh.0));
+    let primitive = mesh.and_then(|mesh| mesh.primitives.first());
+    primitive.map_or(0, |primitive| primitive.targets.len())
+}
+
 /// The last time of an animation; 0 if its accessors are not valid.
 pub(super) fn duration(document: &Document<'_>, accessors: &Accessors<'_>, index: usize) -> f32 {
     let last = |sampler: &AnimationSampler| {
         let times = accessors.get(sampler.input, String::new).ok()?;
+        // Sparse accessors are read whole, which is too much for each of many samplers.
+        if times.replaced_count() > 0 {
+            return None;
+        }
         let last = times.count.checked_sub(1)?;
         let [time] = *times.floats_in::<1>(last..times.count).ok()?.first()?;
         time.is_finite().then_some(time)

@@ -6,16 +6,55 @@
 //!
 //! The transform of the node that has the mesh does not count (§3.7.3.3 of the specification).
 
-use super::accessor::Accessors;
-use super::document::{Document, Index};
+use super::document::{self, Index};
 use super::fault::{element, malformed};
+use super::meshes::Source;
 use super::vertices::Influences;
-use crate::AssetError;
+use crate::{AssetError, Limits};
 use glam::{DAffine3, Mat3, Vec3};
+use std::collections::HashMap;
+use std::rc::Rc;
 
 /// The transforms of a skin's joints in a pose.
+#[derive(Clone)]
 pub(super) struct Skin {
-    world_from_bind: Vec<Joint>,
+    world_from_bind: Rc<[Joint]>,
+}
+
+/// The skins that nodes use, each computed once.
+#[derive(Default)]
+pub(super) struct Skins {
+    known: HashMap<Index, Skin>,
+    /// Joints and replaced elements of accessors that were read.
+    read: u64,
+}
+
+impl Skins {
+    /// The transforms of a skin. `pointer` is the place of its index.
+    pub(super) fn get(
+        &mut self,
+        index: Index,
+        source: &Source<'_>,
+        limits: &Limits,
+        pointer: impl FnOnce() -> String,
+    ) -> Result<Skin, AssetError> {
+        if let Some(known) = self.known.get(&index) {
+            return Ok(known.clone());
+        }
+        let skin = element(&source.document.skins, index, "skin", pointer)?;
+        self.read += skin.joints.len() as u64;
+        if let Some(matrices) = skin.inverse_bind_matrices {
+            let place = || format!("/skins/{index}/inverseBindMatrices");
+            let matrices = source.accessors.get(matrices, place)?;
+            self.read = self.read.saturating_add(matrices.replaced_count() as u64);
+        }
+        // Each joint moves at least one vertex, or is of no use.
+        Limits::check("joints", self.read, limits.max_vertices)
+            .map_err(|error| error.at_json(format!("/skins/{index}")))?;
+        let computed = Skin::new(skin, index, source)?;
+        self.known.insert(index, computed.clone());
+        Ok(computed)
+    }
 }
 
 /// A linear map and a translation, which are added and scaled component by component.
@@ -35,20 +74,12 @@ impl Joint {
 }
 
 impl Skin {
-    /// The transforms of a skin. `pointer` is the place of its index.
-    pub(super) fn new(
-        index: Index,
-        document: &Document<'_>,
-        world_from_node: &[DAffine3],
-        accessors: &Accessors<'_>,
-        pointer: impl FnOnce() -> String,
-    ) -> Result<Self, AssetError> {
-        let skin = element(&document.skins, index, "skin", pointer)?;
+    fn new(skin: &document::Skin, index: Index, source: &Source<'_>) -> Result<Self, AssetError> {
         let place = |property: &str| format!("/skins/{index}{property}");
         let matrices = match skin.inverse_bind_matrices {
             Some(accessor) => {
                 let place = || place("/inverseBindMatrices");
-                let matrices = accessors.get(accessor, place)?;
+                let matrices = source.accessors.get(accessor, place)?;
                 if matrices.count < skin.joints.len() {
                     let what = format!(
                         "{} matrices for {} joints",
@@ -63,7 +94,7 @@ impl Skin {
         };
         let joints = skin.joints.iter().enumerate().map(|(at, &joint)| {
             let place = || place(&format!("/joints/{at}"));
-            let world_from_joint = element(world_from_node, joint, "node", place)?;
+            let world_from_joint = element(source.world_from_node, joint, "node", place)?;
             let joint_from_bind = matrices
                 .get(at)
                 .map_or(DAffine3::IDENTITY, |matrix| affine(&matrix.map(f64::from)));

@@ -475,6 +475,19 @@ fn images_come_from_files_and_uris_and_each_file_is_decoded_once() {
 }
 
 #[test]
+fn a_view_that_two_images_name_is_decoded_once() {
+    let base = json!({ "baseColorTexture": { "index": 0 } });
+    let material = json!({ "pbrMetallicRoughness": base, "emissiveTexture": { "index": 1 } });
+    let mut file = with_material(material);
+    let view = file.json["images"][0].clone();
+    file.set("/images/1", view);
+    let loaded = load(&file.glb());
+    assert_eq!(loaded.scene.images.len(), 1);
+    let (_, pbr) = first(&loaded);
+    assert_eq!(pbr.base_color_texture, pbr.emissive_texture);
+}
+
+#[test]
 fn textures_that_cannot_be_read_are_left_out_with_a_warning() {
     let base = json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } });
     let check = |pointer: &str, value: Value, message: &str| {

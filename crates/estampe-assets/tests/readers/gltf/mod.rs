@@ -1,5 +1,6 @@
 //! Reader of glTF 2.0. The files are made here, by a small builder.
 
+mod amplification;
 pub(super) mod builder;
 mod containers;
 mod geometry;

@@ -230,6 +230,11 @@ fn wrong_sparse_accessors_are_refused() {
     }
     for (property, value, message) in [
         (
+            "count",
+            json!(4),
+            "/accessors/0/sparse/count: 4 elements replace some of 3",
+        ),
+        (
             "indices/bufferView",
             json!(9),
             "/accessors/0/sparse/indices/bufferView: buffer view 9",
@@ -362,7 +367,7 @@ fn limits_count_what_nodes_and_instances_make() {
                 max_meshes: 1,
                 ..enough.clone()
             },
-            "/meshes/0/primitives/0: 2 meshes are more",
+            "/meshes/0/primitives/0: 2 primitives of nodes are more",
         ),
         (
             Limits {
