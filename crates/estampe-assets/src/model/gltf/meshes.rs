@@ -41,10 +41,8 @@ struct Totals {
     elements: u64,
     morphed_vertices: u64,
     instances: u64,
-    /// Primitives of all nodes, with and without vertices.
-    primitives: u64,
-    /// Morph targets and variants of these primitives.
-    alternatives: u64,
+    /// Primitives of all nodes, with and without vertices, their morph targets and variants.
+    visited: u64,
 }
 
 /// A node with a mesh.
@@ -180,13 +178,12 @@ impl Meshes {
 impl Totals {
     /// Counts a primitive of a node before it is looked at.
     fn add_primitive(&mut self, primitive: &Primitive, limits: &Limits) -> Result<(), AssetError> {
-        self.primitives += 1;
-        Limits::check("primitives of nodes", self.primitives, limits.max_meshes)?;
         let variants = primitive.extensions.variants.as_deref();
         let variants = variants.map_or(0, |variants| variants.mappings.len());
-        self.alternatives += (primitive.targets.len() + variants) as u64;
-        let what = "morph targets and variants of nodes";
-        Limits::check(what, self.alternatives, limits.max_vertices)
+        self.visited += (1 + primitive.targets.len() + variants) as u64;
+        // Each has at least one vertex, or is of no use.
+        let what = "primitives, morph targets and variants of nodes";
+        Limits::check(what, self.visited, limits.max_vertices)
     }
 
     /// Adds a primitive of `count` vertices, `elements` and `morphs` active targets.

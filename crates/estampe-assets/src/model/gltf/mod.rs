@@ -31,6 +31,7 @@ mod hierarchy;
 mod images;
 mod instances;
 mod interpolation;
+mod joined;
 mod json;
 mod json_pointer;
 mod material;
@@ -106,6 +107,7 @@ pub(super) fn parse(
         }
         paint_lines_and_points(mesh, &materials.materials[index]);
     }
+    joined::join_beyond(&mut meshes, context.limits.max_meshes);
     let limits = context.limits;
     Ok(Parsed {
         scene: Scene {

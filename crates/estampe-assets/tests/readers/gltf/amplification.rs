@@ -73,7 +73,9 @@ fn many_nodes_with_many_empty_primitives() {
     nodes(&mut file, json!({ "mesh": 0 }), 60_000);
     ends_soon(
         &file,
-        Some("65537 primitives of nodes are more than the limit of 65536"),
+        Some(
+            "1000001 primitives, morph targets and variants of nodes are more than the limit of 1000000",
+        ),
     );
 }
 
@@ -132,7 +134,7 @@ fn many_nodes_with_many_morph_targets_of_no_weight() {
     file.set("/meshes/0/primitives/0/targets", json!(targets));
     file.set("/meshes/0/weights", json!(vec![0; 100_000]));
     nodes(&mut file, json!({ "mesh": 0 }), 60_000);
-    let message = "1100000 morph targets and variants of nodes are more than the limit of 1000000";
+    let message = "1000010 primitives, morph targets and variants of nodes are more than the limit of 1000000";
     ends_soon(&file, Some(message));
 }
 

@@ -315,6 +315,57 @@ fn what_can_be_read_all_the_same_is_a_warning() {
 }
 
 #[test]
+fn meshes_beyond_the_limit_are_joined_to_the_last_one() {
+    let mut file = Builder::triangle();
+    let normals = file.vec3s(&[[0.0, 0.0, 1.0]; 3]);
+    let pairs = file.floats(&[[0.25, 0.5]; 3]);
+    let primitive = |attributes: Value, mode: u32| json!({ "attributes": attributes, "mode": mode, "material": mode / 4 });
+    file.set(
+        "/meshes/0/primitives",
+        json!([
+            primitive(json!({ "POSITION": 0 }), 4),
+            primitive(json!({ "POSITION": 0, "TEXCOORD_1": pairs }), 4),
+            primitive(json!({ "POSITION": 0 }), 2),
+            primitive(
+                json!({ "POSITION": 0, "NORMAL": normals, "TEXCOORD_0": pairs }),
+                4
+            ),
+        ]),
+    );
+    file.set("/materials", json!([{}, {}]));
+    let limits = Limits {
+        max_meshes: 2,
+        ..Limits::default()
+    };
+    let scene = with_files(&file.glb(), &[], &limits).unwrap().scene;
+    assert_eq!(scene.meshes.len(), 2);
+    let mesh = &scene.meshes[1];
+    assert_eq!(mesh.positions.len(), 9);
+    assert_eq!(mesh.triangles, [[0, 1, 2], [6, 7, 8]]);
+    assert_eq!(mesh.lines, [[3, 4], [4, 5], [5, 3]]);
+    let ranges: Vec<_> = mesh
+        .surfaces
+        .iter()
+        .map(|s| (s.material, s.triangles.clone()))
+        .collect();
+    assert_eq!(ranges, [(Some(1), 0..1), (Some(1), 1..2)]);
+    assert!(
+        mesh.normals[..3]
+            .iter()
+            .all(|&normal| normal == glam::Vec3::Z)
+    );
+    assert_eq!(mesh.uvs[6], glam::Vec2::new(0.25, 0.5));
+    assert_eq!(mesh.colors, [[1.0; 4]; 9]);
+    let second = mesh
+        .attribute(estampe_scene::Mesh::UV1)
+        .expect("a value for each vertex");
+    assert_eq!(
+        second.values[..8],
+        [0.25, 0.5, 0.25, 0.5, 0.25, 0.5, 0.0, 0.0]
+    );
+}
+
+#[test]
 fn limits_count_what_nodes_and_instances_make() {
     let mut file = Builder::triangle();
     let places = file.vec3s(&[[0.0; 3]; 4]);
@@ -342,7 +393,6 @@ fn limits_count_what_nodes_and_instances_make() {
     let enough = Limits {
         max_vertices: 15,
         max_triangles: 5,
-        max_meshes: 2,
         max_materials: 2,
         ..default()
     };
@@ -361,13 +411,6 @@ fn limits_count_what_nodes_and_instances_make() {
                 ..enough.clone()
             },
             "/meshes/0/primitives/0: 5 triangles, lines and points are more than the limit of 4",
-        ),
-        (
-            Limits {
-                max_meshes: 1,
-                ..enough.clone()
-            },
-            "/meshes/0/primitives/0: 2 primitives of nodes are more",
         ),
         (
             Limits {
