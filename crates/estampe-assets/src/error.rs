@@ -27,6 +27,9 @@ pub enum AssetError {
 pub struct Fault {
     /// Name of the file; empty while it is not known (the caller adds it).
     pub file: String,
+    /// JSON Pointer (RFC 6901) of the value, such as `/accessors/3/count`; empty if the file is not
+    /// JSON.
+    pub json_pointer: String,
     /// Location in the file.
     pub location: Option<Location>,
     /// The problem.
@@ -72,6 +75,13 @@ impl AssetError {
         self
     }
 
+    /// Adds the JSON Pointer of the value.
+    #[must_use]
+    pub fn at_json(mut self, pointer: impl Into<String>) -> Self {
+        self.fault_mut().json_pointer = pointer.into();
+        self
+    }
+
     /// Adds the file's name, unless there is one already.
     #[must_use]
     pub fn in_file(mut self, file: &str) -> Self {
@@ -107,6 +117,7 @@ impl Fault {
     fn new(what: impl Into<String>, advice: impl Into<String>) -> Self {
         Self {
             file: String::new(),
+            json_pointer: String::new(),
             location: None,
             what: what.into(),
             advice: advice.into(),
@@ -116,7 +127,7 @@ impl Fault {
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write_place(f, &self.file, self.location)?;
+        write_place(f, &self.file, &self.json_pointer, self.location)?;
         write!(f, "{}", self.what)?;
         if self.advice.is_empty() {
             Ok(())
@@ -135,16 +146,23 @@ impl fmt::Display for Location {
     }
 }
 
-/// Writes `file, line 3: `, or as much of it as is known.
+/// Writes `file, /nodes/3, line 3: `, or as much of it as is known.
 pub(crate) fn write_place(
     f: &mut fmt::Formatter<'_>,
     file: &str,
+    json_pointer: &str,
     location: Option<Location>,
 ) -> fmt::Result {
-    match (file.is_empty(), location) {
-        (true, None) => Ok(()),
-        (true, Some(location)) => write!(f, "{location}: "),
-        (false, None) => write!(f, "{file}: "),
-        (false, Some(location)) => write!(f, "{file}, {location}: "),
+    let mut separator = "";
+    for part in [file, json_pointer] {
+        if !part.is_empty() {
+            write!(f, "{separator}{part}")?;
+            separator = ", ";
+        }
     }
+    if let Some(location) = location {
+        write!(f, "{separator}{location}")?;
+        separator = ", ";
+    }
+    f.write_str(if separator.is_empty() { "" } else { ": " })
 }

@@ -1,8 +1,8 @@
 #![forbid(unsafe_code)]
 //! Readers and writers of models and images.
 //!
-//! - [`model`]: OBJ with its material libraries, STL and PLY become an [`estampe_scene::Scene`], and
-//!   back.
+//! - [`model`]: glTF, OBJ with its material libraries, STL and PLY become an
+//!   [`estampe_scene::Scene`]; OBJ, STL and PLY are also written.
 //! - [`image`]: TGA, PNG and JPEG become an [`estampe_scene::Image`], and back.
 //!
 //! Every input is treated as hostile: a reader ends with a value or an [`AssetError`] with the
@@ -25,5 +25,6 @@ struct Readme;
 pub use error::{AssetError, Fault, Location};
 pub use file::{read_bytes, read_stream};
 pub use limits::Limits;
-pub use model::{Loaded, ModelFormat, encode_model, load_model, parse_model};
+pub use model::{Loaded, ModelFormat, ModelInput, ModelOptions};
+pub use model::{encode_model, load_model, load_model_with, parse_model, parse_model_with};
 pub use warning::Warning;

@@ -8,6 +8,8 @@ use std::fmt;
 pub struct Warning {
     /// Name of the file, which may be a side file (a material library, a texture).
     pub file: String,
+    /// JSON Pointer (RFC 6901) of the value; empty if the file is not JSON.
+    pub json_pointer: String,
     /// Location in the file.
     pub location: Option<Location>,
     /// The irregularity and how it was handled.
@@ -16,7 +18,7 @@ pub struct Warning {
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write_place(f, &self.file, self.location)?;
+        write_place(f, &self.file, &self.json_pointer, self.location)?;
         write!(f, "{}", self.message)
     }
 }
@@ -50,8 +52,24 @@ impl Warnings {
         if self.kept.len() < self.max_kept {
             let warning = Warning {
                 file: file.to_owned(),
+                json_pointer: String::new(),
                 location: location.into(),
                 message: message(),
+            };
+            self.kept.push(warning);
+        }
+    }
+
+    /// Adds a warning of a JSON file; `message` returns the JSON Pointer and the text.
+    pub(crate) fn add_at_json(&mut self, file: &str, message: impl FnOnce() -> (String, String)) {
+        self.count += 1;
+        if self.kept.len() < self.max_kept {
+            let (json_pointer, message) = message();
+            let warning = Warning {
+                file: file.to_owned(),
+                json_pointer,
+                location: None,
+                message,
             };
             self.kept.push(warning);
         }

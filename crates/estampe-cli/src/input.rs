@@ -49,8 +49,8 @@ impl Model {
                 let name = "standard input";
                 let Some(format) = format else {
                     return Err(Failure::Usage(
-                        "standard input has no file name that shows the format; add --format obj, stl or \
-                         ply"
+                        "standard input has no file name that shows the format; add --format gltf, obj, \
+                         stl or ply"
                         .to_owned(),
                     ));
                 };
@@ -72,8 +72,8 @@ impl Model {
                     .or_else(|| ModelFormat::from_content(&bytes))
                     .ok_or_else(|| {
                         Failure::Input(format!(
-                            "{name}: neither its extension nor its content is that of a model; OBJ, \
-                             STL and PLY are read, name the format by --format if it is one of them"
+                            "{name}: neither its extension nor its content is that of a model; glTF, \
+                             OBJ, STL and PLY are read, name the format by --format if it is one of them"
                         ))
                     })?;
                 on_stage("parsing");

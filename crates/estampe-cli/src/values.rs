@@ -218,6 +218,9 @@ pub(crate) fn shown(path: &Path) -> String {
 /// Formats of models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum FormatName {
+    /// glTF 2.0: .gltf with its files, or .glb
+    #[value(alias = "glb")]
+    Gltf,
     /// Wavefront OBJ
     Obj,
     /// Stereolithography, binary or ASCII
@@ -229,6 +232,7 @@ pub(crate) enum FormatName {
 impl From<FormatName> for ModelFormat {
     fn from(name: FormatName) -> Self {
         match name {
+            FormatName::Gltf => Self::Gltf,
             FormatName::Obj => Self::Obj,
             FormatName::Stl => Self::Stl,
             FormatName::Ply => Self::Ply,

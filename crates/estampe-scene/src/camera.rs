@@ -15,6 +15,17 @@ pub struct Camera {
     pub projection: Projection,
 }
 
+/// A camera that a file describes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedCamera {
+    /// Name in the file; may be empty.
+    pub name: String,
+    /// The camera; the target is one unit in front of the eye.
+    pub camera: Camera,
+    /// Width divided by height of the picture; `None` is that of the output.
+    pub aspect: Option<f32>,
+}
+
 /// Projection from view space to the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Projection {
@@ -24,7 +35,7 @@ pub enum Projection {
         fov_y_rad: f32,
         /// Distance of the near plane, > 0.
         near: f32,
-        /// Distance of the far plane, > near.
+        /// Distance of the far plane, > near; files may have ∞.
         far: f32,
     },
     /// Size does not depend on distance.

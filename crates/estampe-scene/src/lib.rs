@@ -11,6 +11,8 @@ mod image;
 mod light;
 mod material;
 mod mesh;
+mod pbr;
+mod texture_ref;
 mod workers;
 
 /// The README's snippet, compiled and run as a test.
@@ -19,11 +21,16 @@ mod workers;
 struct Readme;
 
 pub use bounds::Bounds;
-pub use camera::{Camera, Projection};
+pub use camera::{Camera, NamedCamera, Projection};
 pub use image::Image;
-pub use light::{Light, LightSource};
+pub use light::{Light, LightSource, PunctualLight, PunctualLightKind};
 pub use material::{AlphaMode, Material};
 pub use mesh::{LineSegment, Mesh, MeshAttribute, Surface, Triangle, UpAxis};
+pub use pbr::{
+    Anisotropy, Clearcoat, Iridescence, NormalTexture, PbrMaterial, Sheen, SpecularLayer,
+    Transmission, Volume,
+};
+pub use texture_ref::{AddressMode, TextureFilter, TextureRef, TextureSampler, UvTransform};
 pub use workers::{Workers, pieces};
 
 /// The contents of one file.
@@ -37,4 +44,8 @@ pub struct Scene {
     pub images: Vec<Image>,
     /// The axis that points up in the file's space.
     pub up: UpAxis,
+    /// The cameras of the file, in world space.
+    pub cameras: Vec<NamedCamera>,
+    /// The lights of the file, in world space.
+    pub lights: Vec<PunctualLight>,
 }

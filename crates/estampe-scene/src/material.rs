@@ -1,8 +1,10 @@
 //! Materials of surfaces.
 
+use crate::PbrMaterial;
 use glam::Vec3;
 
-/// A surface material, as OBJ's MTL describes it.
+/// A surface material, as OBJ's MTL describes it, and its physically based description if the file
+/// has one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Name in the file; may be empty.
@@ -26,6 +28,9 @@ pub struct Material {
     pub bump_scale: f32,
     /// Use of the base-colour texture's alpha.
     pub alpha_mode: AlphaMode,
+    /// The physically based description, if the file has one. The other fields are then an
+    /// approximation of it for the Phong model.
+    pub pbr: Option<Box<PbrMaterial>>,
 }
 
 /// Use of a material's alpha.
@@ -54,6 +59,7 @@ impl Default for Material {
             bump_texture: None,
             bump_scale: 1.0,
             alpha_mode: AlphaMode::Opaque,
+            pbr: None,
         }
     }
 }

@@ -68,6 +68,13 @@ pub enum UpAxis {
 }
 
 impl Mesh {
+    /// Name of the attribute that holds a second set of texture coordinates: 2 components, v = 0 at
+    /// the image's top row.
+    pub const UV1: &'static str = "uv1";
+    /// Name of the attribute that holds tangents: 4 components, a unit vector or zero, and the sign
+    /// of the bitangent, cross(normal, tangent) · sign.
+    pub const TANGENT: &'static str = "tangent";
+
     /// The attribute with this name among [`attributes`](Self::attributes). `None` if there is none,
     /// or if it has not its number of components for each vertex.
     #[must_use]

@@ -179,10 +179,14 @@ const OUTSIDE: &[(&str, Users)] = &[
         Users::Only(&["estampe-cli", "estampe-bench", "xtask"]),
     ),
     ("indicatif", Users::Only(&["estampe-cli", "estampe-bench"])),
-    ("serde", Users::Only(&["estampe-bench", "estampe-tests"])),
+    (
+        "serde",
+        Users::Only(&["estampe-assets", "estampe-bench", "estampe-tests"]),
+    ),
     (
         "serde_json",
         Users::Only(&[
+            "estampe-assets",
             "estampe-cli",
             "estampe-bench",
             "estampe-tests",

@@ -102,6 +102,14 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
     }
 }
 
+/// Width and height from the header of a PNG or JPEG. `None` if it is neither, or damaged.
+pub(crate) fn stated_size(bytes: &[u8]) -> Option<(u32, u32)> {
+    if bytes.starts_with(png::SIGNATURE) {
+        return png::stated_size(bytes);
+    }
+    jpeg::stated_size(bytes)
+}
+
 /// Writes an image with the format's default settings: PNG and TGA store alpha if a pixel needs it,
 /// JPEG has quality 90 and treats every pixel as opaque.
 ///
@@ -173,6 +181,20 @@ mod tests {
         let decoded = decode(&jpeg, &Limits::default()).expect("our own JPEG");
         assert_eq!((decoded.width, decoded.height), (7, 5));
         assert!(!ImageFormat::Jpeg.has_alpha() && ImageFormat::Png.has_alpha());
+    }
+
+    #[test]
+    fn sizes_are_found_in_headers() {
+        let image = samples::noise(37, 5, 1);
+        for (format, size) in [
+            (ImageFormat::Png, Some((37, 5))),
+            (ImageFormat::Jpeg, Some((37, 5))),
+            (ImageFormat::Tga, None),
+        ] {
+            let bytes = encode(&image, format).expect("a valid image");
+            assert_eq!(stated_size(&bytes), size, "{format:?}");
+            assert_eq!(stated_size(&bytes[..10]), None, "{format:?}");
+        }
     }
 
     #[test]

@@ -24,6 +24,7 @@ mod transform;
 )]
 mod samples;
 
+pub(crate) use format::stated_size;
 pub use format::{AlphaChannel, ImageFormat, decode, encode};
 pub use jpeg::encode_jpeg;
 pub use png::{encode_drawing_png, encode_png};

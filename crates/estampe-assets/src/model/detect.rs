@@ -1,11 +1,14 @@
 //! Detection of a model's format.
 
+use super::gltf;
 use std::path::Path;
 
 /// Formats of models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ModelFormat {
+    /// glTF 2.0: JSON with its files (`.gltf`), or in one file (`.glb`).
+    Gltf,
     /// Wavefront OBJ, with its MTL material libraries.
     Obj,
     /// Stereolithography, binary or ASCII.
@@ -19,19 +22,29 @@ impl ModelFormat {
     #[must_use]
     pub fn from_extension(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_str()?;
-        [(Self::Obj, "obj"), (Self::Stl, "stl"), (Self::Ply, "ply")]
-            .into_iter()
-            .find(|(_, name)| extension.eq_ignore_ascii_case(name))
-            .map(|(format, _)| format)
+        [
+            (Self::Gltf, "gltf"),
+            (Self::Gltf, "glb"),
+            (Self::Obj, "obj"),
+            (Self::Stl, "stl"),
+            (Self::Ply, "ply"),
+        ]
+        .into_iter()
+        .find(|(_, name)| extension.eq_ignore_ascii_case(name))
+        .map(|(format, _)| format)
     }
 
     /// The format by content, for input without a name.
     ///
-    /// PLY has a magic word, and binary STL a length that must fit its triangle count; ASCII STL
-    /// and OBJ are recognised by their first statements.
+    /// GLB and PLY have magic words, glTF is a JSON object with an `asset`, and binary STL has a
+    /// length that must fit its triangle count; ASCII STL and OBJ are recognised by their first
+    /// statements.
     #[must_use]
     pub fn from_content(bytes: &[u8]) -> Option<Self> {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        if is_gltf(bytes) {
+            return Some(Self::Gltf);
+        }
         if is_ply(bytes) {
             return Some(Self::Ply);
         }
@@ -45,11 +58,25 @@ impl ModelFormat {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            Self::Gltf => "glTF",
             Self::Obj => "OBJ",
             Self::Stl => "STL",
             Self::Ply => "PLY",
         }
     }
+}
+
+/// True for GLB's magic word, and for a JSON object with a key `asset` near its start or its end:
+/// some exporters write it last.
+fn is_gltf(bytes: &[u8]) -> bool {
+    const EXAMINED_BYTES: usize = 64 * 1024;
+    if bytes.starts_with(gltf::MAGIC) {
+        return true;
+    }
+    let has_key = |part: &[u8]| part.windows(7).any(|word| word == b"\"asset\"");
+    let head = &bytes[..bytes.len().min(EXAMINED_BYTES)];
+    let tail = &bytes[bytes.len().saturating_sub(EXAMINED_BYTES)..];
+    head.trim_ascii_start().starts_with(b"{") && (has_key(head) || has_key(tail))
 }
 
 /// True if the bytes start with PLY's magic word on a separate line.

@@ -28,6 +28,8 @@ pub(super) fn finish(mut parsed: Parsed, context: &mut Context<'_>) -> Parsed {
         .any(|&group| group != 0);
     let mode = if is_grouped {
         NormalMode::SmoothingGroups(&parsed.smoothing_groups)
+    } else if parsed.has_flat_normals {
+        NormalMode::Flat
     } else {
         NormalMode::default()
     };

@@ -1,7 +1,8 @@
 //! Entry points: a path, or bytes in memory.
 
+use super::options::{ModelChoices, ModelOptions};
 use super::resources::{Folder, ResourceError, Resources};
-use super::{ModelFormat, finish, obj, ply, stl};
+use super::{ModelFormat, finish, gltf, obj, ply, stl};
 use crate::warning::{Warning, Warnings};
 use crate::{AssetError, Limits, read_bytes};
 use estampe_scene::{Scene, Workers};
@@ -23,6 +24,28 @@ pub struct Loaded {
     /// OBJ's `vp` statements: points in the parameter space of free-form curves, which are kept but
     /// not drawn.
     pub parameter_points: Vec<Vec3>,
+    /// What [`ModelOptions`] can choose in this file.
+    pub choices: ModelChoices,
+}
+
+/// The bytes of a model and where they come from.
+#[derive(Clone, Copy)]
+pub struct ModelInput<'a> {
+    /// The file.
+    pub bytes: &'a [u8],
+    /// Its format.
+    pub format: ModelFormat,
+    /// Its name in messages.
+    pub name: &'a str,
+    /// The source of its side files.
+    pub resources: &'a dyn Resources,
+}
+
+impl std::fmt::Debug for ModelInput<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { format, name, .. } = self;
+        write!(f, "ModelInput({name}, {format:?})")
+    }
 }
 
 /// Output of a format's reader, before the final steps.
@@ -32,6 +55,9 @@ pub(super) struct Parsed {
     /// Smoothing group of each triangle of each mesh; empty if the file has none.
     pub(super) smoothing_groups: Vec<Vec<u32>>,
     pub(super) parameter_points: Vec<Vec3>,
+    /// Missing normals are those of the triangles, without smooth edges.
+    pub(super) has_flat_normals: bool,
+    pub(super) choices: ModelChoices,
 }
 
 /// State that all readers share.
@@ -76,6 +102,19 @@ pub fn load_model(
     format: Option<ModelFormat>,
     limits: &Limits,
 ) -> Result<Loaded, AssetError> {
+    load_model_with(path, format, &ModelOptions::default(), limits)
+}
+
+/// [`load_model`] with a choice of what is read.
+///
+/// # Errors
+/// As [`parse_model_with`], and `Io` if the file cannot be read.
+pub fn load_model_with(
+    path: &Path,
+    format: Option<ModelFormat>,
+    options: &ModelOptions,
+    limits: &Limits,
+) -> Result<Loaded, AssetError> {
     let name = path.display().to_string();
     let bytes = read_file(path, limits).map_err(|error| error.in_file(&name))?;
     let named = format.or_else(|| ModelFormat::from_extension(path));
@@ -84,11 +123,17 @@ pub fn load_model(
         .ok_or_else(|| {
             AssetError::unsupported(
                 "neither the extension nor the content is that of a known model format",
-                "OBJ, STL and PLY are read; name the format if it is one of them",
+                "glTF, OBJ, STL and PLY are read; name the format if it is one of them",
             )
             .in_file(&name)
         })?;
-    parse_model(&bytes, format, &name, &Folder::of_model(path), limits)
+    let input = ModelInput {
+        bytes: &bytes,
+        format,
+        name: &name,
+        resources: &Folder::of_model(path),
+    };
+    parse_model_with(&input, options, limits)
 }
 
 /// Reads a model from `bytes`; `name` is its name in messages.
@@ -96,7 +141,7 @@ pub fn load_model(
 /// # Errors
 /// `Malformed` if the file has no usable element, `Unsupported` for unsupported formats, and
 /// `LimitExceeded` for more than `limits` allow. A side file that is missing, forbidden or broken
-/// is a warning.
+/// is a warning, unless it holds the geometry (a buffer of glTF).
 pub fn parse_model(
     bytes: &[u8],
     format: ModelFormat,
@@ -104,6 +149,30 @@ pub fn parse_model(
     resources: &dyn Resources,
     limits: &Limits,
 ) -> Result<Loaded, AssetError> {
+    let input = ModelInput {
+        bytes,
+        format,
+        name,
+        resources,
+    };
+    parse_model_with(&input, &ModelOptions::default(), limits)
+}
+
+/// [`parse_model`] with a choice of what is read.
+///
+/// # Errors
+/// As [`parse_model`], and `Unsupported` if the file does not have what the options name.
+pub fn parse_model_with(
+    input: &ModelInput<'_>,
+    options: &ModelOptions,
+    limits: &Limits,
+) -> Result<Loaded, AssetError> {
+    let &ModelInput {
+        bytes,
+        format,
+        name,
+        resources,
+    } = input;
     let mut context = Context {
         name,
         resources,
@@ -114,6 +183,7 @@ pub fn parse_model(
     };
     let parsed = Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)
         .and_then(|()| match format {
+            ModelFormat::Gltf => gltf::parse(bytes, options, &mut context),
             ModelFormat::Obj => obj::parse(bytes, &mut context),
             ModelFormat::Stl => stl::parse(bytes, &mut context),
             ModelFormat::Ply => ply::parse(bytes, &mut context),
@@ -127,6 +197,7 @@ pub fn parse_model(
         warnings,
         warning_count,
         parameter_points: parsed.parameter_points,
+        choices: parsed.choices,
     })
 }
 

@@ -1,9 +1,9 @@
-//! Readers and writers of models: OBJ with MTL, STL and PLY.
+//! Readers of models: glTF, OBJ with MTL, STL and PLY; and writers of the last three.
 //!
 //! ```text
-//! bytes -> obj | stl | ply  (one folder each: lines or records -> meshes)
-//!       -> finish           (faces with non-finite corners dropped, limits)
-//!       -> normals          (missing ones)
+//! bytes -> gltf | obj | stl | ply  (one folder each: JSON, lines or records -> meshes)
+//!       -> finish                  (faces with non-finite corners dropped, limits)
+//!       -> normals                 (missing ones)
 //!       -> Scene -> write -> bytes
 //! ```
 //!
@@ -13,11 +13,13 @@
 
 mod detect;
 mod finish;
+mod gltf;
 mod load;
 mod mtl;
 pub mod normals;
 mod number;
 mod obj;
+mod options;
 mod ply;
 mod polygons;
 mod resources;
@@ -33,7 +35,8 @@ mod write;
 mod tests;
 
 pub use detect::ModelFormat;
-pub use load::{Loaded, load_model, parse_model};
+pub use load::{Loaded, ModelInput, load_model, load_model_with, parse_model, parse_model_with};
 pub use normals::NormalMode;
+pub use options::{AnimationClip, AnimationName, ModelChoices, ModelOptions};
 pub use resources::{Folder, NoResources, ResourceError, Resources};
 pub use write::encode_model;

@@ -1,5 +1,6 @@
 //! Readers of models and images.
 
+mod gltf;
 mod images_tga_suite;
 mod models_data;
 mod models_hostile;

@@ -196,7 +196,7 @@ fn read(fixture: &Fixture, bytes: &[u8]) -> bool {
 }
 
 /// Checks the properties that every scene has.
-fn check(scene: &Scene) {
+pub(super) fn check(scene: &Scene) {
     for mesh in &scene.meshes {
         check_mesh(mesh, scene.materials.len());
     }

@@ -89,6 +89,58 @@ fn ply(cells: usize) -> Vec<u8> {
     bytes
 }
 
+/// A GLB file, with normals and texture coordinates or with positions alone.
+fn glb(cells: usize, with_attributes: bool) -> Vec<u8> {
+    let (points, triangles) = grid(cells);
+    let indices: Vec<u8> = triangles
+        .as_flattened()
+        .iter()
+        .flat_map(|index| index.to_le_bytes())
+        .collect();
+    let numbers = |values: &[f32]| -> Vec<u8> {
+        values
+            .iter()
+            .flat_map(|value| value.to_le_bytes())
+            .collect()
+    };
+    let count = points.len();
+    let mut parts = vec![
+        ("SCALAR", 5125, triangles.len() * 3, indices),
+        ("VEC3", 5126, count, numbers(points.as_flattened())),
+    ];
+    let mut attributes = serde_json::json!({ "POSITION": 1 });
+    if with_attributes {
+        let uvs: Vec<f32> = points.iter().flat_map(|&[x, _, z]| [x, z]).collect();
+        let normals = vec![[0.0, 1.0, 0.0]; count];
+        parts.push(("VEC3", 5126, count, numbers(normals.as_flattened())));
+        parts.push(("VEC2", 5126, count, numbers(&uvs)));
+        attributes = serde_json::json!({ "POSITION": 1, "NORMAL": 2, "TEXCOORD_0": 3 });
+    }
+    let mut bin = Vec::new();
+    let mut views = Vec::new();
+    let mut accessors = Vec::new();
+    for (view, (kind, component, count, bytes)) in parts.iter().enumerate() {
+        views.push(
+            serde_json::json!({ "buffer": 0, "byteOffset": bin.len(), "byteLength": bytes.len() }),
+        );
+        accessors.push(
+            serde_json::json!({ "bufferView": view, "componentType": component,
+            "count": count, "type": kind }),
+        );
+        bin.extend(bytes);
+    }
+    let json = serde_json::json!({
+        "asset": { "version": "2.0" },
+        "scenes": [{ "nodes": [0] }],
+        "nodes": [{ "mesh": 0, "translation": [1, 2, 3], "rotation": [0, 1, 0, 0] }],
+        "meshes": [{ "primitives": [{ "attributes": attributes, "indices": 0 }] }],
+        "accessors": accessors,
+        "bufferViews": views,
+        "buffers": [{ "byteLength": bin.len() }],
+    });
+    crate::gltf::builder::glb(json.to_string().as_bytes(), &bin)
+}
+
 fn measure(name: &str, bytes: &[u8], format: ModelFormat) {
     let limits = Limits::default();
     let mut times = Vec::new();
@@ -123,6 +175,8 @@ fn measure(name: &str, bytes: &[u8], format: ModelFormat) {
 fn speed() {
     measure("grid 1 M, obj v", &obj(707, false), ModelFormat::Obj);
     measure("grid 1 M, obj v/vt/vn", &obj(707, true), ModelFormat::Obj);
+    measure("grid 1 M, glb", &glb(707, true), ModelFormat::Gltf);
+    measure("grid 1 M, glb flat", &glb(707, false), ModelFormat::Gltf);
     measure("grid 70 k, stl", &stl(187), ModelFormat::Stl);
     measure("grid 1 M, stl", &stl(707), ModelFormat::Stl);
     measure("grid 70 k, ply", &ply(187), ModelFormat::Ply);

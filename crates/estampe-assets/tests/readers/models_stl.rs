@@ -220,7 +220,7 @@ fn formats_are_detected_by_content() {
         Some(ModelFormat::Obj)
     );
     assert_eq!(format(b"\xef\xbb\xbfv 1 2 3\n"), Some(ModelFormat::Obj));
-    assert_eq!(format(b"glTF\x02"), None);
+    assert_eq!(format(b"glTF\x02"), Some(ModelFormat::Gltf));
     assert_eq!(format(b""), None);
     let by_name = |name: &str| ModelFormat::from_extension(std::path::Path::new(name));
     assert_eq!(by_name("a/b.STL"), Some(ModelFormat::Stl));

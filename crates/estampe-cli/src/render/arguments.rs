@@ -4,7 +4,7 @@ use super::picture::{PictureArgs, ReportArgs};
 use crate::values::{Destination, FormatName, ImageFormatName, Source};
 use clap::Args;
 
-/// Renders an image of a model: OBJ, STL or PLY to PNG, JPEG or TGA.
+/// Renders an image of a model: glTF, OBJ, STL or PLY to PNG, JPEG or TGA.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "\
 Examples:
@@ -44,7 +44,9 @@ pub(crate) struct RenderArgs {
 
     /// The model's format, if neither name nor content shows it; required for standard input
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
-    #[arg(help = "The model's format: obj, stl or ply [default: by extension, else by content]")]
+    #[arg(
+        help = "The model's format: gltf, obj, stl or ply [default: by extension, else by content]"
+    )]
     pub(crate) format: Option<FormatName>,
 
     /// The image's format: png, jpeg or tga [default: by OUT's extension; png for standard output]

@@ -110,7 +110,10 @@ fn output_of(args: &ShapeArgs) -> Result<Output, Failure> {
                 .to_owned(),
         ));
     };
-    let model = ModelFormat::from_extension(path).map(Output::Model);
+    let model = ModelFormat::from_extension(path)
+        // glTF is read, not written.
+        .filter(|&format| format != ModelFormat::Gltf)
+        .map(Output::Model);
     let picture = || ImageFormat::from_path(path).map(Output::Picture);
     model.or_else(picture).ok_or_else(|| {
         Failure::Usage(
@@ -214,6 +217,7 @@ fn warnings(interruptions: u64) -> Vec<Warning> {
         return Vec::new();
     }
     vec![Warning {
+        json_pointer: String::new(),
         file: String::new(),
         location: None,
         message: format!(

@@ -79,6 +79,14 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
     })
 }
 
+/// Width and height from the frame header.
+pub(super) fn stated_size(bytes: &[u8]) -> Option<(u32, u32)> {
+    let mut decoder = JpegDecoder::new(ZCursor::new(bytes));
+    decoder.decode_headers().ok()?;
+    let (width, height) = decoder.dimensions()?;
+    Some((side(width), side(height)))
+}
+
 /// Writes a baseline JPEG of `quality` 1 to 100. Every pixel is treated as opaque: composite over a
 /// background first.
 ///

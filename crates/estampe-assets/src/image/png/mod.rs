@@ -39,6 +39,13 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
     })
 }
 
+/// Width and height from the header.
+pub(super) fn stated_size(bytes: &[u8]) -> Option<(u32, u32)> {
+    // The signature, then IHDR's length and name, then the two numbers.
+    let side = |at: usize| Some(u32::from_be_bytes(*bytes.get(at..)?.first_chunk()?));
+    Some((side(16)?, side(20)?))
+}
+
 /// The reason why a PNG was refused: an error of the decoder, still without location, or ours.
 enum Refusal {
     Decoder(DecodingError),

@@ -245,4 +245,10 @@ fn append_copy(mesh: &mut Mesh, vertex: usize, normal: Vec3) {
     if let Some(&color) = mesh.colors.get(vertex) {
         mesh.colors.push(color);
     }
+    for attribute in &mut mesh.attributes {
+        let start = vertex * attribute.components;
+        attribute
+            .values
+            .extend_from_within(start..start + attribute.components);
+    }
 }

@@ -52,11 +52,13 @@ pub(super) fn assemble(mut contents: Contents<'_>, context: &mut Context<'_>) ->
         materials: library.materials,
         images: library.images,
         up: UpAxis::Y,
+        ..Scene::default()
     };
     Parsed {
         scene,
         smoothing_groups,
         parameter_points,
+        ..Parsed::default()
     }
 }
 

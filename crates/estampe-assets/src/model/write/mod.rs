@@ -27,12 +27,19 @@ use estampe_scene::{Mesh, Scene};
 /// coordinates differ at a seam is closed.
 ///
 /// # Errors
-/// [`AssetError::Unsupported`] for lines or points in STL, and for positions that are not finite.
+/// [`AssetError::Unsupported`] for glTF, which is only read, for lines or points in STL, and for
+/// positions that are not finite.
 pub fn encode_model(scene: &Scene, format: ModelFormat) -> Result<Vec<u8>, AssetError> {
     for mesh in &scene.meshes {
         check_finite(mesh)?;
     }
     let text = match format {
+        ModelFormat::Gltf => {
+            return Err(AssetError::unsupported(
+                "glTF is read, not written",
+                "write OBJ, STL or PLY",
+            ));
+        }
         ModelFormat::Obj => obj::write(&scene.meshes),
         ModelFormat::Stl => stl::write(&scene.meshes)?,
         ModelFormat::Ply => ply::write(&scene.meshes),

@@ -1,0 +1,96 @@
+//! Textures as materials use them: image, sampler, coordinates and their transform.
+
+use super::super::document::{Document, Index, Sampler, TextureInfo};
+use super::super::fault::{element, malformed, warn};
+use crate::AssetError;
+use crate::model::load::Context;
+use estampe_scene::{AddressMode, TextureFilter, TextureRef, TextureSampler, UvTransform};
+use glam::Vec2;
+
+/// A texture with the image's index in the file. `None` if there is none that can be read.
+pub(super) fn reference(
+    info: Option<&TextureInfo>,
+    pointer: &str,
+    document: &Document<'_>,
+    context: &mut Context<'_>,
+) -> Result<Option<TextureRef>, AssetError> {
+    let Some(info) = info else {
+        return Ok(None);
+    };
+    let place = || format!("{pointer}/index");
+    let texture = element(&document.textures, info.index, "texture", place)?;
+    let texture_pointer = format!("/textures/{}", info.index);
+    let sampler = match texture.sampler {
+        Some(index) => {
+            let place = || format!("{texture_pointer}/sampler");
+            let sampler = element(&document.samplers, index, "sampler", place)?;
+            sampler_of(sampler, &format!("/samplers/{index}"))?
+        }
+        None => TextureSampler::default(),
+    };
+    let Some(source) = texture.source else {
+        let what = "the texture has no PNG or JPEG image; it is left out";
+        warn(context, texture_pointer, what);
+        return Ok(None);
+    };
+    let place = || format!("{texture_pointer}/source");
+    element(&document.images, source, "image", place)?;
+    let transform = info.extensions.transform.as_deref();
+    let uv_set = transform
+        .and_then(|transform| transform.tex_coord)
+        .unwrap_or(info.tex_coord);
+    let Some(uv_set) = u8::try_from(uv_set.0).ok().filter(|&set| set < 2) else {
+        let what = format!(
+            "texture coordinates TEXCOORD_{uv_set} are not read, only 0 and 1; the texture is left out"
+        );
+        warn(context, pointer, what);
+        return Ok(None);
+    };
+    let transform = transform.map_or(UvTransform::IDENTITY, |transform| UvTransform {
+        offset: Vec2::from_array(transform.offset.unwrap_or_default()),
+        rotation_rad: transform.rotation.unwrap_or_default(),
+        scale: Vec2::from_array(transform.scale.unwrap_or([1.0; 2])),
+    });
+    Ok(Some(TextureRef {
+        image: source.0,
+        sampler,
+        uv_set,
+        transform,
+    }))
+}
+
+/// Filters and address modes by the numbers that they have in OpenGL.
+fn sampler_of(sampler: &Sampler, pointer: &str) -> Result<TextureSampler, AssetError> {
+    use TextureFilter::{Linear, Nearest};
+    let unknown = |property: &str, number: Index| {
+        let what = format!("{number} is not a value of this property");
+        malformed(format!("{pointer}/{property}"), what)
+    };
+    let wrap = |property: &str, number: Option<Index>| match number {
+        None | Some(Index(10497)) => Ok(AddressMode::Repeat),
+        Some(Index(33071)) => Ok(AddressMode::ClampToEdge),
+        Some(Index(33648)) => Ok(AddressMode::MirrorRepeat),
+        Some(number) => Err(unknown(property, number)),
+    };
+    let magnify = match sampler.mag_filter {
+        None | Some(Index(9729)) => Linear,
+        Some(Index(9728)) => Nearest,
+        Some(number) => return Err(unknown("magFilter", number)),
+    };
+    let (minify, mipmap) = match sampler.min_filter {
+        Some(Index(9728)) => (Nearest, None),
+        Some(Index(9729)) => (Linear, None),
+        Some(Index(9984)) => (Nearest, Some(Nearest)),
+        Some(Index(9985)) => (Linear, Some(Nearest)),
+        Some(Index(9986)) => (Nearest, Some(Linear)),
+        None | Some(Index(9987)) => (Linear, Some(Linear)),
+        Some(number) => return Err(unknown("minFilter", number)),
+    };
+    Ok(TextureSampler {
+        wrap_u: wrap("wrapS", sampler.wrap_s)?,
+        wrap_v: wrap("wrapT", sampler.wrap_t)?,
+        magnify,
+        minify,
+        mipmap,
+    })
+}

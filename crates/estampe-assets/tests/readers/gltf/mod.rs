@@ -1,0 +1,14 @@
+//! Reader of glTF 2.0. The files are made here, by a small builder.
+
+mod amplification;
+pub(super) mod builder;
+mod containers;
+mod geometry;
+mod hostile;
+mod materials;
+mod meshopt;
+mod nodes;
+mod poses;
+mod rules;
+
+use builder::{Builder, error, load, mesh};
