@@ -1,12 +1,15 @@
 //! `estampe info`: describes the contents of a model.
 
+use crate::choice::ChoiceArgs;
 use crate::failure::Failure;
 use crate::input::Model;
 use crate::render::counts;
 use crate::values::{FormatName, Source};
 use clap::Args;
 use estampe_assets::Limits;
-use estampe_scene::{AlphaMode, Bounds, Material, Mesh, Scene, UpAxis};
+use estampe_scene::{
+    AlphaMode, Bounds, Material, Mesh, NamedCamera, Projection, PunctualLightKind, Scene, UpAxis,
+};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -17,6 +20,7 @@ use std::io::{self, Write};
 Examples:
   estampe info bunny.obj
   estampe info part.stl --json | jq .counts.triangles
+  estampe info robot.glb --animation Walk --time 0.5
 
 Bounds are in the file's own space. Vertices are counted as they are drawn: corners of faces that differ in a \
 normal or texture coordinate are separate vertices. Missing normals are computed while reading.
@@ -26,7 +30,9 @@ Exit codes: 0 success, 1 the model is missing or invalid, 2 wrong usage, 3 the r
 With --json one object is written: model, format, up, counts {meshes, vertices, triangles, lines, points, \
 materials, textures}, bounds {min, max, size} or null, meshes [{name, vertices, triangles, lines, points, \
 attributes, materials}], materials [{name, base_color, opacity, specular, shininess, emissive, texture, \
-bump_texture, bump_scale, alpha}], textures [{width, height}], warnings [text], warning_count. An error gives {error, exit_code}.")]
+bump_texture, bump_scale, alpha}], textures [{width, height}], cameras [{name, projection, eye, target, up}], \
+lights [{name, kind}], scenes [name], animations [{name, duration}], variants [name], warnings [text], \
+warning_count. An error gives {error, exit_code}.")]
 pub(crate) struct InfoArgs {
     /// The model: a file, builtin:NAME, or - for standard input
     #[arg(value_name = "MODEL")]
@@ -36,6 +42,14 @@ pub(crate) struct InfoArgs {
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     pub(crate) format: Option<FormatName>,
 
+    #[command(flatten)]
+    pub(crate) choice: ChoiceArgs,
+
+    /// The time in the animation, in seconds [default: 0]
+    #[arg(long, value_name = "S", value_parser = crate::shader::values::seconds)]
+    #[arg(allow_hyphen_values = true, help_heading = "Contents")]
+    pub(crate) time: Option<f32>,
+
     /// Write one JSON object
     #[arg(long)]
     pub(crate) json: bool,
@@ -43,7 +57,8 @@ pub(crate) struct InfoArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
-    let model = Model::read(&args.model, args.format, &Limits::default(), |_| {})?;
+    let read = (&args.choice.at(args.time), &Limits::default());
+    let model = Model::read(&args.model, args.format, read, |_| {})?;
     let report = if args.json {
         format!("{:#}\n", json(&model))
     } else {
@@ -136,6 +151,11 @@ fn json(model: &Model) -> Value {
     });
     let images = scene.images.iter();
     let textures = images.map(|image| json!({ "width": image.width, "height": image.height }));
+    let lights = scene.lights.iter();
+    let lights = lights.map(|light| json!({ "name": light.name, "kind": light_name(&light.kind) }));
+    let animations = model.choices.animations.iter();
+    let animations =
+        animations.map(|clip| json!({ "name": clip.name, "duration": clip.duration_s }));
     json!({
         "model": model.name,
         "format": model.format.map(|format| format.name()),
@@ -149,9 +169,79 @@ fn json(model: &Model) -> Value {
         "meshes": meshes.collect::<Vec<_>>(),
         "materials": materials.collect::<Vec<_>>(),
         "textures": textures.collect::<Vec<_>>(),
+        "cameras": scene.cameras.iter().map(camera_json).collect::<Vec<_>>(),
+        "lights": lights.collect::<Vec<_>>(),
+        "scenes": model.choices.scenes,
+        "animations": animations.collect::<Vec<_>>(),
+        "variants": model.choices.variants,
         "warnings": model.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "warning_count": model.warning_count,
     })
+}
+
+fn camera_json(named: &NamedCamera) -> Value {
+    let camera = &named.camera;
+    json!({
+        "name": named.name,
+        "projection": projection_name(&camera.projection),
+        "eye": camera.eye_world.to_array(),
+        "target": camera.target_world.to_array(),
+        "up": camera.up_world.to_array(),
+    })
+}
+
+fn projection_name(projection: &Projection) -> &'static str {
+    match projection {
+        Projection::Perspective { .. } => "perspective",
+        Projection::Orthographic { .. } => "orthographic",
+    }
+}
+
+fn light_name(kind: &PunctualLightKind) -> &'static str {
+    match kind {
+        PunctualLightKind::Directional { .. } => "directional",
+        PunctualLightKind::Point { .. } => "point",
+        PunctualLightKind::Spot { .. } => "spot",
+    }
+}
+
+/// The name of a thing in a list, in quotation marks, or its number alone.
+fn numbered(at: usize, name: &str) -> String {
+    match name {
+        "" => at.to_string(),
+        name => format!("{at} \"{name}\""),
+    }
+}
+
+/// What a file offers besides its meshes: cameras, lights, scenes, animations and variants.
+fn list_choices(out: &mut String, model: &Model) {
+    const LISTED: usize = 20;
+    let (scene, choices) = (&model.scene, &model.choices);
+    for (at, camera) in scene.cameras.iter().enumerate().take(LISTED) {
+        let projection = projection_name(&camera.camera.projection);
+        let _ = writeln!(out, "  camera {}: {projection}", numbered(at, &camera.name));
+    }
+    list_rest(out, scene.cameras.len(), LISTED, "cameras");
+    for (at, light) in scene.lights.iter().enumerate().take(LISTED) {
+        let kind = light_name(&light.kind);
+        let _ = writeln!(out, "  light {}: {kind}", numbered(at, &light.name));
+    }
+    list_rest(out, scene.lights.len(), LISTED, "lights");
+    if choices.scenes.len() > 1 {
+        for (at, name) in choices.scenes.iter().enumerate().take(LISTED) {
+            let _ = writeln!(out, "  scene {}", numbered(at, name));
+        }
+        list_rest(out, choices.scenes.len(), LISTED, "scenes");
+    }
+    for (at, clip) in choices.animations.iter().enumerate().take(LISTED) {
+        let (name, seconds) = (numbered(at, &clip.name), clip.duration_s);
+        let _ = writeln!(out, "  animation {name}: {seconds} s");
+    }
+    list_rest(out, choices.animations.len(), LISTED, "animations");
+    for name in choices.variants.iter().take(LISTED) {
+        let _ = writeln!(out, "  variant \"{name}\"");
+    }
+    list_rest(out, choices.variants.len(), LISTED, "variants");
 }
 
 /// The report as text. Writing into a `String` cannot fail.
@@ -225,6 +315,7 @@ fn text(model: &Model) -> String {
     for image in &scene.images {
         let _ = writeln!(out, "  texture {}x{}", image.width, image.height);
     }
+    list_choices(&mut out, model);
     for warning in &model.warnings {
         let _ = writeln!(out, "  warning: {warning}");
     }

@@ -2,9 +2,9 @@
 
 use crate::failure::Failure;
 use crate::values::{FormatName, Source, shown};
-use estampe_assets::model::{Folder, NoResources};
-use estampe_assets::{AssetError, Limits, Loaded, ModelFormat, Warning};
-use estampe_assets::{parse_model, read_bytes, read_stream};
+use estampe_assets::model::{Folder, ModelChoices, NoResources};
+use estampe_assets::{AssetError, Limits, Loaded, ModelFormat, ModelInput, ModelOptions, Warning};
+use estampe_assets::{parse_model_with, read_bytes, read_stream};
 use estampe_scene::{Mesh, Scene};
 use estampe_shapes::BuiltinShape;
 use std::fs::File;
@@ -20,6 +20,8 @@ pub(crate) struct Model {
     pub(crate) name: String,
     /// `None` for built-in models.
     pub(crate) format: Option<ModelFormat>,
+    /// The scenes, animations and variants of the file.
+    pub(crate) choices: ModelChoices,
     /// The first warnings of the reader.
     pub(crate) warnings: Vec<Warning>,
     /// Number of all warnings.
@@ -37,7 +39,7 @@ impl Model {
     pub(crate) fn read(
         source: &Source,
         format: Option<FormatName>,
-        limits: &Limits,
+        (options, limits): (&ModelOptions, &Limits),
         on_stage: impl Fn(&'static str),
     ) -> Result<Self, Failure> {
         let format = format.map(ModelFormat::from);
@@ -60,7 +62,13 @@ impl Model {
                 let read = start.elapsed();
                 on_stage("parsing");
                 Self::parsed(read, name, || {
-                    parse_model(&bytes, format, name, &NoResources, limits)
+                    let input = ModelInput {
+                        bytes: &bytes,
+                        format,
+                        name,
+                        resources: &NoResources,
+                    };
+                    parse_model_with(&input, options, limits)
                 })
             }
             Source::File(path) => {
@@ -78,7 +86,13 @@ impl Model {
                     })?;
                 on_stage("parsing");
                 Self::parsed(read, &name, || {
-                    parse_model(&bytes, format, &name, &Folder::of_model(path), limits)
+                    let input = ModelInput {
+                        bytes: &bytes,
+                        format,
+                        name: &name,
+                        resources: &Folder::of_model(path),
+                    };
+                    parse_model_with(&input, options, limits)
                 })
             }
         }
@@ -105,6 +119,7 @@ impl Model {
             },
             name: format!("builtin:{shape}"),
             format: None,
+            choices: ModelChoices::default(),
             warnings: Vec::new(),
             warning_count: 0,
             read: Duration::ZERO,
@@ -123,6 +138,7 @@ impl Model {
             scene: loaded.scene,
             name: name.to_owned(),
             format: Some(loaded.format),
+            choices: loaded.choices,
             warnings: loaded.warnings,
             warning_count: loaded.warning_count,
             read,

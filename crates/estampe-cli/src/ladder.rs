@@ -7,8 +7,8 @@ use crate::progress::Progress;
 use crate::values::{self, Destination, Source, shown};
 use clap::Args;
 use estampe::{Device, DeviceDescriptor, Level};
-use estampe_assets::Limits;
 use estampe_assets::image::{ImageFormat, decode};
+use estampe_assets::{Limits, ModelOptions};
 use estampe_ladder::{Course, Picture, RUNGS, Rung, Sheet, rung};
 use std::path::{Path, PathBuf};
 
@@ -136,7 +136,12 @@ fn read_model(source: &Source, is_quiet: bool) -> Result<estampe_ladder::Model, 
             "the ladder reads no model from standard input; {advice}"
         )));
     }
-    let model = Model::read(source, None, &Limits::default(), |_| {})?;
+    let model = Model::read(
+        source,
+        None,
+        (&ModelOptions::default(), &Limits::default()),
+        |_| {},
+    )?;
     if !is_quiet {
         model.print_warnings();
     }

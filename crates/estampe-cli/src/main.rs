@@ -11,10 +11,11 @@
 //! * [`compute`]: runs a compute shader;
 //! * [`ladder`]: draws the pictures of the ladder, from one pixel to shapes.
 //!
-//! [`input`] reads models from files, standard input or by built-in name, [`output`] writes files
-//! completely or not at all, [`values`] parses the options' values, and [`failure`] has the exit
-//! codes.
+//! [`choice`] has the options of files with several scenes, [`input`] reads models from files,
+//! standard input or by built-in name, [`output`] writes files completely or not at all, [`values`]
+//! parses the options' values, and [`failure`] has the exit codes.
 
+mod choice;
 mod compute;
 mod depth;
 mod describe;

@@ -1,7 +1,7 @@
 //! The view of a scene: its unit space, its camera, and the resulting transforms.
 
 use crate::camera::placement::Lens;
-use crate::camera::{CameraOptions, Cloud, Eye, PlacedCamera};
+use crate::camera::{CameraOptions, Cloud, Eye, PlacedCamera, ProjectionKind};
 use crate::geometry::unit_space::{UnitSpace, UsedVertices, used_vertices};
 use crate::options::{self, RenderOptions, Up};
 use crate::shading::VertexTransforms;
@@ -45,6 +45,12 @@ impl SceneView {
                 fitted @ Eye::Fitted(_) => fitted,
             },
             target_world: options.camera.target_world.map(in_unit),
+            projection: match options.camera.projection {
+                ProjectionKind::Orthographic { half_height } => ProjectionKind::Orthographic {
+                    half_height: half_height.map(|half| half / space.world_per_unit()),
+                },
+                perspective @ ProjectionKind::Perspective { .. } => perspective,
+            },
             ..options.camera
         };
         let size_px = (options.width, options.height);

@@ -18,6 +18,8 @@ pub struct ModelOptions {
 /// An animation of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum AnimationName {
+    /// The first one, if the file has any.
+    First,
     /// By its place in the file, from 0.
     Index(usize),
     /// By its name; of several, the first.

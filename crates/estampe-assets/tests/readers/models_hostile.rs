@@ -337,6 +337,7 @@ fn the_files_themselves_are_read() {
     }
 }
 
+/// Rows: M7.
 #[test]
 fn every_prefix_ends_well() {
     for fixture in fixtures() {
@@ -346,6 +347,7 @@ fn every_prefix_ends_well() {
     }
 }
 
+/// Rows: M7.
 #[test]
 fn every_mutation_ends_well() {
     let count = std::env::var("ESTAMPE_MUTATIONS")

@@ -90,6 +90,7 @@ fn binary(big: bool, line_end: &str) -> Vec<u8> {
     out
 }
 
+/// Rows: M7.
 #[test]
 fn both_byte_orders_are_read() {
     for (big, line_end) in [(false, "\n"), (true, "\n"), (false, "\r\n"), (true, "\r")] {
@@ -279,6 +280,7 @@ fn hostile_counts_allocate_no_memory() {
     ));
 }
 
+/// Rows: M7.
 #[test]
 fn headers_that_are_wrong_are_errors_with_their_line() {
     let fails = |text: &str| {

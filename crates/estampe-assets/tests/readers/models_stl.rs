@@ -44,6 +44,7 @@ fn binary(header: &[u8], attributes: &[u16], announced: u32) -> Vec<u8> {
 const FACET: &str = "facet normal 0 0 nan\n outer loop\n  vertex 0 0 0\n  vertex 1 0 0\n  \
                      vertex 0 1e0 0\n endloop\nendfacet\n";
 
+/// Rows: M7.
 #[test]
 fn binary_corners_are_joined_and_get_normals() {
     let loaded = read(&binary(b"solid not ASCII at all", &[0; 4], 4));
@@ -116,6 +117,7 @@ fn both_conventions_of_colour_are_read() {
     );
 }
 
+/// Rows: M7.
 #[test]
 fn ascii_is_read_in_all_its_dialects() {
     let plain = format!("solid part one\n{FACET}endsolid part one\n");

@@ -1,6 +1,7 @@
 //! The options of `estampe inspect` and their help.
 
 use super::stages::StageName;
+use crate::choice::ChoiceArgs;
 use crate::render::PictureArgs;
 use crate::values::{Destination, FormatName, Source};
 use clap::Args;
@@ -68,6 +69,9 @@ pub(crate) struct InspectArgs {
     /// Write one JSON object
     #[arg(long)]
     pub(crate) json: bool,
+
+    #[command(flatten)]
+    pub(crate) choice: ChoiceArgs,
 
     #[command(flatten)]
     pub(crate) picture: PictureArgs,

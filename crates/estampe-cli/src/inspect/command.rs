@@ -27,7 +27,8 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
         threads: args.picture.thread_count(),
         ..Limits::default()
     };
-    let model = Model::read(&args.model, args.format, &limits, |_| {})?;
+    let chosen = args.choice.at(args.picture.shader.time);
+    let model = Model::read(&args.model, args.format, (&chosen, &limits), |_| {})?;
     let (options, device) = prepare(&model, &args.picture, ViewDirection::default())?;
     if let Some(pixel) = args.pixel {
         let told = inspect(&model.scene, &options, &device, pixel)?;

@@ -1,6 +1,7 @@
 //! The options of `estampe render` and their help.
 
 use super::picture::{PictureArgs, ReportArgs};
+use crate::choice::ChoiceArgs;
 use crate::values::{Destination, FormatName, ImageFormatName, Source};
 use clap::Args;
 
@@ -15,6 +16,7 @@ Examples:
   estampe render scan.ply -o scan.jpg --size 640x480 --samples 1
   estampe render model.obj -o lit.png --light 1,1,1 --light -1,0.3,0:4080ff:0.5 --ambient 0.1
   estampe render model.obj -o lamp.png --light pos:2,3,4 --attenuation 9 --specular blinn:0.6 --shininess 80
+  estampe render robot.glb -o robot.png --animation Walk --time 0.5 --camera 0
   estampe render builtin:teapot -o mine.png --shader my.wgsl --set gloss=0.5
   curl -s https://example.org/m.stl | estampe render - --format stl -o - > m.png
 
@@ -52,6 +54,9 @@ pub(crate) struct RenderArgs {
     /// The image's format: png, jpeg or tga [default: by OUT's extension; png for standard output]
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     pub(crate) output_format: Option<ImageFormatName>,
+
+    #[command(flatten)]
+    pub(crate) choice: ChoiceArgs,
 
     #[command(flatten)]
     pub(crate) picture: PictureArgs,

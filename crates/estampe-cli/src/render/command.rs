@@ -23,7 +23,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         threads: args.picture.thread_count(),
         ..Limits::default()
     };
-    let model = Model::read(&args.model, args.format, &limits, |stage| {
+    let chosen = args.choice.at(args.picture.shader.time);
+    let model = Model::read(&args.model, args.format, (&chosen, &limits), |stage| {
         progress.stage(stage);
     })?;
     let drawn = draw(

@@ -2,6 +2,7 @@
 
 use super::picture::PictureArgs;
 use super::report::Encoded;
+use crate::choice;
 use crate::failure::Failure;
 use crate::input::{self, Model};
 use crate::output;
@@ -11,8 +12,11 @@ use crate::values::{Destination, ImageFormatName, shown};
 use estampe::{Device, DeviceDescriptor};
 use estampe_assets::Limits;
 use estampe_assets::image::{ImageFormat, decode, encode};
-use estampe_renderer::{Frame, RenderOptions, ViewDirection, composite_over, render};
-use estampe_scene::{Image, Scene};
+use estampe_renderer::{
+    CameraOptions, Eye, Frame, ProjectionKind, RenderOptions, Up, ViewDirection, composite_over,
+    render,
+};
+use estampe_scene::{Image, Projection, Scene};
 use std::time::Instant;
 
 /// The stages that [`draw`] begins.
@@ -45,7 +49,7 @@ pub(crate) fn draw(
     let device_start = Instant::now();
     let device = device(args)?;
     let device_time = device_start.elapsed();
-    let options = options(args, default_view, texture, &device)?;
+    let options = options(model, args, (default_view, texture), &device)?;
     let frame = render(&model.scene, &options, &device);
     let frame = frame.map_err(|error| args.shader.failure(error))?;
 
@@ -82,21 +86,42 @@ pub(crate) fn prepare(
     args.check()?;
     check_drawable(model)?;
     let device = device(args)?;
-    let options = options(args, default_view, texture_of(model, args)?, &device)?;
+    let texture = texture_of(model, args)?;
+    let options = options(model, args, (default_view, texture), &device)?;
     Ok((options, device))
 }
 
-/// The renderer's options, with the program of a shader.
+/// The renderer's options, with the program of a shader, and a camera of the model.
 fn options(
+    model: &Model,
     args: &PictureArgs,
-    default_view: ViewDirection,
-    texture: Option<Image>,
+    (default_view, texture): (ViewDirection, Option<Image>),
     device: &Device,
 ) -> Result<RenderOptions, Failure> {
-    let program = args.shader.program(device, args.texture.as_deref())?;
-    Ok(RenderOptions {
-        program,
+    let options = RenderOptions {
+        program: args.shader.program(device, args.texture.as_deref())?,
         ..args.options(default_view, texture)
+    };
+    let Some(chosen) = &args.camera else {
+        return Ok(options);
+    };
+    let camera = choice::camera(&model.scene, chosen)?.camera;
+    Ok(RenderOptions {
+        camera: CameraOptions {
+            eye: Eye::At(camera.eye_world.as_dvec3()),
+            target_world: Some(camera.target_world.as_dvec3()),
+            projection: match camera.projection {
+                Projection::Perspective { fov_y_rad, .. } => ProjectionKind::Perspective {
+                    fov_y_deg: f64::from(fov_y_rad).to_degrees(),
+                },
+                Projection::Orthographic { half_height, .. } => ProjectionKind::Orthographic {
+                    half_height: Some(f64::from(half_height)),
+                },
+            },
+            ..options.camera
+        },
+        up: Up::Direction(camera.up_world.as_dvec3()),
+        ..options
     })
 }
 

@@ -40,6 +40,11 @@ pub(crate) struct PictureArgs {
     #[arg(help_heading = "Camera")]
     pub(crate) eye: Option<DVec3>,
 
+    /// A camera of the model, by its number from 0 or its name, instead of a direction and the fit
+    #[arg(long, value_name = "N|NAME", help_heading = "Camera")]
+    #[arg(conflicts_with_all = ["view", "azimuth", "elevation", "eye", "target", "fov", "ortho"])]
+    pub(crate) camera: Option<String>,
+
     /// The point in the middle of the image [default: the best fit; with --eye, the model's middle]
     #[arg(long, value_name = "X,Y,Z", value_parser = values::vector, allow_hyphen_values = true)]
     #[arg(help_heading = "Camera")]
@@ -196,7 +201,7 @@ impl PictureArgs {
                 eye: self.eye.map_or(Eye::Fitted(direction), Eye::At),
                 target_world: self.target,
                 projection: if self.ortho {
-                    ProjectionKind::Orthographic
+                    ProjectionKind::Orthographic { half_height: None }
                 } else {
                     ProjectionKind::Perspective {
                         fov_y_deg: self.fov,

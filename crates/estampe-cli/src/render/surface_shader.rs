@@ -47,14 +47,10 @@ pub(crate) struct SurfaceShaderArgs {
     )]
     set: Vec<(String, String)>,
 
-    /// The value of uniforms named time, in seconds [default: 0]
+    /// The time in seconds: in the model's animation, and of uniforms named time [default: 0]
     #[arg(long, value_name = "S", value_parser = values::seconds)]
-    #[arg(
-        requires = "shader",
-        allow_hyphen_values = true,
-        help_heading = "Shader"
-    )]
-    time: Option<f32>,
+    #[arg(allow_hyphen_values = true, help_heading = "Contents")]
+    pub(crate) time: Option<f32>,
 
     /// What runs the shader: auto, interpreter, avx2 or avx512; the image does not depend on it
     #[arg(long, value_name = "MACHINE", value_parser = values::via)]

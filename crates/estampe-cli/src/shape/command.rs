@@ -13,6 +13,7 @@ use crate::render::{
 };
 use crate::values::Destination;
 use estampe_assets::image::ImageFormat;
+use estampe_assets::model::ModelChoices;
 use estampe_assets::{ModelFormat, Warning, encode_model};
 use estampe_renderer::ViewDirection;
 use estampe_scene::{Material, Mesh, Scene, Surface, UpAxis};
@@ -205,6 +206,7 @@ fn model(
         },
         name: NAME.to_owned(),
         format: None,
+        choices: ModelChoices::default(),
         warning_count: warnings.len() as u64,
         warnings,
         read: Duration::ZERO,

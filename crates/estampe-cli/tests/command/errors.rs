@@ -250,38 +250,3 @@ fn info_counts_the_contents_of_a_model() {
         "{text}"
     );
 }
-
-/// A triangle as glTF with a data URI.
-const GLTF: &str = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
-"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
-"accessors":[{"bufferView":0,"componentType":5121,"count":3,"type":"VEC3"}],
-"bufferViews":[{"buffer":0,"byteLength":12,"byteStride":4}],
-"buffers":[{"byteLength":12,"uri":"data:;base64,AAAAAAIAAAAAAQAA"}]}"#;
-
-#[test]
-fn gltf_is_read_by_name_by_content_and_from_standard_input() {
-    let folder = Folder::new();
-    let named = folder.with_file("m.gltf", GLTF);
-    let unnamed = folder.with_file("m", GLTF);
-    for model in [&named, &unnamed] {
-        let run = estampe("info {} --json", &[model]);
-        assert_eq!(run.code, 0, "{}", run.err);
-        let report: serde_json::Value = serde_json::from_slice(&run.out).expect("one object");
-        assert_eq!(report["format"], "glTF");
-        assert_eq!(report["bounds"]["max"], serde_json::json!([2.0, 1.0, 0.0]));
-    }
-    let out = folder.path("m.png");
-    for format in ["gltf", "glb"] {
-        let command = format!("render - --format {format} -o {{}} --size 32x32");
-        let run = estampe_fed(&command, &[&out], GLTF.as_bytes());
-        assert_eq!(run.code, 0, "{}", run.err);
-    }
-    let broken = folder.with_file("broken.gltf", GLTF.replace("5121", "1"));
-    let run = estampe("info {}", &[&broken]);
-    assert_eq!(run.code, 1);
-    let place = "broken.gltf, /accessors/0/componentType: 1 is not the type of a component";
-    assert!(run.err.contains(place), "{}", run.err);
-    // Shapes are not written as glTF.
-    let run = estampe("shape --explicit x -o {}", &[&folder.path("shape.glb")]);
-    assert_eq!(run.code, 2, "{}", run.err);
-}

@@ -5,6 +5,7 @@ mod compute;
 mod depth;
 mod depth_page;
 mod errors;
+mod gltf;
 mod inspect;
 mod inspect_page;
 mod ladder;

@@ -52,7 +52,11 @@ pub enum ProjectionKind {
         fov_y_deg: f64,
     },
     /// Size does not depend on distance.
-    Orthographic,
+    Orthographic {
+        /// Half of the visible height, in the same space as positions, above 0. `None` is the best
+        /// fit.
+        half_height: Option<f64>,
+    },
 }
 
 impl Default for ProjectionKind {
@@ -103,18 +107,26 @@ impl PlacedCamera {
         let (width, height) = (f64::from(size_px.0), f64::from(size_px.1));
         let lens = match options.projection {
             ProjectionKind::Perspective { fov_y_deg } => Lens::Perspective(fov_y_deg.to_radians()),
-            ProjectionKind::Orthographic => Lens::Orthographic(1.0),
+            ProjectionKind::Orthographic { half_height } => {
+                Lens::Orthographic(half_height.unwrap_or(1.0))
+            }
         };
         let tangent = match lens {
             Lens::Perspective(fov) => libm::tan(fov / 2.0),
             Lens::Orthographic(_) => 1.0,
         };
         let k = FrameTangents::new(width, height, tangent, options.margin);
-        match options.eye {
+        let placed = match options.eye {
             Eye::Fitted(direction) => {
                 Self::fitted(direction, options.target_world, up, points, lens, k)
             }
             Eye::At(eye) => Self::standing(eye, options.target_world, up, points, lens, k),
+        };
+        match options.projection {
+            ProjectionKind::Orthographic {
+                half_height: Some(_),
+            } => Self { lens, ..placed },
+            _ => placed,
         }
     }
 

@@ -84,7 +84,7 @@ fn fits_are_inside_tight_and_centred() {
         ProjectionKind::default(),
         ProjectionKind::Perspective { fov_y_deg: 5.0 },
         ProjectionKind::Perspective { fov_y_deg: 120.0 },
-        ProjectionKind::Orthographic,
+        ProjectionKind::Orthographic { half_height: None },
     ];
     for seed in 0..40u32 {
         for extents in [
@@ -138,7 +138,10 @@ fn fits_are_inside_tight_and_centred() {
 fn a_given_target_stays_in_the_middle() {
     let points = cloud(5, 50, DVec3::ONE);
     let target = DVec3::new(0.5, 0.2, -0.3);
-    for projection in [ProjectionKind::default(), ProjectionKind::Orthographic] {
+    for projection in [
+        ProjectionKind::default(),
+        ProjectionKind::Orthographic { half_height: None },
+    ] {
         let options = CameraOptions {
             target_world: Some(target),
             projection,
@@ -199,7 +202,10 @@ fn empty_and_degenerate_models_have_cameras() {
         &[DVec3::splat(0.3)],
         &lines_of_sight,
     ] {
-        for projection in [ProjectionKind::default(), ProjectionKind::Orthographic] {
+        for projection in [
+            ProjectionKind::default(),
+            ProjectionKind::Orthographic { half_height: None },
+        ] {
             let eye = Eye::Fitted(ViewDirection::FRONT);
             let options = CameraOptions {
                 eye,

@@ -50,7 +50,7 @@ fn lit(scene: &Scene, towards: Vec3, eye_z: f64, shading: Shading) -> f32 {
         camera: CameraOptions {
             eye: Eye::At(DVec3::new(0.01, 0.02, eye_z) * half_size),
             target_world: Some(DVec3::new(0.01, 0.02, 0.0) * half_size),
-            projection: ProjectionKind::Orthographic,
+            projection: ProjectionKind::Orthographic { half_height: None },
             ..CameraOptions::default()
         },
         shading,

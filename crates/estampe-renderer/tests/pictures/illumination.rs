@@ -71,7 +71,7 @@ impl Case {
         let side = if random.u8(..) < 64 { -12.0 } else { 12.0 };
         let eye = DVec3::splat(5.0) + DVec3::Z * side + vector(random, 3.0);
         let projection = match random.bool() {
-            true => ProjectionKind::Orthographic,
+            true => ProjectionKind::Orthographic { half_height: None },
             false => ProjectionKind::Perspective { fov_y_deg: 40.0 },
         };
         let shininess = random.u8(1..=40);

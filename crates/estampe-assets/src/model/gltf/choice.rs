@@ -33,6 +33,7 @@ impl Choice {
         let animations = document.animations.iter().map(|animation| &*animation.name);
         let animation = match &options.animation {
             None => None,
+            Some(AnimationName::First) => (animations.len() > 0).then_some(0),
             Some(AnimationName::Index(index)) => Some(
                 (*index < animations.len())
                     .then_some(*index)

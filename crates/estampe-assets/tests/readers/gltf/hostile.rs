@@ -156,6 +156,7 @@ fn the_fixture_has_what_is_mutated() {
     assert_eq!(mesh_count, 6);
 }
 
+/// Rows: M7.
 #[test]
 fn every_prefix_ends_well() {
     for bytes in [
@@ -170,6 +171,7 @@ fn every_prefix_ends_well() {
     }
 }
 
+/// Rows: M7.
 #[test]
 fn mutations_of_the_bytes_end_well() {
     let glb = fixture().glb();
@@ -204,6 +206,8 @@ fn mutations_of_the_bytes_end_well() {
 }
 
 /// Replaces numbers and names in the JSON, which leaves it valid and reaches all later stages.
+///
+/// Rows: M7.
 #[test]
 fn mutations_of_the_json_end_well() {
     let file = fixture();

@@ -263,10 +263,10 @@ fn every_extension_of_materials_is_read() {
 fn factors_outside_of_their_range_are_clamped() {
     let loaded = load(&with_material(json!({
         "pbrMetallicRoughness":
-            { "baseColorFactor": [-1, 2, 1e39, 0.5], "metallicFactor": 7, "roughnessFactor": -7 },
-        "emissiveFactor": [1e39, -1, 0],
+            { "baseColorFactor": [-1, 2, 3e38, 0.5], "metallicFactor": 7, "roughnessFactor": -7 },
+        "emissiveFactor": [3e38, -1, 0],
         "extensions": {
-            "KHR_materials_emissive_strength": { "emissiveStrength": 1e39 },
+            "KHR_materials_emissive_strength": { "emissiveStrength": 3e38 },
             "KHR_materials_ior": { "ior": 0.5 },
             "KHR_materials_volume": { "attenuationDistance": 0 },
         },

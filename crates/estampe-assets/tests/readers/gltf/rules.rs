@@ -21,6 +21,7 @@ fn other_versions_are_refused() {
     assert_eq!(mesh(&minor).triangles.len(), 1);
 }
 
+/// Rows: M7.
 #[test]
 fn required_extensions_must_be_known() {
     let required =
@@ -64,6 +65,7 @@ fn required_extensions_must_be_known() {
     );
 }
 
+/// Rows: M7.
 #[test]
 fn wrong_accessors_are_refused() {
     let check = |pointer: &str, value: Value, message: &str| {

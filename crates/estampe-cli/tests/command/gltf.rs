@@ -1,0 +1,183 @@
+//! glTF files: how they are recognised, and what is chosen of them.
+
+use crate::support::picture::Picture;
+use crate::support::{Folder, estampe, estampe_fed};
+use serde_json::{Value, json};
+
+/// A triangle as glTF with a data URI.
+const GLTF: &str = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"accessors":[{"bufferView":0,"componentType":5121,"count":3,"type":"VEC3"}],
+"bufferViews":[{"buffer":0,"byteLength":12,"byteStride":4}],
+"buffers":[{"byteLength":12,"uri":"data:;base64,AAAAAAIAAAAAAQAA"}]}"#;
+
+#[test]
+fn gltf_is_read_by_name_by_content_and_from_standard_input() {
+    let folder = Folder::new();
+    let named = folder.with_file("m.gltf", GLTF);
+    let unnamed = folder.with_file("m", GLTF);
+    for model in [&named, &unnamed] {
+        let run = estampe("info {} --json", &[model]);
+        assert_eq!(run.code, 0, "{}", run.err);
+        let report: serde_json::Value = serde_json::from_slice(&run.out).expect("one object");
+        assert_eq!(report["format"], "glTF");
+        assert_eq!(report["bounds"]["max"], serde_json::json!([2.0, 1.0, 0.0]));
+    }
+    let out = folder.path("m.png");
+    for format in ["gltf", "glb"] {
+        let command = format!("render - --format {format} -o {{}} --size 32x32");
+        let run = estampe_fed(&command, &[&out], GLTF.as_bytes());
+        assert_eq!(run.code, 0, "{}", run.err);
+    }
+    let broken = folder.with_file("broken.gltf", GLTF.replace("5121", "1"));
+    let run = estampe("info {}", &[&broken]);
+    assert_eq!(run.code, 1);
+    let place = "broken.gltf, /accessors/0/componentType: 1 is not the type of a component";
+    assert!(run.err.contains(place), "{}", run.err);
+    // Shapes are not written as glTF.
+    let run = estampe("shape --explicit x -o {}", &[&folder.path("shape.glb")]);
+    assert_eq!(run.code, 2, "{}", run.err);
+}
+
+/// Bytes as a data URI.
+fn data_uri(bytes: &[u8]) -> String {
+    let escaped = bytes.iter().map(|byte| format!("%{byte:02X}"));
+    format!(
+        "data:application/octet-stream,{}",
+        escaped.collect::<String>()
+    )
+}
+
+/// A triangle that slides by 4 in two seconds, in two scenes, with two cameras and two variants.
+fn with_choices() -> String {
+    let times = [0.0_f32, 2.0];
+    let translations = [0.0_f32, 0.0, 0.0, 4.0, 0.0, 0.0];
+    let positions = [-1.0_f32, -1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 1.0, 0.0];
+    let floats = times.iter().chain(&translations).chain(&positions);
+    let bytes: Vec<u8> = floats.flat_map(|number| number.to_le_bytes()).collect();
+    let variants = "KHR_materials_variants";
+    let color = |color: [f32; 4]| json!({ "pbrMetallicRoughness": { "baseColorFactor": color } });
+    json!({
+        "asset": { "version": "2.0" },
+        "extensionsUsed": [variants],
+        "extensions": { variants: { "variants": [{ "name": "day" }, { "name": "night" }] } },
+        "scene": 0,
+        "scenes": [{ "name": "near", "nodes": [0, 2, 3] }, { "name": "far", "nodes": [1] }],
+        "nodes": [
+            { "mesh": 0 },
+            { "mesh": 0, "translation": [10, 0, 0] },
+            { "camera": 0, "translation": [0, 0, 5] },
+            { "camera": 1, "translation": [0, 0, 5] },
+        ],
+        // Half of the height is 2.5 at a distance of 5.
+        "cameras": [
+            { "name": "wide", "type": "perspective", "perspective": { "yfov": 0.927_295_2, "znear": 0.1 } },
+            { "type": "orthographic", "orthographic": { "xmag": 2, "ymag": 2, "znear": 0.1, "zfar": 9 } },
+        ],
+        "materials": [color([1.0, 0.0, 0.0, 1.0]), color([0.0, 1.0, 0.0, 1.0])],
+        "meshes": [{ "primitives": [{
+            "attributes": { "POSITION": 2 },
+            "material": 0,
+            "extensions": { variants: { "mappings": [{ "material": 1, "variants": [1] }] } },
+        }] }],
+        "animations": [{
+            "name": "slide",
+            "channels": [{ "sampler": 0, "target": { "node": 0, "path": "translation" } }],
+            "samplers": [{ "input": 0, "output": 1 }],
+        }],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [2] },
+            { "bufferView": 1, "componentType": 5126, "count": 2, "type": "VEC3" },
+            { "bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC3",
+              "min": [-1, -1, 0], "max": [1, 1, 0] },
+        ],
+        "bufferViews": [
+            { "buffer": 0, "byteLength": 8 },
+            { "buffer": 0, "byteOffset": 8, "byteLength": 24 },
+            { "buffer": 0, "byteOffset": 32, "byteLength": 36 },
+        ],
+        "buffers": [{ "byteLength": bytes.len(), "uri": data_uri(&bytes) }],
+    })
+    .to_string()
+}
+
+#[test]
+fn scenes_animations_and_variants_are_chosen() {
+    let folder = Folder::new();
+    let model = folder.with_file("m.gltf", with_choices());
+    let run = estampe("info {}", &[&model]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let text = String::from_utf8(run.out).expect("text");
+    for said in [
+        "camera 0 \"wide\": perspective",
+        "camera 1: orthographic",
+        "scene 1 \"far\"",
+        "animation 0 \"slide\": 2 s",
+        "variant \"night\"",
+    ] {
+        assert!(text.contains(said), "{said}: {text}");
+    }
+    for (options, max) in [
+        ("", [1.0, 1.0, 0.0]),
+        ("--scene 1", [11.0, 1.0, 0.0]),
+        ("--time 1", [3.0, 1.0, 0.0]),
+        ("--animation slide --time 1.5", [4.0, 1.0, 0.0]),
+        ("--animation 0", [1.0, 1.0, 0.0]),
+        ("--animation 0 --time 9", [5.0, 1.0, 0.0]),
+    ] {
+        let run = estampe(&format!("info {{}} --json {options}"), &[&model]);
+        assert_eq!(run.code, 0, "{options}: {}", run.err);
+        let report: Value = serde_json::from_slice(&run.out).expect("one object");
+        assert_eq!(report["bounds"]["max"], json!(max), "{options}");
+        assert_eq!(
+            report["animations"],
+            json!([{ "name": "slide", "duration": 2.0 }])
+        );
+        assert_eq!(report["variants"], json!(["day", "night"]));
+    }
+    let run = estampe("info {} --json --variant night", &[&model]);
+    let report: Value = serde_json::from_slice(&run.out).expect("one object");
+    let used = &report["meshes"][0]["materials"][0];
+    let used = used
+        .as_u64()
+        .and_then(|at| usize::try_from(at).ok())
+        .expect("a material");
+    assert_eq!(
+        report["materials"][used]["base_color"],
+        json!([0.0, 1.0, 0.0])
+    );
+    for (options, code, said) in [
+        ("--scene 2", 1, "scene"),
+        ("--animation walk", 1, "walk"),
+        ("--variant dusk", 1, "dusk"),
+        ("--time soon", 2, "write a time in seconds"),
+    ] {
+        let run = estampe(&format!("info {{}} {options}"), &[&model]);
+        assert_eq!(run.code, code, "{options}: {}", run.err);
+        assert!(run.err.contains(said), "{options}: {}", run.err);
+    }
+}
+
+#[test]
+fn cameras_of_the_file_are_used() {
+    let folder = Folder::new();
+    let model = folder.with_file("m.gltf", with_choices());
+    let out = folder.path("m.png");
+    // The triangle is 2 high; the pictures show 5 and 4.
+    for (camera, extent) in [("wide", [30, 30, 70, 70]), ("1", [25, 25, 75, 75])] {
+        let command = format!("render {{}} -o {{}} --camera {camera} --size 100x100 --samples 1");
+        let run = estampe(&command, &[&model, &out]);
+        assert_eq!(run.code, 0, "{}", run.err);
+        let found = Picture::open(&out).extent();
+        let near = |(a, b): (&usize, &usize)| a.abs_diff(*b) <= 1;
+        assert!(found.iter().zip(&extent).all(near), "{camera}: {found:?}");
+    }
+    let run = estampe("render {} -o {} --camera 7", &[&model, &out]);
+    assert_eq!(run.code, 2);
+    let said = "--camera 7: there is no such camera; the model has 0 (wide), 1";
+    assert!(run.err.contains(said), "{}", run.err);
+    let run = estampe("render builtin:cube -o {} --camera 0", &[&out]);
+    assert!(run.err.contains("the model has no cameras"), "{}", run.err);
+    let run = estampe("render {} -o {} --camera 0 --fov 20", &[&model, &out]);
+    assert_eq!(run.code, 2, "{}", run.err);
+}
