@@ -34,7 +34,13 @@ fn describe(text: &str, error: &wgsl::ParseError) -> ShaderError {
     // Some labels are of what the text does not have.
     let first = labels.find_map(|(span, label)| Some((span.to_range()?, label)));
     let Some((range, label)) = first else {
-        return described;
+        return match nests {
+            true => {
+                let start = deepest(text);
+                described.at(&lines, start, start + 1)
+            }
+            false => described,
+        };
     };
     described = described.at(&lines, range.start, range.end);
     let mut advice: Vec<String> = Vec::new();
@@ -73,6 +79,22 @@ fn describe(text: &str, error: &wgsl::ParseError) -> ShaderError {
         described = described.help(advice.join("; "));
     }
     described
+}
+
+/// The bracket inside most others, which naga's limit on nesting does not name.
+fn deepest(text: &str) -> usize {
+    let (mut depth, mut most, mut place) = (0_usize, 0, 0);
+    for (at, byte) in text.bytes().enumerate() {
+        match byte {
+            b'(' | b'[' | b'{' => depth += 1,
+            b')' | b']' | b'}' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        if depth > most {
+            (most, place) = (depth, at);
+        }
+    }
+    place
 }
 
 /// The word of a preprocessor at a place where WGSL has none: a directive of naga_oil, of the C

@@ -92,7 +92,7 @@ fn nesting_and_chains() {
     check(
         Source::Wgsl(&nested),
         &Options::default(),
-        (2, 139),
+        (2, 212),
         "expressions or statements nest too deeply",
         "",
     );

@@ -192,6 +192,70 @@ fn expected_name(expected: &ExpectedToken) -> String {
     }
 }
 
+/// How naga's messages begin, what is said instead, and what to do.
+const SEMANTIC: &[(&str, &str, &str)] = &[
+    (
+        "Missing entry point",
+        "the shader has no `main`",
+        "add `void main() { … }`",
+    ),
+    (
+        "Ambiguous best function",
+        "several functions take these arguments",
+        "convert arguments",
+    ),
+    (
+        "Constructor: Too many arguments",
+        "the constructor has too many arguments",
+        "remove some",
+    ),
+    (
+        "Expression returns void",
+        "the function returns nothing",
+        "call it as a statement",
+    ),
+    (
+        "Function already defined",
+        "there are two functions with this name and parameters",
+        "rename one of them",
+    ),
+    (
+        "Variable cannot be used in LHS",
+        "this cannot be assigned to",
+        "inputs, uniforms and constants are read only: copy them to a variable",
+    ),
+    (
+        "const values must have",
+        "a constant has no value",
+        "add `= …`",
+    ),
+    (
+        "Increment/decrement only",
+        "`++` and `--` need a number",
+        "use a variable",
+    ),
+    (
+        "swizzle cannot have duplicate",
+        "a component is assigned twice",
+        "name each one once",
+    ),
+    (
+        "Bad type constructor",
+        "this type cannot be built from values",
+        "use another type",
+    ),
+    (
+        "Not a valid texture",
+        "this is no texture",
+        "use a `sampler2D` or another sampler",
+    ),
+    (
+        "Array size must be",
+        "an array needs at least one element",
+        "use a larger size",
+    ),
+];
+
 fn semantic(origin: &Origin<'_>, text: &str, place: Option<Place>) -> (String, Option<String>) {
     let quoted = || text.split('\'').nth(1).unwrap_or_default().to_owned();
     let help = |text: &str| Some(text.to_owned());
@@ -226,69 +290,8 @@ fn semantic(origin: &Origin<'_>, text: &str, place: Option<Place>) -> (String, O
             help("convert one of them, for example with `float(…)` or `vec3(…)`"),
         );
     }
-    let known: &[(&str, &str, &str)] = &[
-        (
-            "Missing entry point",
-            "the shader has no `main`",
-            "add `void main() { … }`",
-        ),
-        (
-            "Ambiguous best function",
-            "several functions take these arguments",
-            "convert arguments",
-        ),
-        (
-            "Constructor: Too many arguments",
-            "the constructor has too many arguments",
-            "remove some",
-        ),
-        (
-            "Expression returns void",
-            "the function returns nothing",
-            "call it as a statement",
-        ),
-        (
-            "Function already defined",
-            "there are two functions with this name and parameters",
-            "rename one of them",
-        ),
-        (
-            "Variable cannot be used in LHS",
-            "this cannot be assigned to",
-            "inputs, uniforms and constants are read only: copy them to a variable",
-        ),
-        (
-            "const values must have",
-            "a constant has no value",
-            "add `= …`",
-        ),
-        (
-            "Increment/decrement only",
-            "`++` and `--` need a number",
-            "use a variable",
-        ),
-        (
-            "swizzle cannot have duplicate",
-            "a component is assigned twice",
-            "name each one once",
-        ),
-        (
-            "Bad type constructor",
-            "this type cannot be built from values",
-            "use another type",
-        ),
-        (
-            "Not a valid texture",
-            "this is no texture",
-            "use a `sampler2D` or another sampler",
-        ),
-        (
-            "Array size must be",
-            "an array needs at least one element",
-            "use a larger size",
-        ),
-    ];
-    if let Some((_, message, advice)) = known.iter().find(|(start, ..)| text.starts_with(start)) {
+    if let Some((_, message, advice)) = SEMANTIC.iter().find(|(start, ..)| text.starts_with(start))
+    {
         return ((*message).to_owned(), help(advice));
     }
     if text.starts_with("Invalid swizzle") {
