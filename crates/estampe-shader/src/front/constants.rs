@@ -72,10 +72,16 @@ fn keys(
 
 fn describe(module: &naga::Module, error: &PipelineConstantError, words: Words) -> Rejected {
     let error = match error {
-        PipelineConstantError::MissingValue(name) => ShaderError::new(format!(
-            "the constant `{name}` has neither a value nor a default"
-        ))
-        .help("give it a value among the options' constants"),
+        PipelineConstantError::MissingValue(key) => {
+            // naga calls constants by their ids.
+            let has_key = |id: Option<u16>| id.is_some_and(|id| id.to_string() == *key);
+            let mut overrides = module.overrides.iter();
+            let found = overrides.find(|(_, constant)| has_key(constant.id));
+            let name = found.and_then(|(_, constant)| constant.name.as_ref());
+            let name = name.unwrap_or(key);
+            let message = format!("the constant `{name}` has neither a value nor a default");
+            ShaderError::new(message).help("give it a value among the options' constants")
+        }
         PipelineConstantError::NotFound(name) => {
             ShaderError::new(format!("the shader has no constant `{name}`"))
         }

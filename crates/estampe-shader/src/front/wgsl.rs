@@ -6,7 +6,7 @@ use naga::front::wgsl;
 
 use super::lines::Lines;
 use super::validate::CAPABILITIES;
-use super::{ShaderError, ShaderErrors, suggest, wgsl_enable};
+use super::{ShaderError, ShaderErrors, suggest, validate, wgsl_enable};
 
 /// Parses WGSL.
 pub(super) fn parse(text: &str) -> Result<naga::Module, ShaderErrors> {
@@ -24,25 +24,32 @@ fn describe(text: &str, error: &wgsl::ParseError) -> ShaderError {
     let lines = Lines::new(text);
     let mut labels_and_notes = error.labels().map(|(_, label)| label).chain(error.notes());
     let nests = labels_and_notes.any(|text| text.contains("recursion limit"));
-    let message = if nests {
-        TOO_DEEP.to_owned()
-    } else {
-        plain(error.message())
+    let message = match missing_extension(error.message()) {
+        _ if nests => TOO_DEEP.to_owned(),
+        Some((message, _)) => message,
+        None => plain(error.message()),
     };
     let mut described = ShaderError::new(message.trim_end_matches('.'));
     let mut labels = error.labels();
-    let first = labels
-        .next()
-        .and_then(|(span, label)| Some((span.to_range()?, label)));
+    // Some labels are of what the text does not have.
+    let first = labels.find_map(|(span, label)| Some((span.to_range()?, label)));
     let Some((range, label)) = first else {
-        return described;
+        return match nests {
+            true => {
+                let start = deepest(text);
+                described.at(&lines, start, start + 1)
+            }
+            false => described,
+        };
     };
     described = described.at(&lines, range.start, range.end);
     let mut advice: Vec<String> = Vec::new();
     if let Some(near) = near_name(text, &message) {
         advice.push(format!("did you mean `{near}`?"));
     }
-    let adds_nothing = USELESS_LABELS.contains(&label) || label.starts_with("definition of");
+    let adds_nothing = USELESS_LABELS.contains(&label)
+        || label.starts_with("definition of")
+        || missing_extension(error.message()).is_some();
     if !label.is_empty() && !message.contains(label) && !adds_nothing && !nests {
         advice.push(label.to_owned());
     }
@@ -52,8 +59,10 @@ fn describe(text: &str, error: &wgsl::ParseError) -> ShaderError {
             advice.push(format!("line {line}: {label}"));
         }
     }
-    if !nests {
-        advice.extend(error.notes().map(str::to_owned));
+    if let Some((_, help)) = missing_extension(error.message()) {
+        advice.extend(help);
+    } else if !nests {
+        advice.extend(notes(error));
     }
     if let Some(word) = preprocessed(text, range.start) {
         advice.push(match word {
@@ -70,6 +79,22 @@ fn describe(text: &str, error: &wgsl::ParseError) -> ShaderError {
         described = described.help(advice.join("; "));
     }
     described
+}
+
+/// The bracket inside most others, which naga's limit on nesting does not name.
+fn deepest(text: &str) -> usize {
+    let (mut depth, mut most, mut place) = (0_usize, 0, 0);
+    for (at, byte) in text.bytes().enumerate() {
+        match byte {
+            b'(' | b'[' | b'{' => depth += 1,
+            b')' | b']' | b'}' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        if depth > most {
+            (most, place) = (depth, at);
+        }
+    }
+    place
 }
 
 /// The word of a preprocessor at a place where WGSL has none: a directive of naga_oil, of the C
@@ -108,6 +133,8 @@ const TOO_DEEP: &str = "expressions or statements nest too deeply";
 /// Labels of naga that repeat the message, or say nothing of the text.
 const USELESS_LABELS: &[&str] = &[
     "see msg",
+    "unsupported enable-extension",
+    "type is not constructible",
     "invalid accessor",
     "unknown identifier",
     "cannot assign to this expression",
@@ -118,6 +145,10 @@ fn plain(message: &str) -> String {
     if message.contains("nesting limit") {
         return TOO_DEEP.to_owned();
     }
+    let in_words = validate::plain(message);
+    if !in_words.eq_ignore_ascii_case(message.trim_end_matches('.')) {
+        return in_words;
+    }
     if let Some(before) = message.strip_suffix("found \"\"") {
         return format!("{before}found the end of the file");
     }
@@ -126,6 +157,52 @@ fn plain(message: &str) -> String {
         Some(first) => first.to_lowercase().chain(characters).collect(),
         None => String::new(),
     }
+}
+
+/// What is said of a word that needs an extension, and what to do.
+fn missing_extension(message: &str) -> Option<(String, Option<String>)> {
+    let is_missing = message.ends_with("enable extension is not enabled");
+    let is_unknown = message.ends_with("is not supported in the current environment");
+    let name = message
+        .split('`')
+        .nth(1)
+        .filter(|_| is_missing || is_unknown)?;
+    if is_missing && EXTENSIONS.contains(&name) {
+        let help = format!("add `enable {name};` before all declarations");
+        return Some((
+            format!("this needs the extension `{name}`, which is not enabled"),
+            Some(help),
+        ));
+    }
+    Some(match is_missing {
+        true => (
+            format!("this needs the extension `{name}`, which is not supported"),
+            None,
+        ),
+        false => (format!("the extension `{name}` is not supported"), None),
+    })
+}
+
+/// The extensions of WGSL that estampe has.
+const EXTENSIONS: &[&str] = &["f16", "clip_distances", "dual_source_blending", "subgroups"];
+
+/// The notes of an error. Types that an argument may have are one note, without those that no
+/// variable has.
+fn notes(error: &wgsl::ParseError) -> Vec<String> {
+    let mut notes: Vec<String> = Vec::new();
+    let mut allowed = Vec::new();
+    for note in error.notes() {
+        match note.strip_prefix("allowed type: ") {
+            Some(ty) if ty.contains("Abstract") || ty.contains("f64") => {}
+            Some(ty) => allowed.push(ty),
+            None => notes.push(note.trim_end_matches([':', '.']).to_owned()),
+        }
+    }
+    match notes.last_mut() {
+        Some(last) if !allowed.is_empty() => *last = format!("{last}: {}", allowed.join(", ")),
+        _ => {}
+    }
+    notes
 }
 
 /// A name of the text or of the language near the unknown one that the message quotes.

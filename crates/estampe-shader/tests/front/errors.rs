@@ -5,10 +5,12 @@ use estampe_shader::front::{Options, Source, load};
 
 /// Checks the messages about fragment shaders in GLSL. Returns their number.
 pub(crate) fn glsl(cases: &[(&str, &str)]) -> usize {
-    check(cases, |text| Source::Glsl {
-        text,
-        stage: Stage::Fragment,
-    })
+    in_stage(Stage::Fragment, cases)
+}
+
+/// Checks the messages about shaders of a stage in GLSL. Returns their number.
+pub(crate) fn in_stage(stage: Stage, cases: &[(&str, &str)]) -> usize {
+    check(cases, |text| Source::Glsl { text, stage })
 }
 
 /// Checks the messages about modules in WGSL. Returns their number.

@@ -214,7 +214,7 @@ void main() {}
     return vec4f(f32(x));
 }
 "#,
-        r#"shader:2:13: error: the type `f64` is not supported
+        r#"shader:2:13: error: 64-bit floating point is not supported
       let x = f64(1.0);
               ^^^^^^^^"#,
     ),

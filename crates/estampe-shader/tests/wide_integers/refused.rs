@@ -52,11 +52,15 @@ fn errors_show_the_place() {
     };
     assert_eq!(
         said("@group(0) @binding(0) var<storage, read_write> sum: atomic<u64>;"),
-        "shader: error: atomic operations on 64-bit integers are not supported"
+        "shader:1:23: error: atomic operations on 64-bit integers are not supported
+  @group(0) @binding(0) var<storage, read_write> sum: atomic<u64>;
+                        ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^"
     );
     assert_eq!(
         said("var<private> sum: f64;"),
-        "shader: error: type: the type `f64` is not supported"
+        "shader:1:1: error: 64-bit floating point is not supported
+  var<private> sum: f64;
+  ^^^^^^^^^^^^^^^^^^^^^^"
     );
     assert_eq!(
         said(

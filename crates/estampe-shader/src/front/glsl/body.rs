@@ -198,6 +198,12 @@ impl Writer<'_> {
             return self.sizes(tokens, at + 1, scopes, state);
         }
         if is_call {
+            if name == "switch" && builtins::is_naga_word(self.unit, name) {
+                let version = self.unit.version.number;
+                let message = format!("GLSL has `switch` since version 1.30, not in {version}");
+                return Err(Fault::new(message, token.place)
+                    .help("begin the shader with `#version 330` or `#version 300 es`"));
+            }
             if gather::is_gather(self.unit, name)
                 && let Some(end) = self.gather_call(tokens, at, scopes, state)?
             {

@@ -224,14 +224,10 @@ impl<'a> Reader<'a> {
             }
         }
         self.unit.has_early_tests |= qualifiers.has("early_fragment_tests");
-        if let Some(word) = qualifiers
-            .layout
-            .iter()
-            .find(|word| &*word.name == "row_major")
-        {
-            return Err(row_major(word.place));
+        match qualifiers.layout_word("row_major") {
+            Some(word) => Err(row_major(word.place)),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     /// A type with the sizes of arrays that follow it.
@@ -322,11 +318,7 @@ impl<'a> Reader<'a> {
         let mut members: Vec<Member> = Vec::new();
         while !self.skip("}") {
             let qualifiers = self.qualifiers()?;
-            if let Some(word) = qualifiers
-                .layout
-                .iter()
-                .find(|word| &*word.name == "row_major")
-            {
+            if let Some(word) = qualifiers.layout_word("row_major") {
                 return Err(row_major(word.place));
             }
             let ty = self.ty()?;
@@ -358,7 +350,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-fn row_major(place: Place) -> Fault {
+pub(super) fn row_major(place: Place) -> Fault {
     Fault::new("`row_major` is not supported", place)
         .help("leave it out, and transpose the matrices in the program or the shader")
 }

@@ -45,6 +45,12 @@ pub(super) fn parse_fault(origin: &Origin<'_>, error: &Error) -> Fault {
 pub(super) fn validation_fault(origin: &Origin<'_>, fault: validate::Fault) -> Fault {
     let ranges = fault.spans.iter().filter_map(|span| span.to_range());
     let place = ranges.filter_map(|range| origin.output.place(range)).next();
+    let main = || {
+        fault.entry_point.as_ref()?;
+        let mut functions = origin.unit.functions();
+        functions.find(|function| &*function.name == "main" && !function.body.is_empty())
+    };
+    let place = place.or_else(|| main().map(|main| main.place));
     let found = Fault::at(origin.names.in_message(&fault.message), place);
     match fault.help {
         Some(help) => found.help(origin.names.in_message(&help)),
@@ -186,6 +192,70 @@ fn expected_name(expected: &ExpectedToken) -> String {
     }
 }
 
+/// How naga's messages begin, what is said instead, and what to do.
+const SEMANTIC: &[(&str, &str, &str)] = &[
+    (
+        "Missing entry point",
+        "the shader has no `main`",
+        "add `void main() { … }`",
+    ),
+    (
+        "Ambiguous best function",
+        "several functions take these arguments",
+        "convert arguments",
+    ),
+    (
+        "Constructor: Too many arguments",
+        "the constructor has too many arguments",
+        "remove some",
+    ),
+    (
+        "Expression returns void",
+        "the function returns nothing",
+        "call it as a statement",
+    ),
+    (
+        "Function already defined",
+        "there are two functions with this name and parameters",
+        "rename one of them",
+    ),
+    (
+        "Variable cannot be used in LHS",
+        "this cannot be assigned to",
+        "inputs, uniforms and constants are read only: copy them to a variable",
+    ),
+    (
+        "const values must have",
+        "a constant has no value",
+        "add `= …`",
+    ),
+    (
+        "Increment/decrement only",
+        "`++` and `--` need a number",
+        "use a variable",
+    ),
+    (
+        "swizzle cannot have duplicate",
+        "a component is assigned twice",
+        "name each one once",
+    ),
+    (
+        "Bad type constructor",
+        "this type cannot be built from values",
+        "use another type",
+    ),
+    (
+        "Not a valid texture",
+        "this is no texture",
+        "use a `sampler2D` or another sampler",
+    ),
+    (
+        "Array size must be",
+        "an array needs at least one element",
+        "use a larger size",
+    ),
+];
+
 fn semantic(origin: &Origin<'_>, text: &str, place: Option<Place>) -> (String, Option<String>) {
     let quoted = || text.split('\'').nth(1).unwrap_or_default().to_owned();
     let help = |text: &str| Some(text.to_owned());
@@ -220,69 +290,8 @@ fn semantic(origin: &Origin<'_>, text: &str, place: Option<Place>) -> (String, O
             help("convert one of them, for example with `float(…)` or `vec3(…)`"),
         );
     }
-    let known: &[(&str, &str, &str)] = &[
-        (
-            "Missing entry point",
-            "the shader has no `main`",
-            "add `void main() { … }`",
-        ),
-        (
-            "Ambiguous best function",
-            "several functions take these arguments",
-            "convert arguments",
-        ),
-        (
-            "Constructor: Too many arguments",
-            "the constructor has too many arguments",
-            "remove some",
-        ),
-        (
-            "Expression returns void",
-            "the function returns nothing",
-            "call it as a statement",
-        ),
-        (
-            "Function already defined",
-            "there are two functions with this name and parameters",
-            "rename one of them",
-        ),
-        (
-            "Variable cannot be used in LHS",
-            "this cannot be assigned to",
-            "inputs, uniforms and constants are read only: copy them to a variable",
-        ),
-        (
-            "const values must have",
-            "a constant has no value",
-            "add `= …`",
-        ),
-        (
-            "Increment/decrement only",
-            "`++` and `--` need a number",
-            "use a variable",
-        ),
-        (
-            "swizzle cannot have duplicate",
-            "a component is assigned twice",
-            "name each one once",
-        ),
-        (
-            "Bad type constructor",
-            "this type cannot be built from values",
-            "use another type",
-        ),
-        (
-            "Not a valid texture",
-            "this is no texture",
-            "use a `sampler2D` or another sampler",
-        ),
-        (
-            "Array size must be",
-            "an array needs at least one element",
-            "use a larger size",
-        ),
-    ];
-    if let Some((_, message, advice)) = known.iter().find(|(start, ..)| text.starts_with(start)) {
+    if let Some((_, message, advice)) = SEMANTIC.iter().find(|(start, ..)| text.starts_with(start))
+    {
         return ((*message).to_owned(), help(advice));
     }
     if text.starts_with("Invalid swizzle") {
@@ -297,6 +306,12 @@ fn semantic(origin: &Origin<'_>, text: &str, place: Option<Place>) -> (String, O
         return (
             format!("this has no member `{name}`"),
             help("only structures and vectors have members"),
+        );
+    }
+    if text.contains("image needs StorageAccess") {
+        return (
+            format!("`{}` does not go with the image's declaration", quoted()),
+            help("`writeonly` images are not read, and `readonly` ones are not written"),
         );
     }
     if text.contains("cannot be in the left hand side") {
@@ -314,11 +329,8 @@ fn own_function(
     name: &str,
     place: Option<Place>,
 ) -> Option<(String, Option<String>)> {
-    let first = origin
-        .unit
-        .functions()
-        .find(|function| &*function.name == name)?;
     let start = place.map_or(u32::MAX, |place| place.start);
+    origin.unit.functions().find(|one| &*one.name == name)?;
     let is_inside = |function: &&Function| {
         let ends = function.body.first().zip(function.body.last());
         ends.is_some_and(|(open, close)| (open.place.start..close.place.end).contains(&start))
@@ -329,12 +341,10 @@ fn own_function(
             format!("`{name}` calls itself, or is called with other arguments than it takes"),
             Some("functions of GLSL cannot call themselves: use a loop".to_owned()),
         )
-    } else if start < first.place.start {
+    } else if let Some(caller) = caller.filter(|caller| calls(origin.unit, name, &caller.name)) {
         (
-            format!("`{name}` is declared after it is used here"),
-            Some(
-                "move it up, or write its prototype before, such as `float f(float x);`".to_owned(),
-            ),
+            format!("`{name}` calls itself by way of `{}`", caller.name),
+            Some("functions of GLSL cannot call themselves: use a loop".to_owned()),
         )
     } else {
         (
@@ -345,6 +355,24 @@ fn own_function(
             ),
         )
     })
+}
+
+/// True if a function calls another one, or calls one that does.
+fn calls(unit: &Unit, from: &str, to: &str) -> bool {
+    let mut seen = BTreeSet::from([from]);
+    let mut open = vec![from];
+    while let Some(name) = open.pop() {
+        let functions = unit.functions().filter(|function| &*function.name == name);
+        for token in functions.flat_map(|function| &function.body) {
+            if token.is(to) {
+                return true;
+            }
+            if unit.has_function(&token.text) && seen.insert(&token.text) {
+                open.push(&token.text);
+            }
+        }
+    }
+    false
 }
 
 /// GLSL's name of a type that naga writes as its own.

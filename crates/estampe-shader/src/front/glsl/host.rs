@@ -195,6 +195,29 @@ impl Hosts<'_> {
         Ok(Some(format!("float {name} [ {numbers} ] ;")))
     }
 
+    /// Refuses `layout(offset = …)` that leaves a gap: only push constants have such. `end` is
+    /// that of the member before, and becomes that of the member.
+    pub(super) fn check_offset(
+        &self,
+        member: &Member,
+        is_std140: bool,
+        end: &mut u32,
+    ) -> Result<(), Fault> {
+        let least = if is_std140 { VEC4 } else { NUMBER };
+        let (align, size) = layout(self.structures, &member.ty, least);
+        let natural = aligned(*end, align);
+        *end = natural.saturating_add(size);
+        match member.offset {
+            Some(offset) if offset != natural => {
+                let name = &member.name;
+                let message = format!("`{name}` begins at byte {natural}, not at byte {offset}");
+                Err(Fault::new(message, member.place)
+                    .help("leave `offset` out, and declare members for the gap"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Adds numbers until `end` is a multiple of `align`, if naga aligns to less.
     fn pad(
         &mut self,

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::Fault;
-use super::declare::Reader;
+use super::declare::{Reader, row_major};
 use super::token::{Place, Token};
 use super::types::Type;
 use super::unit::{Block, Function, Item, Qualifiers, Storage, Unit, Variable};
@@ -19,6 +19,9 @@ impl Reader<'_> {
                 Fault::new(format!("what is `{}` for?", name.text), name.place)
                     .help("write `struct`, `uniform`, `buffer`, `in` or `out` before it"),
             );
+        }
+        if let Some(word) = qualifiers.layout_word("row_major") {
+            return Err(row_major(word.place));
         }
         let members = self.members()?;
         let mut instance = None;

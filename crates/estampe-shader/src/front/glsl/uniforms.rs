@@ -203,7 +203,7 @@ impl<'a> Writer<'a> {
         let is_apart = !is_whole || !is_uniform;
         let copied = block.instance.clone().filter(|_| is_apart);
         let mut text = Vec::new();
-        let mut end = 0;
+        let (mut end, mut declared_end) = (0, 0);
         let mut copies = Vec::new();
         for member in &block.members {
             let is_same = as_declared(&member.ty);
@@ -221,6 +221,11 @@ impl<'a> Writer<'a> {
                 true => seen.clone(),
                 false => format!("{}b_{}_{}", self.unit.prefix, block.name, member.name),
             };
+            if !is_std430 {
+                let is_std140 = is_std140 || block.qualifiers.has("std140");
+                self.own
+                    .check_offset(member, is_std140, &mut declared_end)?;
+            }
             if is_std430
                 && let Some(pad) = self.own.pad_to_offset(member, &mut end, &mut self.names)?
             {

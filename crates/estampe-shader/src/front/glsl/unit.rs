@@ -55,6 +55,11 @@ impl Qualifiers {
         u32::try_from(word.value?).ok()
     }
 
+    /// A word of `layout` that is there.
+    pub(super) fn layout_word(&self, name: &str) -> Option<&LayoutWord> {
+        self.layout.iter().find(|word| &*word.name == name)
+    }
+
     pub(super) fn has(&self, name: &str) -> bool {
         self.layout.iter().any(|word| &*word.name == name)
     }

@@ -1,7 +1,7 @@
 //! Errors in entry points and global variables, in the words of the source language.
 
-use naga::valid::{EntryPointError, GlobalVariableError, VaryingError};
-use naga::{AddressSpace, Module, ShaderStage};
+use naga::valid::{EntryPointError, GlobalUse, GlobalVariableError, VaryingError};
+use naga::{AddressSpace, ArraySize, Module, ShaderStage, TypeInner};
 
 use super::function;
 use super::words::Words;
@@ -51,10 +51,14 @@ pub(super) fn describe(
         }
         EntryPointError::BindingCollision(variable) => {
             let variable = &module.global_variables[*variable];
+            let block = module.types[variable.ty].name.as_deref();
             let slot = variable.binding.as_ref();
             format!(
                 "`{}` has the group and binding of another variable: {}",
-                variable.name.as_deref().unwrap_or_default(),
+                variable
+                    .name
+                    .as_deref()
+                    .unwrap_or(block.unwrap_or_default()),
                 slot.map_or(String::new(), |slot| format!(
                     "group {}, binding {}",
                     slot.group, slot.binding
@@ -63,6 +67,18 @@ pub(super) fn describe(
         }
         EntryPointError::ForbiddenStageOperations => {
             format!("`{name}` uses what its stage does not have, such as derivatives or barriers")
+        }
+        EntryPointError::InvalidGlobalUsage(variable, usage) => {
+            let variable = &module.global_variables[*variable];
+            let usage = match *usage {
+                usage if usage.contains(GlobalUse::ATOMIC) => "changed by atomic operations",
+                usage if usage.contains(GlobalUse::WRITE) => "written",
+                _ => "read",
+            };
+            format!(
+                "`{}` is {usage} in `{name}`, which its declaration does not allow",
+                variable.name.as_deref().unwrap_or_default()
+            )
         }
         EntryPointError::UnsupportedCapability(missing) => function::not_supported(*missing),
         other => format!("entry point `{name}`: {}", words.chain(other)),
@@ -89,10 +105,16 @@ fn varying(module: &Module, what: &str, error: &VaryingError, words: Words) -> M
             format!("{what} is {kind}, but only numbers and vectors of them pass between stages")
         }
         VaryingError::InvalidBuiltInStage(builtin) => {
-            format!("{what}: its stage has no built-in {builtin:?}")
+            let builtin = builtin_name(&format!("{builtin:?}"));
+            format!("{what}: its stage has no built-in `{builtin}` there")
         }
         VaryingError::InvalidBuiltInType(builtin, _) => {
-            format!("{what}: the built-in {builtin:?} has another type")
+            let builtin = builtin_name(&format!("{builtin:?}"));
+            format!("{what}: the built-in `{builtin}` has another type")
+        }
+        VaryingError::DuplicateBuiltIn(builtin) => {
+            let builtin = builtin_name(&format!("{builtin:?}"));
+            format!("{what}: the built-in `{builtin}` is given twice")
         }
         VaryingError::InvalidInterpolationForInteger => {
             let advice = match words {
@@ -110,6 +132,20 @@ fn varying(module: &Module, what: &str, error: &VaryingError, words: Words) -> M
     (message, help)
 }
 
+/// WGSL's name of a built-in value from naga's: `FragDepth` becomes `frag_depth`.
+fn builtin_name(name: &str) -> String {
+    let name = name.split([' ', '(', '{']).next().unwrap_or_default();
+    let name = name.replace("WorkGroup", "Workgroup");
+    let mut spelled = String::new();
+    for character in name.chars() {
+        if character.is_uppercase() && !spelled.is_empty() {
+            spelled.push('_');
+        }
+        spelled.extend(character.to_lowercase());
+    }
+    spelled
+}
+
 /// What is wrong with a global variable.
 pub(super) fn describe_variable(
     module: &Module,
@@ -122,12 +158,20 @@ pub(super) fn describe_variable(
         .filter(|(_, variable)| variable.name.as_deref().unwrap_or_default() == name)
         .map(|(_, variable)| variable.ty)
         .next();
+    let is_unsized = ty.is_some_and(|ty| match &module.types[ty].inner {
+        TypeInner::Array { size, .. } => *size == ArraySize::Dynamic,
+        _ => false,
+    });
     let name = match (name, ty.and_then(|ty| module.types[ty].name.as_deref())) {
         ("", Some(block)) => block,
         _ => name,
     };
     let mut help = None;
     let message = match error {
+        GlobalVariableError::MissingTypeFlags { .. } if is_unsized => {
+            help = Some("only a storage buffer may end with an array without a size".to_owned());
+            format!("`{name}` has a type that a buffer or variable of its kind cannot hold")
+        }
         GlobalVariableError::MissingTypeFlags { .. } | GlobalVariableError::InvalidType(_) => {
             help = Some(
                 "buffers hold numbers, vectors, matrices, and arrays and structures of them; \
@@ -157,6 +201,10 @@ pub(super) fn describe_variable(
             let ty = words.type_name(module, *ty);
             let why = words.chain(disalignment);
             format!("`{name}`: the layout of {ty} does not fit {buffer}: {why}")
+        }
+        GlobalVariableError::InvalidImmediateType(_) => {
+            help = Some("immediates hold 32-bit and 64-bit numbers".to_owned());
+            format!("`{name}` has a type that immediates cannot hold")
         }
         GlobalVariableError::InitializerType => {
             format!("the value given to `{name}` has another type than the variable")

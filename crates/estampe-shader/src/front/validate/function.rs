@@ -78,6 +78,21 @@ pub(super) fn describe(
                 Some(help.to_owned()),
             );
         }
+        FunctionError::InvalidArgumentType { name, .. } => {
+            format!("parameter `{name}` has a type that functions do not take")
+        }
+        FunctionError::InvalidArgumentPointerSpace { name, .. } => format!(
+            "parameter `{name}` is a pointer to memory of another kind than `function`, `private` \
+             and `workgroup`"
+        ),
+        FunctionError::ConflictingSwitchCase(value) => {
+            let value = match value {
+                naga::SwitchValue::I32(value) => value.to_string(),
+                naga::SwitchValue::U32(value) => format!("{value}u"),
+                _ => "default".to_owned(),
+            };
+            format!("`switch` has the case {value} more than once")
+        }
         other => words.chain(other),
     };
     (message, None)
@@ -97,7 +112,7 @@ pub(super) fn not_supported(missing: naga::valid::Capabilities) -> String {
 fn call(types: &Types<'_>, name: &str, error: &CallError, function: Handle<Function>) -> Message {
     let message = match error {
         CallError::ArgumentCount { required, seen } => {
-            let (plural, verb) = (plural(*required), if *seen == 1 { "is" } else { "are" });
+            let (plural, verb) = (plural(*required), verb(*seen));
             format!("`{name}` takes {required} argument{plural}, but {seen} {verb} given")
         }
         CallError::ArgumentType {
@@ -111,11 +126,12 @@ fn call(types: &Types<'_>, name: &str, error: &CallError, function: Handle<Funct
                 Some(argument) => format!("argument `{argument}`"),
                 None => format!("argument {}", index + 1),
             };
-            format!(
-                "{which} of `{name}` is {}, but {} is given",
-                types.words.type_name(types.module, *required),
-                types.of(*seen_expression)
-            )
+            let required = types.words.type_name(types.module, *required);
+            let seen = types.of(*seen_expression);
+            match required == seen {
+                true => format!("{which} of `{name}` points to memory of another kind"),
+                false => format!("{which} of `{name}` is {required}, but {seen} is given"),
+            }
         }
         other => format!("call of `{name}`: {}", types.words.chain(other)),
     };
@@ -197,7 +213,8 @@ fn compose_error(types: &Types<'_>, value: Handle<Expression>, error: &ComposeEr
     match error {
         ComposeError::Type(_) => format!("{built} cannot be built from values"),
         ComposeError::ComponentCount { given, expected } => {
-            format!("{built} is built from {expected} components, but {given} are given")
+            let (plural, verb) = (plural(*expected as usize), verb(*given as usize));
+            format!("{built} is built from {expected} component{plural}, but {given} {verb} given")
         }
         ComposeError::ComponentType { index } => {
             let part = match &types.function.expressions[value] {
@@ -213,6 +230,10 @@ fn compose_error(types: &Types<'_>, value: Handle<Expression>, error: &ComposeEr
 /// The ending of the plural.
 fn plural(count: usize) -> &'static str {
     if count == 1 { "" } else { "s" }
+}
+
+fn verb(count: usize) -> &'static str {
+    if count == 1 { "is" } else { "are" }
 }
 
 /// A function's name from naga's: `InverseSqrt` becomes `inverseSqrt`.

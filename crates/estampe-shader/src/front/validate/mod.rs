@@ -17,6 +17,8 @@
 
 mod entry;
 mod function;
+mod support;
+mod uses;
 mod words;
 
 pub(super) use words::{Words, plain};
@@ -56,9 +58,11 @@ pub(super) struct Fault {
 
 /// Checks a module.
 pub(super) fn check(module: &naga::Module, words: Words) -> Result<ModuleInfo, Fault> {
-    Validator::new(ValidationFlags::all(), CAPABILITIES)
+    let info = Validator::new(ValidationFlags::all(), CAPABILITIES)
         .validate(module)
-        .map_err(|error| describe(module, &error, words))
+        .map_err(|error| describe(module, &error, words))?;
+    support::check(module, &info, words)?;
+    Ok(info)
 }
 
 /// Checks a module all of whose overrides have values.
@@ -78,11 +82,20 @@ pub(super) fn describe(
     let known = error.spans().filter(|(span, _)| span.is_defined());
     let (functions, inside): (Vec<_>, Vec<_>) =
         known.partition(|(_, what)| what.starts_with("naga::ir::Function ["));
-    let spans = inside
+    let mut spans: Vec<Span> = inside
         .into_iter()
         .chain(functions)
         .map(|(span, _)| *span)
         .collect();
+    if spans.is_empty() {
+        // Types of the language have no place: what is declared with them has.
+        let ty = match error.as_inner() {
+            ValidationError::Type { handle, .. } => Some(*handle),
+            ValidationError::Layouter(error) => Some(error.ty),
+            _ => None,
+        };
+        spans.extend(ty.and_then(|ty| uses::place(module, ty)));
+    }
     let entry_point = match error.as_inner() {
         ValidationError::EntryPoint { name, .. } => Some(name.clone()),
         _ => None,
@@ -103,6 +116,25 @@ pub(super) fn describe(
             source: TypeError::MissingCapability(missing),
             ..
         } => (function::not_supported(*missing), None),
+        ValidationError::Type {
+            source: source @ TypeError::WidthError(_),
+            ..
+        } => (words.chain(source), None),
+        ValidationError::Type {
+            name,
+            source: TypeError::InvalidDynamicArray(member, _),
+            ..
+        } => (
+            format!(
+                "{}: `{member}` has no size and is not the last member",
+                words.type_named(name)
+            ),
+            Some("give it a size, or move it to the end".to_owned()),
+        ),
+        ValidationError::Layouter(error) => {
+            let ty = words.type_name(module, error.ty);
+            (format!("{ty} is too large: {}", words.chain(error)), None)
+        }
         ValidationError::Type { name, source, .. } => (
             format!("{}: {}", words.type_named(name), words.chain(source)),
             None,
@@ -111,9 +143,8 @@ pub(super) fn describe(
             (format!("constant `{name}`: {}", words.chain(source)), None)
         }
         ValidationError::Override { name, source, .. } => {
-            let advice = "give it a default, or a value among the options' constants";
             let message = format!("{} `{name}`: {}", words.overridable(), words.chain(source));
-            (message, Some(advice.to_owned()))
+            (message, None)
         }
         ValidationError::ArraySizeError { .. } => {
             ("the size of an array must be at least 1".to_owned(), None)

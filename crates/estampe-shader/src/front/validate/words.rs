@@ -105,12 +105,68 @@ impl Words {
     }
 }
 
+/// How messages begin that speak of naga's representation, and what they mean.
+const PHRASES: &[(&str, &str)] = &[
+    (
+        "invalid access into expression",
+        "this has no such element or member: only vectors, matrices, arrays and structures have",
+    ),
+    (
+        "can't resolve type: InvalidSubAccess",
+        "this has no elements: only vectors, matrices and arrays have",
+    ),
+    (
+        "can't resolve type: IncompatibleOperands",
+        "this operator does not work with values of these types",
+    ),
+    (
+        "Cannot apply the unary op",
+        "this operator does not work with a value of this type",
+    ),
+    (
+        "cannot apply math function",
+        "a function is called with a constant of a type that it does not take",
+    ),
+    (
+        "Array length of",
+        "only arrays have a `length()` that is known",
+    ),
+    ("Loading of", "this cannot be loaded as a value"),
+    (
+        "invalid sub-access into type",
+        "this has no such element or member: only vectors, matrices, arrays and structures have",
+    ),
+    (
+        "Unable to operate on image class",
+        "the function does not take textures of this kind",
+    ),
+    (
+        "Image array index type",
+        "the layer, mip level or sample is not an integer",
+    ),
+    (
+        "Image other index type",
+        "the layer, mip level or sample is not an integer",
+    ),
+];
+
 /// A message of naga without its handles (`[12]`), its debug names and a full stop at the end,
 /// beginning with a small letter.
 pub(in crate::front) fn plain(message: &str) -> String {
     if let Some((start, _)) = message.split_once(" values requires the `naga::valid::") {
         let kind = start.split_once(' ').map_or(start, |(_, kind)| kind);
-        return format!("the type {kind} is not supported");
+        return match kind {
+            "`f64`" => "64-bit floating point is not supported".to_owned(),
+            kind => format!("the type {kind} is not supported"),
+        };
+    }
+    let begins = |start: &str| {
+        let head = message.get(..start.len());
+        head.is_some_and(|head| head.eq_ignore_ascii_case(start))
+    };
+    let known = PHRASES.iter().find(|(start, _)| begins(start));
+    if let Some((_, words)) = known {
+        return (*words).to_owned();
     }
     let mut text = String::with_capacity(message.len());
     let mut rest = message;
@@ -132,6 +188,7 @@ pub(in crate::front) fn plain(message: &str) -> String {
         }
     }
     text.push_str(rest);
+    let text = text.trim_end_matches(" for expression");
     let text = text.trim().trim_end_matches('.').replace("  ", " ");
     let mut characters = text.chars();
     match (characters.next(), characters.as_str()) {
@@ -150,8 +207,6 @@ pub(super) fn capability(capabilities: Capabilities) -> String {
             Capabilities::SHADER_INT64_ATOMIC_ALL_OPS,
             "atomic operations on 64-bit integers",
         ),
-        (Capabilities::SUBGROUP, "subgroup operations"),
-        (Capabilities::SUBGROUP_BARRIER, "subgroup barriers"),
         (Capabilities::SHADER_INT16, "16-bit integers"),
         (Capabilities::PRIMITIVE_INDEX, "the index of the primitive"),
         (Capabilities::DRAW_INDEX, "the index of the draw"),

@@ -98,7 +98,7 @@ pub(super) fn preprocess(
 impl Preprocessor<'_> {
     /// Defines a macro that the text does not define.
     fn define(&mut self, name: &str, value: &str) -> Result<(), Fault> {
-        let found = token::tokens(name)?;
+        let found = token::tokens(name).unwrap_or_default();
         let body = token::tokens(value).map_err(|_| {
             Fault::at(
                 format!("the options define `{name}` with a comment that has no end"),
