@@ -29,7 +29,7 @@ pub struct Fault {
     pub file: String,
     /// JSON Pointer (RFC 6901) of the value, such as `/accessors/3/count`; empty if the file is not
     /// JSON.
-    pub json_pointer: String,
+    pub json_pointer: Box<str>,
     /// Location in the file.
     pub location: Option<Location>,
     /// The problem.
@@ -78,7 +78,7 @@ impl AssetError {
     /// Adds the JSON Pointer of the value.
     #[must_use]
     pub fn at_json(mut self, pointer: impl Into<String>) -> Self {
-        self.fault_mut().json_pointer = pointer.into();
+        self.fault_mut().json_pointer = pointer.into().into_boxed_str();
         self
     }
 
@@ -117,7 +117,7 @@ impl Fault {
     fn new(what: impl Into<String>, advice: impl Into<String>) -> Self {
         Self {
             file: String::new(),
-            json_pointer: String::new(),
+            json_pointer: Box::default(),
             location: None,
             what: what.into(),
             advice: advice.into(),

@@ -287,6 +287,44 @@ fn functions_are_those_of_maths() {
     });
 }
 
+/// The fraction from ½ to 1 and the exponent of a number, by division.
+fn frexp(x: f32) -> (f32, i32) {
+    if x == 0.0 || !x.is_finite() {
+        return (x, 0);
+    }
+    let (mut fraction, mut exponent) = (f64::from(x), 0);
+    while fraction.abs() >= 1.0 {
+        (fraction, exponent) = (fraction / 2.0, exponent + 1);
+    }
+    while fraction.abs() < 0.5 {
+        (fraction, exponent) = (fraction * 2.0, exponent - 1);
+    }
+    (fraction as f32, exponent)
+}
+
+#[test]
+fn fractions_and_exponents_are_those_of_division() {
+    // From the smallest subnormal number to the largest number, infinities and NaN.
+    for scale in [0_u32, 1, 0x0040_0001, 0x0080_0000, 0x3F7F_FFFF, 0x7F00_0000] {
+        let number = f32::from_bits(scale);
+        let expression = format!(
+            "vec4f(frexp(v * bitcast<f32>({scale}u)).fract.xy, \
+             vec2f(frexp(v.zw * bitcast<f32>({scale}u)).exp))"
+        );
+        check_expression(&expression, |v| {
+            let [x, y, z, w] = v.map(|one| frexp(one * number));
+            [x.0, y.0, z.1 as f32, w.1 as f32]
+        });
+    }
+    check_expression(
+        "vec4f(frexp(x / 0.0 * z).fract, f32(frexp(1.0 / (y - y)).exp), frexp(w).fract, 0)",
+        |v| {
+            let [x, _, z, w] = v;
+            [frexp(x / 0.0 * z).0, 0.0, frexp(w).0, 0.0]
+        },
+    );
+}
+
 #[test]
 fn matrices_are_columns() {
     check_expression("mat4x4f(v, v.yzwx, v.zwxy, v.wxyz) * v", |v| {

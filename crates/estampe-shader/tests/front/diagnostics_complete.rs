@@ -124,7 +124,6 @@ const LOWER: &[&str] = &[
     "textures without a binding",
     "computed offsets",
     "textures of this type",
-    "calls of frexp",
     "functions of this kind",
     "matrices of this type",
     "mesh, task and ray shaders",

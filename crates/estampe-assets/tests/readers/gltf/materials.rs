@@ -634,7 +634,7 @@ fn a_variants_material_must_exist() {
     };
     let error = file.try_load_with(&options).unwrap_err();
     let place = "/meshes/0/primitives/0/extensions/KHR_materials_variants/mappings/0/material";
-    assert_eq!(error.fault().json_pointer, place);
+    assert_eq!(&*error.fault().json_pointer, place);
     assert!(matches!(error, AssetError::Malformed(_)), "{error}");
     assert!(error.fault().what.contains("material 8 does not exist"));
 }

@@ -3,8 +3,8 @@
 use super::{Fault, Words};
 use naga::valid::{FunctionInfo, GlobalUse, ModuleInfo};
 use naga::{
-    AddressSpace, Binding, Block, EntryPoint, Expression, Function, Handle, MathFunction, Module,
-    ShaderStage, Span, Statement, Type, TypeInner,
+    AddressSpace, Binding, Block, EntryPoint, Expression, Function, Handle, Module, ShaderStage,
+    Span, Statement, Type, TypeInner,
 };
 
 /// Checks a valid module.
@@ -32,23 +32,17 @@ fn fault(message: String, span: Span) -> Fault {
 
 fn check_function(module: &Module, function: &Function, info: &FunctionInfo) -> Result<(), Fault> {
     for (handle, expression) in function.expressions.iter() {
-        let (name, help) = match expression {
-            Expression::ImageSample {
-                clamp_to_edge: true,
-                ..
-            } => (
-                "textureSampleBaseClampToEdge",
-                "use `textureSampleLevel` with level 0 and a sampler that clamps to the edge",
-            ),
-            Expression::Math {
-                fun: MathFunction::Frexp,
-                ..
-            } => (
-                "frexp",
-                "take the exponent with `floor(log2(abs(x))) + 1.0`, and divide by `exp2` of it",
-            ),
-            _ => continue,
+        let Expression::ImageSample {
+            clamp_to_edge: true,
+            ..
+        } = expression
+        else {
+            continue;
         };
+        let (name, help) = (
+            "textureSampleBaseClampToEdge",
+            "use `textureSampleLevel` with level 0 and a sampler that clamps to the edge",
+        );
         return Err(Fault {
             help: Some(help.to_owned()),
             ..fault(
