@@ -470,8 +470,8 @@ impl<'a> Lowering<'a> {
         parts
     }
 
-    /// The fraction, from ½ to 1 with the sign of the number, and the exponent as an integer. Zeros,
-    /// infinities and NaN are their own fraction, with the exponent 0.
+    /// The fraction, from ½ to 1 with the sign of the number, and the exponent as an integer.
+    /// Zeros, infinities and NaN are their own fraction, with the exponent 0.
     fn frexp(&mut self, x: &[Value]) -> Vec<Value> {
         let (mut fractions, mut exponents) = (Vec::new(), Vec::new());
         for &x in x {
