@@ -25,6 +25,9 @@ enum Task {
     Asm {
         /// Programs to check; without any, those of the repository are built and checked
         programs: Vec<PathBuf>,
+        /// Build and check the programs of this package alone
+        #[arg(long, conflicts_with = "programs", value_parser = programs::PACKAGES.to_vec())]
+        package: Vec<String>,
     },
     /// Check the book and write its pages into target/book
     Book,
@@ -45,7 +48,7 @@ type Outcome = Result<bool, Box<dyn std::error::Error>>;
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Check => check(),
-        Task::Asm { programs } => asm(programs),
+        Task::Asm { programs, package } => asm(programs, package),
         Task::Book => book(),
         Task::Conformance => conformance(),
         Task::Fuzz { arguments } => fuzz(&arguments),
@@ -80,14 +83,20 @@ fn check() -> Outcome {
     Ok(passed)
 }
 
-/// Checks the machine code of the given programs, or of the repository's.
-fn asm(programs: Vec<PathBuf>) -> Outcome {
+/// Checks the machine code of the given programs, or of the repository's: those of `packages`, or
+/// all.
+fn asm(programs: Vec<PathBuf>, packages: Vec<String>) -> Outcome {
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         eprintln!("asm: skipped, only x86-64 Linux is checked");
         return Ok(true);
     }
     let programs = if programs.is_empty() {
-        programs::build(Repository::of_this_build()?.root())?
+        let packages = if packages.is_empty() {
+            programs::PACKAGES.iter().map(ToString::to_string).collect()
+        } else {
+            packages
+        };
+        programs::build(Repository::of_this_build()?.root(), &packages)?
     } else {
         programs
     };

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// The packages whose programs are checked.
-const PACKAGES: &[&str] = &["estampe-bench", "estampe-cli"];
+pub(crate) const PACKAGES: &[&str] = &["estampe-bench", "estampe-cli"];
 
 /// The profile of the workspace's `Cargo.toml` that is `release` with symbols.
 const PROFILE: &str = "symbols";
@@ -17,9 +17,12 @@ pub(crate) fn cargo() -> OsString {
     std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }
 
-/// Builds the programs, with symbols that show generic arguments, and returns their paths. A target
-/// folder of their own keeps ordinary builds valid, whose flags differ.
-pub(crate) fn build(root: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
+/// Builds the programs of packages, with symbols that show generic arguments, and returns their
+/// paths. A target folder of their own keeps ordinary builds valid, whose flags differ.
+pub(crate) fn build(
+    root: &Path,
+    packages: &[String],
+) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
     let mut command = Command::new(cargo());
     command
         .current_dir(root)
@@ -29,7 +32,7 @@ pub(crate) fn build(root: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Err
         .arg(root.join("target/asm"))
         .env("CARGO_ENCODED_RUSTFLAGS", "-Csymbol-mangling-version=v0")
         .stdout(Stdio::piped());
-    for package in PACKAGES {
+    for package in packages {
         command.args(["--package", package]);
     }
     let mut child = command.spawn()?;
@@ -44,7 +47,7 @@ pub(crate) fn build(root: &Path) -> Result<Vec<PathBuf>, Box<dyn std::error::Err
         return Err("the programs do not build".into());
     }
     if programs.is_empty() {
-        return Err(format!("none of {} has a program", PACKAGES.join(", ")).into());
+        return Err(format!("none of {} has a program", packages.join(", ")).into());
     }
     Ok(programs)
 }
