@@ -88,6 +88,7 @@ pub mod illumination;
 pub mod line;
 pub mod logic;
 pub mod observer;
+pub mod pbr;
 pub mod per_sample;
 mod pipeline;
 pub mod point;

@@ -160,9 +160,19 @@ pub(crate) fn with_passes<T>(
     use_passes: impl FnOnce(&FramePasses<'_>, &SceneView) -> Result<T, RenderError>,
 ) -> Result<T, RenderError> {
     check_size(options, device)?;
+    let resolved;
+    let options = if options.shading == Shading::Automatic {
+        resolved = RenderOptions {
+            shading: options.shading.of_scene(scene),
+            ..options.clone()
+        };
+        &resolved
+    } else {
+        options
+    };
     let workers = Workers::new(device.threads());
     let view = SceneView::new(scene, options, workers);
-    let style = frame_style(&view, options, device)?;
+    let style = frame_style(scene, &view, options, device)?;
     let plan = Planner {
         scene,
         options,
@@ -276,6 +286,7 @@ fn clear_color(options: &RenderOptions) -> [f32; 4] {
 }
 
 fn frame_style(
+    scene: &Scene,
     view: &SceneView,
     options: &RenderOptions,
     device: &Device,
@@ -287,8 +298,16 @@ fn frame_style(
         let values = SurfaceValues::new(view, &transforms, &lights, size_px);
         (program, values)
     });
+    let pbr = if options.shading == Shading::Pbr {
+        Some(Arc::new(
+            view.pbr_lighting(scene, options, &lights, device)?,
+        ))
+    } else {
+        None
+    };
     Ok(FrameStyle {
         shading: options.shading,
+        pbr,
         program,
         transforms,
         lights: Arc::new(lights),

@@ -3,7 +3,9 @@
 //!
 //! ```text
 //! Scene ─┬─ scene_view      unit space, fitted camera, lights
+//!        ├─ environment     light from all around; pbr_lighting puts it into view space
 //!        ├─ materials       surface styles and textures
+//!        ├─ pbr_materials   what physically based materials add
 //!        ├─ geometry        vertex buffers, unshared faces, back-to-front order
 //!        ├─ surface_program     a program of the caller's, in place of those of `shading`
 //!        ├─ surface_pipelines   material programs × vertex streams -> pipelines
@@ -24,11 +26,14 @@ pub mod camera;
 
 mod alpha;
 mod draw_plan;
+mod environment;
 mod frame;
 mod frame_passes;
 mod geometry;
 mod materials;
 mod options;
+mod pbr_lighting;
+mod pbr_materials;
 mod pixel_history;
 mod scene_view;
 mod shading;
@@ -42,12 +47,16 @@ struct Readme;
 
 pub use alpha::composite_over;
 pub use camera::{CameraOptions, Eye, ProjectionKind, ViewDirection};
+pub use environment::{EnvironmentError, EnvironmentMap};
 pub use estampe::state::CullMode;
 pub use estampe::transforms;
 pub use frame::{Frame, FrameTimings, RenderError, TransparentLayers, render};
 pub use geometry::face_colors::face_color;
-pub use options::{Fog, RenderOptions, Shading, Specular, SpecularModel, Transparency, Up};
+pub use options::{
+    Environment, Fog, RenderOptions, Shading, Specular, SpecularModel, Transparency, Up,
+};
 pub use pixel_history::{FramePixel, FrameStages, VertexSpaces, inspect, inspect_stages};
+pub use shading::pbr::tone_map::ToneMap;
 pub use surface_program::{SurfaceBindings, SurfaceProgram, SurfaceValues};
 
 /// Version of the images. It rises whenever the same scene and options give other bytes than

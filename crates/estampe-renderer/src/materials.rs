@@ -5,24 +5,27 @@ use crate::options::{RenderOptions, Shading, SpecularModel};
 use crate::shading::bump::BumpMap;
 use crate::shading::lighting::{Gloss, Highlight};
 use crate::surface_pipelines::{SurfaceAlpha, SurfaceStyle};
-use estampe::{Device, SampledTexture, SamplerDescriptor, TextureDescriptor, TextureFormat};
+use estampe::{
+    Device, SampledTexture, SamplerDescriptor, Texture, TextureDescriptor, TextureFormat,
+};
 use estampe_scene::{AlphaMode, Image, Material, Mesh, Scene};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// Creates the styles of surfaces from materials.
 pub(crate) struct Materials<'a> {
-    scene: &'a Scene,
-    options: &'a RenderOptions,
+    pub(crate) scene: &'a Scene,
+    pub(crate) options: &'a RenderOptions,
     device: &'a Device,
     /// Textures by index into the scene's images (`None` is the texture of the options), and
     /// format.
-    textures: HashMap<(Option<usize>, TextureFormat), SampledTexture>,
+    textures: HashMap<(Option<usize>, TextureFormat), Texture>,
 }
 
 /// The format of colours.
-const COLORS: TextureFormat = TextureFormat::Rgba8UnormSrgb;
-/// The format of heights.
-const HEIGHTS: TextureFormat = TextureFormat::Rgba8Unorm;
+pub(crate) const COLORS: TextureFormat = TextureFormat::Rgba8UnormSrgb;
+/// The format of heights, normals and other numbers.
+pub(crate) const NUMBERS: TextureFormat = TextureFormat::Rgba8Unorm;
 
 impl<'a> Materials<'a> {
     pub(crate) fn new(scene: &'a Scene, options: &'a RenderOptions, device: &'a Device) -> Self {
@@ -70,6 +73,8 @@ impl<'a> Materials<'a> {
             bump: self.bump(material, mesh)?,
             has_vertex_colors,
             alpha,
+            is_single_sided: self.is_single_sided(material, mesh),
+            pbr: self.physically_based(material, mesh, is_overridden)?,
         })
     }
 
@@ -116,7 +121,7 @@ impl<'a> Materials<'a> {
             return Ok(None);
         }
         Ok(Some(BumpMap {
-            texture: self.shared(Some(index), HEIGHTS, image)?,
+            texture: self.shared(Some(index), NUMBERS, image)?,
             height: material.bump_scale * BumpMap::UNIT_HEIGHT,
         }))
     }
@@ -146,25 +151,38 @@ impl<'a> Materials<'a> {
         self.shared(key, COLORS, image).map(Some)
     }
 
-    /// The texture of an image, which is created once for each format.
+    /// The texture of an image, repeated and filtered.
     fn shared(
         &mut self,
         key: Option<usize>,
         format: TextureFormat,
         image: &Image,
     ) -> Result<SampledTexture, RenderError> {
-        if let Some(texture) = self.textures.get(&(key, format)) {
-            return Ok(texture.clone());
-        }
-        let descriptor = TextureDescriptor::new_2d(image.width, image.height, format);
-        let texture = self
-            .device
-            .create_texture_with_data(&descriptor.with_all_levels(), &[&image.rgba])?;
         let sampler = SamplerDescriptor::trilinear_repeat();
-        let sampler = self.device.create_sampler(&sampler)?;
-        let texture = self.device.sampled_texture(&texture.view(), &sampler)?;
-        self.textures.insert((key, format), texture.clone());
-        Ok(texture)
+        self.sampled(key, format, image, &sampler)
+    }
+
+    /// The texture of an image, which is created once for each format, with a sampler.
+    pub(crate) fn sampled(
+        &mut self,
+        key: Option<usize>,
+        format: TextureFormat,
+        image: &Image,
+        sampler: &SamplerDescriptor,
+    ) -> Result<SampledTexture, RenderError> {
+        let texture = match self.textures.entry((key, format)) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(unknown) => {
+                let descriptor = TextureDescriptor::new_2d(image.width, image.height, format);
+                let descriptor = descriptor.with_all_levels();
+                let texture = self
+                    .device
+                    .create_texture_with_data(&descriptor, &[&image.rgba])?;
+                unknown.insert(texture)
+            }
+        };
+        let sampler = self.device.create_sampler(sampler)?;
+        Ok(self.device.sampled_texture(&texture.view(), &sampler)?)
     }
 }
 

@@ -1,10 +1,13 @@
 //! Options of a rendered image.
 
 use crate::camera::CameraOptions;
+use crate::environment::EnvironmentMap;
+use crate::shading::pbr::tone_map::ToneMap;
 use crate::surface_program::SurfaceProgram;
 use estampe::state::CullMode;
-use estampe_scene::{Image, Light, UpAxis};
+use estampe_scene::{Image, Light, Scene, UpAxis};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Options of a rendered image. The defaults give a presentable image of any model.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,8 +22,17 @@ pub struct RenderOptions {
     pub camera: CameraOptions,
     /// The up direction. Default: the scene's.
     pub up: Up,
-    /// Shading of surfaces. Default [`Shading::Phong`].
+    /// Shading of surfaces. Default [`Shading::Automatic`].
     pub shading: Shading,
+    /// Light from all around, for [`Shading::Pbr`]. Default: the studio.
+    pub environment: Environment,
+    /// If set, the scene's own lights shine too, on [`Shading::Pbr`]. Default not: their units are
+    /// absolute, and without an exposure to match most of them burn a picture.
+    pub scene_lights: bool,
+    /// Brightness of [`Shading::Pbr`] in stops: light is multiplied by 2 to this power. Default 0.
+    pub exposure_ev: f32,
+    /// How the light of [`Shading::Pbr`] is shown. Default [`ToneMap::Neutral`].
+    pub tone_map: ToneMap,
     /// A program that draws all surfaces, in place of [`Self::shading`], which says no more than
     /// which vertices faces share. Default none.
     pub program: Option<SurfaceProgram>,
@@ -65,6 +77,10 @@ impl Default for RenderOptions {
             camera: CameraOptions::default(),
             up: Up::default(),
             shading: Shading::default(),
+            environment: Environment::default(),
+            scene_lights: false,
+            exposure_ev: 0.0,
+            tone_map: ToneMap::default(),
             program: None,
             lights: Vec::new(),
             ambient: None,
@@ -77,6 +93,29 @@ impl Default for RenderOptions {
             cull: CullMode::None,
             transparency: Transparency::default(),
             wireframe: false,
+        }
+    }
+}
+
+/// Light from all around.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Environment {
+    /// The surroundings. `None` (default) is the [studio](EnvironmentMap::studio), which turns with
+    /// the camera; with [`RenderOptions::lights`] it is the ambient light alone.
+    pub map: Option<Arc<EnvironmentMap>>,
+    /// Rotation of the surroundings around the up direction, counter-clockwise from above, in
+    /// degrees.
+    pub rotation_deg: f64,
+    /// Factor of the light, at least 0.
+    pub intensity: f32,
+}
+
+impl Default for Environment {
+    fn default() -> Self {
+        Self {
+            map: None,
+            rotation_deg: 0.0,
+            intensity: 1.0,
         }
     }
 }
@@ -139,12 +178,18 @@ impl Transparency {
 /// Shading of surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Shading {
+    /// [`Self::Pbr`] if a material of the scene has a physically based description, else
+    /// [`Self::Phong`].
+    #[default]
+    Automatic,
+    /// Physically based: metals and dielectrics of any roughness, lit from all around, as glTF 2.0
+    /// describes them. Materials without such a description are dielectrics.
+    Pbr,
     /// Lighting once per face.
     Flat,
     /// Lighting at the vertices, interpolated.
     Gouraud,
     /// Lighting at every fragment.
-    #[default]
     Phong,
     /// Lighting at every fragment, in four steps.
     Toon,
@@ -174,6 +219,16 @@ pub enum Shading {
 }
 
 impl Shading {
+    /// The shading of a scene, which is not [`Self::Automatic`].
+    #[must_use]
+    pub fn of_scene(self, scene: &Scene) -> Self {
+        match self {
+            Self::Automatic if scene.materials.iter().any(|m| m.pbr.is_some()) => Self::Pbr,
+            Self::Automatic => Self::Phong,
+            chosen => chosen,
+        }
+    }
+
     /// True if light is in steps.
     #[must_use]
     pub fn is_toon(self) -> bool {
@@ -197,7 +252,9 @@ impl Shading {
             | Self::FaceId
             | Self::Barycentric
             | Self::Overdraw => true,
-            Self::Flat
+            Self::Automatic
+            | Self::Pbr
+            | Self::Flat
             | Self::Gouraud
             | Self::Phong
             | Self::Toon

@@ -14,13 +14,15 @@ use glam::{DMat3, DMat4, DVec3};
 
 /// Distance beyond which a light is moved closer, in unit space: its direction stays the same, and
 /// squares of distances are in f32's range.
-const FURTHEST_LIGHT: f64 = 1e15;
+pub(crate) const FURTHEST_LIGHT: f64 = 1e15;
 
 /// A scene's unit space and its camera.
 #[derive(Debug, Clone)]
 pub(crate) struct SceneView {
     pub(crate) space: UnitSpace,
     pub(crate) camera: PlacedCamera,
+    /// The up direction, unit.
+    pub(crate) up_world: DVec3,
     /// Width ÷ height of the image.
     aspect: f64,
 }
@@ -57,6 +59,7 @@ impl SceneView {
         Self {
             space,
             camera: PlacedCamera::new(&camera, up, points, size_px),
+            up_world: up.normalize_or(DVec3::Y),
             aspect: f64::from(options.width) / f64::from(options.height),
         }
     }
@@ -135,7 +138,7 @@ impl SceneView {
     }
 
     /// 1 ÷ a length in world units, in unit space; finite, and 0 for an infinite length.
-    fn per_unit(&self, length_world: f64) -> f32 {
+    pub(crate) fn per_unit(&self, length_world: f64) -> f32 {
         let per_unit = self.space.world_per_unit() / length_world.max(f64::MIN_POSITIVE);
         round_to_f32(per_unit).clamp(0.0, f32::MAX)
     }

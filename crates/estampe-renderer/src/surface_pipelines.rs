@@ -12,6 +12,8 @@ use crate::shading::inspection::{
 use crate::shading::interpolation::{AtFragments, AtVertices, Interpolation, Viewer};
 use crate::shading::lighting::{Gloss, Lights};
 use crate::shading::output::{Fog, Output};
+use crate::shading::pbr::parameters::PbrParameters;
+use crate::shading::pbr::surface::{PbrLighting, PbrSurface};
 use crate::shading::points_and_lines::PointsAndLines;
 use crate::shading::surface::{DEPTH_ORDER, Surface, Written};
 use crate::shading::terms::{Reflectance, Terms};
@@ -36,6 +38,8 @@ pub(crate) struct FrameStyle {
     pub(crate) program: Option<(SurfaceProgram, SurfaceValues)>,
     pub(crate) transforms: VertexTransforms,
     pub(crate) lights: Arc<Lights>,
+    /// The light of physically based surfaces.
+    pub(crate) pbr: Option<Arc<PbrLighting>>,
     /// The levels of the options: steps of toon shading, else levels of colours.
     pub(crate) levels: Option<u16>,
     pub(crate) fog: Option<Fog>,
@@ -74,6 +78,10 @@ pub(crate) struct SurfaceStyle {
     pub(crate) bump: Option<BumpMap>,
     pub(crate) has_vertex_colors: bool,
     pub(crate) alpha: SurfaceAlpha,
+    /// The parameters of a physically based surface, if it is drawn as one.
+    pub(crate) pbr: Option<Arc<PbrParameters>>,
+    /// Back faces are not drawn.
+    pub(crate) is_single_sided: bool,
 }
 
 /// Treatment of a surface's alpha.
@@ -92,6 +100,17 @@ pub(crate) enum SurfaceAlpha {
 struct WrittenSurface<'a> {
     style: &'a SurfaceStyle,
     written: Written,
+}
+
+impl WrittenSurface<'_> {
+    /// The use of alpha in shaders.
+    fn alpha(&self) -> Alpha {
+        match self.style.alpha {
+            SurfaceAlpha::Opaque => Alpha::Ignored,
+            SurfaceAlpha::Masked => Alpha::CutsOut,
+            SurfaceAlpha::Blended => Alpha::Kept,
+        }
+    }
 }
 
 /// Number of light steps in toon shading, unless the options say another one.
@@ -142,7 +161,7 @@ impl FrameStyle {
             Role::Weighted => (DEPTH_ORDER.nearer().into(), weighted_targets()),
         };
         let state = PipelineState {
-            primitive: self.triangles(),
+            primitive: self.triangles_of(surface),
             depth_stencil,
             targets,
         };
@@ -231,6 +250,18 @@ impl FrameStyle {
         (DepthState::LESS_WRITE.into(), self.targets(None))
     }
 
+    /// The triangles of a surface, whose back faces may be invisible.
+    fn triangles_of(&self, surface: &SurfaceStyle) -> PrimitiveState {
+        let triangles = self.triangles();
+        PrimitiveState {
+            cull_mode: match self.cull {
+                CullMode::None if surface.is_single_sided => CullMode::Back,
+                chosen => chosen,
+            },
+            ..triangles
+        }
+    }
+
     fn triangles(&self) -> PrimitiveState {
         PrimitiveState {
             cull_mode: self.cull,
@@ -304,8 +335,13 @@ impl FrameStyle {
                 Role::Opaque | Role::Blended | Role::Layer => Written::Color,
             },
         };
+        if let (Some(lighting), Some(parameters)) = (&self.pbr, &surface.style.pbr) {
+            return self.physically_based(&surface, lighting, parameters);
+        }
         match self.shading {
-            Shading::Phong => self.at_fragments(&surface, Terms::All),
+            Shading::Automatic | Shading::Pbr | Shading::Phong => {
+                self.at_fragments(&surface, Terms::All)
+            }
             Shading::Toon => self.at_fragments(&surface, toon),
             Shading::ToonFlat => self.at_vertices(&surface, toon, Viewer::Infinity),
             Shading::ToonGouraud => self.at_vertices(&surface, toon, Viewer::Eye),
@@ -332,6 +368,24 @@ impl FrameStyle {
             }
             Shading::Overdraw => MaterialProgram::new(Overdraw { transforms }, &[Position]),
         }
+    }
+
+    fn physically_based(
+        &self,
+        surface: &WrittenSurface<'_>,
+        lighting: &Arc<PbrLighting>,
+        parameters: &Arc<PbrParameters>,
+    ) -> MaterialProgram {
+        use VertexStream::{Color, Normal, Position, Tangent, Uv, Uv1};
+        let shader = PbrSurface {
+            transforms: self.transforms,
+            lighting: Arc::clone(lighting),
+            parameters: Arc::clone(parameters),
+            alpha: surface.alpha(),
+            output: self.output(),
+            written: surface.written,
+        };
+        MaterialProgram::new(shader, &[Position, Normal, Tangent, Uv, Uv1, Color])
     }
 
     fn at_fragments(&self, surface: &WrittenSurface<'_>, terms: Terms) -> MaterialProgram {
@@ -373,11 +427,7 @@ impl FrameStyle {
     ) -> MaterialProgram {
         let SurfaceStyle { texture, bump, .. } = surface.style.clone();
         let factor = surface.style.base;
-        let alpha = match surface.style.alpha {
-            SurfaceAlpha::Opaque => Alpha::Ignored,
-            SurfaceAlpha::Masked => Alpha::CutsOut,
-            SurfaceAlpha::Blended => Alpha::Kept,
-        };
+        let alpha = surface.alpha();
         let has_colors = texture.is_some() || surface.style.has_vertex_colors;
         if has_colors || bump.is_some() || alpha == Alpha::CutsOut {
             let painted = Painted {
@@ -412,17 +462,21 @@ impl FrameStyle {
         written: Written,
         streams: &[VertexStream],
     ) -> MaterialProgram {
-        let output = Output {
-            levels: self.levels.filter(|_| !self.shading.is_toon()),
-            fog: self.fog,
-        };
         let surface = Surface {
             base_color,
             interpolation,
-            output,
+            output: self.output(),
             written,
         };
         MaterialProgram::new(surface, &[&[VertexStream::Position], streams].concat())
+    }
+
+    /// What happens to lit colours.
+    fn output(&self) -> Output {
+        Output {
+            levels: self.levels.filter(|_| !self.shading.is_toon()),
+            fog: self.fog,
+        }
     }
 
     fn pipeline(

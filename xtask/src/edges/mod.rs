@@ -193,6 +193,8 @@ const OUTSIDE: &[(&str, Users)] = &[
             "estampe-shader",
         ]),
     ),
+    // Tangents of normal maps.
+    ("bevy_mikktspace", Users::Only(&["estampe-renderer"])),
     // The data of tests.
     ("flate2", Users::Only(&["estampe-shader"])),
     // The checks of the repository.

@@ -5,6 +5,10 @@ use estampe_renderer::{CullMode, Shading, Transparency};
 /// Names of shadings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum ShadingName {
+    /// pbr if the model has physically based materials, else phong
+    Auto,
+    /// Physically based: metals and dielectrics, lit from all around
+    Pbr,
     /// Lighting once per face
     Flat,
     /// Lighting at the vertices, interpolated
@@ -38,6 +42,8 @@ pub(crate) enum ShadingName {
 impl From<ShadingName> for Shading {
     fn from(name: ShadingName) -> Self {
         match name {
+            ShadingName::Auto => Self::Automatic,
+            ShadingName::Pbr => Self::Pbr,
             ShadingName::Flat => Self::Flat,
             ShadingName::Gouraud => Self::Gouraud,
             ShadingName::Phong => Self::Phong,

@@ -100,7 +100,7 @@ fn options(
 ) -> Result<RenderOptions, Failure> {
     let options = RenderOptions {
         program: args.shader.program(device, args.texture.as_deref())?,
-        ..args.options(default_view, texture)
+        ..args.options(default_view, texture)?
     };
     let Some(chosen) = &args.camera else {
         return Ok(options);

@@ -11,6 +11,7 @@ mod command;
 mod draw;
 mod illumination;
 mod illumination_values;
+mod pbr;
 mod picture;
 mod report;
 mod surface_shader;

@@ -3,6 +3,7 @@
 
 use super::appearance_names::{CullName, ShadingName, TransparencyName};
 use super::illumination::IlluminationArgs;
+use super::pbr::PbrArgs;
 use super::surface_shader::SurfaceShaderArgs;
 use crate::failure::Failure;
 use crate::values::{self, Background, ViewName};
@@ -69,25 +70,29 @@ pub(crate) struct PictureArgs {
     #[arg(help_heading = "Camera")]
     pub(crate) margin: f64,
 
-    /// Shading: flat, gouraud, phong, toon, unlit, wireframe, normals, depth, uv, … (see --help)
+    /// Shading: auto, pbr, phong, flat, toon, unlit, wireframe, normals, … (see --help)
     ///
-    /// flat: lighting once per face; gouraud: lighting at the vertices; phong: lighting at every
-    /// pixel; toon, toon-flat, toon-gouraud: lighting at every pixel, once per face or at the
-    /// vertices, in steps; unlit: colours and textures without lighting; wireframe: edges, hidden
-    /// by faces; normals: red right, green up, blue towards the eye; depth: white near, black far;
-    /// uv: u red, v green; face-id: a colour for each triangle, by its number; barycentric: red,
-    /// green and blue at the corners of each triangle; overdraw: how many fragments each pixel has,
-    /// hidden ones too, from black over red to yellow. The last six store numbers without sRGB
-    /// encoding.
+    /// auto: pbr if the model has physically based materials (glTF), else phong; pbr: metals and
+    /// dielectrics of any roughness, lit from all around; flat: lighting once per face; gouraud:
+    /// lighting at the vertices; phong: lighting at every pixel; toon, toon-flat, toon-gouraud:
+    /// lighting at every pixel, once per face or at the vertices, in steps; unlit: colours and
+    /// textures without lighting; wireframe: edges, hidden by faces; normals: red right, green
+    /// up, blue towards the eye; depth: white near, black far; uv: u red, v green; face-id: a
+    /// colour for each triangle, by its number; barycentric: red, green and blue at the corners
+    /// of each triangle; overdraw: how many fragments each pixel has, hidden ones too, from black
+    /// over red to yellow. The last six store numbers without sRGB encoding.
     #[arg(
         long,
         value_name = "STYLE",
         value_enum,
-        default_value = "phong",
+        default_value = "auto",
         hide_possible_values = true
     )]
     #[arg(help_heading = "Appearance")]
     pub(crate) shading: ShadingName,
+
+    #[command(flatten)]
+    pub(crate) pbr: PbrArgs,
 
     #[command(flatten)]
     pub(crate) illumination: IlluminationArgs,
@@ -185,7 +190,11 @@ impl PictureArgs {
     }
 
     /// The renderer's options; `default` is the view if no option says another one.
-    pub(super) fn options(&self, default: ViewDirection, texture: Option<Image>) -> RenderOptions {
+    pub(super) fn options(
+        &self,
+        default: ViewDirection,
+        texture: Option<Image>,
+    ) -> Result<RenderOptions, Failure> {
         let direction = match self.view {
             Some(view) => view.into(),
             None => ViewDirection {
@@ -218,6 +227,6 @@ impl PictureArgs {
             wireframe: self.wireframe,
             ..RenderOptions::default()
         };
-        self.illumination.apply(options)
+        self.pbr.apply(self.illumination.apply(options))
     }
 }

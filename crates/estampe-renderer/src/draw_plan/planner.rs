@@ -5,6 +5,7 @@ use super::surfaces::PipelineKey;
 use crate::frame::RenderError;
 use crate::geometry::faces::{FaceAttributes, LitAt, unshared_streams};
 use crate::geometry::order::{DistantTriangle, back_to_front};
+use crate::geometry::tangents::with_tangents;
 use crate::geometry::vertex_data::{MeshStreams, VertexStream};
 use crate::materials::Materials;
 use crate::options::{RenderOptions, Shading};
@@ -46,7 +47,9 @@ impl Planner<'_> {
         let mut materials = Materials::new(self.scene, self.options, self.device);
         let mut builder = DrawPlanBuilder::default();
         for mesh in &self.scene.meshes {
-            self.plan_mesh(mesh, &mut materials, &mut builder)?;
+            let made = self.normal_map_uv_set(mesh);
+            let made = made.and_then(|uv_set| with_tangents(mesh, uv_set));
+            self.plan_mesh(made.as_ref().unwrap_or(mesh), &mut materials, &mut builder)?;
         }
         for run in back_to_front(std::mem::take(&mut builder.transparent)) {
             let (pipeline, vertex_buffers) =
@@ -61,6 +64,20 @@ impl Planner<'_> {
             });
         }
         Ok(builder.plan)
+    }
+
+    /// The texture coordinates of a mesh's first normal map, if it has one and no tangents.
+    fn normal_map_uv_set(&self, mesh: &Mesh) -> Option<u8> {
+        if self.style.pbr.is_none() || mesh.attribute(Mesh::TANGENT).is_some() {
+            return None;
+        }
+        mesh.surfaces.iter().find_map(|surface| {
+            let material = self.scene.materials.get(surface.material?)?;
+            let pbr = material.pbr.as_ref()?;
+            let coat = pbr.clearcoat.and_then(|coat| coat.normal_texture);
+            let map = pbr.normal_texture.or(coat)?;
+            Some(map.texture.uv_set)
+        })
     }
 
     fn plan_mesh(

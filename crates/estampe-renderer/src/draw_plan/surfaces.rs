@@ -27,6 +27,10 @@ pub(super) struct PipelineKey {
     has_normals: bool,
     has_uvs: bool,
     has_colors: bool,
+    has_uvs_1: bool,
+    has_tangents: bool,
+    /// Back faces are culled.
+    is_single_sided: bool,
 }
 
 /// The triangles of a mesh as draws read them.
@@ -94,6 +98,9 @@ impl Planner<'_> {
                     has_normals: !mesh.normals.is_empty(),
                     has_uvs: !mesh.uvs.is_empty(),
                     has_colors: !mesh.colors.is_empty(),
+                    has_uvs_1: mesh.attribute(Mesh::UV1).is_some(),
+                    has_tangents: mesh.attribute(Mesh::TANGENT).is_some(),
+                    is_single_sided: style.is_single_sided,
                 },
                 triangles,
             };

@@ -2,7 +2,7 @@
 
 use super::face_colors::face_color;
 use super::unit_space::UnitSpace;
-use super::vertex_data::{MeshStreams, StreamData};
+use super::vertex_data::{MeshStreams, StreamData, attribute};
 use estampe::{BufferError, Device};
 use estampe_scene::Mesh;
 use glam::Vec3;
@@ -59,6 +59,15 @@ pub(crate) fn unshared_streams(
             let uv = |index| at(&mesh.uvs, index).unwrap_or_default().to_array();
             StreamData::per_vertex(device, corners().map(uv))?
         },
+        uvs_1: match attribute::<2>(mesh, Mesh::UV1) {
+            [] => StreamData::constant(device, &[0.0; 2])?,
+            uvs => {
+                let uv = |index| at(uvs, index).unwrap_or_default();
+                StreamData::per_vertex(device, corners().map(uv))?
+            }
+        },
+        // Tangents belong to the vertices' normals.
+        tangents: StreamData::constant(device, &[0.0; 4])?,
         colors: if mesh.colors.is_empty() {
             StreamData::constant(device, &[1.0; 4])?
         } else {

@@ -9,6 +9,7 @@
 pub(crate) mod face_colors;
 pub(crate) mod faces;
 pub(crate) mod order;
+pub(crate) mod tangents;
 pub(crate) mod unit_space;
 pub(crate) mod vertex_data;
 

@@ -15,6 +15,10 @@ pub(crate) enum VertexStream {
     Normal,
     /// Two floats.
     Uv,
+    /// Two floats: the second set.
+    Uv1,
+    /// Four floats: direction in object space, and the sign of the bitangent.
+    Tangent,
     /// Four floats, linear.
     Color,
     /// Three floats, unit space: where light at the vertices is computed.
@@ -31,8 +35,8 @@ impl VertexStream {
             Self::Position | Self::Normal | Self::LitAt | Self::Corner | Self::Face => {
                 VertexFormat::Float32x3
             }
-            Self::Uv => VertexFormat::Float32x2,
-            Self::Color => VertexFormat::Float32x4,
+            Self::Uv | Self::Uv1 => VertexFormat::Float32x2,
+            Self::Color | Self::Tangent => VertexFormat::Float32x4,
         }
     }
 }
@@ -121,10 +125,18 @@ pub(crate) struct MeshStreams {
     pub(crate) positions: StreamData,
     pub(crate) normals: StreamData,
     pub(crate) uvs: StreamData,
+    pub(crate) uvs_1: StreamData,
+    pub(crate) tangents: StreamData,
     pub(crate) colors: StreamData,
     pub(crate) lit_at: StreamData,
     pub(crate) corners: StreamData,
     pub(crate) faces: StreamData,
+}
+
+/// The values of a named attribute of N numbers; none if the mesh has no such attribute.
+pub(crate) fn attribute<'a, const N: usize>(mesh: &'a Mesh, name: &str) -> &'a [[f32; N]] {
+    let named = mesh.attribute(name).filter(|found| found.components == N);
+    named.map_or(&[], |found| found.values.as_chunks().0)
 }
 
 impl MeshStreams {
@@ -138,23 +150,36 @@ impl MeshStreams {
     ) -> Result<Self, BufferError> {
         let position = |p| space.unit_from_object(p).to_array();
         let positions = StreamData::of_each(device, &mesh.positions, position, workers)?;
+        let sign = if normals_oppose_winding(mesh) {
+            -1.0
+        } else {
+            1.0
+        };
+        let uvs_1 = attribute::<2>(mesh, Mesh::UV1);
+        let tangents = attribute::<4>(mesh, Mesh::TANGENT);
         Ok(Self {
             lit_at: positions.clone(),
             positions,
             normals: if mesh.normals.is_empty() {
                 StreamData::constant(device, &[0.0; 3])?
             } else {
-                let sign = if normals_oppose_winding(mesh) {
-                    -1.0
-                } else {
-                    1.0
-                };
                 StreamData::of_each(device, &mesh.normals, |n| (n * sign).to_array(), workers)?
             },
             uvs: if mesh.uvs.is_empty() {
                 StreamData::constant(device, &[0.0; 2])?
             } else {
                 StreamData::of_each(device, &mesh.uvs, |uv| uv.to_array(), workers)?
+            },
+            uvs_1: if uvs_1.is_empty() {
+                StreamData::constant(device, &[0.0; 2])?
+            } else {
+                StreamData::of_each(device, uvs_1, |uv| uv, workers)?
+            },
+            tangents: if tangents.is_empty() {
+                StreamData::constant(device, &[0.0; 4])?
+            } else {
+                let turned = |[x, y, z, w]: [f32; 4]| [x, y, z, w * sign];
+                StreamData::of_each(device, tangents, turned, workers)?
             },
             colors: if mesh.colors.is_empty() {
                 StreamData::constant(device, &[1.0; 4])?
@@ -172,6 +197,8 @@ impl MeshStreams {
             VertexStream::Position => &self.positions,
             VertexStream::Normal => &self.normals,
             VertexStream::Uv => &self.uvs,
+            VertexStream::Uv1 => &self.uvs_1,
+            VertexStream::Tangent => &self.tangents,
             VertexStream::Color => &self.colors,
             VertexStream::LitAt => &self.lit_at,
             VertexStream::Corner => &self.corners,

@@ -8,6 +8,7 @@
 //! | [`bump`] | normals bent by a texture of heights |
 //! | [`interpolation`] | lighting at every fragment (Phong), or at the vertices (Gouraud, flat) |
 //! | [`base_color`] | one colour, or texture and vertex colours |
+//! | [`pbr`] | physically based surfaces |
 //! | [`output`] | quantised colours, fog |
 //! | [`surface`] | the shader of surfaces, composed of these parts |
 //! | [`wireframe`] | edges over faces that hide the edges behind them, or over shaded surfaces |
@@ -22,6 +23,7 @@ pub(crate) mod inspection;
 pub(crate) mod interpolation;
 pub(crate) mod lighting;
 pub(crate) mod output;
+pub(crate) mod pbr;
 pub(crate) mod points_and_lines;
 pub(crate) mod steps;
 pub(crate) mod surface;

@@ -18,7 +18,7 @@
 use super::base_color::{Alpha, BaseColor};
 use super::interpolation::Interpolation;
 use super::output::Output;
-use estampe::{FragmentIn, FragmentOut, Vec3, Vec4, VertexIn, VertexOut};
+use estampe::{FragmentIn, FragmentOut, Real, Vec3, Vec4, VertexIn, VertexOut};
 use estampe_transparency::{DepthOrder, weighted_fragment};
 
 /// The order of depths of all cameras: 0 at the near plane.
@@ -41,6 +41,26 @@ pub(crate) enum Written {
     Color,
     /// The terms of weighted transparency, in two targets.
     WeightedTerms,
+}
+
+impl Written {
+    /// What is written of a colour.
+    #[inline(always)]
+    pub(crate) fn fragment<R: Real>(
+        self,
+        input: &FragmentIn<'_, R>,
+        color: Vec4<R>,
+    ) -> FragmentOut<R> {
+        match self {
+            Self::Color => FragmentOut::color(color),
+            Self::WeightedTerms => {
+                // The sums are floats, and the picture would clamp the fragment.
+                let Vec4 { x, y, z, w } = color;
+                let color = Vec4::new(x.saturate(), y.saturate(), z.saturate(), w.saturate());
+                weighted_fragment(DEPTH_ORDER, color, input.position.z)
+            }
+        }
+    }
 }
 
 estampe::shader! {
@@ -68,15 +88,7 @@ estampe::shader! {
             let color = self.interpolation.fragment(base.xyz(), bump, lit, input.front_facing);
             let color = self.output.color(&input, color);
             let color = color.extend(base.w);
-            let out = match self.written {
-                Written::Color => FragmentOut::color(color),
-                Written::WeightedTerms => {
-                    // The sums are floats, and the picture would clamp the fragment.
-                    let Vec4 { x, y, z, w } = color;
-                    let color = Vec4::new(x.saturate(), y.saturate(), z.saturate(), w.saturate());
-                    weighted_fragment(DEPTH_ORDER, color, input.position.z)
-                }
-            };
+            let out = self.written.fragment(&input, color);
             if self.base_color.alpha() == Alpha::CutsOut {
                 out.discard_unless(base.w.ge(input.real(0.5)))
             } else {

@@ -5,5 +5,6 @@ mod hostile_scenes;
 mod illumination;
 mod inspection_views;
 mod named_attributes;
+mod pbr;
 mod support;
 mod transparency;

@@ -29,6 +29,9 @@ fn place(stream: VertexStream) -> (VertexFormat, u32) {
         VertexStream::Face => (VertexFormat::Float32x3, 12),
         VertexStream::Uv => (VertexFormat::Float32x2, 15),
         VertexStream::Color => (VertexFormat::Float32x4, 17),
+        VertexStream::Uv1 | VertexStream::Tangent => {
+            unreachable!("no shading with a form as text reads {stream:?}")
+        }
     }
 }
 

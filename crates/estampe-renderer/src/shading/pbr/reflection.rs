@@ -1,0 +1,211 @@
+//! The light that a point of a physically based surface reflects.
+//!
+//! ```text
+//!   lobes    clear coat      F0 0.04
+//!            sheen           takes its share of the light from what is below
+//!            GGX             F0, F90; light between facets is added (F. Fdez-Agüera 2019)
+//!            diffuse         what GGX does not reflect, times the base colour
+//! ```
+//!
+//! A dielectric and a metal are mixed by their parameters: F0 is mixed, and the diffuse colour is
+//! that of the dielectric's share.
+//!
+//! What is spread, between facets and diffusely, has the weight that it has in uniform light, so
+//! that no surface reflects more than it gets: the factor 1 − F(v·h) of appendix B's sample gives
+//! too much at grazing angles.
+
+use super::brdf;
+use super::environment::{DirectionalAlbedo, EnvironmentLight};
+use super::lights::PbrLight;
+use estampe::{Real, Vec3};
+use std::f32::consts::FRAC_1_PI;
+
+/// A point of a surface with its reflectance.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PbrPoint<R> {
+    /// In view space.
+    pub(crate) position: Vec3<R>,
+    /// Unit normal.
+    pub(crate) normal: Vec3<R>,
+    /// Unit direction to the eye.
+    pub(crate) to_eye: Vec3<R>,
+    /// Diffuse colour.
+    pub(crate) diffuse: Vec3<R>,
+    /// Reflectance at normal incidence.
+    pub(crate) f0: Vec3<R>,
+    /// Reflectance at grazing incidence.
+    pub(crate) f90: R,
+    /// Perceptual.
+    pub(crate) roughness: R,
+    /// The share of the light from all around that arrives.
+    pub(crate) occlusion: R,
+    pub(crate) clearcoat: Option<Coat<R>>,
+    pub(crate) sheen: Option<Fibres<R>>,
+}
+
+/// A clear layer at a point.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Coat<R> {
+    pub(crate) factor: R,
+    pub(crate) roughness: R,
+    /// Unit normal.
+    pub(crate) normal: Vec3<R>,
+}
+
+/// Fibres at a point.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fibres<R> {
+    pub(crate) color: Vec3<R>,
+    pub(crate) roughness: R,
+}
+
+/// What several lobes need, computed once.
+struct Shared<R> {
+    n_dot_v: R,
+    /// Of uniform light: what GGX reflects at once, what is reflected between facets, and the
+    /// diffuse rest times its colour.
+    single: Vec3<R>,
+    multiple: Vec3<R>,
+    diffuse: Vec3<R>,
+    /// Of the coat and the sheen, by which what is below is multiplied.
+    below: R,
+    /// Reflected by the coat at the eye's angle.
+    coat: Option<(Coat<R>, R)>,
+    /// The sheen with its share of the light.
+    sheen: Option<(Fibres<R>, R)>,
+}
+
+/// F0 of a clear coat, of index 1.5.
+const COAT_F0: f32 = 0.04;
+
+impl<R: Real> PbrPoint<R> {
+    /// The light that leaves towards the eye.
+    #[inline(always)]
+    pub(crate) fn reflected(&self, environment: &EnvironmentLight, lights: &[PbrLight]) -> Vec3<R> {
+        let shared = self.shared(environment);
+        let mut sum = self.environment_light(environment, &shared);
+        for light in lights {
+            sum += self.punctual_light(light, &shared);
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn shared(&self, environment: &EnvironmentLight) -> Shared<R> {
+        let n_dot_v = self.normal.dot(self.to_eye).clamp(1e-4, 1.0);
+        let one = n_dot_v.splat(1.0);
+        let mut below = one;
+        let sheen = match self.sheen {
+            Some(fibres) => {
+                let share = environment.albedo(n_dot_v, fibres.roughness).sheen;
+                let strongest = fibres.color.x.max(fibres.color.y).max(fibres.color.z);
+                below *= one - strongest * share;
+                Some((fibres, share))
+            }
+            None => None,
+        };
+        let coat = match self.clearcoat {
+            Some(coat) => {
+                let cosine = coat.normal.dot(self.to_eye).clamp(1e-4, 1.0);
+                let fresnel = brdf::schlick(cosine) * (1.0 - COAT_F0) + COAT_F0;
+                let share = fresnel * coat.factor;
+                below *= one - share;
+                Some((coat, share))
+            }
+            None => None,
+        };
+        let DirectionalAlbedo { scale, bias, .. } = environment.albedo(n_dot_v, self.roughness);
+        let single = self.f0 * scale + Vec3::repeat(bias * self.f90);
+        let lost = one - (scale + bias);
+        let mean = self.f0 + (Vec3::repeat(one) - self.f0) * (1.0 / 21.0);
+        let multiple = |single: R, mean: R| single * mean / (one - mean * lost) * lost;
+        let multiple = Vec3::new(
+            multiple(single.x, mean.x),
+            multiple(single.y, mean.y),
+            multiple(single.z, mean.z),
+        );
+        Shared {
+            n_dot_v,
+            single,
+            multiple,
+            diffuse: self.diffuse * (Vec3::repeat(one) - single - multiple),
+            below,
+            coat,
+            sheen,
+        }
+    }
+
+    /// The light from all around.
+    #[inline(always)]
+    fn environment_light(&self, environment: &EnvironmentLight, shared: &Shared<R>) -> Vec3<R> {
+        // The lobe of a rough surface leans towards the normal.
+        let mirrored = (-self.to_eye).reflect(self.normal);
+        let lobe = mirrored.mix(self.normal, self.roughness * self.roughness);
+        let radiance = environment.radiance(lobe, self.roughness);
+        let irradiance = environment.irradiance(self.normal);
+        let seen = specular_occlusion(shared.n_dot_v, self.occlusion, self.roughness);
+        let spread = irradiance * (shared.multiple + shared.diffuse) * self.occlusion;
+        let mut sum = radiance * shared.single * seen + spread;
+        sum *= shared.below;
+        if let Some((fibres, share)) = shared.sheen {
+            let around = environment.radiance(mirrored, fibres.roughness.max(0.5));
+            sum += around * fibres.color * (share * self.occlusion);
+        }
+        if let Some((coat, share)) = shared.coat {
+            let mirrored = (-self.to_eye).reflect(coat.normal);
+            sum += environment.radiance(mirrored, coat.roughness) * (share * seen);
+        }
+        sum
+    }
+
+    /// The light of one light.
+    #[inline(always)]
+    fn punctual_light(&self, light: &PbrLight, shared: &Shared<R>) -> Vec3<R> {
+        let (towards, illuminance) = light.arrive(self.position);
+        let zero = shared.n_dot_v.splat(0.0);
+        let half = (towards + self.to_eye).normalize();
+        let n_dot_l = self.normal.dot(towards);
+        let v_dot_h = self.to_eye.dot(half).saturate();
+        let lit = n_dot_l.max(zero);
+
+        let alpha = brdf::alpha(self.roughness);
+        let across = self.normal.cross(half);
+        let n_dot_h = self.normal.dot(half).saturate();
+        let lobe = brdf::density_ggx(n_dot_h, across.dot(across), alpha)
+            * brdf::visibility_ggx(lit, shared.n_dot_v, alpha);
+        let weight = brdf::schlick(v_dot_h);
+        let fresnel = self.f0 + (Vec3::repeat(self.f90) - self.f0) * weight;
+        // Light between facets leaves evenly, as diffuse light does.
+        let spread = (shared.multiple + shared.diffuse) * FRAC_1_PI;
+        let mut reflectance = (spread + fresnel * lobe) * shared.below;
+        if let Some((fibres, _)) = shared.sheen {
+            let density = brdf::density_sheen(n_dot_h, brdf::sheen_alpha(fibres.roughness));
+            let visibility = brdf::visibility_sheen(lit, shared.n_dot_v);
+            reflectance += fibres.color * (density * visibility);
+        }
+        let mut sum = illuminance * reflectance * lit;
+        if let Some((coat, _)) = shared.coat {
+            let alpha = brdf::alpha(coat.roughness);
+            let across = coat.normal.cross(half);
+            let coat_lit = coat.normal.dot(towards).max(zero);
+            let coat_seen = coat.normal.dot(self.to_eye).clamp(1e-4, 1.0);
+            let cosine = coat.normal.dot(half).saturate();
+            let lobe = brdf::density_ggx(cosine, across.dot(across), alpha)
+                * brdf::visibility_ggx(coat_lit, coat_seen, alpha);
+            let fresnel = weight * (1.0 - COAT_F0) + COAT_F0;
+            sum += illuminance * (lobe * fresnel * coat.factor * coat_lit);
+        }
+        // A half vector between opposite directions is NaN.
+        let black = Vec3::repeat(zero);
+        Vec3::select(n_dot_l.gt(zero), sum, black)
+    }
+}
+
+/// The share of mirrored light that arrives where a share of all light does (S. Lagarde, C. de
+/// Rousiers, "Moving Frostbite to Physically Based Rendering", 2014).
+#[inline(always)]
+fn specular_occlusion<R: Real>(n_dot_v: R, occlusion: R, roughness: R) -> R {
+    let exponent = (roughness * -16.0 - 1.0).exp2();
+    let seen = (n_dot_v + occlusion).pow(exponent) - 1.0 + occlusion;
+    R::select(occlusion.lt(1.0), seen.saturate(), occlusion)
+}

@@ -1,0 +1,327 @@
+//! The shader of physically based surfaces.
+
+use super::environment::EnvironmentLight;
+use super::lights::PbrLight;
+use super::parameters::{ClearcoatParameters, NormalMap, PbrParameters};
+use super::reflection::{Coat, Fibres, PbrPoint};
+use super::textures::MaterialTexture;
+use super::tone_map::ToneMap;
+use crate::shading::base_color::Alpha;
+use crate::shading::output::Output;
+use crate::shading::surface::Written;
+use crate::shading::{VertexTransforms, shading_normal};
+use estampe::{FragmentIn, FragmentOut, Real, Vec2, Vec3, Vec4, VertexIn, VertexOut};
+use std::sync::Arc;
+
+/// The light of a frame, and how it is shown.
+#[derive(Debug, Clone)]
+pub(crate) struct PbrLighting {
+    pub(crate) environment: EnvironmentLight,
+    pub(crate) lights: Vec<PbrLight>,
+    /// Factor of all light.
+    pub(crate) exposure: f32,
+    pub(crate) tone_map: ToneMap,
+}
+
+/// A surface.
+#[derive(Debug, Clone)]
+pub(crate) struct PbrSurface {
+    pub(crate) transforms: VertexTransforms,
+    pub(crate) lighting: Arc<PbrLighting>,
+    pub(crate) parameters: Arc<PbrParameters>,
+    pub(crate) alpha: Alpha,
+    pub(crate) output: Output,
+    pub(crate) written: Written,
+}
+
+/// What is interpolated: view position, normal, tangent with the bitangent's sign, both texture
+/// coordinates, colour.
+type Interpolated<R> = (Vec3<R>, Vec3<R>, Vec4<R>, (Vec2<R>, Vec2<R>), Vec4<R>);
+
+/// The frame of normal maps at a fragment, as MikkTSpace wants it: as interpolated.
+#[derive(Debug, Clone, Copy)]
+struct TangentFrame<R> {
+    tangent: Vec3<R>,
+    bitangent: Vec3<R>,
+    normal: Vec3<R>,
+    /// The unit normal of the side that is seen.
+    unit: Vec3<R>,
+    front_facing_sign: R,
+}
+
+impl<R: Real> TangentFrame<R> {
+    /// The unit normal of a map.
+    #[inline(always)]
+    fn normal_of(&self, map: &NormalMap, uvs: (Vec2<R>, Vec2<R>)) -> Vec3<R> {
+        let texel = map.texture.sample(uvs);
+        let [x, y, z] = [texel.x, texel.y, texel.z].map(
+            #[inline(always)]
+            |code| code * 2.0 - 1.0,
+        );
+        let bent = self.tangent * (x * map.scale) + self.bitangent * (y * map.scale);
+        let bent = (bent + self.normal * z) * self.front_facing_sign;
+        let squared = bent.dot(bent);
+        let is_bent = squared.gt(1e-12) & squared.lt(f32::INFINITY);
+        Vec3::select(is_bent, bent / squared.sqrt(), self.unit)
+    }
+}
+
+impl PbrSurface {
+    #[inline(always)]
+    fn frame<R: Real>(
+        &self,
+        input: &FragmentIn<'_, R>,
+        v: &Interpolated<R>,
+        to_eye: Vec3<R>,
+    ) -> TangentFrame<R> {
+        let (view, normal, tangent, uvs, _) = *v;
+        let one = input.real(1.0);
+        let unit = shading_normal(normal, to_eye, input.front_facing);
+        let sign = R::select(input.front_facing, one, -one);
+        let given = tangent.xyz();
+        let mut frame = TangentFrame {
+            tangent: given,
+            bitangent: normal.cross(given) * tangent.w,
+            normal,
+            unit,
+            front_facing_sign: sign,
+        };
+        let has_tangent = given.dot(given).gt(1e-6);
+        if !R::all(has_tangent) {
+            // Without tangents: the directions in which the texture coordinates grow.
+            let uv = match &self.parameters.normal {
+                Some(map) => map.texture.coordinates.of(uvs),
+                None => uvs.0,
+            };
+            let made = frame_of_derivatives(view, unit * sign, uv);
+            frame.tangent = Vec3::select(has_tangent, frame.tangent, made[0]);
+            frame.bitangent = Vec3::select(has_tangent, frame.bitangent, made[1]);
+            frame.normal = Vec3::select(has_tangent, frame.normal, unit * sign);
+        }
+        frame
+    }
+
+    /// The reflectance of a fragment.
+    #[inline(always)]
+    fn point<R: Real>(
+        &self,
+        input: &FragmentIn<'_, R>,
+        v: &Interpolated<R>,
+        base: Vec3<R>,
+    ) -> PbrPoint<R> {
+        let parameters = &*self.parameters;
+        let (view, _, _, uvs, _) = *v;
+        let one = input.real(1.0);
+        let to_eye = self.transforms.eye_direction(view);
+        let frame = self.frame(input, v, to_eye);
+        let normal = match &parameters.normal {
+            Some(map) => frame.normal_of(map, uvs),
+            None => frame.unit,
+        };
+        let mut metallic = one * parameters.metallic;
+        let mut roughness = one * parameters.roughness;
+        if let Some(texture) = &parameters.metallic_roughness_texture {
+            let texel = texture.sample(uvs);
+            metallic *= texel.z;
+            roughness *= texel.y;
+        }
+        let occlusion = match &parameters.occlusion {
+            Some(map) => {
+                let texel = map.texture.sample(uvs);
+                ((texel.x - 1.0) * map.strength + 1.0).saturate()
+            }
+            None => one,
+        };
+        let (f0, f90) = dielectric(parameters, uvs, one);
+        PbrPoint {
+            position: view,
+            normal,
+            to_eye,
+            diffuse: base * (one - metallic),
+            f0: f0.mix(base, metallic),
+            f90: f90.mix(one, metallic),
+            roughness: filtered(roughness.saturate(), normal),
+            occlusion,
+            clearcoat: match &parameters.clearcoat {
+                Some(coat) => Some(clearcoat(coat, uvs, &frame, one)),
+                None => None,
+            },
+            sheen: match &parameters.sheen {
+                Some(sheen) => {
+                    let mut color = Vec3::uniform(one, sheen.color);
+                    if let Some(texture) = &sheen.color_texture {
+                        color *= texture.sample(uvs).xyz();
+                    }
+                    let mut roughness = one * sheen.roughness;
+                    if let Some(texture) = &sheen.roughness_texture {
+                        roughness *= texture.sample(uvs).w;
+                    }
+                    Some(Fibres { color, roughness })
+                }
+                None => None,
+            },
+        }
+    }
+
+    /// The colour of a fragment, as it is shown.
+    #[inline(always)]
+    fn color<R: Real>(
+        &self,
+        input: &FragmentIn<'_, R>,
+        v: &Interpolated<R>,
+        base: Vec3<R>,
+    ) -> Vec3<R> {
+        let parameters = &*self.parameters;
+        if parameters.is_unlit {
+            return base;
+        }
+        let PbrLighting {
+            environment,
+            lights,
+            exposure,
+            tone_map,
+        } = &*self.lighting;
+        let mut sum = self.point(input, v, base).reflected(environment, lights);
+        let mut emitted = Vec3::uniform(input.zero, parameters.emissive);
+        if let Some(texture) = &parameters.emissive_texture {
+            emitted *= texture.sample(v.3).xyz();
+        }
+        sum += emitted;
+        tone_map.apply(sum * *exposure)
+    }
+}
+
+/// F0 and F90 of the dielectric.
+#[inline(always)]
+fn dielectric<R: Real>(
+    parameters: &PbrParameters,
+    uvs: (Vec2<R>, Vec2<R>),
+    one: R,
+) -> (Vec3<R>, R) {
+    let Some(specular) = &parameters.specular else {
+        return (Vec3::repeat(one * parameters.dielectric_f0), one);
+    };
+    let mut color = Vec3::uniform(one, specular.color);
+    if let Some(texture) = &specular.color_texture {
+        color *= texture.sample(uvs).xyz();
+    }
+    let mut factor = one * specular.factor;
+    if let Some(texture) = &specular.texture {
+        factor *= texture.sample(uvs).w;
+    }
+    let f0 = color * parameters.dielectric_f0;
+    let f0 = Vec3::new(f0.x.min(one), f0.y.min(one), f0.z.min(one));
+    (f0 * factor, factor)
+}
+
+#[inline(always)]
+fn clearcoat<R: Real>(
+    coat: &ClearcoatParameters,
+    uvs: (Vec2<R>, Vec2<R>),
+    frame: &TangentFrame<R>,
+    one: R,
+) -> Coat<R> {
+    let texel = |texture: &Option<MaterialTexture>| texture.as_ref().map(|t| t.sample(uvs));
+    let mut factor = one * coat.factor;
+    if let Some(texel) = texel(&coat.texture) {
+        factor *= texel.x;
+    }
+    let mut roughness = one * coat.roughness;
+    if let Some(texel) = texel(&coat.roughness_texture) {
+        roughness *= texel.y;
+    }
+    Coat {
+        factor,
+        roughness: roughness.saturate(),
+        normal: match &coat.normal {
+            Some(map) => frame.normal_of(map, uvs),
+            None => frame.unit,
+        },
+    }
+}
+
+/// The roughness with the spread of the normals that a pixel covers, so that small highlights do
+/// not flicker (Y. Tokuyoshi, A. Kaplanyan, "Improved Geometric Specular Antialiasing", 2019).
+#[inline(always)]
+fn filtered<R: Real>(roughness: R, normal: Vec3<R>) -> R {
+    /// Variance of the pixel filter, and the most that is added to α².
+    const VARIANCE: f32 = 0.25;
+    const MOST: f32 = 0.18;
+    let squared = |n: R| {
+        let (x, y) = (n.ddx(), n.ddy());
+        x * x + y * y
+    };
+    let spread = squared(normal.x) + squared(normal.y) + squared(normal.z);
+    let added = (spread * (2.0 * VARIANCE)).min(MOST);
+    let alpha = roughness * roughness;
+    (alpha * alpha + added).min(1.0).sqrt().sqrt()
+}
+
+/// Tangent and bitangent of the texture coordinates' derivatives, with a unit normal; zero where
+/// the coordinates do not change.
+#[inline(always)]
+fn frame_of_derivatives<R: Real>(view: Vec3<R>, normal: Vec3<R>, uv: Vec2<R>) -> [Vec3<R>; 2] {
+    let step_x = Vec3::new(view.x.ddx(), view.y.ddx(), view.z.ddx());
+    let step_y = Vec3::new(view.x.ddy(), view.y.ddy(), view.z.ddy());
+    let (uv_x, uv_y) = (
+        Vec2::new(uv.x.ddx(), uv.y.ddx()),
+        Vec2::new(uv.x.ddy(), uv.y.ddy()),
+    );
+    let (r1, r2) = (step_y.cross(normal), normal.cross(step_x));
+    let tangent = r1 * uv_x.x + r2 * uv_y.x;
+    // v points down in images, and up in tangent space.
+    let bitangent = -(r1 * uv_x.y + r2 * uv_y.y);
+    let longest = tangent.dot(tangent).max(bitangent.dot(bitangent));
+    let length = longest.sqrt();
+    let scale = 1.0 / R::select(step_x.dot(r1).lt(0.0), -length, length);
+    let has_any = longest.gt(1e-30);
+    let none = Vec3::repeat(longest.splat(0.0));
+    [tangent, bitangent].map(
+        #[inline(always)]
+        |axis| Vec3::select(has_any, axis * scale, none),
+    )
+}
+
+estampe::shader! {
+    impl Shader for PbrSurface {
+        // Position, normal, tangent, texture coordinates, colour.
+        type Attributes<R: Real> = Interpolated<R>;
+        type Varyings<R: Real> = Interpolated<R>;
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, normal, tangent, uvs, color): Interpolated<R>,
+        ) -> VertexOut<R, Interpolated<R>> {
+            let transforms = &self.transforms;
+            let direction = transforms.normal(tangent.xyz());
+            let varyings = (
+                transforms.view(position),
+                transforms.normal(normal),
+                direction.extend(tangent.w),
+                uvs,
+                color,
+            );
+            VertexOut::new(transforms.clip(position), varyings)
+        }
+
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, v: Interpolated<R>) -> FragmentOut<R> {
+            let mut base = v.4 * Vec4::uniform(input.zero, self.parameters.base);
+            if let Some(texture) = &self.parameters.base_texture {
+                base *= texture.sample(v.3);
+            }
+            let color = self.color(&input, &v, base.xyz());
+            let color = self.output.color(&input, color);
+            let alpha = match self.alpha {
+                Alpha::Ignored => input.real(1.0),
+                Alpha::CutsOut | Alpha::Kept => base.w,
+            };
+            let out = self.written.fragment(&input, color.extend(alpha));
+            if self.alpha == Alpha::CutsOut {
+                out.discard_unless(alpha.ge(self.parameters.alpha_cutoff))
+            } else {
+                out
+            }
+        }
+    }
+}
