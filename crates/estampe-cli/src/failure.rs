@@ -14,6 +14,8 @@ pub(crate) const DONE: u8 = 0;
 pub(crate) enum Failure {
     /// The input is missing, malformed, or has nothing to draw. Exit code 1.
     Input(String),
+    /// The input exceeds a limit. Exit code 1.
+    Limit(String),
     /// The command line is invalid. Exit code 2.
     Usage(String),
     /// The output cannot be written, or the system refuses a resource. Exit code 3.
@@ -24,7 +26,7 @@ impl Failure {
     /// The process's exit code.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
-            Self::Input(_) => 1,
+            Self::Input(_) | Self::Limit(_) => 1,
             Self::Usage(_) => 2,
             Self::Output(_) => 3,
         }
@@ -34,9 +36,10 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Input(message) | Self::Usage(message) | Self::Output(message) => {
-                f.write_str(message)
-            }
+            Self::Input(message)
+            | Self::Limit(message)
+            | Self::Usage(message)
+            | Self::Output(message) => f.write_str(message),
         }
     }
 }
@@ -44,7 +47,10 @@ impl fmt::Display for Failure {
 /// Maps reader errors to their cause.
 impl From<AssetError> for Failure {
     fn from(error: AssetError) -> Self {
-        Self::Input(error.to_string())
+        match error {
+            AssetError::LimitExceeded(_) => Self::Limit(error.to_string()),
+            _ => Self::Input(error.to_string()),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::values::{FormatName, Source, shown};
-use estampe_assets::model::{Folder, ModelChoices, NoResources};
+use estampe_assets::model::{Folder, ModelChoices, NoResources, Resources};
 use estampe_assets::{AssetError, Limits, Loaded, ModelFormat, ModelInput, ModelOptions, Warning};
 use estampe_assets::{parse_model_with, read_bytes, read_stream};
 use estampe_scene::{Mesh, Scene};
@@ -72,30 +72,42 @@ impl Model {
                 })
             }
             Source::File(path) => {
-                let name = shown(path);
                 let bytes = read_file(path, limits)?;
                 let read = start.elapsed();
-                let format = format
-                    .or_else(|| ModelFormat::from_extension(path))
-                    .or_else(|| ModelFormat::from_content(&bytes))
-                    .ok_or_else(|| {
-                        Failure::Input(format!(
-                            "{name}: neither its extension nor its content is that of a model; glTF, \
-                             OBJ, STL and PLY are read, name the format by --format if it is one of them"
-                        ))
-                    })?;
                 on_stage("parsing");
-                Self::parsed(read, &name, || {
-                    let input = ModelInput {
-                        bytes: &bytes,
-                        format,
-                        name: &name,
-                        resources: &Folder::of_model(path),
-                    };
-                    parse_model_with(&input, options, limits)
-                })
+                let folder = Folder::of_model(path);
+                let model = Self::of_bytes((path, &bytes), format, (options, limits), &folder)?;
+                Ok(Self { read, ..model })
             }
         }
+    }
+
+    /// The model of a file's bytes, whose other files are those of `resources`.
+    pub(crate) fn of_bytes(
+        (path, bytes): (&Path, &[u8]),
+        format: Option<ModelFormat>,
+        (options, limits): (&ModelOptions, &Limits),
+        resources: &dyn Resources,
+    ) -> Result<Self, Failure> {
+        let name = shown(path);
+        let format = format
+            .or_else(|| ModelFormat::from_extension(path))
+            .or_else(|| ModelFormat::from_content(bytes))
+            .ok_or_else(|| {
+                Failure::Input(format!(
+                    "{name}: neither its extension nor its content is that of a model; glTF, \
+                     OBJ, STL and PLY are read, name the format by --format if it is one of them"
+                ))
+            })?;
+        Self::parsed(Duration::ZERO, &name, || {
+            let input = ModelInput {
+                bytes,
+                format,
+                name: &name,
+                resources,
+            };
+            parse_model_with(&input, options, limits)
+        })
     }
 
     fn builtin(name: &str) -> Result<Self, Failure> {
@@ -193,7 +205,7 @@ fn unreadable(name: &str, error: &io::Error, advice: &str) -> Failure {
 
 fn too_large(name: &str, limits: &Limits) -> Failure {
     let limit = limits.max_file_bytes;
-    Failure::Input(format!(
+    Failure::Limit(format!(
         "{name}: larger than the limit of {limit} bytes; split the file"
     ))
 }

@@ -2,6 +2,7 @@
 //! The `estampe` command.
 //!
 //! * [`render`]: renders a model to an image;
+//! * [`batch`]: renders many models;
 //! * [`shape`]: meshes a function, as a model or an image;
 //! * [`inspect`]: explains a pixel of the image;
 //! * [`describe`]: describes the contents of a model;
@@ -15,6 +16,7 @@
 //! standard input or by built-in name, [`output`] writes files completely or not at all, [`values`]
 //! parses the options' values, and [`failure`] has the exit codes.
 
+mod batch;
 mod choice;
 mod compute;
 mod depth;
@@ -46,6 +48,7 @@ use failure::Failure;
 Examples:
   estampe render model.obj -o model.png
   estampe render builtin:teapot -o teapot.png --view iso --shading toon
+  estampe batch 'models/*.glb' -o 'thumbnails/{stem}.png' --size 256x256
   estampe shape --explicit 'sin(x) + cos(y)' -o waves.png
   estampe inspect builtin:teapot --pixel 500,400
   estampe info model.stl
@@ -66,6 +69,8 @@ struct Cli {
 enum Command {
     // Boxed, because it has many options.
     Render(Box<render::RenderArgs>),
+    // Boxed, because it has the options of a picture.
+    Batch(Box<batch::BatchArgs>),
     Shape(Box<shape::ShapeArgs>),
     Info(describe::InfoArgs),
     // Boxed, because it has the options of a picture.
@@ -95,6 +100,10 @@ fn main() -> ExitCode {
             args.report.json.then_some(args.output.is_standard_output()),
             render::run(args),
         ),
+        Command::Batch(args) => match batch::run(args) {
+            Ok(code) => code,
+            Err(failure) => report("batch", None, Err(failure)),
+        },
         Command::Shape(args) => report(
             "shape",
             args.report.json.then_some(args.output.is_standard_output()),

@@ -88,6 +88,41 @@ fn create_part(path: &Path) -> io::Result<(PathBuf, File)> {
     }
 }
 
+/// Removes temporary files that killed processes left in a folder. Those of processes that run
+/// stay; where it is unknown which ones run, all stay.
+pub(crate) fn remove_abandoned(folder: &Path) {
+    if !Path::new("/proc/self").exists() {
+        return;
+    }
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let Ok(entries) = fs::read_dir(folder) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let process = name.to_str().and_then(process_of_part);
+        let is_abandoned =
+            process.is_some_and(|process| !Path::new("/proc").join(process).exists());
+        if is_abandoned {
+            // If it cannot be removed, it stays.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// The process in the name of a temporary file: `.NAME.PROCESS.TRY.part`.
+fn process_of_part(name: &str) -> Option<&str> {
+    let name = name.strip_prefix('.')?.strip_suffix(".part")?;
+    let mut parts = name.rsplit('.');
+    let (number, process) = (parts.next()?, parts.next()?);
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    (is_number(number) && is_number(process) && parts.next().is_some()).then_some(process)
+}
+
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,

@@ -195,6 +195,9 @@ const OUTSIDE: &[(&str, Users)] = &[
     ),
     // Tangents of normal maps.
     ("bevy_mikktspace", Users::Only(&["estampe-renderer"])),
+    // Files of a batch: their names, and whether they have changed.
+    ("glob", Users::Only(&["estampe-cli"])),
+    ("twox-hash", Users::Only(&["estampe-cli"])),
     // The data of tests.
     ("flate2", Users::Only(&["estampe-shader"])),
     // The checks of the repository.

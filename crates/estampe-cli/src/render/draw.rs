@@ -77,6 +77,21 @@ pub(crate) fn draw(
     })
 }
 
+/// The bytes of a picture that a device draws.
+pub(crate) fn drawn_bytes(
+    model: &Model,
+    args: &PictureArgs,
+    (default_view, format): (ViewDirection, ImageFormat),
+    device: &Device,
+) -> Result<Vec<u8>, Failure> {
+    check_drawable(model)?;
+    let texture = texture_of(model, args)?;
+    let options = options(model, args, (default_view, texture), device)?;
+    let frame = render(&model.scene, &options, device);
+    let frame = frame.map_err(|error| args.shader.failure(error))?;
+    encoded(&frame, format)
+}
+
 /// The renderer's options of a picture, and the device that draws it.
 pub(crate) fn prepare(
     model: &Model,
@@ -175,7 +190,8 @@ fn read_texture(path: &std::path::Path, model: &Model) -> Result<Image, Failure>
     Ok(image)
 }
 
-fn device(args: &PictureArgs) -> Result<Device, Failure> {
+/// The device that draws a picture.
+pub(crate) fn device(args: &PictureArgs) -> Result<Device, Failure> {
     let with_level = || DeviceDescriptor {
         level: args.simd,
         ..DeviceDescriptor::default()

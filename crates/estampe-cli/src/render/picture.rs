@@ -169,7 +169,7 @@ pub(crate) struct ReportArgs {
 
 impl PictureArgs {
     /// Refuses combinations of options that would have no effect.
-    pub(super) fn check(&self) -> Result<(), Failure> {
+    pub(crate) fn check(&self) -> Result<(), Failure> {
         if self.wireframe && self.shading == ShadingName::Wireframe {
             return Err(Failure::Usage(
                 "--shading wireframe draws edges alone; omit --wireframe, or choose another shading"

@@ -59,6 +59,11 @@ pub(crate) struct SurfaceShaderArgs {
 }
 
 impl SurfaceShaderArgs {
+    /// The shader's file.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        self.shader.as_deref()
+    }
+
     /// The program of the shader, if there is one; it samples this texture.
     pub(super) fn program(
         &self,

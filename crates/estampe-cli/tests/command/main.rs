@@ -1,5 +1,6 @@
 //! The command, end to end: its subcommands, errors and pages.
 
+mod batch;
 mod book;
 mod compute;
 mod depth;

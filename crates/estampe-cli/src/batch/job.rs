@@ -1,0 +1,170 @@
+//! One model: read, drawn in each view, written.
+
+use super::arguments::BatchArgs;
+use super::plan::{Job, Picture};
+use super::record::{self, NamedFiles, Sources, digest};
+use crate::failure::Failure;
+use crate::input::{self, Model};
+use crate::output;
+use crate::render;
+use crate::values::{Destination, shown};
+use estampe::Device;
+use estampe_assets::Limits;
+use estampe_assets::model::Folder;
+use estampe_renderer::ViewDirection;
+use std::time::{Duration, Instant};
+
+/// What became of a picture.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Status {
+    Drawn,
+    UpToDate,
+    Failed(String),
+    /// A limit of the options was exceeded.
+    Limit(String),
+    /// Not begun, because another one failed.
+    Cancelled,
+}
+
+/// A picture, and what became of it.
+#[derive(Debug, Clone)]
+pub(super) struct Outcome {
+    pub(super) input: String,
+    pub(super) picture: Picture,
+    pub(super) status: Status,
+    pub(super) time: Duration,
+    pub(super) warnings: Vec<String>,
+}
+
+/// What all jobs share.
+pub(super) struct Shared<'a> {
+    pub(super) args: &'a BatchArgs,
+    /// The digest of the options and versions, without the view.
+    pub(super) options: String,
+    pub(super) limits: Limits,
+}
+
+impl Shared<'_> {
+    /// Does a job with a device; a job that panics has failed.
+    pub(super) fn outcomes(&self, job: &Job, device: &Device) -> Vec<Outcome> {
+        let start = Instant::now();
+        let done =
+            std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| self.done(job, device)));
+        let (statuses, warnings) = done.unwrap_or_else(|_| {
+            let name = shown(&job.input.path);
+            let problem = format!(
+                "{name}: an internal error; please report it with the model, the others are drawn"
+            );
+            (
+                vec![Status::Failed(problem); job.pictures.len()],
+                Vec::new(),
+            )
+        });
+        let share = u32::try_from(job.pictures.len()).unwrap_or(1).max(1);
+        let time = start.elapsed() / share;
+        let pictures = job.pictures.iter().zip(statuses);
+        pictures
+            .map(|(picture, status)| Outcome {
+                input: shown(&job.input.path),
+                picture: picture.clone(),
+                status,
+                time,
+                warnings: warnings.clone(),
+            })
+            .collect()
+    }
+
+    fn done(&self, job: &Job, device: &Device) -> (Vec<Status>, Vec<String>) {
+        let all = |failure: Failure| (vec![status_of(failure); job.pictures.len()], Vec::new());
+        let bytes = match input::read_file(&job.input.path, &self.limits) {
+            Ok(bytes) => bytes,
+            Err(failure) => return all(failure),
+        };
+        let model_digest = digest(&bytes);
+        let folder = || Folder::of_model(&job.input.path);
+        let max_bytes = self.limits.max_file_bytes;
+        let is_current = |picture: &Picture| {
+            let options = self.options_of(picture);
+            !self.args.force
+                && record::is_up_to_date(picture, (&options, &model_digest), &folder(), max_bytes)
+        };
+        let current: Vec<bool> = job.pictures.iter().map(is_current).collect();
+        if current.iter().all(|&is_current| is_current) {
+            return (vec![Status::UpToDate; current.len()], Vec::new());
+        }
+        let named = NamedFiles::new(folder());
+        let args = self.args;
+        let chosen = args.choice.at(args.picture.shader.time);
+        let model = Model::of_bytes(
+            (&job.input.path, &bytes),
+            args.format.map(estampe_assets::ModelFormat::from),
+            (&chosen, &self.limits),
+            &named,
+        );
+        let model = match model {
+            Ok(model) => model,
+            Err(failure) => return all(failure),
+        };
+        let statuses = job
+            .pictures
+            .iter()
+            .zip(current)
+            .map(|(picture, is_current)| {
+                if is_current {
+                    return Status::UpToDate;
+                }
+                let sources = Sources {
+                    options: self.options_of(picture),
+                    model: model_digest.clone(),
+                    named: named.digests(),
+                };
+                match self.draw(&model, picture, &sources, device) {
+                    Ok(()) => Status::Drawn,
+                    Err(failure) => status_of(failure),
+                }
+            });
+        let statuses = statuses.collect();
+        let warnings = model.warnings.iter().map(ToString::to_string).collect();
+        (statuses, warnings)
+    }
+
+    /// Draws and writes a picture, then its record.
+    fn draw(
+        &self,
+        model: &Model,
+        picture: &Picture,
+        sources: &Sources,
+        device: &Device,
+    ) -> Result<(), Failure> {
+        let mut args = self.args.picture.clone();
+        args.view = picture.view;
+        let bytes = render::drawn_bytes(
+            model,
+            &args,
+            (ViewDirection::default(), picture.format),
+            device,
+        )?;
+        if let Some(folder) = picture.output.parent() {
+            std::fs::create_dir_all(folder).map_err(|error| {
+                Failure::Output(format!(
+                    "{}: the folder cannot be made: {error}; check the path and its permissions",
+                    shown(folder)
+                ))
+            })?;
+        }
+        output::write(&Destination::File(picture.output.clone()), &bytes)?;
+        record::write(&picture.output, &bytes, sources);
+        Ok(())
+    }
+
+    fn options_of(&self, picture: &Picture) -> String {
+        digest(format!("{} {:?}", self.options, picture.view).as_bytes())
+    }
+}
+
+fn status_of(failure: Failure) -> Status {
+    match failure {
+        Failure::Limit(problem) => Status::Limit(problem),
+        other => Status::Failed(other.to_string()),
+    }
+}

@@ -1,0 +1,23 @@
+//! `estampe batch`: draws many models in one process.
+//!
+//! ```text
+//! arguments -> inputs (globs, lists) -> plan (template, views, shard)
+//!           -> pool: record (up to date?) -> job (read, draw, encode, write) -> record
+//!           -> summary, report
+//! ```
+//!
+//! A file that fails ends alone. Pictures and records are written whole or not at all, so a process
+//! that is killed at any instant leaves nothing that the next one would trust wrongly.
+
+mod arguments;
+mod command;
+mod inputs;
+mod job;
+mod plan;
+mod pool;
+mod record;
+mod summary;
+mod template;
+
+pub(crate) use arguments::BatchArgs;
+pub(crate) use command::run;

@@ -1,0 +1,127 @@
+//! Records of pictures that are up to date: what each was made of, as digests.
+//!
+//! The record of `out/x.png` is `out/.estampe/x.png.json`. It has the digests of the options, of
+//! the model's file, of each file that the model named, and of the picture itself. It is written
+//! after the picture, whole or not at all: whatever a killed process leaves, a picture without its
+//! right record is drawn again.
+
+use super::plan::Picture;
+use crate::output;
+use crate::values::Destination;
+use estampe_assets::model::{Folder, ResourceError, Resources};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use twox_hash::XxHash3_128;
+
+/// The digest of bytes, for comparison with itself alone.
+pub(super) fn digest(bytes: &[u8]) -> String {
+    format!("{:032x}", XxHash3_128::oneshot(bytes))
+}
+
+/// The files that a model names, with the digests of those that it read.
+pub(super) struct NamedFiles {
+    folder: Folder,
+    read: Mutex<BTreeMap<String, Option<String>>>,
+}
+
+impl NamedFiles {
+    pub(super) fn new(folder: Folder) -> Self {
+        Self {
+            folder,
+            read: Mutex::default(),
+        }
+    }
+
+    /// The names with the digests; none of files that could not be read.
+    pub(super) fn digests(&self) -> BTreeMap<String, Option<String>> {
+        let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        read.clone()
+    }
+
+    fn note(&self, name: &str, digest: Option<String>) {
+        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        read.insert(name.to_owned(), digest);
+    }
+}
+
+impl Resources for NamedFiles {
+    fn resolve(&self, name: &str) -> Result<String, ResourceError> {
+        let resolved = self.folder.resolve(name);
+        if resolved.is_err() {
+            self.note(name, None);
+        }
+        resolved
+    }
+
+    fn read(&self, resolved: &str, max_bytes: u64) -> Result<Vec<u8>, ResourceError> {
+        let bytes = self.folder.read(resolved, max_bytes);
+        self.note(resolved, bytes.as_ref().ok().map(|bytes| digest(bytes)));
+        bytes
+    }
+}
+
+/// What a picture is made of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Sources {
+    /// Of the options and versions.
+    pub(super) options: String,
+    /// Of the model's file.
+    pub(super) model: String,
+    /// Of the files that the model named; none if one was missing.
+    pub(super) named: BTreeMap<String, Option<String>>,
+}
+
+/// The record's file.
+fn path_of(picture: &Path) -> PathBuf {
+    let mut name = picture.file_name().unwrap_or_default().to_owned();
+    name.push(".json");
+    picture.with_file_name(".estampe").join(name)
+}
+
+/// True if the picture is there, unchanged, and made of these options and this model, whose other
+/// files are unchanged too.
+pub(super) fn is_up_to_date(
+    picture: &Picture,
+    (options, model): (&str, &str),
+    folder: &Folder,
+    max_bytes: u64,
+) -> bool {
+    let Ok(text) = std::fs::read(path_of(&picture.output)) else {
+        return false;
+    };
+    let Ok(record) = serde_json::from_slice::<Value>(&text) else {
+        return false;
+    };
+    if record["options"] != options || record["model"] != model {
+        return false;
+    }
+    let Some(named) = record["named"].as_object() else {
+        return false;
+    };
+    let are_same = named.iter().all(|(name, known)| match known.as_str() {
+        // The name is that which the folder found.
+        Some(known) => folder
+            .read(name, max_bytes)
+            .is_ok_and(|bytes| digest(&bytes) == known),
+        None => folder.resolve(name).is_err(),
+    });
+    let drawn = std::fs::read(&picture.output);
+    are_same && drawn.is_ok_and(|bytes| record["picture"] == digest(&bytes).as_str())
+}
+
+/// Writes the record of a picture. If that fails, the picture is drawn again next time.
+pub(super) fn write(picture: &Path, bytes: &[u8], sources: &Sources) {
+    let path = path_of(picture);
+    let record = json!({
+        "picture": digest(bytes),
+        "options": sources.options,
+        "model": sources.model,
+        "named": sources.named,
+    });
+    if let Some(folder) = path.parent() {
+        let _ = std::fs::create_dir_all(folder);
+    }
+    let _ = output::write(&Destination::File(path), record.to_string().as_bytes());
+}

@@ -1,0 +1,293 @@
+//! `estampe batch`: many models, one process.
+
+use crate::support::{Folder, Run, TETRAHEDRON, estampe, estampe_fed};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// A folder with three models in two folders; one has a material with a texture.
+fn models() -> Folder {
+    let folder = Folder::new();
+    for below in ["in/a", "in/b"] {
+        fs::create_dir_all(folder.path(below)).expect("writable");
+    }
+    folder.with_file("in/a/one.obj", TETRAHEDRON);
+    folder.with_file("in/b/two.obj", TETRAHEDRON.replace("v 0 0 1", "v 0 0 2"));
+    let textured = format!("mtllib skin.mtl\nusemtl skin\n{TETRAHEDRON}");
+    folder.with_file("in/b/three.obj", textured);
+    folder.with_file("in/b/skin.mtl", "newmtl skin\nKd 1 0 0\n");
+    folder
+}
+
+/// Runs `estampe batch` on the folder's models, with IN and OUT for their folders.
+fn batch(folder: &Folder, words: &str) -> Run {
+    batch_fed(folder, words, &[])
+}
+
+fn batch_fed(folder: &Folder, words: &str, input: &[u8]) -> Run {
+    let (models, out) = (folder.path("in"), folder.path("out"));
+    let text = |path: &Path| {
+        path.to_str()
+            .expect("a temporary folder of ASCII")
+            .to_owned()
+    };
+    let words = words
+        .replace("IN", &text(&models))
+        .replace("OUT", &text(&out));
+    estampe_fed(
+        &format!("batch {words} --size 48x40 --report -"),
+        &[],
+        input,
+    )
+}
+
+fn report(run: &Run) -> Value {
+    serde_json::from_slice(&run.out).expect("a report")
+}
+
+/// The names below a folder, sorted, without the records.
+fn pictures(folder: &Folder, below: &str) -> Vec<String> {
+    fn walk(at: &Path, prefix: &str, names: &mut Vec<String>) {
+        for entry in fs::read_dir(at).expect("a folder").flatten() {
+            let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
+            if entry.path().is_dir() {
+                if !name.ends_with(".estampe") {
+                    walk(&entry.path(), &format!("{name}/"), names);
+                }
+            } else {
+                names.push(name);
+            }
+        }
+    }
+    let mut names = Vec::new();
+    walk(&folder.path(below), "", &mut names);
+    names.sort();
+    names
+}
+
+/// The pictures are those of `estampe render`; what is up to date stays, and what has changed is
+/// drawn again.
+#[test]
+fn pictures_are_drawn_once_and_again_if_something_changed() {
+    let folder = models();
+    let words = "IN/**/*.obj -o OUT/{dir}/{stem}.png";
+    let counts = |run: &Run, drawn: u64, up_to_date: u64| {
+        assert_eq!(run.code, 0, "{}", run.err);
+        let report = report(run);
+        assert_eq!(report["counts"]["drawn"], drawn, "{report}");
+        assert_eq!(report["counts"]["up_to_date"], up_to_date, "{report}");
+    };
+    counts(&batch(&folder, words), 3, 0);
+    assert_eq!(
+        pictures(&folder, "out"),
+        ["a/one.png", "b/three.png", "b/two.png"]
+    );
+    for (model, picture) in [
+        ("in/b/three.obj", "out/b/three.png"),
+        ("in/a/one.obj", "out/a/one.png"),
+    ] {
+        let alone = folder.path("alone.png");
+        let run = estampe(
+            "render {} -o {} --size 48x40",
+            &[&folder.path(model), &alone],
+        );
+        assert_eq!(run.code, 0, "{}", run.err);
+        assert!(
+            fs::read(alone).ok() == fs::read(folder.path(picture)).ok(),
+            "{picture}"
+        );
+    }
+    counts(&batch(&folder, words), 0, 3);
+    // Threads and the SIMD level change no byte.
+    counts(
+        &batch(
+            &folder,
+            &format!("{words} --threads 2 --simd sse2 --parallel 1"),
+        ),
+        0,
+        3,
+    );
+    // A file that a model names.
+    let red = fs::read(folder.path("out/b/three.png")).expect("drawn");
+    folder.with_file("in/b/skin.mtl", "newmtl skin\nKd 0 1 0\n");
+    counts(&batch(&folder, words), 1, 2);
+    assert!(fs::read(folder.path("out/b/three.png")).expect("drawn") != red);
+    // The model.
+    folder.with_file("in/a/one.obj", TETRAHEDRON.replace("v 1 0 0", "v 3 0 0"));
+    counts(&batch(&folder, words), 1, 2);
+    // The picture, and its absence.
+    folder.with_file("out/a/one.png", "not a picture");
+    fs::remove_file(folder.path("out/b/two.png")).expect("drawn");
+    counts(&batch(&folder, words), 2, 1);
+    // An option, and all.
+    counts(&batch(&folder, &format!("{words} --shading flat")), 3, 0);
+    counts(
+        &batch(&folder, &format!("{words} --shading flat --force")),
+        3,
+        0,
+    );
+    // A record that was cut off.
+    folder.with_file("out/a/.estampe/one.png.json", "{\"picture\":");
+    counts(&batch(&folder, &format!("{words} --shading flat")), 1, 2);
+}
+
+#[test]
+fn a_model_that_fails_ends_alone() {
+    let folder = models();
+    folder.with_file("in/a/bad.obj", "f 1 2 3\n");
+    folder.with_file("in/a/worse.stl", [0_u8; 90]);
+    let words = "IN/**/*.obj IN/a/worse.stl IN/a/missing.obj -o OUT/{stem}.png --parallel 1";
+    let run = batch(&folder, words);
+    assert_eq!(run.code, 1, "{}", run.err);
+    let said = report(&run);
+    assert_eq!(said["counts"]["drawn"], 3, "{said}");
+    assert_eq!(said["counts"]["failed"], 3, "{said}");
+    let of = |stem: &str| {
+        let pictures = said["pictures"].as_array().expect("a list").clone();
+        let is_it = |picture: &Value| {
+            let input = picture["input"].as_str().expect("a path");
+            Path::new(input)
+                .file_stem()
+                .is_some_and(|name| name == stem)
+        };
+        pictures.into_iter().find(is_it).expect("in the report")
+    };
+    assert_eq!(of("bad")["status"], "failed");
+    assert!(
+        of("missing")["error"]
+            .as_str()
+            .expect("text")
+            .contains("no such file")
+    );
+    assert!(run.err.contains("error: ") && run.err.contains("3 drawn, 3 failed in "));
+    assert!(!folder.path("out/bad.png").exists());
+    // In sorted order the first one fails.
+    let fast = batch(&folder, &format!("{words} --fail-fast --force"));
+    assert_eq!(fast.code, 1);
+    assert_eq!(report(&fast)["counts"]["cancelled"], 5, "{}", fast.err);
+}
+
+#[test]
+fn names_that_would_collide_or_say_nothing_are_errors_before_any_work() {
+    let folder = models();
+    folder.with_file("in/a/two.obj", TETRAHEDRON);
+    for (words, problem) in [
+        ("IN/**/*.obj -o OUT/{stem}.png", "the picture of"),
+        ("IN/**/*.obj -o OUT/{frame}.png", "{frame} is unknown"),
+        (
+            "IN/**/*.obj -o OUT/{index}",
+            "does not show the image's format",
+        ),
+        (
+            "IN/**/*.obj -o OUT/{index}.png --views front,top",
+            "add {view}",
+        ),
+        (
+            "IN/**/*.obj -o OUT/{index}.png --shard 0/3",
+            "I from 1 to N",
+        ),
+        (
+            "IN/**/*.obj -o OUT/{index}.png --shard 4/3",
+            "I from 1 to N",
+        ),
+    ] {
+        let run = batch(&folder, words);
+        assert_eq!(run.code, 2, "{words}: {}", run.err);
+        assert!(run.err.contains(problem), "{words}: {}", run.err);
+    }
+    let nothing = batch(&folder, "IN/*.glb -o OUT/{stem}.png");
+    assert_eq!(nothing.code, 1);
+    assert!(nothing.err.contains("no file matches"), "{}", nothing.err);
+    assert!(!folder.path("out").exists());
+}
+
+/// Each model is in exactly one share.
+#[test]
+fn shards_share_the_models() {
+    let folder = models();
+    let mut drawn = Vec::new();
+    for number in 1..=3 {
+        let words = format!("IN/**/*.obj -o OUT/{{stem}}.png --shard {number}/3");
+        let said = report(&batch(&folder, &words));
+        let pictures = said["pictures"].as_array().expect("a list");
+        assert_eq!(pictures.len(), 1, "{said}");
+        drawn.push(pictures[0]["output"].as_str().expect("a path").to_owned());
+    }
+    drawn.sort();
+    drawn.dedup();
+    assert_eq!(drawn.len(), 3);
+    assert_eq!(
+        pictures(&folder, "out"),
+        ["one.png", "three.png", "two.png"]
+    );
+}
+
+#[test]
+fn lists_come_on_standard_input_and_models_have_several_views() {
+    let folder = models();
+    let model = folder.path("in/a/one.obj");
+    let list = format!(
+        "{}\r\n\n{}\n",
+        model.display(),
+        folder.path("in/b/two.obj").display()
+    );
+    let words = "- -o OUT/{stem}-{view}.jpg --views front,iso --quiet";
+    let run = batch_fed(&folder, words, list.as_bytes());
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    let names = [
+        "one-front.jpg",
+        "one-iso.jpg",
+        "two-front.jpg",
+        "two-iso.jpg",
+    ];
+    assert_eq!(pictures(&folder, "out"), names);
+    let alone = folder.path("alone.jpg");
+    let render = estampe("render {} -o {} --size 48x40 --view iso", &[&model, &alone]);
+    assert_eq!(render.code, 0, "{}", render.err);
+    assert!(fs::read(alone).ok() == fs::read(folder.path("out/one-iso.jpg")).ok());
+}
+
+#[test]
+fn models_over_a_limit_end_alone() {
+    let folder = models();
+    let bytes = format!("--max-bytes {}", TETRAHEDRON.len());
+    for (limit, count) in [("--max-triangles 3", 3), (&bytes, 1), ("--max-bytes 1", 3)] {
+        let run = batch(
+            &folder,
+            &format!("IN/**/*.obj -o OUT/{{stem}}.png --force {limit}"),
+        );
+        assert_eq!(run.code, 1, "{limit}: {}", run.err);
+        let said = report(&run);
+        assert_eq!(said["counts"]["limit"], count, "{limit}: {said}");
+        assert_eq!(said["counts"]["drawn"], 3 - count, "{limit}: {said}");
+        assert!(run.err.contains("limit of"), "{limit}: {}", run.err);
+    }
+}
+
+/// What a killed process left is removed, and what others are writing stays.
+#[cfg(target_os = "linux")]
+#[test]
+fn temporary_files_of_killed_processes_are_removed() {
+    let folder = models();
+    fs::create_dir_all(folder.path("out")).expect("writable");
+    let own = format!("out/.one.png.{}.0.part", std::process::id());
+    // Beyond the greatest number of a process.
+    for name in [
+        "out/.one.png.99999999.0.part",
+        &own,
+        "out/notes.part",
+        "out/.a.part",
+    ] {
+        folder.with_file(name, "half");
+    }
+    assert_eq!(batch(&folder, "IN/a/one.obj -o OUT/{stem}.png").code, 0);
+    let own = own.strip_prefix("out/").expect("it begins so").to_owned();
+    let mut expected = vec![
+        ".a.part".to_owned(),
+        own,
+        "notes.part".to_owned(),
+        "one.png".to_owned(),
+    ];
+    expected.sort();
+    assert_eq!(pictures(&folder, "out"), expected);
+}
