@@ -7,6 +7,7 @@
 
 mod bounds;
 mod camera;
+mod hdr_image;
 mod image;
 mod light;
 mod material;
@@ -22,6 +23,7 @@ struct Readme;
 
 pub use bounds::Bounds;
 pub use camera::{Camera, NamedCamera, Projection};
+pub use hdr_image::HdrImage;
 pub use image::Image;
 pub use light::{Light, LightSource, PunctualLight, PunctualLightKind};
 pub use material::{AlphaMode, Material};

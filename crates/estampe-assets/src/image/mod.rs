@@ -1,4 +1,4 @@
-//! Reading and writing images: PNG, JPEG and TGA.
+//! Reading and writing images: PNG, JPEG and TGA; and Radiance HDR, whose numbers are floats.
 //!
 //! ```text
 //!   bytes --format::decode--> Image            (by content: signature, or a plausible TGA header)
@@ -6,12 +6,13 @@
 //!   Image --transform-------> Image            (flips, nearest scaling)
 //! ```
 //!
-//! PNG uses the `png` crate, JPEG `zune-jpeg` and `jpeg-encoder`; TGA is implemented here. Every
-//! reader checks the size in an image's header against [`Limits`](crate::Limits) before it
+//! PNG uses the `png` crate, JPEG `zune-jpeg` and `jpeg-encoder`; TGA and HDR are implemented
+//! here. Every reader checks the size in an image's header against [`Limits`](crate::Limits) before it
 //! allocates. Every writer uses fixed settings, so that the same image always gives the same bytes.
 
 mod fault;
 mod format;
+pub mod hdr;
 pub mod jpeg;
 pub mod png;
 pub mod tga;
@@ -26,6 +27,7 @@ mod samples;
 
 pub(crate) use format::stated_size;
 pub use format::{AlphaChannel, ImageFormat, decode, encode};
+pub use hdr::{decode_hdr, encode_hdr};
 pub use jpeg::encode_jpeg;
 pub use png::{encode_drawing_png, encode_png};
 pub use transform::{flip_horizontal, flip_vertical, scale_nearest};

@@ -85,12 +85,13 @@ fn options_text(args: &BatchArgs) -> Result<String, Failure> {
         }
     };
     Ok(format!(
-        "{} {} {picture:?} {:?} {:?} {} {}",
+        "{} {} {picture:?} {:?} {:?} {} {} {}",
         env!("CARGO_PKG_VERSION"),
         estampe_renderer::PICTURE_VERSION,
         args.choice,
         args.format,
         digest_of(picture.texture.as_deref())?,
         digest_of(picture.shader.file())?,
+        digest_of(picture.pbr.panorama())?,
     ))
 }

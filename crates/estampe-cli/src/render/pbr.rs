@@ -1,12 +1,26 @@
 //! The options of physically based shading, and the renderer's options from them.
 
 use crate::failure::Failure;
+use crate::input::read_file;
+use crate::values::shown;
 use clap::{Args, ValueEnum};
-use estampe_renderer::{Environment, RenderOptions, ToneMap};
+use estampe_assets::Limits;
+use estampe_assets::image::decode_hdr;
+use estampe_renderer::{Environment, EnvironmentMap, RenderOptions, ToneMap};
+use estampe_scene::Workers;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Light from all around, and how it is shown.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct PbrArgs {
+    /// The surroundings that light the model: a panorama (Radiance HDR, equirectangular)
+    ///
+    /// The panorama's middle is at +Z, where the front view stands, and its upper edge is up.
+    /// Without it a studio of soft boxes lights the model, which turns with the camera.
+    #[arg(long, value_name = "FILE", help_heading = "Physically based shading")]
+    hdri: Option<PathBuf>,
+
     /// Rotation of the surroundings, counter-clockwise from above, in degrees
     #[arg(long, value_name = "DEG", default_value_t = 0.0, value_parser = finite)]
     #[arg(allow_hyphen_values = true, help_heading = "Physically based shading")]
@@ -58,10 +72,14 @@ impl From<ToneMapName> for ToneMap {
 
 impl PbrArgs {
     /// The renderer's options with these.
-    pub(super) fn apply(&self, options: RenderOptions) -> Result<RenderOptions, Failure> {
+    pub(super) fn apply(
+        &self,
+        options: RenderOptions,
+        workers: Workers,
+    ) -> Result<RenderOptions, Failure> {
         Ok(RenderOptions {
             environment: Environment {
-                map: None,
+                map: self.map(workers)?,
                 rotation_deg: self.environment_rotation,
                 intensity: self.environment_intensity,
             },
@@ -70,6 +88,36 @@ impl PbrArgs {
             tone_map: self.tone_map.into(),
             ..options
         })
+    }
+}
+
+impl PbrArgs {
+    /// The panorama's file.
+    pub(crate) fn panorama(&self) -> Option<&Path> {
+        self.hdri.as_deref()
+    }
+
+    /// The surroundings of the panorama. The last one is kept: many models have the same.
+    fn map(&self, workers: Workers) -> Result<Option<Arc<EnvironmentMap>>, Failure> {
+        static LAST: Mutex<Option<(PathBuf, Arc<EnvironmentMap>)>> = Mutex::new(None);
+        let Some(path) = &self.hdri else {
+            return Ok(None);
+        };
+        let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((known, map)) = &*last
+            && known == path
+        {
+            return Ok(Some(Arc::clone(map)));
+        }
+        let limits = Limits::default();
+        let bytes = read_file(path, &limits)?;
+        let image = decode_hdr(&bytes, &limits).map_err(|error| error.in_file(&shown(path)))?;
+        let [width, height] = [image.width, image.height].map(|side| side as usize);
+        let map = EnvironmentMap::from_panorama(width, height, &image.rgb, workers);
+        let map = map.map_err(|error| Failure::Input(format!("{}: {error}", shown(path))))?;
+        let map = Arc::new(map);
+        *last = Some((path.clone(), Arc::clone(&map)));
+        Ok(Some(map))
     }
 }
 

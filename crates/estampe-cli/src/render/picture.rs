@@ -10,7 +10,7 @@ use crate::values::{self, Background, ViewName};
 use clap::Args;
 use estampe::Level;
 use estampe_renderer::{CameraOptions, Eye, ProjectionKind, RenderOptions, Up, ViewDirection};
-use estampe_scene::Image;
+use estampe_scene::{Image, Workers};
 use glam::DVec3;
 use std::path::PathBuf;
 
@@ -227,6 +227,7 @@ impl PictureArgs {
             wireframe: self.wireframe,
             ..RenderOptions::default()
         };
-        self.pbr.apply(self.illumination.apply(options))
+        let workers = Workers::new(self.thread_count());
+        self.pbr.apply(self.illumination.apply(options), workers)
     }
 }

@@ -181,3 +181,29 @@ fn cameras_of_the_file_are_used() {
     let run = estampe("render {} -o {} --camera 0 --fov 20", &[&model, &out]);
     assert_eq!(run.code, 2, "{}", run.err);
 }
+
+/// A panorama of one colour lights as uniform surroundings do, a broken one is an error with its
+/// place.
+#[test]
+fn panoramas_light_models() {
+    let folder = Folder::new();
+    let header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
+    let texels = [128, 0, 0, 129].repeat(8);
+    let red = folder.with_file("red.hdr", [header.as_bytes(), &texels].concat());
+    let picture = folder.path("red.png");
+    let words = "render builtin:sphere -o {} --size 32x32 --shading pbr --hdri {}";
+    let run = estampe(words, &[&picture, &red]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let bytes = std::fs::read(&picture).expect("drawn");
+    let image = estampe_assets::image::decode(&bytes, &estampe_assets::Limits::default());
+    let [r, g, b, _] = image.expect("a PNG").texel(16, 16);
+    assert!(r > 150 && g == 0 && b == 0, "{r} {g} {b}");
+    let short = folder.with_file("short.hdr", header);
+    let run = estampe(words, &[&picture, &short]);
+    assert_eq!(run.code, 1);
+    assert!(
+        run.err.contains("short.hdr") && run.err.contains("byte"),
+        "{}",
+        run.err
+    );
+}
