@@ -29,17 +29,36 @@ pub(super) fn ggx_density(n_dot_h: f32, alpha: f32) -> f32 {
     squared / (std::f32::consts::PI * f * f)
 }
 
+/// A point whose second number is an angle.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TurnedPoint {
+    /// 0..1.
+    pub(super) first: f32,
+    /// Cosine and sine of the angle.
+    pub(super) direction: [f32; 2],
+}
+
+impl TurnedPoint {
+    pub(super) fn new([first, second]: [f32; 2]) -> Self {
+        let (sin, cos) = libm::sincosf(second * TAU);
+        Self {
+            first,
+            direction: [cos, sin],
+        }
+    }
+}
+
 /// The half vector of a point, distributed as the facets that a view sees (E. Heitz, "Sampling the
 /// GGX Distribution of Visible Normals", 2018): the facets of the hemisphere, stretched by α.
-pub(super) fn visible_half_vector([first, second]: [f32; 2], view: Vec3, alpha: f32) -> Vec3 {
+pub(super) fn visible_half_vector(point: &TurnedPoint, view: Vec3, alpha: f32) -> Vec3 {
     let stretched = Vec3::new(view.x * alpha, view.y * alpha, view.z);
     let stretched = stretched / stretched.length();
     let across = Vec3::new(-stretched.y, stretched.x, 0.0);
     let side = across.try_normalize().unwrap_or(Vec3::X);
     let up = stretched.cross(side);
     // A point of the disk that the view sees: half of it is the hemisphere's, foreshortened.
-    let radius = first.sqrt();
-    let (sin, cos) = libm::sincosf(second * TAU);
+    let radius = point.first.sqrt();
+    let [cos, sin] = point.direction;
     let x = radius * cos;
     let whole = (1.0 - x * x).max(0.0).sqrt();
     let share = 0.5 * (1.0 + stretched.z);

@@ -4,48 +4,43 @@
 //! Few samples are enough because each reads the mip level whose texels cover its share of the
 //! lobe (J. Křivánek, M. Colbert, "Real-time Shading with Filtered Importance Sampling", 2008).
 
-use super::cube::{CubeImage, side_f32};
+use super::cube::{CubeImage, side_f32, whole};
 use super::sampling::{ggx_density, ggx_half_vector, hammersley};
 use estampe_scene::Workers;
 use glam::Vec3;
 use std::f32::consts::PI;
 
-/// The most levels, of roughness 0, 0.2 … 1.
-const MOST_LEVELS: u16 = 6;
+/// The least side of a level: that of roughness 1.
+const LEAST_SIDE: usize = 4;
 
 /// A direction of a lobe around +Z.
 struct LobeSample {
     direction: Vec3,
     /// n·l.
     weight: f32,
-    /// Level of the image.
-    lod: f32,
+    /// Level of the image, the finest being 0.
+    level: usize,
 }
 
 /// The convolved levels, each half as large as the one before. The first one is the image itself,
 /// the last one has roughness 1, and between the two roughness rises evenly.
 pub(super) fn convolved(levels: Vec<CubeImage>, workers: Workers) -> Vec<CubeImage> {
-    let count = u16::try_from(levels.len())
-        .unwrap_or(MOST_LEVELS)
-        .min(MOST_LEVELS);
+    let wanted = levels.iter().filter(|level| level.side() >= LEAST_SIDE);
+    let count = u16::try_from(wanted.count()).unwrap_or(1).max(1);
     let mut convolved = Vec::with_capacity(levels.len());
     for (index, level) in (1..count).zip(levels.iter().skip(1)) {
         let roughness = f32::from(index) / f32::from(count - 1);
         // Wide lobes have few texels to fill, and need more samples.
-        let samples = 32 << (index - 1).min(3);
-        let lobe = lobe(roughness * roughness, samples, levels[0].side());
+        let samples = 16 << index.min(4);
+        let lobe = lobe(roughness * roughness, samples, &levels);
         let total: f32 = lobe.iter().map(|sample| sample.weight).sum();
         let radiance = |normal: Vec3| {
             let (tangent, bitangent) = normal.any_orthonormal_pair();
             let mut sum = Vec3::ZERO;
-            for LobeSample {
-                direction: d,
-                weight,
-                lod,
-            } in &lobe
-            {
+            for sample in &lobe {
+                let d = sample.direction;
                 let direction = tangent * d.x + bitangent * d.y + normal * d.z;
-                sum += trilinear(&levels, direction, *lod) * *weight;
+                sum += levels[sample.level].sample(direction) * sample.weight;
             }
             sum / total
         };
@@ -56,8 +51,9 @@ pub(super) fn convolved(levels: Vec<CubeImage>, workers: Workers) -> Vec<CubeIma
 }
 
 /// The directions in which a lobe of this α sees, for a normal and a view along +Z.
-fn lobe(alpha: f32, samples: u16, side: usize) -> Vec<LobeSample> {
-    let texel = 4.0 * PI / (6.0 * side_f32(side) * side_f32(side));
+fn lobe(alpha: f32, samples: u16, levels: &[CubeImage]) -> Vec<LobeSample> {
+    let side = side_f32(levels[0].side());
+    let texel = 4.0 * PI / (6.0 * side * side);
     let samples_f32 = f32::from(samples);
     let sample = |point| {
         let half = ggx_half_vector(point, alpha);
@@ -65,24 +61,14 @@ fn lobe(alpha: f32, samples: u16, side: usize) -> Vec<LobeSample> {
         // The density of l is D·(n·h) ÷ 4(v·h), and n·h = v·h.
         let density = ggx_density(half.z, alpha) * 0.25;
         let share = 1.0 / (samples_f32 * density);
+        // A texel of level k covers 4ᵏ texels; one level more hides the samples' pattern.
+        let level = 0.5 * libm::log2f(share / texel) + 1.0;
         LobeSample {
             direction,
             weight: direction.z,
-            // A texel of level k covers 4ᵏ texels; one level more hides the samples' pattern.
-            lod: (0.5 * libm::log2f(share / texel) + 1.0).max(0.0),
+            level: whole(libm::roundf(level.max(0.0))).min(levels.len() - 1),
         }
     };
     let samples = hammersley(samples).map(sample);
     samples.filter(|sample| sample.weight > 0.0).collect()
-}
-
-fn trilinear(levels: &[CubeImage], direction: Vec3, lod: f32) -> Vec3 {
-    let last = levels.len() - 1;
-    let low = super::cube::whole(lod).min(last);
-    let share = (lod - side_f32(low)).clamp(0.0, 1.0);
-    let near = levels[low].sample(direction);
-    if low == last {
-        return near;
-    }
-    near.lerp(levels[low + 1].sample(direction), share)
 }

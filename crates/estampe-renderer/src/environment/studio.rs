@@ -7,7 +7,7 @@
 use glam::Vec3;
 
 /// The side of a face: lights have soft edges, so that mirrors show no texels.
-pub(super) const SIDE: usize = 128;
+pub(super) const SIDE: usize = 64;
 
 /// A rectangle of light, far away.
 struct Panel {
