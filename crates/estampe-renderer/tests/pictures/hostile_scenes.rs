@@ -8,7 +8,9 @@ use estampe_renderer::{
 use estampe_scene::{AlphaMode, Image, Light, LightSource, Material, Mesh, Scene, Surface};
 use glam::{DVec3, Vec2, Vec3};
 
-const SHADINGS: [Shading; 14] = [
+const SHADINGS: [Shading; 16] = [
+    Shading::Automatic,
+    Shading::Pbr,
     Shading::Flat,
     Shading::Gouraud,
     Shading::Phong,

@@ -37,9 +37,14 @@ pub(crate) fn density_ggx<R: Real>(n_dot_h: R, sin_squared: R, alpha: R) -> R {
 #[inline(always)]
 pub(crate) fn visibility_ggx<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
     let squared = alpha * alpha;
-    let masked = |cosine: R| (cosine * cosine * (1.0 - squared) + squared).sqrt();
-    let sum = n_dot_l * masked(n_dot_v) + n_dot_v * masked(n_dot_l);
+    let sum = n_dot_l * masked(n_dot_v, squared) + n_dot_v * masked(n_dot_l, squared);
     0.5 / sum.max(1e-6)
+}
+
+/// √((n·x)²(1 − α²) + α²).
+#[inline(always)]
+fn masked<R: Real>(cosine: R, alpha_squared: R) -> R {
+    (cosine * cosine * (1.0 - alpha_squared) + alpha_squared).sqrt()
 }
 
 /// The weight of F90: (1 − cos)⁵.

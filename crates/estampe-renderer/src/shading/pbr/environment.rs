@@ -68,8 +68,8 @@ impl EnvironmentLight {
     pub(crate) fn albedo<R: Real>(&self, n_dot_v: R, roughness: R) -> DirectionalAlbedo<R> {
         let side = f32::from(ALBEDO_SIDE);
         // The first and the last entry are 0 and 1.
-        let place = |x: R| x * ((side - 1.0) / side) + 0.5 / side;
-        let at = Vec2::new(place(n_dot_v), place(roughness));
+        let (scale, offset) = ((side - 1.0) / side, 0.5 / side);
+        let at = Vec2::new(n_dot_v * scale + offset, roughness * scale + offset);
         let zero = n_dot_v.splat(0.0);
         let entry = self.albedos.sample_level(at, zero);
         DirectionalAlbedo {
@@ -92,7 +92,6 @@ impl EnvironmentLight {
     pub(crate) fn irradiance<R: Real>(&self, normal_view: Vec3<R>) -> Vec3<R> {
         let n = self.map_from_view.transform_vector(normal_view);
         let values = [
-            n.x.splat(1.0),
             n.x,
             n.y,
             n.z,
@@ -103,8 +102,8 @@ impl EnvironmentLight {
             n.x * n.x - n.y * n.y,
         ];
         let mut sum = Vec3::uniform(n.x, self.diffuse[0]);
-        for (value, coefficient) in values.into_iter().zip(self.diffuse).skip(1) {
-            sum += Vec3::uniform(n.x, coefficient) * value;
+        for (index, &value) in values.iter().enumerate() {
+            sum += Vec3::uniform(n.x, self.diffuse[index + 1]) * value;
         }
         let zero = n.x.splat(0.0);
         Vec3::new(sum.x.max(zero), sum.y.max(zero), sum.z.max(zero))

@@ -118,11 +118,10 @@ impl<R: Real> PbrPoint<R> {
         let single = self.f0 * scale + Vec3::repeat(bias * self.f90);
         let lost = one - (scale + bias);
         let mean = self.f0 + (Vec3::repeat(one) - self.f0) * (1.0 / 21.0);
-        let multiple = |single: R, mean: R| single * mean / (one - mean * lost) * lost;
         let multiple = Vec3::new(
-            multiple(single.x, mean.x),
-            multiple(single.y, mean.y),
-            multiple(single.z, mean.z),
+            between_facets(single.x, mean.x, lost),
+            between_facets(single.y, mean.y, lost),
+            between_facets(single.z, mean.z, lost),
         );
         Shared {
             n_dot_v,
@@ -199,6 +198,13 @@ impl<R: Real> PbrPoint<R> {
         let black = Vec3::repeat(zero);
         Vec3::select(n_dot_l.gt(zero), sum, black)
     }
+}
+
+/// The share of uniform light that is reflected between facets, given what GGX reflects at once,
+/// the mean reflectance, and what is lost with a reflectance of 1.
+#[inline(always)]
+fn between_facets<R: Real>(single: R, mean: R, lost: R) -> R {
+    single * mean / (1.0 - mean * lost) * lost
 }
 
 /// The share of mirrored light that arrives where a share of all light does (S. Lagarde, C. de

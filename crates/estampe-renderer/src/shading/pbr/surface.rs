@@ -4,7 +4,6 @@ use super::environment::EnvironmentLight;
 use super::lights::PbrLight;
 use super::parameters::{ClearcoatParameters, NormalMap, PbrParameters};
 use super::reflection::{Coat, Fibres, PbrPoint};
-use super::textures::MaterialTexture;
 use super::tone_map::ToneMap;
 use crate::shading::base_color::Alpha;
 use crate::shading::output::Output;
@@ -54,9 +53,10 @@ impl<R: Real> TangentFrame<R> {
     #[inline(always)]
     fn normal_of(&self, map: &NormalMap, uvs: (Vec2<R>, Vec2<R>)) -> Vec3<R> {
         let texel = map.texture.sample(uvs);
-        let [x, y, z] = [texel.x, texel.y, texel.z].map(
-            #[inline(always)]
-            |code| code * 2.0 - 1.0,
+        let (x, y, z) = (
+            texel.x * 2.0 - 1.0,
+            texel.y * 2.0 - 1.0,
+            texel.z * 2.0 - 1.0,
         );
         let bent = self.tangent * (x * map.scale) + self.bitangent * (y * map.scale);
         let bent = (bent + self.normal * z) * self.front_facing_sign;
@@ -221,14 +221,13 @@ fn clearcoat<R: Real>(
     frame: &TangentFrame<R>,
     one: R,
 ) -> Coat<R> {
-    let texel = |texture: &Option<MaterialTexture>| texture.as_ref().map(|t| t.sample(uvs));
     let mut factor = one * coat.factor;
-    if let Some(texel) = texel(&coat.texture) {
-        factor *= texel.x;
+    if let Some(texture) = &coat.texture {
+        factor *= texture.sample(uvs).x;
     }
     let mut roughness = one * coat.roughness;
-    if let Some(texel) = texel(&coat.roughness_texture) {
-        roughness *= texel.y;
+    if let Some(texture) = &coat.roughness_texture {
+        roughness *= texture.sample(uvs).y;
     }
     Coat {
         factor,
@@ -247,11 +246,9 @@ fn filtered<R: Real>(roughness: R, normal: Vec3<R>) -> R {
     /// Variance of the pixel filter, and the most that is added to α².
     const VARIANCE: f32 = 0.25;
     const MOST: f32 = 0.18;
-    let squared = |n: R| {
-        let (x, y) = (n.ddx(), n.ddy());
-        x * x + y * y
-    };
-    let spread = squared(normal.x) + squared(normal.y) + squared(normal.z);
+    let across = Vec3::new(normal.x.ddx(), normal.y.ddx(), normal.z.ddx());
+    let down = Vec3::new(normal.x.ddy(), normal.y.ddy(), normal.z.ddy());
+    let spread = across.dot(across) + down.dot(down);
     let added = (spread * (2.0 * VARIANCE)).min(MOST);
     let alpha = roughness * roughness;
     (alpha * alpha + added).min(1.0).sqrt().sqrt()
@@ -276,10 +273,10 @@ fn frame_of_derivatives<R: Real>(view: Vec3<R>, normal: Vec3<R>, uv: Vec2<R>) ->
     let scale = 1.0 / R::select(step_x.dot(r1).lt(0.0), -length, length);
     let has_any = longest.gt(1e-30);
     let none = Vec3::repeat(longest.splat(0.0));
-    [tangent, bitangent].map(
-        #[inline(always)]
-        |axis| Vec3::select(has_any, axis * scale, none),
-    )
+    [
+        Vec3::select(has_any, tangent * scale, none),
+        Vec3::select(has_any, bitangent * scale, none),
+    ]
 }
 
 estampe::shader! {

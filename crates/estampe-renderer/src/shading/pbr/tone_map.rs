@@ -73,24 +73,29 @@ fn agx<R: Real>(color: Vec3<R>) -> Vec3<R> {
         [-0.052_896_85, 1.151_903_1, -0.098_961_18],
         [-0.052_971_635, -0.098_043_45, 1.151_073_7],
     ];
-    /// Stops below and above middle grey that the curve holds.
-    const STOPS: [f32; 2] = [-12.473_93, 4.026_069];
-    let curve = |value: R| {
-        let stops = value.max(1e-10).log2().clamp(STOPS[0], STOPS[1]);
-        let x = (stops - STOPS[0]) / (STOPS[1] - STOPS[0]);
-        let sum = x * 15.5 - 40.14;
-        let sum = sum * x + 31.96;
-        let sum = sum * x - 6.868;
-        let sum = sum * x + 0.429_8;
-        let sum = sum * x + 0.119_1;
-        sum * x - 0.002_32
-    };
     let inset = transform(INSET, color);
-    let shown = Vec3::new(curve(inset.x), curve(inset.y), curve(inset.z));
+    let shown = Vec3::new(agx_curve(inset.x), agx_curve(inset.y), agx_curve(inset.z));
     let shown = transform(OUTSET, shown);
     // The curve gives display codes of exponent 2.2.
-    let linear = |code: R| code.max(0.0).pow(code.splat(2.2));
-    Vec3::new(linear(shown.x), linear(shown.y), linear(shown.z))
+    Vec3::new(
+        shown.x.max(0.0).pow(2.2),
+        shown.y.max(0.0).pow(2.2),
+        shown.z.max(0.0).pow(2.2),
+    )
+}
+
+#[inline(always)]
+fn agx_curve<R: Real>(value: R) -> R {
+    /// Stops below and above middle grey that the curve holds.
+    const STOPS: [f32; 2] = [-12.473_93, 4.026_069];
+    let stops = value.max(1e-10).log2().clamp(STOPS[0], STOPS[1]);
+    let x = (stops - STOPS[0]) / (STOPS[1] - STOPS[0]);
+    let sum = x * 15.5 - 40.14;
+    let sum = sum * x + 31.96;
+    let sum = sum * x - 6.868;
+    let sum = sum * x + 0.429_8;
+    let sum = sum * x + 0.119_1;
+    sum * x - 0.002_32
 }
 
 #[inline(always)]
@@ -107,12 +112,14 @@ fn aces<R: Real>(color: Vec3<R>) -> Vec3<R> {
     ];
     /// Middle grey comes out as with the other tone maps.
     const EXPOSURE: f32 = 1.0 / 0.6;
-    let curve = |v: R| {
-        let above = v * (v + 0.024_578_6) - 0.000_090_537;
-        above / (v * (v * 0.983_729 + 0.432_951) + 0.238_081)
-    };
     let seen = transform(INPUT, color * EXPOSURE);
-    let shown = Vec3::new(curve(seen.x), curve(seen.y), curve(seen.z));
+    let shown = Vec3::new(aces_curve(seen.x), aces_curve(seen.y), aces_curve(seen.z));
     let shown = transform(OUTPUT, shown);
     Vec3::new(shown.x.saturate(), shown.y.saturate(), shown.z.saturate())
+}
+
+#[inline(always)]
+fn aces_curve<R: Real>(v: R) -> R {
+    let above = v * (v + 0.024_578_6) - 0.000_090_537;
+    above / (v * (v * 0.983_729 + 0.432_951) + 0.238_081)
 }
