@@ -4,6 +4,7 @@ use crate::choice::ChoiceArgs;
 use crate::failure::Failure;
 use crate::input::Model;
 use crate::render::counts;
+use crate::terminal::one_line;
 use crate::values::{FormatName, Source};
 use clap::Args;
 use estampe_assets::Limits;
@@ -12,7 +13,6 @@ use estampe_scene::{
 };
 use serde_json::{Value, json};
 use std::fmt::Write as _;
-use std::io::{self, Write};
 
 /// Describes a model: counts, bounds, attributes, materials, and the reader's warnings.
 #[derive(Debug, Clone, Args)]
@@ -64,14 +64,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     } else {
         text(&model)
     };
-    let mut out = io::stdout().lock();
-    out.write_all(report.as_bytes())
-        .and_then(|()| out.flush())
-        .map_err(|error| {
-            Failure::Output(format!(
-                "the report: {error}; check the program that reads standard output"
-            ))
-        })
+    crate::output::print(&report)
 }
 
 fn bounds(scene: &Scene) -> Option<Bounds> {
@@ -209,7 +202,7 @@ fn light_name(kind: &PunctualLightKind) -> &'static str {
 fn numbered(at: usize, name: &str) -> String {
     match name {
         "" => at.to_string(),
-        name => format!("{at} \"{name}\""),
+        name => format!("{at} \"{}\"", one_line(name)),
     }
 }
 
@@ -239,7 +232,7 @@ fn list_choices(out: &mut String, model: &Model) {
     }
     list_rest(out, choices.animations.len(), LISTED, "animations");
     for name in choices.variants.iter().take(LISTED) {
-        let _ = writeln!(out, "  variant \"{name}\"");
+        let _ = writeln!(out, "  variant \"{}\"", one_line(name));
     }
     list_rest(out, choices.variants.len(), LISTED, "variants");
 }
@@ -273,7 +266,7 @@ fn text(model: &Model) -> String {
         let name = if mesh.name.is_empty() {
             "(no name)"
         } else {
-            &mesh.name
+            &*one_line(&mesh.name)
         };
         let kinds = [
             (mesh.triangles.len(), "triangles"),
@@ -308,7 +301,8 @@ fn text(model: &Model) -> String {
         let _ = writeln!(
             out,
             "  material {}: colour {}{opacity}{texture}",
-            material.name, material.base_color
+            one_line(&material.name),
+            material.base_color
         );
     }
     list_rest(&mut out, scene.materials.len(), LISTED, "materials");
@@ -317,7 +311,7 @@ fn text(model: &Model) -> String {
     }
     list_choices(&mut out, model);
     for warning in &model.warnings {
-        let _ = writeln!(out, "  warning: {warning}");
+        let _ = writeln!(out, "  warning: {}", one_line(&warning.to_string()));
     }
     let listed = model.warnings.len() as u64;
     if model.warning_count > listed {

@@ -47,9 +47,10 @@ impl fmt::Display for Failure {
 /// Maps reader errors to their cause.
 impl From<AssetError> for Failure {
     fn from(error: AssetError) -> Self {
+        let message = crate::terminal::one_line(&error.to_string()).into_owned();
         match error {
-            AssetError::LimitExceeded(_) => Self::Limit(error.to_string()),
-            _ => Self::Input(error.to_string()),
+            AssetError::LimitExceeded(_) => Self::Limit(message),
+            _ => Self::Input(message),
         }
     }
 }

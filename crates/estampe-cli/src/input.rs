@@ -1,15 +1,17 @@
 //! Models from files, from standard input, or by built-in name.
 
 use crate::failure::Failure;
+use crate::terminal::one_line;
 use crate::values::{FormatName, Source, shown};
-use estampe_assets::model::{Folder, ModelChoices, NoResources, Resources};
+use estampe_assets::model::{Folder, ModelChoices, NoResources, ResourceError, Resources};
 use estampe_assets::{AssetError, Limits, Loaded, ModelFormat, ModelInput, ModelOptions, Warning};
 use estampe_assets::{parse_model_with, read_bytes, read_stream};
 use estampe_scene::{Mesh, Scene};
 use estampe_shapes::BuiltinShape;
+use std::cell::RefCell;
 use std::fs::File;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// A model that was read.
@@ -22,6 +24,8 @@ pub(crate) struct Model {
     pub(crate) format: Option<ModelFormat>,
     /// The scenes, animations and variants of the file.
     pub(crate) choices: ModelChoices,
+    /// The model's file and the files that it named, which must not be overwritten.
+    pub(crate) files: Vec<PathBuf>,
     /// The first warnings of the reader.
     pub(crate) warnings: Vec<Warning>,
     /// Number of all warnings.
@@ -99,15 +103,21 @@ impl Model {
                      OBJ, STL and PLY are read, name the format by --format if it is one of them"
                 ))
             })?;
-        Self::parsed(Duration::ZERO, &name, || {
+        let resources = Noted {
+            resources,
+            read: RefCell::new(vec![path.to_owned()]),
+        };
+        let model = Self::parsed(Duration::ZERO, &name, || {
             let input = ModelInput {
                 bytes,
                 format,
                 name: &name,
-                resources,
+                resources: &resources,
             };
             parse_model_with(&input, options, limits)
-        })
+        })?;
+        let files = resources.read.into_inner();
+        Ok(Self { files, ..model })
     }
 
     fn builtin(name: &str) -> Result<Self, Failure> {
@@ -132,6 +142,7 @@ impl Model {
             name: format!("builtin:{shape}"),
             format: None,
             choices: ModelChoices::default(),
+            files: Vec::new(),
             warnings: Vec::new(),
             warning_count: 0,
             read: Duration::ZERO,
@@ -151,6 +162,7 @@ impl Model {
             name: name.to_owned(),
             format: Some(loaded.format),
             choices: loaded.choices,
+            files: Vec::new(),
             warnings: loaded.warnings,
             warning_count: loaded.warning_count,
             read,
@@ -164,13 +176,30 @@ impl Model {
         let mut err = io::stderr().lock();
         // If standard error is closed, warnings are lost.
         for warning in self.warnings.iter().take(SHOWN) {
-            let _ = writeln!(err, "warning: {warning}");
+            let _ = writeln!(err, "warning: {}", one_line(&warning.to_string()));
         }
         let shown = self.warnings.len().min(SHOWN) as u64;
         if self.warning_count > shown {
             let more = self.warning_count - shown;
             let _ = writeln!(err, "warning: {more} more; `estampe info` lists them");
         }
+    }
+}
+
+/// Side files of a model, whose paths are noted.
+struct Noted<'r> {
+    resources: &'r dyn Resources,
+    read: RefCell<Vec<PathBuf>>,
+}
+
+impl Resources for Noted<'_> {
+    fn resolve(&self, name: &str) -> Result<String, ResourceError> {
+        self.resources.resolve(name)
+    }
+
+    fn read(&self, resolved: &str, max_bytes: u64) -> Result<Vec<u8>, ResourceError> {
+        self.read.borrow_mut().push(PathBuf::from(resolved));
+        self.resources.read(resolved, max_bytes)
     }
 }
 

@@ -13,8 +13,9 @@
 //! * [`ladder`]: draws the pictures of the ladder, from one pixel to shapes.
 //!
 //! [`choice`] has the options of files with several scenes, [`input`] reads models from files,
-//! standard input or by built-in name, [`output`] writes files completely or not at all, [`values`]
-//! parses the options' values, and [`failure`] has the exit codes.
+//! standard input or by built-in name, [`output`] writes files completely or not at all,
+//! [`interrupt`] removes temporary files, [`terminal`] escapes names, [`values`] parses the
+//! options' values, and [`failure`] has the exit codes.
 
 mod batch;
 mod choice;
@@ -25,12 +26,14 @@ mod diff;
 mod failure;
 mod input;
 mod inspect;
+mod interrupt;
 mod ladder;
 mod output;
 mod progress;
 mod render;
 mod shader;
 mod shape;
+mod terminal;
 mod values;
 
 use std::io::{self, BufWriter, Write};
@@ -162,6 +165,11 @@ fn report(command: &str, json: Option<bool>, result: Result<(), Failure>) -> u8 
             writeln!(io::stdout(), "{object}")
         };
     }
-    let _ = writeln!(io::stderr(), "estampe {command}: {failure}");
+    let message = failure.to_string();
+    let _ = writeln!(
+        io::stderr(),
+        "estampe {command}: {}",
+        terminal::lines(&message)
+    );
     code
 }

@@ -1,10 +1,14 @@
 //! Output files, written completely or not at all.
 
 use crate::failure::Failure;
+use crate::interrupt::Part;
+use crate::terminal;
 use crate::values::{Destination, shown};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::LazyLock;
+use twox_hash::XxHash3_128;
 
 /// Checks a destination before any work is done, and refuses one that cannot be written.
 pub(crate) fn check(destination: &Destination) -> Result<(), Failure> {
@@ -19,12 +23,74 @@ pub(crate) fn check(destination: &Destination) -> Result<(), Failure> {
     }
     let folder = folder_of(path);
     if folder.is_dir() {
+        remove_abandoned(folder);
         return Ok(());
     }
     let (name, folder) = (shown(path), shown(folder));
     Err(Failure::Output(format!(
         "{name}: the folder {folder} does not exist; create it first"
     )))
+}
+
+/// Refuses a destination that is one of the files that are read, through links too.
+pub(crate) fn check_inputs<'p>(
+    destination: &Destination,
+    inputs: impl IntoIterator<Item = &'p Path>,
+) -> Result<(), Failure> {
+    let Destination::File(path) = destination else {
+        return Ok(());
+    };
+    // A destination that does not exist is no input.
+    let Some(identity) = Identity::of(path) else {
+        return Ok(());
+    };
+    let is_it = |input: &&Path| Identity::of(input).as_ref() == Some(&identity);
+    match inputs.into_iter().find(is_it) {
+        Some(input) => Err(Failure::Usage(format!(
+            "{}: this is the input {}, which would be overwritten; name another output",
+            shown(path),
+            shown(input)
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// A regular file, whatever its path: its number where the system has one, else its canonical path.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) struct Identity(
+    #[cfg(unix)] (u64, u64),
+    #[cfg(not(unix))] std::path::PathBuf,
+);
+
+impl Identity {
+    /// `None` if there is no regular file.
+    pub(crate) fn of(path: &Path) -> Option<Self> {
+        let metadata = fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::MetadataExt;
+            Some(Self((metadata.dev(), metadata.ino())))
+        }
+        #[cfg(not(unix))]
+        {
+            drop(metadata);
+            fs::canonicalize(path).ok().map(Self)
+        }
+    }
+}
+
+/// Writes a report for people or programs to standard output. A reader that has enough and closes
+/// it, such as `head`, is no error.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    let text = terminal::lines(text);
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    match written {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Output(format!(
+            "the report: {error}; check the program that reads standard output"
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// Writes the bytes.
@@ -50,46 +116,55 @@ pub(crate) fn write(destination: &Destination, bytes: &[u8]) -> Result<(), Failu
 }
 
 /// Writes a temporary file in the same folder, then renames it, so that other processes see the old
-/// file or the new one. Links are followed. A device or pipe is written in place, because it must
-/// not be replaced.
+/// file or the new one. Links are followed, and the permissions of the old file stay. A device or
+/// pipe is written in place, because it must not be replaced.
 fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file()) {
+    let old = fs::metadata(&path).ok();
+    if old.as_ref().is_some_and(|metadata| !metadata.is_file()) {
         return OpenOptions::new().write(true).open(&path)?.write_all(bytes);
     }
     let (part, file) = create_part(&path)?;
-    let written = { file }
-        .write_all(bytes)
-        .and_then(|()| fs::rename(&part, &path));
+    let mut file = file;
+    let permitted = match old {
+        // Before there is anything to read in it.
+        Some(metadata) => fs::set_permissions(part.path(), metadata.permissions()),
+        None => Ok(()),
+    };
+    let written = permitted.and_then(|()| file.write_all(bytes));
+    drop(file);
+    let written = written.and_then(|()| fs::rename(part.path(), &path));
     if written.is_err() {
         // The first error is reported; removing the temporary file may fail.
-        let _ = fs::remove_file(&part);
+        let _ = fs::remove_file(part.path());
     }
     written
 }
 
 /// Creates the temporary file: hidden, in the same folder, and always a new file, so that no
 /// existing file or link is overwritten.
-fn create_part(path: &Path) -> io::Result<(PathBuf, File)> {
+fn create_part(path: &Path) -> io::Result<(Part, File)> {
     const MOST_TRIES: u32 = 100;
     let mut tries = 0;
     loop {
         let mut name = std::ffi::OsString::from(".");
         name.push(path.file_name().unwrap_or_default());
-        name.push(format!(".{}.{tries}.part", std::process::id()));
-        let part = path.with_file_name(name);
-        match OpenOptions::new().write(true).create_new(true).open(&part) {
-            Ok(file) => return Ok((part, file)),
+        name.push(format!(".{}.{}.{tries}.part", host(), std::process::id()));
+        let part = Part::create(path.with_file_name(name), |part| {
+            OpenOptions::new().write(true).create_new(true).open(part)
+        });
+        match part {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists && tries < MOST_TRIES => {
                 tries += 1;
             }
-            Err(error) => return Err(error),
+            result => return result,
         }
     }
 }
 
-/// Removes temporary files that killed processes left in a folder. Those of processes that run
-/// stay; where it is unknown which ones run, all stay.
+/// Removes temporary files that killed processes of this host left in a folder. Those of processes
+/// that run stay, and so do those of other hosts, which may share the folder; where it is unknown
+/// which processes run, all stay.
 pub(crate) fn remove_abandoned(folder: &Path) {
     if !Path::new("/proc/self").exists() {
         return;
@@ -104,7 +179,7 @@ pub(crate) fn remove_abandoned(folder: &Path) {
     };
     for entry in entries.flatten() {
         let name = entry.file_name();
-        let process = name.to_str().and_then(process_of_part);
+        let process = name.to_str().and_then(|name| process_of_part(name, host()));
         let is_abandoned =
             process.is_some_and(|process| !Path::new("/proc").join(process).exists());
         if is_abandoned {
@@ -114,18 +189,55 @@ pub(crate) fn remove_abandoned(folder: &Path) {
     }
 }
 
-/// The process in the name of a temporary file: `.NAME.PROCESS.TRY.part`.
-fn process_of_part(name: &str) -> Option<&str> {
+/// The process in the name of a temporary file of this host: `.NAME.HOST.PROCESS.TRY.part`.
+fn process_of_part<'n>(name: &'n str, host: &str) -> Option<&'n str> {
     let name = name.strip_prefix('.')?.strip_suffix(".part")?;
     let mut parts = name.rsplit('.');
-    let (number, process) = (parts.next()?, parts.next()?);
+    let (number, process, of) = (parts.next()?, parts.next()?, parts.next()?);
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-    (is_number(number) && is_number(process) && parts.next().is_some()).then_some(process)
+    let is_part = is_number(number) && is_number(process) && of == host && parts.next().is_some();
+    is_part.then_some(process)
+}
+
+/// Tells hosts and containers apart, whose processes have the same numbers: a digest of the boot's
+/// name and of the namespace of processes.
+fn host() -> &'static str {
+    static HOST: LazyLock<String> = LazyLock::new(|| {
+        let mut bytes = fs::read("/proc/sys/kernel/random/boot_id").unwrap_or_default();
+        let space = fs::read_link("/proc/self/ns/pid").unwrap_or_default();
+        bytes.extend_from_slice(space.as_os_str().as_encoded_bytes());
+        format!("{:032x}", XxHash3_128::oneshot(&bytes))[..12].to_owned()
+    });
+    &HOST
 }
 
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::process_of_part;
+
+    #[test]
+    fn temporary_files_of_this_host_are_recognised() {
+        let process = |name| process_of_part(name, "0af3");
+        assert_eq!(process(".one.png.0af3.417.0.part"), Some("417"));
+        assert_eq!(process(".a.b.0af3.1.99.part"), Some("1"));
+        for other in [
+            ".one.png.77fe.417.0.part",
+            "one.png.0af3.417.0.part",
+            ".0af3.417.0.part",
+            ".one.png.0af3.x.0.part",
+            ".one.png.0af3.417..part",
+            ".one.png.0af3.417.0",
+            "notes.part",
+            ".part",
+        ] {
+            assert_eq!(process(other), None, "{other}");
+        }
     }
 }

@@ -210,9 +210,9 @@ impl From<std::ffi::OsString> for Destination {
     }
 }
 
-/// The path for messages.
+/// The path for messages, on one line.
 pub(crate) fn shown(path: &Path) -> String {
-    path.display().to_string()
+    crate::terminal::one_line(&path.to_string_lossy()).into_owned()
 }
 
 /// Formats of models.

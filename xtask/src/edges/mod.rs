@@ -197,6 +197,8 @@ const OUTSIDE: &[(&str, Users)] = &[
     ("bevy_mikktspace", Users::Only(&["estampe-renderer"])),
     // Files of a batch: their names, and whether they have changed.
     ("glob", Users::Only(&["estampe-cli"])),
+    // Interrupts: no temporary files stay.
+    ("signal-hook", Users::Only(&["estampe-cli"])),
     ("twox-hash", Users::Only(&["estampe-cli"])),
     // The data of tests.
     ("flate2", Users::Only(&["estampe-shader"])),

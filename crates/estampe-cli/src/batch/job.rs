@@ -138,6 +138,8 @@ impl Shared<'_> {
     ) -> Result<(), Failure> {
         let mut args = self.args.picture.clone();
         args.view = picture.view;
+        let destination = Destination::File(picture.output.clone());
+        render::check_output(&destination, model, &args)?;
         let bytes = render::drawn_bytes(
             model,
             &args,
@@ -152,7 +154,7 @@ impl Shared<'_> {
                 ))
             })?;
         }
-        output::write(&Destination::File(picture.output.clone()), &bytes)?;
+        output::write(&destination, &bytes)?;
         record::write(&picture.output, &bytes, sources);
         Ok(())
     }

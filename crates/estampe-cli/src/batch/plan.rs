@@ -4,10 +4,11 @@ use super::arguments::BatchArgs;
 use super::inputs::{self, Input};
 use super::template::Template;
 use crate::failure::Failure;
+use crate::output::Identity;
 use crate::values::{Destination, ViewName, shown};
 use clap::ValueEnum;
 use estampe_assets::image::ImageFormat;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 
 /// A model, and the pictures of it.
@@ -40,7 +41,10 @@ pub(super) fn jobs(args: &BatchArgs) -> Result<Vec<Job>, Failure> {
     }
     let mut jobs = Vec::new();
     let mut taken: HashMap<PathBuf, String> = HashMap::new();
-    for (index, input) in inputs::inputs(args)?.into_iter().enumerate() {
+    let inputs = inputs::inputs(args)?;
+    let models = inputs.iter().filter_map(|input| Identity::of(&input.path));
+    let models: HashSet<Identity> = models.collect();
+    for (index, input) in inputs.into_iter().enumerate() {
         let mut pictures = Vec::new();
         for &view in &views {
             let name = view.as_ref().and_then(ValueEnum::to_possible_value);
@@ -63,9 +67,10 @@ pub(super) fn jobs(args: &BatchArgs) -> Result<Vec<Job>, Failure> {
                     inputs::name(&input)
                 )));
             }
-            if output == input.path {
+            let is_model = |one: Identity| models.contains(&one);
+            if output == input.path || Identity::of(&output).is_some_and(is_model) {
                 return Err(Failure::Usage(format!(
-                    "{}: the picture would replace the model; choose another --output",
+                    "{}: the picture would replace a model; choose another --output",
                     shown(&output)
                 )));
             }

@@ -137,7 +137,7 @@ pub(super) fn report(outcomes: &[Outcome], counts: &Counts) -> Value {
         let view = view.and_then(ValueEnum::to_possible_value);
         json!({
             "input": outcome.input,
-            "output": shown(&outcome.picture.output),
+            "output": outcome.picture.output.to_string_lossy(),
             "view": view.as_ref().map(clap::builder::PossibleValue::get_name),
             "status": status,
             "error": error,

@@ -115,14 +115,13 @@ fn draw(
 
 /// Writes to standard output, or to standard error.
 fn write(text: &str, to_standard_error: bool) -> Result<(), Failure> {
-    let written = if to_standard_error {
-        io::stderr().lock().write_all(text.as_bytes())
-    } else {
-        io::stdout().lock().write_all(text.as_bytes())
-    };
+    if !to_standard_error {
+        return output::print(text);
+    }
+    let written = io::stderr().lock().write_all(text.as_bytes());
     written.map_err(|error| {
         Failure::Output(format!(
-            "standard output: {error}; check the program that reads it"
+            "standard error: {error}; check the program that reads it"
         ))
     })
 }

@@ -139,12 +139,10 @@ fn draw(
 
 /// Writes to standard output, or to standard error if a picture is on it.
 fn write(report: &str, what: &str, to_standard_error: bool) -> Result<(), Failure> {
-    let written = if to_standard_error {
-        io::stderr().lock().write_all(report.as_bytes())
-    } else {
-        let mut out = io::stdout().lock();
-        out.write_all(report.as_bytes()).and_then(|()| out.flush())
-    };
+    if !to_standard_error {
+        return output::print(report);
+    }
+    let written = io::stderr().lock().write_all(report.as_bytes());
     written.map_err(|error| {
         Failure::Output(format!(
             "{what}: {error}; check the program that reads standard output"

@@ -41,6 +41,7 @@ pub(crate) fn draw(
 ) -> Result<Drawn, Failure> {
     args.check()?;
     check_drawable(model)?;
+    check_output(output, model, args)?;
     let texture_start = Instant::now();
     let texture = texture_of(model, args)?;
     let texture_time = texture_start.elapsed();
@@ -75,6 +76,17 @@ pub(crate) fn draw(
         device,
         written,
     })
+}
+
+/// Refuses an output that is the model, one of its files, or a file of the options.
+pub(crate) fn check_output(
+    output: &Destination,
+    model: &Model,
+    args: &PictureArgs,
+) -> Result<(), Failure> {
+    let options = [args.texture.as_deref(), args.shader.file()];
+    let files = model.files.iter().map(std::path::PathBuf::as_path);
+    output::check_inputs(output, files.chain(options.into_iter().flatten()))
 }
 
 /// The bytes of a picture that a device draws.

@@ -18,7 +18,7 @@ mod surface_shader;
 
 pub(crate) use arguments::RenderArgs;
 pub(crate) use command::run;
-pub(crate) use draw::{STAGES, device, draw, drawn_bytes, image_format, prepare};
+pub(crate) use draw::{STAGES, check_output, device, draw, drawn_bytes, image_format, prepare};
 pub(crate) use picture::{PictureArgs, ReportArgs};
 pub(crate) use report::write as write_report;
 pub(crate) use report::{Report, counts, output_name, rounded_milliseconds};

@@ -78,7 +78,7 @@ impl Report<'_> {
             "model": self.model.name,
             "format": self.model.format.map(|format| format.name()),
             "output": {
-                "path": output_name(self.output),
+                "path": output_path(self.output),
                 "format": format!("{:?}", written.format).to_lowercase(),
                 "width": self.args.size.0,
                 "height": self.args.size.1,
@@ -205,17 +205,22 @@ pub(crate) fn write(
 /// Writes one object to standard output, or to standard error if the output goes to standard
 /// output.
 fn write_json(object: &Value, output: &Destination) -> Result<(), Failure> {
-    let written = if output.is_standard_output() {
-        writeln!(io::stderr(), "{object:#}")
-    } else {
-        let mut out = io::stdout().lock();
-        writeln!(out, "{object:#}").and_then(|()| out.flush())
-    };
-    written.map_err(|error| {
+    if !output.is_standard_output() {
+        return crate::output::print(&format!("{object:#}\n"));
+    }
+    writeln!(io::stderr(), "{object:#}").map_err(|error| {
         Failure::Output(format!(
             "the report: {error}; check the program that reads standard output"
         ))
     })
+}
+
+/// The output's path as it is, for programs.
+fn output_path(output: &Destination) -> String {
+    match output {
+        Destination::File(path) => path.to_string_lossy().into_owned(),
+        Destination::StandardOutput => output_name(output),
+    }
 }
 
 /// The output for messages.

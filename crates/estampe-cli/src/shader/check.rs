@@ -200,13 +200,7 @@ fn report(args: &CheckArgs, subject: &str, checked: &Checked) -> Result<u8, Fail
     let errors = checked.as_ref().err();
     if args.json {
         let object = errors.cloned().unwrap_or_default().to_json();
-        let mut out = io::stdout().lock();
-        let written = writeln!(out, "{object}").and_then(|()| out.flush());
-        written.map_err(|error| {
-            Failure::Output(format!(
-                "standard output: {error}; check the program that reads it"
-            ))
-        })?;
+        crate::output::print(&format!("{object}\n"))?;
     } else if let Some(errors) = errors {
         // If standard error is closed, only the exit code tells.
         let _ = writeln!(io::stderr(), "{errors}");

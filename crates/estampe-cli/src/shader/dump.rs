@@ -10,7 +10,6 @@ use estampe_ir::lanes::Kernel;
 use estampe_shader::front::{EntryPoint, Module};
 use estampe_shader::lower::lower;
 use estampe_x86::{Code, Isa, Tier};
-use std::io::{self, Write};
 use std::path::PathBuf;
 
 /// Writes what the compiler makes of a shader: lane IR, bytecode or machine code.
@@ -81,14 +80,7 @@ pub(crate) fn run(args: &DumpArgs) -> Result<(), Failure> {
         ));
     }
     let text = text(args, &file)?;
-    let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())
-        .and_then(|()| out.flush())
-        .map_err(|error| {
-            Failure::Output(format!(
-                "standard output: {error}; check the program that reads it"
-            ))
-        })
+    crate::output::print(&text)
 }
 
 fn text(args: &DumpArgs, file: &ShaderFile) -> Result<String, Failure> {

@@ -194,6 +194,7 @@ fn model(
     }
     let warnings = warnings(meshed.interruptions);
     Model {
+        files: Vec::new(),
         scene: Scene {
             meshes: vec![mesh],
             materials,

@@ -264,30 +264,12 @@ fn models_over_a_limit_end_alone() {
     }
 }
 
-/// What a killed process left is removed, and what others are writing stays.
-#[cfg(target_os = "linux")]
 #[test]
-fn temporary_files_of_killed_processes_are_removed() {
+fn a_picture_that_would_replace_another_model_is_an_error() {
     let folder = models();
-    fs::create_dir_all(folder.path("out")).expect("writable");
-    let own = format!("out/.one.png.{}.0.part", std::process::id());
-    // Beyond the greatest number of a process.
-    for name in [
-        "out/.one.png.99999999.0.part",
-        &own,
-        "out/notes.part",
-        "out/.a.part",
-    ] {
-        folder.with_file(name, "half");
-    }
-    assert_eq!(batch(&folder, "IN/a/one.obj -o OUT/{stem}.png").code, 0);
-    let own = own.strip_prefix("out/").expect("it begins so").to_owned();
-    let mut expected = vec![
-        ".a.part".to_owned(),
-        own,
-        "notes.part".to_owned(),
-        "one.png".to_owned(),
-    ];
-    expected.sort();
-    assert_eq!(pictures(&folder, "out"), expected);
+    // Its content shows the format.
+    folder.with_file("in/x.png", "ply\nformat ascii 1.0\nend_header\n");
+    let run = batch(&folder, "IN/a/one.obj IN/x.png -o IN/x.png");
+    assert_eq!(run.code, 2, "{}", run.err);
+    assert!(run.err.contains("would replace a model"), "{}", run.err);
 }

@@ -10,6 +10,7 @@ mod gltf;
 mod inspect;
 mod inspect_page;
 mod ladder;
+mod output;
 mod polygon_fill;
 mod render;
 mod render_page;

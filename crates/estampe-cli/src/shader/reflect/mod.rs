@@ -7,7 +7,6 @@ use super::source::{ShaderFile, SourceArgs, StageName};
 use crate::failure::Failure;
 use clap::Args;
 use estampe::{Device, DeviceDescriptor, ShaderStage};
-use std::io::{self, Write};
 use std::path::PathBuf;
 
 /// Describes a shader: entry points, inputs and outputs, bindings, uniforms, constants.
@@ -61,12 +60,5 @@ pub(crate) fn run(args: &ReflectArgs) -> Result<(), Failure> {
     } else {
         text::text(&module)
     };
-    let mut out = io::stdout().lock();
-    out.write_all(report.as_bytes())
-        .and_then(|()| out.flush())
-        .map_err(|error| {
-            Failure::Output(format!(
-                "the report: {error}; check the program that reads standard output"
-            ))
-        })
+    crate::output::print(&report)
 }

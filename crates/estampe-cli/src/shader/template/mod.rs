@@ -2,7 +2,6 @@
 
 use crate::failure::Failure;
 use clap::Args;
-use std::io::{self, Write};
 
 /// Writes a working shader for `estampe render --shader`.
 #[derive(Debug, Clone, Args)]
@@ -37,12 +36,5 @@ pub(crate) fn run(args: &TemplateArgs) -> Result<(), Failure> {
         TemplateLanguage::Wgsl => include_str!("surface.wgsl"),
         TemplateLanguage::Glsl => include_str!("surface.frag"),
     };
-    let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())
-        .and_then(|()| out.flush())
-        .map_err(|error| {
-            Failure::Output(format!(
-                "standard output: {error}; check the program that reads it"
-            ))
-        })
+    crate::output::print(text)
 }
