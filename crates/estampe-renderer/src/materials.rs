@@ -2,15 +2,17 @@
 
 use crate::frame::RenderError;
 use crate::options::{RenderOptions, Shading, SpecularModel};
+use crate::pbr_materials::images_of;
 use crate::shading::bump::BumpMap;
 use crate::shading::lighting::{Gloss, Highlight};
 use crate::surface_pipelines::{SurfaceAlpha, SurfaceStyle};
 use estampe::{
-    Device, SampledTexture, SamplerDescriptor, Texture, TextureDescriptor, TextureFormat,
+    Device, SampledTexture, SamplerDescriptor, Texture, TextureDescriptor, TextureError,
+    TextureFormat,
 };
-use estampe_scene::{AlphaMode, Image, Material, Mesh, Scene};
-use std::collections::HashMap;
+use estampe_scene::{AlphaMode, Image, Material, Mesh, Scene, Workers};
 use std::collections::hash_map::Entry;
+use std::collections::{BTreeSet, HashMap};
 
 /// Creates the styles of surfaces from materials.
 pub(crate) struct Materials<'a> {
@@ -34,6 +36,52 @@ impl<'a> Materials<'a> {
             options,
             device,
             textures: HashMap::new(),
+        }
+    }
+
+    /// Creates the textures of all surfaces by several threads; most of the time goes into their mip
+    /// levels.
+    pub(crate) fn create_textures(&mut self, workers: Workers) -> Result<(), RenderError> {
+        let scene = self.scene;
+        let with_uvs = scene.meshes.iter().filter(|mesh| !mesh.uvs.is_empty());
+        let used = with_uvs.flat_map(|mesh| &mesh.surfaces);
+        let used: BTreeSet<usize> = used.filter_map(|surface| surface.material).collect();
+        let materials = used.into_iter().filter_map(|at| scene.materials.get(at));
+        let mut keys = Vec::new();
+        for material in materials {
+            for (index, format) in self.images_of(material) {
+                if !keys.contains(&(index, format)) && index < scene.images.len() {
+                    keys.push((index, format));
+                }
+            }
+        }
+        // One is created as fast when it is first needed.
+        if keys.len() < 2 || workers.count() < 2 {
+            return Ok(());
+        }
+        let device = self.device;
+        let created = workers.map(keys, |(index, format)| {
+            let texture = with_levels(device, format, &scene.images[index]);
+            (index, format, texture)
+        });
+        for (index, format, texture) in created {
+            self.textures.insert((Some(index), format), texture?);
+        }
+        Ok(())
+    }
+
+    /// The images that surfaces of a material sample, with their formats.
+    fn images_of(&self, material: &Material) -> Vec<(usize, TextureFormat)> {
+        if !self.reads_textures() || self.options.texture.is_some() {
+            return Vec::new();
+        }
+        match &material.pbr {
+            Some(pbr) if self.options.shading == Shading::Pbr => images_of(pbr),
+            _ => {
+                let color = material.base_color_texture.map(|index| (index, COLORS));
+                let bump = material.bump_texture.map(|index| (index, NUMBERS));
+                color.into_iter().chain(bump).collect()
+            }
         }
     }
 
@@ -172,18 +220,21 @@ impl<'a> Materials<'a> {
     ) -> Result<SampledTexture, RenderError> {
         let texture = match self.textures.entry((key, format)) {
             Entry::Occupied(known) => known.into_mut(),
-            Entry::Vacant(unknown) => {
-                let descriptor = TextureDescriptor::new_2d(image.width, image.height, format);
-                let descriptor = descriptor.with_all_levels();
-                let texture = self
-                    .device
-                    .create_texture_with_data(&descriptor, &[&image.rgba])?;
-                unknown.insert(texture)
-            }
+            Entry::Vacant(unknown) => unknown.insert(with_levels(self.device, format, image)?),
         };
         let sampler = self.device.create_sampler(sampler)?;
         Ok(self.device.sampled_texture(&texture.view(), &sampler)?)
     }
+}
+
+/// The texture of an image with its mip levels.
+fn with_levels(
+    device: &Device,
+    format: TextureFormat,
+    image: &Image,
+) -> Result<Texture, TextureError> {
+    let descriptor = TextureDescriptor::new_2d(image.width, image.height, format);
+    device.create_texture_with_data(&descriptor.with_all_levels(), &[&image.rgba])
 }
 
 /// The nearest whole exponent, at least 1; readers keep exponents below 10,000.

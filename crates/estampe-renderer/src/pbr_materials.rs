@@ -155,6 +155,34 @@ impl Materials<'_> {
     }
 }
 
+/// The images of a material with their formats: colours, then numbers.
+pub(crate) fn images_of(pbr: &PbrMaterial) -> Vec<(usize, TextureFormat)> {
+    let colors = [
+        pbr.base_color_texture,
+        pbr.emissive_texture,
+        pbr.specular.and_then(|layer| layer.color_texture),
+        pbr.sheen.and_then(|sheen| sheen.color_texture),
+    ];
+    let normal = |normals: Option<NormalTexture>| normals.map(|normals| normals.texture);
+    let numbers = [
+        normal(pbr.normal_texture),
+        pbr.metallic_roughness_texture,
+        pbr.occlusion_texture,
+        pbr.specular.and_then(|layer| layer.texture),
+        pbr.sheen.and_then(|sheen| sheen.roughness_texture),
+        pbr.clearcoat.and_then(|coat| coat.texture),
+        pbr.clearcoat.and_then(|coat| coat.roughness_texture),
+        pbr.clearcoat.and_then(|coat| normal(coat.normal_texture)),
+    ];
+    let index = |texture: Option<TextureRef>| texture.map(|texture| texture.image);
+    let colors = colors.into_iter().filter_map(index);
+    let numbers = numbers.into_iter().filter_map(index);
+    let colors = colors.map(|index| (index, COLORS));
+    colors
+        .chain(numbers.map(|index| (index, NUMBERS)))
+        .collect()
+}
+
 /// A dielectric of the material's colours, whose highlight is as wide as that of the exponent: α =
 /// √(2 ÷ (e + 2)).
 fn of_phong(material: &Material) -> PbrMaterial {

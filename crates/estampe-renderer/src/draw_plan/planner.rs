@@ -45,6 +45,7 @@ impl Planner<'_> {
     /// Plans the draws of the whole scene.
     pub(crate) fn plan(&self) -> Result<DrawPlan, RenderError> {
         let mut materials = Materials::new(self.scene, self.options, self.device);
+        materials.create_textures(self.workers)?;
         let mut builder = DrawPlanBuilder::default();
         for mesh in &self.scene.meshes {
             let made = self.normal_map_uv_set(mesh);
