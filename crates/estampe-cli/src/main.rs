@@ -74,6 +74,8 @@ enum Command {
     Render(Box<render::RenderArgs>),
     // Boxed, because it has the options of a picture.
     Batch(Box<batch::BatchArgs>),
+    /// Prints the JSON Schema of the job files of `estampe batch`
+    Schema,
     Shape(Box<shape::ShapeArgs>),
     Info(describe::InfoArgs),
     // Boxed, because it has the options of a picture.
@@ -107,6 +109,10 @@ fn main() -> ExitCode {
             Ok(code) => code,
             Err(failure) => report("batch", None, Err(failure)),
         },
+        Command::Schema => {
+            let schema = format!("{:#}\n", batch::schema());
+            report("schema", None, output::print(&schema))
+        }
         Command::Shape(args) => report(
             "shape",
             args.report.json.then_some(args.output.is_standard_output()),

@@ -181,7 +181,12 @@ const OUTSIDE: &[(&str, Users)] = &[
     ("indicatif", Users::Only(&["estampe-cli", "estampe-bench"])),
     (
         "serde",
-        Users::Only(&["estampe-assets", "estampe-bench", "estampe-tests"]),
+        Users::Only(&[
+            "estampe-assets",
+            "estampe-cli",
+            "estampe-bench",
+            "estampe-tests",
+        ]),
     ),
     (
         "serde_json",
@@ -209,7 +214,7 @@ const OUTSIDE: &[(&str, Users)] = &[
     ("pulldown-cmark", Users::Only(&["xtask"])),
     ("rustc-demangle", Users::Only(&["xtask"])),
     ("spdx", Users::Only(&["xtask"])),
-    ("toml", Users::Only(&["xtask"])),
+    ("toml", Users::Only(&["estampe-cli", "xtask"])),
     // Programs that must not compile.
     ("trybuild", Users::Only(&["estampe"])),
     ("libm", Users::Any),

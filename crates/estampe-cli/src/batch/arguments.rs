@@ -15,6 +15,7 @@ Examples:
   estampe batch 'models/*.glb' -o 'thumbnails/{stem}.png' --size 256x256
   estampe batch 'models/**/*.stl' -o 'out/{dir}/{stem}-{view}.jpg' --views front,iso
   find . -name '*.obj' | estampe batch - -o 'out/{stem}.png'
+  estampe batch --job-file jobs.toml
   estampe batch 'models/*' -o 'out/{stem}.png' --shard 3/64 --report report.json
 
 Inputs are files, globs (* ? [a-z], and ** for folders) or - for a list on standard input, one path a line. Globs are \
@@ -34,12 +35,21 @@ The report has pictures [{input, output, view or null, status (drawn, up-to-date
 error or null, milliseconds, warnings}] and counts {drawn, up_to_date, failed, limit, cancelled}, in sorted order.")]
 pub(crate) struct BatchArgs {
     /// The models: files, globs, or - for a list on standard input
-    #[arg(value_name = "INPUT", required = true)]
+    #[arg(value_name = "INPUT", required_unless_present = "job_file")]
     pub(crate) inputs: Vec<OsString>,
 
     /// The template of the pictures' names, such as 'out/{stem}.png'
-    #[arg(short, long, value_name = "TEMPLATE")]
-    pub(crate) output: String,
+    #[arg(
+        short,
+        long,
+        value_name = "TEMPLATE",
+        required_unless_present = "job_file"
+    )]
+    pub(crate) output: Option<String>,
+
+    /// Jobs with options of their own, in a TOML or JSON file; `estampe schema` prints its schema
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["inputs", "output", "views", "format"])]
+    pub(crate) job_file: Option<PathBuf>,
 
     /// Draw each model in these views: front,iso,… (its {view} must be in the template)
     #[arg(long, value_name = "NAMES", value_enum, value_delimiter = ',', num_args = 1..)]

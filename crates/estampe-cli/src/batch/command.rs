@@ -2,11 +2,9 @@
 
 use super::arguments::BatchArgs;
 use super::job::Shared;
-use super::record::digest;
 use super::summary::{Counts, Lines, report};
 use super::{plan, pool};
 use crate::failure::{DONE, Failure};
-use crate::input::read_file;
 use crate::output;
 use crate::values::Destination;
 use estampe_assets::Limits;
@@ -21,7 +19,6 @@ const INCOMPLETE: u8 = 1;
 /// Runs the command, and returns its exit code.
 pub(crate) fn run(args: &BatchArgs) -> Result<u8, Failure> {
     let start = Instant::now();
-    args.picture.check()?;
     let jobs = plan::jobs(args)?;
     let report_to = args.report.as_ref().map(|path| {
         if path.as_os_str() == "-" {
@@ -40,7 +37,6 @@ pub(crate) fn run(args: &BatchArgs) -> Result<u8, Failure> {
     }
     let shared = Shared {
         args,
-        options: options_text(args)?,
         limits: Limits {
             max_triangles: args.max_triangles,
             max_total_image_pixels: args.max_pixels,
@@ -69,29 +65,4 @@ pub(crate) fn run(args: &BatchArgs) -> Result<u8, Failure> {
     } else {
         INCOMPLETE
     })
-}
-
-/// Everything beside the model that a picture depends on. Options that change no byte (threads,
-/// SIMD level) are not in it.
-fn options_text(args: &BatchArgs) -> Result<String, Failure> {
-    let mut picture = args.picture.clone();
-    picture.threads = None;
-    picture.simd = estampe::Level::best();
-    picture.view = None;
-    let digest_of = |path: Option<&Path>| -> Result<String, Failure> {
-        match path {
-            Some(path) => Ok(digest(&read_file(path, &Limits::default())?)),
-            None => Ok(String::new()),
-        }
-    };
-    Ok(format!(
-        "{} {} {picture:?} {:?} {:?} {} {} {}",
-        env!("CARGO_PKG_VERSION"),
-        estampe_renderer::PICTURE_VERSION,
-        args.choice,
-        args.format,
-        digest_of(picture.texture.as_deref())?,
-        digest_of(picture.shader.file())?,
-        digest_of(picture.pbr.panorama())?,
-    ))
 }

@@ -39,8 +39,6 @@ pub(super) struct Outcome {
 /// What all jobs share.
 pub(super) struct Shared<'a> {
     pub(super) args: &'a BatchArgs,
-    /// The digest of the options and versions, without the view.
-    pub(super) options: String,
     pub(super) limits: Limits,
 }
 
@@ -84,7 +82,7 @@ impl Shared<'_> {
         let folder = || Folder::of_model(&job.input.path);
         let max_bytes = self.limits.max_file_bytes;
         let is_current = |picture: &Picture| {
-            let options = self.options_of(picture);
+            let options = options_of(job, picture);
             !self.args.force
                 && record::is_up_to_date(picture, (&options, &model_digest), &folder(), max_bytes)
         };
@@ -93,7 +91,7 @@ impl Shared<'_> {
             return (vec![Status::UpToDate; current.len()], Vec::new());
         }
         let named = NamedFiles::new(folder());
-        let args = self.args;
+        let args = &job.look.options;
         let chosen = args.choice.at(args.picture.shader.time);
         let model = Model::of_bytes(
             (&job.input.path, &bytes),
@@ -114,11 +112,11 @@ impl Shared<'_> {
                     return Status::UpToDate;
                 }
                 let sources = Sources {
-                    options: self.options_of(picture),
+                    options: options_of(job, picture),
                     model: model_digest.clone(),
                     named: named.digests(),
                 };
-                match self.draw(&model, picture, &sources, device) {
+                match draw(&model, (job, picture), &sources, device) {
                     Ok(()) => Status::Drawn,
                     Err(failure) => status_of(failure),
                 }
@@ -127,41 +125,37 @@ impl Shared<'_> {
         let warnings = model.warnings.iter().map(ToString::to_string).collect();
         (statuses, warnings)
     }
+}
 
-    /// Draws and writes a picture, then its record.
-    fn draw(
-        &self,
-        model: &Model,
-        picture: &Picture,
-        sources: &Sources,
-        device: &Device,
-    ) -> Result<(), Failure> {
-        let mut args = self.args.picture.clone();
-        args.view = picture.view;
-        let destination = Destination::File(picture.output.clone());
-        render::check_output(&destination, model, &args)?;
-        let bytes = render::drawn_bytes(
-            model,
-            &args,
-            (ViewDirection::default(), picture.format),
-            device,
-        )?;
-        if let Some(folder) = picture.output.parent() {
-            std::fs::create_dir_all(folder).map_err(|error| {
-                Failure::Output(format!(
-                    "{}: the folder cannot be made: {error}; check the path and its permissions",
-                    shown(folder)
-                ))
-            })?;
-        }
-        output::write(&destination, &bytes)?;
-        record::write(&picture.output, &bytes, sources);
-        Ok(())
+/// Draws and writes a picture, then its record.
+fn draw(
+    model: &Model,
+    (job, picture): (&Job, &Picture),
+    sources: &Sources,
+    device: &Device,
+) -> Result<(), Failure> {
+    let mut args = job.look.options.picture.clone();
+    args.view = picture.view;
+    let destination = Destination::File(picture.output.clone());
+    render::check_output(&destination, model, &args)?;
+    let look = (ViewDirection::default(), picture.format);
+    let bytes = render::drawn_bytes(model, &args, look, device)?;
+    if let Some(folder) = picture.output.parent() {
+        std::fs::create_dir_all(folder).map_err(|error| {
+            Failure::Output(format!(
+                "{}: the folder cannot be made: {error}; check the path and its permissions",
+                shown(folder)
+            ))
+        })?;
     }
+    output::write(&destination, &bytes)?;
+    record::write(&picture.output, &bytes, sources);
+    Ok(())
+}
 
-    fn options_of(&self, picture: &Picture) -> String {
-        digest(format!("{} {:?}", self.options, picture.view).as_bytes())
-    }
+/// The digest of the options and versions.
+fn options_of(job: &Job, picture: &Picture) -> String {
+    digest(format!("{} {:?}", job.look.identity, picture.view).as_bytes())
 }
 
 fn status_of(failure: Failure) -> Status {

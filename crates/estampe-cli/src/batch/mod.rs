@@ -1,7 +1,7 @@
 //! `estampe batch`: draws many models in one process.
 //!
 //! ```text
-//! arguments -> inputs (globs, lists) -> plan (template, views, shard)
+//! arguments -> inputs (globs, lists) or job_file -> plan (template, views, shard)
 //!           -> pool: record (up to date?) -> job (read, draw, encode, write) -> record
 //!           -> summary, report
 //! ```
@@ -13,6 +13,9 @@ mod arguments;
 mod command;
 mod inputs;
 mod job;
+mod job_file;
+mod look;
+mod option_table;
 mod plan;
 mod pool;
 mod record;
@@ -21,3 +24,4 @@ mod template;
 
 pub(crate) use arguments::BatchArgs;
 pub(crate) use command::run;
+pub(crate) use option_table::schema;

@@ -2,20 +2,24 @@
 
 use super::arguments::BatchArgs;
 use super::inputs::{self, Input};
+use super::job_file;
+use super::look::{JobOptions, Look};
 use super::template::Template;
 use crate::failure::Failure;
 use crate::output::Identity;
 use crate::values::{Destination, ViewName, shown};
-use clap::ValueEnum;
+use clap::{Parser, ValueEnum};
 use estampe_assets::image::ImageFormat;
 use std::collections::{HashMap, HashSet};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A model, and the pictures of it.
 #[derive(Debug, Clone)]
 pub(super) struct Job {
     pub(super) input: Input,
     pub(super) pictures: Vec<Picture>,
+    pub(super) look: Arc<Look>,
 }
 
 /// A picture of a model.
@@ -26,36 +30,116 @@ pub(super) struct Picture {
     pub(super) format: ImageFormat,
 }
 
-/// The jobs of this shard in the order of their inputs.
+/// The jobs of this shard in the order of their inputs, or of the job file.
 pub(super) fn jobs(args: &BatchArgs) -> Result<Vec<Job>, Failure> {
-    let template = Template::parse(&args.output)
+    let drafts = match &args.job_file {
+        Some(path) => of_file(args, path)?,
+        None => of_arguments(args)?,
+    };
+    let models = drafts.iter();
+    let models = models.filter_map(|draft| Identity::of(&draft.input.path));
+    let models: HashSet<Identity> = models.collect();
+    let mut taken: HashMap<PathBuf, String> = HashMap::new();
+    let mut jobs = Vec::new();
+    for (index, draft) in drafts.into_iter().enumerate() {
+        let job = draft.job(index, &models, &mut taken)?;
+        let is_ours = args
+            .shard
+            .is_none_or(|shard| index % shard.count as usize == shard.number as usize - 1);
+        if is_ours {
+            jobs.push(job);
+        }
+    }
+    Ok(jobs)
+}
+
+/// A job before its pictures have names.
+struct Draft {
+    input: Input,
+    template: Arc<Template>,
+    views: Arc<[Option<ViewName>]>,
+    look: Arc<Look>,
+}
+
+fn of_arguments(args: &BatchArgs) -> Result<Vec<Draft>, Failure> {
+    let template = Template::parse(args.output.as_deref().unwrap_or_default())
         .map_err(|problem| Failure::Usage(format!("--output {problem}")))?;
     if args.views.len() > 1 && !template.has_view() {
         return Err(Failure::Usage(
             "--views draws several pictures of each model; add {view} to the template".to_owned(),
         ));
     }
-    let mut views: Vec<Option<ViewName>> = args.views.iter().copied().map(Some).collect();
-    if views.is_empty() {
-        views.push(args.picture.view);
+    let template = Arc::new(template);
+    let views: Arc<[_]> = if args.views.is_empty() {
+        [args.picture.view].into()
+    } else {
+        args.views.iter().copied().map(Some).collect()
+    };
+    let look = Arc::new(Look::new(JobOptions {
+        choice: args.choice.clone(),
+        picture: args.picture.clone(),
+        format: args.format,
+    })?);
+    let inputs = inputs::inputs(args)?.into_iter();
+    let drafts = inputs.map(|input| Draft {
+        input,
+        template: template.clone(),
+        views: views.clone(),
+        look: look.clone(),
+    });
+    Ok(drafts.collect())
+}
+
+fn of_file(args: &BatchArgs, path: &Path) -> Result<Vec<Draft>, Failure> {
+    let mut unset =
+        JobOptions::try_parse_from([""; 0]).map_err(|error| Failure::Usage(error.to_string()))?;
+    unset.picture.threads = args.picture.threads;
+    unset.picture.simd = args.picture.simd;
+    let given = format!("{:?} {:?}", args.picture, args.choice);
+    if given != format!("{:?} {:?}", unset.picture, unset.choice) {
+        return Err(Failure::Usage(
+            "options of pictures beside --job-file have no effect; write them into its table options"
+                .to_owned(),
+        ));
     }
-    let mut jobs = Vec::new();
-    let mut taken: HashMap<PathBuf, String> = HashMap::new();
-    let inputs = inputs::inputs(args)?;
-    let models = inputs.iter().filter_map(|input| Identity::of(&input.path));
-    let models: HashSet<Identity> = models.collect();
-    for (index, input) in inputs.into_iter().enumerate() {
+    let jobs = job_file::read(path)?.into_iter();
+    jobs.map(|job| {
+        let template = Template::parse(&job.output)
+            .map_err(|problem| Failure::Usage(format!("{}: output {problem}", shown(path))))?;
+        let base = job.input.parent().unwrap_or(Path::new("")).to_owned();
+        Ok(Draft {
+            input: Input {
+                path: job.input,
+                base,
+            },
+            template: Arc::new(template),
+            views: [job.look.options.picture.view].into(),
+            look: job.look,
+        })
+    })
+    .collect()
+}
+
+impl Draft {
+    /// The job with the names of its pictures, none of which is taken or a model.
+    fn job(
+        self,
+        index: usize,
+        models: &HashSet<Identity>,
+        taken: &mut HashMap<PathBuf, String>,
+    ) -> Result<Job, Failure> {
+        let input = self.input;
         let mut pictures = Vec::new();
-        for &view in &views {
+        for &view in self.views.iter() {
             let name = view.as_ref().and_then(ValueEnum::to_possible_value);
             let name = name.as_ref().map(clap::builder::PossibleValue::get_name);
-            let output = template.name(&input, index, name);
+            let output = self.template.name(&input, index, name);
             let format = Destination::File(output.clone()).image_format();
             let Some(format) = format else {
                 return Err(Failure::Usage(format!(
                     "--output {}: the name does not show the image's format; end it with .png, \
                      .jpg or .tga",
-                    args.output
+                    shown(&output)
                 )));
             };
             let before = taken.insert(output.clone(), inputs::name(&input));
@@ -80,12 +164,10 @@ pub(super) fn jobs(args: &BatchArgs) -> Result<Vec<Job>, Failure> {
                 format,
             });
         }
-        let is_ours = args
-            .shard
-            .is_none_or(|shard| index % shard.count as usize == shard.number as usize - 1);
-        if is_ours {
-            jobs.push(Job { input, pictures });
-        }
+        Ok(Job {
+            input,
+            pictures,
+            look: self.look,
+        })
     }
-    Ok(jobs)
 }
