@@ -2,7 +2,7 @@
 
 use estampe_types::shader::GeometryPrimitive;
 use estampe_types::state::PrimitiveTopology;
-use estampe_types::{BindingType, ShaderError, TextureFormat};
+use estampe_types::{BindingType, SampleType, ShaderError, TextureFormat};
 
 /// Why a pipeline was refused: the rule that its descriptor breaks.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -84,6 +84,20 @@ pub enum PipelineError {
         /// The index of the colour target.
         index: usize,
         /// Its format.
+        format: TextureFormat,
+    },
+    /// The shader writes other numbers than a colour target holds.
+    #[error(
+        "the shader writes {} at location {index}, and colour target {index} has the format {}, \
+         which holds {}: give the output or the target the other's type",
+        numbers(*shader), format.name(), numbers(format.sample_type())
+    )]
+    ColorType {
+        /// The index of the colour target, which is the location of the shader's output.
+        index: usize,
+        /// The type of the numbers that the shader writes.
+        shader: SampleType,
+        /// The format of the target.
         format: TextureFormat,
     },
     /// Blending of integers.
@@ -234,4 +248,14 @@ pub enum PipelineError {
          vertex shader in `program`"
     )]
     VertexProgramUnused,
+}
+
+/// The name of a type of numbers in a sentence.
+fn numbers(of: SampleType) -> &'static str {
+    match of {
+        SampleType::Float => "floats (f32)",
+        SampleType::Uint => "unsigned integers (u32)",
+        SampleType::Sint => "signed integers (i32)",
+        SampleType::Depth => "depths",
+    }
 }

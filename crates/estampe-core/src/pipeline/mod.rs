@@ -287,6 +287,15 @@ fn check_targets(
         if !format.is_renderable() {
             return Err(PipelineError::NotRenderable { index, format });
         }
+        if let Some(&Some(shader)) = interface.color_types.get(index)
+            && shader != format.sample_type()
+        {
+            return Err(PipelineError::ColorType {
+                index,
+                shader,
+                format,
+            });
+        }
         let Some(blend) = &target.blend else {
             continue;
         };

@@ -8,8 +8,15 @@ use crate::program::VaryingSlot;
 use estampe_ir::Value;
 use estampe_ir::interface::{BufferSlot, Input, Output, Stage};
 use estampe_ir::op::Binary;
+use estampe_types::SampleType;
 use estampe_types::shader::{Interpolation, Sampling};
-use naga::{AddressSpace, Binding, BuiltIn, EntryPoint, Handle, Module, StorageAccess, TypeInner};
+use naga::{
+    AddressSpace, Binding, BuiltIn, EntryPoint, Handle, Module, ScalarKind, StorageAccess,
+    TypeInner,
+};
+
+/// The largest location, far more than any limit of a device.
+const MAX_LOCATION: u32 = 255;
 
 impl<'a> Lowering<'a> {
     pub(super) fn entry_point(
@@ -39,7 +46,8 @@ impl<'a> Lowering<'a> {
         Ok(())
     }
 
-    /// Colours of fewer than four components have zeros and an alpha of 1 for the others.
+    /// Colours of fewer than four components have zeros and an alpha of 1 for the others, as
+    /// numbers of their type.
     fn fill_colors(&mut self) {
         let colors = self.outputs.iter().filter_map(|(output, _)| match output {
             Output::Color { target, .. } => Some(*target),
@@ -50,8 +58,12 @@ impl<'a> Lowering<'a> {
             for component in 0..4 {
                 let output = Output::Color { target, component };
                 if self.outputs.iter().all(|(one, _)| *one != output) {
-                    let number = if component == 3 { 1.0 } else { 0.0 };
-                    let value = self.builder.float(number);
+                    let is_float = self.color_types[target as usize] == Some(SampleType::Float);
+                    let value = match (component, is_float) {
+                        (3, true) => self.builder.float(1.0),
+                        (3, false) => self.builder.word(1),
+                        _ => self.builder.word(0),
+                    };
                     self.outputs.push((output, value));
                 }
             }
@@ -143,6 +155,7 @@ impl<'a> Lowering<'a> {
             }
             Some(Binding::BuiltIn(built_in)) => values.extend(self.built_in(*built_in)?),
             Some(Binding::Location { location, .. }) => {
+                check_location(*location)?;
                 let scalars = scalars_of(module, ty)?;
                 let count = components(module, ty)?;
                 let is_vertex = self.builder.stage() == Stage::Vertex;
@@ -272,11 +285,13 @@ impl<'a> Lowering<'a> {
                 blend_src,
                 ..
             }) => {
+                check_location(*location)?;
                 let count = components(module, ty)?;
                 let is_vertex = self.builder.stage() == Stage::Vertex;
                 let first = if is_vertex {
                     self.varying(*location, count, binding)
                 } else {
+                    self.color_type(*location, ty);
                     0
                 };
                 for component in 0..count {
@@ -295,6 +310,28 @@ impl<'a> Lowering<'a> {
         }
         Ok(())
     }
+
+    /// Notes the type of the numbers of a colour.
+    fn color_type(&mut self, location: u32, ty: Handle<naga::Type>) {
+        let kind = match self.module.types[ty].inner.scalar_kind() {
+            Some(ScalarKind::Uint) => SampleType::Uint,
+            Some(ScalarKind::Sint) => SampleType::Sint,
+            _ => SampleType::Float,
+        };
+        let at = location as usize;
+        if self.color_types.len() <= at {
+            self.color_types.resize(at + 1, None);
+        }
+        self.color_types[at] = Some(kind);
+    }
+}
+
+/// Refuses large locations: lists by location must stay short, whatever the text says.
+fn check_location(location: u32) -> Lowered<()> {
+    if location > MAX_LOCATION {
+        return Err(LowerError::Unsupported("locations above 255"));
+    }
+    Ok(())
 }
 
 /// The number of 32-bit components of an input or output. Attributes, varyings and targets have no

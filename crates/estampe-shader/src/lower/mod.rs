@@ -38,6 +38,7 @@ use crate::program::{StageSource, VaryingSlot};
 use estampe_ir::Value;
 use estampe_ir::interface::{Output, Stage};
 use estampe_ir::tree::{Builder, passes};
+use estampe_types::SampleType;
 use naga::valid::ModuleInfo;
 use naga::{Function, GlobalVariable, Handle, Module, ShaderStage};
 use pointer::Pointer;
@@ -106,6 +107,7 @@ pub fn lower(
         cover: 0,
         calls: 0,
         varyings: Vec::new(),
+        color_types: Vec::new(),
         outputs: Vec::new(),
         immediate_size: 0,
     };
@@ -121,6 +123,7 @@ pub fn lower(
     Ok(StageSource {
         tree,
         varyings: lowering.varyings,
+        color_types: lowering.color_types,
         bindings,
         immediate_size: lowering.immediate_size,
     })
@@ -139,6 +142,8 @@ struct Lowering<'a> {
     /// The calls that are being inlined.
     calls: usize,
     varyings: Vec<VaryingSlot>,
+    /// The type of each colour, by location.
+    color_types: Vec<Option<SampleType>>,
     outputs: Vec<(Output, Value)>,
     /// The bytes of the immediates up to the last one that is read.
     immediate_size: u32,

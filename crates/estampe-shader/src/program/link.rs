@@ -195,6 +195,7 @@ pub(super) fn interface(
         _ => None,
     });
     interface.color_targets = targets.max().unwrap_or(0);
+    interface.color_types.clone_from(&fragment.color_types);
     interface.dual_source = outputs
         .iter()
         .any(|output| matches!(output, Output::SecondColor(_)));

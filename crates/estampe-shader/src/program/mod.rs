@@ -22,7 +22,8 @@ use estampe_ir::tree::{Tree, passes};
 use estampe_simd::Level;
 use estampe_types::shader::StoppedBatches;
 use estampe_types::{
-    BindGroupLayout, BindGroupLayoutEntry, Bindings, FragmentBatch, Interface, Program, VertexBatch,
+    BindGroupLayout, BindGroupLayoutEntry, Bindings, FragmentBatch, Interface, Program, SampleType,
+    VertexBatch,
 };
 use facts::Facts;
 use link::Links;
@@ -35,6 +36,9 @@ pub struct StageSource {
     pub tree: Tree,
     /// The varyings that it writes or reads.
     pub varyings: Vec<VaryingSlot>,
+    /// The type of the numbers that it writes to each colour target, by location; empty but in
+    /// fragment shaders.
+    pub color_types: Vec<Option<SampleType>>,
     /// The bind groups and entries that it uses.
     pub bindings: Vec<(u32, BindGroupLayoutEntry)>,
     /// The bytes of the immediates up to the last one that it reads.

@@ -4,6 +4,7 @@ use estampe_ir::interface::Stage;
 use estampe_shader::front::{Module, Options, Source, load, load_pair};
 use estampe_shader::lower::lower;
 use estampe_shader::program::{LinkError, StageSource, TextCompute, TextProgram};
+use estampe_types::{Program, SampleType};
 
 /// A vertex shader, a fragment shader, and what is said of them.
 const PAIRS: &[(&str, &str, &str)] = &[
@@ -170,4 +171,59 @@ fn what_is_not_lowered_is_told() {
         open.to_string(),
         "values of arrays of unknown size are not supported yet"
     );
+}
+
+/// The types that a program tells of its colours, by location.
+#[track_caller]
+fn color_types(fragment: &str) -> Vec<Option<SampleType>> {
+    let text =
+        format!("{fragment}\n@vertex fn v() -> @builtin(position) vec4f {{ return vec4f(); }}");
+    let (vertex, fragment) = (lowered(&text, 1), lowered(&text, 0));
+    let program = TextProgram::new(&vertex, Some(&fragment), u64::MAX).expect("they fit");
+    program.interface().color_types.clone()
+}
+
+#[test]
+fn the_types_of_colors_are_told_by_location() {
+    use SampleType::{Float, Sint, Uint};
+    assert_eq!(
+        color_types("@fragment fn f() -> @location(0) vec4f { return vec4f(); }"),
+        [Some(Float)]
+    );
+    assert_eq!(
+        color_types(
+            "struct Colors { @location(3) a: vec2i, @location(0) b: u32, @location(2) c: f32 }
+            @fragment fn f() -> Colors { return Colors(); }"
+        ),
+        [Some(Uint), None, Some(Float), Some(Sint)]
+    );
+    assert_eq!(
+        color_types("enable f16; @fragment fn f() -> @location(0) vec4h { return vec4h(); }"),
+        [Some(Float)]
+    );
+    assert_eq!(color_types("@fragment fn f() { }"), []);
+}
+
+/// A list by location must not be as long as a hostile text says.
+#[test]
+fn large_locations_are_refused() {
+    for (text, is_right) in [
+        ("@fragment fn f() -> @location(255) u32 { return 1; }", true),
+        (
+            "@fragment fn f() -> @location(256) u32 { return 1; }",
+            false,
+        ),
+        ("@fragment fn f(@location(1000000) a: f32) { }", false),
+        (
+            "@vertex fn v(@location(256) a: f32) -> @builtin(position) vec4f { return vec4f(a); }",
+            false,
+        ),
+    ] {
+        let module = wgsl(text);
+        let said = lower(&module.module, &module.info, 0)
+            .err()
+            .map(|error| error.to_string());
+        let refusal = "locations above 255 are not supported yet";
+        assert_eq!(said.as_deref(), (!is_right).then_some(refusal), "{text}");
+    }
 }

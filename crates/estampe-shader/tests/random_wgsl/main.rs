@@ -17,6 +17,8 @@ use estampe_simd::{LANES, Level, Packet};
 use estampe_x86::{Code, Isa, Scratch, Tier};
 use evaluate::Seen;
 use fastrand::Rng;
+use std::ops::Range;
+use std::time::{Duration, Instant};
 
 /// Two run together where code runs pairs, and one alone.
 const PACKETS: usize = 3;
@@ -194,11 +196,45 @@ fn random_programs_give_what_their_statements_mean() {
     assert!(counts.iter().all(|count| *count > 300), "{seen:?}");
 }
 
+/// Seconds between two lines of progress.
+const REPORT: Duration = Duration::from_secs(5);
+
+/// `RANDOM_WGSL=FIRST..END` chooses which of the programs run, so that processes can share them.
+/// Lines of progress are printed with `--nocapture`.
 #[test]
-#[ignore = "takes minutes: a hundred thousand programs"]
+#[ignore = "takes a quarter of an hour in a release build: a hundred thousand programs"]
 fn random_programs_give_what_their_statements_mean_at_length() {
+    let range = std::env::var("RANDOM_WGSL").unwrap_or_else(|_| "0..100000".to_owned());
+    let range = range_of(&range).expect("RANDOM_WGSL is a range of numbers, as in 0..50000");
     let mut seen = Seen::default();
-    for seed in 0..100_000 {
-        check(1 << 32 | seed, &mut seen);
+    let began = Instant::now();
+    let mut reported = began;
+    for number in range.clone() {
+        check(1 << 32 | u64::from(number), &mut seen);
+        if reported.elapsed() >= REPORT {
+            reported = Instant::now();
+            report(number + 1 - range.start, range.len(), began.elapsed());
+        }
+    }
+    report(range.end - range.start, range.len(), began.elapsed());
+    assert!(seen.calls > 0, "{seen:?}");
+}
+
+fn report(done: u32, of: usize, elapsed: Duration) {
+    eprintln!("{done} of {of} programs, {} s", elapsed.as_secs());
+}
+
+/// The range that is written `FIRST..END`, if it is one and is not empty.
+fn range_of(text: &str) -> Option<Range<u32>> {
+    let (first, end) = text.split_once("..")?;
+    let range = first.trim().parse().ok()?..end.trim().parse().ok()?;
+    (range.start < range.end).then_some(range)
+}
+
+#[test]
+fn ranges_are_read() {
+    assert_eq!(range_of("20..30"), Some(20..30));
+    for wrong in ["", "20", "30..30", "30..20", "a..b", "0..4294967296"] {
+        assert_eq!(range_of(wrong), None, "{wrong}");
     }
 }

@@ -1,5 +1,7 @@
 //! The interface of a program: everything that the pipeline must know about its inputs and outputs.
 
+use crate::SampleType;
+
 /// The interpolation of a varying over its primitive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Interpolation {
@@ -54,6 +56,10 @@ pub struct Interface {
     pub sampling: Vec<Sampling>,
     /// Number of colour targets that fragments write.
     pub color_targets: usize,
+    /// Type of the numbers that fragments write to each colour target: a target's format must have
+    /// the same. `None`, and targets beyond the end of the list, fit every format: no colour is
+    /// written there, or by a shader in Rust, whose integers are the bits of floats.
+    pub color_types: Vec<Option<SampleType>>,
     /// True if fragments may be discarded.
     pub discards: bool,
     /// Depth that fragments write.

@@ -3,7 +3,10 @@
 use crate::support::Images;
 use estampe::shader::{FragmentBatch, Interface, VertexBatch};
 use estampe::state::BlendState;
-use estampe::{Bindings, Device, DeviceDescriptor, Draw, Level, Program, RenderPipelineDescriptor};
+use estampe::{
+    Bindings, Device, DeviceDescriptor, Draw, Level, Program, RenderPipelineDescriptor, SampleType,
+    TextureFormat,
+};
 use std::sync::Arc;
 
 #[derive(Debug)]
@@ -62,4 +65,54 @@ fn a_false_passthrough_claim_has_no_effect() {
             );
         }
     }
+}
+
+/// What a pipeline says of a target's format, where the shader writes numbers of a type.
+fn said_of(
+    color_types: &[Option<SampleType>],
+    formats: &[Option<TextureFormat>],
+) -> Option<String> {
+    let device = Device::new(&DeviceDescriptor::default()).expect("the default");
+    let program = Claimant(Interface {
+        color_targets: formats.len(),
+        color_types: color_types.to_vec(),
+        no_derivatives: true,
+        ..Interface::default()
+    });
+    let targets = formats.iter().map(|format| format.map(Into::into));
+    let made = device.create_render_pipeline(&RenderPipelineDescriptor {
+        targets: targets.collect(),
+        ..RenderPipelineDescriptor::with_program(Arc::new(program))
+    });
+    made.err().map(|error| error.to_string())
+}
+
+#[test]
+fn colors_have_the_type_of_their_targets() {
+    use SampleType::{Float, Sint, Uint};
+    use TextureFormat::{R32Sint, Rgb10a2Uint, Rgba8Unorm, Rgba8UnormSrgb, Rgba16Float};
+    let fitting = [
+        (Float, Rgba8UnormSrgb),
+        (Float, Rgba16Float),
+        (Uint, Rgb10a2Uint),
+        (Sint, R32Sint),
+    ];
+    for (ty, _) in fitting {
+        for (other, format) in fitting {
+            let said = said_of(&[Some(ty)], &[Some(format)]);
+            assert_eq!(said.is_none(), ty == other, "{ty:?}, {format:?}: {said:?}");
+        }
+    }
+    // Targets without a colour, holes, and shaders that tell no types.
+    for types in [&[][..], &[None], &[None, Some(Uint)]] {
+        assert_eq!(said_of(types, &[Some(R32Sint), None]), None, "{types:?}");
+    }
+    assert_eq!(
+        said_of(&[Some(Float), Some(Uint)], &[Some(Rgba8Unorm); 2]).as_deref(),
+        Some(
+            "the shader writes unsigned integers (u32) at location 1, and colour target 1 has the \
+             format rgba8unorm, which holds floats (f32): give the output or the target the \
+             other's type"
+        )
+    );
 }
