@@ -39,8 +39,8 @@ impl<'a> Materials<'a> {
         }
     }
 
-    /// Creates the textures of all surfaces by several threads; most of the time goes into their mip
-    /// levels.
+    /// Creates the textures of all surfaces by several threads; most of the time goes into their
+    /// mip levels.
     pub(crate) fn create_textures(&mut self, workers: Workers) -> Result<(), RenderError> {
         let scene = self.scene;
         let with_uvs = scene.meshes.iter().filter(|mesh| !mesh.uvs.is_empty());
