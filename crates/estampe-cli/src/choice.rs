@@ -34,6 +34,7 @@ impl ChoiceArgs {
             animation: named.or(first),
             time_s: time_s.unwrap_or(0.0),
             variant: self.variant.clone(),
+            ..ModelOptions::default()
         }
     }
 }

@@ -65,6 +65,7 @@ pub(super) struct Context<'a> {
     /// Name of the model, for messages.
     pub(super) name: &'a str,
     pub(super) resources: &'a dyn Resources,
+    pub(super) options: &'a ModelOptions,
     pub(super) limits: &'a Limits,
     pub(super) warnings: Warnings,
     pub(super) workers: Workers,
@@ -176,6 +177,7 @@ pub fn parse_model_with(
     let mut context = Context {
         name,
         resources,
+        options,
         limits,
         warnings: Warnings::new(limits.max_warnings),
         workers: Workers::new(limits.threads),

@@ -37,6 +37,6 @@ mod tests;
 pub use detect::ModelFormat;
 pub use load::{Loaded, ModelInput, load_model, load_model_with, parse_model, parse_model_with};
 pub use normals::NormalMode;
-pub use options::{AnimationClip, AnimationName, ModelChoices, ModelOptions};
+pub use options::{AnimationClip, AnimationName, ModelChoices, ModelOptions, TextureAlpha};
 pub use resources::{Folder, NoResources, ResourceError, Resources};
 pub use write::encode_model;

@@ -11,9 +11,15 @@
 //! `Kd` is missing or black is drawn as if `Kd` were white, because black would hide the texture,
 //! which nobody intends.
 //!
+//! The alpha of `map_Kd` counts only in a material that `d`, `Tr` or `map_d` makes transparent
+//! ([`TextureAlpha`] overrides this): many textures have an alpha that means something else.
+//! `Ns` below 1, which exporters write for "no highlight", would spread the highlight over the
+//! whole surface; it removes the highlight.
+//!
 //! Source: "MTL material format (Lightwave, OBJ)", Wavefront 1995; P. Bourke's copy.
 
 use super::load::Context;
+use super::options::TextureAlpha;
 use super::srgb::linear_from_srgb;
 use super::statements::Statements;
 use super::textures::{TextureName, Textures, text_of_name};
@@ -47,6 +53,8 @@ struct Draft {
     transparency: Option<f32>,
     /// Number of the illumination model.
     illumination: Option<f32>,
+    /// `Ns` is below 1.
+    has_no_highlight: bool,
     base_color_map: Option<TextureName>,
     opacity_map: Option<TextureName>,
     bump_map: Option<Map>,
@@ -226,7 +234,10 @@ impl Draft {
                 None => warn("this form of colour is not read; the default is used"),
             },
             b"ns" => match read_number(statements) {
-                Some(exponent) => self.material.shininess = exponent.clamp(0.0, 10_000.0),
+                Some(exponent) => {
+                    self.has_no_highlight = exponent < 1.0;
+                    self.material.shininess = exponent.clamp(0.0, 10_000.0);
+                }
                 None => warn("a number was expected"),
             },
             b"d" => {
@@ -278,25 +289,31 @@ impl Draft {
             (None, None) => 1.0,
         };
         // Models 0 and 1 have no highlight.
-        if self.illumination.is_some_and(|model| model < 2.0) {
+        if self.has_no_highlight || self.illumination.is_some_and(|model| model < 2.0) {
             material.specular = Vec3::ZERO;
         }
         if base_color_map.is_some() && (!self.has_base_color || material.base_color == Vec3::ZERO) {
             material.base_color = Vec3::ONE;
         }
+        let is_transparent = material.opacity < 1.0 || opacity_map.is_some();
         if is_used
             && let Some((image, alpha_mode)) =
                 textures.load(base_color_map.as_ref(), opacity_map.as_ref(), context)
         {
             material.base_color_texture = Some(image);
-            material.alpha_mode = alpha_mode;
+            material.alpha_mode = match context.options.alpha {
+                TextureAlpha::Auto if !is_transparent => AlphaMode::Opaque,
+                chosen => chosen.or(alpha_mode),
+            };
         }
         if is_used && let Some(map) = bump_map {
             let image = textures.load(Some(&map.name), None, context);
             material.bump_texture = image.map(|(image, _)| image);
             material.bump_scale = map.bump_multiplier.unwrap_or(1.0);
         }
-        if material.opacity < 1.0 {
+        if context.options.alpha == TextureAlpha::Opaque {
+            material.opacity = 1.0;
+        } else if material.opacity < 1.0 {
             material.alpha_mode = AlphaMode::Blend;
         }
         material

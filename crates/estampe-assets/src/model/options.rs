@@ -1,6 +1,8 @@
-//! Choice of what is read from files that have several scenes, animations or variants.
+//! Choice of what is read from files that have several scenes, animations or variants, and how.
 
-/// What is read from a model's file. Only glTF files have a choice.
+use estampe_scene::AlphaMode;
+
+/// What is read from a model's file, and how. Only glTF files have scenes, animations and variants.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ModelOptions {
     /// Index of the scene; `None`, the default, is the file's own choice.
@@ -13,6 +15,36 @@ pub struct ModelOptions {
     /// Name of the material variant; `None`, the default, is the materials of the primitives
     /// themselves.
     pub variant: Option<String>,
+    /// Use of the alpha of colour textures in OBJ's MTL.
+    pub alpha: TextureAlpha,
+}
+
+/// Use of the alpha of colour textures in OBJ's MTL, which does not state it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum TextureAlpha {
+    /// By the material: it is opaque unless its `d` is below 1, its `Tr` is above 0, or it has a
+    /// `map_d`.
+    #[default]
+    Auto,
+    /// Every material is opaque.
+    Opaque,
+    /// Texels with alpha below ½ are cut out.
+    Mask,
+    /// Textures with alpha are blended.
+    Blend,
+}
+
+impl TextureAlpha {
+    /// The mode of a texture whose alpha suggests `found`.
+    pub(super) fn or(self, found: AlphaMode) -> AlphaMode {
+        match (self, found) {
+            (Self::Opaque, _) | (_, AlphaMode::Opaque) => AlphaMode::Opaque,
+            (Self::Auto, _) => found,
+            (Self::Mask, _) => AlphaMode::Mask,
+            (Self::Blend, _) => AlphaMode::Blend,
+        }
+    }
 }
 
 /// An animation of a file.

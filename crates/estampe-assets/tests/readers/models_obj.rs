@@ -1,7 +1,9 @@
 //! OBJ and MTL: the effect of every statement, tolerated errors, limits.
 
-use estampe_assets::model::{NoResources, ResourceError, Resources};
-use estampe_assets::{AssetError, Limits, Loaded, Location, ModelFormat, parse_model};
+use estampe_assets::model::{
+    ModelOptions, NoResources, ResourceError, Resources, TextureAlpha, parse_model_with,
+};
+use estampe_assets::{AssetError, Limits, Loaded, Location, ModelFormat, ModelInput, parse_model};
 use estampe_scene::{AlphaMode, Mesh};
 use glam::{Vec2, Vec3};
 use std::collections::HashMap;
@@ -327,7 +329,7 @@ fn textures_are_loaded_once_and_their_alpha_is_classified() {
             "lib/m.mtl",
             b"newmtl a\nmap_Kd -s 1 1 -o 0 0 0 -bm 2 -clamp on old wood.tga\n\
             newmtl b\nKd 0 0 0\nmap_Kd \"old wood.tga\"\nnewmtl c\nKd 1 0 0\nmap_Kd mask.tga\n\
-            newmtl d\nmap_Kd glass.tga\nnewmtl e\nmap_Kd old wood.tga\nmap_d mask.tga\n\
+            newmtl d\nd 0.5\nmap_Kd glass.tga\nnewmtl e\nmap_Kd old wood.tga\nmap_d mask.tga\n\
             newmtl unused\nmap_Kd gone.tga\n",
         )
         .with("lib/old wood.tga", &opaque)
@@ -347,7 +349,7 @@ fn textures_are_loaded_once_and_their_alpha_is_classified() {
     );
     let modes: Vec<_> = materials.iter().map(|one| one.alpha_mode).collect();
     use AlphaMode::{Blend, Mask, Opaque};
-    assert_eq!(modes, [Opaque, Opaque, Mask, Blend, Mask, Opaque]);
+    assert_eq!(modes, [Opaque, Opaque, Opaque, Blend, Mask, Opaque]);
     assert_eq!(
         materials[1].base_color,
         Vec3::ONE,
@@ -356,6 +358,71 @@ fn textures_are_loaded_once_and_their_alpha_is_classified() {
     assert_eq!(materials[2].base_color, Vec3::X);
     assert_eq!(loaded.scene.images[0].texel(0, 0), [3, 2, 1, 255]);
     assert_eq!(loaded.scene.images[3].texel(1, 0), [6, 5, 4, 0]);
+}
+
+/// Many textures have an alpha that means something else, such as a gloss: models became ghosts.
+///
+/// Rows: M2.
+#[test]
+fn the_alpha_of_a_texture_counts_where_the_material_is_transparent_or_an_option_says_so() {
+    let mask = tga([[1, 2, 3, 255], [4, 5, 6, 0]]);
+    let glass = tga([[1, 2, 3, 255], [4, 5, 6, 100]]);
+    let library = "newmtl a\nd 1\nmap_Kd glass.tga\nnewmtl b\nmap_Kd mask.tga\n\
+        newmtl c\nTr 0.5\nmap_Kd glass.tga\nnewmtl d\nmap_Kd glass.tga\nmap_d mask.tga\n";
+    let files = Files::default()
+        .with("m.mtl", library.as_bytes())
+        .with("mask.tga", &mask)
+        .with("glass.tga", &glass);
+    let mut text = format!("{SQUARE}mtllib m.mtl\n");
+    for name in ["a", "b", "c", "d"] {
+        text += &format!("usemtl {name}\nf 1 2 3\n");
+    }
+    let modes = |alpha| {
+        let options = ModelOptions {
+            alpha,
+            ..ModelOptions::default()
+        };
+        let input = ModelInput {
+            bytes: text.as_bytes(),
+            format: ModelFormat::Obj,
+            name: "test.obj",
+            resources: &files,
+        };
+        let loaded = parse_model_with(&input, &options, &Limits::default()).expect("valid");
+        let materials = loaded.scene.materials.iter();
+        let of = |one: &estampe_scene::Material| (one.alpha_mode, one.opacity);
+        materials.map(of).collect::<Vec<_>>()
+    };
+    use AlphaMode::{Blend, Mask, Opaque};
+    let solid = [(Opaque, 1.0), (Opaque, 1.0)];
+    let auto = modes(TextureAlpha::Auto);
+    assert_eq!(
+        (&auto[..2], auto[2], auto[3].0),
+        (&solid[..], (Blend, 0.5), Mask)
+    );
+    assert!(
+        modes(TextureAlpha::Opaque)
+            .iter()
+            .all(|&mode| mode == (Opaque, 1.0))
+    );
+    let cut_out = modes(TextureAlpha::Mask);
+    assert_eq!([cut_out[0].0, cut_out[1].0], [Mask; 2]);
+    let blended = modes(TextureAlpha::Blend);
+    assert_eq!([blended[0].0, blended[1].0], [Blend; 2]);
+}
+
+/// Exporters write `Ks 1` with `Ns 0`, which would be a highlight over the whole surface.
+///
+/// Rows: M2.
+#[test]
+fn an_exponent_below_one_is_no_highlight() {
+    let library =
+        "newmtl a\nKs 1 1 1\nNs 0\nnewmtl b\nKs 1 1 1\nNs 0.5\nnewmtl c\nKs 1 1 1\nNs 1\n";
+    let files = Files::default().with("m.mtl", library.as_bytes());
+    let loaded = read_with(&format!("mtllib m.mtl\n{SQUARE}f 1 2 3\n"), &files);
+    let materials = loaded.scene.materials.iter();
+    let specular: Vec<Vec3> = materials.map(|one| one.specular).collect();
+    assert_eq!(specular, [Vec3::ZERO, Vec3::ZERO, Vec3::ONE]);
 }
 
 /// Rows: M2.
