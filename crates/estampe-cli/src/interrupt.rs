@@ -47,6 +47,16 @@ impl Drop for Part {
     }
 }
 
+/// Removes the temporary files, then ends the process with `end`.
+pub(crate) fn end_process(end: impl FnOnce()) {
+    let parts = PARTS.lock().unwrap_or_else(PoisonError::into_inner);
+    for part in parts.iter() {
+        // The process ends: a file that cannot be removed stays.
+        let _ = std::fs::remove_file(part);
+    }
+    end();
+}
+
 /// Starts the thread that handles signals, once.
 #[cfg(unix)]
 fn handle_signals() {
@@ -67,12 +77,9 @@ fn handle_signals() {
             let Some(signal) = signals.forever().next() else {
                 return;
             };
-            let parts = PARTS.lock().unwrap_or_else(PoisonError::into_inner);
-            for part in parts.iter() {
-                // The process ends: a file that cannot be removed stays.
-                let _ = std::fs::remove_file(part);
-            }
-            let _ = emulate_default_handler(signal);
+            end_process(|| {
+                let _ = emulate_default_handler(signal);
+            });
         });
         if started.is_err() {
             handle.close();

@@ -28,6 +28,7 @@ mod input;
 mod inspect;
 mod interrupt;
 mod ladder;
+mod limits;
 mod output;
 mod progress;
 mod render;

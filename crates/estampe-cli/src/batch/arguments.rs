@@ -1,6 +1,7 @@
 //! The options of `estampe batch` and their help.
 
 use crate::choice::ChoiceArgs;
+use crate::limits::LimitArgs;
 use crate::render::PictureArgs;
 use crate::values::{FormatName, ViewName};
 use clap::Args;
@@ -77,27 +78,8 @@ pub(crate) struct BatchArgs {
     #[arg(long)]
     pub(crate) fail_fast: bool,
 
-    /// A model with more triangles is not drawn
-    #[arg(
-        long,
-        value_name = "N",
-        default_value_t = 100_000_000,
-        help_heading = "Limits"
-    )]
-    pub(crate) max_triangles: u64,
-
-    /// A model with textures of more pixels in all is not drawn
-    #[arg(
-        long,
-        value_name = "N",
-        default_value_t = 536_870_912,
-        help_heading = "Limits"
-    )]
-    pub(crate) max_pixels: u64,
-
-    /// A model whose file, or a file that it names, has more bytes is not drawn
-    #[arg(long, value_name = "N", default_value_t = 1 << 30, help_heading = "Limits")]
-    pub(crate) max_bytes: u64,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
 
     /// Write the report, as JSON, to a file or - for standard output
     #[arg(long, value_name = "FILE", help_heading = "Report")]

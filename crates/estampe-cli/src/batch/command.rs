@@ -7,10 +7,10 @@ use super::{plan, pool};
 use crate::failure::{DONE, Failure};
 use crate::output;
 use crate::values::Destination;
-use estampe_assets::Limits;
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// The exit code if a picture failed.
@@ -36,15 +36,8 @@ pub(crate) fn run(args: &BatchArgs) -> Result<u8, Failure> {
         output::remove_abandoned(folder);
     }
     let shared = Shared {
-        args,
-        limits: Limits {
-            max_triangles: args.max_triangles,
-            max_total_image_pixels: args.max_pixels,
-            max_image_pixels: Limits::default().max_image_pixels.min(args.max_pixels),
-            max_file_bytes: args.max_bytes,
-            threads: args.picture.thread_count(),
-            ..Limits::default()
-        },
+        args: Arc::new(args.clone()),
+        limits: args.limits.of_reader(args.picture.thread_count()),
     };
     let count = jobs.iter().map(|job| job.pictures.len()).sum();
     let lines = Lines::new(count, args.quiet);

@@ -1,6 +1,7 @@
 //! One model: read, drawn in each view, written.
 
 use super::arguments::BatchArgs;
+use super::deadline::{self, Claim};
 use super::plan::{Job, Picture};
 use super::record::{self, NamedFiles, Sources, digest};
 use crate::failure::Failure;
@@ -12,6 +13,7 @@ use estampe::Device;
 use estampe_assets::Limits;
 use estampe_assets::model::Folder;
 use estampe_renderer::ViewDirection;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// What became of a picture.
@@ -36,28 +38,30 @@ pub(super) struct Outcome {
     pub(super) warnings: Vec<String>,
 }
 
+/// What became of a job's pictures, and the warnings of its model.
+pub(super) type Done = (Vec<Status>, Vec<String>);
+
 /// What all jobs share.
-pub(super) struct Shared<'a> {
-    pub(super) args: &'a BatchArgs,
+#[derive(Clone)]
+pub(super) struct Shared {
+    pub(super) args: Arc<BatchArgs>,
     pub(super) limits: Limits,
 }
 
-impl Shared<'_> {
+impl Shared {
     /// Does a job with a device; a job that panics has failed.
-    pub(super) fn outcomes(&self, job: &Job, device: &Device) -> Vec<Outcome> {
+    pub(super) fn outcomes(&self, job: &Job, device: &Arc<Device>) -> Vec<Outcome> {
         let start = Instant::now();
-        let done =
-            std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| self.done(job, device)));
-        let (statuses, warnings) = done.unwrap_or_else(|_| {
-            let name = shown(&job.input.path);
-            let problem = format!(
-                "{name}: an internal error; please report it with the model, the others are drawn"
-            );
-            (
-                vec![Status::Failed(problem); job.pictures.len()],
-                Vec::new(),
-            )
-        });
+        let (statuses, warnings) = match self.args.limits.timeout {
+            None => self.caught(job, device, &Claim::default()),
+            Some(timeout) => {
+                let (shared, theirs, device) = (self.clone(), job.clone(), device.clone());
+                let work = move |claim: &Claim| shared.caught(&theirs, &device, claim);
+                deadline::run(job, timeout, work).unwrap_or_else(|problem| {
+                    (vec![Status::Limit(problem); job.pictures.len()], Vec::new())
+                })
+            }
+        };
         let share = u32::try_from(job.pictures.len()).unwrap_or(1).max(1);
         let time = start.elapsed() / share;
         let pictures = job.pictures.iter().zip(statuses);
@@ -72,7 +76,22 @@ impl Shared<'_> {
             .collect()
     }
 
-    fn done(&self, job: &Job, device: &Device) -> (Vec<Status>, Vec<String>) {
+    /// A job that panics has failed.
+    fn caught(&self, job: &Job, device: &Device, claim: &Claim) -> Done {
+        let work = std::panic::AssertUnwindSafe(|| self.done(job, device, claim));
+        std::panic::catch_unwind(work).unwrap_or_else(|_| {
+            let name = shown(&job.input.path);
+            let problem = format!(
+                "{name}: an internal error; please report it with the model, the others are drawn"
+            );
+            (
+                vec![Status::Failed(problem); job.pictures.len()],
+                Vec::new(),
+            )
+        })
+    }
+
+    fn done(&self, job: &Job, device: &Device, claim: &Claim) -> Done {
         let all = |failure: Failure| (vec![status_of(failure); job.pictures.len()], Vec::new());
         let bytes = match input::read_file(&job.input.path, &self.limits) {
             Ok(bytes) => bytes,
@@ -103,6 +122,9 @@ impl Shared<'_> {
             Ok(model) => model,
             Err(failure) => return all(failure),
         };
+        if let Err(failure) = self.args.limits.check_memory(&model, &args.picture) {
+            return all(failure);
+        }
         let statuses = job
             .pictures
             .iter()
@@ -116,7 +138,7 @@ impl Shared<'_> {
                     model: model_digest.clone(),
                     named: named.digests(),
                 };
-                match draw(&model, (job, picture), &sources, device) {
+                match draw(&model, (job, picture), &sources, (device, claim)) {
                     Ok(()) => Status::Drawn,
                     Err(failure) => status_of(failure),
                 }
@@ -132,7 +154,7 @@ fn draw(
     model: &Model,
     (job, picture): (&Job, &Picture),
     sources: &Sources,
-    device: &Device,
+    (device, claim): (&Device, &Claim),
 ) -> Result<(), Failure> {
     let mut args = job.look.options.picture.clone();
     args.view = picture.view;
@@ -140,6 +162,18 @@ fn draw(
     render::check_output(&destination, model, &args)?;
     let look = (ViewDirection::default(), picture.format);
     let bytes = render::drawn_bytes(model, &args, look, device)?;
+    if !claim.begin_writing() {
+        return Err(Failure::Limit("given up".to_owned()));
+    }
+    let written = write(picture, &destination, &bytes);
+    if written.is_ok() {
+        record::write(&picture.output, &bytes, sources);
+    }
+    claim.end_writing();
+    written
+}
+
+fn write(picture: &Picture, destination: &Destination, bytes: &[u8]) -> Result<(), Failure> {
     if let Some(folder) = picture.output.parent() {
         std::fs::create_dir_all(folder).map_err(|error| {
             Failure::Output(format!(
@@ -148,9 +182,7 @@ fn draw(
             ))
         })?;
     }
-    output::write(&destination, &bytes)?;
-    record::write(&picture.output, &bytes, sources);
-    Ok(())
+    output::write(destination, bytes)
 }
 
 /// The digest of the options and versions.

@@ -11,6 +11,7 @@
 
 mod arguments;
 mod command;
+mod deadline;
 mod inputs;
 mod job;
 mod job_file;

@@ -5,13 +5,13 @@ use super::plan::Job;
 use crate::failure::Failure;
 use crate::render;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 /// Does all jobs, and returns their outcomes in the order of the jobs. `on_done` is called as each
 /// ends.
 pub(super) fn outcomes(
-    shared: &Shared<'_>,
+    shared: &Shared,
     jobs: &[Job],
     on_done: impl Fn(&[Outcome]) + Sync,
 ) -> Result<Vec<Outcome>, Failure> {
@@ -25,12 +25,12 @@ pub(super) fn outcomes(
     }
     let mut devices = Vec::with_capacity(workers);
     for _ in 0..workers {
-        devices.push(render::device(&picture)?);
+        devices.push(Arc::new(render::device(&picture)?));
     }
     let next = AtomicUsize::new(0);
     let has_failed = AtomicBool::new(false);
     let done: Vec<Mutex<Vec<Outcome>>> = jobs.iter().map(|_| Mutex::default()).collect();
-    let work = |device: &estampe::Device| {
+    let work = |device: &Arc<estampe::Device>| {
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
             let (Some(job), Some(slot)) = (jobs.get(index), done.get(index)) else {

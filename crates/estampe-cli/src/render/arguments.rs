@@ -2,6 +2,7 @@
 
 use super::picture::{PictureArgs, ReportArgs};
 use crate::choice::ChoiceArgs;
+use crate::limits::LimitArgs;
 use crate::values::{Destination, FormatName, ImageFormatName, Source};
 use clap::Args;
 
@@ -60,6 +61,9 @@ pub(crate) struct RenderArgs {
 
     #[command(flatten)]
     pub(crate) picture: PictureArgs,
+
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
 
     #[command(flatten)]
     pub(crate) report: ReportArgs,

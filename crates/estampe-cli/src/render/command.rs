@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::input::Model;
 use crate::output;
 use crate::progress::Progress;
-use estampe_assets::Limits;
+use crate::values::{Source, shown};
 use estampe_renderer::ViewDirection;
 use std::time::Instant;
 
@@ -19,14 +19,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     // Reading and parsing come before.
     let progress = Progress::new(2 + STAGES, args.report.quiet);
 
-    let limits = Limits {
-        threads: args.picture.thread_count(),
-        ..Limits::default()
-    };
+    args.limits.watch("render", &source_name(&args.model));
+    let limits = args.limits.of_reader(args.picture.thread_count());
     let chosen = args.choice.at(args.picture.shader.time);
     let model = Model::read(&args.model, args.format, (&chosen, &limits), |stage| {
         progress.stage(stage);
     })?;
+    args.limits.check_memory(&model, &args.picture)?;
     let drawn = draw(
         &model,
         &args.picture,
@@ -44,4 +43,12 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         shape: None,
     };
     report.write(&args.report)
+}
+
+fn source_name(source: &Source) -> String {
+    match source {
+        Source::File(path) => shown(path),
+        Source::Builtin(name) => format!("builtin:{name}"),
+        Source::StandardInput => "standard input".to_owned(),
+    }
 }

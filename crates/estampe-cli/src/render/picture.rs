@@ -179,6 +179,12 @@ impl PictureArgs {
         self.illumination.check()
     }
 
+    /// The bytes of the samples' colours and depths, and of the picture.
+    pub(crate) fn bytes(&self) -> u64 {
+        let pixels = u64::from(self.size.0) * u64::from(self.size.1);
+        pixels * (8 * u64::from(self.sample_count()) + 4)
+    }
+
     /// The samples per pixel.
     pub(super) fn sample_count(&self) -> u32 {
         if self.samples == "1" { 1 } else { 4 }

@@ -251,16 +251,33 @@ fn lists_come_on_standard_input_and_models_have_several_views() {
 fn models_over_a_limit_end_alone() {
     let folder = models();
     let bytes = format!("--max-bytes {}", TETRAHEDRON.len());
-    for (limit, count) in [("--max-triangles 3", 3), (&bytes, 1), ("--max-bytes 1", 3)] {
+    for (limit, count) in [
+        ("--max-triangles 3", 3),
+        (&bytes, 1),
+        ("--max-bytes 1", 3),
+        ("--max-memory 2000", 3),
+        ("--max-memory 80000", 0),
+        ("--timeout 60", 0),
+        ("--timeout 0.000001", 3),
+    ] {
         let run = batch(
             &folder,
             &format!("IN/**/*.obj -o OUT/{{stem}}.png --force {limit}"),
         );
-        assert_eq!(run.code, 1, "{limit}: {}", run.err);
+        assert_eq!(run.code, i32::from(count > 0), "{limit}: {}", run.err);
         let said = report(&run);
         assert_eq!(said["counts"]["limit"], count, "{limit}: {said}");
         assert_eq!(said["counts"]["drawn"], 3 - count, "{limit}: {said}");
-        assert!(run.err.contains("limit of"), "{limit}: {}", run.err);
+        assert_eq!(
+            run.err.contains("limit of"),
+            count > 0,
+            "{limit}: {}",
+            run.err
+        );
+        let model = folder.path("in/a/one.obj");
+        let words = format!("render {{}} -o {{}} --size 48x40 {limit}");
+        let alone = estampe(&words, &[&model, &folder.path("alone.png")]);
+        assert_eq!(alone.code, i32::from(count == 3), "{limit}: {}", alone.err);
     }
 }
 

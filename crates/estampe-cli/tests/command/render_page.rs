@@ -21,10 +21,15 @@ fn the_commands_of_the_page_draw_its_pictures() {
 }
 
 /// Options that change no picture, or its file alone.
-const WITHOUT_PICTURES: [&str; 9] = [
+const WITHOUT_PICTURES: [&str; 14] = [
     "--output",
     "--format",
     "--output-format",
+    "--max-triangles",
+    "--max-pixels",
+    "--max-bytes",
+    "--max-memory",
+    "--timeout",
     "--threads",
     "--simd",
     "--via",
