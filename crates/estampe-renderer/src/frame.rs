@@ -3,11 +3,13 @@
 use crate::alpha::{Encoding, decode, straighten};
 use crate::draw_plan::{Planner, is_dark};
 use crate::frame_passes::{DrawnPasses, FramePasses};
+use crate::ground::{ColumnMaps, GroundFrame, GroundShadow};
 use crate::options::{RenderOptions, Shading};
 use crate::scene_view::SceneView;
 use crate::shading::VertexTransforms;
 use crate::shading::surface::DEPTH_ORDER;
 use crate::shading::wireframe::Wireframe;
+use crate::shadows::ShadowMaps;
 use crate::surface_pipelines::FrameStyle;
 use crate::surface_program::SurfaceValues;
 use estampe::{
@@ -182,6 +184,17 @@ pub(crate) fn with_passes<T>(
         workers,
     }
     .plan()?;
+    let mut before = Statistics::default();
+    if let Some(shadows) = &style.shadows {
+        before += shadows.draw(device, &plan)?;
+    }
+    let mut ground = None;
+    if let Some(maps) = &style.columns {
+        let (columns, statistics) = maps.draw(device, &plan)?;
+        before += statistics;
+        let lit = (&maps.frame, &columns, &view.sky(options));
+        ground = Some(GroundShadow::new(device, &style, lit, workers)?);
+    }
     let attachments =
         Attachments::new(options, style.format, device).map_err(RenderError::Target)?;
     let passes = FramePasses {
@@ -189,6 +202,8 @@ pub(crate) fn with_passes<T>(
         style: &style,
         attachments: &attachments,
         options,
+        before,
+        ground: ground.as_ref(),
     };
     use_passes(&passes, &view)
 }
@@ -305,7 +320,17 @@ fn frame_style(
     } else {
         None
     };
+    let maps = match &pbr {
+        Some(lighting) => &lighting.shadow_maps,
+        None => &lights.shadow_maps,
+    };
     Ok(FrameStyle {
+        shadows: ShadowMaps::new(device, maps)?,
+        columns: if options.has_ground() {
+            Some(ColumnMaps::new(device, GroundFrame::new(view))?)
+        } else {
+            None
+        },
         shading: options.shading,
         pbr,
         program,

@@ -10,10 +10,13 @@
 
 use crate::draw_plan::DrawPlan;
 use crate::frame::{Attachments, RenderError, TransparentLayers};
+use crate::ground::GroundShadow;
 use crate::options::{RenderOptions, Transparency};
 use crate::shading::surface::DEPTH_ORDER;
 use crate::surface_pipelines::FrameStyle;
-use estampe::{ColorAttachment, DepthStencilAttachment, Device, RenderPass, Statistics, Texture};
+use estampe::{
+    ColorAttachment, DepthStencilAttachment, Device, Draw, RenderPass, Statistics, Texture,
+};
 use estampe_transparency::{PeelDraws, Target, blend_weighted, peel};
 
 /// Counts and times of all passes of a frame, and the layers that were peeled.
@@ -28,6 +31,10 @@ pub(crate) struct FramePasses<'a> {
     pub(crate) style: &'a FrameStyle,
     pub(crate) attachments: &'a Attachments,
     pub(crate) options: &'a RenderOptions,
+    /// The work of the passes before: shadow maps.
+    pub(crate) before: Statistics,
+    /// The ground, if the model stands on one.
+    pub(crate) ground: Option<&'a GroundShadow>,
 }
 
 impl FramePasses<'_> {
@@ -35,19 +42,22 @@ impl FramePasses<'_> {
     pub(crate) fn draw(&self, device: &Device) -> Result<DrawnPasses, RenderError> {
         let method = self.options.transparency;
         if method == Transparency::Sorted || !self.has_transparent_surfaces() {
+            let mut statistics = self.before;
+            statistics += self.with_one_pass(|pass| Ok(device.render(pass)?))?;
             return Ok(DrawnPasses {
-                statistics: self.with_one_pass(|pass| Ok(device.render(pass)?))?,
+                statistics,
                 layers: None,
             });
         }
         let samples = self.attachments.samples();
-        let mut statistics = device.render(&RenderPass {
+        let mut statistics = self.before;
+        statistics += device.render(&RenderPass {
             color_attachments: &[Some(ColorAttachment {
                 resolve_target: None,
                 ..self.attachments.color(self.options)
             })],
             depth_stencil_attachment: Some(self.attachments.cleared_depth()),
-            draws: &self.plan.opaque(),
+            draws: &self.opaque_and_ground(),
             ..RenderPass::default()
         })?;
         let target = Target {
@@ -77,6 +87,12 @@ impl FramePasses<'_> {
         Ok(DrawnPasses { statistics, layers })
     }
 
+    fn opaque_and_ground(&self) -> Vec<Draw<'_>> {
+        let mut draws = self.plan.opaque();
+        draws.extend(self.ground.map(GroundShadow::draw));
+        draws
+    }
+
     /// True if some surface is transparent.
     pub(crate) fn has_transparent_surfaces(&self) -> bool {
         !self.plan.transparent().is_empty()
@@ -87,7 +103,7 @@ impl FramePasses<'_> {
         &self,
         use_pass: impl FnOnce(&RenderPass<'_>) -> Result<T, RenderError>,
     ) -> Result<T, RenderError> {
-        let mut draws = self.plan.opaque();
+        let mut draws = self.opaque_and_ground();
         draws.extend(self.plan.transparent());
         draws.extend(self.plan.edges());
         use_pass(&RenderPass {

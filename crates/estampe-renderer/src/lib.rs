@@ -4,6 +4,8 @@
 //! ```text
 //! Scene ─┬─ scene_view      unit space, fitted camera, lights
 //!        ├─ environment     light from all around; pbr_lighting puts it into view space
+//!        ├─ shadows         maps of what the lights see
+//!        ├─ ground          the shadow on what the model stands on
 //!        ├─ materials       surface styles and textures
 //!        ├─ pbr_materials   what physically based materials add
 //!        ├─ geometry        vertex buffers, unshared faces, back-to-front order
@@ -30,6 +32,7 @@ mod environment;
 mod frame;
 mod frame_passes;
 mod geometry;
+mod ground;
 mod materials;
 mod options;
 mod pbr_lighting;
@@ -37,6 +40,7 @@ mod pbr_materials;
 mod pixel_history;
 mod scene_view;
 mod shading;
+mod shadows;
 mod surface_pipelines;
 mod surface_program;
 
@@ -53,7 +57,7 @@ pub use estampe::transforms;
 pub use frame::{Frame, FrameTimings, RenderError, TransparentLayers, render};
 pub use geometry::face_colors::face_color;
 pub use options::{
-    Environment, Fog, RenderOptions, Shading, Specular, SpecularModel, Transparency, Up,
+    Environment, Fog, Ground, RenderOptions, Shading, Specular, SpecularModel, Transparency, Up,
 };
 pub use pixel_history::{FramePixel, FrameStages, VertexSpaces, inspect, inspect_stages};
 pub use shading::pbr::tone_map::ToneMap;

@@ -29,6 +29,13 @@ pub struct RenderOptions {
     /// If set, the scene's own lights shine too, on [`Shading::Pbr`]. Default not: their units are
     /// absolute, and without an exposure to match most of them burn a picture.
     pub scene_lights: bool,
+    /// If set, lights cast shadows on surfaces that are lit at their fragments: [`Shading::Pbr`],
+    /// [`Shading::Phong`] and [`Shading::Toon`]. Of the default lights it is the key light, of an
+    /// environment its brightest side; of own lights the first four, unless they are within the
+    /// model's box. Transparent surfaces, lines and points cast none. Default not.
+    pub shadows: bool,
+    /// What the model stands on. Default nothing.
+    pub ground: Ground,
     /// Brightness of [`Shading::Pbr`] in stops: light is multiplied by 2 to this power. Default 0.
     pub exposure_ev: f32,
     /// How the light of [`Shading::Pbr`] is shown. Default [`ToneMap::Neutral`].
@@ -79,6 +86,8 @@ impl Default for RenderOptions {
             shading: Shading::default(),
             environment: Environment::default(),
             scene_lights: false,
+            shadows: false,
+            ground: Ground::None,
             exposure_ev: 0.0,
             tone_map: ToneMap::default(),
             program: None,
@@ -118,6 +127,21 @@ impl Default for Environment {
             intensity: 1.0,
         }
     }
+}
+
+/// What a model stands on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Ground {
+    /// Nothing.
+    #[default]
+    None,
+    /// A level ground at the model's lowest point, which shows nothing but the model's soft shadow:
+    /// the share that it hides of the light from above, which is that of
+    /// [`RenderOptions::environment`] and of parallel [`RenderOptions::lights`]. On a transparent
+    /// background it is black, with this share as alpha. From below the ground is invisible.
+    /// Shadings that show numbers, and wireframes, have no ground; transparent surfaces, lines and
+    /// points leave no shadow.
+    Shadow,
 }
 
 /// Highlights of surfaces.
@@ -233,6 +257,11 @@ impl Shading {
     #[must_use]
     pub fn is_toon(self) -> bool {
         matches!(self, Self::Toon | Self::ToonFlat | Self::ToonGouraud)
+    }
+
+    /// True if surfaces have their colours, lit or not.
+    pub(crate) fn is_shaded(self) -> bool {
+        !self.holds_numbers() && self != Self::Wireframe
     }
 
     /// True if light is computed once per face.

@@ -7,6 +7,7 @@ use crate::options::{self, RenderOptions, Up};
 use crate::shading::VertexTransforms;
 use crate::shading::lighting::{DEFAULT_AMBIENT, Directional, Lights, Positional, ViewLight};
 use crate::shading::output::{EyeDistance, Fog};
+use crate::shadows::{MapChoice, ShadowSource};
 use crate::transforms::{round_to_f32, to_f32, transform_point, transform_vector};
 use estampe::Mat4;
 use estampe_scene::{Camera, LightSource, Projection, Scene, UpAxis, Workers};
@@ -23,6 +24,8 @@ pub(crate) struct SceneView {
     pub(crate) camera: PlacedCamera,
     /// The up direction, unit.
     pub(crate) up_world: DVec3,
+    /// The height of the model's lowest point, in unit space.
+    pub(crate) lowest: f64,
     /// Width ÷ height of the image.
     aspect: f64,
 }
@@ -56,10 +59,18 @@ impl SceneView {
             ..options.camera
         };
         let size_px = (options.width, options.height);
+        let up_world = up.normalize_or(DVec3::Y);
+        let lowest = if options.has_ground() {
+            let heights = points.iter().map(|point| point.dot(up_world));
+            heights.reduce(f64::min).unwrap_or(0.0)
+        } else {
+            0.0
+        };
         Self {
             space,
             camera: PlacedCamera::new(&camera, up, points, size_px),
-            up_world: up.normalize_or(DVec3::Y),
+            up_world,
+            lowest,
             aspect: f64::from(options.width) / f64::from(options.height),
         }
     }
@@ -84,6 +95,28 @@ impl SceneView {
 
     /// The lights of the options in view space, or the default lights.
     pub(crate) fn lights(&self, options: &RenderOptions) -> Lights {
+        let mut lights = self.lights_without_shadows(options);
+        if options.casts_shadows() {
+            let mut shadows = MapChoice::new(self, options);
+            // Of the default lights, those that fill cast none.
+            let is_default = options.lights.is_empty();
+            let casters = if is_default {
+                1
+            } else {
+                lights.directional.len()
+            };
+            for light in lights.directional.iter_mut().take(casters) {
+                light.shadow_map = shadows.add(ShadowSource::Directional(light.source.0));
+            }
+            for light in &mut lights.positional {
+                light.shadow_map = shadows.add(ShadowSource::Positional(light.source.position));
+            }
+            lights.shadow_maps = shadows.into_maps();
+        }
+        lights
+    }
+
+    fn lights_without_shadows(&self, options: &RenderOptions) -> Lights {
         let ambient = options.ambient.unwrap_or(DEFAULT_AMBIENT);
         if options.lights.is_empty() {
             return Lights::studio(ambient);
@@ -102,6 +135,7 @@ impl SceneView {
                         source: Directional(towards.to_array()),
                         color,
                         highlight: 1.0,
+                        shadow_map: None,
                     });
                 }
                 LightSource::Positional {
@@ -119,6 +153,7 @@ impl SceneView {
                         },
                         color,
                         highlight: 1.0,
+                        shadow_map: None,
                     });
                 }
             }

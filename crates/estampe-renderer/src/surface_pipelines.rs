@@ -2,6 +2,7 @@
 
 use crate::frame::RenderError;
 use crate::geometry::vertex_data::{MeshStreams, VertexStream};
+use crate::ground::ColumnMaps;
 use crate::options::Shading;
 use crate::shading::VertexTransforms;
 use crate::shading::base_color::{Alpha, BaseColor, Painted, Plain};
@@ -18,6 +19,7 @@ use crate::shading::points_and_lines::PointsAndLines;
 use crate::shading::surface::{DEPTH_ORDER, Surface, Written};
 use crate::shading::terms::{Reflectance, Terms};
 use crate::shading::wireframe::Wireframe;
+use crate::shadows::ShadowMaps;
 use crate::surface_program::{SurfaceProgram, SurfaceValues};
 use estampe::state::{
     BlendState, ColorTargetState, ColorWrites, CompareFunction, CullMode, DepthState,
@@ -51,6 +53,10 @@ pub(crate) struct FrameStyle {
     pub(crate) cull: CullMode,
     pub(crate) samples: u32,
     pub(crate) format: TextureFormat,
+    /// The maps by which surfaces are in shadow.
+    pub(crate) shadows: Option<ShadowMaps>,
+    /// The heights of the model above the ground, if it stands on one.
+    pub(crate) columns: Option<ColumnMaps>,
     /// Makes the pipelines that find layers of transparent surfaces.
     pub(crate) finder: Finder,
 }
@@ -66,6 +72,8 @@ pub(crate) enum Role {
     Layer,
     /// Added to weighted sums.
     Weighted,
+    /// Depths in the map of this slot: those of lights, then those of the ground.
+    Caster(usize),
 }
 
 /// A surface's material, prepared for shaders.
@@ -117,13 +125,13 @@ impl WrittenSurface<'_> {
 const TOON_LEVELS: u16 = 4;
 
 /// A program with the vertex streams that it reads, by location.
-struct MaterialProgram {
+pub(crate) struct MaterialProgram {
     program: Arc<dyn Program>,
     streams: Vec<VertexStream>,
 }
 
 impl MaterialProgram {
-    fn new(shader: impl Shader, streams: &[VertexStream]) -> Self {
+    pub(crate) fn new(shader: impl Shader, streams: &[VertexStream]) -> Self {
         Self {
             program: Arc::new(ShaderProgram::new(shader)),
             streams: streams.to_vec(),
@@ -152,10 +160,14 @@ impl FrameStyle {
         if let Some((program, values)) = &self.program {
             return self.surface_of_program(device, (program, values), surface, mesh);
         }
+        if let Role::Caster(slot) = role {
+            let clip_from_unit = self.clip_of_caster(slot);
+            return Ok(self.caster(device, surface, mesh, clip_from_unit)?);
+        }
         let material = self.material_program(surface, role);
         let over = || self.targets(Some(BlendState::ALPHA_BLENDING));
         let (depth_stencil, targets) = match role {
-            Role::Opaque => self.opaque(),
+            Role::Opaque | Role::Caster(_) => self.opaque(),
             Role::Blended => (DEPTH_ORDER.nearer().into(), over()),
             Role::Layer => (layer_state(), over()),
             Role::Weighted => (DEPTH_ORDER.nearer().into(), weighted_targets()),
@@ -164,6 +176,8 @@ impl FrameStyle {
             primitive: self.triangles_of(surface),
             depth_stencil,
             targets,
+            samples: self.samples,
+            shadows: self.shadows.as_ref(),
         };
         Ok(self.pipeline(device, material, mesh, state)?)
     }
@@ -188,6 +202,8 @@ impl FrameStyle {
             primitive: self.triangles(),
             depth_stencil,
             targets,
+            samples: self.samples,
+            shadows: None,
         };
         let values = SurfaceValues {
             base_color: surface.base,
@@ -237,6 +253,8 @@ impl FrameStyle {
             primitive: self.triangles(),
             depth_stencil: depth.into(),
             targets: self.targets(Some(BlendState::PREMULTIPLIED_ALPHA_BLENDING)),
+            samples: self.samples,
+            shadows: None,
         };
         self.pipeline(device, material, mesh, state)
     }
@@ -270,7 +288,7 @@ impl FrameStyle {
     }
 
     /// The target of the picture.
-    fn targets(&self, blend: Option<BlendState>) -> Vec<Option<ColorTargetState>> {
+    pub(crate) fn targets(&self, blend: Option<BlendState>) -> Vec<Option<ColorTargetState>> {
         vec![Some(ColorTargetState {
             format: self.format,
             blend,
@@ -296,6 +314,8 @@ impl FrameStyle {
             primitive,
             depth_stencil,
             targets,
+            samples: self.samples,
+            shadows: None,
         };
         self.pipeline(device, material, mesh, state)
     }
@@ -332,7 +352,7 @@ impl FrameStyle {
             style: surface,
             written: match role {
                 Role::Weighted => Written::WeightedTerms,
-                Role::Opaque | Role::Blended | Role::Layer => Written::Color,
+                Role::Opaque | Role::Blended | Role::Layer | Role::Caster(_) => Written::Color,
             },
         };
         if let (Some(lighting), Some(parameters)) = (&self.pbr, &surface.style.pbr) {
@@ -479,35 +499,45 @@ impl FrameStyle {
         }
     }
 
-    fn pipeline(
+    pub(crate) fn pipeline(
         &self,
         device: &Device,
         material: MaterialProgram,
         mesh: &MeshStreams,
-        state: PipelineState,
+        state: PipelineState<'_>,
     ) -> Result<StreamPipeline, PipelineError> {
         let layouts = material.streams.iter().enumerate();
         let layouts = layouts.map(|(location, &stream)| mesh.get(stream).layout(stream, location));
-        let descriptor = RenderPipelineDescriptor {
+        let mut descriptor = RenderPipelineDescriptor {
             vertex_buffers: layouts.collect(),
             primitive: state.primitive,
             depth_stencil: Some(state.depth_stencil),
-            multisample: MultisampleState::new(self.samples),
+            multisample: MultisampleState::new(state.samples),
             targets: state.targets,
             ..RenderPipelineDescriptor::with_program(material.program)
         };
+        if let Some(maps) = state.shadows {
+            descriptor.bind_group_layouts = vec![maps.layout.clone()];
+        }
         let pipeline = device.create_render_pipeline(&descriptor)?;
         Ok(StreamPipeline {
             pipeline,
             streams: material.streams,
-            bind_groups: Vec::new(),
+            bind_groups: state
+                .shadows
+                .iter()
+                .map(|maps| maps.group.clone())
+                .collect(),
         })
     }
 }
 
-/// The fixed-function state of a pipeline.
-struct PipelineState {
-    primitive: PrimitiveState,
-    depth_stencil: DepthStencilState,
-    targets: Vec<Option<ColorTargetState>>,
+/// The state of a pipeline.
+pub(crate) struct PipelineState<'a> {
+    pub(crate) primitive: PrimitiveState,
+    pub(crate) depth_stencil: DepthStencilState,
+    pub(crate) targets: Vec<Option<ColorTargetState>>,
+    pub(crate) samples: u32,
+    /// The maps that its shader looks up.
+    pub(crate) shadows: Option<&'a ShadowMaps>,
 }

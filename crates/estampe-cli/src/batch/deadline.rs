@@ -1,7 +1,7 @@
 //! A job with a deadline: it runs on a thread of its own, which is left behind if it is late.
 //!
-//! Readers and shaders cannot be stopped from outside, so a thread that is late goes on, but what it
-//! draws is not written: the claim is taken either by the writer or by the deadline.
+//! Readers and shaders cannot be stopped from outside, so a thread that is late goes on, but what
+//! it draws is not written: the claim is taken either by the writer or by the deadline.
 
 use super::job::Done;
 use super::plan::Job;

@@ -14,6 +14,7 @@ mod illumination_values;
 mod pbr;
 mod picture;
 mod report;
+mod shadows;
 mod surface_shader;
 
 pub(crate) use arguments::RenderArgs;

@@ -4,6 +4,7 @@
 use super::appearance_names::{CullName, ShadingName, TransparencyName};
 use super::illumination::IlluminationArgs;
 use super::pbr::PbrArgs;
+use super::shadows::ShadowArgs;
 use super::surface_shader::SurfaceShaderArgs;
 use crate::failure::Failure;
 use crate::values::{self, Background, ViewName};
@@ -98,6 +99,9 @@ pub(crate) struct PictureArgs {
     pub(crate) illumination: IlluminationArgs,
 
     #[command(flatten)]
+    pub(crate) shadows: ShadowArgs,
+
+    #[command(flatten)]
     pub(crate) shader: SurfaceShaderArgs,
 
     /// A base-colour texture (PNG, JPEG, TGA; sRGB), instead of the model's colours and textures
@@ -176,6 +180,7 @@ impl PictureArgs {
                     .to_owned(),
             ));
         }
+        self.shadows.check(self.shading)?;
         self.illumination.check()
     }
 
@@ -234,6 +239,7 @@ impl PictureArgs {
             ..RenderOptions::default()
         };
         let workers = Workers::new(self.thread_count());
-        self.pbr.apply(self.illumination.apply(options), workers)
+        let options = self.shadows.apply(self.illumination.apply(options));
+        self.pbr.apply(options, workers)
     }
 }

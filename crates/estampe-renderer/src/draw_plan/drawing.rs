@@ -1,5 +1,6 @@
 //! The pipelines and buffers of a frame's draws.
 
+use crate::shading::shadow::MAX_SHADOW_MAPS;
 use crate::surface_pipelines::StreamPipeline;
 use estampe::{BufferSlice, Draw, IndexFormat};
 use std::ops::Range;
@@ -13,6 +14,8 @@ pub(crate) struct DrawPlan {
     pub(super) transparent: Vec<PlannedDraw>,
     pub(super) layers: PlannedLayers,
     pub(super) edges: Vec<PlannedDraw>,
+    /// What casts shadows, for each map: those of lights, then the two of the ground.
+    pub(super) casters: [Vec<PlannedDraw>; MAX_SHADOW_MAPS + 2],
 }
 
 /// The draws of exact transparency: surfaces in the order of the scene.
@@ -56,6 +59,11 @@ impl DrawPlan {
     /// The edges over all surfaces.
     pub(crate) fn edges(&self) -> Vec<Draw<'_>> {
         self.draws(&self.edges)
+    }
+
+    /// What casts shadows in a map.
+    pub(crate) fn casters(&self, map: usize) -> Vec<Draw<'_>> {
+        self.draws(&self.casters[map])
     }
 
     /// Adds a pipeline, and returns its index.

@@ -110,6 +110,7 @@ impl Planner<'_> {
             } else {
                 let draw = self.surface_draw(&surface, Some(Role::Opaque), builder)?;
                 builder.plan.opaque.push(draw);
+                self.plan_casters(&surface, builder)?;
             }
         }
         Ok(())
@@ -158,6 +159,19 @@ impl Planner<'_> {
             indices: None,
             elements: element_count(start * 3)?..element_count(end * 3)?,
         });
+        Ok(())
+    }
+
+    /// Plans the draws of an opaque surface in the maps of lights and ground.
+    fn plan_casters(
+        &self,
+        surface: &SurfaceDraw<'_>,
+        builder: &mut DrawPlanBuilder,
+    ) -> Result<(), RenderError> {
+        for slot in self.style.caster_slots() {
+            let draw = self.surface_draw(surface, Some(Role::Caster(slot)), builder)?;
+            builder.plan.casters[slot].push(draw);
+        }
         Ok(())
     }
 

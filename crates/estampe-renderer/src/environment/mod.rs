@@ -124,6 +124,11 @@ impl EnvironmentMap {
         levels.map(|level| level.texels(factor)).collect()
     }
 
+    /// The mean radiance around a unit direction, over some tens of degrees.
+    pub(crate) fn blurred(&self, direction: Vec3) -> Vec3 {
+        self.specular[self.specular.len() / 2].sample(direction)
+    }
+
     /// Coefficients of the irradiance ÷ π, in the order of [`diffuse::basis`].
     pub(crate) fn diffuse(&self) -> [[f32; 3]; 9] {
         self.diffuse

@@ -15,6 +15,8 @@ pub(crate) struct UnitSpace {
     center_world: DVec3,
     /// Half of the box's longest side, in world units; > 0.
     half_side: f64,
+    /// Half of the box's sides, in unit space: the greatest is 1, unless the model is a point.
+    half_extents: DVec3,
 }
 
 impl UnitSpace {
@@ -43,7 +45,16 @@ impl UnitSpace {
             world_from_object,
             center_world: (least + most) / 2.0,
             half_side,
+            half_extents: (most - least) / (2.0 * half_side),
         }
+    }
+
+    /// The corners of the model's box in unit space, the least first and the greatest last.
+    pub(crate) fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|k| {
+            let sign = |bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+            self.half_extents * DVec3::new(sign(0), sign(1), sign(2))
+        })
     }
 
     /// The position of a vertex in unit space.

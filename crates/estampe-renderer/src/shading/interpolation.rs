@@ -3,9 +3,10 @@
 
 use super::bump::BumpMap;
 use super::lighting::{Illumination, SurfacePoint};
+use super::shadow::Visibilities;
 use super::terms::Reflectance;
 use super::{VertexTransforms, shading_normal};
-use estampe::{Attributes, Real, Varyings, Vec2, Vec3};
+use estampe::{Attributes, FragmentIn, Real, Varyings, Vec2, Vec3};
 
 /// Where the light is computed: a part of a [`Surface`](super::surface::Surface).
 pub(crate) trait Interpolation: Send + Sync + 'static {
@@ -30,7 +31,7 @@ pub(crate) trait Interpolation: Send + Sync + 'static {
         base: Vec3<R>,
         bump: Option<(&BumpMap, Vec2<R>)>,
         varyings: Self::Varyings<R>,
-        front_facing: R::SelectMask,
+        input: &FragmentIn<'_, R>,
     ) -> Vec3<R>;
 }
 
@@ -63,17 +64,20 @@ impl Interpolation for AtFragments {
         base: Vec3<R>,
         bump: Option<(&BumpMap, Vec2<R>)>,
         (view, normal): (Vec3<R>, Vec3<R>),
-        front_facing: R::SelectMask,
+        input: &FragmentIn<'_, R>,
     ) -> Vec3<R> {
         let to_eye = self.transforms.eye_direction(view);
-        let mut normal = shading_normal(normal, to_eye, front_facing);
+        let mut normal = shading_normal(normal, to_eye, input.front_facing);
+        let maps = &self.reflectance.lights.shadow_maps;
+        let visibilities = Visibilities::at(maps, input, view, normal);
         if let Some((map, uv)) = bump {
-            normal = map.perturb(normal, view, uv, front_facing);
+            normal = map.perturb(normal, view, uv, input.front_facing);
         }
         let point = SurfacePoint {
             position: view,
             normal,
             to_eye,
+            visibilities,
         };
         self.reflectance.color(base, self.reflectance.light(point))
     }
@@ -128,6 +132,8 @@ impl Interpolation for AtVertices {
             position,
             normal,
             to_eye,
+            // Shadows have edges between vertices.
+            visibilities: Visibilities::all(position.x.splat(1.0)),
         };
         let front = self.reflectance.light(point);
         let back = self.reflectance.light(SurfacePoint {
@@ -143,8 +149,9 @@ impl Interpolation for AtVertices {
         base: Vec3<R>,
         _bump: Option<(&BumpMap, Vec2<R>)>,
         (front, front_added, back, back_added): BothSides<R>,
-        front_facing: R::SelectMask,
+        input: &FragmentIn<'_, R>,
     ) -> Vec3<R> {
+        let front_facing = input.front_facing;
         let light = Illumination {
             diffuse: Vec3::select(front_facing, front, back),
             added: Vec3::select(front_facing, front_added, back_added),

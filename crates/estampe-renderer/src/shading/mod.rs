@@ -3,6 +3,7 @@
 //! | module | contents |
 //! |---|---|
 //! | [`lighting`] | lights, and the sum of their light on a point |
+//! | [`shadow`], [`shadow_caster`] | shadow maps: looked up, and drawn |
 //! | [`steps`] | light in steps |
 //! | [`terms`] | the terms of a surface: all, toon, or none (unlit) |
 //! | [`bump`] | normals bent by a texture of heights |
@@ -14,17 +15,21 @@
 //! | [`wireframe`] | edges over faces that hide the edges behind them, or over shaded surfaces |
 //! | [`inspection`] | normals, depth, uv, faces, barycentric coordinates and overdraw as colours |
 //! | [`points_and_lines`] | points and lines |
+//! | [`ground`] | the shadow on the ground |
 //!
 //! Lighting is computed in view space, in linear light.
 
 pub(crate) mod base_color;
 pub(crate) mod bump;
+pub(crate) mod ground;
 pub(crate) mod inspection;
 pub(crate) mod interpolation;
 pub(crate) mod lighting;
 pub(crate) mod output;
 pub(crate) mod pbr;
 pub(crate) mod points_and_lines;
+pub(crate) mod shadow;
+pub(crate) mod shadow_caster;
 pub(crate) mod steps;
 pub(crate) mod surface;
 pub(crate) mod terms;

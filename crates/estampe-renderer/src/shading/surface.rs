@@ -85,7 +85,7 @@ estampe::shader! {
         ) -> FragmentOut<R> {
             let base = self.base_color.color(&input, painted);
             let bump = self.base_color.bump(painted);
-            let color = self.interpolation.fragment(base.xyz(), bump, lit, input.front_facing);
+            let color = self.interpolation.fragment(base.xyz(), bump, lit, &input);
             let color = self.output.color(&input, color);
             let color = color.extend(base.w);
             let out = self.written.fragment(&input, color);

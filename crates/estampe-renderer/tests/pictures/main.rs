@@ -6,5 +6,6 @@ mod illumination;
 mod inspection_views;
 mod named_attributes;
 mod pbr;
+mod shadows;
 mod support;
 mod transparency;

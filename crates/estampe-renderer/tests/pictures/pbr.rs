@@ -100,6 +100,8 @@ fn assert_near(own: [f32; 3], right: [f32; 3], what: &str) {
 }
 
 /// A metal ball whose surroundings are as bright as the background cannot be seen.
+///
+/// Rows: F4.
 #[test]
 fn a_white_ball_vanishes_in_a_white_furnace() {
     let ball = BuiltinShape::Sphere.build();
@@ -180,6 +182,8 @@ fn lights_of_the_scene_have_their_units() {
 
 /// A normal map that leans to the right is brighter in light from the right, and one that leans up
 /// in light from above; mirrored coordinates mirror it.
+///
+/// Rows: F4.
 #[test]
 fn normal_maps_lean_as_their_texture_says() {
     // (0.6, 0, 0.8) and (0, 0.6, 0.8) as codes.
@@ -279,6 +283,7 @@ fn textures_have_their_own_coordinates_and_samplers() {
     assert_eq!(drawn(clamped), [green, green]);
 }
 
+/// Rows: F4.
 #[test]
 fn cut_outs_have_the_cutoff_of_the_material() {
     for (cutoff, is_visible) in [(0.2, true), (0.4, false)] {

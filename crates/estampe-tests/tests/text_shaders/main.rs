@@ -8,6 +8,7 @@ mod glsl;
 mod glsl_functions;
 mod immediates;
 mod immediates_compute;
+mod integer_targets;
 mod peers;
 mod picture;
 mod spirv;

@@ -1,5 +1,6 @@
 //! The lights of a frame, in view space.
 
+use crate::shading::shadow::ShadowMapView;
 use estampe::{Real, Vec3};
 
 /// A light in view space.
@@ -11,6 +12,8 @@ pub(crate) struct ViewLight<Source> {
     pub(crate) color: [f32; 3],
     /// Strength of its highlights, multiplied by the surface's specular colour.
     pub(crate) highlight: f32,
+    /// The number of its shadow map, if it has one.
+    pub(crate) shadow_map: Option<usize>,
 }
 
 /// Light from infinitely far away: the unit direction towards it.
@@ -33,6 +36,8 @@ pub(crate) struct Lights {
     pub(crate) directional: Vec<ViewLight<Directional>>,
     /// Lights with a position.
     pub(crate) positional: Vec<ViewLight<Positional>>,
+    /// The shadow maps of lights.
+    pub(crate) shadow_maps: Vec<ShadowMapView>,
     /// Ambient light on normals that point up in view space (hemispheric ambient light).
     pub(crate) sky: [f32; 3],
     /// Ambient light on normals that point down; between the two it is interpolated linearly.
@@ -54,6 +59,7 @@ impl Lights {
                 source: Directional(unit.to_array()),
                 color,
                 highlight,
+                shadow_map: None,
             }
         };
         Self {
@@ -63,6 +69,7 @@ impl Lights {
                 light([0.35, 0.45, -0.75], 0.25, [1.0, 1.0, 1.0], 0.0),
             ],
             positional: Vec::new(),
+            shadow_maps: Vec::new(),
             sky: [ambient * 1.15, ambient * 1.17, ambient * 1.2],
             ground: [ambient * 0.72, ambient * 0.7, ambient * 0.68],
         }
@@ -73,6 +80,7 @@ impl Lights {
         Self {
             directional: Vec::new(),
             positional: Vec::new(),
+            shadow_maps: Vec::new(),
             sky: [ambient; 3],
             ground: [ambient; 3],
         }

@@ -20,6 +20,7 @@ mod lights;
 
 pub(crate) use lights::{DEFAULT_AMBIENT, Directional, Lights, Positional, ViewLight, luminance};
 
+use super::shadow::Visibilities;
 use estampe::{Real, Vec3, maths};
 
 /// Reflection and emission of a surface.
@@ -52,6 +53,8 @@ pub(crate) struct SurfacePoint<R> {
     pub(crate) normal: Vec3<R>,
     /// Unit direction to the eye.
     pub(crate) to_eye: Vec3<R>,
+    /// The shares of the lights that reach it.
+    pub(crate) visibilities: Visibilities<R>,
 }
 
 /// Light at a point: a factor of the base colour, and light that is added.
@@ -80,10 +83,13 @@ impl Lights {
         // the light, which is the same for all lights.
         let reflected_eye = -point.to_eye.reflect(point.normal);
         for light in &self.directional {
-            let (towards, color) = (
+            let (towards, mut color) = (
                 Vec3::uniform(zero, light.source.0),
                 Vec3::uniform(zero, light.color),
             );
+            if let Some(share) = point.visibilities.of(light.shadow_map) {
+                color *= share;
+            }
             let n_dot_l = point.normal.dot(towards).max(zero);
             sum.diffuse += color * n_dot_l;
             if gloss.shines(light.highlight) {
@@ -93,7 +99,10 @@ impl Lights {
         }
         for light in &self.positional {
             let (towards, share) = light.source.arrive(point.position);
-            let color = Vec3::uniform(zero, light.color) * share;
+            let mut color = Vec3::uniform(zero, light.color) * share;
+            if let Some(share) = point.visibilities.of(light.shadow_map) {
+                color *= share;
+            }
             let n_dot_l = point.normal.dot(towards).max(zero);
             sum.diffuse += color * n_dot_l;
             if gloss.shines(light.highlight) {
@@ -111,11 +120,17 @@ impl Lights {
         let zero = point.normal.x.splat(0.0);
         let mut sum = zero;
         for light in &self.directional {
-            let n_dot_l = point.normal.dot_uniform(light.source.0).max(zero);
+            let mut n_dot_l = point.normal.dot_uniform(light.source.0).max(zero);
+            if let Some(share) = point.visibilities.of(light.shadow_map) {
+                n_dot_l *= share;
+            }
             sum += n_dot_l * luminance(light.color);
         }
         for light in &self.positional {
-            let (towards, share) = light.source.arrive(point.position);
+            let (towards, mut share) = light.source.arrive(point.position);
+            if let Some(visible) = point.visibilities.of(light.shadow_map) {
+                share *= visible;
+            }
             sum += point.normal.dot(towards).max(zero) * luminance(light.color) * share;
         }
         sum.saturate()

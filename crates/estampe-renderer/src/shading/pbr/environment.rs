@@ -1,6 +1,8 @@
 //! Lookups of the light from all around ([`crate::environment`]).
 
 use crate::environment::{ALBEDO_SIDE, EnvironmentMap, directional_albedos};
+use crate::shading::lighting::luminance;
+use crate::shading::shadow::Visibilities;
 use estampe::{
     AddressMode, Device, Mat4, Real, SampledTexture, SamplerDescriptor, TextureDescriptor,
     TextureError, TextureFormat, TextureViewDescriptor, Vec2, Vec3, ViewDimension,
@@ -19,6 +21,28 @@ pub(crate) struct EnvironmentLight {
     map_from_view: Mat4,
     /// Reflected shares, by n·v and roughness.
     albedos: SampledTexture,
+    /// What casts a shadow, if something does.
+    key: Option<KeyLight>,
+}
+
+/// The part of the light that comes from about one direction: parallel light with the same vector
+/// irradiance (the linear coefficients of the spherical harmonics).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct KeyLight {
+    /// Unit direction towards it, in view space.
+    pub(crate) towards_view: [f32; 3],
+    /// Irradiance ÷ π of a surface that faces it.
+    pub(crate) color: [f32; 3],
+    /// The number of its shadow map.
+    pub(crate) shadow_map: usize,
+}
+
+/// The light from all around where a key light is in shadow.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shaded<R> {
+    /// The share of the key light that does not arrive.
+    hidden: R,
+    key: KeyLight,
 }
 
 /// Shares of the light of uniform surroundings that lobes reflect.
@@ -60,6 +84,43 @@ impl EnvironmentLight {
             diffuse,
             map_from_view,
             albedos: albedo_texture(device)?,
+            key: None,
+        })
+    }
+
+    /// The direction of the key light in the map's space, and the light that it gives to a surface
+    /// that faces it: irradiance ÷ π. `None` if all directions are as bright as the opposite ones.
+    ///
+    /// Parallel light of irradiance C has the linear coefficients C/2 times its direction.
+    pub(crate) fn brightest(&self) -> Option<(glam::Vec3, [f32; 3])> {
+        /// The least share of the light that is worth a shadow.
+        const LEAST: f32 = 0.02;
+        let [constant, x, y, z, ..] = self.diffuse;
+        let vector = glam::Vec3::new(luminance(x), luminance(y), luminance(z));
+        if vector.length() <= LEAST * luminance(constant) {
+            return None;
+        }
+        let direction = vector.normalize();
+        let color = std::array::from_fn(|c| {
+            let along = glam::Vec3::new(x[c], y[c], z[c]).dot(direction);
+            (2.0 * along).max(0.0)
+        });
+        Some((direction, color))
+    }
+
+    /// Says which part casts a shadow.
+    pub(crate) fn set_key(&mut self, key: KeyLight) {
+        self.key = Some(key);
+    }
+
+    /// What is in shadow at a point, if something casts one.
+    #[inline(always)]
+    pub(crate) fn shaded<R: Real>(&self, visibilities: &Visibilities<R>) -> Option<Shaded<R>> {
+        let key = self.key?;
+        let visible = visibilities.of(Some(key.shadow_map))?;
+        Some(Shaded {
+            hidden: 1.0 - visible,
+            key,
         })
     }
 
@@ -107,6 +168,28 @@ impl EnvironmentLight {
         }
         let zero = n.x.splat(0.0);
         Vec3::new(sum.x.max(zero), sum.y.max(zero), sum.z.max(zero))
+    }
+}
+
+impl<R: Real> Shaded<R> {
+    /// The irradiance without what is hidden of the key light.
+    #[inline(always)]
+    pub(crate) fn irradiance(&self, whole: Vec3<R>, normal_view: Vec3<R>) -> Vec3<R> {
+        let zero = self.hidden.splat(0.0);
+        let lit = normal_view.dot_uniform(self.key.towards_view).max(zero);
+        let rest = whole - Vec3::uniform(zero, self.key.color) * (lit * self.hidden);
+        Vec3::new(rest.x.max(zero), rest.y.max(zero), rest.z.max(zero))
+    }
+
+    /// The share of the light around a direction that remains, given the irradiance of a surface
+    /// that faces there.
+    #[inline(always)]
+    pub(crate) fn mirrored(&self, irradiance: Vec3<R>, direction_view: Vec3<R>) -> R {
+        const LEAST: f32 = 1e-6;
+        let rest = self.irradiance(irradiance, direction_view);
+        let one = self.hidden.splat(1.0);
+        let weights = [0.2126, 0.7152, 0.0722];
+        ((rest.dot_uniform(weights) + LEAST) / (irradiance.dot_uniform(weights) + LEAST)).min(one)
     }
 }
 

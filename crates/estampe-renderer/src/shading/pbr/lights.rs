@@ -1,6 +1,7 @@
 //! Lights with a place or a direction, for physically based surfaces.
 
 use crate::shading::lighting::{Directional, Positional, ViewLight};
+use crate::shadows::ShadowSource;
 use estampe::{Real, Vec3};
 
 /// A light in view space.
@@ -9,6 +10,8 @@ pub(crate) struct PbrLight {
     pub(crate) source: PbrSource,
     /// Illuminance of a surface that faces it; of [`PbrSource::Point`] in the distance 1.
     pub(crate) color: [f32; 3],
+    /// The number of its shadow map, if it has one.
+    pub(crate) shadow_map: Option<usize>,
 }
 
 /// Where light comes from.
@@ -43,6 +46,7 @@ impl PbrLight {
         Self {
             source: PbrSource::Directional(light.source),
             color: light.color.map(|channel| channel * std::f32::consts::PI),
+            shadow_map: None,
         }
     }
 
@@ -51,6 +55,17 @@ impl PbrLight {
         Self {
             source: PbrSource::Linear(light.source),
             color: light.color.map(|channel| channel * std::f32::consts::PI),
+            shadow_map: None,
+        }
+    }
+
+    /// Where it is, or comes from, if its rays can be in a shadow map.
+    pub(crate) fn shadow_source(&self) -> ShadowSource {
+        match &self.source {
+            PbrSource::Directional(Directional(towards)) => ShadowSource::Directional(*towards),
+            PbrSource::Linear(Positional { position, .. }) | PbrSource::Point { position, .. } => {
+                ShadowSource::Positional(*position)
+            }
         }
     }
 

@@ -17,6 +17,7 @@
 use super::brdf;
 use super::environment::{DirectionalAlbedo, EnvironmentLight};
 use super::lights::PbrLight;
+use crate::shading::shadow::Visibilities;
 use estampe::{Real, Vec3};
 use std::f32::consts::FRAC_1_PI;
 
@@ -41,6 +42,8 @@ pub(crate) struct PbrPoint<R> {
     pub(crate) occlusion: R,
     pub(crate) clearcoat: Option<Coat<R>>,
     pub(crate) sheen: Option<Fibres<R>>,
+    /// The shares of the lights that reach it.
+    pub(crate) visibilities: Visibilities<R>,
 }
 
 /// A clear layer at a point.
@@ -141,8 +144,12 @@ impl<R: Real> PbrPoint<R> {
         let mirrored = (-self.to_eye).reflect(self.normal);
         let lobe = mirrored.mix(self.normal, self.roughness * self.roughness);
         let radiance = environment.radiance(lobe, self.roughness);
-        let irradiance = environment.irradiance(self.normal);
-        let seen = specular_occlusion(shared.n_dot_v, self.occlusion, self.roughness);
+        let mut irradiance = environment.irradiance(self.normal);
+        let mut seen = specular_occlusion(shared.n_dot_v, self.occlusion, self.roughness);
+        if let Some(shaded) = environment.shaded(&self.visibilities) {
+            irradiance = shaded.irradiance(irradiance, self.normal);
+            seen *= shaded.mirrored(environment.irradiance(mirrored), mirrored);
+        }
         let spread = irradiance * (shared.multiple + shared.diffuse) * self.occlusion;
         let mut sum = radiance * shared.single * seen + spread;
         sum *= shared.below;
@@ -193,6 +200,9 @@ impl<R: Real> PbrPoint<R> {
                 * brdf::visibility_ggx(coat_lit, coat_seen, alpha);
             let fresnel = weight * (1.0 - COAT_F0) + COAT_F0;
             sum += illuminance * (lobe * fresnel * coat.factor * coat_lit);
+        }
+        if let Some(share) = self.visibilities.of(light.shadow_map) {
+            sum *= share;
         }
         // A half vector between opposite directions is NaN.
         let black = Vec3::repeat(zero);

@@ -7,6 +7,7 @@ use super::reflection::{Coat, Fibres, PbrPoint};
 use super::tone_map::ToneMap;
 use crate::shading::base_color::Alpha;
 use crate::shading::output::Output;
+use crate::shading::shadow::{ShadowMapView, Visibilities};
 use crate::shading::surface::Written;
 use crate::shading::{VertexTransforms, shading_normal};
 use estampe::{FragmentIn, FragmentOut, Real, Vec2, Vec3, Vec4, VertexIn, VertexOut};
@@ -17,6 +18,8 @@ use std::sync::Arc;
 pub(crate) struct PbrLighting {
     pub(crate) environment: EnvironmentLight,
     pub(crate) lights: Vec<PbrLight>,
+    /// The shadow maps of lights, and of the environment.
+    pub(crate) shadow_maps: Vec<ShadowMapView>,
     /// Factor of all light.
     pub(crate) exposure: f32,
     pub(crate) tone_map: ToneMap,
@@ -137,6 +140,7 @@ impl PbrSurface {
             position: view,
             normal,
             to_eye,
+            visibilities: Visibilities::at(&self.lighting.shadow_maps, input, view, frame.unit),
             diffuse: base * (one - metallic),
             f0: f0.mix(base, metallic),
             f90: f90.mix(one, metallic),
@@ -180,6 +184,7 @@ impl PbrSurface {
             lights,
             exposure,
             tone_map,
+            ..
         } = &*self.lighting;
         let mut sum = self.point(input, v, base).reflected(environment, lights);
         let mut emitted = Vec3::uniform(input.zero, parameters.emissive);

@@ -7,6 +7,7 @@ use super::reflection::{Coat, Fibres, PbrPoint};
 use super::tone_map::ToneMap;
 use crate::environment::EnvironmentMap;
 use crate::shading::lighting::Directional;
+use crate::shading::shadow::Visibilities;
 use crate::transforms::round_to_f32;
 use estampe::{Device, DeviceDescriptor, Mat4, Vec3};
 use estampe_reference::pbr;
@@ -30,6 +31,7 @@ fn point(n_dot_v: f32, roughness: f32) -> PbrPoint<f32> {
         occlusion: 1.0,
         clearcoat: None,
         sheen: None,
+        visibilities: Visibilities::all(1.0),
     }
 }
 
@@ -125,6 +127,7 @@ fn lights_from_everywhere_are_a_furnace_too() {
                     let light = PbrLight {
                         source: PbrSource::Directional(Directional([x, y, z])),
                         color: [1.0; 3],
+                        shadow_map: None,
                     };
                     let light = point.reflected(&black, &[light]);
                     [light.x, light.y, light.z].map(f64::from)
@@ -246,6 +249,7 @@ fn points_and_cones_decrease_as_their_extension_says() {
             cone,
         },
         color: [32.0, 16.0, 0.0],
+        shadow_map: None,
     };
     let at = |light: PbrLight, x: f32| light.arrive(Vec3::new(x, 0.0, 0.0)).1;
     assert!((at(light(None, 0.0), 0.0).x - 2.0).abs() < 1e-6);

@@ -10,6 +10,7 @@ use super::VertexTransforms;
 use super::bump::BumpMap;
 use super::interpolation::{AtFragments, AtVertices, Interpolation, Viewer};
 use super::lighting::{Directional, Gloss, Highlight, Lights, SurfacePoint, ViewLight};
+use super::shadow::Visibilities;
 use super::terms::{Reflectance, Terms};
 use estampe::{Bindings, FragmentIn, Mat4, Vec2, Vec3, Vec4};
 use std::sync::Arc;
@@ -37,6 +38,7 @@ fn one_light(towards: [f32; 3], ambient: f32) -> Lights {
         source: Directional(towards),
         color: [1.0; 3],
         highlight: 1.0,
+        shadow_map: None,
     });
     lights
 }
@@ -72,7 +74,9 @@ fn color_at<I: Interpolation>(
     attributes: I::Attributes<f32>,
 ) -> Vec3<f32> {
     let varyings = interpolation.vertex(position, attributes);
-    interpolation.fragment(base, None::<(&BumpMap, Vec2<f32>)>, varyings, true)
+    let bindings = Bindings::default();
+    let input = input(&bindings, Vec4::repeat(0.0));
+    interpolation.fragment(base, None::<(&BumpMap, Vec2<f32>)>, varyings, &input)
 }
 
 /// A point on the eye's axis.
@@ -81,6 +85,7 @@ fn point(normal: Vec3<f32>) -> SurfacePoint<f32> {
         position: Vec3::repeat(0.0),
         normal,
         to_eye: TO_EYE,
+        visibilities: Visibilities::all(1.0),
     }
 }
 

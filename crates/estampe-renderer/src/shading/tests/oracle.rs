@@ -42,6 +42,7 @@ impl Case {
                 source: Directional(direction(random)),
                 color: color(random),
                 highlight: 1.0,
+                shadow_map: None,
             });
         }
         for _ in 0..random.usize(0..4) {
@@ -56,6 +57,7 @@ impl Case {
                 },
                 color: color(random),
                 highlight: 1.0,
+                shadow_map: None,
             });
         }
         let highlight = match random.bool() {
@@ -80,6 +82,7 @@ impl Case {
                 position: vector(random, 1.0).into(),
                 normal: direction(random).into(),
                 to_eye: direction(random).into(),
+                visibilities: Visibilities::all(1.0),
             },
         }
     }

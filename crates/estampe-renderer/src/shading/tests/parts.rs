@@ -114,11 +114,17 @@ fn vertices_carry_the_light_of_both_sides() {
     let light = at_vertices(lights.clone(), DULL, Terms::All, Viewer::Eye);
     let (zero, base) = (Vec3::repeat(0.0), Vec3::repeat(1.0));
     let sides = light.vertex(zero, (TO_EYE, zero));
-    assert!((light.fragment(base, None, sides, true).x - 1.1).abs() < 1e-6);
-    assert!((light.fragment(base, None, sides, false).x - 0.1).abs() < 1e-6);
+    let bindings = Bindings::default();
+    let front = input(&bindings, Vec4::repeat(0.0));
+    let back = FragmentIn {
+        front_facing: false,
+        ..front
+    };
+    assert!((light.fragment(base, None, sides, &front).x - 1.1).abs() < 1e-6);
+    assert!((light.fragment(base, None, sides, &back).x - 0.1).abs() < 1e-6);
     let unlit = at_vertices(lights, DULL, Terms::Unlit, Viewer::Infinity);
     let sides = unlit.vertex(zero, (TO_EYE, zero));
-    assert_eq!(unlit.fragment(base, None, sides, false), base);
+    assert_eq!(unlit.fragment(base, None, sides, &back), base);
 }
 
 #[test]

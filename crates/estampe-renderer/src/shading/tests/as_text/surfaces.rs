@@ -117,6 +117,7 @@ impl Look {
                 },
                 color: [0.7, 0.5, 0.9],
                 highlight: 1.0,
+                shadow_map: None,
             });
         }
         self
