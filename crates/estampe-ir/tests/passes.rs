@@ -135,3 +135,60 @@ fn short_loops_are_unrolled() {
     assert!(long.contains("loop"), "{long}");
     assert!(sum_below(0).ends_with("outputs v1\n"), "{}", sum_below(0));
 }
+
+#[test]
+fn the_opposite_of_a_mask_is_known_in_no_other_tree() {
+    // The iterations of the outer loop make the new tree longer than this one. In each, `m13` is
+    // known to be the opposite of `m12`, whose new number soon names no value here.
+    let text = "tree fragment
+input cover
+input varying(0)
+output color(0, 0)
+m0 = input_mask 0
+v1 = input 1
+v2 = const 0
+v3 = const 1
+v4 = const 12
+v5 = const 2
+block l0 (v6) {
+  loop l1 (v7 = v2, v8 = v1) {
+    m9 = ult v7, v4
+    if m9 {
+    } else {
+      branch l0(v8)
+    }
+    v10 = fadd v8, v7
+    m11 = ule v7, v4
+    m12 = flt v10, v1
+    m13 = mxor m12, m11
+    block l2 (v14) {
+      loop l3 (v15 = v2, v16 = v10) {
+        m17 = ult v15, v5
+        if m17 {
+        } else {
+          branch l2(v16)
+        }
+        block l4 (v18) {
+          m19 = eq v15, v2
+          if m19 {
+            m20 = mnot m13
+            v21 = select m20, v1, v16
+            branch l4(v21)
+          }
+          branch l4(v16)
+        }
+        v22 = fmul v16, v18
+        v23 = add v15, v3
+        branch l3(v23, v22)
+      }
+    }
+    v24 = add v7, v3
+    branch l1(v24, v14)
+  }
+}
+outputs v6
+";
+    let straight = optimised(text);
+    assert!(!straight.contains("loop"), "{straight}");
+    assert_eq!(straight.matches("fmul").count(), 24, "{straight}");
+}

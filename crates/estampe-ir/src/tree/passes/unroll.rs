@@ -351,12 +351,15 @@ impl Writer<'_> {
         let Node::Loop { body, .. } = of else {
             return 0;
         };
-        let known = |value: &Option<Value>| match value {
-            Some(value) => self.builder.known(*value),
-            None => Known::Nothing,
+        // The opposite of a mask names a value of the new tree, which has its own numbers: it says
+        // nothing of the values of the tree that is read.
+        let constant = |value: Value| match self.builder.known(value) {
+            Known::Not(_) => Known::Nothing,
+            known => known,
         };
+        let known = |value: &Option<Value>| value.map_or(Known::Nothing, constant);
         let known: Vec<Known> = self.values.iter().map(known).collect();
-        let initial: Vec<Known> = initial.iter().map(|at| self.builder.known(*at)).collect();
+        let initial: Vec<Known> = initial.iter().map(|&at| constant(at)).collect();
         let ops = self.counter.ops(body, &known);
         let Some(iterations) = self.counter.iterations(of, &initial, known) else {
             return 0;
