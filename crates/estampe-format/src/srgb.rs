@@ -38,7 +38,22 @@ pub static THRESHOLDS: LazyLock<[f32; 255]> = LazyLock::new(|| {
 
 /// The 8-bit sRGB code of a linear value: how many thresholds are at or below it. NaN gives 0.
 #[must_use]
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "0 to 4096; NaN gives 0"
+)]
 pub fn encode(linear: f32) -> u8 {
+    let linear = linear.clamp(0.0, 1.0);
+    let tables = &*ENCODE;
+    let start = tables.start[(linear * BUCKETS as f32) as usize];
+    let code = start + u32::from(linear >= tables.next[start as usize]);
+    u8::try_from(code).unwrap_or(u8::MAX)
+}
+
+/// [`encode`] by searching the thresholds.
+fn encode_by_search(linear: f32) -> u8 {
     // 255 thresholds: at most 255.
     u8::try_from(THRESHOLDS.partition_point(|threshold| *threshold <= linear)).unwrap_or(u8::MAX)
 }
@@ -89,7 +104,7 @@ static ENCODE: LazyLock<EncodeTables> = LazyLock::new(|| {
     };
     for (bucket, code) in tables.start.iter_mut().enumerate() {
         // Exact: a small integer over a power of two.
-        *code = u32::from(encode(bucket as f32 / BUCKETS as f32));
+        *code = u32::from(encode_by_search(bucket as f32 / BUCKETS as f32));
     }
     tables.next[..255].copy_from_slice(&*THRESHOLDS);
     tables

@@ -11,22 +11,43 @@ pub(crate) fn append_half(
     to: MipLevel,
     format: TextureFormat,
 ) {
-    let mean = mean_of_four(format);
+    let start = texels.len();
+    texels.resize(start + to.width as usize * to.height as usize, 0);
+    let (above, half) = texels.split_at_mut(start);
+    let above = &above[from.offset as usize..];
+    // Each form is compiled with its mean, so that the one of integers is done in lanes.
+    if format.is_srgb() {
+        halve(above, from, half, to, mean_srgb);
+    } else {
+        halve(above, from, half, to, mean_unorm);
+    }
+}
+
+/// Writes each texel of the half as the mean of four of the level above.
+#[inline(always)]
+fn halve(
+    above: &[u32],
+    from: MipLevel,
+    half: &mut [u32],
+    to: MipLevel,
+    mean: impl Fn([u32; 4]) -> u32,
+) {
     let width = from.width as usize;
-    let start = from.offset as usize;
-    for y in 0..to.height {
-        let upper = start + (2 * y) as usize * width;
-        let lower = start + (2 * y + 1).min(from.height - 1) as usize * width;
-        for x in 0..to.width {
-            let left = (2 * x) as usize;
-            let right = (2 * x + 1).min(from.width - 1) as usize;
-            let four = [
-                texels[upper + left],
-                texels[upper + right],
-                texels[lower + left],
-                texels[lower + right],
-            ];
-            texels.push(mean(four));
+    let row = |y: u32| {
+        let first = y as usize * width;
+        &above[first..first + width]
+    };
+    let rows = half.chunks_exact_mut(to.width as usize);
+    for (y, half) in (0..to.height).zip(rows) {
+        let (upper, lower) = (row(2 * y), row((2 * y + 1).min(from.height - 1)));
+        if width == 1 {
+            half[0] = mean([upper[0], upper[0], lower[0], lower[0]]);
+            continue;
+        }
+        let (pairs_above, _) = upper.as_chunks::<2>();
+        let (pairs_below, _) = lower.as_chunks::<2>();
+        for ((half, above), below) in half.iter_mut().zip(pairs_above).zip(pairs_below) {
+            *half = mean([above[0], above[1], below[0], below[1]]);
         }
     }
 }
