@@ -109,6 +109,3 @@ pub use upload::LevelData;
 pub use view::{
     Coordinates, Lod, PacketLod, PacketRequest, SampledTexture, TexelView, TextureCoordinates,
 };
-
-#[cfg(test)]
-mod tests;

@@ -43,6 +43,4 @@ pub(crate) use coordinates::{Answers, answer, by_sixteen, load, packed, packet, 
 pub use coordinates::{Coordinates, Lod, TextureCoordinates};
 pub use packet_request::{PacketLod, PacketRequest};
 pub use plane::TexelView;
-#[cfg(test)]
-pub(crate) use sample::border_unit;
 pub use sampled_texture::SampledTexture;

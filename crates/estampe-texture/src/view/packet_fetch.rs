@@ -13,12 +13,13 @@ use estampe_types::{Int, ViewDimension};
 
 impl TexelView {
     /// Fetches sixteen texels at a SIMD level; `false`, with nothing stored, if packet code cannot
-    /// do it.
-    pub(crate) fn fetch_packet(
+    /// do it. [`fetch`](Self::fetch) calls it; tests see by it which path was taken.
+    #[doc(hidden)]
+    pub fn fetch_packet(
         &self,
         level: Level,
         places: &[Packet<i32>; 5],
-        texels: &mut Answers,
+        texels: &mut [Packet<f32>; 4],
     ) -> bool {
         let [x, y, z, mips, samples] = places;
         let Some(format) = PacketFormat::new(self) else {

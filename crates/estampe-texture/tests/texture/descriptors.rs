@@ -1,11 +1,11 @@
 //! Textures of every dimension are created by their rules.
 
-use crate::{
+use estampe_format::TexelCodec;
+use estampe_texture::{
     LevelData, Limits, MipGeneration, SampledTexture, SamplerDescriptor, TexelData,
     TexelDescriptor, TexelView, TexelViewDescriptor, TextureAspect, TextureDimension, TextureError,
     TextureFormat, ViewDimension,
 };
-use estampe_format::TexelCodec;
 use estampe_types::SampleType;
 
 fn make(descriptor: TexelDescriptor) -> Result<TexelData, TextureError> {
@@ -342,7 +342,7 @@ fn views_and_samplers_ask_for_what_is_there() {
 /// The fields of a texture are public: no value in them may do harm.
 #[test]
 fn views_of_textures_put_together_by_hand_cannot_harm() {
-    use crate::{Coordinates, Lod};
+    use estampe_texture::{Coordinates, Lod};
     use estampe_types::{Quad, Vec3};
     let sides = [0, 1, 7, 16_384, u32::MAX];
     let random = &mut super::Random::new(77);
@@ -352,7 +352,7 @@ fn views_of_textures_put_together_by_hand_cannot_harm() {
         let levels = (0..random.bits() % 4)
             .map(|_| {
                 let side = pick(random);
-                crate::MipLevel {
+                estampe_texture::MipLevel {
                     width: side,
                     height: if random.bits().is_multiple_of(2) {
                         side
@@ -373,7 +373,7 @@ fn views_of_textures_put_together_by_hand_cannot_harm() {
             levels,
             texels: vec![0x3F80_0000; random.bits() as usize % 50].into(),
             is_opaque: true,
-            shape: crate::TextureShape {
+            shape: estampe_texture::TextureShape {
                 dimension: dimension[random.bits() as usize % 3],
                 depth_or_layers: [0, 1, 6, 12, 1 << 14, u32::MAX][random.bits() as usize % 6],
                 samples: [0, 1, 1, 1, 4, u32::MAX][random.bits() as usize % 6],
@@ -537,7 +537,7 @@ fn check_levels(format: TextureFormat, dimension: TextureDimension) {
 
 #[test]
 fn a_depth_image_is_compared_the_same_as_a_texture() {
-    use crate::{
+    use estampe_texture::{
         Coordinates, FilterMode, Lod, ShadowMap, sample_compare_level, texture_from_depth,
     };
     let random = &mut super::Random::new(5);
@@ -551,7 +551,7 @@ fn a_depth_image_is_compared_the_same_as_a_texture() {
     };
     let view = SampledTexture::new(view, sampler).expect("a sampler");
     for _ in 0..2000 {
-        let uv = crate::tests::Vec2::new(random.unit() * 1.2 - 0.1, random.unit() * 1.2 - 0.1);
+        let uv = estampe_types::Vec2::new(random.unit() * 1.2 - 0.1, random.unit() * 1.2 - 0.1);
         let reference = random.unit();
         let wanted: f32 = sample_compare_level(&image, uv, reference);
         let got = view.sample_compare(Coordinates::d2(uv), reference, Lod::Level(0.0), [0; 2]);

@@ -6,8 +6,8 @@
     reason = "texels and levels are whole numbers within range; NaN does not reach a cast"
 )]
 
-use crate::{AddressMode, FilterMode, MipLevel, Rgba8Texture};
 use estampe_format::srgb::LINEAR_FROM_SRGB;
+use estampe_texture::{AddressMode, FilterMode, MipLevel, Rgba8Texture};
 
 fn max(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }

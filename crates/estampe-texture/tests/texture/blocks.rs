@@ -1,7 +1,7 @@
 //! Compressed blocks: values by hand, by the formulas of the specifications, and from another
 //! decoder.
 
-use crate::{LevelData, Limits, MipGeneration, TexelDescriptor, TextureFormat as F};
+use estampe_texture::{LevelData, Limits, MipGeneration, TexelDescriptor, TextureFormat as F};
 
 fn decode(format: F, block: &[u8]) -> Vec<u32> {
     let [width, height] = format.block_size();

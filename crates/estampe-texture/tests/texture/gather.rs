@@ -1,6 +1,6 @@
 //! Gathering at the edges of a texture.
 
-use crate::{
+use estampe_texture::{
     AddressMode, Coordinates, LevelData, MipGeneration, SampledTexture, SamplerDescriptor,
     TexelDescriptor, TexelView, TextureFormat,
 };

@@ -2,11 +2,11 @@
 //! textures.
 
 use super::{Colors, Lod, Random, noise, sample_packet};
-use crate::{
+use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
+use estampe_texture::{
     AddressMode, FilterMode, Limits, MipGeneration, Rgba8Texture, SamplerDescriptor, TextureFormat,
     create_texture,
 };
-use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_types::{Quad, Vec2, Vec4};
 
 fn sample_both(level: Level, textures: [&Rgba8Texture; 2], uv: [[f32; LANES]; 2]) -> [Colors; 2] {

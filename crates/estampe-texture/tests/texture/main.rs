@@ -1,6 +1,7 @@
 //! Textures are created by their rules, and every kind of number samples them as docs/NUMERICS.md
 //! says, to the bit, at every SIMD level.
 
+mod bindings;
 mod bits;
 mod blocks;
 mod codes;
@@ -11,12 +12,13 @@ mod gather;
 mod naive;
 mod requests;
 mod several;
+mod unorm8;
 mod values;
 
-use crate::{
+use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
+use estampe_texture::{
     MipGeneration, Rgba8Texture, SamplerDescriptor, TexelData, TextureFormat, create_texture,
 };
-use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16};
 use estampe_types::{Limits, Vec2, Vec4};
 
 /// Random numbers from a seed.
@@ -75,16 +77,16 @@ fn sample_packet(level: Level, sampled: &Rgba8Texture, uv: [[f32; LANES]; 2], lo
 }
 
 /// Samples one packet of a view at a SIMD level; the call only has to return.
-fn sample_view_packet(level: Level, view: &crate::SampledTexture) {
+fn sample_view_packet(level: Level, view: &estampe_texture::SampledTexture) {
     #[inline(always)]
-    fn wide<S: Lanes>(simd: S, view: &crate::SampledTexture) {
+    fn wide<S: Lanes>(simd: S, view: &estampe_texture::SampledTexture) {
         let mut u = [0.0; LANES];
         for (lane, u) in (0..).zip(&mut u) {
             *u = (lane - 7) as f32 * 0.3;
         }
         let u = f32x16::load_array(simd, u);
-        let at = crate::Coordinates::d3(estampe_types::Vec3::new(u, u * 0.7, u * -0.1));
-        view.sample_with(at, crate::Lod::Implicit, [3, 0, 0]);
+        let at = estampe_texture::Coordinates::d3(estampe_types::Vec3::new(u, u * 0.7, u * -0.1));
+        view.sample_with(at, estampe_texture::Lod::Implicit, [3, 0, 0]);
     }
     dispatch!(level, s => wide(s, &view.clone().at_level(level)));
 }

@@ -1,10 +1,10 @@
 //! Creation: sizes, levels, mip generation, errors.
 
-use crate::{
+use estampe_format::srgb::{self, LINEAR_FROM_SRGB};
+use estampe_texture::{
     MipGeneration, TexelData, TextureError, TextureFormat, create_texture,
     create_texture_with_levels,
 };
-use estampe_format::srgb::{self, LINEAR_FROM_SRGB};
 use estampe_types::Limits;
 
 fn full(width: u32, height: u32, format: TextureFormat, rgba: &[u8]) -> TexelData {

@@ -1,7 +1,7 @@
 //! Sample results that can be computed by hand.
 
 use super::*;
-use crate::{AddressMode, FilterMode, create_texture_with_levels};
+use estampe_texture::{AddressMode, FilterMode, create_texture_with_levels};
 
 /// One row of grey texels.
 fn row(codes: &[u8], sampler: SamplerDescriptor) -> Rgba8Texture {

@@ -1,11 +1,11 @@
 //! Requests of compiled shaders: together they give what each gives alone.
 
 use super::{Random, noise};
-use crate::{
+use estampe_simd::{LANE_X, LANE_Y, LANES, Level, Packet};
+use estampe_texture::{
     AddressMode, FilterMode, PacketRequest, SampledTexture, SamplerDescriptor, ShadowMap,
     TexelView, TexelViewDescriptor, TextureFormat, compare_packets,
 };
-use estampe_simd::{LANE_X, LANE_Y, LANES, Level, Packet};
 
 type Colors = [Packet<f32>; 4];
 

@@ -1,7 +1,7 @@
 //! Every kind of number gives the bits of the naive implementation.
 
 use super::*;
-use crate::{AddressMode, FilterMode};
+use estampe_texture::{AddressMode, FilterMode};
 use estampe_types::Quad;
 
 const ODD: [f32; 18] = [
@@ -189,7 +189,7 @@ fn the_f32_sample_is_near_the_exact_one() {
 
 #[test]
 fn a_texture_put_together_by_hand_cannot_harm() {
-    let levels = [u32::MAX, 0, 5].map(|side| crate::MipLevel {
+    let levels = [u32::MAX, 0, 5].map(|side| estampe_texture::MipLevel {
         width: side,
         height: side,
         offset: side,
