@@ -44,3 +44,6 @@ mod resources;
 mod target;
 
 pub use error::BenchError;
+
+#[cfg(test)]
+mod tests;

@@ -1,4 +1,4 @@
-//! Tests of each generator; the scenes' fingerprints are compared in `tests/fingerprints.rs`.
+//! Tests of each generator; the scenes' fingerprints are compared in `tests::fingerprints`.
 
 use super::*;
 use std::f64::consts::TAU;

@@ -1,7 +1,7 @@
 //! The generated data are equal to `peerbench`'s, byte for byte.
 
-use estampe_bench::frame::FrameSize;
-use estampe_bench::scene::{ALL, Detail, SceneEntry};
+use crate::frame::FrameSize;
+use crate::scene::{ALL, Detail, SceneEntry};
 
 /// Scene, triangles and fingerprint, as `peerbench` prints them at 1280×720.
 const PEERBENCH: &[(&str, u64, u64)] = &[

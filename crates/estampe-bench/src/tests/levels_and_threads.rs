@@ -1,8 +1,8 @@
 //! The bytes of a frame depend neither on the SIMD level nor on the number of threads.
 
+use crate::frame::{FrameSize, PreparedScene};
+use crate::scene::{ALL, CLEAR_COLOR, Detail, Scene, SceneEntry};
 use estampe::{Device, DeviceDescriptor, Level};
-use estampe_bench::frame::{FrameSize, PreparedScene};
-use estampe_bench::scene::{ALL, CLEAR_COLOR, Detail, Scene, SceneEntry};
 
 /// Neither side is a multiple of a tile's.
 const SIZE: FrameSize = FrameSize {

@@ -1,0 +1,4 @@
+//! Tests of all scenes.
+
+mod fingerprints;
+mod levels_and_threads;
