@@ -9,8 +9,9 @@ use std::process::{Command, Stdio};
 /// The packages whose programs are checked.
 pub(crate) const PACKAGES: &[&str] = &["estampe-bench", "estampe-cli"];
 
-/// The profile of the workspace's `Cargo.toml` that is `release` with symbols.
-const PROFILE: &str = "symbols";
+/// The profile of the workspace's `Cargo.toml` that is `release` with symbols, for the crates that
+/// have lane code.
+const PROFILE: &str = "asm";
 
 /// The cargo that runs this program, or the one on the path.
 pub(crate) fn cargo() -> OsString {
