@@ -29,6 +29,9 @@ pub(crate) const COLORS: TextureFormat = TextureFormat::Rgba8UnormSrgb;
 /// The format of heights, normals and other numbers.
 pub(crate) const NUMBERS: TextureFormat = TextureFormat::Rgba8Unorm;
 
+/// The index of an image, and the format of its texture.
+pub(crate) type TextureKey = (usize, TextureFormat);
+
 impl<'a> Materials<'a> {
     pub(crate) fn new(scene: &'a Scene, options: &'a RenderOptions, device: &'a Device) -> Self {
         Self {
@@ -39,10 +42,14 @@ impl<'a> Materials<'a> {
         }
     }
 
-    /// Creates the textures of all surfaces by several threads; most of the time goes into their
-    /// mip levels.
-    pub(crate) fn create_textures(&mut self, workers: Workers) -> Result<(), RenderError> {
+    /// The textures of all surfaces, which can be [created](Self::create) by several threads: the
+    /// index of each image with a format, the largest images first. None if there is one thread: a
+    /// texture is created as fast when it is first needed.
+    pub(crate) fn missing_textures(&self, workers: Workers) -> Vec<TextureKey> {
         let scene = self.scene;
+        if workers.count() < 2 {
+            return Vec::new();
+        }
         let with_uvs = scene.meshes.iter().filter(|mesh| !mesh.uvs.is_empty());
         let used = with_uvs.flat_map(|mesh| &mesh.surfaces);
         let used: BTreeSet<usize> = used.filter_map(|surface| surface.material).collect();
@@ -55,19 +62,18 @@ impl<'a> Materials<'a> {
                 }
             }
         }
-        // One is created as fast when it is first needed.
-        if keys.len() < 2 || workers.count() < 2 {
-            return Ok(());
-        }
-        let device = self.device;
-        let created = workers.map(keys, |(index, format)| {
-            let texture = with_levels(device, format, &scene.images[index]);
-            (index, format, texture)
-        });
-        for (index, format, texture) in created {
-            self.textures.insert((Some(index), format), texture?);
-        }
-        Ok(())
+        keys.sort_by_key(|&(index, _)| std::cmp::Reverse(scene.images[index].rgba.len()));
+        keys
+    }
+
+    /// Creates one of the [missing textures](Self::missing_textures) with its mip levels.
+    pub(crate) fn create(&self, (index, format): TextureKey) -> Result<Texture, TextureError> {
+        with_levels(self.device, format, &self.scene.images[index])
+    }
+
+    /// Keeps a texture that was [created](Self::create).
+    pub(crate) fn keep(&mut self, (index, format): TextureKey, texture: Texture) {
+        self.textures.insert((Some(index), format), texture);
     }
 
     /// The images that surfaces of a material sample, with their formats.

@@ -7,11 +7,11 @@ use crate::geometry::faces::{FaceAttributes, LitAt, unshared_streams};
 use crate::geometry::order::{DistantTriangle, back_to_front};
 use crate::geometry::tangents::with_tangents;
 use crate::geometry::vertex_data::{MeshStreams, VertexStream};
-use crate::materials::Materials;
+use crate::materials::{Materials, TextureKey};
 use crate::options::{RenderOptions, Shading};
 use crate::scene_view::SceneView;
 use crate::surface_pipelines::{FrameStyle, StreamPipeline};
-use estampe::{BufferError, BufferSlice, Device};
+use estampe::{BufferError, BufferSlice, Device, Texture, TextureError};
 use estampe_scene::{Mesh, Scene, Workers};
 use std::collections::HashMap;
 
@@ -45,11 +45,9 @@ impl Planner<'_> {
     /// Plans the draws of the whole scene.
     pub(crate) fn plan(&self) -> Result<DrawPlan, RenderError> {
         let mut materials = Materials::new(self.scene, self.options, self.device);
-        materials.create_textures(self.workers)?;
+        let with_tangents = self.make_tangents_and_textures(&mut materials)?;
         let mut builder = DrawPlanBuilder::default();
-        for mesh in &self.scene.meshes {
-            let made = self.normal_map_uv_set(mesh);
-            let made = made.and_then(|uv_set| with_tangents(mesh, uv_set));
+        for (mesh, made) in self.scene.meshes.iter().zip(&with_tangents) {
             self.plan_mesh(made.as_ref().unwrap_or(mesh), &mut materials, &mut builder)?;
         }
         for run in back_to_front(std::mem::take(&mut builder.transparent)) {
@@ -65,6 +63,40 @@ impl Planner<'_> {
             });
         }
         Ok(builder.plan)
+    }
+
+    /// The meshes whose tangents must be made, with them, and the textures of all surfaces: what
+    /// takes the most time and can be done by several threads.
+    fn make_tangents_and_textures(
+        &self,
+        materials: &mut Materials<'_>,
+    ) -> Result<Vec<Option<Mesh>>, RenderError> {
+        enum Job<'a> {
+            Tangents(&'a Mesh),
+            Texture(TextureKey),
+        }
+        enum Made {
+            Tangents(Option<Mesh>),
+            Texture(TextureKey, Result<Texture, TextureError>),
+        }
+        let tangents = self.scene.meshes.iter().map(Job::Tangents);
+        let textures = materials.missing_textures(self.workers);
+        let jobs = tangents.chain(textures.into_iter().map(Job::Texture));
+        let made = self.workers.map(jobs, |job| match job {
+            Job::Tangents(mesh) => {
+                let uv_set = self.normal_map_uv_set(mesh);
+                Made::Tangents(uv_set.and_then(|uv_set| with_tangents(mesh, uv_set)))
+            }
+            Job::Texture(key) => Made::Texture(key, materials.create(key)),
+        });
+        let mut meshes = Vec::with_capacity(self.scene.meshes.len());
+        for made in made {
+            match made {
+                Made::Tangents(mesh) => meshes.push(mesh),
+                Made::Texture(key, texture) => materials.keep(key, texture?),
+            }
+        }
+        Ok(meshes)
     }
 
     /// The texture coordinates of a mesh's first normal map, if it has one and no tangents.

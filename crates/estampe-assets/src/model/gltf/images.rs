@@ -68,9 +68,12 @@ impl Images {
             }
         }
         let limits = context.limits;
-        let decoded = context.workers.map(encoded, |(at, bytes)| {
+        // The longest first, so that no thread begins it when the others have finished.
+        encoded.sort_by_key(|(_, bytes)| std::cmp::Reverse(bytes.len()));
+        let mut decoded = context.workers.map(encoded, |(at, bytes)| {
             (at, crate::image::decode(&bytes, limits))
         });
+        decoded.sort_by_key(|&(at, _)| at);
         for (at, decoded) in decoded {
             match decoded {
                 Ok(image) => {
