@@ -2,7 +2,7 @@
 
 use super::{Frame, LowerError, Lowered, Lowering, Operand};
 use estampe_ir::interface::TextureSlot;
-use estampe_ir::op::{LevelOfDetail, TextureOp, TextureQuery};
+use estampe_ir::op::{Binary, LevelOfDetail, TextureOp, TextureQuery, Unary};
 use estampe_ir::{Op, Value};
 use naga::{
     Expression, GlobalVariable, Handle, ImageClass, ImageDimension, ImageQuery, SampleLevel,
@@ -27,11 +27,6 @@ impl<'a> Lowering<'a> {
                 depth_ref,
                 clamp_to_edge,
             } => {
-                if clamp_to_edge {
-                    return Err(LowerError::Unsupported(
-                        "calls of textureSampleBaseClampToEdge",
-                    ));
-                }
                 let mut op = self.texture_op(frame, image, TextureQuery::Sample)?;
                 let sampler = self.resource(frame, sampler)?;
                 op.sampler = Some(self.sampler_slot(sampler)?);
@@ -42,6 +37,9 @@ impl<'a> Lowering<'a> {
                     (Some(component), false) => TextureQuery::Gather(component as u8),
                 };
                 op.coordinates = self.narrow_values(frame, coordinate)?;
+                if clamp_to_edge {
+                    op.coordinates = self.half_a_texel_inside(frame, image, &op.coordinates)?;
+                }
                 op.layer = self.optional(frame, array_index)?;
                 op.reference = self.optional(frame, depth_ref)?;
                 op.offset = self.offset(frame, offset)?;
@@ -81,6 +79,28 @@ impl<'a> Lowering<'a> {
             Expression::ImageQuery { image, query } => self.image_query(frame, image, query),
             _ => Err(LowerError::Unsupported("accesses of this kind")),
         }
+    }
+
+    /// Coordinates that are clamped to the centres of the outermost texels of level 0, as WGSL
+    /// defines for `textureSampleBaseClampToEdge`.
+    fn half_a_texel_inside(
+        &mut self,
+        frame: &mut Frame<'a>,
+        image: Handle<Expression>,
+        coordinates: &[Value],
+    ) -> Lowered<Vec<Value>> {
+        let sides = self.image_query(frame, image, ImageQuery::Size { level: None })?;
+        let b = &mut self.builder;
+        let (one, half) = (b.float(1.0), b.float(0.5));
+        let pairs = coordinates.iter().zip(sides);
+        let clamped = pairs.map(|(&coordinate, side)| {
+            let side = b.unary(Unary::F32FromU32, side);
+            let low = b.binary(Binary::FDiv, half, side);
+            let high = b.binary(Binary::FSub, one, low);
+            let raised = b.binary(Binary::FMax, coordinate, low);
+            b.binary(Binary::FMin, raised, high)
+        });
+        Ok(clamped.collect())
     }
 
     pub(super) fn image_store(

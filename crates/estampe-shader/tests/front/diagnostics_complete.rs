@@ -118,7 +118,6 @@ const LOWER: &[&str] = &[
     "64-bit floats",
     "constants of this kind",
     "lengths of this memory",
-    "calls of textureSampleBaseClampToEdge",
     "accesses of this kind",
     "textures in arrays",
     "textures without a binding",

@@ -178,16 +178,6 @@ const d: D = 1.0lf;
   help: See available extensions at <https://www.w3.org/TR/WGSL/#enable-extension>"#,
     ),
     (
-        r#"@group(0) @binding(0) var t: texture_2d<f32>;
-@group(0) @binding(1) var s: sampler;
-@fragment fn main() -> @location(0) vec4f { return textureSampleBaseClampToEdge(t, s, vec2f()); }
-"#,
-        r#"shader:3:52: error: `textureSampleBaseClampToEdge` is not supported
-  @fragment fn main() -> @location(0) vec4f { return textureSampleBaseClampToEdge(t, s, vec2f()); }
-                                                     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^
-  help: use `textureSampleLevel` with level 0 and a sampler that clamps to the edge"#,
-    ),
-    (
         r#"enable subgroups;
 @compute @workgroup_size(64) fn main() { let x = subgroupAdd(1lu); }
 "#,
@@ -208,5 +198,5 @@ const d: D = 1.0lf;
 
 #[test]
 fn errors_tell_the_place_and_what_to_do() {
-    assert_eq!(errors::wgsl(CASES), 26);
+    assert_eq!(errors::wgsl(CASES), 25);
 }

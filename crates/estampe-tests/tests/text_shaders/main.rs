@@ -1,5 +1,6 @@
 //! Shaders as text on the objects of the device: drawing and compute.
 
+mod clamped_sampling;
 mod compute;
 mod contraction;
 mod drawing;

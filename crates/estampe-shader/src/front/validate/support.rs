@@ -3,18 +3,18 @@
 use super::{Fault, Words};
 use naga::valid::{FunctionInfo, GlobalUse, ModuleInfo};
 use naga::{
-    AddressSpace, Binding, Block, EntryPoint, Expression, Function, Handle, Module, ShaderStage,
-    Span, Statement, Type, TypeInner,
+    AddressSpace, Binding, Block, EntryPoint, Handle, Module, ShaderStage, Span, Statement, Type,
+    TypeInner,
 };
 
 /// Checks a valid module.
 pub(super) fn check(module: &Module, info: &ModuleInfo, words: Words) -> Result<(), Fault> {
     for (handle, function) in module.functions.iter() {
-        check_function(module, function, &info[handle])?;
+        check_sums(module, &function.body, &info[handle])?;
     }
     for (index, entry) in module.entry_points.iter().enumerate() {
         let info = info.get_entry_point(index);
-        check_function(module, &entry.function, info)?;
+        check_sums(module, &entry.function.body, info)?;
         check_interface(module, entry, words)?;
         check_memory(module, entry, info)?;
     }
@@ -28,30 +28,6 @@ fn fault(message: String, span: Span) -> Fault {
         spans: vec![span],
         entry_point: None,
     }
-}
-
-fn check_function(module: &Module, function: &Function, info: &FunctionInfo) -> Result<(), Fault> {
-    for (handle, expression) in function.expressions.iter() {
-        let Expression::ImageSample {
-            clamp_to_edge: true,
-            ..
-        } = expression
-        else {
-            continue;
-        };
-        let (name, help) = (
-            "textureSampleBaseClampToEdge",
-            "use `textureSampleLevel` with level 0 and a sampler that clamps to the edge",
-        );
-        return Err(Fault {
-            help: Some(help.to_owned()),
-            ..fault(
-                format!("`{name}` is not supported"),
-                function.expressions.get_span(handle),
-            )
-        });
-    }
-    check_sums(module, &function.body, info)
 }
 
 /// Refuses sums and the like of 64-bit integers over a subgroup.
