@@ -12,17 +12,17 @@ use estampe::{
 #[derive(Debug, Clone)]
 pub(crate) struct EnvironmentLight {
     /// Radiance by direction, a level for each roughness.
-    specular: SampledTexture,
+    pub(crate) specular: SampledTexture,
     /// The level of roughness 1.
-    roughest_level: f32,
+    pub(crate) roughest_level: f32,
     /// Coefficients of irradiance ÷ π.
-    diffuse: [[f32; 3]; 9],
+    pub(crate) diffuse: [[f32; 3]; 9],
     /// From view space to that of the map; a rotation.
-    map_from_view: Mat4,
+    pub(crate) map_from_view: Mat4,
     /// Reflected shares, by n·v and roughness.
-    albedos: SampledTexture,
+    pub(crate) albedos: SampledTexture,
     /// What casts a shadow, if something does.
-    key: Option<KeyLight>,
+    pub(crate) key: Option<KeyLight>,
 }
 
 /// The part of the light that comes from about one direction: parallel light with the same vector

@@ -8,7 +8,7 @@ use estampe::{
     ColorAttachment, DepthStencilAttachment, Device, Draw, EntryPointDescriptor, Program,
     ProgramDescriptor, RenderPass, RenderPipelineDescriptor, SampledTexture, Sampler,
     SamplerDescriptor, ShaderModule, ShaderModuleDescriptor, ShaderSource, Texture,
-    TextureDescriptor, TextureFormat, bytes_of,
+    TextureDescriptor, TextureFormat, TextureView, TextureViewDescriptor, ViewDimension, bytes_of,
 };
 use std::sync::Arc;
 
@@ -19,6 +19,8 @@ pub(super) const HEIGHT: u32 = 96;
 pub(super) struct Textures {
     pub(super) base: SampledTexture,
     pub(super) heights: SampledTexture,
+    pub(super) surroundings: SampledTexture,
+    pub(super) albedos: SampledTexture,
 }
 
 /// A device with the scene and the textures.
@@ -28,6 +30,8 @@ pub(super) struct Stage<'a> {
     count: u32,
     base: Texture,
     heights: Texture,
+    surroundings: TextureView,
+    albedos: Texture,
     sampler: Sampler,
     textures: Textures,
 }
@@ -51,14 +55,34 @@ impl<'a> Stage<'a> {
         let sampler = device
             .create_sampler(&SamplerDescriptor::trilinear_repeat())
             .expect("a common sampler");
-        let sampled = |texture: &Texture| {
+        let mut numbers = |sides: &[u32], layers: u32| {
+            let mut descriptor =
+                TextureDescriptor::new_2d(sides[0], sides[0], TextureFormat::Rgba32Float);
+            descriptor.size.depth_or_array_layers = layers;
+            descriptor.mip_level_count = u32::try_from(sides.len()).expect("few levels");
+            let levels = sides.iter().map(|side| {
+                let count = side * side * layers * 4;
+                let bytes = (0..count).flat_map(|_| (random.f32() * 0.45).to_le_bytes());
+                bytes.collect::<Vec<u8>>()
+            });
+            let levels: Vec<Vec<u8>> = levels.collect();
+            let levels: Vec<&[u8]> = levels.iter().map(Vec::as_slice).collect();
             device
-                .sampled_texture(&texture.view(), &sampler)
-                .expect("it fits")
+                .create_texture_with_data(&descriptor, &levels)
+                .expect("a small texture")
         };
+        let albedos = numbers(&[32], 1);
+        let surroundings = numbers(&[4, 2, 1], 6).create_view(&TextureViewDescriptor {
+            dimension: Some(ViewDimension::Cube),
+            ..TextureViewDescriptor::default()
+        });
+        let surroundings = surroundings.expect("six faces");
+        let sampled = |view: &TextureView| device.sampled_texture(view, &sampler).expect("it fits");
         let textures = Textures {
-            base: sampled(&base),
-            heights: sampled(&heights),
+            base: sampled(&base.view()),
+            heights: sampled(&heights.view()),
+            surroundings: sampled(&surroundings),
+            albedos: sampled(&albedos.view()),
         };
         Self {
             device,
@@ -66,6 +90,8 @@ impl<'a> Stage<'a> {
             count: scene::count(&vertices),
             base,
             heights,
+            surroundings,
+            albedos,
             sampler,
             textures,
         }
@@ -90,18 +116,23 @@ impl<'a> Stage<'a> {
         let buffer = buffer.expect("a small buffer");
         let pipeline = RenderPipelineDescriptor::with_program(Arc::clone(program));
         let layout = &pipeline.bind_group_layouts[0];
-        let is_heights = |number: u32| {
+        let name_of = |number: u32| {
             let mut bindings = module
                 .reflections()
                 .flat_map(|reflection| &reflection.bindings);
-            bindings.any(|binding| binding.binding == number && binding.name == "heights")
+            let binding = bindings.find(|binding| binding.binding == number);
+            binding.map_or("", |binding| binding.name.as_str())
         };
         let entries = layout.entries().iter().map(|entry| {
             let resource = match entry.ty {
                 BindingType::Buffer { .. } => BindingResource::Buffer(buffer.slice(..)),
                 BindingType::Sampler { .. } => BindingResource::Sampler(self.sampler.clone()),
-                _ if is_heights(entry.binding) => BindingResource::Texture(self.heights.view()),
-                _ => BindingResource::Texture(self.base.view()),
+                _ => BindingResource::Texture(match name_of(entry.binding) {
+                    "heights" => self.heights.view(),
+                    "albedos" => self.albedos.view(),
+                    "surroundings" => self.surroundings.clone(),
+                    _ => self.base.view(),
+                }),
             };
             (entry.binding, resource)
         });

@@ -8,6 +8,7 @@
 //! | module | contents |
 //! |---|---|
 //! | [`surfaces`] | the composed shader of surfaces, part by part |
+//! | [`physical`] | physically based surfaces |
 //! | [`views`] | inspection, wireframes, points and lines |
 //! | [`uniforms`] | the numbers that Rust has in fields, by their names in the texts |
 //! | [`scene`] | the teapot, a textured square, and a cloud of triangles |
@@ -18,6 +19,7 @@
 //! has in fields are pipeline-overridable constants in WGSL and macros in GLSL.
 
 mod drawing;
+mod physical;
 mod scene;
 mod surfaces;
 mod uniforms;
@@ -146,6 +148,12 @@ fn lit_vertices_as_text() {
 #[test]
 fn toon_shading_as_text() {
     surfaces::toon().iter().for_each(check);
+}
+
+/// Rows: G1, G2
+#[test]
+fn physically_based_surfaces_as_text() {
+    physical::surfaces().iter().for_each(check);
 }
 
 /// Rows: G1, G2

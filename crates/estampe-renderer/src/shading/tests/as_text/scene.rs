@@ -17,7 +17,7 @@ struct Vertex {
 }
 
 /// The floats of a vertex.
-const FLOATS: u32 = 21;
+const FLOATS: u32 = 27;
 
 /// The format of a stream, and its first float in a vertex.
 fn place(stream: VertexStream) -> (VertexFormat, u32) {
@@ -29,9 +29,8 @@ fn place(stream: VertexStream) -> (VertexFormat, u32) {
         VertexStream::Face => (VertexFormat::Float32x3, 12),
         VertexStream::Uv => (VertexFormat::Float32x2, 15),
         VertexStream::Color => (VertexFormat::Float32x4, 17),
-        VertexStream::Uv1 | VertexStream::Tangent => {
-            unreachable!("no shading with a form as text reads {stream:?}")
-        }
+        VertexStream::Tangent => (VertexFormat::Float32x4, 21),
+        VertexStream::Uv1 => (VertexFormat::Float32x2, 25),
     }
 }
 
@@ -78,9 +77,22 @@ pub(super) fn vertices() -> Vec<f32> {
             floats.extend(face);
             floats.extend(vertex.uv);
             floats.extend(vertex.color);
+            floats.extend(tangent(vertex, index));
+            let [u, v] = vertex.uv;
+            floats.extend([v * 0.7, u]);
         }
     }
     floats
+}
+
+/// A direction across the normal, with the sign of the bitangent; every fifth triangle has none.
+fn tangent(vertex: &Vertex, triangle: usize) -> [f32; 4] {
+    let [x, y, z] = vertex.normal;
+    match triangle % 5 {
+        0 => [0.0, 0.0, 0.0, 1.0],
+        number if number % 2 == 1 => [y, -x, 0.1 * z, 1.0],
+        _ => [z, 0.2, -x, -1.0],
+    }
 }
 
 /// The number of vertices of the same.

@@ -41,16 +41,26 @@ impl Numbers {
         self
     }
 
-    pub(super) fn transforms(mut self, transforms: &VertexTransforms) -> Self {
-        let columns = transforms.view_from_object_normal.0;
-        let rotation = [0, 1, 2].map(|column| {
-            let [x, y, z, _] = columns[column];
+    pub(super) fn count(mut self, name: &str, value: usize) -> Self {
+        let value = u32::try_from(value).expect("a small number");
+        self.add(name, Value::Count(value));
+        self
+    }
+
+    /// The rotation of a matrix.
+    pub(super) fn rotation(mut self, name: &str, matrix: &Mat4) -> Self {
+        let columns = [0, 1, 2].map(|column| {
+            let [x, y, z, _] = matrix.0[column];
             [x, y, z]
         });
+        self.add(name, Value::Rotation(Mat3(columns)));
+        self
+    }
+
+    pub(super) fn transforms(mut self, transforms: &VertexTransforms) -> Self {
         self.add("clip_from_unit", Value::Matrix(transforms.clip_from_unit));
         self.add("view_from_unit", Value::Matrix(transforms.view_from_unit));
-        self.add("view_from_normal", Value::Rotation(Mat3(rotation)));
-        self
+        self.rotation("view_from_normal", &transforms.view_from_object_normal)
     }
 
     pub(super) fn lights(mut self, lights: &Lights) -> Self {
