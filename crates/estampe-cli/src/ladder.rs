@@ -37,7 +37,8 @@ pub(crate) struct LadderArgs {
     #[arg(long, value_name = "MODEL")]
     pub(crate) model: Option<Source>,
 
-    /// The texture of the model (PNG, JPEG, TGA), in place of its own or the built-in one
+    /// The texture of the model (PNG, JPEG, WebP, TGA, BMP, DDS), in place of its own or the
+    /// built-in one
     #[arg(long, value_name = "FILE")]
     pub(crate) texture: Option<PathBuf>,
 

@@ -122,7 +122,7 @@ impl Images {
         self.bytes_left -= bytes.len() as u64;
         let Some((width, height)) = crate::image::stated_size(&bytes) else {
             return Err(AssetError::unsupported(
-                "an image that is neither PNG nor JPEG cannot be read",
+                "an image that is neither PNG, JPEG, WebP, BMP nor DDS cannot be read",
                 "save it as an 8-bit PNG",
             ));
         };
