@@ -58,7 +58,8 @@ pub(crate) struct InfoArgs {
 /// Runs the command.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     let read = (&args.choice.at(args.time), &Limits::default());
-    let model = Model::read(&args.model, args.format, read, |_| {})?;
+    let folder = args.choice.folder_of(&args.model)?;
+    let model = Model::read((&args.model, &folder), args.format, read, |_| {})?;
     let report = if args.json {
         format!("{:#}\n", json(&model))
     } else {

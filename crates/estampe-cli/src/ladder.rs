@@ -1,5 +1,6 @@
 //! `estampe ladder`: draws the pictures of the ladder, and a sheet of all of them.
 
+use crate::choice::ChoiceArgs;
 use crate::failure::Failure;
 use crate::input::{self, Model};
 use crate::output;
@@ -137,8 +138,9 @@ fn read_model(source: &Source, is_quiet: bool) -> Result<estampe_ladder::Model, 
             "the ladder reads no model from standard input; {advice}"
         )));
     }
+    let folder = ChoiceArgs::default().folder_of(source)?;
     let model = Model::read(
-        source,
+        (source, &folder),
         None,
         (&ModelOptions::default(), &Limits::default()),
         |_| {},

@@ -1,8 +1,8 @@
 //! Entry points: a path, or bytes in memory.
 
 use super::options::{ModelChoices, ModelOptions};
-use super::resources::{Folder, ResourceError, Resources};
-use super::{ModelFormat, finish, gltf, obj, ply, stl};
+use super::resources::{ResourceError, Resources};
+use super::{Folder, ModelFormat, finish, gltf, obj, ply, stl};
 use crate::warning::{Warning, Warnings};
 use crate::{AssetError, Limits, read_bytes};
 use estampe_scene::{Scene, Workers};
@@ -84,6 +84,18 @@ impl Context<'_> {
         };
         self.side_files_left = left;
         self.resources.resolve(name)
+    }
+
+    /// Finds the texture `name`, which was not found because of `error`, by its last part.
+    pub(super) fn search_texture(
+        &self,
+        name: &str,
+        error: ResourceError,
+    ) -> Result<String, ResourceError> {
+        match self.resources.search(name) {
+            Err(ResourceError::NotFound | ResourceError::Unavailable) => Err(error),
+            found => found,
+        }
     }
 
     /// The bytes of a side file that was found.

@@ -13,6 +13,7 @@
 
 mod detect;
 mod finish;
+mod folder;
 mod gltf;
 mod load;
 mod mtl;
@@ -35,8 +36,9 @@ mod write;
 mod tests;
 
 pub use detect::ModelFormat;
+pub use folder::Folder;
 pub use load::{Loaded, ModelInput, load_model, load_model_with, parse_model, parse_model_with};
 pub use normals::NormalMode;
 pub use options::{AnimationClip, AnimationName, ModelChoices, ModelOptions, TextureAlpha};
-pub use resources::{Folder, NoResources, ResourceError, Resources};
+pub use resources::{NoResources, ResourceError, Resources};
 pub use write::encode_model;

@@ -9,3 +9,4 @@ mod models_ply;
 mod models_speed;
 mod models_stl;
 mod models_written;
+mod textures_elsewhere;

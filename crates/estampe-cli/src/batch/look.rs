@@ -36,6 +36,7 @@ pub(super) struct Look {
 impl Look {
     pub(super) fn new(options: JobOptions) -> Result<Self, Failure> {
         options.picture.check()?;
+        options.choice.check_roots()?;
         let identity = identity(&options)?;
         Ok(Self { options, identity })
     }

@@ -161,7 +161,10 @@ impl Place {
             (Some(uri), _) if data_uri::is_data(&uri.0) => Ok(Self::Uri(at)),
             (Some(uri), _) => {
                 let unreadable = |error| AssetError::io(format!("`{}`: {error}", uri.0), "");
+                let name = data_uri::percent_decoded(&uri.0);
+                let name = String::from_utf8_lossy(&name);
                 find_side_file(&uri.0, context)
+                    .or_else(|error| context.search_texture(&name, error))
                     .map(Self::File)
                     .map_err(unreadable)
             }
