@@ -1,7 +1,7 @@
 #![forbid(unsafe_code)]
 //! Readers and writers of models and images.
 //!
-//! - [`model`]: glTF, OBJ with its material libraries, STL and PLY become an
+//! - [`model`]: glTF, OBJ with its material libraries, STL, PLY and OFF become an
 //!   [`estampe_scene::Scene`]; OBJ, STL and PLY are also written.
 //! - [`image`]: TGA, PNG and JPEG become an [`estampe_scene::Image`], and back; WebP, BMP and DDS are
 //!   read.

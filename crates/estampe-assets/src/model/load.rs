@@ -2,7 +2,7 @@
 
 use super::options::{ModelChoices, ModelOptions};
 use super::resources::{ResourceError, Resources};
-use super::{Folder, ModelFormat, finish, gltf, obj, ply, stl};
+use super::{Folder, ModelFormat, finish, gltf, obj, off, ply, stl};
 use crate::warning::{Warning, Warnings};
 use crate::{AssetError, Limits, read_bytes};
 use estampe_scene::{Scene, Workers};
@@ -136,7 +136,7 @@ pub fn load_model_with(
         .ok_or_else(|| {
             AssetError::unsupported(
                 "neither the extension nor the content is that of a known model format",
-                "glTF, OBJ, STL and PLY are read; name the format if it is one of them",
+                "glTF, OBJ, STL, PLY and OFF are read; name the format if it is one of them",
             )
             .in_file(&name)
         })?;
@@ -201,6 +201,7 @@ pub fn parse_model_with(
             ModelFormat::Obj => obj::parse(bytes, &mut context),
             ModelFormat::Stl => stl::parse(bytes, &mut context),
             ModelFormat::Ply => ply::parse(bytes, &mut context),
+            ModelFormat::Off => off::parse(bytes, &mut context),
         })
         .map_err(|error| error.in_file(name))?;
     let parsed = finish::finish(parsed, &mut context);

@@ -1,7 +1,7 @@
-//! Readers of models: glTF, OBJ with MTL, STL and PLY; and writers of the last three.
+//! Readers of models: glTF, OBJ with MTL, STL, PLY and OFF; and writers of OBJ, STL and PLY.
 //!
 //! ```text
-//! bytes -> gltf | obj | stl | ply  (one folder each: JSON, lines or records -> meshes)
+//! bytes -> gltf | obj | stl | ply | off  (one folder each: JSON, lines or records -> meshes)
 //!       -> finish                  (faces with non-finite corners dropped, limits)
 //!       -> normals                 (missing ones)
 //!       -> Scene -> write -> bytes
@@ -11,6 +11,7 @@
 //! fails, as Latin-1. Side files (material libraries, textures) come from [`Resources`], which
 //! decides which files a model may open.
 
+mod corner_split;
 mod detect;
 mod finish;
 mod folder;
@@ -20,6 +21,7 @@ mod mtl;
 pub mod normals;
 mod number;
 mod obj;
+mod off;
 mod options;
 mod ply;
 mod polygons;

@@ -5,6 +5,7 @@ mod images_tga_suite;
 mod models_data;
 mod models_hostile;
 mod models_obj;
+mod models_off;
 mod models_ply;
 mod models_speed;
 mod models_stl;
