@@ -1,9 +1,10 @@
 #![forbid(unsafe_code)]
 //! Readers and writers of models and images.
 //!
-//! - [`model`]: glTF, OBJ with its material libraries, STL and PLY become an
+//! - [`model`]: glTF, OBJ with its material libraries, STL, PLY and OFF become an
 //!   [`estampe_scene::Scene`]; OBJ, STL and PLY are also written.
-//! - [`image`]: TGA, PNG and JPEG become an [`estampe_scene::Image`], and back.
+//! - [`image`]: TGA, PNG and JPEG become an [`estampe_scene::Image`], and back; WebP, BMP and DDS are
+//!   read.
 //!
 //! Every input is treated as hostile: a reader ends with a value or an [`AssetError`] with the
 //! problem, its location and advice. It allocates no memory that the file's own size does not

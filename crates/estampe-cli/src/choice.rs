@@ -1,11 +1,14 @@
-//! The options that choose what is read from a file with several scenes, animations or variants.
+//! The options that choose what is read: the scene, animation and variant of a file, and where the
+//! files are that it names.
 
 use crate::failure::Failure;
+use crate::values::{Source, shown};
 use clap::Args;
-use estampe_assets::model::{AnimationName, ModelOptions};
+use estampe_assets::model::{AnimationName, Folder, ModelOptions};
 use estampe_scene::{NamedCamera, Scene};
+use std::path::{Path, PathBuf};
 
-/// What is read from a glTF file.
+/// What is read of a model, and where its files are.
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct ChoiceArgs {
     /// The scene of a glTF file, by its number from 0 [default: the file's choice]
@@ -19,9 +22,39 @@ pub(crate) struct ChoiceArgs {
     /// The variant of the materials, by its name
     #[arg(long, value_name = "NAME", help_heading = "Contents")]
     pub(crate) variant: Option<String>,
+
+    /// A further folder in which files that the model names, and textures by their own name, are
+    /// looked for; repeatable
+    #[arg(long = "root", value_name = "DIR", help_heading = "Contents")]
+    pub(crate) roots: Vec<PathBuf>,
 }
 
 impl ChoiceArgs {
+    /// The folders in which the files of a model are.
+    pub(crate) fn folder_of(&self, model: &Source) -> Result<Folder, Failure> {
+        self.check_roots()?;
+        Ok(match model {
+            Source::File(path) => self.folder(path),
+            Source::Builtin(_) | Source::StandardInput => Folder::none().with_roots(&self.roots),
+        })
+    }
+
+    /// The folders in which the files of the model at `path` are.
+    pub(crate) fn folder(&self, path: &Path) -> Folder {
+        Folder::of_model(path).with_roots(&self.roots)
+    }
+
+    /// Refuses roots that are no folders.
+    pub(crate) fn check_roots(&self) -> Result<(), Failure> {
+        match self.roots.iter().find(|root| !root.is_dir()) {
+            Some(root) => Err(Failure::Usage(format!(
+                "--root {}: this is no folder; check the path",
+                shown(root)
+            ))),
+            None => Ok(()),
+        }
+    }
+
     /// The options of the reader, at a time of the animation.
     pub(crate) fn at(&self, time_s: Option<f32>) -> ModelOptions {
         let named = self.animation.as_ref().map(|name| match name.parse() {

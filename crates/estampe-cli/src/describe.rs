@@ -38,7 +38,7 @@ pub(crate) struct InfoArgs {
     #[arg(value_name = "MODEL")]
     pub(crate) model: Source,
 
-    /// The model's format: gltf, obj, stl or ply [default: by extension, else by content]
+    /// The model's format: gltf, obj, stl, ply or off [default: by extension, else by content]
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     pub(crate) format: Option<FormatName>,
 
@@ -58,7 +58,8 @@ pub(crate) struct InfoArgs {
 /// Runs the command.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     let read = (&args.choice.at(args.time), &Limits::default());
-    let model = Model::read(&args.model, args.format, read, |_| {})?;
+    let folder = args.choice.folder_of(&args.model)?;
+    let model = Model::read((&args.model, &folder), args.format, read, |_| {})?;
     let report = if args.json {
         format!("{:#}\n", json(&model))
     } else {

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::terminal::one_line;
 use crate::values::{FormatName, Source, shown};
-use estampe_assets::model::{Folder, ModelChoices, NoResources, ResourceError, Resources};
+use estampe_assets::model::{Folder, ModelChoices, ResourceError, Resources};
 use estampe_assets::{AssetError, Limits, Loaded, ModelFormat, ModelInput, ModelOptions, Warning};
 use estampe_assets::{parse_model_with, read_bytes, read_stream};
 use estampe_scene::{Mesh, Scene};
@@ -37,11 +37,11 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    /// Reads a model.
+    /// Reads a model, whose other files are those of `folder`.
     ///
     /// `on_stage` is called before each stage with its name.
     pub(crate) fn read(
-        source: &Source,
+        (source, folder): (&Source, &Folder),
         format: Option<FormatName>,
         (options, limits): (&ModelOptions, &Limits),
         on_stage: impl Fn(&'static str),
@@ -56,7 +56,7 @@ impl Model {
                 let Some(format) = format else {
                     return Err(Failure::Usage(
                         "standard input has no file name that shows the format; add --format gltf, obj, \
-                         stl or ply"
+                         stl, ply or off"
                         .to_owned(),
                     ));
                 };
@@ -65,22 +65,24 @@ impl Model {
                 })?;
                 let read = start.elapsed();
                 on_stage("parsing");
-                Self::parsed(read, name, || {
+                let resources = Noted::new(folder);
+                let model = Self::parsed(read, name, || {
                     let input = ModelInput {
                         bytes: &bytes,
                         format,
                         name,
-                        resources: &NoResources,
+                        resources: &resources,
                     };
                     parse_model_with(&input, options, limits)
-                })
+                })?;
+                let files = resources.read.into_inner();
+                Ok(Self { files, ..model })
             }
             Source::File(path) => {
                 let bytes = read_file(path, limits)?;
                 let read = start.elapsed();
                 on_stage("parsing");
-                let folder = Folder::of_model(path);
-                let model = Self::of_bytes((path, &bytes), format, (options, limits), &folder)?;
+                let model = Self::of_bytes((path, &bytes), format, (options, limits), folder)?;
                 Ok(Self { read, ..model })
             }
         }
@@ -100,13 +102,11 @@ impl Model {
             .ok_or_else(|| {
                 Failure::Input(format!(
                     "{name}: neither its extension nor its content is that of a model; glTF, \
-                     OBJ, STL and PLY are read, name the format by --format if it is one of them"
+                     OBJ, STL, PLY and OFF are read; name the format by --format if it is one of them"
                 ))
             })?;
-        let resources = Noted {
-            resources,
-            read: RefCell::new(vec![path.to_owned()]),
-        };
+        let resources = Noted::new(resources);
+        resources.read.borrow_mut().push(path.to_owned());
         let model = Self::parsed(Duration::ZERO, &name, || {
             let input = ModelInput {
                 bytes,
@@ -192,9 +192,22 @@ struct Noted<'r> {
     read: RefCell<Vec<PathBuf>>,
 }
 
+impl<'r> Noted<'r> {
+    fn new(resources: &'r dyn Resources) -> Self {
+        Self {
+            resources,
+            read: RefCell::default(),
+        }
+    }
+}
+
 impl Resources for Noted<'_> {
     fn resolve(&self, name: &str) -> Result<String, ResourceError> {
         self.resources.resolve(name)
+    }
+
+    fn search(&self, name: &str) -> Result<String, ResourceError> {
+        self.resources.search(name)
     }
 
     fn read(&self, resolved: &str, max_bytes: u64) -> Result<Vec<u8>, ResourceError> {

@@ -1,5 +1,6 @@
 //! `estampe ladder`: draws the pictures of the ladder, and a sheet of all of them.
 
+use crate::choice::ChoiceArgs;
 use crate::failure::Failure;
 use crate::input::{self, Model};
 use crate::output;
@@ -37,7 +38,8 @@ pub(crate) struct LadderArgs {
     #[arg(long, value_name = "MODEL")]
     pub(crate) model: Option<Source>,
 
-    /// The texture of the model (PNG, JPEG, TGA), in place of its own or the built-in one
+    /// The texture of the model (PNG, JPEG, WebP, TGA, BMP, DDS), in place of its own or the
+    /// built-in one
     #[arg(long, value_name = "FILE")]
     pub(crate) texture: Option<PathBuf>,
 
@@ -136,8 +138,9 @@ fn read_model(source: &Source, is_quiet: bool) -> Result<estampe_ladder::Model, 
             "the ladder reads no model from standard input; {advice}"
         )));
     }
+    let folder = ChoiceArgs::default().folder_of(source)?;
     let model = Model::read(
-        source,
+        (source, &folder),
         None,
         (&ModelOptions::default(), &Limits::default()),
         |_| {},

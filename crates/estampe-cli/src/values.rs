@@ -227,6 +227,8 @@ pub(crate) enum FormatName {
     Stl,
     /// Stanford PLY, ASCII or binary
     Ply,
+    /// Geomview's OFF, as text
+    Off,
 }
 
 impl From<FormatName> for ModelFormat {
@@ -236,6 +238,7 @@ impl From<FormatName> for ModelFormat {
             FormatName::Obj => Self::Obj,
             FormatName::Stl => Self::Stl,
             FormatName::Ply => Self::Ply,
+            FormatName::Off => Self::Off,
         }
     }
 }

@@ -153,8 +153,11 @@ const OUTSIDE: &[(&str, Users)] = &[
             "estampe-cli",
         ]),
     ),
-    // Blocks of compressed textures, decoded when a texture is made.
-    ("bcdec_rs", Users::Only(&["estampe-texture"])),
+    // Blocks of compressed textures, decoded when a texture is made or a DDS file is read.
+    (
+        "bcdec_rs",
+        Users::Only(&["estampe-texture", "estampe-assets"]),
+    ),
     // Shaders as text.
     ("naga", Users::Only(&["estampe-shader"])),
     ("earcut", Users::Only(&["estampe-shapes"])),
@@ -165,6 +168,7 @@ const OUTSIDE: &[(&str, Users)] = &[
     ),
     // Images of other programs, as an option.
     ("image", Users::Only(&["estampe"])),
+    ("image-webp", Users::Only(&["estampe-assets"])),
     ("zune-jpeg", Users::Only(&["estampe-assets"])),
     ("jpeg-encoder", Users::Only(&["estampe-assets"])),
     // CPU time of the process; pages of machine code.

@@ -5,7 +5,7 @@ use std::path::Path;
 use estampe_scene::Image;
 
 use super::fault::{malformed, unsupported};
-use super::{jpeg, png, tga};
+use super::{bmp, dds, jpeg, png, tga, webp};
 use crate::{AssetError, Limits};
 
 /// A format in which images are written.
@@ -78,7 +78,8 @@ impl AlphaChannel {
     }
 }
 
-/// Reads an image: PNG and JPEG by their signatures, else TGA by its footer or a plausible header.
+/// Reads an image: PNG, JPEG, WebP, BMP and DDS by their signatures, else TGA by its footer or a
+/// plausible header.
 ///
 /// # Errors
 /// `LimitExceeded` if the file is larger or has more pixels than `limits` allow, before memory is
@@ -89,25 +90,34 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
     if bytes.is_empty() {
         return Err(malformed(0, "the image file is empty"));
     }
-    if bytes.starts_with(png::SIGNATURE) {
-        return png::decode(bytes, limits);
-    }
-    if bytes.starts_with(jpeg::START_OF_IMAGE) {
-        return jpeg::decode(bytes, limits);
+    if let Some(format) = Signed::of(bytes) {
+        return match format {
+            Signed::Png => png::decode(bytes, limits),
+            Signed::Jpeg => jpeg::decode(bytes, limits),
+            Signed::WebP => webp::decode(bytes, limits),
+            Signed::Bmp => bmp::decode(bytes, limits),
+            Signed::Dds => dds::decode(bytes, limits),
+        };
     }
     match foreign_format(bytes) {
         Some(name) => Err(unsupported(format!("the {name} format"))),
         None if tga::looks_like_tga(bytes) => tga::decode(bytes, limits),
-        None => Err(unsupported("an image that is neither PNG, JPEG nor TGA")),
+        None => Err(unsupported(
+            "an image that is neither PNG, JPEG, WebP, TGA, BMP nor DDS",
+        )),
     }
 }
 
-/// Width and height from the header of a PNG or JPEG. `None` if it is neither, or damaged.
+/// Width and height from the header of an image with a signature. `None` if it has none, or is
+/// damaged.
 pub(crate) fn stated_size(bytes: &[u8]) -> Option<(u32, u32)> {
-    if bytes.starts_with(png::SIGNATURE) {
-        return png::stated_size(bytes);
+    match Signed::of(bytes)? {
+        Signed::Png => png::stated_size(bytes),
+        Signed::Jpeg => jpeg::stated_size(bytes),
+        Signed::WebP => webp::stated_size(bytes),
+        Signed::Bmp => bmp::stated_size(bytes),
+        Signed::Dds => dds::stated_size(bytes),
     }
-    jpeg::stated_size(bytes)
 }
 
 /// Writes an image with the format's default settings: PNG and TGA store alpha if a pixel needs it,
@@ -124,22 +134,46 @@ pub fn encode(image: &Image, format: ImageFormat) -> Result<Vec<u8>, AssetError>
     }
 }
 
+/// The formats that are read and start with a signature.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Signed {
+    Png,
+    Jpeg,
+    WebP,
+    Bmp,
+    Dds,
+}
+
+impl Signed {
+    /// The format whose signature the bytes start with.
+    fn of(bytes: &[u8]) -> Option<Self> {
+        const SIGNATURES: [(&[u8], Signed); 4] = [
+            (png::SIGNATURE, Signed::Png),
+            (jpeg::START_OF_IMAGE, Signed::Jpeg),
+            (bmp::SIGNATURE, Signed::Bmp),
+            (dds::SIGNATURE, Signed::Dds),
+        ];
+        if webp::is_webp(bytes) {
+            return Some(Self::WebP);
+        }
+        SIGNATURES
+            .iter()
+            .find(|(signature, _)| bytes.starts_with(signature))
+            .map(|&(_, format)| format)
+    }
+}
+
 /// The name of a well-known unsupported format, for the error message.
 fn foreign_format(bytes: &[u8]) -> Option<&'static str> {
-    const SIGNATURES: [(&[u8], &str); 9] = [
+    const SIGNATURES: [(&[u8], &str); 7] = [
         (b"GIF8", "GIF"),
-        (b"BM", "BMP"),
         (b"II*\0", "TIFF"),
         (b"MM\0*", "TIFF"),
-        (b"DDS ", "DDS"),
         (b"\xabKTX", "KTX"),
         (b"v/1\x01", "OpenEXR"),
         (b"#?", "Radiance HDR"),
         (b"8BPS", "Photoshop"),
     ];
-    if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
-        return Some("WebP");
-    }
     SIGNATURES
         .iter()
         .find(|(signature, _)| bytes.starts_with(signature))
@@ -203,7 +237,9 @@ mod tests {
         let message = |bytes: &[u8]| decode(bytes, &limits).expect_err("no picture").to_string();
         assert!(message(b"").contains("byte 0: the image file is empty"));
         assert!(message(b"GIF89a......................").contains("GIF"));
-        assert!(message(b"RIFF\x10\0\0\0WEBPVP8 ").contains("WebP"));
+        assert!(message(b"RIFF\x10\0\0\0WEBPVP8 ").contains("the WebP is not valid"));
+        assert!(message(b"BM..").contains("BMP header"));
+        assert!(message(b"DDS ").contains("DDS header"));
         assert!(message(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").contains("neither PNG"));
         assert!(matches!(
             decode(&[0xff; 64], &limits),

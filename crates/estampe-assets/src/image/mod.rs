@@ -1,4 +1,5 @@
-//! Reading and writing images: PNG, JPEG and TGA; and Radiance HDR, whose numbers are floats.
+//! Reading images (PNG, JPEG, WebP, TGA, BMP, DDS) and writing them (PNG, JPEG, TGA); and Radiance
+//! HDR, whose numbers are floats.
 //!
 //! ```text
 //!   bytes --format::decode--> Image            (by content: signature, or a plausible TGA header)
@@ -6,10 +7,13 @@
 //!   Image --transform-------> Image            (flips, nearest scaling)
 //! ```
 //!
-//! PNG uses the `png` crate, JPEG `zune-jpeg` and `jpeg-encoder`; TGA and HDR are implemented
-//! here. Every reader checks the size in an image's header against [`Limits`](crate::Limits) before it
+//! PNG uses the `png` crate, JPEG `zune-jpeg` and `jpeg-encoder`, WebP `image-webp`, the blocks of
+//! DDS `bcdec_rs`; TGA, BMP and HDR are implemented here. Every reader checks the size in an image's header against [`Limits`](crate::Limits) before it
 //! allocates. Every writer uses fixed settings, so that the same image always gives the same bytes.
 
+mod bmp;
+mod channel;
+mod dds;
 mod fault;
 mod format;
 pub mod hdr;
@@ -17,6 +21,7 @@ pub mod jpeg;
 pub mod png;
 pub mod tga;
 mod transform;
+mod webp;
 
 #[cfg(test)]
 #[expect(

@@ -1,6 +1,6 @@
 //! Detection of a model's format.
 
-use super::gltf;
+use super::{gltf, off};
 use std::path::Path;
 
 /// Formats of models.
@@ -15,6 +15,8 @@ pub enum ModelFormat {
     Stl,
     /// The Stanford polygon format, ASCII or binary.
     Ply,
+    /// The Object File Format of Geomview, as text.
+    Off,
 }
 
 impl ModelFormat {
@@ -28,6 +30,7 @@ impl ModelFormat {
             (Self::Obj, "obj"),
             (Self::Stl, "stl"),
             (Self::Ply, "ply"),
+            (Self::Off, "off"),
         ]
         .into_iter()
         .find(|(_, name)| extension.eq_ignore_ascii_case(name))
@@ -36,8 +39,8 @@ impl ModelFormat {
 
     /// The format by content, for input without a name.
     ///
-    /// GLB and PLY have magic words, glTF is a JSON object with an `asset`, and binary STL has a
-    /// length that must fit its triangle count; ASCII STL and OBJ are recognised by their first
+    /// GLB, PLY and OFF have magic words, glTF is a JSON object with an `asset`, and binary STL has
+    /// a length that must fit its triangle count; ASCII STL and OBJ are recognised by their first
     /// statements.
     #[must_use]
     pub fn from_content(bytes: &[u8]) -> Option<Self> {
@@ -47,6 +50,9 @@ impl ModelFormat {
         }
         if is_ply(bytes) {
             return Some(Self::Ply);
+        }
+        if off::is_off(bytes) {
+            return Some(Self::Off);
         }
         if binary_stl_length(bytes) == Some(bytes.len() as u64) {
             return Some(Self::Stl);
@@ -62,6 +68,7 @@ impl ModelFormat {
             Self::Obj => "OBJ",
             Self::Stl => "STL",
             Self::Ply => "PLY",
+            Self::Off => "OFF",
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Entry points: a path, or bytes in memory.
 
 use super::options::{ModelChoices, ModelOptions};
-use super::resources::{Folder, ResourceError, Resources};
-use super::{ModelFormat, finish, gltf, obj, ply, stl};
+use super::resources::{ResourceError, Resources};
+use super::{Folder, ModelFormat, finish, gltf, obj, off, ply, stl};
 use crate::warning::{Warning, Warnings};
 use crate::{AssetError, Limits, read_bytes};
 use estampe_scene::{Scene, Workers};
@@ -86,6 +86,18 @@ impl Context<'_> {
         self.resources.resolve(name)
     }
 
+    /// Finds the texture `name`, which was not found because of `error`, by its last part.
+    pub(super) fn search_texture(
+        &self,
+        name: &str,
+        error: ResourceError,
+    ) -> Result<String, ResourceError> {
+        match self.resources.search(name) {
+            Err(ResourceError::NotFound | ResourceError::Unavailable) => Err(error),
+            found => found,
+        }
+    }
+
     /// The bytes of a side file that was found.
     pub(super) fn read_side_file(&self, resolved: &str) -> Result<Vec<u8>, ResourceError> {
         self.resources.read(resolved, self.limits.max_file_bytes)
@@ -124,7 +136,7 @@ pub fn load_model_with(
         .ok_or_else(|| {
             AssetError::unsupported(
                 "neither the extension nor the content is that of a known model format",
-                "glTF, OBJ, STL and PLY are read; name the format if it is one of them",
+                "glTF, OBJ, STL, PLY and OFF are read; name the format if it is one of them",
             )
             .in_file(&name)
         })?;
@@ -189,6 +201,7 @@ pub fn parse_model_with(
             ModelFormat::Obj => obj::parse(bytes, &mut context),
             ModelFormat::Stl => stl::parse(bytes, &mut context),
             ModelFormat::Ply => ply::parse(bytes, &mut context),
+            ModelFormat::Off => off::parse(bytes, &mut context),
         })
         .map_err(|error| error.in_file(name))?;
     let parsed = finish::finish(parsed, &mut context);

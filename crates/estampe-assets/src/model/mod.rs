@@ -1,7 +1,7 @@
-//! Readers of models: glTF, OBJ with MTL, STL and PLY; and writers of the last three.
+//! Readers of models: glTF, OBJ with MTL, STL, PLY and OFF; and writers of OBJ, STL and PLY.
 //!
 //! ```text
-//! bytes -> gltf | obj | stl | ply  (one folder each: JSON, lines or records -> meshes)
+//! bytes -> gltf | obj | stl | ply | off  (one folder each: JSON, lines or records -> meshes)
 //!       -> finish                  (faces with non-finite corners dropped, limits)
 //!       -> normals                 (missing ones)
 //!       -> Scene -> write -> bytes
@@ -11,14 +11,17 @@
 //! fails, as Latin-1. Side files (material libraries, textures) come from [`Resources`], which
 //! decides which files a model may open.
 
+mod corner_split;
 mod detect;
 mod finish;
+mod folder;
 mod gltf;
 mod load;
 mod mtl;
 pub mod normals;
 mod number;
 mod obj;
+mod off;
 mod options;
 mod ply;
 mod polygons;
@@ -35,8 +38,9 @@ mod write;
 mod tests;
 
 pub use detect::ModelFormat;
+pub use folder::Folder;
 pub use load::{Loaded, ModelInput, load_model, load_model_with, parse_model, parse_model_with};
 pub use normals::NormalMode;
 pub use options::{AnimationClip, AnimationName, ModelChoices, ModelOptions, TextureAlpha};
-pub use resources::{Folder, NoResources, ResourceError, Resources};
+pub use resources::{NoResources, ResourceError, Resources};
 pub use write::encode_model;

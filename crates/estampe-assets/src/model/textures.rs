@@ -128,6 +128,7 @@ fn find(name: &TextureName, context: &mut Context<'_>) -> Option<String> {
         found => found,
     };
     found
+        .or_else(|error| context.search_texture(&name.name, error))
         .map_err(|error| warn(name, &error.to_string(), context))
         .ok()
 }

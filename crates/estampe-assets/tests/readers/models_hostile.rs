@@ -30,6 +30,10 @@ const MTL: &str = "newmtl red\nKa 0 0 0\nKd 1 0 0\nKs 0.5\nNs 20\nKe 0 0 0\nd 0.
 const STL: &str = "solid one\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   \
 vertex 0 1 0\n  endloop\n endfacet\nendsolid one\nSOLID\nFACET NORMAL 0 0 nan\nOUTER LOOP\nVERTEX 0 0 0\n\
 VERTEX 1 0 0\nVERTEX 1 1 0\nVERTEX 0 1 0\nENDLOOP\nENDFACET\n";
+const OFF: &str = "OFF # a square\n4 5 0\n0 0 0\n1 0 0\n1e0 +1. 0\n0 1 0\n4 0 1 2 3 255 0 0\n3 0 1 2\n\
+2 0 3 0.5 0.5 0.5 1\n1 2 7\n5 0 1 2 3 9\n";
+const COLORED_OFF: &str = "STCNOFF 3 1 0\n0 0 0 0 0 1 255 0 0 9 0 0\n1 0 0 0 0 2 0 255 0 9 1 0\n\
+0 1 0 0 nan 1 0 0 255 0 1\n3 0 1 2\n";
 const PLY_HEADER: &str = "comment TextureFile t.tga\nelement vertex 4\nproperty float x\nproperty float y\n\
 property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty float s\n\
 property float t\nproperty list uchar int odd\nelement face 2\nproperty list uchar int vertex_indices\n\
@@ -132,6 +136,8 @@ fn fixtures() -> Vec<Fixture> {
             ModelFormat::Stl,
             binary_stl(b"solid COLOR=\x80\x80\x80\xff"),
         ),
+        fixture("off", ModelFormat::Off, OFF.into()),
+        fixture("coloured off", ModelFormat::Off, COLORED_OFF.into()),
         fixture("ascii ply", ModelFormat::Ply, ascii_ply()),
         fixture("little-endian ply", ModelFormat::Ply, binary_ply(false)),
         fixture("big-endian ply", ModelFormat::Ply, binary_ply(true)),

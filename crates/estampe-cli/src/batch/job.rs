@@ -11,7 +11,6 @@ use crate::render;
 use crate::values::{Destination, shown};
 use estampe::Device;
 use estampe_assets::Limits;
-use estampe_assets::model::Folder;
 use estampe_renderer::ViewDirection;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -98,18 +97,18 @@ impl Shared {
             Err(failure) => return all(failure),
         };
         let model_digest = digest(&bytes);
-        let folder = || Folder::of_model(&job.input.path);
+        let folder = job.look.options.choice.folder(&job.input.path);
         let max_bytes = self.limits.max_file_bytes;
         let is_current = |picture: &Picture| {
             let options = options_of(job, picture);
             !self.args.force
-                && record::is_up_to_date(picture, (&options, &model_digest), &folder(), max_bytes)
+                && record::is_up_to_date(picture, (&options, &model_digest), &folder, max_bytes)
         };
         let current: Vec<bool> = job.pictures.iter().map(is_current).collect();
         if current.iter().all(|&is_current| is_current) {
             return (vec![Status::UpToDate; current.len()], Vec::new());
         }
-        let named = NamedFiles::new(folder());
+        let named = NamedFiles::new(folder);
         let args = &job.look.options;
         let chosen = args.choice.at(args.picture.shader.time);
         let model = Model::of_bytes(
@@ -137,6 +136,7 @@ impl Shared {
                     options: options_of(job, picture),
                     model: model_digest.clone(),
                     named: named.digests(),
+                    searched: named.searched(),
                 };
                 match draw(&model, (job, picture), &sources, (device, claim)) {
                     Ok(()) => Status::Drawn,

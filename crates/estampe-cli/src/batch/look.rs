@@ -20,7 +20,7 @@ pub(super) struct JobOptions {
     #[command(flatten)]
     pub(super) picture: PictureArgs,
 
-    /// The model's format: gltf, obj, stl or ply
+    /// The model's format: gltf, obj, stl, ply or off
     #[arg(long, value_enum)]
     pub(super) format: Option<FormatName>,
 }
@@ -36,6 +36,7 @@ pub(super) struct Look {
 impl Look {
     pub(super) fn new(options: JobOptions) -> Result<Self, Failure> {
         options.picture.check()?;
+        options.choice.check_roots()?;
         let identity = identity(&options)?;
         Ok(Self { options, identity })
     }

@@ -1,7 +1,8 @@
 //! Records of pictures that are up to date: what each was made of, as digests.
 //!
 //! The record of `out/x.png` is `out/.estampe/x.png.json`. It has the digests of the options, of
-//! the model's file, of each file that the model named, and of the picture itself. It is written
+//! the model's file, of each file that the model named, and of the picture itself, and where its
+//! textures were found. It is written
 //! after the picture, whole or not at all: whatever a killed process leaves, a picture without its
 //! right record is drawn again.
 
@@ -24,6 +25,7 @@ pub(super) fn digest(bytes: &[u8]) -> String {
 pub(super) struct NamedFiles {
     folder: Folder,
     read: Mutex<BTreeMap<String, Option<String>>>,
+    searched: Mutex<BTreeMap<String, Option<String>>>,
 }
 
 impl NamedFiles {
@@ -31,6 +33,7 @@ impl NamedFiles {
         Self {
             folder,
             read: Mutex::default(),
+            searched: Mutex::default(),
         }
     }
 
@@ -38,6 +41,12 @@ impl NamedFiles {
     pub(super) fn digests(&self) -> BTreeMap<String, Option<String>> {
         let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         read.clone()
+    }
+
+    /// The names of textures that were searched, with the files that were found.
+    pub(super) fn searched(&self) -> BTreeMap<String, Option<String>> {
+        let searched = self.searched.lock();
+        searched.unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     fn note(&self, name: &str, digest: Option<String>) {
@@ -53,6 +62,14 @@ impl Resources for NamedFiles {
             self.note(name, None);
         }
         resolved
+    }
+
+    fn search(&self, name: &str) -> Result<String, ResourceError> {
+        let found = self.folder.search(name);
+        let searched = self.searched.lock();
+        let mut searched = searched.unwrap_or_else(PoisonError::into_inner);
+        searched.insert(name.to_owned(), found.as_ref().ok().cloned());
+        found
     }
 
     fn read(&self, resolved: &str, max_bytes: u64) -> Result<Vec<u8>, ResourceError> {
@@ -71,6 +88,8 @@ pub(super) struct Sources {
     pub(super) model: String,
     /// Of the files that the model named; none if one was missing.
     pub(super) named: BTreeMap<String, Option<String>>,
+    /// The files that were found for names of textures; none if there was none.
+    pub(super) searched: BTreeMap<String, Option<String>>,
 }
 
 /// The record's file.
@@ -107,8 +126,13 @@ pub(super) fn is_up_to_date(
             .is_ok_and(|bytes| digest(&bytes) == known),
         None => folder.resolve(name).is_err(),
     });
+    // Pictures of versions without a search have no such record.
+    let are_found = record["searched"].as_object().is_some_and(|searched| {
+        let mut searched = searched.iter();
+        searched.all(|(name, known)| folder.search(name).ok().as_deref() == known.as_str())
+    });
     let drawn = std::fs::read(&picture.output);
-    are_same && drawn.is_ok_and(|bytes| record["picture"] == digest(&bytes).as_str())
+    are_same && are_found && drawn.is_ok_and(|bytes| record["picture"] == digest(&bytes).as_str())
 }
 
 /// Writes the record of a picture. If that fails, the picture is drawn again next time.
@@ -119,6 +143,7 @@ pub(super) fn write(picture: &Path, bytes: &[u8], sources: &Sources) {
         "options": sources.options,
         "model": sources.model,
         "named": sources.named,
+        "searched": sources.searched,
     });
     if let Some(folder) = path.parent() {
         let _ = std::fs::create_dir_all(folder);

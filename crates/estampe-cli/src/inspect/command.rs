@@ -28,7 +28,9 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
         ..Limits::default()
     };
     let chosen = args.choice.at(args.picture.shader.time);
-    let model = Model::read(&args.model, args.format, (&chosen, &limits), |_| {})?;
+    let folder = args.choice.folder_of(&args.model)?;
+    let source = (&args.model, &folder);
+    let model = Model::read(source, args.format, (&chosen, &limits), |_| {})?;
     let (options, device) = prepare(&model, &args.picture, ViewDirection::default())?;
     if let Some(pixel) = args.pixel {
         let told = inspect(&model.scene, &options, &device, pixel)?;

@@ -6,7 +6,7 @@ use crate::limits::LimitArgs;
 use crate::values::{Destination, FormatName, ImageFormatName, Source};
 use clap::Args;
 
-/// Renders an image of a model: glTF, OBJ, STL or PLY to PNG, JPEG or TGA.
+/// Renders an image of a model: glTF, OBJ, STL, PLY or OFF to PNG, JPEG or TGA.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "\
 Examples:
@@ -48,7 +48,7 @@ pub(crate) struct RenderArgs {
     /// The model's format, if neither name nor content shows it; required for standard input
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     #[arg(
-        help = "The model's format: gltf, obj, stl or ply [default: by extension, else by content]"
+        help = "The model's format: gltf, obj, stl, ply or off [default: by extension, else by content]"
     )]
     pub(crate) format: Option<FormatName>,
 

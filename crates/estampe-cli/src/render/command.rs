@@ -22,7 +22,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     args.limits.watch("render", &source_name(&args.model));
     let limits = args.limits.of_reader(args.picture.thread_count());
     let chosen = args.choice.at(args.picture.shader.time);
-    let model = Model::read(&args.model, args.format, (&chosen, &limits), |stage| {
+    let folder = args.choice.folder_of(&args.model)?;
+    let source = (&args.model, &folder);
+    let model = Model::read(source, args.format, (&chosen, &limits), |stage| {
         progress.stage(stage);
     })?;
     args.limits.check_memory(&model, &args.picture)?;

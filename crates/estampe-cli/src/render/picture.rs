@@ -104,7 +104,8 @@ pub(crate) struct PictureArgs {
     #[command(flatten)]
     pub(crate) shader: SurfaceShaderArgs,
 
-    /// A base-colour texture (PNG, JPEG, TGA; sRGB), instead of the model's colours and textures
+    /// A base-colour texture (PNG, JPEG, WebP, TGA, BMP, DDS; sRGB), instead of the model's colours
+    /// and textures
     #[arg(long, value_name = "FILE", help_heading = "Appearance")]
     pub(crate) texture: Option<PathBuf>,
 

@@ -131,6 +131,49 @@ fn pictures_are_drawn_once_and_again_if_something_changed() {
     counts(&batch(&folder, &format!("{words} --shading flat")), 1, 2);
 }
 
+/// The picture is drawn again if a texture is found elsewhere.
+#[test]
+fn textures_that_are_searched_are_in_the_record() {
+    let folder = models();
+    let mtl = "newmtl skin\nmap_Kd D:\\art\\skin.tga\n";
+    folder.with_file("in/b/skin.mtl", mtl);
+    let tga = |blue: u8| {
+        let header = [0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 24, 0];
+        [&header[..], &[blue, 0, 0]].concat()
+    };
+    let library = folder.path("library");
+    folder.with_file("library/deep/skin.tga", tga(255));
+    let root = library.to_str().expect("ASCII");
+    let words = format!("IN/b/three.obj -o OUT/three.png --root {root}");
+    let run_again = |drawn: u64, warnings: usize| {
+        let run = batch(&folder, &words);
+        assert_eq!(run.code, 0, "{}", run.err);
+        let said = report(&run);
+        assert_eq!(said["counts"]["drawn"], drawn, "{said}");
+        let warned = said["pictures"][0]["warnings"].as_array().map(Vec::len);
+        assert_eq!(warned, Some(warnings), "{said}");
+        fs::read(folder.path("out/three.png")).expect("drawn")
+    };
+    let blue = run_again(1, 0);
+    assert!(run_again(0, 0) == blue);
+    folder.with_file("in/textures/skin.tga", tga(0));
+    let black = run_again(1, 0);
+    assert!(black != blue && run_again(0, 0) == black);
+    fs::remove_file(folder.path("in/textures/skin.tga")).expect("written");
+    assert!(run_again(1, 0) == blue);
+    fs::remove_file(folder.path("library/deep/skin.tga")).expect("written");
+    let plain = run_again(1, 1);
+    assert!(plain != blue && run_again(0, 0) == plain);
+
+    let run = batch(&folder, "IN/b/three.obj -o OUT/three.png --root IN/none");
+    assert_eq!(run.code, 2, "{}", run.err);
+    assert!(
+        run.err.contains("in/none: this is no folder"),
+        "{}",
+        run.err
+    );
+}
+
 #[test]
 fn a_model_that_fails_ends_alone() {
     let folder = models();

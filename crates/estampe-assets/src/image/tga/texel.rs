@@ -1,6 +1,7 @@
 //! Decoding of one stored texel or colour map entry to RGBA.
 
 use super::footer::AttributesType;
+use crate::image::channel::unmultiplied;
 
 /// Storage format of a colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,13 +108,4 @@ impl AlphaUse {
 )]
 fn unorm8_from_unorm5(word: u16) -> u8 {
     (((word & 31) * 255 + 15) / 31) as u8
-}
-
-/// `color` ÷ `alpha`, rounded. Colours brighter than their alpha saturate; alpha 0 gives black.
-fn unmultiplied(color: u8, alpha: u8) -> u8 {
-    let (color, alpha) = (u32::from(color), u32::from(alpha));
-    (color * 255 + alpha / 2)
-        .checked_div(alpha)
-        .unwrap_or(0)
-        .min(255) as u8
 }

@@ -6,9 +6,10 @@ use crate::AssetError;
 use crate::model::load::Context;
 
 /// The extensions that are read.
-const READ: [&str; 20] = [
+const READ: [&str; 22] = [
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
+    "EXT_texture_webp",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
@@ -28,11 +29,12 @@ const READ: [&str; 20] = [
     // Names in other files' metadata, without influence on a picture.
     "KHR_xmp",
     "KHR_xmp_json_ld",
+    "MSFT_texture_dds",
 ];
 
 /// Common extensions that are not read: what to do if a file requires them, and what is used
 /// instead if it does not.
-const NOT_READ: [(&str, &str, &str); 3] = [
+const NOT_READ: [(&str, &str, &str); 2] = [
     (
         "KHR_draco_mesh_compression",
         "export the file again without Draco compression",
@@ -40,13 +42,8 @@ const NOT_READ: [(&str, &str, &str); 3] = [
     ),
     (
         "KHR_texture_basisu",
-        "export the file again with PNG or JPEG textures",
-        "the PNG or JPEG textures are used",
-    ),
-    (
-        "EXT_texture_webp",
-        "export the file again with PNG or JPEG textures",
-        "the PNG or JPEG textures are used",
+        "export the file again with PNG, JPEG or WebP textures",
+        "the textures of other formats are used",
     ),
 ];
 

@@ -125,7 +125,7 @@ impl Images {
         self.bytes_left -= bytes.len() as u64;
         let Some((width, height)) = crate::image::stated_size(&bytes) else {
             return Err(AssetError::unsupported(
-                "an image that is neither PNG nor JPEG cannot be read",
+                "an image that is neither PNG, JPEG, WebP, BMP nor DDS cannot be read",
                 "save it as an 8-bit PNG",
             ));
         };
@@ -164,7 +164,10 @@ impl Place {
             (Some(uri), _) if data_uri::is_data(&uri.0) => Ok(Self::Uri(at)),
             (Some(uri), _) => {
                 let unreadable = |error| AssetError::io(format!("`{}`: {error}", uri.0), "");
+                let name = data_uri::percent_decoded(&uri.0);
+                let name = String::from_utf8_lossy(&name);
                 find_side_file(&uri.0, context)
+                    .or_else(|error| context.search_texture(&name, error))
                     .map(Self::File)
                     .map_err(unreadable)
             }

@@ -1,9 +1,10 @@
 //! Faces, triangle strips and edges.
 
 use super::header::{Element, Header, Kind, Scalar};
+use super::triangle_rows;
 use super::values::{Fault, NO_VERTEX, Values, vertex_index};
 use super::vertices::{color, narrow};
-use super::{split, triangle_rows};
+use crate::model::corner_split;
 use crate::model::load::Context;
 use crate::model::polygons::{Polygons, SPENT};
 use crate::{AssetError, Limits};
@@ -296,11 +297,11 @@ impl Elements {
         if !self.textures.is_empty() {
             self.textures.resize(count, 0);
         }
-        let corners = split::Corners {
+        let corners = corner_split::Corners {
             uvs: self.corner_uvs,
             colors: self.colors,
         };
-        split::split(mesh, corners, &self.textures, self.texture_count);
+        corner_split::split(mesh, corners, &self.textures, self.texture_count);
     }
 }
 

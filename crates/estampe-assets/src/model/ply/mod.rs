@@ -3,7 +3,7 @@
 //! ```text
 //! header   (elements: name, count, properties)
 //! values   (the body as a stream of scalars, in the stated encoding)
-//!       -> vertices -> faces, triangle strips, edges -> split -> mesh
+//!       -> vertices -> faces, triangle strips, edges -> corner_split -> mesh
 //! ```
 //!
 //! Known: `vertex` (`x y z`, `nx ny nz`, `s t | u v | texture_u texture_v`, `red green blue
@@ -20,7 +20,6 @@
 
 mod elements;
 mod header;
-mod split;
 mod triangle_rows;
 mod values;
 mod vertices;

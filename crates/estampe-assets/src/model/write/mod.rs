@@ -27,16 +27,16 @@ use estampe_scene::{Mesh, Scene};
 /// coordinates differ at a seam is closed.
 ///
 /// # Errors
-/// [`AssetError::Unsupported`] for glTF, which is only read, for lines or points in STL, and for
+/// [`AssetError::Unsupported`] for formats that are only read, for lines or points in STL, and for
 /// positions that are not finite.
 pub fn encode_model(scene: &Scene, format: ModelFormat) -> Result<Vec<u8>, AssetError> {
     for mesh in &scene.meshes {
         check_finite(mesh)?;
     }
     let text = match format {
-        ModelFormat::Gltf => {
+        ModelFormat::Gltf | ModelFormat::Off => {
             return Err(AssetError::unsupported(
-                "glTF is read, not written",
+                format!("{} is read, not written", format.name()),
                 "write OBJ, STL or PLY",
             ));
         }

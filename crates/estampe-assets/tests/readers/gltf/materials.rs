@@ -474,6 +474,47 @@ fn images_come_from_files_and_uris_and_each_file_is_decoded_once() {
     assert_eq!(loaded.scene.images.len(), 3);
 }
 
+/// Four texels of (0, 0, 255) in a lossless WebP of libwebp.
+const WEBP: [u8; 36] =
+    *b"RIFF\x1c\0\0\0WEBPVP8L\x0f\0\0\0/\x03@\0\0\x07\x10\xd1\xff\xfe\x07\"\xa2\xff\x01\0";
+
+#[test]
+fn images_of_extensions_are_preferred() {
+    let base =
+        json!({ "baseColorTexture": { "index": 0 }, "metallicRoughnessTexture": { "index": 1 } });
+    let mut file = with_material(json!({ "pbrMetallicRoughness": base }));
+    let webp = file.view(&WEBP);
+    file.set(
+        "/images/1",
+        json!({ "bufferView": webp, "mimeType": "image/webp" }),
+    );
+    let webp = json!({ "EXT_texture_webp": { "source": 1 } });
+    file.set("/textures/0", json!({ "source": 0, "extensions": webp }));
+    file.set(
+        "/textures/1",
+        json!({ "extensions": { "MSFT_texture_dds": { "source": 2 } } }),
+    );
+    let names = json!(["EXT_texture_webp", "MSFT_texture_dds"]);
+    file.set("/extensionsUsed", names.clone());
+    file.set("/extensionsRequired", names);
+    let loaded = load(&file.glb());
+    assert_eq!(loaded.warnings, []);
+    let (_, pbr) = first(&loaded);
+    let webp = &loaded.scene.images[pbr.base_color_texture.expect("a texture").image];
+    assert_eq!(
+        (webp.width, webp.height, webp.texel(3, 1)),
+        (4, 2, [0, 0, 255, 255])
+    );
+    assert_eq!(image_of(&loaded, pbr.metallic_roughness_texture), 2);
+
+    file.set("/textures/0/extensions/EXT_texture_webp/source", json!(9));
+    let error = error(&file);
+    assert!(
+        error.contains("/textures/0/extensions/EXT_texture_webp/source"),
+        "{error}"
+    );
+}
+
 #[test]
 fn a_view_that_two_images_name_is_decoded_once() {
     let base = json!({ "baseColorTexture": { "index": 0 } });
@@ -534,13 +575,13 @@ fn textures_that_cannot_be_read_are_left_out_with_a_warning() {
     check(
         "/images/0",
         json!("garbage"),
-        "an image that is neither PNG nor JPEG cannot be read",
+        "an image that is neither PNG, JPEG, WebP, BMP nor DDS cannot be read",
     );
     check("/images/0", json!("damaged"), "the PNG is not valid");
     check(
         "/textures/0",
         json!({}),
-        "/textures/0: the texture has no PNG or JPEG image",
+        "/textures/0: the texture has no image in PNG, JPEG, WebP or DDS",
     );
     check(
         "/materials/0/pbrMetallicRoughness/baseColorTexture",

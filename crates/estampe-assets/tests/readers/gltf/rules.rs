@@ -33,11 +33,7 @@ fn required_extensions_must_be_known() {
         ),
         (
             "KHR_texture_basisu",
-            "export the file again with PNG or JPEG textures",
-        ),
-        (
-            "EXT_texture_webp",
-            "export the file again with PNG or JPEG textures",
+            "export the file again with PNG, JPEG or WebP textures",
         ),
         ("ACME_magic", "export the file again without it"),
     ] {

@@ -33,6 +33,9 @@ impl Folder {
 
     pub(crate) fn with_file(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
         let path = self.path(name);
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).expect("the temporary folder is writable");
+        }
         std::fs::write(&path, bytes).expect("the temporary folder is writable");
         path
     }

@@ -70,6 +70,23 @@ pub(crate) struct TextureTransform {
 pub(crate) struct Texture {
     pub(crate) sampler: Option<Index>,
     pub(crate) source: Option<Index>,
+    #[serde(default)]
+    pub(crate) extensions: TextureExtensions,
+}
+
+/// Extensions of a texture: the same image in other formats.
+#[derive(Debug, Default, Deserialize)]
+pub(crate) struct TextureExtensions {
+    #[serde(rename = "EXT_texture_webp")]
+    pub(crate) webp: Option<TextureSource>,
+    #[serde(rename = "MSFT_texture_dds")]
+    pub(crate) dds: Option<TextureSource>,
+}
+
+/// An image in another format.
+#[derive(Debug, Deserialize)]
+pub(crate) struct TextureSource {
+    pub(crate) source: Option<Index>,
 }
 
 /// OpenGL's numbers of filters and address modes.

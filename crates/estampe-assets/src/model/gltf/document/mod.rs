@@ -16,6 +16,7 @@ mod value;
 pub(super) use animation::{Animation, AnimationSampler};
 pub(super) use material::{
     Image, Material, MaterialExtensions, Sampler, SpecularGlossiness, Texture, TextureInfo,
+    TextureSource,
 };
 pub(super) use node::{Camera, Instancing, Light, Mesh, Node, Primitive, Skin};
 pub(super) use storage::{Accessor, Buffer, BufferView, MeshoptView, Sparse};

@@ -1,6 +1,6 @@
 //! Textures as materials use them: image, sampler, coordinates and their transform.
 
-use super::super::document::{Document, Index, Sampler, TextureInfo};
+use super::super::document::{Document, Index, Sampler, Texture, TextureInfo, TextureSource};
 use super::super::fault::{element, malformed, warn};
 use crate::AssetError;
 use crate::model::load::Context;
@@ -28,12 +28,12 @@ pub(super) fn reference(
         }
         None => TextureSampler::default(),
     };
-    let Some(source) = texture.source else {
-        let what = "the texture has no PNG or JPEG image; it is left out";
+    let Some((source, property)) = source(texture) else {
+        let what = "the texture has no image in PNG, JPEG, WebP or DDS; it is left out";
         warn(context, texture_pointer, what);
         return Ok(None);
     };
-    let place = || format!("{texture_pointer}/source");
+    let place = || format!("{texture_pointer}/{property}");
     element(&document.images, source, "image", place)?;
     let transform = info.extensions.transform.as_deref();
     let uv_set = transform
@@ -57,6 +57,20 @@ pub(super) fn reference(
         uv_set,
         transform,
     }))
+}
+
+/// The image of a texture, and the property that names it. Images of extensions come first: the
+/// other one is for programs that do not read them.
+fn source(texture: &Texture) -> Option<(Index, &'static str)> {
+    let of = |extension: &Option<TextureSource>| extension.as_ref()?.source;
+    let extensions = &texture.extensions;
+    [
+        (of(&extensions.webp), "extensions/EXT_texture_webp/source"),
+        (of(&extensions.dds), "extensions/MSFT_texture_dds/source"),
+        (texture.source, "source"),
+    ]
+    .into_iter()
+    .find_map(|(source, property)| Some((source?, property)))
 }
 
 /// Filters and address modes by the numbers that they have in OpenGL.
