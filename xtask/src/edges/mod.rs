@@ -164,13 +164,18 @@ const OUTSIDE: &[(&str, Users)] = &[
     // File formats: all other crates see decoded images. `estampe` writes PNG as an option.
     (
         "png",
-        Users::Only(&["estampe", "estampe-assets", "estampe-bench"]),
+        Users::Only(&["estampe", "estampe-assets", "estampe-bench", "estampe-cli"]),
     ),
     // Images of other programs, as an option.
     ("image", Users::Only(&["estampe"])),
-    ("image-webp", Users::Only(&["estampe-assets"])),
     ("zune-jpeg", Users::Only(&["estampe-assets"])),
     ("jpeg-encoder", Users::Only(&["estampe-assets"])),
+    // The tests of the command read what it wrote.
+    (
+        "image-webp",
+        Users::Only(&["estampe-assets", "estampe-cli"]),
+    ),
+    ("gif", Users::Only(&["estampe-assets", "estampe-cli"])),
     // CPU time of the process; pages of machine code.
     ("rustix", Users::Only(&["estampe-bench", "estampe-x86"])),
     // Registers of machine code.

@@ -18,11 +18,13 @@ pub enum ImageFormat {
     Jpeg,
     /// Truevision TGA: lossless and simple, with alpha.
     Tga,
+    /// WebP: lossless, with alpha. Written, not read.
+    Webp,
 }
 
 impl ImageFormat {
     /// The format of a file name's extension, in either case: `png`, `jpg`, `jpeg`, `jpe`, `jfif`,
-    /// `tga`, `icb`, `vda`, `vst`.
+    /// `tga`, `icb`, `vda`, `vst`, `webp`.
     #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
         Self::from_extension(path.extension()?.to_str()?)
@@ -35,6 +37,7 @@ impl ImageFormat {
             "png" => Some(Self::Png),
             "jpg" | "jpeg" | "jpe" | "jfif" => Some(Self::Jpeg),
             "tga" | "icb" | "vda" | "vst" => Some(Self::Tga),
+            "webp" => Some(Self::Webp),
             _ => None,
         }
     }
@@ -44,7 +47,7 @@ impl ImageFormat {
     #[must_use]
     pub fn has_alpha(self) -> bool {
         match self {
-            Self::Png | Self::Tga => true,
+            Self::Png | Self::Tga | Self::Webp => true,
             Self::Jpeg => false,
         }
     }
@@ -120,8 +123,8 @@ pub(crate) fn stated_size(bytes: &[u8]) -> Option<(u32, u32)> {
     }
 }
 
-/// Writes an image with the format's default settings: PNG and TGA store alpha if a pixel needs it,
-/// JPEG has quality 90 and treats every pixel as opaque.
+/// Writes an image with the format's default settings: PNG, TGA and WebP store alpha if a pixel
+/// needs it, JPEG has quality 90 and treats every pixel as opaque.
 ///
 /// # Errors
 /// `LimitExceeded` if the format cannot store the image's size, `Malformed` if the image has no
@@ -131,6 +134,7 @@ pub fn encode(image: &Image, format: ImageFormat) -> Result<Vec<u8>, AssetError>
         ImageFormat::Png => png::encode_png(image, AlphaChannel::WhenNeeded),
         ImageFormat::Jpeg => jpeg::encode_jpeg(image, jpeg::DEFAULT_QUALITY),
         ImageFormat::Tga => tga::encode(image, tga::TgaOptions::default()),
+        ImageFormat::Webp => webp::encode_webp(image, AlphaChannel::WhenNeeded),
     }
 }
 
@@ -192,6 +196,7 @@ mod tests {
             ("b/c.JPEG", Some(ImageFormat::Jpeg)),
             ("d.e.Jpg", Some(ImageFormat::Jpeg)),
             ("f.TGA", Some(ImageFormat::Tga)),
+            ("f.webp", Some(ImageFormat::Webp)),
             ("png", None),
             ("g.gif", None),
             ("h.", None),
@@ -292,7 +297,12 @@ mod tests {
             height: 1,
             rgba: vec![9; 65_536 * 4],
         };
-        for format in [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Tga] {
+        for format in [
+            ImageFormat::Png,
+            ImageFormat::Jpeg,
+            ImageFormat::Tga,
+            ImageFormat::Webp,
+        ] {
             for image in [&missing, &empty] {
                 let error = encode(image, format).expect_err("contradictory");
                 assert!(

@@ -1,27 +1,31 @@
-//! Reading images (PNG, JPEG, WebP, TGA, BMP, DDS) and writing them (PNG, JPEG, TGA); and Radiance
-//! HDR, whose numbers are floats.
+//! Reading images (PNG, JPEG, WebP, TGA, BMP, DDS) and writing them (PNG, JPEG, TGA, WebP);
+//! Radiance HDR, whose numbers are floats; and writing animations ([`animation`]).
 //!
 //! ```text
 //!   bytes --format::decode--> Image            (by content: signature, or a plausible TGA header)
 //!   Image --format::encode--> bytes            (by the output's ImageFormat)
 //!   Image --transform-------> Image            (flips, nearest scaling)
+//!   Images --animation, gif-> bytes            (GIF, APNG, WebP, Y4M)
 //! ```
 //!
-//! PNG uses the `png` crate, JPEG `zune-jpeg` and `jpeg-encoder`, WebP `image-webp`, the blocks of
-//! DDS `bcdec_rs`; TGA, BMP and HDR are implemented here. Every reader checks the size in an image's header against [`Limits`](crate::Limits) before it
-//! allocates. Every writer uses fixed settings, so that the same image always gives the same bytes.
+//! PNG uses the `png` crate, JPEG `zune-jpeg` and `jpeg-encoder`, WebP `image-webp`, GIF `gif`, the
+//! blocks of DDS `bcdec_rs`; TGA, BMP and HDR are implemented here. Every reader checks the size in
+//! an image's header against [`Limits`](crate::Limits) before it allocates. Every writer uses fixed
+//! settings, so that the same image always gives the same bytes.
 
+pub mod animation;
 mod bmp;
 mod channel;
 mod dds;
 mod fault;
 mod format;
+pub mod gif;
 pub mod hdr;
 pub mod jpeg;
 pub mod png;
 pub mod tga;
 mod transform;
-mod webp;
+pub mod webp;
 
 #[cfg(test)]
 #[expect(
@@ -36,3 +40,4 @@ pub use hdr::{decode_hdr, encode_hdr};
 pub use jpeg::encode_jpeg;
 pub use png::{encode_drawing_png, encode_png};
 pub use transform::{flip_horizontal, flip_vertical, scale_nearest};
+pub use webp::encode_webp;
