@@ -8,7 +8,7 @@ use crate::terminal;
 use clap::Args;
 use estampe_assets::Limits;
 use std::io::Write;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Limits of one model.
 #[derive(Debug, Clone, Args)]
@@ -88,13 +88,16 @@ impl LimitArgs {
     }
 
     /// Ends the process with exit code 1 if it runs for longer than the limit.
-    pub(crate) fn watch(&self, command: &'static str, name: &str) {
+    pub(crate) fn watch(&self, command: &'static str, name: &str) -> Clock {
+        let start = Instant::now();
         let Some(timeout) = self.timeout else {
-            return;
+            return Clock { start, late: None };
         };
         let message = timeout_message(name, timeout);
+        let late = start.checked_add(timeout);
+        let late = late.map(|late| (late, message.clone()));
         let watcher = std::thread::Builder::new().name("timeout".to_owned());
-        // Without the thread the command takes the time that it takes.
+        // Without the thread the command takes the time that it takes, and is late at its end.
         let _ = watcher.spawn(move || {
             std::thread::sleep(timeout);
             let message = terminal::lines(&message).into_owned();
@@ -103,6 +106,39 @@ impl LimitArgs {
                 std::process::exit(i32::from(Failure::Limit(message).exit_code()));
             });
         });
+        Clock { start, late }
+    }
+}
+
+/// When a command began, and when it is late.
+#[derive(Debug)]
+pub(crate) struct Clock {
+    start: Instant,
+    late: Option<(Instant, String)>,
+}
+
+impl Clock {
+    /// The clock of a command without a limit, which begins.
+    pub(crate) fn unlimited() -> Self {
+        Self {
+            start: Instant::now(),
+            late: None,
+        }
+    }
+
+    /// The time since the command began.
+    pub(crate) fn elapsed(&self) -> Duration {
+        self.start.elapsed()
+    }
+
+    /// Refuses to go on with a command that is late, whose watcher may not have been woken yet.
+    pub(crate) fn check(&self) -> Result<(), Failure> {
+        match &self.late {
+            Some((late, message)) if Instant::now() >= *late => {
+                Err(Failure::Limit(message.clone()))
+            }
+            _ => Ok(()),
+        }
     }
 }
 

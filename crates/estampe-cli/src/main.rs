@@ -3,6 +3,7 @@
 //!
 //! * [`render`]: renders a model to an image;
 //! * [`batch`]: renders many models;
+//! * [`turntable`]: animates a model that turns;
 //! * [`shape`]: meshes a function, as a model or an image;
 //! * [`inspect`]: explains a pixel of the image;
 //! * [`describe`]: describes the contents of a model;
@@ -35,6 +36,7 @@ mod render;
 mod shader;
 mod shape;
 mod terminal;
+mod turntable;
 mod values;
 
 use std::io::{self, BufWriter, Write};
@@ -53,6 +55,7 @@ Examples:
   estampe render model.obj -o model.png
   estampe render builtin:teapot -o teapot.png --view iso --shading toon
   estampe batch 'models/*.glb' -o 'thumbnails/{stem}.png' --size 256x256
+  estampe turntable builtin:teapot -o teapot.gif
   estampe shape --explicit 'sin(x) + cos(y)' -o waves.png
   estampe inspect builtin:teapot --pixel 500,400
   estampe info model.stl
@@ -75,6 +78,8 @@ enum Command {
     Render(Box<render::RenderArgs>),
     // Boxed, because it has the options of a picture.
     Batch(Box<batch::BatchArgs>),
+    // Boxed, because it has the options of a picture.
+    Turntable(Box<turntable::TurntableArgs>),
     /// Prints the JSON Schema of the job files of `estampe batch`
     Schema,
     Shape(Box<shape::ShapeArgs>),
@@ -110,6 +115,11 @@ fn main() -> ExitCode {
             Ok(code) => code,
             Err(failure) => report("batch", None, Err(failure)),
         },
+        Command::Turntable(args) => report(
+            "turntable",
+            args.report.json.then_some(args.output.is_standard_output()),
+            turntable::run(args),
+        ),
         Command::Schema => {
             let schema = format!("{:#}\n", batch::schema());
             report("schema", None, output::print(&schema))

@@ -5,7 +5,7 @@ use crate::interrupt::Part;
 use crate::terminal;
 use crate::values::{Destination, shown};
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 use std::sync::LazyLock;
 use twox_hash::XxHash3_128;
@@ -95,45 +95,83 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
 
 /// Writes the bytes.
 pub(crate) fn write(destination: &Destination, bytes: &[u8]) -> Result<(), Failure> {
-    match destination {
-        Destination::StandardOutput => {
-            let mut out = io::stdout().lock();
-            out.write_all(bytes)
-                .and_then(|()| out.flush())
-                .map_err(|error| {
-                    Failure::Output(format!(
-                        "standard output: {error}; check the program that reads it"
-                    ))
-                })
-        }
-        Destination::File(path) => write_whole(path, bytes).map_err(|error| {
-            let name = shown(path);
-            Failure::Output(format!(
-                "{name}: {error}; check the folder, its permissions and space"
-            ))
-        }),
+    write_with(destination, |out| Ok(out.write_all(bytes)?))
+}
+
+/// The reason why an output was not written: the output's, or that there is nothing to write.
+#[derive(Debug)]
+pub(crate) enum Unwritten {
+    /// The output fails.
+    Io(io::Error),
+    /// What was to be written failed.
+    Failed(Failure),
+}
+
+impl From<io::Error> for Unwritten {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
     }
+}
+
+impl From<Failure> for Unwritten {
+    fn from(failure: Failure) -> Self {
+        Self::Failed(failure)
+    }
+}
+
+/// Writes what `fill` writes, piece by piece. A file is there as a whole, or not at all.
+pub(crate) fn write_with(
+    destination: &Destination,
+    fill: impl FnOnce(&mut dyn Write) -> Result<(), Unwritten>,
+) -> Result<(), Failure> {
+    let (written, name, advice) = match destination {
+        Destination::StandardOutput => {
+            let written = filled(io::stdout().lock(), fill);
+            let name = "standard output".to_owned();
+            (written, name, "check the program that reads it")
+        }
+        Destination::File(path) => (
+            write_whole(path, fill),
+            shown(path),
+            "check the folder, its permissions and space",
+        ),
+    };
+    written.map_err(|reason| match reason {
+        Unwritten::Io(error) => Failure::Output(format!("{name}: {error}; {advice}")),
+        Unwritten::Failed(failure) => failure,
+    })
+}
+
+/// Fills an output through a buffer.
+fn filled(
+    out: impl Write,
+    fill: impl FnOnce(&mut dyn Write) -> Result<(), Unwritten>,
+) -> Result<(), Unwritten> {
+    let mut out = BufWriter::new(out);
+    fill(&mut out)?;
+    Ok(out.flush()?)
 }
 
 /// Writes a temporary file in the same folder, then renames it, so that other processes see the old
 /// file or the new one. Links are followed, and the permissions of the old file stay. A device or
 /// pipe is written in place, because it must not be replaced.
-fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+fn write_whole(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> Result<(), Unwritten>,
+) -> Result<(), Unwritten> {
     let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let old = fs::metadata(&path).ok();
     if old.as_ref().is_some_and(|metadata| !metadata.is_file()) {
-        return OpenOptions::new().write(true).open(&path)?.write_all(bytes);
+        return filled(OpenOptions::new().write(true).open(&path)?, fill);
     }
     let (part, file) = create_part(&path)?;
-    let mut file = file;
     let permitted = match old {
         // Before there is anything to read in it.
         Some(metadata) => fs::set_permissions(part.path(), metadata.permissions()),
         None => Ok(()),
     };
-    let written = permitted.and_then(|()| file.write_all(bytes));
-    drop(file);
-    let written = written.and_then(|()| fs::rename(part.path(), &path));
+    let written = { permitted.map_err(Unwritten::from) }.and_then(|()| filled(file, fill));
+    let written = written.and_then(|()| Ok(fs::rename(part.path(), &path)?));
     if written.is_err() {
         // The first error is reported; removing the temporary file may fail.
         let _ = fs::remove_file(part.path());

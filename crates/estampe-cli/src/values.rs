@@ -164,6 +164,17 @@ pub(crate) enum Source {
     StandardInput,
 }
 
+impl Source {
+    /// For messages.
+    pub(crate) fn name(&self) -> String {
+        match self {
+            Self::File(path) => shown(path),
+            Self::Builtin(name) => format!("builtin:{name}"),
+            Self::StandardInput => "standard input".to_owned(),
+        }
+    }
+}
+
 impl From<std::ffi::OsString> for Source {
     fn from(text: std::ffi::OsString) -> Self {
         match text.to_str() {
@@ -253,6 +264,8 @@ pub(crate) enum ImageFormatName {
     Jpeg,
     /// Lossless, with alpha, simple
     Tga,
+    /// Lossless, with alpha, smaller than PNG
+    Webp,
 }
 
 impl From<ImageFormatName> for ImageFormat {
@@ -261,6 +274,7 @@ impl From<ImageFormatName> for ImageFormat {
             ImageFormatName::Png => Self::Png,
             ImageFormatName::Jpeg => Self::Jpeg,
             ImageFormatName::Tga => Self::Tga,
+            ImageFormatName::Webp => Self::Webp,
         }
     }
 }

@@ -1,7 +1,8 @@
 //! A job with a deadline: it runs on a thread of its own, which is left behind if it is late.
 //!
 //! Readers and shaders cannot be stopped from outside, so a thread that is late goes on, but what
-//! it draws is not written: the claim is taken either by the writer or by the deadline.
+//! it draws is not written: the claim is taken either by the writer or by the deadline, and no
+//! writer takes it after the deadline, however late the thread that waits is woken.
 
 use super::job::Done;
 use super::plan::Job;
@@ -14,20 +15,31 @@ use std::time::{Duration, Instant};
 
 /// Who may go on: the job, while it is not given up.
 #[derive(Debug, Default)]
-pub(super) struct Claim(AtomicU8);
+pub(super) struct Claim {
+    state: AtomicU8,
+    /// Without it the job may take any time.
+    end: Option<Instant>,
+}
 
 const RUNNING: u8 = 0;
 const WRITING: u8 = 1;
 const GIVEN_UP: u8 = 2;
 
 impl Claim {
-    /// False if the job was given up.
+    /// False if the job was given up, or is late.
     pub(super) fn begin_writing(&self) -> bool {
+        if self.end.is_some_and(|end| Instant::now() >= end) {
+            self.give_up();
+        }
         self.change(RUNNING, WRITING)
     }
 
     pub(super) fn end_writing(&self) {
-        self.0.store(RUNNING, Ordering::Release);
+        self.state.store(RUNNING, Ordering::Release);
+    }
+
+    fn is_given_up(&self) -> bool {
+        self.state.load(Ordering::Acquire) == GIVEN_UP
     }
 
     /// False while a picture is written.
@@ -37,7 +49,8 @@ impl Claim {
 
     fn change(&self, from: u8, to: u8) -> bool {
         let (success, failure) = (Ordering::AcqRel, Ordering::Acquire);
-        self.0.compare_exchange(from, to, success, failure).is_ok()
+        let changed = self.state.compare_exchange(from, to, success, failure);
+        changed.is_ok()
     }
 }
 
@@ -47,10 +60,13 @@ pub(super) fn run(
     timeout: Duration,
     work: impl FnOnce(&Claim) -> Done + Send + 'static,
 ) -> Result<Done, String> {
-    let claim = Arc::new(Claim::default());
+    let end = Instant::now().checked_add(timeout);
+    let claim = Arc::new(Claim {
+        state: AtomicU8::new(RUNNING),
+        end,
+    });
     let (sender, receiver) = channel();
     let theirs = claim.clone();
-    let end = Instant::now() + timeout;
     let thread = std::thread::Builder::new().spawn(move || {
         // If the job was given up, nobody receives.
         let _ = sender.send(work(&theirs));
@@ -61,14 +77,14 @@ pub(super) fn run(
             "{name}: no thread: {error}; choose fewer --parallel"
         ));
     }
-    let mut wait = end.saturating_duration_since(Instant::now());
+    let mut wait = end.map_or(timeout, |end| end.saturating_duration_since(Instant::now()));
     loop {
         match receiver.recv_timeout(wait) {
-            Ok(done) => return Ok(done),
+            Ok(done) if !claim.is_given_up() => return Ok(done),
             Err(RecvTimeoutError::Timeout) if !claim.give_up() => {
                 wait = Duration::from_millis(5);
             }
-            Err(_) => return Err(timeout_message(&name, timeout)),
+            _ => return Err(timeout_message(&name, timeout)),
         }
     }
 }

@@ -138,7 +138,7 @@ impl Draft {
             let Some(format) = format else {
                 return Err(Failure::Usage(format!(
                     "--output {}: the name does not show the image's format; end it with .png, \
-                     .jpg or .tga",
+                     .jpg, .tga or .webp",
                     shown(&output)
                 )));
             };

@@ -54,11 +54,11 @@ pub(crate) struct DepthArgs {
     #[arg(long, value_name = "Z", value_parser = values::distance, allow_hyphen_values = true)]
     pub(crate) at: Vec<f32>,
 
-    /// The plot: a file named .svg, .png, .jpg or .tga, or - for standard output
+    /// The plot: a file named .svg, .png, .jpg, .tga or .webp, or - for standard output
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<Destination>,
 
-    /// The plot's format: svg, png, jpeg or tga [default: by OUT's extension]
+    /// The plot's format: svg, png, jpeg, tga or webp [default: by OUT's extension]
     #[arg(
         long,
         value_name = "FORMAT",
@@ -115,4 +115,6 @@ pub(crate) enum PlotFormatName {
     Jpeg,
     /// A picture, lossless, simple
     Tga,
+    /// A picture, lossless, small
+    Webp,
 }

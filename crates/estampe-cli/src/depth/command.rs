@@ -78,7 +78,7 @@ fn format_of(args: &DepthArgs, destination: &Destination) -> Result<PlotFormatNa
     let Destination::File(path) = destination else {
         return Err(Failure::Usage(
             "standard output has no name that shows the format; add --output-format svg, png, \
-             jpeg or tga"
+             jpeg, tga or webp"
                 .to_owned(),
         ));
     };
@@ -86,7 +86,7 @@ fn format_of(args: &DepthArgs, destination: &Destination) -> Result<PlotFormatNa
     let format = extension.and_then(|extension| PlotFormatName::from_str(extension, true).ok());
     format.ok_or_else(|| {
         Failure::Usage(
-            "OUT's name shows no format; name it .svg, .png, .jpg or .tga, or add \
+            "OUT's name shows no format; name it .svg, .png, .jpg, .tga or .webp, or add \
              --output-format"
                 .to_owned(),
         )
@@ -105,6 +105,7 @@ fn draw(
         PlotFormatName::Png => ImageFormat::Png,
         PlotFormatName::Jpeg => ImageFormat::Jpeg,
         PlotFormatName::Tga => ImageFormat::Tga,
+        PlotFormatName::Webp => ImageFormat::Webp,
     };
     let device = Device::new(&DeviceDescriptor::default());
     let device = device.map_err(|error| Failure::Output(error.to_string()))?;

@@ -52,7 +52,7 @@ pub(crate) struct InspectArgs {
     #[arg(requires = "output")]
     pub(crate) stage: Option<StageName>,
 
-    /// The picture: a file named .png, .jpg or .tga, or - for standard output; for all a folder
+    /// The picture: a file (.png, .jpg, .tga, .webp), or - for standard output; for all a folder
     #[arg(
         short,
         long,

@@ -6,7 +6,7 @@ use crate::limits::LimitArgs;
 use crate::values::{Destination, FormatName, ImageFormatName, Source};
 use clap::Args;
 
-/// Renders an image of a model: glTF, OBJ, STL, PLY or OFF to PNG, JPEG or TGA.
+/// Renders an image of a model: glTF, OBJ, STL, PLY or OFF to PNG, JPEG, TGA or WebP.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "\
 Examples:
@@ -41,7 +41,7 @@ pub(crate) struct RenderArgs {
     #[arg(value_name = "MODEL")]
     pub(crate) model: Source,
 
-    /// The image: a file named .png, .jpg or .tga, or - for standard output
+    /// The image: a file named .png, .jpg, .tga or .webp, or - for standard output
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Destination,
 
@@ -52,7 +52,7 @@ pub(crate) struct RenderArgs {
     )]
     pub(crate) format: Option<FormatName>,
 
-    /// The image's format: png, jpeg or tga [default: by OUT's extension; png for standard output]
+    /// The image's format: png, jpeg, tga or webp [default: by OUT's extension; png for -]
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     pub(crate) output_format: Option<ImageFormatName>,
 

@@ -7,19 +7,16 @@ use crate::failure::Failure;
 use crate::input::Model;
 use crate::output;
 use crate::progress::Progress;
-use crate::values::{Source, shown};
 use estampe_renderer::ViewDirection;
-use std::time::Instant;
 
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
-    let start = Instant::now();
+    let clock = args.limits.watch("render", &args.model.name());
     let format = image_format(args.output_format, &args.output)?;
     output::check(&args.output)?;
     // Reading and parsing come before.
     let progress = Progress::new(2 + STAGES, args.report.quiet);
 
-    args.limits.watch("render", &source_name(&args.model));
     let limits = args.limits.of_reader(args.picture.thread_count());
     let chosen = args.choice.at(args.picture.shader.time);
     let folder = args.choice.folder_of(&args.model)?;
@@ -33,7 +30,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         &args.picture,
         ViewDirection::default(),
         (&args.output, format),
-        start,
+        &clock,
         &progress,
     )?;
     drop(progress);
@@ -45,12 +42,4 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         shape: None,
     };
     report.write(&args.report)
-}
-
-fn source_name(source: &Source) -> String {
-    match source {
-        Source::File(path) => shown(path),
-        Source::Builtin(name) => format!("builtin:{name}"),
-        Source::StandardInput => "standard input".to_owned(),
-    }
 }

@@ -5,6 +5,7 @@ use super::report::Encoded;
 use crate::choice;
 use crate::failure::Failure;
 use crate::input::{self, Model};
+use crate::limits::Clock;
 use crate::output;
 use crate::progress::Progress;
 use crate::shader::values::{FRAGMENT_JUMPS, Via};
@@ -30,13 +31,13 @@ pub(crate) struct Drawn {
 }
 
 /// Draws the model, and writes the picture to its destination. `default_view` is the view if no
-/// option says another one; `start` is when the command began.
+/// option says another one.
 pub(crate) fn draw(
     model: &Model,
     args: &PictureArgs,
     default_view: ViewDirection,
     (output, format): (&Destination, ImageFormat),
-    start: Instant,
+    clock: &Clock,
     progress: &Progress,
 ) -> Result<Drawn, Failure> {
     args.check()?;
@@ -56,10 +57,11 @@ pub(crate) fn draw(
 
     progress.stage("encoding");
     let encode_start = Instant::now();
-    let bytes = encoded(&frame, format)?;
+    let bytes = encoded(&frame.image, format)?;
     let encode_time = encode_start.elapsed();
 
     progress.stage("writing");
+    clock.check()?;
     let write_start = Instant::now();
     output::write(output, &bytes)?;
     let written = Encoded {
@@ -69,7 +71,7 @@ pub(crate) fn draw(
         device: device_time,
         encode: encode_time,
         write: write_start.elapsed(),
-        total: start.elapsed(),
+        total: clock.elapsed(),
     };
     Ok(Drawn {
         frame,
@@ -101,7 +103,7 @@ pub(crate) fn drawn_bytes(
     let options = options(model, args, (default_view, texture), device)?;
     let frame = render(&model.scene, &options, device);
     let frame = frame.map_err(|error| args.shader.failure(error))?;
-    encoded(&frame, format)
+    encoded(&frame.image, format)
 }
 
 /// The renderer's options of a picture, and the device that draws it.
@@ -111,11 +113,31 @@ pub(crate) fn prepare(
     default_view: ViewDirection,
 ) -> Result<(RenderOptions, Device), Failure> {
     args.check()?;
-    check_drawable(model)?;
     let device = device(args)?;
-    let texture = texture_of(model, args)?;
-    let options = options(model, args, (default_view, texture), &device)?;
+    let options = frame_options(model, args, default_view, &device)?;
     Ok((options, device))
+}
+
+/// The renderer's options of a model, for a device that draws several frames.
+pub(crate) fn frame_options(
+    model: &Model,
+    args: &PictureArgs,
+    default_view: ViewDirection,
+    device: &Device,
+) -> Result<RenderOptions, Failure> {
+    check_drawable(model)?;
+    let texture = texture_of(model, args)?;
+    options(model, args, (default_view, texture), device)
+}
+
+/// A frame with the renderer's options.
+pub(crate) fn frame(
+    model: &Model,
+    args: &PictureArgs,
+    options: &RenderOptions,
+    device: &Device,
+) -> Result<Frame, Failure> {
+    render(&model.scene, options, device).map_err(|error| args.shader.failure(error))
 }
 
 /// The renderer's options, with the program of a shader, and a camera of the model.
@@ -166,7 +188,7 @@ pub(crate) fn image_format(
     let named = named.map(ImageFormat::from);
     named.or_else(|| output.image_format()).ok_or_else(|| {
         Failure::Usage(
-            "OUT's name does not show the image's format; name it .png, .jpg or .tga, or add \
+            "OUT's name does not show the image's format; name it .png, .jpg, .tga or .webp, or add \
              --output-format"
                 .to_owned(),
         )
@@ -218,12 +240,12 @@ pub(crate) fn device(args: &PictureArgs) -> Result<Device, Failure> {
 }
 
 /// The image's file; formats without alpha get the default background behind transparency.
-fn encoded(frame: &Frame, format: ImageFormat) -> Result<Vec<u8>, Failure> {
+pub(crate) fn encoded(image: &Image, format: ImageFormat) -> Result<Vec<u8>, Failure> {
     let opaque;
     let image = if format.has_alpha() {
-        &frame.image
+        image
     } else {
-        opaque = composite_over(&frame.image, RenderOptions::DEFAULT_BACKGROUND);
+        opaque = composite_over(image, RenderOptions::DEFAULT_BACKGROUND);
         &opaque
     };
     encode(image, format).map_err(|error| Failure::Output(error.to_string()))

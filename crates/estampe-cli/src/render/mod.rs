@@ -19,7 +19,10 @@ mod surface_shader;
 
 pub(crate) use arguments::RenderArgs;
 pub(crate) use command::run;
-pub(crate) use draw::{STAGES, check_output, device, draw, drawn_bytes, image_format, prepare};
+pub(crate) use draw::{STAGES, check_output, device, draw, drawn_bytes, encoded, frame};
+pub(crate) use draw::{frame_options, image_format, prepare};
 pub(crate) use picture::{PictureArgs, ReportArgs};
 pub(crate) use report::write as write_report;
-pub(crate) use report::{Report, counts, output_name, rounded_milliseconds};
+pub(crate) use report::{
+    Report, counts, output_name, output_path, rounded_milliseconds, write_json,
+};

@@ -204,7 +204,7 @@ pub(crate) fn write(
 
 /// Writes one object to standard output, or to standard error if the output goes to standard
 /// output.
-fn write_json(object: &Value, output: &Destination) -> Result<(), Failure> {
+pub(crate) fn write_json(object: &Value, output: &Destination) -> Result<(), Failure> {
     if !output.is_standard_output() {
         return crate::output::print(&format!("{object:#}\n"));
     }
@@ -216,7 +216,7 @@ fn write_json(object: &Value, output: &Destination) -> Result<(), Failure> {
 }
 
 /// The output's path as it is, for programs.
-fn output_path(output: &Destination) -> String {
+pub(crate) fn output_path(output: &Destination) -> String {
     match output {
         Destination::File(path) => path.to_string_lossy().into_owned(),
         Destination::StandardOutput => output_name(output),

@@ -62,12 +62,12 @@ pub(crate) struct ShapeArgs {
     #[arg(long, value_name = "N[xM[xK]]", value_parser = resolution)]
     pub(crate) resolution: Option<Resolution>,
 
-    /// The model or picture: a file named .obj, .stl, .ply, .png, .jpg or .tga, or - for standard
-    /// output
+    /// The model or picture: a file named .obj, .stl, .ply, .png, .jpg, .tga or .webp, or - for
+    /// standard output
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Destination,
 
-    /// The output's format: obj, stl, ply, png, jpeg or tga [default: by OUT's extension]
+    /// The output's format: obj, stl, ply, png, jpeg, tga or webp [default: by OUT's extension]
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     pub(crate) output_format: Option<ShapeFormat>,
 
@@ -102,4 +102,6 @@ pub(crate) enum ShapeFormat {
     Jpeg,
     /// A picture, lossless, simple
     Tga,
+    /// A picture, lossless, small
+    Webp,
 }

@@ -6,6 +6,7 @@ use super::grid::Grid;
 use super::mesh::{Form, Meshed, mesh};
 use crate::failure::Failure;
 use crate::input::Model;
+use crate::limits::Clock;
 use crate::output;
 use crate::progress::Progress;
 use crate::render::{
@@ -38,7 +39,7 @@ enum Output {
 
 /// Runs the command.
 pub(crate) fn run(args: &ShapeArgs) -> Result<(), Failure> {
-    let start = Instant::now();
+    let clock = Clock::unlimited();
     let function = Function::parse(args)?;
     let grid = Grid::new(&function, &args.range, args.resolution.as_ref())?;
     let output = output_of(args)?;
@@ -56,7 +57,7 @@ pub(crate) fn run(args: &ShapeArgs) -> Result<(), Failure> {
     };
     let meshed = mesh(&function, &grid, seams)?;
     let shape = json_of(&function, &grid, &meshed);
-    let model = model(args, &function, meshed, is_picture, start);
+    let model = model(args, &function, meshed, is_picture, &clock);
 
     match output {
         Output::Picture(format) => {
@@ -66,7 +67,7 @@ pub(crate) fn run(args: &ShapeArgs) -> Result<(), Failure> {
                 ViewDirection::default()
             };
             let to = (&args.output, format);
-            let drawn = draw(&model, &args.picture, view, to, start, &progress)?;
+            let drawn = draw(&model, &args.picture, view, to, &clock, &progress)?;
             drop(progress);
             let report = Report {
                 args: &args.picture,
@@ -86,7 +87,7 @@ pub(crate) fn run(args: &ShapeArgs) -> Result<(), Failure> {
             let write_start = Instant::now();
             output::write(&args.output, &bytes)?;
             drop(progress);
-            let times = [encode, write_start.elapsed(), start.elapsed()];
+            let times = [encode, write_start.elapsed(), clock.elapsed()];
             report_model(args, &model, format, bytes.len(), times, shape)
         }
     }
@@ -102,12 +103,13 @@ fn output_of(args: &ShapeArgs) -> Result<Output, Failure> {
             ShapeFormat::Png => Output::Picture(ImageFormat::Png),
             ShapeFormat::Jpeg => Output::Picture(ImageFormat::Jpeg),
             ShapeFormat::Tga => Output::Picture(ImageFormat::Tga),
+            ShapeFormat::Webp => Output::Picture(ImageFormat::Webp),
         });
     }
     let Destination::File(path) = &args.output else {
         return Err(Failure::Usage(
             "standard output has no name that shows the format; add --output-format obj, stl, ply, \
-             png, jpeg or tga"
+             png, jpeg, tga or webp"
                 .to_owned(),
         ));
     };
@@ -118,7 +120,7 @@ fn output_of(args: &ShapeArgs) -> Result<Output, Failure> {
     let picture = || ImageFormat::from_path(path).map(Output::Picture);
     model.or_else(picture).ok_or_else(|| {
         Failure::Usage(
-            "OUT's name shows no format; name it .obj, .stl, .ply, .png, .jpg or .tga, or add \
+            "OUT's name shows no format; name it .obj, .stl, .ply, .png, .jpg, .tga or .webp, or add \
              --output-format"
                 .to_owned(),
         )
@@ -152,7 +154,7 @@ fn model(
     function: &Function,
     meshed: Meshed,
     is_picture: bool,
-    start: Instant,
+    clock: &Clock,
 ) -> Model {
     let is_tube = is_picture || args.tube.is_some();
     let form = if is_tube {
@@ -211,7 +213,7 @@ fn model(
         warning_count: warnings.len() as u64,
         warnings,
         read: Duration::ZERO,
-        parse: start.elapsed(),
+        parse: clock.elapsed(),
     }
 }
 

@@ -49,7 +49,7 @@ fn data_uri(bytes: &[u8]) -> String {
 }
 
 /// A triangle that slides by 4 in two seconds, in two scenes, with two cameras and two variants.
-fn with_choices() -> String {
+pub(crate) fn with_choices() -> String {
     let times = [0.0_f32, 2.0];
     let translations = [0.0_f32, 0.0, 0.0, 4.0, 0.0, 0.0];
     let positions = [-1.0_f32, -1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 1.0, 0.0];

@@ -25,3 +25,5 @@ mod shapes_page;
 mod support;
 mod system_libraries;
 mod transparency;
+mod turntable;
+mod turntable_page;

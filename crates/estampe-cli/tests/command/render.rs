@@ -242,7 +242,7 @@ fn standard_streams_carry_models_pictures_and_reports() {
 fn formats_follow_the_name_and_transparency_is_straight() {
     let folder = Folder::new();
     let words = "render builtin:sphere -o {} -q --size 64x64 --background none";
-    for name in ["a.png", "a.tga", "a.jpg", "a.JPEG"] {
+    for name in ["a.png", "a.tga", "a.jpg", "a.JPEG", "a.webp"] {
         let run = estampe(words, &[&folder.path(name)]);
         assert_eq!(run.code, 0, "{name}: {}", run.err);
     }
@@ -258,6 +258,13 @@ fn formats_follow_the_name_and_transparency_is_straight() {
     );
     let tga = Picture::open(&folder.path("a.tga"));
     assert_eq!(tga.pixel(32, 10), png.pixel(32, 10));
+    let webp = Picture::open_webp(&folder.path("a.webp"));
+    assert!(webp == png, "lossless, with straight alpha");
+    let run = estampe(
+        "render builtin:sphere -o - -q --size 64x64 --background none --output-format webp",
+        &[],
+    );
+    assert!(std::fs::read(folder.path("a.webp")).ok() == Some(run.out));
     let jpeg = Picture::open(&folder.path("a.jpg"));
     let corner = jpeg.pixel(1, 1);
     assert!(

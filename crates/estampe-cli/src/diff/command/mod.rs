@@ -55,8 +55,8 @@ pub(crate) struct DiffArgs {
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) max: u8,
 
-    /// Write the perceived difference of each pixel as an image (.png, .tga or .jpg): black for
-    /// none, over purple, red and orange to pale yellow for the greatest
+    /// Write the perceived difference of each pixel as an image (.png, .tga, .webp, .jpg): black
+    /// for none, over purple, red and orange to pale yellow for the greatest
     #[arg(long, value_name = "OUT")]
     pub(crate) heatmap: Option<PathBuf>,
 
@@ -146,7 +146,7 @@ fn compare_files(args: &DiffArgs, out: &mut dyn Write) -> Result<bool, Failure> 
 fn heatmap_format(path: &Path) -> Result<ImageFormat, Failure> {
     ImageFormat::from_path(path).ok_or_else(|| {
         Failure::Usage(format!(
-            "the heat map {} has no known extension; name it .png, .tga or .jpg",
+            "the heat map {} has no known extension; name it .png, .tga, .webp or .jpg",
             path.display()
         ))
     })

@@ -41,11 +41,11 @@ pub(crate) struct ImageArgs {
     #[arg(value_name = "FILE")]
     pub(super) file: PathBuf,
 
-    /// The image: a file named .png, .jpg or .tga, or - for standard output
+    /// The image: a file named .png, .jpg, .tga or .webp, or - for standard output
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: Destination,
 
-    /// The image's format: png, jpeg or tga [default: by OUT's extension; png for standard output]
+    /// The image's format: png, jpeg, tga or webp [default: by OUT's extension; png for -]
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     pub(super) output_format: Option<ImageFormatName>,
 

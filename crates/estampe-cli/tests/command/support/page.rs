@@ -57,7 +57,10 @@ pub(crate) fn check_page(name: &str) -> BTreeSet<String> {
         }
     }
 
-    let is_picture = |name: &String| name.ends_with(".png") || name.ends_with(".svg");
+    let is_picture = |name: &String| {
+        let extension = Path::new(name).extension();
+        extension.is_some_and(|extension| ["png", "svg", "gif"].iter().any(|e| extension == *e))
+    };
     let drawn: BTreeSet<String> = folder.names().into_iter().filter(is_picture).collect();
     for picture in &drawn {
         let bytes = std::fs::read(folder.path(picture)).expect("written");

@@ -1,8 +1,10 @@
 //! Images that the command wrote.
 
+use std::io::Cursor;
 use std::path::Path;
 
 /// An image that the command wrote.
+#[derive(PartialEq)]
 pub(crate) struct Picture {
     pub(crate) width: usize,
     pub(crate) height: usize,
@@ -23,6 +25,26 @@ impl Picture {
 
     pub(crate) fn open(path: &Path) -> Self {
         Self::read(&std::fs::read(path).expect("the picture was written"))
+    }
+
+    /// A WebP with alpha.
+    pub(crate) fn open_webp(path: &Path) -> Self {
+        let bytes = std::fs::read(path).expect("the picture was written");
+        let mut decoder = image_webp::WebPDecoder::new(Cursor::new(bytes)).expect("a WebP");
+        assert!(decoder.has_alpha() && !decoder.is_lossy());
+        let (width, height) = decoder.dimensions();
+        let mut rgba = vec![0; decoder.output_buffer_size().expect("small")];
+        decoder.read_image(&mut rgba).expect("a whole WebP");
+        Self {
+            width: width as usize,
+            height: height as usize,
+            rgba,
+        }
+    }
+
+    /// All texels, row by row from the top.
+    pub(crate) fn rgba(&self) -> Vec<u8> {
+        self.rgba.clone()
     }
 
     pub(crate) fn pixel(&self, x: usize, y: usize) -> [u8; 4] {
