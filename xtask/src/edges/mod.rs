@@ -175,6 +175,7 @@ const OUTSIDE: &[(&str, Users)] = &[
         "image-webp",
         Users::Only(&["estampe-assets", "estampe-cli"]),
     ),
+    ("exr", Users::Only(&["estampe-assets", "estampe-cli"])),
     ("gif", Users::Only(&["estampe-assets", "estampe-cli"])),
     // CPU time of the process; pages of machine code.
     ("rustix", Users::Only(&["estampe-bench", "estampe-x86"])),

@@ -1,5 +1,5 @@
 //! Reading images (PNG, JPEG, WebP, TGA, BMP, DDS) and writing them (PNG, JPEG, TGA, WebP);
-//! Radiance HDR, whose numbers are floats; and writing animations ([`animation`]).
+//! Radiance HDR and OpenEXR, whose numbers are floats; and writing animations ([`animation`]).
 //!
 //! ```text
 //!   bytes --format::decode--> Image            (by content: signature, or a plausible TGA header)
@@ -8,15 +8,16 @@
 //!   Images --animation, gif-> bytes            (GIF, APNG, WebP, Y4M)
 //! ```
 //!
-//! PNG uses the `png` crate, JPEG `zune-jpeg` and `jpeg-encoder`, WebP `image-webp`, GIF `gif`, the
-//! blocks of DDS `bcdec_rs`; TGA, BMP and HDR are implemented here. Every reader checks the size in
-//! an image's header against [`Limits`](crate::Limits) before it allocates. Every writer uses fixed
-//! settings, so that the same image always gives the same bytes.
+//! PNG uses the `png` crate, JPEG `zune-jpeg` and `jpeg-encoder`, WebP `image-webp`, GIF `gif`,
+//! OpenEXR `exr`, the blocks of DDS `bcdec_rs`; TGA, BMP and HDR are implemented here. Every reader
+//! checks the size in an image's header against [`Limits`](crate::Limits) before it allocates. Every
+//! writer uses fixed settings, so that the same image always gives the same bytes.
 
 pub mod animation;
 mod bmp;
 mod channel;
 mod dds;
+pub mod exr;
 mod fault;
 mod format;
 pub mod gif;
@@ -34,10 +35,11 @@ pub mod webp;
 )]
 mod samples;
 
+pub use exr::{ExrChannel, ExrSamples, decode_exr, encode_exr};
 pub(crate) use format::stated_size;
 pub use format::{AlphaChannel, ImageFormat, decode, encode};
 pub use hdr::{decode_hdr, encode_hdr};
 pub use jpeg::encode_jpeg;
-pub use png::{encode_drawing_png, encode_png};
+pub use png::{encode_drawing_png, encode_png, encode_png_16};
 pub use transform::{flip_horizontal, flip_vertical, scale_nearest};
 pub use webp::encode_webp;

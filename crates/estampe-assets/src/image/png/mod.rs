@@ -208,6 +208,42 @@ fn encode_with(
     }
 }
 
+/// Writes a PNG of 16 bits: grey for one code a pixel, RGB for three.
+///
+/// # Errors
+/// `Malformed` if there are no pixels, or another number of codes.
+pub fn encode_png_16((width, height): (u32, u32), codes: &[u16]) -> Result<Vec<u8>, AssetError> {
+    let pixels = u64::from(width) * u64::from(height);
+    let color = match codes.len() as u64 {
+        count if count == pixels && pixels > 0 => ColorType::Grayscale,
+        count if count == pixels.saturating_mul(3) && pixels > 0 => ColorType::Rgb,
+        count => {
+            return Err(AssetError::malformed(
+                format!("{count} codes for an image of {width}x{height} pixels"),
+                "give one or three to every pixel",
+            ));
+        }
+    };
+    let samples: Vec<u8> = codes.iter().flat_map(|code| code.to_be_bytes()).collect();
+    let mut out = Vec::with_capacity(samples.len() / 4 + 1024);
+    let mut encoder = png::Encoder::new(&mut out, width, height);
+    encoder.set_color(color);
+    encoder.set_depth(BitDepth::Sixteen);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_filter(png::Filter::Adaptive);
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer.write_image_data(&samples)?;
+        writer.finish()
+    });
+    match written {
+        Ok(()) => Ok(out),
+        Err(error) => Err(AssetError::limit_exceeded(
+            format!("{width}x{height} pixels cannot be written as PNG: {error}"),
+            "write a smaller image",
+        )),
+    }
+}
+
 /// The colours without alpha.
 pub(super) fn rgb_from_rgba(rgba: &[u8]) -> Vec<u8> {
     let mut rgb = vec![0; rgba.len() / 4 * 3];
