@@ -83,6 +83,14 @@ pub enum RenderError {
         /// Number of triangle corners, line ends or points.
         elements: usize,
     },
+    /// The scene has more triangles than numbers in colours tell apart.
+    #[error(
+        "{faces} triangles are too many for data passes: 16777216 are possible; split the model"
+    )]
+    TooManyFaces {
+        /// Number of triangles.
+        faces: usize,
+    },
     /// A pipeline state breaks a rule.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),

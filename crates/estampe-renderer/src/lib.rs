@@ -13,7 +13,8 @@
 //!        ├─ surface_pipelines   material programs × vertex streams -> pipelines
 //!        ├─ draw_plan       the draws, in order
 //!        ├─ frame_passes    the passes: one, or those of order-independent transparency
-//!        └─ frame           render: all of it, and reading back the pixels
+//!        ├─ frame           render: all of it, and reading back the pixels
+//!        └─ surface_points  positions, normals and other numbers of what is seen
 //! ```
 //!
 //! [`render`] draws a [`Scene`](estampe_scene::Scene) with [`RenderOptions`]. The defaults suit a
@@ -42,6 +43,7 @@ mod scene_view;
 mod shading;
 mod shadows;
 mod surface_pipelines;
+mod surface_points;
 mod surface_program;
 
 /// The README's snippet, compiled and run as a test.
@@ -61,6 +63,7 @@ pub use options::{
 };
 pub use pixel_history::{FramePixel, FrameStages, VertexSpaces, inspect, inspect_stages};
 pub use shading::pbr::tone_map::ToneMap;
+pub use surface_points::{SurfacePoint, SurfacePoints, surface_points};
 pub use surface_program::{SurfaceBindings, SurfaceProgram, SurfaceValues};
 
 /// Version of the images. It rises whenever the same scene and options give other bytes than

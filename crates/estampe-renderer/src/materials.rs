@@ -115,7 +115,9 @@ impl<'a> Materials<'a> {
             AlphaMode::Mask => SurfaceAlpha::Masked,
             AlphaMode::Blend => SurfaceAlpha::Blended,
         };
-        let texture = if self.reads_textures() {
+        // Faces are numbered where they are not cut out.
+        let is_cut_out = alpha == SurfaceAlpha::Masked && self.options.shading == Shading::FaceId;
+        let texture = if self.reads_textures() || is_cut_out {
             self.texture(material, mesh)?
         } else {
             None

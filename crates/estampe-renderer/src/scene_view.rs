@@ -88,6 +88,19 @@ impl SceneView {
         }
     }
 
+    /// From unit space to clip space, in 64 bits.
+    pub(crate) fn clip_from_unit(&self) -> DMat4 {
+        self.camera.clip_from_view(self.aspect) * self.camera.frame.view_from_world()
+    }
+
+    /// The direction from a unit-space point towards the eye; its length has no meaning.
+    pub(crate) fn towards_eye(&self, point_unit: DVec3) -> DVec3 {
+        match self.camera.lens {
+            Lens::Perspective(_) => self.camera.frame.eye_world - point_unit,
+            Lens::Orthographic(_) => self.camera.frame.back_world,
+        }
+    }
+
     /// From view space to clip space.
     pub(crate) fn clip_from_view(&self) -> Mat4 {
         to_f32(&self.camera.clip_from_view(self.aspect)).into()

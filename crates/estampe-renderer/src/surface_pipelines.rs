@@ -345,7 +345,7 @@ impl FrameStyle {
     }
 
     fn material_program(&self, surface: &SurfaceStyle, role: Role) -> MaterialProgram {
-        use VertexStream::{Corner, Face, Normal, Position, Uv};
+        use VertexStream::{Color, Corner, Face, Normal, Position, Uv};
         let transforms = self.transforms;
         let toon = Terms::Toon(self.levels.unwrap_or(TOON_LEVELS));
         let surface = WrittenSurface {
@@ -382,7 +382,20 @@ impl FrameStyle {
                 )
             }
             Shading::Uv => MaterialProgram::new(UvColors { transforms }, &[Position, Uv]),
-            Shading::FaceId => MaterialProgram::new(FaceColors { transforms }, &[Position, Face]),
+            Shading::FaceId => {
+                let alpha = surface.alpha();
+                let cut_out = (alpha == Alpha::CutsOut).then(|| Painted {
+                    factor: surface.style.base,
+                    texture: surface.style.texture.clone(),
+                    bump: None,
+                    alpha,
+                });
+                let faces = FaceColors {
+                    transforms,
+                    cut_out,
+                };
+                MaterialProgram::new(faces, &[Position, Face, Uv, Color])
+            }
             Shading::Barycentric => {
                 MaterialProgram::new(Barycentrics { transforms }, &[Position, Corner])
             }

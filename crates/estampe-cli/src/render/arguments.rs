@@ -1,9 +1,10 @@
 //! The options of `estampe render` and their help.
 
+use super::passes::{OutputFormatName, PassArgs};
 use super::picture::{PictureArgs, ReportArgs};
 use crate::choice::ChoiceArgs;
 use crate::limits::LimitArgs;
-use crate::values::{Destination, FormatName, ImageFormatName, Source};
+use crate::values::{Destination, FormatName, Source};
 use clap::Args;
 
 /// Renders an image of a model: glTF, OBJ, STL, PLY or OFF to PNG, JPEG, TGA or WebP.
@@ -19,6 +20,8 @@ Examples:
   estampe render model.obj -o lamp.png --light pos:2,3,4 --attenuation 9 --specular blinn:0.6 --shininess 80
   estampe render robot.glb -o robot.png --animation Walk --time 0.5 --camera 0
   estampe render builtin:teapot -o mine.png --shader my.wgsl --set gloss=0.5
+  estampe render builtin:teapot -o scene.exr --pass color,depth,normal,object-id
+  estampe render builtin:teapot -o 'teapot-{pass}.png' --pass color,depth,normal
   curl -s https://example.org/m.stl | estampe render - --format stl -o - > m.png
 
 Built-in models: builtin:teapot, builtin:sphere, builtin:torus, builtin:cube, builtin:plane.
@@ -35,13 +38,16 @@ With --json one object is written to standard output, or to standard error with 
 camera, counts {meshes, vertices, triangles, lines, points, materials, textures}, pipeline {vertices_shaded, primitives_in, \
 primitives_clipped, primitives_culled, primitives_binned, fragments_shaded}, timings_ms {read, parse, \
 texture, device, prepare, geometry, raster, read_back, encode, write, total}, warnings [text], \
-warning_count. The time of parse includes the computation of missing normals. An error gives {error, exit_code}.")]
+warning_count. The time of parse includes the computation of missing normals. \
+With --pass it is: model, width, height, depth_unit (of PNG), outputs [{path, passes, bytes}], camera with pinhole {K, R, t} (x right, \
+y down, z forward, in pixels), counts, objects [name], materials [name], milliseconds, warnings [text]. An error gives \
+{error, exit_code}.")]
 pub(crate) struct RenderArgs {
     /// The model: a file, builtin:NAME, or - for standard input
     #[arg(value_name = "MODEL")]
     pub(crate) model: Source,
 
-    /// The image: a file named .png, .jpg, .tga or .webp, or - for standard output
+    /// The image: a file named .png, .jpg, .tga, .webp or .exr, or - for standard output
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Destination,
 
@@ -52,15 +58,18 @@ pub(crate) struct RenderArgs {
     )]
     pub(crate) format: Option<FormatName>,
 
-    /// The image's format: png, jpeg, tga or webp [default: by OUT's extension; png for -]
+    /// The image's format: png, jpeg, tga, webp or exr [default: by OUT's extension; png for -]
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
-    pub(crate) output_format: Option<ImageFormatName>,
+    pub(crate) output_format: Option<OutputFormatName>,
 
     #[command(flatten)]
     pub(crate) choice: ChoiceArgs,
 
     #[command(flatten)]
     pub(crate) picture: PictureArgs,
+
+    #[command(flatten)]
+    pub(crate) passes: PassArgs,
 
     #[command(flatten)]
     pub(crate) limits: LimitArgs,

@@ -2,6 +2,7 @@
 
 use super::arguments::RenderArgs;
 use super::draw::{STAGES, draw, image_format};
+use super::passes::{self, Files, OutputFormatName};
 use super::report::Report;
 use crate::failure::Failure;
 use crate::input::Model;
@@ -12,7 +13,11 @@ use estampe_renderer::ViewDirection;
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let clock = args.limits.watch("render", &args.model.name());
-    let format = image_format(args.output_format, &args.output)?;
+    let files = Files::of(&args.passes, &args.output, args.output_format)?;
+    let named = args.output_format.and_then(OutputFormatName::of_picture);
+    // Of passes, the files have a format.
+    let picture = files.is_none().then(|| image_format(named, &args.output));
+    let picture = picture.transpose()?;
     output::check(&args.output)?;
     // Reading and parsing come before.
     let progress = Progress::new(2 + STAGES, args.report.quiet);
@@ -25,6 +30,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         progress.stage(stage);
     })?;
     args.limits.check_memory(&model, &args.picture)?;
+    let format = match (picture, &files) {
+        (Some(format), _) => format,
+        (None, Some(files)) => return passes::run(&model, args, files, &clock, progress),
+        (None, None) => unreachable!("a picture, or passes"),
+    };
     let drawn = draw(
         &model,
         &args.picture,

@@ -3,6 +3,7 @@
 //! ```text
 //! arguments -> input (read, parse) -> renderer (prepare, geometry, raster, read back)
 //!           -> encode -> output (complete or not at all), report
+//!           or passes (data of the same camera, several files)
 //! ```
 
 mod appearance_names;
@@ -11,6 +12,7 @@ mod command;
 mod draw;
 mod illumination;
 mod illumination_values;
+mod passes;
 mod pbr;
 mod picture;
 mod report;

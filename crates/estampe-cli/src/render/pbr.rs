@@ -5,7 +5,8 @@ use crate::input::read_file;
 use crate::values::shown;
 use clap::{Args, ValueEnum};
 use estampe_assets::Limits;
-use estampe_assets::image::decode_hdr;
+use estampe_assets::image::exr::is_exr;
+use estampe_assets::image::{decode_exr, decode_hdr};
 use estampe_renderer::{Environment, EnvironmentMap, RenderOptions, ToneMap};
 use estampe_scene::Workers;
 use std::path::{Path, PathBuf};
@@ -14,7 +15,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Light from all around, and how it is shown.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct PbrArgs {
-    /// The surroundings that light the model: a panorama (Radiance HDR, equirectangular)
+    /// The surroundings that light the model: a panorama (Radiance HDR or OpenEXR, equirectangular)
     ///
     /// The panorama's middle is at +Z, where the front view stands, and its upper edge is up.
     /// Without it a studio of soft boxes lights the model, which turns with the camera.
@@ -111,7 +112,12 @@ impl PbrArgs {
         }
         let limits = Limits::default();
         let bytes = read_file(path, &limits)?;
-        let image = decode_hdr(&bytes, &limits).map_err(|error| error.in_file(&shown(path)))?;
+        let decode = if is_exr(&bytes) {
+            decode_exr
+        } else {
+            decode_hdr
+        };
+        let image = decode(&bytes, &limits).map_err(|error| error.in_file(&shown(path)))?;
         let [width, height] = [image.width, image.height].map(|side| side as usize);
         let map = EnvironmentMap::from_panorama(width, height, &image.rgb, workers);
         let map = map.map_err(|error| Failure::Input(format!("{}: {error}", shown(path))))?;

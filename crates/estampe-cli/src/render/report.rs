@@ -7,7 +7,7 @@ use crate::input::Model;
 use crate::values::{Destination, shown};
 use clap::ValueEnum;
 use estampe_assets::image::ImageFormat;
-use estampe_scene::Projection;
+use estampe_scene::{Camera, Projection};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 use std::time::Duration;
@@ -92,7 +92,7 @@ impl Report<'_> {
             },
             "threads": device.threads(),
             "simd": device.level().name(),
-            "camera": self.camera(),
+            "camera": camera_json(&self.drawn.frame.camera),
             "counts": counts(self.model),
             "pipeline": self.pipeline(),
             "timings_ms": self.timings(),
@@ -103,37 +103,6 @@ impl Report<'_> {
             object["shape"] = shape.clone();
         }
         object
-    }
-
-    fn camera(&self) -> Value {
-        let camera = &self.drawn.frame.camera;
-        let (kind, key, value, near, far) = match camera.projection {
-            Projection::Perspective {
-                fov_y_rad,
-                near,
-                far,
-            } => (
-                "perspective",
-                "fov_y_deg",
-                fov_y_rad.to_degrees(),
-                near,
-                far,
-            ),
-            Projection::Orthographic {
-                half_height,
-                near,
-                far,
-            } => ("orthographic", "half_height", half_height, near, far),
-        };
-        json!({
-            "eye": camera.eye_world.to_array(),
-            "target": camera.target_world.to_array(),
-            "up": camera.up_world.to_array(),
-            "projection": kind,
-            key: value,
-            "near": near,
-            "far": far,
-        })
     }
 
     fn pipeline(&self) -> Value {
@@ -212,6 +181,37 @@ pub(crate) fn write_json(object: &Value, output: &Destination) -> Result<(), Fai
         Failure::Output(format!(
             "the report: {error}; check the program that reads standard output"
         ))
+    })
+}
+
+/// A camera, for programs.
+pub(super) fn camera_json(camera: &Camera) -> Value {
+    let (kind, key, value, near, far) = match camera.projection {
+        Projection::Perspective {
+            fov_y_rad,
+            near,
+            far,
+        } => (
+            "perspective",
+            "fov_y_deg",
+            fov_y_rad.to_degrees(),
+            near,
+            far,
+        ),
+        Projection::Orthographic {
+            half_height,
+            near,
+            far,
+        } => ("orthographic", "half_height", half_height, near, far),
+    };
+    json!({
+        "eye": camera.eye_world.to_array(),
+        "target": camera.target_world.to_array(),
+        "up": camera.up_world.to_array(),
+        "projection": kind,
+        key: value,
+        "near": near,
+        "far": far,
     })
 }
 

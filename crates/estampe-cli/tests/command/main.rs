@@ -11,6 +11,7 @@ mod inspect;
 mod inspect_page;
 mod ladder;
 mod output;
+mod passes;
 mod polygon_fill;
 mod render;
 mod render_page;

@@ -15,21 +15,27 @@ pub fn face_color(number: usize) -> [u8; 3] {
     [(code >> 16) as u8, (code >> 8) as u8, code as u8]
 }
 
+/// The number of faces that have different colours.
+pub(crate) const MOST_FACES: usize = 1 << 24;
+
+/// The number of the face with this colour: the inverse of [`face_color`].
+pub(crate) fn face_number(color: [u8; 3]) -> usize {
+    /// 1 ÷ STEP modulo 2²⁴.
+    const INVERSE: usize = 0xB3_82C9;
+    let [r, g, b] = color.map(usize::from);
+    let code = r << 16 | g << 8 | b;
+    (code * INVERSE).wrapping_sub(1) & (MOST_FACES - 1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// 1 ÷ STEP modulo 2²⁴.
-    const INVERSE: usize = 0xB3_82C9;
 
     /// Rows: I3.
     #[test]
     fn numbers_come_back_from_colors() {
         for number in (0..1 << 24).step_by(997).chain([0, 1, 2, (1 << 24) - 1]) {
-            let [r, g, b] = face_color(number).map(usize::from);
-            let code = r << 16 | g << 8 | b;
-            let inverse = (code * INVERSE).wrapping_sub(1) & 0xFF_FFFF;
-            assert_eq!(inverse, number);
+            assert_eq!(face_number(face_color(number)), number);
         }
     }
 

@@ -3,8 +3,9 @@
 //!
 //! These are numbers, not light: the target stores them without sRGB encoding.
 
+use super::base_color::{BaseColor, Painted};
 use super::{VertexTransforms, shading_normal};
-use estampe::{Flat, FragmentIn, FragmentOut, Real, Vec2, Vec3, VertexIn, VertexOut};
+use estampe::{Flat, FragmentIn, FragmentOut, Real, Vec2, Vec3, Vec4, VertexIn, VertexOut};
 
 /// Unit shading normals in view space, (n + 1)/2: red to the right, green up, blue towards the eye.
 #[derive(Debug, Clone)]
@@ -107,27 +108,33 @@ fn wrapped<R: Real>(coordinate: R) -> R {
 #[derive(Debug, Clone)]
 pub(crate) struct FaceColors {
     pub(crate) transforms: VertexTransforms,
+    /// Of surfaces that are cut out: what is discarded where its alpha is below ½.
+    pub(crate) cut_out: Option<Painted>,
 }
 
 estampe::shader! {
     impl Shader for FaceColors {
-        type Attributes<R: Real> = (Vec3<R>, Vec3<R>); // position, face
-        type Varyings<R: Real> = (Flat<Vec3<R>>,);
+        type Attributes<R: Real> = (Vec3<R>, Vec3<R>, Vec2<R>, Vec4<R>); // position, face, uv, color
+        type Varyings<R: Real> = (Flat<Vec3<R>>, (Vec2<R>, Vec4<R>));
 
         fn vertex<R: Real>(
             &self,
             _input: VertexIn<'_, R>,
-            (position, face): (Vec3<R>, Vec3<R>),
-        ) -> VertexOut<R, (Flat<Vec3<R>>,)> {
-            VertexOut::new(self.transforms.clip(position), (Flat(face),))
+            (position, face, uv, color): (Vec3<R>, Vec3<R>, Vec2<R>, Vec4<R>),
+        ) -> VertexOut<R, (Flat<Vec3<R>>, (Vec2<R>, Vec4<R>))> {
+            VertexOut::new(self.transforms.clip(position), (Flat(face), (uv, color)))
         }
 
         fn fragment<R: Real>(
             &self,
-            _input: FragmentIn<'_, R>,
-            (Flat(face),): (Flat<Vec3<R>>,),
+            input: FragmentIn<'_, R>,
+            (Flat(face), painted): (Flat<Vec3<R>>, (Vec2<R>, Vec4<R>)),
         ) -> FragmentOut<R> {
-            FragmentOut::color(face.point())
+            let out = FragmentOut::color(face.point());
+            match &self.cut_out {
+                Some(base) => out.discard_unless(base.color(&input, painted).w.ge(input.real(0.5))),
+                None => out,
+            }
         }
     }
 }

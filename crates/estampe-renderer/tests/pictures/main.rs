@@ -8,4 +8,5 @@ mod named_attributes;
 mod pbr;
 mod shadows;
 mod support;
+mod surface_points;
 mod transparency;
