@@ -187,6 +187,8 @@ const OUTSIDE: &[(&str, Users)] = &[
         "clap",
         Users::Only(&["estampe-cli", "estampe-bench", "xtask"]),
     ),
+    // Completion scripts.
+    ("clap_complete", Users::Only(&["estampe-cli"])),
     ("indicatif", Users::Only(&["estampe-cli", "estampe-bench"])),
     (
         "serde",

@@ -2,6 +2,7 @@
 
 mod batch;
 mod book;
+mod completions;
 mod compute;
 mod depth;
 mod depth_page;
