@@ -33,9 +33,18 @@ pub(crate) struct CompletionsArgs {
 }
 
 /// Runs the command, for this command line.
-pub(crate) fn run(args: &CompletionsArgs, mut command: Command) -> Result<(), Failure> {
+pub(crate) fn run(args: &CompletionsArgs, command: &Command) -> Result<(), Failure> {
     // In memory first: the generator panics if a pipe is closed.
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut command, "estampe", &mut script);
+    clap_complete::generate(args.shell, &mut shown(command), "estampe", &mut script);
     output::print(&String::from_utf8_lossy(&script))
+}
+
+/// The command line without its hidden subcommands, which the generator would list.
+fn shown(command: &Command) -> Command {
+    let subcommands = command.get_subcommands();
+    let subcommands = subcommands.filter(|subcommand| !subcommand.is_hide_set());
+    Command::new("estampe")
+        .version(env!("CARGO_PKG_VERSION"))
+        .subcommands(subcommands.cloned())
 }

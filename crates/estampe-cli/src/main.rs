@@ -12,7 +12,8 @@
 //! * [`shader`]: checks and draws shaders as text;
 //! * [`compute`]: runs a compute shader;
 //! * [`ladder`]: draws the pictures of the ladder, from one pixel to shapes;
-//! * [`completions`]: prints scripts by which a shell completes the command's words.
+//! * [`completions`]: prints scripts by which a shell completes the command's words;
+//! * [`man`]: writes manual pages, hidden from the help.
 //!
 //! [`choice`] has the options of files with several scenes, [`input`] reads models from files,
 //! standard input or by built-in name, [`output`] writes files completely or not at all,
@@ -32,6 +33,7 @@ mod inspect;
 mod interrupt;
 mod ladder;
 mod limits;
+mod man;
 mod output;
 mod progress;
 mod render;
@@ -96,6 +98,8 @@ enum Command {
     Compute(Box<compute::ComputeArgs>),
     Ladder(ladder::LadderArgs),
     Completions(completions::CompletionsArgs),
+    #[command(hide = true)]
+    Man(man::ManArgs),
 }
 
 /// The versions of the program and of its images.
@@ -163,8 +167,9 @@ fn main() -> ExitCode {
         Command::Compute(args) => report("compute", None, compute::run(args)),
         Command::Ladder(args) => report("ladder", None, ladder::run(args)),
         Command::Completions(args) => {
-            report("completions", None, completions::run(args, Cli::command()))
+            report("completions", None, completions::run(args, &Cli::command()))
         }
+        Command::Man(args) => report("man", None, man::run(args, Cli::command())),
         Command::Diff(args) => {
             let (mut out, mut err) = (BufWriter::new(io::stdout().lock()), io::stderr().lock());
             diff::run(args, &mut out, &mut err)

@@ -187,8 +187,9 @@ const OUTSIDE: &[(&str, Users)] = &[
         "clap",
         Users::Only(&["estampe-cli", "estampe-bench", "xtask"]),
     ),
-    // Completion scripts.
+    // Completion scripts and manual pages of the command.
     ("clap_complete", Users::Only(&["estampe-cli"])),
+    ("clap_mangen", Users::Only(&["estampe-cli"])),
     ("indicatif", Users::Only(&["estampe-cli", "estampe-bench"])),
     (
         "serde",

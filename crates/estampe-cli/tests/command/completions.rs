@@ -27,8 +27,9 @@ fn the_script_of_each_shell_names_every_subcommand() {
                 .any(|word| word == subcommand);
             assert!(is_named, "{shell} does not name {subcommand}");
         }
-        // Options too, and nothing that the output escaped.
+        // Options too, no hidden subcommand, and nothing that the output escaped.
         assert!(script.contains("shading"), "{shell}");
+        assert!(!script.contains("manual page"), "{shell}");
         assert!(!script.contains("\\u{"), "{shell}");
     }
 }

@@ -11,6 +11,7 @@ mod gltf;
 mod inspect;
 mod inspect_page;
 mod ladder;
+mod man;
 mod output;
 mod polygon_fill;
 mod render;
