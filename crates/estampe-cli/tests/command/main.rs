@@ -26,6 +26,7 @@ mod shape;
 mod shapes_page;
 mod support;
 mod system_libraries;
+mod thumbnailer;
 mod transparency;
 mod turntable;
 mod turntable_page;
