@@ -1,5 +1,5 @@
-//! `estampe man`: manual pages. It is hidden, because those who make packages run it, and packages
-//! contain the pages.
+//! `estampe man`: manual pages. It is hidden, because packages contain the pages:
+//! `cargo run -p xtask -- dist` writes them with it.
 
 use crate::failure::Failure;
 use crate::values::shown;
