@@ -6,6 +6,7 @@
 //! cargo run -p xtask -- check        every check of sources, documents and dependencies
 //! cargo run -p xtask -- asm          the check of the hot functions' machine code
 //! cargo run -p xtask -- book         checks the book and writes its pages
+//! cargo run -p xtask -- dist         writes the package of the command into target/dist
 //! cargo run -p xtask -- conformance  writes which tests prove which row of the pipeline
 //! cargo run -p xtask -- fuzz raster  random triangles that share edges, for long
 //! ```

@@ -1,8 +1,10 @@
 #![forbid(unsafe_code)]
 //! The command line of the repository's checks; see the library for what they check.
 
+mod dist;
 mod programs;
 
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
@@ -31,6 +33,13 @@ enum Task {
     },
     /// Check the book and write its pages into target/book
     Book,
+    /// Write the package of the command into target/dist: program, completion scripts, manual
+    /// pages, licences
+    Dist {
+        /// The target of the program; without it, that of this machine
+        #[arg(long, value_name = "TRIPLE")]
+        target: Option<String>,
+    },
     /// Write docs/CONFORMANCE.md: the tests that prove each row of the pipeline
     Conformance,
     /// Run random tests for long: `fuzz raster` draws triangles that share edges and counts how
@@ -50,6 +59,7 @@ fn main() -> ExitCode {
         Task::Check => check(),
         Task::Asm { programs, package } => asm(programs, package),
         Task::Book => book(),
+        Task::Dist { target } => dist(target.as_deref()),
         Task::Conformance => conformance(),
         Task::Fuzz { arguments } => fuzz(&arguments),
     };
@@ -136,6 +146,20 @@ fn book() -> Outcome {
     let count = write_book(&repository, &folder)?;
     eprintln!("{count} chapters: {}", folder.join("index.html").display());
     Ok(passed)
+}
+
+/// Writes the package of the command and says what the program needs.
+fn dist(target: Option<&str>) -> Outcome {
+    let repository = Repository::of_this_build()?;
+    let dist = dist::write(repository.root(), target)?;
+    let mut out = io::stdout().lock();
+    for path in [&dist.folder, &dist.archive, &dist.checksums] {
+        writeln!(out, "{}", path.display())?;
+    }
+    if let Some(requirement) = &dist.requirement {
+        writeln!(out, "{requirement}")?;
+    }
+    Ok(true)
 }
 
 /// Writes `docs/CONFORMANCE.md`.

@@ -1,4 +1,5 @@
-//! The programs whose machine code is checked: built as users build them, but with their symbols.
+//! Programs that cargo builds; and those whose machine code is checked, built as users build them,
+//! but with their symbols.
 
 use cargo_metadata::Message;
 use std::ffi::OsString;
@@ -28,14 +29,24 @@ pub(crate) fn build(
     command
         .current_dir(root)
         .args(["build", "--profile", PROFILE, "--locked", "--bins"])
-        .args(["--message-format", "json-render-diagnostics"])
         .arg("--target-dir")
         .arg(root.join("target/asm"))
-        .env("CARGO_ENCODED_RUSTFLAGS", "-Csymbol-mangling-version=v0")
-        .stdout(Stdio::piped());
+        .env("CARGO_ENCODED_RUSTFLAGS", "-Csymbol-mangling-version=v0");
     for package in packages {
         command.args(["--package", package]);
     }
+    let programs = run(&mut command)?;
+    if programs.is_empty() {
+        return Err(format!("none of {} has a program", packages.join(", ")).into());
+    }
+    Ok(programs)
+}
+
+/// Runs a build of cargo that writes JSON messages, and returns the paths of its programs.
+pub(crate) fn run(command: &mut Command) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
+    command
+        .args(["--message-format", "json-render-diagnostics"])
+        .stdout(Stdio::piped());
     let mut child = command.spawn()?;
     let messages = child.stdout.take().expect("standard output is piped");
     let mut programs = Vec::new();
@@ -46,9 +57,6 @@ pub(crate) fn build(
     }
     if !child.wait()?.success() {
         return Err("the programs do not build".into());
-    }
-    if programs.is_empty() {
-        return Err(format!("none of {} has a program", packages.join(", ")).into());
     }
     Ok(programs)
 }

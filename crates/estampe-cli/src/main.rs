@@ -11,7 +11,9 @@
 //! * [`depth`]: measures the precision of depth buffers;
 //! * [`shader`]: checks and draws shaders as text;
 //! * [`compute`]: runs a compute shader;
-//! * [`ladder`]: draws the pictures of the ladder, from one pixel to shapes.
+//! * [`ladder`]: draws the pictures of the ladder, from one pixel to shapes;
+//! * [`completions`]: prints scripts by which a shell completes the command's words;
+//! * [`man`]: writes manual pages, hidden from the help.
 //!
 //! [`choice`] has the options of files with several scenes, [`input`] reads models from files,
 //! standard input or by built-in name, [`output`] writes files completely or not at all,
@@ -20,6 +22,7 @@
 
 mod batch;
 mod choice;
+mod completions;
 mod compute;
 mod depth;
 mod describe;
@@ -30,6 +33,7 @@ mod inspect;
 mod interrupt;
 mod ladder;
 mod limits;
+mod man;
 mod output;
 mod progress;
 mod render;
@@ -43,7 +47,7 @@ use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
 use std::sync::LazyLock;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use failure::Failure;
 
 /// Renders 3D models and functions to images, on any machine: no GPU, no display, no system
@@ -65,6 +69,7 @@ Examples:
   estampe shader image sky.wgsl -o sky.png
   estampe compute squares.wgsl --groups 4 --buffer 0,0=zeros:1024 --write 0,0=squares.bin
   estampe ladder all -o ladder
+  estampe completions fish > ~/.config/fish/completions/estampe.fish
 
 `estampe help COMMAND` explains all options of a command.")]
 struct Cli {
@@ -92,6 +97,9 @@ enum Command {
     // Boxed, because it has many options.
     Compute(Box<compute::ComputeArgs>),
     Ladder(ladder::LadderArgs),
+    Completions(completions::CompletionsArgs),
+    #[command(hide = true)]
+    Man(man::ManArgs),
 }
 
 /// The versions of the program and of its images.
@@ -158,6 +166,10 @@ fn main() -> ExitCode {
         },
         Command::Compute(args) => report("compute", None, compute::run(args)),
         Command::Ladder(args) => report("ladder", None, ladder::run(args)),
+        Command::Completions(args) => {
+            report("completions", None, completions::run(args, &Cli::command()))
+        }
+        Command::Man(args) => report("man", None, man::run(args, Cli::command())),
         Command::Diff(args) => {
             let (mut out, mut err) = (BufWriter::new(io::stdout().lock()), io::stderr().lock());
             diff::run(args, &mut out, &mut err)

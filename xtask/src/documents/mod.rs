@@ -15,6 +15,8 @@ const REQUIRED: &[&str] = &[
     "STYLE.md",
     "GLOSSARY.md",
     "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "SECURITY.md",
     "LICENSE-MIT",
     "LICENSE-APACHE",
     "docs/README.md",

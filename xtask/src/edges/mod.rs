@@ -188,6 +188,9 @@ const OUTSIDE: &[(&str, Users)] = &[
         "clap",
         Users::Only(&["estampe-cli", "estampe-bench", "xtask"]),
     ),
+    // Completion scripts and manual pages of the command.
+    ("clap_complete", Users::Only(&["estampe-cli"])),
+    ("clap_mangen", Users::Only(&["estampe-cli"])),
     ("indicatif", Users::Only(&["estampe-cli", "estampe-bench"])),
     (
         "serde",
@@ -215,8 +218,9 @@ const OUTSIDE: &[(&str, Users)] = &[
     // Interrupts: no temporary files stay.
     ("signal-hook", Users::Only(&["estampe-cli"])),
     ("twox-hash", Users::Only(&["estampe-cli"])),
-    // The data of tests.
-    ("flate2", Users::Only(&["estampe-shader"])),
+    // The data of tests; the package of the command, and its checksum.
+    ("flate2", Users::Only(&["estampe-shader", "xtask"])),
+    ("sha2", Users::Only(&["xtask"])),
     // The checks of the repository.
     ("cargo_metadata", Users::Only(&["xtask"])),
     ("object", Users::Only(&["xtask"])),

@@ -2,6 +2,7 @@
 
 mod batch;
 mod book;
+mod completions;
 mod compute;
 mod depth;
 mod depth_page;
@@ -10,6 +11,7 @@ mod gltf;
 mod inspect;
 mod inspect_page;
 mod ladder;
+mod man;
 mod output;
 mod passes;
 mod polygon_fill;
@@ -25,6 +27,7 @@ mod shape;
 mod shapes_page;
 mod support;
 mod system_libraries;
+mod thumbnailer;
 mod transparency;
 mod turntable;
 mod turntable_page;

@@ -105,3 +105,18 @@ pub(crate) fn estampe_fed(words: &str, paths: &[&Path], input: &[u8]) -> Run {
     let _ = child.stdin.take().expect("piped").write_all(input);
     child.wait_with_output().expect("the command ends").into()
 }
+
+/// The subcommands that the help lists: of `command`, or of the program if it is empty.
+pub(crate) fn subcommands(command: &str) -> Vec<String> {
+    let help = String::from_utf8(estampe(&format!("{command} --help"), &[]).out).expect("UTF-8");
+    let listed = help
+        .lines()
+        .skip_while(|line| *line != "Commands:")
+        .skip(1)
+        .take_while(|line| !line.is_empty())
+        // A continued description is indented further.
+        .filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    let names = listed.filter_map(|line| line.split_whitespace().next());
+    let names: Vec<String> = names.map(str::to_owned).collect();
+    names.into_iter().filter(|name| name != "help").collect()
+}
