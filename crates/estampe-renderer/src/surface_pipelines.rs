@@ -8,7 +8,7 @@ use crate::shading::VertexTransforms;
 use crate::shading::base_color::{Alpha, BaseColor, Painted, Plain};
 use crate::shading::bump::BumpMap;
 use crate::shading::inspection::{
-    Barycentrics, DepthGrey, FaceColors, Normals, Overdraw, UvColors,
+    Barycentrics, CutOutFaceColors, DepthGrey, FaceColors, Normals, Overdraw, UvColors,
 };
 use crate::shading::interpolation::{AtFragments, AtVertices, Interpolation, Viewer};
 use crate::shading::lighting::{Gloss, Lights};
@@ -382,20 +382,17 @@ impl FrameStyle {
                 )
             }
             Shading::Uv => MaterialProgram::new(UvColors { transforms }, &[Position, Uv]),
-            Shading::FaceId => {
-                let alpha = surface.alpha();
-                let cut_out = (alpha == Alpha::CutsOut).then(|| Painted {
+            Shading::FaceId if surface.alpha() == Alpha::CutsOut => {
+                let base = Painted {
                     factor: surface.style.base,
                     texture: surface.style.texture.clone(),
                     bump: None,
-                    alpha,
-                });
-                let faces = FaceColors {
-                    transforms,
-                    cut_out,
+                    alpha: Alpha::CutsOut,
                 };
+                let faces = CutOutFaceColors { transforms, base };
                 MaterialProgram::new(faces, &[Position, Face, Uv, Color])
             }
+            Shading::FaceId => MaterialProgram::new(FaceColors { transforms }, &[Position, Face]),
             Shading::Barycentric => {
                 MaterialProgram::new(Barycentrics { transforms }, &[Position, Corner])
             }

@@ -108,12 +108,40 @@ fn wrapped<R: Real>(coordinate: R) -> R {
 #[derive(Debug, Clone)]
 pub(crate) struct FaceColors {
     pub(crate) transforms: VertexTransforms,
-    /// Of surfaces that are cut out: what is discarded where its alpha is below ½.
-    pub(crate) cut_out: Option<Painted>,
 }
 
 estampe::shader! {
     impl Shader for FaceColors {
+        type Attributes<R: Real> = (Vec3<R>, Vec3<R>); // position, face
+        type Varyings<R: Real> = (Flat<Vec3<R>>,);
+
+        fn vertex<R: Real>(
+            &self,
+            _input: VertexIn<'_, R>,
+            (position, face): (Vec3<R>, Vec3<R>),
+        ) -> VertexOut<R, (Flat<Vec3<R>>,)> {
+            VertexOut::new(self.transforms.clip(position), (Flat(face),))
+        }
+
+        fn fragment<R: Real>(
+            &self,
+            _input: FragmentIn<'_, R>,
+            (Flat(face),): (Flat<Vec3<R>>,),
+        ) -> FragmentOut<R> {
+            FragmentOut::color(face.point())
+        }
+    }
+}
+
+/// The colours of faces that are cut out where the alpha of the base colour is below ½.
+#[derive(Debug, Clone)]
+pub(crate) struct CutOutFaceColors {
+    pub(crate) transforms: VertexTransforms,
+    pub(crate) base: Painted,
+}
+
+estampe::shader! {
+    impl Shader for CutOutFaceColors {
         type Attributes<R: Real> = (Vec3<R>, Vec3<R>, Vec2<R>, Vec4<R>); // position, face, uv, color
         type Varyings<R: Real> = (Flat<Vec3<R>>, (Vec2<R>, Vec4<R>));
 
@@ -130,11 +158,8 @@ estampe::shader! {
             input: FragmentIn<'_, R>,
             (Flat(face), painted): (Flat<Vec3<R>>, (Vec2<R>, Vec4<R>)),
         ) -> FragmentOut<R> {
-            let out = FragmentOut::color(face.point());
-            match &self.cut_out {
-                Some(base) => out.discard_unless(base.color(&input, painted).w.ge(input.real(0.5))),
-                None => out,
-            }
+            let alpha = self.base.color(&input, painted).w;
+            FragmentOut::color(face.point()).discard_unless(alpha.ge(input.real(0.5)))
         }
     }
 }

@@ -39,7 +39,7 @@ fn material(
 }
 
 pub(super) fn inspection() -> Vec<Material> {
-    use VertexStream::{Color, Corner, Face, Normal, Position, Uv};
+    use VertexStream::{Corner, Face, Normal, Position, Uv};
     let transforms = transforms(false);
     let (nearest, furthest) = (1.5, 5.0);
     let wgsl = |vertex, fragment| Wgsl {
@@ -86,11 +86,8 @@ pub(super) fn inspection() -> Vec<Material> {
         ),
         material(
             "Faces",
-            FaceColors {
-                transforms,
-                cut_out: None,
-            },
-            &[Position, Face, Uv, Color],
+            FaceColors { transforms },
+            &[Position, Face],
             wgsl("with_face", "faces"),
             glsl("FACES"),
         ),
