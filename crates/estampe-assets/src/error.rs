@@ -43,6 +43,13 @@ pub struct Fault {
 pub enum Location {
     /// A line of a text file, counted from 1.
     Line(u64),
+    /// A character of a text file in which lines may be long.
+    LineColumn {
+        /// The line, counted from 1.
+        line: u64,
+        /// The character in the line, counted from 1.
+        column: u64,
+    },
     /// A byte of a binary file, counted from 0.
     Byte(u64),
 }
@@ -141,6 +148,7 @@ impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line(line) => write!(f, "line {line}"),
+            Self::LineColumn { line, column } => write!(f, "line {line}, column {column}"),
             Self::Byte(offset) => write!(f, "byte {offset}"),
         }
     }

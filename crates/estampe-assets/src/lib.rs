@@ -1,7 +1,7 @@
 #![forbid(unsafe_code)]
 //! Readers and writers of models and images.
 //!
-//! - [`model`]: glTF, OBJ with its material libraries, STL, PLY and OFF become an
+//! - [`model`]: glTF, OBJ with its material libraries, STL, PLY, OFF and 3MF become an
 //!   [`estampe_scene::Scene`]; OBJ, STL and PLY are also written.
 //! - [`image`]: TGA, PNG, JPEG and WebP become an [`estampe_scene::Image`], and back; BMP and DDS are
 //!   read; animations are written as GIF, APNG, WebP and Y4M.

@@ -56,7 +56,7 @@ impl Model {
                 let Some(format) = format else {
                     return Err(Failure::Usage(
                         "standard input has no file name that shows the format; add --format gltf, obj, \
-                         stl, ply or off"
+                         stl, ply, off or 3mf"
                         .to_owned(),
                     ));
                 };
@@ -102,7 +102,7 @@ impl Model {
             .ok_or_else(|| {
                 Failure::Input(format!(
                     "{name}: neither its extension nor its content is that of a model; glTF, \
-                     OBJ, STL, PLY and OFF are read; name the format by --format if it is one of them"
+                     OBJ, STL, PLY, OFF and 3MF are read; name the format by --format if it is one of them"
                 ))
             })?;
         let resources = Noted::new(resources);

@@ -240,6 +240,9 @@ pub(crate) enum FormatName {
     Ply,
     /// Geomview's OFF, as text
     Off,
+    /// 3D Manufacturing Format, a package
+    #[value(name = "3mf")]
+    ThreeMf,
 }
 
 impl From<FormatName> for ModelFormat {
@@ -250,6 +253,7 @@ impl From<FormatName> for ModelFormat {
             FormatName::Stl => Self::Stl,
             FormatName::Ply => Self::Ply,
             FormatName::Off => Self::Off,
+            FormatName::ThreeMf => Self::ThreeMf,
         }
     }
 }

@@ -90,7 +90,7 @@ impl Model {
         model
     }
 
-    /// The triangles of a file: glTF, OBJ, STL, PLY or OFF; see [`Model::of_scene`].
+    /// The triangles of a file: glTF, OBJ, STL, PLY, OFF or 3MF; see [`Model::of_scene`].
     ///
     /// # Errors
     /// If the file cannot be read, or has no triangles.

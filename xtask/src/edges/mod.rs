@@ -218,8 +218,14 @@ const OUTSIDE: &[(&str, Users)] = &[
     // Interrupts: no temporary files stay.
     ("signal-hook", Users::Only(&["estampe-cli"])),
     ("twox-hash", Users::Only(&["estampe-cli"])),
-    // The data of tests; the package of the command, and its checksum.
-    ("flate2", Users::Only(&["estampe-shader", "xtask"])),
+    // The XML of 3MF packages.
+    ("quick-xml", Users::Only(&["estampe-assets"])),
+    // Packed parts of 3MF packages; the data of tests; the package of the command, and its
+    // checksum.
+    (
+        "flate2",
+        Users::Only(&["estampe-assets", "estampe-shader", "xtask"]),
+    ),
     ("sha2", Users::Only(&["xtask"])),
     // The checks of the repository.
     ("cargo_metadata", Users::Only(&["xtask"])),

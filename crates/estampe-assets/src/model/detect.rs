@@ -1,6 +1,6 @@
 //! Detection of a model's format.
 
-use super::{gltf, off};
+use super::{gltf, off, threemf};
 use std::path::Path;
 
 /// Formats of models.
@@ -17,6 +17,8 @@ pub enum ModelFormat {
     Ply,
     /// The Object File Format of Geomview, as text.
     Off,
+    /// The 3D Manufacturing Format, a package of XML and images.
+    ThreeMf,
 }
 
 impl ModelFormat {
@@ -31,6 +33,7 @@ impl ModelFormat {
             (Self::Stl, "stl"),
             (Self::Ply, "ply"),
             (Self::Off, "off"),
+            (Self::ThreeMf, "3mf"),
         ]
         .into_iter()
         .find(|(_, name)| extension.eq_ignore_ascii_case(name))
@@ -39,14 +42,17 @@ impl ModelFormat {
 
     /// The format by content, for input without a name.
     ///
-    /// GLB, PLY and OFF have magic words, glTF is a JSON object with an `asset`, and binary STL has
-    /// a length that must fit its triangle count; ASCII STL and OBJ are recognised by their first
-    /// statements.
+    /// GLB, PLY and OFF have magic words, glTF is a JSON object with an `asset`, 3MF is a ZIP
+    /// archive with the parts of a package, and binary STL has a length that must fit its triangle
+    /// count; ASCII STL and OBJ are recognised by their first statements.
     #[must_use]
     pub fn from_content(bytes: &[u8]) -> Option<Self> {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         if is_gltf(bytes) {
             return Some(Self::Gltf);
+        }
+        if threemf::is_3mf(bytes) {
+            return Some(Self::ThreeMf);
         }
         if is_ply(bytes) {
             return Some(Self::Ply);
@@ -69,6 +75,7 @@ impl ModelFormat {
             Self::Stl => "STL",
             Self::Ply => "PLY",
             Self::Off => "OFF",
+            Self::ThreeMf => "3MF",
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Entry points: a path, or bytes in memory.
 
+use super::encoding::utf8_from_utf16;
 use super::options::{ModelChoices, ModelOptions};
 use super::resources::{ResourceError, Resources};
-use super::{Folder, ModelFormat, finish, gltf, obj, off, ply, stl};
+use super::{Folder, ModelFormat, finish, gltf, obj, off, ply, stl, threemf};
 use crate::warning::{Warning, Warnings};
 use crate::{AssetError, Limits, read_bytes};
 use estampe_scene::{Scene, Workers};
@@ -136,7 +137,7 @@ pub fn load_model_with(
         .ok_or_else(|| {
             AssetError::unsupported(
                 "neither the extension nor the content is that of a known model format",
-                "glTF, OBJ, STL, PLY and OFF are read; name the format if it is one of them",
+                "glTF, OBJ, STL, PLY, OFF and 3MF are read; name the format if it is one of them",
             )
             .in_file(&name)
         })?;
@@ -195,6 +196,8 @@ pub fn parse_model_with(
         workers: Workers::new(limits.threads),
         side_files_left: limits.max_side_files,
     };
+    let text = decoded_text(format, bytes);
+    let bytes = text.as_deref().unwrap_or(bytes);
     let parsed = Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)
         .and_then(|()| match format {
             ModelFormat::Gltf => gltf::parse(bytes, options, &mut context),
@@ -202,6 +205,7 @@ pub fn parse_model_with(
             ModelFormat::Stl => stl::parse(bytes, &mut context),
             ModelFormat::Ply => ply::parse(bytes, &mut context),
             ModelFormat::Off => off::parse(bytes, &mut context),
+            ModelFormat::ThreeMf => threemf::parse(bytes, &mut context),
         })
         .map_err(|error| error.in_file(name))?;
     let parsed = finish::finish(parsed, &mut context);
@@ -239,4 +243,20 @@ fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, AssetError> {
         }
         _ => failed(error),
     })
+}
+
+/// The text of a file in UTF-16, in the formats that are text. What begins as UTF-16 may be a
+/// binary STL, whose first 80 bytes are free.
+fn decoded_text(format: ModelFormat, bytes: &[u8]) -> Option<Vec<u8>> {
+    match format {
+        ModelFormat::Obj | ModelFormat::Off | ModelFormat::Ply => utf8_from_utf16(bytes),
+        ModelFormat::Stl => {
+            let count = bytes.get(80..84).and_then(|count| count.first_chunk());
+            let whole = count.map(|&count| 84 + 50 * u64::from(u32::from_le_bytes(count)));
+            let is_binary = whole == Some(bytes.len() as u64);
+            { (!is_binary).then_some(bytes) }.and_then(utf8_from_utf16)
+        }
+        // JSON is UTF-8, and 3MF decodes its parts.
+        ModelFormat::Gltf | ModelFormat::ThreeMf => None,
+    }
 }

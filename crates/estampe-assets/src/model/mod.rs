@@ -1,7 +1,7 @@
-//! Readers of models: glTF, OBJ with MTL, STL, PLY and OFF; and writers of OBJ, STL and PLY.
+//! Readers of models: glTF, OBJ with MTL, STL, PLY, OFF and 3MF; and writers of OBJ, STL and PLY.
 //!
 //! ```text
-//! bytes -> gltf | obj | stl | ply | off  (one folder each: JSON, lines or records -> meshes)
+//! bytes -> gltf | obj | stl | ply | off | threemf  (one folder each: elements -> meshes)
 //!       -> finish                  (faces with non-finite corners dropped, limits)
 //!       -> normals                 (missing ones)
 //!       -> Scene -> write -> bytes
@@ -13,9 +13,11 @@
 
 mod corner_split;
 mod detect;
+mod encoding;
 mod finish;
 mod folder;
 mod gltf;
+mod joined;
 mod load;
 mod mtl;
 pub mod normals;
@@ -30,6 +32,7 @@ mod srgb;
 mod statements;
 mod stl;
 mod textures;
+mod threemf;
 mod vertex_copies;
 mod weld;
 mod write;

@@ -18,6 +18,7 @@
 //!
 //! Source: "MTL material format (Lightwave, OBJ)", Wavefront 1995; P. Bourke's copy.
 
+use super::encoding::utf8_from_utf16;
 use super::load::Context;
 use super::options::TextureAlpha;
 use super::srgb::linear_from_srgb;
@@ -92,6 +93,7 @@ pub(super) fn load(
             }
             match context.read_side_file(&resolved) {
                 Ok(bytes) => {
+                    let bytes = utf8_from_utf16(&bytes).unwrap_or(bytes);
                     let source = Source {
                         name: &name,
                         bytes: &bytes,

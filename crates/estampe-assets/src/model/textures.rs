@@ -171,7 +171,7 @@ fn brightness(rgb: [u8; 3]) -> u8 {
 
 /// Classifies an alpha channel: all 255 is opaque, 0 and 255 a mask, all else blends. All 0 becomes
 /// opaque: some programs write it into an unused channel.
-fn classify_alpha(image: &mut Image) -> AlphaMode {
+pub(super) fn classify_alpha(image: &mut Image) -> AlphaMode {
     let texels = image.rgba.as_chunks_mut::<4>().0;
     if texels.iter().all(|texel| texel[3] == 255) {
         return AlphaMode::Opaque;

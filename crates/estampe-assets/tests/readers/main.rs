@@ -9,5 +9,7 @@ mod models_off;
 mod models_ply;
 mod models_speed;
 mod models_stl;
+mod models_utf16;
 mod models_written;
 mod textures_elsewhere;
+mod threemf;

@@ -20,7 +20,7 @@ pub(super) struct JobOptions {
     #[command(flatten)]
     pub(super) picture: PictureArgs,
 
-    /// The model's format: gltf, obj, stl, ply or off
+    /// The model's format: gltf, obj, stl, ply, off or 3mf
     #[arg(long, value_enum)]
     pub(super) format: Option<FormatName>,
 }

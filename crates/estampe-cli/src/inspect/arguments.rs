@@ -62,7 +62,7 @@ pub(crate) struct InspectArgs {
     )]
     pub(crate) output: Option<Destination>,
 
-    /// The model's format: gltf, obj, stl, ply or off [default: by extension, else by content]
+    /// The model's format: gltf, obj, stl, ply, off or 3mf [default: by extension, else by content]
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     pub(crate) format: Option<FormatName>,
 

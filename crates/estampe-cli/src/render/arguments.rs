@@ -7,7 +7,7 @@ use crate::limits::LimitArgs;
 use crate::values::{Destination, FormatName, Source};
 use clap::Args;
 
-/// Renders an image of a model: glTF, OBJ, STL, PLY or OFF to PNG, JPEG, TGA or WebP.
+/// Renders an image of a model: glTF, OBJ, STL, PLY, OFF or 3MF to PNG, JPEG, TGA or WebP.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "\
 Examples:
@@ -54,7 +54,7 @@ pub(crate) struct RenderArgs {
     /// The model's format, if neither name nor content shows it; required for standard input
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     #[arg(
-        help = "The model's format: gltf, obj, stl, ply or off [default: by extension, else by content]"
+        help = "The model's format: gltf, obj, stl, ply, off or 3mf [default: by extension, else by content]"
     )]
     pub(crate) format: Option<FormatName>,
 

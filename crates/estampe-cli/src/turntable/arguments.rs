@@ -42,7 +42,7 @@ pub(crate) struct TurntableArgs {
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Destination,
 
-    /// The model's format: gltf, obj, stl, ply or off [default: by extension, else by content]
+    /// The model's format: gltf, obj, stl, ply, off or 3mf [default: by extension, else by content]
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     pub(crate) format: Option<FormatName>,
 

@@ -22,7 +22,7 @@ pub(super) fn data(uri: &str) -> Option<Result<Vec<u8>, AssetError>> {
 }
 
 /// The bytes of a text whose characters may be escaped as `%20`.
-pub(super) fn percent_decoded(text: &str) -> Cow<'_, [u8]> {
+pub(in crate::model) fn percent_decoded(text: &str) -> Cow<'_, [u8]> {
     if !text.contains('%') {
         return Cow::Borrowed(text.as_bytes());
     }

@@ -31,7 +31,6 @@ mod hierarchy;
 mod images;
 mod instances;
 mod interpolation;
-mod joined;
 mod json;
 mod json_pointer;
 mod material;
@@ -42,8 +41,10 @@ mod pose;
 mod skin;
 mod vertices;
 
+pub(super) use data_uri::percent_decoded;
 pub(super) use glb::MAGIC;
 
+use super::joined;
 use super::load::{Context, Parsed};
 use super::options::{AnimationClip, ModelChoices, ModelOptions};
 use crate::{AssetError, Limits};

@@ -29,12 +29,6 @@ use crate::AssetError;
 
 /// Reads an OBJ file and its material libraries.
 pub(super) fn parse(bytes: &[u8], context: &mut Context<'_>) -> Result<Parsed, AssetError> {
-    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
-        return Err(AssetError::unsupported(
-            "the text is UTF-16",
-            "save it as UTF-8 or plain ASCII",
-        ));
-    }
     let contents = reader::read(bytes, context)?;
     Ok(assemble::assemble(contents, context))
 }

@@ -34,7 +34,7 @@ pub fn encode_model(scene: &Scene, format: ModelFormat) -> Result<Vec<u8>, Asset
         check_finite(mesh)?;
     }
     let text = match format {
-        ModelFormat::Gltf | ModelFormat::Off => {
+        ModelFormat::Gltf | ModelFormat::Off | ModelFormat::ThreeMf => {
             return Err(AssetError::unsupported(
                 format!("{} is read, not written", format.name()),
                 "write OBJ, STL or PLY",

@@ -17,6 +17,15 @@ pub(super) fn join_beyond(meshes: &mut Vec<Mesh>, max: u64) {
     }
 }
 
+/// Adds a mesh, or appends it to the last one if there are `max` already.
+pub(super) fn push_within(meshes: &mut Vec<Mesh>, mesh: Mesh, max: u64) {
+    let is_full = meshes.len() as u64 >= max;
+    match meshes.last_mut() {
+        Some(last) if is_full => append(last, mesh),
+        _ => meshes.push(mesh),
+    }
+}
+
 /// Appends a mesh. What only one of the two has is filled in the other: normals with zero, which
 /// are computed later, colours with white, everything else with zero.
 fn append(whole: &mut Mesh, mesh: Mesh) {
