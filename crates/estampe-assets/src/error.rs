@@ -46,9 +46,9 @@ pub enum Location {
     /// A character of a text file in which lines may be long.
     LineColumn {
         /// The line, counted from 1.
-        line: u64,
+        line: u32,
         /// The character in the line, counted from 1.
-        column: u64,
+        column: u32,
     },
     /// A byte of a binary file, counted from 0.
     Byte(u64),

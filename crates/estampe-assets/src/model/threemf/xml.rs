@@ -162,9 +162,11 @@ impl<'a> Xml<'a> {
             }
         }
         self.counted.set([end, line, column]);
+        // Limits keep texts below 2³² bytes.
+        let number = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
         Location::LineColumn {
-            line: line as u64,
-            column: column as u64 + 1,
+            line: number(line),
+            column: number(column).saturating_add(1),
         }
     }
 
