@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// The packages whose programs are checked.
-pub(crate) const PACKAGES: &[&str] = &["estampe-bench", "estampe-cli"];
+pub(crate) const PACKAGES: &[&str] = &["estampe-bench", "estampe"];
 
 /// The profile of the workspace's `Cargo.toml` that is `release` with symbols, for the crates that
 /// have lane code.

@@ -64,7 +64,7 @@ pub(crate) fn decode(code: u8, encoding: Encoding) -> f32 {
     clippy::cast_sign_loss,
     reason = "clamped to 0..=255"
 )]
-fn encode(value: f32, encoding: Encoding) -> u8 {
+pub(crate) fn encode(value: f32, encoding: Encoding) -> u8 {
     match encoding {
         Encoding::Linear => (value.clamp(0.0, 1.0) * 255.0 + 0.5).floor() as u8,
         Encoding::Srgb => srgb::encode(value),

@@ -14,7 +14,8 @@
 //!        ├─ draw_plan       the draws, in order
 //!        ├─ frame_passes    the passes: one, or those of order-independent transparency
 //!        ├─ frame           render: all of it, and reading back the pixels
-//!        └─ surface_points  positions, normals and other numbers of what is seen
+//!        ├─ surface_points  positions, normals and other numbers of what is seen
+//!        └─ text            labels on the image
 //! ```
 //!
 //! [`render`] draws a [`Scene`](estampe_scene::Scene) with [`RenderOptions`]. The defaults suit a
@@ -45,6 +46,7 @@ mod shadows;
 mod surface_pipelines;
 mod surface_points;
 mod surface_program;
+mod text;
 
 /// The README's snippet, compiled and run as a test.
 #[cfg(doctest)]
@@ -65,6 +67,7 @@ pub use pixel_history::{FramePixel, FrameStages, VertexSpaces, inspect, inspect_
 pub use shading::pbr::tone_map::ToneMap;
 pub use surface_points::{SurfacePoint, SurfacePoints, surface_points};
 pub use surface_program::{SurfaceBindings, SurfaceProgram, SurfaceValues};
+pub use text::{TextHeight, TextStyle, character_width_px, draw_text, text_width_px};
 
 /// Version of the images. It rises whenever the same scene and options give other bytes than
 /// before; CHANGELOG lists the changes.

@@ -25,27 +25,27 @@ const KEPT_PICTURES: &[(&str, &str, &str)] = &[
     ),
     (
         "docs/images/shapes",
-        "crates/estampe-cli/tests/command/shapes_page.rs",
+        "crates/estampe/tests/command/shapes_page.rs",
         "check_page(\"shapes\")",
     ),
     (
         "docs/images/render",
-        "crates/estampe-cli/tests/command/render_page.rs",
+        "crates/estampe/tests/command/render_page.rs",
         "check_page(\"render\")",
     ),
     (
         "docs/images/depth",
-        "crates/estampe-cli/tests/command/depth_page.rs",
+        "crates/estampe/tests/command/depth_page.rs",
         "check_page(\"depth\")",
     ),
     (
         "docs/images/examples",
-        "crates/estampe/tests/examples.rs",
+        "crates/estampe-gpu/tests/examples.rs",
         "docs/images/examples",
     ),
     (
         "book/src/images",
-        "crates/estampe-cli/tests/command/book.rs",
+        "crates/estampe/tests/command/book.rs",
         "book/src",
     ),
 ];

@@ -25,7 +25,7 @@ pub(super) fn program(root: &Path, target: &str) -> Result<PathBuf, Box<dyn Erro
     command
         .current_dir(root)
         .args(["build", "--release", "--locked"])
-        .args(["--package", "estampe-cli", "--bin", "estampe"])
+        .args(["--package", "estampe", "--bin", "estampe"])
         .args(["--target", target])
         .env("CARGO_ENCODED_RUSTFLAGS", flags(root));
     let programs = programs::run(&mut command)?;

@@ -23,13 +23,13 @@ const COPIED: &[(&str, &str)] = &[
     ("CHANGELOG.md", "CHANGELOG.md"),
     ("LICENSE-APACHE", "LICENSE-APACHE"),
     ("LICENSE-MIT", "LICENSE-MIT"),
-    ("crates/estampe-cli/README.md", "README.md"),
+    ("crates/estampe/README.md", "README.md"),
     (
-        "crates/estampe-cli/desktop/estampe.thumbnailer",
+        "crates/estampe/desktop/estampe.thumbnailer",
         "thumbnailers/estampe.thumbnailer",
     ),
     (
-        "crates/estampe-cli/desktop/estampe.xml",
+        "crates/estampe/desktop/estampe.xml",
         "mime/packages/estampe.xml",
     ),
 ];

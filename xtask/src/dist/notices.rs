@@ -67,7 +67,7 @@ fn contained(metadata: &Metadata) -> Vec<&Package> {
         .collect();
     let nodes = metadata.resolve.iter().flat_map(|resolve| &resolve.nodes);
     let nodes: HashMap<&PackageId, _> = nodes.map(|node| (&node.id, node)).collect();
-    let is_start = |package: &&Package| package.name.as_str() == "estampe-cli";
+    let is_start = |package: &&Package| package.name.as_str() == "estampe";
     let start = metadata.packages.iter().find(is_start);
     let mut to_visit: Vec<&PackageId> = start.map(|package| &package.id).into_iter().collect();
     let mut visited: HashSet<&PackageId> = to_visit.iter().copied().collect();

@@ -41,7 +41,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ),
     // `Device::inspect` runs a pass with the oracle, for one pixel.
     (
-        "estampe",
+        "estampe-gpu",
         &[
             "estampe-ir",
             "estampe-shader",
@@ -56,16 +56,16 @@ const CRATES: &[(&str, &[&str])] = &[
     ("estampe-shapes", &[]),
     ("estampe-scene", &[]),
     ("estampe-assets", &["estampe-scene", "estampe-shapes"]),
-    ("estampe-transparency", &["estampe"]),
+    ("estampe-transparency", &["estampe-gpu"]),
     (
         "estampe-renderer",
-        &["estampe", "estampe-scene", "estampe-transparency"],
+        &["estampe-gpu", "estampe-scene", "estampe-transparency"],
     ),
     // Depths are rounded by the codec of the pipeline.
     (
         "estampe-visibility",
         &[
-            "estampe",
+            "estampe-gpu",
             "estampe-format",
             "estampe-scene",
             "estampe-transparency",
@@ -77,7 +77,7 @@ const CRATES: &[(&str, &[&str])] = &[
     (
         "estampe-ladder",
         &[
-            "estampe",
+            "estampe-gpu",
             "estampe-shapes",
             "estampe-scene",
             "estampe-assets",
@@ -85,7 +85,7 @@ const CRATES: &[(&str, &[&str])] = &[
             "estampe-reference",
         ],
     ),
-    ("estampe-cli", LIBRARIES),
+    ("estampe", LIBRARIES),
     ("estampe-tests", LIBRARIES),
     ("estampe-bench", LIBRARIES),
     ("xtask", &[]),
@@ -101,7 +101,7 @@ const LIBRARIES: &[&str] = &[
     "estampe-shader",
     "estampe-x86",
     "estampe-core",
-    "estampe",
+    "estampe-gpu",
     "estampe-shapes",
     "estampe-scene",
     "estampe-assets",
@@ -113,7 +113,7 @@ const LIBRARIES: &[&str] = &[
 
 /// The workspace crates that only the tests and examples of a crate may use.
 const TESTS: &[(&str, &[&str])] = &[
-    ("estampe", &["estampe-shapes"]),
+    ("estampe-gpu", &["estampe-shapes"]),
     ("estampe-renderer", &["estampe-shapes", "estampe-reference"]),
     // Pictures of examples and tests as files.
     ("estampe-visibility", &["estampe-assets"]),
@@ -134,9 +134,9 @@ const OUTSIDE: &[(&str, Users)] = &[
     // Threads belong to the scheduler of the pipeline (see also the stage order).
     ("rayon-core", Users::Only(&["estampe-core"])),
     // Texels as words and as bytes, without a copy.
-    ("bytemuck", Users::Only(&["estampe", "estampe-core"])),
+    ("bytemuck", Users::Only(&["estampe-gpu", "estampe-core"])),
     // Sets of buffer and texture usages.
-    ("bitflags", Users::Only(&["estampe"])),
+    ("bitflags", Users::Only(&["estampe-gpu"])),
     // The one implementation of the lanes.
     ("fearless_simd", Users::Only(&["estampe-simd"])),
     // Matrices and vectors of applications. Lane code computes what reaches a pixel.
@@ -144,13 +144,13 @@ const OUTSIDE: &[(&str, Users)] = &[
         "glam",
         Users::Only(&[
             "estampe-types",
-            "estampe",
+            "estampe-gpu",
             "estampe-shapes",
             "estampe-scene",
             "estampe-assets",
             "estampe-renderer",
             "estampe-ladder",
-            "estampe-cli",
+            "estampe",
         ]),
     ),
     // Blocks of compressed textures, decoded when a texture is made or a DDS file is read.
@@ -164,19 +164,16 @@ const OUTSIDE: &[(&str, Users)] = &[
     // File formats: all other crates see decoded images. `estampe` writes PNG as an option.
     (
         "png",
-        Users::Only(&["estampe", "estampe-assets", "estampe-bench", "estampe-cli"]),
+        Users::Only(&["estampe-gpu", "estampe-assets", "estampe-bench", "estampe"]),
     ),
     // Images of other programs, as an option.
-    ("image", Users::Only(&["estampe"])),
+    ("image", Users::Only(&["estampe-gpu"])),
     ("zune-jpeg", Users::Only(&["estampe-assets"])),
     ("jpeg-encoder", Users::Only(&["estampe-assets"])),
     // The tests of the command read what it wrote.
-    (
-        "image-webp",
-        Users::Only(&["estampe-assets", "estampe-cli"]),
-    ),
-    ("exr", Users::Only(&["estampe-assets", "estampe-cli"])),
-    ("gif", Users::Only(&["estampe-assets", "estampe-cli"])),
+    ("image-webp", Users::Only(&["estampe-assets", "estampe"])),
+    ("exr", Users::Only(&["estampe-assets", "estampe"])),
+    ("gif", Users::Only(&["estampe-assets", "estampe"])),
     // CPU time of the process; pages of machine code.
     ("rustix", Users::Only(&["estampe-bench", "estampe-x86"])),
     // Registers of machine code.
@@ -184,19 +181,16 @@ const OUTSIDE: &[(&str, Users)] = &[
     // A second opinion on machine code, in tests.
     ("iced-x86", Users::Only(&["estampe-x86"])),
     // Command lines.
-    (
-        "clap",
-        Users::Only(&["estampe-cli", "estampe-bench", "xtask"]),
-    ),
+    ("clap", Users::Only(&["estampe", "estampe-bench", "xtask"])),
     // Completion scripts and manual pages of the command.
-    ("clap_complete", Users::Only(&["estampe-cli"])),
-    ("clap_mangen", Users::Only(&["estampe-cli"])),
-    ("indicatif", Users::Only(&["estampe-cli", "estampe-bench"])),
+    ("clap_complete", Users::Only(&["estampe"])),
+    ("clap_mangen", Users::Only(&["estampe"])),
+    ("indicatif", Users::Only(&["estampe", "estampe-bench"])),
     (
         "serde",
         Users::Only(&[
             "estampe-assets",
-            "estampe-cli",
+            "estampe",
             "estampe-bench",
             "estampe-tests",
         ]),
@@ -205,7 +199,7 @@ const OUTSIDE: &[(&str, Users)] = &[
         "serde_json",
         Users::Only(&[
             "estampe-assets",
-            "estampe-cli",
+            "estampe",
             "estampe-bench",
             "estampe-tests",
             "estampe-shader",
@@ -213,11 +207,13 @@ const OUTSIDE: &[(&str, Users)] = &[
     ),
     // Tangents of normal maps.
     ("bevy_mikktspace", Users::Only(&["estampe-renderer"])),
+    // Labels in pictures: rasterized letters.
+    ("noto-sans-mono-bitmap", Users::Only(&["estampe-renderer"])),
     // Files of a batch: their names, and whether they have changed.
-    ("glob", Users::Only(&["estampe-cli"])),
+    ("glob", Users::Only(&["estampe"])),
     // Interrupts: no temporary files stay.
-    ("signal-hook", Users::Only(&["estampe-cli"])),
-    ("twox-hash", Users::Only(&["estampe-cli"])),
+    ("signal-hook", Users::Only(&["estampe"])),
+    ("twox-hash", Users::Only(&["estampe"])),
     // The XML of 3MF packages.
     ("quick-xml", Users::Only(&["estampe-assets"])),
     // Packed parts of 3MF packages; the data of tests; the package of the command, and its
@@ -234,9 +230,9 @@ const OUTSIDE: &[(&str, Users)] = &[
     ("pulldown-cmark", Users::Only(&["xtask"])),
     ("rustc-demangle", Users::Only(&["xtask"])),
     ("spdx", Users::Only(&["xtask"])),
-    ("toml", Users::Only(&["estampe-cli", "xtask"])),
+    ("toml", Users::Only(&["estampe", "xtask"])),
     // Programs that must not compile.
-    ("trybuild", Users::Only(&["estampe"])),
+    ("trybuild", Users::Only(&["estampe-gpu"])),
     ("libm", Users::Any),
     ("thiserror", Users::Any),
     ("fastrand", Users::Any),

@@ -1,5 +1,5 @@
 //! The greatest width and height, and the greatest numbers of attributes, buffers and varyings.
-//! (Corners of the largest targets: `crates/estampe/tests/large_targets.rs`.)
+//! (Corners of the largest targets: `crates/estampe-gpu/tests/large_targets.rs`.)
 
 use estampe_tests::geometry::{Style, Vertex, clip_at, triangles};
 use estampe_tests::shaders::{Colored, Crowded};
