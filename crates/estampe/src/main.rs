@@ -18,7 +18,7 @@
 //!
 //! [`choice`] has the options of files with several scenes, [`input`] reads models from files,
 //! standard input or by built-in name, [`output`] writes files completely or not at all,
-//! [`interrupt`] removes temporary files, [`terminal`] escapes names, [`values`] parses the
+//! [`preview`] shows pictures in a terminal, [`interrupt`] removes temporary files, [`terminal`] escapes names, [`values`] parses the
 //! options' values, and [`failure`] has the exit codes.
 
 mod batch;
@@ -36,6 +36,7 @@ mod ladder;
 mod limits;
 mod man;
 mod output;
+mod preview;
 mod progress;
 mod render;
 mod shader;
@@ -121,7 +122,7 @@ fn main() -> ExitCode {
     let code = match &cli.command {
         Command::Render(args) => report(
             "render",
-            args.report.json.then_some(args.output.is_standard_output()),
+            args.report.json.then_some(args.is_to_standard_output()),
             render::run(args),
         ),
         Command::Batch(args) => match batch::run(args) {

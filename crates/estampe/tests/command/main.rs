@@ -15,6 +15,7 @@ mod man;
 mod output;
 mod passes;
 mod polygon_fill;
+mod preview;
 mod render;
 mod render_page;
 mod render_shader;
