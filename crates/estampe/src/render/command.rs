@@ -26,7 +26,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     // Of passes, the files have a format.
     let picture = files.is_none().then(|| image_format(named, output));
     let picture = picture.transpose()?;
-    output::check(output)?;
+    let written = files.as_ref().map_or(&[][..], |files| &files.files);
+    for file in written {
+        output::check(&file.output)?;
+    }
+    if files.is_none() {
+        output::check(output)?;
+    }
     // Reading and parsing come before.
     let progress = Progress::new(2 + STAGES, args.report.quiet);
 

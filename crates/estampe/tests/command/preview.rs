@@ -75,7 +75,7 @@ fn from_sixel(bytes: &[u8]) -> (usize, usize, Vec<Option<[u8; 3]>>) {
     let text = text.strip_prefix("\x1bP0;1;0q\"1;1;").expect("a beginning");
     let text = text.strip_suffix("\x1b\\\n").expect("an end");
     let mut rest = text.as_bytes();
-    let mut numbers = |rest: &mut &[u8]| {
+    let numbers = |rest: &mut &[u8]| {
         let mut numbers = vec![0_usize];
         while let Some((&c, after)) = rest.split_first() {
             match c {
