@@ -1,6 +1,7 @@
 //! Rendering of a scene to a frame, step by step.
 
 use crate::alpha::{Encoding, decode, straighten};
+use crate::camera::Pinhole;
 use crate::draw_plan::{Planner, is_dark};
 use crate::frame_passes::{DrawnPasses, FramePasses};
 use crate::ground::{ColumnMaps, GroundFrame, GroundShadow};
@@ -32,6 +33,8 @@ pub struct Frame {
     pub timings: FrameTimings,
     /// The camera of the image, in world space.
     pub camera: Camera,
+    /// The camera as a pinhole, in world space; `None` if the projection is parallel.
+    pub pinhole: Option<Pinhole>,
     /// The layers of transparent surfaces that [`Transparency::Exact`](crate::Transparency) peeled;
     /// `None` with other methods, and of scenes without transparent surfaces.
     pub layers: Option<TransparentLayers>,
@@ -157,6 +160,7 @@ pub fn render(
             statistics,
             timings,
             camera: view.camera_world(),
+            pinhole: view.pinhole((options.width, options.height)),
             layers,
         })
     })

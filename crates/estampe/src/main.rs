@@ -4,6 +4,7 @@
 //! * [`render`]: renders a model to an image;
 //! * [`batch`]: renders many models;
 //! * [`sheet`]: draws many models, or the views of one, as cells of one picture;
+//! * [`schema`]: prints the schemas of files;
 //! * [`turntable`]: animates a model that turns;
 //! * [`shape`]: meshes a function, as a model or an image;
 //! * [`inspect`]: explains a pixel of the image;
@@ -18,8 +19,8 @@
 //!
 //! [`choice`] has the options of files with several scenes, [`input`] reads models from files,
 //! standard input or by built-in name, [`output`] writes files completely or not at all,
-//! [`preview`] shows pictures in a terminal, [`interrupt`] removes temporary files, [`terminal`] escapes names, [`values`] parses the
-//! options' values, and [`failure`] has the exit codes.
+//! [`preview`] shows pictures in a terminal, [`interrupt`] removes temporary files, [`terminal`]
+//! escapes names, [`values`] parses the options' values, and [`failure`] has the exit codes.
 
 mod batch;
 mod choice;
@@ -39,6 +40,7 @@ mod output;
 mod preview;
 mod progress;
 mod render;
+mod schema;
 mod shader;
 mod shape;
 mod sheet;
@@ -91,8 +93,7 @@ enum Command {
     Sheet(Box<sheet::SheetArgs>),
     // Boxed, because it has the options of a picture.
     Turntable(Box<turntable::TurntableArgs>),
-    /// Prints the JSON Schema of the job files of `estampe batch`
-    Schema,
+    Schema(schema::SchemaArgs),
     Shape(Box<shape::ShapeArgs>),
     Info(describe::InfoArgs),
     // Boxed, because it has the options of a picture.
@@ -142,10 +143,7 @@ fn main() -> ExitCode {
             args.report.json.then_some(args.output.is_standard_output()),
             turntable::run(args),
         ),
-        Command::Schema => {
-            let schema = format!("{:#}\n", batch::schema());
-            report("schema", None, output::print(&schema))
-        }
+        Command::Schema(args) => report("schema", None, schema::run(args)),
         Command::Shape(args) => report(
             "shape",
             args.report.json.then_some(args.output.is_standard_output()),

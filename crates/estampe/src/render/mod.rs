@@ -4,10 +4,12 @@
 //! arguments -> input (read, parse) -> renderer (prepare, geometry, raster, read back)
 //!           -> encode -> output (complete or not at all), report
 //!           or passes (data of the same camera, several files)
+//!           or cameras (a picture or passes for each camera of a file)
 //! ```
 
 mod appearance_names;
 mod arguments;
+mod cameras;
 mod command;
 mod draw;
 mod illumination;
@@ -20,6 +22,7 @@ mod shadows;
 mod surface_shader;
 
 pub(crate) use arguments::RenderArgs;
+pub(crate) use cameras::schema as schema_of_cameras;
 pub(crate) use command::run;
 pub(crate) use draw::{STAGES, check_output, device, draw, drawn_bytes, encoded, frame};
 pub(crate) use draw::{frame_options, image_format, prepare};
