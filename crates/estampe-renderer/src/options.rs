@@ -16,7 +16,7 @@ pub struct RenderOptions {
     pub width: u32,
     /// Height in pixels, 1..=16384. Default 768.
     pub height: u32,
-    /// Samples per pixel, 1 or 4. Default 4.
+    /// Samples per pixel: 1, 2, 4, 8 or 16. Default 4.
     pub samples: u32,
     /// Position, target and projection of the camera.
     pub camera: CameraOptions,

@@ -86,6 +86,19 @@ pub(crate) fn margin(text: &str) -> Result<f64, String> {
     number_between(text, 0.0, 0.49)
 }
 
+/// The enlargement of a picture.
+pub(crate) fn zoom(text: &str) -> Result<f64, String> {
+    number_between(text, 0.01, 1000.0)
+}
+
+/// Samples per pixel.
+pub(crate) fn samples(text: &str) -> Result<u32, String> {
+    let count = text.parse().ok();
+    count
+        .filter(|count| [1, 2, 4, 8, 16].contains(count))
+        .ok_or_else(|| "write 1, 2, 4, 8 or 16".to_owned())
+}
+
 /// Ambient light.
 pub(crate) fn ambient(text: &str) -> Result<f32, String> {
     let ambient = number_between(text, 0.0, 10.0)?;

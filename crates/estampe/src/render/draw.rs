@@ -1,5 +1,6 @@
 //! Draws a model and writes the picture, for all commands that draw.
 
+use super::camera_check;
 use super::picture::PictureArgs;
 use super::report::Encoded;
 use crate::choice;
@@ -147,6 +148,7 @@ fn options(
     (default_view, texture): (ViewDirection, Option<Image>),
     device: &Device,
 ) -> Result<RenderOptions, Failure> {
+    camera_check::eye_in_middle(args.eye, args.target, (&model.scene, args.up))?;
     let options = RenderOptions {
         program: args.shader.program(device, args.texture.as_deref())?,
         ..args.options(default_view, texture)?

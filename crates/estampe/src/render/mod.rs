@@ -8,6 +8,7 @@
 
 mod appearance_names;
 mod arguments;
+mod camera_check;
 mod command;
 mod draw;
 mod illumination;

@@ -2,6 +2,7 @@
 //! them.
 
 use super::appearance_names::{CullName, ShadingName, TransparencyName};
+use super::camera_check;
 use super::illumination::IlluminationArgs;
 use super::pbr::PbrArgs;
 use super::shadows::ShadowArgs;
@@ -70,6 +71,11 @@ pub(crate) struct PictureArgs {
     #[arg(long, value_name = "FRACTION", default_value = "0.05", value_parser = values::margin)]
     #[arg(help_heading = "Camera")]
     pub(crate) margin: f64,
+
+    /// Enlargement of the picture about its middle, 0.01 to 1000; the eye stays where it is
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = values::zoom)]
+    #[arg(help_heading = "Camera")]
+    pub(crate) zoom: f64,
 
     /// Shading: auto, pbr, phong, flat, toon, unlit, wireframe, normals, … (see --help)
     ///
@@ -144,10 +150,10 @@ pub(crate) struct PictureArgs {
     #[arg(long, help_heading = "Appearance")]
     pub(crate) wireframe: bool,
 
-    /// Samples per pixel: 1, or 4 for smooth edges
-    #[arg(long, value_name = "N", default_value = "4", value_parser = ["1", "4"])]
+    /// Samples per pixel: 1, or 2, 4, 8 or 16 for smooth edges
+    #[arg(long, value_name = "N", default_value = "4", value_parser = values::samples)]
     #[arg(hide_possible_values = true, help_heading = "Appearance")]
-    pub(crate) samples: String,
+    pub(crate) samples: u32,
 
     /// Number of threads, 1 to 1024; the image does not depend on it [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -181,6 +187,7 @@ impl PictureArgs {
                     .to_owned(),
             ));
         }
+        camera_check::eye_and_target(self.eye, self.target)?;
         self.shadows.check(self.shading)?;
         self.illumination.check()
     }
@@ -193,7 +200,7 @@ impl PictureArgs {
 
     /// The samples per pixel.
     pub(super) fn sample_count(&self) -> u32 {
-        if self.samples == "1" { 1 } else { 4 }
+        self.samples
     }
 
     /// The threads that draw; 0 is one per processor.
@@ -229,6 +236,7 @@ impl PictureArgs {
                     }
                 },
                 margin: self.margin,
+                zoom: self.zoom,
             },
             up: self.up,
             shading: self.shading.into(),

@@ -14,6 +14,7 @@ mod ladder;
 mod man;
 mod output;
 mod passes;
+mod picture_options;
 mod polygon_fill;
 mod render;
 mod render_page;
