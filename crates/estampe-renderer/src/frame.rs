@@ -1,12 +1,15 @@
 //! Rendering of a scene to a frame, step by step.
 
 use crate::alpha::{Encoding, decode, straighten};
+use crate::backdrop::BackdropDraw;
 use crate::draw_plan::{Planner, is_dark};
 use crate::frame_passes::{DrawnPasses, FramePasses};
 use crate::ground::{ColumnMaps, GroundFrame, GroundShadow};
 use crate::options::{RenderOptions, Shading};
 use crate::scene_view::SceneView;
 use crate::shading::VertexTransforms;
+use crate::shading::backdrop::Backdrop;
+use crate::shading::output;
 use crate::shading::surface::DEPTH_ORDER;
 use crate::shading::wireframe::Wireframe;
 use crate::shadows::ShadowMaps;
@@ -203,6 +206,9 @@ pub(crate) fn with_passes<T>(
         let lit = (&maps.frame, &columns, &view.sky(options));
         ground = Some(GroundShadow::new(device, &style, lit, workers)?);
     }
+    let backdrop = style.backdrop;
+    let backdrop = backdrop.map(|backdrop| BackdropDraw::new(device, &style, backdrop));
+    let backdrop = backdrop.transpose()?;
     let attachments =
         Attachments::new(options, style.format, device).map_err(RenderError::Target)?;
     let passes = FramePasses {
@@ -211,6 +217,7 @@ pub(crate) fn with_passes<T>(
         attachments: &attachments,
         options,
         before,
+        backdrop: backdrop.as_ref(),
         ground: ground.as_ref(),
     };
     use_passes(&passes, &view)
@@ -345,11 +352,18 @@ fn frame_style(
         transforms,
         lights: Arc::new(lights),
         levels: options.levels,
+        backdrop: backdrop(options),
         fog: options.fog.as_ref().map(|fog| {
+            let gradient = options.gradient.filter(|gradient| {
+                fog.color.is_none() && options.background.is_some() && gradient.is_opaque()
+            });
             let color = fog.color.or(options.background);
             let color = color.unwrap_or(RenderOptions::DEFAULT_BACKGROUND);
             let linear = color.map(|code| decode(code, Encoding::Srgb));
-            view.fog(fog, linear, (options.width, options.height))
+            output::Fog {
+                backdrop: gradient.and_then(|_| backdrop(options)),
+                ..view.fog(fog, linear, (options.width, options.height))
+            }
         }),
         wireframe: wireframe(transforms, options),
         overlay: has_overlay(options).then(|| overlay(transforms, options)),
@@ -362,6 +376,15 @@ fn frame_style(
         },
         finder: Finder::new(device, DEPTH_ORDER, options.samples)?,
     })
+}
+
+/// The gradient of the options, if it is drawn.
+fn backdrop(options: &RenderOptions) -> Option<Backdrop> {
+    // Fragments are added to none.
+    let gradient = options.gradient.as_ref();
+    let gradient = gradient.filter(|_| options.shading != Shading::Overdraw)?;
+    let size_px = [options.width, options.height];
+    Some(Backdrop::new(gradient, size_px, encoding(options)))
 }
 
 /// Wireframe edges that contrast with the background, with a width in proportion to the image.
@@ -379,6 +402,7 @@ fn wireframe(transforms: VertexTransforms, options: &RenderOptions) -> Wireframe
         transforms,
         line: [r, g, b, 1.0],
         face: clear_color(options),
+        backdrop: backdrop(options),
         half_width_px: half_width_px(options),
     }
 }
@@ -399,12 +423,16 @@ fn overlay(transforms: VertexTransforms, options: &RenderOptions) -> Wireframe {
         transforms,
         line: [r, g, b, 0.85],
         face: [0.0; 4],
+        backdrop: None,
         half_width_px: half_width_px(options),
     }
 }
 
-/// Half of the width of edges, in pixels: in proportion to the image.
+/// Half of the width of edges, in pixels: that of the options, or in proportion to the image.
 fn half_width_px(options: &RenderOptions) -> f32 {
+    if let Some(width) = options.line_width_px {
+        return width / 2.0;
+    }
     let shorter_px = options.width.min(options.height);
     let sixteenths = u16::try_from((shorter_px / 64).clamp(8, 64)).unwrap_or(64);
     f32::from(sixteenths) / 16.0

@@ -8,6 +8,7 @@
 //! The samples are of the same format between passes as in one, so a pixel without transparent
 //! surface has the same bits with every method.
 
+use crate::backdrop::BackdropDraw;
 use crate::draw_plan::DrawPlan;
 use crate::frame::{Attachments, RenderError, TransparentLayers};
 use crate::ground::GroundShadow;
@@ -33,6 +34,8 @@ pub(crate) struct FramePasses<'a> {
     pub(crate) options: &'a RenderOptions,
     /// The work of the passes before: shadow maps.
     pub(crate) before: Statistics,
+    /// The gradient behind everything, if there is one.
+    pub(crate) backdrop: Option<&'a BackdropDraw>,
     /// The ground, if the model stands on one.
     pub(crate) ground: Option<&'a GroundShadow>,
 }
@@ -89,6 +92,7 @@ impl FramePasses<'_> {
 
     fn opaque_and_ground(&self) -> Vec<Draw<'_>> {
         let mut draws = self.plan.opaque();
+        draws.extend(self.backdrop.map(BackdropDraw::draw));
         draws.extend(self.ground.map(GroundShadow::draw));
         draws
     }

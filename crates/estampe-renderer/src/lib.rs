@@ -6,6 +6,7 @@
 //!        ├─ environment     light from all around; pbr_lighting puts it into view space
 //!        ├─ shadows         maps of what the lights see
 //!        ├─ ground          the shadow on what the model stands on
+//!        ├─ backdrop        the gradient behind everything
 //!        ├─ materials       surface styles and textures
 //!        ├─ pbr_materials   what physically based materials add
 //!        ├─ geometry        vertex buffers, unshared faces, back-to-front order
@@ -29,11 +30,13 @@
 pub mod camera;
 
 mod alpha;
+mod backdrop;
 mod draw_plan;
 mod environment;
 mod frame;
 mod frame_passes;
 mod geometry;
+mod gradient;
 mod ground;
 mod materials;
 mod options;
@@ -60,6 +63,7 @@ pub use estampe::state::CullMode;
 pub use estampe::transforms;
 pub use frame::{Frame, FrameTimings, RenderError, TransparentLayers, render};
 pub use geometry::face_colors::face_color;
+pub use gradient::{Gradient, GradientShape};
 pub use options::{
     Environment, Fog, Ground, RenderOptions, Shading, Specular, SpecularModel, Transparency, Up,
 };

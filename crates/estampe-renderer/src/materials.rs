@@ -8,7 +8,7 @@ use crate::shading::lighting::{Gloss, Highlight};
 use crate::surface_pipelines::{SurfaceAlpha, SurfaceStyle};
 use estampe::{
     Device, SampledTexture, SamplerDescriptor, Texture, TextureDescriptor, TextureError,
-    TextureFormat,
+    TextureFormat, srgb,
 };
 use estampe_scene::{AlphaMode, Image, Material, Mesh, Scene, Workers};
 use std::collections::hash_map::Entry;
@@ -100,17 +100,20 @@ impl<'a> Materials<'a> {
         let own = material.and_then(|index| self.scene.materials.get(index));
         let default = Material::default();
         let material = own.unwrap_or(&default);
-        let has_vertex_colors = !mesh.colors.is_empty();
+        let has_vertex_colors = !mesh.colors.is_empty() && self.options.color.is_none();
         let is_overridden = self.options.texture.is_some() && !mesh.uvs.is_empty();
         // A texture of the options, or vertex colours without a material, replace the default grey.
         let is_painted = is_overridden || own.is_none() && has_vertex_colors;
-        let color = if is_painted {
+        let color = if let Some(color) = self.options.linear_color() {
+            self.visible(color.truncate())
+        } else if is_painted {
             glam::Vec3::ONE
         } else {
             self.visible(material.base_color)
         };
         let alpha = match material.alpha_mode {
-            _ if is_overridden => SurfaceAlpha::Opaque,
+            _ if self.options.is_clear() => SurfaceAlpha::Blended,
+            _ if is_overridden || self.options.color.is_some() => SurfaceAlpha::Opaque,
             AlphaMode::Opaque => SurfaceAlpha::Opaque,
             AlphaMode::Mask => SurfaceAlpha::Masked,
             AlphaMode::Blend => SurfaceAlpha::Blended,
@@ -122,9 +125,10 @@ impl<'a> Materials<'a> {
         } else {
             None
         };
+        let opacity = { self.options.linear_color() }.map_or(material.opacity, |color| color.w);
         Ok(SurfaceStyle {
             gloss: self.gloss(material),
-            base: [color.x, color.y, color.z, material.opacity],
+            base: [color.x, color.y, color.z, opacity],
             texture,
             bump: self.bump(material, mesh)?,
             has_vertex_colors,
@@ -196,7 +200,9 @@ impl<'a> Materials<'a> {
             return Ok(None);
         }
         let scene = self.scene;
-        let (key, image) = match (&self.options.texture, material.base_color_texture) {
+        let own = material.base_color_texture;
+        let own = own.filter(|_| self.options.color.is_none());
+        let (key, image) = match (&self.options.texture, own) {
             (Some(image), _) => (None, image),
             (None, Some(index)) => match scene.images.get(index) {
                 Some(image) => (Some(index), image),
@@ -232,6 +238,20 @@ impl<'a> Materials<'a> {
         };
         let sampler = self.device.create_sampler(sampler)?;
         Ok(self.device.sampled_texture(&texture.view(), &sampler)?)
+    }
+}
+
+impl RenderOptions {
+    /// The base colour of everything: linear RGB, and alpha.
+    pub(crate) fn linear_color(&self) -> Option<glam::Vec4> {
+        let [r, g, b, alpha] = self.color?;
+        let rgb = [r, g, b].map(srgb::decode);
+        Some(glam::Vec3::from(rgb).extend(f32::from(alpha) / 255.0))
+    }
+
+    /// True if the base colour of everything is transparent.
+    pub(crate) fn is_clear(&self) -> bool {
+        self.color.is_some_and(|[.., alpha]| alpha < 255)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::camera::CameraOptions;
 use crate::environment::EnvironmentMap;
+use crate::gradient::Gradient;
 use crate::shading::pbr::tone_map::ToneMap;
 use crate::surface_program::SurfaceProgram;
 use estampe::state::CullMode;
@@ -61,6 +62,24 @@ pub struct RenderOptions {
     pub texture: Option<Image>,
     /// The background, sRGB, or `None` for a transparent one. Default #f2f2f2.
     pub background: Option<[u8; 3]>,
+    /// A gradient over the background, behind everything. The background is then the colour of
+    /// fog and that with which lines contrast. Default none; without effect on
+    /// [`Shading::Overdraw`].
+    pub gradient: Option<Gradient>,
+    /// The base colour of everything, sRGB and alpha, in place of the colours and textures of
+    /// materials and vertices; [`Self::texture`] is multiplied by it. Below an alpha of 255 surfaces
+    /// are transparent. `None` (default) is the model's.
+    pub color: Option<[u8; 4]>,
+    /// Roughness of all surfaces of [`Shading::Pbr`], 0..=1. `None` (default) is the materials'.
+    pub roughness: Option<f32>,
+    /// Metallic share of all surfaces of [`Shading::Pbr`], 0..=1. `None` (default) is the
+    /// materials'.
+    pub metallic: Option<f32>,
+    /// Width of points in pixels, above 0. `None` (default): by their number and the image's size.
+    pub point_size_px: Option<f32>,
+    /// Width of lines and of the edges of wireframes in pixels, above 0 and at most 64. `None`
+    /// (default): lines of one pixel, and edges in proportion to the image.
+    pub line_width_px: Option<f32>,
     /// Faces that are culled. Default none.
     pub cull: CullMode,
     /// The method by which transparent surfaces are blended. Default [`Transparency::Sorted`].
@@ -99,6 +118,12 @@ impl Default for RenderOptions {
             fog: None,
             texture: None,
             background: Some(Self::DEFAULT_BACKGROUND),
+            gradient: None,
+            color: None,
+            roughness: None,
+            metallic: None,
+            point_size_px: None,
+            line_width_px: None,
             cull: CullMode::None,
             transparency: Transparency::default(),
             wireframe: false,

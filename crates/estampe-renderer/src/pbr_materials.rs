@@ -44,9 +44,23 @@ impl Materials<'_> {
         };
         let mut parameters = self.parameters(pbr, mesh)?;
         parameters.base[3] = material.opacity;
+        if let Some(color) = self.options.linear_color() {
+            parameters.base = color.to_array();
+            parameters.base_texture = None;
+        }
+        if let Some(roughness) = self.options.roughness {
+            parameters.roughness = roughness.clamp(0.0, 1.0);
+            parameters.is_roughness_textured = false;
+        }
+        if let Some(metallic) = self.options.metallic {
+            parameters.metallic = metallic.clamp(0.0, 1.0);
+            parameters.is_metallic_textured = false;
+        }
         if let (true, Some(image)) = (is_overridden, &self.options.texture) {
             let sampler = SamplerDescriptor::trilinear_repeat();
-            parameters.base = [1.0; 4];
+            if self.options.color.is_none() {
+                parameters.base = [1.0; 4];
+            }
             parameters.base_texture = Some(MaterialTexture {
                 texture: self.sampled(None, COLORS, image, &sampler)?,
                 coordinates: UvChoice::FIRST,
@@ -94,6 +108,8 @@ impl Materials<'_> {
             base_texture,
             metallic: pbr.metallic,
             roughness: pbr.roughness,
+            is_metallic_textured: true,
+            is_roughness_textured: true,
             metallic_roughness_texture: self.material_texture(
                 pbr.metallic_roughness_texture,
                 NUMBERS,

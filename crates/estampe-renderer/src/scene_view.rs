@@ -179,6 +179,7 @@ impl SceneView {
         let start = fog.start_world / self.space.world_per_unit();
         Fog {
             color,
+            backdrop: None,
             start: round_to_f32(start).clamp(0.0, f32::MAX),
             per_distance: self.per_unit(fog.end_world - fog.start_world),
             eye_distance: self.eye_distance(size_px),

@@ -5,6 +5,7 @@ use crate::geometry::vertex_data::{MeshStreams, VertexStream};
 use crate::ground::ColumnMaps;
 use crate::options::Shading;
 use crate::shading::VertexTransforms;
+use crate::shading::backdrop::Backdrop;
 use crate::shading::base_color::{Alpha, BaseColor, Painted, Plain};
 use crate::shading::bump::BumpMap;
 use crate::shading::inspection::{
@@ -23,7 +24,7 @@ use crate::shadows::ShadowMaps;
 use crate::surface_program::{SurfaceProgram, SurfaceValues};
 use estampe::state::{
     BlendState, ColorTargetState, ColorWrites, CompareFunction, CullMode, DepthState,
-    DepthStencilState, MultisampleState, PrimitiveState, PrimitiveTopology,
+    DepthStencilState, LineRasterization, MultisampleState, PrimitiveState,
 };
 use estampe::{
     BindGroup, Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor,
@@ -44,6 +45,8 @@ pub(crate) struct FrameStyle {
     pub(crate) pbr: Option<Arc<PbrLighting>>,
     /// The levels of the options: steps of toon shading, else levels of colours.
     pub(crate) levels: Option<u16>,
+    /// The gradient behind everything.
+    pub(crate) backdrop: Option<Backdrop>,
     pub(crate) fog: Option<Fog>,
     pub(crate) wireframe: Wireframe,
     /// The edges over shaded surfaces, if they are drawn.
@@ -301,15 +304,15 @@ impl FrameStyle {
         &self,
         device: &Device,
         shader: PointsAndLines,
-        topology: PrimitiveTopology,
+        primitive: PrimitiveState,
         mesh: &MeshStreams,
     ) -> Result<StreamPipeline, PipelineError> {
         let material = MaterialProgram::new(shader, &[VertexStream::Position, VertexStream::Color]);
-        let primitive = PrimitiveState {
-            topology,
-            ..PrimitiveState::default()
-        };
-        let (depth_stencil, targets) = self.opaque();
+        let (depth_stencil, mut targets) = self.opaque();
+        let is_smooth = primitive.line.rasterization == LineRasterization::RectangularSmooth;
+        if is_smooth && self.shading != Shading::Overdraw {
+            targets = self.targets(Some(BlendState::ALPHA_BLENDING));
+        }
         let state = PipelineState {
             primitive,
             depth_stencil,

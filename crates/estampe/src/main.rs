@@ -17,11 +17,12 @@
 //!
 //! [`choice`] has the options of files with several scenes, [`input`] reads models from files,
 //! standard input or by built-in name, [`output`] writes files completely or not at all,
-//! [`interrupt`] removes temporary files, [`terminal`] escapes names, [`values`] parses the
+//! [`interrupt`] removes temporary files, [`colors`] parses colours, [`terminal`] escapes names, [`values`] parses the
 //! options' values, and [`failure`] has the exit codes.
 
 mod batch;
 mod choice;
+mod colors;
 mod completions;
 mod compute;
 mod depth;

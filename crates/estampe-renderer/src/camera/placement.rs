@@ -99,7 +99,6 @@ impl Lens {
     /// The lens of a picture that is enlarged by this factor.
     fn zoomed(self, zoom: f64) -> Self {
         // The angle of a factor of 1 keeps its bits.
-        #[expect(clippy::float_cmp, reason = "the default is exactly 1")]
         let is_unchanged = zoom == 1.0;
         match self {
             _ if is_unchanged => self,

@@ -6,7 +6,7 @@ use crate::frame::RenderError;
 use crate::geometry::faces::{FaceAttributes, LitAt, unshared_streams};
 use crate::geometry::order::{DistantTriangle, back_to_front};
 use crate::geometry::tangents::with_tangents;
-use crate::geometry::vertex_data::{MeshStreams, VertexStream};
+use crate::geometry::vertex_data::{MeshStreams, StreamData, VertexStream};
 use crate::materials::{Materials, TextureKey};
 use crate::options::{RenderOptions, Shading};
 use crate::scene_view::SceneView;
@@ -124,6 +124,7 @@ impl Planner<'_> {
         let shared = (!is_unshared && !mesh.triangles.is_empty() || has_points_or_lines)
             .then(|| MeshStreams::shared(mesh, &self.view.space, self.device, self.workers))
             .transpose()?;
+        let shared = shared.map(|streams| self.painted(streams)).transpose()?;
         if !mesh.triangles.is_empty() {
             let unshared;
             let streams = match &shared {
@@ -138,7 +139,8 @@ impl Planner<'_> {
                         first_number: (self.style.shading == Shading::FaceId)
                             .then_some(builder.first_number),
                     };
-                    unshared = unshared_streams(mesh, attributes, &self.view.space, self.device)?;
+                    let made = unshared_streams(mesh, attributes, &self.view.space, self.device)?;
+                    unshared = self.painted(made)?;
                     &unshared
                 }
             };
@@ -149,6 +151,17 @@ impl Planner<'_> {
             self.plan_points_and_lines(mesh, shared, builder)?;
         }
         Ok(())
+    }
+
+    /// The streams without vertex colours, if one colour replaces them.
+    fn painted(&self, streams: MeshStreams) -> Result<MeshStreams, BufferError> {
+        if self.options.color.is_none() {
+            return Ok(streams);
+        }
+        Ok(MeshStreams {
+            colors: StreamData::constant(self.device, &[1.0; 4])?,
+            ..streams
+        })
     }
 
     /// The triangles' vertex indices, unchanged.

@@ -16,9 +16,11 @@
 //! | [`inspection`] | normals, depth, uv, faces, barycentric coordinates and overdraw as colours |
 //! | [`points_and_lines`] | points and lines |
 //! | [`ground`] | the shadow on the ground |
+//! | [`backdrop`] | the gradient behind everything |
 //!
 //! Lighting is computed in view space, in linear light.
 
+pub(crate) mod backdrop;
 pub(crate) mod base_color;
 pub(crate) mod bump;
 pub(crate) mod ground;

@@ -1,5 +1,6 @@
 //! What happens to a lit colour before it is written: it is quantised, then fogged.
 
+use super::backdrop::Backdrop;
 use super::steps::quantised;
 use estampe::{FragmentIn, Real, Vec3};
 
@@ -36,6 +37,8 @@ impl Output {
 pub(crate) struct Fog {
     /// Linear colour.
     pub(crate) color: [f32; 3],
+    /// The opaque gradient whose colour it has instead.
+    pub(crate) backdrop: Option<Backdrop>,
     /// Distance up to which there is none.
     pub(crate) start: f32,
     /// 1 ÷ (end − start): at `end` there is nothing but fog.
@@ -49,7 +52,11 @@ impl Fog {
     pub(crate) fn color<R: Real>(&self, input: &FragmentIn<'_, R>, color: Vec3<R>) -> Vec3<R> {
         let distance = self.eye_distance.of(input);
         let share = ((distance - self.start) * self.per_distance).saturate();
-        color.mix(Vec3::uniform(share, self.color), share)
+        let fog = match &self.backdrop {
+            Some(backdrop) => backdrop.color(input).xyz(),
+            None => Vec3::uniform(share, self.color),
+        };
+        color.mix(fog, share)
     }
 }
 

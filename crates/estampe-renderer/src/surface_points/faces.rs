@@ -30,6 +30,7 @@ impl Faces {
             samples: 1,
             // Its alpha tells it from all faces.
             background: None,
+            gradient: None,
             wireframe: false,
             levels: None,
             fog: None,

@@ -19,6 +19,7 @@ mod picture;
 mod report;
 mod shadows;
 mod surface_shader;
+mod surfaces;
 
 pub(crate) use arguments::RenderArgs;
 pub(crate) use command::run;

@@ -7,8 +7,10 @@ use super::illumination::IlluminationArgs;
 use super::pbr::PbrArgs;
 use super::shadows::ShadowArgs;
 use super::surface_shader::SurfaceShaderArgs;
+use super::surfaces::SurfaceArgs;
+use crate::colors::{self, Background};
 use crate::failure::Failure;
-use crate::values::{self, Background, ViewName};
+use crate::values::{self, ViewName};
 use clap::Args;
 use estampe::Level;
 use estampe_renderer::{CameraOptions, Eye, ProjectionKind, RenderOptions, Up, ViewDirection};
@@ -99,6 +101,9 @@ pub(crate) struct PictureArgs {
     pub(crate) shading: ShadingName,
 
     #[command(flatten)]
+    pub(crate) surfaces: SurfaceArgs,
+
+    #[command(flatten)]
     pub(crate) pbr: PbrArgs,
 
     #[command(flatten)]
@@ -115,9 +120,12 @@ pub(crate) struct PictureArgs {
     #[arg(long, value_name = "FILE", help_heading = "Appearance")]
     pub(crate) texture: Option<PathBuf>,
 
-    /// The background: none, or a colour as six hexadecimal digits, with or without #
-    #[arg(long, value_name = "none|#RRGGBB", default_value = "#f2f2f2")]
-    #[arg(value_parser = values::background, help_heading = "Appearance")]
+    /// The background: none, a colour (a CSS name or #RGB, #RRGGBB, #RRGGBBAA), or a gradient
+    ///
+    /// linear:COLOUR,COLOUR goes from the top to the bottom, radial:COLOUR,COLOUR from the middle to
+    /// the corners; both take up to eight colours. The mark # may be omitted.
+    #[arg(long, value_name = "BACKGROUND", default_value = "#f2f2f2")]
+    #[arg(value_parser = colors::background, help_heading = "Appearance")]
     pub(crate) background: Background,
 
     /// Faces that are culled: none, back (facing away) or front
@@ -188,6 +196,7 @@ impl PictureArgs {
             ));
         }
         camera_check::eye_and_target(self.eye, self.target)?;
+        self.surfaces.check(self.shading)?;
         self.shadows.check(self.shading)?;
         self.illumination.check()
     }
@@ -241,7 +250,8 @@ impl PictureArgs {
             up: self.up,
             shading: self.shading.into(),
             texture,
-            background: self.background.0,
+            background: self.background.color,
+            gradient: self.background.gradient,
             cull: self.cull.into(),
             transparency: self.transparency.into(),
             wireframe: self.wireframe,
@@ -249,6 +259,7 @@ impl PictureArgs {
         };
         let workers = Workers::new(self.thread_count());
         let options = self.shadows.apply(self.illumination.apply(options));
+        let options = self.surfaces.apply(options);
         self.pbr.apply(options, workers)
     }
 }

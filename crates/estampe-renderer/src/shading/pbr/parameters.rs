@@ -11,6 +11,10 @@ pub(crate) struct PbrParameters {
     pub(crate) metallic: f32,
     /// Perceptual.
     pub(crate) roughness: f32,
+    /// The metallic share is multiplied by the texture.
+    pub(crate) is_metallic_textured: bool,
+    /// The roughness is multiplied by the texture.
+    pub(crate) is_roughness_textured: bool,
     /// Roughness in green, metallic in blue.
     pub(crate) metallic_roughness_texture: Option<MaterialTexture>,
     pub(crate) normal: Option<NormalMap>,

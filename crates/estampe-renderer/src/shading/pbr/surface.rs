@@ -125,8 +125,12 @@ impl PbrSurface {
         let mut roughness = one * parameters.roughness;
         if let Some(texture) = &parameters.metallic_roughness_texture {
             let texel = texture.sample(uvs);
-            metallic *= texel.z;
-            roughness *= texel.y;
+            if parameters.is_metallic_textured {
+                metallic *= texel.z;
+            }
+            if parameters.is_roughness_textured {
+                roughness *= texel.y;
+            }
         }
         let occlusion = match &parameters.occlusion {
             Some(map) => {

@@ -157,6 +157,7 @@ fn colours_are_quantised_before_they_are_fogged() {
     let bindings = Bindings::default();
     let fog = Fog {
         color: [0.0, 0.5, 1.0],
+        backdrop: None,
         start: 2.0,
         per_distance: 0.25,
         // One pixel of the window is the whole view, of 90°: the ray at its middle is the axis.

@@ -230,6 +230,8 @@ impl Look {
             base_texture: base(),
             metallic: METALLIC,
             roughness: ROUGHNESS,
+            is_metallic_textured: true,
+            is_roughness_textured: true,
             metallic_roughness_texture: base(),
             normal: self.has_normal_map.then_some(normal),
             occlusion: heights().map(|texture| Occlusion {

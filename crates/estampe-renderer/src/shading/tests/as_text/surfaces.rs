@@ -134,6 +134,7 @@ impl Look {
         };
         self.has_fog.then_some(Fog {
             color: [0.6, 0.7, 0.8],
+            backdrop: None,
             start: 1.5,
             per_distance: 0.4,
             eye_distance,
