@@ -3,6 +3,7 @@
 //!
 //! * [`render`]: renders a model to an image;
 //! * [`batch`]: renders many models;
+//! * [`sheet`]: draws many models, or the views of one, as cells of one picture;
 //! * [`turntable`]: animates a model that turns;
 //! * [`shape`]: meshes a function, as a model or an image;
 //! * [`inspect`]: explains a pixel of the image;
@@ -40,6 +41,7 @@ mod progress;
 mod render;
 mod shader;
 mod shape;
+mod sheet;
 mod terminal;
 mod turntable;
 mod values;
@@ -60,6 +62,7 @@ Examples:
   estampe render model.obj -o model.png
   estampe render builtin:teapot -o teapot.png --view iso --shading toon
   estampe batch 'models/*.glb' -o 'thumbnails/{stem}.png' --size 256x256
+  estampe sheet 'models/*.glb' -o sheet.png
   estampe turntable builtin:teapot -o teapot.gif
   estampe shape --explicit 'sin(x) + cos(y)' -o waves.png
   estampe inspect builtin:teapot --pixel 500,400
@@ -84,6 +87,8 @@ enum Command {
     Render(Box<render::RenderArgs>),
     // Boxed, because it has the options of a picture.
     Batch(Box<batch::BatchArgs>),
+    // Boxed, because it has the options of a picture.
+    Sheet(Box<sheet::SheetArgs>),
     // Boxed, because it has the options of a picture.
     Turntable(Box<turntable::TurntableArgs>),
     /// Prints the JSON Schema of the job files of `estampe batch`
@@ -123,6 +128,14 @@ fn main() -> ExitCode {
         Command::Batch(args) => match batch::run(args) {
             Ok(code) => code,
             Err(failure) => report("batch", None, Err(failure)),
+        },
+        Command::Sheet(args) => match sheet::run(args) {
+            Ok(code) => code,
+            Err(failure) => report(
+                "sheet",
+                args.report.json.then_some(args.output.is_standard_output()),
+                Err(failure),
+            ),
         },
         Command::Turntable(args) => report(
             "turntable",

@@ -2,7 +2,8 @@
 
 use super::arguments::BatchArgs;
 use super::job::Shared;
-use super::summary::{Counts, Lines, report};
+use super::lines::Lines;
+use super::summary::{Counts, report, show};
 use super::{plan, pool};
 use crate::failure::{DONE, Failure};
 use crate::output;
@@ -41,7 +42,7 @@ pub(crate) fn run(args: &BatchArgs) -> Result<u8, Failure> {
     };
     let count = jobs.iter().map(|job| job.pictures.len()).sum();
     let lines = Lines::new(count, args.quiet);
-    let outcomes = pool::outcomes(&shared, &jobs, |outcomes| lines.show(outcomes))?;
+    let outcomes = pool::outcomes(&shared, &jobs, |outcomes| show(&lines, outcomes))?;
     lines.finish();
     let counts = Counts::of(&outcomes);
     if !args.quiet {

@@ -4,10 +4,7 @@
 //! it draws is not written: the claim is taken either by the writer or by the deadline, and no
 //! writer takes it after the deadline, however late the thread that waits is woken.
 
-use super::job::Done;
-use super::plan::Job;
 use crate::limits::timeout_message;
-use crate::values::shown;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -15,7 +12,7 @@ use std::time::{Duration, Instant};
 
 /// Who may go on: the job, while it is not given up.
 #[derive(Debug, Default)]
-pub(super) struct Claim {
+pub(crate) struct Claim {
     state: AtomicU8,
     /// Without it the job may take any time.
     end: Option<Instant>,
@@ -27,14 +24,14 @@ const GIVEN_UP: u8 = 2;
 
 impl Claim {
     /// False if the job was given up, or is late.
-    pub(super) fn begin_writing(&self) -> bool {
+    pub(crate) fn begin_writing(&self) -> bool {
         if self.end.is_some_and(|end| Instant::now() >= end) {
             self.give_up();
         }
         self.change(RUNNING, WRITING)
     }
 
-    pub(super) fn end_writing(&self) {
+    pub(crate) fn end_writing(&self) {
         self.state.store(RUNNING, Ordering::Release);
     }
 
@@ -54,12 +51,12 @@ impl Claim {
     }
 }
 
-/// Runs a job; the error is the message of a job that was given up.
-pub(super) fn run(
-    job: &Job,
+/// Runs the work on the model of this name; the error is the message of work that was given up.
+pub(crate) fn run<T: Send + 'static>(
+    name: &str,
     timeout: Duration,
-    work: impl FnOnce(&Claim) -> Done + Send + 'static,
-) -> Result<Done, String> {
+    work: impl FnOnce(&Claim) -> T + Send + 'static,
+) -> Result<T, String> {
     let end = Instant::now().checked_add(timeout);
     let claim = Arc::new(Claim {
         state: AtomicU8::new(RUNNING),
@@ -71,7 +68,6 @@ pub(super) fn run(
         // If the job was given up, nobody receives.
         let _ = sender.send(work(&theirs));
     });
-    let name = shown(&job.input.path);
     if let Err(error) = thread {
         return Err(format!(
             "{name}: no thread: {error}; choose fewer --parallel"
@@ -84,7 +80,7 @@ pub(super) fn run(
             Err(RecvTimeoutError::Timeout) if !claim.give_up() => {
                 wait = Duration::from_millis(5);
             }
-            _ => return Err(timeout_message(&name, timeout)),
+            _ => return Err(timeout_message(name, timeout)),
         }
     }
 }

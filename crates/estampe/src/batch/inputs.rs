@@ -44,7 +44,7 @@ fn add(found: &mut BTreeMap<PathBuf, Input>, path: PathBuf, base: Option<&Path>)
 }
 
 /// The text of an argument that is a glob, and no file of that name.
-fn pattern(argument: &OsStr) -> Option<&str> {
+pub(crate) fn pattern(argument: &OsStr) -> Option<&str> {
     let text = argument.to_str()?;
     let is_glob = text.contains(['*', '?', '[']);
     (is_glob && !Path::new(argument).exists()).then_some(text)
@@ -52,15 +52,23 @@ fn pattern(argument: &OsStr) -> Option<&str> {
 
 /// Adds the files that a glob matches.
 fn expand(pattern: &str, found: &mut BTreeMap<PathBuf, Input>) -> Result<(), Failure> {
-    let wrong = |reason: String| Failure::Usage(format!("{pattern}: {reason}"));
-    let paths = glob::glob(pattern).map_err(|error| wrong(error.to_string()))?;
     // The folders before the first one with a wildcard.
     let fixed = pattern.find(['*', '?', '[']).unwrap_or(0);
     let base = match pattern[..fixed].rfind(['/', std::path::MAIN_SEPARATOR]) {
         Some(end) => PathBuf::from(&pattern[..=end]),
         None => PathBuf::new(),
     };
-    let before = found.len();
+    for path in matches(pattern)? {
+        add(found, path, Some(&base));
+    }
+    Ok(())
+}
+
+/// The files that a glob matches, at least one, in the order of their paths.
+pub(crate) fn matches(pattern: &str) -> Result<Vec<PathBuf>, Failure> {
+    let wrong = |reason: String| Failure::Usage(format!("{pattern}: {reason}"));
+    let paths = glob::glob(pattern).map_err(|error| wrong(error.to_string()))?;
+    let mut found = Vec::new();
     for path in paths {
         let path = path.map_err(|error| {
             Failure::Input(format!(
@@ -68,19 +76,19 @@ fn expand(pattern: &str, found: &mut BTreeMap<PathBuf, Input>) -> Result<(), Fai
             ))
         })?;
         if path.is_file() {
-            add(found, path, Some(&base));
+            found.push(path);
         }
     }
-    if found.len() == before {
+    if found.is_empty() {
         return Err(Failure::Input(format!(
             "{pattern}: no file matches; check the folder and the pattern"
         )));
     }
-    Ok(())
+    Ok(found)
 }
 
 /// The paths of the list on standard input, one a line; empty lines are skipped.
-fn list() -> Result<Vec<PathBuf>, Failure> {
+pub(crate) fn list() -> Result<Vec<PathBuf>, Failure> {
     let mut bytes = Vec::new();
     let read = std::io::stdin().lock().take(MOST_LIST_BYTES + 1);
     { read }.read_to_end(&mut bytes).map_err(|error| {

@@ -56,7 +56,8 @@ impl Shared {
             Some(timeout) => {
                 let (shared, theirs, device) = (self.clone(), job.clone(), device.clone());
                 let work = move |claim: &Claim| shared.caught(&theirs, &device, claim);
-                deadline::run(job, timeout, work).unwrap_or_else(|problem| {
+                let name = shown(&job.input.path);
+                deadline::run(&name, timeout, work).unwrap_or_else(|problem| {
                     (vec![Status::Limit(problem); job.pictures.len()], Vec::new())
                 })
             }

@@ -11,10 +11,11 @@
 
 mod arguments;
 mod command;
-mod deadline;
-mod inputs;
+pub(crate) mod deadline;
+pub(crate) mod inputs;
 mod job;
 mod job_file;
+mod lines;
 mod look;
 mod option_table;
 mod plan;
@@ -25,4 +26,5 @@ mod template;
 
 pub(crate) use arguments::BatchArgs;
 pub(crate) use command::run;
+pub(crate) use lines::Lines;
 pub(crate) use option_table::schema;

@@ -1,76 +1,21 @@
-//! What a batch says: a line for each picture or a bar, the sum at the end, and the report.
+//! What a batch says: what became of each picture, the sum at the end, and the report.
 
 use super::job::{Outcome, Status};
+use super::lines::Lines;
 use crate::values::shown;
 use clap::ValueEnum;
-use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
-use std::io::{IsTerminal, Write};
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// Shows which pictures are done: a bar on a terminal, else a line for each.
-pub(super) struct Lines {
-    bar: Option<ProgressBar>,
-    is_quiet: bool,
-    count: usize,
-    done: AtomicUsize,
-}
-
-impl Lines {
-    pub(super) fn new(count: usize, is_quiet: bool) -> Self {
-        let is_shown = !is_quiet && std::io::stderr().is_terminal();
-        let bar = is_shown.then(|| {
-            let bar = ProgressBar::new(count as u64);
-            let form = "{spinner} [{bar:32}] {pos}/{len} {msg} (about {eta} left)";
-            if let Ok(style) = ProgressStyle::with_template(form) {
-                bar.set_style(style);
-            }
-            bar
-        });
-        Self {
-            bar,
-            is_quiet,
-            count,
-            done: AtomicUsize::new(0),
-        }
-    }
-
-    /// Shows outcomes. Failures are shown always.
-    pub(super) fn show(&self, outcomes: &[Outcome]) {
-        for outcome in outcomes {
-            let number = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-            let output = shown(&outcome.picture.output);
-            let line = match &outcome.status {
-                Status::Failed(problem) | Status::Limit(problem) => format!("error: {problem}"),
-                Status::Drawn => {
-                    let ms = outcome.time.as_millis();
-                    format!("[{number}/{}] {output}: {ms} ms", self.count)
-                }
-                Status::UpToDate => format!("[{number}/{}] {output}: up to date", self.count),
-                Status::Cancelled => format!("[{number}/{}] {output}: not begun", self.count),
-            };
-            let is_problem = matches!(outcome.status, Status::Failed(_) | Status::Limit(_));
-            match &self.bar {
-                Some(bar) => {
-                    bar.set_message(output);
-                    bar.inc(1);
-                    if is_problem {
-                        bar.println(line);
-                    }
-                }
-                // If standard error is closed, lines are lost.
-                None if is_problem || !self.is_quiet => {
-                    let _ = writeln!(std::io::stderr(), "{line}");
-                }
-                None => {}
-            }
-        }
-    }
-
-    pub(super) fn finish(&self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
+/// Shows outcomes. Failures are shown always.
+pub(super) fn show(lines: &Lines, outcomes: &[Outcome]) {
+    for outcome in outcomes {
+        let output = shown(&outcome.picture.output);
+        match &outcome.status {
+            Status::Failed(problem) | Status::Limit(problem) => lines.show(&output, Err(problem)),
+            Status::Drawn => lines.show(&output, Ok(&format!("{} ms", outcome.time.as_millis()))),
+            Status::UpToDate => lines.show(&output, Ok("up to date")),
+            Status::Cancelled => lines.show(&output, Ok("not begun")),
         }
     }
 }

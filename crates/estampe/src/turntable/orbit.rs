@@ -28,7 +28,7 @@ use glam::{DMat4, DVec3, Vec3};
 
 /// The camera's circle around the axis.
 #[derive(Debug, Clone)]
-pub(super) struct Orbit {
+pub(crate) struct Orbit {
     start: ViewDirection,
     /// Turns the up direction of views to that of the world.
     upright: DMat4,
@@ -57,7 +57,7 @@ const MOST_ELEVATION_DEG: f64 = 89.999;
 
 impl Orbit {
     /// The circle of options with a fitted eye, for a model of which nothing is known yet.
-    pub(super) fn new(scene: &Scene, options: &RenderOptions, start: ViewDirection) -> Self {
+    pub(crate) fn new(scene: &Scene, options: &RenderOptions, start: ViewDirection) -> Self {
         let (width, height) = (f64::from(options.width), f64::from(options.height));
         let tangent = match options.camera.projection {
             ProjectionKind::Perspective { fov_y_deg } => libm::tan(fov_y_deg.to_radians() / 2.0),
@@ -109,7 +109,7 @@ impl Orbit {
     }
 
     /// Makes the circle so wide that it holds this model too.
-    pub(super) fn include(&mut self, scene: &Scene, up: Up) {
+    pub(crate) fn include(&mut self, scene: &Scene, up: Up) {
         let back = ViewDirection::new(0.0, self.start.elevation_deg).axes()[2];
         let (sin, cos) = (back.y, back.z);
         let (kx, ky) = (self.tangents.x, self.tangents.y);
@@ -142,7 +142,7 @@ impl Orbit {
     }
 
     /// The camera of a frame of `count`.
-    pub(super) fn camera(&self, frame: u32, count: u32, of: CameraOptions) -> CameraOptions {
+    pub(crate) fn camera(&self, frame: u32, count: u32, of: CameraOptions) -> CameraOptions {
         let turned = 360.0 * f64::from(frame) / f64::from(count.max(1));
         let direction = ViewDirection {
             azimuth_deg: self.start.azimuth_deg + turned,

@@ -26,6 +26,8 @@ mod shader_page;
 mod shader_reflect;
 mod shape;
 mod shapes_page;
+mod sheet;
+mod sheet_page;
 mod support;
 mod system_libraries;
 mod thumbnailer;
