@@ -16,11 +16,12 @@
 //! * [`completions`]: prints scripts by which a shell completes the command's words;
 //! * [`man`]: writes manual pages, hidden from the help.
 //!
-//! [`choice`] has the options of files with several scenes, [`input`] reads models from files,
+//! [`advice`] explains unknown words, [`choice`] has the options of files with several scenes, [`input`] reads models from files,
 //! standard input or by built-in name, [`output`] writes files completely or not at all,
 //! [`interrupt`] removes temporary files, [`colors`] parses colours, [`terminal`] escapes names, [`values`] parses the
 //! options' values, and [`failure`] has the exit codes.
 
+mod advice;
 mod batch;
 mod choice;
 mod colors;
@@ -46,11 +47,12 @@ mod terminal;
 mod turntable;
 mod values;
 
+use std::ffi::OsString;
 use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
 use std::sync::LazyLock;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use failure::Failure;
 
 /// Renders 3D models and functions to images, on any machine: no GPU, no display, no system
@@ -117,8 +119,32 @@ fn version() -> &'static str {
     &VERSION
 }
 
+/// The command line. Mistakes, and requests for help, end the process.
+fn parsed(words: impl IntoIterator<Item = OsString>) -> Cli {
+    let matches = command().try_get_matches_from(words);
+    let parsed = matches.and_then(|matches| Cli::from_arg_matches(&matches));
+    parsed.unwrap_or_else(|error| advice::advised(error).exit())
+}
+
+/// The parser. Every option with a value takes negative numbers, so that its own parser can say what
+/// is wrong with them.
+fn command() -> clap::Command {
+    fn with_negative_numbers(command: clap::Command) -> clap::Command {
+        let command = command.mut_args(|arg| {
+            let is_option = !arg.is_positional() && arg.get_action().takes_values();
+            if is_option && !arg.is_allow_hyphen_values_set() {
+                arg.allow_negative_numbers(true)
+            } else {
+                arg
+            }
+        });
+        command.mut_subcommands(with_negative_numbers)
+    }
+    with_negative_numbers(Cli::command())
+}
+
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = parsed(std::env::args_os());
     let code = match &cli.command {
         Command::Render(args) => report(
             "render",

@@ -1,5 +1,6 @@
 //! Parsers for the values of options.
 
+use clap::builder::{OsStringValueParser, TypedValueParser};
 use estampe::Level;
 use estampe_assets::ModelFormat;
 use estampe_assets::image::ImageFormat;
@@ -204,6 +205,14 @@ impl Destination {
         matches!(self, Self::StandardOutput)
     }
 
+    /// The extension, if it can be shown.
+    pub(crate) fn extension(&self) -> Option<&str> {
+        match self {
+            Self::File(path) => path.extension()?.to_str(),
+            Self::StandardOutput => None,
+        }
+    }
+
     /// The format of the destination's extension.
     pub(crate) fn image_format(&self) -> Option<ImageFormat> {
         match self {
@@ -211,6 +220,21 @@ impl Destination {
             Self::StandardOutput => Some(ImageFormat::Png),
         }
     }
+}
+
+/// The parser of destinations. Of options without their value the next option would be one.
+pub(crate) fn destination() -> impl TypedValueParser<Value = Destination> {
+    OsStringValueParser::new().try_map(|text| {
+        let shown = text.to_string_lossy().into_owned();
+        let is_option = shown.starts_with("--") || shown.len() == 2 && shown.starts_with('-');
+        if is_option {
+            Err(format!(
+                "this is an option; write ./{shown} for a file of this name"
+            ))
+        } else {
+            Ok(Destination::from(text))
+        }
+    })
 }
 
 impl From<std::ffi::OsString> for Destination {

@@ -22,7 +22,7 @@ Examples:
   estampe render builtin:teapot -o mine.png --shader my.wgsl --set gloss=0.5
   estampe render builtin:teapot -o scene.exr --pass color,depth,normal,object-id
   estampe render builtin:teapot -o 'teapot-{pass}.png' --pass color,depth,normal
-  curl -s https://example.org/m.stl | estampe render - --format stl -o - > m.png
+  curl -s https://example.org/m.stl | estampe render - -o - > m.png
 
 Built-in models: builtin:teapot, builtin:sphere, builtin:torus, builtin:cube, builtin:plane.
 
@@ -48,10 +48,11 @@ pub(crate) struct RenderArgs {
     pub(crate) model: Source,
 
     /// The image: a file named .png, .jpg, .tga, .webp or .exr, or - for standard output
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", allow_hyphen_values = true)]
+    #[arg(value_parser = crate::values::destination())]
     pub(crate) output: Destination,
 
-    /// The model's format, if neither name nor content shows it; required for standard input
+    /// The model's format, if neither name nor content shows it
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     #[arg(
         help = "The model's format: gltf, obj, stl, ply, off or 3mf [default: by extension, else by content]"

@@ -189,11 +189,13 @@ pub(crate) fn image_format(
 ) -> Result<ImageFormat, Failure> {
     let named = named.map(ImageFormat::from);
     named.or_else(|| output.image_format()).ok_or_else(|| {
-        Failure::Usage(
-            "OUT's name does not show the image's format; name it .png, .jpg, .tga or .webp, or add \
-             --output-format"
-                .to_owned(),
-        )
+        let problem = match output.extension() {
+            Some(extension) => format!(".{extension} is no format of pictures that is written"),
+            None => "OUT's name does not show the image's format".to_owned(),
+        };
+        Failure::Usage(format!(
+            "{problem}; name OUT .png, .jpg, .tga or .webp, or add --output-format"
+        ))
     })
 }
 

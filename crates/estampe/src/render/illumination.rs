@@ -55,7 +55,7 @@ pub(crate) struct IlluminationArgs {
     ///
     /// It begins at START [default: 0, the eye]. COLOUR is a CSS name or hexadecimal digits
     /// [default: the background's].
-    #[arg(long, value_name = "FOG", value_parser = values::fog, help_heading = "Light")]
+    #[arg(long, value_name = "FOG", value_parser = values::fog, allow_hyphen_values = true, help_heading = "Light")]
     fog: Option<FogValue>,
 }
 

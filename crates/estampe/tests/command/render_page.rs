@@ -21,7 +21,7 @@ fn the_commands_of_the_page_draw_its_pictures() {
 }
 
 /// Options that change no picture, or its file alone.
-const WITHOUT_PICTURES: [&str; 14] = [
+const WITHOUT_PICTURES: [&str; 19] = [
     "--output",
     "--format",
     "--output-format",
@@ -35,6 +35,11 @@ const WITHOUT_PICTURES: [&str; 14] = [
     "--via",
     "--quiet",
     "--json",
+    "--strict",
+    "--preset",
+    "--config",
+    "--no-config",
+    "--watch",
     "--help",
 ];
 
