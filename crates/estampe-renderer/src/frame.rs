@@ -91,6 +91,9 @@ pub enum RenderError {
         /// Number of triangles.
         faces: usize,
     },
+    /// Planes cut the whole model away.
+    #[error("the section leaves nothing of the model: move its planes, or turn them round")]
+    EmptySection,
     /// A pipeline state breaks a rule.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
@@ -181,6 +184,8 @@ pub(crate) fn with_passes<T>(
         options
     };
     let workers = Workers::new(device.threads());
+    let cut = options.cut(scene, workers)?;
+    let scene = cut.as_ref().map_or(scene, |cut| &cut.scene);
     let view = SceneView::new(scene, options, workers);
     let style = frame_style(scene, &view, options, device)?;
     let plan = Planner {

@@ -2,7 +2,8 @@
 //! Rendering of scenes to images, with the device of `estampe`.
 //!
 //! ```text
-//! Scene ─┬─ scene_view      unit space, fitted camera, lights
+//! Scene ─┬─ section         what planes cut away, and caps
+//!        ├─ scene_view      unit space, fitted camera, lights
 //!        ├─ environment     light from all around; pbr_lighting puts it into view space
 //!        ├─ shadows         maps of what the lights see
 //!        ├─ ground          the shadow on what the model stands on
@@ -41,6 +42,7 @@ mod pbr_lighting;
 mod pbr_materials;
 mod pixel_history;
 mod scene_view;
+mod section;
 mod shading;
 mod shadows;
 mod surface_pipelines;
@@ -64,6 +66,7 @@ pub use options::{
     Environment, Fog, Ground, RenderOptions, Shading, Specular, SpecularModel, Transparency, Up,
 };
 pub use pixel_history::{FramePixel, FrameStages, VertexSpaces, inspect, inspect_stages};
+pub use section::{Section, SectionPlane};
 pub use shading::pbr::tone_map::ToneMap;
 pub use surface_points::{SurfacePoint, SurfacePoints, surface_points};
 pub use surface_program::{SurfaceBindings, SurfaceProgram, SurfaceValues};

@@ -2,6 +2,7 @@
 
 use crate::camera::CameraOptions;
 use crate::environment::EnvironmentMap;
+use crate::section::Section;
 use crate::shading::pbr::tone_map::ToneMap;
 use crate::surface_program::SurfaceProgram;
 use estampe::state::CullMode;
@@ -65,6 +66,8 @@ pub struct RenderOptions {
     pub cull: CullMode,
     /// The method by which transparent surfaces are blended. Default [`Transparency::Sorted`].
     pub transparency: Transparency,
+    /// Planes that cut the model away on one side. Default none.
+    pub section: Section,
     /// If set, the edges of all triangles are drawn over the surfaces, where no opaque surface
     /// hides them. Default not; without effect on [`Shading::Wireframe`].
     pub wireframe: bool,
@@ -101,6 +104,7 @@ impl Default for RenderOptions {
             background: Some(Self::DEFAULT_BACKGROUND),
             cull: CullMode::None,
             transparency: Transparency::default(),
+            section: Section::default(),
             wireframe: false,
         }
     }

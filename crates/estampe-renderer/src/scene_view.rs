@@ -268,7 +268,7 @@ impl SceneView {
 }
 
 /// The rotation of the model, and the up direction in world space.
-fn orientation(up: Up, of_scene: UpAxis) -> (DMat3, DVec3) {
+pub(crate) fn orientation(up: Up, of_scene: UpAxis) -> (DMat3, DVec3) {
     let axis = match up {
         Up::FromScene => of_scene,
         Up::Axis(axis) => axis,

@@ -4,6 +4,7 @@ use crate::frame::{RenderError, with_passes};
 use crate::geometry::face_colors::{MOST_FACES, face_number};
 use crate::options::{Ground, RenderOptions, Shading};
 use crate::scene_view::SceneView;
+use crate::section::Section;
 use estampe::Device;
 use estampe_scene::Scene;
 use std::borrow::Cow;
@@ -30,6 +31,8 @@ impl Faces {
             samples: 1,
             // Its alpha tells it from all faces.
             background: None,
+            // The caller has cut the scene.
+            section: Section::default(),
             wireframe: false,
             levels: None,
             fog: None,

@@ -6,6 +6,7 @@ mod illumination;
 mod inspection_views;
 mod named_attributes;
 mod pbr;
+mod sections;
 mod shadows;
 mod support;
 mod surface_points;

@@ -16,6 +16,7 @@ mod passes;
 mod pbr;
 mod picture;
 mod report;
+mod section;
 mod shadows;
 mod surface_shader;
 

@@ -4,6 +4,7 @@
 use super::appearance_names::{CullName, ShadingName, TransparencyName};
 use super::illumination::IlluminationArgs;
 use super::pbr::PbrArgs;
+use super::section::SectionArgs;
 use super::shadows::ShadowArgs;
 use super::surface_shader::SurfaceShaderArgs;
 use crate::failure::Failure;
@@ -102,6 +103,9 @@ pub(crate) struct PictureArgs {
     pub(crate) shadows: ShadowArgs,
 
     #[command(flatten)]
+    pub(crate) section: SectionArgs,
+
+    #[command(flatten)]
     pub(crate) shader: SurfaceShaderArgs,
 
     /// A base-colour texture (PNG, JPEG, WebP, TGA, BMP, DDS; sRGB), instead of the model's colours
@@ -182,6 +186,7 @@ impl PictureArgs {
             ));
         }
         self.shadows.check(self.shading)?;
+        self.section.check()?;
         self.illumination.check()
     }
 
@@ -241,6 +246,7 @@ impl PictureArgs {
         };
         let workers = Workers::new(self.thread_count());
         let options = self.shadows.apply(self.illumination.apply(options));
+        let options = self.section.apply(options);
         self.pbr.apply(options, workers)
     }
 }
