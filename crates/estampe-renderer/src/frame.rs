@@ -4,6 +4,7 @@ use crate::alpha::{Encoding, decode, straighten};
 use crate::draw_plan::{Planner, is_dark};
 use crate::frame_passes::{DrawnPasses, FramePasses};
 use crate::ground::{ColumnMaps, GroundFrame, GroundShadow};
+use crate::guides;
 use crate::options::{RenderOptions, Shading};
 use crate::scene_view::SceneView;
 use crate::shading::VertexTransforms;
@@ -144,11 +145,12 @@ pub fn render(
         if options.background.is_none() {
             straighten(&mut rgba, encoding(options));
         }
-        let image = Image {
+        let mut image = Image {
             width: options.width,
             height: options.height,
             rgba,
         };
+        guides::mark(&mut image, view, options);
         let timings = FrameTimings {
             prepare,
             geometry: statistics.geometry,
@@ -409,7 +411,7 @@ fn overlay(transforms: VertexTransforms, options: &RenderOptions) -> Wireframe {
 }
 
 /// Half of the width of edges, in pixels: in proportion to the image.
-fn half_width_px(options: &RenderOptions) -> f32 {
+pub(crate) fn half_width_px(options: &RenderOptions) -> f32 {
     let shorter_px = options.width.min(options.height);
     let sixteenths = u16::try_from((shorter_px / 64).clamp(8, 64)).unwrap_or(64);
     f32::from(sixteenths) / 16.0

@@ -15,6 +15,9 @@
 //!        ├─ draw_plan       the draws, in order
 //!        ├─ frame_passes    the passes: one, or those of order-independent transparency
 //!        ├─ frame           render: all of it, and reading back the pixels
+//!        ├─ feature_edges   sharp edges, borders and silhouettes
+//!        ├─ guides          grid, axes, and the model's box with its sizes
+//!        ├─ strokes         lines of a width, which the model hides
 //!        ├─ surface_points  positions, normals and other numbers of what is seen
 //!        └─ text            labels on the image
 //! ```
@@ -32,10 +35,12 @@ pub mod camera;
 mod alpha;
 mod draw_plan;
 mod environment;
+mod feature_edges;
 mod frame;
 mod frame_passes;
 mod geometry;
 mod ground;
+mod guides;
 mod materials;
 mod options;
 mod pbr_lighting;
@@ -45,6 +50,7 @@ mod scene_view;
 mod section;
 mod shading;
 mod shadows;
+mod strokes;
 mod surface_pipelines;
 mod surface_points;
 mod surface_program;
@@ -60,8 +66,10 @@ pub use camera::{CameraOptions, Eye, ProjectionKind, ViewDirection};
 pub use environment::{EnvironmentError, EnvironmentMap};
 pub use estampe::state::CullMode;
 pub use estampe::transforms;
+pub use feature_edges::FeatureEdges;
 pub use frame::{Frame, FrameTimings, RenderError, TransparentLayers, render};
 pub use geometry::face_colors::face_color;
+pub use guides::BoundingBox;
 pub use options::{
     Environment, Fog, Ground, RenderOptions, Shading, Specular, SpecularModel, Transparency, Up,
 };

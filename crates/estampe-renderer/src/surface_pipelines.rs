@@ -23,7 +23,7 @@ use crate::shadows::ShadowMaps;
 use crate::surface_program::{SurfaceProgram, SurfaceValues};
 use estampe::state::{
     BlendState, ColorTargetState, ColorWrites, CompareFunction, CullMode, DepthState,
-    DepthStencilState, MultisampleState, PrimitiveState, PrimitiveTopology,
+    DepthStencilState, LineRasterization, MultisampleState, PrimitiveState, PrimitiveTopology,
 };
 use estampe::{
     BindGroup, Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor,
@@ -305,11 +305,15 @@ impl FrameStyle {
         mesh: &MeshStreams,
     ) -> Result<StreamPipeline, PipelineError> {
         let material = MaterialProgram::new(shader, &[VertexStream::Position, VertexStream::Color]);
-        let primitive = PrimitiveState {
+        let mut primitive = PrimitiveState {
             topology,
             ..PrimitiveState::default()
         };
-        let (depth_stencil, targets) = self.opaque();
+        let (depth_stencil, mut targets) = self.opaque();
+        if self.smooths(topology) {
+            primitive.line.rasterization = LineRasterization::RectangularSmooth;
+            targets = self.targets(Some(BlendState::ALPHA_BLENDING));
+        }
         let state = PipelineState {
             primitive,
             depth_stencil,
@@ -318,6 +322,14 @@ impl FrameStyle {
             shadows: None,
         };
         self.pipeline(device, material, mesh, state)
+    }
+
+    /// True if primitives are lines with smooth borders: without several samples, of pictures that
+    /// show light.
+    pub(crate) fn smooths(&self, topology: PrimitiveTopology) -> bool {
+        topology == PrimitiveTopology::LineList
+            && self.samples == 1
+            && !self.shading.holds_numbers()
     }
 
     /// True if surfaces behind a transparent surface are visible.

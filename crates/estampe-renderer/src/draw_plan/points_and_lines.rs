@@ -40,7 +40,12 @@ impl Planner<'_> {
             let vertex_buffers = buffers_of(&pipeline, &streams);
             let pipeline = builder.plan.add_pipeline(pipeline);
             let indices = Some(self.index_buffer_of(indices.to_vec())?);
-            builder.plan.opaque.push(PlannedDraw {
+            let draws = if self.style.smooths(topology) {
+                &mut builder.smooth_lines
+            } else {
+                &mut builder.plan.opaque
+            };
+            draws.push(PlannedDraw {
                 pipeline,
                 vertex_buffers,
                 indices,

@@ -16,6 +16,7 @@
 //! | [`inspection`] | normals, depth, uv, faces, barycentric coordinates and overdraw as colours |
 //! | [`points_and_lines`] | points and lines |
 //! | [`ground`] | the shadow on the ground |
+//! | [`stroke`] | lines of a width, with smooth borders |
 //!
 //! Lighting is computed in view space, in linear light.
 
@@ -31,6 +32,7 @@ pub(crate) mod points_and_lines;
 pub(crate) mod shadow;
 pub(crate) mod shadow_caster;
 pub(crate) mod steps;
+pub(crate) mod stroke;
 pub(crate) mod surface;
 pub(crate) mod terms;
 pub(crate) mod wireframe;

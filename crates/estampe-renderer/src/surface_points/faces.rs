@@ -33,13 +33,12 @@ impl Faces {
             background: None,
             // The caller has cut the scene.
             section: Section::default(),
-            wireframe: false,
             levels: None,
             fog: None,
             shadows: false,
             ground: Ground::default(),
             program: None,
-            ..options.clone()
+            ..options.clone().without_overlays()
         };
         let scene = without_points_and_lines(scene);
         with_passes(&scene, &options, device, |passes, view| {

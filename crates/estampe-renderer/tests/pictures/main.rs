@@ -1,6 +1,8 @@
 //! Pictures of scenes, against the oracle and against themselves.
 
 mod bump_maps;
+mod edges;
+mod guides;
 mod hostile_scenes;
 mod illumination;
 mod inspection_views;

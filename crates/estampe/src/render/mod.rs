@@ -12,6 +12,7 @@ mod command;
 mod draw;
 mod illumination;
 mod illumination_values;
+mod overlays;
 mod passes;
 mod pbr;
 mod picture;

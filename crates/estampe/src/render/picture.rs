@@ -3,6 +3,7 @@
 
 use super::appearance_names::{CullName, ShadingName, TransparencyName};
 use super::illumination::IlluminationArgs;
+use super::overlays::OverlayArgs;
 use super::pbr::PbrArgs;
 use super::section::SectionArgs;
 use super::shadows::ShadowArgs;
@@ -104,6 +105,9 @@ pub(crate) struct PictureArgs {
 
     #[command(flatten)]
     pub(crate) section: SectionArgs,
+
+    #[command(flatten)]
+    pub(crate) overlays: OverlayArgs,
 
     #[command(flatten)]
     pub(crate) shader: SurfaceShaderArgs,
@@ -246,7 +250,7 @@ impl PictureArgs {
         };
         let workers = Workers::new(self.thread_count());
         let options = self.shadows.apply(self.illumination.apply(options));
-        let options = self.section.apply(options);
+        let options = self.overlays.apply(self.section.apply(options));
         self.pbr.apply(options, workers)
     }
 }
