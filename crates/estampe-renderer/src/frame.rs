@@ -5,6 +5,7 @@ use crate::backdrop::BackdropDraw;
 use crate::draw_plan::{Planner, is_dark};
 use crate::frame_passes::{DrawnPasses, FramePasses};
 use crate::ground::{ColumnMaps, GroundFrame, GroundShadow};
+use crate::guides;
 use crate::options::{RenderOptions, Shading};
 use crate::scene_view::SceneView;
 use crate::shading::VertexTransforms;
@@ -94,6 +95,9 @@ pub enum RenderError {
         /// Number of triangles.
         faces: usize,
     },
+    /// Planes cut the whole model away.
+    #[error("the section leaves nothing of the model: move its planes, or turn them round")]
+    EmptySection,
     /// A pipeline state breaks a rule.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
@@ -144,11 +148,12 @@ pub fn render(
         if options.background.is_none() {
             straighten(&mut rgba, encoding(options));
         }
-        let image = Image {
+        let mut image = Image {
             width: options.width,
             height: options.height,
             rgba,
         };
+        guides::mark(&mut image, view, options);
         let timings = FrameTimings {
             prepare,
             geometry: statistics.geometry,
@@ -184,6 +189,8 @@ pub(crate) fn with_passes<T>(
         options
     };
     let workers = Workers::new(device.threads());
+    let cut = options.cut(scene, workers)?;
+    let scene = cut.as_ref().map_or(scene, |cut| &cut.scene);
     let view = SceneView::new(scene, options, workers);
     let style = frame_style(scene, &view, options, device)?;
     let plan = Planner {
@@ -429,7 +436,7 @@ fn overlay(transforms: VertexTransforms, options: &RenderOptions) -> Wireframe {
 }
 
 /// Half of the width of edges, in pixels: that of the options, or in proportion to the image.
-fn half_width_px(options: &RenderOptions) -> f32 {
+pub(crate) fn half_width_px(options: &RenderOptions) -> f32 {
     if let Some(width) = options.line_width_px {
         return width / 2.0;
     }

@@ -41,7 +41,7 @@ pub(crate) struct FramePasses<'a> {
 }
 
 impl FramePasses<'_> {
-    /// Draws the frame.
+    /// Draws the frame. Marks on the finished image are not part of it.
     pub(crate) fn draw(&self, device: &Device) -> Result<DrawnPasses, RenderError> {
         let method = self.options.transparency;
         if method == Transparency::Sorted || !self.has_transparent_surfaces() {
@@ -94,6 +94,7 @@ impl FramePasses<'_> {
         let mut draws = self.plan.opaque();
         draws.extend(self.backdrop.map(BackdropDraw::draw));
         draws.extend(self.ground.map(GroundShadow::draw));
+        draws.extend(self.plan.guides());
         draws
     }
 

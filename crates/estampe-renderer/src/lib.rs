@@ -2,7 +2,8 @@
 //! Rendering of scenes to images, with the device of `estampe`.
 //!
 //! ```text
-//! Scene ─┬─ scene_view      unit space, fitted camera, lights
+//! Scene ─┬─ section         what planes cut away, and caps
+//!        ├─ scene_view      unit space, fitted camera, lights
 //!        ├─ environment     light from all around; pbr_lighting puts it into view space
 //!        ├─ shadows         maps of what the lights see
 //!        ├─ ground          the shadow on what the model stands on
@@ -15,6 +16,9 @@
 //!        ├─ draw_plan       the draws, in order
 //!        ├─ frame_passes    the passes: one, or those of order-independent transparency
 //!        ├─ frame           render: all of it, and reading back the pixels
+//!        ├─ feature_edges   sharp edges, borders and silhouettes
+//!        ├─ guides          grid, axes, and the model's box with its sizes
+//!        ├─ strokes         lines of a width, which the model hides
 //!        ├─ surface_points  positions, normals and other numbers of what is seen
 //!        └─ text            labels on the image
 //! ```
@@ -33,19 +37,23 @@ mod alpha;
 mod backdrop;
 mod draw_plan;
 mod environment;
+mod feature_edges;
 mod frame;
 mod frame_passes;
 mod geometry;
 mod gradient;
 mod ground;
+mod guides;
 mod materials;
 mod options;
 mod pbr_lighting;
 mod pbr_materials;
 mod pixel_history;
 mod scene_view;
+mod section;
 mod shading;
 mod shadows;
+mod strokes;
 mod surface_pipelines;
 mod surface_points;
 mod surface_program;
@@ -61,13 +69,16 @@ pub use camera::{CameraOptions, Eye, ProjectionKind, ViewDirection};
 pub use environment::{EnvironmentError, EnvironmentMap};
 pub use estampe::state::CullMode;
 pub use estampe::transforms;
+pub use feature_edges::FeatureEdges;
 pub use frame::{Frame, FrameTimings, RenderError, TransparentLayers, render};
 pub use geometry::face_colors::face_color;
 pub use gradient::{Gradient, GradientShape};
+pub use guides::BoundingBox;
 pub use options::{
     Environment, Fog, Ground, RenderOptions, Shading, Specular, SpecularModel, Transparency, Up,
 };
 pub use pixel_history::{FramePixel, FrameStages, VertexSpaces, inspect, inspect_stages};
+pub use section::{Section, SectionPlane};
 pub use shading::pbr::tone_map::ToneMap;
 pub use surface_points::{SurfacePoint, SurfacePoints, surface_points};
 pub use surface_program::{SurfaceBindings, SurfaceProgram, SurfaceValues};

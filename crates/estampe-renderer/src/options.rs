@@ -2,7 +2,10 @@
 
 use crate::camera::CameraOptions;
 use crate::environment::EnvironmentMap;
+use crate::feature_edges::FeatureEdges;
 use crate::gradient::Gradient;
+use crate::guides::BoundingBox;
+use crate::section::Section;
 use crate::shading::pbr::tone_map::ToneMap;
 use crate::surface_program::SurfaceProgram;
 use estampe::state::CullMode;
@@ -84,6 +87,19 @@ pub struct RenderOptions {
     pub cull: CullMode,
     /// The method by which transparent surfaces are blended. Default [`Transparency::Sorted`].
     pub transparency: Transparency,
+    /// Sharp edges, borders and silhouettes over the surfaces, where no opaque surface hides them.
+    /// Default none.
+    pub edges: Option<FeatureEdges>,
+    /// If set, a grid lies on the ground at the model's lowest point, in the units of the file.
+    /// Default not.
+    pub grid: bool,
+    /// If set, a cross in the lower left corner shows the directions of the file's axes. Default
+    /// not.
+    pub axes: bool,
+    /// The model's box with its sizes, to which the picture is fitted then. Default none.
+    pub bounding_box: Option<BoundingBox>,
+    /// Planes that cut the model away on one side. Default none.
+    pub section: Section,
     /// If set, the edges of all triangles are drawn over the surfaces, where no opaque surface
     /// hides them. Default not; without effect on [`Shading::Wireframe`].
     pub wireframe: bool,
@@ -92,6 +108,19 @@ pub struct RenderOptions {
 impl RenderOptions {
     /// The default background.
     pub const DEFAULT_BACKGROUND: [u8; 3] = [0xf2; 3];
+
+    /// The options without lines over the model or around it.
+    #[must_use]
+    pub fn without_overlays(self) -> Self {
+        Self {
+            wireframe: false,
+            edges: None,
+            grid: false,
+            axes: false,
+            bounding_box: None,
+            ..self
+        }
+    }
 }
 
 impl Default for RenderOptions {
@@ -126,6 +155,11 @@ impl Default for RenderOptions {
             line_width_px: None,
             cull: CullMode::None,
             transparency: Transparency::default(),
+            edges: None,
+            grid: false,
+            axes: false,
+            bounding_box: None,
+            section: Section::default(),
             wireframe: false,
         }
     }

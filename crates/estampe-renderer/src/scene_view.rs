@@ -60,15 +60,21 @@ impl SceneView {
         };
         let size_px = (options.width, options.height);
         let up_world = up.normalize_or(DVec3::Y);
-        let lowest = if options.has_ground() {
+        let lowest = if options.has_ground() || options.grid {
             let heights = points.iter().map(|point| point.dot(up_world));
             heights.reduce(f64::min).unwrap_or(0.0)
         } else {
             0.0
         };
+        // The corners of the model's box are further away than its vertices.
+        let fitted = if options.bounding_box.is_some() {
+            points.with(&space.corners())
+        } else {
+            points
+        };
         Self {
             space,
-            camera: PlacedCamera::new(&camera, up, points, size_px),
+            camera: PlacedCamera::new(&camera, up, fitted, size_px),
             up_world,
             lowest,
             aspect: f64::from(options.width) / f64::from(options.height),
@@ -269,7 +275,7 @@ impl SceneView {
 }
 
 /// The rotation of the model, and the up direction in world space.
-fn orientation(up: Up, of_scene: UpAxis) -> (DMat3, DVec3) {
+pub(crate) fn orientation(up: Up, of_scene: UpAxis) -> (DMat3, DVec3) {
     let axis = match up {
         Up::FromScene => of_scene,
         Up::Axis(axis) => axis,

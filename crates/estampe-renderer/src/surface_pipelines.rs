@@ -24,7 +24,7 @@ use crate::shadows::ShadowMaps;
 use crate::surface_program::{SurfaceProgram, SurfaceValues};
 use estampe::state::{
     BlendState, ColorTargetState, ColorWrites, CompareFunction, CullMode, DepthState,
-    DepthStencilState, LineRasterization, MultisampleState, PrimitiveState,
+    DepthStencilState, LineRasterization, MultisampleState, PrimitiveState, PrimitiveTopology,
 };
 use estampe::{
     BindGroup, Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor,
@@ -309,8 +309,7 @@ impl FrameStyle {
     ) -> Result<StreamPipeline, PipelineError> {
         let material = MaterialProgram::new(shader, &[VertexStream::Position, VertexStream::Color]);
         let (depth_stencil, mut targets) = self.opaque();
-        let is_smooth = primitive.line.rasterization == LineRasterization::RectangularSmooth;
-        if is_smooth && self.shading != Shading::Overdraw {
+        if is_smooth(&primitive) {
             targets = self.targets(Some(BlendState::ALPHA_BLENDING));
         }
         let state = PipelineState {
@@ -553,4 +552,10 @@ pub(crate) struct PipelineState<'a> {
     pub(crate) samples: u32,
     /// The maps that its shader looks up.
     pub(crate) shadows: Option<&'a ShadowMaps>,
+}
+
+/// True if primitives are lines with smooth borders, which are blended.
+pub(crate) fn is_smooth(primitive: &PrimitiveState) -> bool {
+    primitive.topology == PrimitiveTopology::LineList
+        && primitive.line.rasterization == LineRasterization::RectangularSmooth
 }

@@ -76,7 +76,10 @@ impl LimitArgs {
         });
         let images = model.scene.images.iter().map(|image| image.rgba.len());
         let scene = meshes.chain(images).sum::<usize>() as u64;
-        let needed = scene.saturating_add(picture.bytes());
+        // A model that is cut is a copy.
+        let copies = if picture.section.is_cut() { 2 } else { 1 };
+        let needed = scene.saturating_mul(copies);
+        let needed = needed.saturating_add(picture.bytes());
         if needed <= limit {
             return Ok(());
         }

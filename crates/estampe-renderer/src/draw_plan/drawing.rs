@@ -13,6 +13,8 @@ pub(crate) struct DrawPlan {
     /// Transparent triangles back to front, or, of weighted transparency, surfaces.
     pub(super) transparent: Vec<PlannedDraw>,
     pub(super) layers: PlannedLayers,
+    /// Lines around the model.
+    pub(super) guides: Vec<PlannedDraw>,
     pub(super) edges: Vec<PlannedDraw>,
     /// What casts shadows, for each map: those of lights, then the two of the ground.
     pub(super) casters: [Vec<PlannedDraw>; MAX_SHADOW_MAPS + 2],
@@ -54,6 +56,11 @@ impl DrawPlan {
     /// The draws that blend a layer: those of [`Self::finding`] in the same order.
     pub(crate) fn layer(&self) -> Vec<Draw<'_>> {
         self.draws(&self.layers.blending)
+    }
+
+    /// The lines around the model, behind transparent surfaces.
+    pub(crate) fn guides(&self) -> Vec<Draw<'_>> {
+        self.draws(&self.guides)
     }
 
     /// The edges over all surfaces.

@@ -33,6 +33,8 @@ pub(super) struct DrawPlanBuilder {
     pub(super) pipeline_of_key: HashMap<PipelineKey, usize>,
     /// The pipeline of edges over surfaces.
     pub(super) edges: Option<usize>,
+    /// Lines that are blended, after all opaque surfaces.
+    pub(super) smooth_lines: Vec<PlannedDraw>,
     /// The triangles of all meshes before.
     first_number: usize,
     /// The triangles that are sorted.
@@ -50,6 +52,8 @@ impl Planner<'_> {
         for (mesh, made) in self.scene.meshes.iter().zip(&with_tangents) {
             self.plan_mesh(made.as_ref().unwrap_or(mesh), &mut materials, &mut builder)?;
         }
+        builder.plan.opaque.append(&mut builder.smooth_lines);
+        self.plan_overlays(&mut builder)?;
         for run in back_to_front(std::mem::take(&mut builder.transparent)) {
             let (pipeline, vertex_buffers) =
                 builder.transparent_surfaces[run.surface as usize].clone();

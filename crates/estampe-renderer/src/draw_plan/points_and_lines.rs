@@ -8,6 +8,7 @@ use crate::geometry::vertex_data::{MeshStreams, StreamData};
 use crate::options::{RenderOptions, Shading};
 use crate::shading::inspection::Overdraw;
 use crate::shading::points_and_lines::PointsAndLines;
+use crate::surface_pipelines::is_smooth;
 use crate::transforms::round_to_f32;
 use estampe::TextureFormat;
 use estampe::state::{LineRasterization, LineState, PrimitiveState, PrimitiveTopology};
@@ -48,13 +49,19 @@ impl Planner<'_> {
                 shader.point_size_px = width;
             }
             let state = self.options.points_and_lines(kind);
+            let is_smooth = is_smooth(&state);
             let pipeline = self
                 .style
                 .points_and_lines(self.device, shader, state, &streams)?;
             let vertex_buffers = buffers_of(&pipeline, &streams);
             let pipeline = builder.plan.add_pipeline(pipeline);
             let indices = Some(self.index_buffer_of(indices.to_vec())?);
-            builder.plan.opaque.push(PlannedDraw {
+            let draws = if is_smooth {
+                &mut builder.smooth_lines
+            } else {
+                &mut builder.plan.opaque
+            };
+            draws.push(PlannedDraw {
                 pipeline,
                 vertex_buffers,
                 indices,
@@ -131,21 +138,18 @@ impl RenderOptions {
         self.samples > 1 && self.line_width_px.is_some_and(|width| width > 1.5)
     }
 
-    /// The assembly and shape of points and lines. Lines of a chosen width are rectangles, smooth
-    /// by their samples, or by their coverage if there is one.
+    /// The assembly and shape of points and lines. Lines are smooth by their samples, or by their
+    /// coverage if there is one and the picture shows light; those of a chosen width are rectangles.
     fn points_and_lines(&self, kind: Kind) -> PrimitiveState {
-        let line = match self.line_width_px {
-            None => LineState::default(),
-            Some(width) => LineState {
-                width: width.clamp(f32::MIN_POSITIVE, 64.0),
-                rasterization: if self.samples > 1 {
-                    LineRasterization::Rectangular
-                } else {
-                    LineRasterization::RectangularSmooth
-                },
-                stipple: None,
-            },
-        };
+        let mut line = LineState::default();
+        if self.samples == 1 && !self.shading.holds_numbers() {
+            line.rasterization = LineRasterization::RectangularSmooth;
+        } else if self.line_width_px.is_some() {
+            line.rasterization = LineRasterization::Rectangular;
+        }
+        if let Some(width) = self.line_width_px {
+            line.width = width.clamp(f32::MIN_POSITIVE, 64.0);
+        }
         PrimitiveState {
             topology: match kind {
                 Kind::Lines => PrimitiveTopology::LineList,

@@ -17,6 +17,7 @@
 //! | [`points_and_lines`] | points and lines |
 //! | [`ground`] | the shadow on the ground |
 //! | [`backdrop`] | the gradient behind everything |
+//! | [`stroke`] | lines of a width, with smooth borders |
 //!
 //! Lighting is computed in view space, in linear light.
 
@@ -33,6 +34,7 @@ pub(crate) mod points_and_lines;
 pub(crate) mod shadow;
 pub(crate) mod shadow_caster;
 pub(crate) mod steps;
+pub(crate) mod stroke;
 pub(crate) mod surface;
 pub(crate) mod terms;
 pub(crate) mod wireframe;

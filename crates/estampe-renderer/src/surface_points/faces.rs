@@ -4,6 +4,7 @@ use crate::frame::{RenderError, with_passes};
 use crate::geometry::face_colors::{MOST_FACES, face_number};
 use crate::options::{Ground, RenderOptions, Shading};
 use crate::scene_view::SceneView;
+use crate::section::Section;
 use estampe::Device;
 use estampe_scene::Scene;
 use std::borrow::Cow;
@@ -31,13 +32,14 @@ impl Faces {
             // Its alpha tells it from all faces.
             background: None,
             gradient: None,
-            wireframe: false,
+            // The caller has cut the scene.
+            section: Section::default(),
             levels: None,
             fog: None,
             shadows: false,
             ground: Ground::default(),
             program: None,
-            ..options.clone()
+            ..options.clone().without_overlays()
         };
         let scene = without_points_and_lines(scene);
         with_passes(&scene, &options, device, |passes, view| {

@@ -1,11 +1,14 @@
 //! Pictures of scenes, against the oracle and against themselves.
 
 mod bump_maps;
+mod edges;
+mod guides;
 mod hostile_scenes;
 mod illumination;
 mod inspection_views;
 mod named_attributes;
 mod pbr;
+mod sections;
 mod shadows;
 mod support;
 mod surface_points;

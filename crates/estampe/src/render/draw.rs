@@ -12,8 +12,8 @@ use crate::progress::Progress;
 use crate::shader::values::{FRAGMENT_JUMPS, Via};
 use crate::values::{Destination, ImageFormatName, shown};
 use estampe::{Device, DeviceDescriptor};
-use estampe_assets::Limits;
 use estampe_assets::image::{ImageFormat, decode, encode};
+use estampe_assets::{Limits, ModelFormat};
 use estampe_renderer::{
     CameraOptions, Eye, Frame, ProjectionKind, RenderOptions, Up, ViewDirection, composite_over,
     render,
@@ -149,10 +149,13 @@ fn options(
     device: &Device,
 ) -> Result<RenderOptions, Failure> {
     camera_check::eye_in_middle(args.eye, args.target, (&model.scene, args.up))?;
-    let options = RenderOptions {
+    let mut options = RenderOptions {
         program: args.shader.program(device, args.texture.as_deref())?,
         ..args.options(default_view, texture)?
     };
+    if let Some(bounding_box) = &mut options.bounding_box {
+        bounding_box.unit = unit_of(model.format).map(str::to_owned);
+    }
     let Some(chosen) = &args.camera else {
         return Ok(options);
     };
@@ -174,6 +177,15 @@ fn options(
         up: Up::Direction(camera.up_world.as_dvec3()),
         ..options
     })
+}
+
+/// The unit of lengths in files of a format, if the format has one.
+fn unit_of(format: Option<ModelFormat>) -> Option<&'static str> {
+    match format? {
+        ModelFormat::Gltf => Some("m"),
+        ModelFormat::ThreeMf => Some("mm"),
+        _ => None,
+    }
 }
 
 /// The texture of the options, if they name one.

@@ -4,7 +4,9 @@
 use super::appearance_names::{CullName, ShadingName, TransparencyName};
 use super::camera_check;
 use super::illumination::IlluminationArgs;
+use super::overlays::OverlayArgs;
 use super::pbr::PbrArgs;
+use super::section::SectionArgs;
 use super::shadows::ShadowArgs;
 use super::surface_shader::SurfaceShaderArgs;
 use super::surfaces::SurfaceArgs;
@@ -113,6 +115,12 @@ pub(crate) struct PictureArgs {
     pub(crate) shadows: ShadowArgs,
 
     #[command(flatten)]
+    pub(crate) section: SectionArgs,
+
+    #[command(flatten)]
+    pub(crate) overlays: OverlayArgs,
+
+    #[command(flatten)]
     pub(crate) shader: SurfaceShaderArgs,
 
     /// A base-colour texture (PNG, JPEG, WebP, TGA, BMP, DDS; sRGB), instead of the model's colours
@@ -198,6 +206,7 @@ impl PictureArgs {
         camera_check::eye_and_target(self.eye, self.target)?;
         self.surfaces.check(self.shading)?;
         self.shadows.check(self.shading)?;
+        self.section.check()?;
         self.illumination.check()
     }
 
@@ -259,7 +268,8 @@ impl PictureArgs {
         };
         let workers = Workers::new(self.thread_count());
         let options = self.shadows.apply(self.illumination.apply(options));
-        let options = self.surfaces.apply(options);
+        let options = self.surfaces.apply(self.section.apply(options));
+        let options = self.overlays.apply(options);
         self.pbr.apply(options, workers)
     }
 }

@@ -49,8 +49,7 @@ pub(in crate::render) fn run(
         fog: None,
         levels: None,
         program: None,
-        wireframe: false,
-        ..options.clone()
+        ..options.clone().without_overlays()
     };
     let albedo = image_of(PassName::Albedo, &unlit)?;
     let mut points = Vec::new();
