@@ -18,7 +18,8 @@
 //!
 //! [`advice`] explains unknown words, [`choice`] has the options of files with several scenes, [`input`] reads models from files,
 //! standard input or by built-in name, [`output`] writes files completely or not at all,
-//! [`interrupt`] removes temporary files, [`colors`] parses colours, [`terminal`] escapes names, [`values`] parses the
+//! [`preview`] shows pictures in a terminal, [`interrupt`] removes temporary files, [`colors`] parses colours,
+//! [`terminal`] escapes names, [`values`] parses the
 //! options' values, and [`failure`] has the exit codes.
 
 mod advice;
@@ -38,6 +39,7 @@ mod ladder;
 mod limits;
 mod man;
 mod output;
+mod preview;
 mod progress;
 mod render;
 mod shader;
@@ -148,7 +150,7 @@ fn main() -> ExitCode {
     let code = match &cli.command {
         Command::Render(args) => report(
             "render",
-            args.report.json.then_some(args.output.is_standard_output()),
+            args.report.json.then_some(args.is_to_standard_output()),
             render::run(args),
         ),
         Command::Batch(args) => match batch::run(args) {

@@ -191,6 +191,8 @@ const OUTSIDE: &[(&str, Users)] = &[
     // Completion scripts and manual pages of the command.
     ("clap_complete", Users::Only(&["estampe"])),
     ("clap_mangen", Users::Only(&["estampe"])),
+    // The size of the terminal, for previews; clap uses it too.
+    ("terminal_size", Users::Only(&["estampe"])),
     ("indicatif", Users::Only(&["estampe", "estampe-bench"])),
     (
         "serde",

@@ -2,7 +2,7 @@
 
 use crate::choice::ChoiceArgs;
 use crate::limits::LimitArgs;
-use crate::render::PictureArgs;
+use crate::render::{PassArgs, PictureArgs};
 use crate::values::{FormatName, ViewName};
 use clap::Args;
 use std::ffi::OsString;
@@ -15,6 +15,7 @@ use std::path::PathBuf;
 Examples:
   estampe batch 'models/*.glb' -o 'thumbnails/{stem}.png' --size 256x256
   estampe batch 'models/**/*.stl' -o 'out/{dir}/{stem}-{view}.jpg' --views front,iso
+  estampe batch 'models/*.glb' -o 'data/{stem}/{pass}.png' --pass color,depth,normal,object-id
   find . -name '*.obj' | estampe batch - -o 'out/{stem}.png'
   estampe batch --job-file jobs.toml
   estampe batch 'models/*' -o 'out/{stem}.png' --shard 3/64 --report report.json
@@ -23,7 +24,7 @@ Inputs are files, globs (* ? [a-z], and ** for folders) or - for a list on stand
 expanded by estampe, so quote them: thousands of files then fit the command line. A folder is an error.
 
 The name of a picture is made of the template: {stem} is the file's name without its extension, {name} with it, {ext} its \
-extension, {dir} its folder below that of the glob, {index} its number from 0 in sorted order, and {view} the view. \
+extension, {dir} its folder below that of the glob, {index} its number from 0 in sorted order, {view} the view, and {pass} the pass of --pass. \
 The template's extension is the picture's format. Folders are made. Two pictures of one name are an error before \
 anything is drawn.
 
@@ -32,7 +33,7 @@ with, and nobody changed it since. That is kept in a folder .estampe beside the 
 
 Exit codes: 0 all pictures are drawn or up to date, 1 at least one failed, 2 wrong usage, 3 the report cannot be written.
 
-The report has pictures [{input, output, view or null, status (drawn, up-to-date, failed, limit or cancelled), \
+The report has pictures [{input, output, view or null, passes [name], status (drawn, up-to-date, failed, limit or cancelled), \
 error or null, milliseconds, warnings}] and counts {drawn, up_to_date, failed, limit, cancelled}, in sorted order.")]
 pub(crate) struct BatchArgs {
     /// The models: files, globs, or - for a list on standard input
@@ -94,6 +95,9 @@ pub(crate) struct BatchArgs {
 
     #[command(flatten)]
     pub(crate) picture: PictureArgs,
+
+    #[command(flatten)]
+    pub(crate) passes: PassArgs,
 }
 
 /// A share of the work.

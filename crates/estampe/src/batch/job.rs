@@ -2,13 +2,13 @@
 
 use super::arguments::BatchArgs;
 use super::deadline::{self, Claim};
-use super::plan::{Job, Picture};
+use super::plan::{Content, Job, Picture};
 use super::record::{self, NamedFiles, Sources, digest};
 use crate::failure::Failure;
 use crate::input::{self, Model};
 use crate::output;
-use crate::render;
-use crate::values::{Destination, shown};
+use crate::render::{self, PassName, PictureArgs, Sources as PassSources};
+use crate::values::{Destination, ViewName, shown};
 use estampe::Device;
 use estampe_assets::Limits;
 use estampe_renderer::ViewDirection;
@@ -125,6 +125,10 @@ impl Shared {
         if let Err(failure) = self.args.limits.check_memory(&model, &args.picture) {
             return all(failure);
         }
+        let to_draw = job.pictures.iter().zip(&current);
+        let to_draw = to_draw.filter(|(_, is_current)| !**is_current);
+        let to_draw: Vec<&Picture> = to_draw.map(|(picture, _)| picture).collect();
+        let mut passes = DrawnPasses::default();
         let statuses = job
             .pictures
             .iter()
@@ -139,7 +143,19 @@ impl Shared {
                     named: named.digests(),
                     searched: named.searched(),
                 };
-                match draw(&model, (job, picture), &sources, (device, claim)) {
+                let bytes = |args: &PictureArgs| match &picture.content {
+                    Content::Picture(format) => {
+                        let look = (ViewDirection::default(), *format);
+                        render::drawn_bytes(&model, args, look, device)
+                    }
+                    Content::Passes(format, file) => {
+                        let wanted = passes_of(&to_draw, picture.view);
+                        let unit = job.look.options.passes.depth_unit;
+                        let drawn = passes.of(&model, args, &wanted, device)?;
+                        drawn.encode(file, *format, (args.size, unit))
+                    }
+                };
+                match draw(&model, (job, picture), &sources, (bytes, claim)) {
                     Ok(()) => Status::Drawn,
                     Err(failure) => status_of(failure),
                 }
@@ -150,19 +166,58 @@ impl Shared {
     }
 }
 
+/// The passes of a view that are drawn.
+fn passes_of(pictures: &[&Picture], view: Option<ViewName>) -> Vec<PassName> {
+    let of_view = pictures.iter().filter(|picture| picture.view == view);
+    let passes = of_view.filter_map(|picture| match &picture.content {
+        Content::Picture(_) => None,
+        Content::Passes(_, file) => Some(&file.passes),
+    });
+    passes.flatten().copied().collect()
+}
+
+/// What the passes of a view are made of: it is drawn once for all of its files.
+#[derive(Default)]
+struct DrawnPasses(Option<(Option<ViewName>, PassSources)>);
+
+impl DrawnPasses {
+    /// Those of the view of the options.
+    fn of(
+        &mut self,
+        model: &Model,
+        args: &PictureArgs,
+        passes: &[PassName],
+        device: &Device,
+    ) -> Result<&PassSources, Failure> {
+        let last = self.0.take().filter(|(view, _)| *view == args.view);
+        let drawn = match last {
+            Some(drawn) => drawn,
+            None => {
+                let default = ViewDirection::default();
+                let options = render::frame_options(model, args, default, device)?;
+                let (sources, _) = PassSources::draw(passes, model, args, (&options, device))?;
+                (args.view, sources)
+            }
+        };
+        Ok(&self.0.insert(drawn).1)
+    }
+}
+
 /// Draws and writes a picture, then its record.
 fn draw(
     model: &Model,
     (job, picture): (&Job, &Picture),
     sources: &Sources,
-    (device, claim): (&Device, &Claim),
+    (bytes, claim): (
+        impl FnOnce(&PictureArgs) -> Result<Vec<u8>, Failure>,
+        &Claim,
+    ),
 ) -> Result<(), Failure> {
     let mut args = job.look.options.picture.clone();
     args.view = picture.view;
     let destination = Destination::File(picture.output.clone());
     render::check_output(&destination, model, &args)?;
-    let look = (ViewDirection::default(), picture.format);
-    let bytes = render::drawn_bytes(model, &args, look, device)?;
+    let bytes = bytes(&args)?;
     if !claim.begin_writing() {
         return Err(Failure::Limit("given up".to_owned()));
     }
@@ -188,7 +243,14 @@ fn write(picture: &Picture, destination: &Destination, bytes: &[u8]) -> Result<(
 
 /// The digest of the options and versions.
 fn options_of(job: &Job, picture: &Picture) -> String {
-    digest(format!("{} {:?}", job.look.identity, picture.view).as_bytes())
+    let passes = match &picture.content {
+        Content::Picture(_) => String::new(),
+        Content::Passes(format, file) => {
+            let unit = job.look.options.passes.depth_unit;
+            format!(" {format:?} {:?} {unit}", file.passes)
+        }
+    };
+    digest(format!("{} {:?}{passes}", job.look.identity, picture.view).as_bytes())
 }
 
 fn status_of(failure: Failure) -> Status {

@@ -4,7 +4,7 @@ use super::record::digest;
 use crate::choice::ChoiceArgs;
 use crate::failure::Failure;
 use crate::input::read_file;
-use crate::render::PictureArgs;
+use crate::render::{PassArgs, PictureArgs};
 use crate::values::FormatName;
 use clap::Parser;
 use estampe_assets::Limits;
@@ -19,6 +19,9 @@ pub(super) struct JobOptions {
 
     #[command(flatten)]
     pub(super) picture: PictureArgs,
+
+    #[command(flatten)]
+    pub(super) passes: PassArgs,
 
     /// The model's format: gltf, obj, stl, ply, off or 3mf
     #[arg(long, value_enum)]

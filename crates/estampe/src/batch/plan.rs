@@ -7,6 +7,7 @@ use super::look::{JobOptions, Look};
 use super::template::Template;
 use crate::failure::Failure;
 use crate::output::Identity;
+use crate::render::{Files, PassFile, PassFormat};
 use crate::values::{Destination, ViewName, shown};
 use clap::{Parser, ValueEnum};
 use estampe_assets::image::ImageFormat;
@@ -27,7 +28,14 @@ pub(super) struct Job {
 pub(super) struct Picture {
     pub(super) view: Option<ViewName>,
     pub(super) output: PathBuf,
-    pub(super) format: ImageFormat,
+    pub(super) content: Content,
+}
+
+/// What the file of a picture holds.
+#[derive(Debug, Clone)]
+pub(super) enum Content {
+    Picture(ImageFormat),
+    Passes(PassFormat, PassFile),
 }
 
 /// The jobs of this shard in the order of their inputs, or of the job file.
@@ -78,6 +86,7 @@ fn of_arguments(args: &BatchArgs) -> Result<Vec<Draft>, Failure> {
     let look = Arc::new(Look::new(JobOptions {
         choice: args.choice.clone(),
         picture: args.picture.clone(),
+        passes: args.passes.clone(),
         format: args.format,
     })?);
     let inputs = inputs::inputs(args)?.into_iter();
@@ -95,8 +104,8 @@ fn of_file(args: &BatchArgs, path: &Path) -> Result<Vec<Draft>, Failure> {
         JobOptions::try_parse_from([""; 0]).map_err(|error| Failure::Usage(error.to_string()))?;
     unset.picture.threads = args.picture.threads;
     unset.picture.simd = args.picture.simd;
-    let given = format!("{:?} {:?}", args.picture, args.choice);
-    if given != format!("{:?} {:?}", unset.picture, unset.choice) {
+    let given = format!("{:?} {:?} {:?}", args.picture, args.choice, args.passes);
+    if given != format!("{:?} {:?} {:?}", unset.picture, unset.choice, unset.passes) {
         return Err(Failure::Usage(
             "options of pictures beside --job-file have no effect; write them into its table options"
                 .to_owned(),
@@ -128,46 +137,70 @@ impl Draft {
         models: &HashSet<Identity>,
         taken: &mut HashMap<PathBuf, String>,
     ) -> Result<Job, Failure> {
-        let input = self.input;
+        let input = self.input.clone();
         let mut pictures = Vec::new();
         for &view in self.views.iter() {
             let name = view.as_ref().and_then(ValueEnum::to_possible_value);
             let name = name.as_ref().map(clap::builder::PossibleValue::get_name);
             let output = self.template.name(&input, index, name);
-            let format = Destination::File(output.clone()).image_format();
-            let Some(format) = format else {
-                return Err(Failure::Usage(format!(
-                    "--output {}: the name does not show the image's format; end it with .png, \
-                     .jpg, .tga or .webp",
-                    shown(&output)
-                )));
-            };
-            let before = taken.insert(output.clone(), inputs::name(&input));
-            if let Some(other) = before {
-                return Err(Failure::Usage(format!(
-                    "{}: the picture of {other} and of {}; add {{dir}}, {{ext}}, {{index}} or \
-                     {{view}} to the template",
-                    shown(&output),
-                    inputs::name(&input)
-                )));
+            for (output, content) in self.files(output)? {
+                let before = taken.insert(output.clone(), inputs::name(&input));
+                if let Some(other) = before {
+                    return Err(Failure::Usage(format!(
+                        "{}: the picture of {other} and of {}; add {{dir}}, {{ext}}, {{index}} or \
+                         {{view}} to the template",
+                        shown(&output),
+                        inputs::name(&input)
+                    )));
+                }
+                let is_model = |one: Identity| models.contains(&one);
+                if output == input.path || Identity::of(&output).is_some_and(is_model) {
+                    return Err(Failure::Usage(format!(
+                        "{}: the picture would replace a model; choose another --output",
+                        shown(&output)
+                    )));
+                }
+                pictures.push(Picture {
+                    view,
+                    output,
+                    content,
+                });
             }
-            let is_model = |one: Identity| models.contains(&one);
-            if output == input.path || Identity::of(&output).is_some_and(is_model) {
-                return Err(Failure::Usage(format!(
-                    "{}: the picture would replace a model; choose another --output",
-                    shown(&output)
-                )));
-            }
-            pictures.push(Picture {
-                view,
-                output,
-                format,
-            });
         }
         Ok(Job {
             input,
             pictures,
             look: self.look,
         })
+    }
+
+    /// The files of a view, with what each holds: one, or those of the passes.
+    fn files(&self, output: PathBuf) -> Result<Vec<(PathBuf, Content)>, Failure> {
+        let destination = Destination::File(output.clone());
+        let passes = &self.look.options.passes;
+        if let Some(Files { format, files }) = Files::of(passes, &destination, None)? {
+            let files = files.into_iter().map(|file| {
+                let path = match &file.output {
+                    Destination::File(path) => path.clone(),
+                    Destination::StandardOutput => unreachable!("passes of a file"),
+                };
+                (path, Content::Passes(format, file))
+            });
+            return Ok(files.collect());
+        }
+        if self.template.has_pass() {
+            return Err(Failure::Usage(
+                "the template has {pass}, and there are no passes; add --pass, as in --pass color,depth"
+                    .to_owned(),
+            ));
+        }
+        let Some(format) = destination.image_format() else {
+            return Err(Failure::Usage(format!(
+                "--output {}: the name does not show the image's format; end it with .png, .jpg, .tga, \
+                 .webp or .exr",
+                shown(&output)
+            )));
+        };
+        Ok(vec![(output, Content::Picture(format))])
     }
 }

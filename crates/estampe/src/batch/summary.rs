@@ -2,6 +2,7 @@
 
 use super::job::{Outcome, Status};
 use super::lines::Lines;
+use super::plan::Content;
 use crate::values::shown;
 use clap::ValueEnum;
 use serde_json::{Value, json};
@@ -83,6 +84,10 @@ pub(super) fn report(outcomes: &[Outcome], counts: &Counts) -> Value {
         json!({
             "input": outcome.input,
             "output": outcome.picture.output.to_string_lossy(),
+            "passes": match &outcome.picture.content {
+                Content::Picture(_) => Vec::new(),
+                Content::Passes(_, file) => file.passes.iter().map(|pass| pass.name()).collect(),
+            },
             "view": view.as_ref().map(clap::builder::PossibleValue::get_name),
             "status": status,
             "error": error,

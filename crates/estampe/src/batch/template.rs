@@ -17,6 +17,7 @@ enum Piece {
     Dir,
     Index,
     View,
+    Pass,
 }
 
 impl Template {
@@ -48,10 +49,11 @@ impl Template {
                 "dir" => Piece::Dir,
                 "index" => Piece::Index,
                 "view" => Piece::View,
+                "pass" => Piece::Pass,
                 other => {
                     return Err(format!(
                         "{text}: {{{other}}} is unknown; there are {{stem}}, {{name}}, {{ext}}, \
-                         {{dir}}, {{index}} and {{view}}"
+                         {{dir}}, {{index}}, {{view}} and {{pass}}"
                     ));
                 }
             });
@@ -67,7 +69,12 @@ impl Template {
         self.0.contains(&Piece::View)
     }
 
-    /// The name for an input, its number, and a view.
+    /// True if names differ by pass.
+    pub(super) fn has_pass(&self) -> bool {
+        self.0.contains(&Piece::Pass)
+    }
+
+    /// The name for an input, its number, and a view; `{pass}` stays.
     pub(super) fn name(&self, input: &Input, index: usize, view: Option<&str>) -> PathBuf {
         let mut name = OsString::new();
         let path = &input.path;
@@ -83,6 +90,7 @@ impl Template {
                 },
                 Piece::Index => name.push(index.to_string()),
                 Piece::View => name.push(view.unwrap_or("view")),
+                Piece::Pass => name.push("{pass}"),
             }
         }
         PathBuf::from(name).components().collect()
@@ -112,6 +120,7 @@ mod tests {
         );
         assert_eq!(name("o/{index}{ext}.tga"), Path::new("o/7glb.tga"));
         assert_eq!(name("{{{stem}}}.png"), Path::new("{robot.v2}.png"));
+        assert_eq!(name("{stem}/{pass}.png"), Path::new("robot.v2/{pass}.png"));
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::passes::{OutputFormatName, PassArgs};
 use super::picture::{PictureArgs, ReportArgs};
 use crate::choice::ChoiceArgs;
 use crate::limits::LimitArgs;
+use crate::preview::PreviewArgs;
 use crate::values::{Destination, FormatName, Source};
 use clap::Args;
 
@@ -15,6 +16,7 @@ Examples:
   estampe render part.stl -o part.png --view iso --ortho --shading flat
   estampe render head.obj -o head.png --texture head_diffuse.tga --azimuth -20
   estampe render builtin:teapot -o teapot.png --shading toon --background none
+  estampe render part.stl --preview
   estampe render scan.ply -o scan.jpg --size 640x480 --samples 1
   estampe render model.obj -o lit.png --light 1,1,1 --light -1,0.3,0:4080ff:0.5 --ambient 0.1
   estampe render model.obj -o lamp.png --light pos:2,3,4 --attenuation 9 --specular blinn:0.6 --shininess 80
@@ -49,8 +51,8 @@ pub(crate) struct RenderArgs {
 
     /// The image: a file named .png, .jpg, .tga, .webp or .exr, or - for standard output
     #[arg(short, long, value_name = "OUT", allow_hyphen_values = true)]
-    #[arg(value_parser = crate::values::destination())]
-    pub(crate) output: Destination,
+    #[arg(value_parser = crate::values::destination(), required_unless_present = "preview")]
+    pub(crate) output: Option<Destination>,
 
     /// The model's format, if neither name nor content shows it
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
@@ -61,6 +63,7 @@ pub(crate) struct RenderArgs {
 
     /// The image's format: png, jpeg, tga, webp or exr [default: by OUT's extension; png for -]
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
+    #[arg(requires = "output")]
     pub(crate) output_format: Option<OutputFormatName>,
 
     #[command(flatten)]
@@ -73,8 +76,19 @@ pub(crate) struct RenderArgs {
     pub(crate) passes: PassArgs,
 
     #[command(flatten)]
+    pub(crate) preview: PreviewArgs,
+
+    #[command(flatten)]
     pub(crate) limits: LimitArgs,
 
     #[command(flatten)]
     pub(crate) report: ReportArgs,
+}
+
+impl RenderArgs {
+    /// True if the picture or its preview goes to standard output.
+    pub(crate) fn is_to_standard_output(&self) -> bool {
+        let output = self.output.as_ref();
+        output.is_none_or(Destination::is_standard_output)
+    }
 }

@@ -1,24 +1,38 @@
 //! Runs `estampe render`, from arguments to a written image, stage by stage.
 
 use super::arguments::RenderArgs;
-use super::draw::{STAGES, draw, image_format};
+use super::draw::{STAGES, draw_with, encoded, image_format};
 use super::passes::{self, Files, OutputFormatName};
 use super::report::Report;
 use crate::failure::Failure;
 use crate::input::Model;
 use crate::output;
 use crate::progress::Progress;
+use crate::values::Destination;
 use estampe_renderer::ViewDirection;
+use estampe_scene::Image;
 
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let clock = args.limits.watch("render", &args.model.name());
-    let files = Files::of(&args.passes, &args.output, args.output_format)?;
+    let terminal = args.preview.terminal()?;
+    // Without a file the preview is the output.
+    let output = args.output.as_ref().unwrap_or(&Destination::StandardOutput);
+    let files = Files::of(&args.passes, output, args.output_format)?;
+    if terminal.is_some() {
+        check_preview(args.output.as_ref(), files.as_ref())?;
+    }
     let named = args.output_format.and_then(OutputFormatName::of_picture);
     // Of passes, the files have a format.
-    let picture = files.is_none().then(|| image_format(named, &args.output));
+    let picture = files.is_none().then(|| image_format(named, output));
     let picture = picture.transpose()?;
-    output::check(&args.output)?;
+    let written = files.as_ref().map_or(&[][..], |files| &files.files);
+    for file in written {
+        output::check(&file.output)?;
+    }
+    if files.is_none() {
+        output::check(output)?;
+    }
     // Reading and parsing come before.
     let progress = Progress::new(2 + STAGES, args.report.quiet);
 
@@ -35,21 +49,47 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         (None, Some(files)) => return passes::run(&model, args, files, &clock, progress),
         (None, None) => unreachable!("a picture, or passes"),
     };
-    let drawn = draw(
+    let preview = |image: &Image| terminal.map(|terminal| terminal.bytes(image));
+    let drawn = draw_with(
         &model,
         &args.picture,
         ViewDirection::default(),
-        (&args.output, format),
-        &clock,
-        &progress,
+        (output, format),
+        (&clock, &progress),
+        |image| match preview(image) {
+            Some(bytes) if args.output.is_none() => bytes,
+            _ => encoded(image, format),
+        },
     )?;
     drop(progress);
+    if args.output.is_some()
+        && let Some(bytes) = preview(&drawn.frame.image)
+    {
+        output::write(&Destination::StandardOutput, &bytes?)?;
+    }
     let report = Report {
         args: &args.picture,
-        output: &args.output,
+        output,
         model: &model,
         drawn: &drawn,
         shape: None,
     };
     report.write(&args.report)
+}
+
+/// Refuses what a preview cannot show.
+fn check_preview(output: Option<&Destination>, files: Option<&Files>) -> Result<(), Failure> {
+    if files.is_some() {
+        return Err(Failure::Usage(
+            "--preview shows pictures of 8 bits a channel; name OUT .png, .jpg, .tga or .webp"
+                .to_owned(),
+        ));
+    }
+    if output.is_some_and(Destination::is_standard_output) {
+        return Err(Failure::Usage(
+            "--preview and -o - both write to standard output; omit -o -, or name a file"
+                .to_owned(),
+        ));
+    }
+    Ok(())
 }

@@ -41,6 +41,20 @@ pub(crate) fn draw(
     clock: &Clock,
     progress: &Progress,
 ) -> Result<Drawn, Failure> {
+    let encode = |image: &Image| encoded(image, format);
+    let to = (output, format);
+    draw_with(model, args, default_view, to, (clock, progress), encode)
+}
+
+/// As [`draw`], with other bytes than those of the format.
+pub(super) fn draw_with(
+    model: &Model,
+    args: &PictureArgs,
+    default_view: ViewDirection,
+    (output, format): (&Destination, ImageFormat),
+    (clock, progress): (&Clock, &Progress),
+    encode: impl FnOnce(&Image) -> Result<Vec<u8>, Failure>,
+) -> Result<Drawn, Failure> {
     args.check()?;
     check_drawable(model)?;
     check_output(output, model, args)?;
@@ -58,7 +72,7 @@ pub(crate) fn draw(
 
     progress.stage("encoding");
     let encode_start = Instant::now();
-    let bytes = encoded(&frame.image, format)?;
+    let bytes = encode(&frame.image)?;
     let encode_time = encode_start.elapsed();
 
     progress.stage("writing");

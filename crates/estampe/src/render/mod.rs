@@ -27,6 +27,7 @@ pub(crate) use arguments::RenderArgs;
 pub(crate) use command::run;
 pub(crate) use draw::{STAGES, check_output, device, draw, drawn_bytes, encoded, frame};
 pub(crate) use draw::{frame_options, image_format, prepare};
+pub(crate) use passes::{Files, PassArgs, PassFile, PassFormat, PassName, Sources};
 pub(crate) use picture::{PictureArgs, ReportArgs};
 pub(crate) use report::write as write_report;
 pub(crate) use report::{

@@ -1,7 +1,7 @@
 //! `estampe batch`: many models, one process.
 
 use crate::support::{Folder, Run, TETRAHEDRON, estampe, estampe_fed};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
 
@@ -444,4 +444,66 @@ fn the_schema_of_job_files_lists_the_options() {
         serde_json::json!(["string", "number"])
     );
     assert!(options["threads"].is_null() && options["help"].is_null());
+}
+
+/// Files of passes are those of `render`, and one that is missing is drawn again.
+#[test]
+fn passes_are_files_or_one_openexr() {
+    let folder = models();
+    let passes = "--pass color,depth,object-id --depth-unit 0.01";
+    let words =
+        format!("IN/*/*.obj -o OUT/{{stem}}/{{pass}}/{{view}}.png {passes} --views front,top");
+    let run = batch(&folder, &words);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let said = report(&run);
+    assert_eq!(said["counts"]["drawn"], 18, "{said}");
+    assert_eq!(said["pictures"][1]["passes"], json!(["depth"]));
+    let model = folder.path("in/a/one.obj");
+    let alone = format!("render {{}} -o {{}} {passes} --size 48x40 --view top");
+    let run = estampe(&alone, &[&model, &folder.path("{pass}.png")]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    for pass in ["color", "depth", "object-id"] {
+        let file = fs::read(folder.path(&format!("out/one/{pass}/top.png"))).expect("drawn");
+        let alone = fs::read(folder.path(&format!("{pass}.png")));
+        assert!(alone.is_ok_and(|alone| alone == file), "{pass}");
+    }
+    fs::remove_file(folder.path("out/one/depth/top.png")).expect("there");
+    let said = report(&batch(&folder, &words));
+    assert_eq!(said["counts"]["drawn"], 1, "{said}");
+    assert_eq!(said["counts"]["up_to_date"], 17, "{said}");
+
+    let run = batch(&folder, &format!("IN/a/*.obj -o OUT/{{stem}}.exr {passes}"));
+    assert_eq!(run.code, 0, "{}", run.err);
+    let exr = folder.path("one.exr");
+    let words = format!("render {{}} -o {{}} {passes} --size 48x40");
+    assert_eq!(estampe(&words, &[&model, &exr]).code, 0);
+    assert!(fs::read(exr).ok() == fs::read(folder.path("out/one.exr")).ok());
+    for (words, problem) in [
+        (
+            "IN/a/*.obj -o OUT/{stem}.png --pass depth",
+            "written as OpenEXR",
+        ),
+        ("IN/a/*.obj -o OUT/{stem}-{pass}.png", "add --pass"),
+        ("IN/*/*.obj -o OUT/{pass}.png --pass depth", "add {dir}"),
+    ] {
+        let run = batch(&folder, words);
+        assert_eq!(run.code, 2, "{words}: {}", run.err);
+        assert!(run.err.contains(problem), "{words}: {}", run.err);
+    }
+}
+
+#[test]
+fn job_files_have_passes() {
+    let folder = models();
+    let text = format!(
+        "[options]\nsize = '20x20'\npass = ['color', 'uv']\n[[jobs]]\ninput = '{}'\noutput = '{}'\n",
+        folder.path("in/a/one.obj").display(),
+        folder.path("out/{pass}.png").display()
+    );
+    let jobs = folder.with_file("jobs.toml", text);
+    let run = estampe("batch --job-file {} --report -", &[&jobs]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert_eq!(pictures(&folder, "out"), ["color.png", "uv.png"]);
+    let beside = estampe("batch --job-file {} --pass depth", &[&jobs]);
+    assert!(beside.err.contains("beside --job-file"), "{}", beside.err);
 }

@@ -16,6 +16,7 @@ mod output;
 mod passes;
 mod picture_options;
 mod polygon_fill;
+mod preview;
 mod render;
 mod render_page;
 mod render_shader;

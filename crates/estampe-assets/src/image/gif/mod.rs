@@ -10,8 +10,10 @@
 //! still does not flicker.
 
 mod dither;
+mod indexed;
 mod oklab;
 mod palette;
 mod write;
 
+pub use indexed::{Indexed, indexed};
 pub use write::{MAX_GIF_RATE, write_gif};

@@ -1,6 +1,7 @@
 //! The file.
 
 use super::dither::{Ditherer, OPAQUE};
+use super::indexed::MOST_COLORS;
 use super::palette::palette;
 use crate::image::animation::{Area, FrameRate, area_of, changed_area, check_frame, invalid};
 use estampe_scene::Image;
@@ -11,9 +12,6 @@ use std::io::{self, Write};
 /// The most frames in a second that viewers show: shorter delays than 2/100 s are taken for longer
 /// ones.
 pub const MAX_GIF_RATE: u16 = 50;
-
-/// The most colours: one of 256 indices is transparent.
-const MOST_COLORS: usize = 255;
 
 /// Writes an animation that repeats without end. Texels with alpha below 128 are transparent, and
 /// the others opaque. The frames' delays are in hundredths of a second, and do not drift.

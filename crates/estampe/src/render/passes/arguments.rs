@@ -18,12 +18,12 @@ pub(crate) struct PassArgs {
     /// option below, normal as (n + 1)/2, the fraction of uv; position is not possible.
     #[arg(long, value_name = "PASSES", value_enum, value_delimiter = ',')]
     #[arg(hide_possible_values = true, help_heading = "Data passes")]
-    pub(super) pass: Vec<PassName>,
+    pub(crate) pass: Vec<PassName>,
 
     /// The world's units of a step of depth in a PNG
     #[arg(long, value_name = "LENGTH", default_value_t = 0.001, value_parser = length)]
     #[arg(help_heading = "Data passes")]
-    pub(super) depth_unit: f64,
+    pub(crate) depth_unit: f64,
 }
 
 /// Formats of pictures and of passes.
@@ -79,7 +79,7 @@ pub(crate) enum PassName {
 
 impl PassName {
     /// As in options and names of files.
-    pub(super) fn name(self) -> String {
+    pub(crate) fn name(self) -> String {
         let value = self.to_possible_value();
         value.map_or_else(String::new, |value| value.get_name().to_owned())
     }

@@ -1,8 +1,7 @@
 //! Draws passes, and writes them.
 
-use super::super::draw::{device, encoded, frame, frame_options};
+use super::super::draw::{device, frame_options};
 use super::super::report::{camera_json, counts, output_path, rounded_milliseconds, write};
-use super::arguments::PassName;
 use super::files::{Files, PassFile, PassFormat};
 use super::planes::Sources;
 use crate::failure::Failure;
@@ -11,8 +10,7 @@ use crate::limits::Clock;
 use crate::output;
 use crate::progress::Progress;
 use crate::render::{RenderArgs, check_output};
-use estampe_assets::image::{ImageFormat, encode_exr, encode_png_16};
-use estampe_renderer::{RenderOptions, Shading, ViewDirection, surface_points};
+use estampe_renderer::ViewDirection;
 use estampe_scene::{Camera, Projection};
 use serde_json::{Value, json};
 
@@ -32,41 +30,12 @@ pub(in crate::render) fn run(
     progress.stage("drawing");
     let device = device(picture)?;
     let options = frame_options(model, picture, ViewDirection::default(), &device)?;
-    let mut camera = None;
-    let mut image_of = |pass: PassName, options: &RenderOptions| {
-        if !files.any(|one| one == pass) {
-            return Ok(None);
-        }
-        let frame = frame(model, picture, options, &device)?;
-        camera = Some(frame.camera);
-        Ok::<_, Failure>(Some(frame.image))
-    };
-    let color = image_of(PassName::Color, &options)?;
-    let unlit = RenderOptions {
-        shading: Shading::Unlit,
-        ground: estampe_renderer::Ground::None,
-        shadows: false,
-        fog: None,
-        levels: None,
-        program: None,
-        ..options.clone().without_overlays()
-    };
-    let albedo = image_of(PassName::Albedo, &unlit)?;
-    let mut points = Vec::new();
-    if files.any(PassName::is_of_surfaces) {
-        let found = surface_points(&model.scene, &options, &device);
-        let found = found.map_err(|error| picture.shader.failure(error))?;
-        camera = Some(found.camera);
-        points = found.points;
-    }
-    let sources = Sources {
-        color,
-        albedo,
-        points,
-    };
+    let passes = files.passes();
+    let (sources, camera) = Sources::draw(&passes, model, picture, (&options, &device))?;
 
     progress.stage("encoding");
-    let encode = |file: &PassFile| encode(file, files.format, &sources, args);
+    let unit = args.passes.depth_unit;
+    let encode = |file: &PassFile| sources.encode(file, files.format, (picture.size, unit));
     let encoded: Vec<Vec<u8>> = { files.files.iter().map(encode) }.collect::<Result<_, _>>()?;
     progress.stage("writing");
     clock.check()?;
@@ -111,36 +80,6 @@ pub(in crate::render) fn run(
             })
         },
     )
-}
-
-/// The bytes of a file.
-fn encode(
-    file: &PassFile,
-    format: PassFormat,
-    sources: &Sources,
-    args: &RenderArgs,
-) -> Result<Vec<u8>, Failure> {
-    let size = args.picture.size;
-    let failure = |error: estampe_assets::AssetError| Failure::Output(error.to_string());
-    match (format, file.passes.as_slice()) {
-        (PassFormat::Exr, passes) => {
-            let channels = passes.iter().flat_map(|&pass| sources.channels(pass));
-            encode_exr(size, channels.collect()).map_err(failure)
-        }
-        (PassFormat::Png, &[pass @ (PassName::Color | PassName::Albedo)]) => {
-            let image = match pass {
-                PassName::Color => &sources.color,
-                _ => &sources.albedo,
-            };
-            let image = image.as_ref().expect("colours that are written were drawn");
-            encoded(image, ImageFormat::Png)
-        }
-        (PassFormat::Png, passes) => {
-            let pass = passes[0];
-            let codes = sources.codes(pass, args.passes.depth_unit)?;
-            encode_png_16(size, &codes).map_err(failure)
-        }
-    }
 }
 
 /// The camera as computer vision writes it: a point p of the world is seen at the pixel

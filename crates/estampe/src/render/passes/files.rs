@@ -10,23 +10,23 @@ const PLACEHOLDER: &str = "{pass}";
 
 /// Formats that hold passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum PassFormat {
+pub(crate) enum PassFormat {
     Exr,
     Png,
 }
 
 /// A file, and what it holds.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct PassFile {
-    pub(super) output: Destination,
-    pub(super) passes: Vec<PassName>,
+pub(crate) struct PassFile {
+    pub(crate) output: Destination,
+    pub(crate) passes: Vec<PassName>,
 }
 
 /// All files of one format.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Files {
-    pub(super) format: PassFormat,
-    pub(super) files: Vec<PassFile>,
+    pub(crate) format: PassFormat,
+    pub(crate) files: Vec<PassFile>,
 }
 
 impl Files {
@@ -58,10 +58,8 @@ impl Files {
         if passes.is_empty() {
             passes.push(PassName::Color);
         }
-        let name = path
-            .and_then(Path::file_name)
-            .and_then(|name| name.to_str());
-        let placed = name.filter(|name| name.contains(PLACEHOLDER)).zip(path);
+        let name = path.and_then(Path::to_str);
+        let placed = name.filter(|name| name.contains(PLACEHOLDER));
         let format = match (is_exr, is_png) {
             (true, _) => PassFormat::Exr,
             (_, true) if placed.is_some() => PassFormat::Png,
@@ -79,11 +77,9 @@ impl Files {
             ));
         }
         let files = match placed {
-            Some((name, path)) => { passes.iter() }
+            Some(name) => { passes.iter() }
                 .map(|&pass| PassFile {
-                    output: Destination::File(
-                        path.with_file_name(name.replace(PLACEHOLDER, &pass.name())),
-                    ),
+                    output: Destination::File(name.replace(PLACEHOLDER, &pass.name()).into()),
                     passes: vec![pass],
                 })
                 .collect(),
@@ -95,9 +91,10 @@ impl Files {
         Ok(Some(Self { format, files }))
     }
 
-    /// True if some file has a pass for which this holds.
-    pub(super) fn any(&self, holds: impl Fn(PassName) -> bool) -> bool {
-        { self.files.iter() }.any(|file| file.passes.iter().any(|&pass| holds(pass)))
+    /// The passes of all files.
+    pub(super) fn passes(&self) -> Vec<PassName> {
+        let passes = self.files.iter().flat_map(|file| &file.passes);
+        passes.copied().collect()
     }
 
     /// For messages.
@@ -144,6 +141,9 @@ mod tests {
         let each = files("d/{pass}.png", &[ObjectId, Color]);
         let expected = ["d/color.png 1", "d/object-id.png 1"].map(str::to_owned);
         assert_eq!(each.ok(), Some(Some(expected.to_vec())));
+        let folders = files("{pass}/a.png", &[ObjectId, Color]);
+        let expected = ["color/a.png 1", "object-id/a.png 1"].map(str::to_owned);
+        assert_eq!(folders.ok(), Some(Some(expected.to_vec())));
         assert!(files("a.png", &[Depth]).is_err());
         assert!(files("{pass}.jpg", &[Depth]).is_err());
         assert!(files("{pass}.png", &[Position]).is_err());

@@ -8,7 +8,7 @@ use estampe_renderer::SurfacePoint;
 use estampe_scene::Image;
 
 /// What passes are made of.
-pub(super) struct Sources {
+pub(crate) struct Sources {
     pub(super) color: Option<Image>,
     pub(super) albedo: Option<Image>,
     pub(super) points: Vec<Option<SurfacePoint>>,
