@@ -61,7 +61,8 @@ pub use camera::{CameraOptions, Eye, ProjectionKind, ViewDirection};
 pub use environment::{EnvironmentError, EnvironmentMap};
 pub use estampe::state::CullMode;
 pub use estampe::transforms;
-pub use frame::{Frame, FrameTimings, RenderError, TransparentLayers, render};
+pub use frame::{Frame, FrameStage, FrameTimings, RenderError, TransparentLayers};
+pub use frame::{render, render_watched};
 pub use geometry::face_colors::face_color;
 pub use gradient::{Gradient, GradientShape};
 pub use options::{

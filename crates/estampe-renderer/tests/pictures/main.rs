@@ -7,6 +7,7 @@ mod inspection_views;
 mod named_attributes;
 mod pbr;
 mod shadows;
+mod stages;
 mod support;
 mod surface_points;
 mod transparency;

@@ -25,4 +25,4 @@ mod template;
 
 pub(crate) use arguments::BatchArgs;
 pub(crate) use command::run;
-pub(crate) use option_table::schema;
+pub(crate) use option_table::{OptionTable, schema};

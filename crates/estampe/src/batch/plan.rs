@@ -7,6 +7,7 @@ use super::look::{JobOptions, Look};
 use super::template::Template;
 use crate::failure::Failure;
 use crate::output::Identity;
+use crate::presets;
 use crate::values::{Destination, ViewName, shown};
 use clap::{Parser, ValueEnum};
 use estampe_assets::image::ImageFormat;
@@ -95,6 +96,7 @@ fn of_file(args: &BatchArgs, path: &Path) -> Result<Vec<Draft>, Failure> {
         JobOptions::try_parse_from([""; 0]).map_err(|error| Failure::Usage(error.to_string()))?;
     unset.picture.threads = args.picture.threads;
     unset.picture.simd = args.picture.simd;
+    unset.picture.presets = args.picture.presets.clone();
     let given = format!("{:?} {:?}", args.picture, args.choice);
     if given != format!("{:?} {:?}", unset.picture, unset.choice) {
         return Err(Failure::Usage(
@@ -102,7 +104,7 @@ fn of_file(args: &BatchArgs, path: &Path) -> Result<Vec<Draft>, Failure> {
                 .to_owned(),
         ));
     }
-    let jobs = job_file::read(path)?.into_iter();
+    let jobs = job_file::read(path, &presets::table(&args.picture.presets)?)?.into_iter();
     jobs.map(|job| {
         let template = Template::parse(&job.output)
             .map_err(|problem| Failure::Usage(format!("{}: output {problem}", shown(path))))?;

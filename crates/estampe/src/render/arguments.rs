@@ -63,6 +63,10 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     pub(crate) output_format: Option<OutputFormatName>,
 
+    /// Draw again when the model, or a file that it or an option names, changes; Ctrl-C ends it
+    #[arg(long, conflicts_with = "timeout")]
+    pub(crate) watch: bool,
+
     #[command(flatten)]
     pub(crate) choice: ChoiceArgs,
 

@@ -4,14 +4,24 @@ use super::arguments::RenderArgs;
 use super::draw::{STAGES, draw, image_format};
 use super::passes::{self, Files, OutputFormatName};
 use super::report::Report;
+use super::watch;
 use crate::failure::Failure;
 use crate::input::Model;
 use crate::output;
 use crate::progress::Progress;
 use estampe_renderer::ViewDirection;
+use std::path::PathBuf;
 
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+    if args.watch {
+        return watch::run(args);
+    }
+    draw_once(args).map(drop)
+}
+
+/// Draws the model, and returns the files that it was read from.
+pub(super) fn draw_once(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     let clock = args.limits.watch("render", &args.model.name());
     let files = Files::of(&args.passes, &args.output, args.output_format)?;
     let named = args.output_format.and_then(OutputFormatName::of_picture);
@@ -32,7 +42,10 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     args.limits.check_memory(&model, &args.picture)?;
     let format = match (picture, &files) {
         (Some(format), _) => format,
-        (None, Some(files)) => return passes::run(&model, args, files, &clock, progress),
+        (None, Some(files)) => {
+            passes::run(&model, args, files, &clock, progress)?;
+            return Ok(model.files);
+        }
         (None, None) => unreachable!("a picture, or passes"),
     };
     let drawn = draw(
@@ -51,5 +64,6 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         drawn: &drawn,
         shape: None,
     };
-    report.write(&args.report)
+    report.write(&args.report)?;
+    Ok(model.files)
 }

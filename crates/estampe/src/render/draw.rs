@@ -16,7 +16,7 @@ use estampe_assets::Limits;
 use estampe_assets::image::{ImageFormat, decode, encode};
 use estampe_renderer::{
     CameraOptions, Eye, Frame, ProjectionKind, RenderOptions, Up, ViewDirection, composite_over,
-    render,
+    render, render_watched,
 };
 use estampe_scene::{Image, Projection, Scene};
 use std::time::Instant;
@@ -53,7 +53,8 @@ pub(crate) fn draw(
     let device = device(args)?;
     let device_time = device_start.elapsed();
     let options = options(model, args, (default_view, texture), &device)?;
-    let frame = render(&model.scene, &options, &device);
+    let on_stage = |stage| progress.frame(stage);
+    let frame = render_watched(&model.scene, &options, &device, &on_stage);
     let frame = frame.map_err(|error| args.shader.failure(error))?;
 
     progress.stage("encoding");

@@ -20,6 +20,7 @@ mod report;
 mod shadows;
 mod surface_shader;
 mod surfaces;
+mod watch;
 
 pub(crate) use arguments::RenderArgs;
 pub(crate) use command::run;

@@ -16,6 +16,7 @@ mod output;
 mod passes;
 mod picture_options;
 mod polygon_fill;
+mod presets;
 mod render;
 mod render_page;
 mod render_shader;
@@ -32,3 +33,5 @@ mod thumbnailer;
 mod transparency;
 mod turntable;
 mod turntable_page;
+#[cfg(unix)]
+mod watch;
