@@ -129,6 +129,28 @@ pub enum RenderError {
     InspectUnsorted,
 }
 
+/// What [`render_watched`] begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FrameStage {
+    /// Camera, vertex buffers, textures and pipelines.
+    Preparing,
+    /// The maps of lights and of the ground.
+    Shadows,
+    /// The passes of the picture: so many draws of this pass are drawn or begun.
+    Drawing {
+        /// Draws that are drawn or begun.
+        begun: usize,
+        /// All draws of the pass.
+        all: usize,
+    },
+    /// The pixels of the picture.
+    ReadingBack,
+}
+
+/// Is told the stages of a frame.
+pub(crate) type OnStage<'a> = &'a (dyn Fn(FrameStage) + Sync);
+
 /// Draws a scene.
 ///
 /// # Errors
@@ -139,10 +161,25 @@ pub fn render(
     options: &RenderOptions,
     device: &Device,
 ) -> Result<Frame, RenderError> {
+    render_watched(scene, options, device, &|_| {})
+}
+
+/// [`render`], which calls `on_stage` when a stage begins; while it draws, about every two million
+/// vertices.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_watched(
+    scene: &Scene,
+    options: &RenderOptions,
+    device: &Device,
+    on_stage: &(dyn Fn(FrameStage) + Sync),
+) -> Result<Frame, RenderError> {
     let start = Instant::now();
-    with_passes(scene, options, device, |passes, view| {
+    with_passes(scene, options, (device, on_stage), |passes, view| {
         let prepare = start.elapsed();
         let DrawnPasses { statistics, layers } = passes.draw(device)?;
+        on_stage(FrameStage::ReadingBack);
         let start = Instant::now();
         let mut rgba = device.read_texture(&passes.attachments.image)?;
         if options.background.is_none() {
@@ -174,10 +211,11 @@ pub fn render(
 pub(crate) fn with_passes<T>(
     scene: &Scene,
     options: &RenderOptions,
-    device: &Device,
+    (device, on_stage): (&Device, OnStage<'_>),
     use_passes: impl FnOnce(&FramePasses<'_>, &SceneView) -> Result<T, RenderError>,
 ) -> Result<T, RenderError> {
     check_size(options, device)?;
+    on_stage(FrameStage::Preparing);
     let resolved;
     let options = if options.shading == Shading::Automatic {
         resolved = RenderOptions {
@@ -203,6 +241,9 @@ pub(crate) fn with_passes<T>(
     }
     .plan()?;
     let mut before = Statistics::default();
+    if style.shadows.is_some() || style.columns.is_some() {
+        on_stage(FrameStage::Shadows);
+    }
     if let Some(shadows) = &style.shadows {
         before += shadows.draw(device, &plan)?;
     }
@@ -223,6 +264,7 @@ pub(crate) fn with_passes<T>(
         style: &style,
         attachments: &attachments,
         options,
+        on_stage,
         before,
         backdrop: backdrop.as_ref(),
         ground: ground.as_ref(),

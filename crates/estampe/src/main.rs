@@ -12,6 +12,7 @@
 //! * [`depth`]: measures the precision of depth buffers;
 //! * [`shader`]: checks and draws shaders as text;
 //! * [`compute`]: runs a compute shader;
+//! * [`presets`]: lists presets of options, which commands that draw have;
 //! * [`ladder`]: draws the pictures of the ladder, from one pixel to shapes;
 //! * [`completions`]: prints scripts by which a shell completes the command's words;
 //! * [`man`]: writes manual pages, hidden from the help.
@@ -39,6 +40,7 @@ mod ladder;
 mod limits;
 mod man;
 mod output;
+mod presets;
 mod preview;
 mod progress;
 mod render;
@@ -77,6 +79,7 @@ Examples:
   estampe shader image sky.wgsl -o sky.png
   estampe compute squares.wgsl --groups 4 --buffer 0,0=zeros:1024 --write 0,0=squares.bin
   estampe ladder all -o ladder
+  estampe presets
   estampe completions fish > ~/.config/fish/completions/estampe.fish
 
 `estampe help COMMAND` explains all options of a command.")]
@@ -107,6 +110,7 @@ enum Command {
     // Boxed, because it has many options.
     Compute(Box<compute::ComputeArgs>),
     Ladder(ladder::LadderArgs),
+    Presets(presets::PresetsArgs),
     Completions(completions::CompletionsArgs),
     #[command(hide = true)]
     Man(man::ManArgs),
@@ -146,7 +150,16 @@ fn command() -> clap::Command {
 }
 
 fn main() -> ExitCode {
-    let cli = parsed(std::env::args_os());
+    let words: Vec<OsString> = std::env::args_os().collect();
+    let name = words.get(1).map(|name| name.to_string_lossy().into_owned());
+    let words = match presets::with_presets(&command(), words) {
+        Ok(words) => words,
+        Err(failure) => {
+            let code = report(&name.unwrap_or_default(), None, Err(failure));
+            return ExitCode::from(code);
+        }
+    };
+    let cli = parsed(words);
     let code = match &cli.command {
         Command::Render(args) => report(
             "render",
@@ -207,6 +220,7 @@ fn main() -> ExitCode {
             Err(failure) => report(args.name(), args.json(), Err(failure)),
         },
         Command::Compute(args) => report("compute", None, compute::run(args)),
+        Command::Presets(args) => report("presets", None, presets::run(args)),
         Command::Ladder(args) => report("ladder", None, ladder::run(args)),
         Command::Completions(args) => {
             report("completions", None, completions::run(args, &Cli::command()))

@@ -42,7 +42,7 @@ impl Faces {
             ..options.clone().without_overlays()
         };
         let scene = without_points_and_lines(scene);
-        with_passes(&scene, &options, device, |passes, view| {
+        with_passes(&scene, &options, (device, &|_| {}), |passes, view| {
             passes.draw(device)?;
             let rgba = device.read_texture(&passes.attachments.image)?;
             let number = |&[r, g, b, alpha]: &[u8; 4]| (alpha != 0).then(|| face_number([r, g, b]));

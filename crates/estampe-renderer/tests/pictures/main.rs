@@ -10,6 +10,7 @@ mod named_attributes;
 mod pbr;
 mod sections;
 mod shadows;
+mod stages;
 mod support;
 mod surface_points;
 mod transparency;

@@ -66,6 +66,10 @@ pub(crate) struct RenderArgs {
     #[arg(requires = "output")]
     pub(crate) output_format: Option<OutputFormatName>,
 
+    /// Draw again when the model, or a file that it or an option names, changes; Ctrl-C ends it
+    #[arg(long, conflicts_with = "timeout")]
+    pub(crate) watch: bool,
+
     #[command(flatten)]
     pub(crate) choice: ChoiceArgs,
 

@@ -16,7 +16,7 @@ use estampe_assets::image::{ImageFormat, decode, encode};
 use estampe_assets::{Limits, ModelFormat};
 use estampe_renderer::{
     CameraOptions, Eye, Frame, ProjectionKind, RenderOptions, Up, ViewDirection, composite_over,
-    render,
+    render, render_watched,
 };
 use estampe_scene::{Image, Projection, Scene};
 use std::time::Instant;
@@ -67,7 +67,8 @@ pub(super) fn draw_with(
     let device = device(args)?;
     let device_time = device_start.elapsed();
     let options = options(model, args, (default_view, texture), &device)?;
-    let frame = render(&model.scene, &options, &device);
+    let on_stage = |stage| progress.frame(stage);
+    let frame = render_watched(&model.scene, &options, &device, &on_stage);
     let frame = frame.map_err(|error| args.shader.failure(error))?;
 
     progress.stage("encoding");

@@ -22,6 +22,7 @@ mod section;
 mod shadows;
 mod surface_shader;
 mod surfaces;
+mod watch;
 
 pub(crate) use arguments::RenderArgs;
 pub(crate) use command::run;

@@ -12,6 +12,7 @@ use super::surface_shader::SurfaceShaderArgs;
 use super::surfaces::SurfaceArgs;
 use crate::colors::{self, Background};
 use crate::failure::Failure;
+use crate::presets::PresetArgs;
 use crate::values::{self, ViewName};
 use clap::Args;
 use estampe::Level;
@@ -26,6 +27,9 @@ pub(crate) struct PictureArgs {
     /// Width and height in pixels, each 1 to 16384
     #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = values::size)]
     pub(crate) size: (u32, u32),
+
+    #[command(flatten)]
+    pub(crate) presets: PresetArgs,
 
     /// A named view: iso, front, back, left, right, top or bottom
     #[arg(long, value_name = "NAME", value_enum, hide_possible_values = true)]

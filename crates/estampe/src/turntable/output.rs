@@ -36,9 +36,7 @@ impl Output {
                 }
                 _ => "name it .gif, .png, .webp or .y4m, or add --output-format",
             };
-            Failure::Usage(format!(
-                "OUT's name does not show a format that is written; {advice}"
-            ))
+            Failure::Usage(format!("OUT's name does not show the format; {advice}"))
         })?;
         match (format, is_numbered) {
             (Name::Png, true) => Ok(Self::Pictures(ImageFormat::Png)),

@@ -16,6 +16,7 @@ mod output;
 mod passes;
 mod picture_options;
 mod polygon_fill;
+mod presets;
 mod preview;
 mod render;
 mod render_page;
@@ -35,3 +36,5 @@ mod thumbnailer;
 mod transparency;
 mod turntable;
 mod turntable_page;
+#[cfg(unix)]
+mod watch;
