@@ -21,8 +21,8 @@ pub struct CameraOptions {
     /// Free border on each side, as a fraction of the picture's shorter side; in 0..0.5. Default
     /// 0.05.
     pub margin: f64,
-    /// Enlargement of the picture about its middle, above 0; the eye stays, and the opening narrows.
-    /// Default 1.
+    /// Enlargement of the picture about its middle, above 0; the eye stays, and the opening
+    /// narrows. Default 1.
     pub zoom: f64,
 }
 
