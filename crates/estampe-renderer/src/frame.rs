@@ -358,6 +358,7 @@ fn frame_style(
             let linear = color.map(|code| decode(code, Encoding::Srgb));
             view.fog(fog, linear, (options.width, options.height))
         }),
+        presentation: view.presentation(options),
         wireframe: wireframe(transforms, options),
         overlay: has_overlay(options).then(|| overlay(transforms, options)),
         depth_range: view.depth_range(),

@@ -208,6 +208,7 @@ impl Look {
             output: Output {
                 levels: self.levels,
                 fog: self.fog(),
+                ..Output::default()
             },
             written: self.written,
         }))
