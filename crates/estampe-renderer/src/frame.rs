@@ -1,6 +1,7 @@
 //! Rendering of a scene to a frame, step by step.
 
 use crate::alpha::{Encoding, decode, straighten};
+use crate::behind::{BehindPicture, view_of};
 use crate::draw_plan::{Planner, is_dark};
 use crate::frame_passes::{DrawnPasses, FramePasses};
 use crate::ground::{ColumnMaps, GroundFrame, GroundShadow};
@@ -203,6 +204,9 @@ pub(crate) fn with_passes<T>(
         let lit = (&maps.frame, &columns, &view.sky(options));
         ground = Some(GroundShadow::new(device, &style, lit, workers)?);
     }
+    if let Some(behind) = &style.behind {
+        before += behind.draw(device, &plan, ground.as_ref())?;
+    }
     let attachments =
         Attachments::new(options, style.format, device).map_err(RenderError::Target)?;
     let passes = FramePasses {
@@ -322,9 +326,13 @@ fn frame_style(
         (program, values)
     });
     let pbr = if options.shading == Shading::Pbr {
-        Some(Arc::new(
-            view.pbr_lighting(scene, options, &lights, device)?,
-        ))
+        let mut lighting = view.pbr_lighting(scene, options, &lights, device)?;
+        let background = options.background.map(|_| {
+            let [r, g, b, _] = clear_color(options);
+            [r, g, b]
+        });
+        lighting.behind = view_of(scene, view, options, background);
+        Some(Arc::new(lighting))
     } else {
         None
     };
@@ -332,7 +340,13 @@ fn frame_style(
         Some(lighting) => &lighting.shadow_maps,
         None => &lights.shadow_maps,
     };
+    let is_seen_through = pbr.as_ref().is_some_and(|pbr| pbr.behind.is_some());
     Ok(FrameStyle {
+        behind: if is_seen_through {
+            Some(BehindPicture::new(device, options)?)
+        } else {
+            None
+        },
         shadows: ShadowMaps::new(device, maps)?,
         columns: if options.has_ground() {
             Some(ColumnMaps::new(device, GroundFrame::new(view))?)

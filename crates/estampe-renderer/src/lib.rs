@@ -6,7 +6,9 @@
 //!        ├─ environment     light from all around; pbr_lighting puts it into view space
 //!        ├─ shadows         maps of what the lights see
 //!        ├─ ground          the shadow on what the model stands on
+//!        ├─ behind          what is seen through surfaces that transmit light
 //!        ├─ materials       surface styles and textures
+//!        ├─ alpha_levels    mip levels of colours with alpha
 //!        ├─ pbr_materials   what physically based materials add
 //!        ├─ geometry        vertex buffers, unshared faces, back-to-front order
 //!        ├─ surface_program     a program of the caller's, in place of those of `shading`
@@ -29,6 +31,8 @@
 pub mod camera;
 
 mod alpha;
+mod alpha_levels;
+mod behind;
 mod draw_plan;
 mod environment;
 mod frame;

@@ -76,7 +76,16 @@ impl LimitArgs {
         });
         let images = model.scene.images.iter().map(|image| image.rgba.len());
         let scene = meshes.chain(images).sum::<usize>() as u64;
-        let needed = scene.saturating_add(picture.bytes());
+        let materials = model.scene.materials.iter();
+        let mut descriptions = materials.filter_map(|material| material.pbr.as_ref());
+        let is_seen_through = descriptions.any(|pbr| pbr.transmission.is_some());
+        let picture = if is_seen_through {
+            // The picture of what is behind surfaces is one more.
+            picture.bytes() + picture.bytes_behind()
+        } else {
+            picture.bytes()
+        };
+        let needed = scene.saturating_add(picture);
         if needed <= limit {
             return Ok(());
         }

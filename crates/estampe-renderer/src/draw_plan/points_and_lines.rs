@@ -8,6 +8,7 @@ use crate::geometry::vertex_data::{MeshStreams, StreamData};
 use crate::options::{RenderOptions, Shading};
 use crate::shading::inspection::Overdraw;
 use crate::shading::points_and_lines::PointsAndLines;
+use crate::surface_pipelines::Role;
 use crate::transforms::round_to_f32;
 use estampe::TextureFormat;
 use estampe::state::PrimitiveTopology;
@@ -34,18 +35,25 @@ impl Planner<'_> {
                 streams.colors = StreamData::constant(self.device, &[1.0; 4])?;
             }
             let shader = self.points_and_lines(shows_colors, mesh.points.len());
-            let pipeline = self
-                .style
-                .points_and_lines(self.device, shader, topology, &streams)?;
-            let vertex_buffers = buffers_of(&pipeline, &streams);
-            let pipeline = builder.plan.add_pipeline(pipeline);
             let indices = Some(self.index_buffer_of(indices.to_vec())?);
-            builder.plan.opaque.push(PlannedDraw {
-                pipeline,
-                vertex_buffers,
-                indices,
-                elements,
-            });
+            let mut draw = |role| -> Result<PlannedDraw, RenderError> {
+                let style = self.style;
+                let shader = shader.clone();
+                let made =
+                    style.points_and_lines(self.device, shader, (topology, role), &streams)?;
+                Ok(PlannedDraw {
+                    vertex_buffers: buffers_of(&made, &streams),
+                    pipeline: builder.plan.add_pipeline(made),
+                    indices: indices.clone(),
+                    elements: elements.clone(),
+                })
+            };
+            let opaque = draw(Role::Opaque)?;
+            if self.style.behind.is_some() {
+                let behind = draw(Role::Behind)?;
+                builder.plan.behind.push(behind);
+            }
+            builder.plan.opaque.push(opaque);
         }
         Ok(())
     }

@@ -28,6 +28,15 @@ impl Output {
             None => color,
         }
     }
+
+    /// The opacity of a surface behind the fog, which is opaque.
+    #[inline(always)]
+    pub(crate) fn opacity<R: Real>(&self, input: &FragmentIn<'_, R>, opacity: R) -> R {
+        match &self.fog {
+            Some(fog) => opacity.mix(input.real(1.0), fog.share(input)),
+            None => opacity,
+        }
+    }
 }
 
 /// Fog that hides what is distant: C = (1 − γ)·C + γ·C_fog, γ = (‖p − eye‖ − start) ÷ (end − start)
@@ -47,9 +56,14 @@ impl Fog {
     /// The colour behind the fog.
     #[inline(always)]
     pub(crate) fn color<R: Real>(&self, input: &FragmentIn<'_, R>, color: Vec3<R>) -> Vec3<R> {
-        let distance = self.eye_distance.of(input);
-        let share = ((distance - self.start) * self.per_distance).saturate();
+        let share = self.share(input);
         color.mix(Vec3::uniform(share, self.color), share)
+    }
+
+    #[inline(always)]
+    fn share<R: Real>(&self, input: &FragmentIn<'_, R>) -> R {
+        let distance = self.eye_distance.of(input);
+        ((distance - self.start) * self.per_distance).saturate()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Pictures of scenes, against the oracle and against themselves.
 
 mod bump_maps;
+mod cut_outs;
 mod hostile_scenes;
 mod illumination;
 mod inspection_views;
@@ -9,4 +10,5 @@ mod pbr;
 mod shadows;
 mod support;
 mod surface_points;
+mod transmission;
 mod transparency;
