@@ -32,7 +32,7 @@ pub(crate) struct Materials<'a> {
 /// What the texels of an image are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Texels {
-    /// Colours, whose alpha is none of their business.
+    /// Colours; alpha is ignored.
     Colors,
     /// Colours whose alpha is their coverage.
     Covering,
@@ -80,8 +80,8 @@ impl<'a> Materials<'a> {
     }
 
     /// The textures of all surfaces, which can be [created](Self::create) by several threads: the
-    /// index of each image with its texels, the largest images first. None if there is one thread: a
-    /// texture is created as fast when it is first needed.
+    /// index of each image with its texels, the largest images first. None if there is one thread:
+    /// a texture is created as fast when it is first needed.
     pub(crate) fn missing_textures(&self, workers: Workers) -> Vec<TextureKey> {
         let scene = self.scene;
         if workers.count() < 2 {

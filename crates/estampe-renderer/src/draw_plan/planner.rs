@@ -99,8 +99,8 @@ impl Planner<'_> {
         Ok(meshes)
     }
 
-    /// The texture coordinates of a mesh's first normal map, or of the direction of its roughness, if
-    /// it has one and no tangents.
+    /// The texture coordinates of a mesh's first normal map, or of the direction of its roughness,
+    /// if it has one and no tangents.
     fn normal_map_uv_set(&self, mesh: &Mesh) -> Option<u8> {
         if self.style.pbr.is_none() || mesh.attribute(Mesh::TANGENT).is_some() {
             return None;

@@ -134,7 +134,7 @@ impl<R: Real> Grooves<R> {
     ///
     /// ```text
     ///   α² = (αt² + αb²) ÷ 2
-    ///   cos = n·v ÷ √((n·v)² + (t·v)² + (αb ÷ αt)²(b·v)²)    the view as the rough direction sees it
+    ///   cos = n·v ÷ √((n·v)² + (t·v)² + (αb ÷ αt)²(b·v)²)  as the rough direction sees it
     /// ```
     ///
     /// Compared with integrals (roughness 0.1 to 0.85), the share that such a surface loses is at

@@ -42,14 +42,14 @@ const SECOND: Gaussian = Gaussian {
 /// The greatest Gaussians of the sensitivities for X, Y and Z.
 const FIRST: [Gaussian; 3] = [
     Gaussian {
-        height: 0.846_590_0,
+        height: 0.846_59,
         frequency: 0.010_562_034,
         decay: 2.464_912_2e-7,
     },
     Gaussian {
         height: 1.000_221_9,
         frequency: 0.011_280_203,
-        decay: 5.299_464_5e-7,
+        decay: 5.299_465e-7,
     },
     Gaussian {
         height: 1.001_122_5,

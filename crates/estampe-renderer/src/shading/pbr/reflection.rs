@@ -3,8 +3,8 @@
 //! ```text
 //!   lobes    clear coat      F0 0.04
 //!            sheen           takes its share of the light from what is below
-//!            GGX             F0, F90, or a thin film; light between facets is added (F. Fdez-Agüera
-//!                            2019)
+//!            GGX             F0, F90, or a thin film; light between facets is added
+//!                            (C. Fdez-Agüera 2019)
 //!            diffuse         what GGX does not reflect, times the base colour
 //!            passing         the share of the diffuse light that passes through instead
 //! ```

@@ -12,9 +12,9 @@
 //! | transmission | all, with what comes from behind | all |
 //!
 //! The bound is 1 % everywhere. Losses have these reasons: what is below a clear coat is reduced by
-//! the Fresnel term at the angle of the view, as KHR_materials_clearcoat asks, while the coat's lobe
-//! reflects by the half vector's, which is less at grazing angles; the light between the facets of grooved surfaces is an estimate on the
-//! safe side (`Grooves::equivalent`).
+//! the Fresnel term at the angle of the view, as KHR_materials_clearcoat asks, while the coat's
+//! lobe reflects by the half vector's, which is less at grazing angles; the light between the
+//! facets of grooved surfaces is an estimate on the safe side (`Grooves::equivalent`).
 
 use super::super::anisotropy::Grooves;
 use super::super::iridescence::Film;

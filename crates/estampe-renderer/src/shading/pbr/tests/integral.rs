@@ -3,7 +3,7 @@
 //! | light | bound |
 //! |---|---|
 //! | one light | the oracle's function: 1 % of it, and the error of the light between facets ÷ π |
-//! | surroundings that change with the direction | four standard deviations of the oracle's estimate, and the error of the split sum |
+//! | uneven surroundings | four deviations of the estimate, and the split sum |
 //!
 //! The error between facets is 0.01; with grooves 0.067 · strength + 0.036
 //! ([`Grooves::equivalent`]), with a film 0.1 · factor, whose F0 is that of the eye's angle. The
@@ -164,8 +164,8 @@ fn single_lights_are_reflected_as_by_the_oracle() {
 }
 
 /// 40 materials in surroundings that change by half across them, against 20,000 random directions
-/// each: four standard deviations (a false alarm in 10⁴ numbers), 0.03, the error of what is spread,
-/// and 0.05 of the fibres' colour, whose lobe is looked up around the mirrored direction.
+/// each: four standard deviations (a false alarm in 10⁴ numbers), 0.03, the error of what is
+/// spread, and 0.05 of the fibres' colour, whose lobe is looked up around the mirrored direction.
 #[test]
 fn surroundings_are_reflected_as_random_directions_say() {
     let radiance = |[x, y, z]: [f64; 3]| [1.0 + 0.25 * x, 1.0 + 0.25 * y, 0.9 + 0.1 * z];
