@@ -155,8 +155,8 @@ impl Materials<'_> {
     }
 }
 
-/// The images of a material with their formats: colours, then numbers.
-pub(crate) fn images_of(pbr: &PbrMaterial) -> Vec<(usize, TextureFormat)> {
+/// The textures of a material with their formats: colours, then numbers.
+pub(crate) fn textures_of(pbr: &PbrMaterial) -> impl Iterator<Item = (TextureRef, TextureFormat)> {
     let colors = [
         pbr.base_color_texture,
         pbr.emissive_texture,
@@ -174,12 +174,22 @@ pub(crate) fn images_of(pbr: &PbrMaterial) -> Vec<(usize, TextureFormat)> {
         pbr.clearcoat.and_then(|coat| coat.roughness_texture),
         pbr.clearcoat.and_then(|coat| normal(coat.normal_texture)),
     ];
-    let index = |texture: Option<TextureRef>| texture.map(|texture| texture.image);
-    let colors = colors.into_iter().filter_map(index);
-    let numbers = numbers.into_iter().filter_map(index);
-    let colors = colors.map(|index| (index, COLORS));
-    colors
-        .chain(numbers.map(|index| (index, NUMBERS)))
+    let colors = colors
+        .into_iter()
+        .flatten()
+        .map(|texture| (texture, COLORS));
+    colors.chain(
+        numbers
+            .into_iter()
+            .flatten()
+            .map(|texture| (texture, NUMBERS)),
+    )
+}
+
+/// The images of a material with their formats.
+pub(crate) fn images_of(pbr: &PbrMaterial) -> Vec<(usize, TextureFormat)> {
+    textures_of(pbr)
+        .map(|(texture, format)| (texture.image, format))
         .collect()
 }
 

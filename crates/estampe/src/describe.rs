@@ -2,12 +2,13 @@
 
 use crate::choice::ChoiceArgs;
 use crate::failure::Failure;
-use crate::input::Model;
+use crate::input::{Model, Reading};
 use crate::render::counts;
 use crate::terminal::one_line;
 use crate::values::{FormatName, Source};
 use clap::Args;
 use estampe_assets::Limits;
+use estampe_assets::model::FullDetail;
 use estampe_scene::{
     AlphaMode, Bounds, Material, Mesh, NamedCamera, Projection, PunctualLightKind, Scene, UpAxis,
 };
@@ -57,7 +58,11 @@ pub(crate) struct InfoArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
-    let read = (&args.choice.at(args.time), &Limits::default());
+    let read = Reading {
+        options: &args.choice.at(args.time),
+        limits: &Limits::default(),
+        detail: &FullDetail,
+    };
     let folder = args.choice.folder_of(&args.model)?;
     let model = Model::read((&args.model, &folder), args.format, read, |_| {})?;
     let report = if args.json {

@@ -12,6 +12,7 @@
 //! decides which files a model may open.
 
 mod corner_split;
+mod deferred;
 mod detect;
 mod encoding;
 mod finish;
@@ -40,9 +41,12 @@ mod write;
 #[cfg(test)]
 mod tests;
 
+pub use deferred::{FullDetail, TextureDetail};
 pub use detect::ModelFormat;
 pub use folder::Folder;
-pub use load::{Loaded, ModelInput, load_model, load_model_with, parse_model, parse_model_with};
+pub use load::{
+    Loaded, ModelInput, load_model, load_model_with, parse_model, parse_model_for, parse_model_with,
+};
 pub use normals::NormalMode;
 pub use options::{AnimationClip, AnimationName, ModelChoices, ModelOptions, TextureAlpha};
 pub use resources::{NoResources, ResourceError, Resources};

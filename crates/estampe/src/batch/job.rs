@@ -5,9 +5,9 @@ use super::deadline::{self, Claim};
 use super::plan::{Job, Picture};
 use super::record::{self, NamedFiles, Sources, digest};
 use crate::failure::Failure;
-use crate::input::{self, Model};
+use crate::input::{self, Model, Reading};
 use crate::output;
-use crate::render;
+use crate::render::{self, PictureArgs, PictureDetail};
 use crate::values::{Destination, shown};
 use estampe::Device;
 use estampe_assets::Limits;
@@ -111,10 +111,15 @@ impl Shared {
         let named = NamedFiles::new(folder);
         let args = &job.look.options;
         let chosen = args.choice.at(args.picture.shader.time);
+        let pictures = { job.pictures.iter() }.map(|picture| arguments(job, picture));
         let model = Model::of_bytes(
             (&job.input.path, &bytes),
             args.format.map(estampe_assets::ModelFormat::from),
-            (&chosen, &self.limits),
+            Reading {
+                options: &chosen,
+                limits: &self.limits,
+                detail: &PictureDetail::of_all(pictures),
+            },
             &named,
         );
         let model = match model {
@@ -156,8 +161,7 @@ fn draw(
     sources: &Sources,
     (device, claim): (&Device, &Claim),
 ) -> Result<(), Failure> {
-    let mut args = job.look.options.picture.clone();
-    args.view = picture.view;
+    let args = arguments(job, picture);
     let destination = Destination::File(picture.output.clone());
     render::check_output(&destination, model, &args)?;
     let look = (ViewDirection::default(), picture.format);
@@ -171,6 +175,14 @@ fn draw(
     }
     claim.end_writing();
     written
+}
+
+/// The options of a picture.
+fn arguments(job: &Job, picture: &Picture) -> PictureArgs {
+    PictureArgs {
+        view: picture.view,
+        ..job.look.options.picture.clone()
+    }
 }
 
 fn write(picture: &Picture, destination: &Destination, bytes: &[u8]) -> Result<(), Failure> {

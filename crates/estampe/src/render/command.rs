@@ -4,8 +4,9 @@ use super::arguments::RenderArgs;
 use super::draw::{STAGES, draw, image_format};
 use super::passes::{self, Files, OutputFormatName};
 use super::report::Report;
+use super::texture_detail::PictureDetail;
 use crate::failure::Failure;
-use crate::input::Model;
+use crate::input::{Model, Reading};
 use crate::output;
 use crate::progress::Progress;
 use estampe_renderer::ViewDirection;
@@ -26,7 +27,12 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let chosen = args.choice.at(args.picture.shader.time);
     let folder = args.choice.folder_of(&args.model)?;
     let source = (&args.model, &folder);
-    let model = Model::read(source, args.format, (&chosen, &limits), |stage| {
+    let reading = Reading {
+        options: &chosen,
+        limits: &limits,
+        detail: &PictureDetail::of(&args.picture),
+    };
+    let model = Model::read(source, args.format, reading, |stage| {
         progress.stage(stage);
     })?;
     args.limits.check_memory(&model, &args.picture)?;

@@ -18,6 +18,7 @@ mod picture;
 mod report;
 mod shadows;
 mod surface_shader;
+mod texture_detail;
 
 pub(crate) use arguments::RenderArgs;
 pub(crate) use command::run;
@@ -28,3 +29,4 @@ pub(crate) use report::write as write_report;
 pub(crate) use report::{
     Report, counts, output_name, output_path, rounded_milliseconds, write_json,
 };
+pub(crate) use texture_detail::PictureDetail;

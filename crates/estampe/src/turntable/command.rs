@@ -5,7 +5,7 @@ use super::orbit::Orbit;
 use super::output::{Output, numbered};
 use super::poses::Poses;
 use crate::failure::Failure;
-use crate::input::Model;
+use crate::input::{Model, Reading};
 use crate::limits::Clock;
 use crate::output::{self, Unwritten};
 use crate::progress::Progress;
@@ -14,6 +14,7 @@ use crate::values::Destination;
 use estampe::Device;
 use estampe_assets::image::animation::{ApngWriter, WebpAnimation, Y4mWriter};
 use estampe_assets::image::gif::{MAX_GIF_RATE, write_gif};
+use estampe_assets::model::FullDetail;
 use estampe_renderer::{Eye, RenderOptions, ViewDirection, composite_over};
 use estampe_scene::Image;
 use serde_json::json;
@@ -34,7 +35,12 @@ pub(crate) fn run(args: &TurntableArgs) -> Result<(), Failure> {
     let chosen = args.choice.at(time_s);
     let folder = args.choice.folder_of(&args.model)?;
     let source = (&args.model, &folder);
-    let model = Model::read(source, args.format, (&chosen, &limits), |stage| {
+    let reading = Reading {
+        options: &chosen,
+        limits: &limits,
+        detail: &FullDetail,
+    };
+    let model = Model::read(source, args.format, reading, |stage| {
         progress.stage(stage);
     })?;
     args.limits.check_memory(&model, &args.picture)?;

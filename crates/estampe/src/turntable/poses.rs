@@ -2,9 +2,10 @@
 
 use super::arguments::TurntableArgs;
 use crate::failure::Failure;
-use crate::input::Model;
+use crate::input::{Model, Reading};
 use crate::values::Source;
 use estampe_assets::Limits;
+use estampe_assets::model::FullDetail;
 
 /// The poses of a model over the turn.
 #[derive(Debug)]
@@ -55,7 +56,11 @@ impl<'a> Poses<'a> {
     /// The model at the time of a frame.
     pub(super) fn at(&self, frame: u32) -> Result<Model, Failure> {
         let chosen = self.args.choice.at(Some(self.time_s(frame)));
-        let options = (&chosen, self.limits);
+        let options = Reading {
+            options: &chosen,
+            limits: self.limits,
+            detail: &FullDetail,
+        };
         let folder = self.args.choice.folder_of(&self.args.model)?;
         let source = (&self.args.model, &folder);
         Model::read(source, self.args.format, options, |_| {})

@@ -21,12 +21,13 @@ fn the_commands_of_the_page_draw_its_pictures() {
 }
 
 /// Options that change no picture, or its file alone.
-const WITHOUT_PICTURES: [&str; 14] = [
+const WITHOUT_PICTURES: [&str; 15] = [
     "--output",
     "--format",
     "--output-format",
     "--max-triangles",
     "--max-pixels",
+    "--max-texture-size",
     "--max-bytes",
     "--max-memory",
     "--timeout",

@@ -515,6 +515,51 @@ fn images_of_extensions_are_preferred() {
     );
 }
 
+/// A KTX2 texture of one texel.
+fn ktx2(format: u32, color_model: u32, texel: [u8; 4]) -> Vec<u8> {
+    let mut out = b"\xabKTX 20\xbb\r\n\x1a\n".to_vec();
+    let header = [format, 1, 1, 1, 0, 0, 1, 1, 0, 104, 28, 132, 0];
+    out.extend(header.into_iter().flat_map(u32::to_le_bytes));
+    out.extend([0; 16]);
+    out.extend([132, 4, 4].into_iter().flat_map(u64::to_le_bytes));
+    let descriptor = [28, 0, 24 << 16 | 2, 0x2_0100 | color_model, 0, 0, 0];
+    out.extend(descriptor.into_iter().flat_map(u32::to_le_bytes));
+    out.extend(texel);
+    out
+}
+
+#[test]
+fn ktx2_is_read_and_basis_universal_named_in_a_warning() {
+    let base = json!({ "baseColorTexture": { "index": 0 } });
+    let with_image = |image: &[u8]| {
+        let mut file = with_material(json!({ "pbrMetallicRoughness": base }));
+        let view = file.view(image);
+        let image = json!({ "bufferView": view, "mimeType": "image/ktx2" });
+        file.set("/images/1", image);
+        let basisu = json!({ "KHR_texture_basisu": { "source": 1 } });
+        file.set("/textures/0", json!({ "extensions": basisu }));
+        file.set("/extensionsRequired", json!(["KHR_texture_basisu"]));
+        file
+    };
+    let plain = with_image(&ktx2(43, 1, [1, 2, 3, 4]));
+    let loaded = load(&plain.glb());
+    assert_eq!(loaded.warnings, []);
+    assert_eq!(loaded.scene.images[0].texel(0, 0), [1, 2, 3, 4]);
+
+    let mut uastc = with_image(&ktx2(0, 166, [0; 4]));
+    let loaded = load(&uastc.glb());
+    let warning = loaded.warnings[0].to_string();
+    let named = "/images/1: the image is left out: a KTX2 texture of Basis Universal's UASTC";
+    assert!(warning.contains(named), "{warning}");
+    assert_eq!(first(&loaded).1.base_color_texture, None);
+
+    // The image for other programs comes first.
+    uastc.set("/textures/0/source", json!(0));
+    let loaded = load(&uastc.glb());
+    assert_eq!(loaded.warnings, []);
+    assert!(first(&loaded).1.base_color_texture.is_some());
+}
+
 #[test]
 fn a_view_that_two_images_name_is_decoded_once() {
     let base = json!({ "baseColorTexture": { "index": 0 } });
@@ -575,13 +620,13 @@ fn textures_that_cannot_be_read_are_left_out_with_a_warning() {
     check(
         "/images/0",
         json!("garbage"),
-        "an image that is neither PNG, JPEG, WebP, BMP nor DDS cannot be read",
+        "an image that is neither PNG, JPEG, WebP, BMP, DDS nor KTX2 cannot be read",
     );
     check("/images/0", json!("damaged"), "the PNG is not valid");
     check(
         "/textures/0",
         json!({}),
-        "/textures/0: the texture has no image in PNG, JPEG, WebP or DDS",
+        "/textures/0: the texture has no image in PNG, JPEG, WebP, DDS or KTX2",
     );
     check(
         "/materials/0/pbrMetallicRoughness/baseColorTexture",
