@@ -2,6 +2,7 @@
 
 use crate::alpha::{Encoding, decode, straighten};
 use crate::backdrop::BackdropDraw;
+use crate::camera::Pinhole;
 use crate::draw_plan::{Planner, is_dark};
 use crate::frame_passes::{DrawnPasses, FramePasses};
 use crate::ground::{ColumnMaps, GroundFrame, GroundShadow};
@@ -36,6 +37,8 @@ pub struct Frame {
     pub timings: FrameTimings,
     /// The camera of the image, in world space.
     pub camera: Camera,
+    /// The camera as a pinhole, in world space; `None` if the projection is parallel.
+    pub pinhole: Option<Pinhole>,
     /// The layers of transparent surfaces that [`Transparency::Exact`](crate::Transparency) peeled;
     /// `None` with other methods, and of scenes without transparent surfaces.
     pub layers: Option<TransparentLayers>,
@@ -202,6 +205,7 @@ pub fn render_watched(
             statistics,
             timings,
             camera: view.camera_world(),
+            pinhole: view.pinhole((options.width, options.height)),
             layers,
         })
     })

@@ -65,7 +65,7 @@ mod text;
 struct Readme;
 
 pub use alpha::composite_over;
-pub use camera::{CameraOptions, Eye, ProjectionKind, ViewDirection};
+pub use camera::{CameraOptions, Eye, Intrinsics, Pinhole, ProjectionKind, ViewDirection};
 pub use environment::{EnvironmentError, EnvironmentMap};
 pub use estampe::state::CullMode;
 pub use estampe::transforms;

@@ -1,13 +1,14 @@
 //! The view of a scene: its unit space, its camera, and the resulting transforms.
 
 use crate::camera::placement::Lens;
-use crate::camera::{CameraOptions, Cloud, Eye, PlacedCamera, ProjectionKind};
+use crate::camera::{CameraOptions, Cloud, Eye, Intrinsics, Pinhole, PlacedCamera, ProjectionKind};
 use crate::geometry::unit_space::{UnitSpace, UsedVertices, used_vertices};
 use crate::options::{self, RenderOptions, Up};
 use crate::shading::VertexTransforms;
 use crate::shading::lighting::{DEFAULT_AMBIENT, Directional, Lights, Positional, ViewLight};
 use crate::shading::output::{EyeDistance, Fog};
 use crate::shadows::{MapChoice, ShadowSource};
+use crate::transforms::view::CameraFrame;
 use crate::transforms::{round_to_f32, to_f32, transform_point, transform_vector};
 use estampe::Mat4;
 use estampe_scene::{Camera, LightSource, Projection, Scene, UpAxis, Workers};
@@ -48,13 +49,19 @@ impl SceneView {
             eye: match options.camera.eye {
                 Eye::At(eye) => Eye::At(in_unit(eye)),
                 fitted @ Eye::Fitted(_) => fitted,
+                Eye::Posed(frame) => Eye::Posed(CameraFrame {
+                    eye_world: in_unit(frame.eye_world),
+                    ..frame
+                }),
             },
             target_world: options.camera.target_world.map(in_unit),
             projection: match options.camera.projection {
                 ProjectionKind::Orthographic { half_height } => ProjectionKind::Orthographic {
                     half_height: half_height.map(|half| half / space.world_per_unit()),
                 },
-                perspective @ ProjectionKind::Perspective { .. } => perspective,
+                perspective @ (ProjectionKind::Perspective { .. } | ProjectionKind::Pinhole(_)) => {
+                    perspective
+                }
             },
             ..options.camera
         };
@@ -102,7 +109,7 @@ impl SceneView {
     /// The direction from a unit-space point towards the eye; its length has no meaning.
     pub(crate) fn towards_eye(&self, point_unit: DVec3) -> DVec3 {
         match self.camera.lens {
-            Lens::Perspective(_) => self.camera.frame.eye_world - point_unit,
+            Lens::Perspective(_) | Lens::Pinhole(_) => self.camera.frame.eye_world - point_unit,
             Lens::Orthographic(_) => self.camera.frame.back_world,
         }
     }
@@ -202,7 +209,7 @@ impl SceneView {
     fn eye_distance(&self, (width, height): (u32, u32)) -> EyeDistance {
         let clip_from_view = self.camera.clip_from_view(self.aspect);
         match self.camera.lens {
-            Lens::Perspective(_) => {
+            Lens::Perspective(_) | Lens::Pinhole(_) => {
                 // ndc = (s·x + o·z)/−z, so x/−z = (ndc + o)/s; x runs from −1 to 1, y from 1 to −1.
                 let slope = |scale: f64, skew: f64, left: f64, side: u32| {
                     let per_pixel = -left * 2.0 / f64::from(side);
@@ -247,6 +254,28 @@ impl SceneView {
         (frame.eye_world - point_unit).dot(frame.back_world)
     }
 
+    /// The camera in world space as a pinhole, for a picture of this size; `None` if the projection
+    /// is parallel.
+    pub(crate) fn pinhole(&self, (width, height): (u32, u32)) -> Option<Pinhole> {
+        let (width, height) = (f64::from(width), f64::from(height));
+        let intrinsics = match self.camera.lens {
+            Lens::Orthographic(_) => return None,
+            Lens::Perspective(fov) => Intrinsics {
+                focal_px: [height / 2.0 / libm::tan(fov / 2.0); 2],
+                principal_px: [width / 2.0, height / 2.0],
+            },
+            Lens::Pinhole(window) => window.intrinsics((width, height)),
+        };
+        let frame = &self.camera.frame;
+        let eye = self.space.world_from_unit(frame.eye_world);
+        let rotation = [frame.right_world, -frame.up_world, -frame.back_world];
+        Some(Pinhole {
+            intrinsics,
+            rotation,
+            translation: -DVec3::from_array(rotation.map(|row| row.dot(eye))),
+        })
+    }
+
     /// The camera in world space, rounded to f32.
     pub(crate) fn camera_world(&self) -> Camera {
         let length = |unit: f64| round_to_f32(unit * self.space.world_per_unit());
@@ -261,6 +290,11 @@ impl SceneView {
             projection: match self.camera.lens {
                 Lens::Perspective(fov) => Projection::Perspective {
                     fov_y_rad: round_to_f32(fov),
+                    near,
+                    far,
+                },
+                Lens::Pinhole(window) => Projection::Perspective {
+                    fov_y_rad: round_to_f32(window.fov_y_rad()),
                     near,
                     far,
                 },

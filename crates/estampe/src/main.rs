@@ -4,6 +4,7 @@
 //! * [`render`]: renders a model to an image;
 //! * [`batch`]: renders many models;
 //! * [`sheet`]: draws many models, or the views of one, as cells of one picture;
+//! * [`schema`]: prints the schemas of files;
 //! * [`turntable`]: animates a model that turns;
 //! * [`shape`]: meshes a function, as a model or an image;
 //! * [`inspect`]: explains a pixel of the image;
@@ -44,6 +45,7 @@ mod presets;
 mod preview;
 mod progress;
 mod render;
+mod schema;
 mod shader;
 mod shape;
 mod sheet;
@@ -98,8 +100,7 @@ enum Command {
     Sheet(Box<sheet::SheetArgs>),
     // Boxed, because it has the options of a picture.
     Turntable(Box<turntable::TurntableArgs>),
-    /// Prints the JSON Schema of the job files of `estampe batch`
-    Schema,
+    Schema(schema::SchemaArgs),
     Shape(Box<shape::ShapeArgs>),
     Info(describe::InfoArgs),
     // Boxed, because it has the options of a picture.
@@ -183,10 +184,7 @@ fn main() -> ExitCode {
             args.report.json.then_some(args.output.is_standard_output()),
             turntable::run(args),
         ),
-        Command::Schema => {
-            let schema = format!("{:#}\n", batch::schema());
-            report("schema", None, output::print(&schema))
-        }
+        Command::Schema(args) => report("schema", None, schema::run(args)),
         Command::Shape(args) => report(
             "shape",
             args.report.json.then_some(args.output.is_standard_output()),

@@ -3,6 +3,7 @@
 use super::Cloud;
 use super::direction::ViewDirection;
 use super::fit::{self, FrameTangents};
+use super::pinhole::{Intrinsics, Window};
 use crate::transforms::projection::{self, DepthConvention, Frustum};
 use crate::transforms::view::CameraFrame;
 use crate::transforms::{affine, transform_vector};
@@ -45,6 +46,8 @@ pub enum Eye {
     Fitted(ViewDirection),
     /// At this position.
     At(DVec3),
+    /// At this position, with these axes; target and up direction have no effect.
+    Posed(CameraFrame),
 }
 
 /// Projection of a camera.
@@ -61,6 +64,9 @@ pub enum ProjectionKind {
         /// fit.
         half_height: Option<f64>,
     },
+    /// Perspective by intrinsics in pixels, whose middle and sides may differ. An eye that is
+    /// fitted takes the principal point for the middle of the picture.
+    Pinhole(Intrinsics),
 }
 
 impl Default for ProjectionKind {
@@ -93,6 +99,8 @@ pub enum Lens {
     Perspective(f64),
     /// Half of the visible height.
     Orthographic(f64),
+    /// The window at distance 1.
+    Pinhole(Window),
 }
 
 impl Lens {
@@ -129,17 +137,27 @@ impl PlacedCamera {
             ProjectionKind::Orthographic { half_height } => {
                 Lens::Orthographic(half_height.unwrap_or(1.0))
             }
+            ProjectionKind::Pinhole(intrinsics) => {
+                Lens::Pinhole(Window::new(intrinsics, (width, height)))
+            }
         };
         let tangent = match lens {
             Lens::Perspective(fov) => libm::tan(fov / 2.0),
             Lens::Orthographic(_) => 1.0,
+            Lens::Pinhole(window) => (window.top - window.bottom) / 2.0,
         };
         let k = FrameTangents::new(width, height, tangent, options.margin);
         let placed = match options.eye {
             Eye::Fitted(direction) => {
                 Self::fitted(direction, options.target_world, up, points, lens, k)
             }
-            Eye::At(eye) => Self::standing(eye, options.target_world, up, points, lens, k),
+            Eye::At(eye) => {
+                // The model is centred at the origin of its normalised space.
+                let target = options.target_world.unwrap_or(DVec3::ZERO);
+                let frame = CameraFrame::look_at(eye, target, up);
+                Self::standing(frame, Some(target), points, lens, k)
+            }
+            Eye::Posed(frame) => Self::standing(frame, None, points, lens, k),
         };
         let placed = match options.projection {
             ProjectionKind::Orthographic {
@@ -176,7 +194,9 @@ impl PlacedCamera {
         aligned.transform(|point| align_one(point, &origin));
         let through = target.map(|t| align_one(t, &origin));
         let (eye, lens) = match lens {
-            Lens::Perspective(_) => (fit::perspective_eye(&aligned, k, through), lens),
+            Lens::Perspective(_) | Lens::Pinhole(_) => {
+                (fit::perspective_eye(&aligned, k, through), lens)
+            }
             Lens::Orthographic(_) => {
                 let (middle, half_height) = fit::orthographic_view(&aligned, k, through);
                 (
@@ -195,33 +215,33 @@ impl PlacedCamera {
         Self::with_planes(frame, target, lens, (nearest, furthest))
     }
 
-    /// The camera with a given eye.
+    /// The camera with a given frame. Without a target, the point in the middle of the picture is
+    /// at the middle of the model's depths.
     fn standing(
-        eye: DVec3,
+        frame: CameraFrame,
         target: Option<DVec3>,
-        up: DVec3,
         points: Cloud,
         lens: Lens,
         k: FrameTangents,
     ) -> Self {
-        // The model is centred at the origin of its normalised space.
-        let target = target.unwrap_or(DVec3::ZERO);
-        let frame = CameraFrame::look_at(eye, target, up);
         let origin = CameraFrame {
             eye_world: DVec3::ZERO,
             ..frame
         };
         let mut aligned = points;
         aligned.transform(|point| align_one(point, &origin));
-        let eye_aligned = align_one(eye, &origin);
+        let eye_aligned = align_one(frame.eye_world, &origin);
         let lens = match lens {
-            Lens::Perspective(_) => lens,
+            Lens::Perspective(_) | Lens::Pinhole(_) => lens,
             Lens::Orthographic(_) => {
                 let (_, half_height) = fit::orthographic_view(&aligned, k, Some(eye_aligned));
                 Lens::Orthographic(half_height)
             }
         };
-        Self::with_planes(frame, target, lens, depths(&aligned, k, eye_aligned.z))
+        let (nearest, furthest) = depths(&aligned, k, eye_aligned.z);
+        let ahead = || frame.eye_world - frame.back_world * ((nearest + furthest) / 2.0).max(1e-3);
+        let target = target.unwrap_or_else(ahead);
+        Self::with_planes(frame, target, lens, (nearest, furthest))
     }
 
     /// Adds near and far planes a little outside the model's range of depths.
@@ -234,7 +254,7 @@ impl PlacedCamera {
         let (nearest, furthest) = depth_range;
         let slack = (furthest - nearest).max(1e-3) * SLACK;
         let (near, far) = match lens {
-            Lens::Perspective(_) => {
+            Lens::Perspective(_) | Lens::Pinhole(_) => {
                 let far = (furthest + slack).max(1e-3);
                 ((nearest - slack).max(far * LEAST_NEAR), far)
             }
@@ -257,6 +277,17 @@ impl PlacedCamera {
         match self.lens {
             Lens::Perspective(fov) => {
                 projection::perspective(fov, aspect, self.near, self.far, convention)
+            }
+            Lens::Pinhole(window) => {
+                let f = Frustum {
+                    left: self.near * window.left,
+                    right: self.near * window.right,
+                    bottom: self.near * window.bottom,
+                    top: self.near * window.top,
+                    near: self.near,
+                    far: self.far,
+                };
+                projection::frustum(&f, convention)
             }
             Lens::Orthographic(half_height) => {
                 let half_width = half_height * aspect;

@@ -12,6 +12,7 @@
 mod faces;
 mod hit;
 
+use crate::camera::Pinhole;
 use crate::frame::RenderError;
 use crate::options::RenderOptions;
 use estampe::Device;
@@ -29,6 +30,8 @@ pub struct SurfacePoints {
     pub height: u32,
     /// The camera of the image, in world space.
     pub camera: Camera,
+    /// The camera as a pinhole, in world space; `None` if the projection is parallel.
+    pub pinhole: Option<Pinhole>,
     /// The surface at the centre of each pixel, row by row from the top; `None` is the background.
     pub points: Vec<Option<SurfacePoint>>,
 }
@@ -91,6 +94,7 @@ pub fn surface_points(
         width: options.width,
         height: options.height,
         camera: faces.view.camera_world(),
+        pinhole: faces.view.pinhole((options.width, options.height)),
         points: rows.concat(),
     })
 }

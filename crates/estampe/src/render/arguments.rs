@@ -1,5 +1,6 @@
 //! The options of `estampe render` and their help.
 
+use super::cameras::CamerasArgs;
 use super::passes::{OutputFormatName, PassArgs};
 use super::picture::{PictureArgs, ReportArgs};
 use crate::choice::ChoiceArgs;
@@ -24,6 +25,7 @@ Examples:
   estampe render builtin:teapot -o mine.png --shader my.wgsl --set gloss=0.5
   estampe render builtin:teapot -o scene.exr --pass color,depth,normal,object-id
   estampe render builtin:teapot -o 'teapot-{pass}.png' --pass color,depth,normal
+  estampe render scene.glb -o 'data/{camera}-{pass}.png' --cameras cameras.json --pass color,depth
   curl -s https://example.org/m.stl | estampe render - -o - > m.png
 
 Built-in models: builtin:teapot, builtin:sphere, builtin:torus, builtin:cube, builtin:plane.
@@ -42,7 +44,8 @@ primitives_clipped, primitives_culled, primitives_binned, fragments_shaded}, tim
 texture, device, prepare, geometry, raster, read_back, encode, write, total}, warnings [text], \
 warning_count. The time of parse includes the computation of missing normals. \
 With --pass it is: model, width, height, depth_unit (of PNG), outputs [{path, passes, bytes}], camera with pinhole {K, R, t} (x right, \
-y down, z forward, in pixels), counts, objects [name], materials [name], milliseconds, warnings [text]. An error gives \
+y down, z forward, in pixels), counts, objects [name], materials [name], milliseconds, warnings [text]. With --cameras it has cameras [{name, width, height, pinhole, outputs [{path, bytes}]}] in \
+place of size, outputs and camera. An error gives \
 {error, exit_code}.")]
 pub(crate) struct RenderArgs {
     /// The model: a file, builtin:NAME, or - for standard input
@@ -78,6 +81,9 @@ pub(crate) struct RenderArgs {
 
     #[command(flatten)]
     pub(crate) passes: PassArgs,
+
+    #[command(flatten)]
+    pub(crate) cameras: CamerasArgs,
 
     #[command(flatten)]
     pub(crate) preview: PreviewArgs,

@@ -1,6 +1,7 @@
 //! Runs `estampe render`, from arguments to a written image, stage by stage.
 
 use super::arguments::RenderArgs;
+use super::cameras::{self, Shots};
 use super::draw::{STAGES, draw_with, encoded, image_format};
 use super::passes::{self, Files, OutputFormatName};
 use super::report::Report;
@@ -28,19 +29,25 @@ pub(super) fn draw_once(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     let terminal = args.preview.terminal()?;
     // Without a file the preview is the output.
     let output = args.output.as_ref().unwrap_or(&Destination::StandardOutput);
-    let files = Files::of(&args.passes, output, args.output_format)?;
+    let shots = Shots::of(args)?;
+    let files = match &shots {
+        None => Files::of(&args.passes, output, args.output_format)?,
+        // Each camera has its files.
+        Some(_) => None,
+    };
     if terminal.is_some() {
         check_preview(args.output.as_ref(), files.as_ref())?;
     }
     let named = args.output_format.and_then(OutputFormatName::of_picture);
     // Of passes, the files have a format.
-    let picture = files.is_none().then(|| image_format(named, output));
+    let is_picture = files.is_none() && shots.is_none();
+    let picture = is_picture.then(|| image_format(named, output));
     let picture = picture.transpose()?;
     let written = files.as_ref().map_or(&[][..], |files| &files.files);
     for file in written {
         output::check(&file.output)?;
     }
-    if files.is_none() {
+    if is_picture {
         output::check(output)?;
     }
     // Reading and parsing come before.
@@ -53,6 +60,11 @@ pub(super) fn draw_once(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     let model = Model::read(source, args.format, (&chosen, &limits), |stage| {
         progress.stage(stage);
     })?;
+    if let Some(shots) = &shots {
+        let greatest = shots.greatest(&args.picture);
+        args.limits.check_memory(&model, &greatest)?;
+        return cameras::run(&model, args, shots, &clock, progress);
+    }
     args.limits.check_memory(&model, &args.picture)?;
     let format = match (picture, &files) {
         (Some(format), _) => format,

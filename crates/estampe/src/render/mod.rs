@@ -4,11 +4,13 @@
 //! arguments -> input (read, parse) -> renderer (prepare, geometry, raster, read back)
 //!           -> encode -> output (complete or not at all), report
 //!           or passes (data of the same camera, several files)
+//!           or cameras (a picture or passes for each camera of a file)
 //! ```
 
 mod appearance_names;
 mod arguments;
 mod camera_check;
+mod cameras;
 mod command;
 mod draw;
 mod illumination;
@@ -25,6 +27,7 @@ mod surfaces;
 mod watch;
 
 pub(crate) use arguments::RenderArgs;
+pub(crate) use cameras::schema as schema_of_cameras;
 pub(crate) use command::run;
 pub(crate) use draw::{STAGES, check_output, device, draw, drawn_bytes, encoded, frame};
 pub(crate) use draw::{frame_options, image_format, prepare};

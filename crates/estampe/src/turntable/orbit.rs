@@ -62,6 +62,7 @@ impl Orbit {
         let tangent = match options.camera.projection {
             ProjectionKind::Perspective { fov_y_deg } => libm::tan(fov_y_deg.to_radians() / 2.0),
             ProjectionKind::Orthographic { .. } => 1.0,
+            ProjectionKind::Pinhole(_) => unreachable!("a turntable has no camera of a data set"),
         };
         let up = match options.up {
             Up::Direction(up) => up,

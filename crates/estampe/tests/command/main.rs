@@ -2,8 +2,10 @@
 
 mod batch;
 mod book;
+mod cameras;
 mod completions;
 mod compute;
+mod datasets_page;
 mod depth;
 mod depth_page;
 mod errors;

@@ -34,7 +34,7 @@ fn codes(path: &Path) -> (usize, Vec<u16>) {
 }
 
 /// The channels of an OpenEXR.
-fn channels(path: &Path) -> BTreeMap<String, FlatSamples> {
+pub(super) fn channels(path: &Path) -> BTreeMap<String, FlatSamples> {
     let image = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
@@ -49,7 +49,7 @@ fn channels(path: &Path) -> BTreeMap<String, FlatSamples> {
         .collect()
 }
 
-fn floats(samples: &FlatSamples) -> Vec<f32> {
+pub(super) fn floats(samples: &FlatSamples) -> Vec<f32> {
     samples.values_as_f32().collect()
 }
 

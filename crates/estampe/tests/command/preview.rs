@@ -104,7 +104,8 @@ fn from_sixel(bytes: &[u8]) -> (usize, usize, Vec<Option<[u8; 3]>>) {
                 let values = numbers(&mut rest);
                 color = values[0];
                 if let [_, 2, r, g, b] = values[..] {
-                    palette[color] = [r, g, b].map(|percent| (percent * 255 / 100) as u8);
+                    palette[color] =
+                        [r, g, b].map(|percent| u8::try_from(percent * 255 / 100).expect("8 bits"));
                 }
                 continue;
             }

@@ -21,7 +21,8 @@ fn the_commands_of_the_page_draw_its_pictures() {
 }
 
 /// Options that change no picture, or its file alone.
-const WITHOUT_PICTURES: [&str; 20] = [
+const WITHOUT_PICTURES: [&str; 21] = [
+    "--cameras",
     "--preview",
     "--output",
     "--format",

@@ -10,8 +10,7 @@ use crate::limits::Clock;
 use crate::output;
 use crate::progress::Progress;
 use crate::render::{RenderArgs, check_output};
-use estampe_renderer::ViewDirection;
-use estampe_scene::{Camera, Projection};
+use estampe_renderer::{Pinhole, ViewDirection};
 use serde_json::{Value, json};
 
 /// Draws the passes of a model.
@@ -61,9 +60,10 @@ pub(in crate::render) fn run(
                 })
             });
             let warnings = model.warnings.iter().map(ToString::to_string);
-            let mut camera_object = camera.as_ref().map_or(Value::Null, camera_json);
-            if let Some(camera) = &camera {
-                camera_object["pinhole"] = pinhole(camera, picture.size);
+            let mut camera_object = Value::Null;
+            if let Some((camera, pinhole)) = &camera {
+                camera_object = camera_json(camera);
+                camera_object["pinhole"] = pinhole.as_ref().map_or(Value::Null, pinhole_json);
             }
             json!({
                 "model": model.name,
@@ -84,23 +84,13 @@ pub(in crate::render) fn run(
 
 /// The camera as computer vision writes it: a point p of the world is seen at the pixel
 /// (x, y) ∝ K·(R·p + t), x to the right and y down from the upper left corner of the image, and z
-/// forward. `Null` of a parallel projection.
-fn pinhole(camera: &Camera, (width, height): (u32, u32)) -> Value {
-    let Projection::Perspective { fov_y_rad, .. } = camera.projection else {
-        return Value::Null;
-    };
-    let eye = camera.eye_world.as_dvec3();
-    let forward = (camera.target_world.as_dvec3() - eye).normalize_or_zero();
-    let right = forward
-        .cross(camera.up_world.as_dvec3())
-        .normalize_or_zero();
-    let down = forward.cross(right);
-    let rows = [right, down, forward];
-    let (width, height) = (f64::from(width), f64::from(height));
-    let focal_px = height / 2.0 / libm::tan(f64::from(fov_y_rad) / 2.0);
+/// forward.
+pub(in crate::render) fn pinhole_json(pinhole: &Pinhole) -> Value {
+    let [fx, fy] = pinhole.intrinsics.focal_px;
+    let [cx, cy] = pinhole.intrinsics.principal_px;
     json!({
-        "K": [[focal_px, 0.0, width / 2.0], [0.0, focal_px, height / 2.0], [0.0, 0.0, 1.0]],
-        "R": rows.map(|row| row.to_array()),
-        "t": rows.map(|row| -row.dot(eye)),
+        "K": [[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]],
+        "R": pinhole.rotation.map(|row| row.to_array()),
+        "t": pinhole.translation.to_array(),
     })
 }

@@ -9,8 +9,11 @@ use crate::input::Model;
 use crate::render::PictureArgs;
 use estampe::Device;
 use estampe_assets::image::{ImageFormat, encode_exr, encode_png_16};
-use estampe_renderer::{Ground, RenderOptions, Shading, surface_points};
+use estampe_renderer::{Ground, Pinhole, RenderOptions, Shading, surface_points};
 use estampe_scene::{Camera, Image};
+
+/// The camera of passes, and as a pinhole if it is one.
+pub(crate) type DrawnCamera = (Camera, Option<Pinhole>);
 
 impl Sources {
     /// Draws what these passes need, and returns the camera of it.
@@ -19,14 +22,14 @@ impl Sources {
         model: &Model,
         picture: &PictureArgs,
         (options, device): (&RenderOptions, &Device),
-    ) -> Result<(Self, Option<Camera>), Failure> {
+    ) -> Result<(Self, Option<DrawnCamera>), Failure> {
         let mut camera = None;
         let mut image_of = |pass: PassName, options: &RenderOptions| {
             if !passes.contains(&pass) {
                 return Ok(None);
             }
             let frame = frame(model, picture, options, device)?;
-            camera = Some(frame.camera);
+            camera = Some((frame.camera, frame.pinhole));
             Ok::<Option<Image>, Failure>(Some(frame.image))
         };
         let color = image_of(PassName::Color, options)?;
@@ -44,7 +47,7 @@ impl Sources {
         if passes.iter().any(|pass| pass.is_of_surfaces()) {
             let found = surface_points(&model.scene, options, device);
             let found = found.map_err(|error| picture.shader.failure(error))?;
-            camera = Some(found.camera);
+            camera = Some((found.camera, found.pinhole));
             points = found.points;
         }
         let sources = Self {

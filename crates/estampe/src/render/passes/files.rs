@@ -92,7 +92,7 @@ impl Files {
     }
 
     /// The passes of all files.
-    pub(super) fn passes(&self) -> Vec<PassName> {
+    pub(crate) fn passes(&self) -> Vec<PassName> {
         let passes = self.files.iter().flat_map(|file| &file.passes);
         passes.copied().collect()
     }

@@ -16,6 +16,6 @@ mod planes;
 
 pub(super) use arguments::OutputFormatName;
 pub(crate) use arguments::{PassArgs, PassName};
-pub(super) use command::run;
+pub(super) use command::{pinhole_json, run};
 pub(crate) use files::{Files, PassFile, PassFormat};
 pub(crate) use planes::Sources;

@@ -37,8 +37,9 @@ fn blocks(page: &str) -> Vec<Block<'_>> {
 /// Runs the commands of the page of this name, the lines of its `sh` blocks that begin with
 /// `estampe`, and compares the pictures that they write with those in the page's folder of
 /// `docs/images`, byte for byte; each must be shown on the page. A block that names a file after
-/// its language, as in "```mtl clay.mtl", is written to that file first. A command succeeds, or ends
-/// with the exit code of the comment after it, "# exit code 1". Returns the names of the pictures.
+/// its language, as in "```mtl clay.mtl", is written to that file first. A command succeeds, or
+/// ends with the exit code of the comment after it, "# exit code 1". Returns the names of the
+/// pictures.
 ///
 /// If the environment variable `UPDATE_PICTURES` is set, the pictures are written anew.
 pub(crate) fn check_page(name: &str) -> BTreeSet<String> {
