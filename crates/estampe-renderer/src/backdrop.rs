@@ -1,7 +1,7 @@
 //! The draw of a gradient behind everything.
 //!
-//! It comes after the opaque surfaces and passes where nothing was drawn: at the far plane, which no
-//! surface reaches. Ground and transparent surfaces are blended over it.
+//! It comes after the opaque surfaces and passes where nothing was drawn: at the far plane, which
+//! no surface reaches. Ground and transparent surfaces are blended over it.
 
 use crate::frame::RenderError;
 use crate::geometry::vertex_data::{StreamData, VertexStream};

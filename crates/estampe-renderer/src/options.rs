@@ -70,8 +70,8 @@ pub struct RenderOptions {
     /// [`Shading::Overdraw`].
     pub gradient: Option<Gradient>,
     /// The base colour of everything, sRGB and alpha, in place of the colours and textures of
-    /// materials and vertices; [`Self::texture`] is multiplied by it. Below an alpha of 255 surfaces
-    /// are transparent. `None` (default) is the model's.
+    /// materials and vertices; [`Self::texture`] is multiplied by it. Below an alpha of 255
+    /// surfaces are transparent. `None` (default) is the model's.
     pub color: Option<[u8; 4]>,
     /// Roughness of all surfaces of [`Shading::Pbr`], 0..=1. `None` (default) is the materials'.
     pub roughness: Option<f32>,

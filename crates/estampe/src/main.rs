@@ -18,10 +18,10 @@
 //! * [`completions`]: prints scripts by which a shell completes the command's words;
 //! * [`man`]: writes manual pages, hidden from the help.
 //!
-//! [`advice`] explains unknown words, [`choice`] has the options of files with several scenes, [`input`] reads models from files,
-//! standard input or by built-in name, [`output`] writes files completely or not at all,
-//! [`preview`] shows pictures in a terminal, [`interrupt`] removes temporary files, [`colors`] parses colours,
-//! [`terminal`] escapes names, [`values`] parses the
+//! [`advice`] explains unknown words, [`choice`] has the options of files with several scenes,
+//! [`input`] reads models from files, standard input or by built-in name, [`output`] writes files
+//! completely or not at all, [`preview`] shows pictures in a terminal, [`interrupt`] removes
+//! temporary files, [`colors`] parses colours, [`terminal`] escapes names, [`values`] parses the
 //! options' values, and [`failure`] has the exit codes.
 
 mod advice;
@@ -133,8 +133,8 @@ fn parsed(words: impl IntoIterator<Item = OsString>) -> Cli {
     parsed.unwrap_or_else(|error| advice::advised(error).exit())
 }
 
-/// The parser. Every option with a value takes negative numbers, so that its own parser can say what
-/// is wrong with them.
+/// The parser. Every option with a value takes negative numbers, so that its own parser can say
+/// what is wrong with them.
 fn command() -> clap::Command {
     fn with_negative_numbers(command: clap::Command) -> clap::Command {
         let command = command.mut_args(|arg| {

@@ -22,8 +22,8 @@ pub struct CameraOptions {
     /// Free border on each side, as a fraction of the picture's shorter side; in 0..0.5. Default
     /// 0.05.
     pub margin: f64,
-    /// Enlargement of the picture about its middle, above 0; the eye stays, and the opening narrows.
-    /// Default 1.
+    /// Enlargement of the picture about its middle, above 0; the eye stays, and the opening
+    /// narrows. Default 1.
     pub zoom: f64,
 }
 
@@ -114,6 +114,7 @@ impl Lens {
                 Self::Perspective(2.0 * libm::atan(libm::tan(fov / 2.0) / zoom))
             }
             Self::Orthographic(half_height) => Self::Orthographic(half_height / zoom),
+            Self::Pinhole(window) => Self::Pinhole(window.zoomed(zoom)),
         }
     }
 }

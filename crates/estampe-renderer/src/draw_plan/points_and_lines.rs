@@ -168,8 +168,8 @@ pub(crate) fn is_dark([r, g, b]: [u8; 3]) -> bool {
     luma < 110 * 10_000
 }
 
-/// Width of points: that of the options, or chosen so that a cloud looks like a surface: the points share about half of the
-/// image's area, within limits that keep them visible and apart.
+/// Width of points: that of the options, or chosen so that a cloud looks like a surface: the points
+/// share about half of the image's area, within limits that keep them visible and apart.
 fn point_size_px(options: &RenderOptions, count: usize) -> f32 {
     if let Some(size) = options.point_size_px {
         return size;

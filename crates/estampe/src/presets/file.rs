@@ -26,8 +26,8 @@ pub(super) struct Config {
 }
 
 impl Config {
-    /// The file of the options, else that of the working folder, else the user's; `None` if there is
-    /// none and no preset is wanted.
+    /// The file of the options, else that of the working folder, else the user's; `None` if there
+    /// is none and no preset is wanted.
     pub(super) fn find(args: &PresetArgs) -> Result<Option<Self>, Failure> {
         if args.no_config {
             return Ok(None);

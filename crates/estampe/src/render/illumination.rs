@@ -16,8 +16,8 @@ pub(crate) struct IlluminationArgs {
     /// A light instead of the default lights; repeatable: [dir:|pos:]X,Y,Z[:COLOUR][:INTENSITY]
     ///
     /// dir:X,Y,Z, or X,Y,Z alone, is a direction towards the light; pos:X,Y,Z is a position.
-    /// COLOUR is a CSS name or hexadecimal digits [default: white], INTENSITY a factor, 0 to 1000 [default:
-    /// 1].
+    /// COLOUR is a CSS name or hexadecimal digits [default: white], INTENSITY a factor, 0 to 1000
+    /// [default: 1].
     #[arg(long, value_name = "LIGHT", value_parser = values::light, allow_hyphen_values = true)]
     #[arg(help_heading = "Light")]
     light: Vec<LightValue>,

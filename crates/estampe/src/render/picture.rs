@@ -134,8 +134,8 @@ pub(crate) struct PictureArgs {
 
     /// The background: none, a colour (a CSS name or #RGB, #RRGGBB, #RRGGBBAA), or a gradient
     ///
-    /// linear:COLOUR,COLOUR goes from the top to the bottom, radial:COLOUR,COLOUR from the middle to
-    /// the corners; both take up to eight colours. The mark # may be omitted.
+    /// linear:COLOUR,COLOUR goes from the top to the bottom, radial:COLOUR,COLOUR from the middle
+    /// to the corners; both take up to eight colours. The mark # may be omitted.
     #[arg(long, value_name = "BACKGROUND", default_value = "#f2f2f2")]
     #[arg(value_parser = colors::background, help_heading = "Appearance")]
     pub(crate) background: Background,

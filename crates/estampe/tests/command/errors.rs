@@ -330,8 +330,8 @@ fn standard_input_shows_its_format() {
     assert!(run.err.contains("--format gltf"), "{}", run.err);
 }
 
-/// A file that is cut off is drawn as far as it goes, with a warning, if there is something to draw;
-/// with --strict every warning is an error. Random bytes are no model.
+/// A file that is cut off is drawn as far as it goes, with a warning, if there is something to
+/// draw; with --strict every warning is an error. Random bytes are no model.
 #[test]
 fn damaged_files_are_drawn_as_far_as_they_go_unless_strict() {
     let folder = Folder::new();

@@ -78,8 +78,8 @@ pub(super) fn read(bytes: &[u8], context: &mut Context<'_>) -> Result<Mesh, Asse
 /// A binary STL has no magic word: every file with this extension is one, and random bytes of the
 /// right length are one by content. The exponents of random floats are uniform, so the third
 /// quartile of the corners' greatest coordinates is some 10²⁰ times the first, and many are not
-/// finite. Corners of an object have magnitudes of a few orders, wherever it is; those at the origin
-/// are left out.
+/// finite. Corners of an object have magnitudes of a few orders, wherever it is; those at the
+/// origin are left out.
 fn is_plausible(records: &[Record]) -> bool {
     const EXAMINED: usize = 4096;
     /// With fewer corners quartiles mean nothing.
