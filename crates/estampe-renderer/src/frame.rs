@@ -418,6 +418,7 @@ fn frame_style(
                 ..view.fog(fog, linear, (options.width, options.height))
             }
         }),
+        presentation: view.presentation(options),
         wireframe: wireframe(transforms, options),
         overlay: has_overlay(options).then(|| overlay(transforms, options)),
         depth_range: view.depth_range(),

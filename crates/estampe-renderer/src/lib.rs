@@ -87,4 +87,4 @@ pub use text::{TextHeight, TextStyle, character_width_px, draw_text, text_width_
 
 /// Version of the images. It rises whenever the same scene and options give other bytes than
 /// before; CHANGELOG lists the changes.
-pub const PICTURE_VERSION: u32 = 1;
+pub const PICTURE_VERSION: u32 = 2;

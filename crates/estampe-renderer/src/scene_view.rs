@@ -3,10 +3,10 @@
 use crate::camera::placement::Lens;
 use crate::camera::{CameraOptions, Cloud, Eye, Intrinsics, Pinhole, PlacedCamera, ProjectionKind};
 use crate::geometry::unit_space::{UnitSpace, UsedVertices, used_vertices};
-use crate::options::{self, RenderOptions, Up};
+use crate::options::{self, RenderOptions, Shading, Up};
 use crate::shading::VertexTransforms;
 use crate::shading::lighting::{DEFAULT_AMBIENT, Directional, Lights, Positional, ViewLight};
-use crate::shading::output::{EyeDistance, Fog};
+use crate::shading::output::{EyeDistance, Fog, Presentation};
 use crate::shadows::{MapChoice, ShadowSource};
 use crate::transforms::view::CameraFrame;
 use crate::transforms::{round_to_f32, to_f32, transform_point, transform_vector};
@@ -185,6 +185,26 @@ impl SceneView {
             }
         }
         lights
+    }
+
+    /// What the default lights add to colours that they light.
+    pub(crate) fn presentation(&self, options: &RenderOptions) -> Option<Presentation> {
+        let is_lit = matches!(
+            options.shading,
+            Shading::Phong | Shading::Gouraud | Shading::Flat
+        );
+        if !is_lit || !options.lights.is_empty() {
+            return None;
+        }
+        let (nearest, furthest) = self.depth_range();
+        Some(Presentation {
+            nearest,
+            per_distance: 1.0 / (furthest - nearest),
+            orthographic: match self.eye_distance((options.width, options.height)) {
+                EyeDistance::Perspective { .. } => None,
+                EyeDistance::Orthographic(of_depth) => Some(of_depth),
+            },
+        })
     }
 
     /// The fog of the options, with this linear colour.

@@ -13,7 +13,7 @@ use crate::shading::inspection::{
 };
 use crate::shading::interpolation::{AtFragments, AtVertices, Interpolation, Viewer};
 use crate::shading::lighting::{Gloss, Lights};
-use crate::shading::output::{Fog, Output};
+use crate::shading::output::{Fog, Output, Presentation};
 use crate::shading::pbr::parameters::PbrParameters;
 use crate::shading::pbr::surface::{PbrLighting, PbrSurface};
 use crate::shading::points_and_lines::PointsAndLines;
@@ -48,6 +48,8 @@ pub(crate) struct FrameStyle {
     /// The gradient behind everything.
     pub(crate) backdrop: Option<Backdrop>,
     pub(crate) fog: Option<Fog>,
+    /// What the default lights add to lit colours.
+    pub(crate) presentation: Option<Presentation>,
     pub(crate) wireframe: Wireframe,
     /// The edges over shaded surfaces, if they are drawn.
     pub(crate) overlay: Option<Wireframe>,
@@ -414,7 +416,10 @@ impl FrameStyle {
             lighting: Arc::clone(lighting),
             parameters: Arc::clone(parameters),
             alpha: surface.alpha(),
-            output: self.output(),
+            output: Output {
+                presentation: None,
+                ..self.output()
+            },
             written: surface.written,
         };
         MaterialProgram::new(shader, &[Position, Normal, Tangent, Uv, Uv1, Color])
@@ -506,6 +511,7 @@ impl FrameStyle {
     /// What happens to lit colours.
     fn output(&self) -> Output {
         Output {
+            presentation: self.presentation,
             levels: self.levels.filter(|_| !self.shading.is_toon()),
             fog: self.fog,
         }

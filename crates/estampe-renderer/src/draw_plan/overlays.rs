@@ -4,11 +4,12 @@ use super::drawing::PlannedDraw;
 use super::planner::{DrawPlanBuilder, Planner};
 use super::points_and_lines::is_dark;
 use crate::alpha::{Encoding, decode};
-use crate::feature_edges;
+use crate::feature_edges::{self, FeatureEdges};
 use crate::frame::{RenderError, encoding, half_width_px};
 use crate::guides::{AXIS_COLORS, box_strokes, grid_strokes};
 use crate::options::{RenderOptions, Shading};
 use crate::strokes::{Stroke, StrokeDraws, StrokeStyle, Window};
+use crate::transforms::round_to_f32;
 use estampe_scene::Mesh;
 use glam::DVec2;
 
@@ -41,6 +42,21 @@ impl Planner<'_> {
             let draws = self.strokes(&strokes, style, &window, builder)?;
             builder.plan.edges.extend(draws);
         }
+        if options.samples == 1 && options.shading == Shading::Wireframe {
+            let strokes = self.outlines(&window);
+            let [r, g, b, alpha] = self.style.wireframe.line;
+            let style = StrokeStyle {
+                color: [r, g, b],
+                width_px,
+                is_on_surfaces: true,
+            };
+            let faded = strokes.into_iter().map(|stroke| Stroke {
+                alphas: stroke.alphas.map(|own| own * alpha),
+                ..stroke
+            });
+            let draws = self.strokes(&faded.collect::<Vec<_>>(), style, &window, builder)?;
+            builder.plan.edges.extend(draws);
+        }
         let grey = if is_dark { LIGHT_GREY } else { DARK_GREY };
         let mut guides: Vec<(Vec<Stroke>, [u8; 3], bool)> = Vec::new();
         if options.grid {
@@ -62,6 +78,31 @@ impl Planner<'_> {
             builder.plan.guides.extend(draws);
         }
         Ok(())
+    }
+
+    /// The outlines of the model: with one sample per pixel the triangles of a wireframe end at
+    /// jagged borders, which these strokes cover. They fade with the size of triangles as the
+    /// wireframe does.
+    fn outlines(&self, window: &Window) -> Vec<Stroke> {
+        let of_outlines = FeatureEdges {
+            angle_deg: 180.0,
+            width_px: None,
+        };
+        let unit = |position| self.view.space.unit_from_object(position).as_dvec3();
+        let of_mesh =
+            |mesh: &Mesh| feature_edges::strokes(mesh, &of_outlines, unit, window, self.workers);
+        let faded = |stroke: Stroke| {
+            let length_px = match stroke.ends.map(|end| window.point(end)) {
+                [Some(a), Some(b)] => (b.at_px - a.at_px).length(),
+                _ => f64::INFINITY,
+            };
+            Stroke {
+                alphas: [round_to_f32(length_px / 11.0 + 0.18).min(1.0); 2],
+                ..stroke
+            }
+        };
+        let strokes = self.scene.meshes.iter().flat_map(of_mesh);
+        strokes.map(faded).collect()
     }
 
     /// The linear colour of these codes in the picture.

@@ -101,7 +101,7 @@ pub(super) fn label(length: f64, unit: Option<&str>) -> String {
     } else {
         let decimals = [1.0, 10.0, 100.0, 1000.0];
         let digits = decimals.iter().filter(|&&bound| length >= bound).count();
-        let text = format!("{length:.0$}", 4_usize.saturating_sub(digits).max(0));
+        let text = format!("{length:.0$}", 4_usize.saturating_sub(digits));
         if text.contains('.') {
             text.trim_end_matches('0').trim_end_matches('.').to_owned()
         } else {

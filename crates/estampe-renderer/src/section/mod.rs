@@ -58,8 +58,8 @@ pub struct SectionPlane {
     /// n, a direction in world space of any length; it points to the side that is cut away. A plane
     /// whose direction is zero or not finite cuts nothing.
     pub normal_world: DVec3,
-    /// The plane's distance from the origin along n, in world units if n has the length 1. `None` is
-    /// the plane through the middle of the model's box.
+    /// The plane's distance from the origin along n, in world units if n has the length 1. `None`
+    /// is the plane through the middle of the model's box.
     pub offset_world: Option<f64>,
 }
 

@@ -9,10 +9,11 @@
 //!    2 ───────────────── 5
 //! ```
 //!
-//! On each side the depth is linear: that of the nearer of the line itself and the face. A face that
-//! recedes from the line (at a ridge) is behind the line's own depth, so this hides nothing of it;
-//! one that comes nearer (in a groove) has the depth of the ribbon. Beyond its third corner a face
-//! is followed no further. What lies before the line by more than the face's own depth hides it.
+//! On each side the depth is linear: that of the nearer of the line itself and the face. A face
+//! that recedes from the line (at a ridge) is behind the line's own depth, so this hides nothing of
+//! it; one that comes nearer (in a groove) has the depth of the ribbon. Beyond its third corner a
+//! face is followed no further. What lies before the line by more than the face's own depth hides
+//! it.
 //!
 //! The bias is what the pipeline may differ by: it rounds vertices to 1/256 pixel, so depths by up
 //! to √½/256 of the depth's gradient, and interpolates depths in `f32`.
@@ -138,7 +139,8 @@ impl Line {
         let distance = way.dot(self.across);
         let depth = third.depth - (self.from.depth + self.slope * way.dot(self.along));
         let far = distance.abs();
-        if !(far > 0.0) || !depth.is_finite() {
+        let is_aside = far > 0.0;
+        if !is_aside || !depth.is_finite() {
             return None;
         }
         Some(Face {

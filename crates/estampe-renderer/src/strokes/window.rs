@@ -34,7 +34,8 @@ impl Window {
 
     fn of_clip(&self, clip: DVec4) -> Option<WindowPoint> {
         // NaN is not before the eye.
-        if !(clip.w >= LEAST_W) {
+        let is_before_the_eye = clip.w >= LEAST_W;
+        if !is_before_the_eye {
             return None;
         }
         let ndc = clip.truncate() / clip.w;

@@ -232,3 +232,26 @@ fn lines_of_models_are_smooth_with_one_sample() {
     codes.dedup();
     assert!(codes.len() > 5, "{codes:?}");
 }
+
+/// With one sample per pixel the outline of a wireframe is smooth: it has pixels that are neither
+/// the line nor the background, on the outside of the model too.
+#[test]
+fn outlines_of_wireframes_are_smooth_with_one_sample() {
+    let scene = scene(BuiltinShape::Cube);
+    let view = ViewDirection {
+        azimuth_deg: 20.0,
+        elevation_deg: 12.0,
+    };
+    let faces = RenderOptions {
+        background: None,
+        ..options(view, 1)
+    };
+    let edges = RenderOptions {
+        shading: Shading::Wireframe,
+        ..faces.clone()
+    };
+    let [faces, edges] = [&faces, &edges].map(|options| drawn_alike(&scene, options).image);
+    let pairs = faces.rgba.chunks(4).zip(edges.rgba.chunks(4));
+    let outside = pairs.filter(|(face, edge)| face[3] == 0 && edge[3] > 0);
+    assert!(outside.count() > 40);
+}

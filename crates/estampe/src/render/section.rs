@@ -11,10 +11,10 @@ use glam::DVec3;
 pub(crate) struct SectionArgs {
     /// Cut the model away on one side of a plane; repeatable: x, -z, y=0.3, NX,NY,NZ or NX,NY,NZ,D
     ///
-    /// x, y, z and -x, -y, -z name the side that is cut away, of the plane through the middle of the
-    /// model's box; =NUMBER is the plane's coordinate. NX,NY,NZ is a direction towards the side that
-    /// is cut away, and D the plane's distance from the origin along it. Closed meshes are solid:
-    /// where they are cut, they have the colour of --section-color.
+    /// x, y, z and -x, -y, -z name the side that is cut away, of the plane through the middle of
+    /// the model's box; =NUMBER is the plane's coordinate. NX,NY,NZ is a direction towards the side
+    /// that is cut away, and D the plane's distance from the origin along it. Closed meshes are
+    /// solid: where they are cut, they have the colour of --section-color.
     #[arg(long, value_name = "PLANE", value_parser = plane, allow_hyphen_values = true)]
     #[arg(help_heading = "Section")]
     section: Vec<SectionPlane>,

@@ -209,6 +209,7 @@ impl Look {
             output: Output {
                 levels: self.levels,
                 fog: self.fog(),
+                ..Output::default()
             },
             written: self.written,
         }))
