@@ -236,6 +236,10 @@ fn zoom_scales_the_window_about_its_middle() {
         ProjectionKind::Orthographic {
             half_height: Some(1.5),
         },
+        ProjectionKind::Pinhole(Intrinsics {
+            focal_px: [50.0, 45.0],
+            principal_px: [17.0, 16.0],
+        }),
     ] {
         let plain = CameraOptions {
             projection,
