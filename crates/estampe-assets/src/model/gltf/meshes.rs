@@ -136,6 +136,9 @@ impl Meshes {
             warn(context, pointer, "a primitive without POSITION is left out");
             return Ok(());
         };
+        if !Connectivity::is_known(primitive) {
+            return Ok(());
+        }
         let count = accessors.count(positions, || format!("{pointer}/attributes/POSITION"))?;
         let element_count = Connectivity::element_count(primitive, count, accessors, pointer)?;
         if count == 0 || element_count == 0 || place.node_from_instances.is_empty() {

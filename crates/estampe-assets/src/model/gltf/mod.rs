@@ -8,6 +8,7 @@
 //!       -> hierarchy, pose (interpolation)            world transforms at the time
 //!       -> meshes: vertices (morph targets) -> connectivity -> placed (instances, skin)
 //!       -> material (images), cameras_lights
+//!       -> rules                                      warnings of the whole document
 //! ```
 //!
 //! All meshes are in world space: one for each primitive of each node. Errors have the JSON Pointer
@@ -38,6 +39,7 @@ mod meshes;
 mod meshopt;
 mod placed;
 mod pose;
+mod rules;
 mod skin;
 mod vertices;
 
@@ -78,7 +80,6 @@ pub(super) fn parse(
     let buffers = Buffers::read(&document, container.bin, context);
     let views = Views::new(&document, &buffers, context.limits, context.workers);
     let accessors = Accessors::new(&document, &views, context.limits);
-    accessors.check(context);
     let pose = Pose::sample(&document, &accessors, &choice, context.limits)?;
     let world_from_node = hierarchy.world_transforms(&document, &pose);
 
@@ -108,6 +109,7 @@ pub(super) fn parse(
         }
         paint_lines_and_points(mesh, &materials.materials[index]);
     }
+    rules::check(&document, context);
     joined::join_beyond(&mut meshes, context.limits.max_meshes);
     let limits = context.limits;
     Ok(Parsed {
@@ -163,7 +165,7 @@ fn paint_lines_and_points(mesh: &mut Mesh, material: &Material) {
 
 fn choices(document: &Document<'_>, accessors: &Accessors<'_>) -> ModelChoices {
     let scenes = document.scenes.iter();
-    let variants = document.extensions.variants.variants.iter();
+    let variants = document.extensions.variants().iter();
     let animations = document.animations.iter().enumerate();
     ModelChoices {
         scenes: scenes.map(|scene| scene.name.clone()).collect(),
