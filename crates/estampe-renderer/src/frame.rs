@@ -2,6 +2,7 @@
 
 use crate::alpha::{Encoding, decode, straighten};
 use crate::backdrop::BackdropDraw;
+use crate::behind::{BehindPicture, view_of};
 use crate::camera::Pinhole;
 use crate::draw_plan::{Planner, is_dark};
 use crate::frame_passes::{DrawnPasses, FramePasses};
@@ -12,6 +13,7 @@ use crate::scene_view::SceneView;
 use crate::shading::VertexTransforms;
 use crate::shading::backdrop::Backdrop;
 use crate::shading::output;
+use crate::shading::pbr::transmission::Background;
 use crate::shading::surface::DEPTH_ORDER;
 use crate::shading::wireframe::Wireframe;
 use crate::shadows::ShadowMaps;
@@ -258,6 +260,9 @@ pub(crate) fn with_passes<T>(
         let lit = (&maps.frame, &columns, &view.sky(options));
         ground = Some(GroundShadow::new(device, &style, lit, workers)?);
     }
+    if let Some(behind) = &style.behind {
+        before += behind.draw(device, &plan, ground.as_ref())?;
+    }
     let backdrop = style.backdrop;
     let backdrop = backdrop.map(|backdrop| BackdropDraw::new(device, &style, backdrop));
     let backdrop = backdrop.transpose()?;
@@ -382,9 +387,17 @@ fn frame_style(
         (program, values)
     });
     let pbr = if options.shading == Shading::Pbr {
-        Some(Arc::new(
-            view.pbr_lighting(scene, options, &lights, device)?,
-        ))
+        let mut lighting = view.pbr_lighting(scene, options, &lights, device)?;
+        let background = match (backdrop(options), options.background) {
+            (Some(gradient), _) => Background::Gradient(gradient),
+            (None, Some(_)) => {
+                let [r, g, b, _] = clear_color(options);
+                Background::Color([r, g, b])
+            }
+            (None, None) => Background::Transparent,
+        };
+        lighting.behind = view_of(scene, view, options, background);
+        Some(Arc::new(lighting))
     } else {
         None
     };
@@ -392,7 +405,13 @@ fn frame_style(
         Some(lighting) => &lighting.shadow_maps,
         None => &lights.shadow_maps,
     };
+    let is_seen_through = pbr.as_ref().is_some_and(|pbr| pbr.behind.is_some());
     Ok(FrameStyle {
+        behind: if is_seen_through {
+            Some(BehindPicture::new(device, options)?)
+        } else {
+            None
+        },
         shadows: ShadowMaps::new(device, maps)?,
         columns: if options.has_ground() {
             Some(ColumnMaps::new(device, GroundFrame::new(view))?)

@@ -8,7 +8,9 @@
 //!        ├─ shadows         maps of what the lights see
 //!        ├─ ground          the shadow on what the model stands on
 //!        ├─ backdrop        the gradient behind everything
+//!        ├─ behind          what is seen through surfaces that transmit light
 //!        ├─ materials       surface styles and textures
+//!        ├─ alpha_levels    mip levels of colours with alpha
 //!        ├─ pbr_materials   what physically based materials add
 //!        ├─ geometry        vertex buffers, unshared faces, back-to-front order
 //!        ├─ surface_program     a program of the caller's, in place of those of `shading`
@@ -34,7 +36,9 @@
 pub mod camera;
 
 mod alpha;
+mod alpha_levels;
 mod backdrop;
+mod behind;
 mod draw_plan;
 mod environment;
 mod feature_edges;

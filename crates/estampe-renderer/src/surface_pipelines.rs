@@ -1,5 +1,6 @@
 //! Chooses the shader, vertex streams and fixed-function state of each surface.
 
+use crate::behind::{BehindPicture, LIGHT};
 use crate::frame::RenderError;
 use crate::geometry::vertex_data::{MeshStreams, VertexStream};
 use crate::ground::ColumnMaps;
@@ -8,6 +9,7 @@ use crate::shading::VertexTransforms;
 use crate::shading::backdrop::Backdrop;
 use crate::shading::base_color::{Alpha, BaseColor, Painted, Plain};
 use crate::shading::bump::BumpMap;
+use crate::shading::cut_out::LEAST_SAMPLES;
 use crate::shading::inspection::{
     Barycentrics, CutOutFaceColors, DepthGrey, FaceColors, Normals, Overdraw, UvColors,
 };
@@ -27,8 +29,8 @@ use estampe::state::{
     DepthStencilState, LineRasterization, MultisampleState, PrimitiveState, PrimitiveTopology,
 };
 use estampe::{
-    BindGroup, Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor,
-    SampledTexture, Shader, ShaderProgram, TextureFormat,
+    BindGroup, BindGroupLayout, Device, PipelineError, Program, RenderPipeline,
+    RenderPipelineDescriptor, SampledTexture, Shader, ShaderProgram, TextureFormat,
 };
 use estampe_transparency::{Finder, TransparencyError, layer_state, weighted_targets};
 use std::sync::Arc;
@@ -60,6 +62,8 @@ pub(crate) struct FrameStyle {
     pub(crate) format: TextureFormat,
     /// The maps by which surfaces are in shadow.
     pub(crate) shadows: Option<ShadowMaps>,
+    /// What is seen through surfaces, if light passes through some.
+    pub(crate) behind: Option<BehindPicture>,
     /// The heights of the model above the ground, if it stands on one.
     pub(crate) columns: Option<ColumnMaps>,
     /// Makes the pipelines that find layers of transparent surfaces.
@@ -77,6 +81,8 @@ pub(crate) enum Role {
     Layer,
     /// Added to weighted sums.
     Weighted,
+    /// As opaque, in the picture of what is behind surfaces that transmit light.
+    Behind,
     /// Depths in the map of this slot: those of lights, then those of the ground.
     Caster(usize),
 }
@@ -97,12 +103,20 @@ pub(crate) struct SurfaceStyle {
     pub(crate) is_single_sided: bool,
 }
 
+impl SurfaceStyle {
+    /// True if light passes through the surface.
+    pub(crate) fn transmits(&self) -> bool {
+        let parameters = self.pbr.as_ref();
+        parameters.is_some_and(|parameters| parameters.transmission.is_some())
+    }
+}
+
 /// Treatment of a surface's alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SurfaceAlpha {
     /// Alpha is ignored.
     Opaque,
-    /// Fragments below ½ are discarded.
+    /// Fragments below a cutoff are cut out.
     Masked,
     /// Blended, without writing depth.
     Blended,
@@ -113,6 +127,7 @@ pub(crate) enum SurfaceAlpha {
 struct WrittenSurface<'a> {
     style: &'a SurfaceStyle,
     written: Written,
+    samples: u32,
 }
 
 impl WrittenSurface<'_> {
@@ -120,7 +135,10 @@ impl WrittenSurface<'_> {
     fn alpha(&self) -> Alpha {
         match self.style.alpha {
             SurfaceAlpha::Opaque => Alpha::Ignored,
-            SurfaceAlpha::Masked => Alpha::CutsOut,
+            SurfaceAlpha::Masked => match u16::try_from(self.samples) {
+                Ok(samples) if self.samples >= LEAST_SAMPLES => Alpha::Covers(samples),
+                _ => Alpha::CutsOut,
+            },
             SurfaceAlpha::Blended => Alpha::Kept,
         }
     }
@@ -176,6 +194,7 @@ impl FrameStyle {
             Role::Blended => (DEPTH_ORDER.nearer().into(), over()),
             Role::Layer => (layer_state(), over()),
             Role::Weighted => (DEPTH_ORDER.nearer().into(), weighted_targets()),
+            Role::Behind => (DepthState::LESS_WRITE.into(), light_target(None)),
         };
         let state = PipelineState {
             primitive: self.triangles_of(surface),
@@ -183,6 +202,7 @@ impl FrameStyle {
             targets,
             samples: self.samples,
             shadows: self.shadows.as_ref(),
+            behind: self.behind.as_ref().filter(|_| surface.transmits()),
         };
         Ok(self.pipeline(device, material, mesh, state)?)
     }
@@ -209,6 +229,7 @@ impl FrameStyle {
             targets,
             samples: self.samples,
             shadows: None,
+            behind: None,
         };
         let values = SurfaceValues {
             base_color: surface.base,
@@ -260,6 +281,7 @@ impl FrameStyle {
             targets: self.targets(Some(BlendState::PREMULTIPLIED_ALPHA_BLENDING)),
             samples: self.samples,
             shadows: None,
+            behind: None,
         };
         self.pipeline(device, material, mesh, state)
     }
@@ -306,20 +328,23 @@ impl FrameStyle {
         &self,
         device: &Device,
         shader: PointsAndLines,
-        primitive: PrimitiveState,
+        (primitive, role): (PrimitiveState, Role),
         mesh: &MeshStreams,
     ) -> Result<StreamPipeline, PipelineError> {
         let material = MaterialProgram::new(shader, &[VertexStream::Position, VertexStream::Color]);
-        let (depth_stencil, mut targets) = self.opaque();
-        if is_smooth(&primitive) {
-            targets = self.targets(Some(BlendState::ALPHA_BLENDING));
-        }
+        let blend = is_smooth(&primitive).then_some(BlendState::ALPHA_BLENDING);
+        let (depth_stencil, targets) = match (role, blend) {
+            (Role::Behind, _) => (DepthState::LESS_WRITE.into(), light_target(blend)),
+            (_, Some(_)) => (self.opaque().0, self.targets(blend)),
+            _ => self.opaque(),
+        };
         let state = PipelineState {
             primitive,
             depth_stencil,
             targets,
             samples: self.samples,
             shadows: None,
+            behind: None,
         };
         self.pipeline(device, material, mesh, state)
     }
@@ -354,8 +379,10 @@ impl FrameStyle {
         let toon = Terms::Toon(self.levels.unwrap_or(TOON_LEVELS));
         let surface = WrittenSurface {
             style: surface,
+            samples: self.samples,
             written: match role {
                 Role::Weighted => Written::WeightedTerms,
+                Role::Behind => Written::Light,
                 Role::Opaque | Role::Blended | Role::Layer | Role::Caster(_) => Written::Color,
             },
         };
@@ -386,7 +413,7 @@ impl FrameStyle {
                 )
             }
             Shading::Uv => MaterialProgram::new(UvColors { transforms }, &[Position, Uv]),
-            Shading::FaceId if surface.alpha() == Alpha::CutsOut => {
+            Shading::FaceId if surface.style.alpha == SurfaceAlpha::Masked => {
                 let base = Painted {
                     factor: surface.style.base,
                     texture: surface.style.texture.clone(),
@@ -418,7 +445,14 @@ impl FrameStyle {
             alpha: surface.alpha(),
             output: Output {
                 presentation: None,
-                ..self.output()
+                ..match surface.written {
+                    // What is seen through a surface is quantised with the surface.
+                    Written::Light => Output {
+                        levels: None,
+                        ..self.output()
+                    },
+                    Written::Color | Written::WeightedTerms => self.output(),
+                }
             },
             written: surface.written,
         };
@@ -466,7 +500,7 @@ impl FrameStyle {
         let factor = surface.style.base;
         let alpha = surface.alpha();
         let has_colors = texture.is_some() || surface.style.has_vertex_colors;
-        if has_colors || bump.is_some() || alpha == Alpha::CutsOut {
+        if has_colors || bump.is_some() || surface.style.alpha == SurfaceAlpha::Masked {
             let painted = Painted {
                 factor,
                 texture,
@@ -531,21 +565,19 @@ impl FrameStyle {
             primitive: state.primitive,
             depth_stencil: Some(state.depth_stencil),
             multisample: MultisampleState::new(state.samples),
-            targets: state.targets,
+            targets: state.targets.clone(),
             ..RenderPipelineDescriptor::with_program(material.program)
         };
-        if let Some(maps) = state.shadows {
-            descriptor.bind_group_layouts = vec![maps.layout.clone()];
+        let groups = state.groups();
+        let layouts = groups.iter().map(|(layout, _)| (*layout).clone());
+        if !groups.is_empty() {
+            descriptor.bind_group_layouts = layouts.collect();
         }
         let pipeline = device.create_render_pipeline(&descriptor)?;
         Ok(StreamPipeline {
             pipeline,
             streams: material.streams,
-            bind_groups: state
-                .shadows
-                .iter()
-                .map(|maps| maps.group.clone())
-                .collect(),
+            bind_groups: groups.iter().map(|(_, group)| (*group).clone()).collect(),
         })
     }
 }
@@ -558,6 +590,30 @@ pub(crate) struct PipelineState<'a> {
     pub(crate) samples: u32,
     /// The maps that its shader looks up.
     pub(crate) shadows: Option<&'a ShadowMaps>,
+    /// The picture that its shader looks up, if light passes through the surface.
+    pub(crate) behind: Option<&'a BehindPicture>,
+}
+
+impl PipelineState<'_> {
+    /// The bind groups with their layouts, by number.
+    fn groups(&self) -> Vec<(&BindGroupLayout, &BindGroup)> {
+        let maps = self.shadows.map(|maps| (&maps.layout, &maps.group));
+        match self.behind {
+            Some(behind) => vec![
+                maps.unwrap_or((&behind.empty.0, &behind.empty.1)),
+                (&behind.layout, &behind.group),
+            ],
+            None => maps.into_iter().collect(),
+        }
+    }
+}
+
+/// The target of the picture of what is behind surfaces.
+pub(crate) fn light_target(blend: Option<BlendState>) -> Vec<Option<ColorTargetState>> {
+    vec![Some(ColorTargetState {
+        blend,
+        ..LIGHT.into()
+    })]
 }
 
 /// True if primitives are lines with smooth borders, which are blended.

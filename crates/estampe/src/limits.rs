@@ -78,8 +78,14 @@ impl LimitArgs {
         let scene = meshes.chain(images).sum::<usize>() as u64;
         // A model that is cut is a copy.
         let copies = if picture.section.is_cut() { 2 } else { 1 };
-        let needed = scene.saturating_mul(copies);
-        let needed = needed.saturating_add(picture.bytes());
+        let mut needed = scene.saturating_mul(copies);
+        needed = needed.saturating_add(picture.bytes());
+        let materials = model.scene.materials.iter();
+        let mut descriptions = materials.filter_map(|material| material.pbr.as_ref());
+        if descriptions.any(|pbr| pbr.transmission.is_some()) {
+            // The picture of what is behind surfaces is one more.
+            needed = needed.saturating_add(picture.bytes_behind());
+        }
         if needed <= limit {
             return Ok(());
         }

@@ -10,6 +10,8 @@ use std::ops::Range;
 pub(crate) struct DrawPlan {
     pub(super) pipelines: Vec<StreamPipeline>,
     pub(super) opaque: Vec<PlannedDraw>,
+    /// What is seen through surfaces that transmit light.
+    pub(super) behind: Vec<PlannedDraw>,
     /// Transparent triangles back to front, or, of weighted transparency, surfaces.
     pub(super) transparent: Vec<PlannedDraw>,
     pub(super) layers: PlannedLayers,
@@ -41,6 +43,11 @@ impl DrawPlan {
     /// Opaque surfaces, lines and points in scene order.
     pub(crate) fn opaque(&self) -> Vec<Draw<'_>> {
         self.draws(&self.opaque)
+    }
+
+    /// Opaque surfaces, lines and points in the picture of what is behind others.
+    pub(crate) fn behind(&self) -> Vec<Draw<'_>> {
+        self.draws(&self.behind)
     }
 
     /// Transparent triangles back to front, or surfaces whose weighted terms are summed.

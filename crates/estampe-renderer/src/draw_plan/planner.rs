@@ -46,7 +46,7 @@ pub(super) struct DrawPlanBuilder {
 impl Planner<'_> {
     /// Plans the draws of the whole scene.
     pub(crate) fn plan(&self) -> Result<DrawPlan, RenderError> {
-        let mut materials = Materials::new(self.scene, self.options, self.device);
+        let mut materials = Materials::new(self.scene, self.options, self.view, self.device);
         let with_tangents = self.make_tangents_and_textures(&mut materials)?;
         let mut builder = DrawPlanBuilder::default();
         for (mesh, made) in self.scene.meshes.iter().zip(&with_tangents) {
@@ -103,7 +103,8 @@ impl Planner<'_> {
         Ok(meshes)
     }
 
-    /// The texture coordinates of a mesh's first normal map, if it has one and no tangents.
+    /// The texture coordinates of a mesh's first normal map, or of the direction of its roughness,
+    /// if it has one and no tangents.
     fn normal_map_uv_set(&self, mesh: &Mesh) -> Option<u8> {
         if self.style.pbr.is_none() || mesh.attribute(Mesh::TANGENT).is_some() {
             return None;
@@ -112,8 +113,12 @@ impl Planner<'_> {
             let material = self.scene.materials.get(surface.material?)?;
             let pbr = material.pbr.as_ref()?;
             let coat = pbr.clearcoat.and_then(|coat| coat.normal_texture);
-            let map = pbr.normal_texture.or(coat)?;
-            Some(map.texture.uv_set)
+            let map = pbr.normal_texture.or(coat).map(|map| map.texture.uv_set);
+            let direction = pbr.anisotropy.map(|layer| {
+                let texture = layer.texture.map(|texture| texture.uv_set);
+                texture.unwrap_or_default()
+            });
+            map.or(direction)
         })
     }
 

@@ -8,7 +8,7 @@ use crate::geometry::vertex_data::{MeshStreams, StreamData};
 use crate::options::{RenderOptions, Shading};
 use crate::shading::inspection::Overdraw;
 use crate::shading::points_and_lines::PointsAndLines;
-use crate::surface_pipelines::is_smooth;
+use crate::surface_pipelines::{Role, is_smooth};
 use crate::transforms::round_to_f32;
 use estampe::TextureFormat;
 use estampe::state::{LineRasterization, LineState, PrimitiveState, PrimitiveTopology};
@@ -49,24 +49,29 @@ impl Planner<'_> {
                 shader.point_size_px = width;
             }
             let state = self.options.points_and_lines(kind);
-            let is_smooth = is_smooth(&state);
-            let pipeline = self
-                .style
-                .points_and_lines(self.device, shader, state, &streams)?;
-            let vertex_buffers = buffers_of(&pipeline, &streams);
-            let pipeline = builder.plan.add_pipeline(pipeline);
             let indices = Some(self.index_buffer_of(indices.to_vec())?);
-            let draws = if is_smooth {
+            let mut draw = |role| -> Result<PlannedDraw, RenderError> {
+                let style = self.style;
+                let shader = shader.clone();
+                let made = style.points_and_lines(self.device, shader, (state, role), &streams)?;
+                Ok(PlannedDraw {
+                    vertex_buffers: buffers_of(&made, &streams),
+                    pipeline: builder.plan.add_pipeline(made),
+                    indices: indices.clone(),
+                    elements: elements.clone(),
+                })
+            };
+            let opaque = draw(Role::Opaque)?;
+            if self.style.behind.is_some() {
+                let behind = draw(Role::Behind)?;
+                builder.plan.behind.push(behind);
+            }
+            let draws = if is_smooth(&state) {
                 &mut builder.smooth_lines
             } else {
                 &mut builder.plan.opaque
             };
-            draws.push(PlannedDraw {
-                pipeline,
-                vertex_buffers,
-                indices,
-                elements,
-            });
+            draws.push(opaque);
         }
         Ok(())
     }

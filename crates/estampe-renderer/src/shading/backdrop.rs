@@ -18,6 +18,7 @@ pub(crate) struct Backdrop {
     count: usize,
     /// How colours are mixed.
     encoding: Encoding,
+    is_opaque: bool,
 }
 
 /// How the place in the gradient is found, times the number of steps.
@@ -52,7 +53,14 @@ impl Backdrop {
             steps,
             count,
             encoding,
+            is_opaque: gradient.is_opaque(),
         }
+    }
+
+    /// True if every colour is opaque.
+    #[inline(always)]
+    pub(crate) fn is_opaque(&self) -> bool {
+        self.is_opaque
     }
 
     /// The colour: linear, or codes of pictures of numbers, multiplied by alpha; and alpha.

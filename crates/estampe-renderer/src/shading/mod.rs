@@ -9,6 +9,7 @@
 //! | [`bump`] | normals bent by a texture of heights |
 //! | [`interpolation`] | lighting at every fragment (Phong), or at the vertices (Gouraud, flat) |
 //! | [`base_color`] | one colour, or texture and vertex colours |
+//! | [`cut_out`] | surfaces with holes |
 //! | [`pbr`] | physically based surfaces |
 //! | [`output`] | quantised colours, fog |
 //! | [`surface`] | the shader of surfaces, composed of these parts |
@@ -24,6 +25,7 @@
 pub(crate) mod backdrop;
 pub(crate) mod base_color;
 pub(crate) mod bump;
+pub(crate) mod cut_out;
 pub(crate) mod ground;
 pub(crate) mod inspection;
 pub(crate) mod interpolation;

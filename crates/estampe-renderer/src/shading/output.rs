@@ -35,6 +35,15 @@ impl Output {
             None => color,
         }
     }
+
+    /// The opacity of a surface behind the fog, which is opaque.
+    #[inline(always)]
+    pub(crate) fn opacity<R: Real>(&self, input: &FragmentIn<'_, R>, opacity: R) -> R {
+        match &self.fog {
+            Some(fog) => opacity.mix(input.real(1.0), fog.share(input)),
+            None => opacity,
+        }
+    }
 }
 
 /// The default light becomes dimmer with the distance, so that parallel faces at different
@@ -107,13 +116,18 @@ impl Fog {
     /// The colour behind the fog.
     #[inline(always)]
     pub(crate) fn color<R: Real>(&self, input: &FragmentIn<'_, R>, color: Vec3<R>) -> Vec3<R> {
-        let distance = self.eye_distance.of(input);
-        let share = ((distance - self.start) * self.per_distance).saturate();
+        let share = self.share(input);
         let fog = match &self.backdrop {
             Some(backdrop) => backdrop.color(input).xyz(),
             None => Vec3::uniform(share, self.color),
         };
         color.mix(fog, share)
+    }
+
+    #[inline(always)]
+    fn share<R: Real>(&self, input: &FragmentIn<'_, R>) -> R {
+        let distance = self.eye_distance.of(input);
+        ((distance - self.start) * self.per_distance).saturate()
     }
 }
 

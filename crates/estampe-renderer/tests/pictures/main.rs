@@ -1,6 +1,7 @@
 //! Pictures of scenes, against the oracle and against themselves.
 
 mod bump_maps;
+mod cut_outs;
 mod edges;
 mod guides;
 mod hostile_scenes;
@@ -13,4 +14,5 @@ mod shadows;
 mod stages;
 mod support;
 mod surface_points;
+mod transmission;
 mod transparency;

@@ -220,6 +220,13 @@ impl PictureArgs {
         pixels * (8 * u64::from(self.sample_count()) + 4)
     }
 
+    /// The bytes of the picture of what is seen through surfaces: light and depth of each sample,
+    /// and light with mip levels.
+    pub(crate) fn bytes_behind(&self) -> u64 {
+        let pixels = u64::from(self.size.0) * u64::from(self.size.1);
+        pixels * (12 * u64::from(self.sample_count()) + 11)
+    }
+
     /// The samples per pixel.
     pub(super) fn sample_count(&self) -> u32 {
         self.samples

@@ -272,4 +272,12 @@ fn alpha_cuts_out_is_kept_or_ignored() {
     assert_eq!(run(Alpha::Ignored, 0.0).color_of(0).map(|c| c.w), Some(1.0));
     assert_eq!(run(Alpha::CutsOut, 0.9).kept(), Some(false));
     assert_eq!(run(Alpha::CutsOut, 1.0).kept(), Some(true));
+    // What is kept is opaque; with several samples by their mask.
+    assert_eq!(run(Alpha::CutsOut, 1.0).color_of(0).map(|c| c.w), Some(1.0));
+    assert_eq!(run(Alpha::Covers(4), 0.9).sample_mask(), Some(0));
+    assert_eq!(run(Alpha::Covers(4), 1.0).sample_mask(), Some(15));
+    assert_eq!(
+        run(Alpha::Covers(4), 1.0).color_of(0).map(|c| c.w),
+        Some(1.0)
+    );
 }

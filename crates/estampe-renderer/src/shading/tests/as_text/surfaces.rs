@@ -150,7 +150,7 @@ impl Look {
             glsl: self.glsl(),
             numbers: self.numbers(),
             targets: match self.written {
-                Written::Color => vec![Some(TextureFormat::Rgba32Float.into())],
+                Written::Color | Written::Light => vec![Some(TextureFormat::Rgba32Float.into())],
                 Written::WeightedTerms => weighted_targets(),
             },
             topology: PrimitiveTopology::TriangleList,
