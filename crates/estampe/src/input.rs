@@ -3,7 +3,9 @@
 use crate::failure::Failure;
 use crate::terminal::one_line;
 use crate::values::{FormatName, Source, shown};
-use estampe_assets::model::{AnimationName, Folder, ModelChoices, ResourceError, Resources};
+use estampe_assets::model::{
+    AnimationName, Folder, ModelChoices, ModelContents, ResourceError, Resources,
+};
 use estampe_assets::{AssetError, Limits, Loaded, ModelFormat, ModelInput, ModelOptions, Warning};
 use estampe_assets::{parse_model_with, read_bytes, read_stream};
 use estampe_scene::{Mesh, Scene};
@@ -24,6 +26,8 @@ pub(crate) struct Model {
     pub(crate) format: Option<ModelFormat>,
     /// The scenes, animations and variants of the file.
     pub(crate) choices: ModelChoices,
+    /// The hierarchy, extensions, and which normals are made.
+    pub(crate) contents: ModelContents,
     /// The model's file and the files that it named, which must not be overwritten.
     pub(crate) files: Vec<PathBuf>,
     /// The first warnings of the reader.
@@ -150,6 +154,7 @@ impl Model {
             name: format!("builtin:{shape}"),
             format: None,
             choices: ModelChoices::default(),
+            contents: ModelContents::default(),
             files: Vec::new(),
             warnings: Vec::new(),
             warning_count: 0,
@@ -170,6 +175,7 @@ impl Model {
             name: name.to_owned(),
             format: Some(loaded.format),
             choices: loaded.choices,
+            contents: loaded.contents,
             files: Vec::new(),
             warnings: loaded.warnings,
             warning_count: loaded.warning_count,

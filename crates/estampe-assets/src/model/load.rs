@@ -1,5 +1,6 @@
 //! Entry points: a path, or bytes in memory.
 
+use super::contents::ModelContents;
 use super::encoding::utf8_from_utf16;
 use super::options::{ModelChoices, ModelOptions};
 use super::resources::{ResourceError, Resources};
@@ -27,6 +28,8 @@ pub struct Loaded {
     pub parameter_points: Vec<Vec3>,
     /// What [`ModelOptions`] can choose in this file.
     pub choices: ModelChoices,
+    /// The hierarchy, extensions, and which normals are made.
+    pub contents: ModelContents,
 }
 
 /// The bytes of a model and where they come from.
@@ -59,6 +62,7 @@ pub(super) struct Parsed {
     /// Missing normals are those of the triangles, without smooth edges.
     pub(super) has_flat_normals: bool,
     pub(super) choices: ModelChoices,
+    pub(super) contents: ModelContents,
 }
 
 /// State that all readers share.
@@ -233,6 +237,7 @@ pub fn parse_model_with(
         warning_count,
         parameter_points: parsed.parameter_points,
         choices: parsed.choices,
+        contents: parsed.contents,
     })
 }
 

@@ -23,6 +23,7 @@ mod buffers;
 mod cameras_lights;
 mod choice;
 mod connectivity;
+mod contents;
 mod data_uri;
 mod document;
 mod extensions;
@@ -124,6 +125,7 @@ pub(super) fn parse(
         // The specification asks for it (§3.7.2.1).
         has_flat_normals: true,
         choices: choices(&document, &accessors),
+        contents: contents::of(&nodes, &hierarchy, &document, &accessors),
         ..Parsed::default()
     })
 }
