@@ -332,7 +332,7 @@ const CUTOFF: f32 = 0.5;
     reason = "clamped to 0..=255"
 )]
 fn code(cutoff: f32) -> u8 {
-    libm::ceilf(cutoff.max(0.0).min(1.0) * 255.0) as u8
+    libm::ceilf(cutoff.clamp(0.0, 1.0) * 255.0) as u8
 }
 
 /// The nearest whole exponent, at least 1; readers keep exponents below 10,000.

@@ -207,7 +207,7 @@ impl Materials<'_> {
     fn in_view_space(&self, length: f32, mesh: &Mesh) -> f32 {
         let length_world = f64::from(length) * f64::from(mesh.scale.unwrap_or(1.0));
         let length = round_to_f32(length_world / self.world_per_unit);
-        length.max(0.0).min(f32::MAX)
+        finite(length)
     }
 
     /// Halvings of light per length in view space: of white light, the attenuation colour is left
@@ -219,7 +219,7 @@ impl Materials<'_> {
         volume.attenuation_color.to_array().map(|channel| {
             let left = f64::from(channel).clamp(DARKEST, 1.0);
             let halvings = -libm::log2(left) / distance.max(f64::MIN_POSITIVE);
-            round_to_f32(halvings).max(0.0).min(f32::MAX)
+            finite(round_to_f32(halvings))
         })
     }
 
@@ -299,7 +299,16 @@ pub(crate) fn images_of(pbr: &PbrMaterial, mode: AlphaMode) -> Vec<TextureKey> {
 
 /// A thickness beyond which a film shows no colours, at most.
 fn film_thickness(nanometres: f32) -> f32 {
-    nanometres.max(0.0).min(1e5)
+    finite(nanometres).min(1e5)
+}
+
+/// The number, 0 instead of negative ones and of NaN, and the greatest instead of ∞.
+fn finite(number: f32) -> f32 {
+    if number > 0.0 {
+        number.min(f32::MAX)
+    } else {
+        0.0
+    }
 }
 
 /// A dielectric of the material's colours, whose highlight is as wide as that of the exponent: α =

@@ -191,10 +191,10 @@ fn spread_coordinates_are_random_bytes_and_large_or_small_models_are_not() {
     for scale in [1e-30, 1.0, 1e30] {
         assert!(of(&|at| scale * (1 + at % 7) as f32).is_ok(), "{scale}");
         // A few wild corners are a damaged model.
-        let wild = |at: usize| if at % 10 == 0 { 1e38 } else { scale };
+        let wild = |at: usize| if at.is_multiple_of(10) { 1e38 } else { scale };
         assert!(of(&wild).is_ok(), "{scale}");
     }
-    let spread = |at: usize| f32::from_bits(((at % 60) as u32 * 4 + 8) << 23);
+    let spread = |at: usize| f32::from_bits((u32::try_from(at % 60).unwrap() * 4 + 8) << 23);
     let error = of(&spread).expect_err("nonsense").to_string();
     assert!(error.contains("random bytes"), "{error}");
 }

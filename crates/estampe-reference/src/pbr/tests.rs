@@ -121,15 +121,12 @@ fn random_directions_agree_with_grids() {
             let (value, arriving) = (material.value(&seen, view, light), radiance(light));
             [0, 1, 2].map(|c| value[c] * arriving[c])
         });
-        for c in 0..3 {
-            let error = (estimate.mean[c] - exact[c]).abs();
-            assert!(estimate.deviation[c] < 0.006, "{:?}", estimate.deviation);
+        let estimates = estimate.mean.iter().zip(&estimate.deviation);
+        for (channel, ((mean, deviation), exact)) in estimates.zip(&exact).enumerate() {
+            assert!(*deviation < 0.006, "{deviation}");
             assert!(
-                error < 4.0 * estimate.deviation[c] + 1e-3,
-                "{cosine}, channel {c}: {} ± {}, not {}",
-                estimate.mean[c],
-                estimate.deviation[c],
-                exact[c]
+                (mean - exact).abs() < 4.0 * deviation + 1e-3,
+                "{cosine}, channel {channel}: {mean} ± {deviation}, not {exact}"
             );
         }
     }

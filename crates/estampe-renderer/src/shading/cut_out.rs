@@ -38,7 +38,6 @@ fn coverage<R: Real>(alpha: R, cutoff: f32) -> R {
     const FLAT: f32 = 1e-4;
     let change = alpha.ddx().abs() + alpha.ddy().abs();
     let sharpened = ((alpha - cutoff) / change.max(FLAT) + 0.5).saturate();
-    let one = alpha.splat(1.0);
-    let whole = R::select(alpha.ge(cutoff), one, one - one);
+    let whole = R::select(alpha.ge(cutoff), alpha.splat(1.0), alpha.splat(0.0));
     R::select(change.lt(FLAT), whole, sharpened)
 }

@@ -63,7 +63,8 @@ pub(super) fn draw_once(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     if let Some(shots) = &shots {
         let greatest = shots.greatest(&args.picture);
         args.limits.check_memory(&model, &greatest)?;
-        return cameras::run(&model, args, shots, &clock, progress);
+        cameras::run(&model, args, shots, &clock, progress)?;
+        return Ok(model.files);
     }
     args.limits.check_memory(&model, &args.picture)?;
     let format = match (picture, &files) {

@@ -76,6 +76,7 @@ fn of_options(args: &RenderArgs) -> Vec<PathBuf> {
     let picture = &args.picture;
     let files = [
         model,
+        args.cameras.cameras.as_deref(),
         picture.texture.as_deref(),
         picture.shader.file(),
         picture.pbr.panorama(),

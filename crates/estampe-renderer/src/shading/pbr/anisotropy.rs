@@ -75,7 +75,7 @@ impl<R: Real> Grooves<R> {
         Self {
             tangent,
             bitangent: normal.cross(tangent),
-            strength: R::select(is_known, strength.saturate(), one - one),
+            strength: R::select(is_known, strength.saturate(), one.splat(0.0)),
         }
     }
 

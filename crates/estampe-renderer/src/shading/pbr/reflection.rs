@@ -112,12 +112,13 @@ impl<R: Real> PbrPoint<R> {
         for light in lights {
             sum += self.punctual_light(light, &shared);
         }
+        let mut passing = None;
+        if let Some(color) = self.passing {
+            passing = Some(color * shared.rest * shared.below);
+        }
         Leaving {
             reflected: sum,
-            passing: match self.passing {
-                Some(color) => Some(color * shared.rest * shared.below),
-                None => None,
-            },
+            passing,
         }
     }
 

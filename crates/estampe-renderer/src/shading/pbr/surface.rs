@@ -165,6 +165,14 @@ impl PbrSurface {
             passing = Some(diffuse * behind.share * behind.tint);
             diffuse *= one - behind.share;
         }
+        let mut sheen = None;
+        if let Some(parameters) = &parameters.sheen {
+            sheen = Some(fibres(parameters, uvs, one));
+        }
+        let mut film = None;
+        if let Some(parameters) = &parameters.iridescence {
+            film = Some(thin_film(parameters, uvs, one));
+        }
         let point = PbrPoint {
             position: view,
             normal,
@@ -180,10 +188,7 @@ impl PbrSurface {
                 Some(coat) => Some(clearcoat(coat, uvs, &frame, one)),
                 None => None,
             },
-            sheen: match &parameters.sheen {
-                Some(sheen) => Some(fibres(sheen, uvs, one)),
-                None => None,
-            },
+            sheen,
             grooves: match &parameters.anisotropy {
                 Some(parameters) => {
                     let across = [frame.tangent, frame.bitangent];
@@ -191,10 +196,7 @@ impl PbrSurface {
                 }
                 None => None,
             },
-            film: match &parameters.iridescence {
-                Some(film) => Some(thin_film(film, uvs, one)),
-                None => None,
-            },
+            film,
         };
         (point, behind)
     }
@@ -337,7 +339,7 @@ estampe::shader! {
                 let opacity = self.output.opacity(&input, opacity);
                 if self.alpha == Alpha::Kept {
                     // Blending multiplies by alpha.
-                    color = color / opacity.max(1e-6);
+                    color /= opacity.max(1e-6);
                 }
                 alpha *= opacity;
             }

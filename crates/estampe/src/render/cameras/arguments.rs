@@ -15,7 +15,7 @@ pub(crate) struct CamerasArgs {
     #[arg(long, value_name = "FILE", help_heading = "Data passes")]
     #[arg(conflicts_with_all = [
         "view", "azimuth", "elevation", "eye", "camera", "target", "fov", "ortho", "zoom",
-        "preview", "watch",
+        "preview",
     ])]
-    pub(super) cameras: Option<PathBuf>,
+    pub(in crate::render) cameras: Option<PathBuf>,
 }

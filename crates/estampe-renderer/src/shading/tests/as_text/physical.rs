@@ -17,7 +17,9 @@ use crate::shading::pbr::parameters::{
 use crate::shading::pbr::surface::{PbrLighting, PbrSurface};
 use crate::shading::pbr::textures::{MaterialTexture, UvChoice};
 use crate::shading::pbr::tone_map::ToneMap;
-use crate::shading::pbr::transmission::{BehindView, TransmissionParameters, VolumeParameters};
+use crate::shading::pbr::transmission::{
+    Background, BehindView, TransmissionParameters, VolumeParameters,
+};
 use crate::shading::surface::Written;
 use estampe::state::PrimitiveTopology;
 use estampe::{Mat4, Program, SampledTexture, ShaderProgram, TextureFormat};
@@ -232,7 +234,10 @@ impl Look {
                 behind: self.transmits.map(|how| BehindView {
                     clip_from_view: clip_from_view(),
                     last_level: LAST_LEVEL,
-                    background: (!how.is_clear).then_some(BACKGROUND),
+                    background: match how.is_clear {
+                        true => Background::Transparent,
+                        false => Background::Color(BACKGROUND),
+                    },
                 }),
                 exposure: EXPOSURE,
                 tone_map: self.tone_map,
