@@ -1,4 +1,5 @@
-//! Conversion between binary16 and binary32 by instructions (F16C, which AVX2 levels have; AVX-512).
+//! Conversion between binary16 and binary32 by instructions (F16C, which AVX2 levels have;
+//! AVX-512).
 //!
 //! The bits are those of [`Lanes`](crate::Lanes)' functions without these instructions: to nearest
 //! with ties to even, denormals kept; a NaN that is decoded becomes quiet.

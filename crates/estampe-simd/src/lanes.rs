@@ -89,8 +89,8 @@ pub trait Lanes: Simd {
         ]
     }
 
-    /// The numbers of half floats, the low 16 bits of each lane, if the level has an instruction for
-    /// it: exact, with quiet NaNs.
+    /// The numbers of half floats, the low 16 bits of each lane, if the level has an instruction
+    /// for it: exact, with quiet NaNs.
     #[inline(always)]
     fn decode_half(self, half: u32x16<Self>) -> Option<f32x16<Self>> {
         let _ = half;

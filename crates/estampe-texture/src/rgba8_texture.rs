@@ -35,8 +35,8 @@ pub struct Rgba8Texture {
     /// True if the common case is possible: unorm8 or sRGB, linear filters for magnification and
     /// minification.
     is_linear: bool,
-    /// True if the computed level of detail is of no effect: sampler and levels allow one alone, and
-    /// the filter is the same for magnification and minification.
+    /// True if the computed level of detail is of no effect: sampler and levels allow one alone,
+    /// and the filter is the same for magnification and minification.
     ignores_lod: bool,
     /// True if the texture's format is sRGB.
     pub(crate) is_srgb: bool,

@@ -144,7 +144,8 @@ impl RenderOptions {
     }
 
     /// The assembly and shape of points and lines. Lines are smooth by their samples, or by their
-    /// coverage if there is one and the picture shows light; those of a chosen width are rectangles.
+    /// coverage if there is one and the picture shows light; those of a chosen width are
+    /// rectangles.
     fn points_and_lines(&self, kind: Kind) -> PrimitiveState {
         let mut line = LineState::default();
         if self.samples == 1 && !self.shading.holds_numbers() {

@@ -15,8 +15,8 @@ pub(super) fn sample(texture: &SampledTexture, access: &mut TextureAccess<'_>) {
     }
 }
 
-/// One packet with two coordinates and nothing else, sampled by its quads or in the finest level, or
-/// compared in a shadow map; false if that is not what is asked, and nothing is done.
+/// One packet with two coordinates and nothing else, sampled by its quads or in the finest level,
+/// or compared in a shadow map; false if that is not what is asked, and nothing is done.
 #[inline]
 fn sample_common(texture: &SampledTexture, access: &mut TextureAccess<'_>) -> bool {
     let op = access.op;

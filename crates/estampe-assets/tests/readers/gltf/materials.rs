@@ -16,8 +16,8 @@ fn png(size: u32, rgba: [u8; 4]) -> Vec<u8> {
     encode(&Image::filled(size, size, rgba), ImageFormat::Png).expect("an image")
 }
 
-/// The triangle with two sets of texture coordinates, a material, five textures of five images, and one sampler. The images are
-/// one texel each: image i has i in red.
+/// The triangle with two sets of texture coordinates, a material, five textures of five images,
+/// and one sampler. The images are one texel each: image i has i in red.
 fn with_material(material: Value) -> Builder {
     let mut file = Builder::triangle();
     let uvs = file.floats(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);

@@ -1,4 +1,5 @@
-//! The use of buffer views: views of vertices have a stride if they are shared, all others have none.
+//! The use of buffer views: views of vertices have a stride if they are shared, all others have
+//! none.
 //!
 //! Readers differ where a file breaks these rules: this one applies a stride wherever it stands.
 //!
