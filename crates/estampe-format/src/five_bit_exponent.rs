@@ -14,6 +14,9 @@ pub(crate) const fn infinity(mantissa: u32) -> u32 {
     31 << mantissa
 }
 
+/// The bits that all quiet NaNs have.
+const QUIET_NAN: u32 = 0x7FC0_0000;
+
 /// 2^(−14 − mantissa), of which denormal codes are multiples, as an f32's bits.
 const fn least_bits(mantissa: u32) -> u32 {
     (127 - 14 - mantissa) << 23
@@ -67,12 +70,14 @@ pub(crate) fn encode_lanes<S: Lanes, const MANTISSA: u32>(s: S, bits: u32x16<S>)
     is_denormal.select(denormal, normal)
 }
 
-/// A code's number, exactly; a NaN's mantissa moves up.
+/// A code's number, exactly; a NaN's mantissa moves up, and it becomes quiet.
 #[inline(always)]
 pub(crate) fn decode<const MANTISSA: u32>(code: u32) -> f32 {
     let moved = code << (23 - MANTISSA);
-    if code >= infinity(MANTISSA) {
-        f32::from_bits(moved | 0x7F80_0000)
+    if code > infinity(MANTISSA) {
+        f32::from_bits(moved | QUIET_NAN)
+    } else if code == infinity(MANTISSA) {
+        f32::INFINITY
     } else if code < 1 << MANTISSA {
         code as f32 * f32::from_bits(least_bits(MANTISSA))
     } else {
@@ -96,9 +101,12 @@ pub(crate) fn decode_lanes<S: Lanes, const MANTISSA: u32>(s: S, code: u32x16<S>)
         let finite = signed
             .simd_lt(bound(1 << MANTISSA))
             .select(denormal, normal);
+        let not_finite = signed
+            .simd_gt(bound(infinity(MANTISSA)))
+            .select(moved | splat(QUIET_NAN), splat(0x7F80_0000));
         signed
             .simd_lt(bound(infinity(MANTISSA)))
-            .select(finite, moved | splat(0x7F80_0000))
+            .select(finite, not_finite)
             .bitcast()
     })
 }

@@ -23,15 +23,21 @@ pub fn encode(value: f32) -> u32 {
 pub fn encode_lanes<S: Lanes>(s: S, value: f32x16<S>) -> u32x16<S> {
     outline!(s, {
         let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
-        let bits: u32x16<S> = value.bitcast();
-        let nearest = magnitude::encode_lanes::<S, 10>(s, bits & splat(0x7FFF_FFFF));
-        let infinity = splat(magnitude::infinity(10));
-        let number = nearest.min(infinity) | ((bits >> 16) & splat(0x8000));
+        let number = match s.encode_half(value) {
+            Some(codes) => codes,
+            None => {
+                let bits: u32x16<S> = value.bitcast();
+                let nearest = magnitude::encode_lanes::<S, 10>(s, bits & splat(0x7FFF_FFFF));
+                let infinity = splat(magnitude::infinity(10));
+                nearest.min(infinity) | ((bits >> 16) & splat(0x8000))
+            }
+        };
         value.simd_eq(value).select(number, splat(NAN))
     })
 }
 
-/// A half float's number, exactly; a NaN keeps its sign, and its mantissa moves up.
+/// A half float's number, exactly. A NaN keeps its sign, its mantissa moves up, and it becomes
+/// quiet, as processors' instructions do it.
 #[inline(always)]
 #[must_use]
 pub fn decode(half: u32) -> f32 {
@@ -44,6 +50,9 @@ pub fn decode(half: u32) -> f32 {
 pub fn decode_lanes<S: Lanes>(s: S, half: u32x16<S>) -> f32x16<S> {
     outline!(s, {
         let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+        if let Some(numbers) = s.decode_half(half) {
+            return numbers;
+        }
         let magnitude = magnitude::decode_lanes::<S, 10>(s, half & splat(0x7FFF));
         let bits: u32x16<S> = magnitude.bitcast();
         (bits | ((half & splat(0x8000)) << 16)).bitcast()

@@ -1,13 +1,19 @@
 //! Rendering of a scene to a frame, step by step.
 
 use crate::alpha::{Encoding, decode, straighten};
+use crate::backdrop::BackdropDraw;
+use crate::behind::{BehindPicture, view_of};
 use crate::camera::Pinhole;
 use crate::draw_plan::{Planner, is_dark};
 use crate::frame_passes::{DrawnPasses, FramePasses};
 use crate::ground::{ColumnMaps, GroundFrame, GroundShadow};
+use crate::guides;
 use crate::options::{RenderOptions, Shading};
 use crate::scene_view::SceneView;
 use crate::shading::VertexTransforms;
+use crate::shading::backdrop::Backdrop;
+use crate::shading::output;
+use crate::shading::pbr::transmission::Background;
 use crate::shading::surface::DEPTH_ORDER;
 use crate::shading::wireframe::Wireframe;
 use crate::shadows::ShadowMaps;
@@ -94,6 +100,9 @@ pub enum RenderError {
         /// Number of triangles.
         faces: usize,
     },
+    /// Planes cut the whole model away.
+    #[error("the section leaves nothing of the model: move its planes, or turn them round")]
+    EmptySection,
     /// A pipeline state breaks a rule.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
@@ -125,6 +134,28 @@ pub enum RenderError {
     InspectUnsorted,
 }
 
+/// What [`render_watched`] begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FrameStage {
+    /// Camera, vertex buffers, textures and pipelines.
+    Preparing,
+    /// The maps of lights and of the ground.
+    Shadows,
+    /// The passes of the picture: so many draws of this pass are drawn or begun.
+    Drawing {
+        /// Draws that are drawn or begun.
+        begun: usize,
+        /// All draws of the pass.
+        all: usize,
+    },
+    /// The pixels of the picture.
+    ReadingBack,
+}
+
+/// Is told the stages of a frame.
+pub(crate) type OnStage<'a> = &'a (dyn Fn(FrameStage) + Sync);
+
 /// Draws a scene.
 ///
 /// # Errors
@@ -135,20 +166,36 @@ pub fn render(
     options: &RenderOptions,
     device: &Device,
 ) -> Result<Frame, RenderError> {
+    render_watched(scene, options, device, &|_| {})
+}
+
+/// [`render`], which calls `on_stage` when a stage begins; while it draws, about every two million
+/// vertices.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_watched(
+    scene: &Scene,
+    options: &RenderOptions,
+    device: &Device,
+    on_stage: &(dyn Fn(FrameStage) + Sync),
+) -> Result<Frame, RenderError> {
     let start = Instant::now();
-    with_passes(scene, options, device, |passes, view| {
+    with_passes(scene, options, (device, on_stage), |passes, view| {
         let prepare = start.elapsed();
         let DrawnPasses { statistics, layers } = passes.draw(device)?;
+        on_stage(FrameStage::ReadingBack);
         let start = Instant::now();
         let mut rgba = device.read_texture(&passes.attachments.image)?;
         if options.background.is_none() {
             straighten(&mut rgba, encoding(options));
         }
-        let image = Image {
+        let mut image = Image {
             width: options.width,
             height: options.height,
             rgba,
         };
+        guides::mark(&mut image, view, options);
         let timings = FrameTimings {
             prepare,
             geometry: statistics.geometry,
@@ -170,10 +217,11 @@ pub fn render(
 pub(crate) fn with_passes<T>(
     scene: &Scene,
     options: &RenderOptions,
-    device: &Device,
+    (device, on_stage): (&Device, OnStage<'_>),
     use_passes: impl FnOnce(&FramePasses<'_>, &SceneView) -> Result<T, RenderError>,
 ) -> Result<T, RenderError> {
     check_size(options, device)?;
+    on_stage(FrameStage::Preparing);
     let resolved;
     let options = if options.shading == Shading::Automatic {
         resolved = RenderOptions {
@@ -185,6 +233,8 @@ pub(crate) fn with_passes<T>(
         options
     };
     let workers = Workers::new(device.threads());
+    let cut = options.cut(scene, workers)?;
+    let scene = cut.as_ref().map_or(scene, |cut| &cut.scene);
     let view = SceneView::new(scene, options, workers);
     let style = frame_style(scene, &view, options, device)?;
     let plan = Planner {
@@ -197,6 +247,9 @@ pub(crate) fn with_passes<T>(
     }
     .plan()?;
     let mut before = Statistics::default();
+    if style.shadows.is_some() || style.columns.is_some() {
+        on_stage(FrameStage::Shadows);
+    }
     if let Some(shadows) = &style.shadows {
         before += shadows.draw(device, &plan)?;
     }
@@ -207,6 +260,12 @@ pub(crate) fn with_passes<T>(
         let lit = (&maps.frame, &columns, &view.sky(options));
         ground = Some(GroundShadow::new(device, &style, lit, workers)?);
     }
+    if let Some(behind) = &style.behind {
+        before += behind.draw(device, &plan, ground.as_ref())?;
+    }
+    let backdrop = style.backdrop;
+    let backdrop = backdrop.map(|backdrop| BackdropDraw::new(device, &style, backdrop));
+    let backdrop = backdrop.transpose()?;
     let attachments =
         Attachments::new(options, style.format, device).map_err(RenderError::Target)?;
     let passes = FramePasses {
@@ -214,7 +273,9 @@ pub(crate) fn with_passes<T>(
         style: &style,
         attachments: &attachments,
         options,
+        on_stage,
         before,
+        backdrop: backdrop.as_ref(),
         ground: ground.as_ref(),
     };
     use_passes(&passes, &view)
@@ -326,9 +387,17 @@ fn frame_style(
         (program, values)
     });
     let pbr = if options.shading == Shading::Pbr {
-        Some(Arc::new(
-            view.pbr_lighting(scene, options, &lights, device)?,
-        ))
+        let mut lighting = view.pbr_lighting(scene, options, &lights, device)?;
+        let background = match (backdrop(options), options.background) {
+            (Some(gradient), _) => Background::Gradient(gradient),
+            (None, Some(_)) => {
+                let [r, g, b, _] = clear_color(options);
+                Background::Color([r, g, b])
+            }
+            (None, None) => Background::Transparent,
+        };
+        lighting.behind = view_of(scene, view, options, background);
+        Some(Arc::new(lighting))
     } else {
         None
     };
@@ -336,7 +405,13 @@ fn frame_style(
         Some(lighting) => &lighting.shadow_maps,
         None => &lights.shadow_maps,
     };
+    let is_seen_through = pbr.as_ref().is_some_and(|pbr| pbr.behind.is_some());
     Ok(FrameStyle {
+        behind: if is_seen_through {
+            Some(BehindPicture::new(device, options)?)
+        } else {
+            None
+        },
         shadows: ShadowMaps::new(device, maps)?,
         columns: if options.has_ground() {
             Some(ColumnMaps::new(device, GroundFrame::new(view))?)
@@ -349,12 +424,20 @@ fn frame_style(
         transforms,
         lights: Arc::new(lights),
         levels: options.levels,
+        backdrop: backdrop(options),
         fog: options.fog.as_ref().map(|fog| {
+            let gradient = options.gradient.filter(|gradient| {
+                fog.color.is_none() && options.background.is_some() && gradient.is_opaque()
+            });
             let color = fog.color.or(options.background);
             let color = color.unwrap_or(RenderOptions::DEFAULT_BACKGROUND);
             let linear = color.map(|code| decode(code, Encoding::Srgb));
-            view.fog(fog, linear, (options.width, options.height))
+            output::Fog {
+                backdrop: gradient.and_then(|_| backdrop(options)),
+                ..view.fog(fog, linear, (options.width, options.height))
+            }
         }),
+        presentation: view.presentation(options),
         wireframe: wireframe(transforms, options),
         overlay: has_overlay(options).then(|| overlay(transforms, options)),
         depth_range: view.depth_range(),
@@ -366,6 +449,15 @@ fn frame_style(
         },
         finder: Finder::new(device, DEPTH_ORDER, options.samples)?,
     })
+}
+
+/// The gradient of the options, if it is drawn.
+fn backdrop(options: &RenderOptions) -> Option<Backdrop> {
+    // Fragments are added to none.
+    let gradient = options.gradient.as_ref();
+    let gradient = gradient.filter(|_| options.shading != Shading::Overdraw)?;
+    let size_px = [options.width, options.height];
+    Some(Backdrop::new(gradient, size_px, encoding(options)))
 }
 
 /// Wireframe edges that contrast with the background, with a width in proportion to the image.
@@ -383,6 +475,7 @@ fn wireframe(transforms: VertexTransforms, options: &RenderOptions) -> Wireframe
         transforms,
         line: [r, g, b, 1.0],
         face: clear_color(options),
+        backdrop: backdrop(options),
         half_width_px: half_width_px(options),
     }
 }
@@ -403,12 +496,16 @@ fn overlay(transforms: VertexTransforms, options: &RenderOptions) -> Wireframe {
         transforms,
         line: [r, g, b, 0.85],
         face: [0.0; 4],
+        backdrop: None,
         half_width_px: half_width_px(options),
     }
 }
 
-/// Half of the width of edges, in pixels: in proportion to the image.
-fn half_width_px(options: &RenderOptions) -> f32 {
+/// Half of the width of edges, in pixels: that of the options, or in proportion to the image.
+pub(crate) fn half_width_px(options: &RenderOptions) -> f32 {
+    if let Some(width) = options.line_width_px {
+        return width / 2.0;
+    }
     let shorter_px = options.width.min(options.height);
     let sixteenths = u16::try_from((shorter_px / 64).clamp(8, 64)).unwrap_or(64);
     f32::from(sixteenths) / 16.0

@@ -8,14 +8,16 @@
 //! The samples are of the same format between passes as in one, so a pixel without transparent
 //! surface has the same bits with every method.
 
+use crate::backdrop::BackdropDraw;
 use crate::draw_plan::DrawPlan;
-use crate::frame::{Attachments, RenderError, TransparentLayers};
+use crate::frame::{Attachments, FrameStage, OnStage, RenderError, TransparentLayers};
 use crate::ground::GroundShadow;
 use crate::options::{RenderOptions, Transparency};
 use crate::shading::surface::DEPTH_ORDER;
 use crate::surface_pipelines::FrameStyle;
 use estampe::{
-    ColorAttachment, DepthStencilAttachment, Device, Draw, RenderPass, Statistics, Texture,
+    ColorAttachment, DepthStencilAttachment, Device, Draw, PassControl, RenderPass, Statistics,
+    Texture,
 };
 use estampe_transparency::{PeelDraws, Target, blend_weighted, peel};
 
@@ -31,14 +33,18 @@ pub(crate) struct FramePasses<'a> {
     pub(crate) style: &'a FrameStyle,
     pub(crate) attachments: &'a Attachments,
     pub(crate) options: &'a RenderOptions,
+    /// Is told how many draws of the passes are begun.
+    pub(crate) on_stage: OnStage<'a>,
     /// The work of the passes before: shadow maps.
     pub(crate) before: Statistics,
+    /// The gradient behind everything, if there is one.
+    pub(crate) backdrop: Option<&'a BackdropDraw>,
     /// The ground, if the model stands on one.
     pub(crate) ground: Option<&'a GroundShadow>,
 }
 
 impl FramePasses<'_> {
-    /// Draws the frame.
+    /// Draws the frame. Marks on the finished image are not part of it.
     pub(crate) fn draw(&self, device: &Device) -> Result<DrawnPasses, RenderError> {
         let method = self.options.transparency;
         if method == Transparency::Sorted || !self.has_transparent_surfaces() {
@@ -50,6 +56,7 @@ impl FramePasses<'_> {
             });
         }
         let samples = self.attachments.samples();
+        let progress = |begun, all| (self.on_stage)(FrameStage::Drawing { begun, all });
         let mut statistics = self.before;
         statistics += device.render(&RenderPass {
             color_attachments: &[Some(ColorAttachment {
@@ -58,6 +65,7 @@ impl FramePasses<'_> {
             })],
             depth_stencil_attachment: Some(self.attachments.cleared_depth()),
             draws: &self.opaque_and_ground(),
+            control: watched(&progress),
             ..RenderPass::default()
         })?;
         let target = Target {
@@ -89,7 +97,9 @@ impl FramePasses<'_> {
 
     fn opaque_and_ground(&self) -> Vec<Draw<'_>> {
         let mut draws = self.plan.opaque();
+        draws.extend(self.backdrop.map(BackdropDraw::draw));
         draws.extend(self.ground.map(GroundShadow::draw));
+        draws.extend(self.plan.guides());
         draws
     }
 
@@ -106,10 +116,12 @@ impl FramePasses<'_> {
         let mut draws = self.opaque_and_ground();
         draws.extend(self.plan.transparent());
         draws.extend(self.plan.edges());
+        let progress = |begun, all| (self.on_stage)(FrameStage::Drawing { begun, all });
         use_pass(&RenderPass {
             color_attachments: &[Some(self.attachments.color(self.options))],
             depth_stencil_attachment: Some(self.attachments.cleared_depth()),
             draws: &draws,
+            control: watched(&progress),
             ..RenderPass::default()
         })
     }
@@ -132,5 +144,13 @@ impl FramePasses<'_> {
             )),
             ..RenderPass::default()
         })?)
+    }
+}
+
+/// The control of a pass whose progress is watched.
+fn watched(progress: &(dyn Fn(usize, usize) + Sync)) -> PassControl<'_> {
+    PassControl {
+        progress: Some(progress),
+        cancel: None,
     }
 }

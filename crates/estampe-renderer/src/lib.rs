@@ -2,11 +2,15 @@
 //! Rendering of scenes to images, with the device of `estampe`.
 //!
 //! ```text
-//! Scene ─┬─ scene_view      unit space, fitted camera, lights
+//! Scene ─┬─ section         what planes cut away, and caps
+//!        ├─ scene_view      unit space, fitted camera, lights
 //!        ├─ environment     light from all around; pbr_lighting puts it into view space
 //!        ├─ shadows         maps of what the lights see
 //!        ├─ ground          the shadow on what the model stands on
+//!        ├─ backdrop        the gradient behind everything
+//!        ├─ behind          what is seen through surfaces that transmit light
 //!        ├─ materials       surface styles and textures
+//!        ├─ alpha_levels    mip levels of colours with alpha
 //!        ├─ pbr_materials   what physically based materials add
 //!        ├─ geometry        vertex buffers, unshared faces, back-to-front order
 //!        ├─ surface_program     a program of the caller's, in place of those of `shading`
@@ -14,6 +18,9 @@
 //!        ├─ draw_plan       the draws, in order
 //!        ├─ frame_passes    the passes: one, or those of order-independent transparency
 //!        ├─ frame           render: all of it, and reading back the pixels
+//!        ├─ feature_edges   sharp edges, borders and silhouettes
+//!        ├─ guides          grid, axes, and the model's box with its sizes
+//!        ├─ strokes         lines of a width, which the model hides
 //!        ├─ surface_points  positions, normals and other numbers of what is seen
 //!        └─ text            labels on the image
 //! ```
@@ -29,20 +36,28 @@
 pub mod camera;
 
 mod alpha;
+mod alpha_levels;
+mod backdrop;
+mod behind;
 mod draw_plan;
 mod environment;
+mod feature_edges;
 mod frame;
 mod frame_passes;
 mod geometry;
+mod gradient;
 mod ground;
+mod guides;
 mod materials;
 mod options;
 mod pbr_lighting;
 mod pbr_materials;
 mod pixel_history;
 mod scene_view;
+mod section;
 mod shading;
 mod shadows;
+mod strokes;
 mod surface_pipelines;
 mod surface_points;
 mod surface_program;
@@ -58,12 +73,17 @@ pub use camera::{CameraOptions, Eye, Intrinsics, Pinhole, ProjectionKind, ViewDi
 pub use environment::{EnvironmentError, EnvironmentMap};
 pub use estampe::state::CullMode;
 pub use estampe::transforms;
-pub use frame::{Frame, FrameTimings, RenderError, TransparentLayers, render};
+pub use feature_edges::FeatureEdges;
+pub use frame::{Frame, FrameStage, FrameTimings, RenderError, TransparentLayers};
+pub use frame::{render, render_watched};
 pub use geometry::face_colors::face_color;
+pub use gradient::{Gradient, GradientShape};
+pub use guides::BoundingBox;
 pub use options::{
     Environment, Fog, Ground, RenderOptions, Shading, Specular, SpecularModel, Transparency, Up,
 };
 pub use pixel_history::{FramePixel, FrameStages, VertexSpaces, inspect, inspect_stages};
+pub use section::{Section, SectionPlane};
 pub use shading::pbr::tone_map::ToneMap;
 pub use surface_points::{SurfacePoint, SurfacePoints, surface_points};
 pub use surface_program::{SurfaceBindings, SurfaceProgram, SurfaceValues};
@@ -71,4 +91,4 @@ pub use text::{TextHeight, TextStyle, character_width_px, draw_text, text_width_
 
 /// Version of the images. It rises whenever the same scene and options give other bytes than
 /// before; CHANGELOG lists the changes.
-pub const PICTURE_VERSION: u32 = 1;
+pub const PICTURE_VERSION: u32 = 2;

@@ -2,6 +2,10 @@
 
 use crate::camera::CameraOptions;
 use crate::environment::EnvironmentMap;
+use crate::feature_edges::FeatureEdges;
+use crate::gradient::Gradient;
+use crate::guides::BoundingBox;
+use crate::section::Section;
 use crate::shading::pbr::tone_map::ToneMap;
 use crate::surface_program::SurfaceProgram;
 use estampe::state::CullMode;
@@ -16,7 +20,7 @@ pub struct RenderOptions {
     pub width: u32,
     /// Height in pixels, 1..=16384. Default 768.
     pub height: u32,
-    /// Samples per pixel, 1 or 4. Default 4.
+    /// Samples per pixel: 1, 2, 4, 8 or 16. Default 4.
     pub samples: u32,
     /// Position, target and projection of the camera.
     pub camera: CameraOptions,
@@ -61,10 +65,41 @@ pub struct RenderOptions {
     pub texture: Option<Image>,
     /// The background, sRGB, or `None` for a transparent one. Default #f2f2f2.
     pub background: Option<[u8; 3]>,
+    /// A gradient over the background, behind everything. The background is then the colour of
+    /// fog and that with which lines contrast. Default none; without effect on
+    /// [`Shading::Overdraw`].
+    pub gradient: Option<Gradient>,
+    /// The base colour of everything, sRGB and alpha, in place of the colours and textures of
+    /// materials and vertices; [`Self::texture`] is multiplied by it. Below an alpha of 255
+    /// surfaces are transparent. `None` (default) is the model's.
+    pub color: Option<[u8; 4]>,
+    /// Roughness of all surfaces of [`Shading::Pbr`], 0..=1. `None` (default) is the materials'.
+    pub roughness: Option<f32>,
+    /// Metallic share of all surfaces of [`Shading::Pbr`], 0..=1. `None` (default) is the
+    /// materials'.
+    pub metallic: Option<f32>,
+    /// Width of points in pixels, above 0. `None` (default): by their number and the image's size.
+    pub point_size_px: Option<f32>,
+    /// Width of lines and of the edges of wireframes in pixels, above 0 and at most 64. `None`
+    /// (default): lines of one pixel, and edges in proportion to the image.
+    pub line_width_px: Option<f32>,
     /// Faces that are culled. Default none.
     pub cull: CullMode,
     /// The method by which transparent surfaces are blended. Default [`Transparency::Sorted`].
     pub transparency: Transparency,
+    /// Sharp edges, borders and silhouettes over the surfaces, where no opaque surface hides them.
+    /// Default none.
+    pub edges: Option<FeatureEdges>,
+    /// If set, a grid lies on the ground at the model's lowest point, in the units of the file.
+    /// Default not.
+    pub grid: bool,
+    /// If set, a cross in the lower left corner shows the directions of the file's axes. Default
+    /// not.
+    pub axes: bool,
+    /// The model's box with its sizes, to which the picture is fitted then. Default none.
+    pub bounding_box: Option<BoundingBox>,
+    /// Planes that cut the model away on one side. Default none.
+    pub section: Section,
     /// If set, the edges of all triangles are drawn over the surfaces, where no opaque surface
     /// hides them. Default not; without effect on [`Shading::Wireframe`].
     pub wireframe: bool,
@@ -73,6 +108,19 @@ pub struct RenderOptions {
 impl RenderOptions {
     /// The default background.
     pub const DEFAULT_BACKGROUND: [u8; 3] = [0xf2; 3];
+
+    /// The options without lines over the model or around it.
+    #[must_use]
+    pub fn without_overlays(self) -> Self {
+        Self {
+            wireframe: false,
+            edges: None,
+            grid: false,
+            axes: false,
+            bounding_box: None,
+            ..self
+        }
+    }
 }
 
 impl Default for RenderOptions {
@@ -99,8 +147,19 @@ impl Default for RenderOptions {
             fog: None,
             texture: None,
             background: Some(Self::DEFAULT_BACKGROUND),
+            gradient: None,
+            color: None,
+            roughness: None,
+            metallic: None,
+            point_size_px: None,
+            line_width_px: None,
             cull: CullMode::None,
             transparency: Transparency::default(),
+            edges: None,
+            grid: false,
+            axes: false,
+            bounding_box: None,
+            section: Section::default(),
             wireframe: false,
         }
     }

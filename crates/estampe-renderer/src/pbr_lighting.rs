@@ -51,6 +51,7 @@ impl SceneView {
             environment,
             lights: own,
             shadow_maps: Vec::new(),
+            behind: None,
             exposure: libm::exp2f(options.exposure_ev.clamp(-64.0, 64.0)),
             tone_map: options.tone_map,
         };

@@ -1,15 +1,22 @@
 //! Physically based materials, prepared for shaders.
 
+use crate::behind::{alpha_of, is_transmissive};
 use crate::frame::RenderError;
 use crate::geometry::faces::normals_oppose_winding;
-use crate::materials::{COLORS, Materials, NUMBERS};
+use crate::materials::Texels::{Colors, Numbers};
+use crate::materials::{Materials, Texels, TextureKey};
 use crate::options::Shading;
 use crate::shading::pbr::parameters::{
-    ClearcoatParameters, NormalMap, Occlusion, PbrParameters, SheenParameters, SpecularParameters,
+    AnisotropyParameters, ClearcoatParameters, IridescenceParameters, NormalMap, Occlusion,
+    PbrParameters, SheenParameters, SpecularParameters,
 };
 use crate::shading::pbr::textures::{MaterialTexture, UvChoice};
-use estampe::{AddressMode, FilterMode, SamplerDescriptor, TextureFormat};
-use estampe_scene::{Material, Mesh, NormalTexture, PbrMaterial, TextureRef, TextureSampler};
+use crate::shading::pbr::transmission::{TransmissionParameters, VolumeParameters};
+use crate::transforms::round_to_f32;
+use estampe::{AddressMode, FilterMode, SamplerDescriptor};
+use estampe_scene::{
+    AlphaMode, Material, Mesh, NormalTexture, PbrMaterial, TextureRef, TextureSampler, Volume,
+};
 use std::sync::Arc;
 
 impl Materials<'_> {
@@ -42,38 +49,59 @@ impl Materials<'_> {
                 &made
             }
         };
-        let mut parameters = self.parameters(pbr, mesh)?;
-        parameters.base[3] = material.opacity;
+        let base = Texels::of_alpha(alpha_of(material).0, pbr.alpha_cutoff);
+        let mut parameters = self.parameters(pbr, base, mesh)?;
+        parameters.base[3] = alpha_of(material).1;
+        if let Some(color) = self.options.linear_color() {
+            parameters.base = color.to_array();
+            parameters.base_texture = None;
+            parameters.transmission = None;
+        }
+        if let Some(roughness) = self.options.roughness {
+            parameters.roughness = roughness.clamp(0.0, 1.0);
+            parameters.is_roughness_textured = false;
+        }
+        if let Some(metallic) = self.options.metallic {
+            parameters.metallic = metallic.clamp(0.0, 1.0);
+            parameters.is_metallic_textured = false;
+        }
         if let (true, Some(image)) = (is_overridden, &self.options.texture) {
             let sampler = SamplerDescriptor::trilinear_repeat();
-            parameters.base = [1.0; 4];
+            if self.options.color.is_none() {
+                parameters.base = [1.0; 4];
+            }
+            parameters.transmission = None;
             parameters.base_texture = Some(MaterialTexture {
-                texture: self.sampled(None, COLORS, image, &sampler)?,
+                texture: self.sampled(None, Colors, image, &sampler)?,
                 coordinates: UvChoice::FIRST,
             });
         }
         Ok(Some(Arc::new(parameters)))
     }
 
-    fn parameters(&mut self, pbr: &PbrMaterial, mesh: &Mesh) -> Result<PbrParameters, RenderError> {
-        let mut colors = |texture| self.material_texture(texture, COLORS, mesh);
-        let base_texture = colors(pbr.base_color_texture)?;
-        let emissive_texture = colors(pbr.emissive_texture)?;
+    fn parameters(
+        &mut self,
+        pbr: &PbrMaterial,
+        base: Texels,
+        mesh: &Mesh,
+    ) -> Result<PbrParameters, RenderError> {
+        let base_texture = self.material_texture(pbr.base_color_texture, base, mesh)?;
+        let emissive_texture = self.material_texture(pbr.emissive_texture, Colors, mesh)?;
         let specular = match &pbr.specular {
             Some(layer) => Some(SpecularParameters {
                 factor: layer.factor,
-                texture: self.material_texture(layer.texture, NUMBERS, mesh)?,
+                texture: self.material_texture(layer.texture, Numbers, mesh)?,
                 color: layer.color.to_array(),
-                color_texture: self.material_texture(layer.color_texture, COLORS, mesh)?,
+                color_texture: self.material_texture(layer.color_texture, Colors, mesh)?,
             }),
             None => None,
         };
         let clearcoat = match &pbr.clearcoat {
             Some(coat) if coat.factor > 0.0 => Some(ClearcoatParameters {
                 factor: coat.factor,
-                texture: self.material_texture(coat.texture, NUMBERS, mesh)?,
+                texture: self.material_texture(coat.texture, Numbers, mesh)?,
                 roughness: coat.roughness,
-                roughness_texture: self.material_texture(coat.roughness_texture, NUMBERS, mesh)?,
+                roughness_texture: self.material_texture(coat.roughness_texture, Numbers, mesh)?,
                 normal: self.normal_map(coat.normal_texture, mesh)?,
             }),
             _ => None,
@@ -81,22 +109,46 @@ impl Materials<'_> {
         let sheen = match &pbr.sheen {
             Some(sheen) if sheen.color != glam::Vec3::ZERO => Some(SheenParameters {
                 color: sheen.color.to_array(),
-                color_texture: self.material_texture(sheen.color_texture, COLORS, mesh)?,
+                color_texture: self.material_texture(sheen.color_texture, Colors, mesh)?,
                 roughness: sheen.roughness,
-                roughness_texture: self.material_texture(sheen.roughness_texture, NUMBERS, mesh)?,
+                roughness_texture: self.material_texture(sheen.roughness_texture, Numbers, mesh)?,
             }),
             _ => None,
         };
-        let occlusion = self.material_texture(pbr.occlusion_texture, NUMBERS, mesh)?;
+        let anisotropy = match &pbr.anisotropy {
+            Some(layer) if layer.strength > 0.0 => {
+                let (sin, cos) = libm::sincosf(layer.rotation_rad);
+                Some(AnisotropyParameters {
+                    strength: layer.strength,
+                    rotation: [cos, sin],
+                    texture: self.material_texture(layer.texture, Numbers, mesh)?,
+                })
+            }
+            _ => None,
+        };
+        let iridescence = match &pbr.iridescence {
+            Some(film) if film.factor > 0.0 => Some(IridescenceParameters {
+                factor: film.factor,
+                texture: self.material_texture(film.texture, Numbers, mesh)?,
+                ior: film.ior,
+                thickness_nm: [film.thickness_min_nm, film.thickness_max_nm].map(film_thickness),
+                thickness_texture: self.material_texture(film.thickness_texture, Numbers, mesh)?,
+            }),
+            _ => None,
+        };
+        let transmission = self.transmission(pbr, mesh)?;
+        let occlusion = self.material_texture(pbr.occlusion_texture, Numbers, mesh)?;
         let reflected = (pbr.ior - 1.0) / (pbr.ior + 1.0);
         Ok(PbrParameters {
             base: pbr.base_color.to_array(),
             base_texture,
             metallic: pbr.metallic,
             roughness: pbr.roughness,
+            is_metallic_textured: true,
+            is_roughness_textured: true,
             metallic_roughness_texture: self.material_texture(
                 pbr.metallic_roughness_texture,
-                NUMBERS,
+                Numbers,
                 mesh,
             )?,
             normal: self.normal_map(pbr.normal_texture, mesh)?,
@@ -110,8 +162,64 @@ impl Materials<'_> {
             specular,
             clearcoat,
             sheen,
+            anisotropy,
+            iridescence,
+            transmission,
             is_unlit: pbr.is_unlit,
             alpha_cutoff: pbr.alpha_cutoff,
+        })
+    }
+
+    fn transmission(
+        &mut self,
+        pbr: &PbrMaterial,
+        mesh: &Mesh,
+    ) -> Result<Option<TransmissionParameters>, RenderError> {
+        let Some(layer) = pbr.transmission.filter(|_| is_transmissive(pbr)) else {
+            return Ok(None);
+        };
+        let volume = match &pbr.volume {
+            Some(volume) if volume.thickness > 0.0 => Some(VolumeParameters {
+                thickness: self.in_view_space(volume.thickness, mesh),
+                texture: self.material_texture(volume.thickness_texture, Numbers, mesh)?,
+                absorption: self.absorption(volume),
+            }),
+            _ => None,
+        };
+        // An index of 0 stands for total reflection, so nothing passes.
+        let ior = pbr.ior.clamp(1.0, 1e6);
+        // Thin surfaces refract nothing.
+        let dispersion = pbr.dispersion.clamp(0.0, 1e6);
+        let spread = if volume.is_some() && dispersion > 0.0 {
+            (ior - 1.0) * 0.025 * dispersion
+        } else {
+            0.0
+        };
+        Ok(Some(TransmissionParameters {
+            factor: layer.factor,
+            texture: self.material_texture(layer.texture, Numbers, mesh)?,
+            iors: [(ior - spread).max(1.0), ior, ior + spread],
+            volume,
+        }))
+    }
+
+    /// A length of the mesh's space in view space.
+    fn in_view_space(&self, length: f32, mesh: &Mesh) -> f32 {
+        let length_world = f64::from(length) * f64::from(mesh.scale.unwrap_or(1.0));
+        let length = round_to_f32(length_world / self.world_per_unit);
+        finite(length)
+    }
+
+    /// Halvings of light per length in view space: of white light, the attenuation colour is left
+    /// after the attenuation distance.
+    fn absorption(&self, volume: &Volume) -> [f32; 3] {
+        /// A channel that is less is as good as black.
+        const DARKEST: f64 = 1e-6;
+        let distance = f64::from(volume.attenuation_distance) / self.world_per_unit;
+        volume.attenuation_color.to_array().map(|channel| {
+            let left = f64::from(channel).clamp(DARKEST, 1.0);
+            let halvings = -libm::log2(left) / distance.max(f64::MIN_POSITIVE);
+            finite(round_to_f32(halvings))
         })
     }
 
@@ -123,7 +231,7 @@ impl Materials<'_> {
         let Some(NormalTexture { texture, scale }) = normals else {
             return Ok(None);
         };
-        let texture = self.material_texture(Some(texture), NUMBERS, mesh)?;
+        let texture = self.material_texture(Some(texture), Numbers, mesh)?;
         Ok(texture.map(|texture| NormalMap { texture, scale }))
     }
 
@@ -131,7 +239,7 @@ impl Materials<'_> {
     fn material_texture(
         &mut self,
         texture: Option<TextureRef>,
-        format: TextureFormat,
+        texels: Texels,
         mesh: &Mesh,
     ) -> Result<Option<MaterialTexture>, RenderError> {
         let Some(texture) = texture else {
@@ -149,16 +257,15 @@ impl Materials<'_> {
         }
         let sampler = sampler(texture.sampler);
         Ok(Some(MaterialTexture {
-            texture: self.sampled(Some(texture.image), format, image, &sampler)?,
+            texture: self.sampled(Some(texture.image), texels, image, &sampler)?,
             coordinates: UvChoice::new(texture.uv_set, &texture.transform),
         }))
     }
 }
 
-/// The images of a material with their formats: colours, then numbers.
-pub(crate) fn images_of(pbr: &PbrMaterial) -> Vec<(usize, TextureFormat)> {
+/// The images of a material with what their texels are: colours, then numbers.
+pub(crate) fn images_of(pbr: &PbrMaterial, mode: AlphaMode) -> Vec<TextureKey> {
     let colors = [
-        pbr.base_color_texture,
         pbr.emissive_texture,
         pbr.specular.and_then(|layer| layer.color_texture),
         pbr.sheen.and_then(|sheen| sheen.color_texture),
@@ -173,14 +280,35 @@ pub(crate) fn images_of(pbr: &PbrMaterial) -> Vec<(usize, TextureFormat)> {
         pbr.clearcoat.and_then(|coat| coat.texture),
         pbr.clearcoat.and_then(|coat| coat.roughness_texture),
         pbr.clearcoat.and_then(|coat| normal(coat.normal_texture)),
+        pbr.anisotropy.and_then(|layer| layer.texture),
+        pbr.iridescence.and_then(|film| film.texture),
+        pbr.iridescence.and_then(|film| film.thickness_texture),
+        pbr.transmission.and_then(|layer| layer.texture),
+        pbr.volume.and_then(|volume| volume.thickness_texture),
     ];
     let index = |texture: Option<TextureRef>| texture.map(|texture| texture.image);
+    let base = Texels::of_alpha(mode, pbr.alpha_cutoff);
+    let base = index(pbr.base_color_texture).map(|index| (index, base));
     let colors = colors.into_iter().filter_map(index);
     let numbers = numbers.into_iter().filter_map(index);
-    let colors = colors.map(|index| (index, COLORS));
+    let colors = base.into_iter().chain(colors.map(|index| (index, Colors)));
     colors
-        .chain(numbers.map(|index| (index, NUMBERS)))
+        .chain(numbers.map(|index| (index, Numbers)))
         .collect()
+}
+
+/// A thickness beyond which a film shows no colours, at most.
+fn film_thickness(nanometres: f32) -> f32 {
+    finite(nanometres).min(1e5)
+}
+
+/// The number, 0 instead of negative ones and of NaN, and the greatest instead of ∞.
+fn finite(number: f32) -> f32 {
+    if number > 0.0 {
+        number.min(f32::MAX)
+    } else {
+        0.0
+    }
 }
 
 /// A dielectric of the material's colours, whose highlight is as wide as that of the exponent: α =

@@ -46,7 +46,7 @@ pub fn inspect(
     device: &Device,
     pixel: [u32; 2],
 ) -> Result<FramePixel, RenderError> {
-    with_passes(scene, options, device, |passes, view| {
+    with_passes(scene, options, (device, &|_| {}), |passes, view| {
         check_one_pass(options, passes)?;
         let history = passes.with_one_pass(|pass| Ok(device.inspect(pass, pixel)?))?;
         let texel = history.texels.first().and_then(Option::as_deref);
@@ -95,7 +95,7 @@ pub fn inspect_stages(
     options: &RenderOptions,
     device: &Device,
 ) -> Result<FrameStages, RenderError> {
-    with_passes(scene, options, device, |passes, view| {
+    with_passes(scene, options, (device, &|_| {}), |passes, view| {
         check_one_pass(options, passes)?;
         let stages = passes.with_one_pass(|pass| Ok(device.inspect_stages(pass)?))?;
         let vertices = stages.vertices.iter();

@@ -3,10 +3,10 @@
 use crate::camera::placement::Lens;
 use crate::camera::{CameraOptions, Cloud, Eye, Intrinsics, Pinhole, PlacedCamera, ProjectionKind};
 use crate::geometry::unit_space::{UnitSpace, UsedVertices, used_vertices};
-use crate::options::{self, RenderOptions, Up};
+use crate::options::{self, RenderOptions, Shading, Up};
 use crate::shading::VertexTransforms;
 use crate::shading::lighting::{DEFAULT_AMBIENT, Directional, Lights, Positional, ViewLight};
-use crate::shading::output::{EyeDistance, Fog};
+use crate::shading::output::{EyeDistance, Fog, Presentation};
 use crate::shadows::{MapChoice, ShadowSource};
 use crate::transforms::view::CameraFrame;
 use crate::transforms::{round_to_f32, to_f32, transform_point, transform_vector};
@@ -67,15 +67,21 @@ impl SceneView {
         };
         let size_px = (options.width, options.height);
         let up_world = up.normalize_or(DVec3::Y);
-        let lowest = if options.has_ground() {
+        let lowest = if options.has_ground() || options.grid {
             let heights = points.iter().map(|point| point.dot(up_world));
             heights.reduce(f64::min).unwrap_or(0.0)
         } else {
             0.0
         };
+        // The corners of the model's box are further away than its vertices.
+        let fitted = if options.bounding_box.is_some() {
+            points.with(&space.corners())
+        } else {
+            points
+        };
         Self {
             space,
-            camera: PlacedCamera::new(&camera, up, points, size_px),
+            camera: PlacedCamera::new(&camera, up, fitted, size_px),
             up_world,
             lowest,
             aspect: f64::from(options.width) / f64::from(options.height),
@@ -181,11 +187,32 @@ impl SceneView {
         lights
     }
 
+    /// What the default lights add to colours that they light.
+    pub(crate) fn presentation(&self, options: &RenderOptions) -> Option<Presentation> {
+        let is_lit = matches!(
+            options.shading,
+            Shading::Phong | Shading::Gouraud | Shading::Flat
+        );
+        if !is_lit || !options.lights.is_empty() {
+            return None;
+        }
+        let (nearest, furthest) = self.depth_range();
+        Some(Presentation {
+            nearest,
+            per_distance: 1.0 / (furthest - nearest),
+            orthographic: match self.eye_distance((options.width, options.height)) {
+                EyeDistance::Perspective { .. } => None,
+                EyeDistance::Orthographic(of_depth) => Some(of_depth),
+            },
+        })
+    }
+
     /// The fog of the options, with this linear colour.
     pub(crate) fn fog(&self, fog: &options::Fog, color: [f32; 3], size_px: (u32, u32)) -> Fog {
         let start = fog.start_world / self.space.world_per_unit();
         Fog {
             color,
+            backdrop: None,
             start: round_to_f32(start).clamp(0.0, f32::MAX),
             per_distance: self.per_unit(fog.end_world - fog.start_world),
             eye_distance: self.eye_distance(size_px),
@@ -302,7 +329,7 @@ impl SceneView {
 }
 
 /// The rotation of the model, and the up direction in world space.
-fn orientation(up: Up, of_scene: UpAxis) -> (DMat3, DVec3) {
+pub(crate) fn orientation(up: Up, of_scene: UpAxis) -> (DMat3, DVec3) {
     let axis = match up {
         Up::FromScene => of_scene,
         Up::Axis(axis) => axis,

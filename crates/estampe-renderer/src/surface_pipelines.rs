@@ -1,18 +1,21 @@
 //! Chooses the shader, vertex streams and fixed-function state of each surface.
 
+use crate::behind::{BehindPicture, LIGHT};
 use crate::frame::RenderError;
 use crate::geometry::vertex_data::{MeshStreams, VertexStream};
 use crate::ground::ColumnMaps;
 use crate::options::Shading;
 use crate::shading::VertexTransforms;
+use crate::shading::backdrop::Backdrop;
 use crate::shading::base_color::{Alpha, BaseColor, Painted, Plain};
 use crate::shading::bump::BumpMap;
+use crate::shading::cut_out::LEAST_SAMPLES;
 use crate::shading::inspection::{
     Barycentrics, CutOutFaceColors, DepthGrey, FaceColors, Normals, Overdraw, UvColors,
 };
 use crate::shading::interpolation::{AtFragments, AtVertices, Interpolation, Viewer};
 use crate::shading::lighting::{Gloss, Lights};
-use crate::shading::output::{Fog, Output};
+use crate::shading::output::{Fog, Output, Presentation};
 use crate::shading::pbr::parameters::PbrParameters;
 use crate::shading::pbr::surface::{PbrLighting, PbrSurface};
 use crate::shading::points_and_lines::PointsAndLines;
@@ -23,11 +26,11 @@ use crate::shadows::ShadowMaps;
 use crate::surface_program::{SurfaceProgram, SurfaceValues};
 use estampe::state::{
     BlendState, ColorTargetState, ColorWrites, CompareFunction, CullMode, DepthState,
-    DepthStencilState, MultisampleState, PrimitiveState, PrimitiveTopology,
+    DepthStencilState, LineRasterization, MultisampleState, PrimitiveState, PrimitiveTopology,
 };
 use estampe::{
-    BindGroup, Device, PipelineError, Program, RenderPipeline, RenderPipelineDescriptor,
-    SampledTexture, Shader, ShaderProgram, TextureFormat,
+    BindGroup, BindGroupLayout, Device, PipelineError, Program, RenderPipeline,
+    RenderPipelineDescriptor, SampledTexture, Shader, ShaderProgram, TextureFormat,
 };
 use estampe_transparency::{Finder, TransparencyError, layer_state, weighted_targets};
 use std::sync::Arc;
@@ -44,7 +47,11 @@ pub(crate) struct FrameStyle {
     pub(crate) pbr: Option<Arc<PbrLighting>>,
     /// The levels of the options: steps of toon shading, else levels of colours.
     pub(crate) levels: Option<u16>,
+    /// The gradient behind everything.
+    pub(crate) backdrop: Option<Backdrop>,
     pub(crate) fog: Option<Fog>,
+    /// What the default lights add to lit colours.
+    pub(crate) presentation: Option<Presentation>,
     pub(crate) wireframe: Wireframe,
     /// The edges over shaded surfaces, if they are drawn.
     pub(crate) overlay: Option<Wireframe>,
@@ -55,6 +62,8 @@ pub(crate) struct FrameStyle {
     pub(crate) format: TextureFormat,
     /// The maps by which surfaces are in shadow.
     pub(crate) shadows: Option<ShadowMaps>,
+    /// What is seen through surfaces, if light passes through some.
+    pub(crate) behind: Option<BehindPicture>,
     /// The heights of the model above the ground, if it stands on one.
     pub(crate) columns: Option<ColumnMaps>,
     /// Makes the pipelines that find layers of transparent surfaces.
@@ -72,6 +81,8 @@ pub(crate) enum Role {
     Layer,
     /// Added to weighted sums.
     Weighted,
+    /// As opaque, in the picture of what is behind surfaces that transmit light.
+    Behind,
     /// Depths in the map of this slot: those of lights, then those of the ground.
     Caster(usize),
 }
@@ -92,12 +103,20 @@ pub(crate) struct SurfaceStyle {
     pub(crate) is_single_sided: bool,
 }
 
+impl SurfaceStyle {
+    /// True if light passes through the surface.
+    pub(crate) fn transmits(&self) -> bool {
+        let parameters = self.pbr.as_ref();
+        parameters.is_some_and(|parameters| parameters.transmission.is_some())
+    }
+}
+
 /// Treatment of a surface's alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SurfaceAlpha {
     /// Alpha is ignored.
     Opaque,
-    /// Fragments below ½ are discarded.
+    /// Fragments below a cutoff are cut out.
     Masked,
     /// Blended, without writing depth.
     Blended,
@@ -108,6 +127,7 @@ pub(crate) enum SurfaceAlpha {
 struct WrittenSurface<'a> {
     style: &'a SurfaceStyle,
     written: Written,
+    samples: u32,
 }
 
 impl WrittenSurface<'_> {
@@ -115,7 +135,10 @@ impl WrittenSurface<'_> {
     fn alpha(&self) -> Alpha {
         match self.style.alpha {
             SurfaceAlpha::Opaque => Alpha::Ignored,
-            SurfaceAlpha::Masked => Alpha::CutsOut,
+            SurfaceAlpha::Masked => match u16::try_from(self.samples) {
+                Ok(samples) if self.samples >= LEAST_SAMPLES => Alpha::Covers(samples),
+                _ => Alpha::CutsOut,
+            },
             SurfaceAlpha::Blended => Alpha::Kept,
         }
     }
@@ -171,6 +194,7 @@ impl FrameStyle {
             Role::Blended => (DEPTH_ORDER.nearer().into(), over()),
             Role::Layer => (layer_state(), over()),
             Role::Weighted => (DEPTH_ORDER.nearer().into(), weighted_targets()),
+            Role::Behind => (DepthState::LESS_WRITE.into(), light_target(None)),
         };
         let state = PipelineState {
             primitive: self.triangles_of(surface),
@@ -178,6 +202,7 @@ impl FrameStyle {
             targets,
             samples: self.samples,
             shadows: self.shadows.as_ref(),
+            behind: self.behind.as_ref().filter(|_| surface.transmits()),
         };
         Ok(self.pipeline(device, material, mesh, state)?)
     }
@@ -204,6 +229,7 @@ impl FrameStyle {
             targets,
             samples: self.samples,
             shadows: None,
+            behind: None,
         };
         let values = SurfaceValues {
             base_color: surface.base,
@@ -255,6 +281,7 @@ impl FrameStyle {
             targets: self.targets(Some(BlendState::PREMULTIPLIED_ALPHA_BLENDING)),
             samples: self.samples,
             shadows: None,
+            behind: None,
         };
         self.pipeline(device, material, mesh, state)
     }
@@ -301,21 +328,23 @@ impl FrameStyle {
         &self,
         device: &Device,
         shader: PointsAndLines,
-        topology: PrimitiveTopology,
+        (primitive, role): (PrimitiveState, Role),
         mesh: &MeshStreams,
     ) -> Result<StreamPipeline, PipelineError> {
         let material = MaterialProgram::new(shader, &[VertexStream::Position, VertexStream::Color]);
-        let primitive = PrimitiveState {
-            topology,
-            ..PrimitiveState::default()
+        let blend = is_smooth(&primitive).then_some(BlendState::ALPHA_BLENDING);
+        let (depth_stencil, targets) = match (role, blend) {
+            (Role::Behind, _) => (DepthState::LESS_WRITE.into(), light_target(blend)),
+            (_, Some(_)) => (self.opaque().0, self.targets(blend)),
+            _ => self.opaque(),
         };
-        let (depth_stencil, targets) = self.opaque();
         let state = PipelineState {
             primitive,
             depth_stencil,
             targets,
             samples: self.samples,
             shadows: None,
+            behind: None,
         };
         self.pipeline(device, material, mesh, state)
     }
@@ -350,8 +379,10 @@ impl FrameStyle {
         let toon = Terms::Toon(self.levels.unwrap_or(TOON_LEVELS));
         let surface = WrittenSurface {
             style: surface,
+            samples: self.samples,
             written: match role {
                 Role::Weighted => Written::WeightedTerms,
+                Role::Behind => Written::Light,
                 Role::Opaque | Role::Blended | Role::Layer | Role::Caster(_) => Written::Color,
             },
         };
@@ -382,7 +413,7 @@ impl FrameStyle {
                 )
             }
             Shading::Uv => MaterialProgram::new(UvColors { transforms }, &[Position, Uv]),
-            Shading::FaceId if surface.alpha() == Alpha::CutsOut => {
+            Shading::FaceId if surface.style.alpha == SurfaceAlpha::Masked => {
                 let base = Painted {
                     factor: surface.style.base,
                     texture: surface.style.texture.clone(),
@@ -412,7 +443,17 @@ impl FrameStyle {
             lighting: Arc::clone(lighting),
             parameters: Arc::clone(parameters),
             alpha: surface.alpha(),
-            output: self.output(),
+            output: Output {
+                presentation: None,
+                ..match surface.written {
+                    // What is seen through a surface is quantised with the surface.
+                    Written::Light => Output {
+                        levels: None,
+                        ..self.output()
+                    },
+                    Written::Color | Written::WeightedTerms => self.output(),
+                }
+            },
             written: surface.written,
         };
         MaterialProgram::new(shader, &[Position, Normal, Tangent, Uv, Uv1, Color])
@@ -459,7 +500,7 @@ impl FrameStyle {
         let factor = surface.style.base;
         let alpha = surface.alpha();
         let has_colors = texture.is_some() || surface.style.has_vertex_colors;
-        if has_colors || bump.is_some() || alpha == Alpha::CutsOut {
+        if has_colors || bump.is_some() || surface.style.alpha == SurfaceAlpha::Masked {
             let painted = Painted {
                 factor,
                 texture,
@@ -504,6 +545,7 @@ impl FrameStyle {
     /// What happens to lit colours.
     fn output(&self) -> Output {
         Output {
+            presentation: self.presentation,
             levels: self.levels.filter(|_| !self.shading.is_toon()),
             fog: self.fog,
         }
@@ -523,21 +565,19 @@ impl FrameStyle {
             primitive: state.primitive,
             depth_stencil: Some(state.depth_stencil),
             multisample: MultisampleState::new(state.samples),
-            targets: state.targets,
+            targets: state.targets.clone(),
             ..RenderPipelineDescriptor::with_program(material.program)
         };
-        if let Some(maps) = state.shadows {
-            descriptor.bind_group_layouts = vec![maps.layout.clone()];
+        let groups = state.groups();
+        let layouts = groups.iter().map(|(layout, _)| (*layout).clone());
+        if !groups.is_empty() {
+            descriptor.bind_group_layouts = layouts.collect();
         }
         let pipeline = device.create_render_pipeline(&descriptor)?;
         Ok(StreamPipeline {
             pipeline,
             streams: material.streams,
-            bind_groups: state
-                .shadows
-                .iter()
-                .map(|maps| maps.group.clone())
-                .collect(),
+            bind_groups: groups.iter().map(|(_, group)| (*group).clone()).collect(),
         })
     }
 }
@@ -550,4 +590,34 @@ pub(crate) struct PipelineState<'a> {
     pub(crate) samples: u32,
     /// The maps that its shader looks up.
     pub(crate) shadows: Option<&'a ShadowMaps>,
+    /// The picture that its shader looks up, if light passes through the surface.
+    pub(crate) behind: Option<&'a BehindPicture>,
+}
+
+impl PipelineState<'_> {
+    /// The bind groups with their layouts, by number.
+    fn groups(&self) -> Vec<(&BindGroupLayout, &BindGroup)> {
+        let maps = self.shadows.map(|maps| (&maps.layout, &maps.group));
+        match self.behind {
+            Some(behind) => vec![
+                maps.unwrap_or((&behind.empty.0, &behind.empty.1)),
+                (&behind.layout, &behind.group),
+            ],
+            None => maps.into_iter().collect(),
+        }
+    }
+}
+
+/// The target of the picture of what is behind surfaces.
+pub(crate) fn light_target(blend: Option<BlendState>) -> Vec<Option<ColorTargetState>> {
+    vec![Some(ColorTargetState {
+        blend,
+        ..LIGHT.into()
+    })]
+}
+
+/// True if primitives are lines with smooth borders, which are blended.
+pub(crate) fn is_smooth(primitive: &PrimitiveState) -> bool {
+    primitive.topology == PrimitiveTopology::LineList
+        && primitive.line.rasterization == LineRasterization::RectangularSmooth
 }

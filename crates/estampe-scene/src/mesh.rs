@@ -30,6 +30,10 @@ pub struct Mesh {
     /// Runs of triangles with one material, in order, covering `triangles` without gaps; may be
     /// empty, which means the default material throughout.
     pub surfaces: Vec<Surface>,
+    /// World units in a unit of the file's mesh, if `positions` were scaled; `None` is 1. Lengths
+    /// of materials that are given in the mesh's space, such as [`Volume`](crate::Volume)'s
+    /// thickness, are multiplied by it.
+    pub scale: Option<f32>,
 }
 
 /// A named attribute of each vertex: one to four numbers.

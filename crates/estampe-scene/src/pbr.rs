@@ -3,7 +3,7 @@
 //! Each factor is multiplied by its texture. Colours are linear; the RGB channels of colour
 //! textures are sRGB-encoded, and all other channels hold numbers as they are.
 
-use crate::TextureRef;
+use crate::{AlphaMode, TextureRef};
 use glam::{Vec3, Vec4};
 
 /// A physically based material: glTF 2.0's metallic-roughness model and its extensions.
@@ -34,6 +34,10 @@ pub struct PbrMaterial {
     /// With [`AlphaMode::Mask`](crate::AlphaMode::Mask), fragments whose alpha is less are
     /// discarded.
     pub alpha_cutoff: f32,
+    /// Use of alpha, if it is not that of [`Material::alpha_mode`](crate::Material): shadings
+    /// without [`Self::transmission`] blend materials whose alpha the file ignores. The opacity is
+    /// then that of [`Self::base_color`].
+    pub alpha_mode: Option<AlphaMode>,
     /// The back of faces is visible too, with the normal turned.
     pub is_double_sided: bool,
     /// The colour is the base colour; light has no influence (KHR_materials_unlit).
@@ -75,6 +79,7 @@ impl Default for PbrMaterial {
             emissive_texture: None,
             emissive_strength: 1.0,
             alpha_cutoff: 0.5,
+            alpha_mode: None,
             is_double_sided: false,
             is_unlit: false,
             ior: 1.5,
@@ -126,7 +131,8 @@ pub struct Transmission {
 /// The body below the surface. Without it the surface is infinitely thin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Volume {
-    /// Thickness in the space of the file's mesh; 0 is a thin surface.
+    /// Thickness in the space of the file's mesh, which [`Mesh::scale`](crate::Mesh::scale) leads
+    /// to world units; 0 is a thin surface.
     pub thickness: f32,
     /// Factor of the thickness, in green.
     pub thickness_texture: Option<TextureRef>,

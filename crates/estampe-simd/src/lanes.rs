@@ -89,6 +89,22 @@ pub trait Lanes: Simd {
         ]
     }
 
+    /// The numbers of half floats, the low 16 bits of each lane, if the level has an instruction
+    /// for it: exact, with quiet NaNs.
+    #[inline(always)]
+    fn decode_half(self, half: u32x16<Self>) -> Option<f32x16<Self>> {
+        let _ = half;
+        None
+    }
+
+    /// The nearest half floats, ties to even, if the level has an instruction for it. Of a NaN some
+    /// NaN.
+    #[inline(always)]
+    fn encode_half(self, value: f32x16<Self>) -> Option<u32x16<Self>> {
+        let _ = value;
+        None
+    }
+
     /// A mask from its low 16 bits: bit `i` is lane `i`.
     #[inline(always)]
     fn mask_from_bits(self, bits: u16) -> mask32x16<Self> {
@@ -242,6 +258,14 @@ mod x86 {
             a.max(b)
         }
         #[inline(always)]
+        fn decode_half(self, half: u32x16<Self>) -> Option<f32x16<Self>> {
+            Some(crate::half::decode_avx2(self, half))
+        }
+        #[inline(always)]
+        fn encode_half(self, value: f32x16<Self>) -> Option<u32x16<Self>> {
+            Some(crate::half::encode_avx2(self, value))
+        }
+        #[inline(always)]
         fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
             crate::gather::avx2(self, table, index)
         }
@@ -272,6 +296,14 @@ mod x86 {
         #[inline(always)]
         fn max_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
             a.max(b)
+        }
+        #[inline(always)]
+        fn decode_half(self, half: u32x16<Self>) -> Option<f32x16<Self>> {
+            Some(crate::half::decode_avx512(self, half))
+        }
+        #[inline(always)]
+        fn encode_half(self, value: f32x16<Self>) -> Option<u32x16<Self>> {
+            Some(crate::half::encode_avx512(self, value))
         }
         #[inline(always)]
         fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {

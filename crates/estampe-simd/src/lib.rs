@@ -22,6 +22,8 @@
 //! each four neighbouring lanes are one 2×2 quad and derivatives stay inside 128 bits.
 
 mod gather;
+#[cfg(target_arch = "x86_64")]
+mod half;
 mod index;
 mod lanes;
 mod level;

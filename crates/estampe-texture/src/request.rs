@@ -175,6 +175,9 @@ impl Rgba8Texture {
     #[inline(always)]
     fn place<R: Real>(&self, request: &Request<'_>, like: R, first: usize) -> (Vec2<R>, R, i32) {
         let uv = request.uv(like, first);
+        if let Some((lod, level)) = self.fixed_lod() {
+            return (uv, like.splat(lod), level);
+        }
         if let Some(lod) = request.lod {
             let lod = load(like, lod, first);
             let within = lod.clamp(self.lod_range[0], self.lod_range[1]);

@@ -35,6 +35,9 @@ pub struct Rgba8Texture {
     /// True if the common case is possible: unorm8 or sRGB, linear filters for magnification and
     /// minification.
     is_linear: bool,
+    /// True if the computed level of detail is of no effect: sampler and levels allow one alone,
+    /// and the filter is the same for magnification and minification.
+    ignores_lod: bool,
     /// True if the texture's format is sRGB.
     pub(crate) is_srgb: bool,
     /// True if the levels are laid out as by `create_texture`, so that the size and the number of
@@ -76,6 +79,8 @@ impl Rgba8Texture {
             level_range: lod_range.map(|lod| mixture(lod, sampler.mipmap_filter).0.to_int()),
             is_regular: is_regular(&texture.levels),
             last_level: last,
+            ignores_lod: lod_range[0].to_bits() == lod_range[1].to_bits()
+                && sampler.mag_filter == sampler.min_filter,
             is_srgb: texture.format.is_srgb(),
             is_linear: is_linear && is_rgba8(texture.format),
             texture,
@@ -190,6 +195,13 @@ impl Rgba8Texture {
         };
         let [first, last] = self.level_range;
         Ord::min(Ord::max(twice >> 1, first), last)
+    }
+
+    /// The level of detail and the finer level, if the coordinates do not change them.
+    #[inline(always)]
+    pub(crate) fn fixed_lod(&self) -> Option<(f32, i32)> {
+        self.ignores_lod
+            .then_some((self.lod_range[0], self.level_range[0]))
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@
 use crate::failure::Failure;
 use crate::values::{Source, shown};
 use clap::Args;
-use estampe_assets::model::{AnimationName, Folder, ModelOptions};
+use estampe_assets::model::{AnimationName, Folder, ModelOptions, TextureAlpha};
 use estampe_scene::{NamedCamera, Scene};
 use std::path::{Path, PathBuf};
 
@@ -27,6 +27,40 @@ pub(crate) struct ChoiceArgs {
     /// looked for; repeatable
     #[arg(long = "root", value_name = "DIR", help_heading = "Contents")]
     pub(crate) roots: Vec<PathBuf>,
+
+    /// Use of the alpha of OBJ's textures: auto (by the material), opaque, mask (cut out) or blend
+    #[arg(long, value_name = "USE", value_enum, default_value = "auto")]
+    #[arg(hide_possible_values = true, help_heading = "Contents")]
+    pub(crate) alpha: AlphaName,
+
+    /// Refuse a model that would be read with a warning
+    #[arg(long, help_heading = "Contents")]
+    pub(crate) strict: bool,
+}
+
+/// Names of the uses of alpha.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
+pub(crate) enum AlphaName {
+    /// By the material
+    #[default]
+    Auto,
+    /// None
+    Opaque,
+    /// Texels with alpha below a half are cut out
+    Mask,
+    /// Textures with alpha are blended
+    Blend,
+}
+
+impl From<AlphaName> for TextureAlpha {
+    fn from(name: AlphaName) -> Self {
+        match name {
+            AlphaName::Auto => Self::Auto,
+            AlphaName::Opaque => Self::Opaque,
+            AlphaName::Mask => Self::Mask,
+            AlphaName::Blend => Self::Blend,
+        }
+    }
 }
 
 impl ChoiceArgs {
@@ -67,7 +101,8 @@ impl ChoiceArgs {
             animation: named.or(first),
             time_s: time_s.unwrap_or(0.0),
             variant: self.variant.clone(),
-            ..ModelOptions::default()
+            alpha: self.alpha.into(),
+            is_strict: self.strict,
         }
     }
 }

@@ -65,6 +65,7 @@ impl From<RenderError> for Failure {
                 Self::Output(format!("{error}; try a smaller --size or --samples 1"))
             }
             RenderError::Size { .. } => Self::Usage(format!("{error}; choose another --size")),
+            RenderError::EmptySection => Self::Usage(error.to_string()),
             RenderError::TooManyElements { .. }
             | RenderError::Texture(_)
             | RenderError::Bindings(_) => Self::Input(error.to_string()),

@@ -3,7 +3,9 @@
 use crate::failure::Failure;
 use crate::terminal::one_line;
 use crate::values::{FormatName, Source, shown};
-use estampe_assets::model::{Folder, ModelChoices, ResourceError, Resources};
+use estampe_assets::model::{
+    AnimationName, Folder, ModelChoices, ModelContents, ResourceError, Resources,
+};
 use estampe_assets::{AssetError, Limits, Loaded, ModelFormat, ModelInput, ModelOptions, Warning};
 use estampe_assets::{parse_model_with, read_bytes, read_stream};
 use estampe_scene::{Mesh, Scene};
@@ -24,6 +26,8 @@ pub(crate) struct Model {
     pub(crate) format: Option<ModelFormat>,
     /// The scenes, animations and variants of the file.
     pub(crate) choices: ModelChoices,
+    /// The hierarchy, extensions, and which normals are made.
+    pub(crate) contents: ModelContents,
     /// The model's file and the files that it named, which must not be overwritten.
     pub(crate) files: Vec<PathBuf>,
     /// The first warnings of the reader.
@@ -50,20 +54,21 @@ impl Model {
         on_stage("reading");
         let start = Instant::now();
         match source {
-            Source::Builtin(name) => Self::builtin(name),
+            Source::Builtin(name) => Self::builtin(name, options),
             Source::StandardInput => {
                 let name = "standard input";
-                let Some(format) = format else {
-                    return Err(Failure::Usage(
-                        "standard input has no file name that shows the format; add --format gltf, obj, \
-                         stl, ply, off or 3mf"
-                        .to_owned(),
-                    ));
-                };
                 let bytes = read_stream(io::stdin().lock(), limits).map_err(|error| {
                     unreadable(name, &error, "check the program that writes it")
                 })?;
                 let read = start.elapsed();
+                let format = format.or_else(|| ModelFormat::from_content(&bytes));
+                let format = format.ok_or_else(|| {
+                    Failure::Input(
+                        "standard input: its content is not that of a model; name the format by --format \
+                         gltf, obj, stl, ply, off or 3mf if it is one"
+                            .to_owned(),
+                    )
+                })?;
                 on_stage("parsing");
                 let resources = Noted::new(folder);
                 let model = Self::parsed(read, name, || {
@@ -120,7 +125,14 @@ impl Model {
         Ok(Self { files, ..model })
     }
 
-    fn builtin(name: &str) -> Result<Self, Failure> {
+    fn builtin(name: &str, options: &ModelOptions) -> Result<Self, Failure> {
+        let is_choice = !matches!(options.animation, None | Some(AnimationName::First));
+        if is_choice || options.scene.is_some() || options.variant.is_some() {
+            return Err(Failure::Usage(
+                "built-in models have no scenes, animations or variants; omit the option"
+                    .to_owned(),
+            ));
+        }
         let start = Instant::now();
         let shape: BuiltinShape = name
             .parse()
@@ -142,6 +154,7 @@ impl Model {
             name: format!("builtin:{shape}"),
             format: None,
             choices: ModelChoices::default(),
+            contents: ModelContents::default(),
             files: Vec::new(),
             warnings: Vec::new(),
             warning_count: 0,
@@ -162,6 +175,7 @@ impl Model {
             name: name.to_owned(),
             format: Some(loaded.format),
             choices: loaded.choices,
+            contents: loaded.contents,
             files: Vec::new(),
             warnings: loaded.warnings,
             warning_count: loaded.warning_count,
@@ -219,7 +233,7 @@ impl Resources for Noted<'_> {
 /// The bytes of a file that the user named, which may be a pipe; at most the limit.
 pub(crate) fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, Failure> {
     let name = shown(path);
-    let advice = "check the path and its permissions";
+    let advice = &advice_for(path);
     let failed = |error: io::Error| unreadable(&name, &error, advice);
     let metadata = std::fs::metadata(path).map_err(failed)?;
     if metadata.is_dir() {
@@ -235,6 +249,18 @@ pub(crate) fn read_file(path: &Path, limits: &Limits) -> Result<Vec<u8>, Failure
         io::ErrorKind::FileTooLarge => too_large(&name, limits),
         _ => failed(error),
     })
+}
+
+/// What to do if a file cannot be read.
+fn advice_for(path: &Path) -> String {
+    let text = path.to_string_lossy();
+    if text.parse::<BuiltinShape>().is_ok() {
+        return format!("the built-in model is called builtin:{text}");
+    }
+    if text.contains(['*', '?']) {
+        return "`estampe batch` draws all models that match a pattern".to_owned();
+    }
+    "check the path and its permissions".to_owned()
 }
 
 fn unreadable(name: &str, error: &io::Error, advice: &str) -> Failure {

@@ -76,7 +76,16 @@ impl LimitArgs {
         });
         let images = model.scene.images.iter().map(|image| image.rgba.len());
         let scene = meshes.chain(images).sum::<usize>() as u64;
-        let needed = scene.saturating_add(picture.bytes());
+        // A model that is cut is a copy.
+        let copies = if picture.section.is_cut() { 2 } else { 1 };
+        let mut needed = scene.saturating_mul(copies);
+        needed = needed.saturating_add(picture.bytes());
+        let materials = model.scene.materials.iter();
+        let mut descriptions = materials.filter_map(|material| material.pbr.as_ref());
+        if descriptions.any(|pbr| pbr.transmission.is_some()) {
+            // The picture of what is behind surfaces is one more.
+            needed = needed.saturating_add(picture.bytes_behind());
+        }
         if needed <= limit {
             return Ok(());
         }

@@ -13,17 +13,21 @@
 //! * [`depth`]: measures the precision of depth buffers;
 //! * [`shader`]: checks and draws shaders as text;
 //! * [`compute`]: runs a compute shader;
+//! * [`presets`]: lists presets of options, which commands that draw have;
 //! * [`ladder`]: draws the pictures of the ladder, from one pixel to shapes;
 //! * [`completions`]: prints scripts by which a shell completes the command's words;
 //! * [`man`]: writes manual pages, hidden from the help.
 //!
-//! [`choice`] has the options of files with several scenes, [`input`] reads models from files,
-//! standard input or by built-in name, [`output`] writes files completely or not at all,
-//! [`preview`] shows pictures in a terminal, [`interrupt`] removes temporary files, [`terminal`]
-//! escapes names, [`values`] parses the options' values, and [`failure`] has the exit codes.
+//! [`advice`] explains unknown words, [`choice`] has the options of files with several scenes,
+//! [`input`] reads models from files, standard input or by built-in name, [`output`] writes files
+//! completely or not at all, [`preview`] shows pictures in a terminal, [`interrupt`] removes
+//! temporary files, [`colors`] parses colours, [`terminal`] escapes names, [`values`] parses the
+//! options' values, and [`failure`] has the exit codes.
 
+mod advice;
 mod batch;
 mod choice;
+mod colors;
 mod completions;
 mod compute;
 mod depth;
@@ -37,6 +41,7 @@ mod ladder;
 mod limits;
 mod man;
 mod output;
+mod presets;
 mod preview;
 mod progress;
 mod render;
@@ -48,11 +53,12 @@ mod terminal;
 mod turntable;
 mod values;
 
+use std::ffi::OsString;
 use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
 use std::sync::LazyLock;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use failure::Failure;
 
 /// Renders 3D models and functions to images, on any machine: no GPU, no display, no system
@@ -75,6 +81,7 @@ Examples:
   estampe shader image sky.wgsl -o sky.png
   estampe compute squares.wgsl --groups 4 --buffer 0,0=zeros:1024 --write 0,0=squares.bin
   estampe ladder all -o ladder
+  estampe presets
   estampe completions fish > ~/.config/fish/completions/estampe.fish
 
 `estampe help COMMAND` explains all options of a command.")]
@@ -104,6 +111,7 @@ enum Command {
     // Boxed, because it has many options.
     Compute(Box<compute::ComputeArgs>),
     Ladder(ladder::LadderArgs),
+    Presets(presets::PresetsArgs),
     Completions(completions::CompletionsArgs),
     #[command(hide = true)]
     Man(man::ManArgs),
@@ -118,8 +126,41 @@ fn version() -> &'static str {
     &VERSION
 }
 
+/// The command line. Mistakes, and requests for help, end the process.
+fn parsed(words: impl IntoIterator<Item = OsString>) -> Cli {
+    let matches = command().try_get_matches_from(words);
+    let parsed = matches.and_then(|matches| Cli::from_arg_matches(&matches));
+    parsed.unwrap_or_else(|error| advice::advised(error).exit())
+}
+
+/// The parser. Every option with a value takes negative numbers, so that its own parser can say
+/// what is wrong with them.
+fn command() -> clap::Command {
+    fn with_negative_numbers(command: clap::Command) -> clap::Command {
+        let command = command.mut_args(|arg| {
+            let is_option = !arg.is_positional() && arg.get_action().takes_values();
+            if is_option && !arg.is_allow_hyphen_values_set() {
+                arg.allow_negative_numbers(true)
+            } else {
+                arg
+            }
+        });
+        command.mut_subcommands(with_negative_numbers)
+    }
+    with_negative_numbers(Cli::command())
+}
+
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let words: Vec<OsString> = std::env::args_os().collect();
+    let name = words.get(1).map(|name| name.to_string_lossy().into_owned());
+    let words = match presets::with_presets(&command(), words) {
+        Ok(words) => words,
+        Err(failure) => {
+            let code = report(&name.unwrap_or_default(), None, Err(failure));
+            return ExitCode::from(code);
+        }
+    };
+    let cli = parsed(words);
     let code = match &cli.command {
         Command::Render(args) => report(
             "render",
@@ -177,6 +218,7 @@ fn main() -> ExitCode {
             Err(failure) => report(args.name(), args.json(), Err(failure)),
         },
         Command::Compute(args) => report("compute", None, compute::run(args)),
+        Command::Presets(args) => report("presets", None, presets::run(args)),
         Command::Ladder(args) => report("ladder", None, ladder::run(args)),
         Command::Completions(args) => {
             report("completions", None, completions::run(args, &Cli::command()))

@@ -1,5 +1,6 @@
 //! Parsers for the values of options.
 
+use clap::builder::{OsStringValueParser, TypedValueParser};
 use estampe::Level;
 use estampe_assets::ModelFormat;
 use estampe_assets::image::ImageFormat;
@@ -86,6 +87,34 @@ pub(crate) fn margin(text: &str) -> Result<f64, String> {
     number_between(text, 0.0, 0.49)
 }
 
+/// The enlargement of a picture.
+pub(crate) fn zoom(text: &str) -> Result<f64, String> {
+    number_between(text, 0.01, 1000.0)
+}
+
+/// A share, 0 to 1.
+pub(crate) fn share(text: &str) -> Result<f32, String> {
+    number_between(text, 0.0, 1.0).map(round_to_f32)
+}
+
+/// The width of points in pixels.
+pub(crate) fn point_size(text: &str) -> Result<f32, String> {
+    number_between(text, 0.1, 256.0).map(round_to_f32)
+}
+
+/// The width of lines in pixels.
+pub(crate) fn line_width(text: &str) -> Result<f32, String> {
+    number_between(text, 0.1, 64.0).map(round_to_f32)
+}
+
+/// Samples per pixel.
+pub(crate) fn samples(text: &str) -> Result<u32, String> {
+    let count = text.parse().ok();
+    count
+        .filter(|count| [1, 2, 4, 8, 16].contains(count))
+        .ok_or_else(|| "write 1, 2, 4, 8 or 16".to_owned())
+}
+
 /// Ambient light.
 pub(crate) fn ambient(text: &str) -> Result<f32, String> {
     let ambient = number_between(text, 0.0, 10.0)?;
@@ -121,32 +150,6 @@ pub(crate) fn up(text: &str) -> Result<Up, String> {
         _ => Err("write y, z, auto, or a direction as in 0,0,1".to_owned()),
     }
 }
-
-/// `none` or `#rrggbb`. The mark is optional because shells take it for a comment.
-pub(crate) fn background(text: &str) -> Result<Background, String> {
-    if text.eq_ignore_ascii_case("none") {
-        return Ok(Background(None));
-    }
-    let color = color(text).map_err(|error| format!("{error}, or none"))?;
-    Ok(Background(Some(color)))
-}
-
-/// `#rrggbb` or `rrggbb`, sRGB.
-pub(crate) fn color(text: &str) -> Result<[u8; 3], String> {
-    let digits = text.strip_prefix('#').unwrap_or(text);
-    let is_hex = digits.len() == 6 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
-    let code = is_hex
-        .then(|| u32::from_str_radix(digits, 16).ok())
-        .flatten();
-    let [_, r, g, b] = code
-        .ok_or("write a colour as six hexadecimal digits, as in '#f2f2f2'")?
-        .to_be_bytes();
-    Ok([r, g, b])
-}
-
-/// A background colour, or none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Background(pub(crate) Option<[u8; 3]>);
 
 /// The name of a SIMD level.
 pub(crate) fn simd(text: &str) -> Result<Level, String> {
@@ -202,6 +205,14 @@ impl Destination {
         matches!(self, Self::StandardOutput)
     }
 
+    /// The extension, if it can be shown.
+    pub(crate) fn extension(&self) -> Option<&str> {
+        match self {
+            Self::File(path) => path.extension()?.to_str(),
+            Self::StandardOutput => None,
+        }
+    }
+
     /// The format of the destination's extension.
     pub(crate) fn image_format(&self) -> Option<ImageFormat> {
         match self {
@@ -209,6 +220,21 @@ impl Destination {
             Self::StandardOutput => Some(ImageFormat::Png),
         }
     }
+}
+
+/// The parser of destinations. Of options without their value the next option would be one.
+pub(crate) fn destination() -> impl TypedValueParser<Value = Destination> {
+    OsStringValueParser::new().try_map(|text| {
+        let shown = text.to_string_lossy().into_owned();
+        let is_option = shown.starts_with("--") || shown.len() == 2 && shown.starts_with('-');
+        if is_option {
+            Err(format!(
+                "this is an option; write ./{shown} for a file of this name"
+            ))
+        } else {
+            Ok(Destination::from(text))
+        }
+    })
 }
 
 impl From<std::ffi::OsString> for Destination {
@@ -350,16 +376,6 @@ mod tests {
         assert_eq!(up("0,0,1"), Ok(Up::Direction(DVec3::Z)));
         assert_eq!(up("z"), Ok(Up::Axis(UpAxis::Z)));
         assert!(up("x").is_err() && up("0,0,0").is_err());
-    }
-
-    #[test]
-    fn backgrounds_are_colours_or_none() {
-        assert_eq!(background("none"), Ok(Background(None)));
-        assert_eq!(background("#F2f200"), Ok(Background(Some([0xf2, 0xf2, 0]))));
-        assert_eq!(background("0a0b0c"), Ok(Background(Some([10, 11, 12]))));
-        for wrong in ["", "#", "#fff", "red", "#+12345", "#f2f2f2f2", "#é1234"] {
-            assert!(background(wrong).is_err(), "{wrong}");
-        }
     }
 
     #[test]

@@ -57,9 +57,15 @@ const CRATES: &[(&str, &[&str])] = &[
     ("estampe-scene", &[]),
     ("estampe-assets", &["estampe-scene", "estampe-shapes"]),
     ("estampe-transparency", &["estampe-gpu"]),
+    // The inside of a section is a polygon, which is triangulated.
     (
         "estampe-renderer",
-        &["estampe-gpu", "estampe-scene", "estampe-transparency"],
+        &[
+            "estampe-gpu",
+            "estampe-scene",
+            "estampe-shapes",
+            "estampe-transparency",
+        ],
     ),
     // Depths are rounded by the codec of the pipeline.
     (
@@ -114,7 +120,7 @@ const LIBRARIES: &[&str] = &[
 /// The workspace crates that only the tests and examples of a crate may use.
 const TESTS: &[(&str, &[&str])] = &[
     ("estampe-gpu", &["estampe-shapes"]),
-    ("estampe-renderer", &["estampe-shapes", "estampe-reference"]),
+    ("estampe-renderer", &["estampe-reference"]),
     // Pictures of examples and tests as files.
     ("estampe-visibility", &["estampe-assets"]),
     // All of this crate is tests.

@@ -33,6 +33,8 @@ pub(super) fn finish(mut parsed: Parsed, context: &mut Context<'_>) -> Parsed {
     } else {
         NormalMode::default()
     };
+    let lacks_normals = |mesh: &Mesh| mesh.normals.is_empty() && !mesh.triangles.is_empty();
+    parsed.contents.has_made_normals = parsed.scene.meshes.iter().map(lacks_normals).collect();
     normals::fill_missing_by(&mut parsed.scene.meshes, mode, context.workers);
     let is_empty =
         |mesh: &Mesh| mesh.triangles.is_empty() && mesh.lines.is_empty() && mesh.points.is_empty();

@@ -1,5 +1,6 @@
 //! Entry points: a path, or bytes in memory.
 
+use super::contents::ModelContents;
 use super::encoding::utf8_from_utf16;
 use super::options::{ModelChoices, ModelOptions};
 use super::resources::{ResourceError, Resources};
@@ -27,6 +28,8 @@ pub struct Loaded {
     pub parameter_points: Vec<Vec3>,
     /// What [`ModelOptions`] can choose in this file.
     pub choices: ModelChoices,
+    /// The hierarchy, extensions, and which normals are made.
+    pub contents: ModelContents,
 }
 
 /// The bytes of a model and where they come from.
@@ -59,6 +62,7 @@ pub(super) struct Parsed {
     /// Missing normals are those of the triangles, without smooth edges.
     pub(super) has_flat_normals: bool,
     pub(super) choices: ModelChoices,
+    pub(super) contents: ModelContents,
 }
 
 /// State that all readers share.
@@ -196,6 +200,17 @@ pub fn parse_model_with(
         workers: Workers::new(limits.threads),
         side_files_left: limits.max_side_files,
     };
+    let gltf_choice = options.of_gltf_alone();
+    if let Some(choice) = gltf_choice.filter(|_| format != ModelFormat::Gltf) {
+        return Err(AssetError::unsupported(
+            format!(
+                "{choice} is not in this file: {} has neither scenes, animations nor variants",
+                format.name()
+            ),
+            "read it without this choice",
+        )
+        .in_file(name));
+    }
     let text = decoded_text(format, bytes);
     let bytes = text.as_deref().unwrap_or(bytes);
     let parsed = Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)
@@ -210,6 +225,11 @@ pub fn parse_model_with(
         .map_err(|error| error.in_file(name))?;
     let parsed = finish::finish(parsed, &mut context);
     let (warnings, warning_count) = context.warnings.finish();
+    if options.is_strict
+        && let Some(first) = warnings.first()
+    {
+        return Err(refused(first, warning_count));
+    }
     Ok(Loaded {
         scene: parsed.scene,
         format,
@@ -217,7 +237,27 @@ pub fn parse_model_with(
         warning_count,
         parameter_points: parsed.parameter_points,
         choices: parsed.choices,
+        contents: parsed.contents,
     })
+}
+
+/// The error of a strict reader: the first of its warnings.
+fn refused(first: &Warning, count: u64) -> AssetError {
+    let more = match count {
+        0 | 1 => String::new(),
+        _ => format!(" (and {} more)", count - 1),
+    };
+    let error = AssetError::malformed(
+        format!("{}{more}", first.message),
+        "warnings are errors here: mend the file, or read it without this strictness",
+    );
+    let error = error
+        .in_file(&first.file)
+        .at_json(first.json_pointer.clone());
+    match first.location {
+        Some(location) => error.at(location),
+        None => error,
+    }
 }
 
 /// The bytes of the model itself, up to the limit. The user named it, so it may be a pipe.

@@ -11,6 +11,7 @@
 //! fails, as Latin-1. Side files (material libraries, textures) come from [`Resources`], which
 //! decides which files a model may open.
 
+mod contents;
 mod corner_split;
 mod detect;
 mod encoding;
@@ -40,6 +41,7 @@ mod write;
 #[cfg(test)]
 mod tests;
 
+pub use contents::{ModelContents, ModelNode};
 pub use detect::ModelFormat;
 pub use folder::Folder;
 pub use load::{Loaded, ModelInput, load_model, load_model_with, parse_model, parse_model_with};

@@ -17,6 +17,24 @@ pub struct ModelOptions {
     pub variant: Option<String>,
     /// Use of the alpha of colour textures in OBJ's MTL.
     pub alpha: TextureAlpha,
+    /// If set, the first warning is an error. Default not.
+    pub is_strict: bool,
+}
+
+impl ModelOptions {
+    /// The choice of something that only glTF files have, if there is one: a sentence's subject.
+    pub(super) fn of_gltf_alone(&self) -> Option<String> {
+        let animation = match &self.animation {
+            Some(AnimationName::Index(index)) => Some(format!("animation {index}")),
+            Some(AnimationName::Name(name)) => Some(format!("the animation \"{name}\"")),
+            Some(AnimationName::First) | None => None,
+        };
+        let variant = self.variant.as_ref();
+        self.scene
+            .map(|scene| format!("scene {scene}"))
+            .or(animation)
+            .or_else(|| variant.map(|name| format!("the variant \"{name}\"")))
+    }
 }
 
 /// Use of the alpha of colour textures in OBJ's MTL, which does not state it.

@@ -133,7 +133,6 @@ fn ascii_is_read_in_all_its_dialects() {
         .replace("solid part one", "solid part one\n");
     for (name, text) in [
         ("nameless", format!("solid\n{FACET}endsolid\n")),
-        ("no end", format!("solid\n{FACET}")),
         ("no solid", FACET.to_owned()),
         ("upper case", plain.to_uppercase()),
         ("CRLF", plain.replace('\n', "\r\n")),
@@ -158,6 +157,46 @@ fn ascii_is_read_in_all_its_dialects() {
         );
         assert_eq!(mesh.normals, [Vec3::Z; 3], "{name}");
     }
+}
+
+#[test]
+fn a_solid_without_an_end_is_read_with_a_warning() {
+    let loaded = read(format!("solid a\n{FACET}").as_bytes());
+    assert_eq!(loaded.scene.meshes[0].triangles.len(), 1);
+    assert_eq!(loaded.warning_count, 1);
+    assert!(loaded.warnings[0].message.contains("endsolid"));
+}
+
+#[test]
+fn spread_coordinates_are_random_bytes_and_large_or_small_models_are_not() {
+    let of = |size: &dyn Fn(usize) -> f32| {
+        let mut bytes = vec![b' '; 80];
+        bytes.extend_from_slice(&30_u32.to_le_bytes());
+        for number in 0..30 {
+            let mut record = [0; 50];
+            for corner in 0..3 {
+                let at = 12 + 12 * corner + 4 * corner;
+                record[at..at + 4].copy_from_slice(&size(3 * number + corner).to_le_bytes());
+            }
+            bytes.extend_from_slice(&record);
+        }
+        parse_model(
+            &bytes,
+            ModelFormat::Stl,
+            "a",
+            &NoResources,
+            &Limits::default(),
+        )
+    };
+    for scale in [1e-30, 1.0, 1e30] {
+        assert!(of(&|at| scale * (1 + at % 7) as f32).is_ok(), "{scale}");
+        // A few wild corners are a damaged model.
+        let wild = |at: usize| if at.is_multiple_of(10) { 1e38 } else { scale };
+        assert!(of(&wild).is_ok(), "{scale}");
+    }
+    let spread = |at: usize| f32::from_bits((u32::try_from(at % 60).unwrap() * 4 + 8) << 23);
+    let error = of(&spread).expect_err("nonsense").to_string();
+    assert!(error.contains("random bytes"), "{error}");
 }
 
 #[test]
@@ -195,7 +234,7 @@ fn odd_facets_are_warnings() {
     let line = |number| Some(Location::Line(number));
     assert_eq!(
         lines,
-        [line(5), line(7), line(11), None, None],
+        [line(5), line(7), line(11), line(12), None, None],
         "{:?}",
         loaded.warnings
     );

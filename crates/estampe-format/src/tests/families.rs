@@ -58,6 +58,8 @@ fn every_half_is_decoded() {
     assert_eq!(half::decode(0x7BFF), 65_504.0);
     assert_eq!(half::decode(0xFC00), f32::NEG_INFINITY);
     assert_eq!(half::decode(0xFE01).to_bits(), 0xFFC0_2000);
+    // A signalling NaN becomes quiet.
+    assert_eq!(half::decode(0x7C01).to_bits(), 0x7FC0_2000);
 }
 
 #[test]

@@ -25,6 +25,12 @@ impl Cloud {
         }
     }
 
+    /// The cloud with more points.
+    pub(crate) fn with(mut self, points: &[DVec3]) -> Self {
+        self.pieces.push(points.to_vec());
+        self
+    }
+
     /// All points, in order.
     pub fn iter(&self) -> impl Iterator<Item = &DVec3> {
         self.pieces.iter().flatten()

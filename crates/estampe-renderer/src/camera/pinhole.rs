@@ -99,6 +99,22 @@ impl Window {
         }
     }
 
+    /// The window that is smaller by this factor about its middle.
+    pub(super) fn zoomed(self, zoom: f64) -> Self {
+        let about = |low: f64, high: f64| {
+            let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0 / zoom);
+            (middle - half, middle + half)
+        };
+        let (left, right) = about(self.left, self.right);
+        let (bottom, top) = about(self.bottom, self.top);
+        Self {
+            left,
+            right,
+            bottom,
+            top,
+        }
+    }
+
     /// The intrinsics that see a picture of this size through the window.
     #[must_use]
     pub fn intrinsics(self, (width, height): (f64, f64)) -> Intrinsics {

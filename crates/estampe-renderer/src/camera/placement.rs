@@ -22,6 +22,9 @@ pub struct CameraOptions {
     /// Free border on each side, as a fraction of the picture's shorter side; in 0..0.5. Default
     /// 0.05.
     pub margin: f64,
+    /// Enlargement of the picture about its middle, above 0; the eye stays, and the opening
+    /// narrows. Default 1.
+    pub zoom: f64,
 }
 
 impl Default for CameraOptions {
@@ -31,6 +34,7 @@ impl Default for CameraOptions {
             target_world: None,
             projection: ProjectionKind::default(),
             margin: 0.05,
+            zoom: 1.0,
         }
     }
 }
@@ -99,6 +103,22 @@ pub enum Lens {
     Pinhole(Window),
 }
 
+impl Lens {
+    /// The lens of a picture that is enlarged by this factor.
+    fn zoomed(self, zoom: f64) -> Self {
+        // The angle of a factor of 1 keeps its bits.
+        let is_unchanged = zoom == 1.0;
+        match self {
+            _ if is_unchanged => self,
+            Self::Perspective(fov) => {
+                Self::Perspective(2.0 * libm::atan(libm::tan(fov / 2.0) / zoom))
+            }
+            Self::Orthographic(half_height) => Self::Orthographic(half_height / zoom),
+            Self::Pinhole(window) => Self::Pinhole(window.zoomed(zoom)),
+        }
+    }
+}
+
 impl PlacedCamera {
     /// Places a camera for `points`, the model's vertices, and a picture of `size_px`.
     ///
@@ -140,11 +160,15 @@ impl PlacedCamera {
             }
             Eye::Posed(frame) => Self::standing(frame, None, points, lens, k),
         };
-        match options.projection {
+        let placed = match options.projection {
             ProjectionKind::Orthographic {
                 half_height: Some(_),
             } => Self { lens, ..placed },
             _ => placed,
+        };
+        Self {
+            lens: placed.lens.zoomed(options.zoom),
+            ..placed
         }
     }
 

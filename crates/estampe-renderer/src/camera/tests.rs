@@ -226,3 +226,41 @@ fn empty_and_degenerate_models_have_cameras() {
     assert!(perspective_eye(&Cloud::default(), k, None).z > 1.0);
     assert_eq!(orthographic_view(&Cloud::default(), k, None).1, 1.0);
 }
+
+#[test]
+fn zoom_scales_the_window_about_its_middle() {
+    let points = cloud(5, 40, DVec3::new(1.0, 0.6, 0.8));
+    for projection in [
+        ProjectionKind::default(),
+        ProjectionKind::Orthographic { half_height: None },
+        ProjectionKind::Orthographic {
+            half_height: Some(1.5),
+        },
+        ProjectionKind::Pinhole(Intrinsics {
+            focal_px: [50.0, 45.0],
+            principal_px: [17.0, 16.0],
+        }),
+    ] {
+        let plain = CameraOptions {
+            projection,
+            ..CameraOptions::default()
+        };
+        let place =
+            |options: &CameraOptions| PlacedCamera::new(options, DVec3::Y, &points, (40, 30));
+        let before = place(&plain);
+        for zoom in [0.25, 1.0, 3.0] {
+            let after = place(&CameraOptions { zoom, ..plain });
+            assert_eq!(after.frame, before.frame, "the eye stays");
+            for point in [DVec3::ZERO, DVec3::new(0.3, -0.2, 0.5)] {
+                let [a, b] = [before, after].map(|camera| {
+                    let view = camera.frame.view_from_world();
+                    (camera.clip_from_view(4.0 / 3.0) * view).project_point3(point)
+                });
+                let difference = (a * zoom - b).truncate().length();
+                assert!(difference < 1e-9, "{projection:?} {zoom}: {a} {b}");
+            }
+        }
+        let unchanged = place(&CameraOptions { zoom: 1.0, ..plain });
+        assert_eq!(unchanged, before);
+    }
+}

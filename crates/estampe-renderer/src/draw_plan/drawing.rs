@@ -10,9 +10,13 @@ use std::ops::Range;
 pub(crate) struct DrawPlan {
     pub(super) pipelines: Vec<StreamPipeline>,
     pub(super) opaque: Vec<PlannedDraw>,
+    /// What is seen through surfaces that transmit light.
+    pub(super) behind: Vec<PlannedDraw>,
     /// Transparent triangles back to front, or, of weighted transparency, surfaces.
     pub(super) transparent: Vec<PlannedDraw>,
     pub(super) layers: PlannedLayers,
+    /// Lines around the model.
+    pub(super) guides: Vec<PlannedDraw>,
     pub(super) edges: Vec<PlannedDraw>,
     /// What casts shadows, for each map: those of lights, then the two of the ground.
     pub(super) casters: [Vec<PlannedDraw>; MAX_SHADOW_MAPS + 2],
@@ -41,6 +45,11 @@ impl DrawPlan {
         self.draws(&self.opaque)
     }
 
+    /// Opaque surfaces, lines and points in the picture of what is behind others.
+    pub(crate) fn behind(&self) -> Vec<Draw<'_>> {
+        self.draws(&self.behind)
+    }
+
     /// Transparent triangles back to front, or surfaces whose weighted terms are summed.
     pub(crate) fn transparent(&self) -> Vec<Draw<'_>> {
         self.draws(&self.transparent)
@@ -54,6 +63,11 @@ impl DrawPlan {
     /// The draws that blend a layer: those of [`Self::finding`] in the same order.
     pub(crate) fn layer(&self) -> Vec<Draw<'_>> {
         self.draws(&self.layers.blending)
+    }
+
+    /// The lines around the model, behind transparent surfaces.
+    pub(crate) fn guides(&self) -> Vec<Draw<'_>> {
+        self.draws(&self.guides)
     }
 
     /// The edges over all surfaces.

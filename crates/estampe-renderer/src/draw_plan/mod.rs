@@ -1,5 +1,5 @@
 //! The draws of a frame in their order: opaque surfaces, lines and points in scene order, then
-//! transparent surfaces, then edges over both.
+//! lines around the model, transparent surfaces, and edges over all.
 //!
 //! | transparency | draws of transparent surfaces |
 //! |---|---|
@@ -8,6 +8,7 @@
 //! | weighted | surfaces in scene order |
 
 mod drawing;
+mod overlays;
 mod planner;
 mod points_and_lines;
 mod surfaces;

@@ -6,7 +6,7 @@ use crate::frame::RenderError;
 use crate::geometry::faces::{FaceAttributes, LitAt, unshared_streams};
 use crate::geometry::order::{DistantTriangle, back_to_front};
 use crate::geometry::tangents::with_tangents;
-use crate::geometry::vertex_data::{MeshStreams, VertexStream};
+use crate::geometry::vertex_data::{MeshStreams, StreamData, VertexStream};
 use crate::materials::{Materials, TextureKey};
 use crate::options::{RenderOptions, Shading};
 use crate::scene_view::SceneView;
@@ -33,6 +33,8 @@ pub(super) struct DrawPlanBuilder {
     pub(super) pipeline_of_key: HashMap<PipelineKey, usize>,
     /// The pipeline of edges over surfaces.
     pub(super) edges: Option<usize>,
+    /// Lines that are blended, after all opaque surfaces.
+    pub(super) smooth_lines: Vec<PlannedDraw>,
     /// The triangles of all meshes before.
     first_number: usize,
     /// The triangles that are sorted.
@@ -44,12 +46,14 @@ pub(super) struct DrawPlanBuilder {
 impl Planner<'_> {
     /// Plans the draws of the whole scene.
     pub(crate) fn plan(&self) -> Result<DrawPlan, RenderError> {
-        let mut materials = Materials::new(self.scene, self.options, self.device);
+        let mut materials = Materials::new(self.scene, self.options, self.view, self.device);
         let with_tangents = self.make_tangents_and_textures(&mut materials)?;
         let mut builder = DrawPlanBuilder::default();
         for (mesh, made) in self.scene.meshes.iter().zip(&with_tangents) {
             self.plan_mesh(made.as_ref().unwrap_or(mesh), &mut materials, &mut builder)?;
         }
+        builder.plan.opaque.append(&mut builder.smooth_lines);
+        self.plan_overlays(&mut builder)?;
         for run in back_to_front(std::mem::take(&mut builder.transparent)) {
             let (pipeline, vertex_buffers) =
                 builder.transparent_surfaces[run.surface as usize].clone();
@@ -99,7 +103,8 @@ impl Planner<'_> {
         Ok(meshes)
     }
 
-    /// The texture coordinates of a mesh's first normal map, if it has one and no tangents.
+    /// The texture coordinates of a mesh's first normal map, or of the direction of its roughness,
+    /// if it has one and no tangents.
     fn normal_map_uv_set(&self, mesh: &Mesh) -> Option<u8> {
         if self.style.pbr.is_none() || mesh.attribute(Mesh::TANGENT).is_some() {
             return None;
@@ -108,8 +113,12 @@ impl Planner<'_> {
             let material = self.scene.materials.get(surface.material?)?;
             let pbr = material.pbr.as_ref()?;
             let coat = pbr.clearcoat.and_then(|coat| coat.normal_texture);
-            let map = pbr.normal_texture.or(coat)?;
-            Some(map.texture.uv_set)
+            let map = pbr.normal_texture.or(coat).map(|map| map.texture.uv_set);
+            let direction = pbr.anisotropy.map(|layer| {
+                let texture = layer.texture.map(|texture| texture.uv_set);
+                texture.unwrap_or_default()
+            });
+            map.or(direction)
         })
     }
 
@@ -124,6 +133,7 @@ impl Planner<'_> {
         let shared = (!is_unshared && !mesh.triangles.is_empty() || has_points_or_lines)
             .then(|| MeshStreams::shared(mesh, &self.view.space, self.device, self.workers))
             .transpose()?;
+        let shared = shared.map(|streams| self.painted(streams)).transpose()?;
         if !mesh.triangles.is_empty() {
             let unshared;
             let streams = match &shared {
@@ -138,7 +148,8 @@ impl Planner<'_> {
                         first_number: (self.style.shading == Shading::FaceId)
                             .then_some(builder.first_number),
                     };
-                    unshared = unshared_streams(mesh, attributes, &self.view.space, self.device)?;
+                    let made = unshared_streams(mesh, attributes, &self.view.space, self.device)?;
+                    unshared = self.painted(made)?;
                     &unshared
                 }
             };
@@ -149,6 +160,17 @@ impl Planner<'_> {
             self.plan_points_and_lines(mesh, shared, builder)?;
         }
         Ok(())
+    }
+
+    /// The streams without vertex colours, if one colour replaces them.
+    fn painted(&self, streams: MeshStreams) -> Result<MeshStreams, BufferError> {
+        if self.options.color.is_none() {
+            return Ok(streams);
+        }
+        Ok(MeshStreams {
+            colors: StreamData::constant(self.device, &[1.0; 4])?,
+            ..streams
+        })
     }
 
     /// The triangles' vertex indices, unchanged.

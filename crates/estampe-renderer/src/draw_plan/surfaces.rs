@@ -31,6 +31,8 @@ pub(super) struct PipelineKey {
     has_tangents: bool,
     /// Back faces are culled.
     is_single_sided: bool,
+    /// The bits of the mesh's scale, by which the thickness of bodies is multiplied.
+    scale_bits: Option<u32>,
 }
 
 /// The triangles of a mesh as draws read them.
@@ -101,6 +103,7 @@ impl Planner<'_> {
                     has_uvs_1: mesh.attribute(Mesh::UV1).is_some(),
                     has_tangents: mesh.attribute(Mesh::TANGENT).is_some(),
                     is_single_sided: style.is_single_sided,
+                    scale_bits: mesh.scale.map(f32::to_bits),
                 },
                 triangles,
             };
@@ -110,6 +113,13 @@ impl Planner<'_> {
             } else {
                 let draw = self.surface_draw(&surface, Some(Role::Opaque), builder)?;
                 builder.plan.opaque.push(draw);
+                if style.transmits() {
+                    continue;
+                }
+                if self.style.behind.is_some() {
+                    let draw = self.surface_draw(&surface, Some(Role::Behind), builder)?;
+                    builder.plan.behind.push(draw);
+                }
                 self.plan_casters(&surface, builder)?;
             }
         }

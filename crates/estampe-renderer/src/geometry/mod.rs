@@ -14,4 +14,6 @@ pub(crate) mod unit_space;
 pub(crate) mod vertex_data;
 
 #[cfg(test)]
+mod tangent_tests;
+#[cfg(test)]
 mod tests;

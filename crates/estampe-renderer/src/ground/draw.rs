@@ -7,7 +7,7 @@ use super::sky::Sky;
 use crate::frame::RenderError;
 use crate::geometry::vertex_data::{StreamData, VertexStream};
 use crate::shading::ground::GroundSurface;
-use crate::surface_pipelines::FrameStyle;
+use crate::surface_pipelines::{FrameStyle, light_target};
 use crate::transforms::round_to_f32;
 use estampe::state::{
     BlendState, CompareFunction, CullMode, DepthState, MultisampleState, PrimitiveState,
@@ -22,6 +22,8 @@ use estampe_scene::Workers;
 #[derive(Debug)]
 pub(crate) struct GroundShadow {
     pipeline: RenderPipeline,
+    /// The pipeline of the picture of what is behind surfaces, if there is one.
+    behind: Option<RenderPipeline>,
     vertex_buffers: Vec<BufferSlice>,
 }
 
@@ -50,7 +52,8 @@ impl GroundShadow {
         ];
         let layouts = streams.iter().enumerate();
         let layouts = layouts.map(|(location, (stream, data))| data.layout(*stream, location));
-        let pipeline = device.create_render_pipeline(&RenderPipelineDescriptor {
+        let blend = Some(BlendState::ALPHA_BLENDING);
+        let mut descriptor = RenderPipelineDescriptor {
             vertex_buffers: layouts.collect(),
             primitive: PrimitiveState {
                 // From below nothing is seen; and near and far planes are those of the model.
@@ -66,11 +69,20 @@ impl GroundShadow {
                 .into(),
             ),
             multisample: MultisampleState::new(style.samples),
-            targets: style.targets(Some(BlendState::ALPHA_BLENDING)),
+            targets: style.targets(blend),
             ..RenderPipelineDescriptor::new(shader)
-        })?;
+        };
+        let pipeline = device.create_render_pipeline(&descriptor)?;
+        let behind = match style.behind {
+            Some(_) => {
+                descriptor.targets = light_target(blend);
+                Some(device.create_render_pipeline(&descriptor)?)
+            }
+            None => None,
+        };
         Ok(Self {
             pipeline,
+            behind,
             vertex_buffers: streams.iter().map(|(_, data)| data.buffer()).collect(),
         })
     }
@@ -81,6 +93,14 @@ impl GroundShadow {
             vertex_buffers: &self.vertex_buffers,
             ..Draw::new(&self.pipeline, 0..6)
         }
+    }
+
+    /// The draw in the picture of what is behind surfaces.
+    pub(crate) fn draw_behind(&self) -> Option<Draw<'_>> {
+        Some(Draw {
+            vertex_buffers: &self.vertex_buffers,
+            ..Draw::new(self.behind.as_ref()?, 0..6)
+        })
     }
 }
 

@@ -60,8 +60,10 @@ pub(crate) struct Painted {
 pub(crate) enum Alpha {
     /// Alpha is 1.
     Ignored,
-    /// Fragments below ½ are discarded.
+    /// Fragments below the cutoff are discarded, ½ if the material has none.
     CutsOut,
+    /// As [`Self::CutsOut`], with smooth edges: so many samples of a pixel are covered in part.
+    Covers(u16),
     /// Alpha is written with the colour.
     Kept,
 }

@@ -9,6 +9,7 @@
 //! | [`bump`] | normals bent by a texture of heights |
 //! | [`interpolation`] | lighting at every fragment (Phong), or at the vertices (Gouraud, flat) |
 //! | [`base_color`] | one colour, or texture and vertex colours |
+//! | [`cut_out`] | surfaces with holes |
 //! | [`pbr`] | physically based surfaces |
 //! | [`output`] | quantised colours, fog |
 //! | [`surface`] | the shader of surfaces, composed of these parts |
@@ -16,11 +17,15 @@
 //! | [`inspection`] | normals, depth, uv, faces, barycentric coordinates and overdraw as colours |
 //! | [`points_and_lines`] | points and lines |
 //! | [`ground`] | the shadow on the ground |
+//! | [`backdrop`] | the gradient behind everything |
+//! | [`stroke`] | lines of a width, with smooth borders |
 //!
 //! Lighting is computed in view space, in linear light.
 
+pub(crate) mod backdrop;
 pub(crate) mod base_color;
 pub(crate) mod bump;
+pub(crate) mod cut_out;
 pub(crate) mod ground;
 pub(crate) mod inspection;
 pub(crate) mod interpolation;
@@ -31,6 +36,7 @@ pub(crate) mod points_and_lines;
 pub(crate) mod shadow;
 pub(crate) mod shadow_caster;
 pub(crate) mod steps;
+pub(crate) mod stroke;
 pub(crate) mod surface;
 pub(crate) mod terms;
 pub(crate) mod wireframe;

@@ -1,11 +1,15 @@
-//! What happens to a lit colour before it is written: it is quantised, then fogged.
+//! What happens to a lit colour before it is written: in the default light it recedes and keeps
+//! headroom; then it is quantised, then fogged.
 
+use super::backdrop::Backdrop;
 use super::steps::quantised;
 use estampe::{FragmentIn, Real, Vec3};
 
 /// The last step of a surface's shader.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Output {
+    /// What the default lights add, if they shine.
+    pub(crate) presentation: Option<Presentation>,
     /// Number of levels of each channel, in linear light.
     pub(crate) levels: Option<u16>,
     pub(crate) fog: Option<Fog>,
@@ -16,6 +20,9 @@ impl Output {
     #[inline(always)]
     pub(crate) fn color<R: Real>(&self, input: &FragmentIn<'_, R>, color: Vec3<R>) -> Vec3<R> {
         let mut color = color;
+        if let Some(presentation) = &self.presentation {
+            color = presentation.color(input, color);
+        }
         if let Some(levels) = self.levels {
             color = Vec3::new(
                 quantised(color.x, levels),
@@ -28,6 +35,66 @@ impl Output {
             None => color,
         }
     }
+
+    /// The opacity of a surface behind the fog, which is opaque.
+    #[inline(always)]
+    pub(crate) fn opacity<R: Real>(&self, input: &FragmentIn<'_, R>, opacity: R) -> R {
+        match &self.fog {
+            Some(fog) => opacity.mix(input.real(1.0), fog.share(input)),
+            None => opacity,
+        }
+    }
+}
+
+/// The default light becomes dimmer with the distance, so that parallel faces at different
+/// distances differ, which no light of one direction shows; and bright colours keep headroom:
+///
+/// ```text
+///   C = C·(1 − FALLOFF·t)                      t = 0 at the nearest point, 1 at the furthest
+///   C = C − over + over·room ÷ (room + over)   over = max(C − SHOULDER, 0), room = 1 − SHOULDER
+///
+///    1 ┤            ____----     The slope is 1 at the shoulder, and white is never reached.
+///      │       _.--´
+/// 0.55 ┤    .-´                  Rejected: less light for all, which makes grey models dark.
+///      └────┴──────────────
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Presentation {
+    /// Distance along the view direction of the model's nearest point.
+    pub(crate) nearest: f32,
+    /// 1 ÷ the distance from there to its furthest point.
+    pub(crate) per_distance: f32,
+    /// Distance per unit of depth and at depth 0 in a parallel projection; in perspective the
+    /// distance is w.
+    pub(crate) orthographic: Option<[f32; 2]>,
+}
+
+impl Presentation {
+    /// The share of the light that is lost at the model's furthest point.
+    const FALLOFF: f32 = 0.38;
+    /// The linear channel from which on colours are compressed.
+    const SHOULDER: f32 = 0.55;
+
+    /// The colour that is shown.
+    #[inline(always)]
+    pub(crate) fn color<R: Real>(&self, input: &FragmentIn<'_, R>, color: Vec3<R>) -> Vec3<R> {
+        let distance = match self.orthographic {
+            Some([per_depth, nearest]) => input.position.z * per_depth + nearest,
+            None => input.real(1.0) / input.position.w,
+        };
+        let share = ((distance - self.nearest) * self.per_distance).saturate();
+        let light = input.real(1.0) - share * Self::FALLOFF;
+        let color = color * light;
+        Vec3::new(shown(color.x), shown(color.y), shown(color.z))
+    }
+}
+
+/// A channel with headroom.
+#[inline(always)]
+fn shown<R: Real>(channel: R) -> R {
+    const ROOM: f32 = 1.0 - Presentation::SHOULDER;
+    let over = (channel - Presentation::SHOULDER).max(0.0);
+    channel - over + over * ROOM / (over + ROOM)
 }
 
 /// Fog that hides what is distant: C = (1 − γ)·C + γ·C_fog, γ = (‖p − eye‖ − start) ÷ (end − start)
@@ -36,6 +103,8 @@ impl Output {
 pub(crate) struct Fog {
     /// Linear colour.
     pub(crate) color: [f32; 3],
+    /// The opaque gradient whose colour it has instead.
+    pub(crate) backdrop: Option<Backdrop>,
     /// Distance up to which there is none.
     pub(crate) start: f32,
     /// 1 ÷ (end − start): at `end` there is nothing but fog.
@@ -47,9 +116,18 @@ impl Fog {
     /// The colour behind the fog.
     #[inline(always)]
     pub(crate) fn color<R: Real>(&self, input: &FragmentIn<'_, R>, color: Vec3<R>) -> Vec3<R> {
+        let share = self.share(input);
+        let fog = match &self.backdrop {
+            Some(backdrop) => backdrop.color(input).xyz(),
+            None => Vec3::uniform(share, self.color),
+        };
+        color.mix(fog, share)
+    }
+
+    #[inline(always)]
+    fn share<R: Real>(&self, input: &FragmentIn<'_, R>) -> R {
         let distance = self.eye_distance.of(input);
-        let share = ((distance - self.start) * self.per_distance).saturate();
-        color.mix(Vec3::uniform(share, self.color), share)
+        ((distance - self.start) * self.per_distance).saturate()
     }
 }
 

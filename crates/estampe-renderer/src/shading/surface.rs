@@ -16,6 +16,7 @@
 //! has: without fog no position, without a texture no derivatives.
 
 use super::base_color::{Alpha, BaseColor};
+use super::cut_out;
 use super::interpolation::Interpolation;
 use super::output::Output;
 use estampe::{FragmentIn, FragmentOut, Real, Vec3, Vec4, VertexIn, VertexOut};
@@ -33,6 +34,9 @@ pub(crate) struct Surface<B, I> {
     pub(crate) written: Written,
 }
 
+/// The greatest number of binary16.
+pub(crate) const MOST_LIGHT: f32 = 65_504.0;
+
 /// What a fragment writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Written {
@@ -41,6 +45,8 @@ pub(crate) enum Written {
     Color,
     /// The terms of weighted transparency, in two targets.
     WeightedTerms,
+    /// Light before the tone map, within the range of binary16, and a coverage of 1.
+    Light,
 }
 
 impl Written {
@@ -53,6 +59,12 @@ impl Written {
     ) -> FragmentOut<R> {
         match self {
             Self::Color => FragmentOut::color(color),
+            Self::Light => {
+                let Vec4 { x, y, z, .. } = color;
+                let channel = |value: R| value.clamp(0.0, MOST_LIGHT);
+                let one = input.real(1.0);
+                FragmentOut::color(Vec4::new(channel(x), channel(y), channel(z), one))
+            }
             Self::WeightedTerms => {
                 // The sums are floats, and the picture would clamp the fragment.
                 let Vec4 { x, y, z, w } = color;
@@ -87,12 +99,14 @@ estampe::shader! {
             let bump = self.base_color.bump(painted);
             let color = self.interpolation.fragment(base.xyz(), bump, lit, &input);
             let color = self.output.color(&input, color);
-            let color = color.extend(base.w);
-            let out = self.written.fragment(&input, color);
-            if self.base_color.alpha() == Alpha::CutsOut {
-                out.discard_unless(base.w.ge(input.real(0.5)))
-            } else {
-                out
+            /// The cutoff of materials without one.
+            const CUTOFF: f32 = 0.5;
+            let one = input.real(1.0);
+            let written = |alpha| self.written.fragment(&input, color.extend(alpha));
+            match self.base_color.alpha() {
+                Alpha::CutsOut => cut_out::hard(written(one), base.w, CUTOFF),
+                Alpha::Covers(samples) => cut_out::smooth(written(one), base.w, CUTOFF, samples),
+                Alpha::Ignored | Alpha::Kept => written(base.w),
             }
         }
     }

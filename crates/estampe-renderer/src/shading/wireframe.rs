@@ -7,6 +7,7 @@
 //! have depth-buffer conflicts and are not anti-aliased.)
 
 use super::VertexTransforms;
+use super::backdrop::Backdrop;
 use estampe::{FragmentIn, FragmentOut, Real, Vec3, Vec4, VertexIn, VertexOut};
 
 /// The shader of hidden-line drawings.
@@ -18,6 +19,8 @@ pub(crate) struct Wireframe {
     /// Linear premultiplied colour and alpha of the faces: those of the background, or nothing over
     /// shaded surfaces.
     pub(crate) face: [f32; 4],
+    /// The gradient over the background, which faces then have.
+    pub(crate) backdrop: Option<Backdrop>,
     /// Half of an edge's width, in pixels; each of the two triangles at an edge draws one half.
     pub(crate) half_width_px: f32,
 }
@@ -35,7 +38,7 @@ estampe::shader! {
             VertexOut::new(self.transforms.clip(position), corner)
         }
 
-        fn fragment<R: Real>(&self, _input: FragmentIn<'_, R>, corner: Vec3<R>) -> FragmentOut<R> {
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, corner: Vec3<R>) -> FragmentOut<R> {
             let one = corner.x.splat(1.0);
             let rates = Vec3::new(gradient(corner.x), gradient(corner.y), gradient(corner.z));
             // Distance of the nearest edge, in pixels.
@@ -50,7 +53,12 @@ estampe::shader! {
             let strength = (side_px * (1.0 / 11.0) + 0.18).saturate();
             let alpha = coverage * strength * self.line[3];
             let line = Vec4::uniform(one, [self.line[0], self.line[1], self.line[2], 1.0]);
-            FragmentOut::color(Vec4::uniform(one, self.face).mix(line, alpha))
+            let mut face = Vec4::uniform(one, self.face);
+            if let Some(backdrop) = &self.backdrop {
+                let over = backdrop.color(&input);
+                face = over + face * (one - over.w);
+            }
+            FragmentOut::color(face.mix(line, alpha))
         }
     }
 }

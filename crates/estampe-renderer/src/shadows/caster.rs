@@ -83,6 +83,7 @@ impl FrameStyle {
             targets: Vec::new(),
             samples: 1,
             shadows: None,
+            behind: None,
         };
         self.pipeline(device, material, mesh, state)
     }

@@ -4,6 +4,7 @@ use crate::frame::{RenderError, with_passes};
 use crate::geometry::face_colors::{MOST_FACES, face_number};
 use crate::options::{Ground, RenderOptions, Shading};
 use crate::scene_view::SceneView;
+use crate::section::Section;
 use estampe::Device;
 use estampe_scene::Scene;
 use std::borrow::Cow;
@@ -30,16 +31,18 @@ impl Faces {
             samples: 1,
             // Its alpha tells it from all faces.
             background: None,
-            wireframe: false,
+            gradient: None,
+            // The caller has cut the scene.
+            section: Section::default(),
             levels: None,
             fog: None,
             shadows: false,
             ground: Ground::default(),
             program: None,
-            ..options.clone()
+            ..options.clone().without_overlays()
         };
         let scene = without_points_and_lines(scene);
-        with_passes(&scene, &options, device, |passes, view| {
+        with_passes(&scene, &options, (device, &|_| {}), |passes, view| {
             passes.draw(device)?;
             let rgba = device.read_texture(&passes.attachments.image)?;
             let number = |&[r, g, b, alpha]: &[u8; 4]| (alpha != 0).then(|| face_number([r, g, b]));

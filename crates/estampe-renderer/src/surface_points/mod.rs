@@ -49,9 +49,9 @@ pub struct SurfacePoint {
     pub distance: f32,
     /// The first texture coordinates; 0 if the mesh has none.
     pub uv: Vec2,
-    /// The number of the mesh in the scene.
+    /// The number of the mesh in the scene; that of a cut solid is its mesh's.
     pub mesh: usize,
-    /// The number of the material in the scene, if the surface has one.
+    /// The number of the material in the scene, if the surface has one; cut solids have none.
     pub material: Option<usize>,
 }
 
@@ -71,12 +71,23 @@ pub fn surface_points(
     options: &RenderOptions,
     device: &Device,
 ) -> Result<SurfacePoints, RenderError> {
+    let workers = Workers::new(device.threads());
+    let own = scene;
+    let cut = options.cut(own, workers)?;
+    let scene = cut.as_ref().map_or(own, |cut| &cut.scene);
     let faces = Faces::draw(scene, options, device)?;
     let hits = Hits::new(scene, &faces.view, (options.width, options.height));
     let rows = faces.numbers.chunks(options.width as usize).zip(0_u32..);
-    let rows = Workers::new(device.threads()).map(rows, |(numbers, y)| {
+    let rows = workers.map(rows, |(numbers, y)| {
         let points = numbers.iter().zip(0_u32..);
-        let points = points.map(|(number, x)| hits.at((*number)?, (x, y)));
+        let points = points.map(|(number, x)| {
+            let mut point = hits.at((*number)?, (x, y))?;
+            if let (Some(cut), Some(cap)) = (&cut, point.mesh.checked_sub(own.meshes.len())) {
+                point.mesh = cut.cap_of[cap];
+                point.material = None;
+            }
+            Some(point)
+        });
         points.collect::<Vec<_>>()
     });
     Ok(SurfacePoints {

@@ -152,7 +152,7 @@ fn pixel_index(image: &Image, x: i64, y: i64) -> Option<usize> {
 }
 
 /// Source over destination (Porter and Duff 1984), with straight alpha and in linear light.
-fn blend(pixel: &mut [u8], color: [u8; 3], coverage: f32) {
+pub(crate) fn blend(pixel: &mut [u8], color: [u8; 3], coverage: f32) {
     let behind = decode(pixel[3], Encoding::Linear) * (1.0 - coverage);
     let alpha = coverage + behind;
     for (code, own) in pixel.iter_mut().zip(color) {

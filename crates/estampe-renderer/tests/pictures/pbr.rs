@@ -7,9 +7,10 @@ use estampe_renderer::{
     ToneMap, render,
 };
 use estampe_scene::{
-    AddressMode, AlphaMode, Clearcoat, Image, Light, LightSource, Material, Mesh, MeshAttribute,
-    NormalTexture, PbrMaterial, PunctualLight, PunctualLightKind, Scene, Sheen, SpecularLayer,
-    Surface, TextureRef, TextureSampler, UvTransform,
+    AddressMode, AlphaMode, Anisotropy, Clearcoat, Image, Iridescence, Light, LightSource,
+    Material, Mesh, MeshAttribute, NormalTexture, PbrMaterial, PunctualLight, PunctualLightKind,
+    Scene, Sheen, SpecularLayer, Surface, TextureRef, TextureSampler, Transmission, UvTransform,
+    Volume,
 };
 use estampe_shapes::BuiltinShape;
 use glam::{DVec3, Vec2, Vec3, Vec4};
@@ -381,6 +382,30 @@ fn pictures_do_not_depend_on_the_device() {
                 roughness: value,
                 roughness_texture: texture,
             }),
+            anisotropy: Some(Anisotropy {
+                strength: value,
+                rotation_rad: value,
+                texture,
+            }),
+            iridescence: Some(Iridescence {
+                factor: value,
+                texture,
+                ior: value,
+                thickness_min_nm: value,
+                thickness_max_nm: value * 600.0,
+                thickness_texture: texture,
+            }),
+            transmission: Some(Transmission {
+                factor: value,
+                texture,
+            }),
+            volume: Some(Volume {
+                thickness: value,
+                thickness_texture: texture,
+                attenuation_distance: value,
+                attenuation_color: Vec3::splat(value),
+            }),
+            dispersion: value,
             ..PbrMaterial::default()
         };
         let ball = BuiltinShape::Torus.build();

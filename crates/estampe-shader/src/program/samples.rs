@@ -15,8 +15,8 @@ pub(super) fn sample(texture: &SampledTexture, access: &mut TextureAccess<'_>) {
     }
 }
 
-/// One packet with two coordinates and nothing else, of a texture of the common kind or a shadow
-/// map; false if that is not what is asked, and nothing is done.
+/// One packet with two coordinates and nothing else, sampled by its quads or in the finest level,
+/// or compared in a shadow map; false if that is not what is asked, and nothing is done.
 #[inline]
 fn sample_common(texture: &SampledTexture, access: &mut TextureAccess<'_>) -> bool {
     let op = access.op;
@@ -31,8 +31,19 @@ fn sample_common(texture: &SampledTexture, access: &mut TextureAccess<'_>) -> bo
     };
     match (op.query, &op.level) {
         (TextureQuery::Sample, LevelOfDetail::Implicit) if mask == whole_quads(mask) => {
-            let colors = floats_of_mut(access.results_mut()).first_chunk_mut();
-            colors.is_some_and(|colors| texture.sample_common(uv, colors))
+            let asked = PacketRequest {
+                at: [uv[0], uv[1], PacketRequest::ZEROS.at[2]],
+                ..PacketRequest::ZEROS
+            };
+            sample_into(texture, &asked, access)
+        }
+        (TextureQuery::Sample, LevelOfDetail::Zero) => {
+            let asked = PacketRequest {
+                at: [uv[0], uv[1], PacketRequest::ZEROS.at[2]],
+                lod: PacketLod::Level,
+                ..PacketRequest::ZEROS
+            };
+            sample_into(texture, &asked, access)
         }
         (TextureQuery::SampleCompare, _) => {
             let reference = floats_of(access.reference().unwrap_or_default()).first();
@@ -45,6 +56,19 @@ fn sample_common(texture: &SampledTexture, access: &mut TextureAccess<'_>) -> bo
         }
         _ => false,
     }
+}
+
+/// Samples one packet; false if the access has no room for a colour.
+#[inline]
+fn sample_into(
+    texture: &SampledTexture,
+    asked: &PacketRequest<'_>,
+    access: &mut TextureAccess<'_>,
+) -> bool {
+    let colors = floats_of_mut(access.results_mut()).first_chunk_mut();
+    colors
+        .map(|colors| texture.sample_request(asked, colors))
+        .is_some()
 }
 
 /// Samples, compares or gathers whatever is asked.

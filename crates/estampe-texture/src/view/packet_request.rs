@@ -151,17 +151,19 @@ impl PacketRequest<'_> {
             .map(|other| std::array::from_fn(|k| self.at[k].0[first + other] - self.at[k].0[first]))
     }
 
-    /// True if sixteen lanes ask for their coordinates alone.
-    fn is_plain(&self) -> bool {
-        self.count == LANES && self.lod == PacketLod::Implicit && self.offset == [0; 3]
-    }
-
-    /// The coordinates alone.
-    fn plain(&self) -> Request<'_> {
-        Request {
+    /// The coordinates, and the level of detail if it is given: what the common kind of texture
+    /// samples. `None` if sixteen lanes ask for anything else.
+    fn common(&self) -> Option<Request<'_>> {
+        let lod = match self.lod {
+            PacketLod::Implicit => None,
+            PacketLod::Level => Some(self.value),
+            PacketLod::Bias | PacketLod::Gradients => return None,
+        };
+        let is_common = self.count == LANES && self.offset == [0; 3];
+        is_common.then_some(Request {
             uv: [self.at[0], self.at[1]],
-            lod: None,
-        }
+            lod,
+        })
     }
 }
 
@@ -181,21 +183,10 @@ fn packet_of_layers<I: Int>(layer: I, first: usize) -> Packet<u32> {
 const TOGETHER: usize = 8;
 
 impl SampledTexture {
-    /// The colours of sixteen lanes at (u, v), as [`sample`](Self::sample) gives them, if the texture
-    /// is of the [common](Self::common) kind; otherwise false is returned, and nothing done.
-    #[inline]
-    pub fn sample_common(&self, uv: [&Packet<f32>; 2], colors: &mut Colors) -> bool {
-        let Some(common) = self.common() else {
-            return false;
-        };
-        common.sample_packet(self.level, &Request { uv, lod: None }, colors);
-        true
-    }
-
     /// The colours of sixteen lanes, as [`sample_with`](Self::sample_with) gives them.
     pub fn sample_request(&self, request: &PacketRequest<'_>, colors: &mut Colors) {
-        match self.common().filter(|_| request.is_plain()) {
-            Some(common) => common.sample_packet(self.level, &request.plain(), colors),
+        match self.common().zip(request.common()) {
+            Some((common, request)) => common.sample_packet(self.level, &request, colors),
             None => self.sample_lanes(request, colors),
         }
     }
@@ -206,8 +197,7 @@ impl SampledTexture {
         let Some(first) = textures.first() else {
             return;
         };
-        if let Some(common) = first.common()
-            && request.is_plain()
+        if let Some((common, asked)) = first.common().zip(request.common())
             && textures.len() <= TOGETHER
         {
             let mut all = [common; TOGETHER];
@@ -217,7 +207,7 @@ impl SampledTexture {
                 .map(|(to, texture)| texture.common().map(|common| *to = common));
             if common.all(|is_common| is_common.is_some()) {
                 let all = &all[..textures.len()];
-                Rgba8Texture::sample_all_packets(all, first.level, &request.plain(), colors);
+                Rgba8Texture::sample_all_packets(all, first.level, &asked, colors);
                 return;
             }
         }

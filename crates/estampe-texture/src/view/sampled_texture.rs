@@ -28,6 +28,9 @@ pub struct SampledTexture {
     /// True if view and sampler allow the common case of a packet (`packet/inside.rs`): linear
     /// filtering in one image of each level, with wrapped coordinates or on a cube's face.
     pub(crate) is_simple: bool,
+    /// True if the level of detail is of no effect: one mip level, and the same filter for
+    /// magnification and minification.
+    pub(crate) ignores_lod: bool,
     /// The SIMD level of packet code.
     pub(crate) level: Level,
     /// The depths, if comparisons read them as [`sample_compare_level`] does.
@@ -58,6 +61,9 @@ impl SampledTexture {
         Ok(Self {
             packets: PacketFormat::new(&view),
             is_simple: is_simple(&view, &sampler),
+            ignores_lod: view.level_count() == 1
+                && sampler.mag_filter == sampler.min_filter
+                && sampler.max_anisotropy <= 1,
             level: Level::best(),
             view,
             sampler,

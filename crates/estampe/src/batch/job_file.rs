@@ -38,8 +38,8 @@ pub(super) struct FileJob {
     pub(super) look: Arc<Look>,
 }
 
-/// The jobs of a file in their order.
-pub(super) fn read(path: &Path) -> Result<Vec<FileJob>, Failure> {
+/// The jobs of a file in their order; their options replace those of the preset.
+pub(super) fn read(path: &Path, preset: &OptionTable) -> Result<Vec<FileJob>, Failure> {
     let name = shown(path);
     let bytes = read_file(path, &Limits::default())?;
     let text = std::str::from_utf8(&bytes)
@@ -58,6 +58,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<FileJob>, Failure> {
         })?
     };
     let JobFile { options, jobs } = file;
+    let options = preset.overridden_by(&options);
     let jobs = jobs.into_iter().enumerate();
     jobs.map(|(at, entry)| {
         let options = options.overridden_by(&entry.options);

@@ -4,6 +4,7 @@ use super::record::digest;
 use crate::choice::ChoiceArgs;
 use crate::failure::Failure;
 use crate::input::read_file;
+use crate::presets::PresetArgs;
 use crate::render::{PassArgs, PictureArgs};
 use crate::values::FormatName;
 use clap::Parser;
@@ -52,6 +53,7 @@ fn identity(options: &JobOptions) -> Result<String, Failure> {
     picture.threads = None;
     picture.simd = estampe::Level::best();
     picture.view = None;
+    picture.presets = PresetArgs::default();
     let digest_of = |path: Option<&Path>| -> Result<String, Failure> {
         match path {
             Some(path) => Ok(digest(&read_file(path, &Limits::default())?)),

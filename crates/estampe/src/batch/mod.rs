@@ -27,4 +27,4 @@ mod template;
 pub(crate) use arguments::BatchArgs;
 pub(crate) use command::run;
 pub(crate) use lines::Lines;
-pub(crate) use option_table::schema;
+pub(crate) use option_table::{OptionTable, schema};

@@ -11,16 +11,34 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 /// Options of the machine, which the command line has for all jobs.
-const OF_THE_COMMAND_LINE: [&str; 3] = ["threads", "simd", "via"];
+const OF_THE_COMMAND_LINE: [&str; 6] = ["threads", "simd", "via", "preset", "config", "no-config"];
 
 /// The words of the command line for each option.
 #[derive(Debug, Clone, Default)]
-pub(super) struct OptionTable(BTreeMap<String, Vec<String>>);
+pub(crate) struct OptionTable(BTreeMap<String, Vec<String>>);
 
 impl OptionTable {
-    /// These options; where the other table has the same one, that of the other.
-    pub(super) fn overridden_by(&self, other: &Self) -> Self {
+    /// These options; where the other table has the same one, or one that excludes it, that of the
+    /// other.
+    pub(crate) fn overridden_by(&self, other: &Self) -> Self {
+        let mut command = JobOptions::command();
+        command.build();
+        let named = |name: &String| {
+            let mut all = command.get_arguments();
+            all.find(|arg| name_of(arg).as_ref() == Some(name))
+        };
+        let excludes = |one: &Arg, other: &Arg| {
+            let conflicts = command.get_arg_conflicts_with(one);
+            conflicts.iter().any(|arg| arg.get_id() == other.get_id())
+        };
         let mut options = self.0.clone();
+        options.retain(|name, _| {
+            let Some(own) = named(name) else {
+                return true;
+            };
+            let mut others = other.0.keys().filter_map(named);
+            !others.any(|other| excludes(own, other) || excludes(other, own))
+        });
         options.extend(other.0.clone());
         Self(options)
     }
@@ -28,16 +46,24 @@ impl OptionTable {
     pub(super) fn words(&self) -> impl Iterator<Item = &String> {
         self.0.values().flatten()
     }
+
+    /// The names of the options with their words.
+    pub(crate) fn entries(&self) -> impl Iterator<Item = (&String, &Vec<String>)> {
+        self.0.iter()
+    }
+}
+
+/// The name of an option in a table: its long name, else its letter.
+fn name_of(arg: &Arg) -> Option<String> {
+    let letter = || arg.get_short().map(String::from);
+    arg.get_long().map(str::to_owned).or_else(letter)
 }
 
 /// The options, with the name that each has in a table.
 fn options() -> Vec<(String, Arg)> {
     let command = JobOptions::command();
     let named = command.get_arguments().filter_map(|arg| {
-        let name = match (arg.get_long(), arg.get_short()) {
-            (Some(long), _) => long.to_owned(),
-            (None, short) => short?.to_string(),
-        };
+        let name = name_of(arg)?;
         (!OF_THE_COMMAND_LINE.contains(&name.as_str())).then(|| (name, arg.clone()))
     });
     named.collect()

@@ -7,6 +7,7 @@ use super::look::{JobOptions, Look};
 use super::template::Template;
 use crate::failure::Failure;
 use crate::output::Identity;
+use crate::presets;
 use crate::render::{Files, PassFile, PassFormat};
 use crate::values::{Destination, ViewName, shown};
 use clap::{Parser, ValueEnum};
@@ -104,6 +105,7 @@ fn of_file(args: &BatchArgs, path: &Path) -> Result<Vec<Draft>, Failure> {
         JobOptions::try_parse_from([""; 0]).map_err(|error| Failure::Usage(error.to_string()))?;
     unset.picture.threads = args.picture.threads;
     unset.picture.simd = args.picture.simd;
+    unset.picture.presets = args.picture.presets.clone();
     let given = format!("{:?} {:?} {:?}", args.picture, args.choice, args.passes);
     if given != format!("{:?} {:?} {:?}", unset.picture, unset.choice, unset.passes) {
         return Err(Failure::Usage(
@@ -111,7 +113,7 @@ fn of_file(args: &BatchArgs, path: &Path) -> Result<Vec<Draft>, Failure> {
                 .to_owned(),
         ));
     }
-    let jobs = job_file::read(path)?.into_iter();
+    let jobs = job_file::read(path, &presets::table(&args.picture.presets)?)?.into_iter();
     jobs.map(|job| {
         let template = Template::parse(&job.output)
             .map_err(|problem| Failure::Usage(format!("{}: output {problem}", shown(path))))?;

@@ -55,7 +55,8 @@ pub(crate) struct DepthArgs {
     pub(crate) at: Vec<f32>,
 
     /// The plot: a file named .svg, .png, .jpg, .tga or .webp, or - for standard output
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", allow_hyphen_values = true)]
+    #[arg(value_parser = crate::values::destination())]
     pub(crate) output: Option<Destination>,
 
     /// The plot's format: svg, png, jpeg, tga or webp [default: by OUT's extension]

@@ -26,7 +26,7 @@ Examples:
   estampe render builtin:teapot -o scene.exr --pass color,depth,normal,object-id
   estampe render builtin:teapot -o 'teapot-{pass}.png' --pass color,depth,normal
   estampe render scene.glb -o 'data/{camera}-{pass}.png' --cameras cameras.json --pass color,depth
-  curl -s https://example.org/m.stl | estampe render - --format stl -o - > m.png
+  curl -s https://example.org/m.stl | estampe render - -o - > m.png
 
 Built-in models: builtin:teapot, builtin:sphere, builtin:torus, builtin:cube, builtin:plane.
 
@@ -53,10 +53,11 @@ pub(crate) struct RenderArgs {
     pub(crate) model: Source,
 
     /// The image: a file named .png, .jpg, .tga, .webp or .exr, or - for standard output
-    #[arg(short, long, value_name = "OUT", required_unless_present = "preview")]
+    #[arg(short, long, value_name = "OUT", allow_hyphen_values = true)]
+    #[arg(value_parser = crate::values::destination(), required_unless_present = "preview")]
     pub(crate) output: Option<Destination>,
 
-    /// The model's format, if neither name nor content shows it; required for standard input
+    /// The model's format, if neither name nor content shows it
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     #[arg(
         help = "The model's format: gltf, obj, stl, ply, off or 3mf [default: by extension, else by content]"
@@ -67,6 +68,10 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     #[arg(requires = "output")]
     pub(crate) output_format: Option<OutputFormatName>,
+
+    /// Draw again when the model, or a file that it or an option names, changes; Ctrl-C ends it
+    #[arg(long, conflicts_with = "timeout")]
+    pub(crate) watch: bool,
 
     #[command(flatten)]
     pub(crate) choice: ChoiceArgs,

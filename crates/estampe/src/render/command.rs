@@ -5,6 +5,7 @@ use super::cameras::{self, Shots};
 use super::draw::{STAGES, draw_with, encoded, image_format};
 use super::passes::{self, Files, OutputFormatName};
 use super::report::Report;
+use super::watch;
 use crate::failure::Failure;
 use crate::input::Model;
 use crate::output;
@@ -12,9 +13,18 @@ use crate::progress::Progress;
 use crate::values::Destination;
 use estampe_renderer::ViewDirection;
 use estampe_scene::Image;
+use std::path::PathBuf;
 
 /// Runs the command.
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+    if args.watch {
+        return watch::run(args);
+    }
+    draw_once(args).map(drop)
+}
+
+/// Draws the model, and returns the files that it was read from.
+pub(super) fn draw_once(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     let clock = args.limits.watch("render", &args.model.name());
     let terminal = args.preview.terminal()?;
     // Without a file the preview is the output.
@@ -53,12 +63,16 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     if let Some(shots) = &shots {
         let greatest = shots.greatest(&args.picture);
         args.limits.check_memory(&model, &greatest)?;
-        return cameras::run(&model, args, shots, &clock, progress);
+        cameras::run(&model, args, shots, &clock, progress)?;
+        return Ok(model.files);
     }
     args.limits.check_memory(&model, &args.picture)?;
     let format = match (picture, &files) {
         (Some(format), _) => format,
-        (None, Some(files)) => return passes::run(&model, args, files, &clock, progress),
+        (None, Some(files)) => {
+            passes::run(&model, args, files, &clock, progress)?;
+            return Ok(model.files);
+        }
         (None, None) => unreachable!("a picture, or passes"),
     };
     let preview = |image: &Image| terminal.map(|terminal| terminal.bytes(image));
@@ -86,7 +100,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         drawn: &drawn,
         shape: None,
     };
-    report.write(&args.report)
+    report.write(&args.report)?;
+    Ok(model.files)
 }
 
 /// Refuses what a preview cannot show.

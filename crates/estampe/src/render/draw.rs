@@ -1,5 +1,6 @@
 //! Draws a model and writes the picture, for all commands that draw.
 
+use super::camera_check;
 use super::picture::PictureArgs;
 use super::report::Encoded;
 use crate::choice;
@@ -11,11 +12,11 @@ use crate::progress::Progress;
 use crate::shader::values::{FRAGMENT_JUMPS, Via};
 use crate::values::{Destination, ImageFormatName, shown};
 use estampe::{Device, DeviceDescriptor};
-use estampe_assets::Limits;
 use estampe_assets::image::{ImageFormat, decode, encode};
+use estampe_assets::{Limits, ModelFormat};
 use estampe_renderer::{
     CameraOptions, Eye, Frame, ProjectionKind, RenderOptions, Up, ViewDirection, composite_over,
-    render,
+    render, render_watched,
 };
 use estampe_scene::{Image, Projection, Scene};
 use std::time::Instant;
@@ -66,7 +67,8 @@ pub(super) fn draw_with(
     let device = device(args)?;
     let device_time = device_start.elapsed();
     let options = options(model, args, (default_view, texture), &device)?;
-    let frame = render(&model.scene, &options, &device);
+    let on_stage = |stage| progress.frame(stage);
+    let frame = render_watched(&model.scene, &options, &device, &on_stage);
     let frame = frame.map_err(|error| args.shader.failure(error))?;
 
     progress.stage("encoding");
@@ -161,10 +163,14 @@ fn options(
     (default_view, texture): (ViewDirection, Option<Image>),
     device: &Device,
 ) -> Result<RenderOptions, Failure> {
-    let options = RenderOptions {
+    camera_check::eye_in_middle(args.eye, args.target, (&model.scene, args.up))?;
+    let mut options = RenderOptions {
         program: args.shader.program(device, args.texture.as_deref())?,
         ..args.options(default_view, texture)?
     };
+    if let Some(bounding_box) = &mut options.bounding_box {
+        bounding_box.unit = unit_of(model.format).map(str::to_owned);
+    }
     let Some(chosen) = &args.camera else {
         return Ok(options);
     };
@@ -188,6 +194,15 @@ fn options(
     })
 }
 
+/// The unit of lengths in files of a format, if the format has one.
+fn unit_of(format: Option<ModelFormat>) -> Option<&'static str> {
+    match format? {
+        ModelFormat::Gltf => Some("m"),
+        ModelFormat::ThreeMf => Some("mm"),
+        _ => None,
+    }
+}
+
 /// The texture of the options, if they name one.
 fn texture_of(model: &Model, args: &PictureArgs) -> Result<Option<Image>, Failure> {
     let path = args.texture.as_deref();
@@ -201,11 +216,13 @@ pub(crate) fn image_format(
 ) -> Result<ImageFormat, Failure> {
     let named = named.map(ImageFormat::from);
     named.or_else(|| output.image_format()).ok_or_else(|| {
-        Failure::Usage(
-            "OUT's name does not show the image's format; name it .png, .jpg, .tga or .webp, or add \
-             --output-format"
-                .to_owned(),
-        )
+        let problem = match output.extension() {
+            Some(extension) => format!(".{extension} is no format of pictures that is written"),
+            None => "OUT's name does not show the image's format".to_owned(),
+        };
+        Failure::Usage(format!(
+            "{problem}; name OUT .png, .jpg, .tga or .webp, or add --output-format"
+        ))
     })
 }
 

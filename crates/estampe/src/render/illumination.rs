@@ -16,8 +16,8 @@ pub(crate) struct IlluminationArgs {
     /// A light instead of the default lights; repeatable: [dir:|pos:]X,Y,Z[:COLOUR][:INTENSITY]
     ///
     /// dir:X,Y,Z, or X,Y,Z alone, is a direction towards the light; pos:X,Y,Z is a position.
-    /// COLOUR is six hexadecimal digits [default: white], INTENSITY a factor, 0 to 1000 [default:
-    /// 1].
+    /// COLOUR is a CSS name or hexadecimal digits [default: white], INTENSITY a factor, 0 to 1000
+    /// [default: 1].
     #[arg(long, value_name = "LIGHT", value_parser = values::light, allow_hyphen_values = true)]
     #[arg(help_heading = "Light")]
     light: Vec<LightValue>,
@@ -53,9 +53,9 @@ pub(crate) struct IlluminationArgs {
 
     /// Fog that is complete at a distance from the eye: [START:]DISTANCE[,COLOUR]
     ///
-    /// It begins at START [default: 0, the eye]. COLOUR is six hexadecimal digits [default: the
-    /// background's].
-    #[arg(long, value_name = "FOG", value_parser = values::fog, help_heading = "Light")]
+    /// It begins at START [default: 0, the eye]. COLOUR is a CSS name or hexadecimal digits
+    /// [default: the background's].
+    #[arg(long, value_name = "FOG", value_parser = values::fog, allow_hyphen_values = true, help_heading = "Light")]
     fog: Option<FogValue>,
 }
 

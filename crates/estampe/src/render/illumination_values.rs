@@ -1,6 +1,7 @@
 //! Parsers for the values of the options of light.
 
-use crate::values::{color, direction, number_between, vector};
+use crate::colors::opaque as color;
+use crate::values::{direction, number_between, vector};
 use estampe_renderer::transforms::round_to_f32;
 use estampe_renderer::{Specular, SpecularModel};
 use glam::DVec3;
@@ -43,18 +44,16 @@ pub(super) fn light(text: &str) -> Result<LightValue, String> {
     let vector = read(place).map_err(|error| format!("`{place}`: {error}"))?;
     let (mut of_color, mut of_intensity) = (None, None);
     for field in fields {
-        let is_color = field.starts_with('#') || field.len() == 6 && !field.contains('.');
-        let is_again = if is_color {
-            let read = color(field).map_err(|error| format!("`{field}`: {error}"))?;
-            of_color.replace(read).is_some()
-        } else {
-            let read = number_between(field, 0.0, 1000.0).map_err(|error| {
-                format!(
-                    "`{field}` is neither a colour nor an intensity: {error}, or a colour as six \
-                     hexadecimal digits, as in ff8000"
-                )
-            })?;
+        let is_number = field.parse::<f64>().is_ok() && !is_six_digits(field);
+        let is_again = if is_number {
+            let read = number_between(field, 0.0, 1000.0)
+                .map_err(|error| format!("`{field}` is not an intensity: {error}"))?;
             of_intensity.replace(read).is_some()
+        } else {
+            let read = color(field).map_err(|error| {
+                format!("`{field}` is neither an intensity, 0 to 1000, nor a colour: {error}")
+            })?;
+            of_color.replace(read).is_some()
         };
         if is_again {
             return Err(format!(
@@ -68,6 +67,11 @@ pub(super) fn light(text: &str) -> Result<LightValue, String> {
         color: of_color.unwrap_or([255; 3]),
         intensity: round_to_f32(of_intensity.unwrap_or(1.0)),
     })
+}
+
+/// True for a colour that could be a number, such as 400000.
+fn is_six_digits(field: &str) -> bool {
+    field.len() == 6 && field.bytes().all(|byte| byte.is_ascii_hexdigit())
 }
 
 /// Reads a distance in world units, more than 0.
@@ -167,7 +171,8 @@ mod tests {
             ("0,0,0", "`0,0,0`"),
             ("pos:1,2,nan", "`1,2,nan`"),
             ("1,2,3:gg8000", "`gg8000`"),
-            ("1,2,3:#fff", "`#fff`"),
+            ("1,2,3:#ffff0", "`#ffff0`"),
+            ("1,2,3:#fff8", "`#fff8`"),
             ("1,2,3:-1", "`-1`"),
             ("1,2,3:1001", "`1001`"),
             ("1,2,3:", "``"),
@@ -183,7 +188,7 @@ mod tests {
             ("inf", "`inf`"),
             ("-1:5", "`-1`"),
             ("5:2", "5"),
-            ("5,red", "`red`"),
+            ("5,rot", "`rot`"),
         ] {
             let message = fog(text).expect_err(text);
             assert!(message.contains(part), "{text}: {message}");
@@ -214,6 +219,12 @@ mod tests {
             color: None,
         };
         assert_eq!(fog("7"), Ok(plain));
+        assert_eq!(fog("5,red").map(|fog| fog.color), Ok(Some([255, 0, 0])));
+        let of = |text: &str| light(text).map(|light| (light.color, light.intensity));
+        assert_eq!(of("1,2,3:orange:2"), Ok(([255, 165, 0], 2.0)));
+        assert_eq!(of("1,2,3:#fff:0.5"), Ok(([255; 3], 0.5)));
+        assert_eq!(of("1,2,3:400000"), Ok(([0x40, 0, 0], 1.0)));
+        assert_eq!(of("1,2,3:400"), Ok(([255; 3], 400.0)));
         assert_eq!(specular("phong"), Ok(Specular::default()));
         let blinn = Specular {
             model: SpecularModel::Blinn,

@@ -9,17 +9,22 @@
 
 mod appearance_names;
 mod arguments;
+mod camera_check;
 mod cameras;
 mod command;
 mod draw;
 mod illumination;
 mod illumination_values;
+mod overlays;
 mod passes;
 mod pbr;
 mod picture;
 mod report;
+mod section;
 mod shadows;
 mod surface_shader;
+mod surfaces;
+mod watch;
 
 pub(crate) use arguments::RenderArgs;
 pub(crate) use cameras::schema as schema_of_cameras;

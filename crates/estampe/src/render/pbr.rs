@@ -11,6 +11,7 @@ use estampe_renderer::{Environment, EnvironmentMap, RenderOptions, ToneMap};
 use estampe_scene::Workers;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::SystemTime;
 
 /// Light from all around, and how it is shown.
 #[derive(Debug, Clone, Args)]
@@ -100,13 +101,19 @@ impl PbrArgs {
 
     /// The surroundings of the panorama. The last one is kept: many models have the same.
     fn map(&self, workers: Workers) -> Result<Option<Arc<EnvironmentMap>>, Failure> {
-        static LAST: Mutex<Option<(PathBuf, Arc<EnvironmentMap>)>> = Mutex::new(None);
+        type Known = (PathBuf, Option<SystemTime>, Arc<EnvironmentMap>);
+        static LAST: Mutex<Option<Known>> = Mutex::new(None);
         let Some(path) = &self.hdri else {
             return Ok(None);
         };
         let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((known, map)) = &*last
+        // With --watch it may change.
+        let modified = std::fs::metadata(path)
+            .and_then(|file| file.modified())
+            .ok();
+        if let Some((known, at, map)) = &*last
             && known == path
+            && *at == modified
         {
             return Ok(Some(Arc::clone(map)));
         }
@@ -122,7 +129,7 @@ impl PbrArgs {
         let map = EnvironmentMap::from_panorama(width, height, &image.rgb, workers);
         let map = map.map_err(|error| Failure::Input(format!("{}: {error}", shown(path))))?;
         let map = Arc::new(map);
-        *last = Some((path.clone(), Arc::clone(&map)));
+        *last = Some((path.clone(), modified, Arc::clone(&map)));
         Ok(Some(map))
     }
 }

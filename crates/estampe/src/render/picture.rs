@@ -2,12 +2,18 @@
 //! them.
 
 use super::appearance_names::{CullName, ShadingName, TransparencyName};
+use super::camera_check;
 use super::illumination::IlluminationArgs;
+use super::overlays::OverlayArgs;
 use super::pbr::PbrArgs;
+use super::section::SectionArgs;
 use super::shadows::ShadowArgs;
 use super::surface_shader::SurfaceShaderArgs;
+use super::surfaces::SurfaceArgs;
+use crate::colors::{self, Background};
 use crate::failure::Failure;
-use crate::values::{self, Background, ViewName};
+use crate::presets::PresetArgs;
+use crate::values::{self, ViewName};
 use clap::Args;
 use estampe::Level;
 use estampe_renderer::{CameraOptions, Eye, ProjectionKind, RenderOptions, Up, ViewDirection};
@@ -21,6 +27,9 @@ pub(crate) struct PictureArgs {
     /// Width and height in pixels, each 1 to 16384
     #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = values::size)]
     pub(crate) size: (u32, u32),
+
+    #[command(flatten)]
+    pub(crate) presets: PresetArgs,
 
     /// A named view: iso, front, back, left, right, top or bottom
     #[arg(long, value_name = "NAME", value_enum, hide_possible_values = true)]
@@ -71,6 +80,11 @@ pub(crate) struct PictureArgs {
     #[arg(help_heading = "Camera")]
     pub(crate) margin: f64,
 
+    /// Enlargement of the picture about its middle, 0.01 to 1000; the eye stays where it is
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = values::zoom)]
+    #[arg(help_heading = "Camera")]
+    pub(crate) zoom: f64,
+
     /// Shading: auto, pbr, phong, flat, toon, unlit, wireframe, normals, … (see --help)
     ///
     /// auto: pbr if the model has physically based materials (glTF), else phong; pbr: metals and
@@ -93,6 +107,9 @@ pub(crate) struct PictureArgs {
     pub(crate) shading: ShadingName,
 
     #[command(flatten)]
+    pub(crate) surfaces: SurfaceArgs,
+
+    #[command(flatten)]
     pub(crate) pbr: PbrArgs,
 
     #[command(flatten)]
@@ -102,6 +119,12 @@ pub(crate) struct PictureArgs {
     pub(crate) shadows: ShadowArgs,
 
     #[command(flatten)]
+    pub(crate) section: SectionArgs,
+
+    #[command(flatten)]
+    pub(crate) overlays: OverlayArgs,
+
+    #[command(flatten)]
     pub(crate) shader: SurfaceShaderArgs,
 
     /// A base-colour texture (PNG, JPEG, WebP, TGA, BMP, DDS; sRGB), instead of the model's colours
@@ -109,9 +132,12 @@ pub(crate) struct PictureArgs {
     #[arg(long, value_name = "FILE", help_heading = "Appearance")]
     pub(crate) texture: Option<PathBuf>,
 
-    /// The background: none, or a colour as six hexadecimal digits, with or without #
-    #[arg(long, value_name = "none|#RRGGBB", default_value = "#f2f2f2")]
-    #[arg(value_parser = values::background, help_heading = "Appearance")]
+    /// The background: none, a colour (a CSS name or #RGB, #RRGGBB, #RRGGBBAA), or a gradient
+    ///
+    /// linear:COLOUR,COLOUR goes from the top to the bottom, radial:COLOUR,COLOUR from the middle
+    /// to the corners; both take up to eight colours. The mark # may be omitted.
+    #[arg(long, value_name = "BACKGROUND", default_value = "#f2f2f2")]
+    #[arg(value_parser = colors::background, help_heading = "Appearance")]
     pub(crate) background: Background,
 
     /// Faces that are culled: none, back (facing away) or front
@@ -144,10 +170,10 @@ pub(crate) struct PictureArgs {
     #[arg(long, help_heading = "Appearance")]
     pub(crate) wireframe: bool,
 
-    /// Samples per pixel: 1, or 4 for smooth edges
-    #[arg(long, value_name = "N", default_value = "4", value_parser = ["1", "4"])]
+    /// Samples per pixel: 1, or 2, 4, 8 or 16 for smooth edges
+    #[arg(long, value_name = "N", default_value = "4", value_parser = values::samples)]
     #[arg(hide_possible_values = true, help_heading = "Appearance")]
-    pub(crate) samples: String,
+    pub(crate) samples: u32,
 
     /// Number of threads, 1 to 1024; the image does not depend on it [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -181,7 +207,10 @@ impl PictureArgs {
                     .to_owned(),
             ));
         }
+        camera_check::eye_and_target(self.eye, self.target)?;
+        self.surfaces.check(self.shading)?;
         self.shadows.check(self.shading)?;
+        self.section.check()?;
         self.illumination.check()
     }
 
@@ -191,9 +220,16 @@ impl PictureArgs {
         pixels * (8 * u64::from(self.sample_count()) + 4)
     }
 
+    /// The bytes of the picture of what is seen through surfaces: light and depth of each sample,
+    /// and light with mip levels.
+    pub(crate) fn bytes_behind(&self) -> u64 {
+        let pixels = u64::from(self.size.0) * u64::from(self.size.1);
+        pixels * (12 * u64::from(self.sample_count()) + 11)
+    }
+
     /// The samples per pixel.
     pub(super) fn sample_count(&self) -> u32 {
-        if self.samples == "1" { 1 } else { 4 }
+        self.samples
     }
 
     /// The threads that draw; 0 is one per processor.
@@ -229,11 +265,13 @@ impl PictureArgs {
                     }
                 },
                 margin: self.margin,
+                zoom: self.zoom,
             },
             up: self.up,
             shading: self.shading.into(),
             texture,
-            background: self.background.0,
+            background: self.background.color,
+            gradient: self.background.gradient,
             cull: self.cull.into(),
             transparency: self.transparency.into(),
             wireframe: self.wireframe,
@@ -241,6 +279,8 @@ impl PictureArgs {
         };
         let workers = Workers::new(self.thread_count());
         let options = self.shadows.apply(self.illumination.apply(options));
+        let options = self.surfaces.apply(self.section.apply(options));
+        let options = self.overlays.apply(options);
         self.pbr.apply(options, workers)
     }
 }

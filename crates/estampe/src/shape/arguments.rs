@@ -64,7 +64,8 @@ pub(crate) struct ShapeArgs {
 
     /// The model or picture: a file named .obj, .stl, .ply, .png, .jpg, .tga or .webp, or - for
     /// standard output
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", allow_hyphen_values = true)]
+    #[arg(value_parser = crate::values::destination())]
     pub(crate) output: Destination,
 
     /// The output's format: obj, stl, ply, png, jpeg, tga or webp [default: by OUT's extension]

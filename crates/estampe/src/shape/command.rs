@@ -14,7 +14,7 @@ use crate::render::{
 };
 use crate::values::Destination;
 use estampe_assets::image::ImageFormat;
-use estampe_assets::model::ModelChoices;
+use estampe_assets::model::{ModelChoices, ModelContents};
 use estampe_assets::{ModelFormat, Warning, encode_model};
 use estampe_renderer::ViewDirection;
 use estampe_scene::{Material, Mesh, Scene, Surface, UpAxis};
@@ -210,6 +210,7 @@ fn model(
         name: NAME.to_owned(),
         format: None,
         choices: ModelChoices::default(),
+        contents: ModelContents::default(),
         warning_count: warnings.len() as u64,
         warnings,
         read: Duration::ZERO,

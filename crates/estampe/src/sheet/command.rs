@@ -44,7 +44,10 @@ pub(crate) fn run(args: &SheetArgs) -> Result<u8, Failure> {
         args: Arc::new(args.clone()),
         limits: args.limits.of_reader(args.picture.thread_count()),
         views: Arc::new(views),
-        sheet: Arc::new(Mutex::new(Sheet::new(layout, args.picture.background.0))),
+        sheet: Arc::new(Mutex::new(Sheet::new(
+            layout,
+            args.picture.background.color,
+        ))),
         refused: Arc::default(),
     };
     let lines = Lines::new(models.len(), args.report.quiet);

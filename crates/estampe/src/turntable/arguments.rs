@@ -39,7 +39,8 @@ pub(crate) struct TurntableArgs {
     pub(crate) model: Source,
 
     /// The animation: a file named .gif, .png, .webp or .y4m, pictures as in f{frame}.png, or -
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", allow_hyphen_values = true)]
+    #[arg(value_parser = crate::values::destination())]
     pub(crate) output: Destination,
 
     /// The model's format: gltf, obj, stl, ply, off or 3mf [default: by extension, else by content]

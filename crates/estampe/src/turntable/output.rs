@@ -25,19 +25,18 @@ impl Output {
     /// The output of the options.
     pub(super) fn of(args: &TurntableArgs) -> Result<Self, Failure> {
         use AnimationFormatName as Name;
-        let extension = match &args.output {
-            Destination::File(path) => path.extension().and_then(|ext| ext.to_str()),
-            Destination::StandardOutput => None,
-        };
+        let extension = args.output.extension();
         let by_name = |extension: &str| AnimationFormatName::from_str(extension, true).ok();
         let format = args.output_format.or_else(|| by_name(extension?));
         let is_numbered = name_of(&args.output).is_some_and(|name| name.contains(PLACEHOLDER));
         let format = format.ok_or_else(|| {
-            Failure::Usage(
-                "OUT's name does not show the format; name it .gif, .png, .webp or .y4m, or add \
-                 --output-format"
-                    .to_owned(),
-            )
+            let advice = match extension.map(str::to_ascii_lowercase).as_deref() {
+                Some("mp4" | "mov" | "mkv" | "webm" | "avi") => {
+                    "for other programs' video: -o - --output-format y4m | ffmpeg -i - OUT"
+                }
+                _ => "name it .gif, .png, .webp or .y4m, or add --output-format",
+            };
+            Failure::Usage(format!("OUT's name does not show the format; {advice}"))
         })?;
         match (format, is_numbered) {
             (Name::Png, true) => Ok(Self::Pictures(ImageFormat::Png)),

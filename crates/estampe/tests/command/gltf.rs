@@ -207,3 +207,41 @@ fn panoramas_light_models() {
         run.err
     );
 }
+
+/// The output that `docs/info.md` shows, and the same as JSON.
+#[test]
+fn info_lists_all_that_a_file_has() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let model = "crates/estampe-assets/tests/data/gltf-rules/extensions.gltf";
+    let bytes = std::fs::read(root.join(model)).expect("the model is there");
+    let folder = Folder::new();
+    let model = folder.with_file("lamp.gltf", bytes);
+    let page = std::fs::read_to_string(root.join("docs/info.md")).expect("the page is there");
+    let (_, shown) = page.split_once("```text\n").expect("an example");
+    let (shown, _) = shown.split_once("```").expect("its end");
+    let run = estampe("info {}", &[&model]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let text = String::from_utf8(run.out).expect("text");
+    // The page names the file without its folder.
+    let (_, text) = text.split_once("lamp.gltf").expect("the file's name");
+    assert_eq!(format!("lamp.gltf{text}"), shown);
+
+    let run = estampe("info {} --json", &[&model]);
+    let report: Value = serde_json::from_slice(&run.out).expect("one object");
+    assert_eq!(report["unit"], "m");
+    assert_eq!(report["memory"], json!({ "geometry": 276, "textures": 16 }));
+    let node = &report["nodes"][2];
+    assert_eq!((&node["depth"], &node["instances"]), (&json!(1), &json!(2)));
+    assert_eq!(report["nodes"][3]["light"], true);
+    let sources = |at: usize| report["meshes"][at]["normals"].clone();
+    assert_eq!([sources(0), sources(1)], ["file", "made"]);
+    assert_eq!(report["meshes"][0]["tangents"], Value::Null);
+    let texture = &report["materials"][0]["textures"][0];
+    assert_eq!(
+        *texture,
+        json!({ "slot": "base color", "texture": 0, "channels": "rgba" })
+    );
+    assert_eq!(report["materials"][1]["extensions"], json!(["unlit"]));
+    assert_eq!(report["textures"][0]["bytes"], 16);
+    assert_eq!(report["lights"][0]["intensity"], 10.0);
+}

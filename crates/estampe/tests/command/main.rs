@@ -16,7 +16,9 @@ mod ladder;
 mod man;
 mod output;
 mod passes;
+mod picture_options;
 mod polygon_fill;
+mod presets;
 mod preview;
 mod render;
 mod render_page;
@@ -36,3 +38,5 @@ mod thumbnailer;
 mod transparency;
 mod turntable;
 mod turntable_page;
+#[cfg(unix)]
+mod watch;

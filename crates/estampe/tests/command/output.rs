@@ -1,6 +1,7 @@
 //! Written files and what is written to a terminal: interrupts, permissions, closed pipes, names.
 
 use crate::support::{Folder, TETRAHEDRON, estampe};
+use std::process::{Command, Stdio};
 
 /// An output that is a file that is read is refused, through links too.
 #[test]
@@ -209,4 +210,68 @@ mod unix {
         left.sort();
         assert_eq!(left, expected);
     }
+}
+
+/// Without a terminal, and with NO_COLOR, nothing has escape sequences.
+#[test]
+fn no_color_is_heeded() {
+    for words in [
+        &["render", "--help"][..],
+        &["render", "builtin:cube", "--nonsense"],
+        &["rendre"],
+        &["render", "builtin:cube", "-o", "-", "--size", "8x8", "-q"],
+        &["help"],
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_estampe"))
+            .args(words)
+            .env("NO_COLOR", "1")
+            .env("TERM", "xterm-256color")
+            .stdin(Stdio::null())
+            .output()
+            .expect("the command starts");
+        let is_picture = words.contains(&"-q");
+        assert!(!output.stderr.contains(&0x1b), "{words:?}");
+        assert!(is_picture || !output.stdout.contains(&0x1b), "{words:?}");
+    }
+}
+
+/// Names are bytes on Unix: a file whose name is no UTF-8 is read, drawn and named in messages.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_need_not_be_utf_8() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let folder = Folder::new();
+    let name = |bytes: &[u8]| folder.path("").join(OsStr::from_bytes(bytes));
+    let (model, out) = (name(b"m\xff.obj"), name(b"\xfe.png"));
+    std::fs::write(&model, TETRAHEDRON).expect("writable");
+    let run = estampe("render {} -o {} --size 8x8", &[&model, &out]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.err.contains('\u{fffd}'), "{}", run.err);
+    assert!(
+        std::fs::read(&out)
+            .expect("written")
+            .starts_with(b"\x89PNG")
+    );
+    let run = estampe("render {} -o {} --size 8x8 --json -q", &[&model, &out]);
+    let report: serde_json::Value = serde_json::from_slice(&run.out).expect("an object");
+    assert_eq!(report["counts"]["triangles"], 4);
+    let missing = name(b"\xf0none.obj");
+    let run = estampe("render {} -o {}", &[&missing, &out]);
+    assert!(
+        run.code == 1 && run.err.contains("no such file"),
+        "{}",
+        run.err
+    );
+    let run = estampe(
+        "turntable {} -o {} --frames 2 --size 8x8 -q",
+        &[&model, &name(b"t\xff.gif")],
+    );
+    assert_eq!(run.code, 0, "{}", run.err);
+    let texture = estampe(
+        "render {} -o {} --size 8x8 --texture {}",
+        &[&model, &name(b"u.png"), &out],
+    );
+    assert_eq!(texture.code, 0, "{}", texture.err);
+    assert_eq!(estampe("info {}", &[&model]).code, 0);
 }

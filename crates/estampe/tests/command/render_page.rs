@@ -21,7 +21,7 @@ fn the_commands_of_the_page_draw_its_pictures() {
 }
 
 /// Options that change no picture, or its file alone.
-const WITHOUT_PICTURES: [&str; 16] = [
+const WITHOUT_PICTURES: [&str; 21] = [
     "--cameras",
     "--preview",
     "--output",
@@ -37,6 +37,11 @@ const WITHOUT_PICTURES: [&str; 16] = [
     "--via",
     "--quiet",
     "--json",
+    "--strict",
+    "--preset",
+    "--config",
+    "--no-config",
+    "--watch",
     "--help",
 ];
 

@@ -11,10 +11,8 @@
 
 use super::buffers::Views;
 use super::document::{Document, Index, Sparse};
-use super::fault::{element, malformed, warn};
-use crate::model::load::Context;
+use super::fault::{element, malformed};
 use crate::{AssetError, Limits};
-use std::collections::HashSet;
 use std::ops::Range;
 
 /// Type of a component.
@@ -29,7 +27,7 @@ pub(super) enum Component {
 }
 
 impl Component {
-    fn of(code: Index) -> Option<Self> {
+    pub(super) fn of(code: Index) -> Option<Self> {
         Some(match code.0 {
             5120 => Self::I8,
             5121 => Self::U8,
@@ -41,7 +39,8 @@ impl Component {
         })
     }
 
-    fn size(self) -> usize {
+    /// Bytes.
+    pub(super) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
             Self::I16 | Self::U16 => 2,
@@ -198,34 +197,6 @@ impl<'a> Accessors<'a> {
             values,
             pointer,
         })
-    }
-
-    /// Warns of accessors that the specification forbids and that can be read.
-    pub(super) fn check(&self, context: &mut Context<'_>) {
-        let mut strides = HashSet::new();
-        for (at, accessor) in self.document.accessors.iter().enumerate() {
-            let (Some(size), Some(index)) = (
-                Component::of(accessor.component_type).map(Component::size),
-                accessor.buffer_view,
-            ) else {
-                continue;
-            };
-            let Some(view) = self.document.buffer_views.get(index.0) else {
-                continue;
-            };
-            let start = view.byte_offset.0.wrapping_add(accessor.byte_offset.0);
-            if start % size != 0 {
-                let what = format!("its first byte, {start}, is not a multiple of {size}");
-                warn(context, format!("/accessors/{at}"), what);
-            }
-            if let Some(stride) = view.byte_stride
-                && (stride.0 % 4 != 0 || !(4..=252).contains(&stride.0))
-                && strides.insert(index)
-            {
-                let what = format!("the stride {stride} is not a multiple of 4 from 4 to 252");
-                warn(context, format!("/bufferViews/{index}/byteStride"), what);
-            }
-        }
     }
 }
 

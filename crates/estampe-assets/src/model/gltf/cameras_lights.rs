@@ -7,7 +7,10 @@ use super::fault::{element, malformed, shortened};
 use crate::{AssetError, Limits};
 use estampe_scene::{Camera, NamedCamera, Projection, PunctualLight, PunctualLightKind};
 use glam::{DAffine3, DVec3, Vec3};
-use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
+
+/// The angle of cameras that have π or more, which no perspective has.
+const WIDEST_RAD: f32 = 3.1;
 
 /// The cameras of these nodes.
 pub(super) fn cameras(
@@ -52,13 +55,13 @@ fn projection(
     if let Some(lens) = &source.perspective {
         let pointer = format!("{pointer}/perspective");
         let far = lens.zfar.unwrap_or(f32::INFINITY);
-        if !(lens.yfov > 0.0 && lens.yfov < PI) {
-            let what = format!("the angle {} is not between 0 and π", lens.yfov);
+        if lens.yfov <= 0.0 {
+            let what = format!("the angle {} is not above 0", lens.yfov);
             return Err(malformed(format!("{pointer}/yfov"), what));
         }
         check_range(lens.znear, far, lens.znear > 0.0, &pointer)?;
         let projection = Projection::Perspective {
-            fov_y_rad: lens.yfov,
+            fov_y_rad: lens.yfov.min(WIDEST_RAD),
             near: lens.znear,
             far,
         };
@@ -112,12 +115,15 @@ pub(super) fn lights(
         let place = || format!("/nodes/{node}/extensions/KHR_lights_punctual/light");
         Limits::check("lights", lights.len() as u64 + 1, limits.max_meshes)
             .map_err(|error| error.at_json(place()))?;
-        let light = element(&document.extensions.lights.lights, index, "light", place)?;
+        let light = element(document.extensions.lights(), index, "light", place)?;
+        let Some(kind) = light_kind(light, index, &world_from_node[node])? else {
+            continue;
+        };
         let color = Vec3::from_array(light.color.unwrap_or([1.0; 3]));
         let limit = Vec3::splat(f32::MAX);
         lights.push(PunctualLight {
             name: named(&light.name, &source.name),
-            kind: light_kind(light, index, &world_from_node[node])?,
+            kind,
             color: color.clamp(Vec3::ZERO, limit),
             intensity: light.intensity.unwrap_or(1.0).clamp(0.0, f32::MAX),
         });
@@ -125,26 +131,30 @@ pub(super) fn lights(
     Ok(lights)
 }
 
+/// The kind of a light; `None` if its name is unknown.
 fn light_kind(
     light: &Light,
     index: Index,
     world_from_node: &DAffine3,
-) -> Result<PunctualLightKind, AssetError> {
+) -> Result<Option<PunctualLightKind>, AssetError> {
     let pointer = format!("/extensions/KHR_lights_punctual/lights/{index}");
     let position_world = world_from_node.translation.as_vec3();
     let direction_world = forward(world_from_node);
     let range = light
         .range
         .filter(|&range| range > 0.0 && range.is_finite());
-    Ok(match &*light.kind {
+    Ok(Some(match &*light.kind {
         "directional" => PunctualLightKind::Directional { direction_world },
         "point" => PunctualLightKind::Point {
             position_world,
             range,
         },
         "spot" => {
-            let inner = light.spot.inner_cone_angle.unwrap_or(0.0);
-            let outer = light.spot.outer_cone_angle.unwrap_or(FRAC_PI_4);
+            let spot = light.spot.as_ref();
+            let inner = spot.and_then(|spot| spot.inner_cone_angle).unwrap_or(0.0);
+            let outer = spot
+                .and_then(|spot| spot.outer_cone_angle)
+                .unwrap_or(FRAC_PI_4);
             if !(0.0 <= inner && inner < outer && outer <= FRAC_PI_2) {
                 let what =
                     format!("the cone's angles {inner} and {outer} do not increase from 0 to π/2");
@@ -158,11 +168,8 @@ fn light_kind(
                 outer_cone_rad: outer,
             }
         }
-        other => {
-            let what = format!("`{other}` is not one of directional, point and spot");
-            return Err(malformed(format!("{pointer}/type"), what));
-        }
-    })
+        _ => return Ok(None),
+    }))
 }
 
 /// The direction in which a node's camera or light looks.

@@ -41,7 +41,7 @@ impl Choice {
             ),
             Some(AnimationName::Name(name)) => Some(find("animation", name, animations)?),
         };
-        let variants = document.extensions.variants.variants.iter();
+        let variants = document.extensions.variants().iter();
         let variants = variants.map(|variant| &*variant.name);
         let variant = options.variant.as_ref();
         Ok(Self {

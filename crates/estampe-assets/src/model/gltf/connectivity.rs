@@ -73,6 +73,11 @@ impl Connectivity {
         Ok(indices.div_ceil(per_element))
     }
 
+    /// True if the primitive's mode is one of glTF's; others are left out.
+    pub(super) fn is_known(primitive: &Primitive) -> bool {
+        Mode::of(primitive).is_some()
+    }
+
     /// Reads the connectivity of `vertex_count` vertices.
     pub(super) fn read(
         primitive: &Primitive,

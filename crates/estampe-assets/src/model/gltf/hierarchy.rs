@@ -75,6 +75,11 @@ impl Hierarchy {
         Ok(depth_first(&document.nodes, roots))
     }
 
+    /// The parent of a node.
+    pub(super) fn parent(&self, node: usize) -> Option<usize> {
+        self.parents[node]
+    }
+
     /// The transform of each node from its own space to the world's.
     pub(super) fn world_transforms(&self, document: &Document<'_>, pose: &Pose) -> Vec<DAffine3> {
         let mut world_from_node = vec![DAffine3::IDENTITY; document.nodes.len()];

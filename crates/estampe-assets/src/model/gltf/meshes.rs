@@ -13,7 +13,7 @@ use super::vertices::{Vertices, active_targets};
 use crate::model::load::Context;
 use crate::{AssetError, Limits};
 use estampe_scene::{Mesh, Surface};
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
 /// What meshes are made from.
 pub(super) struct Source<'a> {
@@ -53,6 +53,24 @@ struct Place<'a> {
     node_from_instances: Vec<DAffine3>,
     skin: Option<Skin>,
     name: &'a str,
+}
+
+impl Place<'_> {
+    /// World units in a unit of the mesh: the side of the cube that a unit cube becomes, the mean
+    /// of the instances. `None` if nothing is scaled, and for skins, whose vertices differ.
+    fn scale(&self) -> Option<f32> {
+        if self.skin.is_some() {
+            return None;
+        }
+        let side = |transform: &DAffine3| {
+            let linear = self.world_from_node.matrix3 * transform.matrix3;
+            libm::cbrt(linear.determinant().abs())
+        };
+        let count = u32::try_from(self.node_from_instances.len()).unwrap_or(u32::MAX);
+        let sum: f64 = self.node_from_instances.iter().map(side).sum();
+        let mean = DVec3::splat(sum / f64::from(count.max(1))).as_vec3().x;
+        (mean != 1.0 && mean.is_finite()).then_some(mean)
+    }
 }
 
 impl Meshes {
@@ -136,6 +154,9 @@ impl Meshes {
             warn(context, pointer, "a primitive without POSITION is left out");
             return Ok(());
         };
+        if !Connectivity::is_known(primitive) {
+            return Ok(());
+        }
         let count = accessors.count(positions, || format!("{pointer}/attributes/POSITION"))?;
         let element_count = Connectivity::element_count(primitive, count, accessors, pointer)?;
         if count == 0 || element_count == 0 || place.node_from_instances.is_empty() {
@@ -165,6 +186,7 @@ impl Meshes {
         }
         let mut mesh = placed.into_mesh();
         mesh.name = shortened(place.name);
+        mesh.scale = place.scale();
         mesh.surfaces = vec![Surface {
             material: None,
             triangles: 0..mesh.triangles.len(),

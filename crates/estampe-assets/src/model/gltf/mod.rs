@@ -8,6 +8,7 @@
 //!       -> hierarchy, pose (interpolation)            world transforms at the time
 //!       -> meshes: vertices (morph targets) -> connectivity -> placed (instances, skin)
 //!       -> material (images), cameras_lights
+//!       -> rules                                      warnings of the whole document
 //! ```
 //!
 //! All meshes are in world space: one for each primitive of each node. Errors have the JSON Pointer
@@ -22,6 +23,7 @@ mod buffers;
 mod cameras_lights;
 mod choice;
 mod connectivity;
+mod contents;
 mod data_uri;
 mod document;
 mod extensions;
@@ -38,6 +40,7 @@ mod meshes;
 mod meshopt;
 mod placed;
 mod pose;
+mod rules;
 mod skin;
 mod vertices;
 
@@ -78,7 +81,6 @@ pub(super) fn parse(
     let buffers = Buffers::read(&document, container.bin, context);
     let views = Views::new(&document, &buffers, context.limits, context.workers);
     let accessors = Accessors::new(&document, &views, context.limits);
-    accessors.check(context);
     let pose = Pose::sample(&document, &accessors, &choice, context.limits)?;
     let world_from_node = hierarchy.world_transforms(&document, &pose);
 
@@ -108,6 +110,7 @@ pub(super) fn parse(
         }
         paint_lines_and_points(mesh, &materials.materials[index]);
     }
+    rules::check(&document, context);
     joined::join_beyond(&mut meshes, context.limits.max_meshes);
     let limits = context.limits;
     Ok(Parsed {
@@ -122,6 +125,7 @@ pub(super) fn parse(
         // The specification asks for it (§3.7.2.1).
         has_flat_normals: true,
         choices: choices(&document, &accessors),
+        contents: contents::of(&nodes, &hierarchy, &document, &accessors),
         ..Parsed::default()
     })
 }
@@ -163,7 +167,7 @@ fn paint_lines_and_points(mesh: &mut Mesh, material: &Material) {
 
 fn choices(document: &Document<'_>, accessors: &Accessors<'_>) -> ModelChoices {
     let scenes = document.scenes.iter();
-    let variants = document.extensions.variants.variants.iter();
+    let variants = document.extensions.variants().iter();
     let animations = document.animations.iter().enumerate();
     ModelChoices {
         scenes: scenes.map(|scene| scene.name.clone()).collect(),

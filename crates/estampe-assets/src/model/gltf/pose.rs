@@ -69,7 +69,7 @@ impl Pose {
             let cost = output.replaced_count().saturating_add(weights);
             times.charge(cost, &sampler_pointer)?;
             let curve = Curve {
-                interpolation: interpolation_of(sampler, &sampler_pointer)?,
+                interpolation: interpolation_of(sampler),
                 keys,
                 output,
             };
@@ -110,18 +110,12 @@ pub(super) fn duration(document: &Document<'_>, accessors: &Accessors<'_>, index
     samplers.iter().filter_map(last).fold(0.0, f32::max)
 }
 
-fn interpolation_of(
-    sampler: &AnimationSampler,
-    pointer: &str,
-) -> Result<Interpolation, AssetError> {
+/// The interpolation; LINEAR, the default, for names that are unknown.
+fn interpolation_of(sampler: &AnimationSampler) -> Interpolation {
     match sampler.interpolation.as_deref() {
-        None | Some("LINEAR") => Ok(Interpolation::Linear),
-        Some("STEP") => Ok(Interpolation::Step),
-        Some("CUBICSPLINE") => Ok(Interpolation::CubicSpline),
-        Some(other) => Err(malformed(
-            format!("{pointer}/interpolation"),
-            format!("`{other}` is not one of STEP, LINEAR and CUBICSPLINE"),
-        )),
+        Some("STEP") => Interpolation::Step,
+        Some("CUBICSPLINE") => Interpolation::CubicSpline,
+        _ => Interpolation::Linear,
     }
 }
 

@@ -10,7 +10,8 @@
 //! endsolid [name]
 //! ```
 //!
-//! Keywords may be in upper case, lines may be joined, `endsolid` may be missing; several solids
+//! Keywords may be in upper case, lines may be joined, `endsolid` may be missing (at the
+//! end of the file with a warning); several solids
 //! are several meshes.
 
 use super::joined;
@@ -31,6 +32,8 @@ struct Reader<'a, 'c, 'r> {
     corners: Vec<Vec3>,
     polygons: Polygons,
     triangle_count: u64,
+    /// A `solid` was read, and no `endsolid` after it.
+    is_open: bool,
 }
 
 /// The open solid.
@@ -58,6 +61,7 @@ pub(super) fn read(bytes: &[u8], context: &mut Context<'_>) -> Result<Vec<Mesh>,
         corners: Vec::new(),
         polygons: Polygons::default(),
         triangle_count: 0,
+        is_open: false,
     };
     while let Some(word) = reader.statements.next_keyword() {
         reader.read_word(word)?;
@@ -65,6 +69,9 @@ pub(super) fn read(bytes: &[u8], context: &mut Context<'_>) -> Result<Vec<Mesh>,
     if !reader.corners.is_empty() {
         reader.warn("the file ends within a facet; its vertices so far are kept");
         reader.end_facet()?;
+    }
+    if reader.is_open {
+        reader.warn("the file ends before `endsolid`; it may be cut off");
     }
     reader.end_solid();
     Ok(reader.done)
@@ -101,10 +108,12 @@ impl<'a> Reader<'a, '_, '_> {
                 self.end_solid();
                 let name = text_of_name(self.statements.rest());
                 self.current = Some(Solid::new(name));
+                self.is_open = true;
             }
             b"endsolid" => {
                 self.end_facet()?;
                 self.end_solid();
+                self.is_open = false;
                 self.statements.skip_statement();
             }
             _ => {

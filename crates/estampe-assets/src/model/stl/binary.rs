@@ -38,6 +38,13 @@ pub(super) fn read(bytes: &[u8], context: &mut Context<'_>) -> Result<Mesh, Asse
     let records = &records[..count];
     Limits::check("triangles", count as u64, context.limits.max_triangles)?;
     Limits::check("triangles' corners", 3 * count as u64, u64::from(u32::MAX))?;
+    if !is_plausible(records) {
+        return Err(AssetError::malformed(
+            "the magnitudes of its coordinates are spread like random bytes",
+            "check that it is an STL file",
+        )
+        .at(Location::Byte(HEADER_BYTES as u64)));
+    }
     if (count as u64) < announced {
         context
             .warnings
@@ -64,6 +71,35 @@ pub(super) fn read(bytes: &[u8], context: &mut Context<'_>) -> Result<Mesh, Asse
         mesh.colors = tags.iter().map(|&tag| colors.linear(tag)).collect();
     }
     Ok(mesh)
+}
+
+/// False if the positions are not those of any object.
+///
+/// A binary STL has no magic word: every file with this extension is one, and random bytes of the
+/// right length are one by content. The exponents of random floats are uniform, so the third
+/// quartile of the corners' greatest coordinates is some 10²⁰ times the first, and many are not
+/// finite. Corners of an object have magnitudes of a few orders, wherever it is; those at the
+/// origin are left out.
+fn is_plausible(records: &[Record]) -> bool {
+    const EXAMINED: usize = 4096;
+    /// With fewer corners quartiles mean nothing.
+    const LEAST: usize = 24;
+    const MOST_SPREAD: f32 = 1e9;
+    let step = (records.len() / EXAMINED).max(1);
+    let corners = records
+        .iter()
+        .step_by(step)
+        .flat_map(|record| [12, 24, 36].map(|at| corner(record, at)));
+    let sizes = corners.map(|corner| corner.abs().max_element());
+    let mut sizes: Vec<f32> = sizes
+        .filter(|size| *size > 0.0 && size.is_finite())
+        .collect();
+    if sizes.len() < LEAST {
+        return true;
+    }
+    sizes.sort_unstable_by(f32::total_cmp);
+    let (first, third) = (sizes[sizes.len() / 4], sizes[sizes.len() / 4 * 3]);
+    third / first <= MOST_SPREAD
 }
 
 /// The header's text up to the first control character.

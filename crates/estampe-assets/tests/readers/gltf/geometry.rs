@@ -90,7 +90,7 @@ fn attributes_are_read() {
     file.set(
         "/meshes/0/primitives/0/attributes",
         json!({ "POSITION": 0, "NORMAL": normals, "TANGENT": tangents, "TEXCOORD_0": uvs,
-                "TEXCOORD_1": uvs1, "COLOR_0": colors, "_OWN": 99 }),
+                "TEXCOORD_1": uvs1, "COLOR_0": colors, "_OWN": normals }),
     );
     let mesh = mesh(&file);
     assert_eq!(mesh.normals, [Vec3::Z, Vec3::Y, Vec3::Z]);

@@ -10,5 +10,6 @@ mod meshopt;
 mod nodes;
 mod poses;
 mod rules;
+mod validator;
 
 use builder::{Builder, error, load, mesh};

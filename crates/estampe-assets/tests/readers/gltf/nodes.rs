@@ -179,8 +179,7 @@ fn instances_are_placed() {
     // Signed bytes, normalized: no turn, and half a turn around z.
     let rotations = file.accessor("VEC4", super::builder::I8, 2, &[0, 0, 0, 127, 0, 0, 127, 0]);
     file.set(&format!("/accessors/{rotations}/normalized"), json!(true));
-    let attributes =
-        json!({ "TRANSLATION": translations, "ROTATION": rotations, "SCALE": scales, "_ID": 50 });
+    let attributes = json!({ "TRANSLATION": translations, "ROTATION": rotations, "SCALE": scales, "_ID": scales });
     file.set(
         "/nodes/0/extensions",
         json!({ "EXT_mesh_gpu_instancing": { "attributes": attributes } }),
@@ -249,8 +248,8 @@ fn cameras_are_in_world_space() {
     for (pointer, value, message) in [
         (
             "perspective/yfov",
-            json!(4),
-            "/cameras/0/perspective/yfov: the angle 4 is not",
+            json!(0),
+            "/cameras/0/perspective/yfov: the angle 0 is not",
         ),
         (
             "perspective/znear",
@@ -326,17 +325,23 @@ fn lights_are_in_world_space() {
     assert_eq!((spot.kind, spot.intensity), (expected, 7.0));
 
     let base = "/extensions/KHR_lights_punctual/lights";
-    for (pointer, value, message) in [
-        ("0/type", json!("laser"), "/0/type: `laser` is not one of"),
-        (
-            "2/spot/innerConeAngle",
-            json!(1),
-            "/2/spot: the cone's angles 1 and 0.785",
-        ),
-    ] {
-        let error = error(&file.clone().with(&format!("{base}/{pointer}"), value));
-        assert!(error.contains(&format!("{base}{message}")), "{error}");
-    }
+    let narrow = file
+        .clone()
+        .with(&format!("{base}/2/spot/innerConeAngle"), json!(1));
+    let message = format!("{base}/2/spot: the cone's angles 1 and 0.785");
+    assert!(error(&narrow).contains(&message));
+    let unknown = load(
+        &file
+            .clone()
+            .with(&format!("{base}/0/type"), json!("laser"))
+            .glb(),
+    );
+    assert_eq!(unknown.scene.lights.len(), 2);
+    let warning = unknown.warnings[0].to_string();
+    assert!(
+        warning.contains("`laser` is not one of directional"),
+        "{warning}"
+    );
     let missing = error(&file.with("/nodes/1/extensions", place(3)));
     assert!(
         missing.contains("light 3 does not exist; the file has 3"),

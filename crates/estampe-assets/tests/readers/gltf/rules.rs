@@ -154,11 +154,6 @@ fn wrong_accessors_are_refused() {
         "/accessors/0/type: the type must be SCALAR",
     );
     check(
-        "/meshes/0/primitives/0/mode",
-        json!(7),
-        "/meshes/0/primitives/0/mode: 7 is not a mode",
-    );
-    check(
         "/nodes/0/mesh",
         json!(1),
         "/nodes/0/mesh: mesh 1 does not exist; the file has 1",

@@ -1,6 +1,7 @@
 //! The parameters of a physically based surface, as its shader reads them.
 
 use super::textures::MaterialTexture;
+use super::transmission::TransmissionParameters;
 
 /// The parameters of a surface: each factor is multiplied by its texture.
 #[derive(Debug, Clone)]
@@ -11,6 +12,10 @@ pub(crate) struct PbrParameters {
     pub(crate) metallic: f32,
     /// Perceptual.
     pub(crate) roughness: f32,
+    /// The metallic share is multiplied by the texture.
+    pub(crate) is_metallic_textured: bool,
+    /// The roughness is multiplied by the texture.
+    pub(crate) is_roughness_textured: bool,
     /// Roughness in green, metallic in blue.
     pub(crate) metallic_roughness_texture: Option<MaterialTexture>,
     pub(crate) normal: Option<NormalMap>,
@@ -22,6 +27,9 @@ pub(crate) struct PbrParameters {
     pub(crate) specular: Option<SpecularParameters>,
     pub(crate) clearcoat: Option<ClearcoatParameters>,
     pub(crate) sheen: Option<SheenParameters>,
+    pub(crate) anisotropy: Option<AnisotropyParameters>,
+    pub(crate) iridescence: Option<IridescenceParameters>,
+    pub(crate) transmission: Option<TransmissionParameters>,
     /// The colour is the base colour.
     pub(crate) is_unlit: bool,
     /// Fragments whose alpha is less are discarded, if the surface is cut out.
@@ -73,4 +81,28 @@ pub(crate) struct SheenParameters {
     pub(crate) roughness: f32,
     /// In alpha.
     pub(crate) roughness_texture: Option<MaterialTexture>,
+}
+
+/// Roughness that depends on the direction (KHR_materials_anisotropy).
+#[derive(Debug, Clone)]
+pub(crate) struct AnisotropyParameters {
+    pub(crate) strength: f32,
+    /// Cosine and sine of the rotation, counter-clockwise from the tangent.
+    pub(crate) rotation: [f32; 2],
+    /// Direction in red and green, strength in blue.
+    pub(crate) texture: Option<MaterialTexture>,
+}
+
+/// A thin film (KHR_materials_iridescence).
+#[derive(Debug, Clone)]
+pub(crate) struct IridescenceParameters {
+    pub(crate) factor: f32,
+    /// In red.
+    pub(crate) texture: Option<MaterialTexture>,
+    /// At least 1.
+    pub(crate) ior: f32,
+    /// Where the texture is 0, and where it is 1.
+    pub(crate) thickness_nm: [f32; 2],
+    /// In green.
+    pub(crate) thickness_texture: Option<MaterialTexture>,
 }

@@ -3,8 +3,10 @@
 //! ```text
 //!   lobes    clear coat      F0 0.04
 //!            sheen           takes its share of the light from what is below
-//!            GGX             F0, F90; light between facets is added (F. Fdez-Agüera 2019)
+//!            GGX             F0, F90, or a thin film; light between facets is added
+//!                            (C. Fdez-Agüera 2019)
 //!            diffuse         what GGX does not reflect, times the base colour
+//!            passing         the share of the diffuse light that passes through instead
 //! ```
 //!
 //! A dielectric and a metal are mixed by their parameters: F0 is mixed, and the diffuse colour is
@@ -14,8 +16,10 @@
 //! that no surface reflects more than it gets: the factor 1 − F(v·h) of appendix B's sample gives
 //! too much at grazing angles.
 
+use super::anisotropy::Grooves;
 use super::brdf;
 use super::environment::{DirectionalAlbedo, EnvironmentLight};
+use super::iridescence::Film;
 use super::lights::PbrLight;
 use crate::shading::shadow::Visibilities;
 use estampe::{Real, Vec3};
@@ -32,6 +36,8 @@ pub(crate) struct PbrPoint<R> {
     pub(crate) to_eye: Vec3<R>,
     /// Diffuse colour.
     pub(crate) diffuse: Vec3<R>,
+    /// The colour of light that passes through.
+    pub(crate) passing: Option<Vec3<R>>,
     /// Reflectance at normal incidence.
     pub(crate) f0: Vec3<R>,
     /// Reflectance at grazing incidence.
@@ -42,6 +48,8 @@ pub(crate) struct PbrPoint<R> {
     pub(crate) occlusion: R,
     pub(crate) clearcoat: Option<Coat<R>>,
     pub(crate) sheen: Option<Fibres<R>>,
+    pub(crate) grooves: Option<Grooves<R>>,
+    pub(crate) film: Option<Film<R>>,
     /// The shares of the lights that reach it.
     pub(crate) visibilities: Visibilities<R>,
 }
@@ -62,6 +70,14 @@ pub(crate) struct Fibres<R> {
     pub(crate) roughness: R,
 }
 
+/// The light that leaves a point towards the eye.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Leaving<R> {
+    pub(crate) reflected: Vec3<R>,
+    /// The share of the light from behind; `None` if none passes.
+    pub(crate) passing: Option<Vec3<R>>,
+}
+
 /// What several lobes need, computed once.
 struct Shared<R> {
     n_dot_v: R,
@@ -70,6 +86,8 @@ struct Shared<R> {
     single: Vec3<R>,
     multiple: Vec3<R>,
     diffuse: Vec3<R>,
+    /// What GGX leaves.
+    rest: Vec3<R>,
     /// Of the coat and the sheen, by which what is below is multiplied.
     below: R,
     /// Reflected by the coat at the eye's angle.
@@ -84,13 +102,24 @@ const COAT_F0: f32 = 0.04;
 impl<R: Real> PbrPoint<R> {
     /// The light that leaves towards the eye.
     #[inline(always)]
-    pub(crate) fn reflected(&self, environment: &EnvironmentLight, lights: &[PbrLight]) -> Vec3<R> {
+    pub(crate) fn leaving(
+        &self,
+        environment: &EnvironmentLight,
+        lights: &[PbrLight],
+    ) -> Leaving<R> {
         let shared = self.shared(environment);
         let mut sum = self.environment_light(environment, &shared);
         for light in lights {
             sum += self.punctual_light(light, &shared);
         }
-        sum
+        let mut passing = None;
+        if let Some(color) = self.passing {
+            passing = Some(color * shared.rest * shared.below);
+        }
+        Leaving {
+            reflected: sum,
+            passing,
+        }
     }
 
     #[inline(always)]
@@ -117,24 +146,62 @@ impl<R: Real> PbrPoint<R> {
             }
             None => None,
         };
-        let DirectionalAlbedo { scale, bias, .. } = environment.albedo(n_dot_v, self.roughness);
-        let single = self.f0 * scale + Vec3::repeat(bias * self.f90);
-        let lost = one - (scale + bias);
-        let mean = self.f0 + (Vec3::repeat(one) - self.f0) * (1.0 / 21.0);
+        let (f0, f90) = self.seen_reflectance(n_dot_v);
+        let (albedo, uncertain) = match self.grooves {
+            Some(grooves) => {
+                let alphas = grooves.alphas(brdf::alpha(self.roughness));
+                let like = grooves.equivalent((self.to_eye, n_dot_v), alphas);
+                let albedo = environment.albedo(like.cosine, like.roughness);
+                (albedo, Some(like.uncertain))
+            }
+            None => (environment.albedo(n_dot_v, self.roughness), None),
+        };
+        let DirectionalAlbedo { scale, bias, .. } = albedo;
+        let single = f0 * scale + Vec3::repeat(bias * f90);
+        let mut lost = one - (scale + bias);
+        if let Some(uncertain) = uncertain {
+            lost = (lost - uncertain).max(0.0);
+        }
+        let mean = f0 + (Vec3::repeat(one) - f0) * (1.0 / 21.0);
         let multiple = Vec3::new(
             between_facets(single.x, mean.x, lost),
             between_facets(single.y, mean.y, lost),
             between_facets(single.z, mean.z, lost),
         );
+        let mut rest = Vec3::repeat(one) - single - multiple;
+        if let Some(film) = self.film {
+            // The same for each channel, or what is below would have the complementary colour.
+            let least = rest.x.min(rest.y).min(rest.z);
+            rest = rest.mix(Vec3::repeat(least), film.factor);
+        }
         Shared {
             n_dot_v,
             single,
             multiple,
-            diffuse: self.diffuse * (Vec3::repeat(one) - single - multiple),
+            diffuse: self.diffuse * rest,
+            rest,
             below,
             coat,
             sheen,
         }
+    }
+
+    /// F0 and F90 for light from all around. A film has the F0 with which Schlick's term gives what
+    /// the film reflects at the eye's angle.
+    #[inline(always)]
+    fn seen_reflectance(&self, n_dot_v: R) -> (Vec3<R>, R) {
+        let Some(film) = self.film else {
+            return (self.f0, self.f90);
+        };
+        let weight = brdf::schlick(n_dot_v);
+        let seen = film.fresnel(self.f0, n_dot_v);
+        let scale = 1.0 / (1.0 - weight);
+        let f0 = (seen - Vec3::repeat(weight)) * scale;
+        let f0 = Vec3::new(f0.x.saturate(), f0.y.saturate(), f0.z.saturate());
+        (
+            self.f0.mix(f0, film.factor),
+            self.f90.mix(weight.splat(1.0), film.factor),
+        )
     }
 
     /// The light from all around.
@@ -142,7 +209,14 @@ impl<R: Real> PbrPoint<R> {
     fn environment_light(&self, environment: &EnvironmentLight, shared: &Shared<R>) -> Vec3<R> {
         // The lobe of a rough surface leans towards the normal.
         let mirrored = (-self.to_eye).reflect(self.normal);
-        let lobe = mirrored.mix(self.normal, self.roughness * self.roughness);
+        let turned = match self.grooves {
+            Some(grooves) => {
+                let bent = grooves.bent_normal(self.normal, self.to_eye, self.roughness);
+                (-self.to_eye).reflect(bent)
+            }
+            None => mirrored,
+        };
+        let lobe = turned.mix(self.normal, self.roughness * self.roughness);
         let radiance = environment.radiance(lobe, self.roughness);
         let mut irradiance = environment.irradiance(self.normal);
         let mut seen = specular_occlusion(shared.n_dot_v, self.occlusion, self.roughness);
@@ -177,10 +251,23 @@ impl<R: Real> PbrPoint<R> {
         let alpha = brdf::alpha(self.roughness);
         let across = self.normal.cross(half);
         let n_dot_h = self.normal.dot(half).saturate();
-        let lobe = brdf::density_ggx(n_dot_h, across.dot(across), alpha)
-            * brdf::visibility_ggx(lit, shared.n_dot_v, alpha);
+        let lobe = match self.grooves {
+            Some(grooves) => {
+                let alphas = grooves.alphas(alpha);
+                let eye = (self.to_eye, shared.n_dot_v);
+                grooves.density(half, n_dot_h, alphas)
+                    * grooves.visibility(eye, (towards, lit), alphas)
+            }
+            None => {
+                brdf::density_ggx(n_dot_h, across.dot(across), alpha)
+                    * brdf::visibility_ggx(lit, shared.n_dot_v, alpha)
+            }
+        };
         let weight = brdf::schlick(v_dot_h);
-        let fresnel = self.f0 + (Vec3::repeat(self.f90) - self.f0) * weight;
+        let mut fresnel = self.f0 + (Vec3::repeat(self.f90) - self.f0) * weight;
+        if let Some(film) = self.film {
+            fresnel = fresnel.mix(film.fresnel(self.f0, v_dot_h), film.factor);
+        }
         // Light between facets leaves evenly, as diffuse light does.
         let spread = (shared.multiple + shared.diffuse) * FRAC_1_PI;
         let mut reflectance = (spread + fresnel * lobe) * shared.below;

@@ -1,16 +1,22 @@
 //! The shader of physically based surfaces.
 
+use super::anisotropy::Grooves;
 use super::environment::EnvironmentLight;
+use super::layers::{clearcoat, dielectric, fibres, thin_film};
 use super::lights::PbrLight;
-use super::parameters::{ClearcoatParameters, NormalMap, PbrParameters};
-use super::reflection::{Coat, Fibres, PbrPoint};
+use super::parameters::{NormalMap, PbrParameters};
+use super::reflection::PbrPoint;
 use super::tone_map::ToneMap;
+use super::transmission::{BEHIND_GROUP, Behind, BehindView, PassedPoint, Seen};
 use crate::shading::base_color::Alpha;
+use crate::shading::cut_out;
 use crate::shading::output::Output;
 use crate::shading::shadow::{ShadowMapView, Visibilities};
 use crate::shading::surface::Written;
 use crate::shading::{VertexTransforms, shading_normal};
-use estampe::{FragmentIn, FragmentOut, Real, Vec2, Vec3, Vec4, VertexIn, VertexOut};
+use estampe::{
+    FragmentIn, FragmentOut, Real, TextureBindings, Vec2, Vec3, Vec4, VertexIn, VertexOut,
+};
 use std::sync::Arc;
 
 /// The light of a frame, and how it is shown.
@@ -20,6 +26,8 @@ pub(crate) struct PbrLighting {
     pub(crate) lights: Vec<PbrLight>,
     /// The shadow maps of lights, and of the environment.
     pub(crate) shadow_maps: Vec<ShadowMapView>,
+    /// What is seen through surfaces, if light passes through some.
+    pub(crate) behind: Option<BehindView>,
     /// Factor of all light.
     pub(crate) exposure: f32,
     pub(crate) tone_map: ToneMap,
@@ -42,19 +50,19 @@ type Interpolated<R> = (Vec3<R>, Vec3<R>, Vec4<R>, (Vec2<R>, Vec2<R>), Vec4<R>);
 
 /// The frame of normal maps at a fragment, as MikkTSpace wants it: as interpolated.
 #[derive(Debug, Clone, Copy)]
-struct TangentFrame<R> {
+pub(super) struct TangentFrame<R> {
     tangent: Vec3<R>,
     bitangent: Vec3<R>,
     normal: Vec3<R>,
     /// The unit normal of the side that is seen.
-    unit: Vec3<R>,
+    pub(super) unit: Vec3<R>,
     front_facing_sign: R,
 }
 
 impl<R: Real> TangentFrame<R> {
     /// The unit normal of a map.
     #[inline(always)]
-    fn normal_of(&self, map: &NormalMap, uvs: (Vec2<R>, Vec2<R>)) -> Vec3<R> {
+    pub(super) fn normal_of(&self, map: &NormalMap, uvs: (Vec2<R>, Vec2<R>)) -> Vec3<R> {
         let texel = map.texture.sample(uvs);
         let (x, y, z) = (
             texel.x * 2.0 - 1.0,
@@ -111,7 +119,7 @@ impl PbrSurface {
         input: &FragmentIn<'_, R>,
         v: &Interpolated<R>,
         base: Vec3<R>,
-    ) -> PbrPoint<R> {
+    ) -> (PbrPoint<R>, Option<Behind<R>>) {
         let parameters = &*self.parameters;
         let (view, _, _, uvs, _) = *v;
         let one = input.real(1.0);
@@ -125,8 +133,12 @@ impl PbrSurface {
         let mut roughness = one * parameters.roughness;
         if let Some(texture) = &parameters.metallic_roughness_texture {
             let texel = texture.sample(uvs);
-            metallic *= texel.z;
-            roughness *= texel.y;
+            if parameters.is_metallic_textured {
+                metallic *= texel.z;
+            }
+            if parameters.is_roughness_textured {
+                roughness *= texel.y;
+            }
         }
         let occlusion = match &parameters.occlusion {
             Some(map) => {
@@ -135,49 +147,89 @@ impl PbrSurface {
             }
             None => one,
         };
+        let roughness = roughness.saturate();
         let (f0, f90) = dielectric(parameters, uvs, one);
-        PbrPoint {
+        let mut diffuse = base * (one - metallic);
+        let behind = self.behind(
+            input,
+            uvs,
+            PassedPoint {
+                position: view,
+                normal,
+                to_eye,
+                roughness,
+            },
+        );
+        let mut passing = None;
+        if let Some(behind) = &behind {
+            passing = Some(diffuse * behind.share * behind.tint);
+            diffuse *= one - behind.share;
+        }
+        let mut sheen = None;
+        if let Some(parameters) = &parameters.sheen {
+            sheen = Some(fibres(parameters, uvs, one));
+        }
+        let mut film = None;
+        if let Some(parameters) = &parameters.iridescence {
+            film = Some(thin_film(parameters, uvs, one));
+        }
+        let point = PbrPoint {
             position: view,
             normal,
             to_eye,
             visibilities: Visibilities::at(&self.lighting.shadow_maps, input, view, frame.unit),
-            diffuse: base * (one - metallic),
+            diffuse,
+            passing,
             f0: f0.mix(base, metallic),
             f90: f90.mix(one, metallic),
-            roughness: filtered(roughness.saturate(), normal),
+            roughness: filtered(roughness, normal),
             occlusion,
             clearcoat: match &parameters.clearcoat {
                 Some(coat) => Some(clearcoat(coat, uvs, &frame, one)),
                 None => None,
             },
-            sheen: match &parameters.sheen {
-                Some(sheen) => {
-                    let mut color = Vec3::uniform(one, sheen.color);
-                    if let Some(texture) = &sheen.color_texture {
-                        color *= texture.sample(uvs).xyz();
-                    }
-                    let mut roughness = one * sheen.roughness;
-                    if let Some(texture) = &sheen.roughness_texture {
-                        roughness *= texture.sample(uvs).w;
-                    }
-                    Some(Fibres { color, roughness })
+            sheen,
+            grooves: match &parameters.anisotropy {
+                Some(parameters) => {
+                    let across = [frame.tangent, frame.bitangent];
+                    Some(Grooves::new(parameters, uvs, across, normal))
                 }
                 None => None,
             },
-        }
+            film,
+        };
+        (point, behind)
+    }
+
+    /// The light from behind the surface, if some passes.
+    #[inline(always)]
+    fn behind<R: Real>(
+        &self,
+        input: &FragmentIn<'_, R>,
+        uvs: (Vec2<R>, Vec2<R>),
+        point: PassedPoint<R>,
+    ) -> Option<Behind<R>> {
+        let transmission = self.parameters.transmission.as_ref()?;
+        let view = self.lighting.behind.as_ref()?;
+        let picture = input.bindings.sampled_texture(BEHIND_GROUP, 0);
+        Some(transmission.behind((view, picture), point, uvs))
     }
 
     /// The colour of a fragment, as it is shown.
     #[inline(always)]
-    fn color<R: Real>(
+    fn seen<R: Real>(
         &self,
         input: &FragmentIn<'_, R>,
         v: &Interpolated<R>,
         base: Vec3<R>,
-    ) -> Vec3<R> {
+    ) -> Seen<R> {
+        let opaque = |color| Seen {
+            color,
+            opacity: None,
+        };
         let parameters = &*self.parameters;
         if parameters.is_unlit {
-            return base;
+            return opaque(base);
         }
         let PbrLighting {
             environment,
@@ -186,61 +238,26 @@ impl PbrSurface {
             tone_map,
             ..
         } = &*self.lighting;
-        let mut sum = self.point(input, v, base).reflected(environment, lights);
+        let (point, behind) = self.point(input, v, base);
+        let leaving = point.leaving(environment, lights);
         let mut emitted = Vec3::uniform(input.zero, parameters.emissive);
         if let Some(texture) = &parameters.emissive_texture {
             emitted *= texture.sample(v.3).xyz();
         }
-        sum += emitted;
-        tone_map.apply(sum * *exposure)
-    }
-}
-
-/// F0 and F90 of the dielectric.
-#[inline(always)]
-fn dielectric<R: Real>(
-    parameters: &PbrParameters,
-    uvs: (Vec2<R>, Vec2<R>),
-    one: R,
-) -> (Vec3<R>, R) {
-    let Some(specular) = &parameters.specular else {
-        return (Vec3::repeat(one * parameters.dielectric_f0), one);
-    };
-    let mut color = Vec3::uniform(one, specular.color);
-    if let Some(texture) = &specular.color_texture {
-        color *= texture.sample(uvs).xyz();
-    }
-    let mut factor = one * specular.factor;
-    if let Some(texture) = &specular.texture {
-        factor *= texture.sample(uvs).w;
-    }
-    let f0 = color * parameters.dielectric_f0;
-    let f0 = Vec3::new(f0.x.min(one), f0.y.min(one), f0.z.min(one));
-    (f0 * factor, factor)
-}
-
-#[inline(always)]
-fn clearcoat<R: Real>(
-    coat: &ClearcoatParameters,
-    uvs: (Vec2<R>, Vec2<R>),
-    frame: &TangentFrame<R>,
-    one: R,
-) -> Coat<R> {
-    let mut factor = one * coat.factor;
-    if let Some(texture) = &coat.texture {
-        factor *= texture.sample(uvs).x;
-    }
-    let mut roughness = one * coat.roughness;
-    if let Some(texture) = &coat.roughness_texture {
-        roughness *= texture.sample(uvs).y;
-    }
-    Coat {
-        factor,
-        roughness: roughness.saturate(),
-        normal: match &coat.normal {
-            Some(map) => frame.normal_of(map, uvs),
-            None => frame.unit,
-        },
+        let sum = (leaving.reflected + emitted) * *exposure;
+        if self.written == Written::Light {
+            return opaque(sum);
+        }
+        let (Some(behind), Some(passing), Some(view)) =
+            (behind, leaving.passing, &self.lighting.behind)
+        else {
+            return opaque(tone_map.apply(sum));
+        };
+        // The covered part of what is behind has a tone of its own.
+        let covered = tone_map.apply(sum + passing * behind.covered_light());
+        let shown = tone_map.apply(sum).mix(covered, behind.coverage);
+        let clear = passing * (Vec3::repeat(input.real(1.0)) - behind.coverage);
+        view.over_background(input, shown, clear)
     }
 }
 
@@ -312,17 +329,26 @@ estampe::shader! {
             if let Some(texture) = &self.parameters.base_texture {
                 base *= texture.sample(v.3);
             }
-            let color = self.color(&input, &v, base.xyz());
-            let color = self.output.color(&input, color);
-            let alpha = match self.alpha {
-                Alpha::Ignored => input.real(1.0),
-                Alpha::CutsOut | Alpha::Kept => base.w,
+            let seen = self.seen(&input, &v, base.xyz());
+            let mut color = self.output.color(&input, seen.color);
+            let mut alpha = match self.alpha {
+                Alpha::Ignored | Alpha::CutsOut | Alpha::Covers(_) => input.real(1.0),
+                Alpha::Kept => base.w,
             };
+            if let Some(opacity) = seen.opacity {
+                let opacity = self.output.opacity(&input, opacity);
+                if self.alpha == Alpha::Kept {
+                    // Blending multiplies by alpha.
+                    color /= opacity.max(1e-6);
+                }
+                alpha *= opacity;
+            }
             let out = self.written.fragment(&input, color.extend(alpha));
-            if self.alpha == Alpha::CutsOut {
-                out.discard_unless(alpha.ge(self.parameters.alpha_cutoff))
-            } else {
-                out
+            let cutoff = self.parameters.alpha_cutoff;
+            match self.alpha {
+                Alpha::CutsOut => cut_out::hard(out, base.w, cutoff),
+                Alpha::Covers(samples) => cut_out::smooth(out, base.w, cutoff, samples),
+                Alpha::Ignored | Alpha::Kept => out,
             }
         }
     }

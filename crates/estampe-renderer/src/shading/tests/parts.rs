@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::shading::base_color::{Alpha, Painted};
-use crate::shading::output::{EyeDistance, Fog, Output};
+use crate::shading::output::{EyeDistance, Fog, Output, Presentation};
 use crate::shading::shading_normal;
 use crate::shading::steps::quantised;
 use crate::shading::surface::{Surface, Written};
@@ -157,6 +157,7 @@ fn colours_are_quantised_before_they_are_fogged() {
     let bindings = Bindings::default();
     let fog = Fog {
         color: [0.0, 0.5, 1.0],
+        backdrop: None,
         start: 2.0,
         per_distance: 0.25,
         // One pixel of the window is the whole view, of 90°: the ray at its middle is the axis.
@@ -172,12 +173,12 @@ fn colours_are_quantised_before_they_are_fogged() {
     };
     let quantised = Output {
         levels: Some(2),
-        fog: None,
+        ..Output::default()
     };
     assert_eq!(at(quantised, 0.5, 3.0), Vec3::new(1.0, 1.0, 0.0));
     let fogged = Output {
-        levels: None,
         fog: Some(fog),
+        ..Output::default()
     };
     assert_eq!(at(fogged, 0.5, 2.0), color, "none at its start");
     assert_eq!(at(fogged, 0.5, 0.5), color, "none before it");
@@ -194,8 +195,54 @@ fn colours_are_quantised_before_they_are_fogged() {
     let both = Output {
         levels: Some(2),
         fog: Some(fog),
+        ..Output::default()
     };
     assert_eq!(at(both, 0.5, 4.0), Vec3::new(0.5, 0.75, 0.5));
+}
+
+/// The default light loses 38 % up to the model's furthest point, in both projections, and colours
+/// never reach white.
+#[test]
+fn the_default_light_recedes_and_keeps_headroom() {
+    let bindings = Bindings::default();
+    let of = |orthographic| Output {
+        presentation: Some(Presentation {
+            nearest: 2.0,
+            per_distance: 0.25,
+            orthographic,
+        }),
+        ..Output::default()
+    };
+    let shown = |output: Output, channel: f32, distance: f32| {
+        // The distance is 10·z + 1 in the parallel projection.
+        let position = Vec4::new(0.5, 0.5, (distance - 1.0) / 10.0, 1.0 / distance);
+        output
+            .color(&input(&bindings, position), Vec3::repeat(channel))
+            .x
+    };
+    for output in [of(None), of(Some([10.0, 1.0]))] {
+        for (distance, share) in [
+            (1.0, 1.0),
+            (2.0, 1.0),
+            (4.0, 0.81),
+            (6.0, 0.62),
+            (9.0, 0.62),
+        ] {
+            let near = shown(output, 0.5, distance);
+            assert!((near - 0.5 * share).abs() < 1e-5, "{distance}: {near}");
+        }
+        let brighter = [0.4, 0.55, 0.56, 0.7, 1.0, 1.5, 3.0, 10.0].map(|c| shown(output, c, 2.0));
+        assert!(
+            brighter.is_sorted_by(|a, b| a < b) && brighter[7] < 1.0,
+            "{brighter:?}"
+        );
+        // White in the default light is not brighter than the default background.
+        assert!(brighter[5] < 0.88, "{brighter:?}");
+        assert!(
+            (brighter[2] - 0.56).abs() < 1e-3,
+            "the slope at the shoulder is 1"
+        );
+    }
 }
 
 #[test]
@@ -225,4 +272,12 @@ fn alpha_cuts_out_is_kept_or_ignored() {
     assert_eq!(run(Alpha::Ignored, 0.0).color_of(0).map(|c| c.w), Some(1.0));
     assert_eq!(run(Alpha::CutsOut, 0.9).kept(), Some(false));
     assert_eq!(run(Alpha::CutsOut, 1.0).kept(), Some(true));
+    // What is kept is opaque; with several samples by their mask.
+    assert_eq!(run(Alpha::CutsOut, 1.0).color_of(0).map(|c| c.w), Some(1.0));
+    assert_eq!(run(Alpha::Covers(4), 0.9).sample_mask(), Some(0));
+    assert_eq!(run(Alpha::Covers(4), 1.0).sample_mask(), Some(15));
+    assert_eq!(
+        run(Alpha::Covers(4), 1.0).color_of(0).map(|c| c.w),
+        Some(1.0)
+    );
 }

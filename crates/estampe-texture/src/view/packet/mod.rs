@@ -139,6 +139,7 @@ impl Packet<'_> {
         let value = load(like, self.lanes.value, 0);
         let one = like.splat(1.0);
         let (lod, bias, probes, step) = match self.lanes.lod {
+            _ if self.of.ignores_lod => (like, like, one, [like; 3]),
             PacketLod::Level => (value, like, one, [like; 3]),
             PacketLod::Implicit | PacketLod::Bias => {
                 let first = of_quad(at, 0);

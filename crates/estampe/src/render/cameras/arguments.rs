@@ -14,7 +14,8 @@ pub(crate) struct CamerasArgs {
     /// schema cameras` prints the schema.
     #[arg(long, value_name = "FILE", help_heading = "Data passes")]
     #[arg(conflicts_with_all = [
-        "view", "azimuth", "elevation", "eye", "camera", "target", "fov", "ortho", "preview",
+        "view", "azimuth", "elevation", "eye", "camera", "target", "fov", "ortho", "zoom",
+        "preview",
     ])]
-    pub(super) cameras: Option<PathBuf>,
+    pub(in crate::render) cameras: Option<PathBuf>,
 }

@@ -40,8 +40,7 @@ impl Sources {
             fog: None,
             levels: None,
             program: None,
-            wireframe: false,
-            ..options.clone()
+            ..options.clone().without_overlays()
         };
         let albedo = image_of(PassName::Albedo, &unlit)?;
         let mut points = Vec::new();

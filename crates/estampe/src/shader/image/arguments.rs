@@ -42,7 +42,8 @@ pub(crate) struct ImageArgs {
     pub(super) file: PathBuf,
 
     /// The image: a file named .png, .jpg, .tga or .webp, or - for standard output
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", allow_hyphen_values = true)]
+    #[arg(value_parser = crate::values::destination())]
     pub(super) output: Destination,
 
     /// The image's format: png, jpeg, tga or webp [default: by OUT's extension; png for -]

@@ -113,12 +113,12 @@ pub(crate) struct Image<'a> {
 pub(crate) struct MaterialExtensions {
     #[serde(rename = "KHR_materials_unlit")]
     pub(crate) unlit: Option<Unlit>,
-    #[serde(rename = "KHR_materials_emissive_strength", default)]
-    pub(crate) emissive_strength: EmissiveStrength,
-    #[serde(rename = "KHR_materials_ior", default)]
-    pub(crate) ior: Ior,
-    #[serde(rename = "KHR_materials_dispersion", default)]
-    pub(crate) dispersion: Dispersion,
+    #[serde(rename = "KHR_materials_emissive_strength")]
+    pub(crate) emissive_strength: Option<EmissiveStrength>,
+    #[serde(rename = "KHR_materials_ior")]
+    pub(crate) ior: Option<Ior>,
+    #[serde(rename = "KHR_materials_dispersion")]
+    pub(crate) dispersion: Option<Dispersion>,
     #[serde(rename = "KHR_materials_specular")]
     pub(crate) specular: Option<Specular>,
     #[serde(rename = "KHR_materials_transmission")]
@@ -142,20 +142,20 @@ pub(crate) struct MaterialExtensions {
 pub(crate) struct Unlit {}
 
 /// KHR_materials_emissive_strength.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct EmissiveStrength {
     pub(crate) emissive_strength: Option<f32>,
 }
 
 /// KHR_materials_ior.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Deserialize)]
 pub(crate) struct Ior {
     pub(crate) ior: Option<f32>,
 }
 
 /// KHR_materials_dispersion.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Deserialize)]
 pub(crate) struct Dispersion {
     pub(crate) dispersion: Option<f32>,
 }

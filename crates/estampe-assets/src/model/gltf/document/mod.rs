@@ -13,7 +13,7 @@ mod node;
 mod storage;
 mod value;
 
-pub(super) use animation::{Animation, AnimationSampler};
+pub(super) use animation::{Animation, AnimationChannel, AnimationSampler};
 pub(super) use material::{
     Image, Material, MaterialExtensions, Sampler, SpecularGlossiness, Texture, TextureInfo,
     TextureSource,
@@ -84,21 +84,33 @@ pub(super) struct Scene {
 /// Extensions of the root.
 #[derive(Debug, Default, Deserialize)]
 pub(super) struct Extensions {
-    #[serde(rename = "KHR_lights_punctual", default)]
-    pub(super) lights: Lights,
-    #[serde(rename = "KHR_materials_variants", default)]
-    pub(super) variants: Variants,
+    #[serde(rename = "KHR_lights_punctual")]
+    pub(super) lights: Option<Lights>,
+    #[serde(rename = "KHR_materials_variants")]
+    pub(super) variants: Option<Variants>,
+}
+
+impl Extensions {
+    /// The lights that nodes refer to.
+    pub(super) fn lights(&self) -> &[Light] {
+        self.lights.as_ref().map_or(&[], |found| &found.lights)
+    }
+
+    /// The alternative sets of materials.
+    pub(super) fn variants(&self) -> &[Variant] {
+        self.variants.as_ref().map_or(&[], |found| &found.variants)
+    }
 }
 
 /// The lights that nodes refer to.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Deserialize)]
 pub(super) struct Lights {
     #[serde(default)]
     pub(super) lights: Vec<Light>,
 }
 
 /// The names of alternative sets of materials.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Deserialize)]
 pub(super) struct Variants {
     #[serde(default)]
     pub(super) variants: Vec<Variant>,

@@ -103,6 +103,8 @@ pub(crate) struct Skin {
 pub(crate) struct Camera {
     #[serde(default)]
     pub(crate) name: String,
+    #[serde(rename = "type")]
+    pub(crate) kind: Option<String>,
     pub(crate) perspective: Option<Perspective>,
     pub(crate) orthographic: Option<Orthographic>,
 }
@@ -136,12 +138,11 @@ pub(crate) struct Light {
     pub(crate) color: Option<[f32; 3]>,
     pub(crate) intensity: Option<f32>,
     pub(crate) range: Option<f32>,
-    #[serde(default)]
-    pub(crate) spot: Spot,
+    pub(crate) spot: Option<Spot>,
 }
 
 /// The cone of a spot light.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Spot {
     pub(crate) inner_cone_angle: Option<f32>,

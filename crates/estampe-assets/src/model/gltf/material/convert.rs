@@ -1,7 +1,6 @@
 //! Materials from JSON: factors within their ranges, defaults, extensions.
 
 use super::super::document::{Document, Material, MaterialExtensions, TextureInfo};
-use super::super::fault::malformed;
 use super::specular_glossiness;
 use super::{Draft, texture};
 use crate::AssetError;
@@ -56,13 +55,9 @@ pub(super) fn draft(
     let extensions = material.extensions.as_deref().unwrap_or(&none);
     let pointer = format!("/materials/{at}");
     let alpha_mode = match material.alpha_mode.as_deref() {
-        None | Some("OPAQUE") => AlphaMode::Opaque,
         Some("MASK") => AlphaMode::Mask,
         Some("BLEND") => AlphaMode::Blend,
-        Some(other) => {
-            let what = format!("`{other}` is not one of OPAQUE, MASK and BLEND");
-            return Err(malformed(format!("{pointer}/alphaMode"), what));
-        }
+        _ => AlphaMode::Opaque,
     };
     let mut textures = Textures {
         document,
@@ -72,6 +67,11 @@ pub(super) fn draft(
     let base = &material.pbr_metallic_roughness;
     let strength = material.occlusion_texture.as_ref();
     let strength = strength.and_then(|info| info.strength);
+    let strength_of_light = extensions.emissive_strength.as_ref();
+    let strength_of_light = strength_of_light.and_then(|source| source.emissive_strength);
+    let ior = extensions.ior.as_ref().and_then(|source| source.ior);
+    let dispersion = extensions.dispersion.as_ref();
+    let dispersion = dispersion.and_then(|source| source.dispersion);
     let base_texture = "pbrMetallicRoughness/baseColorTexture";
     let metal_texture = "pbrMetallicRoughness/metallicRoughnessTexture";
     let mut pbr = PbrMaterial {
@@ -86,16 +86,16 @@ pub(super) fn draft(
         occlusion_strength: unit(strength, 1.0),
         emissive: positive3(material.emissive_factor, 0.0),
         emissive_texture: textures.get(&material.emissive_texture, "emissiveTexture")?,
-        emissive_strength: positive(extensions.emissive_strength.emissive_strength, 1.0),
+        emissive_strength: positive(strength_of_light, 1.0),
         alpha_cutoff: positive(material.alpha_cutoff, 0.5),
         is_double_sided: material.double_sided,
         is_unlit: extensions.unlit.is_some(),
-        ior: match positive(extensions.ior.ior, 1.5) {
+        ior: match positive(ior, 1.5) {
             // 0 is a value of its own; others are at least 1, that of air.
             0.0 => 0.0,
             ior => ior.max(1.0),
         },
-        dispersion: positive(extensions.dispersion.dispersion, 0.0),
+        dispersion: positive(dispersion, 0.0),
         ..PbrMaterial::default()
     };
     add_layers(&mut pbr, extensions, &mut textures)?;

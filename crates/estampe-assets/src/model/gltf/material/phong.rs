@@ -22,13 +22,16 @@ const CLEAREST: f32 = 0.75;
 const SHARPEST: f32 = 1000.0;
 
 /// The material with both descriptions.
-pub(super) fn material(name: String, pbr: PbrMaterial, alpha_mode: AlphaMode) -> Material {
+pub(super) fn material(name: String, mut pbr: PbrMaterial, alpha_mode: AlphaMode) -> Material {
     let base = pbr.base_color.truncate();
     let transmission = pbr.transmission.map_or(0.0, |layer| layer.factor);
     let alpha = match alpha_mode {
         AlphaMode::Opaque => 1.0,
         AlphaMode::Mask | AlphaMode::Blend => pbr.base_color.w,
     };
+    if transmission > 0.0 {
+        pbr.alpha_mode = Some(alpha_mode);
+    }
     let alpha_mode = match alpha_mode {
         // The texture's alpha means nothing then, so there must be none.
         AlphaMode::Opaque if transmission > 0.0 && pbr.base_color_texture.is_none() => {

@@ -1,7 +1,7 @@
 //! Textures as materials use them: image, sampler, coordinates and their transform.
 
 use super::super::document::{Document, Index, Sampler, Texture, TextureInfo, TextureSource};
-use super::super::fault::{element, malformed, warn};
+use super::super::fault::{element, warn};
 use crate::AssetError;
 use crate::model::load::Context;
 use estampe_scene::{AddressMode, TextureFilter, TextureRef, TextureSampler, UvTransform};
@@ -24,7 +24,7 @@ pub(super) fn reference(
         Some(index) => {
             let place = || format!("{texture_pointer}/sampler");
             let sampler = element(&document.samplers, index, "sampler", place)?;
-            sampler_of(sampler, &format!("/samplers/{index}"))?
+            sampler_of(sampler)
         }
         None => TextureSampler::default(),
     };
@@ -73,23 +73,13 @@ fn source(texture: &Texture) -> Option<(Index, &'static str)> {
     .find_map(|(source, property)| Some((source?, property)))
 }
 
-/// Filters and address modes by the numbers that they have in OpenGL.
-fn sampler_of(sampler: &Sampler, pointer: &str) -> Result<TextureSampler, AssetError> {
+/// Filters and address modes by the numbers that they have in OpenGL; the defaults for others.
+fn sampler_of(sampler: &Sampler) -> TextureSampler {
     use TextureFilter::{Linear, Nearest};
-    let unknown = |property: &str, number: Index| {
-        let what = format!("{number} is not a value of this property");
-        malformed(format!("{pointer}/{property}"), what)
-    };
-    let wrap = |property: &str, number: Option<Index>| match number {
-        None | Some(Index(10497)) => Ok(AddressMode::Repeat),
-        Some(Index(33071)) => Ok(AddressMode::ClampToEdge),
-        Some(Index(33648)) => Ok(AddressMode::MirrorRepeat),
-        Some(number) => Err(unknown(property, number)),
-    };
-    let magnify = match sampler.mag_filter {
-        None | Some(Index(9729)) => Linear,
-        Some(Index(9728)) => Nearest,
-        Some(number) => return Err(unknown("magFilter", number)),
+    let wrap = |number: Option<Index>| match number {
+        Some(Index(33071)) => AddressMode::ClampToEdge,
+        Some(Index(33648)) => AddressMode::MirrorRepeat,
+        _ => AddressMode::Repeat,
     };
     let (minify, mipmap) = match sampler.min_filter {
         Some(Index(9728)) => (Nearest, None),
@@ -97,14 +87,16 @@ fn sampler_of(sampler: &Sampler, pointer: &str) -> Result<TextureSampler, AssetE
         Some(Index(9984)) => (Nearest, Some(Nearest)),
         Some(Index(9985)) => (Linear, Some(Nearest)),
         Some(Index(9986)) => (Nearest, Some(Linear)),
-        None | Some(Index(9987)) => (Linear, Some(Linear)),
-        Some(number) => return Err(unknown("minFilter", number)),
+        _ => (Linear, Some(Linear)),
     };
-    Ok(TextureSampler {
-        wrap_u: wrap("wrapS", sampler.wrap_s)?,
-        wrap_v: wrap("wrapT", sampler.wrap_t)?,
-        magnify,
+    TextureSampler {
+        wrap_u: wrap(sampler.wrap_s),
+        wrap_v: wrap(sampler.wrap_t),
+        magnify: match sampler.mag_filter {
+            Some(Index(9728)) => Nearest,
+            _ => Linear,
+        },
         minify,
         mipmap,
-    })
+    }
 }

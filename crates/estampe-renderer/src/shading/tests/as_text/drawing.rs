@@ -4,9 +4,9 @@ use super::scene;
 use super::{Material, Wgsl};
 use estampe::state::{DepthState, PrimitiveState};
 use estampe::{
-    BindGroup, BindGroupDescriptor, BindingResource, BindingType, Buffer, ClipSpace,
-    ColorAttachment, DepthStencilAttachment, Device, Draw, EntryPointDescriptor, Program,
-    ProgramDescriptor, RenderPass, RenderPipelineDescriptor, SampledTexture, Sampler,
+    BindGroup, BindGroupDescriptor, BindGroupLayoutEntry, BindingResource, BindingType, Buffer,
+    ClipSpace, ColorAttachment, DepthStencilAttachment, Device, Draw, EntryPointDescriptor,
+    Program, ProgramDescriptor, RenderPass, RenderPipelineDescriptor, SampledTexture, Sampler,
     SamplerDescriptor, ShaderModule, ShaderModuleDescriptor, ShaderSource, Texture,
     TextureDescriptor, TextureFormat, TextureView, TextureViewDescriptor, ViewDimension, bytes_of,
 };
@@ -32,6 +32,7 @@ pub(super) struct Stage<'a> {
     heights: Texture,
     surroundings: TextureView,
     albedos: Texture,
+    behind: Texture,
     sampler: Sampler,
     textures: Textures,
 }
@@ -77,6 +78,7 @@ impl<'a> Stage<'a> {
             ..TextureViewDescriptor::default()
         });
         let surroundings = surroundings.expect("six faces");
+        let behind = numbers(&[8, 4, 2, 1], 1);
         let sampled = |view: &TextureView| device.sampled_texture(view, &sampler).expect("it fits");
         let textures = Textures {
             base: sampled(&base.view()),
@@ -92,6 +94,7 @@ impl<'a> Stage<'a> {
             heights,
             surroundings,
             albedos,
+            behind,
             sampler,
             textures,
         }
@@ -100,6 +103,25 @@ impl<'a> Stage<'a> {
     /// The program in Rust.
     pub(super) fn rust(&self, material: &Material) -> Arc<dyn Program> {
         (material.in_rust)(&self.textures)
+    }
+
+    /// The bind groups of programs in Rust: what is behind surfaces is number 1.
+    pub(super) fn rust_groups(&self) -> Vec<BindGroup> {
+        let behind = BindingResource::SampledTexture(self.behind.view(), self.sampler.clone());
+        let entry = BindGroupLayoutEntry {
+            binding: 0,
+            ty: BindingType::sampled_2d(),
+        };
+        let group = |types: &[BindGroupLayoutEntry], entries: &[(u32, BindingResource)]| {
+            let layout = self.device.create_bind_group_layout(types).expect("one");
+            let group = self.device.create_bind_group(&BindGroupDescriptor {
+                label: None,
+                layout: &layout,
+                entries,
+            });
+            group.expect("as in the layout")
+        };
+        vec![group(&[], &[]), group(&[entry], &[(0, behind)])]
     }
 
     /// The bind group of a program as text.
@@ -130,6 +152,7 @@ impl<'a> Stage<'a> {
                 _ => BindingResource::Texture(match name_of(entry.binding) {
                     "heights" => self.heights.view(),
                     "albedos" => self.albedos.view(),
+                    "behind" => self.behind.view(),
                     "surroundings" => self.surroundings.clone(),
                     _ => self.base.view(),
                 }),
@@ -212,7 +235,7 @@ pub(super) fn drawn(
     groups: &[BindGroup],
 ) -> Vec<Vec<u8>> {
     let device = stage.device;
-    let descriptor = RenderPipelineDescriptor {
+    let mut descriptor = RenderPipelineDescriptor {
         vertex_buffers: vec![scene::layout(&material.streams)],
         primitive: PrimitiveState {
             topology: material.topology,
@@ -222,6 +245,10 @@ pub(super) fn drawn(
         targets: material.targets.clone(),
         ..RenderPipelineDescriptor::with_program(program)
     };
+    if descriptor.bind_group_layouts.is_empty() {
+        let layouts = groups.iter().map(|group| group.layout().clone());
+        descriptor.bind_group_layouts = layouts.collect();
+    }
     let pipeline = device
         .create_render_pipeline(&descriptor)
         .unwrap_or_else(|error| panic!("{}: {error}", material.name));

@@ -94,7 +94,7 @@ fn check(material: &Material) {
     let mut expected: Option<Vec<Vec<u8>>> = None;
     for (device_name, device) in devices() {
         let stage = Stage::new(&device);
-        let in_rust = drawn(&stage, material, stage.rust(material), &[]);
+        let in_rust = drawn(&stage, material, stage.rust(material), &stage.rust_groups());
         let (program, groups) = in_wgsl(&stage, material);
         let of_wgsl = drawn(&stage, material, program, &groups);
         let (program, groups) = in_glsl(&stage, material);

@@ -11,11 +11,15 @@ use crate::shading::output::Output;
 use crate::shading::pbr::environment::EnvironmentLight;
 use crate::shading::pbr::lights::{Cone, PbrLight, PbrSource};
 use crate::shading::pbr::parameters::{
-    ClearcoatParameters, NormalMap, Occlusion, PbrParameters, SheenParameters, SpecularParameters,
+    AnisotropyParameters, ClearcoatParameters, IridescenceParameters, NormalMap, Occlusion,
+    PbrParameters, SheenParameters, SpecularParameters,
 };
 use crate::shading::pbr::surface::{PbrLighting, PbrSurface};
 use crate::shading::pbr::textures::{MaterialTexture, UvChoice};
 use crate::shading::pbr::tone_map::ToneMap;
+use crate::shading::pbr::transmission::{
+    Background, BehindView, TransmissionParameters, VolumeParameters,
+};
 use crate::shading::surface::Written;
 use estampe::state::PrimitiveTopology;
 use estampe::{Mat4, Program, SampledTexture, ShaderProgram, TextureFormat};
@@ -34,10 +38,21 @@ struct Look {
     has_specular: bool,
     has_coat: bool,
     has_sheen: bool,
+    has_grooves: bool,
+    has_film: bool,
+    transmits: Option<Transmits>,
     is_unlit: bool,
     is_orthographic: bool,
     alpha: Alpha,
     tone_map: ToneMap,
+}
+
+/// How light passes through a surface.
+#[derive(Debug, Clone, Copy)]
+struct Transmits {
+    has_volume: bool,
+    /// Before a transparent background.
+    is_clear: bool,
 }
 
 const PLAIN: Look = Look {
@@ -47,6 +62,9 @@ const PLAIN: Look = Look {
     has_specular: false,
     has_coat: false,
     has_sheen: false,
+    has_grooves: false,
+    has_film: false,
+    transmits: None,
     is_unlit: false,
     is_orthographic: false,
     alpha: Alpha::Kept,
@@ -64,6 +82,14 @@ const F0: f32 = 0.05;
 const SPECULAR: ([f32; 3], f32) = ([0.9, 3.0, 21.0], 0.8);
 const COAT: [f32; 2] = [0.85, 0.25];
 const SHEEN: ([f32; 3], f32) = ([0.3, 0.5, 0.8], 0.45);
+const GROOVES: (f32, [f32; 2]) = (0.7, [0.8, 0.6]);
+const FILM: (f32, f32, [f32; 2]) = (0.9, 1.4, [150.0, 520.0]);
+const TRANSMISSION: f32 = 0.85;
+const IORS: [f32; 3] = [1.3, 1.4, 1.5];
+const THICKNESS: f32 = 0.3;
+const ABSORPTION: [f32; 3] = [0.2, 1.5, 3.0];
+const LAST_LEVEL: f32 = 3.0;
+const BACKGROUND: [f32; 3] = [0.2, 0.5, 0.7];
 const CUTOFF: f32 = 0.35;
 const EXPOSURE: f32 = 1.3;
 const ROUGHEST_LEVEL: f32 = 2.0;
@@ -81,6 +107,11 @@ const DIFFUSE: [[f32; 3]; 9] = [
 
 fn map_from_view() -> Mat4 {
     Mat4::rotation_y(0.7) * Mat4::rotation_x(-0.3)
+}
+
+/// Not the picture's: the shader needs no more than a matrix.
+fn clip_from_view() -> Mat4 {
+    Mat4::perspective(0.9, 1.4, 0.5, 8.0)
 }
 
 fn lights() -> Vec<PbrLight> {
@@ -164,6 +195,18 @@ impl Look {
             ("HAS_SPECULAR", self.has_specular),
             ("HAS_COAT", self.has_coat),
             ("HAS_SHEEN", self.has_sheen),
+            ("HAS_GROOVES", self.has_grooves),
+            ("HAS_FILM", self.has_film),
+            ("TRANSMITS", self.transmits.is_some()),
+            (
+                "HAS_VOLUME",
+                self.transmits.is_some_and(|how| how.has_volume),
+            ),
+            (
+                "CLEAR_BACKGROUND",
+                self.transmits.is_some_and(|how| how.is_clear),
+            ),
+            ("BLENDS", self.alpha == Alpha::Kept),
             ("UNLIT", self.is_unlit),
             ("ORTHOGRAPHIC", self.is_orthographic),
             ("IGNORES_ALPHA", self.alpha == Alpha::Ignored),
@@ -188,6 +231,14 @@ impl Look {
                 environment,
                 lights: lights(),
                 shadow_maps: Vec::new(),
+                behind: self.transmits.map(|how| BehindView {
+                    clip_from_view: clip_from_view(),
+                    last_level: LAST_LEVEL,
+                    background: match how.is_clear {
+                        true => Background::Transparent,
+                        false => Background::Color(BACKGROUND),
+                    },
+                }),
                 exposure: EXPOSURE,
                 tone_map: self.tone_map,
             }),
@@ -230,6 +281,8 @@ impl Look {
             base_texture: base(),
             metallic: METALLIC,
             roughness: ROUGHNESS,
+            is_metallic_textured: true,
+            is_roughness_textured: true,
             metallic_roughness_texture: base(),
             normal: self.has_normal_map.then_some(normal),
             occlusion: heights().map(|texture| Occlusion {
@@ -258,6 +311,28 @@ impl Look {
                 roughness: SHEEN.1,
                 roughness_texture: heights(),
             }),
+            anisotropy: self.has_grooves.then(|| AnisotropyParameters {
+                strength: GROOVES.0,
+                rotation: GROOVES.1,
+                texture: heights(),
+            }),
+            iridescence: self.has_film.then(|| IridescenceParameters {
+                factor: FILM.0,
+                texture: base(),
+                ior: FILM.1,
+                thickness_nm: FILM.2,
+                thickness_texture: heights(),
+            }),
+            transmission: self.transmits.map(|how| TransmissionParameters {
+                factor: TRANSMISSION,
+                texture: base(),
+                iors: if how.has_volume { IORS } else { [IORS[1]; 3] },
+                volume: how.has_volume.then(|| VolumeParameters {
+                    thickness: THICKNESS,
+                    texture: heights(),
+                    absorption: ABSORPTION,
+                }),
+            }),
             is_unlit: self.is_unlit,
             alpha_cutoff: CUTOFF,
         }
@@ -285,6 +360,18 @@ impl Look {
             .number("coat_roughness", COAT[1])
             .three("sheen_color", SHEEN.0)
             .number("sheen_roughness", SHEEN.1)
+            .number("groove_strength", GROOVES.0)
+            .two("groove_rotation", GROOVES.1)
+            .number("film_factor", FILM.0)
+            .number("film_ior", FILM.1)
+            .two("film_thickness", FILM.2)
+            .number("transmission", TRANSMISSION)
+            .three("iors", IORS)
+            .number("thickness", THICKNESS)
+            .three("absorption", ABSORPTION)
+            .matrix("clip_from_view", clip_from_view())
+            .number("last_level", LAST_LEVEL)
+            .three("background", BACKGROUND)
             .number("alpha_cutoff", CUTOFF);
         for (at, coefficient) in DIFFUSE.into_iter().enumerate() {
             numbers = numbers.three(&format!("diffuse[{at}]"), coefficient);
@@ -348,6 +435,50 @@ pub(super) fn surfaces() -> Vec<Material> {
             alpha: Alpha::Ignored,
             tone_map: ToneMap::None,
             ..textured
+        },
+        Look {
+            name: "grooves and a film",
+            has_grooves: true,
+            has_film: true,
+            ..PLAIN
+        },
+        Look {
+            name: "grooves and a film under coat and sheen, textured",
+            has_grooves: true,
+            has_film: true,
+            has_coat: true,
+            has_sheen: true,
+            has_specular: true,
+            ..textured
+        },
+        Look {
+            name: "thin glass before a background",
+            transmits: Some(Transmits {
+                has_volume: false,
+                is_clear: false,
+            }),
+            alpha: Alpha::Ignored,
+            ..PLAIN
+        },
+        Look {
+            name: "a body that disperses and absorbs, textured, before nothing",
+            transmits: Some(Transmits {
+                has_volume: true,
+                is_clear: true,
+            }),
+            is_orthographic: true,
+            alpha: Alpha::Ignored,
+            has_film: true,
+            ..textured
+        },
+        Look {
+            name: "blended glass before nothing",
+            transmits: Some(Transmits {
+                has_volume: true,
+                is_clear: true,
+            }),
+            has_coat: true,
+            ..PLAIN
         },
         Look {
             name: "unlit, cut out",

@@ -134,6 +134,7 @@ impl Look {
         };
         self.has_fog.then_some(Fog {
             color: [0.6, 0.7, 0.8],
+            backdrop: None,
             start: 1.5,
             per_distance: 0.4,
             eye_distance,
@@ -149,7 +150,7 @@ impl Look {
             glsl: self.glsl(),
             numbers: self.numbers(),
             targets: match self.written {
-                Written::Color => vec![Some(TextureFormat::Rgba32Float.into())],
+                Written::Color | Written::Light => vec![Some(TextureFormat::Rgba32Float.into())],
                 Written::WeightedTerms => weighted_targets(),
             },
             topology: PrimitiveTopology::TriangleList,
@@ -208,6 +209,7 @@ impl Look {
             output: Output {
                 levels: self.levels,
                 fog: self.fog(),
+                ..Output::default()
             },
             written: self.written,
         }))

@@ -31,6 +31,11 @@ impl Numbers {
         self
     }
 
+    pub(super) fn two(mut self, name: &str, value: [f32; 2]) -> Self {
+        self.add(name, Value::Two(value));
+        self
+    }
+
     pub(super) fn three(mut self, name: &str, value: [f32; 3]) -> Self {
         self.add(name, Value::Three(value));
         self
@@ -44,6 +49,11 @@ impl Numbers {
     pub(super) fn count(mut self, name: &str, value: usize) -> Self {
         let value = u32::try_from(value).expect("a small number");
         self.add(name, Value::Count(value));
+        self
+    }
+
+    pub(super) fn matrix(mut self, name: &str, matrix: Mat4) -> Self {
+        self.add(name, Value::Matrix(matrix));
         self
     }
 

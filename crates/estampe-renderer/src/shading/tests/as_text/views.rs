@@ -129,6 +129,7 @@ pub(super) fn wireframes() -> Vec<Material> {
             transforms,
             line,
             face,
+            backdrop: None,
             half_width_px,
         };
         let target = ColorTargetState {
@@ -181,6 +182,7 @@ pub(super) fn points_and_lines() -> Vec<Material> {
     let transforms = transforms(false);
     let fog = Fog {
         color: [0.5, 0.55, 0.6],
+        backdrop: None,
         start: 2.0,
         per_distance: 0.3,
         eye_distance: EyeDistance::Perspective {

@@ -86,6 +86,7 @@ void main() {
     result = vec4(written(reflected(base.rgb, light)), base.a);
 #ifdef CUTS_OUT
     if (base.a < 0.5) discard;
+    result.a = 1.0;
 #endif
 #ifdef WEIGHTED
     vec4 drawn = clamp(result, 0.0, 1.0);

@@ -1,5 +1,6 @@
-// Physically based surfaces: glTF's metal and roughness with its clear coat, sheen and specular
-// extensions, under lights and light from all around.
+// Physically based surfaces: glTF's metal and roughness with its clear coat, sheen, specular,
+// anisotropy, iridescence, transmission, volume and dispersion extensions, under lights and light
+// from all around.
 
 struct Light {
     // The position; of parallel light the direction towards it.
@@ -40,6 +41,23 @@ struct Scene {
     coat_roughness: f32,
     sheen_color: vec3f,
     sheen_roughness: f32,
+    groove_strength: f32,
+    // Cosine and sine.
+    groove_rotation: vec2f,
+    film_factor: f32,
+    film_ior: f32,
+    // In nanometres, where the texture is 0 and where it is 1.
+    film_thickness: vec2f,
+    transmission: f32,
+    // Indices of refraction of red, green and blue.
+    iors: vec3f,
+    thickness: f32,
+    // Halvings of light per length.
+    absorption: vec3f,
+    clip_from_view: mat4x4f,
+    // log₂ of the longer side of the picture of what is behind.
+    last_level: f32,
+    background: vec3f,
     alpha_cutoff: f32,
 }
 @group(0) @binding(0) var<uniform> scene: Scene;
@@ -48,6 +66,8 @@ struct Scene {
 @group(0) @binding(3) var heights: texture_2d<f32>;
 @group(0) @binding(4) var surroundings: texture_cube<f32>;
 @group(0) @binding(5) var albedos: texture_2d<f32>;
+// Opaque surfaces, drawn before: light times coverage.
+@group(0) @binding(6) var behind: texture_2d<f32>;
 
 override ORTHOGRAPHIC: bool = false;
 override HAS_TEXTURES: bool = false;
@@ -55,6 +75,12 @@ override HAS_NORMAL_MAP: bool = false;
 override HAS_SPECULAR: bool = false;
 override HAS_COAT: bool = false;
 override HAS_SHEEN: bool = false;
+override HAS_GROOVES: bool = false;
+override HAS_FILM: bool = false;
+override TRANSMITS: bool = false;
+override HAS_VOLUME: bool = false;
+override CLEAR_BACKGROUND: bool = false;
+override BLENDS: bool = false;
 override UNLIT: bool = false;
 override IGNORES_ALPHA: bool = false;
 override CUTS_OUT: bool = false;
@@ -196,6 +222,126 @@ fn density_sheen(n_dot_h: f32, alpha: f32) -> f32 {
     return (inverse + 2.0) * pow(sin_squared, inverse * 0.5) * TAU_INVERSE;
 }
 
+// The grooves of a surface: tangent and bitangent across the shading normal.
+struct Grooves { tangent: vec3f, bitangent: vec3f, strength: f32 }
+
+fn grooves_of(frame: Frame, normal: vec3f, uv1: vec2f) -> Grooves {
+    let turn = scene.groove_rotation;
+    var along = turn;
+    var strength = scene.groove_strength;
+    if HAS_TEXTURES {
+        let texel = textureSample(heights, repeating, uv1);
+        let direction = texel.xy * 2.0 - 1.0;
+        let d = direction / length(direction);
+        along = vec2f(d.x * turn.x - d.y * turn.y, d.x * turn.y + d.y * turn.x);
+        strength *= texel.z;
+    }
+    let direction = frame.tangent * along.x + frame.bitangent * along.y;
+    let across = direction - normal * dot(normal, direction);
+    let squared = dot(across, across);
+    let is_known = squared > 1e-12 && squared <= 3.4028234e38;
+    let axis = select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(normal.y) < 0.9);
+    let tangent = select(normalize(cross(normal, axis)), across / sqrt(squared), is_known);
+    return Grooves(tangent, cross(normal, tangent), select(0.0, saturate(strength), is_known));
+}
+
+// α along the grooves' tangent and bitangent.
+fn alphas(g: Grooves, alpha: f32) -> vec2f {
+    return vec2f(alpha + (1.0 - alpha) * (g.strength * g.strength), alpha);
+}
+
+fn density_of_grooves(g: Grooves, half: vec3f, n_dot_h: f32, a: vec2f) -> f32 {
+    let product = a.x * a.y;
+    let v = vec3f(dot(g.tangent, half) * a.y, dot(g.bitangent, half) * a.x, n_dot_h * product);
+    let w = product / dot(v, v);
+    return product * w * w * PI_INVERSE;
+}
+
+fn masked_by_grooves(g: Grooves, direction: vec3f, cosine: f32, a: vec2f) -> f32 {
+    return length(vec3f(dot(g.tangent, direction) * a.x, dot(g.bitangent, direction) * a.y, cosine));
+}
+
+// The reflectance of a thin film on a base, by Belcour and Barla.
+fn film_fresnel(base_f0: vec3f, cosine: f32, thickness: f32) -> vec3f {
+    let ior = max(scene.film_ior, 1.0);
+    let ratio = (ior - 1.0) / (ior + 1.0);
+    let outer = ratio * ratio;
+    let first = schlick(cosine) * (1.0 - outer) + outer;
+    let sine_squared = (1.0 - cosine * cosine) * (1.0 / (ior * ior));
+    let inside = sqrt(max(1.0 - sine_squared, 0.0));
+    let grazing = schlick(inside);
+    let root = sqrt(clamp(base_f0, vec3f(), vec3f(0.9999)));
+    let base_ior = (1.0 + root) / (1.0 - root);
+    let r = (base_ior - ior) / (base_ior + ior);
+    let normal = r * r;
+    let second = normal + (1.0 - normal) * grazing;
+    let through = 1.0 - first;
+    let both = clamp(first * second, vec3f(1e-5), vec3f(0.9999));
+    let rest = through * through * second / (1.0 - both);
+    let wave = (rest - through) * sqrt(both);
+    const PI: f32 = 3.1415927;
+    let shift = select(vec3f(PI), vec3f(PI + PI), base_ior < vec3f(ior));
+    let path = thickness * inside * (2.0 * ior);
+    let once = sensitivity(path, shift) * 2.0;
+    let twice = sensitivity(path * 2.0, shift * 2.0) * 2.0;
+    return saturate(first + rest + wave * once + wave * sqrt(both) * twice);
+}
+
+fn gaussian(path: f32, shift: f32, height: f32, frequency: f32, decay: f32) -> f32 {
+    return cos(path * frequency + shift) * height * exp2(path * path * -decay);
+}
+
+fn sensitivity(path: f32, shift: vec3f) -> vec3f {
+    let xyz = vec3f(
+        gaussian(path, shift.x, 0.84659, 0.010562034, 2.4649122e-7)
+            + gaussian(path, shift.x, 0.1538683, 0.014073707, 2.579051e-7),
+        gaussian(path, shift.y, 1.0002219, 0.011280203, 5.2994645e-7),
+        gaussian(path, shift.z, 1.0011225, 0.013875786, 3.7659425e-7),
+    );
+    return times(
+        vec3f(3.2404542, -1.5371385, -0.4985314),
+        vec3f(-0.969266, 1.8760108, 0.041556),
+        vec3f(0.0556434, -0.2040259, 1.0572252),
+        xyz,
+    );
+}
+
+// What is seen where the ray of an index of refraction leaves the body.
+fn seen_behind(p: Point, ior: f32, thickness: f32) -> vec4f {
+    var exit = p.position;
+    if HAS_VOLUME {
+        exit += normalize(refract(-p.to_eye, p.normal, 1.0 / ior)) * thickness;
+    }
+    let clip = scene.clip_from_view * vec4f(exit, 1.0);
+    let at = vec2f(clip.x / clip.w * 0.5 + 0.5, clip.y / clip.w * -0.5 + 0.5);
+    let blur = min(ior * 2.0 - 2.0, 1.0) * scene.last_level;
+    return textureSampleLevel(behind, repeating, at, p.unfiltered_roughness * blur);
+}
+
+struct Behind { share: f32, tint: vec3f, light: vec3f, coverage: vec3f }
+
+fn behind_of(p: Point, in: Varyings) -> Behind {
+    var share = scene.transmission;
+    var thickness = scene.thickness;
+    if HAS_TEXTURES {
+        share *= textureSample(base_texture, repeating, in.uv).x;
+        thickness *= textureSample(heights, repeating, in.uv1).y;
+    }
+    if !HAS_VOLUME {
+        let seen = seen_behind(p, scene.iors.y, 0.0);
+        return Behind(share, vec3f(1.0), seen.xyz, vec3f(seen.w));
+    }
+    let red = seen_behind(p, scene.iors.x, thickness);
+    let green = seen_behind(p, scene.iors.y, thickness);
+    let blue = seen_behind(p, scene.iors.z, thickness);
+    return Behind(
+        share,
+        exp2(scene.absorption * -thickness),
+        vec3f(red.x, green.y, blue.z),
+        vec3f(red.w, green.w, blue.w),
+    );
+}
+
 fn albedo(n_dot_v: f32, roughness: f32) -> vec3f {
     const SIDE: f32 = 32.0;
     const SCALE: f32 = (SIDE - 1.0) / SIDE;
@@ -237,6 +383,10 @@ struct Point {
     coat_roughness: f32,
     sheen_color: vec3f,
     sheen_roughness: f32,
+    unfiltered_roughness: f32,
+    grooves: Grooves,
+    film_factor: f32,
+    film_thickness: f32,
 }
 
 fn point(in: Varyings, base: vec3f, front_facing: bool) -> Point {
@@ -277,7 +427,18 @@ fn point(in: Varyings, base: vec3f, front_facing: bool) -> Point {
     p.diffuse = base * (1.0 - metallic);
     p.f0 = mix(p.f0, base, metallic);
     p.f90 = mix(p.f90, 1.0, metallic);
-    p.roughness = filtered(saturate(roughness), p.normal);
+    p.unfiltered_roughness = saturate(roughness);
+    p.roughness = filtered(p.unfiltered_roughness, p.normal);
+    if HAS_GROOVES { p.grooves = grooves_of(frame, p.normal, in.uv1); }
+    p.film_factor = scene.film_factor;
+    p.film_thickness = scene.film_thickness.y;
+    if HAS_TEXTURES {
+        let least = scene.film_thickness.x;
+        p.film_factor *= textureSample(base_texture, repeating, in.uv).x;
+        let share = textureSample(heights, repeating, in.uv1).y;
+        p.film_thickness = share * (scene.film_thickness.y - least) + least;
+    }
+    p.film_factor = saturate(p.film_factor);
     p.coat_roughness = saturate(p.coat_roughness);
     p.coat_normal = frame.unit;
     return p;
@@ -289,6 +450,7 @@ struct Shared {
     single: vec3f,
     multiple: vec3f,
     diffuse: vec3f,
+    rest: vec3f,
     below: f32,
     coat: f32,
     sheen: f32,
@@ -308,13 +470,36 @@ fn shared_terms(p: Point) -> Shared {
         s.coat = (schlick(cosine) * (1.0 - COAT_F0) + COAT_F0) * p.coat_factor;
         s.below *= 1.0 - s.coat;
     }
-    let of_ggx = albedo(s.n_dot_v, p.roughness);
-    s.single = p.f0 * of_ggx.x + of_ggx.y * p.f90;
-    let lost = 1.0 - (of_ggx.x + of_ggx.y);
+    var f0 = p.f0;
+    var f90 = p.f90;
+    if HAS_FILM {
+        let weight = schlick(s.n_dot_v);
+        let seen = film_fresnel(p.f0, s.n_dot_v, p.film_thickness);
+        let of_film = saturate((seen - weight) * (1.0 / (1.0 - weight)));
+        f0 = mix(f0, of_film, p.film_factor);
+        f90 = mix(f90, 1.0, p.film_factor);
+    }
+    var cosine = s.n_dot_v;
+    var roughness = p.roughness;
+    if HAS_GROOVES {
+        let g = p.grooves;
+        let a = alphas(g, max(p.roughness * p.roughness, 0.002));
+        let across = dot(g.bitangent, p.to_eye) * (a.y / a.x);
+        cosine = s.n_dot_v / length(vec3f(dot(g.tangent, p.to_eye), across, s.n_dot_v));
+        roughness = sqrt(sqrt((a.x * a.x + a.y * a.y) * 0.5));
+    }
+    let of_ggx = albedo(cosine, roughness);
+    s.single = f0 * of_ggx.x + of_ggx.y * f90;
+    var lost = 1.0 - (of_ggx.x + of_ggx.y);
+    if HAS_GROOVES { lost = max(lost - p.grooves.strength * 0.045, 0.0); }
     const SHARE: f32 = 1.0 / 21.0;
-    let mean = p.f0 + (1.0 - p.f0) * SHARE;
+    let mean = f0 + (1.0 - f0) * SHARE;
     s.multiple = s.single * mean / (1.0 - mean * lost) * lost;
-    s.diffuse = p.diffuse * (1.0 - s.single - s.multiple);
+    s.rest = 1.0 - s.single - s.multiple;
+    if HAS_FILM {
+        s.rest = mix(s.rest, vec3f(min(min(s.rest.x, s.rest.y), s.rest.z)), p.film_factor);
+    }
+    s.diffuse = p.diffuse * s.rest;
     return s;
 }
 
@@ -326,7 +511,14 @@ fn specular_occlusion(n_dot_v: f32, occlusion: f32, roughness: f32) -> f32 {
 
 fn environment_light(p: Point, s: Shared) -> vec3f {
     let mirrored = reflect(-p.to_eye, p.normal);
-    let lobe = mix(mirrored, p.normal, p.roughness * p.roughness);
+    var turned = mirrored;
+    if HAS_GROOVES {
+        let facing = cross(cross(p.grooves.bitangent, p.to_eye), p.grooves.bitangent);
+        let kept = 1.0 - p.grooves.strength * (1.0 - p.roughness);
+        let squared = kept * kept;
+        turned = reflect(-p.to_eye, normalize(mix(facing, p.normal, squared * squared)));
+    }
+    let lobe = mix(turned, p.normal, p.roughness * p.roughness);
     let around = radiance(lobe, p.roughness);
     let seen = specular_occlusion(s.n_dot_v, p.occlusion, p.roughness);
     let spread = irradiance(p.normal) * (s.multiple + s.diffuse) * p.occlusion;
@@ -378,10 +570,20 @@ fn punctual_light(light: Light, p: Point, s: Shared) -> vec3f {
     let alpha = max(p.roughness * p.roughness, 0.002);
     let across = cross(p.normal, half);
     let n_dot_h = saturate(dot(p.normal, half));
-    let lobe = density_ggx(n_dot_h, dot(across, across), alpha)
+    var lobe = density_ggx(n_dot_h, dot(across, across), alpha)
         * visibility_ggx(lit, s.n_dot_v, alpha);
+    if HAS_GROOVES {
+        let g = p.grooves;
+        let a = alphas(g, alpha);
+        let sum = lit * masked_by_grooves(g, p.to_eye, s.n_dot_v, a)
+            + s.n_dot_v * masked_by_grooves(g, towards, lit, a);
+        lobe = density_of_grooves(g, half, n_dot_h, a) * (0.5 / max(sum, 1e-6));
+    }
     let weight = schlick(v_dot_h);
-    let fresnel = p.f0 + (p.f90 - p.f0) * weight;
+    var fresnel = p.f0 + (p.f90 - p.f0) * weight;
+    if HAS_FILM {
+        fresnel = mix(fresnel, film_fresnel(p.f0, v_dot_h, p.film_thickness), p.film_factor);
+    }
     var reflectance = ((s.multiple + s.diffuse) * PI_INVERSE + fresnel * lobe) * s.below;
     if HAS_SHEEN {
         let rough = max(p.sheen_roughness * p.sheen_roughness, 0.005);
@@ -460,16 +662,7 @@ fn aces(color: vec3f) -> vec3f {
     ));
 }
 
-fn shown(in: Varyings, base: vec3f, front_facing: bool) -> vec3f {
-    if UNLIT { return base; }
-    let p = point(in, base, front_facing);
-    let s = shared_terms(p);
-    var sum = environment_light(p, s);
-    for (var i = 0u; i < scene.light_count; i++) { sum += punctual_light(scene.lights[i], p, s); }
-    var emitted = scene.emissive;
-    if HAS_TEXTURES { emitted *= textureSample(base_texture, repeating, in.uv).xyz; }
-    sum += emitted;
-    let light = sum * scene.exposure;
+fn mapped(light: vec3f) -> vec3f {
     switch TONE_MAP {
         case 1u: { return neutral(light); }
         case 2u: { return agx(light); }
@@ -478,11 +671,44 @@ fn shown(in: Varyings, base: vec3f, front_facing: bool) -> vec3f {
     }
 }
 
+// The colour, and the opacity before a transparent background.
+fn shown(in: Varyings, base: vec3f, front_facing: bool) -> vec4f {
+    if UNLIT { return vec4f(base, 1.0); }
+    var p = point(in, base, front_facing);
+    var passing = vec3f();
+    var back: Behind;
+    if TRANSMITS {
+        back = behind_of(p, in);
+        passing = p.diffuse * back.share * back.tint;
+        p.diffuse *= 1.0 - back.share;
+    }
+    let s = shared_terms(p);
+    var sum = environment_light(p, s);
+    for (var i = 0u; i < scene.light_count; i++) { sum += punctual_light(scene.lights[i], p, s); }
+    var emitted = scene.emissive;
+    if HAS_TEXTURES { emitted *= textureSample(base_texture, repeating, in.uv).xyz; }
+    sum += emitted;
+    let light = sum * scene.exposure;
+    if !TRANSMITS { return vec4f(mapped(light), 1.0); }
+    passing *= s.rest;
+    passing *= s.below;
+    let covered = mapped(light + passing * (back.light / max(back.coverage, vec3f(1e-4))));
+    let color = mix(mapped(light), covered, back.coverage);
+    let clear = passing * (1.0 - back.coverage);
+    if !CLEAR_BACKGROUND { return vec4f(color + scene.background * clear, 1.0); }
+    let least = min(min(clear.x, clear.y), clear.z);
+    let tinted = color + (clear - least) * 0.8879231;
+    let brightest = max(max(tinted.x, tinted.y), tinted.z);
+    return vec4f(tinted, saturate(max(1.0 - least, brightest)));
+}
+
 @fragment
 fn fragment(in: Varyings, @builtin(front_facing) front: bool) -> @location(0) vec4f {
     var base = in.color * scene.base;
     if HAS_TEXTURES { base *= textureSample(base_texture, repeating, in.uv); }
-    let color = shown(in, base.rgb, front);
+    let seen = shown(in, base.rgb, front);
     if CUTS_OUT && !(base.a >= scene.alpha_cutoff) { discard; }
-    return vec4f(color, select(base.a, 1.0, IGNORES_ALPHA));
+    let alpha = select(base.a, 1.0, IGNORES_ALPHA || CUTS_OUT);
+    if !(TRANSMITS && CLEAR_BACKGROUND) { return vec4f(seen.rgb, alpha); }
+    return vec4f(select(seen.rgb, seen.rgb / max(seen.a, 1e-6), BLENDS), alpha * seen.a);
 }

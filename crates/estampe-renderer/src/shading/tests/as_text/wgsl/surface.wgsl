@@ -139,14 +139,15 @@ fn painted_at_fragments(in: AtFragment, @builtin(front_facing) front: bool) -> @
     let base = painted(in.uv, in.color);
     let color = lit_here(base.rgb, in, front);
     if CUTS_OUT && base.a < 0.5 { discard; }
-    return vec4f(color, base.a);
+    return vec4f(color, select(base.a, 1.0, CUTS_OUT));
 }
 
 @fragment
 fn painted_at_vertices(in: AtVertex, @builtin(front_facing) front: bool) -> @location(0) vec4f {
     let base = painted(in.uv, in.color);
     if CUTS_OUT && base.a < 0.5 { discard; }
-    return vec4f(lit_before(base.rgb, in, front), base.a);
+    let alpha = select(base.a, 1.0, CUTS_OUT);
+    return vec4f(lit_before(base.rgb, in, front), alpha);
 }
 
 struct Weighted { @location(0) sum: vec4f, @location(1) revealage: vec4f }

@@ -3,11 +3,25 @@
 //!
 //! It shares no code with the shaders of `estampe-renderer`, whose tests compare with it. The
 //! normal is +Z; directions are unit vectors away from the surface. Row F4.
+//!
+//! | | |
+//! |---|---|
+//! | here | single terms, and integrals on grids |
+//! | [`film`] | the reflectance of thin films |
+//! | [`Layered`] | a material of all layers |
+//! | [`reflected`] | the light that such a material reflects, by random directions |
 
 #![expect(
     clippy::disallowed_methods,
     reason = "the oracle is compared with tolerances, and std's functions are independent of ours"
 )]
+
+pub mod film;
+mod layered;
+mod monte_carlo;
+
+pub use layered::{Coat, Fibres, Film, Grooves, Layered};
+pub use monte_carlo::{Estimate, reflected};
 
 use std::f64::consts::PI;
 
@@ -138,37 +152,4 @@ fn normalised(v: Direction) -> Direction {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{Surface, density_ggx, over_hemisphere, over_lobe, specular};
-
-    /// ∫ D (n·h) dω = 1: the facets of an area cover it.
-    #[test]
-    fn the_density_is_normalised() {
-        for alpha in [0.1, 0.3, 0.6, 1.0] {
-            let [sum, ..] = over_hemisphere(2000, |half| {
-                [density_ggx(half[2], alpha) * half[2], 0.0, 0.0]
-            });
-            assert!((sum - 1.0).abs() < 2e-3, "α {alpha}: {sum}");
-        }
-    }
-
-    /// Both ways of integrating give the same, and no lobe reflects more light than it gets.
-    #[test]
-    fn integrals_agree_and_keep_energy() {
-        let surface = Surface {
-            f0: [0.04, 0.5, 1.0],
-            f90: 1.0,
-            alpha: 0.36,
-        };
-        for cosine in [0.2_f64, 0.7, 1.0] {
-            let view = [(1.0 - cosine * cosine).sqrt(), 0.0, cosine];
-            let value = |light: [f64; 3]| specular(&surface, view, light).map(|f| f * light[2]);
-            let slow = over_hemisphere(600, value);
-            let fast = over_lobe(200, surface.alpha, view, value);
-            for (slow, fast) in slow.into_iter().zip(fast) {
-                assert!((slow - fast).abs() < 2e-3, "n·v {cosine}: {slow} {fast}");
-            }
-            assert!(slow.iter().all(|&sum| sum <= 1.0), "n·v {cosine}: {slow:?}");
-        }
-    }
-}
+mod tests;

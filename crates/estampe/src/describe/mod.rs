@@ -1,5 +1,9 @@
 //! `estampe info`: describes the contents of a model.
 
+mod material;
+mod memory;
+mod tree;
+
 use crate::choice::ChoiceArgs;
 use crate::failure::Failure;
 use crate::input::Model;
@@ -9,7 +13,8 @@ use crate::values::{FormatName, Source};
 use clap::Args;
 use estampe_assets::Limits;
 use estampe_scene::{
-    AlphaMode, Bounds, Material, Mesh, NamedCamera, Projection, PunctualLightKind, Scene, UpAxis,
+    AlphaMode, Bounds, Material, Mesh, NamedCamera, Projection, PunctualLight, PunctualLightKind,
+    Scene, UpAxis,
 };
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -22,17 +27,22 @@ Examples:
   estampe info part.stl --json | jq .counts.triangles
   estampe info robot.glb --animation Walk --time 0.5
 
-Bounds are in the file's own space. Vertices are counted as they are drawn: corners of faces that differ in a \
-normal or texture coordinate are separate vertices. Missing normals are computed while reading.
+Bounds are in the file's own space; lengths are metres in glTF and millimetres in 3MF, other formats state no unit. \
+Vertices are counted as they are drawn: corners of faces that differ in a normal or texture coordinate are separate \
+vertices. Normals and tangents are the file's, or made: normals while reading, tangents where a normal texture needs \
+them. Memory is that of the decoded model: vertices and indices, and textures without mip levels. The tree of nodes is \
+listed to 40 lines and a depth of 8.
 
 Exit codes: 0 success, 1 the model is missing or invalid, 2 wrong usage, 3 the report cannot be written.
 
-With --json one object is written: model, format, up, counts {meshes, vertices, triangles, lines, points, \
-materials, textures}, bounds {min, max, size} or null, meshes [{name, vertices, triangles, lines, points, \
-attributes, materials}], materials [{name, base_color, opacity, specular, shininess, emissive, texture, \
-bump_texture, bump_scale, alpha}], textures [{width, height}], cameras [{name, projection, eye, target, up}], \
-lights [{name, kind}], scenes [name], animations [{name, duration}], variants [name], warnings [text], \
-warning_count. An error gives {error, exit_code}.")]
+With --json one object is written: model, format, up, unit or null, counts {meshes, vertices, triangles, lines, \
+points, materials, textures}, bounds {min, max, size} or null, memory {geometry, textures} in bytes, nodes [{name, \
+depth, mesh, instances, skin, camera, light}] (at most 10000), extensions [name], meshes [{name, vertices, triangles, \
+lines, points, attributes, normals, tangents, materials}], materials [{name, base_color, opacity, specular, shininess, \
+emissive, texture, bump_texture, bump_scale, alpha, textures [{slot, texture, channels}], extensions [name]}], textures \
+[{width, height, format, bytes}], cameras [{name, projection, eye, target, up, fov_y_degrees or half_height, near, far, \
+aspect}], lights [{name, kind, color, intensity, position, direction, range}], scenes [name], animations [{name, \
+duration}], variants [name], warnings [text], warning_count. Normals and tangents are \"file\", \"made\" or null. An error gives {error, exit_code}.")]
 pub(crate) struct InfoArgs {
     /// The model: a file, builtin:NAME, or - for standard input
     #[arg(value_name = "MODEL")]
@@ -68,6 +78,9 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     crate::output::print(&report)
 }
 
+/// The form of every texture in memory.
+const TEXTURE_FORMAT: &str = "rgba8";
+
 fn bounds(scene: &Scene) -> Option<Bounds> {
     let union = scene
         .meshes
@@ -80,7 +93,9 @@ fn bounds(scene: &Scene) -> Option<Bounds> {
 fn attributes(mesh: &Mesh) -> Vec<&'static str> {
     let has = [
         ("normals", !mesh.normals.is_empty()),
+        ("tangents", mesh.attribute(Mesh::TANGENT).is_some()),
         ("uvs", !mesh.uvs.is_empty()),
+        ("uvs1", mesh.attribute(Mesh::UV1).is_some()),
         ("colors", !mesh.colors.is_empty()),
     ];
     has.into_iter()
@@ -118,7 +133,7 @@ fn alpha_name(mode: AlphaMode) -> &'static str {
 
 fn json(model: &Model) -> Value {
     let scene = &model.scene;
-    let meshes = scene.meshes.iter().map(|mesh| {
+    let meshes = scene.meshes.iter().enumerate().map(|(at, mesh)| {
         json!({
             "name": mesh.name,
             "vertices": mesh.positions.len(),
@@ -126,6 +141,8 @@ fn json(model: &Model) -> Value {
             "lines": mesh.lines.len(),
             "points": mesh.points.len(),
             "attributes": attributes(mesh),
+            "normals": memory::normals(model, at),
+            "tangents": memory::tangents(model, at),
             "materials": materials_of(mesh),
         })
     });
@@ -141,12 +158,24 @@ fn json(model: &Model) -> Value {
             "bump_texture": material.bump_texture,
             "bump_scale": material.bump_scale,
             "alpha": alpha_name(material.alpha_mode),
+            "textures": material::textures(material).into_iter().map(|found| json!({
+                "slot": found.slot,
+                "texture": found.image,
+                "channels": found.channels,
+            })).collect::<Vec<_>>(),
+            "extensions": material::extensions(material),
         })
     });
     let images = scene.images.iter();
-    let textures = images.map(|image| json!({ "width": image.width, "height": image.height }));
-    let lights = scene.lights.iter();
-    let lights = lights.map(|light| json!({ "name": light.name, "kind": light_name(&light.kind) }));
+    let textures = images.map(|image| {
+        json!({
+            "width": image.width,
+            "height": image.height,
+            "format": TEXTURE_FORMAT,
+            "bytes": image.rgba.len(),
+        })
+    });
+    let lights = scene.lights.iter().map(light_json);
     let animations = model.choices.animations.iter();
     let animations =
         animations.map(|clip| json!({ "name": clip.name, "duration": clip.duration_s }));
@@ -154,6 +183,13 @@ fn json(model: &Model) -> Value {
         "model": model.name,
         "format": model.format.map(|format| format.name()),
         "up": up_name(scene.up),
+        "unit": memory::unit(model),
+        "memory": {
+            "geometry": memory::geometry_bytes(scene),
+            "textures": memory::texture_bytes(scene),
+        },
+        "nodes": tree::json(model),
+        "extensions": model.contents.extensions,
         "counts": counts(model),
         "bounds": bounds(scene).map(|bounds| json!({
             "min": bounds.min.to_array(),
@@ -175,12 +211,54 @@ fn json(model: &Model) -> Value {
 
 fn camera_json(named: &NamedCamera) -> Value {
     let camera = &named.camera;
+    let (angle, height, near, far) = match camera.projection {
+        Projection::Perspective {
+            fov_y_rad,
+            near,
+            far,
+        } => (Some(fov_y_rad.to_degrees()), None, near, far),
+        Projection::Orthographic {
+            half_height,
+            near,
+            far,
+        } => (None, Some(half_height), near, far),
+    };
     json!({
         "name": named.name,
+        "fov_y_degrees": angle,
+        "half_height": height,
+        "near": near,
+        "far": far.is_finite().then_some(far),
+        "aspect": named.aspect,
         "projection": projection_name(&camera.projection),
         "eye": camera.eye_world.to_array(),
         "target": camera.target_world.to_array(),
         "up": camera.up_world.to_array(),
+    })
+}
+
+fn light_json(light: &PunctualLight) -> Value {
+    let (position, direction, range) = match light.kind {
+        PunctualLightKind::Directional { direction_world } => (None, Some(direction_world), None),
+        PunctualLightKind::Point {
+            position_world,
+            range,
+        } => (Some(position_world), None, range),
+        PunctualLightKind::Spot {
+            position_world,
+            direction_world,
+            range,
+            ..
+        } => (Some(position_world), Some(direction_world), range),
+    };
+    json!({
+        "name": light.name,
+        "kind": light_name(&light.kind),
+        "color": light.color.to_array(),
+        "intensity": light.intensity,
+        "position": position.map(|point| point.to_array()),
+        "direction": direction.map(|vector| vector.to_array()),
+        "range": range,
     })
 }
 
@@ -212,13 +290,25 @@ fn list_choices(out: &mut String, model: &Model) {
     const LISTED: usize = 20;
     let (scene, choices) = (&model.scene, &model.choices);
     for (at, camera) in scene.cameras.iter().enumerate().take(LISTED) {
-        let projection = projection_name(&camera.camera.projection);
-        let _ = writeln!(out, "  camera {}: {projection}", numbered(at, &camera.name));
+        let lens = match camera.camera.projection {
+            Projection::Perspective { fov_y_rad, .. } => {
+                format!("perspective, {} degrees", fov_y_rad.to_degrees())
+            }
+            Projection::Orthographic { half_height, .. } => {
+                format!("orthographic, height {}", 2.0 * half_height)
+            }
+        };
+        let _ = writeln!(out, "  camera {}: {lens}", numbered(at, &camera.name));
     }
     list_rest(out, scene.cameras.len(), LISTED, "cameras");
     for (at, light) in scene.lights.iter().enumerate().take(LISTED) {
         let kind = light_name(&light.kind);
-        let _ = writeln!(out, "  light {}: {kind}", numbered(at, &light.name));
+        let unit = match light.kind {
+            PunctualLightKind::Directional { .. } => "lux",
+            _ => "candela",
+        };
+        let (name, strength) = (numbered(at, &light.name), light.intensity);
+        let _ = writeln!(out, "  light {name}: {kind}, {strength} {unit}");
     }
     list_rest(out, scene.lights.len(), LISTED, "lights");
     if choices.scenes.len() > 1 {
@@ -259,11 +349,23 @@ fn text(model: &Model) -> String {
     }
     if let Some(bounds) = bounds(scene) {
         let [a, b, size] = [bounds.min, bounds.max, bounds.max - bounds.min];
-        let _ = writeln!(out, "  bounds {a} to {b}, size {size}");
+        let unit = memory::unit(model).map_or(String::new(), |unit| format!(" {unit}"));
+        let _ = writeln!(out, "  bounds {a} to {b}, size {size}{unit}");
     } else {
         let _ = writeln!(out, "  bounds: none, nothing to draw");
     }
-    for mesh in scene.meshes.iter().take(LISTED) {
+    let (geometry, textures) = (memory::geometry_bytes(scene), memory::texture_bytes(scene));
+    let _ = writeln!(
+        out,
+        "  memory: geometry {geometry} bytes, textures {textures} bytes"
+    );
+    if !model.contents.extensions.is_empty() {
+        let names = model.contents.extensions.iter().take(LISTED);
+        let names: Vec<_> = names.map(|name| one_line(name)).collect();
+        let _ = writeln!(out, "  extensions: {}", names.join(", "));
+    }
+    tree::text(&mut out, model);
+    for (at, mesh) in scene.meshes.iter().enumerate().take(LISTED) {
         let name = if mesh.name.is_empty() {
             "(no name)"
         } else {
@@ -285,14 +387,25 @@ fn text(model: &Model) -> String {
         } else {
             format!(", with {with}")
         };
-        let _ = writeln!(out, "  mesh {name}: {}{with}", kinds.join(", "));
+        let sources = [
+            ("normals", memory::normals(model, at)),
+            ("tangents", memory::tangents(model, at)),
+        ];
+        let made = sources
+            .into_iter()
+            .filter(|(_, source)| *source == Some(memory::MADE));
+        let made: Vec<&str> = made.map(|(name, _)| name).collect();
+        let made = match &*made {
+            [] => String::new(),
+            names => format!("; made: {}", names.join(", ")),
+        };
+        let _ = writeln!(out, "  mesh {name}: {}{with}{made}", kinds.join(", "));
     }
     list_rest(&mut out, scene.meshes.len(), LISTED, "meshes");
     for material in scene.materials.iter().take(LISTED) {
-        let texture = if material.base_color_texture.is_some() {
-            ", textured"
-        } else {
-            ""
+        let extensions = match &*material::extensions(material) {
+            [] => String::new(),
+            names => format!(", {}", names.join(", ")),
         };
         let opacity = match material.alpha_mode {
             AlphaMode::Blend => format!(", opacity {}", material.opacity),
@@ -301,15 +414,21 @@ fn text(model: &Model) -> String {
         };
         let _ = writeln!(
             out,
-            "  material {}: colour {}{opacity}{texture}",
+            "  material {}: colour {}{opacity}{extensions}",
             one_line(&material.name),
             material.base_color
         );
+        for found in material::textures(material) {
+            let (slot, image, channels) = (found.slot, found.image, found.channels);
+            let _ = writeln!(out, "    {slot}: texture {image}, {channels}");
+        }
     }
     list_rest(&mut out, scene.materials.len(), LISTED, "materials");
-    for image in &scene.images {
-        let _ = writeln!(out, "  texture {}x{}", image.width, image.height);
+    for (at, image) in scene.images.iter().enumerate().take(LISTED) {
+        let (width, height) = (image.width, image.height);
+        let _ = writeln!(out, "  texture {at}: {width}x{height} {TEXTURE_FORMAT}");
     }
+    list_rest(&mut out, scene.images.len(), LISTED, "textures");
     list_choices(&mut out, model);
     for warning in &model.warnings {
         let _ = writeln!(out, "  warning: {}", one_line(&warning.to_string()));

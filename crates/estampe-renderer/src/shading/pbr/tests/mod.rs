@@ -1,12 +1,21 @@
 //! Single points of physically based surfaces against the oracle's integrals.
+//!
+//! | module | contents |
+//! |---|---|
+//! | [`furnace`] | each layer alone in white surroundings |
+//! | [`integral`] | random materials of all layers against the oracle |
+//! | [`film`] | thin films against the oracle |
+
+mod film;
+mod furnace;
+mod integral;
 
 use super::brdf;
 use super::environment::EnvironmentLight;
 use super::lights::{PbrLight, PbrSource};
-use super::reflection::{Coat, Fibres, PbrPoint};
+use super::reflection::PbrPoint;
 use super::tone_map::ToneMap;
 use crate::environment::EnvironmentMap;
-use crate::shading::lighting::Directional;
 use crate::shading::shadow::Visibilities;
 use crate::transforms::round_to_f32;
 use estampe::{Device, DeviceDescriptor, Mat4, Vec3};
@@ -25,18 +34,18 @@ fn point(n_dot_v: f32, roughness: f32) -> PbrPoint<f32> {
         normal: Vec3::new(0.0, 0.0, 1.0),
         to_eye: Vec3::new((1.0 - n_dot_v * n_dot_v).sqrt(), 0.0, n_dot_v),
         diffuse: zero,
+        passing: None,
         f0: Vec3::new(1.0, 1.0, 1.0),
         f90: 1.0,
         roughness,
         occlusion: 1.0,
         clearcoat: None,
         sheen: None,
+        grooves: None,
+        film: None,
         visibilities: Visibilities::all(1.0),
     }
 }
-
-const COSINES: [f32; 5] = [0.1, 0.3, 0.6, 0.85, 1.0];
-const ROUGHNESSES: [f32; 6] = [0.0, 0.2, 0.4, 0.6, 0.8, 1.0];
 
 #[test]
 fn terms_are_those_of_the_oracle() {
@@ -62,82 +71,6 @@ fn terms_are_those_of_the_oracle() {
         let fresnel = brdf::schlick(cosine) * 0.96 + 0.04;
         let right = pbr::fresnel(0.04, 1.0, f64::from(cosine));
         assert!((f64::from(fresnel) - right).abs() < 1e-6);
-    }
-}
-
-/// White surfaces in white surroundings vanish: metals, dielectrics and those with a coat.
-#[test]
-fn a_white_furnace_keeps_its_energy() {
-    let white = environment(&EnvironmentMap::uniform([1.0; 3]));
-    for n_dot_v in COSINES {
-        for roughness in ROUGHNESSES {
-            let metal = point(n_dot_v, roughness);
-            let dielectric = PbrPoint {
-                diffuse: Vec3::new(1.0, 1.0, 1.0),
-                f0: Vec3::new(0.04, 0.04, 0.04),
-                ..metal
-            };
-            let coated = PbrPoint {
-                clearcoat: Some(Coat {
-                    factor: 1.0,
-                    roughness: 0.3,
-                    normal: metal.normal,
-                }),
-                ..dielectric
-            };
-            let fibres = PbrPoint {
-                sheen: Some(Fibres {
-                    color: Vec3::new(1.0, 1.0, 1.0),
-                    roughness: 0.5,
-                }),
-                ..dielectric
-            };
-            for (name, point) in [
-                ("metal", metal),
-                ("dielectric", dielectric),
-                ("coated", coated),
-                ("fibres", fibres),
-            ] {
-                let light = point.reflected(&white, &[]);
-                assert!(
-                    (light.x - 1.0).abs() < 0.01,
-                    "{name}, n·v {n_dot_v}, roughness {roughness}: {}",
-                    light.x
-                );
-            }
-        }
-    }
-}
-
-/// The same furnace by many lights, without surroundings: each direction's share of 4π.
-#[test]
-fn lights_from_everywhere_are_a_furnace_too() {
-    let black = environment(&EnvironmentMap::uniform([0.0; 3]));
-    for n_dot_v in [0.3, 0.7, 1.0] {
-        for roughness in [0.5, 0.8, 1.0] {
-            let metal = point(n_dot_v, roughness);
-            let dielectric = PbrPoint {
-                diffuse: Vec3::new(1.0, 1.0, 1.0),
-                f0: Vec3::new(0.04, 0.04, 0.04),
-                ..metal
-            };
-            for point in [metal, dielectric] {
-                let [sum, ..] = pbr::over_hemisphere(160, |[x, y, z]| {
-                    let [x, y, z] = [x, y, z].map(round_to_f32);
-                    let light = PbrLight {
-                        source: PbrSource::Directional(Directional([x, y, z])),
-                        color: [1.0; 3],
-                        shadow_map: None,
-                    };
-                    let light = point.reflected(&black, &[light]);
-                    [light.x, light.y, light.z].map(f64::from)
-                });
-                assert!(
-                    (sum - 1.0).abs() < 0.01,
-                    "n·v {n_dot_v}, roughness {roughness}: {sum}"
-                );
-            }
-        }
     }
 }
 
@@ -178,7 +111,7 @@ fn light_from_all_around_is_the_integral_over_the_lobe() {
                 [0, 1, 2].map(|channel| term[channel] * arriving[channel] * l[2])
             });
             // Light between facets is not in the integral: a few hundredths of rough surfaces.
-            let own = point.reflected(&light, &[]);
+            let own = point.leaving(&light, &[]).reflected;
             let between = pbr_between_facets(&point);
             for (channel, own) in [own.x, own.y, own.z].into_iter().enumerate() {
                 let own = f64::from(own) - between * radiance([0.0, 0.0, 1.0])[channel];
@@ -208,7 +141,7 @@ fn pbr_between_facets(point: &PbrPoint<f32>) -> f64 {
     let [lobe, ..] = pbr::over_lobe(256, alpha, view, |l| {
         pbr::specular(&surface, view, l).map(|term| term * l[2])
     });
-    f64::from(point.reflected(&white, &[]).x) - lobe
+    f64::from(point.leaving(&white, &[]).reflected.x) - lobe
 }
 
 /// Reference values of the Khronos shader, and the ends of each curve.
