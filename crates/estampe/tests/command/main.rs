@@ -20,6 +20,7 @@ mod picture_options;
 mod polygon_fill;
 mod presets;
 mod preview;
+mod readme_page;
 mod render;
 mod render_page;
 mod render_shader;
