@@ -16,8 +16,8 @@ const BY_CARGO: &str = "cargo run --release -p estampe -- ";
 /// A picture whose command has inputs that are not shown.
 const WITHOUT_INPUTS: &str = "heatmap.png";
 
-/// The commands and the names of their pictures in `docs/images`, except those of other pages, which
-/// have folders of their own.
+/// The commands and the names of their pictures in `docs/images`, except those of other pages,
+/// which have folders of their own.
 fn commands(page: &str) -> Vec<(String, String)> {
     let mut commands = Vec::new();
     let mut link = "";
