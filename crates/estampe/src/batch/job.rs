@@ -7,7 +7,7 @@ use super::record::{self, NamedFiles, Sources, digest};
 use crate::failure::Failure;
 use crate::input::{self, Model};
 use crate::output;
-use crate::render::{self, PassName, PictureArgs, Sources as PassSources};
+use crate::render::{self, PassFormat, PassName, PictureArgs, Sources as PassSources};
 use crate::values::{Destination, ViewName, shown};
 use estampe::Device;
 use estampe_assets::Limits;
@@ -122,7 +122,12 @@ impl Shared {
             Ok(model) => model,
             Err(failure) => return all(failure),
         };
-        if let Err(failure) = self.args.limits.check_memory(&model, &args.picture) {
+        let hold_light = { job.pictures.iter() }.any(|picture| match &picture.content {
+            Content::Picture(_) => false,
+            Content::Passes(format, _) => format.holds_light(),
+        });
+        let limits = &self.args.limits;
+        if let Err(failure) = limits.check_memory(&model, &args.picture, hold_light) {
             return all(failure);
         }
         let to_draw = job.pictures.iter().zip(&current);
@@ -151,7 +156,7 @@ impl Shared {
                     Content::Passes(format, file) => {
                         let wanted = passes_of(&to_draw, picture.view);
                         let unit = job.look.options.passes.depth_unit;
-                        let drawn = passes.of(&model, args, &wanted, device)?;
+                        let drawn = passes.of(&model, args, (&wanted, *format), device)?;
                         drawn.encode(file, *format, (args.size, unit))
                     }
                 };
@@ -186,7 +191,7 @@ impl DrawnPasses {
         &mut self,
         model: &Model,
         args: &PictureArgs,
-        passes: &[PassName],
+        of: (&[PassName], PassFormat),
         device: &Device,
     ) -> Result<&PassSources, Failure> {
         let last = self.0.take().filter(|(view, _)| *view == args.view);
@@ -195,7 +200,7 @@ impl DrawnPasses {
             None => {
                 let default = ViewDirection::default();
                 let options = render::frame_options(model, args, default, device)?;
-                let (sources, _) = PassSources::draw(passes, model, args, (&options, device))?;
+                let (sources, _) = PassSources::draw(of, model, args, (&options, device))?;
                 (args.view, sources)
             }
         };

@@ -199,7 +199,7 @@ impl Draft {
         let Some(format) = destination.image_format() else {
             return Err(Failure::Usage(format!(
                 "--output {}: the name does not show the image's format; end it with .png, .jpg, .tga, \
-                 .webp or .exr",
+                 .webp, .exr or .hdr",
                 shown(&output)
             )));
         };

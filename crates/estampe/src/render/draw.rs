@@ -15,8 +15,8 @@ use estampe::{Device, DeviceDescriptor};
 use estampe_assets::image::{ImageFormat, decode, encode};
 use estampe_assets::{Limits, ModelFormat};
 use estampe_renderer::{
-    CameraOptions, Eye, Frame, ProjectionKind, RenderOptions, Up, ViewDirection, composite_over,
-    render, render_watched,
+    CameraOptions, Eye, Frame, LightImage, ProjectionKind, RenderOptions, Up, ViewDirection,
+    composite_over, render, render_light, render_watched,
 };
 use estampe_scene::{Image, Projection, Scene};
 use std::time::Instant;
@@ -117,8 +117,7 @@ pub(crate) fn drawn_bytes(
     check_drawable(model)?;
     let texture = texture_of(model, args)?;
     let options = options(model, args, (default_view, texture), device)?;
-    let frame = render(&model.scene, &options, device);
-    let frame = frame.map_err(|error| args.shader.failure(error))?;
+    let frame = frame(model, args, &options, device)?;
     encoded(&frame.image, format)
 }
 
@@ -154,6 +153,16 @@ pub(crate) fn frame(
     device: &Device,
 ) -> Result<Frame, Failure> {
     render(&model.scene, options, device).map_err(|error| args.shader.failure(error))
+}
+
+/// A frame of light with the renderer's options.
+pub(super) fn light_frame(
+    model: &Model,
+    args: &PictureArgs,
+    options: &RenderOptions,
+    device: &Device,
+) -> Result<Frame<LightImage>, Failure> {
+    render_light(&model.scene, options, device).map_err(|error| args.shader.failure(error))
 }
 
 /// The renderer's options, with the program of a shader, and a camera of the model.

@@ -13,6 +13,7 @@ mod gltf;
 mod inspect;
 mod inspect_page;
 mod ladder;
+mod light;
 mod man;
 mod output;
 mod passes;
