@@ -1,6 +1,7 @@
 //! Draws a model and writes the picture, for all commands that draw.
 
 use super::camera_check;
+use super::cameras::NamedCamera;
 use super::picture::PictureArgs;
 use super::report::Encoded;
 use crate::choice;
@@ -107,16 +108,19 @@ pub(crate) fn check_output(
     output::check_inputs(output, files.chain(options.into_iter().flatten()))
 }
 
-/// The bytes of a picture that a device draws.
+/// The bytes of a picture that a device draws, with the camera of a file if there is one.
 pub(crate) fn drawn_bytes(
     model: &Model,
-    args: &PictureArgs,
+    (args, camera): (&PictureArgs, Option<&NamedCamera>),
     (default_view, format): (ViewDirection, ImageFormat),
     device: &Device,
 ) -> Result<Vec<u8>, Failure> {
     check_drawable(model)?;
     let texture = texture_of(model, args)?;
-    let options = options(model, args, (default_view, texture), device)?;
+    let mut options = options(model, args, (default_view, texture), device)?;
+    if let Some(camera) = camera {
+        options = camera.apply(options);
+    }
     let frame = frame(model, args, &options, device)?;
     encoded(&frame.image, format)
 }

@@ -1,6 +1,7 @@
 //! The command, end to end: its subcommands, errors and pages.
 
 mod batch;
+mod batch_cameras;
 mod book;
 mod cameras;
 mod completions;

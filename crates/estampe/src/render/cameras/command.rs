@@ -125,12 +125,7 @@ impl Shot {
         (options, device): (&RenderOptions, &Device),
     ) -> Result<Vec<Vec<u8>>, Failure> {
         let size = self.camera.size;
-        let options = RenderOptions {
-            width: size.0,
-            height: size.1,
-            camera: self.camera.pinhole.into(),
-            ..options.clone()
-        };
+        let options = self.camera.apply(options.clone());
         match &self.outputs {
             Outputs::Picture(_, format) => {
                 let frame = frame(model, &args.picture, &options, device)?;
