@@ -12,8 +12,8 @@ use std::path::Path;
 const ELSEWHERE: [(&str, &str); 22] = [
     ("--aa", "--samples 4"),
     ("--angle", "--azimuth 30"),
-    ("--antialias", "--samples 4"),
     ("--anti-aliasing", "--samples 4"),
+    ("--antialias", "--samples 4"),
     ("--camera-position", "--eye X,Y,Z"),
     ("--center", "--target X,Y,Z"),
     ("--dir", "--eye X,Y,Z or --view NAME"),

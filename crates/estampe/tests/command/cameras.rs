@@ -159,7 +159,7 @@ fn cameras_that_cannot_be_drawn_are_errors() {
         (&two, "no/{camera}.png", "", "does not exist"),
         (&two, "{camera}.png", "--view top", "cannot be used with"),
         (&two, "{camera}.png", "--pass depth", "written as OpenEXR"),
-        (&two, "{camera}.gif", "", "does not show the image's format"),
+        (&two, "{camera}.gif", "", ".gif is no format of pictures"),
         (
             &mirrored,
             "{camera}.png",

@@ -203,10 +203,7 @@ fn wrong_usage_is_an_error_before_anything_is_written() {
     );
     let before = fs::read(&texture).expect("drawn");
     for (words, problem) in [
-        (
-            "builtin:cube -o @/s.gif",
-            "does not show the image's format",
-        ),
+        ("builtin:cube -o @/s.gif", ".gif is no format of pictures"),
         (
             "builtin:cube -o @/s.png --cell 9000x9 --turn 1000 --columns 1000",
             "16384 a side",
