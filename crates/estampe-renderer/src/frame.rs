@@ -8,11 +8,13 @@ use crate::draw_plan::{Planner, is_dark};
 use crate::frame_passes::{DrawnPasses, FramePasses};
 use crate::ground::{ColumnMaps, GroundFrame, GroundShadow};
 use crate::guides;
+use crate::light::{FrameOutput, LightImage, MarkedLight};
 use crate::options::{RenderOptions, Shading};
 use crate::scene_view::SceneView;
 use crate::shading::VertexTransforms;
 use crate::shading::backdrop::Backdrop;
 use crate::shading::output;
+use crate::shading::pbr::tone_map::ToneMap;
 use crate::shading::pbr::transmission::Background;
 use crate::shading::surface::DEPTH_ORDER;
 use crate::shading::wireframe::Wireframe;
@@ -30,9 +32,10 @@ use std::time::{Duration, Instant};
 
 /// A rendered image with its statistics and camera.
 #[derive(Debug, Clone)]
-pub struct Frame {
-    /// The image, straight alpha. sRGB, except for shadings that show numbers.
-    pub image: Image,
+pub struct Frame<P = Image> {
+    /// The image: of [`render`] codes with straight alpha, sRGB except for shadings that show
+    /// numbers; of [`render_light`] light, or the numbers.
+    pub image: P,
     /// Counters of the pipeline.
     pub statistics: Statistics,
     /// Duration of each stage.
@@ -180,13 +183,8 @@ pub fn render_watched(
     device: &Device,
     on_stage: &(dyn Fn(FrameStage) + Sync),
 ) -> Result<Frame, RenderError> {
-    let start = Instant::now();
-    with_passes(scene, options, (device, on_stage), |passes, view| {
-        let prepare = start.elapsed();
-        let DrawnPasses { statistics, layers } = passes.draw(device)?;
-        on_stage(FrameStage::ReadingBack);
-        let start = Instant::now();
-        let mut rgba = device.read_texture(&passes.attachments.image)?;
+    let to = (device, FrameOutput::Display);
+    draw(scene, options, to, on_stage, |mut rgba, view| {
         if options.background.is_none() {
             straighten(&mut rgba, encoding(options));
         }
@@ -196,6 +194,48 @@ pub fn render_watched(
             rgba,
         };
         guides::mark(&mut image, view, options);
+        image
+    })
+}
+
+/// Draws the light of a scene: linear colours before the tone map and after the exposure, which may
+/// be above 1, multiplied by alpha. Shadings without a tone map give the colours of [`render`] as
+/// they are before they are clamped and rounded; those that show numbers give the numbers,
+/// code ÷ 255.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_light(
+    scene: &Scene,
+    options: &RenderOptions,
+    device: &Device,
+) -> Result<Frame<LightImage>, RenderError> {
+    let to = (device, FrameOutput::Light);
+    draw(scene, options, to, &|_| {}, |bytes, view| {
+        let size = (options.width, options.height);
+        let mut image = LightImage::of_bytes(size, &bytes, options.background.is_some());
+        let mut marked = MarkedLight(&mut image, encoding(options));
+        guides::mark(&mut marked, view, options);
+        image
+    })
+}
+
+/// Draws a scene, and makes an image of the bytes of the target.
+fn draw<P>(
+    scene: &Scene,
+    options: &RenderOptions,
+    (device, output): (&Device, FrameOutput),
+    on_stage: OnStage<'_>,
+    image_of: impl FnOnce(Vec<u8>, &SceneView) -> P,
+) -> Result<Frame<P>, RenderError> {
+    let start = Instant::now();
+    let to = (device, output);
+    with_passes(scene, options, to, on_stage, |passes, view| {
+        let prepare = start.elapsed();
+        let DrawnPasses { statistics, layers } = passes.draw(device)?;
+        on_stage(FrameStage::ReadingBack);
+        let start = Instant::now();
+        let image = image_of(device.read_texture(&passes.attachments.image)?, view);
         let timings = FrameTimings {
             prepare,
             geometry: statistics.geometry,
@@ -217,7 +257,8 @@ pub fn render_watched(
 pub(crate) fn with_passes<T>(
     scene: &Scene,
     options: &RenderOptions,
-    (device, on_stage): (&Device, OnStage<'_>),
+    (device, output): (&Device, FrameOutput),
+    on_stage: OnStage<'_>,
     use_passes: impl FnOnce(&FramePasses<'_>, &SceneView) -> Result<T, RenderError>,
 ) -> Result<T, RenderError> {
     check_size(options, device)?;
@@ -236,7 +277,7 @@ pub(crate) fn with_passes<T>(
     let cut = options.cut(scene, workers)?;
     let scene = cut.as_ref().map_or(scene, |cut| &cut.scene);
     let view = SceneView::new(scene, options, workers);
-    let style = frame_style(scene, &view, options, device)?;
+    let style = frame_style(scene, &view, options, (device, output))?;
     let plan = Planner {
         scene,
         options,
@@ -377,7 +418,7 @@ fn frame_style(
     scene: &Scene,
     view: &SceneView,
     options: &RenderOptions,
-    device: &Device,
+    (device, output): (&Device, FrameOutput),
 ) -> Result<FrameStyle, RenderError> {
     let transforms = view.transforms();
     let lights = view.lights(options);
@@ -388,6 +429,9 @@ fn frame_style(
     });
     let pbr = if options.shading == Shading::Pbr {
         let mut lighting = view.pbr_lighting(scene, options, &lights, device)?;
+        if output == FrameOutput::Light {
+            lighting.tone_map = ToneMap::None;
+        }
         let background = match (backdrop(options), options.background) {
             (Some(gradient), _) => Background::Gradient(gradient),
             (None, Some(_)) => {
@@ -443,10 +487,8 @@ fn frame_style(
         depth_range: view.depth_range(),
         cull: options.cull,
         samples: options.samples,
-        format: match encoding(options) {
-            Encoding::Srgb => TextureFormat::Rgba8UnormSrgb,
-            Encoding::Linear => TextureFormat::Rgba8Unorm,
-        },
+        format: output.format(encoding(options)),
+        frame_output: output,
         finder: Finder::new(device, DEPTH_ORDER, options.samples)?,
     })
 }

@@ -1,6 +1,6 @@
 //! Gradients behind a model.
 
-use crate::alpha::{Encoding, decode, encode};
+use crate::alpha::{Encoding, decode, encode, straighten};
 
 /// A gradient of up to eight colours at equal distances.
 ///
@@ -68,12 +68,29 @@ impl Gradient {
     /// The colour halfway, sRGB, without its alpha.
     #[must_use]
     pub fn middle(&self) -> [u8; 3] {
+        let (color, _) = self.linear_middle();
+        color.map(|channel| encode(channel, Encoding::Srgb))
+    }
+
+    /// The colour halfway, sRGB with straight alpha, rounded as in pictures, which hold colours
+    /// multiplied by alpha.
+    #[must_use]
+    pub fn middle_with_alpha(&self) -> [u8; 4] {
+        let (color, alpha) = self.linear_middle();
+        let [r, g, b] = color.map(|channel| encode(channel * alpha, Encoding::Srgb));
+        let mut rgba = [r, g, b, encode(alpha, Encoding::Linear)];
+        straighten(&mut rgba, Encoding::Srgb);
+        rgba
+    }
+
+    /// The linear colour halfway, not multiplied by alpha, and alpha.
+    fn linear_middle(&self) -> ([f32; 3], f32) {
         let last = self.count - 1;
         let [a, b] = [last / 2, last.div_ceil(2)].map(|at| oklab(self.colors[at], Encoding::Srgb));
         let sum = [0, 1, 2, 3].map(|i| a[i] + b[i]);
         let alpha = sum[3].max(1e-6);
-        linear([sum[0] / alpha, sum[1] / alpha, sum[2] / alpha])
-            .map(|channel| encode(channel, Encoding::Srgb))
+        let color = linear([sum[0] / alpha, sum[1] / alpha, sum[2] / alpha]);
+        (color, sum[3] / 2.0)
     }
 }
 
@@ -157,6 +174,10 @@ mod tests {
         assert!(grey.is_opaque());
         let clear = of(&[[200, 10, 10, 255], [0; 4]]).expect("two");
         assert_eq!(clear.middle(), [200, 10, 10], "nothing dark is between");
+        assert_eq!(clear.middle_with_alpha()[3], 128);
+        let pale = of(&[[255, 0, 0, 128]]).expect("one");
+        assert_eq!(pale.middle_with_alpha(), [255, 0, 0, 128]);
+        assert_eq!(grey.middle_with_alpha(), [90, 90, 90, 255]);
         assert!(!clear.is_opaque());
         assert_eq!(of(&[[0; 4]]).expect("one").middle(), [0; 3]);
     }

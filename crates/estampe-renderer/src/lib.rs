@@ -20,6 +20,7 @@
 //!        ├─ frame           render: all of it, and reading back the pixels
 //!        ├─ feature_edges   sharp edges, borders and silhouettes
 //!        ├─ guides          grid, axes, and the model's box with its sizes
+//!        ├─ light           frames of light, in place of codes for a screen
 //!        ├─ strokes         lines of a width, which the model hides
 //!        ├─ surface_points  positions, normals and other numbers of what is seen
 //!        └─ text            labels on the image
@@ -39,6 +40,7 @@ mod alpha;
 mod alpha_levels;
 mod backdrop;
 mod behind;
+mod canvas;
 mod draw_plan;
 mod environment;
 mod feature_edges;
@@ -48,6 +50,7 @@ mod geometry;
 mod gradient;
 mod ground;
 mod guides;
+mod light;
 mod materials;
 mod options;
 mod pbr_lighting;
@@ -75,10 +78,11 @@ pub use estampe::state::CullMode;
 pub use estampe::transforms;
 pub use feature_edges::FeatureEdges;
 pub use frame::{Frame, FrameStage, FrameTimings, RenderError, TransparentLayers};
-pub use frame::{render, render_watched};
+pub use frame::{render, render_light, render_watched};
 pub use geometry::face_colors::face_color;
 pub use gradient::{Gradient, GradientShape};
 pub use guides::BoundingBox;
+pub use light::LightImage;
 pub use options::{
     Environment, Fog, Ground, RenderOptions, Shading, Specular, SpecularModel, Transparency, Up,
 };

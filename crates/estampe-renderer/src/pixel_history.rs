@@ -4,6 +4,7 @@
 use crate::alpha::straighten;
 use crate::frame::{RenderError, encoding, with_passes};
 use crate::frame_passes::FramePasses;
+use crate::light::FrameOutput;
 use crate::options::{RenderOptions, Transparency};
 use crate::scene_view::SceneView;
 use estampe::{Device, PassStages, PixelHistory};
@@ -46,7 +47,8 @@ pub fn inspect(
     device: &Device,
     pixel: [u32; 2],
 ) -> Result<FramePixel, RenderError> {
-    with_passes(scene, options, (device, &|_| {}), |passes, view| {
+    let to = (device, FrameOutput::Display);
+    with_passes(scene, options, to, &|_| {}, |passes, view| {
         check_one_pass(options, passes)?;
         let history = passes.with_one_pass(|pass| Ok(device.inspect(pass, pixel)?))?;
         let texel = history.texels.first().and_then(Option::as_deref);
@@ -95,7 +97,8 @@ pub fn inspect_stages(
     options: &RenderOptions,
     device: &Device,
 ) -> Result<FrameStages, RenderError> {
-    with_passes(scene, options, (device, &|_| {}), |passes, view| {
+    let to = (device, FrameOutput::Display);
+    with_passes(scene, options, to, &|_| {}, |passes, view| {
         check_one_pass(options, passes)?;
         let stages = passes.with_one_pass(|pass| Ok(device.inspect_stages(pass)?))?;
         let vertices = stages.vertices.iter();

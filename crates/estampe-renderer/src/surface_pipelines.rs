@@ -4,6 +4,7 @@ use crate::behind::{BehindPicture, LIGHT};
 use crate::frame::RenderError;
 use crate::geometry::vertex_data::{MeshStreams, VertexStream};
 use crate::ground::ColumnMaps;
+use crate::light::FrameOutput;
 use crate::options::Shading;
 use crate::shading::VertexTransforms;
 use crate::shading::backdrop::Backdrop;
@@ -60,6 +61,8 @@ pub(crate) struct FrameStyle {
     pub(crate) cull: CullMode,
     pub(crate) samples: u32,
     pub(crate) format: TextureFormat,
+    /// What the picture's pixels hold.
+    pub(crate) frame_output: FrameOutput,
     /// The maps by which surfaces are in shadow.
     pub(crate) shadows: Option<ShadowMaps>,
     /// What is seen through surfaces, if light passes through some.
@@ -380,10 +383,12 @@ impl FrameStyle {
         let surface = WrittenSurface {
             style: surface,
             samples: self.samples,
-            written: match role {
-                Role::Weighted => Written::WeightedTerms,
-                Role::Behind => Written::Light,
-                Role::Opaque | Role::Blended | Role::Layer | Role::Caster(_) => Written::Color,
+            written: match (role, self.frame_output) {
+                (Role::Behind, _) => Written::Light,
+                (Role::Weighted, FrameOutput::Display) => Written::WeightedTerms,
+                (Role::Weighted, FrameOutput::Light) => Written::UnclampedTerms,
+                (_, FrameOutput::Display) => Written::Color,
+                (_, FrameOutput::Light) => Written::Unclamped,
             },
         };
         if let (Some(lighting), Some(parameters)) = (&self.pbr, &surface.style.pbr) {
@@ -451,7 +456,10 @@ impl FrameStyle {
                         levels: None,
                         ..self.output()
                     },
-                    Written::Color | Written::WeightedTerms => self.output(),
+                    Written::Color
+                    | Written::WeightedTerms
+                    | Written::Unclamped
+                    | Written::UnclampedTerms => self.output(),
                 }
             },
             written: surface.written,

@@ -71,7 +71,7 @@ fn advice_for(word: &str) -> Option<String> {
     }
     let extension = Path::new(word).extension()?.to_str()?.to_ascii_lowercase();
     match extension.as_str() {
-        "png" | "jpg" | "jpeg" | "tga" | "webp" | "exr" | "gif" | "svg" | "y4m" => {
+        "png" | "jpg" | "jpeg" | "tga" | "webp" | "exr" | "hdr" | "gif" | "svg" | "y4m" => {
             Some(format!("to write this file: -o {word}"))
         }
         "gltf" | "glb" | "obj" | "stl" | "ply" | "off" | "3mf" => Some(

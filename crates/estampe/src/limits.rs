@@ -62,8 +62,14 @@ impl LimitArgs {
         }
     }
 
-    /// Refuses a model that needs more memory than the limit, before it is drawn.
-    pub(crate) fn check_memory(&self, model: &Model, picture: &PictureArgs) -> Result<(), Failure> {
+    /// Refuses a model that needs more memory than the limit, before it is drawn as codes, or as
+    /// light.
+    pub(crate) fn check_memory(
+        &self,
+        model: &Model,
+        picture: &PictureArgs,
+        holds_light: bool,
+    ) -> Result<(), Failure> {
         let Some(limit) = self.max_memory else {
             return Ok(());
         };
@@ -79,7 +85,7 @@ impl LimitArgs {
         // A model that is cut is a copy.
         let copies = if picture.section.is_cut() { 2 } else { 1 };
         let mut needed = scene.saturating_mul(copies);
-        needed = needed.saturating_add(picture.bytes());
+        needed = needed.saturating_add(picture.bytes(holds_light));
         let materials = model.scene.materials.iter();
         let mut descriptions = materials.filter_map(|material| material.pbr.as_ref());
         if descriptions.any(|pbr| pbr.transmission.is_some()) {

@@ -2,15 +2,14 @@
 
 use super::drawing::PlannedDraw;
 use super::planner::{DrawPlanBuilder, Planner, buffers_of, element_count};
-use crate::alpha::{Encoding, decode};
-use crate::frame::RenderError;
+use crate::alpha::decode;
+use crate::frame::{RenderError, encoding};
 use crate::geometry::vertex_data::{MeshStreams, StreamData};
 use crate::options::{RenderOptions, Shading};
 use crate::shading::inspection::Overdraw;
 use crate::shading::points_and_lines::PointsAndLines;
 use crate::surface_pipelines::{Role, is_smooth};
 use crate::transforms::round_to_f32;
-use estampe::TextureFormat;
 use estampe::state::{LineRasterization, LineState, PrimitiveState, PrimitiveTopology};
 use estampe_scene::Mesh;
 
@@ -79,10 +78,7 @@ impl Planner<'_> {
     /// The shader of points and lines: vertex colours, or one colour that contrasts with the
     /// background.
     fn points_and_lines(&self, shows_colors: bool, point_count: usize) -> PointsAndLines {
-        let encoding = match self.style.format {
-            TextureFormat::Rgba8UnormSrgb => Encoding::Srgb,
-            _ => Encoding::Linear,
-        };
+        let encoding = encoding(self.options);
         let background = self
             .options
             .background

@@ -1,21 +1,22 @@
 //! A cross of the file's axes in the image's lower left corner, with their letters.
 
 use super::{AXIS_COLORS, marks};
+use crate::canvas::Canvas;
 use crate::scene_view::SceneView;
-use crate::text::{TextHeight, TextStyle, draw_text, text_width_px};
-use estampe_scene::Image;
+use crate::text::{TextHeight, TextStyle, text_width_px, write_text};
 use glam::{DVec2, DVec3};
 
 const LETTERS: [&str; 3] = ["X", "Y", "Z"];
 
 /// Draws the cross; the axes that point away from the eye first.
-pub(super) fn mark_axes(image: &mut Image, view: &SceneView) {
-    let shorter = image.width.min(image.height);
+pub(super) fn mark_axes(image: &mut impl Canvas, view: &SceneView) {
+    let [width_px, height_px] = image.size();
+    let shorter = width_px.min(height_px);
     let length = f64::from(shorter / 9).clamp(14.0, 64.0);
     let height = TextHeight::at_most(shorter / 20);
     let letter = f64::from(height.px());
     let border = length + letter * 0.9;
-    let origin = DVec2::new(border, f64::from(image.height) - border);
+    let origin = DVec2::new(border, f64::from(height_px) - border);
     let frame = &view.camera.frame;
     let in_view = |axis: usize| {
         let world = view.space.world_from_object * DVec3::AXES[axis];
@@ -42,7 +43,7 @@ pub(super) fn mark_axes(image: &mut Image, view: &SceneView) {
             color: AXIS_COLORS[axis],
             outline: None,
         };
-        draw_text(image, rounded(corner), LETTERS[axis], style);
+        write_text(image, rounded(corner), LETTERS[axis], style);
     }
 }
 

@@ -2,11 +2,11 @@
 
 use super::axis_cross::rounded;
 use super::{AXIS_COLORS, BoundingBox, axis_of};
+use crate::canvas::Canvas;
 use crate::options::RenderOptions;
 use crate::scene_view::SceneView;
 use crate::strokes::{Stroke, Window};
-use crate::text::{TextHeight, TextStyle, draw_text, text_width_px};
-use estampe_scene::Image;
+use crate::text::{TextHeight, TextStyle, text_width_px, write_text};
 use glam::{DVec2, DVec3};
 
 /// The numbers of the corners at the ends of the twelve edges: those along x, y and z.
@@ -36,7 +36,7 @@ pub(crate) fn box_strokes(view: &SceneView) -> Vec<Stroke> {
 /// Writes the lengths of the box beside one edge of each direction: that which is the furthest from
 /// the box's middle in the image, for nothing else is there.
 pub(super) fn mark_sizes(
-    image: &mut Image,
+    image: &mut impl Canvas,
     view: &SceneView,
     bounding_box: &BoundingBox,
     options: &RenderOptions,
@@ -85,7 +85,7 @@ pub(super) fn mark_sizes(
             color,
             outline: Some([0xff; 3]),
         };
-        draw_text(
+        write_text(
             image,
             rounded(corner.clamp(DVec2::ZERO, most)),
             &text,

@@ -16,9 +16,9 @@ mod tests;
 pub(crate) use bounding_box::box_strokes;
 pub(crate) use grid::grid_strokes;
 
+use crate::canvas::Canvas;
 use crate::options::RenderOptions;
 use crate::scene_view::SceneView;
-use estampe_scene::Image;
 use glam::DVec3;
 
 /// The model's box as lines, with its sizes.
@@ -40,7 +40,7 @@ fn axis_of(view: &SceneView, direction_world: DVec3) -> Option<usize> {
 }
 
 /// Draws the marks of the options on a finished image.
-pub(crate) fn mark(image: &mut Image, view: &SceneView, options: &RenderOptions) {
+pub(crate) fn mark(image: &mut impl Canvas, view: &SceneView, options: &RenderOptions) {
     if let Some(bounding_box) = &options.bounding_box {
         bounding_box::mark_sizes(image, view, bounding_box, options);
     }

@@ -6,7 +6,7 @@
 //!   × interpolation    flat · Gouraud · Phong                                 interpolation
 //!   × terms            ambient + diffuse + specular · toon · unlit            terms, lighting
 //!   × output           plain · quantised · fogged                             output
-//!   × written          colour · terms of weighted transparency
+//!   × written          colour · terms of weighted transparency, clamped by the target or not
 //! ```
 //!
 //! A part that needs other varyings is a type, and each combination of these is a shader of its
@@ -37,6 +37,9 @@ pub(crate) struct Surface<B, I> {
 /// The greatest number of binary16.
 pub(crate) const MOST_LIGHT: f32 = 65_504.0;
 
+/// The brightest fragment of a frame of light: sums of samples and of layers stay finite.
+pub(crate) const MOST_UNCLAMPED: f32 = 1e30;
+
 /// What a fragment writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Written {
@@ -47,6 +50,10 @@ pub(crate) enum Written {
     WeightedTerms,
     /// Light before the tone map, within the range of binary16, and a coverage of 1.
     Light,
+    /// Colour and alpha in a frame of light, which the target does not clamp.
+    Unclamped,
+    /// The terms of weighted transparency in a frame of light.
+    UnclampedTerms,
 }
 
 impl Written {
@@ -65,6 +72,10 @@ impl Written {
                 let one = input.real(1.0);
                 FragmentOut::color(Vec4::new(channel(x), channel(y), channel(z), one))
             }
+            Self::Unclamped => FragmentOut::color(unclamped(color)),
+            Self::UnclampedTerms => {
+                weighted_fragment(DEPTH_ORDER, unclamped(color), input.position.z)
+            }
             Self::WeightedTerms => {
                 // The sums are floats, and the picture would clamp the fragment.
                 let Vec4 { x, y, z, w } = color;
@@ -73,6 +84,18 @@ impl Written {
             }
         }
     }
+}
+
+/// A colour without negative channels and NaN, and its alpha.
+#[inline(always)]
+fn unclamped<R: Real>(color: Vec4<R>) -> Vec4<R> {
+    let channel = |value: R| value.clamp(0.0, MOST_UNCLAMPED);
+    Vec4::new(
+        channel(color.x),
+        channel(color.y),
+        channel(color.z),
+        color.w.saturate(),
+    )
 }
 
 estampe::shader! {

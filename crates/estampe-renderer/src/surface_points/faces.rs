@@ -2,6 +2,7 @@
 
 use crate::frame::{RenderError, with_passes};
 use crate::geometry::face_colors::{MOST_FACES, face_number};
+use crate::light::FrameOutput;
 use crate::options::{Ground, RenderOptions, Shading};
 use crate::scene_view::SceneView;
 use crate::section::Section;
@@ -42,7 +43,8 @@ impl Faces {
             ..options.clone().without_overlays()
         };
         let scene = without_points_and_lines(scene);
-        with_passes(&scene, &options, (device, &|_| {}), |passes, view| {
+        let to = (device, FrameOutput::Display);
+        with_passes(&scene, &options, to, &|_| {}, |passes, view| {
             passes.draw(device)?;
             let rgba = device.read_texture(&passes.attachments.image)?;
             let number = |&[r, g, b, alpha]: &[u8; 4]| (alpha != 0).then(|| face_number([r, g, b]));

@@ -7,7 +7,7 @@
 #[cfg(test)]
 mod tests;
 
-use crate::alpha::{Encoding, decode, encode};
+use crate::canvas::Canvas;
 use estampe_scene::Image;
 use noto_sans_mono_bitmap::{
     FontWeight, RasterHeight, RasterizedChar, get_raster, get_raster_width,
@@ -88,7 +88,17 @@ pub fn character_width_px(height: TextHeight) -> u32 {
 ///
 /// The colour is mixed with the image's in linear light, by the share of each pixel that the
 /// letters cover; transparent pixels become as opaque as they are covered.
-pub fn draw_text(image: &mut Image, (left, top): (i64, i64), text: &str, style: TextStyle) {
+pub fn draw_text(image: &mut Image, place: (i64, i64), text: &str, style: TextStyle) {
+    write_text(image, place, text, style);
+}
+
+/// [`draw_text`] on images of codes or of light.
+pub(crate) fn write_text(
+    image: &mut impl Canvas,
+    (left, top): (i64, i64),
+    text: &str,
+    style: TextStyle,
+) {
     if let Some(outline) = style.outline {
         for (dx, dy) in AROUND {
             line(image, (left + dx, top + dy), text, (style.height, outline));
@@ -109,12 +119,12 @@ const AROUND: [(i64, i64); 8] = [
     (1, 1),
 ];
 
-fn line(image: &mut Image, (left, top): (i64, i64), text: &str, ink: (TextHeight, [u8; 3])) {
+fn line(image: &mut impl Canvas, (left, top): (i64, i64), text: &str, ink: (TextHeight, [u8; 3])) {
     let (height, color) = ink;
     let step = i64::from(character_width_px(height));
     let mut x = left;
     for character in text.chars() {
-        if x >= i64::from(image.width) {
+        if x >= i64::from(image.size()[0]) {
             return;
         }
         if x + step > 0 {
@@ -132,32 +142,25 @@ fn raster_of(character: char, height: TextHeight) -> RasterizedChar {
         .expect("the font has the question mark")
 }
 
-fn glyph(image: &mut Image, (left, top): (i64, i64), raster: &RasterizedChar, color: [u8; 3]) {
+fn glyph(
+    image: &mut impl Canvas,
+    (left, top): (i64, i64),
+    raster: &RasterizedChar,
+    color: [u8; 3],
+) {
     for (y, row) in (top..).zip(raster.rows()) {
         for (x, &coverage) in (left..).zip(row) {
-            if let (true, Some(at)) = (coverage > 0, pixel_index(image, x, y))
-                && let Some(pixel) = image.rgba.get_mut(at..at + 4)
-            {
-                blend(pixel, color, f32::from(coverage) / 255.0);
+            if let (true, Some(at)) = (coverage > 0, pixel(image, x, y)) {
+                image.blend(at, color, f32::from(coverage) / 255.0);
             }
         }
     }
 }
 
-/// The first byte of a pixel, if the image has it.
-fn pixel_index(image: &Image, x: i64, y: i64) -> Option<usize> {
-    let x = u32::try_from(x).ok().filter(|&x| x < image.width)?;
-    let y = u32::try_from(y).ok().filter(|&y| y < image.height)?;
-    Some((y as usize * image.width as usize + x as usize) * 4)
-}
-
-/// Source over destination (Porter and Duff 1984), with straight alpha and in linear light.
-pub(crate) fn blend(pixel: &mut [u8], color: [u8; 3], coverage: f32) {
-    let behind = decode(pixel[3], Encoding::Linear) * (1.0 - coverage);
-    let alpha = coverage + behind;
-    for (code, own) in pixel.iter_mut().zip(color) {
-        let (own, other) = (decode(own, Encoding::Srgb), decode(*code, Encoding::Srgb));
-        *code = encode((own * coverage + other * behind) / alpha, Encoding::Srgb);
-    }
-    pixel[3] = encode(alpha, Encoding::Linear);
+/// The column and row of a pixel, if the image has it.
+fn pixel(image: &impl Canvas, x: i64, y: i64) -> Option<[u32; 2]> {
+    let [width, height] = image.size();
+    let x = u32::try_from(x).ok().filter(|&x| x < width)?;
+    let y = u32::try_from(y).ok().filter(|&y| y < height)?;
+    Some([x, y])
 }

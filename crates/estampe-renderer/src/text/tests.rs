@@ -1,4 +1,5 @@
 use super::*;
+use crate::canvas::blend;
 
 fn style(outline: Option<[u8; 3]>) -> TextStyle {
     TextStyle {

@@ -7,6 +7,7 @@ mod guides;
 mod hostile_scenes;
 mod illumination;
 mod inspection_views;
+mod light;
 mod named_attributes;
 mod pbr;
 mod sections;

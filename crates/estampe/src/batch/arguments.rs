@@ -2,7 +2,7 @@
 
 use crate::choice::ChoiceArgs;
 use crate::limits::LimitArgs;
-use crate::render::{PassArgs, PictureArgs};
+use crate::render::{CamerasArgs, PassArgs, PictureArgs};
 use crate::values::{FormatName, ViewName};
 use clap::Args;
 use std::ffi::OsString;
@@ -17,6 +17,7 @@ Examples:
   estampe batch 'models/**/*.stl' -o 'out/{dir}/{stem}-{view}.jpg' --views front,iso
   estampe batch 'models/*.glb' -o 'data/{stem}/{pass}.png' --pass color,depth,normal,object-id
   find . -name '*.obj' | estampe batch - -o 'out/{stem}.png'
+  estampe batch 'models/*.glb' -o 'views/{stem}/{camera}.png' --cameras cameras.json
   estampe batch --job-file jobs.toml
   estampe batch 'models/*' -o 'out/{stem}.png' --shard 3/64 --report report.json
 
@@ -24,7 +25,7 @@ Inputs are files, globs (* ? [a-z], and ** for folders) or - for a list on stand
 expanded by estampe, so quote them: thousands of files then fit the command line. A folder is an error.
 
 The name of a picture is made of the template: {stem} is the file's name without its extension, {name} with it, {ext} its \
-extension, {dir} its folder below that of the glob, {index} its number from 0 in sorted order, {view} the view, and {pass} the pass of --pass. \
+extension, {dir} its folder below that of the glob, {index} its number from 0 in sorted order, {view} the view, {camera} the name of the camera of --cameras, and {pass} the pass of --pass. \
 The template's extension is the picture's format. Folders are made. Two pictures of one name are an error before \
 anything is drawn.
 
@@ -33,7 +34,7 @@ with, and nobody changed it since. That is kept in a folder .estampe beside the 
 
 Exit codes: 0 all pictures are drawn or up to date, 1 at least one failed, 2 wrong usage, 3 the report cannot be written.
 
-The report has pictures [{input, output, view or null, passes [name], status (drawn, up-to-date, failed, limit or cancelled), \
+The report has pictures [{input, output, view or null, camera or null, passes [name], status (drawn, up-to-date, failed, limit or cancelled), \
 error or null, milliseconds, warnings}] and counts {drawn, up_to_date, failed, limit, cancelled}, in sorted order.")]
 pub(crate) struct BatchArgs {
     /// The models: files, globs, or - for a list on standard input
@@ -50,12 +51,13 @@ pub(crate) struct BatchArgs {
     pub(crate) output: Option<String>,
 
     /// Jobs with options of their own, in a TOML or JSON file; `estampe schema` prints its schema
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["inputs", "output", "views", "format"])]
+    #[arg(long, value_name = "FILE")]
+    #[arg(conflicts_with_all = ["inputs", "output", "views", "format"])]
     pub(crate) job_file: Option<PathBuf>,
 
     /// Draw each model in these views: front,iso,… (its {view} must be in the template)
     #[arg(long, value_name = "NAMES", value_enum, value_delimiter = ',', num_args = 1..)]
-    #[arg(conflicts_with_all = ["view", "azimuth", "elevation", "eye", "camera"])]
+    #[arg(conflicts_with_all = ["view", "azimuth", "elevation", "eye", "camera", "cameras"])]
     pub(crate) views: Vec<ViewName>,
 
     /// The models' format, if neither names nor contents show it
@@ -98,6 +100,9 @@ pub(crate) struct BatchArgs {
 
     #[command(flatten)]
     pub(crate) passes: PassArgs,
+
+    #[command(flatten)]
+    pub(crate) cameras: CamerasArgs,
 }
 
 /// A share of the work.

@@ -2,13 +2,14 @@
 
 use super::arguments::BatchArgs;
 use super::deadline::{self, Claim};
+use super::look::Shot;
 use super::plan::{Content, Job, Picture};
 use super::record::{self, NamedFiles, Sources, digest};
 use crate::failure::Failure;
 use crate::input::{self, Model};
 use crate::output;
-use crate::render::{self, PassName, PictureArgs, Sources as PassSources};
-use crate::values::{Destination, ViewName, shown};
+use crate::render::{self, PassFormat, PassName, PictureArgs, Sources as PassSources};
+use crate::values::{Destination, shown};
 use estampe::Device;
 use estampe_assets::Limits;
 use estampe_renderer::ViewDirection;
@@ -122,12 +123,12 @@ impl Shared {
             Ok(model) => model,
             Err(failure) => return all(failure),
         };
-        if let Err(failure) = self.args.limits.check_memory(&model, &args.picture) {
-            return all(failure);
-        }
         let to_draw = job.pictures.iter().zip(&current);
         let to_draw = to_draw.filter(|(_, is_current)| !**is_current);
         let to_draw: Vec<&Picture> = to_draw.map(|(picture, _)| picture).collect();
+        if let Err(failure) = self.check_memory(&model, &args.picture, &to_draw) {
+            return all(failure);
+        }
         let mut passes = DrawnPasses::default();
         let statuses = job
             .pictures
@@ -143,16 +144,19 @@ impl Shared {
                     named: named.digests(),
                     searched: named.searched(),
                 };
+                let camera = picture.shot.camera.as_deref();
                 let bytes = |args: &PictureArgs| match &picture.content {
                     Content::Picture(format) => {
                         let look = (ViewDirection::default(), *format);
-                        render::drawn_bytes(&model, args, look, device)
+                        render::drawn_bytes(&model, (args, camera), look, device)
                     }
                     Content::Passes(format, file) => {
-                        let wanted = passes_of(&to_draw, picture.view);
+                        let wanted = passes_of(&to_draw, &picture.shot);
                         let unit = job.look.options.passes.depth_unit;
-                        let drawn = passes.of(&model, args, &wanted, device)?;
-                        drawn.encode(file, *format, (args.size, unit))
+                        let of = (wanted.as_slice(), *format);
+                        let drawn = passes.of(&model, (args, &picture.shot), of, device)?;
+                        let size = camera.map_or(args.size, |camera| camera.size);
+                        drawn.encode(file, *format, (size, unit))
                     }
                 };
                 match draw(&model, (job, picture), &sources, (bytes, claim)) {
@@ -164,39 +168,63 @@ impl Shared {
         let warnings = model.warnings.iter().map(ToString::to_string).collect();
         (statuses, warnings)
     }
+
+    /// Refuses a model whose greatest picture needs more memory than the limit.
+    fn check_memory(
+        &self,
+        model: &Model,
+        args: &PictureArgs,
+        pictures: &[&Picture],
+    ) -> Result<(), Failure> {
+        let cameras = { pictures.iter() }.filter_map(|picture| picture.shot.camera.as_ref());
+        let sizes = cameras.map(|camera| camera.size);
+        let greatest = sizes.max_by_key(|(width, height)| u64::from(*width) * u64::from(*height));
+        let greatest = PictureArgs {
+            size: greatest.unwrap_or(args.size),
+            ..args.clone()
+        };
+        let hold_light = { pictures.iter() }.any(|picture| match &picture.content {
+            Content::Picture(_) => false,
+            Content::Passes(format, _) => format.holds_light(),
+        });
+        self.args.limits.check_memory(model, &greatest, hold_light)
+    }
 }
 
-/// The passes of a view that are drawn.
-fn passes_of(pictures: &[&Picture], view: Option<ViewName>) -> Vec<PassName> {
-    let of_view = pictures.iter().filter(|picture| picture.view == view);
-    let passes = of_view.filter_map(|picture| match &picture.content {
+/// The passes of a shot that are drawn.
+fn passes_of(pictures: &[&Picture], shot: &Shot) -> Vec<PassName> {
+    let of_shot = pictures.iter().filter(|picture| picture.shot == *shot);
+    let passes = of_shot.filter_map(|picture| match &picture.content {
         Content::Picture(_) => None,
         Content::Passes(_, file) => Some(&file.passes),
     });
     passes.flatten().copied().collect()
 }
 
-/// What the passes of a view are made of: it is drawn once for all of its files.
+/// What the passes of a shot are made of: it is drawn once for all of its files.
 #[derive(Default)]
-struct DrawnPasses(Option<(Option<ViewName>, PassSources)>);
+struct DrawnPasses(Option<(Shot, PassSources)>);
 
 impl DrawnPasses {
-    /// Those of the view of the options.
+    /// Those of a shot.
     fn of(
         &mut self,
         model: &Model,
-        args: &PictureArgs,
-        passes: &[PassName],
+        (args, shot): (&PictureArgs, &Shot),
+        of: (&[PassName], PassFormat),
         device: &Device,
     ) -> Result<&PassSources, Failure> {
-        let last = self.0.take().filter(|(view, _)| *view == args.view);
+        let last = self.0.take().filter(|(last, _)| last == shot);
         let drawn = match last {
             Some(drawn) => drawn,
             None => {
                 let default = ViewDirection::default();
-                let options = render::frame_options(model, args, default, device)?;
-                let (sources, _) = PassSources::draw(passes, model, args, (&options, device))?;
-                (args.view, sources)
+                let mut options = render::frame_options(model, args, default, device)?;
+                if let Some(camera) = &shot.camera {
+                    options = camera.apply(options);
+                }
+                let (sources, _) = PassSources::draw(of, model, args, (&options, device))?;
+                (shot.clone(), sources)
             }
         };
         Ok(&self.0.insert(drawn).1)
@@ -214,7 +242,7 @@ fn draw(
     ),
 ) -> Result<(), Failure> {
     let mut args = job.look.options.picture.clone();
-    args.view = picture.view;
+    args.view = picture.shot.view;
     let destination = Destination::File(picture.output.clone());
     render::check_output(&destination, model, &args)?;
     let bytes = bytes(&args)?;
@@ -250,7 +278,13 @@ fn options_of(job: &Job, picture: &Picture) -> String {
             format!(" {format:?} {:?} {unit}", file.passes)
         }
     };
-    digest(format!("{} {:?}{passes}", job.look.identity, picture.view).as_bytes())
+    // The values of the camera itself: others of its file may change.
+    let camera = match &picture.shot.camera {
+        Some(camera) => format!(" {camera:?}"),
+        None => String::new(),
+    };
+    let view = picture.shot.view;
+    digest(format!("{} {view:?}{passes}{camera}", job.look.identity).as_bytes())
 }
 
 fn status_of(failure: Failure) -> Status {

@@ -5,11 +5,12 @@ use crate::choice::ChoiceArgs;
 use crate::failure::Failure;
 use crate::input::read_file;
 use crate::presets::PresetArgs;
-use crate::render::{PassArgs, PictureArgs};
-use crate::values::FormatName;
-use clap::Parser;
+use crate::render::{CamerasArgs, NamedCamera, PassArgs, PictureArgs, read_cameras};
+use crate::values::{FormatName, ViewName};
+use clap::{Parser, ValueEnum};
 use estampe_assets::Limits;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The options that a job may have.
 #[derive(Debug, Clone, Parser)]
@@ -24,17 +25,46 @@ pub(super) struct JobOptions {
     #[command(flatten)]
     pub(super) passes: PassArgs,
 
+    #[command(flatten)]
+    pub(super) cameras: CamerasArgs,
+
     /// The model's format: gltf, obj, stl, ply, off or 3mf
     #[arg(long, value_enum)]
     pub(super) format: Option<FormatName>,
+}
+
+/// From where a picture is seen.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Shot {
+    pub(super) view: Option<ViewName>,
+    pub(super) camera: Option<Arc<NamedCamera>>,
+}
+
+impl Shot {
+    pub(super) fn of_view(view: Option<ViewName>) -> Self {
+        Self { view, camera: None }
+    }
+
+    /// The name of the view.
+    pub(super) fn view_name(&self) -> Option<String> {
+        let value = self.view.as_ref()?.to_possible_value()?;
+        Some(value.get_name().to_owned())
+    }
+
+    /// The name of the camera.
+    pub(super) fn camera_name(&self) -> Option<&str> {
+        Some(self.camera.as_ref()?.name.as_str())
+    }
 }
 
 /// Options that were checked.
 #[derive(Debug, Clone)]
 pub(super) struct Look {
     pub(super) options: JobOptions,
-    /// Everything beside the model that a picture depends on, without the view.
+    /// Everything beside the model that a picture depends on, without view and camera.
     pub(super) identity: String,
+    /// The cameras of the options' file.
+    cameras: Vec<Arc<NamedCamera>>,
 }
 
 impl Look {
@@ -42,7 +72,27 @@ impl Look {
         options.picture.check()?;
         options.choice.check_roots()?;
         let identity = identity(&options)?;
-        Ok(Self { options, identity })
+        let mut cameras = Vec::new();
+        if let Some(path) = &options.cameras.cameras {
+            cameras.extend(read_cameras(path, options.picture.size)?);
+        }
+        Ok(Self {
+            options,
+            identity,
+            cameras: cameras.into_iter().map(Arc::new).collect(),
+        })
+    }
+
+    /// The shots of the options: its view, or its cameras.
+    pub(super) fn shots(&self) -> Vec<Shot> {
+        if self.cameras.is_empty() {
+            return vec![Shot::of_view(self.options.picture.view)];
+        }
+        let of_camera = |camera: &Arc<NamedCamera>| Shot {
+            view: None,
+            camera: Some(camera.clone()),
+        };
+        self.cameras.iter().map(of_camera).collect()
     }
 }
 

@@ -3,14 +3,14 @@
 use super::arguments::BatchArgs;
 use super::inputs::{self, Input};
 use super::job_file;
-use super::look::{JobOptions, Look};
+use super::look::{JobOptions, Look, Shot};
 use super::template::Template;
 use crate::failure::Failure;
-use crate::output::Identity;
+use crate::output::{self, Identity};
 use crate::presets;
 use crate::render::{Files, PassFile, PassFormat};
-use crate::values::{Destination, ViewName, shown};
-use clap::{Parser, ValueEnum};
+use crate::values::{Destination, shown};
+use clap::Parser;
 use estampe_assets::image::ImageFormat;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ pub(super) struct Job {
 /// A picture of a model.
 #[derive(Debug, Clone)]
 pub(super) struct Picture {
-    pub(super) view: Option<ViewName>,
+    pub(super) shot: Shot,
     pub(super) output: PathBuf,
     pub(super) content: Content,
 }
@@ -66,7 +66,7 @@ pub(super) fn jobs(args: &BatchArgs) -> Result<Vec<Job>, Failure> {
 struct Draft {
     input: Input,
     template: Arc<Template>,
-    views: Arc<[Option<ViewName>]>,
+    shots: Arc<[Shot]>,
     look: Arc<Look>,
 }
 
@@ -79,22 +79,25 @@ fn of_arguments(args: &BatchArgs) -> Result<Vec<Draft>, Failure> {
         ));
     }
     let template = Arc::new(template);
-    let views: Arc<[_]> = if args.views.is_empty() {
-        [args.picture.view].into()
-    } else {
-        args.views.iter().copied().map(Some).collect()
-    };
     let look = Arc::new(Look::new(JobOptions {
         choice: args.choice.clone(),
         picture: args.picture.clone(),
         passes: args.passes.clone(),
+        cameras: args.cameras.clone(),
         format: args.format,
     })?);
+    let shots: Arc<[Shot]> = if args.views.is_empty() {
+        look.shots().into()
+    } else {
+        let views = args.views.iter().copied().map(Some);
+        views.map(Shot::of_view).collect()
+    };
+    check_cameras(&template, &shots, "--output")?;
     let inputs = inputs::inputs(args)?.into_iter();
     let drafts = inputs.map(|input| Draft {
         input,
         template: template.clone(),
-        views: views.clone(),
+        shots: shots.clone(),
         look: look.clone(),
     });
     Ok(drafts.collect())
@@ -106,8 +109,9 @@ fn of_file(args: &BatchArgs, path: &Path) -> Result<Vec<Draft>, Failure> {
     unset.picture.threads = args.picture.threads;
     unset.picture.simd = args.picture.simd;
     unset.picture.presets = args.picture.presets.clone();
-    let given = format!("{:?} {:?} {:?}", args.picture, args.choice, args.passes);
-    if given != format!("{:?} {:?} {:?}", unset.picture, unset.choice, unset.passes) {
+    let given = (&args.picture, &args.choice, &args.passes, &args.cameras);
+    let none = (&unset.picture, &unset.choice, &unset.passes, &unset.cameras);
+    if format!("{given:?}") != format!("{none:?}") {
         return Err(Failure::Usage(
             "options of pictures beside --job-file have no effect; write them into its table options"
                 .to_owned(),
@@ -117,6 +121,8 @@ fn of_file(args: &BatchArgs, path: &Path) -> Result<Vec<Draft>, Failure> {
     jobs.map(|job| {
         let template = Template::parse(&job.output)
             .map_err(|problem| Failure::Usage(format!("{}: output {problem}", shown(path))))?;
+        let shots = job.look.shots();
+        check_cameras(&template, &shots, &format!("{}: output", shown(path)))?;
         let base = job.input.parent().unwrap_or(Path::new("")).to_owned();
         Ok(Draft {
             input: Input {
@@ -124,11 +130,27 @@ fn of_file(args: &BatchArgs, path: &Path) -> Result<Vec<Draft>, Failure> {
                 base,
             },
             template: Arc::new(template),
-            views: [job.look.options.picture.view].into(),
+            shots: shots.into(),
             look: job.look,
         })
     })
     .collect()
+}
+
+/// Refuses a template that does not tell cameras apart, or that has no camera to name.
+fn check_cameras(template: &Template, shots: &[Shot], place: &str) -> Result<(), Failure> {
+    let has_cameras = shots.iter().any(|shot| shot.camera.is_some());
+    let problem = match (has_cameras, template.has_camera()) {
+        (true, false) if shots.len() > 1 => {
+            "the file of cameras has several; add {camera} to the template, as in \
+             'out/{stem}/{camera}.png'"
+        }
+        (false, true) => {
+            "the template has {camera}, and there are no cameras; add --cameras, or `cameras` in a job file"
+        }
+        _ => return Ok(()),
+    };
+    Err(Failure::Usage(format!("{place}: {problem}")))
 }
 
 impl Draft {
@@ -141,21 +163,23 @@ impl Draft {
     ) -> Result<Job, Failure> {
         let input = self.input.clone();
         let mut pictures = Vec::new();
-        for &view in self.views.iter() {
-            let name = view.as_ref().and_then(ValueEnum::to_possible_value);
-            let name = name.as_ref().map(clap::builder::PossibleValue::get_name);
-            let output = self.template.name(&input, index, name);
+        for shot in self.shots.iter() {
+            let view = shot.view_name();
+            let names = (view.as_deref(), shot.camera_name());
+            let output = self.template.name(&input, index, names);
             for (output, content) in self.files(output)? {
                 let before = taken.insert(output.clone(), inputs::name(&input));
                 if let Some(other) = before {
                     return Err(Failure::Usage(format!(
-                        "{}: the picture of {other} and of {}; add {{dir}}, {{ext}}, {{index}} or \
-                         {{view}} to the template",
+                        "{}: the picture of {other} and of {}; add {{dir}}, {{ext}}, {{index}}, \
+                         {{view}} or {{camera}} to the template",
                         shown(&output),
                         inputs::name(&input)
                     )));
                 }
                 let is_model = |one: Identity| models.contains(&one);
+                let cameras = self.look.options.cameras.cameras.as_deref();
+                output::check_inputs(&Destination::File(output.clone()), cameras)?;
                 if output == input.path || Identity::of(&output).is_some_and(is_model) {
                     return Err(Failure::Usage(format!(
                         "{}: the picture would replace a model; choose another --output",
@@ -163,7 +187,7 @@ impl Draft {
                     )));
                 }
                 pictures.push(Picture {
-                    view,
+                    shot: shot.clone(),
                     output,
                     content,
                 });
@@ -176,7 +200,7 @@ impl Draft {
         })
     }
 
-    /// The files of a view, with what each holds: one, or those of the passes.
+    /// The files of a shot, with what each holds: one, or those of the passes.
     fn files(&self, output: PathBuf) -> Result<Vec<(PathBuf, Content)>, Failure> {
         let destination = Destination::File(output.clone());
         let passes = &self.look.options.passes;
@@ -199,7 +223,7 @@ impl Draft {
         let Some(format) = destination.image_format() else {
             return Err(Failure::Usage(format!(
                 "--output {}: the name does not show the image's format; end it with .png, .jpg, .tga, \
-                 .webp or .exr",
+                 .webp, .exr or .hdr",
                 shown(&output)
             )));
         };

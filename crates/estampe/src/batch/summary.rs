@@ -4,7 +4,6 @@ use super::job::{Outcome, Status};
 use super::lines::Lines;
 use super::plan::Content;
 use crate::values::shown;
-use clap::ValueEnum;
 use serde_json::{Value, json};
 use std::time::Duration;
 
@@ -79,8 +78,6 @@ pub(super) fn report(outcomes: &[Outcome], counts: &Counts) -> Value {
             Status::Limit(problem) => ("limit", Some(problem)),
             Status::Cancelled => ("cancelled", None),
         };
-        let view = outcome.picture.view.as_ref();
-        let view = view.and_then(ValueEnum::to_possible_value);
         json!({
             "input": outcome.input,
             "output": outcome.picture.output.to_string_lossy(),
@@ -88,7 +85,8 @@ pub(super) fn report(outcomes: &[Outcome], counts: &Counts) -> Value {
                 Content::Picture(_) => Vec::new(),
                 Content::Passes(_, file) => file.passes.iter().map(|pass| pass.name()).collect(),
             },
-            "view": view.as_ref().map(clap::builder::PossibleValue::get_name),
+            "view": outcome.picture.shot.view_name(),
+            "camera": outcome.picture.shot.camera_name(),
             "status": status,
             "error": error,
             "milliseconds": crate::render::rounded_milliseconds(outcome.time),

@@ -17,6 +17,7 @@ enum Piece {
     Dir,
     Index,
     View,
+    Camera,
     Pass,
 }
 
@@ -49,11 +50,12 @@ impl Template {
                 "dir" => Piece::Dir,
                 "index" => Piece::Index,
                 "view" => Piece::View,
+                "camera" => Piece::Camera,
                 "pass" => Piece::Pass,
                 other => {
                     return Err(format!(
                         "{text}: {{{other}}} is unknown; there are {{stem}}, {{name}}, {{ext}}, \
-                         {{dir}}, {{index}}, {{view}} and {{pass}}"
+                         {{dir}}, {{index}}, {{view}}, {{camera}} and {{pass}}"
                     ));
                 }
             });
@@ -69,13 +71,23 @@ impl Template {
         self.0.contains(&Piece::View)
     }
 
+    /// True if names differ by camera.
+    pub(super) fn has_camera(&self) -> bool {
+        self.0.contains(&Piece::Camera)
+    }
+
     /// True if names differ by pass.
     pub(super) fn has_pass(&self) -> bool {
         self.0.contains(&Piece::Pass)
     }
 
-    /// The name for an input, its number, and a view; `{pass}` stays.
-    pub(super) fn name(&self, input: &Input, index: usize, view: Option<&str>) -> PathBuf {
+    /// The name for an input, its number, and a view or a camera; `{pass}` stays.
+    pub(super) fn name(
+        &self,
+        input: &Input,
+        index: usize,
+        (view, camera): (Option<&str>, Option<&str>),
+    ) -> PathBuf {
         let mut name = OsString::new();
         let path = &input.path;
         for piece in &self.0 {
@@ -90,6 +102,7 @@ impl Template {
                 },
                 Piece::Index => name.push(index.to_string()),
                 Piece::View => name.push(view.unwrap_or("view")),
+                Piece::Camera => name.push(camera.unwrap_or("camera")),
                 Piece::Pass => name.push("{pass}"),
             }
         }
@@ -111,7 +124,7 @@ mod tests {
         };
         let name = |template: &str| {
             let template = Template::parse(template).expect("right");
-            template.name(&input, 7, Some("iso"))
+            template.name(&input, 7, (Some("iso"), Some("left")))
         };
         assert_eq!(name("out/{stem}.png"), Path::new("out/robot.v2.png"));
         assert_eq!(
@@ -121,6 +134,7 @@ mod tests {
         assert_eq!(name("o/{index}{ext}.tga"), Path::new("o/7glb.tga"));
         assert_eq!(name("{{{stem}}}.png"), Path::new("{robot.v2}.png"));
         assert_eq!(name("{stem}/{pass}.png"), Path::new("robot.v2/{pass}.png"));
+        assert_eq!(name("{camera}/{stem}.png"), Path::new("left/robot.v2.png"));
     }
 
     #[test]
@@ -145,7 +159,7 @@ mod tests {
             };
             let template = Template::parse("out/{dir}/p.png").expect("right");
             assert_eq!(
-                template.name(&input, 0, None),
+                template.name(&input, 0, (None, None)),
                 Path::new("out/p.png"),
                 "{path}"
             );

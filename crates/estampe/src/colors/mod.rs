@@ -18,6 +18,17 @@ pub(crate) struct Background {
     pub(crate) gradient: Option<Gradient>,
 }
 
+impl Background {
+    /// The colour, or that in the middle of the gradient: sRGB and straight alpha.
+    pub(crate) fn in_the_middle(&self) -> [u8; 4] {
+        match (self.color, self.gradient) {
+            (Some([r, g, b]), _) => [r, g, b, 255],
+            (None, Some(gradient)) => gradient.middle_with_alpha(),
+            (None, None) => [0; 4],
+        }
+    }
+}
+
 /// A colour: sRGB and alpha.
 pub(crate) fn color(text: &str) -> Result<[u8; 4], String> {
     let text = text.trim();
@@ -162,6 +173,12 @@ mod tests {
         assert_eq!(of("white").color, Some([255; 3]));
         let clear = of("#ff000080");
         assert!(clear.color.is_none() && clear.gradient.is_some());
+        assert_eq!(clear.in_the_middle(), [255, 0, 0, 128]);
+        assert_eq!(of("none").in_the_middle(), [0; 4]);
+        assert_eq!(
+            of("linear:#123456,#123456").in_the_middle(),
+            [0x12, 0x34, 0x56, 255]
+        );
         let linear = of("linear:#fff,#fff");
         assert!(linear.color == Some([255; 3]) && linear.gradient.is_some());
         assert!(of("radial:red,transparent").color.is_none());

@@ -19,7 +19,7 @@ pub(crate) struct PreviewArgs {
     /// files and pipes too, for COLUMNS x LINES characters, else 80x24.
     #[arg(long, value_name = "KIND", value_enum, num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "auto", hide_possible_values = true)]
-    #[arg(conflicts_with_all = ["json", "pass"], help_heading = "Preview")]
+    #[arg(conflicts_with_all = ["json", "pass", "cameras"], help_heading = "Preview")]
     pub(crate) preview: Option<PreviewName>,
 }
 

@@ -23,6 +23,7 @@ Examples:
   estampe render model.obj -o lamp.png --light pos:2,3,4 --attenuation 9 --specular blinn:0.6 --shininess 80
   estampe render robot.glb -o robot.png --animation Walk --time 0.5 --camera 0
   estampe render builtin:teapot -o mine.png --shader my.wgsl --set gloss=0.5
+  estampe render robot.glb -o light.hdr --shading pbr
   estampe render builtin:teapot -o scene.exr --pass color,depth,normal,object-id
   estampe render builtin:teapot -o 'teapot-{pass}.png' --pass color,depth,normal
   estampe render scene.glb -o 'data/{camera}-{pass}.png' --cameras cameras.json --pass color,depth
@@ -52,7 +53,7 @@ pub(crate) struct RenderArgs {
     #[arg(value_name = "MODEL")]
     pub(crate) model: Source,
 
-    /// The image: a file named .png, .jpg, .tga, .webp or .exr, or - for standard output
+    /// The image: a file named .png, .jpg, .tga, .webp, .exr or .hdr, or - for standard output
     #[arg(short, long, value_name = "OUT", allow_hyphen_values = true)]
     #[arg(value_parser = crate::values::destination(), required_unless_present = "preview")]
     pub(crate) output: Option<Destination>,
@@ -64,7 +65,10 @@ pub(crate) struct RenderArgs {
     )]
     pub(crate) format: Option<FormatName>,
 
-    /// The image's format: png, jpeg, tga, webp or exr [default: by OUT's extension; png for -]
+    /// The image's format: png, jpeg, tga, webp, exr or hdr [default: by OUT's extension; png for -]
+    ///
+    /// exr and hdr hold light, linear floats above 1 too: after --exposure, before --tone-map. exr
+    /// has 32 bits a channel and alpha, hdr 8 bits with a common exponent.
     #[arg(long, value_name = "FORMAT", value_enum, hide_possible_values = true)]
     #[arg(requires = "output")]
     pub(crate) output_format: Option<OutputFormatName>,

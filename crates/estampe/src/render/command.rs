@@ -62,11 +62,16 @@ pub(super) fn draw_once(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     })?;
     if let Some(shots) = &shots {
         let greatest = shots.greatest(&args.picture);
-        args.limits.check_memory(&model, &greatest)?;
+        args.limits
+            .check_memory(&model, &greatest, shots.hold_light())?;
         cameras::run(&model, args, shots, &clock, progress)?;
         return Ok(model.files);
     }
-    args.limits.check_memory(&model, &args.picture)?;
+    let holds_light = files
+        .as_ref()
+        .is_some_and(|files| files.format.holds_light());
+    args.limits
+        .check_memory(&model, &args.picture, holds_light)?;
     let format = match (picture, &files) {
         (Some(format), _) => format,
         (None, Some(files)) => {

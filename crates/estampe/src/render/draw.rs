@@ -1,6 +1,7 @@
 //! Draws a model and writes the picture, for all commands that draw.
 
 use super::camera_check;
+use super::cameras::NamedCamera;
 use super::picture::PictureArgs;
 use super::report::Encoded;
 use crate::choice;
@@ -15,8 +16,8 @@ use estampe::{Device, DeviceDescriptor};
 use estampe_assets::image::{ImageFormat, decode, encode};
 use estampe_assets::{Limits, ModelFormat};
 use estampe_renderer::{
-    CameraOptions, Eye, Frame, ProjectionKind, RenderOptions, Up, ViewDirection, composite_over,
-    render, render_watched,
+    CameraOptions, Eye, Frame, LightImage, ProjectionKind, RenderOptions, Up, ViewDirection,
+    composite_over, render, render_light, render_watched,
 };
 use estampe_scene::{Image, Projection, Scene};
 use std::time::Instant;
@@ -107,18 +108,20 @@ pub(crate) fn check_output(
     output::check_inputs(output, files.chain(options.into_iter().flatten()))
 }
 
-/// The bytes of a picture that a device draws.
+/// The bytes of a picture that a device draws, with the camera of a file if there is one.
 pub(crate) fn drawn_bytes(
     model: &Model,
-    args: &PictureArgs,
+    (args, camera): (&PictureArgs, Option<&NamedCamera>),
     (default_view, format): (ViewDirection, ImageFormat),
     device: &Device,
 ) -> Result<Vec<u8>, Failure> {
     check_drawable(model)?;
     let texture = texture_of(model, args)?;
-    let options = options(model, args, (default_view, texture), device)?;
-    let frame = render(&model.scene, &options, device);
-    let frame = frame.map_err(|error| args.shader.failure(error))?;
+    let mut options = options(model, args, (default_view, texture), device)?;
+    if let Some(camera) = camera {
+        options = camera.apply(options);
+    }
+    let frame = frame(model, args, &options, device)?;
     encoded(&frame.image, format)
 }
 
@@ -154,6 +157,16 @@ pub(crate) fn frame(
     device: &Device,
 ) -> Result<Frame, Failure> {
     render(&model.scene, options, device).map_err(|error| args.shader.failure(error))
+}
+
+/// A frame of light with the renderer's options.
+pub(super) fn light_frame(
+    model: &Model,
+    args: &PictureArgs,
+    options: &RenderOptions,
+    device: &Device,
+) -> Result<Frame<LightImage>, Failure> {
+    render_light(&model.scene, options, device).map_err(|error| args.shader.failure(error))
 }
 
 /// The renderer's options, with the program of a shader, and a camera of the model.

@@ -27,7 +27,9 @@ mod surfaces;
 mod watch;
 
 pub(crate) use arguments::RenderArgs;
-pub(crate) use cameras::schema as schema_of_cameras;
+pub(crate) use cameras::{
+    CamerasArgs, NamedCamera, read as read_cameras, schema as schema_of_cameras,
+};
 pub(crate) use command::run;
 pub(crate) use draw::{STAGES, check_output, device, draw, drawn_bytes, encoded, frame};
 pub(crate) use draw::{frame_options, image_format, prepare};

@@ -214,10 +214,16 @@ impl PictureArgs {
         self.illumination.check()
     }
 
-    /// The bytes of the samples' colours and depths, and of the picture.
-    pub(crate) fn bytes(&self) -> u64 {
+    /// The bytes of the samples' colours and depths, and of the picture; of light, which is read and
+    /// then taken apart into channels, of three pictures.
+    pub(crate) fn bytes(&self, holds_light: bool) -> u64 {
         let pixels = u64::from(self.size.0) * u64::from(self.size.1);
-        pixels * (8 * u64::from(self.sample_count()) + 4)
+        let samples = u64::from(self.sample_count());
+        if holds_light {
+            pixels * (20 * samples + 3 * 16)
+        } else {
+            pixels * (8 * samples + 4)
+        }
     }
 
     /// The bytes of the picture of what is seen through surfaces: light and depth of each sample,

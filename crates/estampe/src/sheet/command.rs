@@ -46,7 +46,7 @@ pub(crate) fn run(args: &SheetArgs) -> Result<u8, Failure> {
         views: Arc::new(views),
         sheet: Arc::new(Mutex::new(Sheet::new(
             layout,
-            args.picture.background.color,
+            args.picture.background.in_the_middle(),
         ))),
         refused: Arc::default(),
     };

@@ -117,7 +117,7 @@ impl Shared {
             (&chosen, &self.limits),
             |_| {},
         )?;
-        args.limits.check_memory(&model, &args.picture)?;
+        args.limits.check_memory(&model, &args.picture, false)?;
         if let Err(failure) = render::check_output(&args.output, &model, &args.picture) {
             let mut refused = self.refused.lock().unwrap_or_else(PoisonError::into_inner);
             refused.get_or_insert(failure.clone());

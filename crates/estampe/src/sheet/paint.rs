@@ -30,13 +30,12 @@ struct Colors {
 }
 
 impl Colors {
-    /// Those that are legible on a background, or on any if there is none.
-    fn on(background: Option<Rgb>) -> Self {
-        let is_dark = background.is_some_and(|[r, g, b]| {
-            // Luma of BT.709, of the codes.
-            2126 * u32::from(r) + 7152 * u32::from(g) + 722 * u32::from(b) < 128 * 10_000
-        });
-        let outline = background.is_none().then_some([0xff; 3]);
+    /// Those that are legible on a background, or on any if it is transparent.
+    fn on([r, g, b, alpha]: [u8; 4]) -> Self {
+        // Luma of BT.709, of the codes.
+        let luma = 2126 * u32::from(r) + 7152 * u32::from(g) + 722 * u32::from(b);
+        let is_dark = alpha == 255 && luma < 128 * 10_000;
+        let outline = (alpha < 255).then_some([0xff; 3]);
         if is_dark {
             Self {
                 label: LIGHT,
@@ -56,15 +55,11 @@ impl Colors {
 }
 
 impl Sheet {
-    /// A sheet without pictures.
-    pub(super) fn new(layout: Layout, background: Option<Rgb>) -> Self {
+    /// A sheet without pictures, of one colour.
+    pub(super) fn new(layout: Layout, background: [u8; 4]) -> Self {
         let [width, height] = layout.size();
-        let color = match background {
-            Some([r, g, b]) => [r, g, b, 255],
-            None => [0; 4],
-        };
         Self {
-            image: Image::filled(width, height, color),
+            image: Image::filled(width, height, background),
             layout,
             colors: Colors::on(background),
         }

@@ -37,7 +37,7 @@ pub(crate) fn run(args: &TurntableArgs) -> Result<(), Failure> {
     let model = Model::read(source, args.format, (&chosen, &limits), |stage| {
         progress.stage(stage);
     })?;
-    args.limits.check_memory(&model, &args.picture)?;
+    args.limits.check_memory(&model, &args.picture, false)?;
     for frame in 0..args.frames {
         let destination = numbered(&args.output, frame, args.frames);
         render::check_output(&destination, &model, &args.picture)?;

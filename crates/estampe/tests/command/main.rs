@@ -1,6 +1,7 @@
 //! The command, end to end: its subcommands, errors and pages.
 
 mod batch;
+mod batch_cameras;
 mod book;
 mod cameras;
 mod completions;
@@ -13,6 +14,7 @@ mod gltf;
 mod inspect;
 mod inspect_page;
 mod ladder;
+mod light;
 mod man;
 mod output;
 mod passes;

@@ -240,3 +240,31 @@ fn wrong_usage_is_an_error_before_anything_is_written() {
     }
     assert!(fs::read(&texture).is_ok_and(|after| after == before));
 }
+
+/// Gaps and strips of labels have the colour and the alpha of what is behind the models.
+#[test]
+fn gaps_have_the_background() {
+    let folder = models();
+    let words =
+        "builtin:cube builtin:torus -o @/s.png --cell 40x30 --columns 2 --labels none --gap 6";
+    let texels = |background: &str| {
+        let (run, _) = sheet(&folder, &format!("{words} --background {background}"));
+        assert_eq!(run.code, 0, "{}", run.err);
+        let sheet = Picture::open(&folder.path("s.png"));
+        assert_eq!((sheet.width, sheet.height), (98, 42));
+        // A gap, and the corner of a cell.
+        [sheet.pixel(2, 20), sheet.pixel(48, 20), sheet.pixel(6, 6)]
+    };
+    for background in ["#ff0000", "#ff000080", "#12345678", "none", "tan"] {
+        let [border, gap, cell] = texels(background);
+        assert_eq!([border, gap], [cell; 2], "{background}");
+    }
+    let [border, gap, cell] = texels("linear:#000000,#ffffff");
+    assert!(border == gap && border[3] == 255, "{border:?}");
+    assert!(
+        cell[0] < border[0] && border[0] < 200,
+        "{cell:?} {border:?}"
+    );
+    let [border, ..] = texels("radial:#00ff00,transparent");
+    assert_eq!(border, [0, 255, 0, 128]);
+}

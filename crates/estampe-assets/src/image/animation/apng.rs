@@ -132,6 +132,7 @@ mod tests {
         frames
     }
 
+    /// Rows: I4.
     #[test]
     fn frames_read_back() {
         let mut frames = vec![noise(13, 9, 1), noise(13, 9, 2)];

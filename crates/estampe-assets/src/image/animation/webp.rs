@@ -126,6 +126,7 @@ mod tests {
     use crate::image::samples::{noise, opaque};
     use image_webp::{LoopCount, WebPDecoder};
 
+    /// Rows: I4.
     #[test]
     fn frames_read_back() {
         let mut frames = vec![noise(13, 9, 1), noise(13, 9, 2)];

@@ -171,6 +171,8 @@ mod tests {
     }
 
     /// The colour bars of BT.601 and BT.709 at full amplitude.
+    ///
+    /// Rows: I4.
     #[test]
     fn primaries_have_the_codes_of_the_recommendations() {
         for (color, bt601, bt709) in [

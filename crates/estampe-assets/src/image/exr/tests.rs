@@ -14,6 +14,7 @@ fn colors(random: &mut Rng, pixels: usize) -> Vec<ExrChannel> {
         .into()
 }
 
+/// Rows: I4.
 #[test]
 fn channels_read_back_bit_by_bit() {
     let mut random = Rng::with_seed(1);
@@ -58,6 +59,7 @@ fn channels_read_back_bit_by_bit() {
     }
 }
 
+/// Rows: I4.
 #[test]
 fn colors_are_read_and_what_is_no_light_is_dark() {
     let samples = |values: [f32; 4]| ExrSamples::Float(values.to_vec());

@@ -1,13 +1,10 @@
 //! The rows of a Radiance HDR.
 
-use super::BIAS;
 use super::header::Header;
+use super::{BIAS, RUN_WIDTHS};
 use crate::image::fault::malformed;
 use crate::{AssetError, Limits};
 use estampe_scene::HdrImage;
-
-/// The widths whose rows may be in runs by component.
-const RUN_WIDTHS: std::ops::RangeInclusive<u32> = 8..=0x7fff;
 
 /// Reads a Radiance HDR; colours are divided by the exposure of the header.
 ///

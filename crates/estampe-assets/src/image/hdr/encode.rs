@@ -1,11 +1,12 @@
 //! Writing of Radiance HDR.
 
-use super::BIAS;
+use super::{BIAS, RUN_WIDTHS};
 use crate::AssetError;
 use estampe_scene::HdrImage;
 
-/// The bytes of a Radiance HDR, whose rows are texels without runs. Numbers keep 8 bits of the
-/// greatest one of their texel; negative ones and NaN become 0, and the greatest is 255 · 2¹¹⁹.
+/// The bytes of a Radiance HDR, whose rows are in runs by component where the format permits it (8
+/// to 32767 pixels). Numbers keep 8 bits of the greatest one of their texel; negative ones and NaN
+/// become 0, and the greatest is 255 · 2¹¹⁹.
 ///
 /// # Errors
 /// `Malformed` if there are no texels, or not three numbers for each.
@@ -23,15 +24,58 @@ pub fn encode_hdr(image: &HdrImage) -> Result<Vec<u8>, AssetError> {
     }
     let header = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n");
     let mut bytes = header.into_bytes();
-    bytes.extend(
-        image
-            .rgb
-            .as_chunks::<3>()
-            .0
-            .iter()
-            .flat_map(|&rgb| texel(rgb)),
-    );
+    let texels: Vec<[u8; 4]> = { image.rgb.as_chunks::<3>().0.iter() }
+        .map(|&rgb| texel(rgb))
+        .collect();
+    if !RUN_WIDTHS.contains(&width) {
+        bytes.extend(texels.as_flattened());
+        return Ok(bytes);
+    }
+    let mut component = Vec::with_capacity(width as usize);
+    for row in texels.chunks_exact(width as usize) {
+        let [.., high, low] = width.to_be_bytes();
+        bytes.extend([2, 2, high, low]);
+        for at in 0..4 {
+            component.clear();
+            component.extend(row.iter().map(|texel| texel[at]));
+            write_runs(&component, &mut bytes);
+        }
+    }
     Ok(bytes)
+}
+
+/// One component of a row: runs of one value as 128 + length and the value, other values after
+/// their number.
+fn write_runs(values: &[u8], bytes: &mut Vec<u8>) {
+    /// Shorter runs save nothing among other values.
+    const LEAST_RUN: usize = 4;
+    const MOST_RUN: usize = 127;
+    const MOST_VALUES: usize = 128;
+    let code = |count: usize| u8::try_from(count).unwrap_or(u8::MAX);
+    let mut rest = values;
+    // The values before `rest` that are in no run.
+    let mut plain: &[u8] = &[];
+    let mut start = values;
+    let flush = |plain: &[u8], bytes: &mut Vec<u8>| {
+        for part in plain.chunks(MOST_VALUES) {
+            bytes.push(code(part.len()));
+            bytes.extend(part);
+        }
+    };
+    while let Some(&value) = rest.first() {
+        let same = rest.iter().take(MOST_RUN).take_while(|&&one| one == value);
+        let length = same.count();
+        if length < LEAST_RUN {
+            rest = &rest[length..];
+            plain = &start[..start.len() - rest.len()];
+            continue;
+        }
+        flush(plain, bytes);
+        bytes.extend([code(128 + length), value]);
+        rest = &rest[length..];
+        (start, plain) = (rest, &[]);
+    }
+    flush(plain, bytes);
 }
 
 /// The mantissas of a colour, and the exponent of the greatest.

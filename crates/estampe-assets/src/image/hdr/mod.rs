@@ -27,3 +27,6 @@ pub fn is_hdr(bytes: &[u8]) -> bool {
 
 /// The difference of an exponent's code and the exponent of the mantissa's last bit.
 const BIAS: i32 = 136;
+
+/// The widths whose rows may be in runs by component.
+const RUN_WIDTHS: std::ops::RangeInclusive<u32> = 8..=0x7fff;

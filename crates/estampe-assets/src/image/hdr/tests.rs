@@ -27,6 +27,7 @@ fn texels_have_their_exponent_in_common() {
     assert_eq!(image.rgb, [1.0, 0.5, 0.0, 255.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
 }
 
+/// Rows: I4.
 #[test]
 fn rows_in_runs_are_read_component_by_component() {
     let rows = [
@@ -77,6 +78,7 @@ fn orientation_and_exposure_are_those_of_the_header() {
     assert_eq!(exposed.rgb, [0.125, 0.0625, 0.0]);
 }
 
+/// Rows: I4.
 #[test]
 fn what_is_written_is_read_again() {
     let mut rgb = vec![
@@ -109,6 +111,46 @@ fn what_is_written_is_read_again() {
         rgb: Vec::new(),
     };
     assert!(encode_hdr(&empty).is_err());
+}
+
+/// Rows of all lengths and patterns come back, and even ones are small.
+///
+/// Rows: I4.
+#[test]
+fn rows_are_written_in_runs() {
+    let mut random = fastrand::Rng::with_seed(11);
+    for width in [1, 7, 8, 9, 127, 128, 129, 255, 300, 0x7fff, 0x8000] {
+        let mut rgb = Vec::new();
+        // Runs of any length of colours that come back exactly.
+        while rgb.len() < width * 6 {
+            let color = [0; 3].map(|_| f32::from(random.u8(..)) / 16.0);
+            let count = random.usize(1..200).min(width * 2 - rgb.len() / 3);
+            let greatest = color.into_iter().fold(0.0, f32::max);
+            let color = if greatest >= 8.0 {
+                color
+            } else {
+                [8.0, 4.0, 0.5]
+            };
+            rgb.extend(color.repeat(if random.bool() { count } else { 1 }));
+        }
+        let image = HdrImage {
+            width: u32::try_from(width).expect("small"),
+            height: 2,
+            rgb,
+        };
+        let bytes = encode_hdr(&image).expect("two rows");
+        let read = decoded(&bytes).expect("written here");
+        assert!(read == image, "{width}");
+    }
+    let even = HdrImage {
+        width: 1000,
+        height: 10,
+        rgb: vec![2.5; 30_000],
+    };
+    let bytes = encode_hdr(&even).expect("ten rows");
+    // Four components of eight runs, two bytes each, and the beginning of the row.
+    assert!(bytes.len() < 10 * 68 + 100, "{}", bytes.len());
+    assert!(decoded(&bytes).expect("written here") == even);
 }
 
 #[test]

@@ -78,6 +78,15 @@ impl Shots {
             .map(|shots| Some(Self(shots)))
     }
 
+    /// True if some outputs hold light.
+    pub(in crate::render) fn hold_light(&self) -> bool {
+        let mut outputs = self.0.iter().map(|shot| &shot.outputs);
+        outputs.any(|outputs| match outputs {
+            Outputs::Passes(files) => files.format.holds_light(),
+            Outputs::Picture(..) => false,
+        })
+    }
+
     /// The options with the size of the greatest picture.
     pub(in crate::render) fn greatest(&self, picture: &PictureArgs) -> PictureArgs {
         let sizes = self.0.iter().map(|shot| shot.camera.size);
@@ -116,12 +125,7 @@ impl Shot {
         (options, device): (&RenderOptions, &Device),
     ) -> Result<Vec<Vec<u8>>, Failure> {
         let size = self.camera.size;
-        let options = RenderOptions {
-            width: size.0,
-            height: size.1,
-            camera: self.camera.pinhole.into(),
-            ..options.clone()
-        };
+        let options = self.camera.apply(options.clone());
         match &self.outputs {
             Outputs::Picture(_, format) => {
                 let frame = frame(model, &args.picture, &options, device)?;
@@ -129,7 +133,9 @@ impl Shot {
             }
             Outputs::Passes(files) => {
                 let drawn = (&options, device);
-                let (sources, _) = Sources::draw(&files.passes(), model, &args.picture, drawn)?;
+                let passes = files.passes();
+                let of = (passes.as_slice(), files.format);
+                let (sources, _) = Sources::draw(of, model, &args.picture, drawn)?;
                 let look = (size, args.passes.depth_unit);
                 let files_of = files.files.iter();
                 files_of

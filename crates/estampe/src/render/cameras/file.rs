@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::input::read_file;
 use crate::values::{MAX_SIDE, shown};
 use estampe_assets::Limits;
-use estampe_renderer::Pinhole;
+use estampe_renderer::{Pinhole, RenderOptions};
 use glam::DVec3;
 use serde_json::{Map, Value};
 use std::collections::HashMap;
@@ -22,18 +22,30 @@ const FURTHEST: f64 = 1e30;
 
 /// A camera of a file.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct NamedCamera {
-    pub(super) name: String,
+pub(crate) struct NamedCamera {
+    pub(crate) name: String,
     /// Width and height of its picture.
-    pub(super) size: (u32, u32),
+    pub(crate) size: (u32, u32),
     pub(super) pinhole: Pinhole,
+}
+
+impl NamedCamera {
+    /// The options of a picture with this camera and its size.
+    pub(crate) fn apply(&self, options: RenderOptions) -> RenderOptions {
+        RenderOptions {
+            width: self.size.0,
+            height: self.size.1,
+            camera: self.pinhole.into(),
+            ..options
+        }
+    }
 }
 
 /// What is wrong, and where: a path as in `$[2].K[0][1]`.
 type Problem = (String, String);
 
 /// The cameras of a file; those without a size have the default one.
-pub(super) fn read(path: &Path, default: (u32, u32)) -> Result<Vec<NamedCamera>, Failure> {
+pub(crate) fn read(path: &Path, default: (u32, u32)) -> Result<Vec<NamedCamera>, Failure> {
     let bytes = read_file(path, &Limits::default())?;
     let wrong = |problem: String| Failure::Usage(format!("{}: {problem}", shown(path)));
     let value: Value = { serde_json::from_slice(&bytes) }

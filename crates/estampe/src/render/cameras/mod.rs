@@ -10,6 +10,7 @@ mod file;
 mod matrix;
 mod schema;
 
-pub(super) use arguments::CamerasArgs;
+pub(crate) use arguments::CamerasArgs;
 pub(super) use command::{Shots, run};
+pub(crate) use file::{NamedCamera, read};
 pub(crate) use schema::schema;

@@ -10,7 +10,7 @@ pub(crate) struct PassArgs {
     ///
     /// OUT is one OpenEXR with all of them, or has {pass} in its name: a file for each.
     ///
-    /// color: the picture. depth: distance along the view direction. normal: unit, world space, on
+    /// color: the picture; in OpenEXR and Radiance HDR its light before the tone map. depth: distance along the view direction. normal: unit, world space, on
     /// the side that is seen. albedo: colours without light. position: world space. object-id and
     /// material-id: the number in the model, from 1. uv: texture coordinates. All but color and
     /// albedo are of the centre of the pixel, 0 on the background; transparent surfaces are solid
@@ -38,8 +38,10 @@ pub(crate) enum OutputFormatName {
     Tga,
     /// Lossless, with alpha, smaller than PNG
     Webp,
-    /// Floats, with the passes of --pass
+    /// Floats: light that is not clipped, with the passes of --pass
     Exr,
+    /// Light that is not clipped, without alpha
+    Hdr,
 }
 
 impl OutputFormatName {
@@ -50,7 +52,7 @@ impl OutputFormatName {
             Self::Jpeg => Some(ImageFormatName::Jpeg),
             Self::Tga => Some(ImageFormatName::Tga),
             Self::Webp => Some(ImageFormatName::Webp),
-            Self::Exr => None,
+            Self::Exr | Self::Hdr => None,
         }
     }
 }

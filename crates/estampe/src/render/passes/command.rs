@@ -30,7 +30,8 @@ pub(in crate::render) fn run(
     let device = device(picture)?;
     let options = frame_options(model, picture, ViewDirection::default(), &device)?;
     let passes = files.passes();
-    let (sources, camera) = Sources::draw(&passes, model, picture, (&options, &device))?;
+    let (sources, camera) =
+        Sources::draw((&passes, files.format), model, picture, (&options, &device))?;
 
     progress.stage("encoding");
     let unit = args.passes.depth_unit;

@@ -1,24 +1,24 @@
 //! Draws what passes are made of, and encodes their files.
 
-use super::super::draw::{encoded, frame};
+use super::super::draw::{encoded, frame, light_frame};
 use super::arguments::PassName;
 use super::files::{PassFile, PassFormat};
-use super::planes::Sources;
+use super::planes::{Colors, Sources};
 use crate::failure::Failure;
 use crate::input::Model;
 use crate::render::PictureArgs;
 use estampe::Device;
-use estampe_assets::image::{ImageFormat, encode_exr, encode_png_16};
+use estampe_assets::image::{ImageFormat, encode_exr, encode_hdr, encode_png_16};
 use estampe_renderer::{Ground, Pinhole, RenderOptions, Shading, surface_points};
-use estampe_scene::{Camera, Image};
+use estampe_scene::Camera;
 
 /// The camera of passes, and as a pinhole if it is one.
 pub(crate) type DrawnCamera = (Camera, Option<Pinhole>);
 
 impl Sources {
-    /// Draws what these passes need, and returns the camera of it.
+    /// Draws what these passes need in files of a format, and returns the camera of it.
     pub(crate) fn draw(
-        passes: &[PassName],
+        (passes, format): (&[PassName], PassFormat),
         model: &Model,
         picture: &PictureArgs,
         (options, device): (&RenderOptions, &Device),
@@ -28,9 +28,16 @@ impl Sources {
             if !passes.contains(&pass) {
                 return Ok(None);
             }
-            let frame = frame(model, picture, options, device)?;
-            camera = Some((frame.camera, frame.pinhole));
-            Ok::<Option<Image>, Failure>(Some(frame.image))
+            let colors = if format.holds_light() {
+                let frame = light_frame(model, picture, options, device)?;
+                camera = Some((frame.camera, frame.pinhole));
+                Colors::Light(frame.image)
+            } else {
+                let frame = frame(model, picture, options, device)?;
+                camera = Some((frame.camera, frame.pinhole));
+                Colors::Codes(frame.image)
+            };
+            Ok::<Option<Colors>, Failure>(Some(colors))
         };
         let color = image_of(PassName::Color, options)?;
         let unlit = RenderOptions {
@@ -71,13 +78,12 @@ impl Sources {
                 let channels = passes.iter().flat_map(|&pass| self.channels(pass));
                 encode_exr(size, channels.collect()).map_err(failure)
             }
+            (PassFormat::Hdr, passes) => {
+                let light = self.colors(passes[0]).light();
+                encode_hdr(&light.over(RenderOptions::DEFAULT_BACKGROUND)).map_err(failure)
+            }
             (PassFormat::Png, &[pass @ (PassName::Color | PassName::Albedo)]) => {
-                let image = match pass {
-                    PassName::Color => &self.color,
-                    _ => &self.albedo,
-                };
-                let image = image.as_ref().expect("colours that are written were drawn");
-                encoded(image, ImageFormat::Png)
+                encoded(self.colors(pass).codes(), ImageFormat::Png)
             }
             (PassFormat::Png, passes) => {
                 let codes = self.codes(passes[0], depth_unit)?;

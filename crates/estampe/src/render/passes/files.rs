@@ -12,7 +12,19 @@ const PLACEHOLDER: &str = "{pass}";
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PassFormat {
     Exr,
+    /// Radiance HDR, of colours.
+    Hdr,
     Png,
+}
+
+impl PassFormat {
+    /// True if colours are light that is not clipped.
+    pub(crate) fn holds_light(self) -> bool {
+        match self {
+            Self::Exr | Self::Hdr => true,
+            Self::Png => false,
+        }
+    }
 }
 
 /// A file, and what it holds.
@@ -44,12 +56,14 @@ impl Files {
             let found = path.and_then(Path::extension);
             found.is_some_and(|found| found.eq_ignore_ascii_case(extension))
         };
-        let is_exr = match named {
-            Some(named) => named == OutputFormatName::Exr,
-            None => has("exr"),
+        let is = |format: OutputFormatName, extension: &str| match named {
+            Some(named) => named == format,
+            None => has(extension),
         };
-        let is_png = named == Some(OutputFormatName::Png) || named.is_none() && has("png");
-        if args.pass.is_empty() && !is_exr {
+        let is_exr = is(OutputFormatName::Exr, "exr");
+        let is_hdr = is(OutputFormatName::Hdr, "hdr");
+        let is_png = is(OutputFormatName::Png, "png");
+        if args.pass.is_empty() && !is_exr && !is_hdr {
             return Ok(None);
         }
         let mut passes = args.pass.clone();
@@ -60,10 +74,11 @@ impl Files {
         }
         let name = path.and_then(Path::to_str);
         let placed = name.filter(|name| name.contains(PLACEHOLDER));
-        let format = match (is_exr, is_png) {
-            (true, _) => PassFormat::Exr,
-            (_, true) if placed.is_some() => PassFormat::Png,
-            _ => {
+        let format = match () {
+            () if is_exr => PassFormat::Exr,
+            () if is_hdr => PassFormat::Hdr,
+            () if is_png && placed.is_some() => PassFormat::Png,
+            () => {
                 return Err(Failure::Usage(
                     "passes are written as OpenEXR, or as a PNG for each: name OUT .exr, or with \
                      {pass} as in scene-{pass}.png"
@@ -74,6 +89,15 @@ impl Files {
         if format == PassFormat::Png && passes.contains(&PassName::Position) {
             return Err(Failure::Usage(
                 "PNG cannot hold positions, which are floats; name OUT .exr".to_owned(),
+            ));
+        }
+        let is_color = |pass: &PassName| !pass.is_of_surfaces();
+        let fits = placed.is_some() || passes.len() == 1;
+        if format == PassFormat::Hdr && !(fits && passes.iter().all(is_color)) {
+            return Err(Failure::Usage(
+                "Radiance HDR holds one picture, color or albedo; name OUT .exr for other passes, or for \
+                 several"
+                    .to_owned(),
             ));
         }
         let files = match placed {
@@ -147,5 +171,12 @@ mod tests {
         assert!(files("a.png", &[Depth]).is_err());
         assert!(files("{pass}.jpg", &[Depth]).is_err());
         assert!(files("{pass}.png", &[Position]).is_err());
+        assert_eq!(
+            files("a.hdr", &[]).ok(),
+            Some(Some(vec!["a.hdr 1".to_owned()]))
+        );
+        assert!(files("a.hdr", &[Depth]).is_err());
+        assert!(files("a.hdr", &[Color, PassName::Albedo]).is_err());
+        assert!(files("{pass}.hdr", &[Color, PassName::Albedo]).is_ok());
     }
 }

@@ -2,19 +2,55 @@
 
 use super::arguments::PassName;
 use crate::failure::Failure;
-use estampe::srgb;
 use estampe_assets::image::{ExrChannel, ExrSamples};
-use estampe_renderer::SurfacePoint;
+use estampe_renderer::{LightImage, SurfacePoint};
 use estampe_scene::Image;
 
 /// What passes are made of.
 pub(crate) struct Sources {
-    pub(super) color: Option<Image>,
-    pub(super) albedo: Option<Image>,
+    pub(super) color: Option<Colors>,
+    pub(super) albedo: Option<Colors>,
     pub(super) points: Vec<Option<SurfacePoint>>,
 }
 
+/// A picture, as its file holds it.
+pub(super) enum Colors {
+    /// Codes.
+    Codes(Image),
+    /// Linear floats.
+    Light(LightImage),
+}
+
+impl Colors {
+    /// The picture of codes.
+    pub(super) fn codes(&self) -> &Image {
+        match self {
+            Self::Codes(image) => image,
+            Self::Light(_) => unreachable!("formats of codes are drawn as codes"),
+        }
+    }
+
+    /// The picture of light.
+    pub(super) fn light(&self) -> &LightImage {
+        match self {
+            Self::Light(image) => image,
+            Self::Codes(_) => unreachable!("formats of light are drawn as light"),
+        }
+    }
+}
+
 impl Sources {
+    /// The picture of a pass of colours.
+    pub(super) fn colors(&self, pass: PassName) -> &Colors {
+        let colors = match pass {
+            PassName::Color => &self.color,
+            _ => &self.albedo,
+        };
+        colors
+            .as_ref()
+            .expect("colours that are written were drawn")
+    }
+
     /// The channels of a pass in an OpenEXR. Colours are linear, and multiplied by alpha.
     pub(super) fn channels(&self, pass: PassName) -> Vec<ExrChannel> {
         let point = |value: fn(&SurfacePoint) -> f32| {
@@ -34,9 +70,9 @@ impl Sources {
             )
         };
         let named: Vec<(&str, ExrSamples)> = match pass {
-            PassName::Color => light(self.color.as_ref(), ["R", "G", "B", "A"]),
+            PassName::Color => light(self.colors(pass).light(), ["R", "G", "B", "A"]),
             PassName::Albedo => light(
-                self.albedo.as_ref(),
+                self.colors(pass).light(),
                 ["albedo.R", "albedo.G", "albedo.B", "albedo.A"],
             ),
             PassName::Depth => vec![("Z", point(|p| p.distance))],
@@ -142,18 +178,11 @@ fn wrapped(coordinate: f32) -> f32 {
     }
 }
 
-/// The channels of an image: linear light, multiplied by alpha.
-fn light<'n>(image: Option<&Image>, names: [&'n str; 4]) -> Vec<(&'n str, ExrSamples)> {
-    let texels = image.map_or(&[][..], |image| image.rgba.as_chunks::<4>().0);
+/// The channels of a picture of light.
+fn light<'n>(image: &LightImage, names: [&'n str; 4]) -> Vec<(&'n str, ExrSamples)> {
+    let pixels = image.rgba.as_chunks::<4>().0;
     let channel = |at: usize| {
-        let samples = texels.iter().map(|texel| {
-            let alpha = f32::from(texel[3]) / 255.0;
-            if at == 3 {
-                alpha
-            } else {
-                srgb::decode(texel[at]) * alpha
-            }
-        });
+        let samples = pixels.iter().map(|pixel| pixel[at]);
         ExrSamples::Float(samples.collect())
     };
     { names.into_iter().zip(0..) }

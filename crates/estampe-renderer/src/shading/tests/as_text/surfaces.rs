@@ -150,8 +150,10 @@ impl Look {
             glsl: self.glsl(),
             numbers: self.numbers(),
             targets: match self.written {
-                Written::Color | Written::Light => vec![Some(TextureFormat::Rgba32Float.into())],
-                Written::WeightedTerms => weighted_targets(),
+                Written::Color | Written::Light | Written::Unclamped => {
+                    vec![Some(TextureFormat::Rgba32Float.into())]
+                }
+                Written::WeightedTerms | Written::UnclampedTerms => weighted_targets(),
             },
             topology: PrimitiveTopology::TriangleList,
             least_colors: if self.levels.is_some() { 50 } else { 500 },
