@@ -40,7 +40,10 @@ const UNSAFE_CRATES: &[(&str, &[&str])] = &[
 ];
 
 /// Tests with unsafe code: an allocator that counts cannot be written without.
-const UNSAFE_TESTS: &[&str] = &["crates/estampe-gpu/tests/no_allocation.rs"];
+const UNSAFE_TESTS: &[&str] = &[
+    "crates/estampe-gpu/tests/no_allocation.rs",
+    "crates/estampe-assets/tests/readers/hostile/allocator.rs",
+];
 
 /// Checks names and lengths of files, widths of comments, and that unsafe code is where it may be.
 #[must_use]

@@ -19,6 +19,10 @@ use estampe_scene::{
 };
 use std::sync::Arc;
 
+/// Below the cutoff: an alpha that equals it is kept, though interpolation of equal vertex colours
+/// rounds by some 2⁻²⁴ of them. A step of eight bits is 2000 times as much.
+const CUTOFF_ROUNDING: f32 = 2e-6;
+
 impl Materials<'_> {
     /// True if the material says that the back of faces is invisible, and the mesh's winding can be
     /// relied on.
@@ -166,7 +170,7 @@ impl Materials<'_> {
             iridescence,
             transmission,
             is_unlit: pbr.is_unlit,
-            alpha_cutoff: pbr.alpha_cutoff,
+            alpha_cutoff: pbr.alpha_cutoff - CUTOFF_ROUNDING,
         })
     }
 

@@ -1,9 +1,9 @@
 //! Readers of models and images.
 
 mod gltf;
+mod hostile;
 mod images_tga_suite;
 mod models_data;
-mod models_hostile;
 mod models_obj;
 mod models_off;
 mod models_ply;

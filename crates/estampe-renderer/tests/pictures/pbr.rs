@@ -303,6 +303,33 @@ fn cut_outs_have_the_cutoff_of_the_material() {
     }
 }
 
+/// The vertices' alpha of 1 is rounded in each pixel where a surface is seen at an angle.
+#[test]
+fn an_alpha_that_equals_the_cutoff_is_kept_everywhere() {
+    let drawn = |alpha: f32, cutoff: f32, samples: u32| {
+        let material = PbrMaterial {
+            base_color: Vec4::new(0.0, 1.0, 0.0, alpha),
+            alpha_cutoff: cutoff,
+            is_unlit: true,
+            ..PbrMaterial::default()
+        };
+        let mut scene = square(material, Vec::new());
+        scene.materials[0].alpha_mode = AlphaMode::Mask;
+        scene.materials[0].opacity = alpha;
+        let mut options = options(1.0);
+        options.samples = samples;
+        options.camera.eye = Eye::At(DVec3::new(2.0, 1.0, 1.0));
+        drawn_alike(&scene, &options).image
+    };
+    for samples in [1, 4] {
+        for alpha in [0.3, 0.5, 1.0] {
+            let whole = drawn(alpha, 0.1, samples);
+            assert!(drawn(alpha, alpha, samples) == whole, "{alpha}");
+            assert!(drawn(alpha, alpha + 0.01, samples) != whole, "{alpha}");
+        }
+    }
+}
+
 #[test]
 fn backs_of_faces_are_visible_if_the_material_says_so() {
     for is_double_sided in [true, false] {

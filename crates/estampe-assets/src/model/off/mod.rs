@@ -37,8 +37,10 @@ pub(super) fn parse(bytes: &[u8], context: &mut Context<'_>) -> Result<Parsed, A
     let mut statements = Statements::new(bytes);
     let header = Header::read(&mut statements)?;
     let limits = context.limits;
-    Limits::check("vertices", header.vertices, limits.max_vertices)?;
-    Limits::check("faces", header.faces, limits.max_triangles)?;
+    let at = statements.location();
+    let is_within = Limits::check("vertices", header.vertices, limits.max_vertices)
+        .and_then(|()| Limits::check("faces", header.faces, limits.max_triangles));
+    is_within.map_err(|error| error.at(at))?;
     let mut mesh = Mesh::default();
     // A row has a digit and a blank for each of its numbers.
     let possible = bytes.len() / 6 + 1;

@@ -45,6 +45,8 @@ pub(super) struct Element {
     /// As stated; the body may be shorter.
     pub(super) count: u64,
     pub(super) properties: Vec<Property>,
+    /// The line of the header, from 1.
+    pub(super) line: Location,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -175,7 +177,7 @@ impl Header {
                     }
                 }
                 Some("element") => {
-                    let element = read_element(&mut words).map_err(malformed)?;
+                    let element = read_element(&mut words, location).map_err(malformed)?;
                     header.elements.push(element);
                     let count = header.elements.len() as u64;
                     Limits::check("elements", count, Self::MAX_ELEMENTS)?;
@@ -202,7 +204,10 @@ impl Header {
 }
 
 /// `NAME COUNT`
-fn read_element<'a>(words: &mut impl Iterator<Item = &'a str>) -> Result<Element, String> {
+fn read_element<'a>(
+    words: &mut impl Iterator<Item = &'a str>,
+    line: Location,
+) -> Result<Element, String> {
     let name = words.next().ok_or("an element has no name")?.to_owned();
     let count = words.next().unwrap_or_default();
     let count = count
@@ -212,6 +217,7 @@ fn read_element<'a>(words: &mut impl Iterator<Item = &'a str>) -> Result<Element
         name,
         count,
         properties: Vec::new(),
+        line,
     })
 }
 

@@ -66,15 +66,20 @@ fn read_body<V: Values>(
         let is_whole = match element.name.as_str() {
             "vertex" if !has_vertices => {
                 has_vertices = true;
-                Limits::check("vertices", element.count, context.limits.max_vertices)?;
-                vertices::read(values, element, &mut mesh, context.workers)?;
-                true
+                Limits::check("vertices", element.count, context.limits.max_vertices)
+                    .and_then(|()| vertices::read(values, element, &mut mesh, context.workers))
+                    .map(|()| true)
             }
-            "face" | "faces" => elements.read_faces(values, element, &mesh.positions, context)?,
-            "tristrips" => elements.read_strips(values, element, &mesh.positions, context)?,
-            "edge" => elements.read_edges(values, element, &mesh.positions, context)?,
-            _ => values.skip_element(element)?,
+            "face" | "faces" => elements.read_faces(values, element, &mesh.positions, context),
+            "tristrips" => elements.read_strips(values, element, &mesh.positions, context),
+            "edge" => elements.read_edges(values, element, &mesh.positions, context),
+            _ => values.skip_element(element),
         };
+        // What the header states of an element is wrong at its line there.
+        let is_whole = is_whole.map_err(|error| match error.fault().location {
+            None => error.at(element.line),
+            Some(_) => error,
+        })?;
         if !is_whole {
             context.warnings.add(context.name, values.location(), || {
                 format!(

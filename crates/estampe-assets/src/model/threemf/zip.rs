@@ -111,7 +111,8 @@ impl<'a> Archive<'a> {
             return Ok(None);
         };
         let entry = &self.entries[index];
-        Limits::check("unpacked bytes", entry.unpacked_len, self.bytes_left)?;
+        let what = format!("unpacked bytes of `{}`", entry.name);
+        Limits::check(&what, entry.unpacked_len, self.bytes_left)?;
         self.bytes_left -= entry.unpacked_len;
         entry.unpack(self.bytes).map(Some)
     }

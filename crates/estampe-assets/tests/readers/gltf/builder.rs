@@ -9,18 +9,18 @@ use serde_json::{Value, json};
 use std::collections::{BTreeSet, HashMap};
 
 /// Codes of component types.
-pub(super) const U8: u32 = 5121;
+pub(crate) const U8: u32 = 5121;
 pub(super) const U16: u32 = 5123;
 pub(super) const U32: u32 = 5125;
 pub(super) const I8: u32 = 5120;
 pub(super) const I16: u32 = 5122;
-pub(super) const F32: u32 = 5126;
+pub(crate) const F32: u32 = 5126;
 
 /// A file that is being made.
 #[derive(Debug, Clone)]
-pub(super) struct Builder {
-    pub(super) json: Value,
-    pub(super) bin: Vec<u8>,
+pub(crate) struct Builder {
+    pub(crate) json: Value,
+    pub(crate) bin: Vec<u8>,
 }
 
 impl Builder {
@@ -49,14 +49,14 @@ impl Builder {
     }
 
     /// A node with the triangle (0,0,0), (1,0,0), (0,1,0); the positions are accessor 0.
-    pub(super) fn triangle() -> Self {
+    pub(crate) fn triangle() -> Self {
         let mut file = Self::with_mesh(json!({ "attributes": { "POSITION": 0 } }));
         file.vec3s(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
         file
     }
 
     /// Sets the value at a JSON Pointer, whose parent must exist.
-    pub(super) fn set(&mut self, pointer: &str, value: Value) -> &mut Self {
+    pub(crate) fn set(&mut self, pointer: &str, value: Value) -> &mut Self {
         let (parent, key) = pointer.rsplit_once('/').expect("a pointer");
         match self.json.pointer_mut(parent) {
             Some(Value::Array(list)) => {
@@ -88,7 +88,7 @@ impl Builder {
     }
 
     /// Appends a buffer view; returns its index.
-    pub(super) fn view(&mut self, bytes: &[u8]) -> usize {
+    pub(crate) fn view(&mut self, bytes: &[u8]) -> usize {
         self.bin.resize(self.bin.len().next_multiple_of(4), 0);
         let offset = self.bin.len();
         self.bin.extend_from_slice(bytes);
@@ -100,7 +100,7 @@ impl Builder {
     }
 
     /// Appends an accessor with a buffer view of its own; returns its index.
-    pub(super) fn accessor(
+    pub(crate) fn accessor(
         &mut self,
         kind: &str,
         component: u32,
@@ -115,7 +115,7 @@ impl Builder {
     }
 
     /// Appends an accessor of floats.
-    pub(super) fn floats<const N: usize>(&mut self, values: &[[f32; N]]) -> usize {
+    pub(crate) fn floats<const N: usize>(&mut self, values: &[[f32; N]]) -> usize {
         let kind = match N {
             1 => "SCALAR",
             2 => "VEC2",
@@ -126,17 +126,17 @@ impl Builder {
         self.accessor(kind, F32, values.len(), &bytes_of(values.as_flattened()))
     }
 
-    pub(super) fn vec3s(&mut self, values: &[[f32; 3]]) -> usize {
+    pub(crate) fn vec3s(&mut self, values: &[[f32; 3]]) -> usize {
         self.floats(values)
     }
 
-    pub(super) fn scalars(&mut self, values: &[f32]) -> usize {
+    pub(crate) fn scalars(&mut self, values: &[f32]) -> usize {
         let values: Vec<[f32; 1]> = values.iter().map(|&value| [value]).collect();
         self.floats(&values)
     }
 
     /// Appends an accessor of indices.
-    pub(super) fn indices(&mut self, indices: &[u16]) -> usize {
+    pub(crate) fn indices(&mut self, indices: &[u16]) -> usize {
         let bytes: Vec<u8> = indices.iter().flat_map(|i| i.to_le_bytes()).collect();
         self.accessor("SCALAR", U16, indices.len(), &bytes)
     }
@@ -168,16 +168,21 @@ impl Builder {
     }
 
     /// The file as GLB.
-    pub(super) fn glb(&self) -> Vec<u8> {
+    pub(crate) fn glb(&self) -> Vec<u8> {
+        glb(&self.json_of_glb(), &self.bin)
+    }
+
+    /// The JSON chunk of the file as GLB.
+    pub(crate) fn json_of_glb(&self) -> Vec<u8> {
         let mut json = self.declared();
         if json.get("buffers").is_none() {
             json["buffers"] = json!([{ "byteLength": self.bin.len() }]);
         }
-        glb(json.to_string().as_bytes(), &self.bin)
+        json.to_string().into_bytes()
     }
 
     /// The file as JSON with a data URI.
-    pub(super) fn gltf(&self) -> Vec<u8> {
+    pub(crate) fn gltf(&self) -> Vec<u8> {
         let mut json = self.declared();
         let uri = format!("data:application/octet-stream;base64,{}", base64(&self.bin));
         json["buffers"] = json!([{ "byteLength": self.bin.len(), "uri": uri }]);
@@ -247,7 +252,7 @@ pub(super) fn base64(bytes: &[u8]) -> String {
 }
 
 /// Reads a file, which must succeed.
-pub(super) fn load(bytes: &[u8]) -> Loaded {
+pub(crate) fn load(bytes: &[u8]) -> Loaded {
     parse_model(
         bytes,
         ModelFormat::Gltf,

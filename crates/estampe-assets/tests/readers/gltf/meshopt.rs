@@ -68,6 +68,12 @@ fn compressed(
     file
 }
 
+/// A file of twelve compressed points.
+pub(crate) fn compressed_points() -> Builder {
+    let accessor = json!({ "bufferView": 0, "componentType": 5126, "count": 12, "type": "VEC3" });
+    points(&bytes(EXPONENTIAL), [12, 12], Some("EXPONENTIAL"), accessor)
+}
+
 /// A file that draws the compressed elements as points.
 fn points(data: &[u8], size: [usize; 2], filter: Option<&str>, accessor: Value) -> Builder {
     let mut file = compressed(data, size, "ATTRIBUTES", filter);
