@@ -4,13 +4,23 @@
 /// What a file has besides its scene, for reports.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ModelContents {
-    /// The nodes of the scene, parents before their children, in file order; empty in formats
-    /// without a hierarchy.
+    /// The nodes of the scene, parents before their children, in file order, at most
+    /// [`MAX_NODES`](Self::MAX_NODES); empty in formats without a hierarchy.
     pub nodes: Vec<ModelNode>,
-    /// Names of the extensions that the file says it uses.
+    /// Number of all nodes of the scene.
+    pub node_count: usize,
+    /// Names of the extensions that the file says it uses, at most
+    /// [`MAX_EXTENSIONS`](Self::MAX_EXTENSIONS).
     pub extensions: Vec<String>,
     /// For each mesh of the scene: true if its normals are made by the reader.
     pub has_made_normals: Vec<bool>,
+}
+
+impl ModelContents {
+    /// The nodes that are kept: a small file can have many that name one long name.
+    pub const MAX_NODES: usize = 10_000;
+    /// The extensions that are kept.
+    pub const MAX_EXTENSIONS: usize = 1000;
 }
 
 /// A node of the hierarchy.

@@ -2,7 +2,7 @@
 
 use crate::input::Model;
 use estampe_assets::ModelFormat;
-use estampe_scene::{Mesh, Scene};
+use estampe_scene::{Material, Mesh, Scene};
 
 /// Bytes of vertices with all attributes and of indices.
 pub(super) fn geometry_bytes(scene: &Scene) -> usize {
@@ -40,18 +40,56 @@ pub(super) fn normals(model: &Model, at: usize) -> Option<&'static str> {
     has_normals.then_some(if is_made == Some(true) { MADE } else { FILE })
 }
 
-/// The source of a mesh's tangents; they are made if a normal texture needs them.
+/// The source of a mesh's tangents. They are made if a normal texture or an anisotropic material
+/// needs them and the mesh has the texture coordinates; `None` if nothing needs them.
 pub(super) fn tangents(model: &Model, at: usize) -> Option<&'static str> {
     let mesh = &model.scene.meshes[at];
     if mesh.attribute(Mesh::TANGENT).is_some() {
         return Some(FILE);
     }
     let mut used = mesh.surfaces.iter().filter_map(|surface| surface.material);
-    let needs = |material: usize| {
-        let pbr = model.scene.materials[material].pbr.as_deref();
-        pbr.is_some_and(|pbr| pbr.normal_texture.is_some())
+    let uv_set = used.find_map(|material| tangent_uv_set(&model.scene.materials[material]))?;
+    let has_uvs = match uv_set {
+        1 => mesh.attribute(Mesh::UV1).is_some(),
+        _ => !mesh.uvs.is_empty(),
     };
-    used.any(needs).then_some(MADE)
+    (has_uvs && !mesh.normals.is_empty()).then_some(MADE)
+}
+
+/// The texture coordinates along which a material's tangents go; `None` if it needs none.
+fn tangent_uv_set(material: &Material) -> Option<u8> {
+    let pbr = material.pbr.as_deref()?;
+    let coat = pbr.clearcoat.and_then(|coat| coat.normal_texture);
+    let map = pbr.normal_texture.or(coat).map(|map| map.texture.uv_set);
+    let direction = pbr.anisotropy.map(|layer| {
+        let texture = layer.texture.map(|texture| texture.uv_set);
+        texture.unwrap_or_default()
+    });
+    map.or(direction)
+}
+
+/// The attributes of a mesh besides positions, each with its source.
+pub(super) fn attributes(model: &Model, at: usize) -> Vec<(&'static str, &'static str)> {
+    let mesh = &model.scene.meshes[at];
+    let file = |is_there: bool| is_there.then_some(FILE);
+    let sources = [
+        ("normals", normals(model, at)),
+        ("tangents", tangents(model, at)),
+        ("uvs", file(!mesh.uvs.is_empty())),
+        ("uvs1", file(mesh.attribute(Mesh::UV1).is_some())),
+        ("colors", file(!mesh.colors.is_empty())),
+    ];
+    let found = sources.into_iter();
+    found
+        .filter_map(|(name, source)| Some((name, source?)))
+        .collect()
+}
+
+/// The names of the attributes in memory: tangents that are made are those of a picture.
+pub(super) fn stored(model: &Model, at: usize) -> Vec<&'static str> {
+    let is_stored = |found: &(&str, &str)| *found != ("tangents", MADE);
+    let all = attributes(model, at).into_iter();
+    all.filter(is_stored).map(|(name, _)| name).collect()
 }
 
 /// The unit of the model's lengths, where the format states one.

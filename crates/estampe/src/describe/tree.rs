@@ -1,31 +1,23 @@
 //! The tree of nodes as indented lines, limited in depth and number.
 
+use super::lines::Lines;
+use super::text::named;
 use crate::input::Model;
 use crate::terminal::one_line;
 use serde_json::{Value, json};
-use std::fmt::Write as _;
 
 /// Lines of the text.
 const MAX_LINES: usize = 40;
 /// Deeper nodes are counted, not listed, in the text.
 const MAX_DEPTH: usize = 8;
-/// Nodes of the JSON object.
-const MAX_NODES: usize = 10_000;
 
-/// Writes the tree. Writing into a `String` cannot fail.
-pub(super) fn text(out: &mut String, model: &Model) {
-    let nodes = &model.contents.nodes;
-    let shown = nodes
-        .iter()
-        .filter(|node| node.depth <= MAX_DEPTH)
-        .take(MAX_LINES);
-    let mut count = 0;
-    for node in shown {
-        count += 1;
-        let name = match &*node.name {
-            "" => "(no name)".to_owned(),
-            name => one_line(name).into_owned(),
-        };
+/// Writes the tree.
+pub(super) fn add(lines: &mut Lines, model: &Model) {
+    let contents = &model.contents;
+    let nodes = { contents.nodes.iter() }.filter(|node| node.depth <= MAX_DEPTH);
+    let mut listed = 0;
+    for node in nodes.take(MAX_LINES) {
+        listed += 1;
         let mut facts = Vec::new();
         match node.mesh.as_deref() {
             Some("") => facts.push("mesh".to_owned()),
@@ -42,21 +34,19 @@ pub(super) fn text(out: &mut String, model: &Model) {
         ];
         let kinds = kinds.into_iter().filter(|(is_there, _)| *is_there);
         facts.extend(kinds.map(|(_, kind)| kind.to_owned()));
-        let indent = "  ".repeat(node.depth);
-        let facts = match &*facts {
-            [] => String::new(),
-            facts => format!(": {}", facts.join(", ")),
-        };
-        let _ = writeln!(out, "  node {indent}{name}{facts}");
+        let (indent, name) = ("  ".repeat(node.depth), named(&node.name));
+        let colon = if facts.is_empty() { "" } else { ": " };
+        lines.add(
+            "node",
+            &format!("{indent}{name}{colon}{}", facts.join(", ")),
+        );
     }
-    if nodes.len() > count {
-        let _ = writeln!(out, "  and {} more nodes", nodes.len() - count);
-    }
+    lines.add_rest(contents.node_count, listed, "nodes");
 }
 
 /// The tree as a list, parents before their children.
 pub(super) fn json(model: &Model) -> Value {
-    let nodes = model.contents.nodes.iter().take(MAX_NODES);
+    let nodes = model.contents.nodes.iter();
     let nodes = nodes.map(|node| {
         json!({
             "name": node.name,

@@ -11,6 +11,7 @@ use crate::limits::Clock;
 use crate::output;
 use crate::progress::Progress;
 use crate::shader::values::{FRAGMENT_JUMPS, Via};
+use crate::terminal::one_line;
 use crate::values::{Destination, ImageFormatName, shown};
 use estampe::{Device, DeviceDescriptor};
 use estampe_assets::image::{ImageFormat, decode, encode};
@@ -249,9 +250,17 @@ fn check_drawable(model: &Model) -> Result<(), Failure> {
         return Ok(());
     }
     let name = &model.name;
+    // The last warning says that there is nothing.
+    let cause = match &*model.warnings {
+        [first, _, ..] => {
+            let place = first.location.map_or(String::new(), |at| format!("{at}: "));
+            format!("; {place}{}", one_line(&first.message))
+        }
+        _ => String::new(),
+    };
     let advice = "check that the export was complete";
     Err(Failure::Input(format!(
-        "{name}: the model has no triangle, line or point to draw; {advice}"
+        "{name}: the model has no triangle, line or point to draw{cause}; {advice}"
     )))
 }
 

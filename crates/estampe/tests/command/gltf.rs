@@ -109,11 +109,11 @@ fn scenes_animations_and_variants_are_chosen() {
     assert_eq!(run.code, 0, "{}", run.err);
     let text = String::from_utf8(run.out).expect("text");
     for said in [
-        "camera 0 \"wide\": perspective",
-        "camera 1: orthographic",
-        "scene 1 \"far\"",
-        "animation 0 \"slide\": 2 s",
-        "variant \"night\"",
+        "camera     0 \"wide\": perspective",
+        "camera     1: orthographic",
+        "scene      1 \"far\"",
+        "animation  0 \"slide\": 2 s",
+        "variant    \"night\"",
     ] {
         assert!(text.contains(said), "{said}: {text}");
     }
@@ -230,12 +230,16 @@ fn info_lists_all_that_a_file_has() {
     let report: Value = serde_json::from_slice(&run.out).expect("one object");
     assert_eq!(report["unit"], "m");
     assert_eq!(report["memory"], json!({ "geometry": 276, "textures": 16 }));
+    assert_eq!(report["node_count"], 4);
     let node = &report["nodes"][2];
     assert_eq!((&node["depth"], &node["instances"]), (&json!(1), &json!(2)));
     assert_eq!(report["nodes"][3]["light"], true);
     let sources = |at: usize| report["meshes"][at]["normals"].clone();
     assert_eq!([sources(0), sources(1)], ["file", "made"]);
-    assert_eq!(report["meshes"][0]["tangents"], Value::Null);
+    let tangents = |at: usize| report["meshes"][at]["tangents"].clone();
+    // Anisotropy needs them.
+    assert_eq!([tangents(0), tangents(1)], [json!("made"), Value::Null]);
+    assert_eq!(report["meshes"][0]["attributes"], json!(["normals", "uvs"]));
     let texture = &report["materials"][0]["textures"][0];
     assert_eq!(
         *texture,
@@ -244,4 +248,66 @@ fn info_lists_all_that_a_file_has() {
     assert_eq!(report["materials"][1]["extensions"], json!(["unlit"]));
     assert_eq!(report["textures"][0]["bytes"], 16);
     assert_eq!(report["lights"][0]["intensity"], 10.0);
+}
+
+/// No name of a file reaches the terminal's control sequences, nor forges a line.
+#[test]
+fn info_escapes_all_names_of_a_file() {
+    let evil = "\u{1b}[31m\u{9b}2J\nx\u{202e}";
+    let mut file: Value = serde_json::from_str(&with_choices()).expect("JSON");
+    let names = [
+        "scenes",
+        "nodes",
+        "meshes",
+        "materials",
+        "cameras",
+        "animations",
+    ];
+    for list in names {
+        for entry in file[list].as_array_mut().into_iter().flatten() {
+            entry["name"] = json!(evil);
+        }
+    }
+    let used = file["extensionsUsed"].as_array_mut().expect("extensions");
+    used.push(json!(evil));
+    let variants = &mut file["extensions"]["KHR_materials_variants"]["variants"];
+    variants[0]["name"] = json!(evil);
+    let folder = Folder::new();
+    let model = folder.with_file("m.gltf", file.to_string());
+    let run = estampe("info {}", &[&model]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let text = String::from_utf8(run.out).expect("text");
+    let is_control = |c: char| (c.is_control() && c != '\n') || c == '\u{202e}';
+    assert!(!text.contains(is_control), "{text:?}");
+    let labels = [
+        "extensions",
+        "node",
+        "mesh",
+        "material",
+        "camera",
+        "scene",
+        "animation",
+        "variant",
+    ];
+    for label in labels {
+        let shown =
+            |line: &str| line.starts_with(&format!("  {label} ")) && line.contains("\\u{1b}[31m");
+        assert!(text.lines().any(shown), "{label}: {text}");
+    }
+    assert!(text.lines().all(|line| !line.starts_with('x')), "{text}");
+}
+
+#[test]
+fn a_model_without_anything_to_draw_is_refused_with_the_cause() {
+    let folder = Folder::new();
+    let model = folder.with_file("m.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let run = estampe("render {} -o {}", &[&model, &folder.path("m.png")]);
+    assert_eq!(run.code, 1);
+    let said = "m.obj: the model has no triangle, line or point to draw; line 1: the vertex does \
+                not have three finite coordinates; elements that use it are omitted; check that";
+    assert!(run.err.contains(said), "{}", run.err);
+    let run = estampe("info {}", &[&model]);
+    let text = String::from_utf8(run.out).expect("text");
+    assert!(text.contains("bounds     none, nothing to draw"), "{text}");
+    assert!(text.contains("(no name): nothing to draw"), "{text}");
 }

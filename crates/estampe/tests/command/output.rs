@@ -47,7 +47,10 @@ fn names_are_shown_without_control_characters() {
     let model = folder.with_file("m.obj", text);
     let run = estampe("info {}", &[&model]);
     let said = String::from_utf8(run.out).expect("text");
-    assert!(said.contains("material red\\u{1b}[31m\\u{9b}2J"), "{said}");
+    assert!(
+        said.contains("material   red\\u{1b}[31m\\u{9b}2J"),
+        "{said}"
+    );
     let is_control = |c: char| c.is_control() && c != '\n';
     assert!(!said.contains(is_control), "{said:?}");
     let missing = folder.path("no\u{1b}]0;title\u{7}\nestampe: done.obj");

@@ -5,6 +5,7 @@ use super::document::Document;
 use super::fault::shortened;
 use super::hierarchy::Hierarchy;
 use crate::model::contents::{ModelContents, ModelNode};
+use std::collections::HashMap;
 
 /// The contents of a scene, whose nodes come parents first.
 pub(super) fn of(
@@ -13,19 +14,21 @@ pub(super) fn of(
     document: &Document<'_>,
     accessors: &Accessors<'_>,
 ) -> ModelContents {
-    let mut depths = vec![0_usize; document.nodes.len()];
+    let mut depths = HashMap::new();
     let node = |&index: &usize| {
         let node = &document.nodes[index];
-        depths[index] = hierarchy
+        let above = hierarchy
             .parent(index)
-            .map_or(0, |parent| depths[parent] + 1);
+            .and_then(|parent| depths.get(&parent));
+        let depth = above.map_or(0, |depth: &usize| depth + 1);
+        depths.insert(index, depth);
         let mesh = node.mesh.and_then(|mesh| document.meshes.get(mesh.0));
         let instancing = node.extensions.instancing.as_deref();
         let places = instancing.and_then(|found| found.attributes.values().next());
         let instances = places.and_then(|&places| accessors.count(places, String::new).ok());
         ModelNode {
             name: shortened(&node.name),
-            depth: depths[index],
+            depth,
             mesh: mesh.map(|mesh| shortened(&mesh.name)),
             instances: instances.unwrap_or(usize::from(mesh.is_some())),
             has_skin: node.skin.is_some(),
@@ -35,8 +38,15 @@ pub(super) fn of(
     };
     let used = document.extensions_used.iter();
     ModelContents {
-        nodes: nodes.iter().map(node).collect(),
-        extensions: used.map(|name| shortened(name)).collect(),
+        nodes: nodes
+            .iter()
+            .take(ModelContents::MAX_NODES)
+            .map(node)
+            .collect(),
+        node_count: nodes.len(),
+        extensions: { used.take(ModelContents::MAX_EXTENSIONS) }
+            .map(|name| shortened(name))
+            .collect(),
         has_made_normals: Vec::new(),
     }
 }

@@ -210,6 +210,9 @@ fn numbers(bytes: &[u8]) -> Vec<Range<usize>> {
     found
 }
 
+/// Offset in a record, and length.
+type Field = (usize, usize);
+
 /// The lengths, counts and offsets of a ZIP archive (APPNOTE 4.3) or a GLB file.
 fn fields(bytes: &[u8]) -> Vec<Range<usize>> {
     if bytes.starts_with(b"glTF") {
@@ -224,8 +227,8 @@ fn fields(bytes: &[u8]) -> Vec<Range<usize>> {
             .filter(|word| word.end <= bytes.len())
             .collect();
     }
-    // The end of each kind of record with the offsets and lengths of its fields.
-    let kinds: [(&[u8], &[(usize, usize)]); 3] = [
+    // The signature of each kind of record with its fields.
+    let kinds: [(&[u8], &[Field]); 3] = [
         (b"PK\x03\x04", &[(18, 4), (22, 4), (26, 2), (28, 2)]),
         (
             b"PK\x01\x02",
