@@ -53,20 +53,20 @@ impl std::fmt::Debug for LightImage {
 }
 
 impl LightImage {
-    /// The image of a target's bytes. What is no number becomes 0, and infinity the greatest number.
-    /// If the background is opaque, so is each pixel: rounding may have left a little less.
+    /// The image of a target's bytes. What is no number becomes 0, and infinity the greatest
+    /// number. If the background is opaque, so is each pixel: rounding may have left a little less.
     pub(crate) fn of_bytes((width, height): (u32, u32), bytes: &[u8], is_opaque: bool) -> Self {
         let number = |bytes: &[u8; 4]| f32::from_le_bytes(*bytes);
         let mut rgba: Vec<f32> = bytes.as_chunks().0.iter().map(number).collect();
         for pixel in rgba.as_chunks_mut::<4>().0 {
             for channel in &mut pixel[..3] {
-                // `max` gives 0 for NaN.
-                *channel = channel.max(0.0).min(f32::MAX);
+                // `max` gives 0 for NaN, which `clamp` keeps.
+                *channel = channel.clamp(0.0, f32::MAX).max(0.0);
             }
             pixel[3] = if is_opaque {
                 1.0
             } else {
-                pixel[3].max(0.0).min(1.0)
+                pixel[3].clamp(0.0, 1.0).max(0.0)
             };
         }
         Self {

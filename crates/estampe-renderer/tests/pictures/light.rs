@@ -194,8 +194,8 @@ fn assert_codes(scene: &Scene, options: &RenderOptions, what: &str) {
             } else {
                 f32::from(srgb::encode(straight))
             };
-            // Straight colours of faint pixels are coarse in eight bits, and letters with an outline
-            // cover a pixel up to nine times.
+            // Straight colours of faint pixels are coarse in eight bits, and letters with an
+            // outline cover a pixel up to nine times.
             let most = match codes[3] {
                 _ if options.axes => 6.0,
                 255 => 1.0,

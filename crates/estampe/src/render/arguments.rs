@@ -65,7 +65,8 @@ pub(crate) struct RenderArgs {
     )]
     pub(crate) format: Option<FormatName>,
 
-    /// The image's format: png, jpeg, tga, webp, exr or hdr [default: by OUT's extension; png for -]
+    /// The image's format: png, jpeg, tga, webp, exr or hdr [default: by OUT's extension; png for
+    /// -]
     ///
     /// exr and hdr hold light, linear floats above 1 too: after --exposure, before --tone-map. exr
     /// has 32 bits a channel and alpha, hdr 8 bits with a common exponent.

@@ -214,8 +214,8 @@ impl PictureArgs {
         self.illumination.check()
     }
 
-    /// The bytes of the samples' colours and depths, and of the picture; of light, which is read and
-    /// then taken apart into channels, of three pictures.
+    /// The bytes of the samples' colours and depths, and of the picture; of light, which is read
+    /// and then taken apart into channels, of three pictures.
     pub(crate) fn bytes(&self, holds_light: bool) -> u64 {
         let pixels = u64::from(self.size.0) * u64::from(self.size.1);
         let samples = u64::from(self.sample_count());

@@ -8,8 +8,8 @@ use estampe_assets::image::decode_hdr;
 use estampe_scene::HdrImage;
 use std::path::Path;
 
-/// A triangle that emits 40 times (1, 0.5, 0.25), and one of half transparent glass before a part of
-/// it.
+/// A triangle that emits 40 times (1, 0.5, 0.25), and one of half transparent glass before a part
+/// of it.
 const LAMP: &str = r#"{"asset":{"version":"2.0"},
 "extensionsUsed":["KHR_materials_emissive_strength","KHR_materials_unlit"],"scene":0,
 "scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},{"mesh":1,"translation":[0,0,0.25],"scale":[0.4,0.4,1]}],

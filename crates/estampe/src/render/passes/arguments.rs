@@ -10,12 +10,13 @@ pub(crate) struct PassArgs {
     ///
     /// OUT is one OpenEXR with all of them, or has {pass} in its name: a file for each.
     ///
-    /// color: the picture; in OpenEXR and Radiance HDR its light before the tone map. depth: distance along the view direction. normal: unit, world space, on
-    /// the side that is seen. albedo: colours without light. position: world space. object-id and
-    /// material-id: the number in the model, from 1. uv: texture coordinates. All but color and
-    /// albedo are of the centre of the pixel, 0 on the background; transparent surfaces are solid
-    /// in them. OpenEXR has floats and 32-bit numbers. PNG has 16 bits: depth in steps of the
-    /// option below, normal as (n + 1)/2, the fraction of uv; position is not possible.
+    /// color: the picture; in OpenEXR and Radiance HDR its light before the tone map. depth:
+    /// distance along the view direction. normal: unit, world space, on the side that is seen.
+    /// albedo: colours without light. position: world space. object-id and material-id: the number
+    /// in the model, from 1. uv: texture coordinates. All but color and albedo are of the centre of
+    /// the pixel, 0 on the background; transparent surfaces are solid in them. OpenEXR has floats
+    /// and 32-bit numbers. PNG has 16 bits: depth in steps of the option below, normal as
+    /// (n + 1)/2, the fraction of uv; position is not possible.
     #[arg(long, value_name = "PASSES", value_enum, value_delimiter = ',')]
     #[arg(hide_possible_values = true, help_heading = "Data passes")]
     pub(crate) pass: Vec<PassName>,
