@@ -21,6 +21,7 @@
 //!        ├─ feature_edges   sharp edges, borders and silhouettes
 //!        ├─ guides          grid, axes, and the model's box with its sizes
 //!        ├─ strokes         lines of a width, which the model hides
+//!        ├─ texture_detail  the mip levels of textures that a picture can sample
 //!        ├─ surface_points  positions, normals and other numbers of what is seen
 //!        └─ text            labels on the image
 //! ```
@@ -62,6 +63,7 @@ mod surface_pipelines;
 mod surface_points;
 mod surface_program;
 mod text;
+mod texture_detail;
 
 /// The README's snippet, compiled and run as a test.
 #[cfg(doctest)]
@@ -88,6 +90,7 @@ pub use shading::pbr::tone_map::ToneMap;
 pub use surface_points::{SurfacePoint, SurfacePoints, surface_points};
 pub use surface_program::{SurfaceBindings, SurfaceProgram, SurfaceValues};
 pub use text::{TextHeight, TextStyle, character_width_px, draw_text, text_width_px};
+pub use texture_detail::{first_level_of_texture, first_levels};
 
 /// Version of the images. It rises whenever the same scene and options give other bytes than
 /// before; CHANGELOG lists the changes.

@@ -1,6 +1,7 @@
 //! Readers of models and images.
 
 mod gltf;
+mod images_hostile;
 mod images_tga_suite;
 mod models_data;
 mod models_hostile;

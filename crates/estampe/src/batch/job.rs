@@ -5,9 +5,9 @@ use super::deadline::{self, Claim};
 use super::plan::{Content, Job, Picture};
 use super::record::{self, NamedFiles, Sources, digest};
 use crate::failure::Failure;
-use crate::input::{self, Model};
+use crate::input::{self, Model, Reading};
 use crate::output;
-use crate::render::{self, PassName, PictureArgs, Sources as PassSources};
+use crate::render::{self, PassName, PictureArgs, PictureDetail, Sources as PassSources};
 use crate::values::{Destination, ViewName, shown};
 use estampe::Device;
 use estampe_assets::Limits;
@@ -112,10 +112,17 @@ impl Shared {
         let named = NamedFiles::new(folder);
         let args = &job.look.options;
         let chosen = args.choice.at(args.picture.shader.time);
+        let pictures = { job.pictures.iter() }
+            .map(|picture| arguments(job, picture))
+            .collect();
         let model = Model::of_bytes(
             (&job.input.path, &bytes),
             args.format.map(estampe_assets::ModelFormat::from),
-            (&chosen, &self.limits),
+            Reading {
+                options: &chosen,
+                limits: &self.limits,
+                detail: &PictureDetail::of_all(pictures),
+            },
             &named,
         );
         let model = match model {
@@ -213,8 +220,7 @@ fn draw(
         &Claim,
     ),
 ) -> Result<(), Failure> {
-    let mut args = job.look.options.picture.clone();
-    args.view = picture.view;
+    let args = arguments(job, picture);
     let destination = Destination::File(picture.output.clone());
     render::check_output(&destination, model, &args)?;
     let bytes = bytes(&args)?;
@@ -227,6 +233,14 @@ fn draw(
     }
     claim.end_writing();
     written
+}
+
+/// The options of a picture.
+fn arguments(job: &Job, picture: &Picture) -> PictureArgs {
+    PictureArgs {
+        view: picture.view,
+        ..job.look.options.picture.clone()
+    }
 }
 
 fn write(picture: &Picture, destination: &Destination, bytes: &[u8]) -> Result<(), Failure> {

@@ -23,9 +23,15 @@ pub(super) fn geometry_bytes(scene: &Scene) -> usize {
     scene.meshes.iter().map(of_mesh).sum()
 }
 
-/// Bytes of decoded images, without mip levels.
-pub(super) fn texture_bytes(scene: &Scene) -> usize {
-    scene.images.iter().map(|image| image.rgba.len()).sum()
+/// Bytes of whole decoded images, without mip levels.
+pub(super) fn texture_bytes(model: &Model) -> u64 {
+    let sizes = model.contents.image_sizes.iter();
+    sizes.map(|&size| image_bytes(size)).sum()
+}
+
+/// Bytes of an image of this width and height.
+pub(super) fn image_bytes((width, height): (u32, u32)) -> u64 {
+    u64::from(width) * u64::from(height) * 4
 }
 
 /// Source of an attribute.

@@ -6,12 +6,13 @@ mod tree;
 
 use crate::choice::ChoiceArgs;
 use crate::failure::Failure;
-use crate::input::Model;
+use crate::input::{Model, Reading};
 use crate::render::counts;
 use crate::terminal::one_line;
 use crate::values::{FormatName, Source};
 use clap::Args;
 use estampe_assets::Limits;
+use estampe_assets::model::LeastDetail;
 use estampe_scene::{
     AlphaMode, Bounds, Material, Mesh, NamedCamera, Projection, PunctualLight, PunctualLightKind,
     Scene, UpAxis,
@@ -67,7 +68,11 @@ pub(crate) struct InfoArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
-    let read = (&args.choice.at(args.time), &Limits::default());
+    let read = Reading {
+        options: &args.choice.at(args.time),
+        limits: &Limits::default(),
+        detail: &LeastDetail,
+    };
     let folder = args.choice.folder_of(&args.model)?;
     let model = Model::read((&args.model, &folder), args.format, read, |_| {})?;
     let report = if args.json {
@@ -166,13 +171,13 @@ fn json(model: &Model) -> Value {
             "extensions": material::extensions(material),
         })
     });
-    let images = scene.images.iter();
-    let textures = images.map(|image| {
+    let images = model.contents.image_sizes.iter();
+    let textures = images.map(|&(width, height)| {
         json!({
-            "width": image.width,
-            "height": image.height,
+            "width": width,
+            "height": height,
             "format": TEXTURE_FORMAT,
-            "bytes": image.rgba.len(),
+            "bytes": memory::image_bytes((width, height)),
         })
     });
     let lights = scene.lights.iter().map(light_json);
@@ -186,7 +191,7 @@ fn json(model: &Model) -> Value {
         "unit": memory::unit(model),
         "memory": {
             "geometry": memory::geometry_bytes(scene),
-            "textures": memory::texture_bytes(scene),
+            "textures": memory::texture_bytes(model),
         },
         "nodes": tree::json(model),
         "extensions": model.contents.extensions,
@@ -354,7 +359,7 @@ fn text(model: &Model) -> String {
     } else {
         let _ = writeln!(out, "  bounds: none, nothing to draw");
     }
-    let (geometry, textures) = (memory::geometry_bytes(scene), memory::texture_bytes(scene));
+    let (geometry, textures) = (memory::geometry_bytes(scene), memory::texture_bytes(model));
     let _ = writeln!(
         out,
         "  memory: geometry {geometry} bytes, textures {textures} bytes"
@@ -424,8 +429,8 @@ fn text(model: &Model) -> String {
         }
     }
     list_rest(&mut out, scene.materials.len(), LISTED, "materials");
-    for (at, image) in scene.images.iter().enumerate().take(LISTED) {
-        let (width, height) = (image.width, image.height);
+    let sizes = model.contents.image_sizes.iter();
+    for (at, (width, height)) in sizes.enumerate().take(LISTED) {
         let _ = writeln!(out, "  texture {at}: {width}x{height} {TEXTURE_FORMAT}");
     }
     list_rest(&mut out, scene.images.len(), LISTED, "textures");

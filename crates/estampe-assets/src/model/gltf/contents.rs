@@ -38,5 +38,6 @@ pub(super) fn of(
         nodes: nodes.iter().map(node).collect(),
         extensions: used.map(|name| shortened(name)).collect(),
         has_made_normals: Vec::new(),
+        image_sizes: Vec::new(),
     }
 }

@@ -9,7 +9,7 @@ use crate::input::Model;
 use crate::limits::Clock;
 use crate::output;
 use crate::progress::Progress;
-use crate::render::{PictureArgs, RenderArgs};
+use crate::render::{PictureArgs, PictureDetail, RenderArgs};
 use crate::values::Destination;
 use estampe::Device;
 use estampe_assets::image::ImageFormat;
@@ -78,6 +78,14 @@ impl Shots {
             .map(|shots| Some(Self(shots)))
     }
 
+    /// The detail of the textures in all pictures.
+    pub(in crate::render) fn detail<'a>(&'a self, picture: &'a PictureArgs) -> PictureDetail<'a> {
+        PictureDetail::of_cameras(picture, |_, options| {
+            let shots = self.0.iter().take(PictureDetail::MOST_PICTURES + 1);
+            shots.map(|shot| shot.options(&options)).collect()
+        })
+    }
+
     /// The options with the size of the greatest picture.
     pub(in crate::render) fn greatest(&self, picture: &PictureArgs) -> PictureArgs {
         let sizes = self.0.iter().map(|shot| shot.camera.size);
@@ -108,6 +116,17 @@ impl Shot {
         }
     }
 
+    /// The options with this camera.
+    fn options(&self, options: &RenderOptions) -> RenderOptions {
+        let (width, height) = self.camera.size;
+        RenderOptions {
+            width,
+            height,
+            camera: self.camera.pinhole.into(),
+            ..options.clone()
+        }
+    }
+
     /// Draws and encodes the outputs.
     fn draw(
         &self,
@@ -116,12 +135,7 @@ impl Shot {
         (options, device): (&RenderOptions, &Device),
     ) -> Result<Vec<Vec<u8>>, Failure> {
         let size = self.camera.size;
-        let options = RenderOptions {
-            width: size.0,
-            height: size.1,
-            camera: self.camera.pinhole.into(),
-            ..options.clone()
-        };
+        let options = self.options(options);
         match &self.outputs {
             Outputs::Picture(_, format) => {
                 let frame = frame(model, &args.picture, &options, device)?;
