@@ -4,17 +4,10 @@
 use estampe_format::box_filter::{self, Averaged};
 use estampe_types::{MipLevel, TextureFormat};
 
-/// Appends level `to`, the half of level `from`, to the texels of all levels above it.
-pub(crate) fn append_half(
-    texels: &mut Vec<u32>,
-    from: MipLevel,
-    to: MipLevel,
-    format: TextureFormat,
-) {
+/// Makes level `to` the half of level `from`, in the texels of all levels.
+pub(crate) fn halve_level(texels: &mut [u32], from: MipLevel, to: MipLevel, format: TextureFormat) {
     let averaged = Averaged::of(format.is_srgb());
-    let start = texels.len();
-    texels.resize(start + to.width as usize * to.height as usize, 0);
-    let (above, half) = texels.split_at_mut(start);
+    let (above, half) = texels.split_at_mut(to.offset as usize);
     let above = &above[from.offset as usize..];
     let width = from.width as usize;
     let row = |y: u32| {
