@@ -3,8 +3,8 @@
 //!
 //! - [`model`]: glTF, OBJ with its material libraries, STL, PLY, OFF and 3MF become an
 //!   [`estampe_scene::Scene`]; OBJ, STL and PLY are also written.
-//! - [`image`]: TGA, PNG, JPEG and WebP become an [`estampe_scene::Image`], and back; BMP and DDS are
-//!   read; animations are written as GIF, APNG, WebP and Y4M.
+//! - [`image`]: TGA, PNG, JPEG and WebP become an [`estampe_scene::Image`], and back; BMP, DDS and
+//!   KTX2 are read; animations are written as GIF, APNG, WebP and Y4M.
 //!
 //! Every input is treated as hostile: a reader ends with a value or an [`AssetError`] with the
 //! problem, its location and advice. It allocates no memory that the file's own size does not

@@ -27,6 +27,9 @@ pub struct Limits {
     pub max_image_pixels: u64,
     /// Pixels of all images of one model together (2 · 16384²).
     pub max_total_image_pixels: u64,
+    /// Texels of a texture's longer side (16384, the device's limit). A larger texture of a model
+    /// is halved while it is decoded, until it is within the limit.
+    pub max_texture_side: u32,
     /// Warnings that are kept as text; further ones are only counted (100).
     pub max_warnings: usize,
     /// Threads that read one file; 0, the default, is one per processor. Results do not depend on
@@ -46,6 +49,7 @@ impl Default for Limits {
             max_side_files: 1024,
             max_image_pixels: 16_384 * 16_384,
             max_total_image_pixels: 2 * 16_384 * 16_384,
+            max_texture_side: 16_384,
             max_warnings: 100,
             threads: 0,
         }
@@ -53,6 +57,15 @@ impl Default for Limits {
 }
 
 impl Limits {
+    /// The first mip level of a texture whose sides are within the limit.
+    pub(crate) fn least_level(&self, (width, height): (u32, u32)) -> u32 {
+        let longest = width.max(height);
+        let most = self.max_texture_side.max(1);
+        { 0..u32::BITS }
+            .find(|&level| longest >> level <= most)
+            .unwrap_or(0)
+    }
+
     /// Checks that `count` of `what` is at most `limit`.
     ///
     /// # Errors

@@ -16,11 +16,14 @@
 //! | [`integer`] | unsigned and signed integers of 2 to 32 bits |
 //! | [`depth`] | fixed-point depth of 16 and 24 bits |
 //!
+//! [`box_filter`] averages texels of four 8-bit channels, for mip levels.
+//!
 //! Three modules assemble them: [`texel`] reads and writes one texel of any format that is not
 //! compressed; [`attachment`] reads and writes sixteen texels of a renderable format, as
 //! attachments store them; [`vertex`] reads attributes of vertices.
 
 pub mod attachment;
+pub mod box_filter;
 pub mod depth;
 pub mod float32;
 pub mod half;

@@ -39,17 +39,32 @@ pub static THRESHOLDS: LazyLock<[f32; 255]> = LazyLock::new(|| {
 /// The 8-bit sRGB code of a linear value: how many thresholds are at or below it. NaN gives 0.
 #[must_use]
 #[inline]
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "0 to 4096; NaN gives 0"
-)]
 pub fn encode(linear: f32) -> u8 {
-    let linear = linear.clamp(0.0, 1.0);
-    let tables = &*ENCODE;
-    let start = tables.start[(linear * BUCKETS as f32) as usize];
-    let code = start + u32::from(linear >= tables.next[start as usize]);
+    let code = Encoder::new().code(linear.clamp(0.0, 1.0));
     u8::try_from(code).unwrap_or(u8::MAX)
+}
+
+/// [`encode`] for loops, which finds its tables once.
+#[derive(Clone, Copy)]
+pub(crate) struct Encoder(&'static EncodeTables);
+
+impl Encoder {
+    pub(crate) fn new() -> Self {
+        Self(&ENCODE)
+    }
+
+    /// The code of a linear value in 0..=1. NaN gives 0.
+    #[inline(always)]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0 to 4096; NaN gives 0"
+    )]
+    pub(crate) fn code(self, linear: f32) -> u32 {
+        let start = self.0.start[((linear * BUCKETS as f32) as usize).min(BUCKETS)];
+        // Codes are below 256; the mask saves a check.
+        start + u32::from(linear >= self.0.next[(start & 255) as usize])
+    }
 }
 
 /// [`encode`] by searching the thresholds.

@@ -82,6 +82,11 @@ pub mod srgb {
     pub use estampe_format::srgb::{decode, encode};
 }
 
+/// The 2×2 box filter of texels of four 8-bit channels, by which mip levels are made.
+pub mod box_filter {
+    pub use estampe_format::box_filter::{Averaged, mean};
+}
+
 pub use bind_group::{BindGroup, BindGroupDescriptor, BindGroupError, BindingResource};
 pub use blit::{BlitError, BlitRegion};
 pub use buffer::{

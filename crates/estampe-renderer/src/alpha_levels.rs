@@ -11,7 +11,7 @@
 //!
 //! Sides are halved and rounded down as those of [`estampe::Device::generate_mips`].
 
-use estampe::srgb;
+use estampe::box_filter::{Averaged, mean};
 use estampe_scene::Image;
 
 /// A level: sRGB with straight alpha.
@@ -68,12 +68,14 @@ impl Level {
             for x in 0..width {
                 let columns = [2 * x, (2 * x + 1).min(self.width - 1)];
                 let texel = |row: usize, column: usize| self.texels[row * self.width + column];
-                texels.push(weighted_mean([
+                let four = [
                     texel(rows[0], columns[0]),
                     texel(rows[0], columns[1]),
                     texel(rows[1], columns[0]),
                     texel(rows[1], columns[1]),
-                ]));
+                ];
+                let mean = mean(four.map(u32::from_le_bytes), Averaged::Weighted);
+                texels.push(mean.to_le_bytes());
             }
         }
         Self {
@@ -127,22 +129,6 @@ impl Level {
             texel[3] = u8::try_from(scaled).unwrap_or(255);
         }
     }
-}
-
-/// The mean of four texels, colours in linear light and weighted by alpha.
-fn weighted_mean(four: [[u8; 4]; 4]) -> [u8; 4] {
-    let sum: u32 = four.iter().map(|texel| u32::from(texel[3])).sum();
-    let alpha = u8::try_from((sum + 2) / 4).unwrap_or(255);
-    let weights = four.map(|texel| if sum == 0 { 1.0 } else { f32::from(texel[3]) });
-    let total = (weights[0] + weights[1]) + (weights[2] + weights[3]);
-    let channel = |c: usize| {
-        if four.iter().all(|texel| texel[c] == four[0][c]) {
-            return four[0][c];
-        }
-        let light = [0, 1, 2, 3].map(|k| srgb::decode(four[k][c]) * weights[k]);
-        srgb::encode(((light[0] + light[1]) + (light[2] + light[3])) / total)
-    };
-    [channel(0), channel(1), channel(2), alpha]
 }
 
 #[cfg(test)]

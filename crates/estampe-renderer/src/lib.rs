@@ -22,6 +22,7 @@
 //!        ├─ guides          grid, axes, and the model's box with its sizes
 //!        ├─ light           frames of light, in place of codes for a screen
 //!        ├─ strokes         lines of a width, which the model hides
+//!        ├─ texture_detail  the mip levels of textures that a picture can sample
 //!        ├─ surface_points  positions, normals and other numbers of what is seen
 //!        └─ text            labels on the image
 //! ```
@@ -65,6 +66,7 @@ mod surface_pipelines;
 mod surface_points;
 mod surface_program;
 mod text;
+mod texture_detail;
 
 /// The README's snippet, compiled and run as a test.
 #[cfg(doctest)]
@@ -92,6 +94,7 @@ pub use shading::pbr::tone_map::ToneMap;
 pub use surface_points::{SurfacePoint, SurfacePoints, surface_points};
 pub use surface_program::{SurfaceBindings, SurfaceProgram, SurfaceValues};
 pub use text::{TextHeight, TextStyle, character_width_px, draw_text, text_width_px};
+pub use texture_detail::{first_level_of_texture, first_levels};
 
 /// Version of the images. It rises whenever the same scene and options give other bytes than
 /// before; CHANGELOG lists the changes.

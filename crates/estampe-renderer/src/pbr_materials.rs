@@ -267,8 +267,12 @@ impl Materials<'_> {
     }
 }
 
-/// The images of a material with what their texels are: colours, then numbers.
-pub(crate) fn images_of(pbr: &PbrMaterial, mode: AlphaMode) -> Vec<TextureKey> {
+/// The textures of a material with what their texels are, base colours as `base`: colours, then
+/// numbers.
+pub(crate) fn textures_of(
+    pbr: &PbrMaterial,
+    base: Texels,
+) -> impl Iterator<Item = (TextureRef, Texels)> {
     let colors = [
         pbr.emissive_texture,
         pbr.specular.and_then(|layer| layer.color_texture),
@@ -290,14 +294,17 @@ pub(crate) fn images_of(pbr: &PbrMaterial, mode: AlphaMode) -> Vec<TextureKey> {
         pbr.transmission.and_then(|layer| layer.texture),
         pbr.volume.and_then(|volume| volume.thickness_texture),
     ];
-    let index = |texture: Option<TextureRef>| texture.map(|texture| texture.image);
-    let base = Texels::of_alpha(mode, pbr.alpha_cutoff);
-    let base = index(pbr.base_color_texture).map(|index| (index, base));
-    let colors = colors.into_iter().filter_map(index);
-    let numbers = numbers.into_iter().filter_map(index);
-    let colors = base.into_iter().chain(colors.map(|index| (index, Colors)));
-    colors
-        .chain(numbers.map(|index| (index, Numbers)))
+    let of = |texels| move |texture: Option<TextureRef>| Some((texture?, texels));
+    let colors = colors.into_iter().filter_map(of(Colors));
+    let numbers = numbers.into_iter().filter_map(of(Numbers));
+    let base = of(base)(pbr.base_color_texture);
+    base.into_iter().chain(colors).chain(numbers)
+}
+
+/// The images of a material with what their texels are: colours, then numbers.
+pub(crate) fn images_of(pbr: &PbrMaterial, mode: AlphaMode) -> Vec<TextureKey> {
+    textures_of(pbr, Texels::of_alpha(mode, pbr.alpha_cutoff))
+        .map(|(texture, texels)| (texture.image, texels))
         .collect()
 }
 

@@ -114,6 +114,15 @@ impl SceneView {
         }
     }
 
+    /// The w of clip coordinates at the near plane; 0, which is less than every w, if size does not
+    /// depend on distance.
+    pub(crate) fn least_w(&self) -> f64 {
+        match self.camera.lens {
+            Lens::Perspective(_) | Lens::Pinhole(_) => self.camera.near,
+            Lens::Orthographic(_) => 0.0,
+        }
+    }
+
     /// From view space to clip space.
     pub(crate) fn clip_from_view(&self) -> Mat4 {
         to_f32(&self.camera.clip_from_view(self.aspect)).into()

@@ -3,6 +3,8 @@
 use crate::TextureError;
 use crate::mips;
 use estampe_types::{Limits, MipLevel, TexelData, TexelEncoding, TextureFormat, TextureShape};
+use std::iter::repeat_n;
+use std::sync::Arc;
 
 /// The most texels of all levels: their offsets fit the signed 32-bit indices of lane code.
 const MAX_TEXELS: u64 = i32::MAX as u64;
@@ -43,11 +45,12 @@ pub fn create_texture(
     };
     let levels = lay_out((width, height), format, count, limits)?;
     check_bytes(0, levels[0], rgba)?;
-    let mut texels = Vec::with_capacity(texel_count(&levels));
-    append(&mut texels, rgba);
-    for pair in levels.windows(2) {
-        mips::append_half(&mut texels, pair[0], pair[1], format);
-    }
+    let texels = filled(&levels, |texels| {
+        store(texels, rgba);
+        for pair in levels.windows(2) {
+            mips::halve_level(texels, pair[0], pair[1], format);
+        }
+    });
     Ok(texture(format, levels, texels))
 }
 
@@ -67,19 +70,28 @@ pub fn create_texture_with_levels(
     for (index, (level, bytes)) in layout.iter().zip(levels).enumerate() {
         check_bytes(index, *level, bytes)?;
     }
-    let mut texels = Vec::with_capacity(texel_count(&layout));
-    for bytes in levels {
-        append(&mut texels, bytes);
-    }
+    let texels = filled(&layout, |texels| {
+        for (level, bytes) in layout.iter().zip(levels) {
+            store(&mut texels[level.offset as usize..], bytes);
+        }
+    });
     Ok(texture(format, layout, texels))
 }
 
-fn texture(format: TextureFormat, levels: Vec<MipLevel>, texels: Vec<u32>) -> TexelData {
+/// Shared texels of all levels, filled in their place: a vector would be copied when it is shared,
+/// and the memory of a large texture be taken twice.
+fn filled(levels: &[MipLevel], fill: impl FnOnce(&mut [u32])) -> Arc<[u32]> {
+    let mut texels: Arc<[u32]> = repeat_n(0, texel_count(levels)).collect();
+    fill(Arc::get_mut(&mut texels).expect("nobody else has the texels yet"));
+    texels
+}
+
+fn texture(format: TextureFormat, levels: Vec<MipLevel>, texels: Arc<[u32]>) -> TexelData {
     TexelData {
         format,
         levels,
         is_opaque: is_opaque(&texels),
-        texels: texels.into(),
+        texels,
         shape: TextureShape::default(),
     }
 }
@@ -170,7 +182,10 @@ fn check_bytes(level: usize, size: MipLevel, bytes: &[u8]) -> Result<(), Texture
     }
 }
 
-fn append(texels: &mut Vec<u32>, rgba: &[u8]) {
+/// Stores texels from the first one on.
+fn store(texels: &mut [u32], rgba: &[u8]) {
     let (whole, _) = rgba.as_chunks::<4>();
-    texels.extend(whole.iter().map(|texel| u32::from_le_bytes(*texel)));
+    for (texel, bytes) in texels.iter_mut().zip(whole) {
+        *texel = u32::from_le_bytes(*bytes);
+    }
 }

@@ -87,6 +87,7 @@ mod view;
 mod wrap;
 
 pub use bindings::TextureBindings;
+pub use blocks::{MAX_WORDS as MAX_BLOCK_WORDS, decode as decode_block};
 pub use bound_texture::BoundTexture;
 pub use compare::{compare_packets, sample_compare_level, sample_compare_sum};
 pub use create::{MipGeneration, create_texture, create_texture_with_levels};

@@ -4,10 +4,11 @@ use crate::failure::Failure;
 use crate::terminal::one_line;
 use crate::values::{FormatName, Source, shown};
 use estampe_assets::model::{
-    AnimationName, Folder, ModelChoices, ModelContents, ResourceError, Resources,
+    AnimationName, Folder, ModelChoices, ModelContents, ResourceError, Resources, TextureDetail,
+    parse_model_for,
 };
 use estampe_assets::{AssetError, Limits, Loaded, ModelFormat, ModelInput, ModelOptions, Warning};
-use estampe_assets::{parse_model_with, read_bytes, read_stream};
+use estampe_assets::{read_bytes, read_stream};
 use estampe_scene::{Mesh, Scene};
 use estampe_shapes::BuiltinShape;
 use std::cell::RefCell;
@@ -15,6 +16,14 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+
+/// What is read of a model, within which limits, and in which detail.
+#[derive(Clone, Copy)]
+pub(crate) struct Reading<'a> {
+    pub(crate) options: &'a ModelOptions,
+    pub(crate) limits: &'a Limits,
+    pub(crate) detail: &'a dyn TextureDetail,
+}
 
 /// A model that was read.
 #[derive(Debug)]
@@ -47,17 +56,17 @@ impl Model {
     pub(crate) fn read(
         (source, folder): (&Source, &Folder),
         format: Option<FormatName>,
-        (options, limits): (&ModelOptions, &Limits),
+        reading: Reading<'_>,
         on_stage: impl Fn(&'static str),
     ) -> Result<Self, Failure> {
         let format = format.map(ModelFormat::from);
         on_stage("reading");
         let start = Instant::now();
         match source {
-            Source::Builtin(name) => Self::builtin(name, options),
+            Source::Builtin(name) => Self::builtin(name, reading.options),
             Source::StandardInput => {
                 let name = "standard input";
-                let bytes = read_stream(io::stdin().lock(), limits).map_err(|error| {
+                let bytes = read_stream(io::stdin().lock(), reading.limits).map_err(|error| {
                     unreadable(name, &error, "check the program that writes it")
                 })?;
                 let read = start.elapsed();
@@ -78,16 +87,16 @@ impl Model {
                         name,
                         resources: &resources,
                     };
-                    parse_model_with(&input, options, limits)
+                    reading.parse(&input)
                 })?;
                 let files = resources.read.into_inner();
                 Ok(Self { files, ..model })
             }
             Source::File(path) => {
-                let bytes = read_file(path, limits)?;
+                let bytes = read_file(path, reading.limits)?;
                 let read = start.elapsed();
                 on_stage("parsing");
-                let model = Self::of_bytes((path, &bytes), format, (options, limits), folder)?;
+                let model = Self::of_bytes((path, &bytes), format, reading, folder)?;
                 Ok(Self { read, ..model })
             }
         }
@@ -97,7 +106,7 @@ impl Model {
     pub(crate) fn of_bytes(
         (path, bytes): (&Path, &[u8]),
         format: Option<ModelFormat>,
-        (options, limits): (&ModelOptions, &Limits),
+        reading: Reading<'_>,
         resources: &dyn Resources,
     ) -> Result<Self, Failure> {
         let name = shown(path);
@@ -119,7 +128,7 @@ impl Model {
                 name: &name,
                 resources: &resources,
             };
-            parse_model_with(&input, options, limits)
+            reading.parse(&input)
         })?;
         let files = resources.read.into_inner();
         Ok(Self { files, ..model })
@@ -197,6 +206,12 @@ impl Model {
             let more = self.warning_count - shown;
             let _ = writeln!(err, "warning: {more} more; `estampe info` lists them");
         }
+    }
+}
+
+impl Reading<'_> {
+    fn parse(self, input: &ModelInput<'_>) -> Result<Loaded, AssetError> {
+        parse_model_for(input, self.options, self.limits, self.detail)
     }
 }
 

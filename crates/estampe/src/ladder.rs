@@ -2,13 +2,14 @@
 
 use crate::choice::ChoiceArgs;
 use crate::failure::Failure;
-use crate::input::{self, Model};
+use crate::input::{self, Model, Reading};
 use crate::output;
 use crate::progress::Progress;
 use crate::values::{self, Destination, Source, shown};
 use clap::Args;
 use estampe::{Device, DeviceDescriptor, Level};
 use estampe_assets::image::{ImageFormat, decode};
+use estampe_assets::model::FullDetail;
 use estampe_assets::{Limits, ModelOptions};
 use estampe_ladder::{Course, Picture, RUNGS, Rung, Sheet, rung};
 use std::path::{Path, PathBuf};
@@ -38,7 +39,7 @@ pub(crate) struct LadderArgs {
     #[arg(long, value_name = "MODEL")]
     pub(crate) model: Option<Source>,
 
-    /// The texture of the model (PNG, JPEG, WebP, TGA, BMP, DDS), in place of its own or the
+    /// The texture of the model (PNG, JPEG, WebP, TGA, BMP, DDS, KTX2), in place of its own or the
     /// built-in one
     #[arg(long, value_name = "FILE")]
     pub(crate) texture: Option<PathBuf>,
@@ -142,7 +143,11 @@ fn read_model(source: &Source, is_quiet: bool) -> Result<estampe_ladder::Model, 
     let model = Model::read(
         (source, &folder),
         None,
-        (&ModelOptions::default(), &Limits::default()),
+        Reading {
+            options: &ModelOptions::default(),
+            limits: &Limits::default(),
+            detail: &FullDetail,
+        },
         |_| {},
     )?;
     if !is_quiet {

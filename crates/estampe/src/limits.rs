@@ -23,6 +23,16 @@ pub(crate) struct LimitArgs {
     #[arg(help_heading = "Limits")]
     max_pixels: u64,
 
+    /// Textures with more texels on a side, 1 to 16384, are halved until they fit
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 16_384,
+        help_heading = "Limits"
+    )]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=16_384))]
+    max_texture_size: u32,
+
     /// A model whose file, or a file that it names, has more bytes is not drawn
     #[arg(long, value_name = "N", default_value_t = 1 << 30, help_heading = "Limits")]
     max_bytes: u64,
@@ -57,6 +67,7 @@ impl LimitArgs {
             max_total_image_pixels: self.max_pixels.min(pixels),
             max_image_pixels: default.max_image_pixels.min(self.max_pixels).min(pixels),
             max_file_bytes: self.max_bytes.min(memory),
+            max_texture_side: self.max_texture_size,
             threads,
             ..default
         }

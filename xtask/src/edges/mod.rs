@@ -55,7 +55,17 @@ const CRATES: &[(&str, &[&str])] = &[
     ),
     ("estampe-shapes", &[]),
     ("estampe-scene", &[]),
-    ("estampe-assets", &["estampe-scene", "estampe-shapes"]),
+    // Images are halved with the mean of the pipeline's mip levels, and blocks of KTX2 decoded as
+    // those of textures.
+    (
+        "estampe-assets",
+        &[
+            "estampe-format",
+            "estampe-scene",
+            "estampe-shapes",
+            "estampe-texture",
+        ],
+    ),
     ("estampe-transparency", &["estampe-gpu"]),
     // The inside of a section is a polygon, which is triangulated.
     (
@@ -175,6 +185,8 @@ const OUTSIDE: &[(&str, Users)] = &[
     // Images of other programs, as an option.
     ("image", Users::Only(&["estampe-gpu"])),
     ("zune-jpeg", Users::Only(&["estampe-assets"])),
+    // Zstandard of KTX2 textures.
+    ("ruzstd", Users::Only(&["estampe-assets"])),
     ("jpeg-encoder", Users::Only(&["estampe-assets"])),
     // The tests of the command read what it wrote.
     ("image-webp", Users::Only(&["estampe-assets", "estampe"])),

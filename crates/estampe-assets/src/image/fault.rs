@@ -30,6 +30,8 @@ pub(super) fn check_size(width: u32, height: u32, limits: &Limits) -> Result<(),
 
 /// Reserves memory for `texels` RGBA texels, or returns an error if there is not enough.
 pub(super) fn allocate_texels(texels: usize) -> Result<Vec<u8>, AssetError> {
+    #[cfg(test)]
+    MOST_TEXELS.with(|most| most.set(most.get().max(texels)));
     let mut rgba = Vec::new();
     match texels
         .checked_mul(4)
@@ -70,4 +72,17 @@ pub(super) fn too_large(image: &Image, format: &str, max_side: u32) -> AssetErro
         format!("{image:?} has a side over the {max_side} pixels that {format} can hold"),
         "write a PNG, or a smaller picture",
     )
+}
+
+#[cfg(test)]
+thread_local! {
+    static MOST_TEXELS: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+}
+
+/// The texels of the largest image that `work` allocates on this thread.
+#[cfg(test)]
+pub(super) fn most_texels(work: impl FnOnce()) -> usize {
+    MOST_TEXELS.with(|most| most.set(0));
+    work();
+    MOST_TEXELS.with(std::cell::Cell::get)
 }

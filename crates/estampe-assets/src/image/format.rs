@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use estampe_scene::Image;
+use estampe_scene::{Image, Workers};
 
 use super::fault::{malformed, unsupported};
-use super::{bmp, dds, jpeg, png, tga, webp};
+use super::reduce::{Reduced, Reduction, reduce};
+use super::{bmp, dds, jpeg, ktx2, png, tga, webp};
 use crate::{AssetError, Limits};
 
 /// A format in which images are written.
@@ -81,8 +82,8 @@ impl AlphaChannel {
     }
 }
 
-/// Reads an image: PNG, JPEG, WebP, BMP and DDS by their signatures, else TGA by its footer or a
-/// plausible header.
+/// Reads an image: PNG, JPEG, WebP, BMP, DDS and KTX2 by their signatures, else TGA by its footer
+/// or a plausible header.
 ///
 /// # Errors
 /// `LimitExceeded` if the file is larger or has more pixels than `limits` allow, before memory is
@@ -100,26 +101,106 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
             Signed::WebP => webp::decode(bytes, limits),
             Signed::Bmp => bmp::decode(bytes, limits),
             Signed::Dds => dds::decode(bytes, limits),
+            Signed::Ktx2 => ktx2::decode(bytes, limits),
         };
     }
     match foreign_format(bytes) {
         Some(name) => Err(unsupported(format!("the {name} format"))),
         None if tga::looks_like_tga(bytes) => tga::decode(bytes, limits),
         None => Err(unsupported(
-            "an image that is neither PNG, JPEG, WebP, TGA, BMP nor DDS",
+            "an image that is neither PNG, JPEG, WebP, TGA, BMP, DDS nor KTX2",
         )),
+    }
+}
+
+/// Reads a mip level of an image: [`decode`] with less memory and time for large images. The level
+/// has the bytes that the pipeline's mip levels have; of DDS and KTX2 it is the stored
+/// level, if there is one.
+///
+/// PNG, BMP, TGA, DDS and KTX2 are reduced row by row; JPEG, WebP and interlaced PNG after they are
+/// decoded.
+///
+/// # Errors
+/// As of [`decode`], with the same limits on the size in the header. A side beyond
+/// `limits.max_texture_side` is no error: the image is reduced further.
+pub fn decode_reduced(
+    bytes: &[u8],
+    reduction: Reduction,
+    limits: &Limits,
+) -> Result<Image, AssetError> {
+    let least = stated_size(bytes).map_or(0, |size| limits.least_level(size));
+    let reduction = Reduction {
+        level: reduction.level.max(least),
+        ..reduction
+    };
+    if reduction.level == 0 {
+        return decode(bytes, limits);
+    }
+    decode_with_alpha(bytes, reduction, limits).map(|reduced| reduced.image)
+}
+
+/// [`decode_reduced`] with the use of the whole image's alpha.
+pub(crate) fn decode_with_alpha(
+    bytes: &[u8],
+    reduction: Reduction,
+    limits: &Limits,
+) -> Result<Reduced, AssetError> {
+    Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)?;
+    match Signed::of(bytes) {
+        Some(Signed::Png) => png::decode_reduced(bytes, reduction, limits),
+        Some(Signed::Jpeg) => jpeg::decode_reduced(bytes, reduction, limits),
+        Some(Signed::Bmp) => bmp::decode_reduced(bytes, reduction, limits),
+        Some(Signed::Dds) => dds::decode_reduced(bytes, reduction, limits),
+        Some(Signed::Ktx2) => ktx2::decode_reduced(bytes, reduction, limits),
+        Some(Signed::WebP) => reduce(
+            &decode(bytes, limits)?,
+            reduction,
+            Workers::new(limits.threads),
+        ),
+        None if foreign_format(bytes).is_none() && tga::looks_like_tga(bytes) => {
+            tga::decode_reduced(bytes, reduction, limits)
+        }
+        // The error.
+        None => reduce(
+            &decode(bytes, limits)?,
+            reduction,
+            Workers::new(limits.threads),
+        ),
+    }
+}
+
+/// A level of an image that is in memory.
+pub(crate) fn reduced(
+    image: &Image,
+    reduction: Reduction,
+    limits: &Limits,
+) -> Result<Image, AssetError> {
+    reduce(image, reduction, Workers::new(limits.threads)).map(|reduced| reduced.image)
+}
+
+/// Width and height from the header of an image, of any format that [`decode`] reads. `None` if the
+/// header is damaged, or of another format.
+#[must_use]
+pub fn stated_size(bytes: &[u8]) -> Option<(u32, u32)> {
+    match Signed::of(bytes) {
+        Some(_) => signed_size(bytes),
+        None if foreign_format(bytes).is_none() && tga::looks_like_tga(bytes) => {
+            tga::stated_size(bytes)
+        }
+        None => None,
     }
 }
 
 /// Width and height from the header of an image with a signature. `None` if it has none, or is
 /// damaged.
-pub(crate) fn stated_size(bytes: &[u8]) -> Option<(u32, u32)> {
+pub(crate) fn signed_size(bytes: &[u8]) -> Option<(u32, u32)> {
     match Signed::of(bytes)? {
         Signed::Png => png::stated_size(bytes),
         Signed::Jpeg => jpeg::stated_size(bytes),
         Signed::WebP => webp::stated_size(bytes),
         Signed::Bmp => bmp::stated_size(bytes),
         Signed::Dds => dds::stated_size(bytes),
+        Signed::Ktx2 => ktx2::stated_size(bytes),
     }
 }
 
@@ -146,16 +227,18 @@ enum Signed {
     WebP,
     Bmp,
     Dds,
+    Ktx2,
 }
 
 impl Signed {
     /// The format whose signature the bytes start with.
     fn of(bytes: &[u8]) -> Option<Self> {
-        const SIGNATURES: [(&[u8], Signed); 4] = [
+        const SIGNATURES: [(&[u8], Signed); 5] = [
             (png::SIGNATURE, Signed::Png),
             (jpeg::START_OF_IMAGE, Signed::Jpeg),
             (bmp::SIGNATURE, Signed::Bmp),
             (dds::SIGNATURE, Signed::Dds),
+            (ktx2::SIGNATURE, Signed::Ktx2),
         ];
         if webp::is_webp(bytes) {
             return Some(Self::WebP);
@@ -173,7 +256,7 @@ fn foreign_format(bytes: &[u8]) -> Option<&'static str> {
         (b"GIF8", "GIF"),
         (b"II*\0", "TIFF"),
         (b"MM\0*", "TIFF"),
-        (b"\xabKTX", "KTX"),
+        (b"\xabKTX", "KTX 1"),
         (b"v/1\x01", "OpenEXR"),
         (b"#?", "Radiance HDR"),
         (b"8BPS", "Photoshop"),
@@ -228,11 +311,13 @@ mod tests {
         for (format, size) in [
             (ImageFormat::Png, Some((37, 5))),
             (ImageFormat::Jpeg, Some((37, 5))),
-            (ImageFormat::Tga, None),
+            (ImageFormat::Tga, Some((37, 5))),
         ] {
             let bytes = encode(&image, format).expect("a valid image");
             assert_eq!(stated_size(&bytes), size, "{format:?}");
             assert_eq!(stated_size(&bytes[..10]), None, "{format:?}");
+            let is_signed = format != ImageFormat::Tga;
+            assert_eq!(signed_size(&bytes).is_some(), is_signed, "{format:?}");
         }
     }
 

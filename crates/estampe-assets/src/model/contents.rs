@@ -14,6 +14,8 @@ pub struct ModelContents {
     pub extensions: Vec<String>,
     /// For each mesh of the scene: true if its normals are made by the reader.
     pub has_made_normals: Vec<bool>,
+    /// For each image of the scene: width and height in the file, before the image was reduced.
+    pub image_sizes: Vec<(u32, u32)>,
 }
 
 impl ModelContents {

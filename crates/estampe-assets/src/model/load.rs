@@ -1,6 +1,7 @@
 //! Entry points: a path, or bytes in memory.
 
 use super::contents::ModelContents;
+use super::deferred::{DeferredImages, FullDetail, TextureDetail, decode_all};
 use super::encoding::utf8_from_utf16;
 use super::options::{ModelChoices, ModelOptions};
 use super::resources::{ResourceError, Resources};
@@ -74,6 +75,8 @@ pub(super) struct Context<'a> {
     pub(super) limits: &'a Limits,
     pub(super) warnings: Warnings,
     pub(super) workers: Workers,
+    /// The images of the scene, which are decoded at the end.
+    pub(super) images: DeferredImages<'a>,
     /// Number of side files that may still be requested.
     side_files_left: u64,
 }
@@ -103,7 +106,7 @@ impl Context<'_> {
         }
     }
 
-    /// The bytes of a side file that was found.
+    /// The bytes of a side file that was found, a library of materials.
     pub(super) fn read_side_file(&self, resolved: &str) -> Result<Vec<u8>, ResourceError> {
         self.resources.read(resolved, self.limits.max_file_bytes)
     }
@@ -185,12 +188,27 @@ pub fn parse_model_with(
     options: &ModelOptions,
     limits: &Limits,
 ) -> Result<Loaded, AssetError> {
+    parse_model_for(input, options, limits, &FullDetail)
+}
+
+/// [`parse_model_with`] for a picture that needs its textures in some detail only: textures are
+/// reduced while they are decoded.
+///
+/// # Errors
+/// As [`parse_model_with`].
+pub fn parse_model_for(
+    input: &ModelInput<'_>,
+    options: &ModelOptions,
+    limits: &Limits,
+    detail: &dyn TextureDetail,
+) -> Result<Loaded, AssetError> {
     let &ModelInput {
         bytes,
         format,
         name,
         resources,
     } = input;
+    let text = decoded_text(format, bytes);
     let mut context = Context {
         name,
         resources,
@@ -198,6 +216,7 @@ pub fn parse_model_with(
         limits,
         warnings: Warnings::new(limits.max_warnings),
         workers: Workers::new(limits.threads),
+        images: DeferredImages::new(limits),
         side_files_left: limits.max_side_files,
     };
     let gltf_choice = options.of_gltf_alone();
@@ -211,7 +230,6 @@ pub fn parse_model_with(
         )
         .in_file(name));
     }
-    let text = decoded_text(format, bytes);
     let bytes = text.as_deref().unwrap_or(bytes);
     let parsed = Limits::check("bytes", bytes.len() as u64, limits.max_file_bytes)
         .and_then(|()| match format {
@@ -223,7 +241,8 @@ pub fn parse_model_with(
             ModelFormat::ThreeMf => threemf::parse(bytes, &mut context),
         })
         .map_err(|error| error.in_file(name))?;
-    let parsed = finish::finish(parsed, &mut context);
+    let mut parsed = finish::finish(parsed, &mut context);
+    parsed.contents.image_sizes = decode_all(&mut parsed.scene, detail, &mut context);
     let (warnings, warning_count) = context.warnings.finish();
     if options.is_strict
         && let Some(first) = warnings.first()

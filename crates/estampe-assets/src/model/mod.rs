@@ -13,6 +13,7 @@
 
 mod contents;
 mod corner_split;
+mod deferred;
 mod detect;
 mod encoding;
 mod finish;
@@ -42,9 +43,12 @@ mod write;
 mod tests;
 
 pub use contents::{ModelContents, ModelNode};
+pub use deferred::{FullDetail, LeastDetail, TextureDetail};
 pub use detect::ModelFormat;
 pub use folder::Folder;
-pub use load::{Loaded, ModelInput, load_model, load_model_with, parse_model, parse_model_with};
+pub use load::{
+    Loaded, ModelInput, load_model, load_model_with, parse_model, parse_model_for, parse_model_with,
+};
 pub use normals::NormalMode;
 pub use options::{AnimationClip, AnimationName, ModelChoices, ModelOptions, TextureAlpha};
 pub use resources::{NoResources, ResourceError, Resources};

@@ -18,6 +18,7 @@
 //!
 //! Source: "MTL material format (Lightwave, OBJ)", Wavefront 1995; P. Bourke's copy.
 
+use super::deferred::AlphaRule;
 use super::encoding::utf8_from_utf16;
 use super::load::Context;
 use super::options::TextureAlpha;
@@ -25,7 +26,7 @@ use super::srgb::linear_from_srgb;
 use super::statements::Statements;
 use super::textures::{TextureName, Textures, text_of_name};
 use crate::Location;
-use estampe_scene::{AlphaMode, Image, Material};
+use estampe_scene::{AlphaMode, Material};
 use glam::Vec3;
 use std::collections::HashMap;
 
@@ -40,7 +41,6 @@ pub(super) struct MaterialUse<'a> {
 #[derive(Debug, Default)]
 pub(super) struct Library {
     pub(super) materials: Vec<Material>,
-    pub(super) images: Vec<Image>,
     /// The material index of each use.
     pub(super) of_use: Vec<Option<usize>>,
 }
@@ -121,16 +121,12 @@ pub(super) fn load(
     for &index in of_use.iter().flatten() {
         is_used[index] = true;
     }
-    let mut textures = Textures::new(context.limits);
-    let drafts = drafts.into_iter().zip(is_used);
+    let mut textures = Textures::default();
+    let drafts = drafts.into_iter().zip(is_used).enumerate();
     let materials = drafts
-        .map(|(draft, is_used)| draft.finish(is_used, &mut textures, context))
+        .map(|(at, (draft, is_used))| draft.finish(at, is_used, &mut textures, context))
         .collect();
-    Library {
-        materials,
-        images: textures.images,
-        of_use,
-    }
+    Library { materials, of_use }
 }
 
 /// The files named by `mtllib`: one name with blanks, or several names.
@@ -269,8 +265,14 @@ impl Draft {
         }
     }
 
-    /// The material; its textures are loaded if it `is_used`.
-    fn finish(self, is_used: bool, textures: &mut Textures, context: &mut Context<'_>) -> Material {
+    /// The material at index `at`; its textures are found if it `is_used`.
+    fn finish(
+        self,
+        at: usize,
+        is_used: bool,
+        textures: &mut Textures,
+        context: &mut Context<'_>,
+    ) -> Material {
         let Self {
             mut material,
             base_color_map,
@@ -298,22 +300,31 @@ impl Draft {
             material.base_color = Vec3::ONE;
         }
         let is_transparent = material.opacity < 1.0 || opacity_map.is_some();
+        let chosen = context.options.alpha;
         if is_used
-            && let Some((image, alpha_mode)) =
+            && let Some(image) =
                 textures.load(base_color_map.as_ref(), opacity_map.as_ref(), context)
         {
             material.base_color_texture = Some(image);
-            material.alpha_mode = match context.options.alpha {
-                TextureAlpha::Auto if !is_transparent => AlphaMode::Opaque,
-                chosen => chosen.or(alpha_mode),
+            let is_opaque = chosen == TextureAlpha::Auto && !is_transparent;
+            material.alpha_mode = match chosen.or(AlphaMode::Blend) {
+                _ if is_opaque => AlphaMode::Opaque,
+                mode => mode,
             };
+            // The contents of the texture decide, unless the material is transparent itself.
+            if material.alpha_mode != AlphaMode::Opaque && material.opacity >= 1.0 {
+                context.images.add_alpha_rule(AlphaRule {
+                    material: at,
+                    chosen,
+                    color_without: None,
+                });
+            }
         }
         if is_used && let Some(map) = bump_map {
-            let image = textures.load(Some(&map.name), None, context);
-            material.bump_texture = image.map(|(image, _)| image);
+            material.bump_texture = textures.load(Some(&map.name), None, context);
             material.bump_scale = map.bump_multiplier.unwrap_or(1.0);
         }
-        if context.options.alpha == TextureAlpha::Opaque {
+        if chosen == TextureAlpha::Opaque {
             material.opacity = 1.0;
         } else if material.opacity < 1.0 {
             material.alpha_mode = AlphaMode::Blend;

@@ -1,9 +1,11 @@
-//! Loads the textures of materials, each file once.
+//! Finds the textures of materials, each file once.
 
+use super::deferred::{Encoded, Origin};
 use super::load::Context;
 use super::resources::ResourceError;
-use crate::{AssetError, Limits, Location};
+use crate::{AssetError, Location};
 use estampe_scene::{AlphaMode, Image};
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// A texture as named by a material.
@@ -19,16 +21,12 @@ pub(super) struct TextureName {
     pub(super) location: Location,
 }
 
-/// A loaded texture: an index into [`Textures::images`], and the use of its alpha.
-pub(super) type Loaded = (usize, AlphaMode);
-
-/// The images loaded so far.
-#[derive(Debug)]
+/// The textures found so far.
+#[derive(Debug, Default)]
 pub(super) struct Textures {
-    pub(super) images: Vec<Image>,
-    /// By the resolved names of base colour and opacity; `None` is a file that failed before.
-    known: HashMap<[Option<String>; 2], Option<Loaded>>,
-    pixels_left: u64,
+    /// Indices of images by the resolved names of base colour and opacity; `None` is a file that
+    /// failed before.
+    known: HashMap<[Option<String>; 2], Option<usize>>,
 }
 
 /// The text of a name in a file: UTF-8, else Latin-1, in which every byte is a character.
@@ -40,23 +38,14 @@ pub(super) fn text_of_name(name: &[u8]) -> String {
 }
 
 impl Textures {
-    pub(super) fn new(limits: &Limits) -> Self {
-        let pixels_left = limits.max_total_image_pixels;
-        Self {
-            images: Vec::new(),
-            known: HashMap::new(),
-            pixels_left,
-        }
-    }
-
-    /// Loads a base-colour texture. If `opacity` is given, its alpha is that file's brightness.
-    /// Without a base colour it is white. Failures are warnings.
+    /// The image of a base-colour texture, to be decoded later. If `opacity` is given, its alpha is
+    /// that file's brightness. Without a base colour it is white. Failures are warnings.
     pub(super) fn load(
         &mut self,
         base: Option<&TextureName>,
         opacity: Option<&TextureName>,
         context: &mut Context<'_>,
-    ) -> Option<Loaded> {
+    ) -> Option<usize> {
         let resolved = [base, opacity].map(|name| find(name?, context));
         let resolved = match resolved {
             // One file for both means that its own alpha is used.
@@ -69,54 +58,41 @@ impl Textures {
         if let Some(&known) = self.known.get(&resolved) {
             return known;
         }
-        let mut decode = |resolved: &Option<String>, name: Option<&TextureName>| {
-            self.decode(resolved.as_deref()?, name?, context)
+        let mut read = |resolved: &Option<String>, name: Option<&TextureName>| {
+            encoded(resolved.as_deref()?, name?, context)
         };
-        let color = decode(&resolved[0], base);
-        let mask = decode(&resolved[1], opacity);
-        let image = match (color, mask) {
-            (color, None) => color,
-            (Some(color), Some(mask)) => Some(with_opacity(color, &mask)),
-            (None, Some(mask)) => Some(with_opacity(
-                Image::filled(mask.width, mask.height, [255; 4]),
-                &mask,
-            )),
-        };
-        let loaded = image.map(|mut image| {
-            let mode = classify_alpha(&mut image);
-            self.images.push(image);
-            (self.images.len() - 1, mode)
-        });
-        self.known.insert(resolved, loaded);
-        loaded
+        let color = read(&resolved[0], base);
+        let mask = read(&resolved[1], opacity);
+        let image = context.images.add_texture(color, mask);
+        self.known.insert(resolved, image);
+        image
     }
+}
 
-    fn decode(
-        &mut self,
-        resolved: &str,
-        name: &TextureName,
-        context: &mut Context<'_>,
-    ) -> Option<Image> {
-        let limits = Limits {
-            max_image_pixels: context.limits.max_image_pixels.min(self.pixels_left),
-            ..context.limits.clone()
-        };
-        let unreadable = |error: ResourceError| AssetError::io(error.to_string(), "");
-        let decoded = context
-            .read_side_file(resolved)
-            .map_err(unreadable)
-            .and_then(|bytes| crate::image::decode(&bytes, &limits));
-        match decoded {
-            Ok(image) => {
-                self.pixels_left -= u64::from(image.width) * u64::from(image.height);
-                Some(image)
-            }
-            Err(error) => {
-                warn(name, &error.to_string(), context);
-                None
-            }
-        }
-    }
+/// The bytes of a file, with an image within the limits.
+fn encoded<'a>(
+    resolved: &str,
+    name: &TextureName,
+    context: &mut Context<'a>,
+) -> Option<Encoded<'a>> {
+    let origin = Origin::Named {
+        file: name.named_in.clone(),
+        location: Some(name.location),
+        name: name.name.clone(),
+    };
+    let unreadable = |error: ResourceError| AssetError::io(error.to_string(), "");
+    let read = context
+        .resources
+        .read(resolved, context.images.bytes_left());
+    let encoded = read.map_err(unreadable).and_then(|bytes| {
+        let bytes = Cow::Owned(bytes);
+        context
+            .images
+            .encoded(bytes, origin.clone(), context.limits)
+    });
+    encoded
+        .map_err(|error| origin.warn(&error, &mut context.warnings))
+        .ok()
 }
 
 fn find(name: &TextureName, context: &mut Context<'_>) -> Option<String> {
@@ -141,7 +117,7 @@ fn warn(name: &TextureName, reason: &str, context: &mut Context<'_>) {
 
 /// `color` with the brightness of `mask` (its alpha, if it has any) as alpha; nearest texel if the
 /// sizes differ.
-fn with_opacity(mut color: Image, mask: &Image) -> Image {
+pub(super) fn with_opacity(mut color: Image, mask: &Image) -> Image {
     let has_alpha = mask
         .rgba
         .as_chunks::<4>()

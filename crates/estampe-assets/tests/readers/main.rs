@@ -2,6 +2,7 @@
 
 mod gltf;
 mod hostile;
+mod images_hostile;
 mod images_tga_suite;
 mod models_data;
 mod models_obj;

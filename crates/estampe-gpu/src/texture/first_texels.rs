@@ -3,7 +3,8 @@
 use super::region::unsupported;
 use super::{ImageKey, Texture, TextureError};
 use crate::Limits;
-use estampe_texture::{LevelData, MipGeneration, TexelDescriptor, create_texture};
+use estampe_texture::{LevelData, MipGeneration, TexelDescriptor};
+use estampe_texture::{create_texture, create_texture_with_levels};
 use estampe_types::TextureFormat;
 
 impl Texture {
@@ -28,6 +29,9 @@ impl Texture {
             [rgba] if is_rgba8(descriptor.format) && *descriptor == one.with_all_levels() => {
                 create_texture(size.0, size.1, descriptor.format, rgba, mips, limits)?
             }
+            _ if is_rgba8(descriptor.format) && is_all_of(levels, descriptor) => {
+                create_texture_with_levels(size, descriptor.format, levels, limits)?
+            }
             _ => {
                 let data: Vec<_> = levels.iter().map(|bytes| LevelData::tight(bytes)).collect();
                 descriptor.create(&data, mips, limits)?
@@ -46,6 +50,17 @@ impl Texture {
         contents.set_rows(data);
         Ok(())
     }
+}
+
+/// True if these are all levels of one 2D image.
+fn is_all_of(levels: &[&[u8]], descriptor: &TexelDescriptor) -> bool {
+    let one = TexelDescriptor::new_2d(descriptor.width, descriptor.height, descriptor.format);
+    let is_flat = *descriptor
+        == TexelDescriptor {
+            mip_level_count: descriptor.mip_level_count,
+            ..one
+        };
+    is_flat && levels.len() == descriptor.mip_level_count as usize
 }
 
 fn is_rgba8(format: TextureFormat) -> bool {

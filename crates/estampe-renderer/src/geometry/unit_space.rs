@@ -2,7 +2,7 @@
 //! size, 10⁻³⁰ or 10³⁰, are drawn with the same precision.
 
 use estampe_scene::{Mesh, Scene, Workers, pieces};
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DMat3, DMat4, DVec3, Vec3};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -66,6 +66,13 @@ impl UnitSpace {
     /// A world-space point in unit space.
     pub(crate) fn unit_from_world(&self, position: DVec3) -> DVec3 {
         (position - self.center_world) / self.half_side
+    }
+
+    /// [`Self::unit_from_object`] as a matrix, in 64 bits.
+    pub(crate) fn unit_from_object_matrix(&self) -> DMat4 {
+        DMat4::from_scale(DVec3::splat(1.0 / self.half_side))
+            * DMat4::from_translation(-self.center_world)
+            * DMat4::from_mat3(self.world_from_object)
     }
 
     /// A unit-space point in world space.

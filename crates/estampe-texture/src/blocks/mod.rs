@@ -9,12 +9,12 @@ mod etc;
 use estampe_types::TextureFormat;
 
 /// The most texels and words of a decoded block: 12×12 of ASTC, one word each.
-pub(crate) const MAX_WORDS: usize = 144;
+pub const MAX_WORDS: usize = 144;
 
 /// Decodes a block to the words of
-/// [`TexelData::stored_format`](estampe_types::TexelData::stored_format), row by row. `block` has the
-/// format's number of bytes; formats without blocks give nothing.
-pub(crate) fn decode(format: TextureFormat, block: &[u8], words: &mut [u32; MAX_WORDS]) {
+/// [`TexelData::stored_format`](estampe_types::TexelData::stored_format), row by row. `block` has
+/// the format's number of bytes; formats without blocks give nothing.
+pub fn decode(format: TextureFormat, block: &[u8], words: &mut [u32; MAX_WORDS]) {
     use TextureFormat as F;
     let is_astc_4x4 = matches!(format, F::Astc4x4Unorm | F::Astc4x4UnormSrgb);
     match format {

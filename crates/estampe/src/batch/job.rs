@@ -6,9 +6,11 @@ use super::look::Shot;
 use super::plan::{Content, Job, Picture};
 use super::record::{self, NamedFiles, Sources, digest};
 use crate::failure::Failure;
-use crate::input::{self, Model};
+use crate::input::{self, Model, Reading};
 use crate::output;
-use crate::render::{self, PassFormat, PassName, PictureArgs, Sources as PassSources};
+use crate::render::{
+    self, PassFormat, PassName, PictureArgs, PictureDetail, Sources as PassSources,
+};
 use crate::values::{Destination, shown};
 use estampe::Device;
 use estampe_assets::Limits;
@@ -113,10 +115,17 @@ impl Shared {
         let named = NamedFiles::new(folder);
         let args = &job.look.options;
         let chosen = args.choice.at(args.picture.shader.time);
+        let pictures = { job.pictures.iter() }
+            .map(|picture| (arguments(job, picture), picture.shot.camera.clone()))
+            .collect();
         let model = Model::of_bytes(
             (&job.input.path, &bytes),
             args.format.map(estampe_assets::ModelFormat::from),
-            (&chosen, &self.limits),
+            Reading {
+                options: &chosen,
+                limits: &self.limits,
+                detail: &PictureDetail::of_all(pictures),
+            },
             &named,
         );
         let model = match model {
@@ -241,8 +250,7 @@ fn draw(
         &Claim,
     ),
 ) -> Result<(), Failure> {
-    let mut args = job.look.options.picture.clone();
-    args.view = picture.shot.view;
+    let args = arguments(job, picture);
     let destination = Destination::File(picture.output.clone());
     render::check_output(&destination, model, &args)?;
     let bytes = bytes(&args)?;
@@ -255,6 +263,14 @@ fn draw(
     }
     claim.end_writing();
     written
+}
+
+/// The options of a picture.
+fn arguments(job: &Job, picture: &Picture) -> PictureArgs {
+    PictureArgs {
+        view: picture.shot.view,
+        ..job.look.options.picture.clone()
+    }
 }
 
 fn write(picture: &Picture, destination: &Destination, bytes: &[u8]) -> Result<(), Failure> {

@@ -45,13 +45,13 @@ pub(super) fn report(model: &Model) -> Value {
             "extensions": material::extensions(material),
         })
     });
-    let images = scene.images.iter();
-    let textures = images.map(|image| {
+    let images = model.contents.image_sizes.iter();
+    let textures = images.map(|&(width, height)| {
         json!({
-            "width": image.width,
-            "height": image.height,
+            "width": width,
+            "height": height,
             "format": TEXTURE_FORMAT,
-            "bytes": image.rgba.len(),
+            "bytes": memory::image_bytes((width, height)),
         })
     });
     let lights = scene.lights.iter().map(light_json);
@@ -65,7 +65,7 @@ pub(super) fn report(model: &Model) -> Value {
         "unit": memory::unit(model),
         "memory": {
             "geometry": memory::geometry_bytes(scene),
-            "textures": memory::texture_bytes(scene),
+            "textures": memory::texture_bytes(model),
         },
         "nodes": tree::json(model),
         "node_count": model.contents.node_count,

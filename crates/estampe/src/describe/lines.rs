@@ -62,10 +62,10 @@ pub(super) fn counted(count: u64, plural: &str) -> String {
 }
 
 /// A size in words.
-pub(super) fn bytes(count: usize) -> String {
+pub(super) fn bytes(count: u64) -> String {
     const KIB: f64 = 1024.0;
     match count {
-        0..10_240 => counted(count as u64, "bytes"),
+        0..10_240 => counted(count, "bytes"),
         10_240..1_048_576 => format!("{:.1} KiB", count as f64 / KIB),
         _ => format!("{:.1} MiB", count as f64 / (KIB * KIB)),
     }

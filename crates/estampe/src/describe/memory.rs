@@ -5,7 +5,7 @@ use estampe_assets::ModelFormat;
 use estampe_scene::{Material, Mesh, Scene};
 
 /// Bytes of vertices with all attributes and of indices.
-pub(super) fn geometry_bytes(scene: &Scene) -> usize {
+pub(super) fn geometry_bytes(scene: &Scene) -> u64 {
     let of_mesh = |mesh: &Mesh| {
         let attributes = mesh
             .attributes
@@ -20,12 +20,18 @@ pub(super) fn geometry_bytes(scene: &Scene) -> usize {
             + size_of_val(&*mesh.lines)
             + size_of_val(&*mesh.points)
     };
-    scene.meshes.iter().map(of_mesh).sum()
+    scene.meshes.iter().map(of_mesh).sum::<usize>() as u64
 }
 
-/// Bytes of decoded images, without mip levels.
-pub(super) fn texture_bytes(scene: &Scene) -> usize {
-    scene.images.iter().map(|image| image.rgba.len()).sum()
+/// Bytes of whole decoded images, without mip levels.
+pub(super) fn texture_bytes(model: &Model) -> u64 {
+    let sizes = model.contents.image_sizes.iter();
+    sizes.map(|&size| image_bytes(size)).sum()
+}
+
+/// Bytes of an image of this width and height.
+pub(super) fn image_bytes((width, height): (u32, u32)) -> u64 {
+    u64::from(width) * u64::from(height) * 4
 }
 
 /// Source of an attribute.

@@ -10,10 +10,11 @@ mod tree;
 
 use crate::choice::ChoiceArgs;
 use crate::failure::Failure;
-use crate::input::Model;
+use crate::input::{Model, Reading};
 use crate::values::{FormatName, Source};
 use clap::Args;
 use estampe_assets::Limits;
+use estampe_assets::model::LeastDetail;
 use estampe_scene::{AlphaMode, Bounds, Mesh, Projection, PunctualLightKind, Scene, UpAxis};
 
 /// Describes a model: counts, bounds, attributes, materials, and the reader's warnings.
@@ -64,7 +65,11 @@ pub(crate) struct InfoArgs {
 
 /// Runs the command.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
-    let read = (&args.choice.at(args.time), &Limits::default());
+    let read = Reading {
+        options: &args.choice.at(args.time),
+        limits: &Limits::default(),
+        detail: &LeastDetail,
+    };
     let folder = args.choice.folder_of(&args.model)?;
     let model = Model::read((&args.model, &folder), args.format, read, |_| {})?;
     let report = if args.json {

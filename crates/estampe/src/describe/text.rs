@@ -28,14 +28,14 @@ pub(super) fn report(model: &Model) -> String {
         add_material(&mut lines, material);
     }
     lines.add_rest(scene.materials.len(), LISTED, "materials");
-    for (at, image) in scene.images.iter().enumerate().take(LISTED) {
-        let (width, height) = (image.width, image.height);
+    let images = &model.contents.image_sizes;
+    for (at, (width, height)) in images.iter().enumerate().take(LISTED) {
         lines.add(
             "texture",
             &format!("{at}: {width}x{height} {TEXTURE_FORMAT}"),
         );
     }
-    lines.add_rest(scene.images.len(), LISTED, "textures");
+    lines.add_rest(images.len(), LISTED, "textures");
     offers::add(&mut lines, model);
     for warning in &model.warnings {
         lines.add("warning", &one_line(&warning.to_string()));
@@ -76,7 +76,7 @@ fn add_sums(lines: &mut Lines, model: &Model) {
     });
     lines.add("bounds", &bounds);
     let geometry = bytes(memory::geometry_bytes(scene));
-    let textures = bytes(memory::texture_bytes(scene));
+    let textures = bytes(memory::texture_bytes(model));
     lines.add(
         "memory",
         &format!("geometry {geometry}, textures {textures}"),

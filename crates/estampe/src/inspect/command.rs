@@ -5,9 +5,9 @@ use super::arguments::InspectArgs;
 use super::stages::{Shown, StageName, show};
 use super::{json, text};
 use crate::failure::Failure;
-use crate::input::Model;
+use crate::input::{Model, Reading};
 use crate::output;
-use crate::render::{image_format, output_name, prepare};
+use crate::render::{PictureDetail, image_format, output_name, prepare};
 use crate::values::{Destination, shown};
 use estampe::Device;
 use estampe_assets::Limits;
@@ -30,7 +30,12 @@ pub(crate) fn run(args: &InspectArgs) -> Result<(), Failure> {
     let chosen = args.choice.at(args.picture.shader.time);
     let folder = args.choice.folder_of(&args.model)?;
     let source = (&args.model, &folder);
-    let model = Model::read(source, args.format, (&chosen, &limits), |_| {})?;
+    let reading = Reading {
+        options: &chosen,
+        limits: &limits,
+        detail: &PictureDetail::of(&args.picture),
+    };
+    let model = Model::read(source, args.format, reading, |_| {})?;
     let (options, device) = prepare(&model, &args.picture, ViewDirection::default())?;
     if let Some(pixel) = args.pixel {
         let told = inspect(&model.scene, &options, &device, pixel)?;

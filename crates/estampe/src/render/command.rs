@@ -5,9 +5,10 @@ use super::cameras::{self, Shots};
 use super::draw::{STAGES, draw_with, encoded, image_format};
 use super::passes::{self, Files, OutputFormatName};
 use super::report::Report;
+use super::texture_detail::PictureDetail;
 use super::watch;
 use crate::failure::Failure;
-use crate::input::Model;
+use crate::input::{Model, Reading};
 use crate::output;
 use crate::progress::Progress;
 use crate::values::Destination;
@@ -57,7 +58,15 @@ pub(super) fn draw_once(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     let chosen = args.choice.at(args.picture.shader.time);
     let folder = args.choice.folder_of(&args.model)?;
     let source = (&args.model, &folder);
-    let model = Model::read(source, args.format, (&chosen, &limits), |stage| {
+    let reading = Reading {
+        options: &chosen,
+        limits: &limits,
+        detail: &match &shots {
+            Some(shots) => shots.detail(&args.picture),
+            None => PictureDetail::of(&args.picture),
+        },
+    };
+    let model = Model::read(source, args.format, reading, |stage| {
         progress.stage(stage);
     })?;
     if let Some(shots) = &shots {

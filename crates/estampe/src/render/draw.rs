@@ -4,6 +4,7 @@ use super::camera_check;
 use super::cameras::NamedCamera;
 use super::picture::PictureArgs;
 use super::report::Encoded;
+use super::texture_detail::level_of_texture;
 use crate::choice;
 use crate::failure::Failure;
 use crate::input::{self, Model};
@@ -14,7 +15,9 @@ use crate::shader::values::{FRAGMENT_JUMPS, Via};
 use crate::terminal::one_line;
 use crate::values::{Destination, ImageFormatName, shown};
 use estampe::{Device, DeviceDescriptor};
-use estampe_assets::image::{ImageFormat, decode, encode};
+use estampe_assets::image::{
+    ImageFormat, Reduction, TexelContent, decode_reduced, encode, stated_size,
+};
 use estampe_assets::{Limits, ModelFormat};
 use estampe_renderer::{
     CameraOptions, Eye, Frame, LightImage, ProjectionKind, RenderOptions, Up, ViewDirection,
@@ -61,7 +64,7 @@ pub(super) fn draw_with(
     check_drawable(model)?;
     check_output(output, model, args)?;
     let texture_start = Instant::now();
-    let texture = texture_of(model, args)?;
+    let texture = texture_of(model, args, Some(default_view))?;
     let texture_time = texture_start.elapsed();
 
     progress.stage("drawing");
@@ -117,7 +120,9 @@ pub(crate) fn drawn_bytes(
     device: &Device,
 ) -> Result<Vec<u8>, Failure> {
     check_drawable(model)?;
-    let texture = texture_of(model, args)?;
+    // The level that a camera of a file needs is not that of the default view.
+    let view = camera.is_none().then_some(default_view);
+    let texture = texture_of(model, args, view)?;
     let mut options = options(model, args, (default_view, texture), device)?;
     if let Some(camera) = camera {
         options = camera.apply(options);
@@ -146,7 +151,7 @@ pub(crate) fn frame_options(
     device: &Device,
 ) -> Result<RenderOptions, Failure> {
     check_drawable(model)?;
-    let texture = texture_of(model, args)?;
+    let texture = texture_of(model, args, None)?;
     options(model, args, (default_view, texture), device)
 }
 
@@ -185,10 +190,19 @@ fn options(
     if let Some(bounding_box) = &mut options.bounding_box {
         bounding_box.unit = unit_of(model.format).map(str::to_owned);
     }
+    with_model_camera(options, args, &model.scene)
+}
+
+/// The options with the camera of the model that the arguments choose, if they do.
+pub(super) fn with_model_camera(
+    options: RenderOptions,
+    args: &PictureArgs,
+    scene: &Scene,
+) -> Result<RenderOptions, Failure> {
     let Some(chosen) = &args.camera else {
         return Ok(options);
     };
-    let camera = choice::camera(&model.scene, chosen)?.camera;
+    let camera = choice::camera(scene, chosen)?.camera;
     Ok(RenderOptions {
         camera: CameraOptions {
             eye: Eye::At(camera.eye_world.as_dvec3()),
@@ -217,10 +231,18 @@ fn unit_of(format: Option<ModelFormat>) -> Option<&'static str> {
     }
 }
 
-/// The texture of the options, if they name one.
-fn texture_of(model: &Model, args: &PictureArgs) -> Result<Option<Image>, Failure> {
+/// The texture of the options, if they name one; in the detail that a picture with this default
+/// view needs, or whole.
+fn texture_of(
+    model: &Model,
+    args: &PictureArgs,
+    default_view: Option<ViewDirection>,
+) -> Result<Option<Image>, Failure> {
     let path = args.texture.as_deref();
-    path.map(|path| read_texture(path, model)).transpose()
+    let level =
+        |size| default_view.map_or(0, |view| level_of_texture(size, args, view, &model.scene));
+    path.map(|path| read_texture(path, model, level))
+        .transpose()
 }
 
 /// The format of a picture: the named one, else that of the destination.
@@ -264,10 +286,19 @@ fn check_drawable(model: &Model) -> Result<(), Failure> {
     )))
 }
 
-fn read_texture(path: &std::path::Path, model: &Model) -> Result<Image, Failure> {
+fn read_texture(
+    path: &std::path::Path,
+    model: &Model,
+    level: impl FnOnce((u32, u32)) -> u32,
+) -> Result<Image, Failure> {
     let limits = Limits::default();
     let bytes = input::read_file(path, &limits)?;
-    let image = decode(&bytes, &limits).map_err(|error| error.in_file(&shown(path)))?;
+    let reduction = Reduction {
+        level: stated_size(&bytes).map_or(0, level),
+        content: TexelContent::Color,
+    };
+    let image = decode_reduced(&bytes, reduction, &limits);
+    let image = image.map_err(|error| error.in_file(&shown(path)))?;
     if model.scene.meshes.iter().all(|mesh| mesh.uvs.is_empty()) {
         let name = &model.name;
         return Err(Failure::Input(format!(

@@ -24,6 +24,7 @@ mod section;
 mod shadows;
 mod surface_shader;
 mod surfaces;
+mod texture_detail;
 mod watch;
 
 pub(crate) use arguments::RenderArgs;
@@ -39,3 +40,4 @@ pub(crate) use report::write as write_report;
 pub(crate) use report::{
     Report, counts, output_name, output_path, rounded_milliseconds, write_json,
 };
+pub(crate) use texture_detail::PictureDetail;

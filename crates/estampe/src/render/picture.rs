@@ -127,8 +127,8 @@ pub(crate) struct PictureArgs {
     #[command(flatten)]
     pub(crate) shader: SurfaceShaderArgs,
 
-    /// A base-colour texture (PNG, JPEG, WebP, TGA, BMP, DDS; sRGB), instead of the model's colours
-    /// and textures
+    /// A base-colour texture (PNG, JPEG, WebP, TGA, BMP, DDS, KTX2; sRGB), instead of the model's
+    /// colours and textures
     #[arg(long, value_name = "FILE", help_heading = "Appearance")]
     pub(crate) texture: Option<PathBuf>,
 
@@ -249,6 +249,16 @@ impl PictureArgs {
         default: ViewDirection,
         texture: Option<Image>,
     ) -> Result<RenderOptions, Failure> {
+        let options = RenderOptions {
+            texture,
+            ..self.view_options(default)
+        };
+        let workers = Workers::new(self.thread_count());
+        self.pbr.apply(self.illumination.apply(options), workers)
+    }
+
+    /// The renderer's options but for lights, surroundings and textures.
+    pub(super) fn view_options(&self, default: ViewDirection) -> RenderOptions {
         let direction = match self.view {
             Some(view) => view.into(),
             None => ViewDirection {
@@ -275,7 +285,6 @@ impl PictureArgs {
             },
             up: self.up,
             shading: self.shading.into(),
-            texture,
             background: self.background.color,
             gradient: self.background.gradient,
             cull: self.cull.into(),
@@ -283,10 +292,8 @@ impl PictureArgs {
             wireframe: self.wireframe,
             ..RenderOptions::default()
         };
-        let workers = Workers::new(self.thread_count());
-        let options = self.shadows.apply(self.illumination.apply(options));
+        let options = self.shadows.apply(options);
         let options = self.surfaces.apply(self.section.apply(options));
-        let options = self.overlays.apply(options);
-        self.pbr.apply(options, workers)
+        self.overlays.apply(options)
     }
 }

@@ -24,7 +24,8 @@ pub(crate) struct ResourceArgs {
     #[arg(help_heading = "Resources")]
     buffer: Vec<(Slot, BufferContents)>,
 
-    /// A texture by name or by group and binding: PNG, JPEG, WebP, TGA, BMP or DDS; repeatable
+    /// A texture by name or by group and binding: PNG, JPEG, WebP, TGA, BMP, DDS or KTX2;
+    /// repeatable
     #[arg(long, value_name = "NAME=FILE", value_parser = values::texture)]
     #[arg(help_heading = "Resources")]
     texture: Vec<(TextureName, PathBuf)>,

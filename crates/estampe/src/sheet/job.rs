@@ -5,7 +5,7 @@ use super::paint::Sheet;
 use super::views::Views;
 use crate::batch::deadline::{self, Claim};
 use crate::failure::Failure;
-use crate::input::Model;
+use crate::input::{Model, Reading};
 use crate::render;
 use crate::values::Source;
 use estampe::Device;
@@ -114,7 +114,11 @@ impl Shared {
         let model = Model::read(
             (source, &folder),
             args.format,
-            (&chosen, &self.limits),
+            Reading {
+                options: &chosen,
+                limits: &self.limits,
+                detail: &self.views.detail(&args.picture),
+            },
             |_| {},
         )?;
         args.limits.check_memory(&model, &args.picture, false)?;

@@ -3,13 +3,13 @@
 use super::arguments::SheetArgs;
 use crate::failure::Failure;
 use crate::input::Model;
-use crate::render;
-use crate::turntable::Orbit;
+use crate::render::{self, PictureArgs, PictureDetail};
+use crate::turntable::{Orbit, turned};
 use crate::values::ViewName;
 use clap::ValueEnum;
 use estampe::Device;
 use estampe_renderer::{Eye, RenderOptions, ViewDirection};
-use estampe_scene::Image;
+use estampe_scene::{Image, Scene};
 
 /// The views of the options.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +56,33 @@ impl Views {
         }
     }
 
+    /// The detail of the textures in all views.
+    pub(super) fn detail<'a>(&'a self, picture: &'a PictureArgs) -> PictureDetail<'a> {
+        match self {
+            Self::One => PictureDetail::of(picture),
+            Self::Named(names) => {
+                let of_view = |&view: &ViewName| PictureArgs {
+                    view: Some(view),
+                    ..picture.clone()
+                };
+                PictureDetail::of_all(names.iter().map(|name| (of_view(name), None)).collect())
+            }
+            Self::Turn(count) => PictureDetail::of_cameras(picture, |scene, options| {
+                turned(&Self::orbit(scene, &options), *count, &options)
+            }),
+        }
+    }
+
+    /// The circle around a model.
+    fn orbit(scene: &Scene, options: &RenderOptions) -> Orbit {
+        let Eye::Fitted(start) = options.camera.eye else {
+            unreachable!("--turn has no options that fix the eye");
+        };
+        let mut orbit = Orbit::new(scene, options, start);
+        orbit.include(scene, options.up);
+        orbit
+    }
+
     /// Draws the views of a model one after the other, until `use_image` returns false.
     pub(super) fn draw(
         &self,
@@ -82,17 +109,9 @@ impl Views {
             }
             Self::Turn(count) => {
                 let options = render::frame_options(model, picture, default, device)?;
-                let Eye::Fitted(start) = options.camera.eye else {
-                    unreachable!("--turn has no options that fix the eye");
-                };
-                let mut orbit = Orbit::new(&model.scene, &options, start);
-                orbit.include(&model.scene, options.up);
-                for (at, step) in (0..*count).enumerate() {
-                    let options = RenderOptions {
-                        camera: orbit.camera(step, *count, options.camera),
-                        ..options.clone()
-                    };
-                    let frame = render::frame(model, picture, &options, device);
+                let orbit = Self::orbit(&model.scene, &options);
+                for (at, options) in turned(&orbit, *count, &options).iter().enumerate() {
+                    let frame = render::frame(model, picture, options, device);
                     if !use_image(at, frame.map(|frame| frame.image)) {
                         break;
                     }

@@ -1,21 +1,21 @@
 //! Runs `estampe turntable`.
 
 use super::arguments::TurntableArgs;
-use super::orbit::Orbit;
+use super::orbit::{Orbit, turned};
 use super::output::{Output, numbered};
 use super::poses::Poses;
 use crate::failure::Failure;
-use crate::input::Model;
+use crate::input::{Model, Reading};
 use crate::limits::Clock;
 use crate::output::{self, Unwritten};
 use crate::progress::Progress;
-use crate::render;
+use crate::render::{self, PictureDetail};
 use crate::values::Destination;
 use estampe::Device;
 use estampe_assets::image::animation::{ApngWriter, WebpAnimation, Y4mWriter};
 use estampe_assets::image::gif::{MAX_GIF_RATE, write_gif};
 use estampe_renderer::{Eye, RenderOptions, ViewDirection, composite_over};
-use estampe_scene::Image;
+use estampe_scene::{Image, Scene};
 use serde_json::json;
 use std::io::Write;
 
@@ -34,7 +34,14 @@ pub(crate) fn run(args: &TurntableArgs) -> Result<(), Failure> {
     let chosen = args.choice.at(time_s);
     let folder = args.choice.folder_of(&args.model)?;
     let source = (&args.model, &folder);
-    let model = Model::read(source, args.format, (&chosen, &limits), |stage| {
+    let reading = Reading {
+        options: &chosen,
+        limits: &limits,
+        detail: &PictureDetail::of_cameras(&args.picture, |scene, options| {
+            turn_of(args, scene, options)
+        }),
+    };
+    let model = Model::read(source, args.format, reading, |stage| {
         progress.stage(stage);
     })?;
     args.limits.check_memory(&model, &args.picture, false)?;
@@ -55,7 +62,7 @@ pub(crate) fn run(args: &TurntableArgs) -> Result<(), Failure> {
     orbit.include(&model.scene, options.up);
     if let Some(poses) = &poses {
         for frame in 1..args.frames {
-            orbit.include(&poses.at(frame)?.scene, options.up);
+            orbit.include(&poses.shape_at(frame)?.scene, options.up);
         }
     }
     let turn = Turn {
@@ -70,6 +77,19 @@ pub(crate) fn run(args: &TurntableArgs) -> Result<(), Failure> {
     turn.write(&format)?;
     drop(progress);
     report(args, &format, &model, &clock)
+}
+
+/// The options of all frames, to find the detail of textures. The poses of `--animate` are read for
+/// each frame, and the model itself is not drawn.
+fn turn_of(args: &TurntableArgs, scene: &Scene, options: RenderOptions) -> Vec<RenderOptions> {
+    match options.camera.eye {
+        Eye::Fitted(start) if !args.animate => {
+            let mut orbit = Orbit::new(scene, &options, start);
+            orbit.include(scene, options.up);
+            turned(&orbit, args.frames, &options)
+        }
+        _ => vec![options],
+    }
 }
 
 /// Refuses what cannot be drawn, before anything is read.
@@ -184,7 +204,9 @@ impl Turn<'_> {
                     render::frame(self.model, picture, &options, &self.device)?
                 }
                 Some(poses) => {
-                    let model = poses.at(frame)?;
+                    let seen = |_: &Scene, options| vec![RenderOptions { camera, ..options }];
+                    let detail = PictureDetail::of_cameras(picture, seen);
+                    let model = poses.at(frame, &detail)?;
                     // Shaders see the time too.
                     let mut picture = picture.clone();
                     picture.shader.time = Some(poses.time_s(frame));

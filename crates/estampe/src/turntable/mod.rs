@@ -13,4 +13,4 @@ mod poses;
 
 pub(crate) use arguments::TurntableArgs;
 pub(crate) use command::run;
-pub(crate) use orbit::Orbit;
+pub(crate) use orbit::{Orbit, turned};

@@ -185,6 +185,15 @@ impl Orbit {
     }
 }
 
+/// The options of all pictures of a turn.
+pub(crate) fn turned(orbit: &Orbit, count: u32, options: &RenderOptions) -> Vec<RenderOptions> {
+    let frames = (0..count).map(|frame| RenderOptions {
+        camera: orbit.camera(frame, count, options.camera),
+        ..options.clone()
+    });
+    frames.collect()
+}
+
 /// Calls `use_vertex` with the positions in the world of all vertices that primitives use, some of
 /// them several times.
 fn each_vertex(scene: &Scene, up: Up, mut use_vertex: impl FnMut(DVec3)) {

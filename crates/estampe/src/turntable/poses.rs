@@ -2,9 +2,10 @@
 
 use super::arguments::TurntableArgs;
 use crate::failure::Failure;
-use crate::input::Model;
+use crate::input::{Model, Reading};
 use crate::values::Source;
 use estampe_assets::Limits;
+use estampe_assets::model::{LeastDetail, TextureDetail};
 
 /// The poses of a model over the turn.
 #[derive(Debug)]
@@ -52,10 +53,19 @@ impl<'a> Poses<'a> {
         estampe_renderer::transforms::round_to_f32(f64::from(self.duration_s) * part)
     }
 
+    /// The model at the time of a frame, whose textures do not matter.
+    pub(super) fn shape_at(&self, frame: u32) -> Result<Model, Failure> {
+        self.at(frame, &LeastDetail)
+    }
+
     /// The model at the time of a frame.
-    pub(super) fn at(&self, frame: u32) -> Result<Model, Failure> {
+    pub(super) fn at(&self, frame: u32, detail: &dyn TextureDetail) -> Result<Model, Failure> {
         let chosen = self.args.choice.at(Some(self.time_s(frame)));
-        let options = (&chosen, self.limits);
+        let options = Reading {
+            options: &chosen,
+            limits: self.limits,
+            detail,
+        };
         let folder = self.args.choice.folder_of(&self.args.model)?;
         let source = (&self.args.model, &folder);
         Model::read(source, self.args.format, options, |_| {})

@@ -21,7 +21,7 @@ fn the_commands_of_the_page_draw_its_pictures() {
 }
 
 /// Options that change no picture, or its file alone.
-const WITHOUT_PICTURES: [&str; 21] = [
+const WITHOUT_PICTURES: [&str; 22] = [
     "--cameras",
     "--preview",
     "--output",
@@ -29,6 +29,7 @@ const WITHOUT_PICTURES: [&str; 21] = [
     "--output-format",
     "--max-triangles",
     "--max-pixels",
+    "--max-texture-size",
     "--max-bytes",
     "--max-memory",
     "--timeout",

@@ -1,11 +1,12 @@
 //! The BMP reader.
 
-use estampe_scene::Image;
+use estampe_scene::{Image, Workers};
 
 use super::header::{Fields, Header, Texels};
 use super::runs;
 use crate::image::channel::Channel;
 use crate::image::fault::{allocate_texels, check_size, malformed};
+use crate::image::reduce::{Reduced, Reducer, Reduction, RowOrder, reduce};
 use crate::image::transform::flip_vertical;
 use crate::{AssetError, Limits};
 
@@ -16,23 +17,21 @@ use crate::{AssetError, Limits};
 /// that its palette lacks; `Unsupported` for other kinds (JPEG and PNG in a BMP, fax codes);
 /// `LimitExceeded` before any texel is stored.
 pub(in crate::image) fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
-    let fields = Fields::parse(bytes)?;
-    let (width, height) = fields.size()?;
-    check_size(width, height, limits)?;
-    let header = fields.header(bytes)?;
-    let rgba = match &header.texels {
-        Texels::Mapped { bits, palette } => rows(bytes, &header, usize::from(*bits), |row, out| {
-            mapped_row(row, *bits, palette, out)
-        }),
-        Texels::Words {
-            len_bytes,
-            channels,
-        } => rows(bytes, &header, len_bytes * 8, |(_, row), out| {
-            words_row(row, *len_bytes, channels, out);
-            Ok(())
-        }),
-        Texels::Runs { bits, palette } => runs::decode(bytes, &header, *bits, palette),
-    }?;
+    let (header, (width, height)) = parse(bytes, limits)?;
+    let mut rgba;
+    if let Texels::Runs { bits, palette } = &header.texels {
+        rgba = runs::decode(bytes, &header, *bits, palette)?;
+    } else {
+        check_rows(bytes, &header)?;
+        rgba = allocate_texels(width as usize * height as usize)?;
+        rgba.resize(width as usize * height as usize * 4, 0);
+        let mut rows = rgba.as_chunks_mut::<4>().0.chunks_exact_mut(width as usize);
+        for_each_row(bytes, &header, |row| {
+            if let Some(out) = rows.next() {
+                out.copy_from_slice(row);
+            }
+        })?;
+    }
     let image = Image {
         width,
         height,
@@ -44,38 +43,104 @@ pub(in crate::image) fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, A
     })
 }
 
+/// [`decode`] of a level of the image, row by row unless it is run-length encoded.
+pub(in crate::image) fn decode_reduced(
+    bytes: &[u8],
+    reduction: Reduction,
+    limits: &Limits,
+) -> Result<Reduced, AssetError> {
+    let (header, size) = parse(bytes, limits)?;
+    if matches!(header.texels, Texels::Runs { .. }) {
+        return reduce(
+            &decode(bytes, limits)?,
+            reduction,
+            Workers::new(limits.threads),
+        );
+    }
+    check_rows(bytes, &header)?;
+    let order = match header.is_top_down {
+        true => RowOrder::TopDown,
+        false => RowOrder::BottomUp,
+    };
+    let mut reducer = Reducer::new(size, reduction, order)?;
+    let mut words = Vec::with_capacity(size.0 as usize);
+    for_each_row(bytes, &header, |row| {
+        words.clear();
+        words.extend(row.iter().map(|&texel| u32::from_le_bytes(texel)));
+        reducer.push(&words);
+    })?;
+    Ok(reducer.finish())
+}
+
+/// The header and the size of an image within the limits.
+fn parse(bytes: &[u8], limits: &Limits) -> Result<(Header, (u32, u32)), AssetError> {
+    let fields = Fields::parse(bytes)?;
+    let (width, height) = fields.size()?;
+    check_size(width, height, limits)?;
+    Ok((fields.header(bytes)?, (width, height)))
+}
+
 /// Width and height from the header.
 pub(in crate::image) fn stated_size(bytes: &[u8]) -> Option<(u32, u32)> {
     Fields::parse(bytes).and_then(|fields| fields.size()).ok()
 }
 
-/// The RGBA of all rows in the order of the file. `read_row` takes a row and its offset.
-fn rows(
+/// The bits of a texel in a row.
+fn texel_bits(texels: &Texels) -> usize {
+    match texels {
+        Texels::Mapped { bits, .. } | Texels::Runs { bits, .. } => usize::from(*bits),
+        Texels::Words { len_bytes, .. } => len_bytes * 8,
+    }
+}
+
+/// The bytes of a row, which end at a multiple of four.
+fn row_len(header: &Header) -> usize {
+    (header.width as usize * texel_bits(&header.texels)).div_ceil(32) * 4
+}
+
+/// Refuses a file that is too short for its rows.
+fn check_rows(bytes: &[u8], header: &Header) -> Result<(), AssetError> {
+    let (width, height) = (header.width as usize, header.height as usize);
+    // The padding of the last row may be missing.
+    let last_len = (width * texel_bits(&header.texels)).div_ceil(8);
+    let before = row_len(header).saturating_mul(height - 1);
+    let needed = before.saturating_add(last_len);
+    let stored = bytes.get(header.texels_start..).unwrap_or_default();
+    if stored.len() >= needed {
+        return Ok(());
+    }
+    let what = format!(
+        "the BMP needs {needed} bytes for {width} × {height} texels and has {}",
+        stored.len()
+    );
+    Err(malformed(bytes.len(), what))
+}
+
+/// Calls `put` with the texels of each row in the order of the file, which is long enough.
+fn for_each_row(
     bytes: &[u8],
     header: &Header,
-    bits: usize,
-    read_row: impl Fn((usize, &[u8]), &mut [[u8; 4]]) -> Result<(), AssetError>,
-) -> Result<Vec<u8>, AssetError> {
-    let (width, height) = (header.width as usize, header.height as usize);
-    let row_len = (width * bits).div_ceil(32) * 4;
-    // The padding of the last row may be missing.
-    let last_len = (width * bits).div_ceil(8);
-    let needed = row_len.saturating_mul(height - 1).saturating_add(last_len);
+    mut put: impl FnMut(&[[u8; 4]]),
+) -> Result<(), AssetError> {
+    let row_len = row_len(header);
     let stored = bytes.get(header.texels_start..).unwrap_or_default();
-    if stored.len() < needed {
-        let what = format!(
-            "the BMP needs {needed} bytes for {width} × {height} texels and has {}",
-            stored.len()
-        );
-        return Err(malformed(bytes.len(), what));
+    let mut out = vec![[0; 4]; header.width as usize];
+    let rows = stored.chunks(row_len).take(header.height as usize);
+    for (y, row) in rows.enumerate() {
+        let start = header.texels_start + y * row_len;
+        match &header.texels {
+            Texels::Mapped { bits, palette } => {
+                mapped_row((start, row), *bits, palette, &mut out)?;
+            }
+            Texels::Words {
+                len_bytes,
+                channels,
+            } => words_row(row, *len_bytes, channels, &mut out),
+            Texels::Runs { .. } => unreachable!("runs have no rows"),
+        }
+        put(&out);
     }
-    let mut rgba = allocate_texels(width * height)?;
-    rgba.resize(width * height * 4, 0);
-    let rows_out = rgba.as_chunks_mut::<4>().0.chunks_exact_mut(width);
-    for (y, (row, out)) in stored.chunks(row_len).zip(rows_out).enumerate() {
-        read_row((header.texels_start + y * row_len, row), out)?;
-    }
-    Ok(rgba)
+    Ok(())
 }
 
 /// A row of indices.

@@ -18,7 +18,7 @@ mod decode;
 mod header;
 mod runs;
 
-pub(super) use decode::{decode, stated_size};
+pub(super) use decode::{decode, decode_reduced, stated_size};
 
 /// The first bytes of every bitmap file.
 pub(super) const SIGNATURE: &[u8] = b"BM";

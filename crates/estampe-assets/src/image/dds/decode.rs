@@ -1,11 +1,12 @@
 //! The DDS reader.
 
-use estampe_scene::Image;
+use estampe_scene::{AlphaMode, Image};
 
 use super::blocks::BlockFormat;
 use super::header::{self, Header, Texels};
 use crate::image::channel::{Channel, unmultiplied};
 use crate::image::fault::{allocate_texels, check_size, malformed};
+use crate::image::reduce::{Reduced, Reducer, Reduction, RowOrder};
 use crate::{AssetError, Limits};
 
 /// Reads the first mip level of a 2D texture: BC1 to BC5 and BC7, or texels described by bit masks.
@@ -14,54 +15,10 @@ use crate::{AssetError, Limits};
 /// `Malformed` with a byte offset if the file is truncated; `Unsupported` for cube maps, volumes,
 /// layers and other formats; `LimitExceeded` before any texel is stored.
 pub(in crate::image) fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
-    let (width, height) = header::size(bytes)?;
-    check_size(width, height, limits)?;
-    let header = Header::parse(bytes)?;
-    let (columns, rows) = (width as usize, height as usize);
-    let row_len = match header.texels {
-        Texels::Blocks(format) => columns.div_ceil(4) * format.len_bytes(),
-        Texels::Words { len_bytes, .. } => columns * len_bytes,
-    };
-    let rows_stored = match header.texels {
-        Texels::Blocks(_) => rows.div_ceil(4),
-        Texels::Words { .. } => rows,
-    };
-    let needed = row_len.saturating_mul(rows_stored);
-    let stored = bytes.get(header.texels_start..).unwrap_or_default();
-    if stored.len() < needed {
-        let what = format!(
-            "the DDS needs {needed} bytes for {width} × {height} texels and has {}",
-            stored.len()
-        );
-        return Err(malformed(bytes.len(), what));
-    }
-
-    let mut rgba = allocate_texels(columns * rows)?;
-    rgba.resize(columns * rows * 4, 0);
-    let texels = rgba.as_chunks_mut::<4>().0;
-    match header.texels {
-        Texels::Blocks(format) => {
-            let rows_out = texels.chunks_mut(columns * 4);
-            for (row, out) in stored.chunks_exact(row_len).zip(rows_out) {
-                block_row(row, format, columns, out);
-            }
-        }
-        Texels::Words {
-            len_bytes,
-            channels,
-        } => {
-            for (word, out) in stored.chunks_exact(len_bytes).zip(&mut *texels) {
-                *out = texel(word, &channels);
-            }
-        }
-    }
-    if header.is_premultiplied {
-        for texel in texels {
-            let alpha = texel[3];
-            *texel = texel.map(|color| unmultiplied(color, alpha));
-            texel[3] = alpha;
-        }
-    }
+    let surface = Surface::first(bytes, limits)?;
+    let (width, height) = surface.size;
+    let mut rgba = allocate_texels(width as usize * height as usize)?;
+    surface.for_each_row(|row| rgba.extend_from_slice(row.as_flattened()));
     Ok(Image {
         width,
         height,
@@ -69,12 +26,152 @@ pub(in crate::image) fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, A
     })
 }
 
+/// [`decode`] of a level of the image: a stored one, from which further ones are made.
+pub(in crate::image) fn decode_reduced(
+    bytes: &[u8],
+    reduction: Reduction,
+    limits: &Limits,
+) -> Result<Reduced, AssetError> {
+    let first = Surface::first(bytes, limits)?;
+    let stored = { 1..=reduction.level }
+        .rev()
+        .find_map(|level| Some((level, first.level(bytes, level)?)));
+    if let Some((level, surface)) = stored {
+        let further = Reduction {
+            level: reduction.level - level,
+            ..reduction
+        };
+        let reduced = surface.reduced(further)?;
+        // Smaller levels of a mask have alphas between, so the first level tells the use of alpha.
+        if reduced.alpha == AlphaMode::Opaque {
+            return Ok(reduced);
+        }
+        let alpha = first.reduced(reduction)?.alpha;
+        return Ok(Reduced { alpha, ..reduced });
+    }
+    first.reduced(reduction)
+}
+
+/// A mip level with its bytes.
+struct Surface<'b> {
+    header: Header,
+    size: (u32, u32),
+    stored: &'b [u8],
+}
+
+impl<'b> Surface<'b> {
+    /// The first level of a file whose header and length were checked.
+    fn first(bytes: &'b [u8], limits: &Limits) -> Result<Self, AssetError> {
+        let size @ (width, height) = header::size(bytes)?;
+        check_size(width, height, limits)?;
+        let header = Header::parse(bytes)?;
+        let needed = header.texels.len_bytes(size);
+        let stored = bytes.get(header.texels_start..).unwrap_or_default();
+        let Some(stored) = stored.get(..needed) else {
+            let what = format!(
+                "the DDS needs {needed} bytes for {width} × {height} texels and has {}",
+                stored.len()
+            );
+            return Err(malformed(bytes.len(), what));
+        };
+        Ok(Self {
+            header,
+            size,
+            stored,
+        })
+    }
+
+    /// A further level, if the file has it.
+    fn level(&self, bytes: &'b [u8], level: u32) -> Option<Self> {
+        let halved = |by: u32| {
+            let side = |of: u32| of.checked_shr(by).unwrap_or(0).max(1);
+            (side(self.size.0), side(self.size.1))
+        };
+        if level >= self.header.level_count {
+            return None;
+        }
+        let start = { 0..level }.try_fold(self.header.texels_start, |start, above| {
+            start.checked_add(self.header.texels.len_bytes(halved(above)))
+        })?;
+        let size = halved(level);
+        let end = start.checked_add(self.header.texels.len_bytes(size))?;
+        Some(Self {
+            header: self.header,
+            size,
+            stored: bytes.get(start..end)?,
+        })
+    }
+
+    fn reduced(&self, reduction: Reduction) -> Result<Reduced, AssetError> {
+        let mut reducer = Reducer::new(self.size, reduction, RowOrder::TopDown)?;
+        let mut words = Vec::with_capacity(self.size.0 as usize);
+        self.for_each_row(|row| {
+            words.clear();
+            words.extend(row.iter().map(|&texel| u32::from_le_bytes(texel)));
+            reducer.push(&words);
+        });
+        Ok(reducer.finish())
+    }
+
+    /// Calls `put` with the texels of each row, from the top.
+    fn for_each_row(&self, mut put: impl FnMut(&[[u8; 4]])) {
+        let (width, height) = (self.size.0 as usize, self.size.1 as usize);
+        let mut put = |row: &mut [[u8; 4]]| {
+            if self.header.is_premultiplied {
+                for texel in &mut *row {
+                    let alpha = texel[3];
+                    *texel = texel.map(|color| unmultiplied(color, alpha));
+                    texel[3] = alpha;
+                }
+            }
+            put(row);
+        };
+        match self.header.texels {
+            Texels::Blocks(format) => {
+                let row_len = width.div_ceil(4) * format.len_bytes();
+                let mut texels = vec![[0; 4]; width * 4];
+                for (y, blocks) in self.stored.chunks_exact(row_len).enumerate() {
+                    block_row(blocks, format, width, &mut texels);
+                    let rows = texels.chunks_exact_mut(width);
+                    rows.take(height - (4 * y).min(height)).for_each(&mut put);
+                }
+            }
+            Texels::Words {
+                len_bytes,
+                channels,
+            } => {
+                let mut texels = vec![[0; 4]; width];
+                for row in self.stored.chunks_exact(width * len_bytes) {
+                    for (word, out) in row.chunks_exact(len_bytes).zip(&mut texels) {
+                        *out = texel(word, &channels);
+                    }
+                    put(&mut texels);
+                }
+            }
+        }
+    }
+}
+
+impl Texels {
+    /// Bytes of an image.
+    fn len_bytes(self, (width, height): (u32, u32)) -> usize {
+        let (width, height) = (width as usize, height as usize);
+        match self {
+            Self::Blocks(format) => width
+                .div_ceil(4)
+                .saturating_mul(height.div_ceil(4))
+                .saturating_mul(format.len_bytes()),
+            Self::Words { len_bytes, .. } => width.saturating_mul(height).saturating_mul(len_bytes),
+        }
+    }
+}
+
 /// Width and height from the header.
 pub(in crate::image) fn stated_size(bytes: &[u8]) -> Option<(u32, u32)> {
     header::size(bytes).ok()
 }
 
-/// A row of blocks; `out` is up to four rows of texels.
+/// A row of blocks as four rows of texels.
 fn block_row(row: &[u8], format: BlockFormat, width: usize, out: &mut [[u8; 4]]) {
     for (x, block) in row.chunks_exact(format.len_bytes()).enumerate() {
         let texels = format.decode(block);

@@ -30,6 +30,8 @@ pub(super) struct Header {
     pub(super) is_premultiplied: bool,
     /// Offset of the first mip level.
     pub(super) texels_start: usize,
+    /// Stored mip levels, at least 1.
+    pub(super) level_count: u32,
 }
 
 /// Width and height, at least 1.
@@ -46,12 +48,17 @@ impl Header {
     pub(super) fn parse(bytes: &[u8]) -> Result<Self, AssetError> {
         const CUBE_MAP: u32 = 0x200;
         const VOLUME: u32 = 0x20_0000;
+        const MIP_LEVELS: u32 = 0x2_0000;
         let shape = word(bytes, 112)?;
         // The last word of the header is not used, and must be there.
         word(bytes, HEADER_LEN - 4)?;
         if shape & (CUBE_MAP | VOLUME) != 0 {
             return Err(unsupported("a DDS that is a cube map or a volume"));
         }
+        let level_count = match word(bytes, 8)? & MIP_LEVELS {
+            0 => 1,
+            _ => word(bytes, 28)?.max(1),
+        };
         let (flags, code) = (word(bytes, 80)?, word(bytes, 84)?.to_le_bytes());
         if flags & 4 == 0 {
             let texels = masked(bytes, flags)?;
@@ -59,10 +66,11 @@ impl Header {
                 texels,
                 is_premultiplied: false,
                 texels_start: HEADER_LEN,
+                level_count,
             });
         }
         if &code == b"DX10" {
-            return Self::parse_dx10(bytes);
+            return Self::parse_dx10(bytes, level_count);
         }
         let format = match &code {
             b"DXT1" => BlockFormat::Bc1,
@@ -81,11 +89,12 @@ impl Header {
             texels: Texels::Blocks(format),
             is_premultiplied: matches!(&code, b"DXT2" | b"DXT4"),
             texels_start: HEADER_LEN,
+            level_count,
         })
     }
 
     /// Reads the second header.
-    fn parse_dx10(bytes: &[u8]) -> Result<Self, AssetError> {
+    fn parse_dx10(bytes: &[u8], level_count: u32) -> Result<Self, AssetError> {
         const TEXTURE_2D: u32 = 3;
         const CUBE_MAP: u32 = 4;
         const PREMULTIPLIED: u32 = 2;
@@ -121,6 +130,7 @@ impl Header {
             texels,
             is_premultiplied: alpha & 7 == PREMULTIPLIED,
             texels_start: HEADER_LEN + DX10_LEN,
+            level_count,
         })
     }
 }

@@ -1,6 +1,6 @@
 //! JPEG: read by `zune-jpeg`, written by `jpeg-encoder`.
 
-use estampe_scene::Image;
+use estampe_scene::{Image, Workers};
 use jpeg_encoder::{ColorType, Encoder, SamplingFactor};
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::errors::DecodeErrors;
@@ -10,6 +10,7 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 
 use super::fault::{allocate_texels, check_size, check_texels, malformed, too_large, unsupported};
 use super::png::rgb_from_rgba;
+use super::reduce::{Reduced, Reduction, reduce_rows};
 use crate::{AssetError, Limits};
 
 /// The first bytes of every JPEG file (SOI).
@@ -29,6 +30,62 @@ const MAX_PIXELS_PER_BYTE: u64 = 8 * 64 * 4;
 /// # Errors
 /// See [`decode`](super::decode).
 pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
+    let Samples {
+        size: (width, height),
+        is_grey,
+        samples,
+    } = samples(bytes, limits)?;
+    let mut rgba = allocate_texels(width as usize * height as usize)?;
+    if is_grey {
+        rgba.extend(samples.iter().flat_map(|&v| [v, v, v, 255]));
+    } else {
+        let (pixels, _) = samples.as_chunks();
+        rgba.extend(pixels.iter().flat_map(|&[r, g, b]| [r, g, b, 255]));
+    }
+    Ok(Image {
+        width,
+        height,
+        rgba,
+    })
+}
+
+/// [`decode`] of a level of the image, which is made of the decoded rows by several threads.
+///
+/// A decoder that makes a smaller image of the frequencies was not chosen: its texels are others
+/// than those of the mip level, so pictures would change, and `jpeg-decoder`, which can, is only
+/// maintained since its users went over to `zune-jpeg`.
+pub(super) fn decode_reduced(
+    bytes: &[u8],
+    reduction: Reduction,
+    limits: &Limits,
+) -> Result<Reduced, AssetError> {
+    let Samples {
+        size,
+        is_grey,
+        samples,
+    } = samples(bytes, limits)?;
+    let channels = if is_grey { 1 } else { 3 };
+    let row_len = size.0 as usize * channels;
+    reduce_rows(size, reduction, Workers::new(limits.threads), |y, row| {
+        let stored = &samples[y * row_len..(y + 1) * row_len];
+        let word = u32::from_le_bytes;
+        if is_grey {
+            row.extend(stored.iter().map(|&v| word([v, v, v, 255])));
+        } else {
+            let pixels = stored.as_chunks().0.iter();
+            row.extend(pixels.map(|&[r, g, b]| word([r, g, b, 255])));
+        }
+    })
+}
+
+/// The decoded samples: grey, or R, G, B.
+struct Samples {
+    size: (u32, u32),
+    is_grey: bool,
+    samples: Vec<u8>,
+}
+
+fn samples(bytes: &[u8], limits: &Limits) -> Result<Samples, AssetError> {
     let refuse = |error: DecodeErrors| match error {
         DecodeErrors::Unsupported(error) => unsupported(format!("this JPEG ({error:?})")),
         // The decoder reports no location, so the error names the end of the file.
@@ -44,6 +101,7 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
     let stored = decoder.input_colorspace().unwrap_or(ColorSpace::Unknown);
     let read = match stored {
         ColorSpace::Luma => ColorSpace::Luma,
+        // The decoder's RGBA is wrong for files of RGB and of four inks.
         _ => ColorSpace::RGB,
     };
     decoder.set_options(options.jpeg_set_out_colorspace(read));
@@ -65,17 +123,10 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
     let mut samples = allocate_texels(texels)?;
     samples.resize(texels * read.num_components(), 0);
     decoder.decode_into(&mut samples).map_err(refuse)?;
-    let mut rgba = allocate_texels(texels)?;
-    if read == ColorSpace::Luma {
-        rgba.extend(samples.iter().flat_map(|&v| [v, v, v, 255]));
-    } else {
-        let (pixels, _) = samples.as_chunks();
-        rgba.extend(pixels.iter().flat_map(|&[r, g, b]| [r, g, b, 255]));
-    }
-    Ok(Image {
-        width,
-        height,
-        rgba,
+    Ok(Samples {
+        size: (width, height),
+        is_grey: read == ColorSpace::Luma,
+        samples,
     })
 }
 

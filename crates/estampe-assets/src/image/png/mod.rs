@@ -2,11 +2,12 @@
 
 use std::io::Cursor;
 
-use estampe_scene::Image;
+use estampe_scene::{Image, Workers};
 use png::{BitDepth, ColorType, DecodingError, Transformations};
 
 use super::AlphaChannel;
 use super::fault::{allocate_texels, check_size, check_texels, malformed, unsupported};
+use super::reduce::{Reduced, Reducer, Reduction, RowOrder, reduce};
 use crate::{AssetError, Limits};
 
 /// The first bytes of every PNG file.
@@ -22,8 +23,35 @@ const MAX_DEFLATE_RATIO: u64 = 1032;
 /// # Errors
 /// See [`decode`](super::decode).
 pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
+    located(bytes, |cursor| read(cursor, bytes.len(), limits))
+}
+
+/// [`decode`] of a level of the image, row by row unless the PNG is interlaced.
+pub(super) fn decode_reduced(
+    bytes: &[u8],
+    reduction: Reduction,
+    limits: &Limits,
+) -> Result<Reduced, AssetError> {
+    let reduced = located(bytes, |cursor| {
+        read_reduced(cursor, bytes.len(), reduction, limits)
+    })?;
+    match reduced {
+        Some(reduced) => Ok(reduced),
+        None => reduce(
+            &decode(bytes, limits)?,
+            reduction,
+            Workers::new(limits.threads),
+        ),
+    }
+}
+
+/// Gives the decoder's errors the place that it has reached.
+fn located<T>(
+    bytes: &[u8],
+    read: impl FnOnce(&mut Cursor<&[u8]>) -> Result<T, Refusal>,
+) -> Result<T, AssetError> {
     let mut cursor = Cursor::new(bytes);
-    read(&mut cursor, bytes.len(), limits).map_err(|fault| match fault {
+    read(&mut cursor).map_err(|fault| match fault {
         Refusal::Ours(error) => error,
         Refusal::Decoder(DecodingError::LimitsExceeded) => AssetError::limit_exceeded(
             "the PNG's side data needs more memory than its pixels",
@@ -64,7 +92,12 @@ impl From<AssetError> for Refusal {
     }
 }
 
-fn read(cursor: &mut Cursor<&[u8]>, len: usize, limits: &Limits) -> Result<Image, Refusal> {
+/// A decoder whose header and length were checked.
+fn open<'c, 'b>(
+    cursor: &'c mut Cursor<&'b [u8]>,
+    len: usize,
+    limits: &Limits,
+) -> Result<png::Reader<&'c mut Cursor<&'b [u8]>>, Refusal> {
     let mut decoder = png::Decoder::new(cursor);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
@@ -81,24 +114,35 @@ fn read(cursor: &mut Cursor<&[u8]>, len: usize, limits: &Limits) -> Result<Image
         let what = format!("a PNG of {width} × {height} pixels cannot have {len} bytes");
         return Err(malformed(16, what).into());
     }
+    Ok(decoder.read_info()?)
+}
 
-    let mut reader = decoder.read_info()?;
+fn read(cursor: &mut Cursor<&[u8]>, len: usize, limits: &Limits) -> Result<Image, Refusal> {
+    let mut reader = open(cursor, len, limits)?;
+    let (width, height) = reader.info().size();
     let (color, depth) = reader.output_color_type();
     let Some(buffer_len) = reader.output_buffer_size() else {
         return Err(unsupported(format!("a PNG of {width} × {height} pixels")).into());
     };
-    let mut samples = allocate_texels(buffer_len.div_ceil(4))?;
-    samples.resize(buffer_len, 0);
-    reader.next_frame(&mut samples)?;
-    if depth == BitDepth::Sixteen {
-        samples = samples
-            .as_chunks::<2>()
-            .0
-            .iter()
-            .map(|&v| unorm8_from_unorm16(v))
-            .collect();
+    let mut rgba = allocate_texels(width as usize * height as usize)?;
+    if reader.info().interlaced || (color, depth) == (ColorType::Rgba, BitDepth::Eight) {
+        let mut samples = allocate_texels(buffer_len.div_ceil(4))?;
+        samples.resize(buffer_len, 0);
+        reader.next_frame(&mut samples)?;
+        if (color, depth) == (ColorType::Rgba, BitDepth::Eight) {
+            rgba = samples;
+        } else {
+            rgba_from_samples(&mut samples, (color, depth), &mut rgba)?;
+        }
+    } else {
+        // Row by row, the samples stay in the cache.
+        let mut samples = Vec::new();
+        while let Some(row) = reader.next_row()? {
+            samples.clear();
+            samples.extend_from_slice(row.data());
+            rgba_from_samples(&mut samples, (color, depth), &mut rgba)?;
+        }
     }
-    let rgba = rgba_from_samples(samples, color, width as usize * height as usize)?;
     Ok(Image {
         width,
         height,
@@ -106,43 +150,71 @@ fn read(cursor: &mut Cursor<&[u8]>, len: usize, limits: &Limits) -> Result<Image
     })
 }
 
-/// Expands samples to four channels.
-fn rgba_from_samples(
-    samples: Vec<u8>,
-    color: ColorType,
-    texels: usize,
-) -> Result<Vec<u8>, AssetError> {
-    if color == ColorType::Rgba {
-        return Ok(samples);
+/// A level of the image; `None` if its rows do not come in order.
+fn read_reduced(
+    cursor: &mut Cursor<&[u8]>,
+    len: usize,
+    reduction: Reduction,
+    limits: &Limits,
+) -> Result<Option<Reduced>, Refusal> {
+    let mut reader = open(cursor, len, limits)?;
+    if reader.info().interlaced {
+        return Ok(None);
     }
-    let mut rgba = allocate_texels(texels)?;
+    let (width, height) = reader.info().size();
+    let (color, depth) = reader.output_color_type();
+    let mut reducer = Reducer::new((width, height), reduction, RowOrder::TopDown)?;
+    let mut texels = Vec::with_capacity(width as usize);
+    let (mut samples, mut rgba) = (Vec::new(), Vec::new());
+    while let Some(row) = reader.next_row()? {
+        samples.clear();
+        samples.extend_from_slice(row.data());
+        rgba.clear();
+        rgba_from_samples(&mut samples, (color, depth), &mut rgba)?;
+        texels.clear();
+        let words = rgba.as_chunks().0.iter();
+        texels.extend(words.map(|&rgba| u32::from_le_bytes(rgba)));
+        reducer.push(&texels);
+    }
+    Ok(Some(reducer.finish()))
+}
+
+/// Appends samples as four channels of 8 bits.
+fn rgba_from_samples(
+    samples: &mut Vec<u8>,
+    (color, depth): (ColorType, BitDepth),
+    rgba: &mut Vec<u8>,
+) -> Result<(), AssetError> {
+    if depth == BitDepth::Sixteen {
+        let len = samples.len() / 2;
+        for at in 0..len {
+            samples[at] = unorm8_from_unorm16([samples[2 * at], samples[2 * at + 1]]);
+        }
+        samples.truncate(len);
+    }
     match color {
-        ColorType::Grayscale => rgba.extend(samples.iter().flat_map(|&v| [v, v, v, 255])),
-        ColorType::GrayscaleAlpha => {
-            rgba.extend(
-                samples
-                    .as_chunks()
-                    .0
-                    .iter()
-                    .flat_map(|&[v, a]| [v, v, v, a]),
-            );
-        }
+        ColorType::Rgba => rgba.extend_from_slice(samples),
         ColorType::Rgb => {
-            rgba.extend(
-                samples
-                    .as_chunks()
-                    .0
-                    .iter()
-                    .flat_map(|&[r, g, b]| [r, g, b, 255]),
-            );
+            let (rgb, _) = samples.as_chunks::<3>();
+            let start = rgba.len();
+            rgba.resize(start + rgb.len() * 4, 255);
+            let (texels, _) = rgba[start..].as_chunks_mut::<4>();
+            for (texel, &[r, g, b]) in texels.iter_mut().zip(rgb) {
+                *texel = [r, g, b, 255];
+            }
         }
-        ColorType::Indexed | ColorType::Rgba => {
+        ColorType::GrayscaleAlpha => {
+            let grey = samples.as_chunks().0.iter();
+            rgba.extend(grey.flat_map(|&[v, a]| [v, v, v, a]));
+        }
+        ColorType::Grayscale => rgba.extend(samples.iter().flat_map(|&v| [v, v, v, 255])),
+        ColorType::Indexed => {
             return Err(unsupported(
                 "a PNG whose palette the decoder leaves in place",
             ));
         }
     }
-    Ok(rgba)
+    Ok(())
 }
 
 /// A big-endian 16-bit value as 8 bits: round(v · 255 / 65535), that is v / 257.

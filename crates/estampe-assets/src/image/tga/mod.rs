@@ -27,7 +27,7 @@ mod packets;
 mod texel;
 
 pub use decode::decode;
-pub(super) use decode::looks_like_tga;
+pub(super) use decode::{decode_reduced, looks_like_tga, stated_size};
 pub use encode::{TgaOptions, encode};
 
 #[cfg(test)]

@@ -48,5 +48,6 @@ pub(super) fn of(
             .map(|name| shortened(name))
             .collect(),
         has_made_normals: Vec::new(),
+        image_sizes: Vec::new(),
     }
 }

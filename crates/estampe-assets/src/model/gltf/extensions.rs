@@ -6,7 +6,7 @@ use crate::AssetError;
 use crate::model::load::Context;
 
 /// The extensions that are read.
-const READ: [&str; 22] = [
+const READ: [&str; 23] = [
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
@@ -25,6 +25,8 @@ const READ: [&str; 22] = [
     "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    // Images of Basis Universal are replaced by others, left out, or refused.
+    "KHR_texture_basisu",
     "KHR_texture_transform",
     // Names in other files' metadata, without influence on a picture.
     "KHR_xmp",
@@ -34,18 +36,11 @@ const READ: [&str; 22] = [
 
 /// Common extensions that are not read: what to do if a file requires them, and what is used
 /// instead if it does not.
-const NOT_READ: [(&str, &str, &str); 2] = [
-    (
-        "KHR_draco_mesh_compression",
-        "export the file again without Draco compression",
-        "the uncompressed geometry is used",
-    ),
-    (
-        "KHR_texture_basisu",
-        "export the file again with PNG, JPEG or WebP textures",
-        "the textures of other formats are used",
-    ),
-];
+const NOT_READ: [(&str, &str, &str); 1] = [(
+    "KHR_draco_mesh_compression",
+    "export the file again without Draco compression",
+    "the uncompressed geometry is used",
+)];
 
 /// Refuses files that need what is not read, and warns of what a file has besides.
 pub(super) fn check(document: &Document<'_>, context: &mut Context<'_>) -> Result<(), AssetError> {

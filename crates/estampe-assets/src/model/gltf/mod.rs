@@ -62,10 +62,10 @@ use meshes::{Meshes, Source};
 use pose::Pose;
 
 /// Reads a glTF file.
-pub(super) fn parse(
-    bytes: &[u8],
+pub(super) fn parse<'a>(
+    bytes: &'a [u8],
     options: &ModelOptions,
-    context: &mut Context<'_>,
+    context: &mut Context<'a>,
 ) -> Result<Parsed, AssetError> {
     let container = glb::split(bytes, context)?;
     let document = json::parse(&container)?;
@@ -101,14 +101,15 @@ pub(super) fn parse(
         is_used[index] = true;
     }
     let needs_default = material_of_mesh.contains(&None);
-    let materials = material::read(&document, &is_used, needs_default, &views, context)?;
+    let stored = (&views, container.bin);
+    let materials = material::read(&document, &is_used, needs_default, stored, context)?;
     for (mesh, material) in meshes.iter_mut().zip(material_of_mesh) {
         // The default material comes after those of the file.
         let index = material.unwrap_or(document.materials.len());
         for surface in &mut mesh.surfaces {
             surface.material = Some(index);
         }
-        paint_lines_and_points(mesh, &materials.materials[index]);
+        paint_lines_and_points(mesh, &materials[index]);
     }
     rules::check(&document, context);
     joined::join_beyond(&mut meshes, context.limits.max_meshes);
@@ -116,8 +117,8 @@ pub(super) fn parse(
     Ok(Parsed {
         scene: Scene {
             meshes,
-            materials: materials.materials,
-            images: materials.images,
+            materials,
+            images: Vec::new(),
             up: UpAxis::Y,
             cameras: cameras_lights::cameras(&nodes, &document, &world_from_node, limits)?,
             lights: cameras_lights::lights(&nodes, &document, &world_from_node, limits)?,

@@ -50,7 +50,6 @@ pub(super) fn assemble(mut contents: Contents<'_>, context: &mut Context<'_>) ->
     let scene = Scene {
         meshes,
         materials: library.materials,
-        images: library.images,
         up: UpAxis::Y,
         ..Scene::default()
     };

@@ -24,11 +24,13 @@ mod triangle_rows;
 mod values;
 mod vertices;
 
+use super::deferred::AlphaRule;
 use super::load::{Context, Parsed};
+use super::options::TextureAlpha;
 use super::textures::{TextureName, Textures};
 use crate::{AssetError, Limits};
 use elements::Elements;
-use estampe_scene::{Material, Mesh, Scene, UpAxis};
+use estampe_scene::{AlphaMode, Material, Mesh, Scene, UpAxis};
 use glam::Vec3;
 use header::{Encoding, Header};
 use values::{Ascii, Binary, Values};
@@ -106,7 +108,7 @@ fn read_body<V: Values>(
 
 /// One material for each `comment TextureFile`.
 fn load_textures(header: &Header, scene: &mut Scene, context: &mut Context<'_>) {
-    let mut textures = Textures::new(context.limits);
+    let mut textures = Textures::default();
     for (name, location) in &header.texture_files {
         let name = TextureName {
             name: name.clone(),
@@ -119,11 +121,15 @@ fn load_textures(header: &Header, scene: &mut Scene, context: &mut Context<'_>) 
             base_color: Vec3::ONE,
             ..Material::default()
         };
-        if let Some((image, alpha_mode)) = textures.load(Some(&name), None, context) {
+        if let Some(image) = textures.load(Some(&name), None, context) {
             material.base_color_texture = Some(image);
-            material.alpha_mode = alpha_mode;
+            material.alpha_mode = AlphaMode::Blend;
+            context.images.add_alpha_rule(AlphaRule {
+                material: scene.materials.len(),
+                chosen: TextureAlpha::Auto,
+                color_without: None,
+            });
         }
         scene.materials.push(material);
     }
-    scene.images = textures.images;
 }

@@ -71,7 +71,6 @@ pub(super) fn parse(bytes: &[u8], context: &mut Context<'_>) -> Result<Parsed, A
         scene: Scene {
             meshes,
             materials: document.materials,
-            images: textures.images,
             up: UpAxis::Z,
             ..Scene::default()
         },

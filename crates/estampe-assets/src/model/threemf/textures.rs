@@ -1,24 +1,25 @@
 //! The textures of the package: each used one becomes a material with an image.
 
-use super::document::{Document, Group};
+use super::document::{Document, Group, Texture};
 use super::package::Package;
+use crate::model::deferred::{AlphaRule, Origin};
 use crate::model::load::Context;
-use crate::model::textures::classify_alpha;
+use crate::model::options::TextureAlpha;
 use crate::{AssetError, Limits};
-use estampe_scene::{AlphaMode, Image, Material};
+use estampe_scene::{AlphaMode, Material};
 use glam::Vec3;
+use std::borrow::Cow;
 use std::collections::HashMap;
 
-/// The materials of the textures, and their images.
+/// The materials of the textures.
 #[derive(Debug, Default)]
 pub(super) struct Textures {
-    pub(super) images: Vec<Image>,
     /// Index of the material of each texture; `None` if it is not used, or could not be read.
     pub(super) material_of: Vec<Option<usize>>,
 }
 
 impl Textures {
-    /// Reads the images of the textures that have coordinates, and adds their materials to the
+    /// Finds the images of the textures that have coordinates, and adds their materials to the
     /// document. Failures are warnings.
     pub(super) fn read(
         document: &mut Document,
@@ -26,7 +27,6 @@ impl Textures {
         context: &mut Context<'_>,
     ) -> Result<Self, AssetError> {
         let mut textures = Self {
-            images: Vec::new(),
             material_of: vec![None; document.textures.len()],
         };
         let mut is_used = vec![false; document.textures.len()];
@@ -40,22 +40,24 @@ impl Textures {
             }
         }
         let mut material_of_part: HashMap<&str, Option<usize>> = HashMap::new();
-        let mut pixels_left = context.limits.max_total_image_pixels;
         let used = document.textures.iter().enumerate();
         for (at, texture) in used.filter(|&(at, _)| is_used[at]) {
             if let Some(&known) = material_of_part.get(texture.part.as_str()) {
                 textures.material_of[at] = known;
                 continue;
             }
-            let material = match image(&texture.part, pixels_left, package, context.limits) {
-                Ok((image, alpha_mode)) => {
-                    pixels_left -= u64::from(image.width) * u64::from(image.height);
-                    textures.images.push(image);
+            let material = match image(texture, package, context) {
+                Ok(image) => {
+                    context.images.add_alpha_rule(AlphaRule {
+                        material: document.materials.len(),
+                        chosen: TextureAlpha::Auto,
+                        color_without: Some(Material::default().base_color),
+                    });
                     document.materials.push(Material {
                         name: texture.part.clone(),
                         base_color: Vec3::ONE,
-                        base_color_texture: Some(textures.images.len() - 1),
-                        alpha_mode,
+                        base_color_texture: Some(image),
+                        alpha_mode: AlphaMode::Blend,
                         ..Material::default()
                     });
                     let count = document.materials.len();
@@ -63,9 +65,7 @@ impl Textures {
                     Some(count - 1)
                 }
                 Err(error) => {
-                    context.warnings.add(&texture.place, texture.location, || {
-                        format!("the texture `{}` is omitted: {error}", texture.part)
-                    });
+                    origin(texture).warn(&error, &mut context.warnings);
                     None
                 }
             };
@@ -76,21 +76,27 @@ impl Textures {
     }
 }
 
-/// The image of a part, and the use of its alpha.
+/// The image of a part, to be decoded later.
 fn image(
-    part: &str,
-    pixels_left: u64,
+    texture: &Texture,
     package: &mut Package<'_>,
-    limits: &Limits,
-) -> Result<(Image, AlphaMode), AssetError> {
-    let bytes = package.bytes(part)?.ok_or_else(|| {
+    context: &mut Context<'_>,
+) -> Result<usize, AssetError> {
+    let bytes = package.bytes(&texture.part)?.ok_or_else(|| {
         AssetError::malformed("the package has no such part", "export the file again")
     })?;
-    let limits = Limits {
-        max_image_pixels: limits.max_image_pixels.min(pixels_left),
-        ..limits.clone()
-    };
-    let mut image = crate::image::decode(&bytes, &limits)?;
-    let alpha_mode = classify_alpha(&mut image);
-    Ok((image, alpha_mode))
+    let bytes = Cow::Owned(bytes);
+    let encoded = context
+        .images
+        .encoded(bytes, origin(texture), context.limits)?;
+    let image = context.images.add_texture(Some(encoded), None);
+    image.ok_or_else(|| AssetError::malformed("there is no image", ""))
+}
+
+fn origin(texture: &Texture) -> Origin {
+    Origin::Named {
+        file: texture.place.clone(),
+        location: texture.location.into(),
+        name: texture.part.clone(),
+    }
 }

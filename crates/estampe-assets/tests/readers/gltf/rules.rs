@@ -31,10 +31,6 @@ fn required_extensions_must_be_known() {
             "KHR_draco_mesh_compression",
             "export the file again without Draco compression",
         ),
-        (
-            "KHR_texture_basisu",
-            "export the file again with PNG, JPEG or WebP textures",
-        ),
         ("ACME_magic", "export the file again without it"),
     ] {
         let expected = format!(

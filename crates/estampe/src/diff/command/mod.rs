@@ -23,7 +23,7 @@ pub(crate) const EXIT_USAGE: u8 = 2;
 /// An image cannot be read, or the heat map or the report cannot be written.
 pub(crate) const EXIT_UNREADABLE: u8 = 3;
 
-/// Compares two images (PNG, JPEG, WebP, TGA, BMP, DDS) and reports their difference.
+/// Compares two images (PNG, JPEG, WebP, TGA, BMP, DDS, KTX2) and reports their difference.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "\
 The result is exact: the images are the same if no channel of any pixel (alpha included) differs \

@@ -9,7 +9,7 @@ use crate::input::Model;
 use crate::limits::Clock;
 use crate::output;
 use crate::progress::Progress;
-use crate::render::{PictureArgs, RenderArgs};
+use crate::render::{PictureArgs, PictureDetail, RenderArgs};
 use crate::values::Destination;
 use estampe::Device;
 use estampe_assets::image::ImageFormat;
@@ -84,6 +84,15 @@ impl Shots {
         outputs.any(|outputs| match outputs {
             Outputs::Passes(files) => files.format.holds_light(),
             Outputs::Picture(..) => false,
+        })
+    }
+
+    /// The detail of the textures in all pictures.
+    pub(in crate::render) fn detail<'a>(&'a self, picture: &'a PictureArgs) -> PictureDetail<'a> {
+        PictureDetail::of_cameras(picture, |_, options| {
+            let shots = self.0.iter().take(PictureDetail::MOST_PICTURES + 1);
+            let options = shots.map(|shot| shot.camera.apply(options.clone()));
+            options.collect()
         })
     }
 

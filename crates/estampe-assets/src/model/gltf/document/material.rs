@@ -81,6 +81,8 @@ pub(crate) struct TextureExtensions {
     pub(crate) webp: Option<TextureSource>,
     #[serde(rename = "MSFT_texture_dds")]
     pub(crate) dds: Option<TextureSource>,
+    #[serde(rename = "KHR_texture_basisu")]
+    pub(crate) basisu: Option<TextureSource>,
 }
 
 /// An image in another format.

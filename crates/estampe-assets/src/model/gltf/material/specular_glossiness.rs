@@ -14,10 +14,10 @@
 //! the same size.
 
 use super::super::document::SpecularGlossiness;
-use super::super::images::Images;
 use super::convert::{Textures, positive3, unit, unit4};
 use crate::AssetError;
-use estampe_scene::{Image, PbrMaterial, SpecularLayer};
+use crate::model::load::Context;
+use estampe_scene::{PbrMaterial, SpecularLayer};
 use std::collections::HashMap;
 
 /// The factor of a glossiness texture, which is the one of the specular colour.
@@ -55,44 +55,23 @@ pub(super) struct Derived {
 }
 
 impl Derived {
-    /// Makes the texture of the roughness. Without memory for it the factor alone remains.
+    /// Makes the texture of the roughness. Beyond the limits the factor alone remains.
     pub(super) fn add_roughness(
         &mut self,
         pbr: &mut PbrMaterial,
         Glossiness(glossiness): Glossiness,
-        images: &mut Images,
+        context: &mut Context<'_>,
     ) {
         let Some(source) = pbr.specular.and_then(|specular| specular.color_texture) else {
             return;
         };
         let key = (source.image, glossiness.to_bits());
-        let make = || images.add_derived(source.image, |image| roughness(image, glossiness));
+        let limits = context.limits;
+        let images = &mut context.images;
+        let make = || images.add_roughness(source.image, glossiness, limits);
         if let Some(image) = *self.known.entry(key).or_insert_with(make) {
             pbr.roughness = 1.0;
             pbr.metallic_roughness_texture = Some(estampe_scene::TextureRef { image, ..source });
         }
-    }
-}
-
-/// The image with 1 − glossiness · alpha in green.
-fn roughness(image: &Image, glossiness: f32) -> Image {
-    let table: [u8; 256] = std::array::from_fn(|alpha| {
-        let rough = 255.0 - glossiness * alpha as f32;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "the factor is in 0..=1, so the result in 0..=255"
-        )]
-        {
-            libm::roundf(rough) as u8
-        }
-    });
-    let texels = image.rgba.as_chunks::<4>().0.iter();
-    Image {
-        width: image.width,
-        height: image.height,
-        rgba: texels
-            .flat_map(|texel| [0, table[usize::from(texel[3])], 0, 255])
-            .collect(),
     }
 }

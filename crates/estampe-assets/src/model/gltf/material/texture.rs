@@ -29,7 +29,7 @@ pub(super) fn reference(
         None => TextureSampler::default(),
     };
     let Some((source, property)) = source(texture) else {
-        let what = "the texture has no image in PNG, JPEG, WebP or DDS; it is left out";
+        let what = "the texture has no image in PNG, JPEG, WebP, DDS or KTX2; it is left out";
         warn(context, texture_pointer, what);
         return Ok(None);
     };
@@ -59,14 +59,18 @@ pub(super) fn reference(
     }))
 }
 
-/// The image of a texture, and the property that names it. Images of extensions come first: the
-/// other one is for programs that do not read them.
+/// The image of a texture, and the property that names it. Images of WebP, DDS and KTX2 come first:
+/// the other one is for programs that do not read them, and for KTX2 of Basis Universal.
 fn source(texture: &Texture) -> Option<(Index, &'static str)> {
     let of = |extension: &Option<TextureSource>| extension.as_ref()?.source;
     let extensions = &texture.extensions;
     [
         (of(&extensions.webp), "extensions/EXT_texture_webp/source"),
         (of(&extensions.dds), "extensions/MSFT_texture_dds/source"),
+        (
+            of(&extensions.basisu),
+            "extensions/KHR_texture_basisu/source",
+        ),
         (texture.source, "source"),
     ]
     .into_iter()
