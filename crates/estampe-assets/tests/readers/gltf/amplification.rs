@@ -2,6 +2,7 @@
 
 use super::Builder;
 use super::builder::{F32, U16};
+use crate::hostile::peak_bytes;
 use estampe_assets::model::{AnimationName, ModelOptions, NoResources};
 use estampe_assets::{Limits, ModelFormat, ModelInput, parse_model_with};
 use serde_json::{Value, json};
@@ -147,6 +148,22 @@ fn a_long_name_of_many_meshes() {
     ends_soon(&file, None);
     let loaded = file.load_with(&ModelOptions::default());
     assert_eq!(loaded.scene.meshes[29_999].name, "ä".repeat(256));
+}
+
+/// The report of the tree has two names for each node.
+#[test]
+fn a_long_name_of_the_mesh_of_many_nodes() {
+    let mut file = Builder::with_mesh(json!({ "attributes": {} }));
+    file.set("/meshes/0/name", json!("ä".repeat(1 << 16)));
+    nodes(&mut file, json!({ "mesh": 0 }), 20_000);
+    let (loaded, peak) = peak_bytes(|| file.load_with(&ModelOptions::default()));
+    let contents = &loaded.contents;
+    assert_eq!(
+        (contents.nodes.len(), contents.node_count),
+        (10_000, 20_000)
+    );
+    assert_eq!(contents.nodes[9_999].mesh, Some("ä".repeat(256)));
+    assert!(peak < 64 << 20, "{peak}");
 }
 
 #[test]

@@ -348,3 +348,34 @@ fn lights_are_in_world_space() {
         "{missing}"
     );
 }
+
+/// Nodes of the scene alone count, from its roots on.
+#[test]
+fn the_tree_has_depths_and_what_is_at_its_nodes() {
+    let mut file = Builder::triangle();
+    file.set(
+        "/cameras",
+        json!([{ "type": "orthographic",
+        "orthographic": { "xmag": 1, "ymag": 1, "znear": 0, "zfar": 1 } }]),
+    );
+    file.set(
+        "/nodes",
+        json!([
+            { "name": "a", "children": [2, 1] },
+            { "name": "b", "mesh": 0 },
+            { "name": "c", "children": [3] },
+            { "name": "d", "camera": 0 },
+            { "name": "elsewhere" },
+        ]),
+    );
+    let contents = file.load_with(&ModelOptions::default()).contents;
+    let shown = contents
+        .nodes
+        .iter()
+        .map(|node| (&*node.name, node.depth, node.instances));
+    let shown: Vec<_> = shown.collect();
+    assert_eq!(shown, [("a", 0, 0), ("c", 1, 0), ("d", 2, 0), ("b", 1, 1)]);
+    assert!(contents.nodes[2].has_camera && !contents.nodes[0].has_camera);
+    assert_eq!(contents.nodes[3].mesh.as_deref(), Some(""));
+    assert_eq!(contents.has_made_normals, [true]);
+}
