@@ -5,6 +5,7 @@ use crate::backdrop::BackdropDraw;
 use crate::behind::{BehindPicture, view_of};
 use crate::camera::Pinhole;
 use crate::draw_plan::{Planner, is_dark};
+use crate::feature_edges::{FeatureEdges, is_one_face};
 use crate::frame_passes::{DrawnPasses, FramePasses};
 use crate::ground::{ColumnMaps, GroundFrame, GroundShadow};
 use crate::guides;
@@ -277,6 +278,17 @@ pub(crate) fn with_passes<T>(
     let cut = options.cut(scene, workers)?;
     let scene = cut.as_ref().map_or(scene, |cut| &cut.scene);
     let view = SceneView::new(scene, options, workers);
+    let with_edges;
+    let is_flat = options.edges_of_flat_views && options.edges.is_none();
+    let options = if is_flat && is_one_face(scene, &view, options) {
+        with_edges = RenderOptions {
+            edges: Some(FeatureEdges::default()),
+            ..options.clone()
+        };
+        &with_edges
+    } else {
+        options
+    };
     let style = frame_style(scene, &view, options, (device, output))?;
     let plan = Planner {
         scene,

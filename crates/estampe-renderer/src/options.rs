@@ -90,6 +90,10 @@ pub struct RenderOptions {
     /// Sharp edges, borders and silhouettes over the surfaces, where no opaque surface hides them.
     /// Default none.
     pub edges: Option<FeatureEdges>,
+    /// If set, a picture that would be one colour gets edges of its own: one in which nearly all
+    /// faces have one direction, in the default light, without textures, of at most 200,000
+    /// triangles. Default not.
+    pub edges_of_flat_views: bool,
     /// If set, a grid lies on the ground at the model's lowest point, in the units of the file.
     /// Default not.
     pub grid: bool,
@@ -115,6 +119,7 @@ impl RenderOptions {
         Self {
             wireframe: false,
             edges: None,
+            edges_of_flat_views: false,
             grid: false,
             axes: false,
             bounding_box: None,
@@ -156,6 +161,7 @@ impl Default for RenderOptions {
             cull: CullMode::None,
             transparency: Transparency::default(),
             edges: None,
+            edges_of_flat_views: false,
             grid: false,
             axes: false,
             bounding_box: None,

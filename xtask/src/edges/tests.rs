@@ -40,7 +40,7 @@ fn forbidden_edges_fail() {
         ("estampe", "estampe-bench"),
         ("estampe", "xtask"),
         ("estampe-renderer", "rayon-core"),
-        ("estampe-renderer", "estampe-shapes"),
+        ("estampe-renderer", "estampe-assets"),
         ("estampe-core", "fearless_simd"),
         ("estampe-scene", "png"),
         ("estampe-gpu", "clap"),

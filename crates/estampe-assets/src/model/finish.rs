@@ -12,7 +12,11 @@ pub(super) fn finish(mut parsed: Parsed, context: &mut Context<'_>) -> Parsed {
         let dropped = drop_non_finite(mesh, groups);
         if dropped > 0 {
             context.warnings.add(context.name, None, || {
-                format!("{dropped} elements with a coordinate that is not finite are omitted")
+                let (elements, are) = match dropped {
+                    1 => ("element", "is"),
+                    _ => ("elements", "are"),
+                };
+                format!("{dropped} {elements} with a coordinate that is not finite {are} omitted")
             });
         }
         drop_useless_normals(mesh);

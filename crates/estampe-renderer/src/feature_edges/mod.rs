@@ -14,10 +14,13 @@
 //!
 //! Faces without area have no normal: an edge of such a face is no feature.
 
+mod flat;
 mod topology;
 
 #[cfg(test)]
 mod tests;
+
+pub(crate) use flat::is_one_face;
 
 use crate::strokes::{Stroke, Window, WindowPoint};
 use estampe_scene::{Mesh, Workers};

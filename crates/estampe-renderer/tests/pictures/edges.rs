@@ -4,7 +4,7 @@ use crate::support::drawn_alike;
 use estampe_renderer::{
     CameraOptions, Eye, FeatureEdges, ProjectionKind, RenderOptions, Shading, ViewDirection,
 };
-use estampe_scene::{Camera, Mesh, Projection, Scene};
+use estampe_scene::{Camera, Image, Mesh, Projection, Scene};
 use estampe_shapes::BuiltinShape;
 use glam::{DVec2, DVec3};
 
@@ -178,6 +178,67 @@ fn silhouettes_lie_on_the_outline() {
         places.iter().any(|&place| at(&darker, place) > 60)
     });
     assert_eq!(around.count(), 72);
+}
+
+#[test]
+fn pictures_of_one_flat_face_have_edges_by_themselves() {
+    let front = ViewDirection {
+        azimuth_deg: 0.0,
+        elevation_deg: 0.0,
+    };
+    let textured = |scene: &Scene| Scene {
+        images: vec![Image {
+            width: 1,
+            height: 1,
+            rgba: vec![255; 4],
+        }],
+        ..scene.clone()
+    };
+    for (shape, view, is_flat, is_perspective) in [
+        (BuiltinShape::Cube, front, true),
+        (BuiltinShape::Plane, ViewDirection::ISO, true),
+        (BuiltinShape::Cube, ViewDirection::ISO, false),
+        (BuiltinShape::Sphere, front, false),
+        (BuiltinShape::Torus, front, false),
+    ]
+    .into_iter()
+    .flat_map(|case| [(case, false), (case, true)])
+    .map(|((shape, view, is_flat), is_perspective)| (shape, view, is_flat, is_perspective))
+    {
+        let scene = scene(shape);
+        let mut plain = RenderOptions {
+            shading: Shading::Phong,
+            ..options(view, 4)
+        };
+        if is_perspective {
+            plain.camera.projection = ProjectionKind::default();
+        }
+        let by_themselves = RenderOptions {
+            edges_of_flat_views: true,
+            ..plain.clone()
+        };
+        let without = drawn_alike(&scene, &plain).image;
+        let expected = if is_flat {
+            drawn_alike(&scene, &with_edges(&plain, FeatureEdges::default())).image
+        } else {
+            without.clone()
+        };
+        assert_eq!(expected != without, is_flat, "{shape:?}");
+        let drawn = drawn_alike(&scene, &by_themselves).image;
+        assert!(drawn == expected, "{shape:?}");
+        let drawn = drawn_alike(&textured(&scene), &by_themselves).image;
+        assert!(drawn == without, "{shape:?}, with a texture");
+        let lit = RenderOptions {
+            shading: Shading::Unlit,
+            ..by_themselves
+        };
+        let unlit = RenderOptions {
+            shading: Shading::Unlit,
+            ..plain
+        };
+        let (lit, unlit) = (drawn_alike(&scene, &lit), drawn_alike(&scene, &unlit));
+        assert!(lit.image == unlit.image, "{shape:?}, unlit");
+    }
 }
 
 #[test]

@@ -10,11 +10,14 @@ use estampe_renderer::{BoundingBox, FeatureEdges, RenderOptions};
 pub(crate) struct OverlayArgs {
     /// Draw sharp edges, borders and silhouettes over the surfaces; sharp from DEG on [default: 30]
     ///
+    /// By default they are drawn where the picture would be one colour: where nearly all faces have
+    /// one direction, as in the front view of a plate. --edges=none draws none there either.
+    ///
     /// An edge is sharp if the normals of its two faces differ by more than DEG degrees, 0 to 180.
     /// Borders, edges between two materials, and silhouettes are drawn with any angle.
     #[arg(long, value_name = "DEG", num_args = 0..=1, require_equals = true)]
-    #[arg(default_missing_value = "30", value_parser = angle, help_heading = "Lines")]
-    edges: Option<f64>,
+    #[arg(default_missing_value = "30", value_parser = edges, help_heading = "Lines")]
+    edges: Option<Edges>,
 
     /// Width of --edges in pixels, 0.25 to 64 [default: in proportion to the picture]
     #[arg(long, value_name = "PX", value_parser = width, requires = "edges")]
@@ -38,10 +41,14 @@ impl OverlayArgs {
     /// The renderer's options with these.
     pub(super) fn apply(&self, options: RenderOptions) -> RenderOptions {
         RenderOptions {
-            edges: self.edges.map(|angle_deg| FeatureEdges {
-                angle_deg,
-                width_px: self.edge_width,
-            }),
+            edges: match self.edges {
+                Some(Edges::Sharp(angle_deg)) => Some(FeatureEdges {
+                    angle_deg,
+                    width_px: self.edge_width,
+                }),
+                Some(Edges::None) | None => None,
+            },
+            edges_of_flat_views: self.edges.is_none(),
             grid: self.grid,
             axes: self.axes,
             bounding_box: self.bounding_box.then(BoundingBox::default),
@@ -50,9 +57,23 @@ impl OverlayArgs {
     }
 }
 
-/// Degrees between the normals of two faces.
-fn angle(text: &str) -> Result<f64, String> {
-    number_between(text, 0.0, 180.0)
+/// The edges that are drawn.
+#[derive(Debug, Clone, Copy)]
+enum Edges {
+    None,
+    /// Those whose normals differ by more degrees.
+    Sharp(f64),
+}
+
+/// `none`, or degrees between the normals of two faces.
+fn edges(text: &str) -> Result<Edges, String> {
+    if text.trim().eq_ignore_ascii_case("none") {
+        return Ok(Edges::None);
+    }
+    let angle = number_between(text, 0.0, 180.0);
+    angle
+        .map(Edges::Sharp)
+        .map_err(|error| format!("{error}, or none"))
 }
 
 /// A width in pixels.

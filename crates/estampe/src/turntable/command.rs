@@ -49,7 +49,9 @@ pub(crate) fn run(args: &TurntableArgs) -> Result<(), Failure> {
         let destination = numbered(&args.output, frame, args.frames);
         render::check_output(&destination, &model, &args.picture)?;
     }
-    let (options, device) = render::prepare(&model, &args.picture, ViewDirection::default())?;
+    let (mut options, device) = render::prepare(&model, &args.picture, ViewDirection::default())?;
+    // All frames are alike.
+    options.edges_of_flat_views = false;
     let Eye::Fitted(direction) = options.camera.eye else {
         return Err(fixed_camera());
     };
@@ -212,7 +214,11 @@ impl Turn<'_> {
                     picture.shader.time = Some(poses.time_s(frame));
                     let view = ViewDirection::default();
                     let options = render::frame_options(&model, &picture, view, &self.device)?;
-                    let options = RenderOptions { camera, ..options };
+                    let options = RenderOptions {
+                        camera,
+                        edges_of_flat_views: false,
+                        ..options
+                    };
                     render::frame(&model, &picture, &options, &self.device)?
                 }
             };

@@ -299,7 +299,7 @@ fn what_can_be_read_all_the_same_is_a_warning() {
     infinite.vec3s(&[[0.0; 3], [f32::INFINITY, 0.0, 0.0], [0.0, 1.0, 0.0]]);
     assert_eq!(
         warning(&infinite),
-        "a.glb: 1 elements with a coordinate that is not finite are omitted"
+        "a.glb: 1 element with a coordinate that is not finite is omitted"
     );
 }
 
