@@ -85,16 +85,24 @@ impl Backdrop {
             Encoding::Srgb => {
                 let alpha = color.w;
                 let lab = color.xyz() / alpha.max(input.real(1e-6));
-                let dot = |row: [f32; 3], v: Vec3<R>| v.dot(Vec3::uniform(input.zero, row));
-                let [l, m, s] = ROOTS.map(|row| {
-                    let root = dot(row, lab);
-                    root * root * root
-                });
-                let [r, g, b] = LINEAR.map(|row| dot(row, Vec3::new(l, m, s)).saturate() * alpha);
-                Vec4::new(r, g, b, alpha)
+                let roots = product(&ROOTS, lab);
+                let cubes = roots * roots * roots;
+                let rgb = product(&LINEAR, cubes);
+                let rgb = Vec3::new(rgb.x.saturate(), rgb.y.saturate(), rgb.z.saturate());
+                (rgb * alpha).extend(alpha)
             }
         }
     }
+}
+
+/// The product of a matrix, row by row, and a vector.
+#[inline(always)]
+fn product<R: Real>([x, y, z]: &[[f32; 3]; 3], v: Vec3<R>) -> Vec3<R> {
+    Vec3::new(
+        v.dot(Vec3::uniform(v.x, *x)),
+        v.dot(Vec3::uniform(v.x, *y)),
+        v.dot(Vec3::uniform(v.x, *z)),
+    )
 }
 
 /// The shader of the backdrop, on a triangle in clip space.

@@ -109,13 +109,17 @@ impl<R: Real> Grooves<R> {
         (towards, n_dot_l): (Vec3<R>, R),
         alphas: Alphas<R>,
     ) -> R {
-        let masked = |direction: Vec3<R>, cosine: R| {
-            let along = self.tangent.dot(direction) * alphas.tangent;
-            let across = self.bitangent.dot(direction) * alphas.bitangent;
-            Vec3::new(along, across, cosine).length()
-        };
-        let sum = n_dot_l * masked(to_eye, n_dot_v) + n_dot_v * masked(towards, n_dot_l);
+        let sum = n_dot_l * self.masked(to_eye, n_dot_v, alphas)
+            + n_dot_v * self.masked(towards, n_dot_l, alphas);
         0.5 / sum.max(1e-6)
+    }
+
+    /// ‖(αt·t·d, αb·b·d, n·d)‖ of a direction d.
+    #[inline(always)]
+    fn masked(&self, direction: Vec3<R>, cosine: R, alphas: Alphas<R>) -> R {
+        let along = self.tangent.dot(direction) * alphas.tangent;
+        let across = self.bitangent.dot(direction) * alphas.bitangent;
+        Vec3::new(along, across, cosine).length()
     }
 
     /// The normal by which the surroundings are mirrored: bent towards the eye across the grooves,

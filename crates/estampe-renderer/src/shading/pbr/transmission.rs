@@ -122,20 +122,9 @@ impl TransmissionParameters {
             tint = Vec3::new(halvings.x.exp2(), halvings.y.exp2(), halvings.z.exp2());
             thickness = Some(length);
         }
-        let ray = |ior: f32| {
-            let exit = match thickness {
-                Some(length) => {
-                    let inside = (-point.to_eye).refract(point.normal, one * (1.0 / ior));
-                    point.position + inside.normalize() * length
-                }
-                None => point.position,
-            };
-            let blur = (ior * 2.0 - 2.0).min(1.0) * view.last_level;
-            view.seen(picture, exit, point.roughness * blur)
-        };
         let [red, green, blue] = self.iors;
         if red == blue {
-            let seen = ray(green);
+            let seen = view.along_ray(picture, point, thickness, green);
             return Behind {
                 share,
                 tint,
@@ -143,7 +132,9 @@ impl TransmissionParameters {
                 coverage: Vec3::repeat(seen.w),
             };
         }
-        let (red, green, blue) = (ray(red), ray(green), ray(blue));
+        let red = view.along_ray(picture, point, thickness, red);
+        let green = view.along_ray(picture, point, thickness, green);
+        let blue = view.along_ray(picture, point, thickness, blue);
         Behind {
             share,
             tint,
@@ -168,6 +159,27 @@ impl<R: Real> Behind<R> {
 }
 
 impl BehindView {
+    /// What is seen where the ray that is refracted by this index leaves the body.
+    #[inline(always)]
+    fn along_ray<R: Real>(
+        &self,
+        picture: &SampledTexture,
+        point: PassedPoint<R>,
+        thickness: Option<R>,
+        ior: f32,
+    ) -> Vec4<R> {
+        let exit = match thickness {
+            Some(length) => {
+                let ratio = length.splat(1.0 / ior);
+                let inside = (-point.to_eye).refract(point.normal, ratio);
+                point.position + inside.normalize() * length
+            }
+            None => point.position,
+        };
+        let blur = (ior * 2.0 - 2.0).min(1.0) * self.last_level;
+        self.seen(picture, exit, point.roughness * blur)
+    }
+
     /// What is seen at a point in view space.
     #[inline(always)]
     fn seen<R: Real>(&self, picture: &SampledTexture, point: Vec3<R>, level: R) -> Vec4<R> {
