@@ -9,7 +9,8 @@ use crate::preview::PreviewArgs;
 use crate::values::{Destination, FormatName, Source};
 use clap::Args;
 
-/// Renders an image of a model: glTF, OBJ, STL, PLY, OFF or 3MF to PNG, JPEG, TGA or WebP.
+/// Renders an image of a model: glTF, OBJ, STL, PLY, OFF or 3MF to PNG, JPEG, TGA, WebP, HDR
+/// or OpenEXR.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "\
 Examples:
