@@ -84,7 +84,7 @@ pub mod srgb {
 
 /// The 2×2 box filter of texels of four 8-bit channels, by which mip levels are made.
 pub mod box_filter {
-    pub use estampe_format::box_filter::{Averaged, mean};
+    pub use estampe_format::box_filter::{Averaged, halve_rows};
 }
 
 pub use bind_group::{BindGroup, BindGroupDescriptor, BindGroupError, BindingResource};

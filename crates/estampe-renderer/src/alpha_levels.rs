@@ -11,7 +11,7 @@
 //!
 //! Sides are halved and rounded down as those of [`estampe::Device::generate_mips`].
 
-use estampe::box_filter::{Averaged, mean};
+use estampe::box_filter::{Averaged, halve_rows};
 use estampe_scene::Image;
 
 /// A level: sRGB with straight alpha.
@@ -19,8 +19,14 @@ use estampe_scene::Image;
 struct Level {
     width: usize,
     height: usize,
-    texels: Vec<[u8; 4]>,
+    /// Words with red in the lowest byte.
+    texels: Vec<u32>,
 }
+
+/// The place of alpha in a texel.
+const ALPHA: u32 = 24;
+/// The bits of red, green and blue.
+const COLOR: u32 = 0x00FF_FFFF;
 
 /// True if some texel of an image is not opaque.
 pub(crate) fn has_alpha(image: &Image) -> bool {
@@ -30,7 +36,8 @@ pub(crate) fn has_alpha(image: &Image) -> bool {
 /// The bytes of all levels of an image; with a cutoff, texels whose alpha is less are cut out.
 pub(crate) fn levels(image: &Image, cutoff: Option<u8>) -> Vec<Vec<u8>> {
     let (width, height) = (image.width as usize, image.height as usize);
-    let texels = image.rgba.as_chunks::<4>().0.to_vec();
+    let texels = image.rgba.as_chunks::<4>().0.iter();
+    let texels: Vec<u32> = texels.map(|&texel| u32::from_le_bytes(texel)).collect();
     if texels.len() != width * height || texels.is_empty() {
         return vec![image.rgba.clone()];
     }
@@ -52,31 +59,22 @@ pub(crate) fn levels(image: &Image, cutoff: Option<u8>) -> Vec<Vec<u8>> {
             level.keep(wanted, cutoff);
         }
     }
-    let bytes = levels
-        .into_iter()
-        .map(|level| level.texels.into_flattened());
-    bytes.collect()
+    let bytes = |level: &Level| {
+        let texels = level.texels.iter();
+        texels.flat_map(|texel| texel.to_le_bytes()).collect()
+    };
+    levels.iter().map(bytes).collect()
 }
 
 impl Level {
     /// The level of half the size.
     fn half(&self) -> Self {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
-        let mut texels = Vec::with_capacity(width * height);
-        for y in 0..height {
-            let rows = [2 * y, (2 * y + 1).min(self.height - 1)];
-            for x in 0..width {
-                let columns = [2 * x, (2 * x + 1).min(self.width - 1)];
-                let texel = |row: usize, column: usize| self.texels[row * self.width + column];
-                let four = [
-                    texel(rows[0], columns[0]),
-                    texel(rows[0], columns[1]),
-                    texel(rows[1], columns[0]),
-                    texel(rows[1], columns[1]),
-                ];
-                let mean = mean(four.map(u32::from_le_bytes), Averaged::Weighted);
-                texels.push(mean.to_le_bytes());
-            }
+        let mut texels = vec![0; width * height];
+        let row = |y: usize| &self.texels[y * self.width..(y + 1) * self.width];
+        for (y, half) in texels.chunks_exact_mut(width).enumerate() {
+            let below = (2 * y + 1).min(self.height - 1);
+            halve_rows(row(2 * y), row(below), half, Averaged::Weighted);
         }
         Self {
             width,
@@ -88,21 +86,23 @@ impl Level {
     /// Gives invisible texels the colours of the next level.
     fn fill(&mut self, coarser: &Self) {
         for (index, texel) in self.texels.iter_mut().enumerate() {
-            if texel[3] == 0 {
+            if *texel >> ALPHA == 0 {
                 let (x, y) = (index % self.width, index / self.width);
                 let (x, y) = (
                     (x / 2).min(coarser.width - 1),
                     (y / 2).min(coarser.height - 1),
                 );
-                let [r, g, b, _] = coarser.texels[y * coarser.width + x];
-                *texel = [r, g, b, 0];
+                *texel = coarser.texels[y * coarser.width + x] & COLOR;
             }
         }
     }
 
     /// The texels that a cutoff keeps, and all texels.
     fn kept(&self, cutoff: u8) -> [usize; 2] {
-        let kept = self.texels.iter().filter(|texel| texel[3] >= cutoff);
+        let kept = self
+            .texels
+            .iter()
+            .filter(|&texel| texel >> ALPHA >= cutoff.into());
         [kept.count(), self.texels.len()]
     }
 
@@ -113,7 +113,7 @@ impl Level {
         }
         let mut count_of = [0_usize; 256];
         for texel in &self.texels {
-            count_of[usize::from(texel[3])] += 1;
+            count_of[(texel >> ALPHA) as usize] += 1;
         }
         // kept ÷ all of the texels, rounded; the two are bounded by the size of images.
         let wanted = (self.texels.len() * kept + all / 2) / all;
@@ -125,8 +125,8 @@ impl Level {
         // Alpha at the threshold becomes the cutoff, and what is less stays less.
         let threshold = u32::from(threshold.unwrap_or(1));
         for texel in &mut self.texels {
-            let scaled = u32::from(texel[3]) * u32::from(cutoff) / threshold;
-            texel[3] = u8::try_from(scaled).unwrap_or(255);
+            let scaled = (*texel >> ALPHA) * u32::from(cutoff) / threshold;
+            *texel = *texel & COLOR | scaled.min(255) << ALPHA;
         }
     }
 }
