@@ -14,6 +14,7 @@
 //!        ├─ pbr_materials   what physically based materials add
 //!        ├─ geometry        vertex buffers, unshared faces, back-to-front order
 //!        ├─ surface_program     a program of the caller's, in place of those of `shading`
+//!        ├─ material_programs   the shader of each surface, and what it reads
 //!        ├─ surface_pipelines   material programs × vertex streams -> pipelines
 //!        ├─ draw_plan       the draws, in order
 //!        ├─ frame_passes    the passes: one, or those of order-independent transparency
@@ -52,6 +53,7 @@ mod gradient;
 mod ground;
 mod guides;
 mod light;
+mod material_programs;
 mod materials;
 mod options;
 mod pbr_lighting;

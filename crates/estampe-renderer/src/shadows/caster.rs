@@ -2,10 +2,11 @@
 
 use crate::geometry::vertex_data::{MeshStreams, VertexStream};
 use crate::ground::ColumnMaps;
+use crate::material_programs::MaterialProgram;
 use crate::shading::pbr::textures::{MaterialTexture, UvChoice};
 use crate::shading::shadow_caster::{Caster, CutOut, CutOutCaster};
 use crate::surface_pipelines::{
-    FrameStyle, MaterialProgram, PipelineState, StreamPipeline, SurfaceAlpha, SurfaceStyle,
+    FrameStyle, PipelineState, StreamPipeline, SurfaceAlpha, SurfaceStyle,
 };
 use estampe::state::{DepthState, DepthStencilState, PrimitiveState};
 use estampe::{Device, Mat4, PipelineError};
