@@ -1,6 +1,6 @@
 //! The textures of a material with the channels that are read, and its extensions.
 
-use estampe_scene::{Material, PbrMaterial};
+use estampe_scene::{Material, NormalTexture, PbrMaterial, TextureRef};
 
 /// A texture of a material.
 #[derive(Debug, Clone, Copy)]
@@ -28,72 +28,42 @@ pub(super) fn textures(material: &Material) -> Vec<Use> {
         add("bump", material.bump_texture, "rgb");
         return uses;
     };
+    let image = |texture: Option<TextureRef>| texture.map(|found| found.image);
+    let normal = |texture: Option<NormalTexture>| texture.map(|found| found.texture.image);
+    add("base color", image(pbr.base_color_texture), "rgba");
     add(
-        "base color",
-        pbr.base_color_texture.map(|found| found.image),
-        "rgba",
+        "metallic-roughness",
+        image(pbr.metallic_roughness_texture),
+        "gb",
     );
-    let metal = pbr.metallic_roughness_texture.map(|found| found.image);
-    add("metallic-roughness", metal, "gb");
-    add(
-        "normal",
-        pbr.normal_texture.map(|found| found.texture.image),
-        "rgb",
-    );
-    add(
-        "occlusion",
-        pbr.occlusion_texture.map(|found| found.image),
-        "r",
-    );
-    add(
-        "emissive",
-        pbr.emissive_texture.map(|found| found.image),
-        "rgb",
-    );
+    add("normal", normal(pbr.normal_texture), "rgb");
+    add("occlusion", image(pbr.occlusion_texture), "r");
+    add("emissive", image(pbr.emissive_texture), "rgb");
     if let Some(layer) = pbr.specular {
-        add("specular", layer.texture.map(|found| found.image), "a");
-        add(
-            "specular color",
-            layer.color_texture.map(|found| found.image),
-            "rgb",
-        );
+        add("specular", image(layer.texture), "a");
+        add("specular color", image(layer.color_texture), "rgb");
     }
     if let Some(layer) = pbr.transmission {
-        add("transmission", layer.texture.map(|found| found.image), "r");
+        add("transmission", image(layer.texture), "r");
     }
     if let Some(layer) = pbr.volume {
-        add(
-            "thickness",
-            layer.thickness_texture.map(|found| found.image),
-            "g",
-        );
+        add("thickness", image(layer.thickness_texture), "g");
     }
     if let Some(layer) = pbr.clearcoat {
-        add("clearcoat", layer.texture.map(|found| found.image), "r");
-        let rough = layer.roughness_texture.map(|found| found.image);
-        add("clearcoat roughness", rough, "g");
-        let normal = layer.normal_texture.map(|found| found.texture.image);
-        add("clearcoat normal", normal, "rgb");
+        add("clearcoat", image(layer.texture), "r");
+        add("clearcoat roughness", image(layer.roughness_texture), "g");
+        add("clearcoat normal", normal(layer.normal_texture), "rgb");
     }
     if let Some(layer) = pbr.sheen {
-        add(
-            "sheen color",
-            layer.color_texture.map(|found| found.image),
-            "rgb",
-        );
-        add(
-            "sheen roughness",
-            layer.roughness_texture.map(|found| found.image),
-            "a",
-        );
+        add("sheen color", image(layer.color_texture), "rgb");
+        add("sheen roughness", image(layer.roughness_texture), "a");
     }
     if let Some(layer) = pbr.anisotropy {
-        add("anisotropy", layer.texture.map(|found| found.image), "rgb");
+        add("anisotropy", image(layer.texture), "rgb");
     }
     if let Some(layer) = pbr.iridescence {
-        add("iridescence", layer.texture.map(|found| found.image), "r");
-        let thick = layer.thickness_texture.map(|found| found.image);
-        add("iridescence thickness", thick, "g");
+        add("iridescence", image(layer.texture), "r");
+        add("iridescence thickness", image(layer.thickness_texture), "g");
     }
     uses
 }
