@@ -285,6 +285,7 @@ impl Source<'_> {
             }
             Self::WithOpacity(color, opacity) => {
                 // The two may have different sizes, so they are combined whole.
+                let origin = opacity.origin.clone();
                 let color = color.and_then(|color| tried(color, Wanted::WHOLE));
                 let opacity = tried(opacity, Wanted::WHOLE);
                 let image = match (color, opacity) {
@@ -300,7 +301,13 @@ impl Source<'_> {
                     let is_solid = alpha == AlphaMode::Opaque;
                     let reduction = wanted.of_alpha(is_solid, alpha);
                     if reduction.level > 0 {
-                        image = crate::image::reduced(&image, reduction, limits).ok()?;
+                        match crate::image::reduced(&image, reduction, limits) {
+                            Ok(reduced) => image = reduced,
+                            Err(error) => {
+                                failures.push((origin, error));
+                                return None;
+                            }
+                        }
                     }
                     Some(Reduced {
                         image,
