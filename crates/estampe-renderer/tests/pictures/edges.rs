@@ -241,6 +241,58 @@ fn pictures_of_one_flat_face_have_edges_by_themselves() {
     }
 }
 
+/// The base of a pyramid is one face that fills the view from above, and is hidden there: only what
+/// is seen counts, whichever way all faces are wound.
+#[test]
+fn hidden_faces_do_not_make_a_view_flat() {
+    let at = |x: f32, y: f32, z: f32| glam::Vec3::new(x, y, z);
+    let pyramid = |is_flipped: bool| {
+        let faces = [
+            [0, 1, 2],
+            [0, 2, 3],
+            [1, 0, 4],
+            [2, 1, 4],
+            [3, 2, 4],
+            [0, 3, 4],
+        ];
+        Scene {
+            meshes: vec![Mesh {
+                positions: vec![
+                    at(-1.0, 0.0, -1.0),
+                    at(1.0, 0.0, -1.0),
+                    at(1.0, 0.0, 1.0),
+                    at(-1.0, 0.0, 1.0),
+                    at(0.0, 1.5, 0.0),
+                ],
+                triangles: faces
+                    .map(|[a, b, c]| if is_flipped { [a, c, b] } else { [a, b, c] })
+                    .to_vec(),
+                ..Mesh::default()
+            }],
+            ..Scene::default()
+        }
+    };
+    let from = |elevation_deg: f64, is_on: bool| RenderOptions {
+        shading: Shading::Flat,
+        edges_of_flat_views: is_on,
+        ..options(
+            ViewDirection {
+                azimuth_deg: 0.0,
+                elevation_deg,
+            },
+            4,
+        )
+    };
+    for is_flipped in [false, true] {
+        let scene = pyramid(is_flipped);
+        for (elevation_deg, is_flat) in [(90.0, false), (-90.0, true)] {
+            let [plain, drawn] =
+                [false, true].map(|is_on| drawn_alike(&scene, &from(elevation_deg, is_on)).image);
+            assert_eq!(drawn != plain, is_flat, "{elevation_deg}, {is_flipped}");
+        }
+    }
+}
+
 #[test]
 fn edges_lie_over_every_shading_and_on_nothing() {
     let scene = scene(BuiltinShape::Torus);
