@@ -1,7 +1,7 @@
 //! Facts of a file that its scene does not keep: the tree of nodes, extensions, and which normals
 //! are made.
 
-/// What a file has besides its scene, for reports.
+/// The contents of a file besides its scene, for reports.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ModelContents {
     /// The nodes of the scene, parents before their children, in file order, at most

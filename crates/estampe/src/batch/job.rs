@@ -210,7 +210,7 @@ fn passes_of(pictures: &[&Picture], shot: &Shot) -> Vec<PassName> {
     passes.flatten().copied().collect()
 }
 
-/// What the passes of a shot are made of: it is drawn once for all of its files.
+/// The frames of a shot, from which its passes are made: it is drawn once for all of its files.
 #[derive(Default)]
 struct DrawnPasses(Option<(Shot, PassSources)>);
 

@@ -52,8 +52,7 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Image, AssetError> {
 /// [`decode`] of a level of the image, which is made of the decoded rows by several threads.
 ///
 /// A decoder that makes a smaller image of the frequencies was not chosen: its texels are others
-/// than those of the mip level, so pictures would change, and `jpeg-decoder`, which can, is only
-/// maintained since its users went over to `zune-jpeg`.
+/// than those of the mip level, so pictures would change.
 pub(super) fn decode_reduced(
     bytes: &[u8],
     reduction: Reduction,

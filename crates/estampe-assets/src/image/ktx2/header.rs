@@ -51,7 +51,7 @@ pub(super) struct Orientation {
     pub(super) is_upside_down: bool,
 }
 
-/// What a channel shows.
+/// The source of a channel of the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ChannelSource {
     Channel(usize),
@@ -160,7 +160,7 @@ pub(crate) enum BasisUniversal {
 }
 
 impl BasisUniversal {
-    /// What to do.
+    /// The advice of errors.
     pub(crate) const ADVICE: &str = "transcode it to a format of GPUs (`ktx transcode --target bc7 \
                                      IN.ktx2 OUT.ktx2`), or save it as PNG";
 

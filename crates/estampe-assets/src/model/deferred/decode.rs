@@ -90,7 +90,7 @@ pub(in crate::model) fn decode_all(
     kept
 }
 
-/// What is wanted of an image.
+/// The level that is wanted of an image, and the use of its alpha.
 #[derive(Debug, Clone, Copy)]
 struct Wanted {
     reduction: Reduction,

@@ -66,7 +66,7 @@ struct Finder<'d, 'a> {
     first_at: HashMap<Place, usize>,
 }
 
-/// What was found.
+/// The result of reading an image.
 enum Found {
     /// The index in the scene.
     Image(Option<usize>),

@@ -110,7 +110,7 @@ impl<R: Real> Film<R> {
     }
 }
 
-/// What one channel of the base makes of the light in the film.
+/// The light of one channel that film and base reflect.
 #[derive(Debug, Clone, Copy)]
 struct Below<R> {
     /// Without interference.

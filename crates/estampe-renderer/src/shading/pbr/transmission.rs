@@ -37,7 +37,7 @@ pub(crate) struct BehindView {
     pub(crate) background: Background,
 }
 
-/// What is behind all surfaces, as it is shown.
+/// The background, as it is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Background {
     /// Nothing.
@@ -89,7 +89,7 @@ pub(crate) struct PassedPoint<R> {
 pub(crate) struct Behind<R> {
     /// The share of light that passes instead of being diffused.
     pub(crate) share: R,
-    /// What the body leaves of it.
+    /// The share that the body leaves of it, by channel.
     pub(crate) tint: Vec3<R>,
     /// The light of opaque surfaces, times the coverage.
     pub(crate) light: Vec3<R>,
@@ -159,7 +159,7 @@ impl<R: Real> Behind<R> {
 }
 
 impl BehindView {
-    /// What is seen where the ray that is refracted by this index leaves the body.
+    /// The picture where the ray that is refracted by this index leaves the body.
     #[inline(always)]
     fn along_ray<R: Real>(
         &self,
@@ -180,7 +180,7 @@ impl BehindView {
         self.seen(picture, exit, point.roughness * blur)
     }
 
-    /// What is seen at a point in view space.
+    /// The picture at a point in view space: light, and coverage in alpha.
     #[inline(always)]
     fn seen<R: Real>(&self, picture: &SampledTexture, point: Vec3<R>, level: R) -> Vec4<R> {
         let clip = self.clip_from_view.transform_point(point);

@@ -41,7 +41,7 @@ impl NamedCamera {
     }
 }
 
-/// What is wrong, and where: a path as in `$[2].K[0][1]`.
+/// The place of a problem, a path as in `$[2].K[0][1]`, and the problem.
 type Problem = (String, String);
 
 /// The cameras of a file; those without a size have the default one.

@@ -204,7 +204,7 @@ impl<'a, P: Fn() -> String> Checked<'a, '_, '_, '_, P> {
     }
 }
 
-/// Whether the specification knows an attribute and its format.
+/// An attribute's name and format, as the specification sees them.
 enum Format {
     Allowed,
     Other,

@@ -94,7 +94,7 @@ fn fault_of_matrix(matrix: &[f64; 16]) -> Option<&'static str> {
     (determinant == 0.0).then_some("it has no inverse")
 }
 
-/// What nodes must know of their mesh, which many may share.
+/// Facts of a mesh for the rules of its nodes, of which there may be many.
 struct MeshFacts {
     has_joints: bool,
     targets: usize,

@@ -129,7 +129,7 @@ fn layers(n_dot_v: f32, roughness: f32) -> Vec<Layer> {
     layers
 }
 
-/// What a point reflects and what passes of white light from behind.
+/// The light that a point reflects, and the share that passes of white light from behind.
 fn all_light(Leaving { reflected, passing }: Leaving<f32>) -> [f32; 3] {
     let passing = passing.unwrap_or(vec([0.0; 3]));
     [
