@@ -63,6 +63,21 @@ pub struct PbrMaterial {
     pub iridescence: Option<Iridescence>,
 }
 
+impl PbrMaterial {
+    /// The set of texture coordinates along which the tangents of surfaces go: that of the normal
+    /// texture, else of the clearcoat's, else of the anisotropy's; `None` if nothing needs tangents.
+    #[must_use]
+    pub fn tangent_uv_set(&self) -> Option<u8> {
+        let coat = self.clearcoat.and_then(|coat| coat.normal_texture);
+        let map = self.normal_texture.or(coat);
+        let direction = self.anisotropy.map(|layer| {
+            let texture = layer.texture.map(|texture| texture.uv_set);
+            texture.unwrap_or_default()
+        });
+        map.map(|map| map.texture.uv_set).or(direction)
+    }
+}
+
 impl Default for PbrMaterial {
     /// glTF's defaults: white, metallic, rough.
     fn default() -> Self {

@@ -111,14 +111,7 @@ impl Planner<'_> {
         }
         mesh.surfaces.iter().find_map(|surface| {
             let material = self.scene.materials.get(surface.material?)?;
-            let pbr = material.pbr.as_ref()?;
-            let coat = pbr.clearcoat.and_then(|coat| coat.normal_texture);
-            let map = pbr.normal_texture.or(coat).map(|map| map.texture.uv_set);
-            let direction = pbr.anisotropy.map(|layer| {
-                let texture = layer.texture.map(|texture| texture.uv_set);
-                texture.unwrap_or_default()
-            });
-            map.or(direction)
+            material.pbr.as_ref()?.tangent_uv_set()
         })
     }
 

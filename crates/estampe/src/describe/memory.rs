@@ -2,7 +2,7 @@
 
 use crate::input::Model;
 use estampe_assets::ModelFormat;
-use estampe_scene::{Material, Mesh, Scene};
+use estampe_scene::{Mesh, Scene};
 
 /// Bytes of vertices with all attributes and of indices.
 pub(super) fn geometry_bytes(scene: &Scene) -> u64 {
@@ -54,24 +54,15 @@ pub(super) fn tangents(model: &Model, at: usize) -> Option<&'static str> {
         return Some(FILE);
     }
     let mut used = mesh.surfaces.iter().filter_map(|surface| surface.material);
-    let uv_set = used.find_map(|material| tangent_uv_set(&model.scene.materials[material]))?;
+    let uv_set = used.find_map(|material| {
+        let pbr = model.scene.materials[material].pbr.as_ref()?;
+        pbr.tangent_uv_set()
+    })?;
     let has_uvs = match uv_set {
         1 => mesh.attribute(Mesh::UV1).is_some(),
         _ => !mesh.uvs.is_empty(),
     };
     (has_uvs && !mesh.normals.is_empty()).then_some(MADE)
-}
-
-/// The texture coordinates along which a material's tangents go; `None` if it needs none.
-fn tangent_uv_set(material: &Material) -> Option<u8> {
-    let pbr = material.pbr.as_deref()?;
-    let coat = pbr.clearcoat.and_then(|coat| coat.normal_texture);
-    let map = pbr.normal_texture.or(coat).map(|map| map.texture.uv_set);
-    let direction = pbr.anisotropy.map(|layer| {
-        let texture = layer.texture.map(|texture| texture.uv_set);
-        texture.unwrap_or_default()
-    });
-    map.or(direction)
 }
 
 /// The attributes of a mesh besides positions, each with its source.
