@@ -65,7 +65,8 @@ pub struct PbrMaterial {
 
 impl PbrMaterial {
     /// The set of texture coordinates along which the tangents of surfaces go: that of the normal
-    /// texture, else of the clearcoat's, else of the anisotropy's; `None` if nothing needs tangents.
+    /// texture, else of the clearcoat's, else of the anisotropy's; `None` if nothing needs
+    /// tangents.
     #[must_use]
     pub fn tangent_uv_set(&self) -> Option<u8> {
         let coat = self.clearcoat.and_then(|coat| coat.normal_texture);
