@@ -61,7 +61,8 @@ mod pbr_materials;
 mod pixel_history;
 mod scene_view;
 mod section;
-mod shading;
+#[doc(hidden)]
+pub mod shading;
 mod shadows;
 mod strokes;
 mod surface_pipelines;

@@ -8,7 +8,7 @@ use estampe_scene::{Mesh, Workers};
 
 /// The attributes that surface shaders may read, in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum VertexStream {
+pub enum VertexStream {
     /// Three floats, unit space.
     Position,
     /// Three floats, object space.

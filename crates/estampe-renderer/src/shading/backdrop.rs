@@ -8,7 +8,7 @@ use estampe::{FragmentIn, FragmentOut, Real, Vec3, Vec4, VertexIn, VertexOut};
 ///
 /// With n + 1 colours c₀ … cₙ, the colour at t in 0..=1 is c₀ + Σ (cᵢ₊₁ − cᵢ)·sat(n·t − i).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Backdrop {
+pub struct Backdrop {
     place: Place,
     /// As [`oklab`] makes it.
     first: [f32; 4],
@@ -59,13 +59,13 @@ impl Backdrop {
 
     /// True if every colour is opaque.
     #[inline(always)]
-    pub(crate) fn is_opaque(&self) -> bool {
+    pub fn is_opaque(&self) -> bool {
         self.is_opaque
     }
 
     /// The colour: linear, or codes of pictures of numbers, multiplied by alpha; and alpha.
     #[inline(always)]
-    pub(crate) fn color<R: Real>(&self, input: &FragmentIn<'_, R>) -> Vec4<R> {
+    pub fn color<R: Real>(&self, input: &FragmentIn<'_, R>) -> Vec4<R> {
         let at = input.position;
         let place = match self.place {
             Place::Rows(per_pixel) => at.y * per_pixel,
@@ -107,7 +107,7 @@ fn product<R: Real>([x, y, z]: &[[f32; 3]; 3], v: Vec3<R>) -> Vec3<R> {
 
 /// The shader of the backdrop, on a triangle in clip space.
 #[derive(Debug, Clone)]
-pub(crate) struct BackdropSurface(pub(crate) Backdrop);
+pub struct BackdropSurface(pub(crate) Backdrop);
 
 estampe::shader! {
     impl Shader for BackdropSurface {

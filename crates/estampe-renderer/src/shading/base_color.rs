@@ -5,7 +5,7 @@ use super::bump::BumpMap;
 use estampe::{Attributes, FragmentIn, Real, SampledTexture, Varyings, Vec2, Vec4};
 
 /// The base colour: a part of a [`Surface`](super::surface::Surface).
-pub(crate) trait BaseColor: Send + Sync + 'static {
+pub trait BaseColor: Send + Sync + 'static {
     /// What a vertex has for it. It is interpolated unchanged.
     type Values<R: Real>: Attributes<R> + Varyings<R> + Copy;
 
@@ -21,7 +21,7 @@ pub(crate) trait BaseColor: Send + Sync + 'static {
 
 /// One colour: linear RGBA.
 #[derive(Debug, Clone)]
-pub(crate) struct Plain(pub(crate) [f32; 4]);
+pub struct Plain(pub [f32; 4]);
 
 impl BaseColor for Plain {
     type Values<R: Real> = ();
@@ -44,20 +44,20 @@ impl BaseColor for Plain {
 
 /// Vertex colours, or a texture, or both, or one colour with a bump map.
 #[derive(Debug, Clone)]
-pub(crate) struct Painted {
+pub struct Painted {
     /// Linear RGBA, multiplied by the texture and the vertex colour.
-    pub(crate) factor: [f32; 4],
+    pub factor: [f32; 4],
     /// The base-colour texture.
-    pub(crate) texture: Option<SampledTexture>,
+    pub texture: Option<SampledTexture>,
     /// Heights that bend the normals of fragments.
-    pub(crate) bump: Option<BumpMap>,
+    pub bump: Option<BumpMap>,
     /// Use of alpha.
-    pub(crate) alpha: Alpha,
+    pub alpha: Alpha,
 }
 
 /// Use of the texture's and the vertices' alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Alpha {
+pub enum Alpha {
     /// Alpha is 1.
     Ignored,
     /// Fragments below the cutoff are discarded, ½ if the material has none.

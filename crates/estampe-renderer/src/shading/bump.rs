@@ -16,22 +16,22 @@ use estampe::{Real, SampledTexture, Vec2, Vec3};
 
 /// A texture of heights.
 #[derive(Debug, Clone)]
-pub(crate) struct BumpMap {
+pub struct BumpMap {
     /// Linear; the height is the mean of red, green and blue.
-    pub(crate) texture: SampledTexture,
+    pub texture: SampledTexture,
     /// Height of white above black, relative to the size of the texture on the surface.
-    pub(crate) height: f32,
+    pub height: f32,
 }
 
 impl BumpMap {
     /// Height of white above black if the material's multiplier is 1, relative to the texture's
     /// size on the surface. (MTL does not define a unit.)
-    pub(crate) const UNIT_HEIGHT: f32 = 0.02;
+    pub const UNIT_HEIGHT: f32 = 0.02;
 
     /// The unit shading `normal` at a view-space position, bent; negated normals of back faces
     /// belong to the same heights, seen from below.
     #[inline(always)]
-    pub(crate) fn perturb<R: Real>(
+    pub fn perturb<R: Real>(
         &self,
         normal: Vec3<R>,
         view: Vec3<R>,

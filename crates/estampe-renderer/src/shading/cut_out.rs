@@ -8,22 +8,17 @@
 use estampe::{FragmentOut, Int, Real};
 
 /// With fewer samples edges are hard.
-pub(crate) const LEAST_SAMPLES: u32 = 4;
+pub const LEAST_SAMPLES: u32 = 4;
 
 /// The fragment where alpha is not below the cutoff.
 #[inline(always)]
-pub(crate) fn hard<R: Real>(out: FragmentOut<R>, alpha: R, cutoff: f32) -> FragmentOut<R> {
+pub fn hard<R: Real>(out: FragmentOut<R>, alpha: R, cutoff: f32) -> FragmentOut<R> {
     out.discard_unless(alpha.ge(cutoff))
 }
 
 /// The fragment in the share of its samples that is covered.
 #[inline(always)]
-pub(crate) fn smooth<R: Real>(
-    out: FragmentOut<R>,
-    alpha: R,
-    cutoff: f32,
-    samples: u16,
-) -> FragmentOut<R> {
+pub fn smooth<R: Real>(out: FragmentOut<R>, alpha: R, cutoff: f32, samples: u16) -> FragmentOut<R> {
     let samples = f32::from(samples);
     let count = (coverage(alpha, cutoff) * samples + 0.5).floor();
     // The first samples, as of alpha to coverage: 2ⁿ − 1, which is exact.

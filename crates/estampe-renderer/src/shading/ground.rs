@@ -5,10 +5,10 @@ use estampe::{FragmentIn, FragmentOut, SampledTexture, Vec2, Vec3, Vec4, VertexI
 
 /// The ground, which shows a shadow.
 #[derive(Debug, Clone)]
-pub(crate) struct GroundSurface {
-    pub(crate) transforms: VertexTransforms,
+pub struct GroundSurface {
+    pub transforms: VertexTransforms,
     /// The share of the light that is hidden.
-    pub(crate) hidden: SampledTexture,
+    pub hidden: SampledTexture,
 }
 
 estampe::shader! {

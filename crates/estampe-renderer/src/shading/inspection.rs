@@ -9,8 +9,8 @@ use estampe::{Flat, FragmentIn, FragmentOut, Real, Vec2, Vec3, Vec4, VertexIn, V
 
 /// Unit shading normals in view space, (n + 1)/2: red to the right, green up, blue towards the eye.
 #[derive(Debug, Clone)]
-pub(crate) struct Normals {
-    pub(crate) transforms: VertexTransforms,
+pub struct Normals {
+    pub transforms: VertexTransforms,
 }
 
 estampe::shader! {
@@ -42,12 +42,12 @@ estampe::shader! {
 
 /// Distance along the view direction: white at the model's nearest point, black at its furthest.
 #[derive(Debug, Clone)]
-pub(crate) struct DepthGrey {
-    pub(crate) transforms: VertexTransforms,
+pub struct DepthGrey {
+    pub transforms: VertexTransforms,
     /// Distance of the nearest point.
-    pub(crate) nearest: f32,
+    pub nearest: f32,
     /// Distance of the furthest point.
-    pub(crate) furthest: f32,
+    pub furthest: f32,
 }
 
 estampe::shader! {
@@ -73,8 +73,8 @@ estampe::shader! {
 
 /// Texture coordinates: u is red, v is green; outside 0..1 they repeat.
 #[derive(Debug, Clone)]
-pub(crate) struct UvColors {
-    pub(crate) transforms: VertexTransforms,
+pub struct UvColors {
+    pub transforms: VertexTransforms,
 }
 
 estampe::shader! {
@@ -106,8 +106,8 @@ fn wrapped<R: Real>(coordinate: R) -> R {
 
 /// The colours of faces.
 #[derive(Debug, Clone)]
-pub(crate) struct FaceColors {
-    pub(crate) transforms: VertexTransforms,
+pub struct FaceColors {
+    pub transforms: VertexTransforms,
 }
 
 estampe::shader! {
@@ -135,9 +135,9 @@ estampe::shader! {
 
 /// The colours of faces that are cut out where the alpha of the base colour is below ½.
 #[derive(Debug, Clone)]
-pub(crate) struct CutOutFaceColors {
-    pub(crate) transforms: VertexTransforms,
-    pub(crate) base: Painted,
+pub struct CutOutFaceColors {
+    pub transforms: VertexTransforms,
+    pub base: Painted,
 }
 
 estampe::shader! {
@@ -167,8 +167,8 @@ estampe::shader! {
 /// Barycentric coordinates, perspective-correct: the share of the first corner is red, of the
 /// second green, of the third blue.
 #[derive(Debug, Clone)]
-pub(crate) struct Barycentrics {
-    pub(crate) transforms: VertexTransforms,
+pub struct Barycentrics {
+    pub transforms: VertexTransforms,
 }
 
 estampe::shader! {
@@ -192,14 +192,14 @@ estampe::shader! {
 
 /// One fragment of the count of fragments; the target adds them.
 #[derive(Debug, Clone)]
-pub(crate) struct Overdraw {
-    pub(crate) transforms: VertexTransforms,
+pub struct Overdraw {
+    pub transforms: VertexTransforms,
 }
 
 impl Overdraw {
     /// What a fragment adds to an 8-bit target: the codes 32, 8 and 1. Red is full at 8 fragments,
     /// green at 32, and blue counts up to 255.
-    pub(crate) const ONE: [f32; 3] = [32.0 / 255.0, 8.0 / 255.0, 1.0 / 255.0];
+    pub const ONE: [f32; 3] = [32.0 / 255.0, 8.0 / 255.0, 1.0 / 255.0];
 }
 
 estampe::shader! {

@@ -9,7 +9,7 @@ use super::{VertexTransforms, shading_normal};
 use estampe::{Attributes, FragmentIn, Real, Varyings, Vec2, Vec3};
 
 /// Where the light is computed: a part of a [`Surface`](super::surface::Surface).
-pub(crate) trait Interpolation: Send + Sync + 'static {
+pub trait Interpolation: Send + Sync + 'static {
     /// What a vertex has beside its position.
     type Attributes<R: Real>: Attributes<R>;
     /// What is interpolated.
@@ -37,9 +37,9 @@ pub(crate) trait Interpolation: Send + Sync + 'static {
 
 /// Light at every fragment, with the interpolated normal.
 #[derive(Debug, Clone)]
-pub(crate) struct AtFragments {
-    pub(crate) transforms: VertexTransforms,
-    pub(crate) reflectance: Reflectance,
+pub struct AtFragments {
+    pub transforms: VertexTransforms,
+    pub reflectance: Reflectance,
 }
 
 impl Interpolation for AtFragments {
@@ -86,15 +86,15 @@ impl Interpolation for AtFragments {
 /// Light at the vertices. The facing of a triangle is known only after vertex shading, so light is
 /// computed for both sides, and the fragment selects one.
 #[derive(Debug, Clone)]
-pub(crate) struct AtVertices {
-    pub(crate) transforms: VertexTransforms,
-    pub(crate) reflectance: Reflectance,
-    pub(crate) viewer: Viewer,
+pub struct AtVertices {
+    pub transforms: VertexTransforms,
+    pub reflectance: Reflectance,
+    pub viewer: Viewer,
 }
 
 /// From where light at the vertices is seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Viewer {
+pub enum Viewer {
     /// From the eye.
     Eye,
     /// From infinitely far away, so that all vertices of a face have the same light, and in

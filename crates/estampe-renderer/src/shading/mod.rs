@@ -21,66 +21,71 @@
 //! | [`stroke`] | lines of a width, with smooth borders |
 //!
 //! Lighting is computed in view space, in linear light.
+//!
+//! The module is public for `tests/as_text` alone, which draws these shaders as the library has
+//! compiled them: as unit tests, they would be compiled a second time, which takes over a minute.
 
-pub(crate) mod backdrop;
-pub(crate) mod base_color;
-pub(crate) mod bump;
-pub(crate) mod cut_out;
-pub(crate) mod ground;
-pub(crate) mod inspection;
-pub(crate) mod interpolation;
-pub(crate) mod lighting;
-pub(crate) mod output;
-pub(crate) mod pbr;
-pub(crate) mod points_and_lines;
-pub(crate) mod shadow;
-pub(crate) mod shadow_caster;
-pub(crate) mod steps;
-pub(crate) mod stroke;
-pub(crate) mod surface;
-pub(crate) mod terms;
-pub(crate) mod wireframe;
+pub mod backdrop;
+pub mod base_color;
+pub mod bump;
+pub mod cut_out;
+pub mod ground;
+pub mod inspection;
+pub mod interpolation;
+pub mod lighting;
+pub mod output;
+pub mod pbr;
+pub mod points_and_lines;
+pub mod shadow;
+pub mod shadow_caster;
+pub mod steps;
+pub mod stroke;
+pub mod surface;
+pub mod terms;
+pub mod wireframe;
 
 #[cfg(test)]
 mod tests;
+
+pub use crate::geometry::vertex_data::VertexStream;
 
 use estampe::{Mat4, Real, Vec3, Vec4};
 
 /// The transforms of vertices.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct VertexTransforms {
+pub struct VertexTransforms {
     /// From unit space, the space of vertex buffers, to clip space.
-    pub(crate) clip_from_unit: Mat4,
+    pub clip_from_unit: Mat4,
     /// From unit space to view space.
-    pub(crate) view_from_unit: Mat4,
+    pub view_from_unit: Mat4,
     /// From object-space normals to view-space normals; a rotation.
-    pub(crate) view_from_object_normal: Mat4,
+    pub view_from_object_normal: Mat4,
     /// True if all rays to the eye are parallel.
-    pub(crate) is_orthographic: bool,
+    pub is_orthographic: bool,
 }
 
 impl VertexTransforms {
     /// Position in clip space.
     #[inline(always)]
-    pub(crate) fn clip<R: Real>(&self, position: Vec3<R>) -> Vec4<R> {
+    pub fn clip<R: Real>(&self, position: Vec3<R>) -> Vec4<R> {
         self.clip_from_unit.transform_point(position)
     }
 
     /// Position in view space.
     #[inline(always)]
-    pub(crate) fn view<R: Real>(&self, position: Vec3<R>) -> Vec3<R> {
+    pub fn view<R: Real>(&self, position: Vec3<R>) -> Vec3<R> {
         self.view_from_unit.transform_point(position).xyz()
     }
 
     /// Normal in view space.
     #[inline(always)]
-    pub(crate) fn normal<R: Real>(&self, normal: Vec3<R>) -> Vec3<R> {
+    pub fn normal<R: Real>(&self, normal: Vec3<R>) -> Vec3<R> {
         self.view_from_object_normal.transform_vector(normal)
     }
 
     /// Unit direction from a view-space point to the eye.
     #[inline(always)]
-    pub(crate) fn eye_direction<R: Real>(&self, position_view: Vec3<R>) -> Vec3<R> {
+    pub fn eye_direction<R: Real>(&self, position_view: Vec3<R>) -> Vec3<R> {
         if self.is_orthographic {
             Vec3::uniform(position_view.x, [0.0, 0.0, 1.0])
         } else {
@@ -92,7 +97,7 @@ impl VertexTransforms {
 /// The unit shading normal: `normal` normalised, and negated on back faces (two-sided lighting). If
 /// the vertices have no normal, it is `to_eye`, the direction to the eye.
 #[inline(always)]
-pub(crate) fn shading_normal<R: Real>(
+pub fn shading_normal<R: Real>(
     normal: Vec3<R>,
     to_eye: Vec3<R>,
     front_facing: R::SelectMask,

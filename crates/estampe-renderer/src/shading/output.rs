@@ -7,18 +7,18 @@ use estampe::{FragmentIn, Real, Vec3};
 
 /// The last step of a surface's shader.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Output {
+pub struct Output {
     /// What the default lights add, if they shine.
-    pub(crate) presentation: Option<Presentation>,
+    pub presentation: Option<Presentation>,
     /// Number of levels of each channel, in linear light.
-    pub(crate) levels: Option<u16>,
-    pub(crate) fog: Option<Fog>,
+    pub levels: Option<u16>,
+    pub fog: Option<Fog>,
 }
 
 impl Output {
     /// The colour that is written.
     #[inline(always)]
-    pub(crate) fn color<R: Real>(&self, input: &FragmentIn<'_, R>, color: Vec3<R>) -> Vec3<R> {
+    pub fn color<R: Real>(&self, input: &FragmentIn<'_, R>, color: Vec3<R>) -> Vec3<R> {
         let mut color = color;
         if let Some(presentation) = &self.presentation {
             color = presentation.color(input, color);
@@ -38,7 +38,7 @@ impl Output {
 
     /// The opacity of a surface behind the fog, which is opaque.
     #[inline(always)]
-    pub(crate) fn opacity<R: Real>(&self, input: &FragmentIn<'_, R>, opacity: R) -> R {
+    pub fn opacity<R: Real>(&self, input: &FragmentIn<'_, R>, opacity: R) -> R {
         match &self.fog {
             Some(fog) => opacity.mix(input.real(1.0), fog.share(input)),
             None => opacity,
@@ -59,14 +59,14 @@ impl Output {
 ///      └────┴──────────────
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Presentation {
+pub struct Presentation {
     /// Distance along the view direction of the model's nearest point.
-    pub(crate) nearest: f32,
+    pub nearest: f32,
     /// 1 ÷ the distance from there to its furthest point.
-    pub(crate) per_distance: f32,
+    pub per_distance: f32,
     /// Distance per unit of depth and at depth 0 in a parallel projection; in perspective the
     /// distance is w.
-    pub(crate) orthographic: Option<[f32; 2]>,
+    pub orthographic: Option<[f32; 2]>,
 }
 
 impl Presentation {
@@ -77,7 +77,7 @@ impl Presentation {
 
     /// The colour that is shown.
     #[inline(always)]
-    pub(crate) fn color<R: Real>(&self, input: &FragmentIn<'_, R>, color: Vec3<R>) -> Vec3<R> {
+    pub fn color<R: Real>(&self, input: &FragmentIn<'_, R>, color: Vec3<R>) -> Vec3<R> {
         let distance = match self.orthographic {
             Some([per_depth, nearest]) => input.position.z * per_depth + nearest,
             None => input.real(1.0) / input.position.w,
@@ -100,22 +100,22 @@ fn shown<R: Real>(channel: R) -> R {
 /// Fog that hides what is distant: C = (1 − γ)·C + γ·C_fog, γ = (‖p − eye‖ − start) ÷ (end − start)
 /// clamped to 0..=1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Fog {
+pub struct Fog {
     /// Linear colour.
-    pub(crate) color: [f32; 3],
+    pub color: [f32; 3],
     /// The opaque gradient whose colour it has instead.
-    pub(crate) backdrop: Option<Backdrop>,
+    pub backdrop: Option<Backdrop>,
     /// Distance up to which there is none.
-    pub(crate) start: f32,
+    pub start: f32,
     /// 1 ÷ (end − start): at `end` there is nothing but fog.
-    pub(crate) per_distance: f32,
-    pub(crate) eye_distance: EyeDistance,
+    pub per_distance: f32,
+    pub eye_distance: EyeDistance,
 }
 
 impl Fog {
     /// The colour behind the fog.
     #[inline(always)]
-    pub(crate) fn color<R: Real>(&self, input: &FragmentIn<'_, R>, color: Vec3<R>) -> Vec3<R> {
+    pub fn color<R: Real>(&self, input: &FragmentIn<'_, R>, color: Vec3<R>) -> Vec3<R> {
         let share = self.share(input);
         let fog = match &self.backdrop {
             Some(backdrop) => backdrop.color(input).xyz(),
@@ -137,7 +137,7 @@ impl Fog {
 /// In perspective, (x/w, y/w) and 1/w give the view position w·(a·X + b, c·Y + d, −1). In parallel
 /// projection all rays begin at the plane through the eye, and the distance is linear in depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum EyeDistance {
+pub enum EyeDistance {
     /// a, b and c, d.
     Perspective {
         /// Slope of the ray per pixel to the right, and at the window's left edge.

@@ -6,19 +6,19 @@ use estampe::{FragmentIn, FragmentOut, Vec3, Vec4, VertexIn, VertexOut};
 
 /// The shader of points and lines.
 #[derive(Debug, Clone)]
-pub(crate) struct PointsAndLines {
-    pub(crate) transforms: VertexTransforms,
+pub struct PointsAndLines {
+    pub transforms: VertexTransforms,
     /// Linear colour, multiplied by the vertex colour.
-    pub(crate) color: [f32; 3],
+    pub color: [f32; 3],
     /// Linear colour into which distant points fade (depth cueing).
-    pub(crate) distant_color: [f32; 3],
+    pub distant_color: [f32; 3],
     /// Share of this colour at the model's furthest point, in 0..=1; none at its nearest.
-    pub(crate) share_at_furthest: f32,
+    pub share_at_furthest: f32,
     /// Distances of the model's nearest and furthest point along the view direction.
-    pub(crate) depth_range: (f32, f32),
-    pub(crate) fog: Option<Fog>,
+    pub depth_range: (f32, f32),
+    pub fog: Option<Fog>,
     /// Width of a point, in pixels.
-    pub(crate) point_size_px: f32,
+    pub point_size_px: f32,
 }
 
 estampe::shader! {

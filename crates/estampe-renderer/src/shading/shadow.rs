@@ -10,47 +10,47 @@
 use estampe::{FragmentIn, Mat4, Real, Vec2, Vec3, sample_compare_sum};
 
 /// The most lights of a frame that cast shadows.
-pub(crate) const MAX_SHADOW_MAPS: usize = 4;
+pub const MAX_SHADOW_MAPS: usize = 4;
 
 /// The group at which the maps are bound, by number.
-pub(crate) const SHADOW_GROUP: u32 = 0;
+pub const SHADOW_GROUP: u32 = 0;
 
 /// Half of the filter's width, in texels, with the half texel that a comparison reaches.
-pub(crate) const FILTER_RADIUS: f32 = 2.5;
+pub const FILTER_RADIUS: f32 = 2.5;
 
 /// A map of what a light sees, as shaders look it up.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ShadowMapView {
+pub struct ShadowMapView {
     /// The number of the map.
-    pub(crate) binding: u32,
+    pub binding: u32,
     /// Its width and height in texels.
-    pub(crate) side: u32,
+    pub side: u32,
     /// From unit space to the map's clip space.
-    pub(crate) clip_from_unit: Mat4,
+    pub clip_from_unit: Mat4,
     /// From view space to the map's clip space.
-    pub(crate) clip_from_view: Mat4,
+    pub clip_from_view: Mat4,
     /// The map's axis: the unit direction in view space from the model's middle towards the light.
-    pub(crate) axis: [f32; 3],
+    pub axis: [f32; 3],
     /// 1 ÷ the side of the map.
-    pub(crate) texel: f32,
+    pub texel: f32,
     /// The length by which a point is moved along its normal if light grazes it, for w = 1.
-    pub(crate) normal_offset: f32,
+    pub normal_offset: f32,
 }
 
 /// The shares of each map's light that reach a point, by the maps' number.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Visibilities<R>(pub(crate) [R; MAX_SHADOW_MAPS]);
+pub struct Visibilities<R>(pub(crate) [R; MAX_SHADOW_MAPS]);
 
 impl<R: Real> Visibilities<R> {
     /// All light.
     #[inline(always)]
-    pub(crate) fn all(one: R) -> Self {
+    pub fn all(one: R) -> Self {
         Self([one; MAX_SHADOW_MAPS])
     }
 
     /// Of the light at a point in view space, with the unit normal of the side that is seen.
     #[inline(always)]
-    pub(crate) fn at(
+    pub fn at(
         maps: &[ShadowMapView],
         input: &FragmentIn<'_, R>,
         position: Vec3<R>,
@@ -65,7 +65,7 @@ impl<R: Real> Visibilities<R> {
 
     /// Of the light with this map; all if it has none.
     #[inline(always)]
-    pub(crate) fn of(&self, map: Option<usize>) -> Option<R> {
+    pub fn of(&self, map: Option<usize>) -> Option<R> {
         map.and_then(|number| self.0.get(number).copied())
     }
 }

@@ -5,8 +5,8 @@ use estampe::{FragmentIn, FragmentOut, Mat4, Vec2, Vec3, Vec4, VertexIn, VertexO
 
 /// Depths of a whole surface.
 #[derive(Debug, Clone)]
-pub(crate) struct Caster {
-    pub(crate) clip_from_unit: Mat4,
+pub struct Caster {
+    pub clip_from_unit: Mat4,
 }
 
 estampe::shader! {
@@ -26,18 +26,18 @@ estampe::shader! {
 
 /// Depths of a surface where its alpha is not below the cutoff.
 #[derive(Debug, Clone)]
-pub(crate) struct CutOutCaster {
-    pub(crate) clip_from_unit: Mat4,
-    pub(crate) cut_out: CutOut,
+pub struct CutOutCaster {
+    pub clip_from_unit: Mat4,
+    pub cut_out: CutOut,
 }
 
 /// The alpha of a surface with holes: that of the factor, the texture and the vertex colour,
 /// multiplied.
 #[derive(Debug, Clone)]
-pub(crate) struct CutOut {
-    pub(crate) factor: f32,
-    pub(crate) texture: Option<MaterialTexture>,
-    pub(crate) cutoff: f32,
+pub struct CutOut {
+    pub factor: f32,
+    pub texture: Option<MaterialTexture>,
+    pub cutoff: f32,
 }
 
 estampe::shader! {

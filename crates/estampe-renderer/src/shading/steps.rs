@@ -13,7 +13,7 @@ use estampe::Real;
 ///
 /// The minimum is for I ≥ 1, which would be more levels; negative values and NaN are the level 0.
 #[inline(always)]
-pub(crate) fn quantised<R: Real>(value: R, levels: u16) -> R {
+pub fn quantised<R: Real>(value: R, levels: u16) -> R {
     let n = f32::from(levels.max(2));
     (value.max(0.0) * n).floor().min(value.splat(n - 1.0)) / (n - 1.0)
 }

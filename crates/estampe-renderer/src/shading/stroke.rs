@@ -12,9 +12,9 @@ use estampe::{FragmentIn, FragmentOut, Vec3, Vec4, VertexIn, VertexOut};
 
 /// Strokes of one colour.
 #[derive(Debug, Clone)]
-pub(crate) struct StrokeShader {
+pub struct StrokeShader {
     /// Linear colour, not multiplied by alpha.
-    pub(crate) color: [f32; 3],
+    pub color: [f32; 3],
 }
 
 estampe::shader! {

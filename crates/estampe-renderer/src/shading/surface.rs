@@ -23,26 +23,26 @@ use estampe::{FragmentIn, FragmentOut, Real, Vec3, Vec4, VertexIn, VertexOut};
 use estampe_transparency::{DepthOrder, weighted_fragment};
 
 /// The order of depths of all cameras: 0 at the near plane.
-pub(crate) const DEPTH_ORDER: DepthOrder = DepthOrder::NearIsZero;
+pub const DEPTH_ORDER: DepthOrder = DepthOrder::NearIsZero;
 
 /// A surface.
 #[derive(Debug, Clone)]
-pub(crate) struct Surface<B, I> {
-    pub(crate) base_color: B,
-    pub(crate) interpolation: I,
-    pub(crate) output: Output,
-    pub(crate) written: Written,
+pub struct Surface<B, I> {
+    pub base_color: B,
+    pub interpolation: I,
+    pub output: Output,
+    pub written: Written,
 }
 
 /// The greatest number of binary16.
-pub(crate) const MOST_LIGHT: f32 = 65_504.0;
+pub const MOST_LIGHT: f32 = 65_504.0;
 
 /// The brightest fragment of a frame of light: sums of samples and of layers stay finite.
-pub(crate) const MOST_UNCLAMPED: f32 = 1e30;
+pub const MOST_UNCLAMPED: f32 = 1e30;
 
 /// What a fragment writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Written {
+pub enum Written {
     /// Colour and alpha.
     #[default]
     Color,
@@ -59,11 +59,7 @@ pub(crate) enum Written {
 impl Written {
     /// What is written of a colour.
     #[inline(always)]
-    pub(crate) fn fragment<R: Real>(
-        self,
-        input: &FragmentIn<'_, R>,
-        color: Vec4<R>,
-    ) -> FragmentOut<R> {
+    pub fn fragment<R: Real>(self, input: &FragmentIn<'_, R>, color: Vec4<R>) -> FragmentOut<R> {
         match self {
             Self::Color => FragmentOut::color(color),
             Self::Light => {

@@ -8,15 +8,15 @@ use std::sync::Arc;
 
 /// The terms of a surface, with its lights.
 #[derive(Debug, Clone)]
-pub(crate) struct Reflectance {
-    pub(crate) lights: Arc<Lights>,
-    pub(crate) gloss: Gloss,
-    pub(crate) terms: Terms,
+pub struct Reflectance {
+    pub lights: Arc<Lights>,
+    pub gloss: Gloss,
+    pub terms: Terms,
 }
 
 /// The terms of the illumination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Terms {
+pub enum Terms {
     /// Ambient, diffuse and specular light.
     All,
     /// The diffuse light in this many steps between shade and full light, without a highlight.
@@ -28,7 +28,7 @@ pub(crate) enum Terms {
 impl Reflectance {
     /// The light on a point, which may be interpolated before [`Self::color`] uses it.
     #[inline(always)]
-    pub(crate) fn light<R: Real>(&self, point: SurfacePoint<R>) -> Illumination<R> {
+    pub fn light<R: Real>(&self, point: SurfacePoint<R>) -> Illumination<R> {
         let emissive = Vec3::uniform(point.normal.x, self.gloss.emissive);
         match self.terms {
             Terms::All => self.lights.illuminate(&self.gloss, point),
@@ -45,7 +45,7 @@ impl Reflectance {
 
     /// The base colour in this light.
     #[inline(always)]
-    pub(crate) fn color<R: Real>(&self, base: Vec3<R>, light: Illumination<R>) -> Vec3<R> {
+    pub fn color<R: Real>(&self, base: Vec3<R>, light: Illumination<R>) -> Vec3<R> {
         const SHADE: f32 = 0.3;
         const FULL: f32 = 1.0;
         match self.terms {

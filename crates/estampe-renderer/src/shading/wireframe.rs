@@ -12,17 +12,17 @@ use estampe::{FragmentIn, FragmentOut, Real, Vec3, Vec4, VertexIn, VertexOut};
 
 /// The shader of hidden-line drawings.
 #[derive(Debug, Clone)]
-pub(crate) struct Wireframe {
-    pub(crate) transforms: VertexTransforms,
+pub struct Wireframe {
+    pub transforms: VertexTransforms,
     /// Linear colour and alpha of the edges.
-    pub(crate) line: [f32; 4],
+    pub line: [f32; 4],
     /// Linear premultiplied colour and alpha of the faces: those of the background, or nothing over
     /// shaded surfaces.
-    pub(crate) face: [f32; 4],
+    pub face: [f32; 4],
     /// The gradient over the background, which faces then have.
-    pub(crate) backdrop: Option<Backdrop>,
+    pub backdrop: Option<Backdrop>,
     /// Half of an edge's width, in pixels; each of the two triangles at an edge draws one half.
-    pub(crate) half_width_px: f32,
+    pub half_width_px: f32,
 }
 
 estampe::shader! {

@@ -5,53 +5,53 @@ use estampe::{Real, Vec3};
 
 /// A light in view space.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ViewLight<Source> {
+pub struct ViewLight<Source> {
     /// Where the light comes from.
-    pub(crate) source: Source,
+    pub source: Source,
     /// Linear colour times intensity, not negative.
-    pub(crate) color: [f32; 3],
+    pub color: [f32; 3],
     /// Strength of its highlights, multiplied by the surface's specular colour.
-    pub(crate) highlight: f32,
+    pub highlight: f32,
     /// The number of its shadow map, if it has one.
-    pub(crate) shadow_map: Option<usize>,
+    pub shadow_map: Option<usize>,
 }
 
 /// Light from infinitely far away: the unit direction towards it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Directional(pub(crate) [f32; 3]);
+pub struct Directional(pub [f32; 3]);
 
 /// Light from a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Positional {
+pub struct Positional {
     /// The point, in view space.
-    pub(crate) position: [f32; 3],
+    pub position: [f32; 3],
     /// 1 ÷ the distance at which the light ends, in view space; 0 if it never ends.
-    pub(crate) inverse_reach: f32,
+    pub inverse_reach: f32,
 }
 
 /// All lights of a frame.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Lights {
+pub struct Lights {
     /// Lights with a direction.
-    pub(crate) directional: Vec<ViewLight<Directional>>,
+    pub directional: Vec<ViewLight<Directional>>,
     /// Lights with a position.
-    pub(crate) positional: Vec<ViewLight<Positional>>,
+    pub positional: Vec<ViewLight<Positional>>,
     /// The shadow maps of lights.
-    pub(crate) shadow_maps: Vec<ShadowMapView>,
+    pub shadow_maps: Vec<ShadowMapView>,
     /// Ambient light on normals that point up in view space (hemispheric ambient light).
-    pub(crate) sky: [f32; 3],
+    pub sky: [f32; 3],
     /// Ambient light on normals that point down; between the two it is interpolated linearly.
-    pub(crate) ground: [f32; 3],
+    pub ground: [f32; 3],
 }
 
 /// The default ambient light.
-pub(crate) const DEFAULT_AMBIENT: f32 = 0.18;
+pub const DEFAULT_AMBIENT: f32 = 0.18;
 
 impl Lights {
     /// The default lights, fixed to the camera: a key light from above on the left, a fill light
     /// from the right, a rim light from behind, and ambient light that is a little stronger from
     /// above.
-    pub(crate) fn studio(ambient: f32) -> Self {
+    pub fn studio(ambient: f32) -> Self {
         let light = |towards: [f64; 3], intensity: f32, tint: [f32; 3], highlight: f32| {
             let unit = glam::DVec3::from(towards).normalize().as_vec3();
             let color = tint.map(|c| c * intensity);
@@ -76,7 +76,7 @@ impl Lights {
     }
 
     /// Ambient light alone, which does not depend on the normal.
-    pub(crate) fn with_uniform_ambient(ambient: f32) -> Self {
+    pub fn with_uniform_ambient(ambient: f32) -> Self {
         Self {
             directional: Vec::new(),
             positional: Vec::new(),
@@ -88,7 +88,7 @@ impl Lights {
 
     /// Ambient light on a unit normal.
     #[inline(always)]
-    pub(crate) fn ambient<R: Real>(&self, normal: Vec3<R>) -> Vec3<R> {
+    pub fn ambient<R: Real>(&self, normal: Vec3<R>) -> Vec3<R> {
         let upward = normal.y * 0.5 + 0.5;
         Vec3::uniform(upward, self.ground).mix(Vec3::uniform(upward, self.sky), upward)
     }
@@ -99,7 +99,7 @@ impl Positional {
     /// there: 1 − min(distance ÷ reach, 1). At the light itself the direction is zero, so nothing
     /// is lit.
     #[inline(always)]
-    pub(crate) fn arrive<R: Real>(&self, point: Vec3<R>) -> (Vec3<R>, R) {
+    pub fn arrive<R: Real>(&self, point: Vec3<R>) -> (Vec3<R>, R) {
         const NEAREST: f32 = 1e-18;
         let way = Vec3::uniform(point.x, self.position) - point;
         let distance = way.length();
@@ -109,6 +109,6 @@ impl Positional {
 }
 
 /// Luminance of a linear colour (Rec. 709).
-pub(crate) fn luminance([r, g, b]: [f32; 3]) -> f32 {
+pub fn luminance([r, g, b]: [f32; 3]) -> f32 {
     r * 0.2126 + g * 0.7152 + b * 0.0722
 }

@@ -18,27 +18,27 @@
 
 mod lights;
 
-pub(crate) use lights::{DEFAULT_AMBIENT, Directional, Lights, Positional, ViewLight, luminance};
+pub use lights::{DEFAULT_AMBIENT, Directional, Lights, Positional, ViewLight, luminance};
 
 use super::shadow::Visibilities;
 use estampe::{Real, Vec3, maths};
 
 /// Reflection and emission of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Gloss {
+pub struct Gloss {
     /// Specular colour, linear.
-    pub(crate) specular: [f32; 3],
+    pub specular: [f32; 3],
     /// Specular exponent, a whole number, so that powers are a few products.
-    pub(crate) shininess: u32,
+    pub shininess: u32,
     /// Emitted light, linear.
-    pub(crate) emissive: [f32; 3],
+    pub emissive: [f32; 3],
     /// The cosine that is raised to the exponent.
-    pub(crate) highlight: Highlight,
+    pub highlight: Highlight,
 }
 
 /// The cosine of the specular term.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Highlight {
+pub enum Highlight {
     /// r·v, of the reflected light and the direction to the eye.
     Reflection,
     /// n·h, of the normal and the half vector.
@@ -47,33 +47,29 @@ pub(crate) enum Highlight {
 
 /// A point of a surface, in view space.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct SurfacePoint<R> {
-    pub(crate) position: Vec3<R>,
+pub struct SurfacePoint<R> {
+    pub position: Vec3<R>,
     /// Unit shading normal.
-    pub(crate) normal: Vec3<R>,
+    pub normal: Vec3<R>,
     /// Unit direction to the eye.
-    pub(crate) to_eye: Vec3<R>,
+    pub to_eye: Vec3<R>,
     /// The shares of the lights that reach it.
-    pub(crate) visibilities: Visibilities<R>,
+    pub visibilities: Visibilities<R>,
 }
 
 /// Light at a point: a factor of the base colour, and light that is added.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Illumination<R> {
+pub struct Illumination<R> {
     /// Ambient and diffuse light.
-    pub(crate) diffuse: Vec3<R>,
+    pub diffuse: Vec3<R>,
     /// Specular and emitted light.
-    pub(crate) added: Vec3<R>,
+    pub added: Vec3<R>,
 }
 
 impl Lights {
     /// The light on a point of a surface.
     #[inline(always)]
-    pub(crate) fn illuminate<R: Real>(
-        &self,
-        gloss: &Gloss,
-        point: SurfacePoint<R>,
-    ) -> Illumination<R> {
+    pub fn illuminate<R: Real>(&self, gloss: &Gloss, point: SurfacePoint<R>) -> Illumination<R> {
         let zero = point.normal.x.splat(0.0);
         let mut sum = Illumination {
             diffuse: self.ambient(point.normal),
@@ -116,7 +112,7 @@ impl Lights {
     /// Share of the lights' diffuse light that falls on a point, weighted by their luminances: 0
     /// dark, 1 fully lit.
     #[inline(always)]
-    pub(crate) fn lit_fraction<R: Real>(&self, point: SurfacePoint<R>) -> R {
+    pub fn lit_fraction<R: Real>(&self, point: SurfacePoint<R>) -> R {
         let zero = point.normal.x.splat(0.0);
         let mut sum = zero;
         for light in &self.directional {

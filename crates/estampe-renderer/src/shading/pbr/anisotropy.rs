@@ -19,20 +19,20 @@ use std::f32::consts::FRAC_1_PI;
 
 /// The grooves of a surface at a point.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Grooves<R> {
+pub struct Grooves<R> {
     /// Unit direction across the normal in which the highlight is stretched.
-    pub(crate) tangent: Vec3<R>,
+    pub tangent: Vec3<R>,
     /// cross(normal, tangent).
-    pub(crate) bitangent: Vec3<R>,
+    pub bitangent: Vec3<R>,
     /// 0 to 1.
-    pub(crate) strength: R,
+    pub strength: R,
 }
 
 /// The α of GGX along the tangent and along the bitangent.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Alphas<R> {
-    pub(crate) tangent: R,
-    pub(crate) bitangent: R,
+pub struct Alphas<R> {
+    pub tangent: R,
+    pub bitangent: R,
 }
 
 impl<R: Real> Grooves<R> {
@@ -42,7 +42,7 @@ impl<R: Real> Grooves<R> {
     /// The direction is laid across the shading normal, so that the lobe is normalised where a
     /// normal map bends it.
     #[inline(always)]
-    pub(crate) fn new(
+    pub fn new(
         parameters: &AnisotropyParameters,
         uvs: (Vec2<R>, Vec2<R>),
         [tangent, bitangent]: [Vec3<R>; 2],
@@ -81,7 +81,7 @@ impl<R: Real> Grooves<R> {
 
     /// The α of both directions, given that of the material.
     #[inline(always)]
-    pub(crate) fn alphas(&self, alpha: R) -> Alphas<R> {
+    pub fn alphas(&self, alpha: R) -> Alphas<R> {
         Alphas {
             tangent: alpha + (1.0 - alpha) * (self.strength * self.strength),
             bitangent: alpha,
@@ -90,7 +90,7 @@ impl<R: Real> Grooves<R> {
 
     /// The density of half vectors.
     #[inline(always)]
-    pub(crate) fn density(&self, half: Vec3<R>, n_dot_h: R, alphas: Alphas<R>) -> R {
+    pub fn density(&self, half: Vec3<R>, n_dot_h: R, alphas: Alphas<R>) -> R {
         let product = alphas.tangent * alphas.bitangent;
         let scaled = Vec3::new(
             self.tangent.dot(half) * alphas.bitangent,
@@ -103,7 +103,7 @@ impl<R: Real> Grooves<R> {
 
     /// The visibility, masking and shadowing ÷ 4(n·l)(n·v).
     #[inline(always)]
-    pub(crate) fn visibility(
+    pub fn visibility(
         &self,
         (to_eye, n_dot_v): (Vec3<R>, R),
         (towards, n_dot_l): (Vec3<R>, R),
@@ -125,7 +125,7 @@ impl<R: Real> Grooves<R> {
     /// The normal by which the surroundings are mirrored: bent towards the eye across the grooves,
     /// as the extension's sample renderer does (after Filament).
     #[inline(always)]
-    pub(crate) fn bent_normal(&self, normal: Vec3<R>, to_eye: Vec3<R>, roughness: R) -> Vec3<R> {
+    pub fn bent_normal(&self, normal: Vec3<R>, to_eye: Vec3<R>, roughness: R) -> Vec3<R> {
         let across = self.bitangent.cross(to_eye);
         let facing = across.cross(self.bitangent);
         let kept = 1.0 - self.strength * (1.0 - roughness);
@@ -145,11 +145,7 @@ impl<R: Real> Grooves<R> {
     /// most 0.067·s too great and 0.036 too small. What is reflected between facets is computed for
     /// a loss that is 0.045·s less, so that no surface reflects 1 % more than it gets.
     #[inline(always)]
-    pub(crate) fn equivalent(
-        &self,
-        (to_eye, n_dot_v): (Vec3<R>, R),
-        alphas: Alphas<R>,
-    ) -> Equivalent<R> {
+    pub fn equivalent(&self, (to_eye, n_dot_v): (Vec3<R>, R), alphas: Alphas<R>) -> Equivalent<R> {
         const UNCERTAIN: f32 = 0.045;
         let Alphas { tangent, bitangent } = alphas;
         let along = self.tangent.dot(to_eye);
@@ -166,10 +162,10 @@ impl<R: Real> Grooves<R> {
 
 /// A surface without grooves that reflects about as much.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Equivalent<R> {
-    pub(crate) cosine: R,
+pub struct Equivalent<R> {
+    pub cosine: R,
     /// Perceptual.
-    pub(crate) roughness: R,
+    pub roughness: R,
     /// By how much less light between facets is assumed to be lost.
-    pub(crate) uncertain: R,
+    pub uncertain: R,
 }

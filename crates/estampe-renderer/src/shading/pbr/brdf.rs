@@ -18,7 +18,7 @@ use std::f32::consts::{FRAC_1_PI, TAU};
 
 /// The α of a perceptual roughness; at least that of a highlight which a pixel can show.
 #[inline(always)]
-pub(crate) fn alpha<R: Real>(roughness: R) -> R {
+pub fn alpha<R: Real>(roughness: R) -> R {
     /// Of roughness 0.045.
     const LEAST: f32 = 0.002;
     (roughness * roughness).max(LEAST)
@@ -27,7 +27,7 @@ pub(crate) fn alpha<R: Real>(roughness: R) -> R {
 /// The density of half vectors. `sin_squared` is ‖n × h‖², which near the normal has digits that
 /// 1 − (n·h)² has lost.
 #[inline(always)]
-pub(crate) fn density_ggx<R: Real>(n_dot_h: R, sin_squared: R, alpha: R) -> R {
+pub fn density_ggx<R: Real>(n_dot_h: R, sin_squared: R, alpha: R) -> R {
     let scaled = n_dot_h * alpha;
     let ratio = alpha / (scaled * scaled + sin_squared);
     ratio * ratio * FRAC_1_PI
@@ -35,7 +35,7 @@ pub(crate) fn density_ggx<R: Real>(n_dot_h: R, sin_squared: R, alpha: R) -> R {
 
 /// The visibility, masking and shadowing ÷ 4(n·l)(n·v).
 #[inline(always)]
-pub(crate) fn visibility_ggx<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
+pub fn visibility_ggx<R: Real>(n_dot_l: R, n_dot_v: R, alpha: R) -> R {
     let squared = alpha * alpha;
     let sum = n_dot_l * masked(n_dot_v, squared) + n_dot_v * masked(n_dot_l, squared);
     0.5 / sum.max(1e-6)
@@ -49,13 +49,13 @@ fn masked<R: Real>(cosine: R, alpha_squared: R) -> R {
 
 /// The weight of F90: (1 − cos)⁵.
 #[inline(always)]
-pub(crate) fn schlick<R: Real>(cosine: R) -> R {
+pub fn schlick<R: Real>(cosine: R) -> R {
     maths::powi((1.0 - cosine).saturate(), 5)
 }
 
 /// The α of a sheen's perceptual roughness.
 #[inline(always)]
-pub(crate) fn sheen_alpha<R: Real>(roughness: R) -> R {
+pub fn sheen_alpha<R: Real>(roughness: R) -> R {
     /// Of roughness 0.07.
     const LEAST: f32 = 0.005;
     (roughness * roughness).max(LEAST)
@@ -63,7 +63,7 @@ pub(crate) fn sheen_alpha<R: Real>(roughness: R) -> R {
 
 /// The density of the half vectors of fibres.
 #[inline(always)]
-pub(crate) fn density_sheen<R: Real>(n_dot_h: R, alpha: R) -> R {
+pub fn density_sheen<R: Real>(n_dot_h: R, alpha: R) -> R {
     let inverse = 1.0 / alpha;
     let sin_squared = (1.0 - n_dot_h * n_dot_h).max(1e-7);
     (inverse + 2.0) * sin_squared.pow(inverse * 0.5) * (1.0 / TAU)
@@ -71,6 +71,6 @@ pub(crate) fn density_sheen<R: Real>(n_dot_h: R, alpha: R) -> R {
 
 /// The visibility of fibres.
 #[inline(always)]
-pub(crate) fn visibility_sheen<R: Real>(n_dot_l: R, n_dot_v: R) -> R {
+pub fn visibility_sheen<R: Real>(n_dot_l: R, n_dot_v: R) -> R {
     0.25 / (n_dot_l + n_dot_v - n_dot_l * n_dot_v).max(1e-6)
 }

@@ -10,36 +10,36 @@ use estampe::{
 
 /// Light from all around, as shaders read it.
 #[derive(Debug, Clone)]
-pub(crate) struct EnvironmentLight {
+pub struct EnvironmentLight {
     /// Radiance by direction, a level for each roughness.
-    pub(crate) specular: SampledTexture,
+    pub specular: SampledTexture,
     /// The level of roughness 1.
-    pub(crate) roughest_level: f32,
+    pub roughest_level: f32,
     /// Coefficients of irradiance ÷ π.
-    pub(crate) diffuse: [[f32; 3]; 9],
+    pub diffuse: [[f32; 3]; 9],
     /// From view space to that of the map; a rotation.
-    pub(crate) map_from_view: Mat4,
+    pub map_from_view: Mat4,
     /// Reflected shares, by n·v and roughness.
-    pub(crate) albedos: SampledTexture,
+    pub albedos: SampledTexture,
     /// What casts a shadow, if something does.
-    pub(crate) key: Option<KeyLight>,
+    pub key: Option<KeyLight>,
 }
 
 /// The part of the light that comes from about one direction: parallel light with the same vector
 /// irradiance (the linear coefficients of the spherical harmonics).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct KeyLight {
+pub struct KeyLight {
     /// Unit direction towards it, in view space.
-    pub(crate) towards_view: [f32; 3],
+    pub towards_view: [f32; 3],
     /// Irradiance ÷ π of a surface that faces it.
-    pub(crate) color: [f32; 3],
+    pub color: [f32; 3],
     /// The number of its shadow map.
-    pub(crate) shadow_map: usize,
+    pub shadow_map: usize,
 }
 
 /// The light from all around where a key light is in shadow.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Shaded<R> {
+pub struct Shaded<R> {
     /// The share of the key light that does not arrive.
     hidden: R,
     key: KeyLight,
@@ -47,18 +47,18 @@ pub(crate) struct Shaded<R> {
 
 /// Shares of the light of uniform surroundings that lobes reflect.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct DirectionalAlbedo<R> {
+pub struct DirectionalAlbedo<R> {
     /// Of GGX, times F0.
-    pub(crate) scale: R,
+    pub scale: R,
     /// Of GGX, times F90.
-    pub(crate) bias: R,
+    pub bias: R,
     /// Of a sheen.
-    pub(crate) sheen: R,
+    pub sheen: R,
 }
 
 impl EnvironmentLight {
     /// The textures of a map whose radiance is multiplied by `intensity`.
-    pub(crate) fn new(
+    pub fn new(
         device: &Device,
         map: &EnvironmentMap,
         map_from_view: Mat4,
@@ -92,7 +92,7 @@ impl EnvironmentLight {
     /// that faces it: irradiance ÷ π. `None` if all directions are as bright as the opposite ones.
     ///
     /// Parallel light of irradiance C has the linear coefficients C/2 times its direction.
-    pub(crate) fn brightest(&self) -> Option<(glam::Vec3, [f32; 3])> {
+    pub fn brightest(&self) -> Option<(glam::Vec3, [f32; 3])> {
         /// The least share of the light that is worth a shadow.
         const LEAST: f32 = 0.02;
         let [constant, x, y, z, ..] = self.diffuse;
@@ -109,13 +109,13 @@ impl EnvironmentLight {
     }
 
     /// Says which part casts a shadow.
-    pub(crate) fn set_key(&mut self, key: KeyLight) {
+    pub fn set_key(&mut self, key: KeyLight) {
         self.key = Some(key);
     }
 
     /// What is in shadow at a point, if something casts one.
     #[inline(always)]
-    pub(crate) fn shaded<R: Real>(&self, visibilities: &Visibilities<R>) -> Option<Shaded<R>> {
+    pub fn shaded<R: Real>(&self, visibilities: &Visibilities<R>) -> Option<Shaded<R>> {
         let key = self.key?;
         let visible = visibilities.of(Some(key.shadow_map))?;
         Some(Shaded {
@@ -126,7 +126,7 @@ impl EnvironmentLight {
 
     /// The shares that lobes of a roughness reflect.
     #[inline(always)]
-    pub(crate) fn albedo<R: Real>(&self, n_dot_v: R, roughness: R) -> DirectionalAlbedo<R> {
+    pub fn albedo<R: Real>(&self, n_dot_v: R, roughness: R) -> DirectionalAlbedo<R> {
         let side = f32::from(ALBEDO_SIDE);
         // The first and the last entry are 0 and 1.
         let (scale, offset) = ((side - 1.0) / side, 0.5 / side);
@@ -142,7 +142,7 @@ impl EnvironmentLight {
 
     /// The mean radiance in the lobe of a roughness around a direction in view space.
     #[inline(always)]
-    pub(crate) fn radiance<R: Real>(&self, direction_view: Vec3<R>, roughness: R) -> Vec3<R> {
+    pub fn radiance<R: Real>(&self, direction_view: Vec3<R>, roughness: R) -> Vec3<R> {
         let direction = self.map_from_view.transform_vector(direction_view);
         let level = roughness * self.roughest_level;
         self.specular.sample_level(direction, level).xyz()
@@ -150,7 +150,7 @@ impl EnvironmentLight {
 
     /// The irradiance ÷ π of a unit normal in view space.
     #[inline(always)]
-    pub(crate) fn irradiance<R: Real>(&self, normal_view: Vec3<R>) -> Vec3<R> {
+    pub fn irradiance<R: Real>(&self, normal_view: Vec3<R>) -> Vec3<R> {
         let n = self.map_from_view.transform_vector(normal_view);
         let values = [
             n.x,
@@ -174,7 +174,7 @@ impl EnvironmentLight {
 impl<R: Real> Shaded<R> {
     /// The irradiance without what is hidden of the key light.
     #[inline(always)]
-    pub(crate) fn irradiance(&self, whole: Vec3<R>, normal_view: Vec3<R>) -> Vec3<R> {
+    pub fn irradiance(&self, whole: Vec3<R>, normal_view: Vec3<R>) -> Vec3<R> {
         let zero = self.hidden.splat(0.0);
         let lit = normal_view.dot_uniform(self.key.towards_view).max(zero);
         let rest = whole - Vec3::uniform(zero, self.key.color) * (lit * self.hidden);
@@ -184,7 +184,7 @@ impl<R: Real> Shaded<R> {
     /// The share of the light around a direction that remains, given the irradiance of a surface
     /// that faces there.
     #[inline(always)]
-    pub(crate) fn mirrored(&self, irradiance: Vec3<R>, direction_view: Vec3<R>) -> R {
+    pub fn mirrored(&self, irradiance: Vec3<R>, direction_view: Vec3<R>) -> R {
         const LEAST: f32 = 1e-6;
         let rest = self.irradiance(irradiance, direction_view);
         let one = self.hidden.splat(1.0);

@@ -24,12 +24,12 @@ use std::f32::consts::PI;
 
 /// A thin film at a point.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Film<R> {
+pub struct Film<R> {
     /// The share of the film's reflectance in the surface's.
-    pub(crate) factor: R,
+    pub factor: R,
     /// Index of refraction, at least 1.
-    pub(crate) ior: f32,
-    pub(crate) thickness_nm: R,
+    pub ior: f32,
+    pub thickness_nm: R,
 }
 
 /// The sensitivity of the eye for X: its second Gaussian.
@@ -88,7 +88,7 @@ impl<R: Real> Film<R> {
     /// The reflectance of film and base for light at an angle with this cosine, 0 to 1. `base_f0`
     /// is the base's reflectance in air, at normal incidence.
     #[inline(always)]
-    pub(crate) fn fresnel(&self, base_f0: Vec3<R>, cosine: R) -> Vec3<R> {
+    pub fn fresnel(&self, base_f0: Vec3<R>, cosine: R) -> Vec3<R> {
         let ior = self.ior.max(1.0);
         let outer = (ior - 1.0) / (ior + 1.0);
         let outer = outer * outer;

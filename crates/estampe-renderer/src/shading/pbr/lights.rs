@@ -6,17 +6,17 @@ use estampe::{Real, Vec3};
 
 /// A light in view space.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct PbrLight {
-    pub(crate) source: PbrSource,
+pub struct PbrLight {
+    pub source: PbrSource,
     /// Illuminance of a surface that faces it; of [`PbrSource::Point`] in the distance 1.
-    pub(crate) color: [f32; 3],
+    pub color: [f32; 3],
     /// The number of its shadow map, if it has one.
-    pub(crate) shadow_map: Option<usize>,
+    pub shadow_map: Option<usize>,
 }
 
 /// Where light comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum PbrSource {
+pub enum PbrSource {
     /// From infinitely far away.
     Directional(Directional),
     /// From a point; it decreases linearly.
@@ -33,16 +33,16 @@ pub(crate) enum PbrSource {
 /// The cone of a spot light (KHR_lights_punctual): its light is (cosine·scale + offset)², with the
 /// sum clamped to 0..1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Cone {
+pub struct Cone {
     /// Unit direction of the axis, away from the light.
-    pub(crate) axis: [f32; 3],
-    pub(crate) scale: f32,
-    pub(crate) offset: f32,
+    pub axis: [f32; 3],
+    pub scale: f32,
+    pub offset: f32,
 }
 
 impl PbrLight {
     /// A light of the options: a white diffuse surface that faces it has its colour.
-    pub(crate) fn directional(light: &ViewLight<Directional>) -> Self {
+    pub fn directional(light: &ViewLight<Directional>) -> Self {
         Self {
             source: PbrSource::Directional(light.source),
             color: light.color.map(|channel| channel * std::f32::consts::PI),
@@ -51,7 +51,7 @@ impl PbrLight {
     }
 
     /// A light of the options: a white diffuse surface that faces it nearby has its colour.
-    pub(crate) fn positional(light: &ViewLight<Positional>) -> Self {
+    pub fn positional(light: &ViewLight<Positional>) -> Self {
         Self {
             source: PbrSource::Linear(light.source),
             color: light.color.map(|channel| channel * std::f32::consts::PI),
@@ -71,7 +71,7 @@ impl PbrLight {
 
     /// Unit direction from a point towards the light, and the light's illuminance there.
     #[inline(always)]
-    pub(crate) fn arrive<R: Real>(&self, point: Vec3<R>) -> (Vec3<R>, Vec3<R>) {
+    pub fn arrive<R: Real>(&self, point: Vec3<R>) -> (Vec3<R>, Vec3<R>) {
         let color = Vec3::uniform(point.x, self.color);
         match &self.source {
             PbrSource::Directional(Directional(towards)) => {

@@ -14,18 +14,18 @@
 //!        └─ tone_map     from radiance to what is shown
 //! ```
 
-pub(crate) mod anisotropy;
-pub(crate) mod brdf;
-pub(crate) mod environment;
-pub(crate) mod iridescence;
-pub(crate) mod layers;
-pub(crate) mod lights;
-pub(crate) mod parameters;
-pub(crate) mod reflection;
-pub(crate) mod surface;
-pub(crate) mod textures;
-pub(crate) mod tone_map;
-pub(crate) mod transmission;
+pub mod anisotropy;
+pub mod brdf;
+pub mod environment;
+pub mod iridescence;
+pub mod layers;
+pub mod lights;
+pub mod parameters;
+pub mod reflection;
+pub mod surface;
+pub mod textures;
+pub mod tone_map;
+pub mod transmission;
 
 #[cfg(test)]
 mod tests;

@@ -27,55 +27,55 @@ use std::f32::consts::FRAC_1_PI;
 
 /// A point of a surface with its reflectance.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PbrPoint<R> {
+pub struct PbrPoint<R> {
     /// In view space.
-    pub(crate) position: Vec3<R>,
+    pub position: Vec3<R>,
     /// Unit normal.
-    pub(crate) normal: Vec3<R>,
+    pub normal: Vec3<R>,
     /// Unit direction to the eye.
-    pub(crate) to_eye: Vec3<R>,
+    pub to_eye: Vec3<R>,
     /// Diffuse colour.
-    pub(crate) diffuse: Vec3<R>,
+    pub diffuse: Vec3<R>,
     /// The colour of light that passes through.
-    pub(crate) passing: Option<Vec3<R>>,
+    pub passing: Option<Vec3<R>>,
     /// Reflectance at normal incidence.
-    pub(crate) f0: Vec3<R>,
+    pub f0: Vec3<R>,
     /// Reflectance at grazing incidence.
-    pub(crate) f90: R,
+    pub f90: R,
     /// Perceptual.
-    pub(crate) roughness: R,
+    pub roughness: R,
     /// The share of the light from all around that arrives.
-    pub(crate) occlusion: R,
-    pub(crate) clearcoat: Option<Coat<R>>,
-    pub(crate) sheen: Option<Fibres<R>>,
-    pub(crate) grooves: Option<Grooves<R>>,
-    pub(crate) film: Option<Film<R>>,
+    pub occlusion: R,
+    pub clearcoat: Option<Coat<R>>,
+    pub sheen: Option<Fibres<R>>,
+    pub grooves: Option<Grooves<R>>,
+    pub film: Option<Film<R>>,
     /// The shares of the lights that reach it.
-    pub(crate) visibilities: Visibilities<R>,
+    pub visibilities: Visibilities<R>,
 }
 
 /// A clear layer at a point.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Coat<R> {
-    pub(crate) factor: R,
-    pub(crate) roughness: R,
+pub struct Coat<R> {
+    pub factor: R,
+    pub roughness: R,
     /// Unit normal.
-    pub(crate) normal: Vec3<R>,
+    pub normal: Vec3<R>,
 }
 
 /// Fibres at a point.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Fibres<R> {
-    pub(crate) color: Vec3<R>,
-    pub(crate) roughness: R,
+pub struct Fibres<R> {
+    pub color: Vec3<R>,
+    pub roughness: R,
 }
 
 /// The light that leaves a point towards the eye.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Leaving<R> {
-    pub(crate) reflected: Vec3<R>,
+pub struct Leaving<R> {
+    pub reflected: Vec3<R>,
     /// The share of the light from behind; `None` if none passes.
-    pub(crate) passing: Option<Vec3<R>>,
+    pub passing: Option<Vec3<R>>,
 }
 
 /// What several lobes need, computed once.
@@ -102,11 +102,7 @@ const COAT_F0: f32 = 0.04;
 impl<R: Real> PbrPoint<R> {
     /// The light that leaves towards the eye.
     #[inline(always)]
-    pub(crate) fn leaving(
-        &self,
-        environment: &EnvironmentLight,
-        lights: &[PbrLight],
-    ) -> Leaving<R> {
+    pub fn leaving(&self, environment: &EnvironmentLight, lights: &[PbrLight]) -> Leaving<R> {
         let shared = self.shared(environment);
         let mut sum = self.environment_light(environment, &shared);
         for light in lights {

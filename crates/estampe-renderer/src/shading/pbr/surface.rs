@@ -21,27 +21,27 @@ use std::sync::Arc;
 
 /// The light of a frame, and how it is shown.
 #[derive(Debug, Clone)]
-pub(crate) struct PbrLighting {
-    pub(crate) environment: EnvironmentLight,
-    pub(crate) lights: Vec<PbrLight>,
+pub struct PbrLighting {
+    pub environment: EnvironmentLight,
+    pub lights: Vec<PbrLight>,
     /// The shadow maps of lights, and of the environment.
-    pub(crate) shadow_maps: Vec<ShadowMapView>,
+    pub shadow_maps: Vec<ShadowMapView>,
     /// What is seen through surfaces, if light passes through some.
-    pub(crate) behind: Option<BehindView>,
+    pub behind: Option<BehindView>,
     /// Factor of all light.
-    pub(crate) exposure: f32,
-    pub(crate) tone_map: ToneMap,
+    pub exposure: f32,
+    pub tone_map: ToneMap,
 }
 
 /// A surface.
 #[derive(Debug, Clone)]
-pub(crate) struct PbrSurface {
-    pub(crate) transforms: VertexTransforms,
-    pub(crate) lighting: Arc<PbrLighting>,
-    pub(crate) parameters: Arc<PbrParameters>,
-    pub(crate) alpha: Alpha,
-    pub(crate) output: Output,
-    pub(crate) written: Written,
+pub struct PbrSurface {
+    pub transforms: VertexTransforms,
+    pub lighting: Arc<PbrLighting>,
+    pub parameters: Arc<PbrParameters>,
+    pub alpha: Alpha,
+    pub output: Output,
+    pub written: Written,
 }
 
 /// What is interpolated: view position, normal, tangent with the bitangent's sign, both texture

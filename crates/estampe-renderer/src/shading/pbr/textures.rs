@@ -5,28 +5,28 @@ use estampe_scene::UvTransform;
 
 /// A texture of a material.
 #[derive(Debug, Clone)]
-pub(crate) struct MaterialTexture {
-    pub(crate) texture: SampledTexture,
-    pub(crate) coordinates: UvChoice,
+pub struct MaterialTexture {
+    pub texture: SampledTexture,
+    pub coordinates: UvChoice,
 }
 
 /// Which coordinates a texture is sampled at.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct UvChoice {
+pub struct UvChoice {
     /// The second set, not the first.
-    pub(crate) is_second: bool,
+    pub is_second: bool,
     /// Rows of the transform, if it changes anything.
-    pub(crate) transform: Option<[[f32; 3]; 2]>,
+    pub transform: Option<[[f32; 3]; 2]>,
 }
 
 impl UvChoice {
     /// The first set as it is.
-    pub(crate) const FIRST: Self = Self {
+    pub const FIRST: Self = Self {
         is_second: false,
         transform: None,
     };
 
-    pub(crate) fn new(uv_set: u8, transform: &UvTransform) -> Self {
+    pub fn new(uv_set: u8, transform: &UvTransform) -> Self {
         let rows = || {
             let (sin, cos) = libm::sincosf(transform.rotation_rad);
             let glam::Vec2 { x, y } = transform.scale;
@@ -43,7 +43,7 @@ impl UvChoice {
 
     /// The coordinates, from both sets of the vertices.
     #[inline(always)]
-    pub(crate) fn of<R: Real>(&self, uvs: (Vec2<R>, Vec2<R>)) -> Vec2<R> {
+    pub fn of<R: Real>(&self, uvs: (Vec2<R>, Vec2<R>)) -> Vec2<R> {
         let uv = if self.is_second { uvs.1 } else { uvs.0 };
         match self.transform {
             Some([u, v]) => Vec2::new(
@@ -57,7 +57,7 @@ impl UvChoice {
 
 impl MaterialTexture {
     #[inline(always)]
-    pub(crate) fn sample<R: Real>(&self, uvs: (Vec2<R>, Vec2<R>)) -> Vec4<R> {
+    pub fn sample<R: Real>(&self, uvs: (Vec2<R>, Vec2<R>)) -> Vec4<R> {
         self.texture.sample(self.coordinates.of(uvs))
     }
 }

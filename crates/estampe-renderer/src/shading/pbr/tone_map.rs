@@ -22,7 +22,7 @@ pub enum ToneMap {
 impl ToneMap {
     /// The colour that is shown.
     #[inline(always)]
-    pub(crate) fn apply<R: Real>(self, color: Vec3<R>) -> Vec3<R> {
+    pub fn apply<R: Real>(self, color: Vec3<R>) -> Vec3<R> {
         match self {
             Self::None => color,
             Self::Neutral => neutral(color),

@@ -21,7 +21,7 @@ use crate::shading::backdrop::Backdrop;
 use estampe::{FragmentIn, Mat4, Real, SampledTexture, Vec2, Vec3, Vec4};
 
 /// The group at which the picture of what is behind is bound, as number 0.
-pub(crate) const BEHIND_GROUP: u32 = 1;
+pub const BEHIND_GROUP: u32 = 1;
 
 /// The default background, linear. Alpha hides all channels alike, so a coloured surface on a
 /// transparent background has the colour that it has on this one.
@@ -30,16 +30,16 @@ const LIGHT_BACKGROUND: f32 = 0.887_923_1;
 /// The picture of the opaque surfaces, as shaders look it up: light after the exposure and before
 /// the tone map, times its coverage in alpha. The rest is the background.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct BehindView {
-    pub(crate) clip_from_view: Mat4,
+pub struct BehindView {
+    pub clip_from_view: Mat4,
     /// log₂ of the longer side: the level of one texel.
-    pub(crate) last_level: f32,
-    pub(crate) background: Background,
+    pub last_level: f32,
+    pub background: Background,
 }
 
 /// The background, as it is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Background {
+pub enum Background {
     /// Nothing.
     Transparent,
     /// A linear colour.
@@ -50,57 +50,57 @@ pub(crate) enum Background {
 
 /// Transmission of a material.
 #[derive(Debug, Clone)]
-pub(crate) struct TransmissionParameters {
+pub struct TransmissionParameters {
     /// The share of light that passes instead of being diffused.
-    pub(crate) factor: f32,
+    pub factor: f32,
     /// In red.
-    pub(crate) texture: Option<MaterialTexture>,
+    pub texture: Option<MaterialTexture>,
     /// Indices of refraction of red, green and blue, at least 1.
-    pub(crate) iors: [f32; 3],
-    pub(crate) volume: Option<VolumeParameters>,
+    pub iors: [f32; 3],
+    pub volume: Option<VolumeParameters>,
 }
 
 /// The body below a surface.
 #[derive(Debug, Clone)]
-pub(crate) struct VolumeParameters {
+pub struct VolumeParameters {
     /// In view space.
-    pub(crate) thickness: f32,
+    pub thickness: f32,
     /// In green.
-    pub(crate) texture: Option<MaterialTexture>,
+    pub texture: Option<MaterialTexture>,
     /// Halvings of light per length in view space.
-    pub(crate) absorption: [f32; 3],
+    pub absorption: [f32; 3],
 }
 
 /// A point of a surface, as light passes through it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PassedPoint<R> {
+pub struct PassedPoint<R> {
     /// In view space.
-    pub(crate) position: Vec3<R>,
+    pub position: Vec3<R>,
     /// Unit normal.
-    pub(crate) normal: Vec3<R>,
+    pub normal: Vec3<R>,
     /// Unit direction to the eye.
-    pub(crate) to_eye: Vec3<R>,
+    pub to_eye: Vec3<R>,
     /// Perceptual.
-    pub(crate) roughness: R,
+    pub roughness: R,
 }
 
 /// The light that arrives at a point from behind.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Behind<R> {
+pub struct Behind<R> {
     /// The share of light that passes instead of being diffused.
-    pub(crate) share: R,
+    pub share: R,
     /// The share that the body leaves of it, by channel.
-    pub(crate) tint: Vec3<R>,
+    pub tint: Vec3<R>,
     /// The light of opaque surfaces, times the coverage.
-    pub(crate) light: Vec3<R>,
+    pub light: Vec3<R>,
     /// The share of each channel that comes from opaque surfaces, not from the background.
-    pub(crate) coverage: Vec3<R>,
+    pub coverage: Vec3<R>,
 }
 
 impl TransmissionParameters {
     /// The light that arrives at a point, from the picture of what is behind.
     #[inline(always)]
-    pub(crate) fn behind<R: Real>(
+    pub fn behind<R: Real>(
         &self,
         (view, picture): (&BehindView, &SampledTexture),
         point: PassedPoint<R>,
@@ -147,7 +147,7 @@ impl TransmissionParameters {
 impl<R: Real> Behind<R> {
     /// The light where opaque surfaces cover.
     #[inline(always)]
-    pub(crate) fn covered_light(&self) -> Vec3<R> {
+    pub fn covered_light(&self) -> Vec3<R> {
         const LEAST: f32 = 1e-4;
         let (light, share) = (self.light, self.coverage);
         Vec3::new(
@@ -191,7 +191,7 @@ impl BehindView {
     /// The colour that is shown through a surface: `shown` of the surface and of what is behind it,
     /// and the background's `clear` share.
     #[inline(always)]
-    pub(crate) fn over_background<R: Real>(
+    pub fn over_background<R: Real>(
         &self,
         input: &FragmentIn<'_, R>,
         shown: Vec3<R>,
@@ -238,9 +238,9 @@ fn over_nothing<R: Real>(shown: Vec3<R>, clear: Vec3<R>) -> (Vec3<R>, R) {
 
 /// A colour as it is shown.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Seen<R> {
+pub struct Seen<R> {
     /// Multiplied by the opacity.
-    pub(crate) color: Vec3<R>,
+    pub color: Vec3<R>,
     /// Less than 1 where a transparent background is seen through the surface.
-    pub(crate) opacity: Option<R>,
+    pub opacity: Option<R>,
 }

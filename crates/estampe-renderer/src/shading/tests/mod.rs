@@ -1,8 +1,6 @@
 //! Shaders on single fragments: the same source as on sixteen, with numbers that can be checked by
-//! hand ([`parts`]), or compared with the oracle ([`oracle`]); and whole pictures of the same
-//! materials as text ([`as_text`]).
+//! hand ([`parts`]), or compared with the oracle ([`oracle`]).
 
-mod as_text;
 mod oracle;
 mod parts;
 

@@ -1,10 +1,10 @@
 //! What is drawn: the teapot, a square with a repeated texture, and a cloud of triangles, some of
 //! which are large, behind the eye, without a normal, or without an area in the texture.
 
-use crate::geometry::vertex_data::VertexStream;
-use crate::shading::VertexTransforms;
 use estampe::state::{VertexAttribute, VertexBufferLayout};
 use estampe::{Mat4, VertexFormat};
+use estampe_renderer::shading::VertexStream;
+use estampe_renderer::shading::VertexTransforms;
 use estampe_shapes::BuiltinShape;
 
 /// A vertex with everything that a material may read; no two triangles share one.

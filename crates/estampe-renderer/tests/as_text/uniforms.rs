@@ -1,9 +1,9 @@
 //! The numbers that a material in Rust has in fields, by their names in the texts.
 
-use crate::shading::VertexTransforms;
-use crate::shading::lighting::{Gloss, Lights};
-use crate::shading::output::{EyeDistance, Fog};
 use estampe::{Mat3, Mat4, UniformError, Uniforms};
+use estampe_renderer::shading::VertexTransforms;
+use estampe_renderer::shading::lighting::{Gloss, Lights};
+use estampe_renderer::shading::output::{EyeDistance, Fog};
 
 /// A value of a uniform.
 #[derive(Debug, Clone, Copy)]

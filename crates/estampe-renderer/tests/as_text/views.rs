@@ -4,15 +4,15 @@ use super::drawing::Textures;
 use super::scene::transforms;
 use super::uniforms::Numbers;
 use super::{Glsl, Material, Wgsl};
-use crate::geometry::vertex_data::VertexStream;
-use crate::shading::inspection::{
-    Barycentrics, DepthGrey, FaceColors, Normals, Overdraw, UvColors,
-};
-use crate::shading::output::{EyeDistance, Fog};
-use crate::shading::points_and_lines::PointsAndLines;
-use crate::shading::wireframe::Wireframe;
 use estampe::state::{BlendState, ColorTargetState, PrimitiveTopology};
 use estampe::{Program, Shader, ShaderProgram, TextureFormat};
+use estampe_renderer::shading::VertexStream;
+use estampe_renderer::shading::inspection::{
+    Barycentrics, DepthGrey, FaceColors, Normals, Overdraw, UvColors,
+};
+use estampe_renderer::shading::output::{EyeDistance, Fog};
+use estampe_renderer::shading::points_and_lines::PointsAndLines;
+use estampe_renderer::shading::wireframe::Wireframe;
 use std::sync::Arc;
 
 /// A view: no textures, one target of floats, triangles.

@@ -4,25 +4,25 @@ use super::drawing::Textures;
 use super::scene::transforms;
 use super::uniforms::Numbers;
 use super::{Glsl, Material, Wgsl};
-use crate::geometry::vertex_data::VertexStream;
-use crate::shading::base_color::Alpha;
-use crate::shading::lighting::{Directional, Positional};
-use crate::shading::output::Output;
-use crate::shading::pbr::environment::EnvironmentLight;
-use crate::shading::pbr::lights::{Cone, PbrLight, PbrSource};
-use crate::shading::pbr::parameters::{
+use estampe::state::PrimitiveTopology;
+use estampe::{Mat4, Program, SampledTexture, ShaderProgram, TextureFormat};
+use estampe_renderer::shading::VertexStream;
+use estampe_renderer::shading::base_color::Alpha;
+use estampe_renderer::shading::lighting::{Directional, Positional};
+use estampe_renderer::shading::output::Output;
+use estampe_renderer::shading::pbr::environment::EnvironmentLight;
+use estampe_renderer::shading::pbr::lights::{Cone, PbrLight, PbrSource};
+use estampe_renderer::shading::pbr::parameters::{
     AnisotropyParameters, ClearcoatParameters, IridescenceParameters, NormalMap, Occlusion,
     PbrParameters, SheenParameters, SpecularParameters,
 };
-use crate::shading::pbr::surface::{PbrLighting, PbrSurface};
-use crate::shading::pbr::textures::{MaterialTexture, UvChoice};
-use crate::shading::pbr::tone_map::ToneMap;
-use crate::shading::pbr::transmission::{
+use estampe_renderer::shading::pbr::surface::{PbrLighting, PbrSurface};
+use estampe_renderer::shading::pbr::textures::{MaterialTexture, UvChoice};
+use estampe_renderer::shading::pbr::tone_map::ToneMap;
+use estampe_renderer::shading::pbr::transmission::{
     Background, BehindView, TransmissionParameters, VolumeParameters,
 };
-use crate::shading::surface::Written;
-use estampe::state::PrimitiveTopology;
-use estampe::{Mat4, Program, SampledTexture, ShaderProgram, TextureFormat};
+use estampe_renderer::shading::surface::Written;
 use std::sync::Arc;
 
 const IN_WGSL: &str = include_str!("wgsl/pbr.wgsl");

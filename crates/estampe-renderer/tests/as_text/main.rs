@@ -31,7 +31,7 @@ use estampe::{Device, DeviceDescriptor, Level, Program};
 use std::sync::Arc;
 use uniforms::Numbers;
 
-use crate::geometry::vertex_data::VertexStream;
+use estampe_renderer::shading::VertexStream;
 
 /// Makes a program for the textures of a device.
 type InRust = Box<dyn Fn(&drawing::Textures) -> Arc<dyn Program>>;
