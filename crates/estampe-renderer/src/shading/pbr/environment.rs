@@ -1,4 +1,4 @@
-//! Lookups of the light from all around ([`crate::environment`]).
+//! Lookups of the light from all around (`environment` of the crate).
 
 use crate::environment::{ALBEDO_SIDE, EnvironmentMap, directional_albedos};
 use crate::shading::lighting::luminance;

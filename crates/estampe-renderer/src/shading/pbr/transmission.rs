@@ -1,6 +1,6 @@
 //! Light that passes through a surface (KHR_materials_transmission, KHR_materials_volume,
 //! KHR_materials_dispersion): the opaque surfaces behind it, drawn before
-//! ([`crate::behind`]), are looked up where the refracted ray leaves the body.
+//! (`behind` of the crate), are looked up where the refracted ray leaves the body.
 //!
 //! ```text
 //!   eye ◄─── v ─── p            p  point of the surface, n normal
