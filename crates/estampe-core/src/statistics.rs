@@ -28,6 +28,9 @@ pub struct Statistics {
     pub primitives_binned: u64,
     /// Fragments that went through the fragment shader, helper lanes not counted.
     pub fragments_shaded: u64,
+    /// Of these, those that took the colours that the shader gave for other pixels of the same
+    /// primitive, over which nothing varies.
+    pub fragments_of_shared_colors: u64,
     /// Runs of opaque triangles, tile by tile, whose visible samples were shaded at the run's end:
     /// hidden fragments are not shaded. None at the scalar level.
     pub visibility_runs: u64,
@@ -52,6 +55,7 @@ impl std::ops::AddAssign for Statistics {
         self.primitives_culled += other.primitives_culled;
         self.primitives_binned += other.primitives_binned;
         self.fragments_shaded += other.fragments_shaded;
+        self.fragments_of_shared_colors += other.fragments_of_shared_colors;
         self.visibility_runs += other.visibility_runs;
         self.paths += other.paths;
         self.geometry += other.geometry;

@@ -39,6 +39,16 @@ pub fn floats_of(words: &[Packet<u32>]) -> &[Packet<f32>] {
     unsafe { std::slice::from_raw_parts(words.as_ptr().cast(), words.len()) }
 }
 
+/// Packets of words as packets of the signed integers that have these bits.
+#[inline(always)]
+#[must_use]
+#[expect(unsafe_code, reason = "safe transmutation is not stable")]
+pub fn ints_of(words: &[Packet<u32>]) -> &[Packet<i32>] {
+    // SAFETY: as in `floats_of`: i32 and u32 have the same size, every bit pattern of either is
+    // valid, and the result borrows what the argument borrows.
+    unsafe { std::slice::from_raw_parts(words.as_ptr().cast(), words.len()) }
+}
+
 /// [`floats_of`], to store floats.
 #[inline(always)]
 #[expect(unsafe_code, reason = "safe transmutation is not stable")]

@@ -1,6 +1,6 @@
 //! The extension trait of level tokens: operations beyond the methods of the vector types.
 
-use crate::{ByteTable, Level};
+use crate::{ByteTable, Columns, Level};
 use fearless_simd::{
     Select, Simd, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, SimdMask, f32x16, i32x16,
     mask32x16, u32x16,
@@ -103,6 +103,58 @@ pub trait Lanes: Simd {
     fn encode_half(self, value: f32x16<Self>) -> Option<u32x16<Self>> {
         let _ = value;
         None
+    }
+
+    /// The values of the first row of a packet that is a block of 4×4 pixels, in each lane that of
+    /// its column.
+    #[inline(always)]
+    fn first_row(self, value: f32x16<Self>) -> f32x16<Self> {
+        let order = [0, 1, 0, 1, 4, 5, 4, 5, 0, 1, 0, 1, 4, 5, 4, 5];
+        crate::block::permuted(self, value, order)
+    }
+
+    /// The values of the first column of a packet that is a block, in each lane that of its row.
+    #[inline(always)]
+    fn first_column(self, value: f32x16<Self>) -> f32x16<Self> {
+        let order = [0, 0, 2, 2, 0, 0, 2, 2, 8, 8, 10, 10, 8, 8, 10, 10];
+        crate::block::permuted(self, value, order)
+    }
+
+    /// The values of the first row of a packet that is a block, from left to right, each four
+    /// times.
+    #[inline(always)]
+    fn spread_row(self, value: f32x16<Self>) -> f32x16<Self> {
+        let order = [0, 0, 0, 0, 1, 1, 1, 1, 4, 4, 4, 4, 5, 5, 5, 5];
+        crate::block::permuted(self, value, order)
+    }
+
+    /// What [`half_texels`](Self::half_texels) needs of the texels of a block's first row, at the
+    /// levels that use it.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn places_of_texels(self, texel: u32x16<Self>) -> u32x16<Self> {
+        texel
+    }
+
+    /// The left texels of four columns, then the right ones, of a window of eight texels of four
+    /// half floats; `None` if the level does not decode half floats.
+    #[inline(always)]
+    fn half_texels(self, window: &[u32; 16], columns: &Columns<Self>) -> Option<[f32x16<Self>; 2]> {
+        let _ = (window, columns);
+        None
+    }
+
+    /// Four texels of four half floats; `None` if the level does not decode half floats.
+    #[inline(always)]
+    fn row_of_halves(self, words: &[u32; 8]) -> Option<f32x16<Self>> {
+        let _ = words;
+        None
+    }
+
+    /// Four channels of a packet that is a block, from its four rows of four texels.
+    #[inline(always)]
+    fn channels_of_rows(self, rows: [f32x16<Self>; 4]) -> [f32x16<Self>; 4] {
+        crate::block::channels(self, rows)
     }
 
     /// A mask from its low 16 bits: bit `i` is lane `i`.
@@ -266,6 +318,34 @@ mod x86 {
             Some(crate::half::encode_avx2(self, value))
         }
         #[inline(always)]
+        fn first_row(self, value: f32x16<Self>) -> f32x16<Self> {
+            crate::block::first_row_avx2(self, value)
+        }
+        #[inline(always)]
+        fn first_column(self, value: f32x16<Self>) -> f32x16<Self> {
+            crate::block::first_column_avx2(self, value)
+        }
+        #[inline(always)]
+        fn spread_row(self, value: f32x16<Self>) -> f32x16<Self> {
+            crate::block::spread_avx2(self, value)
+        }
+        #[inline(always)]
+        fn half_texels(
+            self,
+            window: &[u32; 16],
+            columns: &Columns<Self>,
+        ) -> Option<[f32x16<Self>; 2]> {
+            Some(crate::block::halves_avx2(self, window, columns))
+        }
+        #[inline(always)]
+        fn row_of_halves(self, words: &[u32; 8]) -> Option<f32x16<Self>> {
+            Some(crate::block::row_avx2(self, words))
+        }
+        #[inline(always)]
+        fn channels_of_rows(self, rows: [f32x16<Self>; 4]) -> [f32x16<Self>; 4] {
+            crate::block::channels_avx2(self, rows)
+        }
+        #[inline(always)]
         fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
             crate::gather::avx2(self, table, index)
         }
@@ -304,6 +384,38 @@ mod x86 {
         #[inline(always)]
         fn encode_half(self, value: f32x16<Self>) -> Option<u32x16<Self>> {
             Some(crate::half::encode_avx512(self, value))
+        }
+        #[inline(always)]
+        fn first_row(self, value: f32x16<Self>) -> f32x16<Self> {
+            crate::block::first_row_avx512(self, value)
+        }
+        #[inline(always)]
+        fn first_column(self, value: f32x16<Self>) -> f32x16<Self> {
+            crate::block::first_column_avx512(self, value)
+        }
+        #[inline(always)]
+        fn spread_row(self, value: f32x16<Self>) -> f32x16<Self> {
+            crate::block::spread_avx512(self, value)
+        }
+        #[inline(always)]
+        fn places_of_texels(self, texel: u32x16<Self>) -> u32x16<Self> {
+            crate::block::places_avx512(self, texel)
+        }
+        #[inline(always)]
+        fn half_texels(
+            self,
+            window: &[u32; 16],
+            columns: &Columns<Self>,
+        ) -> Option<[f32x16<Self>; 2]> {
+            Some(crate::block::halves_avx512(self, window, columns))
+        }
+        #[inline(always)]
+        fn row_of_halves(self, words: &[u32; 8]) -> Option<f32x16<Self>> {
+            Some(crate::block::row_avx512(self, words))
+        }
+        #[inline(always)]
+        fn channels_of_rows(self, rows: [f32x16<Self>; 4]) -> [f32x16<Self>; 4] {
+            crate::block::channels_avx512(self, rows)
         }
         #[inline(always)]
         fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {

@@ -21,6 +21,7 @@
 //! Lane `i` of a packet is the pixel at ([`LANE_X`]`[i]`, [`LANE_Y`]`[i]`): Morton order, so that
 //! each four neighbouring lanes are one 2×2 quad and derivatives stay inside 128 bits.
 
+mod block;
 mod gather;
 #[cfg(target_arch = "x86_64")]
 mod half;
@@ -31,12 +32,13 @@ mod level;
 mod lookup;
 mod table;
 
+pub use block::Columns;
 pub use fearless_simd::{
     Bytes, ExtractToken, Select, Simd, SimdBase, SimdCvtFloat, SimdCvtTruncate, SimdFloat, SimdInt,
     SimdInto, SimdMask, f32x4, f32x16, f64x2, i32x16, mask8x16, mask32x16, u8x16, u16x8, u32x4,
     u32x16,
 };
-pub use gather::{bits_of, floats_of, floats_of_mut};
+pub use gather::{bits_of, floats_of, floats_of_mut, ints_of};
 pub use index::{Lane, LanesOf, PacketIndex};
 pub use lanes::Lanes;
 pub use level::{Level, LevelError};

@@ -21,7 +21,7 @@ pub fn check(topic: &str, count: u64, make: impl Fn(&mut Random) -> Case) {
 }
 
 /// Draws `count` random cases of a topic with the oracle and the fast path; together they must have
-/// taken `paths`.
+/// taken `paths`. Returns the sum of all statistics.
 ///
 /// # Panics
 /// If an image differs, as in [`check`], or if one of the paths was never taken.
@@ -30,7 +30,7 @@ pub fn check_paths(
     count: u64,
     paths: ExpectedPaths,
     make: impl Fn(&mut Random) -> Case,
-) {
+) -> Statistics {
     let (mut cases, mut empty) = (0, 0);
     let mut statistics = Statistics::default();
     let number = |name: &str| std::env::var(name).ok()?.parse::<u64>().ok();
@@ -67,6 +67,7 @@ pub fn check_paths(
     if only.is_none() {
         paths.assert_reached(topic, &statistics);
     }
+    statistics
 }
 
 /// The numbers of primitives on each tile path, to choose the expected paths of a topic by.

@@ -28,6 +28,9 @@ pub(crate) struct StageKey {
     pub(crate) uniform_over_primitive: bool,
     /// It depends on the draw alone, and on whether the primitive faces the viewer.
     pub(crate) uniform_over_draw: bool,
+    /// Fragments whose varyings are the same, and those of the whole packet, have the same colours;
+    /// nothing else comes of them.
+    pub(crate) depends_on_varyings_alone: bool,
     /// A fragment's one colour depends on its own varyings alone.
     pub(crate) fragments_are_independent: bool,
     /// The fragments' one colour is their first four scalars, so that the program need not be
@@ -113,6 +116,9 @@ impl StageKey {
             has_colors: !targets.is_empty(),
             uniform_over_primitive: flat && !interface.reads_position,
             uniform_over_draw: interface.varyings.is_empty() && !interface.reads_position,
+            depends_on_varyings_alone: tests_early
+                && is_shaded_by_pixel
+                && !interface.reads_position,
             fragments_are_independent: interface.no_derivatives
                 && !interface.reads_position
                 && interface.color_targets == 1,

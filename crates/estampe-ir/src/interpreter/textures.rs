@@ -189,6 +189,9 @@ pub enum Common {
     Coordinates,
     /// All compare texels of one texture with the same depth, at two coordinates each.
     Reference,
+    /// All sample one texture with one sampler, at two coordinates each, in the finest level or all
+    /// with the level of detail of the quad.
+    Texture,
 }
 
 impl Common {
@@ -208,6 +211,11 @@ impl Common {
                 && matches!(op.level, LevelOfDetail::Zero | LevelOfDetail::Implicit)
                 && is_flat(op)
         };
+        let samples = |op: &TextureOp| {
+            op.query == TextureQuery::Sample
+                && matches!(op.level, LevelOfDetail::Zero | LevelOfDetail::Implicit)
+                && is_flat(op)
+        };
         let is_like = |op: &TextureOp| {
             [op.texture, op.sampler.unwrap_or(u32::MAX)]
                 == [first.texture, first.sampler.unwrap_or(u32::MAX)]
@@ -218,6 +226,8 @@ impl Common {
             Self::Coordinates
         } else if ops.iter().all(compares) && others.iter().all(is_like) {
             Self::Reference
+        } else if ops.iter().all(samples) && others.iter().all(is_like) {
+            Self::Texture
         } else {
             Self::Nothing
         }
@@ -286,5 +296,53 @@ impl<'a> TextureAccesses<'a> {
     #[inline]
     pub fn all(&mut self) -> (&'a [Packet<u32>], &mut [Packet<u32>]) {
         (self.operands, self.results)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Common;
+    use crate::Value;
+    use crate::op::{LevelOfDetail, TextureOp, TextureQuery};
+
+    fn sample(texture: u32, at: [u32; 2], level: LevelOfDetail) -> TextureOp {
+        TextureOp {
+            query: TextureQuery::Sample,
+            texture,
+            sampler: Some(0),
+            coordinates: at.map(Value).to_vec(),
+            layer: None,
+            offset: [0; 3],
+            level,
+            reference: None,
+            sample: None,
+            stored: Vec::new(),
+            mask: Value(0),
+        }
+    }
+
+    #[test]
+    fn accesses_share_coordinates_a_reference_or_a_texture() {
+        use LevelOfDetail::{Explicit, Implicit, Zero};
+        let of = |ops: &[TextureOp]| Common::of(ops);
+        let (here, there) = ([1, 2], [3, 4]);
+        let taps = [sample(0, here, Zero), sample(0, there, Zero)];
+        assert_eq!(of(&taps), Common::Texture);
+        let by_quads = [sample(0, here, Implicit), sample(0, there, Implicit)];
+        assert_eq!(of(&by_quads), Common::Texture);
+        let maps = [sample(0, here, Implicit), sample(1, here, Implicit)];
+        assert_eq!(of(&maps), Common::Coordinates);
+        let levels = [sample(0, here, Zero), sample(0, there, Implicit)];
+        assert_eq!(of(&levels), Common::Nothing);
+        let computed = [sample(0, here, Explicit(Value(5))), sample(0, there, Zero)];
+        assert_eq!(of(&computed), Common::Nothing);
+        let others = [sample(0, here, Zero), sample(1, there, Zero)];
+        assert_eq!(of(&others), Common::Nothing);
+        let mut compared = taps.clone();
+        for op in &mut compared {
+            op.query = TextureQuery::SampleCompare;
+            op.reference = Some(Value(6));
+        }
+        assert_eq!(of(&compared), Common::Reference);
     }
 }

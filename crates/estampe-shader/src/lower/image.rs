@@ -231,7 +231,13 @@ impl<'a> Lowering<'a> {
         Ok(match level {
             SampleLevel::Auto => LevelOfDetail::Implicit,
             SampleLevel::Zero => LevelOfDetail::Zero,
-            SampleLevel::Exact(level) => LevelOfDetail::Explicit(self.float_level(frame, level)?),
+            SampleLevel::Exact(level) => {
+                let level = self.float_level(frame, level)?;
+                match self.builder.constant_of(level).map(f32::from_bits) {
+                    Some(0.0) => LevelOfDetail::Zero,
+                    _ => LevelOfDetail::Explicit(level),
+                }
+            }
             SampleLevel::Bias(bias) => LevelOfDetail::Bias(self.value(frame, bias)?),
             SampleLevel::Gradient { x, y } => LevelOfDetail::Gradient {
                 x: self.values(frame, x)?,

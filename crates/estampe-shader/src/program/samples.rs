@@ -145,6 +145,32 @@ pub(super) fn sample_all(
     true
 }
 
+/// Samples a texture at several coordinates; false if that is not what the accesses ask for, and
+/// nothing is done.
+pub(super) fn sample_each(
+    textures: &[Option<&SampledTexture>],
+    accesses: &mut TextureAccesses<'_>,
+) -> bool {
+    let (Some(&Some(texture)), Some(first)) = (textures.first(), accesses.ops.first()) else {
+        return false;
+    };
+    let mask = accesses.mask();
+    let lod = match first.level {
+        LevelOfDetail::Zero => PacketLod::Level,
+        LevelOfDetail::Implicit if mask == whole_quads(mask) => PacketLod::Implicit,
+        _ => return false,
+    };
+    let (operands, results) = accesses.all();
+    let ((each, []), (colors, [])) = (
+        floats_of(operands).as_chunks(),
+        floats_of_mut(results).as_chunks_mut(),
+    ) else {
+        return false;
+    };
+    texture.sample_each(lod, each, colors);
+    true
+}
+
 /// Compares the texels of a shadow map at several coordinates with one depth; false if the texture
 /// is none, and nothing is done.
 pub(super) fn compare_all(

@@ -1,11 +1,12 @@
 //! Accesses to textures: what a kernel asks, answered by `estampe_texture`.
 
-use super::samples::{MOST, compare_all, sample, sample_all};
+use super::samples::{MOST, compare_all, sample, sample_all, sample_each};
 use estampe_ir::interface::TextureSlot;
 use estampe_ir::interpreter::{Common, TextureAccess, TextureAccesses, Textures};
 use estampe_ir::op::TextureQuery;
 use estampe_simd::{
-    Bytes, LANES, Lanes, Packet, SimdBase, dispatch, f32x16, i32x16, mask32x16, u32x16,
+    Bytes, LANES, Lanes, Packet, SimdBase, dispatch, f32x16, floats_of_mut, i32x16, ints_of,
+    mask32x16, u32x16,
 };
 use estampe_texture::{SampledTexture, TextureBindings, storage_load, storage_store, store_unorm8};
 use estampe_types::{Bindings, StorageTexture, Vec4};
@@ -90,6 +91,7 @@ impl Textures for BoundTextures<'_> {
         let is_done = match accesses.common {
             Common::Coordinates => sample_all(textures, &mut accesses),
             Common::Reference => compare_all(textures, &mut accesses),
+            Common::Texture => sample_each(textures, &mut accesses),
             Common::Nothing => false,
         };
         if !is_done {
@@ -120,7 +122,9 @@ impl BoundTextures<'_> {
         };
         let level = access.level;
         match op.query {
-            TextureQuery::Load => dispatch!(level, s => self.load_common(s, access)),
+            TextureQuery::Load => {
+                dispatch!(level, s => self.load_common(s, access)) || self.load_packet(access)
+            }
             TextureQuery::Store => dispatch!(level, s => self.store_common(s, access, mask)),
             _ => false,
         }
@@ -142,6 +146,25 @@ impl BoundTextures<'_> {
         };
         set(access, 0, texels);
         true
+    }
+
+    /// Loads a packet of texels of any format but integers; false if they cannot be loaded
+    /// together, and nothing is done.
+    fn load_packet(&self, access: &mut TextureAccess<'_>) -> bool {
+        let (group, binding) = self.slot(access);
+        if self.bindings.storage_texture(group, binding).is_some() {
+            return false;
+        }
+        let [x, y] = [0, 1].map(|at| ints_of(access.coordinate(at)).first());
+        let [mip, sample] = [access.level_of_detail(), access.sample()].map(first_or_zeros);
+        let (Some(x), Some(y), Some(mip), Some(sample)) = (x, y, mip, sample) else {
+            return false;
+        };
+        let level = access.level;
+        let texels = floats_of_mut(access.results_mut()).first_chunk_mut();
+        let texture = self.bindings.texture(group, binding);
+        texels
+            .is_some_and(|texels| texture.fetch_packet(level, [x, y, &ZEROS, mip, sample], texels))
     }
 
     /// Stores a packet of texels; false if the texture is not a common one.
@@ -236,6 +259,16 @@ impl BoundTextures<'_> {
         }
     }
 }
+
+/// The first packet of integers; zeros for none.
+fn first_or_zeros(words: Option<&[Packet<u32>]>) -> Option<&Packet<i32>> {
+    match words {
+        Some(words) => ints_of(words).first(),
+        None => Some(&ZEROS),
+    }
+}
+
+static ZEROS: Packet<i32> = Packet([0; LANES]);
 
 /// The integer coordinates of a packet's texels, with the layer after them.
 #[inline(always)]

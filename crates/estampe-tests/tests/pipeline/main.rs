@@ -4,6 +4,7 @@ mod amplification_limits;
 mod attachments;
 mod clip_distances;
 mod colors;
+mod constant_primitives;
 mod depth;
 mod depth_bias;
 mod depth_maps;

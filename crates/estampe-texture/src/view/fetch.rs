@@ -40,7 +40,7 @@ impl TexelView {
     #[inline(never)]
     fn fetch_lanes(&self, places: &[Packet<i32>; 5], count: usize) -> Answers {
         let mut texels = Answers::default();
-        if count == LANES && self.fetch_packet(self.level, places, &mut texels) {
+        if count == LANES && self.fetch_packet(self.level, places.each_ref(), &mut texels) {
             return texels;
         }
         for lane in 0..count {

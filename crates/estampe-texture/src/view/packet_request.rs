@@ -216,6 +216,19 @@ impl SampledTexture {
         }
     }
 
+    /// The colours at several coordinates (u, v), as [`sample_request`](Self::sample_request) gives
+    /// them for each, in level 0 for [`PacketLod::Level`].
+    pub fn sample_each(&self, lod: PacketLod, at: &[[Packet<f32>; 2]], colors: &mut [Colors]) {
+        for ([u, v], colors) in at.iter().zip(colors) {
+            let request = PacketRequest {
+                at: [u, v, PacketRequest::ZEROS.at[2]],
+                lod,
+                ..PacketRequest::ZEROS
+            };
+            self.sample_request(&request, colors);
+        }
+    }
+
     /// The shares of sixteen lanes in the first packet, as
     /// [`sample_compare`](Self::sample_compare) gives them.
     pub fn compare_request(&self, request: &PacketRequest<'_>, shares: &mut Packet<f32>) {

@@ -14,6 +14,8 @@ pub(super) const RGBA8: u8 = 1;
 pub(super) const RGBA8_SRGB: u8 = 2;
 /// Four half floats.
 pub(super) const RGBA16F: u8 = 3;
+/// One unorm byte.
+pub(super) const R8: u8 = 4;
 
 /// A format that packet code decodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,6 +50,7 @@ impl PacketFormat {
             (TexelEncoding::Unorm8, 4) if self.is_srgb => RGBA8_SRGB,
             (TexelEncoding::Unorm8, 4) => RGBA8,
             (TexelEncoding::Float16, 4) => RGBA16F,
+            (TexelEncoding::Unorm8, 1) => R8,
             _ => OTHERS,
         }
     }
@@ -70,7 +73,7 @@ impl PacketFormat {
         units: &mut [f32x16<S>; C],
     ) {
         match KIND {
-            RGBA8 => bytes(s, words[0], units),
+            RGBA8 | R8 => bytes(s, words[0], units),
             RGBA8_SRGB => {
                 for (k, unit) in (0..).zip(units) {
                     *unit = if k < 3 {
@@ -155,6 +158,12 @@ impl PacketFormat {
             }
         }
     }
+}
+
+/// Decodes the lowest byte, in units.
+#[inline(always)]
+pub(super) fn lowest_byte<S: Lanes>(s: S, word: u32x16<S>) -> f32x16<S> {
+    number(bits(s, word, 8))
 }
 
 /// Decodes four bytes, in units.

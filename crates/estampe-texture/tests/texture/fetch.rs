@@ -2,7 +2,7 @@
 
 use super::Random;
 use estampe_format::TexelCodec;
-use estampe_simd::{LANES, Level, Packet};
+use estampe_simd::{LANE_X, LANE_Y, LANES, Level, Packet};
 use estampe_texture::{
     Limits, MipGeneration, TexelDescriptor, TexelView, TexelViewDescriptor, TextureDimension,
     TextureFormat, ViewDimension,
@@ -33,12 +33,12 @@ fn packets_fetch_what_single_lanes_fetch() {
                     Packet([mip; LANES]),
                     Packet([0; LANES]),
                 ];
-                let mut texels = <[Packet<f32>; 4]>::default();
+                let mut texels = [Packet([7.0; LANES]); 4];
                 let is_number = matches!(
                     TexelCodec::new(format).sample_type(),
                     SampleType::Float | SampleType::Depth
                 );
-                let done = view.fetch_packet(level, &places, &mut texels);
+                let done = view.fetch_packet(level, places.each_ref(), &mut texels);
                 let has_packets = is_number && !level.is_scalar();
                 assert_eq!(done, has_packets, "{format:?} at {}", level.name());
                 if !done {
@@ -65,6 +65,39 @@ fn packets_fetch_what_single_lanes_fetch() {
     assert!(by_packets > 100 && one_by_one > 20 && outside > 1000);
 }
 
+/// Blocks of 4×4 texels, as a pass over a whole picture loads them, some across a border.
+#[test]
+fn blocks_of_texels_are_those_of_single_lanes() {
+    let mut random = Random::new(33);
+    for format in [TextureFormat::Rgba16Float, TextureFormat::Rgba32Float] {
+        let view = view_of(format, ViewDimension::D2, &mut random).expect("a 2D format");
+        for level in Level::all_available()
+            .into_iter()
+            .filter(|level| !level.is_scalar())
+        {
+            for [x, y] in [[0, 0], [4, 4], [3, 1], [5, 2], [-1, 0]] {
+                let block =
+                    |lanes: [u8; LANES], first: i32| Packet(lanes.map(|at| first + i32::from(at)));
+                let none = Packet([0; LANES]);
+                let places = [block(LANE_X, x), block(LANE_Y, y), none, none, none];
+                let mut texels = <[Packet<f32>; 4]>::default();
+                assert!(view.fetch_packet(level, places.each_ref(), &mut texels));
+                for lane in 0..LANES {
+                    let [x, y, z, mip, sample] = places.each_ref().map(|place| place.0[lane]);
+                    let expected = crate::array(view.fetch([x, y, z], mip, sample));
+                    let got = texels.each_ref().map(|channel| channel.0[lane].to_bits());
+                    let name = level.name();
+                    assert_eq!(
+                        got,
+                        expected.map(f32::to_bits),
+                        "{format:?} at {name}, ({x}, {y})"
+                    );
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn packets_with_different_levels_are_fetched_one_by_one() {
     let mut random = Random::new(32);
@@ -84,7 +117,7 @@ fn packets_with_different_levels_are_fetched_one_by_one() {
         };
         let places = [none, none, none, alternating(mips), alternating(samples)];
         let mut texels = <[Packet<f32>; 4]>::default();
-        assert!(!view.fetch_packet(Level::best(), &places, &mut texels));
+        assert!(!view.fetch_packet(Level::best(), places.each_ref(), &mut texels));
     }
 }
 

@@ -3,8 +3,9 @@
 use super::{Random, noise};
 use estampe_simd::{LANE_X, LANE_Y, LANES, Level, Packet};
 use estampe_texture::{
-    AddressMode, FilterMode, PacketRequest, SampledTexture, SamplerDescriptor, ShadowMap,
-    TexelView, TexelViewDescriptor, TextureFormat, compare_packets,
+    AddressMode, FilterMode, Limits, MipGeneration, PacketLod, PacketRequest, SampledTexture,
+    SamplerDescriptor, ShadowMap, TexelDescriptor, TexelView, TexelViewDescriptor,
+    TextureDimension, TextureFormat, ViewDimension, compare_packets,
 };
 
 type Colors = [Packet<f32>; 4];
@@ -118,4 +119,168 @@ fn comparisons_with_one_depth_are_those_alone() {
         lit > 1000 && dark > 1000 && mixed > 1000,
         "{lit} {dark} {mixed}"
     );
+}
+
+/// A texture of random texels, two layers of 64×32 with three mip levels; of half floats those
+/// below 2. The view is its second layer.
+fn textured(format: TextureFormat, sampler: SamplerDescriptor) -> SampledTexture {
+    let descriptor = TexelDescriptor {
+        dimension: TextureDimension::D2,
+        width: 64,
+        height: 32,
+        depth_or_layers: 2,
+        mip_level_count: 3,
+        sample_count: 1,
+        format,
+    };
+    let created = descriptor.create(&[], MipGeneration::None, &Limits::default());
+    let mut texture = created.expect("a small texture");
+    let random = &mut Random::new(34);
+    let of_format = match format {
+        TextureFormat::Rgba16Float => 0x3FFF_3FFF,
+        _ => u32::MAX,
+    };
+    let words = texture
+        .texels
+        .iter()
+        .map(|_| ((random.bits() << 8) ^ random.bits()) & of_format);
+    texture.texels = words.collect();
+    let view = TexelViewDescriptor {
+        dimension: Some(ViewDimension::D2),
+        base_array_layer: 1,
+        ..TexelViewDescriptor::default()
+    };
+    SampledTexture::new(TexelView::new(texture, &view).unwrap(), sampler).unwrap()
+}
+
+/// Blocks of pixels whose samples stand in columns and rows, as many texels apart as a step says,
+/// or nearly so; levels between, borders, and textures that are mirrored.
+#[test]
+fn blocks_of_pixels_are_sampled_as_their_lanes_alone() {
+    let clamped = SamplerDescriptor {
+        address_mode_u: AddressMode::ClampToEdge,
+        address_mode_v: AddressMode::MirrorRepeat,
+        ..SamplerDescriptor::trilinear_repeat()
+    };
+    let random = &mut Random::new(35);
+    let formats = [
+        TextureFormat::Rgba16Float,
+        TextureFormat::Rgba8Unorm,
+        TextureFormat::R8Unorm,
+        TextureFormat::R16Unorm,
+    ];
+    for sampler in [SamplerDescriptor::trilinear_repeat(), clamped] {
+        for format in formats {
+            let texture = textured(format, sampler);
+            for level in Level::all_available() {
+                let texture = texture.clone().at_level(level);
+                for round in 0..400 {
+                    let texels = [1.0, 0.5, 2.0, 0.37, -1.0, 3.0][round % 6];
+                    let place = [random.unit() * 1.2 - 0.1, random.unit() * 1.2 - 0.1];
+                    // Sometimes at texels' centres, where rounding decides which one is first.
+                    let place = match round % 3 {
+                        0 => place.map(|at| (at * 64.0).floor() / 64.0 + 0.5 / 64.0),
+                        _ => place,
+                    };
+                    let [mut u, v] = packets(place, texels / 64.0);
+                    if round % 11 == 0 {
+                        u.0[round % LANES] += 0.001;
+                    }
+                    let value = Packet([[0.0, 0.0, 1.0, 0.3][round % 4]; LANES]);
+                    let request = PacketRequest {
+                        at: [&u, &v, PacketRequest::ZEROS.at[2]],
+                        lod: PacketLod::Level,
+                        value: &value,
+                        ..PacketRequest::ZEROS
+                    };
+                    // Every channel is stored, those too that the format does not have.
+                    let mut block = [Packet([7.0; LANES]); 4];
+                    texture.sample_request(&request, &mut block);
+                    for lane in 0..LANES {
+                        let only = |of: &Packet<f32>| Packet([of.0[lane]; LANES]);
+                        let [u, v, value] = [only(&u), only(&v), only(&value)];
+                        let request = PacketRequest {
+                            count: 1,
+                            at: [&u, &v, PacketRequest::ZEROS.at[2]],
+                            value: &value,
+                            ..request
+                        };
+                        let mut alone = [Packet([7.0; LANES]); 4];
+                        texture.sample_request(&request, &mut alone);
+                        let [block, alone] = [&block, &alone]
+                            .map(|all| all.each_ref().map(|of| of.0.map(f32::to_bits)));
+                        assert_eq!(
+                            block.map(|of| of[lane]),
+                            alone.map(|of| of[0]),
+                            "{format:?} {level:?} {texels} {place:?} lane {lane}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn samples_in_columns_and_rows_are_blocks() {
+    let clamped = SamplerDescriptor {
+        address_mode_u: AddressMode::ClampToEdge,
+        address_mode_v: AddressMode::ClampToEdge,
+        ..SamplerDescriptor::trilinear_repeat()
+    };
+    let halves = textured(TextureFormat::Rgba16Float, clamped);
+    let bytes = textured(TextureFormat::Rgba8Unorm, clamped);
+    for level in Level::all_available() {
+        let has_blocks = matches!(level.name(), "avx2" | "avx512");
+        // The last steps are too far apart.
+        for (step, is_near) in [
+            (1.0, true),
+            (0.5, true),
+            (-1.0, true),
+            (2.0, true),
+            (3.0, false),
+        ] {
+            for is_tilted in [false, true] {
+                let [mut u, v] = packets([0.3, 0.4], step / 64.0);
+                u.0[9] += if is_tilted { 1e-4 } else { 0.0 };
+                let request = PacketRequest {
+                    at: [&u, &v, PacketRequest::ZEROS.at[2]],
+                    lod: PacketLod::Level,
+                    ..PacketRequest::ZEROS
+                };
+                let found = halves.clone().at_level(level).samples_a_block(&request);
+                let expected = has_blocks && is_near && !is_tilted;
+                assert_eq!(found, expected, "{level:?}, {step} texels, {is_tilted}");
+                assert!(!bytes.clone().at_level(level).samples_a_block(&request));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_texture_at_several_places_is_sampled_as_at_each() {
+    let random = &mut Random::new(36);
+    for format in [TextureFormat::Rgba16Float, TextureFormat::Rgba8Unorm] {
+        let texture = textured(format, SamplerDescriptor::trilinear_repeat());
+        for level in Level::all_available() {
+            let texture = texture.clone().at_level(level);
+            for lod in [PacketLod::Level, PacketLod::Implicit] {
+                let places: Vec<[Packet<f32>; 2]> = (0..9)
+                    .map(|_| packets([random.unit(), random.unit()], 1.0 / 64.0))
+                    .collect();
+                let mut together = vec![Colors::default(); places.len()];
+                texture.sample_each(lod, &places, &mut together);
+                for ([u, v], together) in places.iter().zip(&together) {
+                    let request = PacketRequest {
+                        at: [u, v, PacketRequest::ZEROS.at[2]],
+                        lod,
+                        ..PacketRequest::ZEROS
+                    };
+                    let mut alone = Colors::default();
+                    texture.sample_request(&request, &mut alone);
+                    assert_eq!(bits(together), bits(&alone), "{format:?} {level:?} {lod:?}");
+                }
+            }
+        }
+    }
 }

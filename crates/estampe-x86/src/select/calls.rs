@@ -155,17 +155,24 @@ fn each_half(packets: &[Range<usize>]) -> impl Iterator<Item = (usize, usize)> {
     packets.flat_map(|(packet, halves)| halves.map(move |half| (packet, half)))
 }
 
+fn texture_op(op: &Op) -> Option<TextureOp> {
+    match op {
+        Op::Texture(op) => Some(TextureOp::clone(op)),
+        _ => None,
+    }
+}
+
 /// Accesses that need no other's results, in groups: what those of a group have in common makes
 /// them cheaper together.
 pub(super) fn groups<'o>(ops: &[&'o (Op, Value)]) -> Vec<Vec<&'o (Op, Value)>> {
     let mut groups: Vec<Vec<&(Op, Value)>> = Vec::new();
     for &one in ops {
-        let is_like = |group: &&mut Vec<&(Op, Value)>| match (&group[0].0, &one.0) {
-            (Op::Texture(a), Op::Texture(b)) => {
-                let pair = [TextureOp::clone(a), TextureOp::clone(b)];
-                group.len() < MOST_JOINED && Common::of(&pair) != Common::Nothing
-            }
-            _ => false,
+        let is_like = |group: &&mut Vec<&(Op, Value)>| {
+            let with_one = group.iter().copied().chain([one]);
+            let ops: Vec<TextureOp> = with_one.filter_map(|(op, _)| texture_op(op)).collect();
+            ops.len() == group.len() + 1
+                && ops.len() <= MOST_JOINED
+                && Common::of(&ops) != Common::Nothing
         };
         match groups.iter_mut().find(is_like) {
             Some(group) => group.push(one),

@@ -56,6 +56,12 @@ impl<S: Lanes> Interpolant<S> for TriangleInterpolant<'_> {
 }
 
 impl TriangleInterpolant<'_> {
+    /// Returns true if every varying has the same bits at all pixels.
+    #[inline(always)]
+    pub(crate) fn is_constant(&self) -> bool {
+        self.equal_w && self.planes.are_constant()
+    }
+
     /// The varyings at sixteen pixels, given by their centres' distances from the planes' origin.
     #[inline(always)]
     pub(crate) fn varyings_at<S: Lanes>(

@@ -100,6 +100,16 @@ impl<'a> VaryingPlanes<'a> {
         self.origin.len()
     }
 
+    /// Returns true if no plane rises or falls, and none is at −0, to which adding 0 gives 0.
+    #[inline(always)]
+    pub(super) fn are_constant(&self) -> bool {
+        let slopes = self.dx.iter().chain(self.dy);
+        let are_level = slopes.fold(true, |all, slope| all & (*slope == 0.0));
+        let negative_zero = (-0.0_f32).to_bits();
+        let origins = self.origin.iter();
+        are_level && origins.fold(true, |all, at| all & (at.to_bits() != negative_zero))
+    }
+
     /// The plane of scalar `k`.
     #[inline(always)]
     pub(crate) fn of(&self, k: usize) -> Plane {

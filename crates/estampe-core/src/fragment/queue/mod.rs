@@ -7,9 +7,12 @@
 
 mod quads;
 mod shaded;
+mod shared;
 
 pub(crate) use quads::QuadPlace;
 pub(crate) use shaded::{LatePacket, ShadedBatch, depth_after_shading};
+
+use shared::ConstantPrimitive;
 
 use super::centroid::{centroids, covered_bits};
 use super::interpolate::{Interpolant, PixelOffsets};
@@ -43,6 +46,13 @@ pub(crate) struct PrimitivePacket<const N: usize> {
 pub(crate) struct FragmentQueue<const N: usize> {
     samples: SampleSet<N>,
     len: usize,
+    /// The packets that the program is run for: fewer than are queued, where some share their
+    /// colours.
+    shaded_len: usize,
+    /// By packet: where the program's inputs and outputs are.
+    shaded_of: [u8; CAPACITY],
+    /// The primitive at hand, if nothing varies over it.
+    constant: ConstantPrimitive,
     scalars: usize,
     targets: usize,
     /// Colours of a fragment: its targets', and the second one.
@@ -93,6 +103,9 @@ impl<const N: usize> Default for FragmentQueue<N> {
         Self {
             samples: SampleSet::new(N),
             len: 0,
+            shaded_len: 0,
+            shaded_of: [0; CAPACITY],
+            constant: ConstantPrimitive::No,
             scalars: 0,
             targets: 0,
             colors_each: 0,
@@ -133,6 +146,7 @@ impl<const N: usize> FragmentQueue<N> {
         debug_assert_eq!(self.len, 0, "packets of another pipeline are still queued");
         self.samples = samples;
         self.open = None;
+        self.constant = ConstantPrimitive::No;
         self.scalars = interface.varyings.len();
         self.targets = interface.color_targets;
         self.colors_each = interface.colors();
@@ -181,18 +195,35 @@ impl<const N: usize> FragmentQueue<N> {
         self.len == 0
     }
 
-    /// Takes the next slot, for packets at a place.
+    /// Takes the next slot, for packets at a place; gives its number, and where the program's
+    /// inputs go.
     #[inline(always)]
-    fn begin(&mut self, place: Place, masks: [u16; N], front: u16) -> usize {
+    fn begin(&mut self, place: Place, masks: [u16; N], front: u16) -> (usize, usize) {
+        let shaded = self.shaded_len % CAPACITY;
+        self.shaded_len += 1;
+        let slot = self.take_slot(place, masks, shaded);
+        self.coverage[shaded] = masks.iter().fold(0, |any, mask| any | mask);
+        self.front_facing[shaded] = front;
+        (slot, shaded)
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "below CAPACITY")]
+    fn take_slot(&mut self, place: Place, masks: [u16; N], shaded: usize) -> usize {
         debug_assert!(self.len < CAPACITY, "a full queue is shaded first");
         let slot = self.len % CAPACITY;
         self.len += 1;
         self.places[slot] = place;
         self.masks[slot] = masks;
         self.sample_of[slot] = None;
-        self.coverage[slot] = masks.iter().fold(0, |any, mask| any | mask);
-        self.front_facing[slot] = front;
+        self.shaded_of[slot] = shaded as u8;
         slot
+    }
+
+    /// Where a packet's inputs and outputs of the program are.
+    #[inline(always)]
+    fn shaded(&self, slot: usize) -> usize {
+        usize::from(self.shaded_of[slot]) % CAPACITY
     }
 
     /// Queues a packet of a primitive.
@@ -206,19 +237,19 @@ impl<const N: usize> FragmentQueue<N> {
         outline!(s, {
             let (pixel, sample) = (packet.pixel, packet.sample);
             let front = if packet.front { u16::MAX } else { 0 };
-            let slot = self.begin(
-                Place::Packet(packet.alive.packet),
-                packet.alive.masks,
-                front,
-            );
+            let place = Place::Packet(packet.alive.packet);
+            if self.shares_colors(place, packet.alive.masks) {
+                return;
+            }
+            let (slot, shaded) = self.begin(place, packet.alive.masks, front);
             let mut at = [0.5; 2];
             if let Some(sample) = sample {
                 let number = usize::from(sample) % N;
                 self.sample_of[slot] = Some(sample);
-                self.coverage[slot] = packet.alive.masks[number];
+                self.coverage[shaded] = packet.alive.masks[number];
                 at = self.samples.offsets()[number];
             }
-            let out = &mut self.varyings[slot * self.scalars..][..self.scalars];
+            let out = &mut self.varyings[shaded * self.scalars..][..self.scalars];
             if sample.is_some() {
                 if !out.is_empty() {
                     interpolant.varyings_in(s, pixel, &PixelOffsets::all(at), out);
@@ -240,7 +271,7 @@ impl<const N: usize> FragmentQueue<N> {
                 }
             }
             if self.needs.position {
-                let [x, y, z, w] = &mut self.positions[slot];
+                let [x, y, z, w] = &mut self.positions[shaded];
                 let lanes = |base: i32, lanes: &[u8; LANES], offset: f32| {
                     let mut places = [0.0; LANES];
                     for (place, lane) in places.iter_mut().zip(lanes) {
@@ -260,10 +291,10 @@ impl<const N: usize> FragmentQueue<N> {
                 inverse_w.store_array(&mut w.0);
             }
             if self.needs.sample_index {
-                self.sample_index[slot] = sample.map_or(0, u32::from);
+                self.sample_index[shaded] = sample.map_or(0, u32::from);
             }
             if self.needs.coverage {
-                self.samples_covered[slot] = covered_bits(&packet.covered, sample);
+                self.samples_covered[shaded] = covered_bits(&packet.covered, sample);
             }
             if self.needs.depth {
                 let depths = &mut self.depths[slot * N..][..self.samples.count()];
@@ -278,8 +309,8 @@ impl<const N: usize> FragmentQueue<N> {
     /// Queues a packet whose lanes are fragments of several triangles; gives where its varyings go.
     #[inline(always)]
     pub(crate) fn push_across_triangles(&mut self, lanes: u16, front: u16) -> &mut [Packet<f32>] {
-        let slot = self.begin(Place::Packet(0), [lanes; N], front);
-        &mut self.varyings[slot * self.scalars..][..self.scalars]
+        let (_, shaded) = self.begin(Place::Packet(0), [lanes; N], front);
+        &mut self.varyings[shaded * self.scalars..][..self.scalars]
     }
 
     /// Runs the program over the queued packets. Returns how many fragments that were.
@@ -289,8 +320,8 @@ impl<const N: usize> FragmentQueue<N> {
         pipeline: &RenderPipeline,
         bindings: &Bindings,
     ) -> u64 {
-        let len = self.len.min(CAPACITY);
-        let fragments = self.coverage[..len]
+        let len = self.shaded_len.min(CAPACITY);
+        let run: u64 = self.coverage[..len]
             .iter()
             .map(|mask| u64::from(mask.count_ones()))
             .sum();
@@ -312,18 +343,20 @@ impl<const N: usize> FragmentQueue<N> {
                     sample_masks: &mut self.sample_masks[..of(self.needs.sample_mask, 1)],
                 },
             );
-            self.keep_shaded(len);
+            self.keep_shaded();
         }
-        fragments
+        run + self.sharing_fragments()
     }
 
     /// Drops the samples that the shader discarded, and those that a packet is not shaded for.
-    fn keep_shaded(&mut self, len: usize) {
-        let packets = self.masks.iter_mut().zip(&self.coverage);
-        for ((masks, coverage), sample_of) in packets.zip(&self.sample_of).take(len) {
+    fn keep_shaded(&mut self) {
+        let packets = self.masks.iter_mut().zip(&self.shaded_of);
+        let packets = packets.zip(&self.sample_of).take(self.len.min(CAPACITY));
+        for ((masks, shaded), sample_of) in packets {
+            let coverage = self.coverage[usize::from(*shaded) % CAPACITY];
             for (sample, mask) in masks.iter_mut().enumerate() {
                 let is_shaded = sample_of.is_none_or(|of| usize::from(of) == sample);
-                *mask &= if is_shaded { *coverage } else { 0 };
+                *mask &= if is_shaded { coverage } else { 0 };
             }
         }
     }
@@ -336,7 +369,7 @@ impl<const N: usize> FragmentQueue<N> {
                 unreachable!("lines are queued by packets");
             };
             let factors = factors(packet);
-            let from = slot * self.colors_each * 4;
+            let from = usize::from(self.shaded_of[slot]) * self.colors_each * 4;
             let colors = &mut self.colors[from..][..self.targets * 4];
             for color in colors.as_chunks_mut::<4>().0 {
                 for (alpha, factor) in color[3].0.iter_mut().zip(factors.0) {
@@ -350,6 +383,8 @@ impl<const N: usize> FragmentQueue<N> {
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
         self.len = 0;
+        self.shaded_len = 0;
         self.open = None;
+        self.constant.forget_colors();
     }
 }

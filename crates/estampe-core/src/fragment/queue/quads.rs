@@ -35,9 +35,12 @@ impl<const N: usize> FragmentQueue<N> {
             }
         }
         let place = Place::Quads([a.place, b.place, c.place, d.place]);
-        let slot = self.begin(place, masks, if front { u16::MAX } else { 0 });
+        if self.shares_colors(place, masks) {
+            return;
+        }
+        let (slot, shaded) = self.begin(place, masks, if front { u16::MAX } else { 0 });
         let distances = triangle.distances_of_quads(s, [a.pixel, b.pixel, c.pixel, d.pixel]);
-        let out = &mut self.varyings[slot * self.scalars..][..self.scalars];
+        let out = &mut self.varyings[shaded * self.scalars..][..self.scalars];
         triangle.varyings_at(s, distances, out);
         for (quad, from) in quads.iter().enumerate() {
             self.set_quad(s, triangle, from, (slot, quad));
@@ -70,8 +73,12 @@ impl<const N: usize> FragmentQueue<N> {
     ) {
         let (slot, quad) = match self.open {
             Some((slot, quad)) if quad < QUADS => (slot % CAPACITY, quad),
-            _ => (self.begin(Place::Quads([from.place; QUADS]), [0; N], 0), 0),
+            _ => (
+                self.begin(Place::Quads([from.place; QUADS]), [0; N], 0).0,
+                0,
+            ),
         };
+        let shaded = self.shaded(slot);
         self.open = Some((slot, quad + 1));
         let shift = quad * QUAD;
         if let Place::Quads(places) = &mut self.places[slot] {
@@ -82,11 +89,11 @@ impl<const N: usize> FragmentQueue<N> {
             *to |= mask << shift;
             any |= mask << shift;
         }
-        self.coverage[slot] |= any;
+        self.coverage[shaded] |= any;
         if front {
-            self.front_facing[slot] |= 0xF << shift;
+            self.front_facing[shaded] |= 0xF << shift;
         }
-        let out = &mut self.varyings[slot * self.scalars..][..self.scalars];
+        let out = &mut self.varyings[shaded * self.scalars..][..self.scalars];
         let at = at % QUADS * QUAD;
         for (to, from) in out.iter_mut().zip(&self.spare) {
             to.0[shift..shift + QUAD].copy_from_slice(&from.0[at..at + QUAD]);
@@ -105,7 +112,8 @@ impl<const N: usize> FragmentQueue<N> {
     ) {
         let range = self.needs.depth_range;
         if self.needs.position {
-            triangle.quad_position(s, from.pixel, quad, range, &mut self.positions[slot]);
+            let positions = &mut self.positions[usize::from(self.shaded_of[slot]) % CAPACITY];
+            triangle.quad_position(s, from.pixel, quad, range, positions);
         }
         if self.needs.depth {
             let depths = &mut self.depths[slot * N..][..self.samples.count()];

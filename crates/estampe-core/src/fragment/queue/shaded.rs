@@ -15,16 +15,19 @@ impl<const N: usize> FragmentQueue<N> {
         let (targets, each, output) = (self.targets, self.colors_each, self.depth_output);
         let (colors, depths) = (&self.colors, &self.depths);
         let (places, front, depth_out) = (&self.places, &self.front_facing, &self.depth_out);
-        let sample_masks = &self.sample_masks;
+        let (sample_masks, shaded_of) = (&self.sample_masks, &self.shaded_of);
         let packets = self.masks.iter_mut().enumerate().take(len);
-        packets.map(move |(slot, masks)| LatePacket {
-            masks,
-            place: places[slot],
-            front: front[slot],
-            alpha: (targets > 0).then(|| &colors[slot * each * 4 + 3]),
-            depths: depths.get(slot * N..(slot + 1) * N).unwrap_or_default(),
-            depth_out: (output != DepthOutput::None).then_some((output, &depth_out[slot])),
-            sample_mask: sample_masks.get(slot),
+        packets.map(move |(slot, masks)| {
+            let shaded = usize::from(shaded_of[slot]) % CAPACITY;
+            LatePacket {
+                masks,
+                place: places[slot],
+                front: front[shaded],
+                alpha: (targets > 0).then(|| &colors[shaded * each * 4 + 3]),
+                depths: depths.get(slot * N..(slot + 1) * N).unwrap_or_default(),
+                depth_out: (output != DepthOutput::None).then_some((output, &depth_out[shaded])),
+                sample_mask: sample_masks.get(shaded),
+            }
         })
     }
 
@@ -42,7 +45,8 @@ impl<const N: usize> FragmentQueue<N> {
             masks: &self.masks.as_flattened()[..len * N],
             mask_stride: N,
             samples: self.samples.count(),
-            colors: &colors[..len * stride],
+            shaded_of: &self.shaded_of[..len],
+            colors: &colors[..self.shaded_len.min(CAPACITY) * stride],
             stride,
             second: (self.colors_each > self.targets).then_some(self.targets * 4),
         }
@@ -76,7 +80,9 @@ pub(crate) struct ShadedBatch<'a> {
     mask_stride: usize,
     /// Samples of a pixel.
     pub(crate) samples: usize,
-    /// By packet: four channels of each target, then of the second colour.
+    /// By packet: its place among the colours.
+    shaded_of: &'a [u8],
+    /// Four channels of each target, then of the second colour.
     colors: &'a [Packet<f32>],
     stride: usize,
     /// The index of the second colour's first channel in a packet's colours.
@@ -101,7 +107,7 @@ impl<'a> ShadedBatch<'a> {
         places.map(move |(slot, place)| ShadedPacket {
             place: *place,
             masks: &self.masks[slot * self.mask_stride..][..self.samples.min(MAX_SAMPLES)],
-            colors: &self.colors[slot * self.stride..][..self.stride],
+            colors: &self.colors[usize::from(self.shaded_of[slot]) * self.stride..][..self.stride],
             second: self.second,
         })
     }

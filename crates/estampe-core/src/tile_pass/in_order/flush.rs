@@ -14,6 +14,8 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         let queue = &mut self.scratch.queue;
         let fragments = queue.shade(level, plan.pipeline, plan.bindings);
         self.scratch.statistics.fragments_shaded += fragments;
+        self.scratch.statistics.fragments_of_shared_colors +=
+            self.scratch.queue.sharing_fragments();
         if let Some(line) = &self.smooth {
             let (x, y) = (self.work.shape.x, self.work.shape.y);
             self.scratch.queue.scale_alpha(|packet| {

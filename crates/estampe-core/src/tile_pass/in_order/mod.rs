@@ -105,6 +105,7 @@ fn draw_entries<S: Lanes, const N: usize>(
         uses_hiz: plan.timing != TestTiming::Late,
         blends_blocks: plan.path == TilePath::InOrderBlocks,
         shares_packets: plan.path != TilePath::InOrderPackets,
+        shares_colors: pipeline.key().depends_on_varyings_alone,
         stores_in_order: pipeline.key().stores_in_order,
         passed: 0,
         planes,
@@ -146,6 +147,8 @@ struct InOrder<'a, 'j, 't, const N: usize> {
     blends_blocks: bool,
     /// True if quads of several triangles share packets.
     shares_packets: bool,
+    /// True if packets of one primitive have the same colours where their varyings are the same.
+    shares_colors: bool,
     /// True if shaders store in an order that can be seen.
     stores_in_order: bool,
     /// Samples that passed all tests, where a query counts them.
@@ -193,6 +196,8 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
             plan.all_smooth,
         );
         interpolant.planes = VaryingPlanes::new(&planes);
+        let is_constant = self.shares_colors && interpolant.is_constant();
+        self.scratch.queue.begin_primitive(is_constant);
         // Whole blocks are blended with one sample only.
         if const { N == 1 } && coverage.whole != 0 {
             self.blend_blocks(&interpolant, coverage);

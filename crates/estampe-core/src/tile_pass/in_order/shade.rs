@@ -48,6 +48,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         front: bool,
     ) {
         if self.test_early(s, interpolant, front) {
+            self.scratch.queue.begin_primitive(false);
             self.queue_packets(s, interpolant, front);
         }
     }

@@ -5,12 +5,12 @@
 //! lane are neighbours in memory. The arithmetic is that of the other cases, in the same order, so
 //! the bits are the same.
 
-use super::Packet;
 use super::places::Spots;
+use super::{Packet, only_red};
 use crate::filter::mix_colors;
 use crate::texel::{Corners, finish};
 use crate::view::coordinates::{Answers, packet};
-use crate::view::packet_texel::{RGBA8, RGBA8_SRGB, RGBA16F};
+use crate::view::packet_texel::{R8, RGBA8, RGBA8_SRGB, RGBA16F, lowest_byte};
 use crate::view::plane::Plane;
 use crate::wrap::{Place, place};
 use estampe_simd::{Bytes, Lanes as SimdLanes, SimdBase, f32x16, i32x16, u32x16};
@@ -18,10 +18,10 @@ use estampe_types::{FilterMode, Int, Real, Vec4, ViewDimension};
 
 /// The footprint of each lane in a level: the first of its 2×2 texels and the position between
 /// their centres.
-struct Square<'a, R: Real> {
-    plane: &'a Plane,
-    x: Place<R>,
-    y: Place<R>,
+pub(super) struct Square<'a, R: Real> {
+    pub(super) plane: &'a Plane,
+    pub(super) x: Place<R>,
+    pub(super) y: Place<R>,
 }
 
 impl Packet<'_> {
@@ -48,11 +48,27 @@ impl Packet<'_> {
             return false;
         }
         let at = first.cast_unsigned() as usize;
+        let is_mixed = f32x16::any(fraction.gt(zero));
+        self.inside_levels::<S, C, KIND>(s, spots, (at, is_mixed.then_some(fraction)), answers)
+    }
+
+    /// Samples a packet in one level, or between it and the next one, if all texels are inside;
+    /// `false` for other packets.
+    #[inline(always)]
+    pub(super) fn inside_levels<S: SimdLanes, const C: usize, const KIND: u8>(
+        &self,
+        s: S,
+        spots: &Spots<f32x16<S>>,
+        (at, fraction): (usize, Option<f32x16<S>>),
+        answers: &mut Answers,
+    ) -> bool {
+        let planes = &self.of.view.planes;
+        let last = planes.len() - 1;
+        let zero: f32x16<S> = SimdBase::splat(s, 0.0);
         let Some(fine) = self.square(spots, &planes[at.min(last)]) else {
             return false;
         };
-        let is_mixed = f32x16::any(fraction.gt(zero));
-        let coarse = if is_mixed {
+        let coarse = if fraction.is_some() {
             let coarse = self.square(spots, &planes[(at + 1).min(last)]);
             if coarse.is_none() {
                 return false;
@@ -60,6 +76,10 @@ impl Packet<'_> {
             coarse
         } else {
             None
+        };
+        let fraction = match fraction {
+            Some(fraction) => fraction,
+            None => zero,
         };
         if KIND == RGBA8 || KIND == RGBA8_SRGB {
             let is_srgb = KIND == RGBA8_SRGB;
@@ -76,6 +96,20 @@ impl Packet<'_> {
             };
             let Vec4 { x, y, z, w } = finish(color, is_srgb);
             *answers = [packet(x, 0), packet(y, 0), packet(z, 0), packet(w, 0)];
+            return true;
+        }
+        if KIND == R8 {
+            let of_fine = self.corners(s, spots, &fine);
+            let red = match &coarse {
+                Some(coarse) => {
+                    let of_coarse = self.corners(s, spots, coarse);
+                    let fine = red_mean(s, of_fine, &fine);
+                    fine + (red_mean(s, of_coarse, coarse) - fine) * fraction
+                }
+                None => red_mean(s, of_fine, &fine),
+            };
+            answers[0] = packet(red * self.of.view.codec.scale()[0], 0);
+            only_red(answers);
             return true;
         }
         let mut color = [zero; C];
@@ -96,13 +130,17 @@ impl Packet<'_> {
                 };
             }
         }
-        self.finish(color, zero.splat(1.0), answers);
+        self.finish::<_, C, KIND>(color, zero.splat(1.0), answers);
         true
     }
 
     /// The footprint in a level, if all texels are inside.
     #[inline(always)]
-    fn square<'a, R: Real>(&self, spots: &Spots<R>, plane: &'a Plane) -> Option<Square<'a, R>> {
+    pub(super) fn square<'a, R: Real>(
+        &self,
+        spots: &Spots<R>,
+        plane: &'a Plane,
+    ) -> Option<Square<'a, R>> {
         let x = self.place_inside(spots, plane, 0);
         let y = self.place_inside(spots, plane, 1);
         let outside =
@@ -173,6 +211,15 @@ impl Packet<'_> {
         spots: &Spots<f32x16<S>>,
         square: &Square<'_, f32x16<S>>,
     ) -> [f32x16<S>; C] {
+        if KIND == RGBA16F
+            && let Some(of_block) = self.mean_of_block(s, spots, square)
+        {
+            let mut mean = [spots.at[0]; C];
+            for k in 0..C {
+                mean[k] = of_block[k % 4];
+            }
+            return mean;
+        }
         let texels = &self.of.view.texture.texels[..];
         let width = square.plane.sides[0].cast_unsigned();
         let index: u32x16<S> = self.first_words(spots, square).bitcast();
@@ -224,6 +271,21 @@ impl Packet<'_> {
         }
         mean
     }
+}
+
+/// The weighted mean of the lowest bytes of four texels, in units.
+#[inline(always)]
+fn red_mean<S: SimdLanes>(
+    s: S,
+    corners: Corners<i32x16<S>>,
+    at: &Square<'_, f32x16<S>>,
+) -> f32x16<S> {
+    let ([a, b], [c, d]) = (corners.upper, corners.lower);
+    let [a, b] = [lowest_byte(s, a.bitcast()), lowest_byte(s, b.bitcast())];
+    let [c, d] = [lowest_byte(s, c.bitcast()), lowest_byte(s, d.bitcast())];
+    let upper = a + (b - a) * at.x.fraction;
+    let lower = c + (d - c) * at.x.fraction;
+    upper + (lower - upper) * at.y.fraction
 }
 
 /// Indices moved on by a number of words.

@@ -11,6 +11,7 @@
 //! (a border, an offset, a cube's edge), the scalar code samples the lane again: there are few such
 //! lanes.
 
+mod block;
 mod face;
 mod footprint;
 mod inside;
@@ -19,11 +20,12 @@ mod places;
 pub(crate) use super::packet_texel::PacketFormat;
 
 use super::coordinates::{Answers, answer, load, packet};
-use super::packet_texel::{OTHERS, RGBA8, RGBA8_SRGB, RGBA16F, passes};
+use super::packet_texel::{OTHERS, R8, RGBA8, RGBA8_SRGB, RGBA16F, passes};
 use super::plane::Plane;
 use super::{PacketLod, PacketRequest, SampledTexture};
 use estampe_simd::{
-    Bytes, LANES, Lanes as SimdLanes, Level, SimdBase, dispatch, f32x16, i32x16, u32x16,
+    Bytes, LANES, Lanes as SimdLanes, Level, Packet as Values, SimdBase, dispatch, f32x16, i32x16,
+    u32x16,
 };
 use estampe_types::state::CompareFunction;
 use estampe_types::{FilterMode, Int, Real, ViewDimension};
@@ -54,10 +56,12 @@ impl SampledTexture {
             is_simple: self.is_simple && compares.is_none() && lanes.offset == [0; 3],
         };
         // Comparisons need one channel only, and many formats have only one.
-        let again = if compares.is_some() || format.components == 1 {
+        let again = if compares.is_some() {
             packet.enter::<1, OTHERS>(self.level, answers)
         } else {
             match format.kind() {
+                R8 => packet.enter::<1, R8>(self.level, answers),
+                _ if format.components == 1 => packet.enter::<1, OTHERS>(self.level, answers),
                 RGBA8 => packet.enter::<4, RGBA8>(self.level, answers),
                 RGBA8_SRGB => packet.enter::<4, RGBA8_SRGB>(self.level, answers),
                 RGBA16F => packet.enter::<4, RGBA16F>(self.level, answers),
@@ -136,6 +140,12 @@ impl Packet<'_> {
             load(like, self.lanes.at[1], 0),
             load(like, self.lanes.at[2], 0),
         ];
+        if self.is_simple
+            && self.of.ignores_lod
+            && self.inside_levels::<S, C, KIND>(s, &self.spots(at), (0, None), answers)
+        {
+            return 0;
+        }
         let value = load(like, self.lanes.value, 0);
         let one = like.splat(1.0);
         let (lod, bias, probes, step) = match self.lanes.lod {
@@ -158,7 +168,10 @@ impl Packet<'_> {
             }
         };
         let lod = lod + Real::clamp(bias + sampler.lod_bias, -16.0, 15.99);
-        if self.is_simple && self.inside::<S, C, KIND>(s, &self.spots(at), lod, answers) {
+        if self.is_simple
+            && !self.of.ignores_lod
+            && self.inside::<S, C, KIND>(s, &self.spots(at), lod, answers)
+        {
             return 0;
         }
         // Comparisons use one probe.
@@ -200,14 +213,19 @@ impl Packet<'_> {
                 break;
             }
         }
-        self.finish(sum, probes, answers);
+        self.finish::<_, C, KIND>(sum, probes, answers);
         again
     }
 
     /// Divides the sum of the probes by their number, scales it from units to numbers and stores
     /// it.
     #[inline(always)]
-    fn finish<R: Real, const C: usize>(&self, sum: [R; C], probes: R, answers: &mut Answers) {
+    fn finish<R: Real, const C: usize, const KIND: u8>(
+        &self,
+        sum: [R; C],
+        probes: R,
+        answers: &mut Answers,
+    ) {
         let several = probes.gt(probes.splat(1.0));
         let weight = probes.splat(1.0) / probes;
         let scale = self.of.view.codec.scale();
@@ -218,13 +236,16 @@ impl Packet<'_> {
                 if self.of.sampler.max_anisotropy > 1 {
                     color = R::select(several, color * weight, color);
                 }
-                color *= scale[k];
+                // The units of half floats are the numbers themselves.
+                if KIND != RGBA16F {
+                    color *= scale[k];
+                }
             }
             answers[k] = packet(color, 0);
             k += 1;
         }
         if C == 1 && self.compares.is_none() {
-            answers[3].0 = [1.0; LANES];
+            only_red(answers);
         }
     }
 
@@ -442,6 +463,13 @@ impl Packet<'_> {
             reference
         }
     }
+}
+
+/// Sets the channels that a format of one component does not store.
+#[inline(always)]
+pub(super) fn only_red([_, green, blue, alpha]: &mut Answers) {
+    (*green, *blue) = (Values::default(), Values::default());
+    alpha.0 = [1.0; LANES];
 }
 
 /// The coordinates of one fragment of each quad.

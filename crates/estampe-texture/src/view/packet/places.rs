@@ -8,7 +8,7 @@ use crate::view::coordinates::load;
 use crate::view::plane::Plane;
 use crate::wrap::{place, tile, wrap};
 use estampe_simd::floats_of;
-use estampe_types::{AddressMode, FilterMode, Int, Real};
+use estampe_types::{AddressMode, FilterMode, Int, Real, ViewDimension};
 
 /// Coordinates of all lanes, in the form that is independent of the mip level.
 pub(super) struct Spots<R: Real> {
@@ -40,6 +40,12 @@ impl Packet<'_> {
     #[inline(always)]
     pub(super) fn spots<R: Real>(&self, at: [R; 3]) -> Spots<R> {
         let view = &self.of.view;
+        if view.dimension == ViewDimension::D2 {
+            return Spots {
+                at: [self.tiled(at[0], 0), self.tiled(at[1], 1), at[2]],
+                slice: at[0].to_bits().splat(view.base_layer.cast_signed()),
+            };
+        }
         let [layers] = floats_of(std::slice::from_ref(self.lanes.layer)) else {
             unreachable!("as many packets as were given")
         };
