@@ -75,6 +75,11 @@ impl ColorTarget {
         self.texel.encode(color)
     }
 
+    /// Returns true if the write mask lets some bit of a texel change.
+    pub(crate) fn is_written(&self) -> bool {
+        self.writable != [0; MAX_WORDS]
+    }
+
     /// Returns true if every channel of the source replaces the stored one.
     pub(crate) fn replaces(&self) -> bool {
         self.equation == Equation::Replace && self.logic.is_none() && self.writes_all

@@ -22,7 +22,7 @@ pub(crate) struct StageKey {
     pub(crate) tests_early: bool,
     /// A sample's colour is that of the last filled triangle that passes its tests there.
     pub(crate) is_opaque: bool,
-    /// Fragments have colours.
+    /// Fragments have colours that are stored: a target's write mask is not empty.
     pub(crate) has_colors: bool,
     /// The fragments' colour depends on the primitive alone, so it is shaded once for each.
     pub(crate) uniform_over_primitive: bool,
@@ -101,6 +101,7 @@ impl StageKey {
             && !interface.dual_source
             && primitive.conservative == ConservativeMode::Disabled;
         let depth_stencil = descriptor.depth_stencil;
+        let has_colors = targets.iter().any(ColorTarget::is_written);
         Self {
             depth: depth_stencil
                 .map(|state| state.depth())
@@ -109,8 +110,8 @@ impl StageKey {
                 .and_then(|state| state.stencil)
                 .filter(|state| !does_nothing(state)),
             tests_early,
-            is_opaque: is_plain && targets.iter().all(ColorTarget::replaces),
-            has_colors: !targets.is_empty(),
+            is_opaque: is_plain && (!has_colors || targets.iter().all(ColorTarget::replaces)),
+            has_colors,
             uniform_over_primitive: flat && !interface.reads_position,
             uniform_over_draw: interface.varyings.is_empty() && !interface.reads_position,
             fragments_are_independent: interface.no_derivatives

@@ -240,6 +240,7 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
                 plane: *plane,
                 tile: shape,
                 samples: self.samples,
+                passes_in_vain: false,
             };
             classes = self
                 .scratch
