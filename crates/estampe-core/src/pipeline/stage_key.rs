@@ -35,7 +35,7 @@ pub(crate) struct StageKey {
     pub(crate) color_passthrough: bool,
     /// Blocks that a filled triangle covers whole may be blended from the planes of its colour.
     pub(crate) blends_blocks: bool,
-    /// Packets may hold quads of several triangles.
+    /// Packets may hold quads of several primitives.
     pub(crate) shares_packets: bool,
     /// Fragments store, and what they store may depend on their order.
     pub(crate) stores_in_order: bool,
@@ -80,8 +80,10 @@ impl StageKey {
         // Packets that several triangles share would be shaded in an order that depends on the SIMD
         // level.
         let stores_in_order = interface.stores && !interface.stores_in_any_order;
-        let shares_packets = fills_triangles && is_shaded_by_pixel && !stores_in_order;
+        // The alpha of smooth lines is scaled by packets, after shading.
         let smooth_lines = primitive.line.rasterization == LineRasterization::RectangularSmooth;
+        let shares_packets =
+            (fills_triangles || !smooth_lines) && is_shaded_by_pixel && !stores_in_order;
         // A program of a caller's own may claim more than it has, and smooth lines scale alpha
         // after shading.
         let color_passthrough = interface.color_passthrough
@@ -95,7 +97,8 @@ impl StageKey {
             .varyings
             .iter()
             .all(|mode| *mode == Interpolation::Flat);
-        let is_plain = shares_packets
+        let is_plain = fills_triangles
+            && shares_packets
             && tests_early
             && sample_mask.is_none()
             && !interface.dual_source

@@ -269,7 +269,9 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
         let list = &mut self.scratch.in_order.list;
         list.clear();
         let style = self.work.plan.line_style;
-        line::cover(line, style, *shape, rect, list);
+        if style.plain_rectangle().is_none() {
+            line::cover(line, style, *shape, rect, list);
+        }
         let interpolant = LineInterpolant::new(line, style, self.source);
         if style.is_smooth() {
             self.smooth = Some(interpolant);
@@ -300,7 +302,31 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
 
 impl<const N: usize> InOrder<'_, '_, '_, N> {
     fn enter_covered(&mut self, interpolant: &LineOrPoint<'_>, front: bool) {
-        dispatch_samples!(N, self.work.level, s => self.covered(s, interpolant, front));
+        dispatch_samples!(N, self.work.level, s => {
+            self.cover_rectangle(s, interpolant);
+            self.covered(s, interpolant, front);
+        });
+    }
+
+    /// Lists the packets that a line covers, if it is a rectangle and nothing else.
+    #[inline(always)]
+    fn cover_rectangle<S: Lanes>(&mut self, s: S, interpolant: &LineOrPoint<'_>) {
+        let TileWork {
+            shape,
+            rect,
+            is_whole,
+            plan,
+            ..
+        } = self.work;
+        if let LineOrPoint::Line(line) = interpolant
+            && let Some(width) = plan.line_style.plain_rectangle()
+        {
+            let list = &mut self.scratch.in_order.list;
+            line::cover_rectangle(s, (line.primitive(), width), *shape, rect, list);
+            if !is_whole {
+                list.clip(rect);
+            }
+        }
     }
 }
 

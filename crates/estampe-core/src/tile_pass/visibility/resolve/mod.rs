@@ -298,12 +298,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     if self.scratch.queue.is_full_of_quads() {
                         self.flush();
                     }
-                    let TileScratch {
-                        queue, visibility, ..
-                    } = &mut *self.scratch;
-                    let resolve = &visibility.resolve;
-                    let (triangle, front) = resolve.interpolant(visible, self.modes, self.plan);
-                    queue.push_quad(s, &triangle, (at, quad), front);
+                    self.scratch.queue.push_quad((at, quad), front);
                 }
             }
         }
