@@ -13,7 +13,7 @@
 
 use super::{CoverageList, SampleSet, TileShape};
 use crate::bounds::pixel_rect::PixelRect;
-use crate::bounds::primitives::TrianglePacket;
+use crate::bounds::primitives::Triangle;
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, SimdBase, i32x16};
 
 /// Packets of a box that are tried one by one rather than through the hierarchy, where a pixel has
@@ -43,19 +43,17 @@ pub(crate) struct TilePolygon<const N: usize, const E: usize> {
 pub(crate) type TileTriangle<const N: usize> = TilePolygon<N, 3>;
 
 impl<const N: usize> TilePolygon<N, 3> {
-    /// The triangle of a lane inside a tile, whose pixels are confined to `rect` (of the tile's own
+    /// A triangle inside a tile, whose pixels are confined to `rect` (of the tile's own
     /// pixels); `None` when it covers nothing of it.
     #[inline(always)]
     pub(crate) fn new(
-        packet: &TrianglePacket,
-        lane: usize,
+        triangle: &Triangle,
         tile: TileShape,
         rect: &PixelRect,
         samples: SampleSet<N>,
     ) -> Option<Self> {
-        let corner = |corner: usize| [packet.x[corner][lane], packet.y[corner][lane]];
-        let clockwise = packet.clockwise >> lane & 1 == 1;
-        let others = if clockwise { [1, 2] } else { [2, 1] };
+        let corner = |corner: usize| [triangle.x[corner], triangle.y[corner]];
+        let others = if triangle.clockwise { [1, 2] } else { [2, 1] };
         let corners = [corner(0), corner(others[0]), corner(others[1])];
         Self::of_corners(corners, tile, rect, samples)
     }

@@ -115,8 +115,8 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
     fn large_unless_hidden(&mut self, packet: u32, lane: u8, id: u32) {
         let packet = &self.work.chunk.triangles[packet as usize];
         let lane = usize::from(lane);
-        let front = packet.front >> lane & 1 == 1;
-        let look = self.hiz_query(DepthPlane::new(packet, lane), front);
+        let triangle = packet.triangle(lane);
+        let look = self.hiz_query(DepthPlane::new(&triangle), triangle.front);
         if !self.scratch.hiz.hides(&look, self.is_any_order()) {
             self.large(packet, lane, id);
         }
@@ -179,12 +179,11 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
             plan,
             ..
         } = *self.work;
-        let Some(triangle) = TileTriangle::<N>::new(packet, lane, shape, &rect, self.samples)
-        else {
+        let set_up = packet.triangle(lane);
+        let Some(triangle) = TileTriangle::<N>::new(&set_up, shape, &rect, self.samples) else {
             return;
         };
-        let plane = DepthPlane::new(packet, lane);
-        let front = packet.front >> lane & 1 == 1;
+        let (plane, front) = (DepthPlane::new(&set_up), set_up.front);
         let in_order = !self.is_any_order();
         // Leave out the blocks where everything is nearer already.
         let mut classes = BlockClasses::of_all(0, 0);

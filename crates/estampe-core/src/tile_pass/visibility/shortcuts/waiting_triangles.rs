@@ -59,7 +59,7 @@ impl WaitingTriangles {
         let middle = [work.shape.x as f32 + half, work.shape.y as f32 + half];
         for (id, entry) in (first..).zip(entries) {
             let (packet, lane) = triangle_of(work, entry);
-            let DepthPlane { origin, z } = DepthPlane::new(packet, lane);
+            let DepthPlane { origin, z } = DepthPlane::new(&packet.triangle(lane));
             let depth = z.origin + ((middle[0] - origin.x) * z.dx + (middle[1] - origin.y) * z.dy);
             let nearer_is_less = prefers_less(compare);
             let key = if nearer_is_less { depth } else { -depth };
