@@ -10,7 +10,7 @@
 //! submission order, and so do the entries of a tile.
 
 use super::bins::{BinEntry, Bins};
-use super::primitives::{LinePrimitive, PointPrimitive, TrianglePacket};
+use super::primitives::{LinePrimitive, PointPrimitive, Triangle, TrianglePacket};
 use crate::statistics::Statistics;
 use estampe_simd::LANES;
 
@@ -85,6 +85,9 @@ pub(crate) struct Chunk {
     runs: Vec<ChunkRun>,
     parts: Vec<ChunkPart>,
     pub(crate) triangles: TrianglePackets,
+    /// The triangles of the packets up to the last one whose triangles are drawn one by one, in
+    /// order: sixteen a packet, of other packets anything.
+    one_by_one: Vec<Triangle>,
     pub(crate) lines: Vec<LinePrimitive>,
     pub(crate) points: Vec<PointPrimitive>,
     /// Varyings of the vertices that clipping made, one after the other. The numbers of a run's
@@ -100,11 +103,30 @@ impl Chunk {
         self.runs.clear();
         self.parts.clear();
         self.triangles.clear();
+        self.one_by_one.clear();
         self.lines.clear();
         self.points.clear();
         self.clipped_varyings.clear();
         self.bins.clear();
         self.statistics = Statistics::default();
+    }
+
+    /// Notes that the triangles of the last packet are drawn one by one.
+    pub(crate) fn take_apart_last(&mut self) {
+        let Some((packet, others)) = self.triangles.split_last() else {
+            return;
+        };
+        let nothing = TrianglePacket::EMPTY.triangle(0);
+        self.one_by_one.resize(others.len() * LANES, nothing);
+        let lanes = (0..LANES).map(|lane| packet.triangle(lane));
+        self.one_by_one.extend(lanes);
+    }
+
+    /// The triangles of a packet that was [taken apart](Chunk::take_apart_last).
+    #[inline(always)]
+    pub(crate) fn taken_apart(&self, packet: u32) -> &[Triangle; LANES] {
+        let triangles = self.one_by_one.as_chunks().0;
+        &triangles[packet as usize]
     }
 
     /// Begins a run with its first sub-draw.

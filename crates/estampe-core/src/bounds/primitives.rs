@@ -3,7 +3,7 @@
 //! Triangles lie in packets of sixteen, structure of arrays; lines and points, which are few, lie
 //! one by one.
 
-use super::plane::PlanePacket;
+use super::plane::{Plane, PlanePacket};
 use estampe_simd::LANES;
 
 /// A vertex of a sub-draw: an index into its shaded vertices or, with [`VertexRef::CLIPPED`] set,
@@ -61,6 +61,55 @@ impl TrianglePacket {
         len: 0,
     };
 }
+
+impl TrianglePacket {
+    /// The triangle of a lane.
+    #[inline(always)]
+    pub(crate) fn triangle(&self, lane: usize) -> Triangle {
+        let Self {
+            x,
+            y,
+            vertex,
+            iw_at,
+            ..
+        } = self;
+        let is_in = |mask: u16| mask >> lane & 1 == 1;
+        Triangle {
+            x: [x[0][lane], x[1][lane], x[2][lane]],
+            y: [y[0][lane], y[1][lane], y[2][lane]],
+            vertex: [vertex[0][lane], vertex[1][lane], vertex[2][lane]],
+            provoking: self.provoking[lane],
+            iw_at: [iw_at[0][lane], iw_at[1][lane], iw_at[2][lane]],
+            z: self.z.lane(lane),
+            iw: self.iw.lane(lane),
+            r: self.r[lane],
+            clockwise: is_in(self.clockwise),
+            front: is_in(self.front),
+            equal_w: is_in(self.equal_w),
+        }
+    }
+}
+
+/// One triangle, set up: a lane of a [`TrianglePacket`].
+///
+/// A lane's values are in 21 cache lines of its packet, those of a `Triangle` in two.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+pub(crate) struct Triangle {
+    pub(crate) x: [i32; 3],
+    pub(crate) y: [i32; 3],
+    pub(crate) vertex: [VertexRef; 3],
+    pub(crate) provoking: VertexRef,
+    pub(crate) iw_at: [f32; 3],
+    pub(crate) z: Plane,
+    pub(crate) iw: Plane,
+    pub(crate) r: f32,
+    pub(crate) clockwise: bool,
+    pub(crate) front: bool,
+    pub(crate) equal_w: bool,
+}
+
+const _: () = assert!(size_of::<Triangle>() == 96);
 
 /// A line's or point's end: where it is in the window, and where its varyings are.
 #[derive(Debug, Clone, Copy, Default)]

@@ -268,6 +268,7 @@ mod tests {
             rect: PixelRect::of_target(None, SIZE[0], SIZE[1]),
             position_range: [128; 2],
             sample_range: [128; 2],
+            is_opaque: true,
         };
         let viewport = Viewport::of_target(SIZE[0], SIZE[1]);
         let (state, bias) = (PrimitiveState::default(), DepthBiasState::default());

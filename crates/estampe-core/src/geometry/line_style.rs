@@ -42,6 +42,18 @@ impl LineStyle {
         Self { shape, stipple }
     }
 
+    /// Returns the width of lines that are rectangles and nothing else: not smooth, not stippled.
+    #[inline]
+    pub(crate) fn plain_rectangle(&self) -> Option<f32> {
+        match self.shape {
+            LineShape::Rectangle {
+                width,
+                smooth: false,
+            } if self.stipple.is_none() => Some(width),
+            _ => None,
+        }
+    }
+
     /// Returns true if alpha is multiplied by the covered part of the pixel.
     pub(crate) fn is_smooth(&self) -> bool {
         matches!(self.shape, LineShape::Rectangle { smooth: true, .. })
@@ -175,6 +187,8 @@ impl LineAxis {
 /// The rectangle around a line.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LineRectangle {
+    /// In 1/256 pixel, clockwise in a window with y down.
+    pub(crate) corners: [[i32; 2]; 4],
     /// A point (x, y) in 1/256 pixel is inside where `a·x + b·y + c ≥ 0` for each [a, b, c].
     pub(crate) edges: [[i64; 3]; 4],
     /// Least x and y, greatest x and y.
@@ -183,6 +197,7 @@ pub(crate) struct LineRectangle {
 
 impl LineRectangle {
     /// None of a line without length, or too thin to have an area.
+    #[inline(always)]
     pub(crate) fn new(line: &LinePrimitive, width: f32) -> Option<Self> {
         let [a, b] = &line.ends;
         let (dx, dy) = ((b.x - a.x) as f32, (b.y - a.y) as f32);
@@ -210,6 +225,7 @@ impl LineRectangle {
         let least = |values: [i32; 4]| values.into_iter().fold(i32::MAX, i32::min);
         let greatest = |values: [i32; 4]| values.into_iter().fold(i32::MIN, i32::max);
         Some(Self {
+            corners,
             edges: [edge(0), edge(1), edge(2), edge(3)],
             bounds: [
                 least(along(0)),
@@ -251,6 +267,7 @@ pub(crate) fn length_squared(line: &LinePrimitive) -> i64 {
 }
 
 /// A line's length in 1/256 pixel.
+#[inline(always)]
 pub(crate) fn length(line: &LinePrimitive) -> f32 {
     let [a, b] = &line.ends;
     let (dx, dy) = ((b.x - a.x) as f32, (b.y - a.y) as f32);
@@ -258,6 +275,7 @@ pub(crate) fn length(line: &LinePrimitive) -> f32 {
 }
 
 /// Half to even; NaN is 0.
+#[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "`as` saturates")]
 fn round(value: f32) -> i32 {
     value.round_ties_even() as i32

@@ -28,6 +28,8 @@ pub(crate) struct GeometryPlan {
     /// None where nothing is added to depths.
     pub(crate) depth_bias: Option<DepthBias>,
     pub(crate) line_style: LineStyle,
+    /// True if tiles draw triangles one by one, in order.
+    pub(crate) draws_one_by_one: bool,
     /// The tiles that primitives are binned to.
     pub(crate) grid: TileGrid,
 }
@@ -43,6 +45,8 @@ pub(crate) struct TargetGeometry {
     pub(crate) position_range: [i32; 2],
     /// See [`GeometryPlan::sample_range`].
     pub(crate) sample_range: [i32; 2],
+    /// True if the pipeline's triangles may be drawn by visibility.
+    pub(crate) is_opaque: bool,
 }
 
 impl GeometryPlan {
@@ -56,16 +60,18 @@ impl GeometryPlan {
         let samples = SampleRect::new(viewport);
         let [any, all] = samples.any_and_all(target.position_range);
         let (rect, whole_pixels) = (any.intersection(target.rect), all.intersection(target.rect));
+        let cut_samples = (rect != whole_pixels).then_some(samples);
         Self {
             kind: kind_of(state.topology),
             polygon_mode: state.polygon_mode,
             transform: ViewportTransform::new(viewport, state.unclipped_depth),
             rect,
-            cut_samples: (rect != whole_pixels).then_some(samples),
+            cut_samples,
             sample_range: target.sample_range,
             facing: Facing::new(state),
             depth_bias: DepthBias::new(bias, target.depth_stencil),
             line_style: LineStyle::new(&state.line),
+            draws_one_by_one: !target.is_opaque || cut_samples.is_some(),
             grid: target.grid,
         }
     }

@@ -237,6 +237,10 @@ impl<'a> Setup<'a> {
         w2.store_array(&mut packet.iw_at[2]);
         edges.plane(s, w0, w1, w2, &mut packet.iw);
 
+        // The scalar level draws everything one by one, from packets.
+        if const { !S::IS_SCALAR } && self.plan.draws_one_by_one {
+            self.chunk.take_apart_last();
+        }
         bin_packet(s, self.plan, [[x0, x1, x2], [y0, y1, y2]], self.chunk);
     }
 

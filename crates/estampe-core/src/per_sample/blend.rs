@@ -44,13 +44,20 @@ impl BlendKernel for Replace {
     }
 }
 
-/// A factor's value. A product with 1 changes nothing, so 1 needs no code of its own.
+/// A factor's value for each channel. A product with 1 changes nothing, so 1 needs no code of its
+/// own.
 #[inline(always)]
-fn weight<S: Lanes>(s: S, weight: Weight, alpha: f32x16<S>, rest: f32x16<S>) -> f32x16<S> {
+fn weights<S: Lanes>(s: S, weight: Weight, inputs: &BlendInputs<S>) -> ColorLanes<S> {
+    let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
+    let (alpha, stored_alpha) = (inputs.source[3], inputs.stored[3]);
     match weight {
-        Weight::One => SimdBase::splat(s, 1.0),
-        Weight::SourceAlpha => alpha,
-        Weight::OneMinusSourceAlpha => rest,
+        Weight::Zero => [splat(0.0); 4],
+        Weight::One => [splat(1.0); 4],
+        Weight::SourceAlpha => [alpha; 4],
+        Weight::OneMinusSourceAlpha => [splat(1.0) - alpha; 4],
+        Weight::StoredAlpha => [stored_alpha; 4],
+        Weight::OneMinusStoredAlpha => [splat(1.0) - stored_alpha; 4],
+        Weight::Stored => inputs.stored,
     }
 }
 
@@ -63,17 +70,14 @@ impl BlendKernel for Over {
     #[inline(always)]
     fn blend<S: Lanes>(self, s: S, inputs: &BlendInputs<S>) -> ColorLanes<S> {
         let ([r, g, b, a], stored) = (inputs.source, &inputs.stored);
-        let rest = <f32x16<S> as SimdBase<S>>::splat(s, 1.0) - a;
-        let (by, stored_by) = (
-            weight(s, self.source_color, a, rest),
-            weight(s, self.stored_color, a, rest),
-        );
-        let alpha_by = weight(s, self.source_alpha, a, rest);
-        let stored_alpha_by = weight(s, self.stored_alpha, a, rest);
+        let by = weights(s, self.source_color, inputs);
+        let stored_by = weights(s, self.stored_color, inputs);
+        let alpha_by = weights(s, self.source_alpha, inputs)[3];
+        let stored_alpha_by = weights(s, self.stored_alpha, inputs)[3];
         [
-            r * by + stored[0] * stored_by,
-            g * by + stored[1] * stored_by,
-            b * by + stored[2] * stored_by,
+            r * by[0] + stored[0] * stored_by[0],
+            g * by[1] + stored[1] * stored_by[1],
+            b * by[2] + stored[2] * stored_by[2],
             a * alpha_by + stored[3] * stored_alpha_by,
         ]
     }

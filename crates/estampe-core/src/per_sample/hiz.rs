@@ -27,10 +27,12 @@ pub(crate) struct HierarchicalZ {
 /// The blocks in which a triangle is hidden or certain to pass, one bit each.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BlockClasses {
-    /// No sample can pass.
+    /// The triangle changes nothing.
     pub(crate) hidden: u16,
     /// Every covered sample passes.
     pub(crate) certain: u16,
+    /// Every covered sample fails the depth test, which may change its stencil value.
+    pub(crate) failing: u16,
     /// The triangle's least and greatest depth, were it to cover the block.
     least: [f32; LANES],
     greatest: [f32; LANES],
@@ -42,6 +44,7 @@ impl BlockClasses {
         Self {
             hidden,
             certain,
+            failing: 0,
             least: [0.0; LANES],
             greatest: [1.0; LANES],
         }
@@ -185,19 +188,15 @@ impl HierarchicalZ {
                 least.simd_gt(stored_greatest)
             };
         }
+        let (fails, passes) = (s.bits_of_mask(hidden), s.bits_of_mask(certain));
+        let if_so = |condition: bool, blocks: u16| if condition { blocks } else { 0 };
+        // A hidden triangle may still change stencil values; stencil and depth bounds make nothing
+        // certain.
+        let failure_is_final = tests.early_failure_is_final();
         BlockClasses {
-            // A hidden triangle may still change stencil values; stencil and depth bounds make
-            // nothing certain.
-            hidden: if tests.early_failure_is_final() {
-                s.bits_of_mask(hidden)
-            } else {
-                0
-            },
-            certain: if tests.is_depth_alone() {
-                s.bits_of_mask(certain)
-            } else {
-                0
-            },
+            hidden: if_so(failure_is_final, fails) | if_so(look.passes_in_vain, passes),
+            certain: if_so(tests.is_depth_alone(), passes),
+            failing: if_so(!failure_is_final, fails),
             least: least.to_array(),
             greatest: greatest.to_array(),
         }
@@ -248,6 +247,8 @@ pub(crate) struct HizQuery<'a, const N: usize> {
     pub(crate) plane: DepthPlane,
     pub(crate) tile: TileShape,
     pub(crate) samples: SampleSet<N>,
+    /// True if a sample of the triangle that passes its depth test changes nothing.
+    pub(crate) passes_in_vain: bool,
 }
 
 /// The least (or greatest) depth of a triangle's plane over the samples of each of sixteen blocks.
@@ -302,4 +303,70 @@ fn distance<S: Lanes>(
     // Positions are multiples of 1/256 below 2¹⁶: every sum is exact.
     let splat = |value| <f32x16<S> as SimdBase<S>>::splat(s, value);
     (f32x16::load_array(s, starts) + splat(offset)) - splat(origin)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::depth_format::{DepthFormat, StoredDepth};
+    use crate::per_sample::stencil::StencilTest;
+    use estampe_types::state::{DepthState, StencilFaceState, StencilOperation, StencilState};
+
+    /// The classes of a level triangle at a depth, in a tile whose first block holds depth 0.25 and
+    /// whose others hold 0.75.
+    fn classes(level: Level, depth: f32, depth_fail_op: StencilOperation) -> BlockClasses {
+        let mut stored = [[0.75; LANES]; 256];
+        stored[..LANES].fill([0.25; LANES]);
+        let face = StencilFaceState {
+            depth_fail_op,
+            ..StencilFaceState::default()
+        };
+        let tests = SampleTests {
+            bounds: None,
+            stencil: Some(StencilTest {
+                state: StencilState::from(face),
+                reference: [0; 2],
+            }),
+            depth: Some(DepthState {
+                write_enabled: false,
+                ..DepthState::LESS_WRITE
+            }),
+            stored: StoredDepth {
+                range: [0.0, 1.0],
+                format: DepthFormat::Float,
+            },
+        };
+        let look = HizQuery {
+            tests: &tests,
+            plane: DepthPlane {
+                origin: PlaneOrigin { x: 0.0, y: 0.0 },
+                z: Plane {
+                    origin: depth,
+                    ..Plane::default()
+                },
+            },
+            tile: TileShape {
+                x: 64,
+                y: 0,
+                log2: 6,
+            },
+            samples: SampleSet::<1>::new(1),
+            passes_in_vain: tests.passing_keeps(true),
+        };
+        HierarchicalZ::default().classify(level, &look, false, &stored)
+    }
+
+    #[test]
+    fn a_shadow_volume_counts_where_it_fails_and_changes_nothing_elsewhere() {
+        for level in Level::all_available() {
+            let counting = |depth| classes(level, depth, StencilOperation::IncrementWrap);
+            let between = counting(0.5);
+            assert_eq!([between.failing, between.hidden], [1, 0xFFFE], "{level:?}");
+            let behind = counting(0.9);
+            assert_eq!([behind.failing, behind.hidden], [0xFFFF, 0], "{level:?}");
+            assert_eq!(behind.certain, 0, "{level:?}");
+            let keeping = classes(level, 0.5, StencilOperation::Keep);
+            assert_eq!([keeping.failing, keeping.hidden], [0, 0xFFFF], "{level:?}");
+        }
+    }
 }

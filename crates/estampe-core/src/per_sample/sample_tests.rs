@@ -91,6 +91,29 @@ impl SampleTests {
         })
     }
 
+    /// [`SampleTests::run`] of samples that are known to fail the depth test: stencil values may
+    /// change, nothing else.
+    #[inline(always)]
+    pub(crate) fn run_failing<S: Lanes>(
+        &self,
+        s: S,
+        mut lanes: u16,
+        front: u16,
+        stored: StoredSamples<'_>,
+    ) {
+        if let (Some(range), Some(depth)) = (self.bounds, &stored.depth) {
+            lanes &= inside(s, f32x16::load_array_ref(s, depth), range);
+        }
+        if let (Some(test), Some(stencil)) = (&self.stencil, stored.stencil) {
+            test_stencil(s, test, [lanes, 0, front], stencil);
+        }
+    }
+
+    /// Returns true if a sample that passes its depth test changes neither depth nor stencil.
+    pub(crate) fn passing_keeps(&self, front: bool) -> bool {
+        !self.writes_depth() && self.stencil.is_none_or(|test| test.passing_keeps(front))
+    }
+
     /// The lanes that the depth test would let pass as things stand; nothing is written.
     #[inline(always)]
     pub(crate) fn would_pass<S: Lanes>(

@@ -45,6 +45,17 @@ impl StencilTest {
             .iter()
             .all(|face| face.fail_op == Keep && face.depth_fail_op == Keep)
     }
+
+    /// Returns true if the stored value is kept when the depth test passes, whatever the stencil
+    /// test says of a triangle that faces the viewer, or not.
+    pub(crate) fn passing_keeps(&self, front: bool) -> bool {
+        let StencilState {
+            front: of_front,
+            back,
+        } = &self.state;
+        let face = if front { of_front } else { back };
+        [face.fail_op, face.pass_op] == [StencilOperation::Keep; 2]
+    }
 }
 
 impl FaceTest {

@@ -75,6 +75,11 @@ impl ColorTarget {
         self.texel.encode(color)
     }
 
+    /// Returns true if the write mask lets some bit of a texel change.
+    pub(crate) fn is_written(&self) -> bool {
+        self.writable != [0; MAX_WORDS]
+    }
+
     /// Returns true if every channel of the source replaces the stored one.
     pub(crate) fn replaces(&self) -> bool {
         self.equation == Equation::Replace && self.logic.is_none() && self.writes_all
@@ -90,7 +95,8 @@ impl ColorTarget {
     }
 }
 
-/// The equations of most programs: a sum whose factors are 1, the source's alpha, or one less that.
+/// The equations of most programs: a sum whose factors are 0, 1, an alpha, one less that, or the
+/// stored colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Over {
     pub(crate) source_color: Weight,
@@ -102,17 +108,26 @@ pub(crate) struct Over {
 /// A factor of [`Over`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Weight {
+    Zero,
     One,
     SourceAlpha,
     OneMinusSourceAlpha,
+    StoredAlpha,
+    OneMinusStoredAlpha,
+    /// Each channel of the stored colour.
+    Stored,
 }
 
 impl Weight {
     fn new(factor: BlendFactor) -> Option<Self> {
         match factor {
+            BlendFactor::Zero => Some(Self::Zero),
             BlendFactor::One => Some(Self::One),
             BlendFactor::SrcAlpha => Some(Self::SourceAlpha),
             BlendFactor::OneMinusSrcAlpha => Some(Self::OneMinusSourceAlpha),
+            BlendFactor::DstAlpha => Some(Self::StoredAlpha),
+            BlendFactor::OneMinusDstAlpha => Some(Self::OneMinusStoredAlpha),
+            BlendFactor::Dst => Some(Self::Stored),
             _ => None,
         }
     }
@@ -143,4 +158,34 @@ fn writable_bits(codec: AttachmentCodec, channels: u32) -> [u32; MAX_WORDS] {
         }
     }
     bits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use estampe_types::state::BlendComponent;
+
+    /// The equations of user interfaces and of products of colours have the compiled kernel.
+    #[test]
+    fn equations_of_programs_are_sums_of_usual_weights() {
+        use BlendFactor as F;
+        let state = |[from, to]: [F; 2], [alpha_from, alpha_to]: [F; 2]| BlendState {
+            color: BlendComponent {
+                src_factor: from,
+                dst_factor: to,
+                ..BlendComponent::default()
+            },
+            alpha: BlendComponent {
+                src_factor: alpha_from,
+                dst_factor: alpha_to,
+                ..BlendComponent::default()
+            },
+        };
+        let egui = state([F::One, F::OneMinusSrcAlpha], [F::OneMinusDstAlpha, F::One]);
+        let product = state([F::Dst, F::Zero], [F::DstAlpha, F::Zero]);
+        for state in [egui, product, BlendState::ALPHA_BLENDING] {
+            assert!(Over::new(&state).is_some(), "{state:?}");
+        }
+        assert_eq!(Over::new(&state([F::Constant, F::One], [F::One; 2])), None);
+    }
 }

@@ -22,7 +22,7 @@ pub(crate) struct StageKey {
     pub(crate) tests_early: bool,
     /// A sample's colour is that of the last filled triangle that passes its tests there.
     pub(crate) is_opaque: bool,
-    /// Fragments have colours.
+    /// Fragments have colours that are stored: a target's write mask is not empty.
     pub(crate) has_colors: bool,
     /// The fragments' colour depends on the primitive alone, so it is shaded once for each.
     pub(crate) uniform_over_primitive: bool,
@@ -38,7 +38,7 @@ pub(crate) struct StageKey {
     pub(crate) color_passthrough: bool,
     /// Blocks that a filled triangle covers whole may be blended from the planes of its colour.
     pub(crate) blends_blocks: bool,
-    /// Packets may hold quads of several triangles.
+    /// Packets may hold quads of several primitives.
     pub(crate) shares_packets: bool,
     /// Fragments store, and what they store may depend on their order.
     pub(crate) stores_in_order: bool,
@@ -83,8 +83,10 @@ impl StageKey {
         // Packets that several triangles share would be shaded in an order that depends on the SIMD
         // level.
         let stores_in_order = interface.stores && !interface.stores_in_any_order;
-        let shares_packets = fills_triangles && is_shaded_by_pixel && !stores_in_order;
+        // The alpha of smooth lines is scaled by packets, after shading.
         let smooth_lines = primitive.line.rasterization == LineRasterization::RectangularSmooth;
+        let shares_packets =
+            (fills_triangles || !smooth_lines) && is_shaded_by_pixel && !stores_in_order;
         // A program of a caller's own may claim more than it has, and smooth lines scale alpha
         // after shading.
         let color_passthrough = interface.color_passthrough
@@ -98,12 +100,14 @@ impl StageKey {
             .varyings
             .iter()
             .all(|mode| *mode == Interpolation::Flat);
-        let is_plain = shares_packets
+        let is_plain = fills_triangles
+            && shares_packets
             && tests_early
             && sample_mask.is_none()
             && !interface.dual_source
             && primitive.conservative == ConservativeMode::Disabled;
         let depth_stencil = descriptor.depth_stencil;
+        let has_colors = targets.iter().any(ColorTarget::is_written);
         Self {
             depth: depth_stencil
                 .map(|state| state.depth())
@@ -112,8 +116,8 @@ impl StageKey {
                 .and_then(|state| state.stencil)
                 .filter(|state| !does_nothing(state)),
             tests_early,
-            is_opaque: is_plain && targets.iter().all(ColorTarget::replaces),
-            has_colors: !targets.is_empty(),
+            is_opaque: is_plain && (!has_colors || targets.iter().all(ColorTarget::replaces)),
+            has_colors,
             uniform_over_primitive: flat && !interface.reads_position,
             uniform_over_draw: interface.varyings.is_empty() && !interface.reads_position,
             depends_on_varyings_alone: tests_early

@@ -42,6 +42,7 @@ impl<'a> DrawState<'a> {
             rect: PixelRect::of_target(draw.scissor, width, height),
             position_range: sample_range(samples, ConservativeMode::Disabled),
             sample_range: sample_range(samples, primitive.conservative),
+            is_opaque: draw.pipeline.key().is_opaque,
         };
         let bias = descriptor.depth_stencil.map(|state| state.bias);
         let bias = bias.unwrap_or_default();

@@ -8,7 +8,7 @@
 
 use super::{CoverageList, TileShape, rect_mask, standard_positions};
 use crate::bounds::pixel_rect::PixelRect;
-use crate::bounds::primitives::TrianglePacket;
+use crate::bounds::primitives::Triangle;
 use crate::layout::morton;
 use estampe_simd::{LANE_X, LANE_Y, LANES};
 use estampe_types::state::ConservativeMode;
@@ -82,18 +82,17 @@ pub(crate) struct ConservativeTriangle {
 }
 
 impl ConservativeTriangle {
-    /// The triangle of a lane inside a tile, whose pixels are confined to `rect` (of the tile's own
+    /// A triangle inside a tile, whose pixels are confined to `rect` (of the tile's own
     /// pixels).
     pub(crate) fn new(
-        packet: &TrianglePacket,
-        lane: usize,
+        triangle: &Triangle,
         tile: TileShape,
         rect: &PixelRect,
         mode: ConservativeMode,
     ) -> Self {
-        let vertex = |corner: usize| [packet.x[corner][lane], packet.y[corner][lane]];
+        let vertex = |corner: usize| [triangle.x[corner], triangle.y[corner]];
         let corners = [vertex(0), vertex(1), vertex(2)];
-        let ends = if packet.clockwise >> lane & 1 == 1 {
+        let ends = if triangle.clockwise {
             [(0, 1), (1, 2), (2, 0)]
         } else {
             [(0, 2), (2, 1), (1, 0)]

@@ -8,13 +8,33 @@
 //! *Precision* exact 64-bit integers · *Spec* Vulkan §Bresenham Line Segment Rasterization,
 //! §Rectangular.
 
+use super::triangle::TilePolygon;
 use super::{CoverageList, MAX_PACKETS, TileShape};
 use crate::bounds::pixel_rect::PixelRect;
 use crate::bounds::primitives::LinePrimitive;
 use crate::geometry::line_style::{LineAxis, LineRectangle, LineShape, LineStyle, along, length};
-use estampe_simd::{LANE_X, LANE_Y, LANES};
+use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes};
 
-/// Lists the packets that a line covers; `rect` is in the tile's own pixels.
+/// Lists the packets that a line covers which is a rectangle of a width in pixels and [nothing
+/// else](LineStyle::plain_rectangle); packets at the border of `rect`, which is in the tile's own
+/// pixels, are not clipped.
+#[inline(always)]
+pub(crate) fn cover_rectangle<S: Lanes, const N: usize>(
+    s: S,
+    (line, width): (&LinePrimitive, f32),
+    tile: TileShape,
+    rect: &PixelRect,
+    out: &mut CoverageList<N>,
+) {
+    if let Some(rectangle) = LineRectangle::new(line, width)
+        && let Some(polygon) =
+            TilePolygon::<N, 4>::of_corners(rectangle.corners, tile, rect, out.samples())
+    {
+        polygon.cover(s, tile, 0, 0, out);
+    }
+}
+
+/// Lists the packets that any other line covers; `rect` is in the tile's own pixels.
 pub(crate) fn cover<const N: usize>(
     line: &LinePrimitive,
     style: &LineStyle,
@@ -29,7 +49,7 @@ pub(crate) fn cover<const N: usize>(
         LineShape::Columns { width } => cover_columns(line, style, width, (tile, rect), out),
         LineShape::Rectangle { width, .. } => {
             if let Some(rectangle) = LineRectangle::new(line, width) {
-                cover_rectangle(line, style, &rectangle, (tile, rect), out);
+                cover_rectangle_by_sample(line, style, &rectangle, (tile, rect), out);
             }
         }
     }
@@ -131,8 +151,9 @@ fn cover_columns<const N: usize>(
     }
 }
 
-/// A rectangle: its samples, or with a smooth line all samples of every pixel that it touches.
-fn cover_rectangle<const N: usize>(
+/// A rectangle with a pattern, or a smooth one: its samples, or with a smooth line all samples of
+/// every pixel that it touches.
+fn cover_rectangle_by_sample<const N: usize>(
     line: &LinePrimitive,
     style: &LineStyle,
     rectangle: &LineRectangle,

@@ -1,4 +1,4 @@
-//! Coverage of a triangle, tile by tile.
+//! Coverage of a triangle or another convex polygon, tile by tile.
 //!
 //! **Two widths.** Positions are 1/256 pixel in a guard band of 2¹⁵ pixels, so an edge's constant
 //! needs 48 bits. It is computed once per tile in 64 bits with the fill rule's bias folded in; then
@@ -13,7 +13,7 @@
 
 use super::{CoverageList, SampleSet, TileShape};
 use crate::bounds::pixel_rect::PixelRect;
-use crate::bounds::primitives::TrianglePacket;
+use crate::bounds::primitives::Triangle;
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, SimdBase, i32x16};
 
 /// Packets of a box that are tried one by one rather than through the hierarchy, where a pixel has
@@ -30,50 +30,68 @@ struct Edge<const N: usize> {
     c: [i32; N],
 }
 
-/// A triangle inside a tile.
+/// A convex polygon of `E` edges inside a tile.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct TileTriangle<const N: usize> {
-    edges: [Edge<N>; 3],
+pub(crate) struct TilePolygon<const N: usize, const E: usize> {
+    edges: [Edge<N>; E],
     /// Columns and rows of packets that its box touches; half-open.
     columns: [i32; 2],
     rows: [i32; 2],
 }
 
-impl<const N: usize> TileTriangle<N> {
-    /// The triangle of a lane inside a tile, whose pixels are confined to `rect` (of the tile's own
+/// A triangle inside a tile.
+pub(crate) type TileTriangle<const N: usize> = TilePolygon<N, 3>;
+
+impl<const N: usize> TilePolygon<N, 3> {
+    /// A triangle inside a tile, whose pixels are confined to `rect` (of the tile's own
     /// pixels); `None` when it covers nothing of it.
     #[inline(always)]
     pub(crate) fn new(
-        packet: &TrianglePacket,
-        lane: usize,
+        triangle: &Triangle,
         tile: TileShape,
         rect: &PixelRect,
         samples: SampleSet<N>,
     ) -> Option<Self> {
-        let x = [packet.x[0][lane], packet.x[1][lane], packet.x[2][lane]];
-        let y = [packet.y[0][lane], packet.y[1][lane], packet.y[2][lane]];
+        let corner = |corner: usize| [triangle.x[corner], triangle.y[corner]];
+        let others = if triangle.clockwise { [1, 2] } else { [2, 1] };
+        let corners = [corner(0), corner(others[0]), corner(others[1])];
+        Self::of_corners(corners, tile, rect, samples)
+    }
+}
+
+impl<const N: usize, const E: usize> TilePolygon<N, E> {
+    /// The polygon with these corners, clockwise in a window with y down, as
+    /// [`TilePolygon::new`].
+    #[inline(always)]
+    pub(crate) fn of_corners(
+        corners: [[i32; 2]; E],
+        tile: TileShape,
+        rect: &PixelRect,
+        samples: SampleSet<N>,
+    ) -> Option<Self> {
         // The box, in the tile's own pixels; a pixel more on each side does no harm.
+        let (mut low, mut high) = (corners[0], corners[0]);
+        for [x, y] in corners {
+            low = [low[0].min(x), low[1].min(y)];
+            high = [high[0].max(x), high[1].max(y)];
+        }
         let column = |subpixels: i32| (subpixels >> 8) - tile.x;
         let row = |subpixels: i32| (subpixels >> 8) - tile.y;
-        let left = column(x[0].min(x[1]).min(x[2])).max(rect.x0);
-        let right = column(x[0].max(x[1]).max(x[2])).min(rect.x1 - 1);
-        let (top, bottom) = (row(y[0]).max(rect.y0), row(y[2]).min(rect.y1 - 1));
+        let (left, right) = (
+            column(low[0]).max(rect.x0),
+            column(high[0]).min(rect.x1 - 1),
+        );
+        let (top, bottom) = (row(low[1]).max(rect.y0), row(high[1]).min(rect.y1 - 1));
         if left > right || top > bottom {
             return None;
         }
-        let clockwise = packet.clockwise >> lane & 1 == 1;
-        let ends = if clockwise {
-            [(0, 1), (1, 2), (2, 0)]
-        } else {
-            [(0, 2), (2, 1), (1, 0)]
-        };
         let mut edges = [Edge {
             a: 0,
             b: 0,
             c: [0; N],
-        }; 3];
-        for (edge, (from, to)) in edges.iter_mut().zip(ends) {
-            *edge = Edge::new([x[from], y[from]], [x[to], y[to]], tile, samples)?;
+        }; E];
+        for (from, edge) in edges.iter_mut().enumerate() {
+            *edge = Edge::new(corners[from], corners[(from + 1) % E], tile, samples)?;
         }
         Some(Self {
             edges,
@@ -88,7 +106,7 @@ impl<const N: usize> TileTriangle<N> {
         (self.columns[1] - self.columns[0]) * (self.rows[1] - self.rows[0])
     }
 
-    /// Lists the packets that the triangle covers, leaving out the blocks of `skip`. Of the
+    /// Lists the packets that the polygon covers, leaving out the blocks of `skip`. Of the
     /// blocks `whole`, those that are covered whole are returned, one bit each, and not listed.
     #[inline(always)]
     pub(crate) fn cover<S: Lanes>(
@@ -154,18 +172,19 @@ impl<const N: usize> TileTriangle<N> {
     fn cover_packet<S: Lanes>(
         &self,
         s: S,
-        lanes: &EdgeLanes<S>,
+        lanes: &EdgeLanes<S, E>,
         packet: u32,
         [x, y]: [i32; 2],
         out: &mut CoverageList<N>,
     ) {
         let mut masks = [0; N];
         for (sample, mask) in masks.iter_mut().enumerate().take(out.samples().count()) {
-            let value = |edge: usize| {
-                let Edge { a, b, c } = &self.edges[edge];
-                lanes.pixel[edge] + <i32x16<S> as SimdBase<S>>::splat(s, c[sample] + a * x + b * y)
-            };
-            *mask = !s.sign_bits(value(0) | value(1) | value(2));
+            let mut outside = <i32x16<S> as SimdBase<S>>::splat(s, 0);
+            for (edge, units) in self.edges.iter().zip(&lanes.pixel) {
+                let Edge { a, b, c } = edge;
+                outside |= *units + <i32x16<S> as SimdBase<S>>::splat(s, c[sample] + a * x + b * y);
+            }
+            *mask = !s.sign_bits(outside);
         }
         if masks != [0; N] {
             out.push(packet, masks);
@@ -232,13 +251,13 @@ impl<const N: usize> Edge<N> {
 
 /// The values that sixteen lanes add to an edge's value: `a·column + b·row` of each lane, one pixel
 /// apart.
-struct EdgeLanes<S: Lanes> {
-    pixel: [i32x16<S>; 3],
+struct EdgeLanes<S: Lanes, const E: usize> {
+    pixel: [i32x16<S>; E],
 }
 
-impl<S: Lanes> EdgeLanes<S> {
+impl<S: Lanes, const E: usize> EdgeLanes<S, E> {
     #[inline(always)]
-    fn new<const N: usize>(s: S, triangle: &TileTriangle<N>) -> Self {
+    fn new<const N: usize>(s: S, polygon: &TilePolygon<N, E>) -> Self {
         let mut x = [0; LANES];
         let mut y = [0; LANES];
         let mut lane = 0;
@@ -247,13 +266,12 @@ impl<S: Lanes> EdgeLanes<S> {
             lane += 1;
         }
         let (x, y) = (i32x16::load_array(s, x), i32x16::load_array(s, y));
-        let pixel = |edge: usize| {
-            let splat = |value| <i32x16<S> as SimdBase<S>>::splat(s, value);
-            x * splat(triangle.edges[edge].a) + y * splat(triangle.edges[edge].b)
-        };
-        Self {
-            pixel: [pixel(0), pixel(1), pixel(2)],
+        let splat = |value| <i32x16<S> as SimdBase<S>>::splat(s, value);
+        let mut pixel = [splat(0); E];
+        for (pixel, Edge { a, b, .. }) in pixel.iter_mut().zip(&polygon.edges) {
+            *pixel = x * splat(*a) + y * splat(*b);
         }
+        Self { pixel }
     }
 
     /// Of sixteen units of `size` pixels from (x, y) on: which hold covered samples, perhaps, and
@@ -262,15 +280,15 @@ impl<S: Lanes> EdgeLanes<S> {
     fn classify<const N: usize>(
         &self,
         s: S,
-        triangle: &TileTriangle<N>,
+        polygon: &TilePolygon<N, E>,
         [x, y]: [i32; 2],
         size: i32,
     ) -> (u16, u16) {
         let shift = size.trailing_zeros();
         let mut outside = <i32x16<S> as SimdBase<S>>::splat(s, 0);
         let mut partial = outside;
-        for edge in 0..3 {
-            let Edge { a, b, c } = &triangle.edges[edge];
+        for (edge, units) in polygon.edges.iter().zip(&self.pixel) {
+            let Edge { a, b, c } = edge;
             let (mut most, mut least) = (c[0], c[0]);
             for &c in c {
                 (most, least) = (most.max(c), least.min(c));
@@ -278,7 +296,7 @@ impl<S: Lanes> EdgeLanes<S> {
             let base = a * x + b * y;
             let best = most + base + (a.max(&0) + b.max(&0)) * (size - 1);
             let worst = least + base + (a.min(&0) + b.min(&0)) * (size - 1);
-            let units = self.pixel[edge] << shift;
+            let units = *units << shift;
             outside |= units + <i32x16<S> as SimdBase<S>>::splat(s, best);
             partial |= units + <i32x16<S> as SimdBase<S>>::splat(s, worst);
         }

@@ -87,7 +87,7 @@ fn every_shape_width_and_pattern() {
     check_paths(
         "lines/shapes",
         400,
-        ExpectedPaths(&[TilePath::InOrderPackets]),
+        ExpectedPaths(&[TilePath::InOrderQuads, TilePath::InOrderPackets]),
         |random| {
             let mut case = Case::random_target(random);
             let vertices = vertices(random, case.size, 9);

@@ -7,6 +7,7 @@ use estampe_tests::geometry::Style;
 use estampe_tests::mixed_draws::Mixture;
 use estampe_tests::{ExpectedPaths, check, check_paths};
 use estampe_types::TextureFormat as F;
+use estampe_types::state::{ColorWrites, DepthState};
 
 /// The most common colour formats.
 const COMMON: [F; 5] = [
@@ -114,6 +115,32 @@ fn depth_alone() {
             Mixture::new(&[], Some(depth), samples).case(random)
         },
     );
+}
+
+/// Rows: O3, O4, O7.
+#[test]
+fn depth_and_stencil_of_draws_whose_colours_are_masked() {
+    let paths = ExpectedPaths(&[TilePath::VisibilityDepthOnly, TilePath::VisibilityQuads]);
+    check_paths("mixed/masked colours", 120, paths, |random| {
+        let formats = [random.pick(&COMMON), F::Rgba8Unorm];
+        let depth = random.pick(&[F::Depth24PlusStencil8, F::Depth32Float]);
+        let targets = 1 + random.index(2);
+        let mut case = Mixture {
+            styles: vec![Style::Large, Style::Large, Style::OnGrid],
+            ..Mixture::new(&formats[..targets], Some(depth), random.pick(&[1, 1, 4]))
+        }
+        .case(random);
+        for draw in &mut case.draws {
+            if random.once_in(2) {
+                draw.depth = random.pick(&[draw.depth, Some(DepthState::LESS_WRITE)]);
+            }
+            if random.once_in(2) {
+                draw.write_mask = ColorWrites::NONE;
+                draw.more_targets = vec![(None, ColorWrites::NONE)];
+            }
+        }
+        case
+    });
 }
 
 /// Rows: O5, O7.

@@ -18,24 +18,47 @@ pub(crate) struct LineInterpolant<'a> {
     axis: LineAxis,
     /// The rectangle's width, where the line is one.
     rectangle: Option<f32>,
+    /// The way from the start to the end in 1/256 pixel.
+    way: [i32; 2],
+    /// True if the dot product of that way and the way to a pixel of the line fits 32 bits.
+    is_short: bool,
     source: VaryingSource<'a>,
 }
 
+/// How far pixels whose values are asked for lie beyond a line's end, or beside it, at most: half
+/// its width, and a packet. In 1/256 pixel.
+const MARGIN: i64 = 2048;
+
 impl<'a> LineInterpolant<'a> {
+    #[inline]
     pub(crate) fn new(
         line: &'a LinePrimitive,
         style: &LineStyle,
         source: VaryingSource<'a>,
     ) -> Self {
+        let [a, b] = &line.ends;
+        let way = [b.x - a.x, b.y - a.y];
+        let longest = way.map(i64::from).map(i64::abs);
+        let longest = longest[0].max(longest[1]);
+        let rectangle = match style.shape {
+            LineShape::Columns { .. } => None,
+            LineShape::Rectangle { width, .. } => Some(width),
+        };
+        let most = longest + i64::from(style.reach()) + MARGIN;
         Self {
             line,
             axis: LineAxis::new(line),
-            rectangle: match style.shape {
-                LineShape::Columns { .. } => None,
-                LineShape::Rectangle { width, .. } => Some(width),
-            },
+            rectangle,
+            way,
+            is_short: 2 * longest * most < 1 << 31,
             source,
         }
+    }
+
+    /// The line.
+    #[inline(always)]
+    pub(crate) fn primitive(&self) -> &'a LinePrimitive {
+        self.line
     }
 
     /// The part of each pixel that the line's rectangle covers, from 0 to 1, estimated with sixteen
@@ -54,49 +77,127 @@ impl<'a> LineInterpolant<'a> {
         covered
     }
 
-    /// The fraction of the way to the end at an offset in the pixels, in pixels: of a rectangle
-    /// that of the nearest point of the line.
+    /// The fraction of the way to the end, at an offset (in pixels) in sixteen pixels: of a
+    /// rectangle that of the nearest point of the line, else at the pixels' centres along the major
+    /// axis.
     #[inline(always)]
-    fn fraction_at<S: Lanes>(&self, s: S, pixel: [i32; 2], offset: [f32; 2]) -> f32x16<S> {
-        if self.rectangle.is_none() {
-            return self.fraction(s, pixel);
-        }
-        f32x16::load_array(s, self.rectangle_fraction(pixel, offset))
-    }
-
-    #[inline(never)]
-    #[expect(clippy::cast_possible_truncation, reason = "an offset is below 1")]
-    fn rectangle_fraction(&self, [x, y]: [i32; 2], offset: [f32; 2]) -> [f32; LANES] {
-        let [right, below] = offset.map(|pixels| (pixels * 256.0) as i32);
-        let squared = length_squared(self.line) as f32;
-        std::array::from_fn(|lane| {
-            let at = [
-                (x + i32::from(LANE_X[lane])) * 256 + right,
-                (y + i32::from(LANE_Y[lane])) * 256 + below,
-            ];
-            along(self.line, at) as f32 / squared
-        })
-    }
-
-    /// The fraction of the way to the end, at the pixels' centres along the major axis.
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "coordinates are below 2²⁴")]
-    fn fraction<S: Lanes>(&self, s: S, [x, y]: [i32; 2]) -> f32x16<S> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "coordinates are below 2²⁴, and an offset is below 1"
+    )]
+    fn fraction<S: Lanes>(&self, s: S, pixels: Pixels<S>, offset: [f32; 2]) -> f32x16<S> {
         outline!(s, {
-            let (pixel, lanes) = if self.axis.x_major {
-                (x, &LANE_X)
-            } else {
-                (y, &LANE_Y)
-            };
-            let mut steps = [0; LANES];
-            for (step, lane) in steps.iter_mut().zip(lanes) {
-                *step = i32::from(*lane) * 256;
+            let splat = |value| <i32x16<S> as SimdBase<S>>::splat(s, value);
+            let Pixels([x, y]) = pixels;
+            if self.rectangle.is_none() {
+                let unit = if self.axis.x_major { x } else { y };
+                let along = (unit << 8) + splat(128 - self.axis.start[0] as i32);
+                let delta = <f32x16<S> as SimdBase<S>>::splat(s, self.axis.delta[0] as f32);
+                return f32x16::float_from(along) / delta;
             }
-            let first = pixel * 256 + 128 - self.axis.start[0] as i32;
-            let along = i32x16::load_array(s, steps) + <i32x16<S> as SimdBase<S>>::splat(s, first);
-            let delta = <f32x16<S> as SimdBase<S>>::splat(s, self.axis.delta[0] as f32);
-            f32x16::float_from(along) / delta
+            let [right, below] = offset.map(|pixels| (pixels * 256.0) as i32);
+            let squared = length_squared(self.line) as f32;
+            if self.is_short {
+                let [from, _] = &self.line.ends;
+                let from_x = (x << 8) + splat(right - from.x);
+                let from_y = (y << 8) + splat(below - from.y);
+                let along = from_x * splat(self.way[0]) + from_y * splat(self.way[1]);
+                return f32x16::float_from(along) / <f32x16<S> as SimdBase<S>>::splat(s, squared);
+            }
+            let (x, y) = (x.to_array(), y.to_array());
+            let fraction = self.fraction_of_long(&x, &y, [right, below], squared);
+            f32x16::load_array(s, fraction)
         })
+    }
+
+    /// [`LineInterpolant::fraction`] of a rectangle whose products need 64 bits.
+    #[inline(never)]
+    fn fraction_of_long(
+        &self,
+        x: &[i32; LANES],
+        y: &[i32; LANES],
+        [right, below]: [i32; 2],
+        squared: f32,
+    ) -> [f32; LANES] {
+        let mut fraction = [0.0; LANES];
+        for ((fraction, x), y) in fraction.iter_mut().zip(x).zip(y) {
+            *fraction = along(self.line, [x * 256 + right, y * 256 + below]) as f32 / squared;
+        }
+        fraction
+    }
+
+    #[inline(always)]
+    pub(super) fn depth_of<S: Lanes>(
+        &self,
+        s: S,
+        pixels: Pixels<S>,
+        sample: [f32; 2],
+    ) -> f32x16<S> {
+        let [a, b] = &self.line.ends;
+        mix(s, a.z, b.z, self.fraction(s, pixels, sample))
+    }
+
+    #[inline(always)]
+    pub(super) fn inverse_w_of<S: Lanes>(&self, s: S, pixels: Pixels<S>) -> f32x16<S> {
+        let [a, b] = &self.line.ends;
+        if a.iw.to_bits() == b.iw.to_bits() {
+            return SimdBase::splat(s, a.iw);
+        }
+        mix(s, a.iw, b.iw, self.fraction(s, pixels, [0.5; 2]))
+    }
+
+    #[inline(always)]
+    pub(super) fn varyings_of<S: Lanes>(&self, s: S, pixels: Pixels<S>, out: &mut [Packet<f32>]) {
+        let [a, b] = &self.line.ends;
+        let (from, to) = (self.source.of(a.vertex), self.source.of(b.vertex));
+        let provoking = self.source.of(self.line.provoking);
+        let t = self.fraction(s, pixels, [0.5; 2]);
+        let perspective = a.iw.to_bits() != b.iw.to_bits();
+        let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
+        let w = one / mix(s, a.iw, b.iw, t);
+        for (k, packet) in out.iter_mut().enumerate() {
+            let value = match self.source.modes[k] {
+                Interpolation::Flat => SimdBase::splat(s, provoking[k]),
+                Interpolation::Smooth if perspective => mix(s, from[k] * a.iw, to[k] * b.iw, t) * w,
+                _ => mix(s, from[k], to[k], t),
+            };
+            value.store_array(&mut packet.0);
+        }
+    }
+}
+
+/// Sixteen pixels of the target: columns and rows.
+#[derive(Clone, Copy)]
+pub(super) struct Pixels<S: Lanes>([i32x16<S>; 2]);
+
+impl<S: Lanes> Pixels<S> {
+    /// The packet of 4×4 pixels from one on.
+    #[inline(always)]
+    pub(super) fn of_packet(s: S, [x, y]: [i32; 2]) -> Self {
+        let steps = |lanes: &[u8; LANES]| {
+            let mut steps = [0; LANES];
+            let mut lane = 0;
+            while lane < LANES {
+                steps[lane] = i32::from(lanes[lane]);
+                lane += 1;
+            }
+            i32x16::load_array(s, steps)
+        };
+        Self([steps(&LANE_X) + x, steps(&LANE_Y) + y])
+    }
+
+    /// Four quads, given their first pixels.
+    #[inline(always)]
+    pub(super) fn of_quads(s: S, quads: [[i32; 2]; 4]) -> Self {
+        let (mut x, mut y) = ([0; LANES], [0; LANES]);
+        let mut lane = 0;
+        while lane < LANES {
+            let [left, top] = quads[lane / 4];
+            x[lane] = left + (lane & 1) as i32;
+            y[lane] = top + (lane >> 1 & 1) as i32;
+            lane += 1;
+        }
+        Self([i32x16::load_array(s, x), i32x16::load_array(s, y)])
     }
 }
 
@@ -110,35 +211,16 @@ fn mix<S: Lanes>(s: S, a: f32, b: f32, t: f32x16<S>) -> f32x16<S> {
 impl<S: Lanes> Interpolant<S> for LineInterpolant<'_> {
     #[inline(always)]
     fn depth(&self, s: S, pixel: [i32; 2], sample: [f32; 2]) -> f32x16<S> {
-        let [a, b] = &self.line.ends;
-        mix(s, a.z, b.z, self.fraction_at(s, pixel, sample))
+        self.depth_of(s, Pixels::of_packet(s, pixel), sample)
     }
 
     #[inline(always)]
     fn inverse_w(&self, s: S, pixel: [i32; 2]) -> f32x16<S> {
-        let [a, b] = &self.line.ends;
-        if a.iw.to_bits() == b.iw.to_bits() {
-            return SimdBase::splat(s, a.iw);
-        }
-        mix(s, a.iw, b.iw, self.fraction_at(s, pixel, [0.5; 2]))
+        self.inverse_w_of(s, Pixels::of_packet(s, pixel))
     }
 
     #[inline(always)]
     fn varyings(&self, s: S, pixel: [i32; 2], out: &mut [Packet<f32>]) {
-        let [a, b] = &self.line.ends;
-        let (from, to) = (self.source.of(a.vertex), self.source.of(b.vertex));
-        let provoking = self.source.of(self.line.provoking);
-        let t = self.fraction_at(s, pixel, [0.5; 2]);
-        let perspective = a.iw.to_bits() != b.iw.to_bits();
-        let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
-        let w = one / mix(s, a.iw, b.iw, t);
-        for (k, packet) in out.iter_mut().enumerate() {
-            let value = match self.source.modes[k] {
-                Interpolation::Flat => SimdBase::splat(s, provoking[k]),
-                Interpolation::Smooth if perspective => mix(s, from[k] * a.iw, to[k] * b.iw, t) * w,
-                _ => mix(s, from[k], to[k], t),
-            };
-            value.store_array(&mut packet.0);
-        }
+        self.varyings_of(s, Pixels::of_packet(s, pixel), out);
     }
 }

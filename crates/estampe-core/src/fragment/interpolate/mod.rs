@@ -17,6 +17,7 @@ pub(crate) use triangle::TriangleInterpolant;
 pub(crate) use varyings::{VaryingPlanes, VaryingSource, set_planes};
 
 use estampe_simd::{LANES, Lanes, Packet, f32x16};
+use line::Pixels;
 
 /// A primitive whose values can be interpolated.
 pub(crate) trait Interpolant<S: Lanes> {
@@ -38,6 +39,16 @@ pub(crate) trait Interpolant<S: Lanes> {
     fn varyings_in(&self, s: S, pixel: [i32; 2], _places: &PixelOffsets, out: &mut [Packet<f32>]) {
         self.varyings(s, pixel, out);
     }
+}
+
+/// A primitive whose quads can be interpolated apart from those of their packet.
+pub(crate) trait QuadInterpolant<S: Lanes>: Interpolant<S> {
+    /// The varyings at the centres of four quads' pixels, given their first pixels.
+    fn varyings_of_quads(&self, s: S, quads: [[i32; 2]; 4], out: &mut [Packet<f32>]);
+    /// Depth at a sample offset (in pixels) of four quads' pixels, not yet clamped.
+    fn depth_of_quads(&self, s: S, quads: [[i32; 2]; 4], sample: [f32; 2]) -> f32x16<S>;
+    /// 1/w at the centres of four quads' pixels.
+    fn inverse_w_of_quads(&self, s: S, quads: [[i32; 2]; 4]) -> f32x16<S>;
 }
 
 /// A line or a point: code for either is compiled once.
@@ -69,6 +80,32 @@ impl<S: Lanes> Interpolant<S> for LineOrPoint<'_> {
         match self {
             Self::Line(line) => line.varyings(s, pixel, out),
             Self::Point(point) => point.varyings(s, pixel, out),
+        }
+    }
+}
+
+impl<S: Lanes> QuadInterpolant<S> for LineOrPoint<'_> {
+    #[inline(always)]
+    fn varyings_of_quads(&self, s: S, quads: [[i32; 2]; 4], out: &mut [Packet<f32>]) {
+        match self {
+            Self::Line(line) => line.varyings_of(s, Pixels::of_quads(s, quads), out),
+            Self::Point(point) => point.varyings(s, quads[0], out),
+        }
+    }
+
+    #[inline(always)]
+    fn depth_of_quads(&self, s: S, quads: [[i32; 2]; 4], sample: [f32; 2]) -> f32x16<S> {
+        match self {
+            Self::Line(line) => line.depth_of(s, Pixels::of_quads(s, quads), sample),
+            Self::Point(point) => point.depth(s, quads[0], sample),
+        }
+    }
+
+    #[inline(always)]
+    fn inverse_w_of_quads(&self, s: S, quads: [[i32; 2]; 4]) -> f32x16<S> {
+        match self {
+            Self::Line(line) => line.inverse_w_of(s, Pixels::of_quads(s, quads)),
+            Self::Point(point) => point.inverse_w(s, quads[0]),
         }
     }
 }

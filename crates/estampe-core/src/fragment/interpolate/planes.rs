@@ -2,7 +2,7 @@
 
 use super::PixelOffsets;
 use crate::bounds::plane::Plane;
-use crate::bounds::primitives::TrianglePacket;
+use crate::bounds::primitives::Triangle;
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, SimdBase, f32x16, outline};
 
 /// Columns (or rows) of a packet's lanes.
@@ -26,10 +26,10 @@ pub(crate) struct PlaneOrigin {
 
 impl PlaneOrigin {
     #[inline(always)]
-    pub(crate) fn new(packet: &TrianglePacket, lane: usize) -> Self {
+    pub(crate) fn new(triangle: &Triangle) -> Self {
         Self {
-            x: pixels(packet.x[0][lane]),
-            y: pixels(packet.y[0][lane]),
+            x: pixels(triangle.x[0]),
+            y: pixels(triangle.y[0]),
         }
     }
 
@@ -85,10 +85,10 @@ pub(crate) struct DepthPlane {
 
 impl DepthPlane {
     #[inline(always)]
-    pub(crate) fn new(packet: &TrianglePacket, lane: usize) -> Self {
+    pub(crate) fn new(triangle: &Triangle) -> Self {
         Self {
-            origin: PlaneOrigin::new(packet, lane),
-            z: packet.z.lane(lane),
+            origin: PlaneOrigin::new(triangle),
+            z: triangle.z,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::planes::pixels;
 use crate::bounds::plane::Plane;
-use crate::bounds::primitives::{TrianglePacket, VertexRef};
+use crate::bounds::primitives::{Triangle, VertexRef};
 use crate::bounds::transpose::components_of_f32;
 use estampe_simd::{LANES, Lanes, SimdBase, f32x4, f32x16};
 use estampe_types::Interpolation;
@@ -121,31 +121,27 @@ impl<'a> VaryingPlanes<'a> {
     }
 }
 
-/// Writes the planes of a lane's triangle to [`VaryingPlanes::size`] numbers.
+/// Writes the planes of a triangle's varyings to [`VaryingPlanes::size`] numbers.
 #[inline(always)]
 pub(crate) fn set_planes<S: Lanes>(
     s: S,
     out: &mut [f32],
-    (packet, lane): (&TrianglePacket, usize),
+    triangle: &Triangle,
     source: &VaryingSource<'_>,
     all_smooth: bool,
 ) {
-    let vertex = |corner: usize| source.of(packet.vertex[corner][lane]);
+    let vertex = |corner: usize| source.of(triangle.vertex[corner]);
     let (a0, a1, a2) = (vertex(0), vertex(1), vertex(2));
     let n = source.modes.len();
     let (origin, rest) = out.split_at_mut(n);
     let (dx, dy) = rest.split_at_mut(n);
     let dy = &mut dy[..n];
-    let iw = [
-        packet.iw_at[0][lane],
-        packet.iw_at[1][lane],
-        packet.iw_at[2][lane],
-    ];
-    let perspective = packet.equal_w >> lane & 1 == 0;
-    let difference = |of: &[[i32; LANES]; 3], corner: usize| pixels(of[corner][lane] - of[0][lane]);
-    let (dx1, dy1) = (difference(&packet.x, 1), difference(&packet.y, 1));
-    let (dx2, dy2) = (difference(&packet.x, 2), difference(&packet.y, 2));
-    let r = packet.r[lane];
+    let iw = triangle.iw_at;
+    let perspective = !triangle.equal_w;
+    let difference = |of: &[i32; 3], corner: usize| pixels(of[corner] - of[0]);
+    let (dx1, dy1) = (difference(&triangle.x, 1), difference(&triangle.y, 1));
+    let (dx2, dy2) = (difference(&triangle.x, 2), difference(&triangle.y, 2));
+    let r = triangle.r;
     // Four scalars at a time where all are treated alike.
     let fours = if all_smooth { n - n % 4 } else { 0 };
     let splat = |value: f32| <f32x4<S> as SimdBase<S>>::splat(s, value);
@@ -182,7 +178,7 @@ pub(crate) fn set_planes<S: Lanes>(
         return;
     }
     if source.modes.contains(&Interpolation::Flat) {
-        let provoking = source.of(packet.provoking[lane]);
+        let provoking = source.of(triangle.provoking);
         for (k, &value) in provoking.iter().enumerate().take(n) {
             if source.modes[k] == Interpolation::Flat {
                 (origin[k], dx[k], dy[k]) = (value, 0.0, 0.0);

@@ -73,6 +73,9 @@ pub(crate) struct FragmentQueue<const N: usize> {
     varyings: Vec<Packet<f32>>,
     /// Varyings that are not queued yet: of quads, or at centroids.
     spare: Vec<Packet<f32>>,
+    /// Window positions and each sample's depths of quads that are not queued yet.
+    spare_position: [Packet<f32>; 4],
+    spare_depths: [Packet<f32>; N],
     positions: [[Packet<f32>; 4]; CAPACITY],
     front_facing: [u16; CAPACITY],
     sample_index: Vec<u32>,
@@ -119,6 +122,8 @@ impl<const N: usize> Default for FragmentQueue<N> {
             open: None,
             varyings: Vec::new(),
             spare: Vec::new(),
+            spare_position: [Packet::default(); 4],
+            spare_depths: [Packet::default(); N],
             positions: [[Packet::default(); 4]; CAPACITY],
             front_facing: [0; CAPACITY],
             sample_index: Vec::new(),

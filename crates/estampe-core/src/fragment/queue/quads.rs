@@ -1,12 +1,14 @@
-//! Quads in the queue: packets whose four quads belong to different places or triangles.
+//! Quads in the queue: packets whose four quads belong to different places or primitives.
 
-use super::{CAPACITY, FragmentQueue};
-use crate::fragment::interpolate::TriangleInterpolant;
+use super::{CAPACITY, FragmentQueue, Needs};
+use crate::depth_format::clamp_depth;
+use crate::fragment::interpolate::QuadInterpolant;
 use crate::fragment::place::Place;
 use crate::fragment::quad::{QUAD, QUADS};
-use estampe_simd::Lanes;
+use crate::raster::SampleSet;
+use estampe_simd::{Lanes, Packet, SimdBase};
 
-/// A quad of a triangle.
+/// A quad of a primitive.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct QuadPlace<const N: usize> {
     /// Packet·4 + quad.
@@ -18,12 +20,12 @@ pub(crate) struct QuadPlace<const N: usize> {
 }
 
 impl<const N: usize> FragmentQueue<N> {
-    /// Queues four quads of a triangle as a packet.
+    /// Queues four quads of a primitive as a packet.
     #[inline(always)]
     pub(crate) fn push_four_quads<S: Lanes>(
         &mut self,
         s: S,
-        triangle: &TriangleInterpolant<'_>,
+        interpolant: &impl QuadInterpolant<S>,
         quads: &[QuadPlace<N>; QUADS],
         front: bool,
     ) {
@@ -39,38 +41,45 @@ impl<const N: usize> FragmentQueue<N> {
             return;
         }
         let (slot, shaded) = self.begin(place, masks, if front { u16::MAX } else { 0 });
-        let distances = triangle.distances_of_quads(s, [a.pixel, b.pixel, c.pixel, d.pixel]);
         let out = &mut self.varyings[shaded * self.scalars..][..self.scalars];
-        triangle.varyings_at(s, distances, out);
-        for (quad, from) in quads.iter().enumerate() {
-            self.set_quad(s, triangle, from, (slot, quad));
+        let pixels = [a.pixel, b.pixel, c.pixel, d.pixel];
+        interpolant.varyings_of_quads(s, pixels, out);
+        if self.needs.position {
+            self.positions[shaded] = self.position_of_quads(s, interpolant, pixels);
+        }
+        if self.needs.depth {
+            let depths = &mut self.depths[slot * N..][..N];
+            self.needs
+                .depths_of_quads(s, interpolant, (pixels, self.samples), depths);
         }
     }
 
-    /// Interpolates up to four quads of a triangle, for [`FragmentQueue::push_quad`].
+    /// Interpolates up to four quads of a primitive, for [`FragmentQueue::push_quad`].
     #[inline(always)]
     pub(crate) fn interpolate_quads<S: Lanes>(
         &mut self,
         s: S,
-        triangle: &TriangleInterpolant<'_>,
+        interpolant: &impl QuadInterpolant<S>,
         quads: &[QuadPlace<N>; QUADS],
     ) {
         let [a, b, c, d] = quads;
-        let distances = triangle.distances_of_quads(s, [a.pixel, b.pixel, c.pixel, d.pixel]);
-        triangle.varyings_at(s, distances, &mut self.spare);
+        let pixels = [a.pixel, b.pixel, c.pixel, d.pixel];
+        interpolant.varyings_of_quads(s, pixels, &mut self.spare);
+        if self.needs.position {
+            self.spare_position = self.position_of_quads(s, interpolant, pixels);
+        }
+        if self.needs.depth {
+            let depths = &mut self.spare_depths;
+            self.needs
+                .depths_of_quads(s, interpolant, (pixels, self.samples), depths);
+        }
     }
 
     /// Queues one of the quads that [`FragmentQueue::interpolate_quads`] was last called for, in a
-    /// packet that it shares with quads of other triangles. The queue must not be [full of
+    /// packet that it shares with quads of other primitives. The queue must not be [full of
     /// quads](FragmentQueue::is_full_of_quads).
     #[inline(always)]
-    pub(crate) fn push_quad<S: Lanes>(
-        &mut self,
-        s: S,
-        triangle: &TriangleInterpolant<'_>,
-        (at, from): (usize, &QuadPlace<N>),
-        front: bool,
-    ) {
+    pub(crate) fn push_quad(&mut self, (at, from): (usize, &QuadPlace<N>), front: bool) {
         let (slot, quad) = match self.open {
             Some((slot, quad)) if quad < QUADS => (slot % CAPACITY, quad),
             _ => (
@@ -93,35 +102,49 @@ impl<const N: usize> FragmentQueue<N> {
         if front {
             self.front_facing[shaded] |= 0xF << shift;
         }
-        let out = &mut self.varyings[shaded * self.scalars..][..self.scalars];
         let at = at % QUADS * QUAD;
-        for (to, from) in out.iter_mut().zip(&self.spare) {
+        let copy = |to: &mut Packet<f32>, from: &Packet<f32>| {
             to.0[shift..shift + QUAD].copy_from_slice(&from.0[at..at + QUAD]);
+        };
+        let out = &mut self.varyings[shaded * self.scalars..][..self.scalars];
+        for (to, from) in out.iter_mut().zip(&self.spare) {
+            copy(to, from);
         }
-        self.set_quad(s, triangle, from, (slot, quad));
-    }
-
-    /// Position and depths of a quad, where they are needed.
-    #[inline(always)]
-    fn set_quad<S: Lanes>(
-        &mut self,
-        s: S,
-        triangle: &TriangleInterpolant<'_>,
-        from: &QuadPlace<N>,
-        (slot, quad): (usize, usize),
-    ) {
-        let range = self.needs.depth_range;
         if self.needs.position {
-            let positions = &mut self.positions[usize::from(self.shaded_of[slot]) % CAPACITY];
-            triangle.quad_position(s, from.pixel, quad, range, positions);
-        }
-        if self.needs.depth {
-            let depths = &mut self.depths[slot * N..][..self.samples.count()];
-            for (depth, offset) in depths.iter_mut().zip(self.samples.offsets()) {
-                let to = &mut depth.0[quad % QUADS * QUAD..][..QUAD];
-                triangle.quad_depth(s, from.pixel, offset, range, to);
+            for (to, from) in self.positions[shaded].iter_mut().zip(&self.spare_position) {
+                copy(to, from);
             }
         }
+        if self.needs.depth {
+            let depths = self.depths[slot * N..].iter_mut().zip(&self.spare_depths);
+            for (to, from) in depths.take(self.samples.count()) {
+                copy(to, from);
+            }
+        }
+    }
+
+    /// Window position (x, y, z, 1/w) at four quads' pixels, given their first pixels.
+    #[inline(always)]
+    fn position_of_quads<S: Lanes>(
+        &self,
+        s: S,
+        interpolant: &impl QuadInterpolant<S>,
+        quads: [[i32; 2]; QUADS],
+    ) -> [Packet<f32>; 4] {
+        let mut position = [Packet::default(); 4];
+        let [x, y, z, w] = &mut position;
+        for (quad, [left, top]) in quads.into_iter().enumerate() {
+            let (left, top) = (left as f32 + 0.5, top as f32 + 0.5);
+            let lanes = quad * QUAD..(quad + 1) * QUAD;
+            x.0[lanes.clone()].copy_from_slice(&[left, left + 1.0, left, left + 1.0]);
+            y.0[lanes].copy_from_slice(&[top, top, top + 1.0, top + 1.0]);
+        }
+        let depth = interpolant.depth_of_quads(s, quads, [0.5; 2]);
+        clamp_depth(s, depth, self.needs.depth_range).store_array(&mut z.0);
+        interpolant
+            .inverse_w_of_quads(s, quads)
+            .store_array(&mut w.0);
+        position
     }
 
     /// Returns true if the next quad begins a new packet.
@@ -134,5 +157,23 @@ impl<const N: usize> FragmentQueue<N> {
     #[inline(always)]
     pub(crate) fn close_quads(&mut self) {
         self.open = None;
+    }
+}
+
+impl Needs {
+    /// The depth of each sample at four quads' pixels, given their first pixels.
+    #[inline(always)]
+    fn depths_of_quads<S: Lanes, const N: usize>(
+        &self,
+        s: S,
+        interpolant: &impl QuadInterpolant<S>,
+        (quads, samples): ([[i32; 2]; QUADS], SampleSet<N>),
+        out: &mut [Packet<f32>],
+    ) {
+        let offsets = samples.offsets();
+        for (depth, offset) in out.iter_mut().zip(offsets).take(samples.count()) {
+            let value = interpolant.depth_of_quads(s, quads, offset);
+            clamp_depth(s, value, self.depth_range).store_array(&mut depth.0);
+        }
     }
 }

@@ -23,6 +23,7 @@ macro_rules! dispatch_samples {
     };
 }
 
+mod ahead;
 mod blocks;
 mod flush;
 mod shade;
@@ -30,10 +31,10 @@ mod tests;
 
 use super::{HIZ_PACKETS, TileJob, TileScratch, TileWork};
 use crate::bounds::bins::BinEntry;
-use crate::bounds::primitives::{LinePrimitive, PointPrimitive, TrianglePacket};
+use crate::bounds::primitives::{LinePrimitive, PointPrimitive, Triangle};
 use crate::fragment::interpolate::{
-    DepthPlane, LineInterpolant, LineOrPoint, PlaneOrigin, PointInterpolant, TriangleInterpolant,
-    VaryingPlanes, VaryingSource, set_planes,
+    DepthPlane, LineInterpolant, LineOrPoint, PointInterpolant, TriangleInterpolant, VaryingPlanes,
+    VaryingSource, set_planes,
 };
 use crate::per_sample::hiz::{BlockClasses, HizQuery};
 use crate::plan::tile_plan::TestTiming;
@@ -41,7 +42,7 @@ use crate::raster::conservative::ConservativeTriangle;
 use crate::raster::triangle::TileTriangle;
 use crate::raster::{CoverageList, SampleSet, line, point};
 use crate::tile_path::TilePath;
-use estampe_simd::Lanes;
+use estampe_simd::{Lane, Lanes};
 use estampe_types::state::ConservativeMode;
 use shade::PendingQuads;
 
@@ -113,14 +114,19 @@ fn draw_entries<S: Lanes, const N: usize>(
         job,
         scratch,
     };
-    for entry in entries {
+    for (at, entry) in entries.iter().enumerate() {
+        if const { !S::IS_SCALAR } && at % ahead::ENTRIES == 0 {
+            ahead::touch(work.chunk, &drawing.source, &entries[at..]);
+        }
         match *entry {
-            BinEntry::Triangles { packet, mut lanes } => {
-                let packet = &work.chunk.triangles[packet as usize];
-                while lanes != 0 {
-                    let lane = lanes.trailing_zeros() as usize;
-                    lanes &= lanes - 1;
-                    drawing.triangle(s, packet, lane);
+            BinEntry::Triangles { packet, lanes } => {
+                for lane in Lane::all_of(lanes) {
+                    if const { S::IS_SCALAR } {
+                        let packet = &work.chunk.triangles[packet as usize];
+                        drawing.triangle(s, &packet.triangle(lane.get()));
+                    } else {
+                        drawing.triangle(s, &work.chunk.taken_apart(packet)[lane.get()]);
+                    }
                 }
             }
             BinEntry::Line(number) => drawing.line(&work.chunk.lines[number as usize]),
@@ -163,21 +169,21 @@ struct InOrder<'a, 'j, 't, const N: usize> {
 
 impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
     #[inline(always)]
-    fn triangle<S: Lanes>(&mut self, s: S, packet: &TrianglePacket, lane: usize) {
-        let (plan, front) = (self.work.plan, packet.front >> lane & 1 == 1);
-        let plane = DepthPlane::new(packet, lane);
-        let blends_blocks = self.blends_blocks && packet.equal_w >> lane & 1 == 1;
-        let Some(coverage) = self.cover(s, (packet, lane), &plane, blends_blocks) else {
+    fn triangle<S: Lanes>(&mut self, s: S, triangle: &Triangle) {
+        let (plan, front) = (self.work.plan, triangle.front);
+        let plane = DepthPlane::new(triangle);
+        let blends_blocks = self.blends_blocks && triangle.equal_w;
+        let Some(coverage) = self.cover(s, triangle, &plane, blends_blocks) else {
             return;
         };
         if self.stores_in_order {
             self.scratch.in_order.list.sort();
         }
         let mut interpolant = TriangleInterpolant {
-            origin: PlaneOrigin::new(packet, lane),
+            origin: plane.origin,
             z: plane.z,
-            iw: packet.iw.lane(lane),
-            equal_w: packet.equal_w >> lane & 1 == 1,
+            iw: triangle.iw,
+            equal_w: triangle.equal_w,
             planes: VaryingPlanes::default(),
             modes: self.source.modes,
             all_smooth: plan.all_smooth,
@@ -188,13 +194,7 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
         }
         // Moved out for the calls, because the interpolant borrows them.
         let mut planes = std::mem::take(&mut self.planes);
-        set_planes(
-            s,
-            &mut planes,
-            (packet, lane),
-            &self.source,
-            plan.all_smooth,
-        );
+        set_planes(s, &mut planes, triangle, &self.source, plan.all_smooth);
         interpolant.planes = VaryingPlanes::new(&planes);
         let is_constant = self.shares_colors && interpolant.is_constant();
         self.scratch.queue.begin_primitive(is_constant);
@@ -218,7 +218,7 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
     fn cover<S: Lanes>(
         &mut self,
         s: S,
-        (packet, lane): (&TrianglePacket, usize),
+        triangle: &Triangle,
         plane: &DepthPlane,
         blends_blocks: bool,
     ) -> Option<WholeBlocks> {
@@ -234,17 +234,18 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
         list.clear();
         if self.conservative != ConservativeMode::Disabled {
             let mode = self.conservative;
-            ConservativeTriangle::new(packet, lane, shape, &rect, mode).cover(list);
+            ConservativeTriangle::new(triangle, shape, &rect, mode).cover(list);
             return Some(WholeBlocks::default());
         }
-        let triangle = TileTriangle::<N>::new(packet, lane, shape, &rect, self.samples)?;
+        let polygon = TileTriangle::<N>::new(triangle, shape, &rect, self.samples)?;
         let mut classes = BlockClasses::of_all(0, 0);
-        if self.uses_hiz && triangle.packets() > HIZ_PACKETS {
+        if self.uses_hiz && polygon.packets() > HIZ_PACKETS {
             let look = HizQuery {
                 tests: &self.work.plan.tests,
                 plane: *plane,
                 tile: shape,
                 samples: self.samples,
+                passes_in_vain: false,
             };
             classes = self
                 .scratch
@@ -256,7 +257,7 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
         }
         let blocks = if blends_blocks { blocks } else { 0 };
         let list = &mut self.scratch.in_order.list;
-        let whole = triangle.cover(s, shape, classes.hidden, blocks, list);
+        let whole = polygon.cover(s, shape, classes.hidden, blocks, list);
         if !is_whole {
             list.clip(&rect);
         }
@@ -273,7 +274,9 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
         let list = &mut self.scratch.in_order.list;
         list.clear();
         let style = self.work.plan.line_style;
-        line::cover(line, style, *shape, rect, list);
+        if style.plain_rectangle().is_none() {
+            line::cover(line, style, *shape, rect, list);
+        }
         let interpolant = LineInterpolant::new(line, style, self.source);
         if style.is_smooth() {
             self.smooth = Some(interpolant);
@@ -304,7 +307,31 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
 
 impl<const N: usize> InOrder<'_, '_, '_, N> {
     fn enter_covered(&mut self, interpolant: &LineOrPoint<'_>, front: bool) {
-        dispatch_samples!(N, self.work.level, s => self.covered(s, interpolant, front));
+        dispatch_samples!(N, self.work.level, s => {
+            self.cover_rectangle(s, interpolant);
+            self.covered(s, interpolant, front);
+        });
+    }
+
+    /// Lists the packets that a line covers, if it is a rectangle and nothing else.
+    #[inline(always)]
+    fn cover_rectangle<S: Lanes>(&mut self, s: S, interpolant: &LineOrPoint<'_>) {
+        let TileWork {
+            shape,
+            rect,
+            is_whole,
+            plan,
+            ..
+        } = self.work;
+        if let LineOrPoint::Line(line) = interpolant
+            && let Some(width) = plan.line_style.plain_rectangle()
+        {
+            let list = &mut self.scratch.in_order.list;
+            line::cover_rectangle(s, (line.primitive(), width), *shape, rect, list);
+            if !is_whole {
+                list.clip(rect);
+            }
+        }
     }
 }
 

@@ -1,13 +1,13 @@
 //! From coverage to the queue: whole packets, or quads that share packets.
 //!
-//! A triangle that covers a few pixels leaves most lanes of its packets idle: a glyph of 10×14
-//! pixels uses 36 % of them. So a packet of which the triangle covers no pixel in some quad is
-//! taken apart, and its quads fill packets together with those of other triangles. Order is kept: a
+//! A primitive that covers a few pixels leaves most lanes of its packets idle: a glyph of 10×14
+//! pixels uses 36 % of them, a line a quarter. So a packet of which the primitive covers no pixel in
+//! some quad is taken apart, and its quads fill packets together with those of others. Order is kept: a
 //! quad whose pixels are already in the queue, in the packet that is being filled or behind it,
 //! closes that packet.
 
 use super::InOrder;
-use crate::fragment::interpolate::{Interpolant, TriangleInterpolant};
+use crate::fragment::interpolate::{Interpolant, QuadInterpolant};
 use crate::fragment::quad::QUADS;
 use crate::fragment::queue::{PrimitivePacket, QuadPlace};
 use crate::raster::{Covered, packet_origin};
@@ -44,11 +44,16 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
     pub(super) fn covered<S: Lanes>(
         &mut self,
         s: S,
-        interpolant: &impl Interpolant<S>,
+        interpolant: &impl QuadInterpolant<S>,
         front: bool,
     ) {
-        if self.test_early(s, interpolant, front) {
-            self.scratch.queue.begin_primitive(false);
+        if !self.test_early(s, interpolant, front) {
+            return;
+        }
+        self.scratch.queue.begin_primitive(false);
+        if const { !S::IS_SCALAR } && self.shares_packets {
+            self.queue_quads(s, interpolant, front);
+        } else {
             self.queue_packets(s, interpolant, front);
         }
     }
@@ -108,13 +113,13 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         self.scratch.queue.push(s, interpolant, packet);
     }
 
-    /// Queues a triangle's list: packets in which no quad is empty as they are, the others' quads
+    /// Queues a primitive's list: packets in which no quad is empty as they are, the others' quads
     /// apart.
     #[inline(always)]
     pub(super) fn queue_quads<S: Lanes>(
         &mut self,
         s: S,
-        triangle: &TriangleInterpolant<'_>,
+        interpolant: &impl QuadInterpolant<S>,
         front: bool,
     ) {
         let mut quads = [QuadPlace {
@@ -136,7 +141,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
                     front,
                     sample: None,
                 };
-                self.queue_packet(s, triangle, &packet);
+                self.queue_packet(s, interpolant, &packet);
                 self.scratch.in_order.pending.add(covered.packet * 4, 0xF);
                 continue;
             }
@@ -146,7 +151,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
                 quads[count] = quad_of(&covered, shift, pixel);
                 count += 1;
                 if count == QUADS {
-                    self.queue_four_quads(s, triangle, &quads, front);
+                    self.queue_four_quads(s, interpolant, &quads, front);
                     count = 0;
                 }
             }
@@ -156,9 +161,9 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             for unused in count..QUADS {
                 quads[unused] = quads[0];
             }
-            self.scratch.queue.interpolate_quads(s, triangle, &quads);
+            self.scratch.queue.interpolate_quads(s, interpolant, &quads);
             for (at, quad) in quads.iter().enumerate().take(count) {
-                self.queue_quad(s, triangle, (at, quad), front);
+                self.queue_quad((at, quad), front);
             }
         }
     }
@@ -167,7 +172,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
     fn queue_four_quads<S: Lanes>(
         &mut self,
         s: S,
-        triangle: &TriangleInterpolant<'_>,
+        interpolant: &impl QuadInterpolant<S>,
         quads: &[QuadPlace<N>; QUADS],
         front: bool,
     ) {
@@ -176,7 +181,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         }
         self.scratch
             .queue
-            .push_four_quads(s, triangle, quads, front);
+            .push_four_quads(s, interpolant, quads, front);
         for quad in quads {
             self.scratch.in_order.pending.add(quad.place, 1);
         }
@@ -184,13 +189,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
 
     /// Queues one quad in the packet that is being filled.
     #[inline(always)]
-    fn queue_quad<S: Lanes>(
-        &mut self,
-        s: S,
-        triangle: &TriangleInterpolant<'_>,
-        (at, quad): (usize, &QuadPlace<N>),
-        front: bool,
-    ) {
+    fn queue_quad(&mut self, (at, quad): (usize, &QuadPlace<N>), front: bool) {
         let scratch = &mut *self.scratch;
         if scratch.in_order.pending.contains(quad.place) {
             scratch.queue.close_quads();
@@ -203,7 +202,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             scratch.in_order.pending.clear();
         }
         scratch.in_order.pending.add(quad.place, 1);
-        scratch.queue.push_quad(s, triangle, (at, quad), front);
+        scratch.queue.push_quad((at, quad), front);
     }
 
     /// The first pixel of a packet of the tile, in the target.

@@ -87,7 +87,8 @@ pub(super) fn add<const N: usize>(
     scratch.visibility.list.set_samples(pass.sample_set());
     let buffer = &mut scratch.visibility.buffer;
     let first = buffer.add((work.chunk, work.number), entries, pass.plans);
-    buffer.has_one_color_draws |= work.plan.pipeline.key().uniform_over_draw;
+    let key = work.plan.pipeline.key();
+    buffer.has_one_color_draws |= key.has_colors && key.uniform_over_draw;
     if shortcuts::may_wait(work, entries) {
         if !scratch.visibility.waiting.add(work, entries, first) {
             rasterize::rasterize_waiting(pass, job, scratch);

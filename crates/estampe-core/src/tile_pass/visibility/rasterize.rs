@@ -115,7 +115,8 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
     fn large_unless_hidden(&mut self, packet: u32, lane: u8, id: u32) {
         let packet = &self.work.chunk.triangles[packet as usize];
         let lane = usize::from(lane);
-        let look = self.hiz_query(DepthPlane::new(packet, lane));
+        let triangle = packet.triangle(lane);
+        let look = self.hiz_query(DepthPlane::new(&triangle), triangle.front);
         if !self.scratch.hiz.hides(&look, self.is_any_order()) {
             self.large(packet, lane, id);
         }
@@ -154,12 +155,16 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
         self.order == OrderKind::NearestFirst
     }
 
-    fn hiz_query(&self, plane: DepthPlane) -> HizQuery<'_, N> {
+    fn hiz_query(&self, plane: DepthPlane, front: bool) -> HizQuery<'a, N> {
+        let plan = self.work.plan;
         HizQuery {
-            tests: &self.work.plan.tests,
+            tests: &plan.tests,
             plane,
             tile: self.work.shape,
             samples: self.samples,
+            passes_in_vain: self.storage == IdStorage::None
+                && plan.query.is_none()
+                && plan.tests.passing_keeps(front),
         }
     }
 
@@ -174,22 +179,17 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
             plan,
             ..
         } = *self.work;
-        let Some(triangle) = TileTriangle::<N>::new(packet, lane, shape, &rect, self.samples)
-        else {
+        let set_up = packet.triangle(lane);
+        let Some(triangle) = TileTriangle::<N>::new(&set_up, shape, &rect, self.samples) else {
             return;
         };
-        let plane = DepthPlane::new(packet, lane);
+        let (plane, front) = (DepthPlane::new(&set_up), set_up.front);
         let in_order = !self.is_any_order();
         // Leave out the blocks where everything is nearer already.
         let mut classes = BlockClasses::of_all(0, 0);
         if triangle.packets() > HIZ_PACKETS && plan.tests.depth.is_some() {
             // An equal depth that does not come in order may win by its id.
-            let look = HizQuery {
-                tests: &plan.tests,
-                plane,
-                tile: shape,
-                samples: self.samples,
-            };
+            let look = self.hiz_query(plane, front);
             let hiz = &mut self.scratch.hiz;
             classes = hiz.classify(level, &look, !in_order, self.job.depth);
             if classes.hidden == u16::MAX {
@@ -218,7 +218,8 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
         let triangle = VisibilityTriangle {
             plane,
             id,
-            front: packet.front >> lane & 1 == 1,
+            front,
+            failing: classes.failing,
         };
         let visibility = &mut self.scratch.visibility;
         let mut single = std::mem::take(&mut visibility.buffer.single);

@@ -25,6 +25,9 @@ pub(super) struct VisibilityTriangle {
     pub(super) plane: DepthPlane,
     pub(super) id: u32,
     pub(super) front: bool,
+    /// Blocks in which all of it fails the depth test, one bit each; only with tests of more than
+    /// depth.
+    pub(super) failing: u16,
 }
 
 impl VisibilityTriangle {
@@ -109,6 +112,11 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         }
     }
 
+    /// Returns true if triangles have ids: their fragments have colours.
+    pub(super) fn has_ids(&self) -> bool {
+        !self.ids.is_empty()
+    }
+
     /// Returns the index of the line that stores the depths and IDs of a packet's sample.
     #[inline(always)]
     fn line_of(&self, packet: usize, sample: usize) -> usize {
@@ -160,6 +168,10 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         let plane = &triangle.plane;
         let offsets = self.samples.offsets();
         for item in list {
+            if KIND == test_kind::IN_ORDER && triangle.failing >> (item.packet >> 4) & 1 == 1 {
+                self.failing_packet(s, usize::from(item.packet), &item.masks, triangle.front);
+                continue;
+            }
             let (x, y) = packet_origin(u32::from(item.packet));
             let pixel = [self.tile.x + x, self.tile.y + y];
             for (sample, &offset) in offsets.iter().enumerate().take(self.samples.count()) {
@@ -186,6 +198,12 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
         while blocks != 0 {
             let block = blocks.trailing_zeros();
             blocks &= blocks - 1;
+            if KIND == test_kind::IN_ORDER && triangle.failing >> block & 1 == 1 {
+                for packet in block as usize * LANES..(block as usize + 1) * LANES {
+                    self.failing_packet(s, packet, &self.samples.whole(), triangle.front);
+                }
+                continue;
+            }
             let offsets = self.samples.offsets();
             for (sample, &offset) in offsets.iter().enumerate().take(self.samples.count()) {
                 let depths = self.block_depths(s, &triangle.plane, block, offset);
@@ -195,6 +213,20 @@ impl<'a, const N: usize> VisibilityWriter<'a, N> {
                     self.packet::<S, KIND>(s, at, z, u16::MAX, triangle);
                 }
             }
+        }
+    }
+
+    /// Tests a packet of which no sample passes the depth test.
+    #[inline(always)]
+    fn failing_packet<S: Lanes>(&mut self, s: S, packet: usize, masks: &[u16; N], front: bool) {
+        let front = if front { u16::MAX } else { 0 };
+        for (sample, &lanes) in masks.iter().enumerate().take(self.samples.count()) {
+            let line = self.line_of(packet, sample);
+            let stored = StoredSamples {
+                depth: self.depth.get_mut(line),
+                stencil: self.stencil.get_mut(line),
+            };
+            self.tests.run_failing(s, lanes, front, stored);
         }
     }
 

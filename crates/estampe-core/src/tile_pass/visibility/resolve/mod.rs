@@ -78,12 +78,16 @@ pub(in crate::tile_pass) fn resolve<const N: usize>(
         cross,
         ..
     } = &mut scratch.visibility;
-    let Some(first) = buffer.groups.first() else {
+    if buffer.groups.is_empty() {
         return;
-    };
-    let plan = &pass.plans[first.sub_draw as usize];
-    let storage = storage_of(plan);
-    if storage != IdStorage::None {
+    }
+    // Draws without colours have no ids; all others have theirs in the same place.
+    let mut plans = buffer
+        .groups
+        .iter()
+        .map(|group| &pass.plans[group.sub_draw as usize]);
+    if let Some(plan) = plans.find(|plan| storage_of(plan) != IdStorage::None) {
+        let storage = storage_of(plan);
         scratch.statistics.visibility_runs += 1;
         let has_one_color_draws = buffer.has_one_color_draws;
         resolve.visible.clear();
@@ -294,12 +298,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
                     if self.scratch.queue.is_full_of_quads() {
                         self.flush();
                     }
-                    let TileScratch {
-                        queue, visibility, ..
-                    } = &mut *self.scratch;
-                    let resolve = &visibility.resolve;
-                    let (triangle, front) = resolve.interpolant(visible, self.modes, self.plan);
-                    queue.push_quad(s, &triangle, (at, quad), front);
+                    self.scratch.queue.push_quad((at, quad), front);
                 }
             }
         }

@@ -37,7 +37,7 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
         let chunk = &self.pass.chunks[reference.chunk as usize];
         let plan = &self.pass.plans[reference.sub_draw as usize];
         let lane = usize::from(reference.lane);
-        let packet = &chunk.triangles[reference.packet as usize];
+        let triangle = chunk.triangles[reference.packet as usize].triangle(lane);
         let place = resolve.visible.len();
         // Fewer than there are ids, which have 31 bits.
         resolve.visible_of[at] = u32::try_from(place).unwrap_or(NONE);
@@ -45,11 +45,11 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
         let size = VaryingPlanes::size(self.modes.len());
         resolve.planes.resize(from + size, 0.0);
         resolve.visible.push(VisibleTriangle {
-            origin: PlaneOrigin::new(packet, lane),
-            z: packet.z.lane(lane),
-            iw: packet.iw.lane(lane),
-            equal_w: packet.equal_w >> lane & 1 == 1,
-            front: packet.front >> lane & 1 == 1,
+            origin: PlaneOrigin::new(&triangle),
+            z: triangle.z,
+            iw: triangle.iw,
+            equal_w: triangle.equal_w,
+            front: triangle.front,
             planes: u32::try_from(from).unwrap_or(NONE),
         });
         let source = VaryingSource {
@@ -58,7 +58,7 @@ impl<const N: usize> Resolver<'_, '_, '_, N> {
             modes: self.modes,
         };
         let planes = &mut resolve.planes[from..];
-        set_planes(s, planes, (packet, lane), &source, plan.all_smooth);
+        set_planes(s, planes, &triangle, &source, plan.all_smooth);
         place
     }
 }

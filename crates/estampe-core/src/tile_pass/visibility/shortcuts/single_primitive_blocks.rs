@@ -37,7 +37,7 @@ impl SinglePrimitiveBlocks {
     }
 
     /// Writes the ids of those of some blocks that show one triangle, because another triangle is
-    /// about to be drawn there.
+    /// about to be drawn there; a triangle without colours leaves them.
     pub(in crate::tile_pass::visibility) fn write_out<const N: usize>(
         &mut self,
         level: Level,
@@ -45,7 +45,7 @@ impl SinglePrimitiveBlocks {
         writer: &mut VisibilityWriter<'_, N>,
     ) {
         let blocks = self.blocks & blocks;
-        if blocks != 0 {
+        if blocks != 0 && writer.has_ids() {
             self.blocks &= !blocks;
             writer.write_ids(level, blocks, &self.ids);
         }

@@ -6,6 +6,7 @@ use crate::bounds::primitives::TrianglePacket;
 use crate::fragment::interpolate::DepthPlane;
 use crate::per_sample::compare::{orders, prefers_less};
 use crate::tile_pass::TileWork;
+use crate::tile_path::TilePath;
 use estampe_types::state::{CompareFunction, DepthState};
 
 /// Triangles that wait at most: to sort more costs more than it saves.
@@ -58,7 +59,7 @@ impl WaitingTriangles {
         let middle = [work.shape.x as f32 + half, work.shape.y as f32 + half];
         for (id, entry) in (first..).zip(entries) {
             let (packet, lane) = triangle_of(work, entry);
-            let DepthPlane { origin, z } = DepthPlane::new(packet, lane);
+            let DepthPlane { origin, z } = DepthPlane::new(&packet.triangle(lane));
             let depth = z.origin + ((middle[0] - origin.x) * z.dx + (middle[1] - origin.y) * z.dy);
             let nearer_is_less = prefers_less(compare);
             let key = if nearer_is_less { depth } else { -depth };
@@ -95,7 +96,12 @@ pub(in crate::tile_pass::visibility) fn may_wait(
     entries: &[BinEntry],
 ) -> bool {
     let tests = |state: &DepthState| state.write_enabled && orders(state.compare);
-    work.plan.tests.depth.as_ref().is_some_and(tests)
+    // A draw without colours hides draws after it, but it does not bring back what they have hidden
+    // before it: among draws with colours it keeps its place.
+    let is_among_colors = work.plan.path == TilePath::VisibilityDepthOnly
+        && !work.plan.pipeline.color_targets().is_empty();
+    !is_among_colors
+        && work.plan.tests.depth.as_ref().is_some_and(tests)
         && work.plan.tests_depth_alone()
         && entries.len() <= MAX_WAITING
         && entries.iter().all(|entry| match entry {
