@@ -193,8 +193,9 @@ impl<S: Lanes> Pixels<S> {
         let mut lane = 0;
         while lane < LANES {
             let [left, top] = quads[lane / 4];
-            x[lane] = left + (lane & 1) as i32;
-            y[lane] = top + (lane >> 1 & 1) as i32;
+            // The first four lanes of a packet are a quad.
+            x[lane] = left + i32::from(LANE_X[lane % 4]);
+            y[lane] = top + i32::from(LANE_Y[lane % 4]);
             lane += 1;
         }
         Self([i32x16::load_array(s, x), i32x16::load_array(s, y)])

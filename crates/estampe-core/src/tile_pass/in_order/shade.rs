@@ -1,10 +1,10 @@
 //! From coverage to the queue: whole packets, or quads that share packets.
 //!
 //! A primitive that covers a few pixels leaves most lanes of its packets idle: a glyph of 10×14
-//! pixels uses 36 % of them, a line a quarter. So a packet of which the primitive covers no pixel in
-//! some quad is taken apart, and its quads fill packets together with those of others. Order is kept: a
-//! quad whose pixels are already in the queue, in the packet that is being filled or behind it,
-//! closes that packet.
+//! pixels uses 36 % of them, a line a quarter. So a packet of which the primitive covers no pixel
+//! in some quad is taken apart, and its quads fill packets together with those of others. Order is
+//! kept: a quad whose pixels are already in the queue, in the packet that is being filled or behind
+//! it, closes that packet.
 
 use super::InOrder;
 use crate::fragment::interpolate::{Interpolant, QuadInterpolant};
