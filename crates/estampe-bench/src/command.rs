@@ -157,7 +157,7 @@ impl Arguments {
         mut scenes: Vec<&'static SceneEntry>,
     ) -> (Vec<&'static SceneEntry>, Vec<&'static str>) {
         let is_drawn =
-            |entry: &&SceneEntry| self.shaders == ShaderLanguage::Wgsl || !entry.is_wgsl_only;
+            |entry: &&SceneEntry| self.shaders != ShaderLanguage::Rust || !entry.is_wgsl_only;
         let others = scenes.iter().filter(|entry| !is_drawn(entry));
         let others = others.map(|entry| entry.name).collect();
         scenes.retain(is_drawn);
@@ -173,8 +173,7 @@ pub fn run(arguments: &Arguments, out: &mut impl Write) -> Result<Outcome, Bench
     let scenes = arguments.scenes()?;
     match &arguments.task {
         Some(Task::Compare(compare)) => {
-            let names: Vec<_> = scenes.iter().map(|entry| entry.name).collect();
-            return versus::run(compare, &names, out).map(Outcome::of);
+            return versus::run(compare, &scenes, out).map(Outcome::of);
         }
         Some(Task::States(states)) => {
             states::run(states, out)?;

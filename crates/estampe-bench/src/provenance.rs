@@ -18,6 +18,8 @@ pub struct Versions {
     pub date: String,
     /// The processor's name and the number of its cores.
     pub processor: String,
+    /// The processor's maker as one word in lower case: intel, amd, or what it calls itself.
+    pub vendor: String,
     /// Version and commit of estampe.
     pub estampe: String,
     /// Version of the compiler.
@@ -38,6 +40,7 @@ impl Versions {
         Self {
             date: date_of(days),
             processor: processor(&cpu),
+            vendor: vendor(&cpu),
             estampe: match commit {
                 Ok(commit) => format!("{version}, {}", commit.trim()),
                 Err(_) => version,
@@ -52,20 +55,29 @@ impl Versions {
 
 /// The first processor's name in `/proc/cpuinfo`, and the number of processors.
 fn processor(cpuinfo: &str) -> String {
-    let field = |line: &str| {
-        Some(
-            line.strip_prefix("model name")?
-                .split_once(':')?
-                .1
-                .trim()
-                .to_owned(),
-        )
-    };
-    let names: Vec<String> = cpuinfo.lines().filter_map(field).collect();
-    match names.first() {
-        Some(name) => format!("{name}, {} cores", names.len()),
+    let mut names = fields(cpuinfo, "model name");
+    match names.next() {
+        Some(name) => format!("{name}, {} cores", names.count() + 1),
         None => "an unknown processor".to_owned(),
     }
+}
+
+/// The first processor's maker in `/proc/cpuinfo`.
+fn vendor(cpuinfo: &str) -> String {
+    match fields(cpuinfo, "vendor_id").next() {
+        Some("GenuineIntel") => "intel".to_owned(),
+        Some("AuthenticAMD") => "amd".to_owned(),
+        other => other.unwrap_or("unknown").to_ascii_lowercase(),
+    }
+}
+
+/// The values of a field, one for each processor.
+fn fields<'text>(cpuinfo: &'text str, name: &str) -> impl Iterator<Item = &'text str> {
+    let value = move |line: &'text str| {
+        let (key, value) = line.split_once(':')?;
+        (key.trim() == name).then_some(value.trim())
+    };
+    cpuinfo.lines().filter_map(value)
 }
 
 /// The date of a day since 1970-01-01 in the form 2026-11-21, by the Gregorian calendar.
@@ -108,5 +120,8 @@ mod tests {
         let text = "processor\t: 0\nmodel name\t: A B\nprocessor\t: 1\nmodel name\t: A B\n";
         assert_eq!(processor(text), "A B, 2 cores");
         assert_eq!(processor(""), "an unknown processor");
+        assert_eq!(vendor("vendor_id\t: GenuineIntel\n"), "intel");
+        assert_eq!(vendor("vendor_id\t: AuthenticAMD\n"), "amd");
+        assert_eq!(vendor(text), "unknown");
     }
 }

@@ -150,7 +150,10 @@ fn wgsl_pipelines(
     shaders: &WgslShaders,
     layouts: &[BindGroupLayout],
 ) -> Result<Vec<RenderPipeline>, BenchError> {
-    let descriptor = ShaderModuleDescriptor::new(ShaderSource::Wgsl(shaders.text));
+    let descriptor = ShaderModuleDescriptor {
+        strict_math: scene.strict_math,
+        ..ShaderModuleDescriptor::new(ShaderSource::Wgsl(shaders.text))
+    };
     let module = device.create_shader_module(&descriptor)?;
     let pipelines = scene.pipelines.iter().zip(shaders.entry_points);
     pipelines

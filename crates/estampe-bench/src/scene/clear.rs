@@ -13,6 +13,7 @@ pub(super) fn scene() -> Scene {
         depth_map: None,
         draws: Vec::new(),
         wgsl: None,
+        strict_math: true,
         frame: None,
     }
 }

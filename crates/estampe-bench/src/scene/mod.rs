@@ -41,12 +41,14 @@
 mod blend;
 mod blur_compute;
 mod clear;
+mod entry;
 mod fill;
 mod foliage;
 mod gbuffer;
 mod heavy_fs;
 mod histogram_compute;
 mod instances;
+mod language;
 mod mandelbrot_compute;
 mod mid_tris;
 mod nbody_compute;
@@ -65,11 +67,11 @@ mod upload;
 pub(crate) mod wgsl;
 mod wire;
 
-use crate::frame::FrameSize;
 use crate::generate::{Fingerprint, MipChain};
-use clap::ValueEnum;
+pub use entry::{ALL, SceneEntry, SceneGroup};
 use estampe::state::{VertexAttribute, VertexBufferLayout};
 use estampe::{RenderPipelineDescriptor, VertexFormat};
+pub use language::ShaderLanguage;
 use std::ops::Range;
 
 /// The clear colour of every frame, in multiples of 1/255, so that no renderer has to round a tie.
@@ -118,17 +120,10 @@ pub struct Scene {
     pub draws: Vec<SceneDraw>,
     /// The module that is used in place of the pipelines' shaders in Rust.
     pub(crate) wgsl: Option<&'static wgsl::WgslShaders>,
+    /// Whether each operation of shaders in WGSL is rounded.
+    pub strict_math: bool,
     /// A frame of several steps in WGSL, in place of the pipelines and draws above.
     pub frame: Option<passes::Frame>,
-}
-
-/// The language of the scenes' shaders.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ShaderLanguage {
-    /// Rust.
-    Rust,
-    /// WGSL, compiled as the scene is prepared.
-    Wgsl,
 }
 
 /// A pass before the frame's, into a square target with depth only.
@@ -189,6 +184,7 @@ impl Scene {
             depth_map: None,
             draws: vec![SceneDraw::new(0, 0, 1)],
             wgsl: None,
+            strict_math: true,
             frame: None,
         }
     }
@@ -210,6 +206,7 @@ impl Scene {
             depth_map: None,
             draws: Vec::new(),
             wgsl: None,
+            strict_math: true,
             frame: Some(frame),
         }
     }
@@ -219,9 +216,13 @@ impl Scene {
     pub fn in_language(self, language: ShaderLanguage) -> Self {
         let wgsl = match language {
             ShaderLanguage::Rust => None,
-            ShaderLanguage::Wgsl => wgsl::of(self.name),
+            ShaderLanguage::Wgsl | ShaderLanguage::WgslContracted => wgsl::of(self.name),
         };
-        Self { wgsl, ..self }
+        Self {
+            wgsl,
+            strict_math: language.is_strict(),
+            ..self
+        }
     }
 
     /// The number of triangles that a frame submits.
@@ -271,85 +272,6 @@ impl Scene {
             fingerprint.update(level);
         }
         fingerprint.value()
-    }
-}
-
-/// A scene's name and generator.
-#[derive(Debug, Clone, Copy)]
-pub struct SceneEntry {
-    /// The name on the command line.
-    pub name: &'static str,
-    /// True if `peerbench` has the scene, so that it can be compared.
-    pub is_peers: bool,
-    /// True if there are no shaders in Rust, so that the scene is drawn in WGSL alone.
-    pub is_wgsl_only: bool,
-    make: fn(Detail, FrameSize) -> Scene,
-}
-
-impl SceneEntry {
-    /// Generates the scene's data for frames of a size.
-    #[must_use]
-    pub fn make(&self, detail: Detail, size: FrameSize) -> Scene {
-        (self.make)(detail, size)
-    }
-
-    /// The scene with this name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<&'static Self> {
-        ALL.iter().find(|entry| entry.name == name)
-    }
-}
-
-/// Every scene, in the order of reports.
-pub const ALL: &[SceneEntry] = &[
-    entry("clear", |_, _| clear::scene()),
-    entry("fill", |_, _| fill::back_to_front()),
-    entry("fill_front", |_, _| fill::front_to_back()),
-    entry("blend", |_, _| blend::scene()),
-    entry("small_tris", |detail, _| small_tris::scene(detail)),
-    entry("mid_tris", |detail, _| mid_tris::single_sampled(detail)),
-    entry("textured", |detail, _| textured::scene(detail)),
-    entry("heavy_fs", |_, size| heavy_fs::scene(size)),
-    entry("shadow", |detail, _| shadow::scene(detail)),
-    entry("msaa4", |detail, _| mid_tris::multisampled(detail)),
-    entry("instances", |detail, _| instances::scene(detail)),
-    entry("fill_draws", |_, _| fill::as_draws()),
-    entry("textured_draws", |detail, _| textured::as_draws(detail)),
-    entry("many_draws", |detail, _| instances::many_draws(detail)),
-    in_wgsl("ui", ui::scene),
-    in_wgsl("gbuffer", gbuffer::scene),
-    in_wgsl("stencil", stencil::scene),
-    in_wgsl("postfx", |_, size| postfx::scene(size)),
-    in_wgsl("particles", particles::scene),
-    in_wgsl("foliage", foliage::scene),
-    in_wgsl("wire", wire::scene),
-    in_wgsl("skybox", skybox::scene),
-    in_wgsl("mandelbrot_compute", |_, size| {
-        mandelbrot_compute::scene(size)
-    }),
-    in_wgsl("blur_compute", blur_compute::scene),
-    in_wgsl("nbody_compute", nbody_compute::scene),
-    in_wgsl("histogram_compute", histogram_compute::scene),
-    SceneEntry {
-        is_peers: false,
-        ..entry("quad_draws", |detail, _| quad_draws::scene(detail))
-    },
-];
-
-const fn entry(name: &'static str, make: fn(Detail, FrameSize) -> Scene) -> SceneEntry {
-    SceneEntry {
-        name,
-        is_peers: true,
-        is_wgsl_only: false,
-        make,
-    }
-}
-
-/// A scene whose frame is [`passes`].
-const fn in_wgsl(name: &'static str, make: fn(Detail, FrameSize) -> Scene) -> SceneEntry {
-    SceneEntry {
-        is_wgsl_only: true,
-        ..entry(name, make)
     }
 }
 

@@ -178,6 +178,7 @@ pub(super) fn scene(detail: Detail) -> Scene {
             },
         ],
         wgsl: None,
+        strict_math: true,
         frame: None,
     }
 }

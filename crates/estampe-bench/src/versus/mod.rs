@@ -6,28 +6,29 @@
 //! ```
 //!
 //! * [`peer`] finds or builds `peerbench`, and runs it and estampe, pinned to one or two cores;
-//! * [`results`] reads the results of both, and selects among rounds;
+//! * [`results`] reads the results of both, and selects among rounds; [`runs`] has all of a scene;
 //! * [`limits`] has lower bounds of frame times on the machine;
 //! * [`table`] makes the tables, [`section`] the section of PERFORMANCE.md that contains them.
 
 pub mod limits;
 pub mod peer;
 pub mod results;
+pub mod runs;
 pub mod section;
 pub mod table;
 
 use crate::frame::FrameSize;
-use crate::picture::{Difference, Picture};
 use crate::provenance::Versions;
+use crate::scene::SceneEntry;
 use crate::{BenchError, document};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use limits::Limits;
 use peer::{Effort, Session};
-use results::{Measured, RunResults, choose};
+use runs::Runs;
 use std::io::Write;
 use std::path::PathBuf;
-use table::{Line, Table};
+use table::Table;
 
 /// The compared numbers of cores.
 const CORES: [usize; 2] = [1, 2];
@@ -49,6 +50,9 @@ pub struct CompareArguments {
         default_value = "1280x720,1920x1080"
     )]
     pub sizes: Vec<FrameSize>,
+    /// Rounds, of which the least disturbed one counts
+    #[arg(long, default_value_t = 2, value_name = "N")]
+    pub rounds: usize,
     /// Measure few frames in one round without limits, and leave PERFORMANCE.md unchanged
     #[arg(long)]
     pub quick: bool,
@@ -66,14 +70,14 @@ pub struct CompareArguments {
 /// [`BenchError`] if a requirement is missing or a run fails.
 pub fn run(
     arguments: &CompareArguments,
-    scenes: &[&'static str],
+    scenes: &[&'static SceneEntry],
     out: &mut impl Write,
 ) -> Result<bool, BenchError> {
     let session = Session::new(arguments.peerbench.as_deref())?;
     let (effort, rounds) = if arguments.quick {
         (Effort::QUICK, 1)
     } else {
-        (Effort::THOROUGH, 2)
+        (Effort::THOROUGH, arguments.rounds.max(1))
     };
     let steps = scenes.len() * CORES.len() * rounds;
     let bar = ProgressBar::new(steps as u64);
@@ -94,48 +98,27 @@ pub fn run(
     let mut driver = String::new();
     for &scene in scenes {
         for cores in CORES {
-            let (mut ours, mut theirs): (Vec<RunResults>, Vec<RunResults>) = Default::default();
+            let mut runs = Runs::new(scene);
             for _ in 0..rounds {
-                bar.set_message(format!("{scene}, {cores} cores"));
+                bar.set_message(format!("{}, {cores} cores", scene.name));
                 bar.tick();
-                ours.push(session.run_ours(scene, &arguments.sizes, cores, effort)?);
-                theirs.push(session.run_peer(scene, &arguments.sizes, cores, effort)?);
+                runs.draw(&session, &arguments.sizes, cores, effort)?;
                 bar.inc(1);
             }
             for table in tables.iter_mut().filter(|table| table.cores == cores) {
-                let size = table.size;
-                let found = |runs: &[RunResults], who: &str| -> Result<Measured, BenchError> {
-                    choose(runs, scene, size).ok_or_else(|| BenchError::Command {
-                        command: who.to_owned(),
-                        reason: format!("measured no {scene} at {size}"),
-                    })
-                };
-                let (ours, theirs) = (found(&ours, "estampe-bench")?, found(&theirs, "peerbench")?);
-                let pictures = session.pictures(scene, size);
-                let [ours_picture, theirs_picture] = &pictures;
-                let difference = Difference::between(
-                    &Picture::read_png(ours_picture)?,
-                    &Picture::read_png(theirs_picture)?,
-                );
-                let difference = difference.ok_or_else(|| BenchError::Picture {
-                    path: theirs_picture.clone(),
-                    reason: format!("is not of {size} pixels"),
-                })?;
-                table.lines.push(Line {
-                    limit: limits.of_scene(scene, size, cores, ours.fragments),
-                    ours,
-                    theirs,
-                    difference,
-                });
+                table
+                    .lines
+                    .push(runs.line(&session, table.size, cores, &limits)?);
             }
-            if let Some(run) = theirs.first() {
+            if let Some(run) = runs.theirs.first() {
                 driver.clone_from(&run.driver);
             }
         }
     }
     bar.finish_and_clear();
 
-    let text = section::section(&tables, &driver, &Versions::here());
+    let versions = Versions::here();
+    let text = section::section(&tables, &driver, &versions);
     let print = |error| BenchError::File {
         path: "standard output".into(),
         source: error,
@@ -143,7 +126,8 @@ pub fn run(
     writeln!(out, "{text}").map_err(print)?;
     if !arguments.quick {
         let path = (arguments.document.clone()).unwrap_or_else(document::default_document);
-        document::update(&path, "compare", &text)?;
+        let name = format!("compare on {}", versions.vendor);
+        document::update(&path, &name, &text)?;
         writeln!(out, "written to {}", path.display()).map_err(print)?;
     }
     let mut lines = tables.iter().flat_map(|table| &table.lines);

@@ -6,7 +6,7 @@ use crate::BenchError;
 use crate::frame::FrameSize;
 use crate::process::run;
 use crate::provenance::repository;
-use crate::scene::SceneEntry;
+use crate::scene::ShaderLanguage;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -84,13 +84,13 @@ impl Session {
         })
     }
 
-    /// Draws a scene with estampe.
+    /// Draws a scene with estampe, its shaders in a language.
     ///
     /// # Errors
     /// If the run fails.
     pub fn run_ours(
         &self,
-        scene: &str,
+        (scene, language): (&str, ShaderLanguage),
         sizes: &[FrameSize],
         cores: usize,
         effort: Effort,
@@ -102,11 +102,11 @@ impl Session {
         let json = self.folder.join("estampe.json");
         let mut command = pinned(&program, cores, scene, sizes, effort);
         command.args(["--threads", &cores.to_string()]);
-        if SceneEntry::named(scene).is_some_and(|entry| entry.is_wgsl_only) {
-            command.args(["--shaders", "wgsl"]);
-        }
+        command.args(["--shaders", language.name()]);
         command.arg("--json").arg(&json);
-        command.arg("--images").arg(self.folder.join("estampe"));
+        command
+            .arg("--images")
+            .arg(self.folder.join(language.name()));
         run(&mut command)?;
         RunResults::read(&json)
     }
@@ -136,11 +136,20 @@ impl Session {
         RunResults::read(&self.folder.join("lavapipe.json"))
     }
 
-    /// The paths of estampe's and lavapipe's picture of a scene.
+    /// The path of estampe's picture of a scene in a language.
     #[must_use]
-    pub fn pictures(&self, scene: &str, size: FrameSize) -> [PathBuf; 2] {
-        let name = format!("{scene}_{size}.png");
-        ["estampe", "lavapipe"].map(|who| self.folder.join(who).join(&name))
+    pub fn our_picture(&self, scene: &str, language: ShaderLanguage, size: FrameSize) -> PathBuf {
+        self.picture(language.name(), scene, size)
+    }
+
+    /// The path of lavapipe's picture of a scene.
+    #[must_use]
+    pub fn peer_picture(&self, scene: &str, size: FrameSize) -> PathBuf {
+        self.picture("lavapipe", scene, size)
+    }
+
+    fn picture(&self, who: &str, scene: &str, size: FrameSize) -> PathBuf {
+        self.folder.join(who).join(format!("{scene}_{size}.png"))
     }
 
     /// Measures the limits of the machine.

@@ -36,11 +36,12 @@ mod tests {
         let versions = Versions {
             date: "2026-11-21".to_owned(),
             processor: "P, 2 cores".to_owned(),
+            vendor: "p".to_owned(),
             estampe: "estampe 0".to_owned(),
             rustc: "rustc 1".to_owned(),
         };
         let text = section(&[table], "Mesa 1", &versions);
-        let head = "Measured on 2026-11-21 on P, 2 cores: estampe 0 (rustc 1) against Mesa 1.\n\n### 64x48, 1 core\n";
+        let head = "Measured on 2026-11-21 on P, 2 cores: estampe 0 (rustc 1) against Mesa 1.\n\n#### 64x48, 1 core\n";
         assert!(text.starts_with(head), "{text}");
     }
 }

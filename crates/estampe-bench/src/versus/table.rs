@@ -3,6 +3,7 @@
 use super::results::Measured;
 use crate::frame::FrameSize;
 use crate::picture::Difference;
+use crate::scene::{SceneGroup, ShaderLanguage};
 use std::fmt::Write as _;
 
 /// The scenes at one size on one number of cores.
@@ -16,24 +17,42 @@ pub struct Table {
     pub lines: Vec<Line>,
 }
 
+/// What estampe measured with shaders in a language.
+#[derive(Debug, Clone)]
+pub struct Ours {
+    /// The language of the shaders.
+    pub language: ShaderLanguage,
+    /// The measurement.
+    pub measured: Measured,
+}
+
 /// A scene, drawn by both renderers.
 #[derive(Debug, Clone)]
 pub struct Line {
-    /// The measurement of estampe.
-    pub ours: Measured,
+    /// The scene's name.
+    pub scene: &'static str,
+    /// The scenes that it is shown with.
+    pub group: SceneGroup,
+    /// The measurements of estampe, in the order of languages; at least one.
+    pub ours: Vec<Ours>,
     /// The measurement of the peer.
     pub theirs: Measured,
-    /// The difference of the pictures.
+    /// The difference of the pictures; of several languages, the largest.
     pub difference: Difference,
     /// The least time that the machine allows, in milliseconds, if the scene has a single bound.
     pub limit: Option<f64>,
 }
 
 impl Line {
-    /// The peer's time divided by ours.
+    /// The peer's time divided by ours in a language; `None` if the scene is not drawn in it.
     #[must_use]
-    pub fn ratio(&self) -> f64 {
-        self.theirs.median_ms / self.ours.median_ms
+    pub fn ratio(&self, language: ShaderLanguage) -> Option<f64> {
+        Some(self.theirs.median_ms / self.of(language)?.median_ms)
+    }
+
+    fn of(&self, language: ShaderLanguage) -> Option<&Measured> {
+        let ours = self.ours.iter().find(|ours| ours.language == language);
+        Some(&ours?.measured)
     }
 
     fn markdown(&self) -> String {
@@ -42,7 +61,11 @@ impl Line {
             theirs,
             difference,
             limit,
+            ..
         } = self;
+        let Some(Ours { measured: ours, .. }) = ours.first() else {
+            return String::new();
+        };
         let share = limit.map_or(String::new(), |limit| {
             format!("{:.0} %", limit / ours.median_ms * 100.0)
         });
@@ -65,19 +88,33 @@ impl Line {
         } else {
             "no"
         };
-        format!(
-            "| {}{data} | {} | {} | {} | {} | {:.2} | {share} | {} ({}) | {off}{verdict} | {dropped} |",
-            ours.scene,
-            milliseconds(theirs.median_ms),
-            milliseconds(theirs.cpu_ms),
-            milliseconds(ours.median_ms),
-            milliseconds(ours.cpu_ms),
-            self.ratio(),
+        let mut text = format!(
+            "| {}{data} | {} |",
+            self.scene,
+            milliseconds(theirs.median_ms)
+        );
+        for language in ShaderLanguage::ALL {
+            let cells = self.of(language).zip(self.ratio(language));
+            let cells = cells.map_or_else(
+                || "  |  ".to_owned(),
+                |(ours, ratio)| format!("{} | {ratio:.2}", milliseconds(ours.median_ms)),
+            );
+            let _ = write!(text, " {cells} |");
+        }
+        let _ = write!(
+            text,
+            " {share} | {} ({}) | {off}{verdict} | {dropped} |",
             milliseconds(ours.readback_ms),
             milliseconds(ours.copy_ms),
-        )
+        );
+        text
     }
 }
+
+/// The columns of a table.
+const HEADER: &str = "| scene | lavapipe ms | Rust ms | ratio | WGSL ms | ratio | contracted ms | ratio | \
+                      of the limit | to rows ms (copy) | pixels off | hidden work dropped |\n\
+                      |---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
 
 impl Table {
     /// An empty table.
@@ -90,26 +127,45 @@ impl Table {
         }
     }
 
-    /// The geometric mean of the ratios; 1 if there are none.
+    /// The geometric mean of the ratios of a group, or of all scenes, in a language; `None` if no
+    /// scene is drawn in it.
     #[must_use]
-    pub fn mean_ratio(&self) -> f64 {
+    pub fn mean_ratio(&self, group: Option<SceneGroup>, language: ShaderLanguage) -> Option<f64> {
+        let lines = self.lines.iter();
+        let lines = lines.filter(|line| group.is_none_or(|group| line.group == group));
+        let ratios: Vec<f64> = lines.filter_map(|line| line.ratio(language)).collect();
         // The n-th root of the product by bisection: no logarithm is needed.
-        let product: f64 = self.lines.iter().map(Line::ratio).product();
-        root(product, self.lines.len())
+        (!ratios.is_empty()).then(|| root(ratios.iter().product(), ratios.len()))
     }
 
     /// The table as Markdown, with a heading.
     #[must_use]
     pub fn markdown(&self) -> String {
         let cores = if self.cores == 1 { "core" } else { "cores" };
-        let mut text = format!("### {}, {} {cores}\n\n", self.size, self.cores);
-        text += "| scene | lavapipe ms | CPU ms | estampe ms | CPU ms | ratio | of the limit | to rows ms (copy) | \
-                 pixels off | hidden work dropped |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
-        for line in &self.lines {
-            let _ = writeln!(text, "{}", line.markdown());
+        let mut text = format!("#### {}, {} {cores}\n\n{HEADER}", self.size, self.cores);
+        for group in SceneGroup::ALL {
+            let lines: Vec<&Line> = (self.lines.iter())
+                .filter(|line| line.group == group)
+                .collect();
+            for line in &lines {
+                let _ = writeln!(text, "{}", line.markdown());
+            }
+            if !lines.is_empty() {
+                text += &self.mean_line(Some(group), group.title());
+            }
         }
-        let mean = self.mean_ratio();
-        let _ = writeln!(text, "| geometric mean | | | | | **{mean:.2}** | | | | |");
+        text += &self.mean_line(None, "all");
+        text
+    }
+
+    fn mean_line(&self, group: Option<SceneGroup>, title: &str) -> String {
+        let mut text = format!("| *mean of {title}* | |");
+        for language in ShaderLanguage::ALL {
+            let mean = self.mean_ratio(group, language);
+            let mean = mean.map_or(String::new(), |mean| format!("**{mean:.2}**"));
+            let _ = write!(text, " | {mean} |");
+        }
+        text += " | | | |\n";
         text
     }
 }
@@ -148,8 +204,9 @@ fn milliseconds(value: f64) -> String {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::scene::SceneEntry;
 
-    pub(crate) fn line(scene: &str, theirs_ms: f64, ours_ms: f64) -> Line {
+    pub(crate) fn line(scene: &'static str, theirs_ms: f64, ours_ms: f64) -> Line {
         let measured = |median_ms: f64| Measured {
             scene: scene.to_owned(),
             w: 64,
@@ -163,8 +220,19 @@ pub(super) mod tests {
             fragments: 0,
             visibility_runs: 0,
         };
+        let ours = [
+            (ShaderLanguage::Rust, ours_ms),
+            (ShaderLanguage::Wgsl, ours_ms * 2.0),
+        ];
         Line {
-            ours: measured(ours_ms),
+            scene,
+            group: SceneEntry::named(scene).unwrap().group,
+            ours: ours
+                .map(|(language, ms)| Ours {
+                    language,
+                    measured: measured(ms),
+                })
+                .to_vec(),
             theirs: measured(theirs_ms),
             difference: Difference {
                 pixels: 10_000,
@@ -175,43 +243,49 @@ pub(super) mod tests {
         }
     }
 
+    fn table(cores: usize) -> Table {
+        let size = FrameSize {
+            width: 64,
+            height: 48,
+        };
+        Table::new(size, cores)
+    }
+
     #[test]
     fn a_line_says_what_was_measured() {
         let mut line = line("fill", 20.0, 4.0);
-        let expected =
-            "| fill | 20.0 | 40.0 | 4.00 | 8.00 | 5.00 | 50 % | 0.250 (0.125) | 0.0700 % | no |";
+        let expected = "| fill | 20.0 | 4.00 | 5.00 | 8.00 | 2.50 |   |   | 50 % | 0.250 (0.125) | 0.0700 % | no |";
         assert_eq!(line.markdown(), expected);
-        line.ours.fingerprint = "1f".to_owned();
-        line.ours.visibility_runs = 9;
+        line.ours[0].measured.fingerprint = "1f".to_owned();
+        line.ours[0].measured.visibility_runs = 9;
         line.limit = None;
         line.difference.beyond = 51;
         let text = line.markdown();
         assert!(text.contains("(other data!)") && text.contains("too many"));
-        assert!(text.contains("| 5.00 |  | 0.250 (0.125) |") && text.ends_with("| yes |"));
+        assert!(text.contains("|  | 0.250 (0.125) |") && text.ends_with("| yes |"));
     }
 
     #[test]
-    fn the_mean_is_geometric() {
-        let mut table = Table::new(
-            FrameSize {
-                width: 64,
-                height: 48,
-            },
-            2,
-        );
-        assert_eq!(table.mean_ratio(), 1.0);
+    fn means_are_geometric_and_by_group() {
+        let mut table = table(2);
+        assert_eq!(table.mean_ratio(None, ShaderLanguage::Rust), None);
         table.lines = vec![
-            line("a", 8.0, 1.0),
-            line("b", 1.0, 2.0),
-            line("c", 16.0, 1.0),
+            line("fill", 8.0, 1.0),
+            line("blend", 1.0, 2.0),
+            line("wire", 128.0, 1.0),
         ];
-        assert!((table.mean_ratio() - 4.0).abs() < 1e-9);
+        let mean = |group, language| table.mean_ratio(group, language).unwrap();
+        let features = Some(SceneGroup::Features);
+        assert!((mean(features, ShaderLanguage::Rust) - 2.0).abs() < 1e-9);
+        assert!((mean(features, ShaderLanguage::Wgsl) - 1.0).abs() < 1e-9);
+        assert!((mean(None, ShaderLanguage::Rust) - 8.0).abs() < 1e-9);
         let text = table.markdown();
-        assert!(text.starts_with("### 64x48, 2 cores\n\n| scene |"));
-        assert!(text.ends_with("| geometric mean | | | | | **4.00** | | | | |\n"));
+        assert!(text.starts_with("#### 64x48, 2 cores\n\n| scene |"));
+        assert!(text.contains("| *mean of the eleven scenes* | | | **2.00** | | **1.00** | |  |"));
+        assert!(text.ends_with("| *mean of all* | | | **8.00** | | **4.00** | |  | | | | |\n"));
         // Every row has as many cells as the header.
         let cells = |line: &str| line.matches('|').count();
-        assert!(text.lines().skip(2).all(|line| cells(line) == 11));
+        assert!(text.lines().skip(2).all(|line| cells(line) == 13), "{text}");
         assert!((root(0.001, 3) - 0.1).abs() < 1e-9);
     }
 }

@@ -30,7 +30,10 @@ impl<'a> Objects<'a> {
         scene: &Scene,
         frame: &Frame,
     ) -> Result<Self, BenchError> {
-        let source = ShaderModuleDescriptor::new(ShaderSource::Wgsl(frame.text));
+        let source = ShaderModuleDescriptor {
+            strict_math: scene.strict_math,
+            ..ShaderModuleDescriptor::new(ShaderSource::Wgsl(frame.text))
+        };
         let buffers = scene.buffers.iter().map(|bytes| {
             let buffer = device.create_buffer_with_contents(bytes)?;
             Ok(BufferSlice::from(&buffer))
