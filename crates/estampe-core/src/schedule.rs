@@ -7,6 +7,8 @@
 //! is left, many at first and one by one in the end, so that they finish together.
 
 use crate::profile::{JobTimings, Profiler};
+use rayon::Scope;
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -138,13 +140,31 @@ impl Executor {
             running.fetch_sub(1, Ordering::Release);
         };
         pool.in_place_scope(|scope| {
-            for worker in 1..workers {
-                let run = &run;
-                scope.spawn(move |_| run(worker));
-            }
+            call_helpers(scope, 1..workers, &run);
             run(0);
             wait_a_little(&running);
         });
+    }
+}
+
+/// Calls the helpers that are the workers of a range, as a tree: who calls the first worker of the
+/// upper half leaves the others of that half to it, and goes on with the lower half. To wake a thread takes the
+/// caller several microseconds, so sixty-three calls one after the other would take longer than
+/// many passes.
+fn call_helpers<'scope>(
+    scope: &Scope<'scope>,
+    workers: Range<usize>,
+    run: &'scope (impl Fn(usize) + Sync),
+) {
+    let Range { start, mut end } = workers;
+    while start < end {
+        let first = start + (end - start) / 2;
+        let others = first + 1..end;
+        scope.spawn(move |scope| {
+            call_helpers(scope, others, run);
+            run(first);
+        });
+        end = first;
     }
 }
 
@@ -186,6 +206,21 @@ fn lock<C>(scratch: &Mutex<C>) -> std::sync::MutexGuard<'_, C> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_helper_is_called_once() {
+        for workers in [1, 2, 3, 8, 64, 100] {
+            let calls: Vec<AtomicUsize> = (0..workers).map(|_| AtomicUsize::new(0)).collect();
+            let pool = ThreadPoolBuilder::new().num_threads(3).build().unwrap();
+            let run = |worker: usize| {
+                calls[worker].fetch_add(1, Ordering::Relaxed);
+            };
+            pool.in_place_scope(|scope| call_helpers(scope, 1..workers, &run));
+            let calls: Vec<_> = calls.into_iter().map(AtomicUsize::into_inner).collect();
+            assert_eq!(calls[0], 0);
+            assert_eq!(calls[1..], vec![1; workers - 1]);
+        }
+    }
 
     #[test]
     fn every_item_is_worked_on_once() {

@@ -178,7 +178,7 @@ fn cores(results: &Results, out: &mut String) {
         out,
         "\n## With cores\n\n\
          Every job of a frame (runs of vertices, chunks of primitives, tiles) was timed on one core, and the schedule was\n\
-         simulated with these times: in each phase the caller wakes its helpers, and each idle thread takes jobs from the\n\
+         simulated with these times: in each phase helpers are woken as a tree, and each idle thread takes jobs from the\n\
          front of the remaining ones, in batches of a fourth of its share. The parts between phases are serial. Speed-ups are\n\
          for helpers that are awake; in brackets for helpers that sleep before each phase, with this machine's times of\n\
          {:.1} µs to call one and {:.1} µs until it runs. The simulation assumes that memory is as fast for many cores as for one.\n\n\

@@ -2,8 +2,8 @@
 //! of its jobs.
 //!
 //! A frame is a sequence of phases (vertices, chunks of primitives, tiles), each a list of
-//! independent jobs, with serial parts between them. In a phase the caller wakes its helpers and
-//! begins. Each free worker takes a batch of jobs from the front of the remaining list, as in the
+//! independent jobs, with serial parts between them. In a phase the caller and the helpers that it
+//! has woken wake the others, as a tree, and begin. Each free worker takes a batch of jobs from the front of the remaining list, as in the
 //! scheduler. The phase ends when the last worker is done. Jobs cost the same as on one core:
 //! contention for memory is not modelled.
 
@@ -16,7 +16,7 @@ const TURNS: usize = 4;
 /// The cost of waking a helper, in nanoseconds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct WakeUp {
-    /// The caller's time for each helper that it wakes.
+    /// The time of a worker for each helper that it wakes.
     pub call_ns: u64,
     /// From the call to the helper's first instruction.
     pub arrival_ns: u64,
@@ -29,12 +29,10 @@ pub fn makespan_ns(jobs_ns: &[u64], workers: usize, wake_up: WakeUp) -> u64 {
     if workers <= 1 {
         return jobs_ns.iter().sum();
     }
-    let helpers = workers as u64 - 1;
-    // When each worker is free: the helpers once they arrive, the caller once it has called them
-    // all.
-    let arrivals = (1..=helpers).map(|helper| helper * wake_up.call_ns + wake_up.arrival_ns);
-    let caller = std::iter::once(helpers * wake_up.call_ns);
-    let mut free: BinaryHeap<Reverse<u64>> = caller.chain(arrivals).map(Reverse).collect();
+    // When each worker is free: once it has arrived and called its part of the others.
+    let mut free = BinaryHeap::new();
+    let caller = call_helpers(0, workers - 1, wake_up, &mut free);
+    free.push(Reverse(caller));
     let mut left = jobs_ns;
     while !left.is_empty() {
         let Some(Reverse(now)) = free.pop() else {
@@ -46,6 +44,25 @@ pub fn makespan_ns(jobs_ns: &[u64], workers: usize, wake_up: WakeUp) -> u64 {
     }
     // The scheduler waits for every helper, even if no jobs remain for it.
     free.into_iter().map(|Reverse(end)| end).max().unwrap_or(0)
+}
+
+/// Lets a worker call so many helpers, as the scheduler does: one of them calls half of the others
+/// and so on. Returns when the worker is free; those times of the helpers go to `free`.
+fn call_helpers(
+    start_ns: u64,
+    helpers: usize,
+    wake_up: WakeUp,
+    free: &mut BinaryHeap<Reverse<u64>>,
+) -> u64 {
+    let (mut now, mut left) = (start_ns, helpers);
+    while left > 0 {
+        now += wake_up.call_ns;
+        let others = left - left / 2 - 1;
+        let helper = call_helpers(now + wake_up.arrival_ns, others, wake_up, free);
+        free.push(Reverse(helper));
+        left /= 2;
+    }
+    now
 }
 
 #[cfg(test)]
@@ -101,5 +118,33 @@ mod tests {
         assert_eq!(makespan_ns(&[1000, 1000], 2, wake_up), 1032);
         // One job needs no help.
         assert_eq!(makespan_ns(&[10], 2, wake_up), 10);
+    }
+
+    #[test]
+    fn helpers_are_called_as_a_tree() {
+        let wake_up = WakeUp {
+            call_ns: 2,
+            arrival_ns: 30,
+        };
+        let mut free = BinaryHeap::new();
+        // The caller calls one that calls another, at 2 and 34, and then a third.
+        assert_eq!(call_helpers(0, 3, wake_up, &mut free), 4);
+        let times: Vec<u64> = free
+            .into_sorted_vec()
+            .into_iter()
+            .map(|one| one.0)
+            .collect();
+        assert_eq!(times, [64, 34, 34]);
+        // Of 63 helpers each calls at most six, and the last is called in six steps.
+        let mut free = BinaryHeap::new();
+        assert_eq!(call_helpers(0, 63, wake_up, &mut free), 12);
+        let last = free.into_iter().map(|one| one.0).max().unwrap();
+        assert_eq!((free_len(63), last), (63, 6 * 32));
+    }
+
+    fn free_len(helpers: usize) -> usize {
+        let mut free = BinaryHeap::new();
+        call_helpers(0, helpers, WakeUp::default(), &mut free);
+        free.len()
     }
 }
