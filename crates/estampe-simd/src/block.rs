@@ -22,12 +22,11 @@ impl<S: Lanes> Columns<S> {
     /// Left texels are below this number, so that the right one is in the window, too.
     pub const MOST: usize = Self::WINDOW - 1;
 
-    /// The columns whose left texels, in the first row of the block, have these numbers, counted
-    /// from `first`; `None` if one of them, or the texel after it, is not among eight.
+    /// The columns whose left texels, in lanes 0 to 3, have these numbers, counted from `first`;
+    /// `None` if one of them, or the texel after it, is not among eight.
     #[inline(always)]
     pub fn new(s: S, texel: i32x16<S>, first: i32) -> Option<Self> {
-        let of = texel.to_array();
-        let at = [of[0], of[1], of[4], of[5]];
+        let at = texel.to_array();
         let mut texels = [0; 4];
         let mut column = 0;
         while column < 4 {
@@ -45,6 +44,9 @@ impl<S: Lanes> Columns<S> {
         })
     }
 }
+
+/// The lanes of the first row of a block, from left to right, and of its first column, from above.
+pub(crate) const COLUMNS_AND_ROWS: [usize; 8] = [0, 1, 4, 5, 0, 2, 8, 10];
 
 /// A register whose lanes are those of another, in this order.
 #[inline(always)]
@@ -105,6 +107,19 @@ mod x86 {
         }
     );
 
+    fearless_simd::kernel!(
+        #[inline(always)]
+        fn choose_512(
+            simd: Avx512,
+            low: f32x16<Avx512>,
+            order: u32x16<Avx512>,
+            high: f32x16<Avx512>,
+        ) -> f32x16<Avx512> {
+            use core::arch::x86_64::*;
+            _mm512_permutex2var_ps(low.into(), order.into(), high.into()).simd_into(simd)
+        }
+    );
+
     #[inline(always)]
     fn order_512(simd: Avx512, order: [u32; 16]) -> u32x16<Avx512> {
         u32x16::load_array(simd, order)
@@ -127,8 +142,19 @@ mod x86 {
         permute_512(simd, value, order_512(simd, SPREAD))
     }
 
-    /// Of the block's first row each value four times.
-    const SPREAD: [u32; 16] = [0, 0, 0, 0, 1, 1, 1, 1, 4, 4, 4, 4, 5, 5, 5, 5];
+    /// Lanes 0 to 3, each four times.
+    const SPREAD: [u32; 16] = [0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3];
+
+    #[inline(always)]
+    pub(crate) fn columns_and_rows_avx512(
+        simd: Avx512,
+        columns: f32x16<Avx512>,
+        rows: f32x16<Avx512>,
+    ) -> f32x16<Avx512> {
+        // Lanes of `rows` are numbered from 16 on.
+        let order = [0, 1, 4, 5, 16, 18, 24, 26, 0, 1, 4, 5, 16, 18, 24, 26];
+        choose_512(simd, columns, order_512(simd, order), rows)
+    }
 
     #[inline(always)]
     pub(crate) fn places_avx512(simd: Avx512, texel: u32x16<Avx512>) -> u32x16<Avx512> {
@@ -136,7 +162,7 @@ mod x86 {
             #[inline(always)]
             fn kernel(simd: Avx512, texel: u32x16<Avx512>) -> u32x16<Avx512> {
                 use core::arch::x86_64::*;
-                let order = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 4, 4, 4, 4, 5, 5, 5, 5);
+                let order = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
                 let channel = _mm512_setr_epi32(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
                 let texel = _mm512_permutexvar_epi32(order, texel.into());
                 _mm512_add_epi32(_mm512_slli_epi32::<2>(texel), channel).simd_into(simd)
@@ -163,26 +189,14 @@ mod x86 {
         window: &[u32; 16],
         columns: &Columns<Avx512>,
     ) -> [f32x16<Avx512>; 2] {
-        fearless_simd::kernel!(
-            #[inline(always)]
-            fn choose(
-                simd: Avx512,
-                low: f32x16<Avx512>,
-                order: u32x16<Avx512>,
-                high: f32x16<Avx512>,
-            ) -> f32x16<Avx512> {
-                use core::arch::x86_64::*;
-                _mm512_permutex2var_ps(low.into(), order.into(), high.into()).simd_into(simd)
-            }
-        );
         let (words, _) = window.as_chunks::<8>();
         let low = row_avx512(simd, &words[0]);
         let high = row_avx512(simd, &words[1]);
         let left = columns.places;
         let right = left + u32x16::splat(simd, 4);
         [
-            choose(simd, low, left, high),
-            choose(simd, low, right, high),
+            choose_512(simd, low, left, high),
+            choose_512(simd, low, right, high),
         ]
     }
 
@@ -249,8 +263,36 @@ mod x86 {
     pub(crate) fn spread_avx2(simd: Avx2, value: f32x16<Avx2>) -> f32x16<Avx2> {
         let (low, _) = value.split();
         let first = permute_256(simd, low, order_256(simd, [0, 0, 0, 0, 1, 1, 1, 1]));
-        let second = permute_256(simd, low, order_256(simd, [4, 4, 4, 4, 5, 5, 5, 5]));
+        let second = permute_256(simd, low, order_256(simd, [2, 2, 2, 2, 3, 3, 3, 3]));
         first.combine(second)
+    }
+
+    #[inline(always)]
+    pub(crate) fn columns_and_rows_avx2(
+        simd: Avx2,
+        columns: f32x16<Avx2>,
+        rows: f32x16<Avx2>,
+    ) -> f32x16<Avx2> {
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn kernel(
+                simd: Avx2,
+                columns: f32x8<Avx2>,
+                upper: f32x8<Avx2>,
+                lower: f32x8<Avx2>,
+            ) -> f32x8<Avx2> {
+                use core::arch::x86_64::*;
+                // Lanes 0, 1, 4 and 5; then 0 and 2 of both halves of the rows.
+                let columns =
+                    _mm256_permute4x64_pd::<0b00_00_10_00>(_mm256_castps_pd(columns.into()));
+                let columns = _mm256_castpd_ps(columns);
+                let rows = _mm256_shuffle_ps::<0b10_00_10_00>(upper.into(), lower.into());
+                _mm256_permute2f128_ps::<0x20>(columns, rows).simd_into(simd)
+            }
+        );
+        let ((columns, _), (upper, lower)) = (columns.split(), rows.split());
+        let both = kernel(simd, columns, upper, lower);
+        both.combine(both)
     }
 
     fearless_simd::kernel!(

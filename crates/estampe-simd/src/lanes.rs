@@ -120,16 +120,30 @@ pub trait Lanes: Simd {
         crate::block::permuted(self, value, order)
     }
 
-    /// The values of the first row of a packet that is a block, from left to right, each four
-    /// times.
+    /// Of a packet that is a block the values of its columns in lanes 0 to 3, and of another one
+    /// the values of its rows in lanes 4 to 7; the other lanes repeat them.
     #[inline(always)]
-    fn spread_row(self, value: f32x16<Self>) -> f32x16<Self> {
-        let order = [0, 0, 0, 0, 1, 1, 1, 1, 4, 4, 4, 4, 5, 5, 5, 5];
+    fn columns_and_rows(self, columns: f32x16<Self>, rows: f32x16<Self>) -> f32x16<Self> {
+        let (columns, rows) = (columns.to_array(), rows.to_array());
+        let mut both = columns;
+        let mut lane = 0;
+        while lane < 16 {
+            let at = crate::block::COLUMNS_AND_ROWS[lane % 8];
+            both[lane] = if lane % 8 < 4 { columns[at] } else { rows[at] };
+            lane += 1;
+        }
+        f32x16::load_array(self, both)
+    }
+
+    /// The values of lanes 0 to 3, each four times.
+    #[inline(always)]
+    fn spread_columns(self, value: f32x16<Self>) -> f32x16<Self> {
+        let order = [0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3];
         crate::block::permuted(self, value, order)
     }
 
-    /// What [`half_texels`](Self::half_texels) needs of the texels of a block's first row, at the
-    /// levels that use it.
+    /// What [`half_texels`](Self::half_texels) needs of the texels of columns in lanes 0 to 3, at
+    /// the levels that use it.
     #[doc(hidden)]
     #[inline(always)]
     fn places_of_texels(self, texel: u32x16<Self>) -> u32x16<Self> {
@@ -326,7 +340,11 @@ mod x86 {
             crate::block::first_column_avx2(self, value)
         }
         #[inline(always)]
-        fn spread_row(self, value: f32x16<Self>) -> f32x16<Self> {
+        fn columns_and_rows(self, columns: f32x16<Self>, rows: f32x16<Self>) -> f32x16<Self> {
+            crate::block::columns_and_rows_avx2(self, columns, rows)
+        }
+        #[inline(always)]
+        fn spread_columns(self, value: f32x16<Self>) -> f32x16<Self> {
             crate::block::spread_avx2(self, value)
         }
         #[inline(always)]
@@ -394,7 +412,11 @@ mod x86 {
             crate::block::first_column_avx512(self, value)
         }
         #[inline(always)]
-        fn spread_row(self, value: f32x16<Self>) -> f32x16<Self> {
+        fn columns_and_rows(self, columns: f32x16<Self>, rows: f32x16<Self>) -> f32x16<Self> {
+            crate::block::columns_and_rows_avx512(self, columns, rows)
+        }
+        #[inline(always)]
+        fn spread_columns(self, value: f32x16<Self>) -> f32x16<Self> {
             crate::block::spread_avx512(self, value)
         }
         #[inline(always)]

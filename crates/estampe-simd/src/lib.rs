@@ -58,6 +58,21 @@ pub const LANE_Y: [u8; LANES] = [0, 0, 1, 1, 0, 0, 1, 1, 2, 2, 3, 3, 2, 2, 3, 3]
 #[repr(C, align(64))]
 pub struct Packet<T>(pub [T; LANES]);
 
+macro_rules! uniform_packets {
+    ($($word:ty),*) => {$(
+        impl Packet<$word> {
+            /// Returns true if all lanes hold the same word.
+            #[inline(always)]
+            #[must_use]
+            pub fn is_uniform(&self) -> bool {
+                // Without branches, so that lanes are compared side by side.
+                self.0.iter().fold(0, |others, word| others | (word ^ self.0[0])) == 0
+            }
+        }
+    )*};
+}
+uniform_packets!(i32, u32);
+
 impl<T: Default + Copy> Default for Packet<T> {
     fn default() -> Self {
         Self([T::default(); LANES])

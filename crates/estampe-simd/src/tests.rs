@@ -326,9 +326,19 @@ fn levels_are_found_by_name() {
     ));
 }
 
+#[test]
+fn a_packet_is_uniform_if_no_lane_differs() {
+    assert!(Packet([7_u32; LANES]).is_uniform() && Packet([-7_i32; LANES]).is_uniform());
+    for lane in 0..LANES {
+        let mut packet = Packet([-1_i32; LANES]);
+        packet.0[lane] = i32::MAX;
+        assert!(!packet.is_uniform(), "lane {lane}");
+    }
+}
+
 /// Four rows of four texels, by channel and lane.
 #[inline(always)]
-fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 7] {
+fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 8] {
     let [a, b, c, d] = [
         f32x16::load_array_ref(s, &rows[0]),
         f32x16::load_array_ref(s, &rows[1]),
@@ -343,7 +353,8 @@ fn of_block<S: Lanes>(s: S, rows: &[[f32; LANES]; 4]) -> [[f32; LANES]; 7] {
         alpha.to_array(),
         s.first_row(a).to_array(),
         s.first_column(a).to_array(),
-        s.spread_row(a).to_array(),
+        s.spread_columns(a).to_array(),
+        s.columns_and_rows(a, b).to_array(),
     ]
 }
 
@@ -357,7 +368,7 @@ fn blocks_have_columns_rows_and_channels() {
         (0..LANES).find(is_there).unwrap()
     };
     for level in Level::all_available() {
-        let [channels @ .., row, column, spread] = dispatch!(level, s => of_block(s, &rows));
+        let [channels @ .., row, column, spread, both] = dispatch!(level, s => of_block(s, &rows));
         for lane in 0..LANES {
             let (x, y) = (usize::from(LANE_X[lane]), usize::from(LANE_Y[lane]));
             for (channel, of_channel) in channels.iter().enumerate() {
@@ -366,7 +377,12 @@ fn blocks_have_columns_rows_and_channels() {
             }
             assert_eq!(row[lane], rows[0][lane_of(x, 0)], "{level:?}");
             assert_eq!(column[lane], rows[0][lane_of(0, y)], "{level:?}");
-            assert_eq!(spread[lane], rows[0][lane_of(lane / 4, 0)], "{level:?}");
+            assert_eq!(spread[lane], rows[0][lane / 4], "{level:?}");
+            let expected = match lane % 8 {
+                column @ 0..4 => rows[0][lane_of(column, 0)],
+                row => rows[1][lane_of(0, row - 4)],
+            };
+            assert_eq!(both[lane], expected, "{level:?}");
         }
     }
 }
@@ -404,8 +420,8 @@ fn windows_of_half_floats_are_read_by_columns() {
             [0, 1, 2, 7],
         ] {
             let mut texels = [0; LANES];
-            for (lane, column) in [0, 1, 4, 5].into_iter().zip(columns) {
-                texels[lane] = 40 + column;
+            for (texel, column) in texels.iter_mut().zip(columns) {
+                *texel = 40 + column;
             }
             let got = dispatch!(level, s => of_window(s, &window, texels, 40));
             let has_halves = matches!(level.name(), "avx2" | "avx512");

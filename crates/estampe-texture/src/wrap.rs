@@ -51,6 +51,26 @@ pub(crate) fn place<R: Real>(
     }
 }
 
+/// [`place`] with linear filtering and a separate number of texels in each lane; `last` is one less
+/// than it.
+#[inline(always)]
+pub(crate) fn place_by_lane<R: Real>(
+    wrapped: R,
+    length: R,
+    last: R,
+    mode: AddressMode,
+) -> Place<R> {
+    let mut at = wrapped * length - 0.5;
+    if mode != AddressMode::Repeat {
+        at = at.clamp(0.0, last);
+    }
+    let whole = at.floor();
+    Place {
+        texel: whole.to_int_within_range(),
+        fraction: at - whole,
+    }
+}
+
 /// Wraps a texel coordinate by one tile: −1 is the last texel and `size` is the first.
 #[inline(always)]
 pub(crate) fn tile<I: Int>(texel: I, size: i32) -> I {

@@ -148,10 +148,10 @@ pub(super) fn sample_all(
 /// Samples a texture at several coordinates; false if that is not what the accesses ask for, and
 /// nothing is done.
 pub(super) fn sample_each(
-    textures: &[Option<&SampledTexture>],
+    texture: Option<&SampledTexture>,
     accesses: &mut TextureAccesses<'_>,
 ) -> bool {
-    let (Some(&Some(texture)), Some(first)) = (textures.first(), accesses.ops.first()) else {
+    let Some((texture, first)) = texture.zip(accesses.ops.first()) else {
         return false;
     };
     let mask = accesses.mask();
@@ -174,13 +174,10 @@ pub(super) fn sample_each(
 /// Compares the texels of a shadow map at several coordinates with one depth; false if the texture
 /// is none, and nothing is done.
 pub(super) fn compare_all(
-    textures: &[Option<&SampledTexture>],
+    texture: Option<&SampledTexture>,
     accesses: &mut TextureAccesses<'_>,
 ) -> bool {
-    let Some(&Some(texture)) = textures.first() else {
-        return false;
-    };
-    let Some(depths) = texture.depths() else {
+    let Some((texture, depths)) = texture.and_then(|one| Some((one, one.depths()?))) else {
         return false;
     };
     // The coordinates and the reference of each.

@@ -3,7 +3,7 @@
 use super::samples::{MOST, compare_all, sample, sample_all, sample_each};
 use estampe_ir::interface::TextureSlot;
 use estampe_ir::interpreter::{Common, TextureAccess, TextureAccesses, Textures};
-use estampe_ir::op::TextureQuery;
+use estampe_ir::op::{TextureOp, TextureQuery};
 use estampe_simd::{
     Bytes, LANES, Lanes, Packet, SimdBase, dispatch, f32x16, floats_of_mut, i32x16, ints_of,
     mask32x16, u32x16,
@@ -83,15 +83,19 @@ impl Textures for BoundTextures<'_> {
     }
 
     fn access_all(&self, mut accesses: TextureAccesses<'_>) {
-        let mut textures = [None; MOST];
-        for (to, op) in textures.iter_mut().zip(accesses.ops) {
-            *to = self.sampled(op.texture, op.sampler.unwrap_or(u32::MAX));
-        }
-        let textures = textures.get(..accesses.ops.len()).unwrap_or_default();
+        let sampled = |op: &TextureOp| self.sampled(op.texture, op.sampler.unwrap_or(u32::MAX));
+        let first = accesses.ops.first().and_then(sampled);
         let is_done = match accesses.common {
-            Common::Coordinates => sample_all(textures, &mut accesses),
-            Common::Reference => compare_all(textures, &mut accesses),
-            Common::Texture => sample_each(textures, &mut accesses),
+            Common::Coordinates => {
+                let mut textures = [first; MOST];
+                for (to, op) in textures.iter_mut().zip(accesses.ops).skip(1) {
+                    *to = sampled(op);
+                }
+                let textures = textures.get(..accesses.ops.len()).unwrap_or_default();
+                sample_all(textures, &mut accesses)
+            }
+            Common::Reference => compare_all(first, &mut accesses),
+            Common::Texture => sample_each(first, &mut accesses),
             Common::Nothing => false,
         };
         if !is_done {
@@ -135,7 +139,7 @@ impl BoundTextures<'_> {
     fn load_common<S: Lanes>(&self, s: S, access: &mut TextureAccess<'_>) -> bool {
         let (group, binding) = self.slot(access);
         let level = access.level_of_detail();
-        let is_finest = level.is_none_or(|level| level[0].0 == [0; LANES]);
+        let is_finest = level.is_none_or(|level| level[0].is_uniform() && level[0].0[0] == 0);
         let is_stored = self.bindings.storage_texture(group, binding).is_some();
         if !is_finest || is_stored || access.sample().is_some() {
             return false;
@@ -234,24 +238,29 @@ impl BoundTextures<'_> {
         let storage = self.bindings.storage_texture(group, binding);
         let view = self.bindings.texture(group, binding);
         let count = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
+        let query = access.op.query;
+        let words_of = |level: u32| match (query, storage) {
+            (TextureQuery::Levels, _) => [count(view.level_count()), 0, 0],
+            (TextureQuery::Layers, Some(texture)) => [slices(texture), 0, 0],
+            (TextureQuery::Layers, None) => [view.layer_count(), 0, 0],
+            (TextureQuery::Samples, _) => [view.sample_count(), 0, 0],
+            (_, Some(texture)) => [texture.width(), texture.height(), slices(texture)],
+            (_, None) if (level as usize) < view.level_count() => view.size(level as usize),
+            (_, None) => [0; 3],
+        };
         for packet in 0..access.packets {
-            for lane in 0..16 {
-                let level = access.level_of_detail();
-                let level = level.map_or(0, |level| level[packet].0[lane]);
-                let size = || match storage {
-                    Some(texture) => [texture.width(), texture.height(), slices(texture)],
-                    None if (level as usize) < view.level_count() => view.size(level as usize),
-                    None => [0; 3],
-                };
-                let words = match access.op.query {
-                    TextureQuery::Levels => [count(view.level_count()), 0, 0],
-                    TextureQuery::Layers => match storage {
-                        Some(texture) => [slices(texture), 0, 0],
-                        None => [view.layer_count(), 0, 0],
-                    },
-                    TextureQuery::Samples => [view.sample_count(), 0, 0],
-                    _ => size(),
-                };
+            let levels = access.level_of_detail();
+            let levels = levels.map_or_else(Packet::default, |levels| levels[packet]);
+            let of_first = words_of(levels.0[0]);
+            let is_same = levels.is_uniform();
+            for (at, word) in of_first.into_iter().enumerate().take(access.results()) {
+                access.result_mut(at)[packet].0 = [word; LANES];
+            }
+            for lane in 1..LANES {
+                if is_same {
+                    break;
+                }
+                let words = words_of(levels.0[lane]);
                 for (at, word) in words.into_iter().enumerate().take(access.results()) {
                     access.result_mut(at)[packet].0[lane] = word;
                 }

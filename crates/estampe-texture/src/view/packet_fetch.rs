@@ -28,7 +28,7 @@ impl TexelView {
         let Some(plane) = plane.and_then(|mip| self.planes.get(mip)) else {
             return false;
         };
-        let is_uniform = mips.0 == [mips.0[0]; LANES] && samples.0 == [0; LANES];
+        let is_uniform = mips.is_uniform() && samples.is_uniform() && samples.0[0] == 0;
         if !is_uniform || self.texture.shape.samples != 1 || self.texture.texels.is_empty() {
             return false;
         }

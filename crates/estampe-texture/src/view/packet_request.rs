@@ -5,6 +5,7 @@
 
 use super::SampledTexture;
 use super::coordinates::{Answers as Colors, Coordinates, Lod, packet};
+use super::packet::MOST_TAPS;
 use crate::Rgba8Texture;
 use crate::compare::compare_packets;
 use crate::request::Request;
@@ -219,13 +220,20 @@ impl SampledTexture {
     /// The colours at several coordinates (u, v), as [`sample_request`](Self::sample_request) gives
     /// them for each, in level 0 for [`PacketLod::Level`].
     pub fn sample_each(&self, lod: PacketLod, at: &[[Packet<f32>; 2]], colors: &mut [Colors]) {
-        for ([u, v], colors) in at.iter().zip(colors) {
-            let request = PacketRequest {
-                at: [u, v, PacketRequest::ZEROS.at[2]],
-                lod,
-                ..PacketRequest::ZEROS
-            };
-            self.sample_request(&request, colors);
+        let taps = at.chunks(MOST_TAPS).zip(colors.chunks_mut(MOST_TAPS));
+        for (at, colors) in taps {
+            let others = self.sample_blocks(lod, at, colors);
+            for (tap, ([u, v], colors)) in at.iter().zip(colors).enumerate() {
+                if others >> tap & 1 == 0 {
+                    continue;
+                }
+                let request = PacketRequest {
+                    at: [u, v, PacketRequest::ZEROS.at[2]],
+                    lod,
+                    ..PacketRequest::ZEROS
+                };
+                self.sample_request(&request, colors);
+            }
         }
     }
 

@@ -62,6 +62,13 @@ impl Packet<'_> {
         (at, fraction): (usize, Option<f32x16<S>>),
         answers: &mut Answers,
     ) -> bool {
+        if KIND == RGBA16F
+            && let Some([r, g, b, a]) = self.block(s, (at, fraction))
+        {
+            // The units of half floats are the numbers themselves.
+            *answers = [packet(r, 0), packet(g, 0), packet(b, 0), packet(a, 0)];
+            return true;
+        }
         let planes = &self.of.view.planes;
         let last = planes.len() - 1;
         let zero: f32x16<S> = SimdBase::splat(s, 0.0);
@@ -211,15 +218,6 @@ impl Packet<'_> {
         spots: &Spots<f32x16<S>>,
         square: &Square<'_, f32x16<S>>,
     ) -> [f32x16<S>; C] {
-        if KIND == RGBA16F
-            && let Some(of_block) = self.mean_of_block(s, spots, square)
-        {
-            let mut mean = [spots.at[0]; C];
-            for k in 0..C {
-                mean[k] = of_block[k % 4];
-            }
-            return mean;
-        }
         let texels = &self.of.view.texture.texels[..];
         let width = square.plane.sides[0].cast_unsigned();
         let index: u32x16<S> = self.first_words(spots, square).bitcast();

@@ -18,6 +18,7 @@ mod inside;
 mod places;
 
 pub(crate) use super::packet_texel::PacketFormat;
+pub(super) use block::MOST_TAPS;
 
 use super::coordinates::{Answers, answer, load, packet};
 use super::packet_texel::{OTHERS, R8, RGBA8, RGBA8_SRGB, RGBA16F, passes};
