@@ -31,6 +31,17 @@ pub struct Statistics {
     /// Of these, those that took the colours that the shader gave for other pixels of the same
     /// primitive, over which nothing varies.
     pub fragments_of_shared_colors: u64,
+    /// Of these, those that share packets with fragments of other small triangles; and these
+    /// packets. They depend on the SIMD level.
+    #[doc(hidden)]
+    pub fragments_across_triangles: [u64; 2],
+    /// Covered pixels of small triangles that were tested as lists. They depend on the SIMD level.
+    #[doc(hidden)]
+    pub small_triangle_pixels: u64,
+    /// Large triangles whose edges were set up sixteen at a time, once for each tile. They depend
+    /// on the SIMD level.
+    #[doc(hidden)]
+    pub triangles_set_up_in_lanes: u64,
     /// Runs of opaque triangles, tile by tile, whose visible samples were shaded at the run's end:
     /// hidden fragments are not shaded. None at the scalar level.
     pub visibility_runs: u64,
@@ -56,6 +67,13 @@ impl std::ops::AddAssign for Statistics {
         self.primitives_binned += other.primitives_binned;
         self.fragments_shaded += other.fragments_shaded;
         self.fragments_of_shared_colors += other.fragments_of_shared_colors;
+        for (count, other) in
+            (self.fragments_across_triangles.iter_mut()).zip(other.fragments_across_triangles)
+        {
+            *count += other;
+        }
+        self.small_triangle_pixels += other.small_triangle_pixels;
+        self.triangles_set_up_in_lanes += other.triangles_set_up_in_lanes;
         self.visibility_runs += other.visibility_runs;
         self.paths += other.paths;
         self.geometry += other.geometry;
