@@ -48,6 +48,9 @@ pub struct Statistics {
     /// Primitives by the path that drew them, once for each tile that they touch. They depend on
     /// the SIMD level.
     pub paths: PathCounts,
+    /// Groups of sub-draws whose geometry was done together.
+    #[doc(hidden)]
+    pub groups_of_geometry: u64,
     /// Time of the geometry side.
     pub geometry: Duration,
     /// Time of the tile side.
@@ -76,6 +79,7 @@ impl std::ops::AddAssign for Statistics {
         self.triangles_set_up_in_lanes += other.triangles_set_up_in_lanes;
         self.visibility_runs += other.visibility_runs;
         self.paths += other.paths;
+        self.groups_of_geometry += other.groups_of_geometry;
         self.geometry += other.geometry;
         self.raster += other.raster;
     }
