@@ -18,7 +18,7 @@ use crate::profile::JobTimings;
 use crate::raster::MAX_SAMPLES;
 use crate::schedule::{Executor, ThreadError, ThreadPool};
 use crate::statistics::Statistics;
-use crate::tile_pass::{self, Clear, TileJob, TilePass, TileScratch};
+use crate::tile_pass::{self, Clear, MAX_TARGETS, TileJob, TilePass, TileScratch};
 use estampe_simd::Level;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -82,6 +82,16 @@ fn recycled<A, B>(mut list: Vec<A>) -> Vec<B> {
     list.clear();
     let none = |_| unreachable!("the list was cleared");
     list.into_iter().map(none).collect()
+}
+
+/// The images that tiles are drawn into.
+#[derive(Debug)]
+struct TileAttachments<'a> {
+    target: &'a mut RenderTarget,
+    /// What is cleared first.
+    clear: &'a Clear,
+    /// True if nothing is drawn into them afterwards.
+    is_last: bool,
 }
 
 /// A chunk, and the primitives that it takes.
@@ -195,6 +205,9 @@ impl Context {
         memory: &mut Memory,
     ) -> Result<Statistics, RenderPassError> {
         let mut statistics = Statistics::default();
+        for resolve in &mut target.resolves {
+            resolve.is_done = false;
+        }
         let executor = self.executor_of(pass.draws);
         let mut cursor = DrawCursor::new(pass.draws);
         let mut batch = DrawBatch::new(
@@ -228,9 +241,14 @@ impl Context {
             }
             statistics.geometry += start.elapsed();
             let start = Instant::now();
+            let attachments = TileAttachments {
+                target: &mut *target,
+                clear: &clear,
+                is_last: cursor.is_at_end(),
+            };
             statistics += self.draw_tiles(
                 executor,
-                (&mut *target, &clear, pass.occlusion_queries),
+                (attachments, pass.occlusion_queries),
                 &batch,
                 chunks,
                 memory,
@@ -338,11 +356,21 @@ impl Context {
     fn draw_tiles(
         &self,
         executor: &Executor,
-        (target, clear, occlusion_queries): (&mut RenderTarget, &Clear, Option<&OcclusionQueries>),
+        (attachments, occlusion_queries): (TileAttachments<'_>, Option<&OcclusionQueries>),
         batch: &DrawBatch<'_>,
         chunks: usize,
         memory: &mut Memory,
     ) -> Statistics {
+        let TileAttachments {
+            target,
+            clear,
+            is_last,
+        } = attachments;
+        let mut resolved = [None; MAX_TARGETS];
+        for resolve in target.resolves.iter_mut().filter(|_| is_last) {
+            resolved[resolve.color] = Some(resolve.into.format());
+            resolve.is_done = true;
+        }
         let chunks = &memory.chunks[..chunks];
         memory.chunk_index.build(target.grid().tiles(), chunks);
         let facts = TargetFacts {
@@ -372,6 +400,7 @@ impl Context {
             clear: *clear,
             samples: facts.samples,
             occlusion_queries,
+            resolved,
         };
         let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
         tile_jobs(target, &mut jobs);
@@ -421,6 +450,13 @@ fn tile_jobs<'a>(target: &'a mut RenderTarget, jobs: &mut Vec<TileJob<'a>>) {
         let elements = elements * texel_words(color.format());
         for (job, slice) in jobs.iter_mut().zip(color.words.chunks_exact_mut(elements)) {
             job.colors[index] = slice.as_chunks_mut().0;
+        }
+    }
+    for resolve in &mut target.resolves {
+        let elements = grid.tile_pixels() * texel_words(resolve.into.format());
+        let slices = resolve.into.words.chunks_exact_mut(elements);
+        for (job, slice) in jobs.iter_mut().zip(slices) {
+            job.resolved[resolve.color] = slice;
         }
     }
     let Some(texels) = &mut target.depth_stencil else {

@@ -51,6 +51,9 @@ pub struct Statistics {
     /// Groups of sub-draws whose geometry was done together.
     #[doc(hidden)]
     pub groups_of_geometry: u64,
+    /// Colour attachments of tiles that were resolved when the tile was drawn.
+    #[doc(hidden)]
+    pub tiles_resolved: u64,
     /// Time of the geometry side.
     pub geometry: Duration,
     /// Time of the tile side.
@@ -80,6 +83,7 @@ impl std::ops::AddAssign for Statistics {
         self.visibility_runs += other.visibility_runs;
         self.paths += other.paths;
         self.groups_of_geometry += other.groups_of_geometry;
+        self.tiles_resolved += other.tiles_resolved;
         self.geometry += other.geometry;
         self.raster += other.raster;
     }

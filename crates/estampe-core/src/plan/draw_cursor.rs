@@ -66,6 +66,11 @@ impl<'a> DrawCursor<'a> {
         self.draws.len()
     }
 
+    /// Returns true if all draws are cut.
+    pub(crate) fn is_at_end(&self) -> bool {
+        self.current.is_none() && self.draws.len() == 0
+    }
+
     /// Cuts the next group of a batch's sub-draws, whose vertices lie together; none when the batch
     /// is full or no draws are left.
     pub(crate) fn next_group(
