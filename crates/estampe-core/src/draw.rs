@@ -18,8 +18,9 @@ use crate::profile::JobTimings;
 use crate::raster::MAX_SAMPLES;
 use crate::schedule::{Executor, ThreadError, ThreadPool};
 use crate::statistics::Statistics;
-use crate::tile_pass::{self, Clear, TileJob, TilePass, TileScratch};
+use crate::tile_pass::{self, Clear, MAX_TARGETS, TileJob, TilePass, TileScratch};
 use estampe_simd::Level;
+use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
@@ -81,6 +82,16 @@ fn recycled<A, B>(mut list: Vec<A>) -> Vec<B> {
     list.clear();
     let none = |_| unreachable!("the list was cleared");
     list.into_iter().map(none).collect()
+}
+
+/// The images that tiles are drawn into.
+#[derive(Debug)]
+struct TileAttachments<'a> {
+    target: &'a mut RenderTarget,
+    /// What is cleared first.
+    clear: &'a Clear,
+    /// True if nothing is drawn into them afterwards.
+    is_last: bool,
 }
 
 /// A chunk, and the primitives that it takes.
@@ -194,32 +205,50 @@ impl Context {
         memory: &mut Memory,
     ) -> Result<Statistics, RenderPassError> {
         let mut statistics = Statistics::default();
+        for resolve in &mut target.resolves {
+            resolve.is_done = false;
+        }
         let executor = self.executor_of(pass.draws);
         let mut cursor = DrawCursor::new(pass.draws);
-        let mut batch = DrawBatch {
-            states: recycled(std::mem::take(&mut memory.lists.states)),
-            sub_draws: recycled(std::mem::take(&mut memory.lists.sub_draws)),
-            invisible_primitives: 0,
-        };
+        let mut batch = DrawBatch::new(
+            recycled(std::mem::take(&mut memory.lists.states)),
+            recycled(std::mem::take(&mut memory.lists.sub_draws)),
+        );
         let mut clear = Clear::new(target, pass);
         let mut is_cancelled = false;
         loop {
             let start = Instant::now();
-            let more = cursor.next_batch(executor, target, &mut batch);
-            if !more && clear.is_done() {
+            batch.clear();
+            let mut chunks = 0;
+            while let Some(group) = cursor.next_group(executor, target, &mut batch) {
+                is_cancelled = pass.control.is_cancelled();
+                if is_cancelled {
+                    break;
+                }
+                self.shade_vertices(executor, (&batch, group.clone()), memory);
+                let samples = target.samples() as usize;
+                chunks += self.build_chunks((&batch, group), samples, chunks, memory);
+                statistics.groups_of_geometry += 1;
+            }
+            if batch.sub_draws.is_empty() {
+                if clear.is_done() {
+                    break;
+                }
+                is_cancelled = pass.control.is_cancelled();
+            }
+            if is_cancelled {
                 break;
             }
-            if pass.control.is_cancelled() {
-                is_cancelled = true;
-                break;
-            }
-            self.shade_vertices(executor, &batch, memory);
-            let chunks = self.build_chunks(&batch, target.samples() as usize, memory);
             statistics.geometry += start.elapsed();
             let start = Instant::now();
+            let attachments = TileAttachments {
+                target: &mut *target,
+                clear: &clear,
+                is_last: cursor.is_at_end(),
+            };
             statistics += self.draw_tiles(
                 executor,
-                (&mut *target, &clear, pass.occlusion_queries),
+                (attachments, pass.occlusion_queries),
                 &batch,
                 chunks,
                 memory,
@@ -254,15 +283,20 @@ impl Context {
         }
     }
 
-    /// Geometry, first half: every vertex of the batch is shaded once and taken to the window.
-    fn shade_vertices(&self, executor: &Executor, batch: &DrawBatch<'_>, memory: &mut Memory) {
-        memory.vertices.resize_for(batch.spans());
+    /// Geometry, first half: every vertex of a group of sub-draws is shaded once and taken to the
+    /// window.
+    fn shade_vertices(
+        &self,
+        executor: &Executor,
+        (batch, group): (&DrawBatch<'_>, Range<usize>),
+        memory: &mut Memory,
+    ) {
+        memory.vertices.resize_for(batch.spans(group.clone()));
         let mut jobs = recycled(std::mem::take(&mut memory.lists.vertex_jobs));
-        memory
-            .vertices
-            .split(batch.spans(), VERTEX_CHUNK, &mut jobs);
+        let spans = batch.spans(group.clone());
+        memory.vertices.split(spans, VERTEX_CHUNK, &mut jobs);
         executor.for_each(&mut jobs, &memory.shading, |job, scratch| {
-            let sub_draw = &batch.sub_draws[job.sub_draw];
+            let sub_draw = &batch.sub_draws[group.start + job.sub_draw];
             let source = sub_draw.vertex_source();
             let transform = &batch.plan(sub_draw).transform;
             let out = &mut job.out;
@@ -272,15 +306,24 @@ impl Context {
     }
 
     /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in
-    /// chunks whose borders do not depend on the number of threads. Says how many chunks there are.
-    fn build_chunks(&self, batch: &DrawBatch<'_>, samples: usize, memory: &mut Memory) -> usize {
-        memory.chunk_plan.build(&batch.sub_draws);
-        let used = memory.chunk_plan.len();
-        if memory.chunks.len() < used {
-            memory.chunks.resize_with(used, Chunk::default);
+    /// chunks whose borders do not depend on the number of threads. The chunks of a group come
+    /// behind those of the groups before; says how many they are.
+    fn build_chunks(
+        &self,
+        (batch, group): (&DrawBatch<'_>, Range<usize>),
+        samples: usize,
+        before: usize,
+        memory: &mut Memory,
+    ) -> usize {
+        let sub_draws = &batch.sub_draws[group.clone()];
+        memory.chunk_plan.build(group.start, sub_draws);
+        let count = memory.chunk_plan.len();
+        if memory.chunks.len() < before + count {
+            memory.chunks.resize_with(before + count, Chunk::default);
         }
         let mut jobs: Vec<ChunkJob<'_>> = recycled(std::mem::take(&mut memory.lists.chunk_jobs));
-        let chunks = memory.chunks.iter_mut().zip(memory.chunk_plan.chunks());
+        let chunks = memory.chunks[before..].iter_mut();
+        let chunks = chunks.zip(memory.chunk_plan.chunks());
         jobs.extend(chunks.map(|(chunk, parts)| ChunkJob { chunk, parts }));
         let vertices = &memory.vertices;
         let level = self.level;
@@ -306,18 +349,28 @@ impl Context {
                 job.chunk.bins.sort();
             });
         memory.lists.chunk_jobs = recycled(jobs);
-        used
+        count
     }
 
     /// The tile side: every tile consumes the chunks in order.
     fn draw_tiles(
         &self,
         executor: &Executor,
-        (target, clear, occlusion_queries): (&mut RenderTarget, &Clear, Option<&OcclusionQueries>),
+        (attachments, occlusion_queries): (TileAttachments<'_>, Option<&OcclusionQueries>),
         batch: &DrawBatch<'_>,
         chunks: usize,
         memory: &mut Memory,
     ) -> Statistics {
+        let TileAttachments {
+            target,
+            clear,
+            is_last,
+        } = attachments;
+        let mut resolved = [None; MAX_TARGETS];
+        for resolve in target.resolves.iter_mut().filter(|_| is_last) {
+            resolved[resolve.color] = Some(resolve.into.format());
+            resolve.is_done = true;
+        }
         let chunks = &memory.chunks[..chunks];
         memory.chunk_index.build(target.grid().tiles(), chunks);
         let facts = TargetFacts {
@@ -347,6 +400,7 @@ impl Context {
             clear: *clear,
             samples: facts.samples,
             occlusion_queries,
+            resolved,
         };
         let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));
         tile_jobs(target, &mut jobs);
@@ -396,6 +450,13 @@ fn tile_jobs<'a>(target: &'a mut RenderTarget, jobs: &mut Vec<TileJob<'a>>) {
         let elements = elements * texel_words(color.format());
         for (job, slice) in jobs.iter_mut().zip(color.words.chunks_exact_mut(elements)) {
             job.colors[index] = slice.as_chunks_mut().0;
+        }
+    }
+    for resolve in &mut target.resolves {
+        let elements = grid.tile_pixels() * texel_words(resolve.into.format());
+        let slices = resolve.into.words.chunks_exact_mut(elements);
+        for (job, slice) in jobs.iter_mut().zip(slices) {
+            job.resolved[resolve.color] = slice;
         }
     }
     let Some(texels) = &mut target.depth_stencil else {

@@ -63,8 +63,8 @@ mod transfer;
 
 pub use amplification::domain::TessellatedDomain;
 pub use attachment::{
-    ColorTexels, DepthStencilTexels, ImageSize, RenderTarget, ResolveMode, TargetShape,
-    row_order_words,
+    ColorResolve, ColorTexels, DepthStencilTexels, ImageSize, RenderTarget, ResolveMode,
+    TargetShape, row_order_words,
 };
 pub use commands::{Draw, LoadOp, OcclusionQueries, PassControl, RenderPass, ViewportScissor};
 pub use draw::Context;

@@ -31,12 +31,29 @@ pub struct Statistics {
     /// Of these, those that took the colours that the shader gave for other pixels of the same
     /// primitive, over which nothing varies.
     pub fragments_of_shared_colors: u64,
+    /// Of these, those that share packets with fragments of other small triangles; and these
+    /// packets. They depend on the SIMD level.
+    #[doc(hidden)]
+    pub fragments_across_triangles: [u64; 2],
+    /// Covered pixels of small triangles that were tested as lists. They depend on the SIMD level.
+    #[doc(hidden)]
+    pub small_triangle_pixels: u64,
+    /// Large triangles whose edges were set up sixteen at a time, once for each tile. They depend
+    /// on the SIMD level.
+    #[doc(hidden)]
+    pub triangles_set_up_in_lanes: u64,
     /// Runs of opaque triangles, tile by tile, whose visible samples were shaded at the run's end:
     /// hidden fragments are not shaded. None at the scalar level.
     pub visibility_runs: u64,
     /// Primitives by the path that drew them, once for each tile that they touch. They depend on
     /// the SIMD level.
     pub paths: PathCounts,
+    /// Groups of sub-draws whose geometry was done together.
+    #[doc(hidden)]
+    pub groups_of_geometry: u64,
+    /// Colour attachments of tiles that were resolved when the tile was drawn.
+    #[doc(hidden)]
+    pub tiles_resolved: u64,
     /// Time of the geometry side.
     pub geometry: Duration,
     /// Time of the tile side.
@@ -56,8 +73,17 @@ impl std::ops::AddAssign for Statistics {
         self.primitives_binned += other.primitives_binned;
         self.fragments_shaded += other.fragments_shaded;
         self.fragments_of_shared_colors += other.fragments_of_shared_colors;
+        for (count, other) in
+            (self.fragments_across_triangles.iter_mut()).zip(other.fragments_across_triangles)
+        {
+            *count += other;
+        }
+        self.small_triangle_pixels += other.small_triangle_pixels;
+        self.triangles_set_up_in_lanes += other.triangles_set_up_in_lanes;
         self.visibility_runs += other.visibility_runs;
         self.paths += other.paths;
+        self.groups_of_geometry += other.groups_of_geometry;
+        self.tiles_resolved += other.tiles_resolved;
         self.geometry += other.geometry;
         self.raster += other.raster;
     }

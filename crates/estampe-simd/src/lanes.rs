@@ -89,6 +89,25 @@ pub trait Lanes: Simd {
         ]
     }
 
+    /// `value[order]` in each lane: the lane of `value` that the low four bits of `order` name.
+    #[inline(always)]
+    fn permute(self, value: u32x16<Self>, order: u32x16<Self>) -> u32x16<Self> {
+        crate::permute::by_lane(self, value, order)
+    }
+
+    /// [`permute`](Self::permute) of floats.
+    #[inline(always)]
+    fn permute_f32(self, value: f32x16<Self>, order: u32x16<Self>) -> f32x16<Self> {
+        fearless_simd::Bytes::bitcast(self.permute(fearless_simd::Bytes::bitcast(value), order))
+    }
+
+    /// Lists the bits that are set, in ascending order, bit `i` as `first + i`; what lies behind
+    /// them in `out` is unspecified. Returns how many there are. There is no branch on the bits.
+    #[inline(always)]
+    fn list_bits(self, bits: u16, first: u32, out: &mut [u32; 16]) -> usize {
+        crate::permute::list_by_table(bits, first, out)
+    }
+
     /// The numbers of half floats, the low 16 bits of each lane, if the level has an instruction
     /// for it: exact, with quiet NaNs.
     #[inline(always)]
@@ -247,6 +266,11 @@ impl Lanes for fearless_simd::Fallback {
     }
 
     #[inline(never)]
+    fn permute(self, value: u32x16<Self>, order: u32x16<Self>) -> u32x16<Self> {
+        crate::permute::by_lane(self, value, order)
+    }
+
+    #[inline(never)]
     fn mask_from_bits(self, bits: u16) -> mask32x16<Self> {
         mask32x16::from_bitmask(self, u64::from(bits))
     }
@@ -380,6 +404,10 @@ mod x86 {
         fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {
             crate::gather::four_avx2(self, table, index)
         }
+        #[inline(always)]
+        fn permute(self, value: u32x16<Self>, order: u32x16<Self>) -> u32x16<Self> {
+            crate::permute::permute_avx2(self, value, order)
+        }
     }
 
     impl Lanes for Avx512 {
@@ -459,6 +487,14 @@ mod x86 {
         #[inline(always)]
         fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {
             crate::gather::four_avx512(self, table, index)
+        }
+        #[inline(always)]
+        fn permute(self, value: u32x16<Self>, order: u32x16<Self>) -> u32x16<Self> {
+            crate::permute::permute_avx512(self, value, order)
+        }
+        #[inline(always)]
+        fn list_bits(self, bits: u16, first: u32, out: &mut [u32; 16]) -> usize {
+            crate::permute::list_avx512(self, bits, first, out)
         }
         #[inline(always)]
         fn lookup_three(self, table: &ByteTable, words: u32x16<Self>) -> [u32x16<Self>; 3] {

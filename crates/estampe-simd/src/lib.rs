@@ -30,6 +30,7 @@ mod lanes;
 mod level;
 #[cfg(target_arch = "x86_64")]
 mod lookup;
+mod permute;
 mod table;
 
 pub use block::Columns;

@@ -271,6 +271,43 @@ fn squares_stay_inside_the_table() {
 }
 
 #[inline(always)]
+fn permuted<S: Lanes>(s: S, value: [u32; LANES], order: [u32; LANES]) -> [[u32; LANES]; 2] {
+    let (value, order) = (u32x16::load_array(s, value), u32x16::load_array(s, order));
+    let floats: u32x16<S> = s.permute_f32(value.bitcast(), order).bitcast();
+    [s.permute(value, order).to_array(), floats.to_array()]
+}
+
+#[test]
+fn permutations_take_the_low_four_bits_of_the_order() {
+    let mut state = 1u32;
+    let mut random = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        state >> 4
+    };
+    for level in Level::all_available() {
+        for _ in 0..200 {
+            let (value, order) = ([0; LANES].map(|_| random()), [0; LANES].map(|_| random()));
+            let expected = order.map(|at| value[at as usize % LANES]);
+            let found = dispatch!(level, s => permuted(s, value, order));
+            assert_eq!(found, [expected; 2], "{order:?} at {}", level.name());
+        }
+    }
+}
+
+#[test]
+fn bits_are_listed_in_ascending_order() {
+    for level in Level::all_available() {
+        for bits in 0..=u16::MAX {
+            let mut out = [u32::MAX; LANES];
+            let count = dispatch!(level, s => s.list_bits(bits, 96, &mut out));
+            let expected: Vec<u32> = (0..16).filter(|bit| bits >> bit & 1 == 1).collect();
+            let expected: Vec<u32> = expected.into_iter().map(|bit| 96 + bit).collect();
+            assert_eq!(out[..count], expected, "{bits:#x} at {}", level.name());
+        }
+    }
+}
+
+#[inline(always)]
 fn round_trip<S: Lanes>(s: S, bits: u16) -> u16 {
     s.bits_of_mask(s.mask_from_bits(bits))
 }

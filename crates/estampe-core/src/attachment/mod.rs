@@ -27,5 +27,5 @@ mod texels;
 
 pub use resolve_depth::ResolveMode;
 pub use row_order::row_order_words;
-pub use target::{RenderTarget, TargetShape};
+pub use target::{ColorResolve, RenderTarget, TargetShape};
 pub use texels::{ColorTexels, DepthStencilTexels, ImageSize};

@@ -1,7 +1,8 @@
 //! Resolving: the samples of each pixel become their mean, in storage order.
 //!
 //! Both images are made of the same packets in the same order: packet i of the destination is the
-//! mean of the samples' lines of packet i. So the work is one pass over memory, cut anywhere.
+//! mean of the samples' lines of packet i. So the work is one pass over memory, cut anywhere: by
+//! tiles while a pass has them in the cache, or all of it afterwards.
 
 use super::texels::ColorTexels;
 use crate::layout::texel_words;
@@ -44,6 +45,21 @@ impl<'a> ResolveJob<'a> {
             format,
             count,
         })
+    }
+
+    /// Resolves the lines of a tile.
+    pub(crate) fn of_tile(
+        samples: &'a [u32],
+        pixels: &'a mut [u32],
+        format: TextureFormat,
+        count: usize,
+    ) -> Self {
+        Self {
+            samples,
+            pixels,
+            format,
+            count,
+        }
     }
 
     /// Resolves the job's packets.

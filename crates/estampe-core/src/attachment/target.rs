@@ -23,6 +23,19 @@ pub struct RenderTarget {
     pub(crate) colors: Vec<ColorTexels>,
     color_formats: Vec<TextureFormat>,
     pub(crate) depth_stencil: Option<DepthStencilTexels>,
+    pub(crate) resolves: Vec<ColorResolve>,
+}
+
+/// An image of one sample that takes the means of a colour attachment's samples.
+#[derive(Debug, Clone)]
+pub struct ColorResolve {
+    /// The index of the colour attachment.
+    pub color: usize,
+    /// The image, of the attachment's width, height and format.
+    pub into: ColorTexels,
+    /// True if the image holds the means: the last tiles of a pass were resolved while they were in
+    /// the cache. False if they are to be computed yet.
+    pub is_done: bool,
 }
 
 impl RenderTarget {
@@ -43,7 +56,30 @@ impl RenderTarget {
             color_formats: colors.iter().map(|color| color.format).collect(),
             colors,
             depth_stencil,
+            resolves: Vec::new(),
         }
+    }
+
+    /// Has passes resolve a colour attachment into an image, which must have one sample and the
+    /// attachment's width, height and format.
+    pub fn resolve_into(&mut self, color: usize, into: ColorTexels) {
+        debug_assert!(
+            self.colors
+                .get(color)
+                .is_some_and(|from| from.format == into.format
+                    && [from.size.width, from.size.height] == [into.size.width, into.size.height]),
+            "an image of another size or format"
+        );
+        self.resolves.push(ColorResolve {
+            color,
+            into,
+            is_done: false,
+        });
+    }
+
+    /// Takes the images that attachments are resolved into.
+    pub fn take_resolves(&mut self) -> Vec<ColorResolve> {
+        std::mem::take(&mut self.resolves)
     }
 
     /// The samples and formats.

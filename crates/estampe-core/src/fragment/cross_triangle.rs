@@ -1,65 +1,109 @@
-//! Varyings of sixteen small triangles, one fragment of each at a time.
+//! Varyings of fragments of sixteen small triangles, sixteen fragments at a time.
 //!
 //! If fragments need no neighbours, a packet need not be 4×4 pixels of one triangle: in a *row*,
-//! lane `i` is a pixel of triangle `i`, and interpolation costs no more than it does for one
-//! triangle.
+//! each lane is a pixel of any of a packet's triangles. Planes are made for the sixteen triangles
+//! together; a row's lanes take theirs by permutations, so interpolation costs little more than it
+//! does for one triangle, and no lane is empty but in the last row.
 
 use super::interpolate::VaryingSource;
 use crate::bounds::primitives::TrianglePacket;
+use crate::raster::pixel_list::Pixels;
 use crate::raster::small::PIXELS;
-use estampe_simd::{LANES, Lanes, Packet, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
+use estampe_simd::{
+    Bytes, LANES, Lanes, Packet, Select, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16,
+};
 use estampe_types::Interpolation;
 
-/// Fragments of one packet's small triangles: row `r` holds the `r`-th fragment that each lane's
-/// triangle has.
+/// Fragments of one packet's small triangles in rows of sixteen, the first of which may hold
+/// fragments of other packets already.
 #[derive(Debug)]
 #[repr(C, align(64))]
 pub(crate) struct CrossFragments {
-    /// By row and lane: the fragment's pixel in its triangle's box, 8·row + column.
-    pixels: [[i32; LANES]; PIXELS],
-    /// By row: the lanes that have a fragment.
-    pub(crate) lanes: [u16; PIXELS],
-    /// The number of rows.
-    pub(crate) count: usize,
+    /// The fragments' pixels, with room for a row that is open, and for one that is written too
+    /// much.
+    pixels: [u32; Self::ROOM],
+    /// The first fragment's place.
+    begin: usize,
+    end: usize,
+    /// The triangles that have fragments.
+    pub(crate) lanes: u16,
+}
+
+/// Lanes of a row that are fragments of the packet at hand.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Row<S: Lanes> {
+    pub(crate) pixels: Pixels<S>,
+    pub(crate) lanes: u16,
+    /// True if other lanes hold fragments already.
+    pub(crate) is_open: bool,
 }
 
 impl Default for CrossFragments {
     fn default() -> Self {
         Self {
-            pixels: [[0; LANES]; PIXELS],
-            lanes: [0; PIXELS],
-            count: 0,
+            pixels: [0; Self::ROOM],
+            begin: 0,
+            end: 0,
+            lanes: 0,
         }
     }
 }
 
 impl CrossFragments {
-    /// Adds a lane's next fragment, its `row`-th. Lanes begin in order, and rows grow one by one.
+    /// All pixels of sixteen triangles, and two rows more.
+    pub(crate) const ROOM: usize = (PIXELS + 2) * LANES;
+
+    /// Begins the fragments of a packet, behind so many fragments of others in the first row: below
+    /// [`LANES`]. Gives the memory for all pixels.
     #[inline(always)]
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_possible_wrap,
-        reason = "a pixel is below 64"
-    )]
-    pub(crate) fn push(&mut self, lane: usize, row: usize, pixel: usize) {
-        let row = row % PIXELS;
-        if row == self.count {
-            self.lanes[row] = 0;
-            self.count += 1;
-        }
-        self.lanes[row] |= 1 << lane;
-        self.pixels[row][lane % LANES] = pixel as i32;
+    pub(crate) fn begin(&mut self, open: usize) -> &mut [u32; Self::ROOM] {
+        (self.begin, self.end) = (open, open);
+        self.lanes = 0;
+        &mut self.pixels
     }
 
-    /// The columns and rows of a row's pixels in their boxes.
+    /// Ends the fragments, which are of the triangles in `lanes`.
     #[inline(always)]
-    pub(crate) fn steps<S: Lanes>(&self, s: S, row: usize) -> [f32x16<S>; 2] {
-        let pixels = i32x16::load_array_ref(s, &self.pixels[row % PIXELS]);
-        let seven = <i32x16<S> as SimdBase<S>>::splat(s, 7);
-        [
-            f32x16::float_from(pixels & seven),
-            f32x16::float_from(pixels >> 3),
-        ]
+    pub(crate) fn end(&mut self, end: usize, lanes: u16) {
+        (self.end, self.lanes) = (end, lanes);
+        // Lanes that are not used repeat a fragment: another's numbers could be slow.
+        let pixels = &mut self.pixels;
+        if let Some(&last) = pixels.get(end.wrapping_sub(1))
+            && let Some(behind) = pixels.get_mut(end..).and_then(<[u32]>::first_chunk_mut)
+        {
+            *behind = [last; LANES];
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.begin == self.end
+    }
+
+    /// The number of rows.
+    #[inline(always)]
+    pub(crate) fn rows(&self) -> usize {
+        self.end.div_ceil(LANES)
+    }
+
+    /// The number of fragments in the last row, if it is not full.
+    #[inline(always)]
+    pub(crate) fn open(&self) -> usize {
+        self.end % LANES
+    }
+
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "sixteen bits")]
+    pub(crate) fn row<S: Lanes>(&self, s: S, number: usize) -> Row<S> {
+        let (rows, _) = self.pixels.as_chunks();
+        let first = number * LANES;
+        let from = self.begin.saturating_sub(first);
+        let to = (self.end - first).min(LANES);
+        Row {
+            pixels: Pixels(u32x16::load_array_ref(s, &rows[number])),
+            lanes: ((1u32 << to) - (1 << from)) as u16,
+            is_open: from != 0,
+        }
     }
 }
 
@@ -71,6 +115,10 @@ pub(crate) struct CrossPlanes {
     corners: [Vec<Packet<f32>>; 3],
     dx: Vec<Packet<f32>>,
     dy: Vec<Packet<f32>>,
+    /// 1/w: origin, dx, dy; where a triangle's three are equal, 1.
+    iw: [Packet<f32>; 3],
+    /// True if those of all triangles are equal.
+    equal_w: bool,
 }
 
 impl CrossPlanes {
@@ -97,6 +145,17 @@ impl CrossPlanes {
         for (iw, values) in iw.iter_mut().zip(&packet.iw_at) {
             // A product with 1 changes nothing.
             *iw = equal_w.select(one, f32x16::load_array_ref(s, values));
+        }
+        self.equal_w = packet.equal_w & lanes == lanes;
+        let zero = <f32x16<S> as SimdBase<S>>::splat(s, 0.0);
+        let planes = [
+            (&packet.iw.origin, one),
+            (&packet.iw.dx, zero),
+            (&packet.iw.dy, zero),
+        ];
+        for (out, (values, if_equal)) in self.iw.iter_mut().zip(planes) {
+            let values = equal_w.select(if_equal, f32x16::load_array_ref(s, values));
+            values.store_array(&mut out.0);
         }
         let [first, second, third] = &mut self.corners;
         let rows = first.iter_mut().zip(second).zip(third);
@@ -181,36 +240,66 @@ impl CrossPlanes {
         }
     }
 
-    /// The varyings at one pixel of each triangle, given by its centre's distance from the planes'
-    /// origin.
+    /// The varyings of a row's fragments, given by the distances of their pixels' centres from the
+    /// planes' origins.
     #[inline(always)]
     pub(crate) fn varyings<S: Lanes>(
         &self,
         s: S,
-        packet: &TrianglePacket,
+        row: Row<S>,
         modes: &[Interpolation],
-        [x, y]: [f32x16<S>; 2],
+        distances: [f32x16<S>; 2],
         out: &mut [Packet<f32>],
     ) {
+        let lane = row.pixels.lane();
+        let kept = s.mask_from_bits(row.lanes);
         let one = <f32x16<S> as SimdBase<S>>::splat(s, 1.0);
-        let iw = f32x16::load_array_ref(s, &packet.iw.origin)
-            + (x * f32x16::load_array_ref(s, &packet.iw.dx)
-                + y * f32x16::load_array_ref(s, &packet.iw.dy));
-        let w = s.mask_from_bits(packet.equal_w).select(one, one / iw);
+        let [origin, dx, dy] = &self.iw;
+        let w = if self.equal_w {
+            one
+        } else {
+            one / evaluate(s, [origin, dx, dy], lane, distances)
+        };
         let planes = self.corners[0].iter().zip(self.dx.iter().zip(&self.dy));
         for ((mode, out), (origin, (dx, dy))) in modes.iter().zip(out).zip(planes) {
-            if *mode == Interpolation::Flat {
-                *out = *origin;
-                continue;
-            }
-            let mut value = f32x16::load_array_ref(s, &origin.0)
-                + (x * f32x16::load_array_ref(s, &dx.0) + y * f32x16::load_array_ref(s, &dy.0));
+            let mut value = if *mode == Interpolation::Flat {
+                s.permute_f32(f32x16::load_array_ref(s, &origin.0), lane)
+            } else {
+                evaluate(s, [origin, dx, dy], lane, distances)
+            };
             if *mode == Interpolation::Smooth {
                 value *= w;
+            }
+            if row.is_open {
+                value = kept.select(value, f32x16::load_array_ref(s, &out.0));
             }
             value.store_array(&mut out.0);
         }
     }
+}
+
+/// The lanes of a row whose bit is set for their triangle.
+#[inline(always)]
+pub(crate) fn bits_of_row<S: Lanes>(s: S, bits: u16, row: Row<S>) -> u16 {
+    let splat = |value| <u32x16<S> as SimdBase<S>>::splat(s, value);
+    let signs = s.mask_from_bits(bits).select(splat(u32::MAX), splat(0));
+    let signs: i32x16<S> = s.permute(signs, row.pixels.lane()).bitcast();
+    s.sign_bits(signs) & row.lanes
+}
+
+/// The planes of the lanes' triangles at the lanes' pixels.
+#[inline(always)]
+fn evaluate<S: Lanes>(
+    s: S,
+    planes: [&Packet<f32>; 3],
+    lane: u32x16<S>,
+    [x, y]: [f32x16<S>; 2],
+) -> f32x16<S> {
+    let [origin, dx, dy] = planes;
+    let origin = s.permute_f32(f32x16::load_array_ref(s, &origin.0), lane);
+    let dx = s.permute_f32(f32x16::load_array_ref(s, &dx.0), lane);
+    let dy = s.permute_f32(f32x16::load_array_ref(s, &dy.0), lane);
+    origin + (x * dx + y * dy)
 }
 
 /// Differences of the second and the third vertex from the first, in pixels: exact.

@@ -47,7 +47,7 @@ pub(super) fn draw<S: Lanes>(
         }
         let lanes = SetupLanes {
             vertices: vertices_of(s, group),
-            first_vertex: <u32x16<S> as SimdBase<S>>::splat(s, work.vertices.first_in_batch),
+            first_vertex: <u32x16<S> as SimdBase<S>>::splat(s, work.vertices.first_in_group),
             doubled_area: classified.doubled_area,
         };
         let mut submit = Submission {

@@ -58,7 +58,7 @@ impl Gathered {
         if self.group.read_lanes(lanes.clone(), work.vertices.window) {
             return false;
         }
-        self.first_vertex[lanes.clone()].fill(work.vertices.first_in_batch);
+        self.first_vertex[lanes.clone()].fill(work.vertices.first_in_group);
         self.sub_draws.push((sub_draw, lanes.start));
         self.len = lanes.end;
         true

@@ -77,7 +77,7 @@ impl<'a> Setup<'a> {
         Self {
             level: work.level,
             plan: work.plan,
-            window: vertices.of_batch,
+            window: vertices.of_group,
             waiting,
             clipped,
             first_clipped: chunk.align_clipped_varyings(vertices.varying_scalars),

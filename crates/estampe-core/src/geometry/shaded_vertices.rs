@@ -1,5 +1,8 @@
 //! The shaded vertices of a draw batch: one list for all sub-draws, filled by workers in slices.
 //!
+//! Positions are read by geometry alone, so their memory serves one group of sub-draws after the
+//! other; tiles read varyings, which are kept for the whole batch.
+//!
 //! *Space* window; clip where positions are kept.
 
 use crate::bounds::primitives::{VertexRef, WindowVertex};
@@ -25,7 +28,7 @@ pub(crate) struct ShadedVertices {
 /// The place of a sub-draw's vertices in those of its batch, and what is kept of them.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct VertexSpan {
-    /// The first vertex, counted in the batch.
+    /// The first vertex, counted in the group of sub-draws whose geometry is done together.
     pub(crate) first: usize,
     /// Vertices of all instances.
     pub(crate) count: usize,
@@ -75,10 +78,10 @@ pub(crate) struct VertexJob<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SubDrawVertices<'a> {
     pub(crate) window: &'a [PackedVertex],
-    /// Those of the whole batch in the window.
-    pub(crate) of_batch: &'a [PackedVertex],
-    /// The number of this sub-draw's first one in the batch.
-    pub(crate) first_in_batch: u32,
+    /// Those of the whole group in the window.
+    pub(crate) of_group: &'a [PackedVertex],
+    /// The number of this sub-draw's first one in the group.
+    pub(crate) first_in_group: u32,
     /// Empty where clip-space positions are not kept.
     clip: &'a [[u32; 4]],
     pub(crate) varyings: &'a [f32],
@@ -88,7 +91,8 @@ pub(crate) struct SubDrawVertices<'a> {
 }
 
 impl ShadedVertices {
-    /// Makes room for the spans, which are all of a batch.
+    /// Makes room for the spans, which are all of a group. The vertices of the group before are
+    /// overwritten, but for their varyings.
     pub(crate) fn resize_for<'s>(&mut self, spans: impl Iterator<Item = &'s VertexSpan>) {
         let (mut end, mut has_positions, mut has_sizes) = (VertexSpan::default(), false, false);
         for span in spans {
@@ -107,7 +111,7 @@ impl ShadedVertices {
         );
     }
 
-    /// Cuts the vertices of the spans, which are all of a batch, into jobs of at most `size`.
+    /// Cuts the vertices of the spans, which are all of a group, into jobs of at most `size`.
     pub(crate) fn split<'a, 's>(
         &'a mut self,
         spans: impl Iterator<Item = &'s VertexSpan> + Clone,
@@ -117,10 +121,11 @@ impl ShadedVertices {
         // Lists that are kept for no span may be of any length.
         let has_positions = spans.clone().any(|span| span.keeps_clip_positions);
         let has_sizes = spans.clone().any(|span| span.has_point_sizes);
+        let first_varying = spans.clone().next().map_or(0, |span| span.first_varying);
         let mut rest = ShadedSlice {
             window: &mut self.window,
             clip: &mut self.clip,
-            varyings: &mut self.varyings,
+            varyings: &mut self.varyings[first_varying..],
             point_size: &mut self.point_size,
         };
         for (sub_draw, span) in spans.enumerate() {
@@ -160,9 +165,9 @@ impl ShadedVertices {
         let varyings = span.count * span.varying_scalars;
         SubDrawVertices {
             window: &self.window[span.first..][..span.count],
-            of_batch: &self.window,
+            of_group: &self.window,
             // A batch has few vertices more than its budget.
-            first_in_batch: u32::try_from(span.first).unwrap_or(u32::MAX),
+            first_in_group: u32::try_from(span.first).unwrap_or(u32::MAX),
             clip: if span.keeps_clip_positions {
                 &self.clip[span.first..][..span.count]
             } else {

@@ -5,6 +5,7 @@
 //! ones take several.
 
 use super::sub_draw::SubDraw;
+use crate::bounds::chunk::number;
 
 /// Primitives of a chunk at most, but for stippled strips, which are not cut.
 const CHUNK_PRIMITIVES: u32 = 4096;
@@ -30,12 +31,12 @@ pub(crate) struct ChunkPlan {
 }
 
 impl ChunkPlan {
-    /// Divides the primitives of a batch's sub-draws.
-    pub(crate) fn build(&mut self, sub_draws: &[SubDraw<'_>]) {
+    /// Divides the primitives of sub-draws, the first of which has a number in the batch.
+    pub(crate) fn build(&mut self, first: usize, sub_draws: &[SubDraw<'_>]) {
         self.parts.clear();
         self.ends.clear();
         let mut open = OpenChunk::default();
-        for (number, sub_draw) in (0..).zip(sub_draws) {
+        for (number, sub_draw) in (number(first)..).zip(sub_draws) {
             let total = sub_draw.total_primitives();
             debug_assert!(
                 u32::try_from(total).is_ok(),

@@ -9,6 +9,7 @@ use crate::geometry::plan::GeometryPlan;
 use crate::geometry::shaded_vertices::VertexSpan;
 use crate::tile_path::{PathFacts, TilePath};
 use estampe_simd::Level;
+use std::ops::Range;
 
 /// Sub-draws in submission order, and the states that they share.
 #[derive(Debug, Default)]
@@ -17,14 +18,36 @@ pub(crate) struct DrawBatch<'a> {
     pub(crate) sub_draws: Vec<SubDraw<'a>>,
     /// Primitives of the draws that are in no sub-draw, because they have no extent.
     pub(crate) invisible_primitives: u64,
+    /// Vertices and primitives of the sub-draws.
+    pub(super) vertices: usize,
+    pub(super) primitives: usize,
+    /// The first sub-draw of the group at hand.
+    group: usize,
 }
 
 impl<'a> DrawBatch<'a> {
+    /// An empty batch in the memory of others.
+    pub(crate) fn new(states: Vec<DrawState<'a>>, sub_draws: Vec<SubDraw<'a>>) -> Self {
+        Self {
+            states,
+            sub_draws,
+            ..Self::default()
+        }
+    }
+
     /// Empties the batch.
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.states.clear();
         self.sub_draws.clear();
         self.invisible_primitives = 0;
+        (self.vertices, self.primitives) = (0, 0);
+    }
+
+    /// Begins a group of sub-draws, whose vertices in the window take the place of those of the
+    /// group before. Gives the number of its first sub-draw.
+    pub(super) fn begin_group(&mut self) -> usize {
+        self.group = self.sub_draws.len();
+        self.group
     }
 
     /// The number of a draw's state, which is resolved unless the last one is the same; `None`
@@ -45,7 +68,10 @@ impl<'a> DrawBatch<'a> {
     pub(super) fn push(&mut self, mut sub_draw: SubDraw<'a>) {
         let interface = sub_draw.draw.pipeline.interface();
         let last = self.sub_draws.last();
-        let after = last.map_or_else(VertexSpan::default, |last| last.span.following());
+        let mut after = last.map_or_else(VertexSpan::default, |last| last.span.following());
+        if self.group == self.sub_draws.len() {
+            after.first = 0;
+        }
         sub_draw.span = VertexSpan {
             count: sub_draw.total_vertices(),
             varying_scalars: interface.varyings.len(),
@@ -97,9 +123,9 @@ impl<'a> DrawBatch<'a> {
         }
     }
 
-    /// The places of the sub-draws' vertices.
-    pub(crate) fn spans(&self) -> impl Iterator<Item = &VertexSpan> + Clone {
-        self.sub_draws.iter().map(|sub_draw| &sub_draw.span)
+    /// The places of the vertices of a group's sub-draws.
+    pub(crate) fn spans(&self, group: Range<usize>) -> impl Iterator<Item = &VertexSpan> + Clone {
+        self.sub_draws[group].iter().map(|sub_draw| &sub_draw.span)
     }
 
     /// Vertices of all sub-draws that a shader of the caller's shades.

@@ -21,6 +21,10 @@ pub(crate) mod triangle;
 
 pub(crate) mod small;
 
+pub(crate) mod pixel_list;
+
+pub(crate) mod packet_edges;
+
 pub(crate) mod conservative;
 
 pub(crate) mod line;

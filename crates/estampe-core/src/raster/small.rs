@@ -11,6 +11,7 @@
 //! ```
 
 use super::TileShape;
+use super::pixel_list::{PixelList, Pixels};
 use crate::bounds::pixel_rect::PixelRect;
 use crate::bounds::primitives::TrianglePacket;
 use crate::depth_format::StoredDepth;
@@ -26,52 +27,22 @@ pub(crate) const PIXELS: usize = 64;
 /// A small triangle's extent in 1/256 pixel is below this, whatever part of it the tile shows.
 const EXTENT: i32 = 1 << 12;
 
-/// Small triangles of one packet inside a tile, with the depth of every pixel of their boxes.
-#[derive(Debug, Clone)]
+/// Small triangles of one packet inside a tile.
+#[derive(Debug, Clone, Default)]
 #[repr(C, align(64))]
 pub(crate) struct SmallTriangles {
-    /// By pixel of the box (8·row + column), the depth of each lane, clamped.
-    pub(crate) depth: [[f32; LANES]; PIXELS],
     /// By lane: bit 8·row + column is that pixel of its box, rows 0 to 3 and 4 to 7.
-    covered: [[i32; LANES]; 2],
-    /// By column and lane: the bits of the pixel's place in the tile that come from x.
-    place_x: [[u32; LANES]; SIDE as usize],
-    /// By row and lane: those that come from y.
-    place_y: [[u32; LANES]; SIDE as usize],
+    covered: [[u32; LANES]; 2],
+    /// Rows of the largest box.
+    rows: usize,
+    /// By lane: column and row of the box's first pixel in the tile, the row in the upper half.
+    first: [u32; LANES],
     /// By lane: the distance of that pixel's centre from the planes' origin.
-    pub(crate) from_x: [f32; LANES],
-    pub(crate) from_y: [f32; LANES],
-}
-
-impl Default for SmallTriangles {
-    fn default() -> Self {
-        Self {
-            depth: [[0.0; LANES]; PIXELS],
-            covered: [[0; LANES]; 2],
-            place_x: [[0; LANES]; SIDE as usize],
-            place_y: [[0; LANES]; SIDE as usize],
-            from_x: [0.0; LANES],
-            from_y: [0.0; LANES],
-        }
-    }
+    from_x: [f32; LANES],
+    from_y: [f32; LANES],
 }
 
 impl SmallTriangles {
-    /// The pixels of a lane's box that are covered: bit 8·row + column.
-    #[inline(always)]
-    pub(crate) fn pixels_of(&self, lane: usize) -> u64 {
-        let [upper, lower] = [self.covered[0][lane], self.covered[1][lane]];
-        u64::from(upper.cast_unsigned()) | u64::from(lower.cast_unsigned()) << 32
-    }
-
-    /// Returns the index in its tile at which a pixel of a lane's box is stored, if the pixel is
-    /// covered.
-    #[inline(always)]
-    pub(crate) fn place_of(&self, pixel: usize, lane: usize) -> usize {
-        let (column, row) = (pixel % SIDE as usize, pixel / SIDE as usize % SIDE as usize);
-        (self.place_x[column][lane] | self.place_y[row][lane]) as usize
-    }
-
     /// Covers those of the packet's triangles in `lanes` that are small; returns which those are.
     #[inline(always)]
     pub(crate) fn cover<S: Lanes>(
@@ -80,16 +51,11 @@ impl SmallTriangles {
         packet: &TrianglePacket,
         lanes: u16,
         (tile, rect): (TileShape, &PixelRect),
-        stored: StoredDepth,
     ) -> u16 {
         let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
-        let (mut x, mut y) = ([splat(0); 3], [splat(0); 3]);
-        for corner in 0..3 {
-            x[corner] = i32x16::load_array_ref(s, &packet.x[corner]);
-            y[corner] = i32x16::load_array_ref(s, &packet.y[corner]);
-        }
-        let ([x0, x1, x2], [y0, y1, y2]) = (x, y);
-        let (x_min, x_max) = (x0.min(x1).min(x2), x0.max(x1).max(x2));
+        let corners = Corners::new(s, packet);
+        let ([x0, ..], [y0, _, y2]) = (corners.x, corners.y);
+        let [x_min, x_max] = corners.x_ends;
         // The box's pixels: those whose centres lie in it, in the tile.
         let x_first = ((x_min + 127) >> 8).max(splat(tile.x + rect.x0));
         let y_first = ((y0 + 127) >> 8).max(splat(tile.y + rect.y0));
@@ -107,98 +73,174 @@ impl SmallTriangles {
         let among = among & !is_empty;
         let (columns, rows) = (largest(s, across, among), largest(s, down, among));
 
-        let edges = edges(s, packet, [x0, x1, x2], [y0, y1, y2], [x_first, y_first]);
-        let origin = f32x16::load_array_ref(s, &packet.z.origin);
-        let dx = f32x16::load_array_ref(s, &packet.z.dx);
-        let dy = f32x16::load_array_ref(s, &packet.z.dy);
+        let center = [(x_first << 8) + 128, (y_first << 8) + 128];
+        let edges = edges(s, packet, &corners, center);
+        // What a pixel further on adds.
+        let [to_right, below] = [
+            [edges[0].a << 8, edges[1].a << 8, edges[2].a << 8],
+            [edges[0].b << 8, edges[1].b << 8, edges[2].b << 8],
+        ];
         // Distances from the planes' origin are exact: multiples of 1/256 below 2¹⁶.
         let from_x = f32x16::float_from((x_first << 8) + 128 - x0) * (1.0 / 256.0);
         let from_y = f32x16::float_from((y_first << 8) + 128 - y0) * (1.0 / 256.0);
 
+        // The columns of each box, and with them the lanes that have a row.
+        let mut inside_box = splat(0);
+        for column in 0..columns {
+            let has_column = across.simd_ge(splat(column)) & among;
+            inside_box = has_column.select(inside_box | splat(1 << column), inside_box);
+        }
         let mut covered = [splat(0); 2];
         let mut row_edges = [edges[0].value, edges[1].value, edges[2].value];
         for row in 0..rows {
-            let by_y = (from_y + row as f32) * dy;
             let mut values = row_edges;
-            let half = (row >> 2) as usize & 1;
+            let mut of_row = splat(0);
             for column in 0..columns {
-                // Outside an edge, or beyond the box: the sign bit is set.
-                let beyond = (across - column) | (down - row);
-                let outside = values[0] | values[1] | values[2] | beyond;
-                let inside = outside.simd_ge(splat(0)) & among;
-                let bit = 1i32 << ((row & 3) * SIDE + column);
-                covered[half] = inside.select(covered[half] | splat(bit), covered[half]);
-                let by_x = (from_x + column as f32) * dx;
-                let depth = origin + (by_x + by_y);
-                let depth = stored.of(s, depth);
-                depth.store_array(&mut self.depth[(row * SIDE + column) as usize % PIXELS]);
-                for (value, edge) in values.iter_mut().zip(&edges) {
-                    *value += edge.a;
+                // Outside an edge the sign bit is set.
+                let outside = (values[0] | values[1] | values[2]) >> 31;
+                of_row |= !outside & splat(1 << column);
+                for (value, step) in values.iter_mut().zip(to_right) {
+                    *value += step;
                 }
             }
-            for (value, edge) in row_edges.iter_mut().zip(&edges) {
-                *value += edge.b;
+            let has_row = down.simd_ge(splat(row));
+            let of_row = has_row.select(of_row & inside_box, splat(0));
+            let (half, shift) = ((row >> 2) as usize & 1, (row & 3) * SIDE);
+            covered[half] |= of_row << shift.cast_unsigned();
+            for (value, step) in row_edges.iter_mut().zip(below) {
+                *value += step;
             }
         }
-        let [upper, lower] = covered;
+        let [upper, lower]: [u32x16<S>; 2] = [covered[0].bitcast(), covered[1].bitcast()];
         upper.store_array(&mut self.covered[0]);
         lower.store_array(&mut self.covered[1]);
-        let (x, y) = (x_first - tile.x, y_first - tile.y);
-        for column in 0..columns {
-            let place = spread(s, x + column);
-            place.store_array(&mut self.place_x[column as usize % SIDE as usize]);
-        }
-        for row in 0..rows {
-            let place = spread(s, y + row) << 1;
-            place.store_array(&mut self.place_y[row as usize % SIDE as usize]);
-        }
+        self.rows = rows as usize;
+        let first = (x_first - splat(tile.x)) | ((y_first - splat(tile.y)) << 16);
+        let first: u32x16<S> = first.bitcast();
+        first.store_array(&mut self.first);
         from_x.store_array(&mut self.from_x);
         from_y.store_array(&mut self.from_y);
         small
     }
+
+    /// Lists the covered pixels of the triangles in `lanes`.
+    #[inline(always)]
+    pub(crate) fn list<S: Lanes>(&self, s: S, lanes: u16, list: &mut PixelList) {
+        // Two rows of a box are sixteen bits.
+        match self.rows {
+            0..=2 => list.fill::<S, 1>(s, &self.covered, lanes),
+            3..=4 => list.fill::<S, 2>(s, &self.covered, lanes),
+            _ => list.fill::<S, 4>(s, &self.covered, lanes),
+        }
+    }
+
+    /// The distances of sixteen pixels' centres from their planes' origin, exact.
+    #[inline(always)]
+    pub(crate) fn distances<S: Lanes>(&self, s: S, pixels: Pixels<S>) -> [f32x16<S>; 2] {
+        let [column, row] = [pixels.column(s), pixels.row(s)];
+        let from_x = s.permute_f32(f32x16::load_array_ref(s, &self.from_x), pixels.lane());
+        let from_y = s.permute_f32(f32x16::load_array_ref(s, &self.from_y), pixels.lane());
+        [
+            from_x + f32x16::float_from(column),
+            from_y + f32x16::float_from(row),
+        ]
+    }
+
+    /// The places of sixteen pixels in the tile.
+    #[inline(always)]
+    pub(crate) fn places<S: Lanes>(&self, s: S, pixels: Pixels<S>) -> u32x16<S> {
+        let first = s.permute(u32x16::load_array_ref(s, &self.first), pixels.lane());
+        let step: u32x16<S> = (pixels.column(s) | (pixels.row(s) << 16)).bitcast();
+        spread(s, first + step)
+    }
+
+    /// Places in the tile and depths of all listed pixels.
+    #[inline(always)]
+    pub(crate) fn locate<S: Lanes>(
+        &self,
+        s: S,
+        packet: &TrianglePacket,
+        stored: StoredDepth,
+        list: &mut PixelList,
+    ) {
+        let origin = f32x16::load_array_ref(s, &packet.z.origin);
+        let dx = f32x16::load_array_ref(s, &packet.z.dx);
+        let dy = f32x16::load_array_ref(s, &packet.z.dy);
+        for (pixels, (places, depths)) in list.sixteens() {
+            let pixels = Pixels(u32x16::load_array_ref(s, pixels));
+            let lane = pixels.lane();
+            let [x, y] = self.distances(s, pixels);
+            let by_x = x * s.permute_f32(dx, lane);
+            let by_y = y * s.permute_f32(dy, lane);
+            let depth = s.permute_f32(origin, lane) + (by_x + by_y);
+            stored.of(s, depth).store_array(depths);
+            self.places(s, pixels).store_array(places);
+        }
+    }
 }
 
-/// Moves bit i of six-bit numbers to bit 2i.
+/// Morton order: the index in its tile of a pixel whose column is in the lower half and whose row
+/// is in the upper half, six bits each.
 #[inline(always)]
-fn spread<S: Lanes>(s: S, value: i32x16<S>) -> u32x16<S> {
+fn spread<S: Lanes>(s: S, v: u32x16<S>) -> u32x16<S> {
     let mask = |bits: u32| <u32x16<S> as SimdBase<S>>::splat(s, bits);
-    let v: u32x16<S> = value.bitcast();
-    let v = v & mask(0x3F);
-    let v = (v | (v << 4)) & mask(0x30F);
-    let v = (v | (v << 2)) & mask(0x333);
-    (v | (v << 1)) & mask(0x555)
+    let v = v & mask(0x3F_003F);
+    let v = (v | (v << 4)) & mask(0x030F_030F);
+    let v = (v | (v << 2)) & mask(0x0333_0333);
+    let v = (v | (v << 1)) & mask(0x0555_0555);
+    (v | (v >> 15)) & mask(0xFFF)
 }
 
-/// One edge of sixteen triangles: its value at the box's first pixel, and what a pixel further
-/// adds.
+/// The corners of sixteen triangles.
+pub(super) struct Corners<S: Lanes> {
+    pub(super) x: [i32x16<S>; 3],
+    pub(super) y: [i32x16<S>; 3],
+    /// The least and the greatest x. Those of y are the first and the last.
+    pub(super) x_ends: [i32x16<S>; 2],
+}
+
+impl<S: Lanes> Corners<S> {
+    #[inline(always)]
+    pub(super) fn new(s: S, packet: &TrianglePacket) -> Self {
+        let load = |lanes: &[i32; LANES]| i32x16::load_array_ref(s, lanes);
+        let x = [load(&packet.x[0]), load(&packet.x[1]), load(&packet.x[2])];
+        let y = [load(&packet.y[0]), load(&packet.y[1]), load(&packet.y[2])];
+        Self {
+            x,
+            y,
+            x_ends: [x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2])],
+        }
+    }
+}
+
+/// One edge of sixteen triangles: its value at a point, and what 1/256 pixel further adds, to the
+/// right and below.
 #[derive(Clone, Copy)]
-struct EdgeLanes<S: Lanes> {
-    value: i32x16<S>,
-    a: i32x16<S>,
-    b: i32x16<S>,
+pub(super) struct EdgeLanes<S: Lanes> {
+    pub(super) value: i32x16<S>,
+    pub(super) a: i32x16<S>,
+    pub(super) b: i32x16<S>,
 }
 
-/// The three edges, wound so that inside is ≥ 0, the fill rule folded in.
+/// The three edges, wound so that inside is ≥ 0, the fill rule folded in, at a point for each
+/// triangle.
 ///
 /// Vertices are sorted by (y, x), which decides what is a top or a left edge: clockwise 0→1 and 1→2
 /// where they are level (top) and 2→0 always (left); counter-clockwise 0→2 never, 2→1 and 1→0 where
 /// they rise (left).
 #[inline(always)]
-fn edges<S: Lanes>(
+pub(super) fn edges<S: Lanes>(
     s: S,
     packet: &TrianglePacket,
-    [x0, x1, x2]: [i32x16<S>; 3],
-    [y0, y1, y2]: [i32x16<S>; 3],
-    [x_first, y_first]: [i32x16<S>; 2],
+    corners: &Corners<S>,
+    point: [i32x16<S>; 2],
 ) -> [EdgeLanes<S>; 3] {
+    let ([x0, x1, x2], [y0, y1, y2]) = (corners.x, corners.y);
     let clockwise = s.mask_from_bits(packet.clockwise);
     let never = s.mask_from_bits(0);
     let always = s.mask_from_bits(u16::MAX);
     let (level_01, level_12) = (y0.simd_eq(y1), y1.simd_eq(y2));
-    let wound = Winding {
-        clockwise,
-        center: [(x_first << 8) + 128, (y_first << 8) + 128],
-    };
+    let wound = Winding { clockwise, point };
     [
         wound.edge(s, [x0, y0], [x1, y1], [level_01, !level_01]),
         wound.edge(s, [x1, y1], [x2, y2], [level_12, !level_12]),
@@ -206,10 +248,10 @@ fn edges<S: Lanes>(
     ]
 }
 
-/// The winding of sixteen triangles, and the centres of the first pixels.
+/// The winding of sixteen triangles, and the points at which their edges have values.
 struct Winding<S: Lanes> {
     clockwise: mask32x16<S>,
-    center: [i32x16<S>; 2],
+    point: [i32x16<S>; 2],
 }
 
 impl<S: Lanes> Winding<S> {
@@ -231,11 +273,11 @@ impl<S: Lanes> Winding<S> {
         let a = self.clockwise.select(a, zero - a);
         let b = self.clockwise.select(b, zero - b);
         let owns = (self.clockwise & if_clockwise) | (!self.clockwise & if_not);
-        let [x, y] = self.center;
+        let [x, y] = self.point;
         EdgeLanes {
             value: a * (x - ax) + b * (y - ay) + owns.select(zero, less),
-            a: a << 8,
-            b: b << 8,
+            a,
+            b,
         }
     }
 }

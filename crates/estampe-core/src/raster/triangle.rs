@@ -24,19 +24,19 @@ const DIRECT_PACKETS_OF_SAMPLES: i32 = 6;
 /// One edge inside a tile: `c[s] + a·i + b·j ≥ 0` is inside for sample `s` of the tile's pixel (i,
 /// j).
 #[derive(Debug, Clone, Copy)]
-struct Edge<const N: usize> {
-    a: i32,
-    b: i32,
-    c: [i32; N],
+pub(super) struct Edge<const N: usize> {
+    pub(super) a: i32,
+    pub(super) b: i32,
+    pub(super) c: [i32; N],
 }
 
 /// A convex polygon of `E` edges inside a tile.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TilePolygon<const N: usize, const E: usize> {
-    edges: [Edge<N>; E],
+    pub(super) edges: [Edge<N>; E],
     /// Columns and rows of packets that its box touches; half-open.
-    columns: [i32; 2],
-    rows: [i32; 2],
+    pub(super) columns: [i32; 2],
+    pub(super) rows: [i32; 2],
 }
 
 /// A triangle inside a tile.

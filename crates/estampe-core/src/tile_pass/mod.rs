@@ -11,6 +11,7 @@ mod visibility;
 
 pub(crate) use clear::Clear;
 
+use crate::attachment::resolve::ResolveJob;
 use crate::bounds::bins::BinEntry;
 use crate::bounds::chunk::{Chunk, ChunkIndex};
 use crate::bounds::pixel_rect::PixelRect;
@@ -25,6 +26,7 @@ use crate::raster::{SampleSet, TileShape};
 use crate::statistics::Statistics;
 use crate::tile_path::TilePath;
 use estampe_simd::{LANES, Level};
+use estampe_types::TextureFormat;
 
 /// The most colour targets of a pass.
 pub(crate) const MAX_TARGETS: usize = 8;
@@ -46,6 +48,8 @@ pub(crate) struct TilePass<'a> {
     pub(crate) clear: Clear,
     pub(crate) samples: usize,
     pub(crate) occlusion_queries: Option<&'a OcclusionQueries>,
+    /// By colour attachment: the format, if it is resolved when the tile is drawn.
+    pub(crate) resolved: [Option<TextureFormat>; MAX_TARGETS],
 }
 
 impl TilePass<'_> {
@@ -62,6 +66,8 @@ pub(crate) struct TileJob<'a> {
     pub(crate) colors: [&'a mut [[u32; LANES]]; MAX_TARGETS],
     pub(crate) depth: &'a mut [[f32; LANES]],
     pub(crate) stencil: &'a mut [[u8; LANES]],
+    /// The images that colours are resolved into.
+    pub(crate) resolved: [&'a mut [u32]; MAX_TARGETS],
 }
 
 /// Memory of one worker, for `N` samples.
@@ -94,6 +100,27 @@ pub(crate) fn draw<const N: usize>(
         }
     }
     visibility::resolve(pass, job, scratch);
+    resolve_samples(pass, job, scratch);
+}
+
+/// Resolves the colours of a tile that is drawn, while they are in the cache.
+fn resolve_samples<const N: usize>(
+    pass: &TilePass<'_>,
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    if const { N == 1 } {
+        return;
+    }
+    let images = job.colors.iter().zip(&mut job.resolved);
+    for (format, (samples, pixels)) in pass.resolved.iter().zip(images) {
+        let Some(format) = *format else {
+            continue;
+        };
+        let samples = samples.as_flattened();
+        ResolveJob::of_tile(samples, pixels, format, pass.samples).run(pass.level);
+        scratch.statistics.tiles_resolved += 1;
+    }
 }
 
 fn begin<const N: usize>(pass: &TilePass<'_>, job: &mut TileJob<'_>, scratch: &mut TileScratch<N>) {

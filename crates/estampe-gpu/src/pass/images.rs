@@ -10,6 +10,8 @@ use estampe_core::{DepthStencilTexels, LoadOp, RenderTarget};
 #[derive(Debug)]
 pub(super) struct Taken {
     colors: Vec<(Image, Newest)>,
+    /// The images that colour attachments are resolved into, with the attachments' numbers.
+    resolves: Vec<(usize, (Image, Newest))>,
     depth_stencil: Option<(Image, Newest)>,
 }
 
@@ -18,12 +20,22 @@ impl Attachments<'_> {
     pub(super) fn take(&self, context: &Context) -> Result<Taken, PassErrorKind> {
         let mut taken = Taken {
             colors: Vec::with_capacity(self.colors.len()),
+            resolves: Vec::new(),
             depth_stencil: None,
         };
         for color in &self.colors {
             let keeps = color.attachment.load == LoadOp::Load;
             match take(context, &color.image, keeps) {
                 Ok(image) => taken.colors.push(image),
+                Err(error) => return Err(self.put_back(taken, error)),
+            }
+        }
+        for (number, color) in self.colors.iter().enumerate() {
+            let Some(resolve) = &color.resolve else {
+                continue;
+            };
+            match take(context, resolve, false) {
+                Ok(image) => taken.resolves.push((number, image)),
                 Err(error) => return Err(self.put_back(taken, error)),
             }
         }
@@ -46,6 +58,12 @@ impl Attachments<'_> {
             let mut contents = color.image.view.texture().lock();
             contents.put_unchanged(color.image.key, image);
         }
+        for (number, image) in taken.resolves {
+            if let Some(resolve) = &self.colors[number].resolve {
+                let mut contents = resolve.view.texture().lock();
+                contents.put_unchanged(resolve.key, image);
+            }
+        }
         if let (Some((image, _)), Some(texels)) = (&self.depth_stencil, taken.depth_stencil) {
             let mut contents = image.view.texture().lock();
             contents.put_unchanged(image.key, texels);
@@ -66,7 +84,14 @@ impl Attachments<'_> {
             Some((Image::Color(_), _)) => unreachable!("a depth format"),
             None => (None, None),
         };
-        let target = RenderTarget::of_images(self.size, colors.collect(), depth_stencil);
+        let mut target = RenderTarget::of_images(self.size, colors.collect(), depth_stencil);
+        for (number, (image, _)) in taken.resolves {
+            let format = self.colors[number].image.view.format();
+            match image {
+                Image::Color(into) => target.resolve_into(number, into.with_format(format)),
+                Image::DepthStencil(_) => unreachable!("a colour format"),
+            }
+        }
         (target, newest)
     }
 
@@ -74,25 +99,23 @@ impl Attachments<'_> {
     pub(super) fn finish(
         &self,
         context: &Context,
-        target: RenderTarget,
+        mut target: RenderTarget,
         depth_newest: Option<Newest>,
     ) -> Result<(), PassErrorKind> {
+        let resolves = target.take_resolves();
         let (colors, depth_stencil) = target.into_images();
         let mut result = Ok(());
-        for (color, image) in self.colors.iter().zip(colors) {
-            if let Some(resolve) = &color.resolve {
-                match take(context, resolve, false) {
-                    Ok((Image::Color(into), _)) => {
-                        let mut into = into.with_format(image.format());
-                        context.resolve_color(&image, &mut into);
-                        let format = resolve.view.texture().format();
-                        let into = Image::Color(into.with_format(format));
-                        resolve.view.texture().lock().put(resolve.key, into);
-                    }
-                    Ok((Image::DepthStencil(_), _)) => unreachable!("a colour format"),
-                    Err(error) => result = Err(error),
-                }
+        for mut resolved in resolves {
+            if !resolved.is_done {
+                context.resolve_color(&colors[resolved.color], &mut resolved.into);
             }
+            if let Some(resolve) = &self.colors[resolved.color].resolve {
+                let format = resolve.view.texture().format();
+                let into = Image::Color(resolved.into.with_format(format));
+                resolve.view.texture().lock().put(resolve.key, into);
+            }
+        }
+        for (color, image) in self.colors.iter().zip(colors) {
             let format = color.image.view.texture().format();
             let image = Image::Color(image.with_format(format));
             let mut contents = color.image.view.texture().lock();

@@ -144,7 +144,7 @@ fn a_resolve_target_holds_the_means_of_the_samples() {
                         store,
                         ..attachment.clone()
                     };
-                    device
+                    let statistics = device
                         .render(&RenderPass {
                             color_attachments: &[Some(attachment)],
                             depth_stencil_attachment: Some(samples.cleared_depth()),
@@ -152,6 +152,7 @@ fn a_resolve_target_holds_the_means_of_the_samples() {
                             ..RenderPass::default()
                         })
                         .unwrap();
+                    assert!(statistics.tiles_resolved > 0, "resolved after the pass");
                     device.read_texture(&image).unwrap()
                 };
                 let resolved = pass(StoreOp::Store);

@@ -25,6 +25,7 @@ mod primitives;
 mod samples;
 mod scan_conversion;
 mod shared_edges;
+mod small_triangles;
 mod tessellation;
 mod tessellation_domain;
 mod textures;

@@ -4,7 +4,9 @@ use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::{
     Colored, Cutout, DepthGiven, FlatColored, GivenDepth, Probe, Scalar, Sized, Uniform,
 };
-use estampe_tests::{Case, CaseDraw, Random, TestShader, check, check_some};
+use estampe_tests::{
+    Case, CaseDraw, ExpectedPaths, Random, TestShader, check, check_paths, check_some,
+};
 use estampe_types::state::{
     BlendState, CompareFunction, CullMode, DepthState, PolygonMode, PrimitiveTopology, ScissorRect,
 };
@@ -127,8 +129,40 @@ fn more_primitives_than_a_chunk_holds() {
 
 /// Rows: V2, U3.
 #[test]
+fn geometry_of_a_large_draw_is_done_group_by_group() {
+    // A group has 65,536 primitives. Strips keep their winding across a cut, and small draws may
+    // lie in the group in which a large one ends.
+    const PRIMITIVES: u32 = 2 * 65_536 + 1001;
+    for (topology, elements) in [
+        (PrimitiveTopology::TriangleList, PRIMITIVES * 3),
+        (PrimitiveTopology::TriangleStrip, PRIMITIVES + 2),
+        (PrimitiveTopology::LineStrip, PRIMITIVES + 1),
+    ] {
+        let topic = format!("passes/groups_{topology:?}");
+        let statistics = check_paths(&topic, 1, ExpectedPaths::default(), |random| {
+            let mut case = Case::new([3, 2], random.pick(&[1, 4]));
+            let vertices = triangles(random, Style::Small, case.size, 7);
+            let indices: Vec<u8> = (0..elements).map(|_| random.byte() % 20).collect();
+            let mut draw = CaseDraw::new(Colored, &vertices);
+            draw.indices = Some((IndexFormat::Uint8, BufferData::from_bytes(&indices)));
+            draw.elements = 0..elements;
+            draw.primitive.topology = topology;
+            draw.primitive.cull_mode = CullMode::Back;
+            case.draws.push(draw.clone());
+            draw.elements = 0..30;
+            case.draws.push(draw);
+            case
+        });
+        let passes = statistics.primitives_in / u64::from(PRIMITIVES);
+        assert!(passes > 0, "no pass was drawn");
+        assert_eq!(statistics.groups_of_geometry, passes * 3, "{topology:?}");
+    }
+}
+
+/// Rows: V2, U3.
+#[test]
 fn more_primitives_than_a_sub_draw_or_a_draw_batch_holds() {
-    // A sub-draw has a million primitives, a draw batch two million. Strips keep their winding
+    // A sub-draw has 65,536 primitives, a draw batch two million. Strips keep their winding
     // across a cut. All of this takes half a minute, so only longer runs do it.
     if std::env::var_os("ESTAMPE_TEST_FACTOR").is_none() {
         return;

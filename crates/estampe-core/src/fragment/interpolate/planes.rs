@@ -2,7 +2,7 @@
 
 use super::PixelOffsets;
 use crate::bounds::plane::Plane;
-use crate::bounds::primitives::Triangle;
+use crate::bounds::primitives::{Triangle, TrianglePacket};
 use estampe_simd::{LANE_X, LANE_Y, LANES, Lanes, SimdBase, f32x16, outline};
 
 /// Columns (or rows) of a packet's lanes.
@@ -89,6 +89,19 @@ impl DepthPlane {
         Self {
             origin: PlaneOrigin::new(triangle),
             z: triangle.z,
+        }
+    }
+
+    /// That of a packet's triangle: few of the triangle's values, each of which is in a cache line
+    /// of its own.
+    #[inline(always)]
+    pub(crate) fn of_lane(packet: &TrianglePacket, lane: usize) -> Self {
+        Self {
+            origin: PlaneOrigin {
+                x: pixels(packet.x[0][lane]),
+                y: pixels(packet.y[0][lane]),
+            },
+            z: packet.z.lane(lane),
         }
     }
 }

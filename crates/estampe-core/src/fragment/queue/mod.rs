@@ -318,6 +318,21 @@ impl<const N: usize> FragmentQueue<N> {
         &mut self.varyings[shaded * self.scalars..][..self.scalars]
     }
 
+    /// Adds fragments to the packet that was queued last across triangles, in lanes that it does not
+    /// use yet; gives where its varyings are.
+    #[inline(always)]
+    pub(crate) fn join_across_triangles(&mut self, lanes: u16, front: u16) -> &mut [Packet<f32>] {
+        debug_assert!(self.len != 0, "there is no packet to join");
+        let slot = self.len.wrapping_sub(1) % CAPACITY;
+        let shaded = self.shaded(slot);
+        for mask in &mut self.masks[slot] {
+            *mask |= lanes;
+        }
+        self.coverage[shaded] |= lanes;
+        self.front_facing[shaded] |= front;
+        &mut self.varyings[shaded * self.scalars..][..self.scalars]
+    }
+
     /// Runs the program over the queued packets. Returns how many fragments that were.
     pub(crate) fn shade(
         &mut self,

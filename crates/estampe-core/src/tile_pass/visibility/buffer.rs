@@ -110,8 +110,18 @@ impl<const N: usize> VisibilityBuffer<N> {
         first
     }
 
+    /// Numbers one triangle of the sub-draw that was ended last; gives its id.
+    pub(super) fn add_one(&mut self, triangle: TriangleRef) -> u32 {
+        let id = self.next_id();
+        self.triangles.push(triangle);
+        if let Some(group) = self.groups.last_mut() {
+            group.ids.end = id + 1;
+        }
+        id
+    }
+
     /// Adds the triangles from an id on, which are a sub-draw's, to the groups.
-    fn end_sub_draw(&mut self, sub_draw: u32, first: u32, plans: &[TilePlan<'_>]) {
+    pub(super) fn end_sub_draw(&mut self, sub_draw: u32, first: u32, plans: &[TilePlan<'_>]) {
         let end = self.next_id();
         match self.groups.last_mut() {
             Some(group)
@@ -128,7 +138,7 @@ impl<const N: usize> VisibilityBuffer<N> {
     }
 
     /// The id of the next triangle.
-    fn next_id(&self) -> u32 {
+    pub(super) fn next_id(&self) -> u32 {
         // A run has at most as many triangles as a draw batch and clipping's pieces: far below 2³¹.
         let next = u32::try_from(self.triangles.len()).unwrap_or(SHADED);
         debug_assert!(next < SHADED, "ids have 31 bits");

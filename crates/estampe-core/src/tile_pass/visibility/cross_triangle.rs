@@ -1,19 +1,18 @@
-//! Fragments of small triangles, shaded at once: lane `i` of a packet is a fragment of triangle
-//! `i`.
+//! Fragments of small triangles, shaded at once: the lanes of a packet are fragments of any
+//! triangles of a run.
 //!
 //! For shaders without derivatives. Fragments are shaded as they become visible, before the run is
 //! resolved; their texels wait beside the attachment, under ids of their own.
 
-use super::ONLY_WIDE;
 use super::buffer::SHADED;
 use super::rasterize::Rasterizer;
 use super::small::Numbering;
 use crate::bounds::primitives::TrianglePacket;
-use crate::fragment::cross_triangle::{CrossFragments, CrossPlanes};
+use crate::fragment::cross_triangle::{CrossFragments, CrossPlanes, bits_of_row};
 use crate::per_sample::color_writer::ColorWriter;
-use crate::raster::small::PIXELS;
+use crate::raster::pixel_list::lane_of;
 use crate::tile_pass::{TileScratch, TileWork};
-use estampe_simd::{LANES, Lanes, SimdBase, dispatch, f32x16};
+use estampe_simd::{LANES, Lanes};
 
 /// Memory of fragments that are shaded before the run is resolved.
 #[derive(Debug, Default)]
@@ -22,40 +21,67 @@ pub(super) struct CrossTriangleScratch {
     fragments: Box<CrossFragments>,
     /// The number of packets shaded or queued in the run.
     packets: u32,
+    /// The number of fragments in the packet that was queued last, if it is not full.
+    open: usize,
     /// Texels of shaded packets: by packet, word, lane.
     texels: Vec<[u32; LANES]>,
 }
 
 /// Ids by the fragments' places in packets.
 pub(super) struct ByFragment<'a> {
-    fragments: &'a mut CrossFragments,
-    /// The id of the first packet's first lane.
+    /// The fragments' pixels.
+    pixels: &'a mut [u32; CrossFragments::ROOM],
+    /// The next fragment's place among them.
+    next: usize,
+    /// The id of the first place.
     first: u32,
+    /// The triangles that have fragments.
+    lanes: u16,
 }
 
 impl Numbering for ByFragment<'_> {
     #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "a lane is below 16")]
-    fn first_of(&mut self, lane: usize) -> u32 {
-        self.first + lane as u32
+    #[expect(clippy::cast_possible_truncation, reason = "at most 1024 + 15")]
+    fn id_of(&self, _lane: usize) -> u32 {
+        self.first + self.next as u32
     }
 
     #[inline(always)]
-    fn next(&mut self, lane: usize, pixel: usize, id: u32) -> u32 {
-        let packet = ((id - self.first) / 16) as usize;
-        self.fragments.push(lane, packet, pixel);
-        id + 16
+    fn note(&mut self, pixel: u32, is_shown: bool) {
+        // Written in any case; the next one takes its place.
+        if let Some(place) = self.pixels.get_mut(self.next) {
+            *place = pixel;
+        }
+        self.next += usize::from(is_shown);
+        self.lanes |= u16::from(is_shown) << lane_of(pixel);
+    }
+}
+
+impl ByFragment<'_> {
+    /// The place behind the last fragment, and the triangles that have fragments.
+    #[inline(always)]
+    pub(super) fn shown(self) -> (usize, u16) {
+        (self.next, self.lanes)
     }
 }
 
 impl CrossTriangleScratch {
     /// Begins the fragments of a packet of triangles.
+    #[inline(always)]
     pub(super) fn begin(&mut self) -> ByFragment<'_> {
-        self.fragments.count = 0;
+        let first_packet = self.packets - u32::from(self.open != 0);
         ByFragment {
-            first: SHADED | (self.packets * 16),
-            fragments: &mut self.fragments,
+            pixels: self.fragments.begin(self.open),
+            next: self.open,
+            first: SHADED | (first_packet * 16),
+            lanes: 0,
         }
+    }
+
+    /// Ends the fragments of a packet of triangles.
+    #[inline(always)]
+    pub(super) fn end(&mut self, (end, lanes): (usize, u16)) {
+        self.fragments.end(end, lanes);
     }
 
     /// Returns the approximate number of texels that wait for the resolve.
@@ -77,40 +103,39 @@ impl CrossTriangleScratch {
 
 impl<const N: usize> Rasterizer<'_, '_, '_, N> {
     /// Queues the fragments of a packet of small triangles.
-    pub(super) fn shade_cross_triangle(&mut self, packet: &TrianglePacket) {
-        // Small triangles are drawn with one sample.
-        if const { N == 1 } && self.scratch.visibility.cross.fragments.count != 0 {
-            dispatch!(@wide self.work.level, s => self.queue_cross_triangle(s, packet),
-                scalar => unreachable!("{ONLY_WIDE}"));
-        }
-    }
-
     #[inline(always)]
-    fn queue_cross_triangle<S: Lanes>(&mut self, s: S, packet: &TrianglePacket) {
+    pub(super) fn shade_cross_triangle<S: Lanes>(&mut self, s: S, packet: &TrianglePacket) {
         let source = self.work.varyings();
         let cross = &mut self.scratch.visibility.cross;
-        // Every lane that has fragments has one in the first packet.
-        cross
-            .planes
-            .set(s, packet, cross.fragments.lanes[0], &source);
-        let count = cross.fragments.count;
-        cross.packets += u32::try_from(count).unwrap_or_default();
-        for number in 0..count {
-            if self.scratch.queue.is_full() {
-                self.flush_cross_triangle();
+        if cross.fragments.is_empty() {
+            return;
+        }
+        let lanes = cross.fragments.lanes;
+        cross.planes.set(s, packet, lanes, &source);
+        for number in 0..cross.fragments.rows() {
+            let row = self.scratch.visibility.cross.fragments.row(s, number);
+            if !row.is_open {
+                if self.scratch.queue.is_full() {
+                    self.flush_cross_triangle();
+                }
+                self.scratch.visibility.cross.packets += 1;
             }
             let TileScratch {
                 queue, visibility, ..
             } = &mut *self.scratch;
-            let (small, cross) = (&visibility.small, &mut visibility.cross);
+            let (small, cross) = (&visibility.small, &visibility.cross);
+            let front = bits_of_row(s, packet.front, row);
+            let out = if row.is_open {
+                queue.join_across_triangles(row.lanes, front)
+            } else {
+                queue.push_across_triangles(row.lanes, front)
+            };
             // Exact, as in the coverage.
-            let [x, y] = cross.fragments.steps(s, number);
-            let x = f32x16::load_array_ref(s, &small.from_x) + x;
-            let y = f32x16::load_array_ref(s, &small.from_y) + y;
-            let lanes = cross.fragments.lanes[number % PIXELS];
-            let out = queue.push_across_triangles(lanes, packet.front);
-            cross.planes.varyings(s, packet, source.modes, [x, y], out);
+            let distances = small.distances(s, row.pixels);
+            cross.planes.varyings(s, row, source.modes, distances, out);
         }
+        let cross = &mut self.scratch.visibility.cross;
+        cross.open = cross.fragments.open();
     }
 
     /// Shades the queued packets and keeps their texels.
@@ -125,7 +150,9 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
             return;
         }
         let TileWork { level, plan, .. } = *self.work;
-        statistics.fragments_shaded += queue.shade(level, plan.pipeline, plan.bindings);
+        visibility.cross.open = 0;
+        let fragments = queue.shade(level, plan.pipeline, plan.bindings);
+        statistics.fragments_shaded += fragments;
         let texels = &mut visibility.cross.texels;
         let target = &plan.pipeline.color_targets()[0];
         let writer = ColorWriter {
@@ -134,6 +161,9 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
             constant: plan.blend_constant,
         };
         writer.encode_batch(level, &queue.batch(), texels);
+        let [all, packets] = &mut statistics.fragments_across_triangles;
+        *all += fragments;
+        *packets += queue.batch().packets().count() as u64;
         queue.clear();
     }
 }

@@ -35,6 +35,8 @@ mod writer;
 use super::{TileJob, TilePass, TileScratch, TileWork};
 use crate::bounds::bins::BinEntry;
 use crate::raster::CoverageList;
+use crate::raster::packet_edges::PacketEdges;
+use crate::raster::pixel_list::PixelList;
 use crate::raster::small::SmallTriangles;
 use crate::tile_path::TilePath;
 use buffer::VisibilityBuffer;
@@ -55,6 +57,8 @@ pub(super) struct VisibilityScratch<const N: usize> {
     list: CoverageList<N>,
     buffer: VisibilityBuffer<N>,
     small: SmallTriangles,
+    pixels: PixelList,
+    edges: PacketEdges<N>,
     cross: CrossTriangleScratch,
     waiting: shortcuts::WaitingTriangles,
     resolve: ResolveScratch<N>,
@@ -66,6 +70,8 @@ impl<const N: usize> Default for VisibilityScratch<N> {
             list: CoverageList::default(),
             buffer: VisibilityBuffer::default(),
             small: SmallTriangles::default(),
+            pixels: PixelList::default(),
+            edges: PacketEdges::default(),
             cross: CrossTriangleScratch::default(),
             waiting: shortcuts::WaitingTriangles::default(),
             resolve: ResolveScratch::default(),
@@ -86,10 +92,21 @@ pub(super) fn add<const N: usize>(
     }
     scratch.visibility.list.set_samples(pass.sample_set());
     let buffer = &mut scratch.visibility.buffer;
-    let first = buffer.add((work.chunk, work.number), entries, pass.plans);
+    let may_wait = shortcuts::may_wait(work, entries);
+    let first = match work.plan.path {
+        // Nothing has an id.
+        TilePath::VisibilityDepthOnly if !may_wait => buffer.next_id(),
+        // Fragments of small triangles have ids of their own, and triangles seldom need one.
+        TilePath::VisibilityCrossTriangle if !may_wait => {
+            let first = buffer.next_id();
+            buffer.end_sub_draw(work.sub_draw, first, pass.plans);
+            first
+        }
+        _ => buffer.add((work.chunk, work.number), entries, pass.plans),
+    };
     let key = work.plan.pipeline.key();
     buffer.has_one_color_draws |= key.has_colors && key.uniform_over_draw;
-    if shortcuts::may_wait(work, entries) {
+    if may_wait {
         if !scratch.visibility.waiting.add(work, entries, first) {
             rasterize::rasterize_waiting(pass, job, scratch);
             let added = scratch.visibility.waiting.add(work, entries, first);

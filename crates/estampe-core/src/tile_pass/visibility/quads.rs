@@ -1,13 +1,15 @@
 //! Quads of packets that show several triangles, sorted by triangle.
 //!
 //! A list for each triangle, linked through one array: to add a quad is two stores, and a
-//! triangle's quads come together although its packets lie far apart.
+//! triangle's quads come together although its packets lie far apart. Which of a packet's four
+//! quads a triangle has cannot be predicted, so there is no branch on it.
 
-use crate::fragment::quad::QUAD;
+use crate::fragment::quad::{QUAD, QUADS};
 use crate::fragment::queue::QuadPlace;
 use crate::raster::{Covered, packet_origin};
 
 use super::resolve::NONE;
+use std::hint::select_unpredictable;
 
 /// A quad, and the one of the same triangle that was added before it.
 #[derive(Debug, Clone, Copy)]
@@ -20,19 +22,24 @@ struct Quad<const N: usize> {
 /// Quads by triangle.
 #[derive(Debug)]
 pub(super) struct Quads<const N: usize> {
+    /// Four more than there are, as four are written at a time.
     quads: Vec<Quad<N>>,
+    len: usize,
     /// By visibility id: the triangle's last quad.
     last: Vec<u32>,
-    /// The ids of triangles that have quads.
-    pub(super) triangles: Vec<u32>,
+    /// The ids of triangles that have quads, and one that was written too much.
+    triangles: Vec<u32>,
+    triangles_len: usize,
 }
 
 impl<const N: usize> Default for Quads<N> {
     fn default() -> Self {
         Self {
             quads: Vec::new(),
+            len: 0,
             last: Vec::new(),
             triangles: Vec::new(),
+            triangles_len: 0,
         }
     }
 }
@@ -47,34 +54,51 @@ impl<const N: usize> Quads<N> {
 
     /// Forgets the quads of the triangles before.
     pub(super) fn begin_group(&mut self) {
-        self.quads.clear();
-        self.triangles.clear();
+        self.len = 0;
+        self.triangles_len = 0;
+    }
+
+    /// The ids of triangles that have quads.
+    pub(super) fn triangles(&self) -> &[u32] {
+        &self.triangles[..self.triangles_len]
     }
 
     /// Adds a triangle's quads of one packet; bit 4·i of `quads` is quad i.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "a tile has 1024 quads")]
-    pub(super) fn add(&mut self, id: u32, covered: Covered<N>, mut quads: u16) {
+    pub(super) fn add(&mut self, id: u32, covered: Covered<N>, quads: u16) {
         let Some(last) = self.last.get_mut(id as usize) else {
             return;
         };
-        if *last == NONE {
-            self.triangles.push(id);
+        if self.quads.len() < self.len + QUADS {
+            let nothing = Quad {
+                before: NONE,
+                place: 0,
+                masks: [0; N],
+            };
+            self.quads.resize((self.len + QUADS) * 2, nothing);
         }
-        while quads != 0 {
-            let shift = quads.trailing_zeros();
-            quads &= quads - 1;
+        if self.triangles.len() <= self.triangles_len {
+            self.triangles.resize((self.triangles_len + 1) * 2, 0);
+        }
+        self.triangles[self.triangles_len] = id;
+        self.triangles_len += usize::from(*last == NONE);
+        for quad in 0..QUADS {
+            let shift = quad * QUAD;
             let mut masks = covered.masks;
-            masks
-                .iter_mut()
-                .for_each(|mask| *mask = *mask >> shift & 0xF);
-            self.quads.push(Quad {
+            for mask in &mut masks {
+                *mask = *mask >> shift & 0xF;
+            }
+            // The next one takes its place, unless the triangle has it.
+            self.quads[self.len] = Quad {
                 before: *last,
-                place: covered.packet * 4 + (shift as usize / QUAD) as u16,
+                place: covered.packet * 4 + quad as u16,
                 masks,
-            });
+            };
+            let is_there = quads >> shift & 1 == 1;
             // At most four for each sample of a tile.
-            *last = self.quads.len() as u32 - 1;
+            *last = select_unpredictable(is_there, self.len as u32, *last);
+            self.len += usize::from(is_there);
         }
     }
 

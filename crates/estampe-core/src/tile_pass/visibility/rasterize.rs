@@ -1,6 +1,7 @@
 //! The visibility pass over the triangles of one bin: coverage, hierarchical z, writes.
 
 use super::ONLY_WIDE;
+use super::buffer::TriangleRef;
 use super::shortcuts::OrderKind;
 use super::writer::{IdStorage, VisibilityTriangle, VisibilityWriter};
 use crate::bounds::bins::BinEntry;
@@ -12,7 +13,7 @@ use crate::raster::SampleSet;
 use crate::raster::triangle::TileTriangle;
 use crate::tile_pass::{HIZ_PACKETS, TileJob, TilePass, TileScratch, TileWork};
 use crate::tile_path::TilePath;
-use estampe_simd::dispatch;
+use estampe_simd::{Lane, dispatch};
 
 /// Rasterizes the tile's triangles of one run of a chunk in the order of submission; `id` is the
 /// first one's.
@@ -118,21 +119,25 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
         let triangle = packet.triangle(lane);
         let look = self.hiz_query(DepthPlane::new(&triangle), triangle.front);
         if !self.scratch.hiz.hides(&look, self.is_any_order()) {
-            self.large(packet, lane, id);
+            let TileWork { shape, rect, .. } = self.work;
+            if let Some(covering) = TileTriangle::new(&triangle, *shape, rect, self.samples) {
+                self.large((packet, lane), &covering, id);
+            }
         }
     }
 
     /// Triangles of one packet, small and large; `id` is the first one's.
-    fn entry(&mut self, packet: u32, lanes: u16, mut id: u32) {
-        let packet = &self.work.chunk.triangles[packet as usize];
+    fn entry(&mut self, number: u32, lanes: u16, mut id: u32) {
+        let packet = &self.work.chunk.triangles[number as usize];
         let mut small = 0;
         if const { N == 1 } {
             let (tile, rect) = (self.work.shape, &self.work.rect);
-            let stored = self.work.plan.tests.stored;
             let cover = &mut self.scratch.visibility.small;
-            small = dispatch!(@wide self.work.level, s => cover.cover(s, packet, lanes, (tile, rect), stored),
+            small = dispatch!(@wide self.work.level, s => cover.cover(s, packet, lanes, (tile, rect)),
                 scalar => unreachable!("{ONLY_WIDE}"));
         }
+        let large = lanes & !small;
+        self.set_up_edges(packet, large);
         // Small triangles between large ones go together.
         let first = id;
         let (mut left, mut run) = (lanes, 0);
@@ -143,11 +148,53 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
                 run |= 1 << lane;
             } else {
                 self.small(packet, std::mem::take(&mut run), (lanes, first));
-                self.large(packet, lane, id);
+                if let Some(covering) = self.covering(packet, Lane::new(lane)) {
+                    let id = if self.crosses_triangles {
+                        self.number_large(number, lane)
+                    } else {
+                        id
+                    };
+                    self.large((packet, lane), &covering, id);
+                }
             }
             id += 1;
         }
         self.small(packet, run, (lanes, first));
+    }
+
+    /// The id of a large triangle among small ones whose fragments have ids of their own.
+    #[expect(clippy::cast_possible_truncation, reason = "a lane is below 16")]
+    fn number_large(&mut self, packet: u32, lane: usize) -> u32 {
+        let buffer = &mut self.scratch.visibility.buffer;
+        buffer.add_one(TriangleRef {
+            chunk: self.work.number,
+            packet,
+            sub_draw: self.work.sub_draw,
+            lane: lane as u8,
+        })
+    }
+
+    /// Sets up the edges of a packet's large triangles together, if there are several.
+    fn set_up_edges(&mut self, packet: &TrianglePacket, lanes: u16) {
+        let edges = &mut self.scratch.visibility.edges;
+        edges.clear();
+        // Of many samples, an edge has many constants.
+        if const { N <= 4 } && lanes & lanes.wrapping_sub(1) != 0 {
+            let tile = (self.work.shape, &self.work.rect);
+            let set_up = dispatch!(@wide self.work.level, s => edges.set_up(s, packet, lanes, tile, self.samples),
+                scalar => unreachable!("{ONLY_WIDE}"));
+            self.scratch.statistics.triangles_set_up_in_lanes += u64::from(set_up.count_ones());
+        }
+    }
+
+    /// The coverage of a large triangle, unless it covers nothing of the tile.
+    #[inline(always)]
+    fn covering(&self, packet: &TrianglePacket, lane: Lane) -> Option<TileTriangle<N>> {
+        if let Some(found) = self.scratch.visibility.edges.triangle(lane) {
+            return found;
+        }
+        let TileWork { shape, rect, .. } = self.work;
+        TileTriangle::new(&packet.triangle(lane.get()), *shape, rect, self.samples)
     }
 
     /// Returns true if triangles are not in the order of submission.
@@ -169,7 +216,12 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
     }
 
     /// A triangle of any size, by blocks and packets.
-    fn large(&mut self, packet: &TrianglePacket, lane: usize, id: u32) {
+    fn large(
+        &mut self,
+        (packet, lane): (&TrianglePacket, usize),
+        triangle: &TileTriangle<N>,
+        id: u32,
+    ) {
         let TileWork {
             shape,
             rect,
@@ -179,11 +231,8 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
             plan,
             ..
         } = *self.work;
-        let set_up = packet.triangle(lane);
-        let Some(triangle) = TileTriangle::<N>::new(&set_up, shape, &rect, self.samples) else {
-            return;
-        };
-        let (plane, front) = (DepthPlane::new(&set_up), set_up.front);
+        let plane = DepthPlane::of_lane(packet, lane);
+        let front = packet.front >> lane & 1 == 1;
         let in_order = !self.is_any_order();
         // Leave out the blocks where everything is nearer already.
         let mut classes = BlockClasses::of_all(0, 0);

@@ -1,132 +1,168 @@
-//! Small triangles of the visibility pass: covered sixteen at a time, tested pixel by pixel.
+//! Small triangles of the visibility pass: covered sixteen at a time, their pixels listed, and the
+//! list tested pixel by pixel.
 
+use super::ONLY_WIDE;
 use super::rasterize::Rasterizer;
 use super::writer::VisibilityWriter;
 use crate::bounds::primitives::TrianglePacket;
-use crate::raster::small::{PIXELS, SmallTriangles};
-use estampe_simd::LANES;
+use crate::raster::MAX_PACKETS;
+use crate::raster::pixel_list::{PixelList, lane_of};
+use estampe_simd::{LANES, Lanes, dispatch};
+use std::hint::select_unpredictable;
+
+/// Pixels of a tile where a pixel has one sample.
+const TILE_PIXELS: usize = MAX_PACKETS * LANES;
 
 /// The ids of small triangles' samples.
 pub(super) trait Numbering {
-    /// The id of a lane's first sample.
-    fn first_of(&mut self, lane: usize) -> u32;
-    /// Notes that a pixel of the lane's box has the id, and gives the lane's next.
-    fn next(&mut self, lane: usize, pixel: usize, id: u32) -> u32;
+    /// The id of a pixel if it shows its lane's triangle.
+    fn id_of(&self, lane: usize) -> u32;
+    /// Notes whether a pixel of the list shows its triangle.
+    fn note(&mut self, pixel: u32, is_shown: bool);
 }
 
 /// Each lane's triangle has one id.
 struct ByTriangle {
-    /// All lanes of the entry, and its first triangle's id.
-    lanes: u16,
-    first: u32,
+    ids: [u32; LANES],
+}
+
+impl ByTriangle {
+    /// All lanes of an entry, and its first triangle's id.
+    #[inline(always)]
+    fn new((lanes, first): (u16, u32)) -> Self {
+        let mut ids = [first; LANES];
+        for (lane, id) in ids.iter_mut().enumerate() {
+            *id += (lanes & ((1 << lane) - 1)).count_ones();
+        }
+        Self { ids }
+    }
 }
 
 impl Numbering for ByTriangle {
     #[inline(always)]
-    fn first_of(&mut self, lane: usize) -> u32 {
-        self.first + (self.lanes & ((1 << lane) - 1)).count_ones()
+    fn id_of(&self, lane: usize) -> u32 {
+        self.ids[lane % LANES]
     }
 
     #[inline(always)]
-    fn next(&mut self, _lane: usize, _pixel: usize, id: u32) -> u32 {
-        id
-    }
+    fn note(&mut self, _pixel: u32, _is_shown: bool) {}
 }
 
 impl<const N: usize> Rasterizer<'_, '_, '_, N> {
     /// Small triangles of a packet; `entry` is all of its lanes and their first id.
     pub(super) fn small(&mut self, packet: &TrianglePacket, lanes: u16, entry: (u16, u32)) {
         // Small triangles are found where a pixel has one sample.
-        if const { N != 1 } || lanes == 0 {
-            return;
+        if const { N == 1 } && lanes != 0 {
+            dispatch!(@wide self.work.level, s => self.small_lanes(s, packet, lanes, entry),
+                scalar => unreachable!("{ONLY_WIDE}"));
         }
-        let (plan, level) = (self.work.plan, self.work.level);
+    }
+
+    #[inline(always)]
+    fn small_lanes<S: Lanes>(
+        &mut self,
+        s: S,
+        packet: &TrianglePacket,
+        lanes: u16,
+        entry: (u16, u32),
+    ) {
+        let plan = self.work.plan;
         let visibility = &mut self.scratch.visibility;
+        let (small, list) = (&visibility.small, &mut visibility.pixels);
+        small.list(s, lanes, list);
+        small.locate(s, packet, plan.tests.stored, list);
+        self.scratch.statistics.small_triangle_pixels += list.len() as u64;
         let mut single = std::mem::take(&mut visibility.buffer.single);
         let counts = plan.query.is_some().then_some(&mut self.passed);
         let target = (&plan.tests, self.samples, self.work.shape);
         let buffer = &mut visibility.buffer;
         let mut writer = VisibilityWriter::new(target, self.storage, self.job, buffer, counts);
-        single.write_out(level, u16::MAX, &mut writer);
-        let small = &visibility.small;
-        let (all, first) = entry;
+        single.write_out(self.work.level, u16::MAX, &mut writer);
         let blocks = if self.crosses_triangles {
             let mut numbering = visibility.cross.begin();
-            writer.small(small, lanes, packet.front, &mut numbering)
+            let blocks = writer.pixels(list, packet.front, &mut numbering);
+            let shown = numbering.shown();
+            visibility.cross.end(shown);
+            blocks
         } else {
-            let mut numbering = ByTriangle { lanes: all, first };
-            writer.small(small, lanes, packet.front, &mut numbering)
+            writer.pixels(list, packet.front, &mut ByTriangle::new(entry))
         };
         visibility.buffer.single = single;
         if plan.tests.writes_depth() {
             self.scratch.hiz.invalidate(blocks);
         }
         if self.crosses_triangles {
-            self.shade_cross_triangle(packet);
+            self.shade_cross_triangle(s, packet);
         }
     }
 }
 
 impl<const N: usize> VisibilityWriter<'_, N> {
-    /// Adds small triangles of one packet, pixel by pixel in the order of lanes; one sample a
-    /// pixel. Gives the blocks that were touched, one bit each.
-    fn small(
-        &mut self,
-        small: &SmallTriangles,
-        lanes: u16,
-        front: u16,
-        numbering: &mut impl Numbering,
-    ) -> u16 {
+    /// Adds the listed pixels, in order; one sample a pixel. Gives the blocks that were touched,
+    /// one bit each.
+    #[inline(always)]
+    fn pixels(&mut self, list: &PixelList, front: u16, numbering: &mut impl Numbering) -> u16 {
         if self.tests_less_alone() && self.passed.is_none() {
-            self.small_pixels::<true>(small, lanes, front, numbering)
+            self.nearer_pixels(list, numbering)
         } else {
-            self.small_pixels::<false>(small, lanes, front, numbering)
+            self.pixels_of_any_test(list, front, numbering)
         }
     }
 
+    /// Adds the listed pixels that are nearer than what is stored. There is no branch on the
+    /// result, which nobody can predict.
     #[inline(always)]
-    fn small_pixels<const LESS: bool>(
+    fn nearer_pixels(&mut self, list: &PixelList, numbering: &mut impl Numbering) -> u16 {
+        let depth = self.depth.as_flattened_mut().first_chunk_mut();
+        let depth: Option<&mut [f32; TILE_PIXELS]> = depth;
+        let Some(depth) = depth else {
+            debug_assert!(self.depth.is_empty(), "a tile of one sample");
+            return 0;
+        };
+        let ids = self.ids.as_flattened_mut().first_chunk_mut();
+        let mut ids: Option<&mut [u32; TILE_PIXELS]> = ids;
+        let mut blocks = 0;
+        for (pixel, at, new) in list.iter() {
+            let at = at % TILE_PIXELS;
+            let old = depth[at];
+            let passes = new < old;
+            depth[at] = if passes { new } else { old };
+            blocks |= u16::from(passes) << (at >> 8);
+            if let Some(ids) = &mut ids {
+                let id = numbering.id_of(lane_of(pixel));
+                ids[at] = select_unpredictable(passes, id, ids[at]);
+                self.unresolved[at / LANES][0] |= u16::from(passes) << (at % LANES);
+                numbering.note(pixel, passes);
+            }
+        }
+        blocks
+    }
+
+    /// Adds the listed pixels that pass the draw's tests.
+    #[inline(always)]
+    fn pixels_of_any_test(
         &mut self,
-        small: &SmallTriangles,
-        lanes: u16,
+        list: &PixelList,
         front: u16,
         numbering: &mut impl Numbering,
     ) -> u16 {
         let (depth, ids) = (self.depth.as_flattened_mut(), self.ids.as_flattened_mut());
         let stencil = self.stencil.as_flattened_mut();
-        let (mut blocks, mut lanes) = (0, lanes);
-        while lanes != 0 {
-            let lane = lanes.trailing_zeros() as usize % LANES;
-            lanes &= lanes - 1;
-            let mut id = numbering.first_of(lane);
-            let mut pixels = small.pixels_of(lane);
-            while pixels != 0 {
-                let pixel = pixels.trailing_zeros() as usize % PIXELS;
-                pixels &= pixels - 1;
-                let at = small.place_of(pixel, lane);
-                let new = small.depth[pixel][lane];
-                if LESS {
-                    let stored = &mut depth[at];
-                    if new >= *stored {
-                        continue;
-                    }
-                    *stored = new;
-                } else {
-                    let is_front = front >> lane & 1 == 1;
-                    let stored = (depth.get_mut(at), stencil.get_mut(at));
-                    if !self.tests.run_one(new, is_front, stored) {
-                        continue;
-                    }
-                    if let Some(count) = &mut self.passed {
-                        **count += 1;
-                    }
-                }
-                blocks |= 1u16 << ((at >> 8) & 15);
-                if let Some(of_pixel) = ids.get_mut(at) {
-                    *of_pixel = id;
-                    self.unresolved[at / LANES][0] |= 1 << (at % LANES);
-                    id = numbering.next(lane, pixel, id);
-                }
+        let mut blocks = 0;
+        for (pixel, at, new) in list.iter() {
+            let lane = lane_of(pixel);
+            let stored = (depth.get_mut(at), stencil.get_mut(at));
+            if !self.tests.run_one(new, front >> lane & 1 == 1, stored) {
+                continue;
+            }
+            if let Some(count) = &mut self.passed {
+                **count += 1;
+            }
+            blocks |= 1u16 << ((at >> 8) & 15);
+            if let Some(of_pixel) = ids.get_mut(at) {
+                *of_pixel = numbering.id_of(lane);
+                self.unresolved[at / LANES][0] |= 1 << (at % LANES);
+                numbering.note(pixel, true);
             }
         }
         blocks

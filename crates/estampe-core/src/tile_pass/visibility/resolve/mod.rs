@@ -182,7 +182,7 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
         let level = self.pass.level;
         dispatch!(@wide level, s => self.packets(s, group, packets),
             scalar => unreachable!("{ONLY_WIDE}"));
-        if !self.scratch.visibility.resolve.quads.triangles.is_empty() {
+        if !self.scratch.visibility.resolve.quads.triangles().is_empty() {
             dispatch!(@wide level, s => self.quads(s),
                 scalar => unreachable!("{ONLY_WIDE}"));
         }
@@ -273,8 +273,8 @@ impl<'a, 'j, 't, const N: usize> Resolver<'a, 'j, 't, N> {
     #[inline(always)]
     fn quads<S: Lanes>(&mut self, s: S) {
         let origin = self.origin;
-        for at in 0..self.scratch.visibility.resolve.quads.triangles.len() {
-            let id = self.scratch.visibility.resolve.quads.triangles[at];
+        for at in 0..self.scratch.visibility.resolve.quads.triangles().len() {
+            let id = self.scratch.visibility.resolve.quads.triangles()[at];
             let visible = self.visible(s, id);
             let mut next = self.scratch.visibility.resolve.quads.begin(id);
             while next != NONE {

@@ -1,0 +1,128 @@
+//! Permutations whose order is known at run time, and lists of the bits of a mask.
+
+use crate::LANES;
+use fearless_simd::{Simd, SimdBase, u32x16};
+
+/// The numbers of the bits that are set in each byte, in ascending order.
+static SET_BITS: [[u8; 8]; 256] = {
+    let mut table = [[0; 8]; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let (mut bit, mut count) = (0, 0);
+        while bit < 8 {
+            if byte >> bit & 1 == 1 {
+                table[byte][count] = bit;
+                count += 1;
+            }
+            bit += 1;
+        }
+        byte += 1;
+    }
+    table
+};
+
+/// [`Lanes::permute`](crate::Lanes::permute) lane by lane.
+#[inline(always)]
+pub(crate) fn by_lane<S: Simd>(simd: S, value: u32x16<S>, order: u32x16<S>) -> u32x16<S> {
+    let (of, order) = (value.to_array(), order.to_array());
+    let mut permuted = of;
+    let mut lane = 0;
+    while lane < LANES {
+        permuted[lane] = of[order[lane] as usize % LANES];
+        lane += 1;
+    }
+    u32x16::load_array(simd, permuted)
+}
+
+/// [`Lanes::list_bits`](crate::Lanes::list_bits) by a table of bytes.
+#[inline(always)]
+pub(crate) fn list_by_table(bits: u16, first: u32, out: &mut [u32; LANES]) -> usize {
+    let [low, high] = bits.to_le_bytes();
+    let mut number = 0;
+    while number < 8 {
+        out[number] = first + u32::from(SET_BITS[usize::from(low)][number]);
+        number += 1;
+    }
+    let from = low.count_ones() as usize;
+    let Some(out) = out.get_mut(from..from + 8) else {
+        unreachable!("a byte has eight bits");
+    };
+    number = 0;
+    while number < 8 {
+        out[number] = first + 8 + u32::from(SET_BITS[usize::from(high)][number]);
+        number += 1;
+    }
+    bits.count_ones() as usize
+}
+
+#[cfg(target_arch = "x86_64")]
+pub(crate) use x86::*;
+
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use super::LANES;
+    use fearless_simd::x86::{Avx2, Avx512};
+    use fearless_simd::{
+        SimdBase, SimdCombine, SimdInto, SimdMask, SimdSplit, mask32x16, u32x8, u32x16,
+    };
+
+    #[inline(always)]
+    pub(crate) fn permute_avx512(
+        simd: Avx512,
+        value: u32x16<Avx512>,
+        order: u32x16<Avx512>,
+    ) -> u32x16<Avx512> {
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn kernel(
+                simd: Avx512,
+                value: u32x16<Avx512>,
+                order: u32x16<Avx512>,
+            ) -> u32x16<Avx512> {
+                use core::arch::x86_64::*;
+                _mm512_permutexvar_epi32(order.into(), value.into()).simd_into(simd)
+            }
+        );
+        kernel(simd, value, order)
+    }
+
+    /// Both halves are permuted, and bit 3 of the order chooses.
+    #[inline(always)]
+    pub(crate) fn permute_avx2(
+        simd: Avx2,
+        value: u32x16<Avx2>,
+        order: u32x16<Avx2>,
+    ) -> u32x16<Avx2> {
+        fearless_simd::kernel!(
+            #[inline(always)]
+            fn kernel(simd: Avx2, value: [u32x8<Avx2>; 2], order: u32x8<Avx2>) -> u32x8<Avx2> {
+                use core::arch::x86_64::*;
+                let [low, high] = value;
+                let order = order.into();
+                let low = _mm256_permutevar8x32_epi32(low.into(), order);
+                let high = _mm256_permutevar8x32_epi32(high.into(), order);
+                let is_high = _mm256_castsi256_ps(_mm256_slli_epi32::<28>(order));
+                let (low, high) = (_mm256_castsi256_ps(low), _mm256_castsi256_ps(high));
+                _mm256_castps_si256(_mm256_blendv_ps(low, high, is_high)).simd_into(simd)
+            }
+        );
+        let (low, high) = value.split();
+        let (first, second) = order.split();
+        let first = kernel(simd, [low, high], first);
+        first.combine(kernel(simd, [low, high], second))
+    }
+
+    #[inline(always)]
+    pub(crate) fn list_avx512(
+        simd: Avx512,
+        bits: u16,
+        first: u32,
+        out: &mut [u32; LANES],
+    ) -> usize {
+        const NUMBERS: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+        let mask = mask32x16::from_bitmask(simd, u64::from(bits));
+        let numbers = u32x16::load_array(simd, NUMBERS).compress(mask);
+        (numbers + u32x16::splat(simd, first)).store_array(out);
+        bits.count_ones() as usize
+    }
+}
