@@ -129,6 +129,8 @@ impl Level {
         #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
         levels.extend(detected.as_wasm_simd128().map(Self::Simd128));
         let _ = detected;
+        #[cfg(target_arch = "x86_64")]
+        crate::gather::decide(&levels);
         levels
     }
 

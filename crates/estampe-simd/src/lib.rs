@@ -39,6 +39,9 @@ pub use fearless_simd::{
     SimdInto, SimdMask, f32x4, f32x16, f64x2, i32x16, mask8x16, mask32x16, u8x16, u16x8, u32x4,
     u32x16,
 };
+#[cfg(target_arch = "x86_64")]
+#[doc(hidden)]
+pub use gather::SquareLoads;
 pub use gather::{bits_of, floats_of, floats_of_mut, ints_of};
 pub use index::{Lane, LanesOf, PacketIndex};
 pub use lanes::Lanes;

@@ -225,6 +225,21 @@ fn squares<S: Lanes>(s: S, table: &[u32], index: [u32; LANES], stride: u32) -> [
     [a.to_array(), b.to_array(), c.to_array(), d.to_array()]
 }
 
+/// Every level, once for each way in which it loads squares. The levels are set to the ways while
+/// this is iterated.
+fn every_way_to_load_squares() -> impl Iterator<Item = Level> {
+    let levels = Level::all_available().into_iter();
+    #[cfg(target_arch = "x86_64")]
+    let levels = levels.flat_map(|level| {
+        let ways = [SquareLoads::Gathers, SquareLoads::Loads];
+        ways.into_iter().filter_map(move |way| {
+            level.set_square_loads(way);
+            (level.square_loads() == way).then_some(level)
+        })
+    });
+    levels
+}
+
 #[test]
 fn squares_stay_inside_the_table() {
     let index = [
@@ -245,12 +260,16 @@ fn squares_stay_inside_the_table() {
         2,
         3,
     ];
+    let levels = Level::all_available();
+    let has_gathers = |level: &&Level| ["avx2", "avx512"].contains(&level.name());
+    let ways = levels.len() + levels.iter().filter(has_gathers).count();
+    assert_eq!(every_way_to_load_squares().count(), ways);
     // Tables are as long as their allocation, so that a memory checker would see a read beyond the
     // end.
     for len in [0, 1, 2, 6, 7, 8, 37] {
         let table: Box<[u32]> = (0..len).map(|i| i * 3 + 1).collect();
         for stride in [0, 1, 5, 35, 36, u32::MAX] {
-            for level in Level::all_available() {
+            for level in every_way_to_load_squares() {
                 let got = dispatch!(level, s => squares(s, &table, index, stride));
                 let last = u64::from(len).checked_sub(u64::from(stride) + 2);
                 for (lane, at) in index.into_iter().enumerate() {

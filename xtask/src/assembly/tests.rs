@@ -61,7 +61,7 @@ fn a_lane_operation_with_a_symbol_is_an_offence() {
     for operation in [
         KERNEL,
         "core::core_arch::x86::avx512f::_mm512_add_ps",
-        "estampe_simd::gather::x86::avx2::kernel::__fearless_simd_kernel",
+        "estampe_simd::gather::single::avx2::kernel::__fearless_simd_kernel",
     ] {
         let report = report_of(&[
             (AVX2_ENTRY, &[]),
