@@ -29,7 +29,7 @@ pub struct Statistics {
     /// Fragments that went through the fragment shader, helper lanes not counted.
     pub fragments_shaded: u64,
     /// Of these, those that took the colours that the shader gave for other pixels of the same
-    /// primitive, over which nothing varies.
+    /// primitive, or of another with the same varyings, over which nothing varies.
     pub fragments_of_shared_colors: u64,
     /// Of these, those that share packets with fragments of other small triangles; and these
     /// packets. They depend on the SIMD level.
@@ -42,6 +42,9 @@ pub struct Statistics {
     /// on the SIMD level.
     #[doc(hidden)]
     pub triangles_set_up_in_lanes: u64,
+    /// Triangles whose pixels were written together with those of another one before, which had the
+    /// same colour everywhere, counted once for each tile that they touch.
+    pub triangles_gathered: u64,
     /// Runs of opaque triangles, tile by tile, whose visible samples were shaded at the run's end:
     /// hidden fragments are not shaded. None at the scalar level.
     pub visibility_runs: u64,
@@ -80,6 +83,7 @@ impl std::ops::AddAssign for Statistics {
         }
         self.small_triangle_pixels += other.small_triangle_pixels;
         self.triangles_set_up_in_lanes += other.triangles_set_up_in_lanes;
+        self.triangles_gathered += other.triangles_gathered;
         self.visibility_runs += other.visibility_runs;
         self.paths += other.paths;
         self.groups_of_geometry += other.groups_of_geometry;

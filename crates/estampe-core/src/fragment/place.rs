@@ -146,11 +146,17 @@ impl Place {
         match self {
             Self::Packet(packet) => stored[usize::from(packet) * samples + sample] = *values,
             Self::Quads(places) => {
-                for (lane, value) in values.iter().enumerate() {
-                    if mask >> lane & 1 == 1 {
-                        let (packet, lanes) = packet_and_lanes(places[lane / QUAD]);
-                        let line = &mut stored[packet * samples + sample];
-                        line[lanes.start + lane % QUAD] = *value;
+                let quads = values.as_chunks::<QUAD>().0.iter().zip(places);
+                for (quad, (values, place)) in quads.enumerate() {
+                    let kept = mask >> (quad * QUAD) & 0xF;
+                    if kept == 0 {
+                        continue;
+                    }
+                    let (packet, lanes) = packet_and_lanes(place);
+                    let to = &mut stored[packet * samples + sample][lanes];
+                    // Each lane is written, so that there is no branch for each.
+                    for (lane, (to, value)) in to.iter_mut().zip(values).enumerate() {
+                        *to = if kept >> lane & 1 == 1 { *value } else { *to };
                     }
                 }
             }

@@ -83,6 +83,46 @@ impl BlendKernel for Over {
     }
 }
 
+/// An equation of [`CommonOver::EQUATIONS`], by its number: the compiler knows its weights.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CommonOver<const NUMBER: usize>;
+
+impl<const NUMBER: usize> CommonOver<NUMBER> {
+    /// Premultiplied alpha, alone and with egui's alpha; straight alpha.
+    pub(crate) const EQUATIONS: [Over; 3] = [
+        Over {
+            source_color: Weight::One,
+            stored_color: Weight::OneMinusSourceAlpha,
+            source_alpha: Weight::One,
+            stored_alpha: Weight::OneMinusSourceAlpha,
+        },
+        Over {
+            source_color: Weight::One,
+            stored_color: Weight::OneMinusSourceAlpha,
+            source_alpha: Weight::OneMinusStoredAlpha,
+            stored_alpha: Weight::One,
+        },
+        Over {
+            source_color: Weight::SourceAlpha,
+            stored_color: Weight::OneMinusSourceAlpha,
+            source_alpha: Weight::One,
+            stored_alpha: Weight::OneMinusSourceAlpha,
+        },
+    ];
+}
+
+impl<const NUMBER: usize> BlendKernel for CommonOver<NUMBER> {
+    #[inline(always)]
+    fn reads_stored(&self) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn blend<S: Lanes>(self, s: S, inputs: &BlendInputs<S>) -> ColorLanes<S> {
+        const { Self::EQUATIONS[NUMBER] }.blend(s, inputs)
+    }
+}
+
 /// Any equation. Its many cases would burden each loop that stores colours, so a packet is blended
 /// by an entry into the SIMD level of its own; that costs 4 % of a blended frame.
 #[derive(Debug, Clone, Copy)]

@@ -5,12 +5,14 @@
 //! rounding · *Spec* WebGPU §Blend State; Vulkan §Blending, §Logical Operations.
 //!
 //! A batch is written packet by packet, in order, because later packets may lie on earlier ones.
-//! The loop is compiled for RGBA8 and BGRA8 that replace or blend by a common equation, and once
-//! for everything else: there the format and the equation are matched for each packet, which costs
+//! The loop is compiled for RGBA8 and BGRA8 that replace or blend by a sum of common weights, three
+//! times for the commonest of these, and once for everything else: there the format and the equation are matched for each packet, which costs
 //! a predicted branch. A copy of the loop for each of ten families of formats and three kinds of
 //! equations was five times as much code and took the compiler a minute.
 
-use super::blend::{AnyBlend, AnyEquation, BlendInputs, BlendKernel, ColorLanes, Replace};
+use super::blend::{
+    AnyBlend, AnyEquation, BlendInputs, BlendKernel, ColorLanes, CommonOver, Replace,
+};
 use super::logic::combine;
 use crate::fragment::place::{MaskedWords, PacketLayout};
 use crate::fragment::queue::ShadedBatch;
@@ -63,12 +65,18 @@ impl ColorWriter<'_> {
             }
             (Family::Rgba8(codec), Equation::Over(over)) if const { !S::IS_SCALAR } => {
                 let codec = Common(codec);
-                Target {
+                let target = Target {
                     writer,
                     codec,
                     index,
+                };
+                let mut common = CommonOver::<0>::EQUATIONS.iter();
+                match common.position(|equation| equation == over) {
+                    Some(0) => target.write(s, CommonOver::<0>, batch, stored),
+                    Some(1) => target.write(s, CommonOver::<1>, batch, stored),
+                    Some(2) => target.write(s, CommonOver::<2>, batch, stored),
+                    _ => target.write(s, *over, batch, stored),
                 }
-                .write(s, *over, batch, stored);
             }
             (_, equation) => {
                 let codec = writer.codec;
@@ -192,16 +200,23 @@ impl<C: Copy> Target<'_, C> {
         let range = self.writer.codec.range();
         let zero = <u32x16<S> as SimdBase<S>>::splat(s, 0);
         let reads_stored = kernel.reads_stored() || self.combines_words();
+        let nothing: ColorLanes<S> = [SimdBase::splat(s, 0.0); 4];
+        let mut inputs = BlendInputs {
+            source: nothing,
+            second: nothing,
+            stored: nothing,
+        };
+        let mut shaded = None;
         for packet in batch.packets() {
-            let mut inputs = BlendInputs {
-                source: load(s, packet.color(self.index)),
-                second: [SimdBase::splat(s, 0.0); 4],
-                stored: [SimdBase::splat(s, 0.0); 4],
-            };
-            if kernel.reads_stored() {
-                inputs.source = clamp(s, inputs.source, range);
-                if let Some(second) = packet.second() {
-                    inputs.second = clamp(s, load(s, second), range);
+            // Packets of one colour follow each other.
+            if shaded != Some(packet.shaded) {
+                shaded = Some(packet.shaded);
+                inputs.source = load(s, packet.color(self.index));
+                if kernel.reads_stored() {
+                    inputs.source = clamp(s, inputs.source, range);
+                    if let Some(second) = packet.second() {
+                        inputs.second = clamp(s, load(s, second), range);
+                    }
                 }
             }
             let mut encoded = None;

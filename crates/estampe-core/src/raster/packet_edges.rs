@@ -121,6 +121,8 @@ impl<const N: usize> PacketEdges<N> {
             edges: [edge(0), edge(1), edge(2)],
             columns: range(&self.columns),
             rows: range(&self.rows),
+            // Not asked on the visibility path.
+            is_inside: false,
         }))
     }
 }

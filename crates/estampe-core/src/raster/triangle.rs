@@ -37,6 +37,8 @@ pub(crate) struct TilePolygon<const N: usize, const E: usize> {
     /// Columns and rows of packets that its box touches; half-open.
     pub(super) columns: [i32; 2],
     pub(super) rows: [i32; 2],
+    /// True if the box lies in the rectangle that the pixels are confined to.
+    pub(super) is_inside: bool,
 }
 
 /// A triangle inside a tile.
@@ -77,11 +79,9 @@ impl<const N: usize, const E: usize> TilePolygon<N, E> {
         }
         let column = |subpixels: i32| (subpixels >> 8) - tile.x;
         let row = |subpixels: i32| (subpixels >> 8) - tile.y;
-        let (left, right) = (
-            column(low[0]).max(rect.x0),
-            column(high[0]).min(rect.x1 - 1),
-        );
-        let (top, bottom) = (row(low[1]).max(rect.y0), row(high[1]).min(rect.y1 - 1));
+        let bounds = [column(low[0]), row(low[1]), column(high[0]), row(high[1])];
+        let (left, right) = (bounds[0].max(rect.x0), bounds[2].min(rect.x1 - 1));
+        let (top, bottom) = (bounds[1].max(rect.y0), bounds[3].min(rect.y1 - 1));
         if left > right || top > bottom {
             return None;
         }
@@ -97,7 +97,15 @@ impl<const N: usize, const E: usize> TilePolygon<N, E> {
             edges,
             columns: [left >> 2, (right >> 2) + 1],
             rows: [top >> 2, (bottom >> 2) + 1],
+            is_inside: [left, top, right, bottom] == bounds,
         })
+    }
+
+    /// Returns true if every pixel that may be covered is in the rectangle that pixels are confined
+    /// to.
+    #[inline(always)]
+    pub(crate) fn is_inside(&self) -> bool {
+        self.is_inside
     }
 
     /// The number of packets that the box touches.

@@ -74,6 +74,8 @@ pub(crate) struct TileJob<'a> {
 #[derive(Debug, Default)]
 pub(crate) struct TileScratch<const N: usize> {
     queue: FragmentQueue<N>,
+    /// Packets of one colour, while others wait in the queue.
+    solid_queue: FragmentQueue<N>,
     hiz: HierarchicalZ,
     in_order: in_order::InOrderScratch<N>,
     visibility: visibility::VisibilityScratch<N>,

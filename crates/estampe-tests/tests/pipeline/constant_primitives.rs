@@ -1,4 +1,5 @@
-//! Triangles over which nothing varies: their whole packets share one packet's colours.
+//! Triangles over which nothing varies: one packet is shaded for all of them that follow each other
+//! and have the same varyings.
 
 use estampe_tests::geometry::{Style, triangles};
 use estampe_tests::shaders::{Colored, FlatColored, Halved, Probe};
@@ -47,6 +48,60 @@ fn case(random: &mut Random) -> Case {
         case.draws.push(draw);
     }
     case
+}
+
+/// Fans and lists of triangles of one colour, between others that lie over and under them.
+fn panels(random: &mut Random) -> Case {
+    let mut case = Case::new([100, 70], random.pick(&[1, 1, 1, 4, 2]));
+    let mut draw_shader = shader(random);
+    for _ in 0..3 {
+        let mut vertices = Vec::new();
+        for _ in 0..8 {
+            let style = random.pick(&[Style::Large, Style::Small, Style::Sliver]);
+            let mut run = triangles(random, style, case.size, 4);
+            // Triangles of a fan, which do not overlap, or any.
+            let (hub, is_fan) = (run[0], random.once_in(2));
+            let (is_constant, values) = (!random.once_in(3), run[0].values);
+            for triangle in 0..run.len() / 3 {
+                if is_fan && triangle > 0 {
+                    run[triangle * 3] = hub;
+                    run[triangle * 3 + 1] = run[triangle * 3 - 1];
+                }
+            }
+            for vertex in &mut run {
+                vertex.position[3] = 1.0;
+                if is_constant {
+                    vertex.values = values;
+                }
+            }
+            vertices.extend(run);
+        }
+        if random.once_in(3) {
+            draw_shader = shader(random);
+        }
+        let mut draw = CaseDraw::new(draw_shader.clone(), &vertices);
+        draw.blend = random.pick(&[
+            Some(BlendState::ALPHA_BLENDING),
+            Some(BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+            Some(BlendState::ADDITIVE),
+        ]);
+        draw.depth = random.once_in(3).then_some(DepthState {
+            compare: CompareFunction::LessEqual,
+            write_enabled: random.once_in(2),
+        });
+        case.draws.push(draw);
+    }
+    case
+}
+
+/// Rows: O5, V4.
+#[test]
+fn triangles_of_one_colour_are_gathered() {
+    let statistics = check_paths("gathered_primitives", 32, ExpectedPaths::default(), panels);
+    assert!(
+        statistics.triangles_gathered > 0,
+        "no triangle's pixels were written with another's"
+    );
 }
 
 /// Rows: O5, V4.

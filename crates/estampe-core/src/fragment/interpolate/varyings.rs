@@ -110,6 +110,12 @@ impl<'a> VaryingPlanes<'a> {
         are_level && origins.fold(true, |all, at| all & (at.to_bits() != negative_zero))
     }
 
+    /// The planes' values at their origin.
+    #[inline(always)]
+    pub(crate) fn origins(&self) -> &'a [f32] {
+        self.origin
+    }
+
     /// The plane of scalar `k`.
     #[inline(always)]
     pub(crate) fn of(&self, k: usize) -> Plane {

@@ -12,8 +12,6 @@ mod shared;
 pub(crate) use quads::QuadPlace;
 pub(crate) use shaded::{LatePacket, ShadedBatch, depth_after_shading};
 
-use shared::ConstantPrimitive;
-
 use super::centroid::{centroids, covered_bits};
 use super::interpolate::{Interpolant, PixelOffsets};
 use super::place::Place;
@@ -51,8 +49,6 @@ pub(crate) struct FragmentQueue<const N: usize> {
     shaded_len: usize,
     /// By packet: where the program's inputs and outputs are.
     shaded_of: [u8; CAPACITY],
-    /// The primitive at hand, if nothing varies over it.
-    constant: ConstantPrimitive,
     scalars: usize,
     targets: usize,
     /// Colours of a fragment: its targets', and the second one.
@@ -108,7 +104,6 @@ impl<const N: usize> Default for FragmentQueue<N> {
             len: 0,
             shaded_len: 0,
             shaded_of: [0; CAPACITY],
-            constant: ConstantPrimitive::No,
             scalars: 0,
             targets: 0,
             colors_each: 0,
@@ -151,7 +146,6 @@ impl<const N: usize> FragmentQueue<N> {
         debug_assert_eq!(self.len, 0, "packets of another pipeline are still queued");
         self.samples = samples;
         self.open = None;
-        self.constant = ConstantPrimitive::No;
         self.scalars = interface.varyings.len();
         self.targets = interface.color_targets;
         self.colors_each = interface.colors();
@@ -243,9 +237,6 @@ impl<const N: usize> FragmentQueue<N> {
             let (pixel, sample) = (packet.pixel, packet.sample);
             let front = if packet.front { u16::MAX } else { 0 };
             let place = Place::Packet(packet.alive.packet);
-            if self.shares_colors(place, packet.alive.masks) {
-                return;
-            }
             let (slot, shaded) = self.begin(place, packet.alive.masks, front);
             let mut at = [0.5; 2];
             if let Some(sample) = sample {
@@ -365,7 +356,7 @@ impl<const N: usize> FragmentQueue<N> {
             );
             self.keep_shaded();
         }
-        run + self.sharing_fragments()
+        run
     }
 
     /// Drops the samples that the shader discarded, and those that a packet is not shaded for.
@@ -405,6 +396,5 @@ impl<const N: usize> FragmentQueue<N> {
         self.len = 0;
         self.shaded_len = 0;
         self.open = None;
-        self.constant.forget_colors();
     }
 }

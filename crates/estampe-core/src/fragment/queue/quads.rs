@@ -37,9 +37,6 @@ impl<const N: usize> FragmentQueue<N> {
             }
         }
         let place = Place::Quads([a.place, b.place, c.place, d.place]);
-        if self.shares_colors(place, masks) {
-            return;
-        }
         let (slot, shaded) = self.begin(place, masks, if front { u16::MAX } else { 0 });
         let out = &mut self.varyings[shaded * self.scalars..][..self.scalars];
         let pixels = [a.pixel, b.pixel, c.pixel, d.pixel];

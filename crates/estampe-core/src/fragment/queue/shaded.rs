@@ -95,6 +95,8 @@ pub(crate) struct ShadedPacket<'a> {
     pub(crate) place: Place,
     /// By sample: the lanes to write.
     pub(crate) masks: &'a [u16],
+    /// The place of its colours: packets with the same one have the same colours.
+    pub(crate) shaded: u8,
     colors: &'a [Packet<f32>],
     second: Option<usize>,
 }
@@ -107,6 +109,7 @@ impl<'a> ShadedBatch<'a> {
         places.map(move |(slot, place)| ShadedPacket {
             place: *place,
             masks: &self.masks[slot * self.mask_stride..][..self.samples.min(MAX_SAMPLES)],
+            shaded: self.shaded_of[slot],
             colors: &self.colors[usize::from(self.shaded_of[slot]) * self.stride..][..self.stride],
             second: self.second,
         })

@@ -14,8 +14,6 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         let queue = &mut self.scratch.queue;
         let fragments = queue.shade(level, plan.pipeline, plan.bindings);
         self.scratch.statistics.fragments_shaded += fragments;
-        self.scratch.statistics.fragments_of_shared_colors +=
-            self.scratch.queue.sharing_fragments();
         if let Some(line) = &self.smooth {
             let (x, y) = (self.work.shape.x, self.work.shape.y);
             self.scratch.queue.scale_alpha(|packet| {
@@ -29,5 +27,8 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         let batch = self.scratch.queue.batch();
         write_colors(plan, level, &batch, &mut self.job.colors);
         self.scratch.queue.clear();
+        if self.gathers {
+            self.scratch.in_order.solid.forget_queued();
+        }
     }
 }

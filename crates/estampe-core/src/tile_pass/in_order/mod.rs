@@ -27,6 +27,7 @@ mod ahead;
 mod blocks;
 mod flush;
 mod shade;
+mod solid;
 mod tests;
 
 use super::{HIZ_PACKETS, TileJob, TileScratch, TileWork};
@@ -37,7 +38,7 @@ use crate::fragment::interpolate::{
     VaryingSource, set_planes,
 };
 use crate::per_sample::hiz::{BlockClasses, HizQuery};
-use crate::plan::tile_plan::TestTiming;
+use crate::plan::tile_plan::{TestTiming, TilePlan};
 use crate::raster::conservative::ConservativeTriangle;
 use crate::raster::triangle::TileTriangle;
 use crate::raster::{CoverageList, SampleSet, line, point};
@@ -45,6 +46,7 @@ use crate::tile_path::TilePath;
 use estampe_simd::{Lane, Lanes};
 use estampe_types::state::ConservativeMode;
 use shade::PendingQuads;
+use solid::Solid;
 
 /// Memory of one worker.
 #[derive(Debug)]
@@ -55,6 +57,7 @@ pub(super) struct InOrderScratch<const N: usize> {
     /// Planes of one triangle's varyings.
     planes: Vec<f32>,
     pending: PendingQuads,
+    solid: Solid<N>,
 }
 
 impl<const N: usize> Default for InOrderScratch<N> {
@@ -64,6 +67,7 @@ impl<const N: usize> Default for InOrderScratch<N> {
             covered: CoverageList::default(),
             planes: Vec::new(),
             pending: PendingQuads::default(),
+            solid: Solid::default(),
         }
     }
 }
@@ -94,6 +98,11 @@ fn draw_entries<S: Lanes, const N: usize>(
     scratch
         .queue
         .configure(pipeline, samples, range, tests_late);
+    if gathers(plan) {
+        scratch
+            .solid_queue
+            .configure(pipeline, samples, range, tests_late);
+    }
     scratch.in_order.list.set_samples(samples);
     let scalars = pipeline.interface().varyings.len();
     let mut planes = std::mem::take(&mut scratch.in_order.planes);
@@ -106,7 +115,7 @@ fn draw_entries<S: Lanes, const N: usize>(
         uses_hiz: plan.timing != TestTiming::Late,
         blends_blocks: plan.path == TilePath::InOrderBlocks,
         shares_packets: plan.path != TilePath::InOrderPackets,
-        shares_colors: pipeline.key().depends_on_varyings_alone,
+        gathers: gathers(plan),
         stores_in_order: pipeline.key().stores_in_order,
         passed: 0,
         planes,
@@ -133,12 +142,20 @@ fn draw_entries<S: Lanes, const N: usize>(
             BinEntry::Point(number) => drawing.point(&work.chunk.points[number as usize]),
         }
     }
+    drawing.end_solid();
     drawing.flush();
     let (passed, planes) = (drawing.passed, std::mem::take(&mut drawing.planes));
     scratch.in_order.planes = planes;
     if let (Some(queries), Some(query)) = (work.queries, plan.query) {
         queries.add(query, passed);
     }
+}
+
+/// Returns true if triangles over which nothing varies have one colour, whatever their place.
+fn gathers(plan: &TilePlan<'_>) -> bool {
+    plan.pipeline.key().depends_on_varyings_alone
+        && plan.timing == TestTiming::Early
+        && plan.path != TilePath::InOrderBlocks
 }
 
 /// A run being drawn into a tile.
@@ -153,8 +170,8 @@ struct InOrder<'a, 'j, 't, const N: usize> {
     blends_blocks: bool,
     /// True if quads of several triangles share packets.
     shares_packets: bool,
-    /// True if packets of one primitive have the same colours where their varyings are the same.
-    shares_colors: bool,
+    /// True if triangles of one colour are gathered.
+    gathers: bool,
     /// True if shaders store in an order that can be seen.
     stores_in_order: bool,
     /// Samples that passed all tests, where a query counts them.
@@ -196,8 +213,14 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
         let mut planes = std::mem::take(&mut self.planes);
         set_planes(s, &mut planes, triangle, &self.source, plan.all_smooth);
         interpolant.planes = VaryingPlanes::new(&planes);
-        let is_constant = self.shares_colors && interpolant.is_constant();
-        self.scratch.queue.begin_primitive(is_constant);
+        if self.gathers {
+            if interpolant.is_constant() {
+                self.gather(interpolant.planes.origins(), front);
+                self.planes = planes;
+                return;
+            }
+            self.end_solid();
+        }
         // Whole blocks are blended with one sample only.
         if const { N == 1 } && coverage.whole != 0 {
             self.blend_blocks(&interpolant, coverage);
@@ -258,7 +281,7 @@ impl<'a, const N: usize> InOrder<'a, '_, '_, N> {
         let blocks = if blends_blocks { blocks } else { 0 };
         let list = &mut self.scratch.in_order.list;
         let whole = polygon.cover(s, shape, classes.hidden, blocks, list);
-        if !is_whole {
+        if !is_whole && !polygon.is_inside() {
             list.clip(&rect);
         }
         Some(WholeBlocks {

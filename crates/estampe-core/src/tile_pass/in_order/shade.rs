@@ -50,7 +50,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         if !self.test_early(s, interpolant, front) {
             return;
         }
-        self.scratch.queue.begin_primitive(false);
+        self.end_solid();
         if const { !S::IS_SCALAR } && self.shares_packets {
             self.queue_quads(s, interpolant, front);
         } else {
@@ -111,6 +111,13 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             self.flush();
         }
         self.scratch.queue.push(s, interpolant, packet);
+        if self.gathers {
+            let alive = &packet.alive;
+            self.scratch
+                .in_order
+                .solid
+                .note_queued(alive.packet, alive.any());
+        }
     }
 
     /// Queues a primitive's list: packets in which no quad is empty as they are, the others' quads
@@ -184,6 +191,7 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
             .push_four_quads(s, interpolant, quads, front);
         for quad in quads {
             self.scratch.in_order.pending.add(quad.place, 1);
+            self.note_quad(quad);
         }
     }
 
@@ -203,6 +211,17 @@ impl<const N: usize> InOrder<'_, '_, '_, N> {
         }
         scratch.in_order.pending.add(quad.place, 1);
         scratch.queue.push_quad((at, quad), front);
+        self.note_quad(quad);
+    }
+
+    #[inline(always)]
+    fn note_quad(&mut self, quad: &QuadPlace<N>) {
+        if self.gathers {
+            let any = quad.masks.iter().fold(0, |any, mask| any | mask);
+            let pixels = any << (quad.place % 4 * 4);
+            let solid = &mut self.scratch.in_order.solid;
+            solid.note_queued(quad.place / 4, pixels);
+        }
     }
 
     /// The first pixel of a packet of the tile, in the target.
