@@ -148,9 +148,9 @@ impl Executor {
 }
 
 /// Calls the helpers that are the workers of a range, as a tree: who calls the first worker of the
-/// upper half leaves the others of that half to it, and goes on with the lower half. To wake a thread takes the
-/// caller several microseconds, so sixty-three calls one after the other would take longer than
-/// many passes.
+/// upper half leaves the others of that half to it, and goes on with the lower half. To wake a
+/// thread takes the caller several microseconds, so sixty-three calls one after the other would
+/// take longer than many passes.
 fn call_helpers<'scope>(
     scope: &Scope<'scope>,
     workers: Range<usize>,

@@ -16,9 +16,9 @@ use std::ops::Range;
 /// Vertices or primitives that a batch holds before it is drawn.
 const BATCH_BUDGET: usize = 2_000_000;
 
-/// Vertices or primitives whose geometry is done together: their indices, and their vertices in the
-/// window, stay in a core's second-level cache from the first use to the last. A frame of a million
-/// triangles read 12 MB of indices twice, and wrote and read 8 MB of positions, when it was one
+/// Vertices or primitives for each thread whose geometry is done together: their indices, and their
+/// vertices in the window, stay in a core's second-level cache from the first use to the last. A
+/// frame of a million triangles read 12 MB of indices twice, and wrote and read 8 MB of positions, when it was one
 /// group.
 const GROUP_BUDGET: usize = 1 << 16;
 
@@ -81,8 +81,10 @@ impl<'a> DrawCursor<'a> {
     ) -> Option<Range<usize>> {
         let first = batch.begin_group();
         let (mut vertices, mut primitives) = (0, 0);
-        while vertices < GROUP_BUDGET
-            && primitives < GROUP_BUDGET
+        // More threads have more work at once, and wait for each other as rarely as few.
+        let budget = GROUP_BUDGET.saturating_mul(executor.threads());
+        while vertices < budget
+            && primitives < budget
             && batch.vertices < BATCH_BUDGET
             && batch.primitives < BATCH_BUDGET
         {

@@ -130,7 +130,7 @@ fn more_primitives_than_a_chunk_holds() {
 /// Rows: V2, U3.
 #[test]
 fn geometry_of_a_large_draw_is_done_group_by_group() {
-    // A group has 65,536 primitives. Strips keep their winding across a cut, and small draws may
+    // A group has 65,536 primitives for each thread. Strips keep their winding across a cut, and small draws may
     // lie in the group in which a large one ends.
     const PRIMITIVES: u32 = 2 * 65_536 + 1001;
     for (topology, elements) in [
@@ -155,7 +155,12 @@ fn geometry_of_a_large_draw_is_done_group_by_group() {
         });
         let passes = statistics.primitives_in / u64::from(PRIMITIVES);
         assert!(passes > 0, "no pass was drawn");
-        assert_eq!(statistics.groups_of_geometry, passes * 3, "{topology:?}");
+        // Three on one thread, two on two, else one.
+        let groups = statistics.groups_of_geometry;
+        assert!(
+            (passes + 1..=passes * 3).contains(&groups),
+            "{topology:?}: {groups}"
+        );
     }
 }
 
