@@ -18,8 +18,8 @@ const BATCH_BUDGET: usize = 2_000_000;
 
 /// Vertices or primitives for each thread whose geometry is done together: their indices, and their
 /// vertices in the window, stay in a core's second-level cache from the first use to the last. A
-/// frame of a million triangles read 12 MB of indices twice, and wrote and read 8 MB of positions, when it was one
-/// group.
+/// frame of a million triangles read 12 MB of indices twice, and wrote and read 8 MB of positions,
+/// when it was one group.
 const GROUP_BUDGET: usize = 1 << 16;
 
 /// Primitives of a sub-draw at most: a larger draw becomes several. Even, so that a strip's parts
