@@ -62,6 +62,12 @@ pub trait Lanes: Simd {
         self.gather(table, index)
     }
 
+    /// `table[index]` in each lane, for an index below 16; for any other index, some element.
+    #[inline(always)]
+    fn lookup_sixteen(self, table: &[u32; 16], index: u32x16<Self>) -> u32x16<Self> {
+        self.gather(table, index)
+    }
+
     /// `table[index]`, `table[index + 1]`, `table[index + stride]` and `table[index + stride + 1]`
     /// in each lane: two neighbours in one row and the two below them. If any of the four is beyond
     /// the end, the last square is read; a table with fewer than `stride + 2` elements reads as
@@ -392,6 +398,10 @@ mod x86 {
             crate::gather::avx2(self, table, index)
         }
         #[inline(always)]
+        fn lookup_sixteen(self, table: &[u32; 16], index: u32x16<Self>) -> u32x16<Self> {
+            crate::lookup::sixteen_avx2(self, table, index)
+        }
+        #[inline(always)]
         fn gather_square(
             self,
             table: &[u32],
@@ -470,6 +480,10 @@ mod x86 {
         #[inline(always)]
         fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
             crate::gather::avx512(self, table, index)
+        }
+        #[inline(always)]
+        fn lookup_sixteen(self, table: &[u32; 16], index: u32x16<Self>) -> u32x16<Self> {
+            crate::lookup::sixteen_avx512(self, table, index)
         }
         #[inline(always)]
         fn lookup(self, table: &[u32; 256], index: u32x16<Self>) -> u32x16<Self> {

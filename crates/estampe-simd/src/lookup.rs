@@ -1,10 +1,10 @@
-//! Tables of 256 elements, read by permutations of registers.
+//! Tables of 256 elements and of sixteen, read by permutations of registers.
 //!
 //! A permutation reads two registers of a table at once, so all sixteen lanes are served by eight
 //! of them, where a gather loads lane by lane.
 
-use fearless_simd::x86::Avx512;
-use fearless_simd::{SimdBase, SimdInto, u8x64, u32x16};
+use fearless_simd::x86::{Avx2, Avx512};
+use fearless_simd::{SimdBase, SimdCombine, SimdInto, SimdSplit, u8x64, u32x8, u32x16};
 
 use crate::ByteTable;
 
@@ -119,4 +119,47 @@ pub(crate) fn three_avx512(
         k += 1;
     }
     together(simd, bytes)
+}
+
+/// [`Lanes::lookup_sixteen`](crate::Lanes::lookup_sixteen) by one permutation.
+#[inline(always)]
+pub(crate) fn sixteen_avx512(
+    simd: Avx512,
+    table: &[u32; 16],
+    index: u32x16<Avx512>,
+) -> u32x16<Avx512> {
+    fearless_simd::kernel!(
+        #[inline(always)]
+        fn kernel(simd: Avx512, table: u32x16<Avx512>, index: u32x16<Avx512>) -> u32x16<Avx512> {
+            use core::arch::x86_64::*;
+            _mm512_permutexvar_epi32(index.into(), table.into()).simd_into(simd)
+        }
+    );
+    kernel(simd, u32x16::load_array_ref(simd, table), index)
+}
+
+/// [`Lanes::lookup_sixteen`](crate::Lanes::lookup_sixteen) by permutations of eight elements, from
+/// which the index's fourth bit chooses.
+#[inline(always)]
+pub(crate) fn sixteen_avx2(simd: Avx2, table: &[u32; 16], index: u32x16<Avx2>) -> u32x16<Avx2> {
+    fearless_simd::kernel!(
+        #[inline(always)]
+        fn kernel(
+            simd: Avx2,
+            low: u32x8<Avx2>,
+            high: u32x8<Avx2>,
+            index: u32x8<Avx2>,
+        ) -> u32x8<Avx2> {
+            use core::arch::x86_64::*;
+            let index = index.into();
+            let low = _mm256_permutevar8x32_epi32(low.into(), index);
+            let high = _mm256_permutevar8x32_epi32(high.into(), index);
+            let is_high = _mm256_castsi256_ps(_mm256_slli_epi32::<28>(index));
+            let [low, high] = [_mm256_castsi256_ps(low), _mm256_castsi256_ps(high)];
+            _mm256_castps_si256(_mm256_blendv_ps(low, high, is_high)).simd_into(simd)
+        }
+    );
+    let (low, high) = u32x16::load_array_ref(simd, table).split();
+    let (first, second) = index.split();
+    kernel(simd, low, high, first).combine(kernel(simd, low, high, second))
 }

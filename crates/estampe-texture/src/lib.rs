@@ -35,10 +35,12 @@
 //! Requests to views (`view/coordinates.rs`) have the same form. Only `compare.rs` and
 //! [`Rgba8Texture::texel_fetch`] are generic, and compiled into each shader.
 //!
-//! A view that is not of the common kind has three implementations with the same bits:
+//! A view that is not of the common kind has several implementations with the same bits:
 //!
 //! * `view/packet/inside.rs`, the common case of a packet: linear filtering, all lanes between the
 //!   same two mip levels, all texels inside;
+//! * `view/packet/bytes.rs` and `each_level.rs`, packets of formats of bytes with linear filtering,
+//!   in any mip levels, layers and faces;
 //! * `view/packet/mod.rs`, the general packet code, which samples other packets;
 //! * `view/sample.rs`, the scalar code, lane by lane, for everything else.
 //!

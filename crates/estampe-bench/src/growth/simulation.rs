@@ -4,8 +4,8 @@
 //! A frame is a sequence of phases (vertices, chunks of primitives, tiles), each a list of
 //! independent jobs, with serial parts between them. In a phase the caller and the helpers that it
 //! has woken wake the others, as a tree, and begin. Each free worker takes a batch of jobs from the
-//! front of the remaining list, as in the scheduler. The phase ends when the last worker is done. Jobs cost the same as on one core:
-//! contention for memory is not modelled.
+//! front of the remaining list, as in the scheduler. The phase ends when the last worker is done.
+//! Jobs cost the same as on one core: contention for memory is not modelled.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -26,7 +26,8 @@ const GROUP_BUDGET: usize = 1 << 16;
 /// begin on triangles that are not turned.
 const SUB_DRAW_PRIMITIVES: u32 = 1 << 16;
 
-/// Primitives of a sub-draw at most, where fewer could have too many vertices in common with others.
+/// Primitives of a sub-draw at most, where fewer could have too many vertices in common with
+/// others.
 const INCOHERENT_PRIMITIVES: u32 = 1_000_000;
 
 /// The position in a pass's draws up to which they are cut into batches.

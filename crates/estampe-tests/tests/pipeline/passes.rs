@@ -130,8 +130,8 @@ fn more_primitives_than_a_chunk_holds() {
 /// Rows: V2, U3.
 #[test]
 fn geometry_of_a_large_draw_is_done_group_by_group() {
-    // A group has 65,536 primitives for each thread. Strips keep their winding across a cut, and small draws may
-    // lie in the group in which a large one ends.
+    // A group has 65,536 primitives for each thread. Strips keep their winding across a cut, and
+    // small draws may lie in the group in which a large one ends.
     const PRIMITIVES: u32 = 2 * 65_536 + 1001;
     for (topology, elements) in [
         (PrimitiveTopology::TriangleList, PRIMITIVES * 3),

@@ -9,11 +9,13 @@
 //!  coordinates ─▶ footprint ─▶ probes ─▶ levels ─▶ axis / cube ─▶ decode ─▶ mixture
 //! ```
 //!
-//! A shader stores its lanes as a request of packets (`coordinates.rs`). Three implementations
+//! A shader stores its lanes as a request of packets (`coordinates.rs`). Several implementations
 //! sample it, each with the same arithmetic in the same order, so that the bits are the same:
 //!
 //! * `packet/inside.rs` is the common case of a packet: linear filtering, all lanes in the same mip
 //!   level or between the same two, all texels inside. It needs no selection per lane.
+//! * `packet/bytes.rs` samples packets of formats of bytes with linear filtering: the common case,
+//!   and with `packet/each_level.rs` a mip level, a layer and four texels for each lane.
 //! * `packet/mod.rs` is the general packet code, for other packets: every format except integers
 //!   and stencil, every dimension, filter and comparison. It samples once for every mip level among
 //!   the lanes.

@@ -1,6 +1,7 @@
 //! Decoding of sixteen texels at once, for every format except integers.
 
 use super::TexelView;
+use crate::texel::Corners;
 use estampe_format::{half, shared_exponent, small_float, srgb};
 use estampe_simd::{Bytes, Lanes, SimdBase, SimdCvtFloat, f32x16, i32x16, u32x16};
 use estampe_types::state::CompareFunction;
@@ -53,6 +54,11 @@ impl PacketFormat {
             (TexelEncoding::Unorm8, 1) => R8,
             _ => OTHERS,
         }
+    }
+
+    /// Returns true if `packet/bytes.rs` samples the format.
+    pub(crate) fn is_of_bytes(self) -> bool {
+        matches!(self.kind(), RGBA8 | RGBA8_SRGB | R8)
     }
 
     /// Returns true if the format is a fixed-point depth.
@@ -160,10 +166,20 @@ impl PacketFormat {
     }
 }
 
-/// Decodes the lowest byte, in units.
+/// The weighted mean of the lowest bytes of four texels, in units.
 #[inline(always)]
-pub(super) fn lowest_byte<S: Lanes>(s: S, word: u32x16<S>) -> f32x16<S> {
-    number(bits(s, word, 8))
+pub(super) fn red_mean<S: Lanes>(
+    s: S,
+    corners: Corners<i32x16<S>>,
+    x: f32x16<S>,
+    y: f32x16<S>,
+) -> f32x16<S> {
+    let byte = |word: i32x16<S>| number(bits(s, word.bitcast(), 8));
+    let ([a, b], [c, d]) = (corners.upper, corners.lower);
+    let [a, b, c, d] = [byte(a), byte(b), byte(c), byte(d)];
+    let upper = a + (b - a) * x;
+    let lower = c + (d - c) * x;
+    upper + (lower - upper) * y
 }
 
 /// Decodes four bytes, in units.

@@ -1,7 +1,7 @@
 //! [`SampledTexture`]: a view with a sampler, as a shader holds it.
 
 use super::coordinates::{Answers, Lod, TextureCoordinates, by_sixteen};
-use super::packet::PacketFormat;
+use super::packet::{LevelTable, PacketFormat};
 use super::{PacketRequest, TexelView};
 use crate::rgba8_texture::is_rgba8;
 use crate::{Rgba8Texture, TextureError, sample_compare_level};
@@ -11,6 +11,7 @@ use estampe_types::state::CompareFunction;
 use estampe_types::{AddressMode, ShadowMap, TextureFormat, ViewDimension};
 use estampe_types::{FilterMode, Real, SampleType, SamplerDescriptor, TexelData};
 use estampe_types::{Vec2, Vec3, Vec4};
+use std::sync::Arc;
 
 /// A view of any texture with a sampler. Cheap to clone.
 ///
@@ -28,6 +29,9 @@ pub struct SampledTexture {
     /// True if view and sampler allow the common case of a packet (`packet/inside.rs`): linear
     /// filtering in one image of each level, with wrapped coordinates or on a cube's face.
     pub(crate) is_simple: bool,
+    /// The mip levels, if view and sampler are those of `packet/bytes.rs`: as for the common case,
+    /// and anisotropic filtering, of a format of bytes.
+    pub(crate) level_table: Option<Arc<LevelTable>>,
     /// True if the level of detail is of no effect: one mip level, and the same filter for
     /// magnification and minification.
     pub(crate) ignores_lod: bool,
@@ -58,9 +62,15 @@ impl SampledTexture {
             };
             Rgba8Texture::new(texture, sampler)
         });
+        let packets = PacketFormat::new(&view);
+        let is_linear = is_linear(&view, &sampler);
+        let level_table = packets
+            .filter(|format| is_linear && format.is_of_bytes())
+            .and_then(|_| LevelTable::new(&view.planes));
         Ok(Self {
-            packets: PacketFormat::new(&view),
-            is_simple: is_simple(&view, &sampler),
+            packets,
+            is_simple: is_linear && sampler.max_anisotropy <= 1,
+            level_table: level_table.map(Arc::new),
             ignores_lod: view.level_count() == 1
                 && sampler.mag_filter == sampler.min_filter
                 && sampler.max_anisotropy <= 1,
@@ -396,12 +406,13 @@ fn check(view: &TexelView, sampler: &SamplerDescriptor) -> Result<(), TextureErr
     Ok(())
 }
 
-fn is_simple(view: &TexelView, sampler: &SamplerDescriptor) -> bool {
+/// Returns true if filtering is linear in one image of each level, with wrapped coordinates or on a
+/// cube's face.
+fn is_linear(view: &TexelView, sampler: &SamplerDescriptor) -> bool {
     let is_flat = matches!(view.dimension, ViewDimension::D2 | ViewDimension::D2Array);
     let is_plain = sampler.address_mode_u.is_plain() && sampler.address_mode_v.is_plain();
     (view.is_cube() || is_flat && is_plain)
         && [sampler.mag_filter, sampler.min_filter] == [FilterMode::Linear; 2]
-        && sampler.max_anisotropy <= 1
 }
 
 /// Returns true if [`Rgba8Texture`] gives the same results faster.

@@ -4,6 +4,7 @@
 mod bindings;
 mod bits;
 mod blocks;
+mod bytes;
 mod codes;
 mod create;
 mod descriptors;

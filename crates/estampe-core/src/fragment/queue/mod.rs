@@ -309,8 +309,8 @@ impl<const N: usize> FragmentQueue<N> {
         &mut self.varyings[shaded * self.scalars..][..self.scalars]
     }
 
-    /// Adds fragments to the packet that was queued last across triangles, in lanes that it does not
-    /// use yet; gives where its varyings are.
+    /// Adds fragments to the packet that was queued last across triangles, in lanes that it does
+    /// not use yet; gives where its varyings are.
     #[inline(always)]
     pub(crate) fn join_across_triangles(&mut self, lanes: u16, front: u16) -> &mut [Packet<f32>] {
         debug_assert!(self.len != 0, "there is no packet to join");

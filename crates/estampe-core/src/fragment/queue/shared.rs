@@ -1,5 +1,5 @@
-//! Packets of one colour: nothing varies over their primitives, so the program is run for one packet
-//! of all.
+//! Packets of one colour: nothing varies over their primitives, so the program is run for one
+//! packet of all.
 //!
 //! Windows and panels of user interfaces are such primitives: one colour, at one place of a
 //! texture.

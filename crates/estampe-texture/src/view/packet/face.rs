@@ -42,4 +42,17 @@ impl<R: Real> Face<R> {
         let major = R::select(self.is_z, z, R::select(self.is_x, x, y));
         [sc, tc, negated(major)]
     }
+
+    /// The vector whose [`turned`](Self::turned) form has these components.
+    #[inline(always)]
+    pub(super) fn point(&self, [sc, tc, rc]: [R; 3]) -> [R; 3] {
+        let negated = |value: R| R::select(self.is_negative, -value, value);
+        let major = negated(rc);
+        let x_of_y_or_z = R::select(self.is_z, negated(sc), sc);
+        let x = R::select(self.is_x, major, x_of_y_or_z);
+        let y = R::select(self.is_x | self.is_z, -tc, major);
+        let z_of_x_or_y = R::select(self.is_x, -negated(sc), negated(tc));
+        let z = R::select(self.is_z, major, z_of_x_or_y);
+        [x, y, z]
+    }
 }

@@ -1,20 +1,20 @@
 //! The common case of a packet: linear filtering, all lanes in the same mip level or between the
 //! same two, all texels inside.
 //!
+//! This file has the squares of such a packet, and samples formats that `bytes.rs` does not serve.
 //! The code then needs no distinction of borders, faces or levels per lane, and the texels of a
 //! lane are neighbours in memory. The arithmetic is that of the other cases, in the same order, so
 //! the bits are the same.
 
+use super::Packet;
 use super::places::Spots;
-use super::{Packet, only_red};
-use crate::filter::mix_colors;
-use crate::texel::{Corners, finish};
+use crate::texel::Corners;
 use crate::view::coordinates::{Answers, packet};
-use crate::view::packet_texel::{R8, RGBA8, RGBA8_SRGB, RGBA16F, lowest_byte};
+use crate::view::packet_texel::RGBA16F;
 use crate::view::plane::Plane;
 use crate::wrap::{Place, place};
 use estampe_simd::{Bytes, Lanes as SimdLanes, SimdBase, f32x16, i32x16, u32x16};
-use estampe_types::{FilterMode, Int, Real, Vec4, ViewDimension};
+use estampe_types::{FilterMode, Int, Real, ViewDimension};
 
 /// The footprint of each lane in a level: the first of its 2×2 texels and the position between
 /// their centres.
@@ -34,15 +34,8 @@ impl Packet<'_> {
         lod: f32x16<S>,
         answers: &mut Answers,
     ) -> bool {
-        let (sampler, planes) = (&self.of.sampler, &self.of.view.planes);
-        let last = planes.len() - 1;
-        let lod = Real::clamp(lod, sampler.lod_min_clamp, sampler.lod_max_clamp);
-        let within = Real::clamp(lod, 0.0, last as f32);
+        let (level, fraction) = self.mixture(s, lod);
         let zero: f32x16<S> = SimdBase::splat(s, 0.0);
-        let (level, fraction) = match sampler.mipmap_filter {
-            FilterMode::Nearest => (s.floor_f32(within + 0.5), zero),
-            FilterMode::Linear => (s.floor_f32(within), within - s.floor_f32(within)),
-        };
         let first = Int::lane(level.to_int_within_range(), 0);
         if f32x16::any(!level.eq(zero.splat(first as f32))) {
             return false;
@@ -88,37 +81,6 @@ impl Packet<'_> {
             Some(fraction) => fraction,
             None => zero,
         };
-        if KIND == RGBA8 || KIND == RGBA8_SRGB {
-            let is_srgb = KIND == RGBA8_SRGB;
-            let of_fine = self.corners(s, spots, &fine);
-            let color = match &coarse {
-                // The texels of both levels are loaded before the first is used.
-                Some(coarse) => {
-                    let of_coarse = self.corners(s, spots, coarse);
-                    let fine = of_fine.mean(fine.x.fraction, fine.y.fraction, is_srgb);
-                    let coarse = of_coarse.mean(coarse.x.fraction, coarse.y.fraction, is_srgb);
-                    mix_colors(fine, coarse, fraction)
-                }
-                None => of_fine.mean(fine.x.fraction, fine.y.fraction, is_srgb),
-            };
-            let Vec4 { x, y, z, w } = finish(color, is_srgb);
-            *answers = [packet(x, 0), packet(y, 0), packet(z, 0), packet(w, 0)];
-            return true;
-        }
-        if KIND == R8 {
-            let of_fine = self.corners(s, spots, &fine);
-            let red = match &coarse {
-                Some(coarse) => {
-                    let of_coarse = self.corners(s, spots, coarse);
-                    let fine = red_mean(s, of_fine, &fine);
-                    fine + (red_mean(s, of_coarse, coarse) - fine) * fraction
-                }
-                None => red_mean(s, of_fine, &fine),
-            };
-            answers[0] = packet(red * self.of.view.codec.scale()[0], 0);
-            only_red(answers);
-            return true;
-        }
         let mut color = [zero; C];
         // A loop, so that the long code of texels is compiled once.
         for step in 0..2 {
@@ -194,7 +156,7 @@ impl Packet<'_> {
 
     /// Loads the four texels of a format of one word.
     #[inline(always)]
-    fn corners<S: SimdLanes>(
+    pub(super) fn corners<S: SimdLanes>(
         &self,
         s: S,
         spots: &Spots<f32x16<S>>,
@@ -269,21 +231,6 @@ impl Packet<'_> {
         }
         mean
     }
-}
-
-/// The weighted mean of the lowest bytes of four texels, in units.
-#[inline(always)]
-fn red_mean<S: SimdLanes>(
-    s: S,
-    corners: Corners<i32x16<S>>,
-    at: &Square<'_, f32x16<S>>,
-) -> f32x16<S> {
-    let ([a, b], [c, d]) = (corners.upper, corners.lower);
-    let [a, b] = [lowest_byte(s, a.bitcast()), lowest_byte(s, b.bitcast())];
-    let [c, d] = [lowest_byte(s, c.bitcast()), lowest_byte(s, d.bitcast())];
-    let upper = a + (b - a) * at.x.fraction;
-    let lower = c + (d - c) * at.x.fraction;
-    upper + (lower - upper) * at.y.fraction
 }
 
 /// Indices moved on by a number of words.

@@ -4,14 +4,16 @@
 //! in every dimension, with every filter. Requests are packets in memory, and the code dispatches
 //! to its SIMD level itself, so it is compiled once, in this crate, and not into every shader.
 //!
-//! The common case of a packet is in `inside.rs`; the other packets take the general code in this
-//! file.
+//! Linear filtering of formats of bytes is in `bytes.rs`, the common case of a packet of other
+//! formats in `inside.rs`; everything else takes the general code in this file.
 //!
 //! If the texels of a lane are not all within its level, and that needs more than a wrapped index
 //! (a border, an offset, a cube's edge), the scalar code samples the lane again: there are few such
 //! lanes.
 
 mod block;
+mod bytes;
+mod each_level;
 mod face;
 mod footprint;
 mod inside;
@@ -19,17 +21,19 @@ mod places;
 
 pub(crate) use super::packet_texel::PacketFormat;
 pub(super) use block::MOST_TAPS;
+pub(crate) use each_level::LevelTable;
 
 use super::coordinates::{Answers, answer, load, packet};
 use super::packet_texel::{OTHERS, R8, RGBA8, RGBA8_SRGB, RGBA16F, passes};
 use super::plane::Plane;
-use super::{PacketLod, PacketRequest, SampledTexture};
+use super::{PacketRequest, SampledTexture};
 use estampe_simd::{
     Bytes, LANES, Lanes as SimdLanes, Level, Packet as Values, SimdBase, dispatch, f32x16, i32x16,
     u32x16,
 };
 use estampe_types::state::CompareFunction;
 use estampe_types::{FilterMode, Int, Real, ViewDimension};
+use footprint::Footprints;
 use places::{Places, Spots};
 
 impl SampledTexture {
@@ -60,14 +64,7 @@ impl SampledTexture {
         let again = if compares.is_some() {
             packet.enter::<1, OTHERS>(self.level, answers)
         } else {
-            match format.kind() {
-                R8 => packet.enter::<1, R8>(self.level, answers),
-                _ if format.components == 1 => packet.enter::<1, OTHERS>(self.level, answers),
-                RGBA8 => packet.enter::<4, RGBA8>(self.level, answers),
-                RGBA8_SRGB => packet.enter::<4, RGBA8_SRGB>(self.level, answers),
-                RGBA16F => packet.enter::<4, RGBA16F>(self.level, answers),
-                _ => packet.enter::<4, OTHERS>(self.level, answers),
-            }
+            packet.enter_kind(answers)
         };
         let Some(again) = again else {
             return false;
@@ -105,6 +102,30 @@ struct OfLevel<'a> {
 }
 
 impl Packet<'_> {
+    /// Samples the packet with the code for the kind of its format; returns the lanes that the
+    /// scalar code must sample again.
+    fn enter_kind(&self, answers: &mut Answers) -> Option<u32> {
+        let level = self.of.level;
+        if self.lanes.offset == [0; 3]
+            && let Some(table) = self.of.level_table.as_deref()
+        {
+            return match self.format.kind() {
+                R8 => self.enter_bytes::<R8>(table, answers),
+                RGBA8 => self.enter_bytes::<RGBA8>(table, answers),
+                RGBA8_SRGB => self.enter_bytes::<RGBA8_SRGB>(table, answers),
+                _ => unreachable!("only formats of bytes have a table"),
+            };
+        }
+        match self.format.kind() {
+            R8 => self.enter::<1, R8>(level, answers),
+            _ if self.format.components == 1 => self.enter::<1, OTHERS>(level, answers),
+            RGBA8 => self.enter::<4, RGBA8>(level, answers),
+            RGBA8_SRGB => self.enter::<4, RGBA8_SRGB>(level, answers),
+            RGBA16F => self.enter::<4, RGBA16F>(level, answers),
+            _ => self.enter::<4, OTHERS>(level, answers),
+        }
+    }
+
     /// Samples the packet at a SIMD level; returns the lanes that the scalar code must sample
     /// again. The scalar SIMD level has no packet code.
     fn enter<const C: usize, const KIND: u8>(
@@ -117,13 +138,13 @@ impl Packet<'_> {
         }, scalar => None)
     }
 
-    /// A derivative that the request gives.
+    /// The coordinates of the lanes.
     #[inline(always)]
-    fn gradient<R: Real>(&self, like: R, first: usize) -> [R; 3] {
+    fn coordinates<R: Real>(&self, like: R) -> [R; 3] {
         [
-            load(like, self.lanes.gradients[first], 0),
-            load(like, self.lanes.gradients[first + 1], 0),
-            load(like, self.lanes.gradients[first + 2], 0),
+            load(like, self.lanes.at[0], 0),
+            load(like, self.lanes.at[1], 0),
+            load(like, self.lanes.at[2], 0),
         ]
     }
 
@@ -136,39 +157,14 @@ impl Packet<'_> {
     ) -> u32 {
         let like: f32x16<S> = SimdBase::splat(s, 0.0);
         let sampler = &self.of.sampler;
-        let at = [
-            load(like, self.lanes.at[0], 0),
-            load(like, self.lanes.at[1], 0),
-            load(like, self.lanes.at[2], 0),
-        ];
+        let at = self.coordinates(like);
         if self.is_simple
             && self.of.ignores_lod
             && self.inside_levels::<S, C, KIND>(s, &self.spots(at), (0, None), answers)
         {
             return 0;
         }
-        let value = load(like, self.lanes.value, 0);
-        let one = like.splat(1.0);
-        let (lod, bias, probes, step) = match self.lanes.lod {
-            _ if self.of.ignores_lod => (like, like, one, [like; 3]),
-            PacketLod::Level => (value, like, one, [like; 3]),
-            PacketLod::Implicit | PacketLod::Bias => {
-                let first = of_quad(at, 0);
-                if sampler.max_anisotropy <= 1 {
-                    (self.lod_of_quads(first, at), value, one, [like; 3])
-                } else {
-                    let d = [minus(of_quad(at, 1), first), minus(of_quad(at, 2), first)];
-                    let (lod, probes, step) = self.footprint(first, d);
-                    (lod, value, probes, step)
-                }
-            }
-            PacketLod::Gradients => {
-                let d = [self.gradient(like, 0), self.gradient(like, 3)];
-                let (lod, probes, step) = self.footprint(at, d);
-                (lod, like, probes, step)
-            }
-        };
-        let lod = lod + Real::clamp(bias + sampler.lod_bias, -16.0, 15.99);
+        let Footprints { lod, probes, step } = self.footprints(at);
         if self.is_simple
             && !self.of.ignores_lod
             && self.inside::<S, C, KIND>(s, &self.spots(at), lod, answers)
@@ -265,11 +261,7 @@ impl Packet<'_> {
         let lod = Real::clamp(lod, sampler.lod_min_clamp, sampler.lod_max_clamp);
         let is_minified = lod.gt(zero);
         let last = planes.len() - 1;
-        let within = Real::clamp(lod, 0.0, last as f32);
-        let (level, fraction) = match sampler.mipmap_filter {
-            FilterMode::Nearest => (s.floor_f32(within + 0.5), zero),
-            FilterMode::Linear => (s.floor_f32(within), within - s.floor_f32(within)),
-        };
+        let (level, fraction) = self.mixture(s, lod);
         let is_mixed = u32::from(s.bits_of_mask(fraction.gt(zero)));
         let level = level.to_int_within_range();
         // The key of what a lane reads: 2·level, and 1 more where it is minified.
@@ -471,17 +463,6 @@ impl Packet<'_> {
 pub(super) fn only_red([_, green, blue, alpha]: &mut Answers) {
     (*green, *blue) = (Values::default(), Values::default());
     alpha.0 = [1.0; LANES];
-}
-
-/// The coordinates of one fragment of each quad.
-#[inline(always)]
-fn of_quad<R: Real>([x, y, z]: [R; 3], index: u8) -> [R; 3] {
-    [x.quad_lane(index), y.quad_lane(index), z.quad_lane(index)]
-}
-
-#[inline(always)]
-fn minus<R: Real>([a, b, c]: [R; 3], [x, y, z]: [R; 3]) -> [R; 3] {
-    [a - x, b - y, c - z]
 }
 
 /// `a + (b − a)·t` of each channel, or a alone.

@@ -14,6 +14,8 @@ use estampe_types::{AddressMode, FilterMode, Int, Real, ViewDimension};
 pub(super) struct Spots<R: Real> {
     /// Wrapped into the first tile; for cubes, within the face.
     pub(super) at: [R; 3],
+    /// The coordinates before that: of cubes, the direction.
+    pub(super) direction: [R; 3],
     /// The texture's layer.
     pub(super) slice: R::Int,
 }
@@ -43,6 +45,7 @@ impl Packet<'_> {
         if view.dimension == ViewDimension::D2 {
             return Spots {
                 at: [self.tiled(at[0], 0), self.tiled(at[1], 1), at[2]],
+                direction: at,
                 slice: at[0].to_bits().splat(view.base_layer.cast_signed()),
             };
         }
@@ -60,6 +63,7 @@ impl Packet<'_> {
             let t = tc / length * 0.5 + 0.5;
             return Spots {
                 at: [s, t, s],
+                direction: at,
                 slice: base + layer * layer.splat(6) + face.index,
             };
         }
@@ -69,6 +73,7 @@ impl Packet<'_> {
                 self.tiled(at[1], 1),
                 self.tiled(at[2], 2),
             ],
+            direction: at,
             slice: base + layer,
         }
     }

@@ -1,0 +1,223 @@
+//! Packets whose lanes lie in different mip levels or layers, at a clamped edge, or across a cube's
+//! edges: linear filtering with a level, a layer and four texels for each lane.
+//!
+//! Quads of several triangles share packets, so their levels of detail differ, and the general code
+//! samples the whole packet once for every level among the lanes. Here each lane looks the size and
+//! the place of its own levels up. That serves texels of one word with four unorm bytes or one.
+//!
+//! # Texels across a cube's edge
+//!
+//! The texels' centres are put on the surface of the cube from −n to n, as `cube.rs` explains: one
+//! texel beyond an edge, a coordinate is ±(n + 1), and the direction to this point meets the
+//! neighbour. All numbers are whole and below 2²⁴, so floats hold them exactly. Where three faces
+//! meet, the scalar code samples the lane.
+
+use super::Packet;
+use super::bytes::mean_of_bytes;
+use super::face::Face;
+use super::places::Spots;
+use crate::filter::mix_colors;
+use crate::texel::Corners;
+use crate::view::plane::Plane;
+use crate::wrap::tile_lanes;
+use estampe_simd::{Bytes, Lanes as SimdLanes, f32x16, i32x16, u32x16};
+use estampe_types::{AddressMode, Int, Real, Vec4};
+
+/// The most mip levels of a table: the longest chain of a texture has 15.
+const MOST_LEVELS: usize = 16;
+
+/// The sides of each mip level, and its first word. Entries beyond the last level repeat it.
+#[derive(Debug, Clone)]
+pub(crate) struct LevelTable {
+    width: [u32; MOST_LEVELS],
+    height: [u32; MOST_LEVELS],
+    begin: [u32; MOST_LEVELS],
+}
+
+impl LevelTable {
+    /// `None` if there are more levels than a valid texture has.
+    pub(crate) fn new(planes: &[Plane]) -> Option<Self> {
+        let last = planes.len().checked_sub(1)?;
+        if last >= MOST_LEVELS {
+            return None;
+        }
+        let of = |number: fn(&Plane) -> i32| {
+            std::array::from_fn(|level| number(&planes[level.min(last)]).cast_unsigned())
+        };
+        Some(Self {
+            width: of(|plane| plane.sides[0]),
+            height: of(|plane| plane.sides[1]),
+            begin: of(|plane| plane.begin_words(1)),
+        })
+    }
+}
+
+/// One mip level of each lane.
+struct OwnLevel<S: SimdLanes> {
+    width: i32x16<S>,
+    height: i32x16<S>,
+    begin: i32x16<S>,
+}
+
+/// The indices of the four texels of each lane, and the position between their centres.
+struct Around<S: SimdLanes> {
+    texels: Corners<i32x16<S>>,
+    x: f32x16<S>,
+    y: f32x16<S>,
+}
+
+impl Packet<'_> {
+    /// Samples a packet of a format of bytes with linear filtering and without offsets, between the
+    /// finer level of each lane and the next one. The lanes that the scalar code must sample are
+    /// added to `again`.
+    #[inline(always)]
+    pub(super) fn each_level<S: SimdLanes, const KIND: u8>(
+        &self,
+        s: S,
+        spots: &Spots<f32x16<S>>,
+        (table, (level, fraction)): (&LevelTable, (f32x16<S>, f32x16<S>)),
+        again: &mut u32,
+    ) -> Vec4<f32x16<S>> {
+        let level = level.to_int_within_range();
+        let is_mixed = f32x16::any(fraction.gt(fraction.splat(0.0)));
+        let mut color = Vec4::repeat(fraction);
+        // A loop, so that the long code of a level is compiled once.
+        for step in 0..2 {
+            if step == 1 && !is_mixed {
+                break;
+            }
+            let own = self.own_level(s, table, level + Int::splat(level, step));
+            let around = if self.of.view.is_cube() {
+                self.around_on_cube(s, spots, &own, again)
+            } else {
+                self.around(spots, &own)
+            };
+            let texels = &self.of.view.texture.texels[..];
+            let Corners { upper, lower } = around.texels;
+            let corners = Corners {
+                upper: [upper[0].gather(texels), upper[1].gather(texels)],
+                lower: [lower[0].gather(texels), lower[1].gather(texels)],
+            };
+            let next = mean_of_bytes::<S, KIND>(s, corners, around.x, around.y);
+            color = match step {
+                0 => next,
+                _ => mix_colors(color, next, fraction),
+            };
+        }
+        color
+    }
+
+    #[inline(always)]
+    fn own_level<S: SimdLanes>(&self, s: S, table: &LevelTable, level: i32x16<S>) -> OwnLevel<S> {
+        let level: u32x16<S> = level.bitcast();
+        let of = |table: &[u32; MOST_LEVELS]| s.lookup_sixteen(table, level).bitcast();
+        OwnLevel {
+            width: of(&table.width),
+            height: of(&table.height),
+            begin: of(&table.begin),
+        }
+    }
+
+    /// The four texels of each lane, with wrapped coordinates.
+    #[inline(always)]
+    fn around<S: SimdLanes>(&self, spots: &Spots<f32x16<S>>, own: &OwnLevel<S>) -> Around<S> {
+        let (columns, x) = pair(spots.at[0], own.width, self.mode(0));
+        let (rows, y) = pair(spots.at[1], own.height, self.mode(1));
+        let first = spots.slice * own.height;
+        let row = |at: usize| (first + rows[at]) * own.width + own.begin;
+        let (upper, lower) = (row(0), row(1));
+        Around {
+            texels: Corners {
+                upper: [upper + columns[0], upper + columns[1]],
+                lower: [lower + columns[0], lower + columns[1]],
+            },
+            x,
+            y,
+        }
+    }
+
+    /// The four texels of each lane on a cube.
+    #[inline(always)]
+    fn around_on_cube<S: SimdLanes>(
+        &self,
+        s: S,
+        spots: &Spots<f32x16<S>>,
+        own: &OwnLevel<S>,
+        again: &mut u32,
+    ) -> Around<S> {
+        let side = own.width.to_real();
+        let place = |at: f32x16<S>| {
+            let at = Real::clamp(at * side - 0.5, -0.5, side - 0.5);
+            let first = s.floor_f32(at);
+            (first, at - first)
+        };
+        let (column, x) = place(spots.at[0]);
+        let (row, y) = place(spots.at[1]);
+        // Texel centres on the cube: 2x + 1 − n, where −n and n are the edges of the face.
+        let centers = |first: f32x16<S>| {
+            let first = first * 2.0 + 1.0 - side;
+            [first, first + 2.0]
+        };
+        let (columns, rows) = (centers(column), centers(row));
+        let is_beyond = |at: f32x16<S>| Real::abs(at).gt(side);
+        let across_x = is_beyond(columns[0]) | is_beyond(columns[1]);
+        let across_y = is_beyond(rows[0]) | is_beyond(rows[1]);
+        *again |= f32x16::mask_bits(across_x & across_y);
+        let face = Face::of(spots.direction);
+        // The image of the first face of each lane's cube.
+        let cube = spots.slice - face.index;
+        let is_across = f32x16::any(across_x | across_y);
+        let image = own.width * own.width;
+        let most = side - 1.0;
+        let mut texels = [own.begin; 4];
+        for (corner, texel) in texels.iter_mut().enumerate() {
+            let (mut across, mut down) = (columns[corner % 2], rows[corner / 2]);
+            let mut slice = spots.slice;
+            if is_across {
+                let is_beyond = is_beyond(across) | is_beyond(down);
+                // The major coordinate of this face is a coordinate of the neighbour's first row of
+                // centres.
+                let major = Real::select(is_beyond, most, side);
+                let point = face.point([across, down, major]);
+                let neighbor = Face::of(point);
+                [across, down, _] = neighbor.turned(point);
+                slice = cube + neighbor.index;
+            }
+            let column = ((across + most) * 0.5).to_int_within_range();
+            let row = ((down + most) * 0.5).to_int_within_range();
+            *texel = slice * image + row * own.width + column + own.begin;
+        }
+        let [a, b, c, d] = texels;
+        Around {
+            texels: Corners {
+                upper: [a, b],
+                lower: [c, d],
+            },
+            x,
+            y,
+        }
+    }
+}
+
+/// The two texels between which a wrapped coordinate lies, and the position between their centres.
+#[inline(always)]
+fn pair<S: SimdLanes>(
+    wrapped: f32x16<S>,
+    count: i32x16<S>,
+    mode: AddressMode,
+) -> ([i32x16<S>; 2], f32x16<S>) {
+    let length = count.to_real();
+    let mut at = wrapped * length - 0.5;
+    if mode != AddressMode::Repeat {
+        at = Real::clamp(at, 0.0, length - 1.0);
+    }
+    let whole = Real::floor(at);
+    let first = whole.to_int_within_range();
+    let next = first + Int::splat(first, 1);
+    let texels = if mode == AddressMode::Repeat {
+        [tile_lanes(first, count), tile_lanes(next, count)]
+    } else {
+        [first, Int::min(next, count - Int::splat(count, 1))]
+    };
+    (texels, at - whole)
+}
