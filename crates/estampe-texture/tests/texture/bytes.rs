@@ -101,7 +101,7 @@ impl Asked {
         let mut place = [0.0; 3];
         let mut step = [[0.0; 3]; 2];
         for lane in 0..LANES {
-            if lane == 0 || lane % 4 == 0 && !are_near {
+            if lane == 0 || (lane.is_multiple_of(4) && !are_near) {
                 place = std::array::from_fn(|_| random.unit() * 1.4 - 0.2);
                 if is_cube {
                     place = place_on_cube(random);
@@ -242,8 +242,8 @@ fn packets_are_sampled_as_their_quads() {
                         if level.is_scalar() {
                             assert_eq!(beside, None);
                         } else {
-                            sampled += 16;
-                            alone += beside.expect("packet code").count_ones();
+                            sampled += LANES;
+                            alone += beside.expect("packet code").count_ones() as usize;
                         }
                     }
                 }
