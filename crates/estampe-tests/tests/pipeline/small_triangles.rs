@@ -63,8 +63,10 @@ fn fragments_of_small_triangles_fill_packets() {
     let pixels = statistics.small_triangle_pixels;
     assert!(pixels > 0, "no pixels of small triangles were listed");
     let [fragments, packets] = statistics.fragments_across_triangles;
+    // The last packet of a run is not full, and the runs are short. With one lane for each
+    // triangle, half of the lanes and more would be empty.
     assert!(
-        packets > 0 && fragments > packets * 12,
+        packets > 0 && fragments > packets * 10,
         "{fragments} fragments are in {packets} packets"
     );
 }
