@@ -95,13 +95,18 @@ impl ShadedVertices {
     /// overwritten, but for their varyings.
     pub(crate) fn resize_for<'s>(&mut self, spans: impl Iterator<Item = &'s VertexSpan>) {
         let (mut end, mut has_positions, mut has_sizes) = (VertexSpan::default(), false, false);
+        let mut kept = None;
         for span in spans {
+            kept = kept.or(Some(span.first_varying));
             end = span.following();
             has_positions |= span.keeps_clip_positions;
             has_sizes |= span.has_point_sizes;
         }
         grow(&mut self.window, end.first, [0; 4]);
-        grow(&mut self.varyings, end.first_varying, 0.0);
+        match kept {
+            Some(1..) => grow_on(&mut self.varyings, end.first_varying, 0.0),
+            _ => grow(&mut self.varyings, end.first_varying, 0.0),
+        }
         let positions = if has_positions { end.first } else { 0 };
         grow(&mut self.clip, positions, [0; 4]);
         grow(
@@ -228,6 +233,13 @@ fn grow<T: Clone>(list: &mut Vec<T>, len: usize, zero: T) {
     }
 }
 
+/// Makes a list at least so long, and keeps what it holds.
+fn grow_on<T: Clone>(list: &mut Vec<T>, len: usize, zero: T) {
+    if list.len() < len {
+        list.resize(len, zero);
+    }
+}
+
 /// Takes the first `count` elements off a slice.
 fn take<'a, T>(rest: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     let (first, others) = std::mem::take(rest).split_at_mut(count);
@@ -256,6 +268,33 @@ mod tests {
             let kept = if keeps_clip_positions { count } else { 0 };
             assert_eq!(jobs[0].out.clip.len(), kept);
             assert_eq!(jobs[0].out.point_size.len(), kept);
+        }
+    }
+
+    #[test]
+    fn varyings_of_the_groups_before_are_kept() {
+        let mut vertices = ShadedVertices::default();
+        let mut span = VertexSpan::default();
+        let mut spans = Vec::new();
+        for (group, count) in (1..).zip([3, 40, 500]) {
+            span = VertexSpan {
+                first: 0,
+                first_varying: span.following().first_varying,
+                count,
+                varying_scalars: 2,
+                ..VertexSpan::default()
+            };
+            vertices.resize_for([span].iter());
+            let mut jobs = Vec::new();
+            vertices.split([span].iter(), count, &mut jobs);
+            jobs[0].out.varyings.fill(group as f32);
+            spans.push((group, span));
+        }
+        for (group, span) in spans {
+            for vertex in 0..u32::try_from(span.count).unwrap() {
+                let varyings = vertices.of_span(&span);
+                assert_eq!(varyings.varyings_of(vertex), [group as f32; 2]);
+            }
         }
     }
 
