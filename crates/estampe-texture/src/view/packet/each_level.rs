@@ -146,22 +146,11 @@ impl Packet<'_> {
         again: &mut u32,
     ) -> Around<S> {
         let side = own.width.to_real();
-        let place = |at: f32x16<S>| {
-            let at = Real::clamp(at * side - 0.5, -0.5, side - 0.5);
-            let first = s.floor_f32(at);
-            (first, at - first)
-        };
-        let (column, x) = place(spots.at[0]);
-        let (row, y) = place(spots.at[1]);
-        // Texel centres on the cube: 2x + 1 − n, where −n and n are the edges of the face.
-        let centers = |first: f32x16<S>| {
-            let first = first * 2.0 + 1.0 - side;
-            [first, first + 2.0]
-        };
-        let (columns, rows) = (centers(column), centers(row));
-        let is_beyond = |at: f32x16<S>| Real::abs(at).gt(side);
-        let across_x = is_beyond(columns[0]) | is_beyond(columns[1]);
-        let across_y = is_beyond(rows[0]) | is_beyond(rows[1]);
+        let (column, x) = place_on_face(s, spots.at[0], side);
+        let (row, y) = place_on_face(s, spots.at[1], side);
+        let (columns, rows) = (centers(column, side), centers(row, side));
+        let across_x = Real::abs(columns[0]).gt(side) | Real::abs(columns[1]).gt(side);
+        let across_y = Real::abs(rows[0]).gt(side) | Real::abs(rows[1]).gt(side);
         *again |= f32x16::mask_bits(across_x & across_y);
         let face = Face::of(spots.direction);
         // The image of the first face of each lane's cube.
@@ -174,7 +163,7 @@ impl Packet<'_> {
             let (mut across, mut down) = (columns[corner % 2], rows[corner / 2]);
             let mut slice = spots.slice;
             if is_across {
-                let is_beyond = is_beyond(across) | is_beyond(down);
+                let is_beyond = Real::abs(across).gt(side) | Real::abs(down).gt(side);
                 // The major coordinate of this face is a coordinate of the neighbour's first row of
                 // centres.
                 let major = Real::select(is_beyond, most, side);
@@ -197,6 +186,22 @@ impl Packet<'_> {
             y,
         }
     }
+}
+
+/// The texel at or before a place on a face, and the position between its centre and the next.
+#[inline(always)]
+fn place_on_face<S: SimdLanes>(s: S, at: f32x16<S>, side: f32x16<S>) -> (f32x16<S>, f32x16<S>) {
+    let at = Real::clamp(at * side - 0.5, -0.5, side - 0.5);
+    let first = s.floor_f32(at);
+    (first, at - first)
+}
+
+/// The centres of a texel and of the next one on the cube: 2x + 1 − n, where −n and n are the edges
+/// of the face.
+#[inline(always)]
+fn centers<S: SimdLanes>(first: f32x16<S>, side: f32x16<S>) -> [f32x16<S>; 2] {
+    let first = first * 2.0 + 1.0 - side;
+    [first, first + 2.0]
 }
 
 /// The two texels between which a wrapped coordinate lies, and the position between their centres.
