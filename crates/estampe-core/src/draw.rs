@@ -306,8 +306,8 @@ impl Context {
     }
 
     /// Geometry, second half: primitives are assembled, culled, clipped, set up and binned, in
-    /// chunks whose borders do not depend on the number of threads. The chunks of a group come
-    /// behind those of the groups before; says how many they are.
+    /// chunks. Where a chunk ends changes no result: groups grow with the threads. The chunks of a
+    /// group come behind those of the groups before; says how many they are.
     fn build_chunks(
         &self,
         (batch, group): (&DrawBatch<'_>, Range<usize>),

@@ -31,8 +31,7 @@ pub struct Statistics {
     /// Of these, those that took the colours that the shader gave for other pixels of the same
     /// primitive, or of another with the same varyings, over which nothing varies.
     pub fragments_of_shared_colors: u64,
-    /// Of these, those that share packets with fragments of other small triangles; and these
-    /// packets. They depend on the SIMD level.
+    /// Fragments that share packets with those of other small triangles; and these packets. They depend on the SIMD level.
     #[doc(hidden)]
     pub fragments_across_triangles: [u64; 2],
     /// Covered pixels of small triangles that were tested as lists. They depend on the SIMD level.
