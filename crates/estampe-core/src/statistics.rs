@@ -31,7 +31,8 @@ pub struct Statistics {
     /// Of these, those that took the colours that the shader gave for other pixels of the same
     /// primitive, or of another with the same varyings, over which nothing varies.
     pub fragments_of_shared_colors: u64,
-    /// Fragments that share packets with those of other small triangles; and these packets. They depend on the SIMD level.
+    /// Fragments that share packets with those of other small triangles; and these packets. They
+    /// depend on the SIMD level.
     #[doc(hidden)]
     pub fragments_across_triangles: [u64; 2],
     /// Covered pixels of small triangles that were tested as lists. They depend on the SIMD level.
