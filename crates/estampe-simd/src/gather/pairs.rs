@@ -2,6 +2,7 @@
 #![expect(unsafe_code, reason = "the gather intrinsics take a raw pointer")]
 
 use super::last_square;
+use super::registers::divide_256;
 use fearless_simd::x86::{Avx2, Avx512};
 use fearless_simd::{Simd, SimdBase, SimdCombine, SimdInto, SimdSplit, u32x4, u32x8, u32x16};
 
@@ -94,17 +95,6 @@ pub(crate) fn square_avx2(
             _mm256_permute4x64_epi64::<0b11_01_10_00>(index.into()).simd_into(simd)
         }
     );
-    fearless_simd::kernel!(
-        #[inline(always)]
-        fn divide(simd: Avx2, first: u32x8<Avx2>, second: u32x8<Avx2>) -> [u32x8<Avx2>; 2] {
-            use core::arch::x86_64::*;
-            let a = _mm256_castsi256_ps(first.into());
-            let b = _mm256_castsi256_ps(second.into());
-            let left = _mm256_castps_si256(_mm256_shuffle_ps::<0x88>(a, b));
-            let right = _mm256_castps_si256(_mm256_shuffle_ps::<0xDD>(a, b));
-            [left.simd_into(simd), right.simd_into(simd)]
-        }
-    );
     let (low, high) = index.split();
     let (a, b) = ordered(simd, low).split();
     let (c, d) = ordered(simd, high).split();
@@ -112,8 +102,8 @@ pub(crate) fn square_avx2(
     let mut row = 0;
     while row < 2 {
         let from = rows[row];
-        let [left, right] = divide(simd, pairs(simd, from, a), pairs(simd, from, b));
-        let [left_2, right_2] = divide(simd, pairs(simd, from, c), pairs(simd, from, d));
+        let [left, right] = divide_256(simd, pairs(simd, from, a), pairs(simd, from, b));
+        let [left_2, right_2] = divide_256(simd, pairs(simd, from, c), pairs(simd, from, d));
         four[2 * row] = left.combine(left_2);
         four[2 * row + 1] = right.combine(right_2);
         row += 1;

@@ -35,3 +35,21 @@ fearless_simd::kernel!(
         _mm256_inserti128_si256::<1>(_mm256_castsi128_si256(a), b).simd_into(simd)
     }
 );
+
+fearless_simd::kernel!(
+    /// The left and the right elements of pairs, inside 128 bits: of the first register, then of
+    /// the second.
+    #[inline(always)]
+    pub(super) fn divide_256(
+        simd: Avx2,
+        first: u32x8<Avx2>,
+        second: u32x8<Avx2>,
+    ) -> [u32x8<Avx2>; 2] {
+        use core::arch::x86_64::*;
+        let a = _mm256_castsi256_ps(first.into());
+        let b = _mm256_castsi256_ps(second.into());
+        let left = _mm256_castps_si256(_mm256_shuffle_ps::<0x88>(a, b));
+        let right = _mm256_castps_si256(_mm256_shuffle_ps::<0xDD>(a, b));
+        [left.simd_into(simd), right.simd_into(simd)]
+    }
+);

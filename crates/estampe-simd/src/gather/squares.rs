@@ -2,11 +2,11 @@
 #![expect(unsafe_code, reason = "a check of each lane's index costs too much")]
 
 use super::last_square;
-use super::registers::{join_256, join_512, scalars};
+use super::registers::{divide_256, join_256, join_512, scalars};
 use crate::LANES;
 use core::arch::x86_64::{__m128i, _mm_castpd_si128, _mm_set_pd, _mm_setzero_si128};
 use fearless_simd::x86::{Avx2, Avx512, Sse2};
-use fearless_simd::{Simd, SimdBase, SimdCombine, SimdInto, u32x4, u32x8, u32x16};
+use fearless_simd::{Simd, SimdBase, SimdCombine, SimdInto, u32x4, u32x16};
 
 /// Pairs of neighbours: two lanes in each 128 bits.
 type Pairs = [__m128i; LANES / 2];
@@ -97,23 +97,12 @@ pub(crate) fn square_avx2(
     let Some(rows) = squares(simd, table, index, stride) else {
         return [u32x16::splat(simd, 0); 4];
     };
-    fearless_simd::kernel!(
-        #[inline(always)]
-        fn divide(simd: Avx2, first: u32x8<Avx2>, second: u32x8<Avx2>) -> [u32x8<Avx2>; 2] {
-            use core::arch::x86_64::*;
-            let a = _mm256_castsi256_ps(first.into());
-            let b = _mm256_castsi256_ps(second.into());
-            let left = _mm256_castps_si256(_mm256_shuffle_ps::<0x88>(a, b));
-            let right = _mm256_castps_si256(_mm256_shuffle_ps::<0xDD>(a, b));
-            [left.simd_into(simd), right.simd_into(simd)]
-        }
-    );
     let mut four = [u32x16::splat(simd, 0); 4];
     let mut row = 0;
     while row < 2 {
         let [a, b, c, d, e, f, g, h] = rows[row];
-        let [left, right] = divide(simd, join_256(simd, a, c), join_256(simd, b, d));
-        let [left_2, right_2] = divide(simd, join_256(simd, e, g), join_256(simd, f, h));
+        let [left, right] = divide_256(simd, join_256(simd, a, c), join_256(simd, b, d));
+        let [left_2, right_2] = divide_256(simd, join_256(simd, e, g), join_256(simd, f, h));
         four[2 * row] = left.combine(left_2);
         four[2 * row + 1] = right.combine(right_2);
         row += 1;
