@@ -11,6 +11,9 @@ pub trait Lanes: Simd {
     /// True if lanes are plain scalars, so that code for sixteen lanes is long.
     const IS_SCALAR: bool = false;
 
+    /// True if one register holds sixteen lanes.
+    const IN_ONE_REGISTER: bool = false;
+
     /// The SIMD level of the token.
     fn as_level(self) -> Level;
 
@@ -301,6 +304,10 @@ mod x86 {
         fn as_level(self) -> Level {
             Level::Sse2(self)
         }
+        #[inline(never)]
+        fn outline<R>(self, work: impl FnOnce() -> R) -> R {
+            work()
+        }
         #[inline(always)]
         fn min_f32(self, a: f32x16<Self>, b: f32x16<Self>) -> f32x16<Self> {
             a.min(b)
@@ -311,7 +318,7 @@ mod x86 {
         }
         /// SSE2 has no rounding instruction, and a call per lane is slow. So: truncate, subtract 1
         /// where that rounded up, keep values without a fraction, and restore the sign of zeros.
-        #[inline(always)]
+        #[inline(never)]
         fn floor_f32(self, a: f32x16<Self>) -> f32x16<Self> {
             let int = i32x16::truncate_from(a);
             let truncated = f32x16::float_from(int);
@@ -321,11 +328,11 @@ mod x86 {
             let small = a.abs().simd_lt(f32x16::splat(self, 8_388_608.0));
             small.select(floored.copysign(a), a)
         }
-        #[inline(always)]
+        #[inline(never)]
         fn gather(self, table: &[u32], index: u32x16<Self>) -> u32x16<Self> {
             crate::gather::by_lane(self, table, index)
         }
-        #[inline(always)]
+        #[inline(never)]
         fn gather_square(
             self,
             table: &[u32],
@@ -334,9 +341,13 @@ mod x86 {
         ) -> [u32x16<Self>; 4] {
             crate::gather::square_sse2(self, table, index, stride)
         }
-        #[inline(always)]
+        #[inline(never)]
         fn gather_four(self, table: &[u32], index: u32x16<Self>) -> [u32x16<Self>; 4] {
             crate::gather::four_sse2(self, table, index)
+        }
+        #[inline(never)]
+        fn permute(self, value: u32x16<Self>, order: u32x16<Self>) -> u32x16<Self> {
+            crate::permute::by_lane(self, value, order)
         }
     }
 
@@ -421,6 +432,8 @@ mod x86 {
     }
 
     impl Lanes for Avx512 {
+        const IN_ONE_REGISTER: bool = true;
+
         #[inline(always)]
         fn as_level(self) -> Level {
             Level::Avx512(self)

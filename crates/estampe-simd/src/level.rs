@@ -103,6 +103,17 @@ impl Level {
         false
     }
 
+    /// True if long code has copies for special cases at this level: at all but the scalar one and
+    /// x86-64's baseline. See the arm `@specialized_move` of [`dispatch!`](crate::dispatch!).
+    #[must_use]
+    #[inline]
+    pub fn is_specialized(self) -> bool {
+        #[cfg(target_arch = "x86_64")]
+        return !self.is_scalar() && !matches!(self, Self::Sse2(_));
+        #[cfg(not(target_arch = "x86_64"))]
+        !self.is_scalar()
+    }
+
     /// The widest level that this processor supports.
     #[must_use]
     pub fn best() -> Self {
@@ -216,6 +227,25 @@ macro_rules! dispatch {
         match $level {
             #[cfg(target_arch = "x86_64")]
             $crate::Level::Sse2(token) => $crate::dispatch!(@enter token, $simd => $op),
+            #[allow(unreachable_patterns, reason = "reached where the baseline is not the only level")]
+            other => $crate::dispatch!(@specialized other, $simd => $op, others => $scalar),
+        }
+    };
+    // The same, where what the expression uses is moved into it: two references are then passed in
+    // registers, and not by way of memory.
+    (@wide_move $level:expr, $simd:ident => $op:expr, scalar => $scalar:expr) => {
+        match $level {
+            #[cfg(target_arch = "x86_64")]
+            $crate::Level::Sse2(token) => $crate::dispatch!(@enter_move token, $simd => $op),
+            #[allow(unreachable_patterns, reason = "reached where the baseline is not the only level")]
+            other => $crate::dispatch!(@specialized_move other, $simd => $op, others => $scalar),
+        }
+    };
+    // As `@wide`, without x86-64's baseline too, for code that is compiled many times, for special
+    // cases. Processors without AVX2 are rare, and four lanes per register make code so long that
+    // this would be most of what the compiler has to do.
+    (@specialized $level:expr, $simd:ident => $op:expr, others => $others:expr) => {
+        match $level {
             #[cfg(target_arch = "x86_64")]
             $crate::Level::Avx2(token) => $crate::dispatch!(@enter token, $simd => $op),
             #[cfg(target_arch = "x86_64")]
@@ -225,15 +255,11 @@ macro_rules! dispatch {
             #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
             $crate::Level::Simd128(token) => $crate::dispatch!(@enter token, $simd => $op),
             #[allow(unreachable_patterns, reason = "reached by the scalar level, where it is built in")]
-            _ => $scalar,
+            _ => $others,
         }
     };
-    // The same, where what the expression uses is moved into it: two references are then passed in
-    // registers, and not by way of memory.
-    (@wide_move $level:expr, $simd:ident => $op:expr, scalar => $scalar:expr) => {
+    (@specialized_move $level:expr, $simd:ident => $op:expr, others => $others:expr) => {
         match $level {
-            #[cfg(target_arch = "x86_64")]
-            $crate::Level::Sse2(token) => $crate::dispatch!(@enter_move token, $simd => $op),
             #[cfg(target_arch = "x86_64")]
             $crate::Level::Avx2(token) => $crate::dispatch!(@enter_move token, $simd => $op),
             #[cfg(target_arch = "x86_64")]
@@ -243,7 +269,7 @@ macro_rules! dispatch {
             #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
             $crate::Level::Simd128(token) => $crate::dispatch!(@enter_move token, $simd => $op),
             #[allow(unreachable_patterns, reason = "reached by the scalar level, where it is built in")]
-            _ => $scalar,
+            _ => $others,
         }
     };
     (@enter_move $token:ident, $simd:ident => $op:expr) => {{

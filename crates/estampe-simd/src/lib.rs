@@ -18,6 +18,12 @@
 //! cost 5 to 14 times. `[T; N]::map`, `from_fn` and attributes on `let` closures break inlining:
 //! use loops.
 //!
+//! **x86-64's baseline is compiled for size.** It has four lanes per register and few of the
+//! instructions, so one operation of sixteen lanes is up to a hundred instructions. Gathers,
+//! permutations and [`outline!`]d kernels are functions there, and code of which there are many
+//! copies for special cases is entered by `dispatch!(@specialized …)`, which leaves it out: of
+//! sampling, two copies in place of fifteen. All the same, results are the same bits.
+//!
 //! Lane `i` of a packet is the pixel at ([`LANE_X`]`[i]`, [`LANE_Y`]`[i]`): Morton order, so that
 //! each four neighbouring lanes are one 2×2 quad and derivatives stay inside 128 bits.
 

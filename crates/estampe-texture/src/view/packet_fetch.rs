@@ -39,11 +39,11 @@ impl TexelView {
             places: [x, y, z],
         };
         match (format.components, format.kind()) {
-            (1, _) => fetch.enter::<1, OTHERS>(level, texels),
-            (_, RGBA8) => fetch.enter::<4, RGBA8>(level, texels),
-            (_, RGBA8_SRGB) => fetch.enter::<4, RGBA8_SRGB>(level, texels),
-            (_, RGBA16F) => fetch.enter::<4, RGBA16F>(level, texels),
-            _ => fetch.enter::<4, OTHERS>(level, texels),
+            (1, _) => fetch.enter::<1>(level, texels),
+            (_, RGBA8) => fetch.enter_special::<RGBA8>(level, texels),
+            (_, RGBA8_SRGB) => fetch.enter_special::<RGBA8_SRGB>(level, texels),
+            (_, RGBA16F) => fetch.enter_special::<RGBA16F>(level, texels),
+            _ => fetch.enter::<4>(level, texels),
         }
     }
 }
@@ -72,12 +72,20 @@ struct PacketFetch<'a> {
 }
 
 impl PacketFetch<'_> {
-    /// Fetches at a SIMD level; the scalar one has no packet code.
-    fn enter<const C: usize, const KIND: u8>(&self, level: Level, texels: &mut Answers) -> bool {
+    /// Fetches with the code for all formats of up to `C` channels; the scalar SIMD level has none.
+    fn enter<const C: usize>(&self, level: Level, texels: &mut Answers) -> bool {
         dispatch!(@wide_move level, s => {
-            self.fetch::<_, C, KIND>(s, texels);
+            self.fetch::<_, C, OTHERS>(s, texels);
             true
         }, scalar => false)
+    }
+
+    /// Fetches with code for one kind of format, where the SIMD level has some.
+    fn enter_special<const KIND: u8>(&self, level: Level, texels: &mut Answers) -> bool {
+        dispatch!(@specialized_move level, s => {
+            self.fetch::<_, 4, KIND>(s, texels);
+            true
+        }, others => self.enter::<4>(level, texels))
     }
 
     #[inline(always)]

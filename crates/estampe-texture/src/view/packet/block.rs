@@ -46,7 +46,7 @@ impl SampledTexture {
         if !(is_finest && has_blocks && self.is_simple) || at.is_empty() || at.len() > MOST_TAPS {
             return all;
         }
-        dispatch!(@wide_move self.level, s => {
+        dispatch!(@specialized_move self.level, s => {
             let Some(level) = BlockLevel::new(s, self, &self.view.planes[0]) else {
                 return all;
             };
@@ -61,7 +61,7 @@ impl SampledTexture {
                 }
             }
             others
-        }, scalar => all)
+        }, others => all)
     }
 
     /// Returns true if the finest level is sampled as a block; tests see by it which way a request

@@ -29,7 +29,7 @@ struct Found {
 
 impl Packet<'_> {
     /// Samples a packet with linear filtering and without offsets; returns the lanes that the
-    /// scalar code must sample again. The scalar SIMD level has no packet code.
+    /// scalar code must sample again.
     pub(super) fn enter_bytes<const KIND: u8>(
         &self,
         table: &LevelTable,
@@ -38,9 +38,9 @@ impl Packet<'_> {
         if self.of.sampler.max_anisotropy > 1 {
             return self.enter_probes::<KIND>(table, answers);
         }
-        dispatch!(@wide_move self.of.level, s => {
+        dispatch!(@specialized_move self.of.level, s => {
             self.sample_bytes::<_, KIND>(s, table, answers)
-        }, scalar => None)
+        }, others => self.enter_any(answers))
     }
 
     /// The common case. Other packets are behind a second call, so that this one keeps nothing in
@@ -81,7 +81,7 @@ impl Packet<'_> {
         found: &Found,
         answers: &mut Answers,
     ) -> Option<u32> {
-        dispatch!(@wide_move level, s => {
+        dispatch!(@specialized_move level, s => {
             let zero: f32x16<_> = SimdBase::splat(s, 0.0);
             let spots = Spots {
                 at: [load(zero, &found.at[0], 0), load(zero, &found.at[1], 0), zero],
@@ -93,7 +93,7 @@ impl Packet<'_> {
             let color = self.each_level::<_, KIND>(s, &spots, (table, mixture), &mut again);
             store::<_, KIND>(self, color, answers);
             Some(again)
-        }, scalar => None)
+        }, others => self.enter_any(answers))
     }
 
     #[inline(never)]
@@ -102,12 +102,12 @@ impl Packet<'_> {
         table: &LevelTable,
         answers: &mut Answers,
     ) -> Option<u32> {
-        dispatch!(@wide_move self.of.level, s => {
+        dispatch!(@specialized_move self.of.level, s => {
             let mut again = 0;
             let color = self.mean_of_probes::<_, KIND>(s, table, &mut again);
             store::<_, KIND>(self, color, answers);
             Some(again)
-        }, scalar => None)
+        }, others => self.enter_any(answers))
     }
 
     /// The mean of the probes along each lane's footprint.
@@ -247,7 +247,8 @@ impl SampledTexture {
             is_simple: self.is_simple,
         };
         let answers = &mut Answers::default();
-        let is_whole = request.count == LANES && request.offset == [0; 3];
-        is_whole.then(|| packet.enter_kind(answers)).flatten()
+        let is_special = self.level.is_specialized();
+        let is_bytes = is_special && request.count == LANES && request.offset == [0; 3];
+        is_bytes.then(|| packet.enter_kind(answers)).flatten()
     }
 }

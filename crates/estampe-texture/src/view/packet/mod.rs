@@ -28,8 +28,7 @@ use super::packet_texel::{OTHERS, R8, RGBA8, RGBA8_SRGB, RGBA16F, passes};
 use super::plane::Plane;
 use super::{PacketRequest, SampledTexture};
 use estampe_simd::{
-    Bytes, LANES, Lanes as SimdLanes, Level, Packet as Values, SimdBase, dispatch, f32x16, i32x16,
-    u32x16,
+    Bytes, LANES, Lanes as SimdLanes, Packet as Values, SimdBase, dispatch, f32x16, i32x16, u32x16,
 };
 use estampe_types::state::CompareFunction;
 use estampe_types::{FilterMode, Int, Real, ViewDimension};
@@ -62,7 +61,7 @@ impl SampledTexture {
         };
         // Comparisons need one channel only, and many formats have only one.
         let again = if compares.is_some() {
-            packet.enter::<1, OTHERS>(self.level, answers)
+            packet.enter::<1>(answers)
         } else {
             packet.enter_kind(answers)
         };
@@ -105,7 +104,6 @@ impl Packet<'_> {
     /// Samples the packet with the code for the kind of its format; returns the lanes that the
     /// scalar code must sample again.
     fn enter_kind(&self, answers: &mut Answers) -> Option<u32> {
-        let level = self.of.level;
         if self.lanes.offset == [0; 3]
             && let Some(table) = self.of.level_table.as_deref()
         {
@@ -117,24 +115,35 @@ impl Packet<'_> {
             };
         }
         match self.format.kind() {
-            R8 => self.enter::<1, R8>(level, answers),
-            _ if self.format.components == 1 => self.enter::<1, OTHERS>(level, answers),
-            RGBA8 => self.enter::<4, RGBA8>(level, answers),
-            RGBA8_SRGB => self.enter::<4, RGBA8_SRGB>(level, answers),
-            RGBA16F => self.enter::<4, RGBA16F>(level, answers),
-            _ => self.enter::<4, OTHERS>(level, answers),
+            R8 => self.enter_special::<1, R8>(answers),
+            RGBA8 => self.enter_special::<4, RGBA8>(answers),
+            RGBA8_SRGB => self.enter_special::<4, RGBA8_SRGB>(answers),
+            RGBA16F => self.enter_special::<4, RGBA16F>(answers),
+            _ => self.enter_any(answers),
         }
     }
 
-    /// Samples the packet at a SIMD level; returns the lanes that the scalar code must sample
-    /// again. The scalar SIMD level has no packet code.
-    fn enter<const C: usize, const KIND: u8>(
-        &self,
-        level: Level,
-        answers: &mut Answers,
-    ) -> Option<u32> {
-        dispatch!(@wide_move level, s => {
+    /// Samples the packet with code for one kind of format, where the SIMD level has some.
+    fn enter_special<const C: usize, const KIND: u8>(&self, answers: &mut Answers) -> Option<u32> {
+        dispatch!(@specialized_move self.of.level, s => {
             Some(self.sample::<_, C, KIND>(s, answers))
+        }, others => self.enter_any(answers))
+    }
+
+    /// Samples the packet with the code for all formats.
+    fn enter_any(&self, answers: &mut Answers) -> Option<u32> {
+        if self.format.components == 1 {
+            self.enter::<1>(answers)
+        } else {
+            self.enter::<4>(answers)
+        }
+    }
+
+    /// Samples the packet with the code for all formats of up to `C` channels; returns the lanes
+    /// that the scalar code must sample again. The scalar SIMD level has no packet code.
+    fn enter<const C: usize>(&self, answers: &mut Answers) -> Option<u32> {
+        dispatch!(@wide_move self.of.level, s => {
+            Some(self.sample::<_, C, OTHERS>(s, answers))
         }, scalar => None)
     }
 
