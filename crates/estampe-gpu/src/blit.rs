@@ -112,7 +112,6 @@ estampe_types::shader! {
         type Attributes<R: Real> = ();
         type Varyings<R: Real> = ();
         const READS_POSITION: bool = true;
-        const NO_DERIVATIVES: bool = true;
 
         fn vertex<R: Real>(&self, input: VertexIn<'_, R>, (): ()) -> VertexOut<R, ()> {
             // The triangle (−1, 1), (3, 1), (−1, −3) covers the whole viewport.

@@ -73,6 +73,7 @@ fn run(program: &TextCompute, width: u32, count: [u32; 3]) -> (WorkgroupOrder, [
                 ..BoundGroup::default()
             }],
             immediates: vec![7, width],
+            ..Bindings::default()
         };
         order = Some(program.order(&bindings, count));
         let total = count.iter().map(|side| u64::from(*side)).product::<u64>();

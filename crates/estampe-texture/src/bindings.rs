@@ -48,7 +48,10 @@ impl TextureBindings for Bindings {
         texture: [u32; 2],
         sampler: [u32; 2],
     ) -> Option<Arc<SampledTexture>> {
-        let bound: &BoundTexture = self.other(texture[0], texture[1])?;
-        bound.sampled(self.sampler(sampler[0], sampler[1])?)
+        let bound: Option<&BoundTexture> = self.other(texture[0], texture[1]);
+        if bound.is_none() {
+            self.miss();
+        }
+        bound?.sampled(self.sampler(sampler[0], sampler[1])?)
     }
 }

@@ -104,6 +104,7 @@ impl Rgba8Texture {
     /// quad. A single fragment (`f32`) has no differences: it reads the finest level.
     #[inline(always)]
     pub fn sample<R: Real>(&self, uv: Vec2<R>) -> Vec4<R> {
+        uv.x.takes_derivatives();
         self.request(uv, None)
     }
 
@@ -114,6 +115,7 @@ impl Rgba8Texture {
     /// and the footprint are computed once for all of them.
     #[inline(always)]
     pub fn sample_all<R: Real, const N: usize>(textures: [&Self; N], uv: Vec2<R>) -> [Vec4<R>; N] {
+        uv.x.takes_derivatives();
         let mut answers = [Answers::default(); N];
         Self::sample_all_lanes(&textures, uv, 0, &mut answers);
         let mut others = answers;

@@ -10,6 +10,7 @@ use crate::{BufferData, SamplerDescriptor, ShadowMap, StorageBuffer, StorageText
 use std::any::Any;
 use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// One resource.
 #[derive(Debug, Clone)]
@@ -83,9 +84,68 @@ pub struct Bindings {
     /// The words of the immediates (Vulkan's push constants): few bytes that are part of the draw
     /// or dispatch itself. Words beyond the end read as zeros.
     pub immediates: Vec<u32>,
+    /// What a shader's dry run reads, where nothing is bound.
+    #[doc(hidden)]
+    pub unbound: Option<Arc<Unbound>>,
+}
+
+/// What a dry run reads, and whether it asked for a resource that is not there.
+#[doc(hidden)]
+#[derive(Debug, Default)]
+pub struct Unbound {
+    /// Every word, as an integer; as a float it has the same value.
+    word: u16,
+    is_missed: AtomicBool,
+    reads_words: AtomicBool,
+}
+
+impl Unbound {
+    pub(crate) fn new(word: u16) -> Self {
+        Self {
+            word,
+            ..Self::default()
+        }
+    }
+
+    /// True if a resource was asked for that may be there in a draw.
+    pub(crate) fn is_missed(&self) -> bool {
+        self.is_missed.load(Ordering::Relaxed)
+    }
+
+    /// True if words were read.
+    pub(crate) fn reads_words(&self) -> bool {
+        self.reads_words.load(Ordering::Relaxed)
+    }
 }
 
 impl Bindings {
+    /// Notes, in a dry run, that a resource was asked for that is not bound.
+    #[doc(hidden)]
+    #[cold]
+    pub fn miss(&self) {
+        if let Some(unbound) = &self.unbound {
+            unbound.is_missed.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// The word that is read where nothing is bound.
+    #[cold]
+    fn unbound_word(&self) -> u32 {
+        self.unbound.as_ref().map_or(0, |unbound| {
+            unbound.reads_words.store(true, Ordering::Relaxed);
+            u32::from(unbound.word)
+        })
+    }
+
+    /// A resource, or nothing, which a dry run notes.
+    #[inline]
+    fn found<T>(&self, resource: Option<T>) -> Option<T> {
+        if resource.is_none() {
+            self.miss();
+        }
+        resource
+    }
+
     /// The resource at a group and binding number; `None` if nothing is bound there.
     #[inline]
     #[must_use]
@@ -137,8 +197,8 @@ impl Bindings {
         binding: u32,
         offset_bytes: u32,
     ) -> [u32; N] {
-        let Some((buffer, range)) = self.storage_buffer(group, binding) else {
-            return [0; N];
+        let Some((buffer, range)) = self.stored(group, binding) else {
+            return [self.unbound_word(); N];
         };
         let first = (range.start + offset_bytes as usize) / 4;
         std::array::from_fn(|at| buffer.load(first + at))
@@ -155,18 +215,19 @@ impl Bindings {
     /// The buffer that is only read at a group and binding number, and the bytes of the binding.
     #[must_use]
     pub fn buffer(&self, group: u32, binding: u32) -> Option<(&BufferData, Range<usize>)> {
-        match self.get(group, binding)? {
-            BoundResource::Buffer {
+        let bound = match self.get(group, binding) {
+            Some(BoundResource::Buffer {
                 buffer,
                 offset,
                 size,
                 dynamic_offset,
-            } => {
+            }) => {
                 let start = self.start(group, *offset, *dynamic_offset);
                 Some((buffer, range(start, *size, buffer.len_bytes())))
             }
             _ => None,
-        }
+        };
+        self.found(bound)
     }
 
     /// The buffer that shaders write at a group and binding number, and the bytes of the binding.
@@ -176,6 +237,10 @@ impl Bindings {
         group: u32,
         binding: u32,
     ) -> Option<(&StorageBuffer, Range<usize>)> {
+        self.found(self.stored(group, binding))
+    }
+
+    fn stored(&self, group: u32, binding: u32) -> Option<(&StorageBuffer, Range<usize>)> {
         match self.get(group, binding)? {
             BoundResource::StorageBuffer {
                 buffer,
@@ -194,7 +259,11 @@ impl Bindings {
     #[inline]
     #[must_use]
     pub fn f32s<const N: usize>(&self, group: u32, binding: u32, offset_bytes: u32) -> [f32; N] {
-        self.u32s(group, binding, offset_bytes).map(f32::from_bits)
+        let words = self.u32s(group, binding, offset_bytes);
+        if self.unbound.is_some() {
+            return words.map(|word| word as f32);
+        }
+        words.map(f32::from_bits)
     }
 
     /// `N` consecutive 32-bit signed integers of the bound buffer, as [`Bindings::u32s`].
@@ -228,7 +297,7 @@ impl Bindings {
     #[must_use]
     pub fn immediate_words<const N: usize>(&self, first_word: usize) -> [u32; N] {
         let word = |at: usize| self.immediates.get(first_word.saturating_add(at));
-        std::array::from_fn(|at| word(at).copied().unwrap_or_default())
+        std::array::from_fn(|at| word(at).copied().unwrap_or_else(|| self.unbound_word()))
     }
 
     /// The resource of a crate above this one at a group and binding number, if it is of this type.
@@ -245,29 +314,29 @@ impl Bindings {
     #[inline]
     #[must_use]
     pub fn storage_texture(&self, group: u32, binding: u32) -> Option<&StorageTexture> {
-        match self.get(group, binding)? {
-            BoundResource::StorageTexture(texture) => Some(texture),
+        self.found(match self.get(group, binding) {
+            Some(BoundResource::StorageTexture(texture)) => Some(texture),
             _ => None,
-        }
+        })
     }
 
     /// The sampler at a group and binding number.
     #[must_use]
     pub fn sampler(&self, group: u32, binding: u32) -> Option<&SamplerDescriptor> {
-        match self.get(group, binding)? {
-            BoundResource::Sampler(sampler) => Some(sampler),
+        self.found(match self.get(group, binding) {
+            Some(BoundResource::Sampler(sampler)) => Some(sampler),
             _ => None,
-        }
+        })
     }
 
     /// The shadow map at a group and binding number.
     #[inline]
     #[must_use]
     pub fn shadow_map(&self, group: u32, binding: u32) -> Option<&ShadowMap> {
-        match self.get(group, binding)? {
-            BoundResource::ShadowMap(texture) => Some(texture),
+        self.found(match self.get(group, binding) {
+            Some(BoundResource::ShadowMap(texture)) => Some(texture),
             _ => None,
-        }
+        })
     }
 }
 

@@ -17,6 +17,7 @@ mod bind_group_layout;
 pub mod bindings;
 pub mod buffer;
 mod depth_minmax;
+mod derivatives;
 pub mod format;
 mod int;
 mod limits;

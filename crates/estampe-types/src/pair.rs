@@ -10,9 +10,9 @@ use std::ops::{
 
 /// Two numbers (or masks) side by side; the lanes of the first come before those of the second.
 ///
-/// Each operation is done on both halves, which do not depend on each other. In a long loop in
-/// which each operation depends on the previous one, a single packet leaves most of the processor's
-/// execution units idle; see [`Shader::PAIR_PACKETS`](crate::Shader::PAIR_PACKETS).
+/// Each operation is done on both halves, which do not depend on each other. Where each operation
+/// depends on the previous one, a single packet leaves most of the processor's execution units
+/// idle. So fragments are shaded two packets at a time where one register holds a packet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair<T>(pub T, pub T);
 

@@ -191,24 +191,29 @@ impl Real for Quad {
     }
     #[inline(always)]
     fn ddx(self) -> Self {
+        self.takes_derivatives();
         let [a, b, c, d] = self.0;
         Self([b - a, b - a, d - c, d - c])
     }
     #[inline(always)]
     fn ddy(self) -> Self {
+        self.takes_derivatives();
         let [a, b, c, d] = self.0;
         Self([c - a, d - b, c - a, d - b])
     }
     #[inline(always)]
     fn ddx_coarse(self) -> Self {
+        self.takes_derivatives();
         Self([self.0[1] - self.0[0]; 4])
     }
     #[inline(always)]
     fn ddy_coarse(self) -> Self {
+        self.takes_derivatives();
         Self([self.0[2] - self.0[0]; 4])
     }
     #[inline(always)]
     fn quad_lane(self, index: u8) -> Self {
+        self.takes_derivatives();
         Self([self.0[usize::from(index & 3)]; 4])
     }
     #[inline(always)]

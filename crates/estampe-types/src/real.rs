@@ -211,6 +211,14 @@ pub trait Real:
         debug_assert!(false, "{misuse}");
     }
 
+    /// Called where something depends on the quad's derivatives without taking them of a number: a
+    /// texture's level of detail. The dry run records it.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn takes_derivatives(self) {
+        crate::derivatives::note();
+    }
+
     /// One lane's value; `index` is below [`Real::LANES`].
     fn lane(self, index: usize) -> f32;
     /// A number of the same kind, whose lanes are computed from their index.

@@ -89,6 +89,7 @@ impl<S: Lanes> Real for f32x16<S> {
     }
     #[inline(always)]
     fn ddx(self) -> Self {
+        self.takes_derivatives();
         // Lanes 0 1 2 3 of each quad: (1 − 0) in both lanes of the upper row, (3 − 2) in the lower.
         let left = self.swizzle_dyn_within_blocks(quad_bytes(token(self), [0, 0, 2, 2]));
         let right = self.swizzle_dyn_within_blocks(quad_bytes(token(self), [1, 1, 3, 3]));
@@ -96,20 +97,24 @@ impl<S: Lanes> Real for f32x16<S> {
     }
     #[inline(always)]
     fn ddy(self) -> Self {
+        self.takes_derivatives();
         let upper = self.swizzle_dyn_within_blocks(quad_bytes(token(self), [0, 1, 0, 1]));
         let lower = self.swizzle_dyn_within_blocks(quad_bytes(token(self), [2, 3, 2, 3]));
         lower - upper
     }
     #[inline(always)]
     fn ddx_coarse(self) -> Self {
+        self.takes_derivatives();
         self.quad_lane(1) - self.quad_lane(0)
     }
     #[inline(always)]
     fn ddy_coarse(self) -> Self {
+        self.takes_derivatives();
         self.quad_lane(2) - self.quad_lane(0)
     }
     #[inline(always)]
     fn quad_lane(self, index: u8) -> Self {
+        self.takes_derivatives();
         self.swizzle_dyn_within_blocks(quad_bytes(token(self), [index & 3; 4]))
     }
     #[inline(never)]

@@ -22,7 +22,6 @@ estampe::shader! {
     impl Shader for VertexColor {
         type Attributes<R: Real> = (Vec3<R>, Vec4<R>); // position, colour
         type Varyings<R: Real> = Vec4<R>;              // colour
-        const COLOR_PASSTHROUGH: bool = true;
 
         fn vertex<R: Real>(
             &self,

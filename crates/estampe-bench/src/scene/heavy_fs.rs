@@ -32,7 +32,6 @@ estampe::shader! {
     impl Shader for Field {
         type Attributes<R: Real> = Vec2<R>; // position
         type Varyings<R: Real> = ();
-        const PAIR_PACKETS: bool = true;
 
         fn vertex<R: Real>(&self, input: VertexIn<'_, R>, at: Vec2<R>) -> VertexOut<R, ()> {
             let position = Vec4::new(at.x, at.y, input.real(0.5), input.real(1.0));

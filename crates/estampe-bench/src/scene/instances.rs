@@ -28,7 +28,6 @@ estampe::shader! {
     impl Shader for Lambert {
         type Attributes<R: Real> = (Vec3<R>, Vec3<R>); // position, normal
         type Varyings<R: Real> = Vec3<R>;              // normal
-        const NO_DERIVATIVES: bool = true;
 
         fn vertex<R: Real>(
             &self,

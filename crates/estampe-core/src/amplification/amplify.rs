@@ -39,6 +39,7 @@ const WAVE_WORDS: usize = 1 << 24;
 
 /// Bindings of draws that have none.
 static NO_BINDINGS: Bindings = Bindings {
+    unbound: None,
     groups: Vec::new(),
     immediates: Vec::new(),
 };

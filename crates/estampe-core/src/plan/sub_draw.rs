@@ -13,6 +13,7 @@ use estampe_types::Bindings;
 
 /// Bindings of draws that have none.
 static NO_BINDINGS: Bindings = Bindings {
+    unbound: None,
     groups: Vec::new(),
     immediates: Vec::new(),
 };

@@ -53,6 +53,7 @@ fn run(device: &Device, dispatch: &Dispatch<'_>) -> Result<(), DispatchErrorKind
     let bindings = Bindings {
         groups,
         immediates: immediate_words(dispatch.immediates),
+        ..Bindings::default()
     };
     let program = &**dispatch.pipeline.program();
     let stopped = run_workgroups(device, program, &bindings, count);

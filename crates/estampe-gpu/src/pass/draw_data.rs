@@ -112,6 +112,7 @@ impl DrawData {
                     data.bindings.push(Bindings {
                         groups,
                         immediates: immediate_words(draw.immediates),
+                        ..Bindings::default()
                     });
                     data.bindings.len() - 1
                 });

@@ -13,14 +13,16 @@ use estampe::{
 /// A triangle over the target, whose fragments do what the field says.
 struct Doing(Does);
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Does {
     /// Discards the left half, which the window position tells.
     DiscardLeft,
     /// Sets depth ¼ in the left half.
     NearLeft,
-    /// Discards everything if a uniform is 1.
-    DiscardIfBound,
+    /// Discards everything if the uniform is this.
+    DiscardIf(f32),
+    /// Takes a derivative if the uniform is 6.
+    DeriveIfSix,
     /// Sets the colour of a target.
     Color(usize),
 }
@@ -42,10 +44,13 @@ estampe::shader! {
                 Does::NearLeft => {
                     white.with_depth(R::select(is_left, input.real(0.25), input.position.z))
                 }
-                Does::DiscardIfBound if input.bindings.f32s(0, 0, 0) == [1.0] => {
+                Does::DiscardIf(number) if input.bindings.f32s(0, 0, 0) == [number] => {
                     white.discard_unless(input.position.x.lt(0.0))
                 }
-                Does::DiscardIfBound => white,
+                Does::DeriveIfSix if input.bindings.f32s(0, 0, 0) == [6.0] => {
+                    FragmentOut::color(Vec4::repeat(input.position.x.ddx()))
+                }
+                Does::DiscardIf(_) | Does::DeriveIfSix => white,
                 Does::Color(index) => white.with_color(index, Vec4::repeat(input.zero)),
             }
         }
@@ -156,7 +161,33 @@ fn a_contradiction_is_an_error_of_the_pipeline() {
     );
 }
 
-/// Fragments are discarded where a uniform is 1, which the dry run cannot know.
+#[test]
+fn what_small_numbers_in_bindings_decide_is_found() {
+    let device = device(Level::best());
+    for number in [0.0, 1.0, 2.0, 3.0] {
+        let does = Does::DiscardIf(number);
+        assert_eq!(drawn(&device, does, 1.0, number), [0; 16], "{number}");
+        assert_eq!(drawn(&device, does, 1.0, 6.0), [255; 16], "{number}");
+    }
+}
+
+/// Derivatives that neither the dry run finds nor a constant declares.
+#[test]
+#[cfg_attr(
+    debug_assertions,
+    should_panic(
+        expected = "the fragment takes derivatives, which it did not do with nothing bound; set \
+                    TAKES_DERIVATIVES of the shader"
+    )
+)]
+fn derivatives_that_bindings_decide_stop_debug_builds() {
+    let device = device(Level::best());
+    assert_eq!(drawn(&device, Does::DeriveIfSix, 1.0, 0.0), [255; 16]);
+    let columns = drawn(&device, Does::DeriveIfSix, 1.0, 6.0);
+    assert_eq!(columns.len(), 16, "undefined numbers, but no others");
+}
+
+/// Fragments are discarded where a uniform is 6, which the dry run cannot know.
 #[test]
 #[cfg_attr(
     debug_assertions,
@@ -167,8 +198,8 @@ fn a_contradiction_is_an_error_of_the_pipeline() {
 )]
 fn an_output_that_bindings_decide_stops_debug_builds_and_has_no_effect_in_others() {
     let device = device(Level::best());
-    assert_eq!(drawn(&device, Does::DiscardIfBound, 1.0, 0.0), [255; 16]);
-    assert_eq!(drawn(&device, Does::DiscardIfBound, 1.0, 1.0), [255; 16]);
+    assert_eq!(drawn(&device, Does::DiscardIf(6.0), 1.0, 0.0), [255; 16]);
+    assert_eq!(drawn(&device, Does::DiscardIf(6.0), 1.0, 6.0), [255; 16]);
 }
 
 /// All targets of the pipeline, and zeros in those that the shader does not set.

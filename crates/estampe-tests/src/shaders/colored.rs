@@ -12,7 +12,6 @@ estampe_types::shader! {
     impl Shader for Colored {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Vec4<R>;
-        const COLOR_PASSTHROUGH: bool = true;
 
         fn vertex<R: Real>(
             &self,
@@ -37,7 +36,6 @@ estampe_types::shader! {
     impl Shader for Halved {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Vec4<R>;
-        const NO_DERIVATIVES: bool = true;
 
         fn vertex<R: Real>(
             &self,
@@ -63,7 +61,6 @@ estampe_types::shader! {
     impl Shader for FlatColored {
         type Attributes<R: Real> = (Vec4<R>, Vec4<R>);
         type Varyings<R: Real> = Flat<Vec4<R>>;
-        const NO_DERIVATIVES: bool = true;
 
         fn vertex<R: Real>(
             &self,

@@ -101,6 +101,14 @@ pub enum Lod<R: Real> {
     Gradients(Vec3<R>, Vec3<R>),
 }
 
+impl<R: Real> Lod<R> {
+    /// Returns true if it comes from the differences within quads.
+    #[inline(always)]
+    pub(super) fn takes_derivatives(&self) -> bool {
+        matches!(self, Self::Implicit | Self::Bias(_))
+    }
+}
+
 /// Sample results of up to sixteen lanes, one packet per channel. Each packet is a cache line, so
 /// that a register of sixteen lanes is stored and loaded at once.
 pub(crate) type Answers = [Packet<f32>; 4];

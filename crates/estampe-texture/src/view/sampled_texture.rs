@@ -149,6 +149,7 @@ impl SampledTexture {
     /// Samples with the level of detail of the quad (`textureSample`).
     #[inline(always)]
     pub fn sample<R: Real>(&self, at: impl TextureCoordinates<R>) -> Vec4<R> {
+        at.coordinates().uvw.x.takes_derivatives();
         if let Some(common) = &self.common {
             let uvw = at.coordinates().uvw;
             return common.sample(Vec2::new(uvw.x, uvw.y));
@@ -174,6 +175,7 @@ impl SampledTexture {
         textures: [&Self; N],
         at: impl TextureCoordinates<R>,
     ) -> [Vec4<R>; N] {
+        at.coordinates().uvw.x.takes_derivatives();
         if let Some(common) = all_common(&textures) {
             let uvw = at.coordinates().uvw;
             return Rgba8Texture::sample_all(common, Vec2::new(uvw.x, uvw.y));
@@ -220,6 +222,9 @@ impl SampledTexture {
         offset: [i32; 3],
     ) -> Vec4<R> {
         let at = at.coordinates();
+        if lod.takes_derivatives() {
+            at.uvw.x.takes_derivatives();
+        }
         by_sixteen(
             at.uvw.x,
             #[inline(always)]
@@ -284,6 +289,9 @@ impl SampledTexture {
         offset: [i32; 2],
     ) -> R {
         let at = at.coordinates();
+        if lod.takes_derivatives() {
+            reference.takes_derivatives();
+        }
         if let Some(depths) = self.depths.as_ref().filter(|_| offset == [0; 2]) {
             return sample_compare_level(depths, Vec2::new(at.uvw.x, at.uvw.y), reference);
         }

@@ -4,7 +4,7 @@
 //! has no effect, and debug builds stop here.
 
 use super::vertex::VertexOut;
-use crate::{FragmentOut, Interface, Real, Shader};
+use crate::{FragmentOut, Interface, Real, Shader, derivatives};
 
 /// Asserts, in debug builds, that the interface has the outputs of a vertex.
 #[inline(always)]
@@ -62,6 +62,19 @@ pub(super) fn assert_fragment<T: Shader, R: Real>(interface: &Interface, out: &F
         "the fragment sets its depth",
         "DEPTH_OUTPUT",
     );
+}
+
+/// Asserts, in debug builds, that no derivatives were taken where the interface says that none are.
+#[inline(always)]
+pub(super) fn assert_derivatives<T: Shader>(interface: &Interface) {
+    if T::ASSERTS_OUTPUTS {
+        let were_taken = derivatives::were_taken();
+        assert_found(
+            !(were_taken && interface.no_derivatives),
+            "the fragment takes derivatives",
+            "TAKES_DERIVATIVES",
+        );
+    }
 }
 
 #[inline(always)]

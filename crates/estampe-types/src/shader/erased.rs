@@ -1,11 +1,11 @@
 //! Type erasure: a Rust shader behind the [`Program`] interface.
 
-use super::declaration::{assert_fragment, assert_vertex};
+use super::declaration::{assert_derivatives, assert_fragment, assert_vertex};
 use super::packets::{PacketSink, PacketSource, Packets};
 use super::{Attributes, DepthOutput, Varyings, interface_of, scalar};
 use crate::{
     Bindings, FragmentBatch, FragmentIn, Interface, Pair, Program, Real, Shader, ShaderError, Vec4,
-    VertexBatch, VertexIn,
+    VertexBatch, VertexIn, derivatives,
 };
 use estampe_simd::{Bytes, Lanes, Level, Packet, SimdBase, dispatch, f32x16, i32x16, u32x16};
 
@@ -64,8 +64,23 @@ impl<T: Shader> Program for ShaderProgram<T> {
     }
 
     fn run_fragments(&self, level: Level, bindings: &Bindings, batch: FragmentBatch<'_>) {
+        dispatch!(@wide level, s => self.fragments_of(s, bindings, batch),
+            scalar => scalar::fragments(&self.shader, &self.interface, bindings, batch));
+    }
+}
+
+#[cfg(test)]
+impl<T: Shader> ShaderProgram<T> {
+    /// Shades packets of fragments two at a time at each level that has packets, or one at a time.
+    pub(crate) fn run_fragments_by(
+        &self,
+        pairs: bool,
+        level: Level,
+        bindings: &Bindings,
+        batch: FragmentBatch<'_>,
+    ) {
         dispatch!(@wide level, s => {
-            if T::PAIR_PACKETS {
+            if pairs {
                 self.fragments::<_, Pair<f32x16<_>>>(s, bindings, batch);
             } else {
                 self.fragments::<_, f32x16<_>>(s, bindings, batch);
@@ -108,6 +123,17 @@ impl<T: Shader> ShaderProgram<T> {
                     distance.unwrap_or(input.zero).store_array(&mut to.0);
                 }
             }
+        }
+    }
+
+    /// Shades two packets at a time where a register holds a packet, so that the operations of one
+    /// run while those of the other wait for their operands; else one after the other.
+    #[inline(always)]
+    fn fragments_of<S: Lanes>(&self, simd: S, bindings: &Bindings, batch: FragmentBatch<'_>) {
+        if const { S::IN_ONE_REGISTER } {
+            self.fragments::<_, Pair<f32x16<S>>>(simd, bindings, batch);
+        } else {
+            self.fragments::<_, f32x16<S>>(simd, bindings, batch);
         }
     }
 
@@ -156,8 +182,10 @@ impl<T: Shader> ShaderProgram<T> {
                 zero,
             };
             let left = packets.map(|packet| &batch.varyings[packet * varyings..][..varyings]);
+            derivatives::were_taken();
             let loaded = T::Varyings::load(&mut PacketSource { simd, left });
             let out = self.shader.fragment(input, loaded);
+            assert_derivatives::<T>(interface);
             assert_fragment::<T, _>(interface, &out);
             for index in 0..targets {
                 let at = packets.map(|packet| (packet * outputs + index) * 4);

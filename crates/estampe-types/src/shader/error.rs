@@ -32,10 +32,6 @@ pub enum ShaderError {
         /// The index of the distance.
         index: usize,
     },
-    /// `NO_DERIVATIVES` is set, and the fragment takes derivatives.
-    Derivatives,
-    /// `COLOR_PASSTHROUGH` is set, and the fragment does more than that.
-    NoPassthrough,
     /// A tessellation shader makes no control points, or too many.
     ControlPoints {
         /// The constant `CONTROL_POINTS`.
@@ -80,15 +76,6 @@ impl fmt::Display for ShaderError {
                 f,
                 "the vertex sets cull distance {index} (with_cull_distance); they are 0 to \
                  {last_distance}"
-            ),
-            Self::Derivatives => f.write_str(
-                "the shader sets NO_DERIVATIVES (or COLOR_PASSTHROUGH), but its fragment takes \
-                 derivatives, or samples a texture whose level of detail comes from them; remove \
-                 the constant",
-            ),
-            Self::NoPassthrough => f.write_str(
-                "the shader sets COLOR_PASSTHROUGH, but its fragment does more than return the \
-                 first four scalars of its varyings as its one colour; remove the constant",
             ),
             Self::ControlPoints { count } => write!(
                 f,

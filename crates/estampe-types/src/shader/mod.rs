@@ -87,31 +87,29 @@ use crate::{BindGroupLayout, Bindings, Real, Vec2, Vec4};
 ///
 /// The dry run is done with the shader's own value, so branches on its fields are those that will
 /// be taken. Branches on masks ([`Real::any`], [`Real::all`]) are tried both ways. Nothing is
-/// bound. **A use that depends on bindings must be declared** by the constant of that use:
-/// `COLOR_TARGETS`, `DISCARDS`, `DEPTH_OUTPUT`, `READS_POSITION`, `PER_SAMPLE`, `READS_COVERAGE`,
-/// `WRITES_SAMPLE_MASK`, `STORES`, `DUAL_SOURCE`, `WRITES_POINT_SIZE`, `CLIP_DISTANCES` and
+/// bound, and numbers from bindings are tried as 0, 1, 2 and 3. **A use that depends on bindings
+/// otherwise must be declared** by the constant of that use: `COLOR_TARGETS`, `DISCARDS`,
+/// `DEPTH_OUTPUT`, `READS_POSITION`, `PER_SAMPLE`, `READS_COVERAGE`, `WRITES_SAMPLE_MASK`,
+/// `STORES`, `DUAL_SOURCE`, `TAKES_DERIVATIVES`, `WRITES_POINT_SIZE`, `CLIP_DISTANCES` and
 /// `CULL_DISTANCES`. They widen what is found, and never narrow it. A declared use that does not
 /// happen costs some time.
 ///
 /// An output that is neither found nor declared has no effect, and stops a debug build with a
-/// sentence that names the constant. An input that is neither reads as zeros. A shader that sets a
-/// colour or a distance beyond the limit, breaks a promise, or panics in its dry run is refused
-/// when a pipeline is created, with a [`ShaderError`].
+/// sentence that names the constant; derivatives that are neither are undefined, and stop it too.
+/// An input that is neither reads as zeros. A shader that sets a colour or a distance beyond the
+/// limit, or panics in its dry run, is refused when a pipeline is created, with a [`ShaderError`].
 ///
-/// # Promises for speed
+/// # What makes shaders fast
 ///
-/// Three constants cannot be found, and save time:
+/// The dry run also finds what saves time, and no constant promises it:
 ///
-/// | constant | the promise |
-/// |---|---|
-/// | `NO_DERIVATIVES` | no derivatives, neither explicit nor those of textures |
-/// | `COLOR_PASSTHROUGH` | the colour is the first four scalars of the varyings |
-/// | `PAIR_PACKETS` | none: the results are the same |
+/// * Fragments that take **no derivatives**, neither explicit nor those of textures, are shaded
+///   without their quads, so that those of several small triangles share a packet.
+/// * If the one colour of a fragment is the first four scalars of its varyings **as they are**, the
+///   shader is not called at all.
 ///
-/// The dry run checks both promises, as far as they show without bindings: it records derivatives
-/// and compares a fragment with itself beside other neighbours, and it passes sixteen colours.
-/// A broken promise is a [`ShaderError`]. One that only bindings break is not noticed: derivatives
-/// are then undefined, and the colour is that of the varyings.
+/// Both hold only of a body that branches on no mask, looks at no single lane, as sampling a
+/// texture does, and does not ask [`Bindings`] for a resource that may be missing.
 pub trait Shader: Send + Sync + 'static {
     /// Attributes that a vertex reads, at location 0, 1, … in order: a number, a vector, a tuple of
     /// up to six of those, or a struct of [`attributes!`](crate::attributes).
@@ -148,6 +146,9 @@ pub trait Shader: Send + Sync + 'static {
     /// pixels are shaded: each pixel has texels of its own. Without the promise, a pass with this
     /// shader is drawn by one thread, so that its bits do not depend on threads.
     const STORES_IN_ANY_ORDER: bool = false;
+    /// Declares that the fragment may take derivatives ([`Real::ddx`]), or sample a texture whose
+    /// level of detail comes from them.
+    const TAKES_DERIVATIVES: bool = false;
     /// Declares that the fragment may set a second colour for blending
     /// ([`FragmentOut::with_second_color`]). It then has one target.
     const DUAL_SOURCE: bool = false;
@@ -158,19 +159,6 @@ pub trait Shader: Send + Sync + 'static {
     const CLIP_DISTANCES: usize = 0;
     /// Declares at least this many cull distances ([`VertexOut::with_cull_distance`]), at most 8.
     const CULL_DISTANCES: usize = 0;
-
-    /// Promises that the fragment only returns the first four scalars of its varyings as its
-    /// colour. The pipeline then need not call the shader.
-    const COLOR_PASSTHROUGH: bool = false;
-    /// Promises that the shader takes no derivatives, and samples no texture whose level of detail
-    /// comes from them. Fragments of several small triangles are then shaded in one packet without
-    /// their quads, and neighbouring lanes may belong to other triangles.
-    const NO_DERIVATIVES: bool = Self::COLOR_PASSTHROUGH;
-    /// If set, fragments are shaded two packets at a time ([`Pair`](crate::Pair)). This changes no
-    /// result. It pays for long chains of operations that depend on each other, such as the steps
-    /// of a ray, because the chains of the two packets overlap. Both packets stay in a loop until
-    /// the last lane of both is done. A short shader only runs out of registers.
-    const PAIR_PACKETS: bool = false;
 
     /// If set, outputs that the interface lacks stop the program; [`shader!`](macro@crate::shader)
     /// sets it in debug builds of the shader's crate.

@@ -3,10 +3,11 @@
 //! Sixteen emulated lanes would give the same bits, but the compiler took three minutes for one
 //! sampled texture that way, and takes two seconds this way.
 
-use super::declaration::{assert_fragment, assert_vertex};
+use super::declaration::{assert_derivatives, assert_fragment, assert_vertex};
 use super::{Attributes, DepthOutput, Sink, Source, Varyings};
 use crate::{
     Bindings, FragmentBatch, FragmentIn, Interface, Quad, Shader, Vec4, VertexBatch, VertexIn,
+    derivatives,
 };
 use estampe_simd::Packet;
 
@@ -98,7 +99,9 @@ pub(super) fn fragments<T: Shader>(
                 zero,
             };
             let loaded = T::Varyings::load(&mut QuadSource { left: from, lane });
+            derivatives::were_taken();
             let out = shader.fragment(input, loaded);
+            assert_derivatives::<T>(interface);
             assert_fragment::<T, _>(interface, &out);
             let (of_targets, second) = colors.split_at_mut(targets * 4);
             for (color, to) in out.colors.iter().zip(of_targets.chunks_exact_mut(4)) {

@@ -360,9 +360,7 @@ macro_rules! __shader_constant {
     (STORES $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
     (STORES_IN_ANY_ORDER $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
     (DUAL_SOURCE $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
-    (COLOR_PASSTHROUGH $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
-    (NO_DERIVATIVES $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
-    (PAIR_PACKETS $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
+    (TAKES_DERIVATIVES $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
     (WRITES_POINT_SIZE $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
     (CLIP_DISTANCES $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };
     (CULL_DISTANCES $($rest:tt)*) => { $crate::__shader_constant! { @trait $($rest)* } };

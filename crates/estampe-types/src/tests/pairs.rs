@@ -48,44 +48,39 @@ fn tables_are_read_by_both() {
     assert_eq!(index.gather(&table).lane(6), 49);
 }
 
-/// A shader that uses all inputs and writes all outputs, one packet or two at a time.
-macro_rules! steps_towards_one {
-    ($name:ident, $pair_packets:literal) => {
-        struct $name;
-        shader! {
-            impl Shader for $name {
-                type Attributes<R: Real> = Vec2<R>;
-                type Varyings<R: Real> = Vec2<R>;
-                const PAIR_PACKETS: bool = $pair_packets;
+/// A shader that uses all inputs and writes all outputs.
+struct StepsTowardsOne;
 
-                fn vertex<R: Real>(&self, input: VertexIn<'_, R>, at: Vec2<R>) -> VertexOut<R, Vec2<R>> {
-                    VertexOut::new(Vec4::new(at.x, at.y, input.real(0.0), input.real(1.0)), at)
-                }
+shader! {
+    impl Shader for StepsTowardsOne {
+        type Attributes<R: Real> = Vec2<R>;
+        type Varyings<R: Real> = Vec2<R>;
 
-                fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, at: Vec2<R>) -> FragmentOut<R> {
-                    let mut x = at.x;
-                    for _ in 0..64 {
-                        let below = x.lt(x.splat(1.0));
-                        if !R::any(below) {
-                            break;
-                        }
-                        x = R::select(below, x + at.y, x);
-                    }
-                    let second = R::select(input.front_facing, input.position.x, x.ddx());
-                    FragmentOut::color(Vec4::new(x, at.x, at.y, second))
-                        .with_color(1, input.position)
-                        .with_depth(x * 0.25)
-                        .discard_unless(second.gt(x - 0.7))
-                }
-            }
+        fn vertex<R: Real>(&self, input: VertexIn<'_, R>, at: Vec2<R>) -> VertexOut<R, Vec2<R>> {
+            VertexOut::new(Vec4::new(at.x, at.y, input.real(0.0), input.real(1.0)), at)
         }
-    };
-}
-steps_towards_one!(OneByOne, false);
-steps_towards_one!(ByPairs, true);
 
-/// The coverage and the output bits of a program for some packets.
-fn shade(program: &dyn Program, level: Level, count: usize) -> (Vec<u16>, Vec<u32>) {
+        fn fragment<R: Real>(&self, input: FragmentIn<'_, R>, at: Vec2<R>) -> FragmentOut<R> {
+            let mut x = at.x;
+            for _ in 0..64 {
+                let below = x.lt(x.splat(1.0));
+                if !R::any(below) {
+                    break;
+                }
+                x = R::select(below, x + at.y, x);
+            }
+            let second = R::select(input.front_facing, input.position.x, x.ddx());
+            FragmentOut::color(Vec4::new(x, at.x, at.y, second))
+                .with_color(1, input.position)
+                .with_depth(x * 0.25)
+                .discard_unless(second.gt(x - 0.7))
+        }
+    }
+}
+
+/// The coverage and the output bits for some packets: shaded by pairs, one by one, or as the level
+/// does.
+fn shade(pairs: Option<bool>, level: Level, count: usize) -> (Vec<u16>, Vec<u32>) {
     let numbers = |scalars: usize| -> Vec<Packet<f32>> {
         let number = |n: usize| (n * 7919 % 1009) as f32 / 1024.0 + 0.015_625;
         (0..count * scalars)
@@ -98,19 +93,21 @@ fn shade(program: &dyn Program, level: Level, count: usize) -> (Vec<u16>, Vec<u3
     let front_facing: Vec<u16> = (0..count)
         .map(|packet| 0x35A7_u16.rotate_left(packet as u32))
         .collect();
-    program.run_fragments(
-        level,
-        &Bindings::default(),
-        FragmentBatch {
-            varyings: &numbers(2),
-            positions: &numbers(4),
-            front_facing: &front_facing,
-            coverage: &mut coverage,
-            colors: &mut colors,
-            depths: &mut depths,
-            ..FragmentBatch::default()
-        },
-    );
+    let program = ShaderProgram::new(StepsTowardsOne);
+    let bindings = Bindings::default();
+    let batch = FragmentBatch {
+        varyings: &numbers(2),
+        positions: &numbers(4),
+        front_facing: &front_facing,
+        coverage: &mut coverage,
+        colors: &mut colors,
+        depths: &mut depths,
+        ..FragmentBatch::default()
+    };
+    match pairs {
+        Some(pairs) => program.run_fragments_by(pairs, level, &bindings, batch),
+        None => program.run_fragments(level, &bindings, batch),
+    }
     let bits = colors
         .iter()
         .chain(&depths)
@@ -121,20 +118,16 @@ fn shade(program: &dyn Program, level: Level, count: usize) -> (Vec<u16>, Vec<u3
 
 #[test]
 fn two_packets_at_a_time_give_the_bits_of_one() {
-    let (one, two) = (ShaderProgram::new(OneByOne), ShaderProgram::new(ByPairs));
     for count in [0, 1, 2, 5] {
-        let expected = shade(&one, Level::all_available()[0], count);
+        let expected = shade(Some(false), Level::all_available()[0], count);
         for level in Level::all_available() {
-            assert_eq!(
-                shade(&one, level, count),
-                expected,
-                "{count} packets one by one at {level:?}"
-            );
-            assert_eq!(
-                shade(&two, level, count),
-                expected,
-                "{count} packets by pairs at {level:?}"
-            );
+            for pairs in [Some(false), Some(true), None] {
+                assert_eq!(
+                    shade(pairs, level, count),
+                    expected,
+                    "{count} packets at {level:?}, by pairs: {pairs:?}"
+                );
+            }
         }
         if count == 5 {
             let all: Vec<u16> = (0..5).map(|packet| 0xFFFF >> packet).collect();

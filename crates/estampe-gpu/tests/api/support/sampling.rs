@@ -19,7 +19,6 @@ estampe::shader! {
     impl Shader for Turned {
         type Attributes<R: Real> = ();
         type Varyings<R: Real> = Vec2<R>;
-        const NO_DERIVATIVES: bool = true;
 
         fn vertex<R: Real>(&self, input: VertexIn<'_, R>, (): ()) -> VertexOut<R, Vec2<R>> {
             let at: Vec2<R> = covering(&input);

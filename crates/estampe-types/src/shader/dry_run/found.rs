@@ -10,6 +10,8 @@ pub(super) struct Found {
     pub(super) facts: Facts,
     pub(super) color_targets: usize,
     pub(super) second_color: bool,
+    /// A run's colour is something else than the first four scalars of the varyings.
+    pub(super) changes_color: bool,
     pub(super) discards: bool,
     pub(super) sample_mask: bool,
     pub(super) depth: bool,
@@ -18,7 +20,12 @@ pub(super) struct Found {
     pub(super) point_size: bool,
     pub(super) clip_distances: usize,
     pub(super) cull_distances: usize,
+    /// A run read words of bindings.
+    pub(super) reads_words: bool,
 }
+
+/// Words of bindings are read as 0, 1, … in turn, fewer than this.
+const WORDS: u16 = 4;
 
 impl Found {
     /// The findings of all runs. A panic is an error of the shader only if the answers were
@@ -32,15 +39,27 @@ impl Found {
         } else {
             &[Answers::True]
         };
-        for &answers in ways {
-            let vertex = runs::vertex(shader, answers);
-            let fragment = runs::fragment(shader, answers, &varyings).map(|(found, _)| found);
-            for run in [vertex, fragment] {
-                match run {
-                    Ok(found) => all = all.and(found),
-                    Err(ShaderError::Panicked { .. }) if answers != Answers::True => {}
-                    Err(error) => return Err(error),
+        for word in 0..WORDS {
+            for &answers in ways {
+                let vertex = runs::vertex(shader, answers, word);
+                let fragment = runs::fragment(shader, answers, word, &varyings);
+                for run in [vertex, fragment] {
+                    match run {
+                        Ok(found) => all = all.and(found),
+                        // A body may rely on what holds, and on what is bound.
+                        Err(ShaderError::Panicked { .. })
+                            if answers != Answers::True || word != 0 => {}
+                        Err(error) => return Err(error),
+                    }
                 }
+            }
+            if !all.reads_words {
+                break;
+            }
+            if ways.len() == 1 {
+                // The other words cannot be tried.
+                all.facts = all.facts.and(Facts::UNKNOWN);
+                break;
             }
         }
         Ok(all)
@@ -51,6 +70,7 @@ impl Found {
             facts: self.facts.and(other.facts),
             color_targets: self.color_targets.max(other.color_targets),
             second_color: self.second_color | other.second_color,
+            changes_color: self.changes_color | other.changes_color,
             discards: self.discards | other.discards,
             sample_mask: self.sample_mask | other.sample_mask,
             depth: self.depth | other.depth,
@@ -58,6 +78,7 @@ impl Found {
             point_size: self.point_size | other.point_size,
             clip_distances: self.clip_distances.max(other.clip_distances),
             cull_distances: self.cull_distances.max(other.cull_distances),
+            reads_words: self.reads_words | other.reads_words,
         }
     }
 
@@ -70,7 +91,17 @@ impl Found {
         // A fragment that does not set the depth keeps the interpolated one.
         let keeps_depth = depth_output != DepthOutput::None && self.no_depth;
         let reads = |input| self.facts.has(input);
+        let no_derivatives = !reads(Facts::DERIVATIVES.and(Facts::UNKNOWN));
+        let is_color_alone = self.color_targets == 1
+            && declared.color_targets <= 1
+            && depth_output == DepthOutput::None
+            && !(declared.discards | self.discards)
+            && !(declared.stores | reads(Facts::STORES))
+            && !(declared.writes_sample_mask | self.sample_mask)
+            && !(declared.dual_source | self.second_color);
         Interface {
+            color_passthrough: no_derivatives && is_color_alone && !self.changes_color,
+            no_derivatives,
             color_targets: declared.color_targets.max(self.color_targets),
             discards: declared.discards | self.discards,
             depth_output,
@@ -85,9 +116,5 @@ impl Found {
             cull_distances: declared.cull_distances.max(self.cull_distances),
             ..declared
         }
-    }
-
-    pub(super) fn takes_derivatives(&self) -> bool {
-        self.facts.has(Facts::DERIVATIVES)
     }
 }

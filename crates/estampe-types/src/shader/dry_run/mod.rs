@@ -5,11 +5,18 @@
 //! bindings, and on questions about masks ([`Real::any`](crate::Real::any)). The dry run is done
 //! with the very value that will draw, so branches on fields are those that will be taken.
 //! Questions are answered in three ways, truly, with yes and with no, so both branches are run.
-//! Nothing is bound, so uses that depend on bindings are not found: constants declare them.
+//! Nothing is bound, and words of bindings read as 0, 1, 2 and 3 in turn. So uses that depend on
+//! other values, or on a resource that is bound, are not found: constants declare them.
 //!
 //! * **Outputs** are what the returned value holds: colours, depth, a mask of kept lanes, …
 //! * **Inputs** carry a mark. The first operation on a marked number, or its return, records that
 //!   the input is used. So an unused field of [`FragmentIn`](crate::FragmentIn) costs nothing.
+//! * **Derivatives** are recorded, and so is what a texture takes its level of detail from. A
+//!   fragment that takes none can be shaded beside fragments of other triangles. That holds only of
+//!   a body that asks no question, looks at no single lane and misses no resource, as any of these
+//!   may lead elsewhere in a draw.
+//! * **A colour that is passed through** consists of the first four scalars of the varyings, which
+//!   still have their marks when they are returned.
 //! * **Stores** are found if the stored lanes exclude helper invocations, as they must.
 //!
 //! The rejected alternative, accessors in place of the fields of `FragmentIn`, would find less: a
@@ -26,6 +33,7 @@ pub(super) use amplification::{of_geometry, of_tessellation};
 use super::{DepthOutput, Sampling};
 use crate::{Attributes, Interface, Shader, ShaderError, Varyings};
 use found::Found;
+use recorder::Facts;
 
 /// The interface of a shader: what its dry run finds, and what its constants declare beyond that.
 ///
@@ -33,17 +41,11 @@ use found::Found;
 /// [`ShaderError`] says how the body contradicts a constant or a limit.
 pub fn interface_of<T: Shader>(shader: &T) -> Result<Interface, ShaderError> {
     let declared = declared::<T>()?;
-    let found = Found::of(shader, &declared)?;
-    let interface = found.widen(declared);
-    if T::COLOR_PASSTHROUGH && !runs::passes_color_through(shader, &interface)? {
-        return Err(ShaderError::NoPassthrough);
+    let mut found = Found::of(shader, &declared)?;
+    if T::TAKES_DERIVATIVES {
+        found.facts = found.facts.and(Facts::DERIVATIVES);
     }
-    if T::NO_DERIVATIVES
-        && (found.takes_derivatives() || runs::depends_on_neighbours(shader, &interface)?)
-    {
-        return Err(ShaderError::Derivatives);
-    }
-    Ok(interface)
+    Ok(found.widen(declared))
 }
 
 /// The interface that a shader's types and constants declare.
@@ -61,8 +63,6 @@ pub(super) fn declared<T: Shader>() -> Result<Interface, ShaderError> {
         writes_point_size: T::WRITES_POINT_SIZE,
         clip_distances: T::CLIP_DISTANCES,
         cull_distances: T::CULL_DISTANCES,
-        color_passthrough: T::COLOR_PASSTHROUGH,
-        no_derivatives: T::NO_DERIVATIVES,
         per_sample: T::PER_SAMPLE,
         reads_coverage: T::READS_COVERAGE,
         writes_sample_mask: T::WRITES_SAMPLE_MASK,

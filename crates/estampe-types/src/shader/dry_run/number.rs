@@ -34,6 +34,11 @@ impl<'a, T: Copy> Recorded<'a, T> {
         self.quad
     }
 
+    /// True if this is an input as it was given, and that one.
+    pub(super) fn is(self, input: Facts) -> bool {
+        self.input == input
+    }
+
     /// Another value of the same run.
     fn made<U: Copy>(self, quad: Quad<U>) -> Recorded<'a, U> {
         Recorded::new(quad, Facts::NONE, self.recorder)
@@ -197,9 +202,11 @@ impl<'a> Real for Recorded<'a> {
         yes.made(<Quad as Real>::select(mask.used(), yes.used(), no.used()))
     }
     fn any(mask: Self::SelectMask) -> bool {
+        mask.recorder.note(Facts::UNKNOWN);
         mask.recorder.answer(Quad::any(mask.used()))
     }
     fn mask_bits(mask: Self::SelectMask) -> u32 {
+        mask.recorder.note(Facts::UNKNOWN);
         let bits = Quad::mask_bits(mask.used());
         if mask.input.has(Facts::HELPER) {
             // A store: the answer must be true, or helpers would store.
@@ -209,13 +216,16 @@ impl<'a> Real for Recorded<'a> {
         mask.recorder.answer_bits(bits)
     }
     fn lane(self, index: usize) -> f32 {
-        self.used().lane(index)
+        self.noted(Facts::UNKNOWN).used().lane(index)
     }
     fn with_lanes(self, value: impl FnMut(usize) -> f32) -> Self {
         self.made(self.quad.with_lanes(value))
     }
     fn report(self, misuse: ShaderError) {
         self.recorder.report(misuse);
+    }
+    fn takes_derivatives(self) {
+        self.recorder.note(Facts::DERIVATIVES);
     }
 
     maths::with_functions! { methods_of_recorded }
@@ -246,6 +256,6 @@ impl<'a> Int for Recorded<'a, i32> {
         yes.made(Int::select(mask.used(), yes.used(), no.used()))
     }
     fn lane(self, index: usize) -> i32 {
-        self.used().lane(index)
+        self.noted(Facts::UNKNOWN).used().lane(index)
     }
 }

@@ -22,6 +22,17 @@ impl Facts {
     pub(super) const DERIVATIVES: Self = Self(16);
     /// Memory is stored to, as far as a mask of lanes that excludes helpers tells.
     pub(super) const STORES: Self = Self(32);
+    /// What the shader does depends on something that a dry run does not know: the number of a
+    /// lane, whether a condition holds, or a resource that is not bound.
+    pub(super) const UNKNOWN: Self = Self(64);
+
+    /// The scalar `number` of the varyings is used, of the first four.
+    pub(super) const fn varying(number: usize) -> Self {
+        match number {
+            0..4 => Self(128 << number),
+            _ => Self::NONE,
+        }
+    }
 
     pub(super) fn has(self, fact: Self) -> bool {
         self.0 & fact.0 != 0

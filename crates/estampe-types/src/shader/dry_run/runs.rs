@@ -3,10 +3,12 @@
 use super::found::Found;
 use super::number::Recorded;
 use super::recorder::{Answers, Facts, Recorder};
-use super::{DepthOutput, Shader, ShaderError};
+use super::{Shader, ShaderError};
+use crate::bindings::Unbound;
 use crate::shader::{FragmentOut, Source};
-use crate::{Attributes, Bindings, FragmentIn, Interface, Quad, Varyings, Vec4, VertexIn};
+use crate::{Attributes, Bindings, FragmentIn, Quad, Varyings, Vec4, VertexIn};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
 /// The lanes of a quad, for each scalar.
 type Scalars = [[f32; 4]];
@@ -25,6 +27,8 @@ fn fraction(number: usize) -> f32 {
 /// Scalars of a run, in order, then zeros.
 struct Scripted<'a, 'r> {
     left: &'a Scalars,
+    /// The number of the next scalar, where each has a mark.
+    number: Option<usize>,
     recorder: &'r Recorder,
 }
 
@@ -37,14 +41,30 @@ impl<'r> Source<Recorded<'r>> for Scripted<'_, 'r> {
             }
             None => [0.0; 4],
         };
-        Recorded::new(Quad(lanes), Facts::NONE, self.recorder)
+        let input = self.number.map_or(Facts::NONE, Facts::varying);
+        self.number = self.number.map(|number| number + 1);
+        Recorded::new(Quad(lanes), input, self.recorder)
     }
 }
 
+/// Bindings of a run in which nothing is bound.
+fn unbound(word: u16) -> (Arc<Unbound>, Bindings) {
+    let unbound = Arc::new(Unbound::new(word));
+    let bindings = Bindings {
+        unbound: Some(unbound.clone()),
+        ..Bindings::default()
+    };
+    (unbound, bindings)
+}
+
 /// Runs the vertex shader on zeros.
-pub(super) fn vertex<T: Shader>(shader: &T, answers: Answers) -> Result<Found, ShaderError> {
+pub(super) fn vertex<T: Shader>(
+    shader: &T,
+    answers: Answers,
+    word: u16,
+) -> Result<Found, ShaderError> {
     let recorder = Recorder::new(answers);
-    let bindings = Bindings::default();
+    let (unbound, bindings) = unbound(word);
     let shade = || {
         let zeros = Recorded::new(Quad([0; 4]), Facts::NONE, &recorder);
         let input = VertexIn {
@@ -55,6 +75,7 @@ pub(super) fn vertex<T: Shader>(shader: &T, answers: Answers) -> Result<Found, S
         };
         let mut source = Scripted {
             left: &[],
+            number: None,
             recorder: &recorder,
         };
         let out = shader.vertex(input, T::Attributes::load(&mut source));
@@ -62,6 +83,7 @@ pub(super) fn vertex<T: Shader>(shader: &T, answers: Answers) -> Result<Found, S
             point_size: out.point_size.is_some(),
             clip_distances: set(&out.clip_distances),
             cull_distances: set(&out.cull_distances),
+            reads_words: unbound.reads_words(),
             ..Found::default()
         }
     };
@@ -76,14 +98,15 @@ fn set<T>(elements: &[Option<T>]) -> usize {
 }
 
 /// Runs the fragment shader on the quad in the upper left corner, all of it helper invocations, so
-/// that it stores nothing. Returns the numbers of its outputs too.
+/// that it stores nothing.
 pub(super) fn fragment<T: Shader>(
     shader: &T,
     answers: Answers,
+    word: u16,
     varyings: &Scalars,
-) -> Result<(Found, Vec<[f32; 4]>), ShaderError> {
+) -> Result<Found, ShaderError> {
     let recorder = Recorder::new(answers);
-    let bindings = Bindings::default();
+    let (unbound, bindings) = unbound(word);
     let shade = || {
         let position = |lanes| Recorded::new(Quad(lanes), Facts::POSITION, &recorder);
         let ints = |value, input| Recorded::new(Quad([value; 4]), input, &recorder);
@@ -104,46 +127,52 @@ pub(super) fn fragment<T: Shader>(
         };
         let mut source = Scripted {
             left: varyings,
+            number: Some(0),
             recorder: &recorder,
         };
         let out = shader.fragment(input, T::Varyings::load(&mut source));
-        let found = Found {
+        use_all(&out);
+        if unbound.is_missed() {
+            recorder.note(Facts::UNKNOWN);
+        }
+        Found {
             color_targets: set(&out.colors),
             second_color: out.second.is_some(),
+            changes_color: !passes_color(&out),
             discards: out.keep.is_some(),
             sample_mask: out.sample_mask.is_some(),
             depth: out.depth.is_some(),
             no_depth: out.depth.is_none(),
+            reads_words: unbound.reads_words(),
             ..Found::default()
-        };
-        (found, numbers(&out))
+        }
     };
-    let (found, numbers) = unwound(shade)?;
+    let found = unwound(shade)?;
     let facts = recorder.facts();
     match recorder.misuse() {
         Some(error) => Err(error),
-        None => Ok((Found { facts, ..found }, numbers)),
+        None => Ok(Found { facts, ..found }),
     }
 }
 
-/// The numbers of all outputs, which are thereby used.
-fn numbers(out: &FragmentOut<Recorded<'_>>) -> Vec<[f32; 4]> {
-    let colors = out.colors.iter().chain([&out.second]).flatten();
-    let components = colors.flat_map(|color| [color.x, color.y, color.z, color.w]);
-    let mut all: Vec<_> = components
-        .chain(out.depth)
-        .map(|number| number.used().0)
-        .collect();
-    all.extend(
-        out.keep
-            .map(|keep| keep.used().0.map(|kept| if kept { 1.0 } else { 0.0 })),
-    );
-    all.extend(out.sample_mask.map(|mask| {
-        mask.used()
-            .0
-            .map(|bits| f32::from_bits(bits.cast_unsigned()))
-    }));
-    all
+/// Records that all outputs are used.
+fn use_all(out: &FragmentOut<Recorded<'_>>) {
+    for Vec4 { x, y, z, w } in out.colors.iter().chain([&out.second]).flatten() {
+        for component in [x, y, z, w] {
+            component.used();
+        }
+    }
+    out.depth.map(Recorded::used);
+    out.keep.map(Recorded::used);
+    out.sample_mask.map(Recorded::used);
+}
+
+/// True if the first colour consists of the first four scalars of the varyings, in order.
+fn passes_color(out: &FragmentOut<Recorded<'_>>) -> bool {
+    out.colors[0].is_some_and(|Vec4 { x, y, z, w }| {
+        let mut components = [x, y, z, w].into_iter().enumerate();
+        components.all(|(number, component)| component.is(Facts::varying(number)))
+    })
 }
 
 /// The result of a run, or its panic.
@@ -160,57 +189,4 @@ pub(super) fn unwound<U>(run: impl FnOnce() -> U) -> Result<U, ShaderError> {
         };
         ShaderError::Panicked { message }
     })
-}
-
-/// True if the fragment returns the first four scalars of its varyings as its only output, for
-/// sixteen colours of which some are outside 0..=1.
-pub(super) fn passes_color_through<T: Shader>(
-    shader: &T,
-    interface: &Interface,
-) -> Result<bool, ShaderError> {
-    let scalars = interface.varyings.len();
-    if interface.discards
-        || interface.reads_position
-        || interface.depth_output != DepthOutput::None
-        || interface.color_targets != 1
-        || interface.dual_source
-        || interface.stores
-        || interface.writes_sample_mask
-        || scalars < 4
-    {
-        return Ok(false);
-    }
-    for quad in 0..4 {
-        let number = |scalar: usize, lane: usize| ((scalar * 4 + quad) * 4 + lane + 1) as f32;
-        let lanes = |scalar| [0, 1, 2, 3].map(|lane| number(scalar, lane) * 0.037 - 0.5);
-        let varyings: Vec<_> = (0..scalars).map(lanes).collect();
-        let (_, colors) = fragment(shader, Answers::True, &varyings)?;
-        if colors != varyings[..4] {
-            return Ok(false);
-        }
-    }
-    Ok(true)
-}
-
-/// True if the first fragment of a quad has another result when only its neighbours' varyings
-/// change. So a texture shows that takes its level of detail from the lanes.
-pub(super) fn depends_on_neighbours<T: Shader>(
-    shader: &T,
-    interface: &Interface,
-) -> Result<bool, ShaderError> {
-    let varyings = plain_varyings(interface.varyings.len());
-    let mut changed = varyings.clone();
-    for (scalar, lanes) in changed.iter_mut().enumerate() {
-        for (lane, value) in lanes.iter_mut().enumerate().skip(1) {
-            *value = 1.0 - fraction(scalar * 331 + lane * 1009);
-        }
-    }
-    let first = |varyings: &Scalars| {
-        let (_, numbers) = fragment(shader, Answers::True, varyings)?;
-        Ok(numbers
-            .iter()
-            .map(|lanes| lanes[0].to_bits())
-            .collect::<Vec<_>>())
-    };
-    Ok(first(&varyings)? != first(&changed)?)
 }

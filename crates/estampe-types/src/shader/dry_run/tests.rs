@@ -1,7 +1,7 @@
 //! Tests of the findings and refusals of dry runs.
 
 use crate::shader::{FragmentIn, FragmentOut, VertexIn, VertexOut, interface_of};
-use crate::{Interface, Quad, ShaderError, ShadowMap, Vec2, Vec4};
+use crate::{Interface, Quad, ShadowMap, Vec2, Vec4};
 
 /// The effects of a fragment, apart from its colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,6 +107,8 @@ fn beyond(does: Does) -> Interface {
     interface.attributes.clear();
     interface.varyings.clear();
     interface.sampling.clear();
+    // Tests of their own look at it.
+    interface.no_derivatives = false;
     interface
 }
 
@@ -192,100 +194,120 @@ fn errors_name_what_to_do() {
     );
 }
 
-/// A shader with promises, which its field may break.
-struct Promising {
-    breaks: Breaks,
-}
-
+/// What a fragment does with its varyings, (colour, uv).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Breaks {
-    Nothing,
-    ByDdx,
-    ByQuadLane,
-    ByNeighbours,
-    ByFactor,
-    ByClamp,
-    ByDiscard,
+enum Shades {
+    Passes,
+    Halves,
+    Turns,
+    Clamps,
+    Discards,
+    AddsDdx,
+    AddsQuadLane,
+    LooksAtLane,
+    AsksAMask,
+    DerivesIfBound,
+    DerivesIfTwo,
+    DerivesIfHalf,
+    ReadsANumber,
 }
 
-impl Promising {
-    /// A table that is read at a place that depends on the whole quad, as a texture is.
-    #[inline(always)]
-    fn looked_up<R: crate::Real>(x: R) -> R {
-        let spread = x.lane(1) - x.lane(0);
-        x.splat(spread)
-    }
-}
+struct Shading<const DECLARED: bool>(Shades);
 
-macro_rules! promising {
-    ($($constant:ident $module:ident)*) => {$(
-        mod $module {
-            use super::*;
+crate::shader! {
+    impl<const DECLARED: bool> Shader for Shading<DECLARED> {
+        type Attributes<R: Real> = Vec4<R>;
+        type Varyings<R: Real> = (Vec4<R>, Vec2<R>);
+        const TAKES_DERIVATIVES: bool = DECLARED;
 
-            pub(super) struct Shaded(pub(super) Promising);
+        fn vertex<R: Real>(
+            &self,
+            _: VertexIn<'_, R>,
+            at: Vec4<R>,
+        ) -> VertexOut<R, (Vec4<R>, Vec2<R>)> {
+            VertexOut::new(at, (at, at.xy()))
+        }
 
-            crate::shader! {
-                impl Shader for Shaded {
-                    type Attributes<R: Real> = Vec4<R>;
-                    type Varyings<R: Real> = (Vec4<R>, Vec2<R>);
-                    const $constant: bool = true;
-
-                    fn vertex<R: Real>(
-                        &self,
-                        _: VertexIn<'_, R>,
-                        at: Vec4<R>,
-                    ) -> VertexOut<R, (Vec4<R>, Vec2<R>)> {
-                        VertexOut::new(at, (at, at.xy()))
-                    }
-
-                    fn fragment<R: Real>(
-                        &self,
-                        _: FragmentIn<'_, R>,
-                        (color, uv): (Vec4<R>, Vec2<R>),
-                    ) -> FragmentOut<R> {
-                        let out = FragmentOut::color(color);
-                        match self.0.breaks {
-                            Breaks::Nothing => out,
-                            Breaks::ByDdx => FragmentOut::color(color + uv.x.ddx()),
-                            Breaks::ByQuadLane => FragmentOut::color(color + uv.x.quad_lane(0)),
-                            Breaks::ByNeighbours => {
-                                FragmentOut::color(color + Promising::looked_up(uv.x))
-                            }
-                            Breaks::ByFactor => FragmentOut::color(color * 0.5),
-                            Breaks::ByClamp => FragmentOut::color(color.saturate()),
-                            Breaks::ByDiscard => out.discard_unless(uv.x.ge(0.0)),
-                        }
-                    }
-                }
+        fn fragment<R: Real>(
+            &self,
+            input: FragmentIn<'_, R>,
+            (color, uv): (Vec4<R>, Vec2<R>),
+        ) -> FragmentOut<R> {
+            let derived = || FragmentOut::color(color + uv.x.ddx());
+            let [integer]: [u32; 1] = match self.0 {
+                Shades::DerivesIfTwo | Shades::ReadsANumber => input.bindings.u32s(0, 0, 0),
+                _ => [0],
+            };
+            match self.0 {
+                Shades::Halves => FragmentOut::color(color * 0.5),
+                Shades::Turns => FragmentOut::color(Vec4::new(color.w, color.y, color.z, color.x)),
+                Shades::Clamps => FragmentOut::color(color.clamp(-1e9, 1e9)),
+                Shades::Discards => FragmentOut::color(color).discard_unless(uv.x.ge(0.0)),
+                Shades::AddsDdx => derived(),
+                Shades::AddsQuadLane => FragmentOut::color(color + uv.x.quad_lane(0)),
+                Shades::LooksAtLane => FragmentOut::color(color + uv.x.lane(1)),
+                Shades::AsksAMask if R::any(uv.x.lt(-1.0)) && R::all(uv.y.lt(2.0)) => derived(),
+                Shades::DerivesIfBound if input.bindings.shadow_map(0, 0).is_some() => derived(),
+                Shades::DerivesIfTwo if integer == 2 => derived(),
+                Shades::DerivesIfHalf if input.bindings.f32s::<1>(0, 0, 0)[0] > 0.5 => derived(),
+                _ => FragmentOut::color(color),
             }
         }
-    )*};
-}
-promising! { NO_DERIVATIVES without_derivatives COLOR_PASSTHROUGH passthrough }
-
-#[test]
-fn a_false_promise_of_no_derivatives_is_refused() {
-    let of = |breaks| {
-        let found = interface_of(&without_derivatives::Shaded(Promising { breaks }));
-        found.map(|interface| interface.no_derivatives)
-    };
-    for breaks in [Breaks::ByDdx, Breaks::ByQuadLane, Breaks::ByNeighbours] {
-        assert_eq!(of(breaks), Err(ShaderError::Derivatives), "{breaks:?}");
-    }
-    for breaks in [Breaks::Nothing, Breaks::ByFactor, Breaks::ByDiscard] {
-        assert_eq!(of(breaks), Ok(true), "{breaks:?}");
     }
 }
 
 #[test]
-fn a_false_promise_of_passthrough_is_refused() {
-    let of = |breaks| {
-        let found = interface_of(&passthrough::Shaded(Promising { breaks }));
-        found.map(|interface| interface.color_passthrough)
-    };
-    assert_eq!(of(Breaks::Nothing), Ok(true));
-    for breaks in [Breaks::ByFactor, Breaks::ByClamp, Breaks::ByDiscard] {
-        assert_eq!(of(breaks), Err(ShaderError::NoPassthrough), "{breaks:?}");
+fn derivatives_are_found() {
+    let of = |shades| interface_of(&Shading::<false>(shades)).map(|found| found.no_derivatives);
+    for shades in [
+        Shades::AddsDdx,
+        Shades::AddsQuadLane,
+        Shades::DerivesIfTwo,
+        Shades::DerivesIfHalf,
+    ] {
+        assert_eq!(of(shades), Ok(false), "{shades:?}");
+    }
+    for shades in [
+        Shades::Passes,
+        Shades::Halves,
+        Shades::Turns,
+        Shades::Clamps,
+        Shades::Discards,
+        Shades::ReadsANumber,
+    ] {
+        assert_eq!(of(shades), Ok(true), "{shades:?}");
+    }
+    let declared = interface_of(&Shading::<true>(Shades::Passes)).expect("valid");
+    assert!(!declared.no_derivatives && !declared.color_passthrough);
+}
+
+#[test]
+fn what_a_dry_run_cannot_know_may_take_derivatives() {
+    for shades in [
+        Shades::LooksAtLane,
+        Shades::AsksAMask,
+        Shades::DerivesIfBound,
+    ] {
+        let found = interface_of(&Shading::<false>(shades)).expect("valid");
+        assert!(!found.no_derivatives, "{shades:?}");
+        assert!(!found.color_passthrough, "{shades:?}");
+    }
+}
+
+#[test]
+fn colors_that_are_passed_through_are_found() {
+    let of = |shades| interface_of(&Shading::<false>(shades)).map(|found| found.color_passthrough);
+    assert_eq!(of(Shades::Passes), Ok(true));
+    assert_eq!(of(Shades::ReadsANumber), Ok(true));
+    for shades in [
+        Shades::Halves,
+        Shades::Turns,
+        Shades::Clamps,
+        Shades::Discards,
+        Shades::AddsDdx,
+        Shades::DerivesIfTwo,
+    ] {
+        assert_eq!(of(shades), Ok(false), "{shades:?}");
     }
 }
 
