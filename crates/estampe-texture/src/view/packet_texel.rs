@@ -159,7 +159,12 @@ impl PacketFormat {
             E::Depth24 => all[0] = number(bits(s, words[0], 24)) / 16_777_215.0,
             _ => {
                 for (k, unit) in (0..).zip(units) {
-                    *unit = number(bits(s, words[0] >> (8 * k), 8));
+                    let code = bits(s, words[0] >> (8 * k), 8);
+                    *unit = if self.is_srgb && k < 3 {
+                        srgb::decode_lanes(s, code)
+                    } else {
+                        number(code)
+                    };
                 }
             }
         }

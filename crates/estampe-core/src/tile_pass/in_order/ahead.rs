@@ -36,8 +36,11 @@ pub(super) fn touch(chunk: &Chunk, source: &VaryingSource<'_>, entries: &[BinEnt
         let triangles = chunk.taken_apart(packet);
         for lane in Lane::all_of(lanes) {
             for vertex in triangles[lane.get()].vertex {
-                let first = source.of(vertex).first();
-                words = words.wrapping_add(first.map_or(0, |value| value.to_bits()));
+                // They may lie in two cache lines.
+                let varyings = source.of(vertex);
+                for value in [varyings.first(), varyings.last()].into_iter().flatten() {
+                    words = words.wrapping_add(value.to_bits());
+                }
             }
         }
     }

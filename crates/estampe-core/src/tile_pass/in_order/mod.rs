@@ -115,7 +115,8 @@ fn draw_entries<S: Lanes, const N: usize>(
         uses_hiz: plan.timing != TestTiming::Late,
         blends_blocks: plan.path == TilePath::InOrderBlocks,
         shares_packets: plan.path != TilePath::InOrderPackets,
-        gathers: gathers(plan),
+        // A run is of one kind of primitive, and notes of the queue serve triangles alone.
+        gathers: gathers(plan) && matches!(entries.first(), Some(BinEntry::Triangles { .. })),
         stores_in_order: pipeline.key().stores_in_order,
         passed: 0,
         planes,
