@@ -6,7 +6,7 @@
 //! does for one triangle, and no lane is empty but in the last row.
 
 use super::interpolate::VaryingSource;
-use crate::bounds::primitives::TrianglePacket;
+use crate::bounds::primitives::{TrianglePacket, VertexRef};
 use crate::raster::pixel_list::Pixels;
 use crate::raster::small::PIXELS;
 use estampe_simd::{
@@ -190,22 +190,21 @@ impl CrossPlanes {
         source: &VaryingSource<'_>,
     ) {
         let n = source.modes.len();
-        if n < 2 {
-            for (rows, vertices) in self.corners.iter_mut().zip(&packet.vertex) {
+        let wanted = s.mask_from_bits(lanes);
+        let lane = lanes.trailing_zeros() as usize % LANES;
+        for (rows, vertices) in self.corners.iter_mut().zip(&packet.vertex) {
+            // Lanes that are not wanted repeat one that is: theirs may be far away, or those of
+            // another draw.
+            let one = <u32x16<S> as SimdBase<S>>::splat(s, vertices[lane].0);
+            let all = u32x16::load_array(s, vertices.map(|vertex| vertex.0));
+            let vertices = wanted.select(all, one).to_array();
+            if n < 2 {
                 for row in rows {
                     for (to, vertex) in row.0.iter_mut().zip(vertices) {
-                        *to = source.of(*vertex)[0];
+                        *to = source.of(VertexRef(vertex))[0];
                     }
                 }
-            }
-        } else {
-            let wanted = s.mask_from_bits(lanes);
-            let lane = lanes.trailing_zeros() as usize % LANES;
-            for (rows, vertices) in self.corners.iter_mut().zip(&packet.vertex) {
-                // Lanes that are not wanted repeat one that is: theirs may be far away.
-                let one = <u32x16<S> as SimdBase<S>>::splat(s, vertices[lane].0);
-                let all = u32x16::load_array(s, vertices.map(|vertex| vertex.0));
-                let vertices = wanted.select(all, one).to_array();
+            } else {
                 let mut first = 0;
                 while first < n {
                     // The last four columns overlap those before them.
@@ -310,4 +309,42 @@ fn differences<S: Lanes>(s: S, of: &[[i32; LANES]; 3]) -> [f32x16<S>; 2] {
         f32x16::float_from(i32x16::load_array_ref(s, &of[1]) - first) * (1.0 / 256.0),
         f32x16::float_from(i32x16::load_array_ref(s, &of[2]) - first) * (1.0 / 256.0),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use estampe_simd::{Level, dispatch};
+
+    /// Lanes that are not wanted may be triangles of another draw, which has more vertices.
+    #[test]
+    fn vertices_of_other_draws_are_not_read() {
+        let mut packet = TrianglePacket::EMPTY;
+        for (vertices, corner) in packet.vertex.iter_mut().zip(0..) {
+            *vertices = [VertexRef(1000); LANES];
+            vertices[1] = VertexRef(corner);
+            vertices[4] = VertexRef(2 - corner);
+        }
+        for scalars in [1_usize, 2, 3, 4, 7] {
+            let shaded: Vec<f32> = (0..3 * scalars).map(|number| number as f32).collect();
+            let source = VaryingSource {
+                shaded: &shaded,
+                clipped: &[],
+                modes: &vec![Interpolation::NoPerspective; scalars],
+            };
+            for level in Level::all_available() {
+                let mut planes = CrossPlanes::default();
+                dispatch!(@wide level, s => planes.set(s, &packet, 0b1_0010, &source),
+                    scalar => continue);
+                for (rows, corner) in planes.corners.iter().zip(0..) {
+                    for (row, scalar) in rows.iter().zip(0..) {
+                        let values = [row.0[1], row.0[4]];
+                        let expected =
+                            [corner, 2 - corner].map(|vertex| shaded[vertex * scalars + scalar]);
+                        assert_eq!(values, expected, "{level:?}, {scalars} scalars");
+                    }
+                }
+            }
+        }
+    }
 }
