@@ -1,4 +1,4 @@
-//! Whether derivatives were taken on this thread, for an assertion of debug builds.
+//! A note that derivatives were taken on this thread, for an assertion of debug builds.
 
 use std::cell::Cell;
 

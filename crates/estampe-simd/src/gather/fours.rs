@@ -8,8 +8,8 @@ use core::arch::x86_64::{__m128i, _mm_loadu_si128, _mm_setzero_si128};
 use fearless_simd::x86::{Avx2, Avx512, Sse2};
 use fearless_simd::{Simd, SimdBase, SimdCombine, SimdInto, u32x4, u32x8, u32x16};
 
-/// Four neighbours for each of sixteen lanes. Unsafe, because a check of each
-/// lane costs too much, as in `squares.rs`.
+/// Four neighbours for each of sixteen lanes. Unsafe, because a check of each lane costs too much,
+/// as in `squares.rs`.
 #[inline(always)]
 fn fours<S: Simd>(simd: S, table: &[u32], index: u32x16<S>) -> Option<[__m128i; LANES]> {
     let last = last_four(table)?;

@@ -1,7 +1,7 @@
 //! Assertions of debug builds: a shader outputs what its interface says.
 //!
 //! The dry run cannot find a use that depends on bindings. If such a use is not declared either, it
-//! has no effect, and debug builds stop here.
+//! has no effect, and debug builds stop here; derivatives that are not declared are undefined.
 
 use super::vertex::VertexOut;
 use crate::{FragmentOut, Interface, Real, Shader, derivatives};
