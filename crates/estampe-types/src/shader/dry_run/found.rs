@@ -43,12 +43,16 @@ impl Found {
             for &answers in ways {
                 let vertex = runs::vertex(shader, answers, word);
                 let fragment = runs::fragment(shader, answers, word, &varyings);
-                for run in [vertex, fragment] {
+                for (run, lost) in [(vertex, Facts::NONE), (fragment, Facts::UNKNOWN)] {
                     match run {
                         Ok(found) => all = all.and(found),
-                        // A body may rely on what holds, and on what is bound.
+                        // A body may rely on what holds, and on what is bound. What it would have
+                        // done is not known.
                         Err(ShaderError::Panicked { .. })
-                            if answers != Answers::True || word != 0 => {}
+                            if answers != Answers::True || word != 0 =>
+                        {
+                            all.facts = all.facts.and(lost);
+                        }
                         Err(error) => return Err(error),
                     }
                 }

@@ -209,6 +209,7 @@ enum Shades {
     DerivesIfBound,
     DerivesIfTwo,
     DerivesIfHalf,
+    PanicsIfTwo,
     ReadsANumber,
 }
 
@@ -235,7 +236,7 @@ crate::shader! {
         ) -> FragmentOut<R> {
             let derived = || FragmentOut::color(color + uv.x.ddx());
             let [integer]: [u32; 1] = match self.0 {
-                Shades::DerivesIfTwo | Shades::ReadsANumber => input.bindings.u32s(0, 0, 0),
+                Shades::DerivesIfTwo | Shades::PanicsIfTwo | Shades::ReadsANumber => input.bindings.u32s(0, 0, 0),
                 _ => [0],
             };
             match self.0 {
@@ -249,6 +250,7 @@ crate::shader! {
                 Shades::AsksAMask if R::any(uv.x.lt(-1.0)) && R::all(uv.y.lt(2.0)) => derived(),
                 Shades::DerivesIfBound if input.bindings.shadow_map(0, 0).is_some() => derived(),
                 Shades::DerivesIfTwo if integer == 2 => derived(),
+                Shades::PanicsIfTwo if integer == 2 => panic!("only 0, 1 and 3 are bound"),
                 Shades::DerivesIfHalf if input.bindings.f32s::<1>(0, 0, 0)[0] > 0.5 => derived(),
                 _ => FragmentOut::color(color),
             }
@@ -286,6 +288,7 @@ fn what_a_dry_run_cannot_know_may_take_derivatives() {
     for shades in [
         Shades::LooksAtLane,
         Shades::AsksAMask,
+        Shades::PanicsIfTwo,
         Shades::DerivesIfBound,
     ] {
         let found = interface_of(&Shading::<false>(shades)).expect("valid");
