@@ -126,13 +126,18 @@ macro_rules! methods_of_recorded {
         two { $($(#[$two_doc:meta])* $two:ident($x:ident, $y:ident))+ }
     ) => {
         $(
+            #[inline(never)]
             fn $name(self) -> Self {
                 self.made($crate::maths::scalar::$name(self.used()))
             }
         )+
         $(
             fn $two(self, other: impl Operand<Self>) -> Self {
-                self.made($crate::maths::scalar::$two(self.used(), other.operand(self).used()))
+                #[inline(never)]
+                fn of_two<'a>(a: Recorded<'a>, b: Recorded<'a>) -> Recorded<'a> {
+                    a.made($crate::maths::scalar::$two(a.used(), b.used()))
+                }
+                of_two(self, other.operand(self))
             }
         )+
     };

@@ -59,10 +59,66 @@ pub(super) enum Answers {
 /// that waits for an answer ends.
 const QUESTIONS: u32 = 4096;
 
+/// Values of a run, in pieces that stay where they are: the first of [`FIRST`] values, each as
+/// large as all before it.
+///
+/// One thread runs a shader, but the type of its numbers could be sent to another: atomics without
+/// an order cost nothing more than numbers.
+#[derive(Debug, Default)]
+struct Values {
+    pieces: [OnceLock<Box<[Value]>>; PIECES],
+    len: AtomicU32,
+}
+
+#[derive(Debug, Default)]
+struct Value {
+    lanes: [AtomicU32; 4],
+    input: AtomicU32,
+}
+
+/// Values of the first piece.
+const FIRST: u32 = 256;
+/// Pieces at most: together 2²⁴ values, 320 MB.
+const PIECES: usize = 17;
+
+impl Values {
+    /// The piece of a value, and its place in it.
+    fn place(at: u32) -> (usize, u32) {
+        let past = at / FIRST;
+        let piece = past.checked_ilog2().map_or(0, |log2| log2 + 1);
+        let before = if piece == 0 { 0 } else { FIRST << (piece - 1) };
+        (piece as usize, at - before)
+    }
+
+    fn of(&self, at: u32) -> &Value {
+        let (piece, place) = Self::place(at);
+        let values = self.pieces[piece].get();
+        &values.expect("values are added before they are read")[place as usize]
+    }
+
+    fn add(&self, lanes: [u32; 4], input: Facts) -> u32 {
+        let at = self.len.load(Relaxed);
+        let (piece, place) = Self::place(at);
+        let Some(piece) = self.pieces.get(piece) else {
+            panic!("the dry run of a shader has more than {at} operations: shorten its loops");
+        };
+        let size = FIRST.max(at - place);
+        let values = piece.get_or_init(|| (0..size).map(|_| Value::default()).collect());
+        let value = &values[place as usize];
+        for (to, lane) in value.lanes.iter().zip(lanes) {
+            to.store(lane, Relaxed);
+        }
+        value.input.store(input.0, Relaxed);
+        self.len.store(at + 1, Relaxed);
+        at
+    }
+}
+
 /// The record of one run.
 #[derive(Debug)]
 pub(super) struct Recorder {
     answers: Answers,
+    values: Values,
     facts: AtomicU32,
     questions: AtomicU32,
     misuse: OnceLock<ShaderError>,
@@ -72,10 +128,30 @@ impl Recorder {
     pub(super) fn new(answers: Answers) -> Self {
         Self {
             answers,
+            values: Values::default(),
             facts: AtomicU32::new(0),
             questions: AtomicU32::new(0),
             misuse: OnceLock::new(),
         }
+    }
+
+    /// Adds a value, four lanes and the input that it is; gives its number.
+    pub(super) fn add(&self, lanes: [u32; 4], input: Facts) -> u32 {
+        self.values.add(lanes, input)
+    }
+
+    /// The lanes of a value.
+    pub(super) fn lanes(&self, at: u32) -> [u32; 4] {
+        self.values
+            .of(at)
+            .lanes
+            .each_ref()
+            .map(|lane| lane.load(Relaxed))
+    }
+
+    /// The input that a value is.
+    pub(super) fn input(&self, at: u32) -> Facts {
+        Facts(self.values.of(at).input.load(Relaxed))
     }
 
     pub(super) fn note(&self, facts: Facts) {
@@ -128,5 +204,25 @@ impl Recorder {
     fn next_question(&self) -> Option<bool> {
         let number = self.questions.fetch_add(1, Relaxed);
         (number >= QUESTIONS).then(|| number.wrapping_mul(0x9E37_79B9) >> 31 == 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Facts, Values};
+
+    #[test]
+    fn values_stay_what_they_were() {
+        let values = Values::default();
+        let lanes = |at: u32| [at, at ^ 0xFFFF, at * 3, !at];
+        for at in 0..20_000 {
+            assert_eq!(values.add(lanes(at), Facts(at * 7)), at);
+        }
+        for at in 0..20_000 {
+            let value = values.of(at);
+            let stored = value.lanes.each_ref().map(|lane| lane.load(super::Relaxed));
+            assert_eq!(stored, lanes(at));
+            assert_eq!(value.input.load(super::Relaxed), at * 7);
+        }
     }
 }
