@@ -280,7 +280,7 @@ pub(crate) fn with_passes<T>(
     let view = SceneView::new(scene, options, workers);
     let with_edges;
     let is_flat = options.edges_of_flat_views && options.edges.is_none();
-    let options = if is_flat && is_one_face(scene, &view, options) {
+    let options = if is_flat && is_one_face(scene, &view, options, workers) {
         with_edges = RenderOptions {
             edges: Some(FeatureEdges::default()),
             ..options.clone()

@@ -3,9 +3,8 @@
 
 use crate::options::RenderOptions;
 use crate::scene_view::SceneView;
-use estampe_scene::{Mesh, Scene};
-use glam::{DVec2, DVec3};
-use std::collections::HashMap;
+use estampe_scene::{Mesh, Scene, Workers, pieces};
+use glam::{DVec2, DVec3, Vec3};
 
 /// More triangles are scans and other curved surfaces, which are not looked at.
 const MOST_TRIANGLES: usize = 200_000;
@@ -13,12 +12,17 @@ const MOST_TRIANGLES: usize = 200_000;
 const NEARLY_ALL: f64 = 0.9;
 /// The cosine of the angle, 1 degree, within which normals are of one direction.
 const COS_APART: f64 = 0.999_85;
-/// Cells of normals along an axis, for a first guess of the most frequent one.
-const CELLS: f64 = 32.0;
+/// Vertices or triangles of a piece of work for one thread: some hundred microseconds.
+const PIECE: usize = 1 << 13;
 
 /// True if nearly all of what the picture shows are faces in one direction, in the default light
 /// and without textures and varied colours of vertices.
-pub(crate) fn is_one_face(scene: &Scene, view: &SceneView, options: &RenderOptions) -> bool {
+pub(crate) fn is_one_face(
+    scene: &Scene,
+    view: &SceneView,
+    options: &RenderOptions,
+    workers: Workers,
+) -> bool {
     let count: usize = { scene.meshes.iter() }
         .map(|mesh| mesh.triangles.len())
         .sum();
@@ -32,31 +36,102 @@ pub(crate) fn is_one_face(scene: &Scene, view: &SceneView, options: &RenderOptio
     if !is_plain || count > MOST_TRIANGLES || view.presentation(options).is_none() {
         return false;
     }
-    let faces = faces(scene, view);
-    // Six times the volume, above 0 if faces are counter-clockwise from outside.
-    let volume: f64 = faces.iter().map(|face| face.volume).sum();
-    // In unit space; that of sheets is 0 but for rounding.
+    let meshes: Vec<Faces<'_>> = { scene.meshes.iter() }
+        .map(|mesh| Faces::of(mesh, view, workers))
+        .collect();
+    let tally = { meshes.iter() }
+        .flat_map(|mesh| mesh.of_pieces(workers, Tally::add))
+        .fold(Tally::default(), Tally::and);
+    // Six times the volume in unit space, above 0 if faces are counter-clockwise from outside. That
+    // of sheets is 0 but for rounding.
+    let volume = tally.volume;
     let outside = if volume.abs() > 1e-9 { volume } else { 0.0 };
-    let is_visible = |face: &&Face| face.area_ndc * outside >= 0.0;
-    let mut cells: HashMap<[u64; 3], (f64, DVec3)> = HashMap::new();
-    let mut whole = 0.0;
-    let mut most = (0.0, DVec3::ZERO);
-    for face in faces.iter().filter(is_visible) {
-        let area = face.area_ndc.abs();
-        whole += area;
-        // Adding 0 makes −0 equal to 0.
-        let cell = { face.normal * CELLS }.to_array();
-        let cell = cell.map(|along| (libm::round(along) + 0.0).to_bits());
-        let (sum, first) = cells.entry(cell).or_insert((0.0, face.normal));
-        *sum += area;
-        if *sum > most.0 {
-            most = (*sum, *first);
+    let [back, front] = tally.votes;
+    let vote = if outside > 0.0 {
+        front
+    } else if outside < 0.0 {
+        back
+    } else {
+        back.and(front)
+    };
+    // Nine tenths against one lead by eight, and by a little less where sums are rounded.
+    if vote.lead < (2.0 * NEARLY_ALL - 1.01) * vote.whole {
+        return false;
+    }
+    let alike = |sum: &mut f64, face: &Face| {
+        if face.area_ndc * outside >= 0.0 && face.is_along(vote.normal) {
+            *sum += face.area_ndc.abs();
+        }
+    };
+    let alike: f64 = { meshes.iter() }
+        .flat_map(|mesh| mesh.of_pieces(workers, alike))
+        .sum();
+    vote.whole > 0.0 && alike >= NEARLY_ALL * vote.whole
+}
+
+/// The majority vote of Boyer and Moore (1981): a direction that has more than half of the area is
+/// the candidate at the end, and leads by what it has more than all others.
+#[derive(Debug, Clone, Copy, Default)]
+struct Vote {
+    /// The area of all faces.
+    whole: f64,
+    /// The area by which the candidate leads.
+    lead: f64,
+    /// The candidate.
+    normal: DVec3,
+}
+
+impl Vote {
+    fn and(self, other: Self) -> Self {
+        let whole = self.whole + other.whole;
+        let (first, second) = match self.lead >= other.lead {
+            true => (self, other),
+            false => (other, self),
+        };
+        let lead = match is_along(first.normal, second.normal) {
+            true => first.lead + second.lead,
+            false => first.lead - second.lead,
+        };
+        Self {
+            whole,
+            lead,
+            ..first
         }
     }
-    let alike = { faces.iter().filter(is_visible) }
-        .filter(|face| face.normal.dot(most.1).abs() > COS_APART)
-        .map(|face| face.area_ndc.abs());
-    whole > 0.0 && alike.sum::<f64>() >= NEARLY_ALL * whole
+}
+
+/// What is counted of faces.
+#[derive(Debug, Clone, Copy, Default)]
+struct Tally {
+    volume: f64,
+    /// Of faces that are clockwise in the picture, and of others.
+    votes: [Vote; 2],
+}
+
+impl Tally {
+    fn add(&mut self, face: &Face) {
+        self.volume += face.volume;
+        let vote = &mut self.votes[usize::from(face.area_ndc >= 0.0)];
+        let area = face.area_ndc.abs();
+        *vote = vote.and(Vote {
+            whole: area,
+            lead: area,
+            normal: face.normal,
+        });
+    }
+
+    fn and(self, other: Self) -> Self {
+        let [back, front] = self.votes;
+        Self {
+            volume: self.volume + other.volume,
+            votes: [back.and(other.votes[0]), front.and(other.votes[1])],
+        }
+    }
+}
+
+/// True if two normals have one direction, or opposite ones.
+fn is_along(a: DVec3, b: DVec3) -> bool {
+    a.dot(b).abs() > COS_APART
 }
 
 /// A face before the eye.
@@ -68,41 +143,88 @@ struct Face {
     volume: f64,
 }
 
-/// The faces that have an area and are wholly before the eye.
-fn faces(scene: &Scene, view: &SceneView) -> Vec<Face> {
-    let unit_from_object = view.space.unit_from_object_matrix();
-    let clip_from_unit = view.clip_from_unit();
-    let least_w = view.least_w();
-    let face = |mesh: &Mesh, triangle: [u32; 3]| {
-        let corner = |vertex: u32| {
-            let position = mesh.positions.get(vertex as usize)?.as_dvec3();
-            Some(unit_from_object.transform_point3(position))
+impl Face {
+    /// `None` without an area, or with a corner behind the eye.
+    fn of([a, b, c]: [&Corner; 3]) -> Option<Self> {
+        let normal = (b.unit - a.unit).cross(c.unit - a.unit);
+        let face = Self {
+            normal: normal.try_normalize()?,
+            area_ndc: (b.ndc - a.ndc).perp_dot(c.ndc - a.ndc),
+            volume: a.unit.dot(b.unit.cross(c.unit)),
         };
-        let [a, b, c] = [
-            corner(triangle[0])?,
-            corner(triangle[1])?,
-            corner(triangle[2])?,
-        ];
-        let normal = (b - a).cross(c - a).try_normalize()?;
-        let volume = a.dot(b.cross(c));
-        let at = |point: DVec3| {
-            let clip = clip_from_unit * point.extend(1.0);
-            (clip.w >= least_w).then(|| DVec2::new(clip.x, clip.y) / clip.w)
+        (face.area_ndc.is_finite() && face.volume.is_finite()).then_some(face)
+    }
+
+    fn is_along(&self, normal: DVec3) -> bool {
+        is_along(self.normal, normal)
+    }
+}
+
+/// A vertex before the eye.
+struct Corner {
+    /// In unit space.
+    unit: DVec3,
+    /// In normalised device coordinates; NaN behind the eye.
+    ndc: DVec2,
+}
+
+/// The faces of a mesh that have an area and are wholly before the eye. They are made again for
+/// each look at them, which costs less than memory for them.
+struct Faces<'a> {
+    mesh: &'a Mesh,
+    /// Of each vertex, in pieces.
+    corners: Vec<Vec<Corner>>,
+}
+
+impl<'a> Faces<'a> {
+    fn of(mesh: &'a Mesh, view: &SceneView, workers: Workers) -> Self {
+        let unit_from_object = view.space.unit_from_object_matrix();
+        let clip_from_unit = view.clip_from_unit();
+        let least_w = view.least_w();
+        let corner = |position: &Vec3| {
+            let unit = unit_from_object.transform_point3(position.as_dvec3());
+            let clip = clip_from_unit * unit.extend(1.0);
+            let is_before = clip.w >= least_w;
+            let ndc = is_before.then(|| DVec2::new(clip.x, clip.y) / clip.w);
+            Corner {
+                unit,
+                ndc: ndc.unwrap_or(DVec2::NAN),
+            }
         };
-        let [a, b, c] = [at(a)?, at(b)?, at(c)?];
-        let area_ndc = (b - a).perp_dot(c - a);
-        let face = Face {
-            normal,
-            area_ndc,
-            volume,
+        let vertices = pieces(mesh.positions.len(), PIECE);
+        let corners = |range| -> Vec<Corner> {
+            let positions: &[Vec3] = &mesh.positions[range];
+            positions.iter().map(corner).collect()
         };
-        (area_ndc.is_finite() && volume.is_finite()).then_some(face)
-    };
-    let meshes = scene.meshes.iter();
-    meshes
-        .flat_map(|mesh| {
-            let triangles = mesh.triangles.iter();
-            triangles.filter_map(move |&triangle| face(mesh, triangle))
+        Self {
+            mesh,
+            corners: workers.map(vertices, corners),
+        }
+    }
+
+    fn corner(&self, vertex: u32) -> Option<&Corner> {
+        let vertex = vertex as usize;
+        self.corners.get(vertex / PIECE)?.get(vertex % PIECE)
+    }
+
+    /// What becomes of a `T` that sees each face of a piece of the mesh, for all pieces in order.
+    fn of_pieces<T: Default + Send>(
+        &self,
+        workers: Workers,
+        see: impl Fn(&mut T, &Face) + Sync,
+    ) -> Vec<T> {
+        let triangles = pieces(self.mesh.triangles.len(), PIECE);
+        workers.map(triangles, |range| {
+            let mut seen = T::default();
+            for &[a, b, c] in &self.mesh.triangles[range] {
+                let corners = (self.corner(a), self.corner(b), self.corner(c));
+                if let (Some(a), Some(b), Some(c)) = corners
+                    && let Some(face) = Face::of([a, b, c])
+                {
+                    see(&mut seen, &face);
+                }
+            }
+            seen
         })
-        .collect()
+    }
 }
