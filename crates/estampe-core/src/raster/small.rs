@@ -1,7 +1,8 @@
 //! Coverage of small triangles, sixteen triangles at a time.
 //!
 //! A triangle whose box holds at most 8×8 pixels would leave most of sixteen pixels' lanes idle;
-//! here the lanes are the triangles of a packet, and the loop is over the pixels of their boxes.
+//! here the lanes are the triangles of a packet, and the loop is over the pixels of their boxes,
+//! once for each sample of a pixel.
 //! All differences of positions are below 2¹³, so that 32-bit edges are exact without a tile's
 //! constants.
 //!
@@ -10,8 +11,8 @@
 //!       t₀ t₁ t₂ … t₁₅                 E = c + a·x + b·y ≥ 0 of three edges, for sixteen triangles
 //! ```
 
-use super::TileShape;
 use super::pixel_list::{PixelList, Pixels};
+use super::{SampleSet, TileShape};
 use crate::bounds::pixel_rect::PixelRect;
 use crate::bounds::primitives::TrianglePacket;
 use crate::depth_format::StoredDepth;
@@ -24,25 +25,41 @@ const SIDE: i32 = 8;
 /// Pixels of the largest box.
 pub(crate) const PIXELS: usize = 64;
 
+/// The columns and rows at most where a pixel has several samples: the packets of a larger triangle
+/// hold enough of them, and what a triangle costs beside them is shared by all of its samples.
+const SIDE_OF_SAMPLES: i32 = 4;
+
 /// A small triangle's extent in 1/256 pixel is below this, whatever part of it the tile shows.
 const EXTENT: i32 = 1 << 12;
 
 /// Small triangles of one packet inside a tile.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 #[repr(C, align(64))]
-pub(crate) struct SmallTriangles {
-    /// By lane: bit 8·row + column is that pixel of its box, rows 0 to 3 and 4 to 7.
-    covered: [[u32; LANES]; 2],
+pub(crate) struct SmallTriangles<const N: usize> {
+    /// By sample and lane: bit 8·row + column is that pixel of its box, rows 0 to 3 and 4 to 7.
+    covered: [[[u32; LANES]; 2]; N],
     /// Rows of the largest box.
     rows: usize,
     /// By lane: column and row of the box's first pixel in the tile, the row in the upper half.
     first: [u32; LANES],
-    /// By lane: the distance of that pixel's centre from the planes' origin.
+    /// By lane: the distance of that pixel's first sample from the planes' origin.
     from_x: [f32; LANES],
     from_y: [f32; LANES],
 }
 
-impl SmallTriangles {
+impl<const N: usize> Default for SmallTriangles<N> {
+    fn default() -> Self {
+        Self {
+            covered: [[[0; LANES]; 2]; N],
+            rows: 0,
+            first: [0; LANES],
+            from_x: [0.0; LANES],
+            from_y: [0.0; LANES],
+        }
+    }
+}
+
+impl<const N: usize> SmallTriangles<N> {
     /// Covers those of the packet's triangles in `lanes` that are small; returns which those are.
     #[inline(always)]
     pub(crate) fn cover<S: Lanes>(
@@ -51,19 +68,27 @@ impl SmallTriangles {
         packet: &TrianglePacket,
         lanes: u16,
         (tile, rect): (TileShape, &PixelRect),
+        samples: SampleSet<N>,
     ) -> u16 {
         let splat = |value: i32| <i32x16<S> as SimdBase<S>>::splat(s, value);
         let corners = Corners::new(s, packet);
         let ([x0, ..], [y0, _, y2]) = (corners.x, corners.y);
         let [x_min, x_max] = corners.x_ends;
-        // The box's pixels: those whose centres lie in it, in the tile.
-        let x_first = ((x_min + 127) >> 8).max(splat(tile.x + rect.x0));
-        let y_first = ((y0 + 127) >> 8).max(splat(tile.y + rect.y0));
-        let across = ((x_max - 128) >> 8).min(splat(tile.x + rect.x1 - 1)) - x_first;
-        let down = ((y2 - 128) >> 8).min(splat(tile.y + rect.y1 - 1)) - y_first;
+        // The box's pixels in the tile: those of which samples may lie in it. Of one sample, those
+        // whose centres do.
+        let positions = samples.subpixels();
+        let [x_ends, y_ends] = [0, 1].map(|axis| ends(positions.map(|position| position[axis])));
+        let x_first = ((x_min + (255 - x_ends[1])) >> 8).max(splat(tile.x + rect.x0));
+        let y_first = ((y0 + (255 - y_ends[1])) >> 8).max(splat(tile.y + rect.y0));
+        let across = ((x_max - x_ends[0]) >> 8).min(splat(tile.x + rect.x1 - 1)) - x_first;
+        let down = ((y2 - y_ends[0]) >> 8).min(splat(tile.y + rect.y1 - 1)) - y_first;
         let extent = (x_max - x_min).max(y2 - y0);
-        let is_small =
-            extent.simd_lt(splat(EXTENT)) & across.simd_lt(splat(SIDE)) & down.simd_lt(splat(SIDE));
+        let side = splat(if const { N == 1 } {
+            SIDE
+        } else {
+            SIDE_OF_SAMPLES
+        });
+        let is_small = extent.simd_lt(splat(EXTENT)) & across.simd_lt(side) & down.simd_lt(side);
         let small = s.bits_of_mask(is_small) & lanes;
         if small == 0 {
             return 0;
@@ -73,16 +98,17 @@ impl SmallTriangles {
         let among = among & !is_empty;
         let (columns, rows) = (largest(s, across, among), largest(s, down, among));
 
-        let center = [(x_first << 8) + 128, (y_first << 8) + 128];
-        let edges = edges(s, packet, &corners, center);
+        let [first_x, first_y] = positions[0];
+        let place = [(x_first << 8) + first_x, (y_first << 8) + first_y];
+        let edges = edges(s, packet, &corners, place);
         // What a pixel further on adds.
         let [to_right, below] = [
             [edges[0].a << 8, edges[1].a << 8, edges[2].a << 8],
             [edges[0].b << 8, edges[1].b << 8, edges[2].b << 8],
         ];
         // Distances from the planes' origin are exact: multiples of 1/256 below 2¹⁶.
-        let from_x = f32x16::float_from((x_first << 8) + 128 - x0) * (1.0 / 256.0);
-        let from_y = f32x16::float_from((y_first << 8) + 128 - y0) * (1.0 / 256.0);
+        let from_x = f32x16::float_from(place[0] - x0) * (1.0 / 256.0);
+        let from_y = f32x16::float_from(place[1] - y0) * (1.0 / 256.0);
 
         // The columns of each box, and with them the lanes that have a row.
         let mut inside_box = splat(0);
@@ -90,30 +116,39 @@ impl SmallTriangles {
             let has_column = across.simd_ge(splat(column)) & among;
             inside_box = has_column.select(inside_box | splat(1 << column), inside_box);
         }
-        let mut covered = [splat(0); 2];
-        let mut row_edges = [edges[0].value, edges[1].value, edges[2].value];
-        for row in 0..rows {
-            let mut values = row_edges;
-            let mut of_row = splat(0);
-            for column in 0..columns {
-                // Outside an edge the sign bit is set.
-                let outside = (values[0] | values[1] | values[2]) >> 31;
-                of_row |= !outside & splat(1 << column);
-                for (value, step) in values.iter_mut().zip(to_right) {
+        for (covered, [x, y]) in self.covered.iter_mut().zip(positions) {
+            let [x, y] = [x - first_x, y - first_y];
+            // The rows of a sample: the edges at its place in the first pixel, and down from there.
+            let mut row_edges = edges.map(|edge| edge.value);
+            if const { N > 1 } {
+                for (value, edge) in row_edges.iter_mut().zip(&edges) {
+                    *value += edge.a * x + edge.b * y;
+                }
+            }
+            let mut halves = [splat(0); 2];
+            for row in 0..rows {
+                let mut values = row_edges;
+                let mut of_row = splat(0);
+                for column in 0..columns {
+                    // Outside an edge the sign bit is set.
+                    let outside = (values[0] | values[1] | values[2]) >> 31;
+                    of_row |= !outside & splat(1 << column);
+                    for (value, step) in values.iter_mut().zip(to_right) {
+                        *value += step;
+                    }
+                }
+                let has_row = down.simd_ge(splat(row));
+                let of_row = has_row.select(of_row & inside_box, splat(0));
+                let (half, shift) = ((row >> 2) as usize & 1, (row & 3) * SIDE);
+                halves[half] |= of_row << shift.cast_unsigned();
+                for (value, step) in row_edges.iter_mut().zip(below) {
                     *value += step;
                 }
             }
-            let has_row = down.simd_ge(splat(row));
-            let of_row = has_row.select(of_row & inside_box, splat(0));
-            let (half, shift) = ((row >> 2) as usize & 1, (row & 3) * SIDE);
-            covered[half] |= of_row << shift.cast_unsigned();
-            for (value, step) in row_edges.iter_mut().zip(below) {
-                *value += step;
-            }
+            let [upper, lower]: [u32x16<S>; 2] = halves.map(|half| half.bitcast());
+            upper.store_array(&mut covered[0]);
+            lower.store_array(&mut covered[1]);
         }
-        let [upper, lower]: [u32x16<S>; 2] = [covered[0].bitcast(), covered[1].bitcast()];
-        upper.store_array(&mut self.covered[0]);
-        lower.store_array(&mut self.covered[1]);
         self.rows = rows as usize;
         let first = (x_first - splat(tile.x)) | ((y_first - splat(tile.y)) << 16);
         let first: u32x16<S> = first.bitcast();
@@ -123,18 +158,19 @@ impl SmallTriangles {
         small
     }
 
-    /// Lists the covered pixels of the triangles in `lanes`.
+    /// Lists the pixels of the triangles in `lanes` of which one sample is covered.
     #[inline(always)]
-    pub(crate) fn list<S: Lanes>(&self, s: S, lanes: u16, list: &mut PixelList) {
+    pub(crate) fn list<S: Lanes>(&self, s: S, sample: usize, lanes: u16, list: &mut PixelList) {
+        let covered = &self.covered[sample % N];
         // Two rows of a box are sixteen bits.
         match self.rows {
-            0..=2 => list.fill::<S, 1>(s, &self.covered, lanes),
-            3..=4 => list.fill::<S, 2>(s, &self.covered, lanes),
-            _ => list.fill::<S, 4>(s, &self.covered, lanes),
+            0..=2 => list.fill::<S, 1>(s, covered, lanes),
+            3..=4 => list.fill::<S, 2>(s, covered, lanes),
+            _ => list.fill::<S, 4>(s, covered, lanes),
         }
     }
 
-    /// The distances of sixteen pixels' centres from their planes' origin, exact.
+    /// The distances of sixteen pixels' first samples from their planes' origin, exact.
     #[inline(always)]
     pub(crate) fn distances<S: Lanes>(&self, s: S, pixels: Pixels<S>) -> [f32x16<S>; 2] {
         let [column, row] = [pixels.column(s), pixels.row(s)];
@@ -146,35 +182,48 @@ impl SmallTriangles {
         ]
     }
 
-    /// The places of sixteen pixels in the tile.
+    /// The places of sixteen pixels' first samples in the tile.
     #[inline(always)]
     pub(crate) fn places<S: Lanes>(&self, s: S, pixels: Pixels<S>) -> u32x16<S> {
         let first = s.permute(u32x16::load_array_ref(s, &self.first), pixels.lane());
         let step: u32x16<S> = (pixels.column(s) | (pixels.row(s) << 16)).bitcast();
-        spread(s, first + step)
+        let pixels = spread(s, first + step);
+        if const { N == 1 } {
+            return pixels;
+        }
+        // The lines of a packet's samples lie one after the other.
+        let lane = pixels & <u32x16<S> as SimdBase<S>>::splat(s, LANES as u32 - 1);
+        (pixels - lane) * (N as u32) + lane
     }
 
-    /// Places in the tile and depths of all listed pixels.
+    /// Places in the tile and depths of one sample of all listed pixels.
     #[inline(always)]
     pub(crate) fn locate<S: Lanes>(
         &self,
         s: S,
         packet: &TrianglePacket,
-        stored: StoredDepth,
+        (stored, samples, sample): (StoredDepth, SampleSet<N>, usize),
         list: &mut PixelList,
     ) {
+        let offsets = samples.offsets();
+        let [from_first_x, from_first_y] =
+            [0, 1].map(|axis| offsets[sample % N][axis] - offsets[0][axis]);
+        let line = <u32x16<S> as SimdBase<S>>::splat(s, (sample * LANES) as u32);
         let origin = f32x16::load_array_ref(s, &packet.z.origin);
         let dx = f32x16::load_array_ref(s, &packet.z.dx);
         let dy = f32x16::load_array_ref(s, &packet.z.dy);
         for (pixels, (places, depths)) in list.sixteens() {
             let pixels = Pixels(u32x16::load_array_ref(s, pixels));
             let lane = pixels.lane();
-            let [x, y] = self.distances(s, pixels);
+            let [mut x, mut y] = self.distances(s, pixels);
+            if const { N > 1 } {
+                (x, y) = (x + from_first_x, y + from_first_y);
+            }
             let by_x = x * s.permute_f32(dx, lane);
             let by_y = y * s.permute_f32(dy, lane);
             let depth = s.permute_f32(origin, lane) + (by_x + by_y);
             stored.of(s, depth).store_array(depths);
-            self.places(s, pixels).store_array(places);
+            (self.places(s, pixels) + line).store_array(places);
         }
     }
 }
@@ -189,6 +238,14 @@ fn spread<S: Lanes>(s: S, v: u32x16<S>) -> u32x16<S> {
     let v = (v | (v << 2)) & mask(0x0333_0333);
     let v = (v | (v << 1)) & mask(0x0555_0555);
     (v | (v >> 15)) & mask(0xFFF)
+}
+
+/// The least and the greatest.
+#[inline(always)]
+fn ends<const N: usize>(of: [i32; N]) -> [i32; 2] {
+    let first = [of[0]; 2];
+    of.iter()
+        .fold(first, |[least, most], at| [least.min(*at), most.max(*at)])
 }
 
 /// The corners of sixteen triangles.

@@ -71,23 +71,21 @@ fn fragments_of_small_triangles_fill_packets() {
     );
 }
 
-/// Rows: R1, O3.
+/// Rows: R1, R4, O3.
 #[test]
 fn small_triangles_have_ids_where_their_shader_takes_derivatives() {
-    let statistics = check_paths(
-        "small_triangles/ids",
-        12,
-        ExpectedPaths::default(),
-        |random| {
+    for samples in [1, 4] {
+        let topic = format!("small_triangles/ids_{samples}");
+        let statistics = check_paths(&topic, 12, ExpectedPaths::default(), |random| {
             let shader = match random.below(3) {
                 0 => FlatColored.into(),
                 _ => Probe::random(random).into(),
             };
-            case(random, shader, [150, 100], 1)
-        },
-    );
-    let pixels = statistics.small_triangle_pixels;
-    assert!(pixels > 0, "no pixels of small triangles were listed");
+            case(random, shader, [150, 100], samples)
+        });
+        let listed = statistics.small_triangle_pixels;
+        assert!(listed > 0, "no samples of small triangles were listed");
+    }
 }
 
 /// Rows: R1, R4.

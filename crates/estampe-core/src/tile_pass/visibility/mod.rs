@@ -56,7 +56,7 @@ const ONLY_WIDE: &str = "the scalar level draws in order";
 pub(super) struct VisibilityScratch<const N: usize> {
     list: CoverageList<N>,
     buffer: VisibilityBuffer<N>,
-    small: SmallTriangles,
+    small: SmallTriangles<N>,
     pixels: PixelList,
     edges: PacketEdges<N>,
     cross: CrossTriangleScratch,

@@ -130,10 +130,10 @@ impl<'a, 'j, 't, const N: usize> Rasterizer<'a, 'j, 't, N> {
     fn entry(&mut self, number: u32, lanes: u16, mut id: u32) {
         let packet = &self.work.chunk.triangles[number as usize];
         let mut small = 0;
-        if const { N == 1 } {
-            let (tile, rect) = (self.work.shape, &self.work.rect);
+        if const { N <= 4 } {
+            let tile = (self.work.shape, &self.work.rect);
             let cover = &mut self.scratch.visibility.small;
-            small = dispatch!(@wide self.work.level, s => cover.cover(s, packet, lanes, (tile, rect)),
+            small = dispatch!(@wide self.work.level, s => cover.cover(s, packet, lanes, tile, self.samples),
                 scalar => unreachable!("{ONLY_WIDE}"));
         }
         let large = lanes & !small;

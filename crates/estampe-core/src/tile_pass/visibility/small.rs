@@ -1,5 +1,5 @@
-//! Small triangles of the visibility pass: covered sixteen at a time, their pixels listed, and the
-//! list tested pixel by pixel.
+//! Small triangles of the visibility pass: covered sixteen at a time, their pixels listed for each
+//! sample, and the list tested pixel by pixel.
 
 use super::ONLY_WIDE;
 use super::rasterize::Rasterizer;
@@ -10,8 +10,8 @@ use crate::raster::pixel_list::{PixelList, lane_of};
 use estampe_simd::{LANES, Lanes, dispatch};
 use std::hint::select_unpredictable;
 
-/// Pixels of a tile where a pixel has one sample.
-const TILE_PIXELS: usize = MAX_PACKETS * LANES;
+/// Samples of a tile where a pixel has one sample, or four.
+const TILE_SAMPLES: usize = MAX_PACKETS * LANES;
 
 /// The ids of small triangles' samples.
 pub(super) trait Numbering {
@@ -51,8 +51,8 @@ impl Numbering for ByTriangle {
 impl<const N: usize> Rasterizer<'_, '_, '_, N> {
     /// Small triangles of a packet; `entry` is all of its lanes and their first id.
     pub(super) fn small(&mut self, packet: &TrianglePacket, lanes: u16, entry: (u16, u32)) {
-        // Small triangles are found where a pixel has one sample.
-        if const { N == 1 } && lanes != 0 {
+        // Small triangles are found where a pixel has one sample, or four.
+        if const { N <= 4 } && lanes != 0 {
             dispatch!(@wide self.work.level, s => self.small_lanes(s, packet, lanes, entry),
                 scalar => unreachable!("{ONLY_WIDE}"));
         }
@@ -69,24 +69,27 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
         let plan = self.work.plan;
         let visibility = &mut self.scratch.visibility;
         let (small, list) = (&visibility.small, &mut visibility.pixels);
-        small.list(s, lanes, list);
-        small.locate(s, packet, plan.tests.stored, list);
-        self.scratch.statistics.small_triangle_pixels += list.len() as u64;
         let mut single = std::mem::take(&mut visibility.buffer.single);
         let counts = plan.query.is_some().then_some(&mut self.passed);
         let target = (&plan.tests, self.samples, self.work.shape);
         let buffer = &mut visibility.buffer;
         let mut writer = VisibilityWriter::new(target, self.storage, self.job, buffer, counts);
         single.write_out(self.work.level, u16::MAX, &mut writer);
-        let blocks = if self.crosses_triangles {
-            let mut numbering = visibility.cross.begin();
-            let blocks = writer.pixels(list, packet.front, &mut numbering);
-            let shown = numbering.shown();
-            visibility.cross.end(shown);
-            blocks
-        } else {
-            writer.pixels(list, packet.front, &mut ByTriangle::new(entry))
-        };
+        let mut blocks = 0;
+        for sample in 0..self.samples.count() {
+            small.list(s, sample, lanes, list);
+            small.locate(s, packet, (plan.tests.stored, self.samples, sample), list);
+            self.scratch.statistics.small_triangle_pixels += list.len() as u64;
+            blocks |= if self.crosses_triangles {
+                let mut numbering = visibility.cross.begin();
+                let blocks = writer.pixels(list, packet.front, &mut numbering);
+                let shown = numbering.shown();
+                visibility.cross.end(shown);
+                blocks
+            } else {
+                writer.pixels(list, packet.front, &mut ByTriangle::new(entry))
+            };
+        }
         visibility.buffer.single = single;
         if plan.tests.writes_depth() {
             self.scratch.hiz.invalidate(blocks);
@@ -98,8 +101,8 @@ impl<const N: usize> Rasterizer<'_, '_, '_, N> {
 }
 
 impl<const N: usize> VisibilityWriter<'_, N> {
-    /// Adds the listed pixels, in order; one sample a pixel. Gives the blocks that were touched,
-    /// one bit each.
+    /// Adds one sample of the listed pixels, in order. Gives the blocks that were touched, one bit
+    /// each.
     #[inline(always)]
     fn pixels(&mut self, list: &PixelList, front: u16, numbering: &mut impl Numbering) -> u16 {
         if self.tests_less_alone() && self.passed.is_none() {
@@ -114,24 +117,25 @@ impl<const N: usize> VisibilityWriter<'_, N> {
     #[inline(always)]
     fn nearer_pixels(&mut self, list: &PixelList, numbering: &mut impl Numbering) -> u16 {
         let depth = self.depth.as_flattened_mut().first_chunk_mut();
-        let depth: Option<&mut [f32; TILE_PIXELS]> = depth;
+        let depth: Option<&mut [f32; TILE_SAMPLES]> = depth;
         let Some(depth) = depth else {
-            debug_assert!(self.depth.is_empty(), "a tile of one sample");
+            debug_assert!(self.depth.is_empty(), "a tile of one sample or four");
             return 0;
         };
+        let unresolved = self.unresolved.as_flattened_mut();
         let ids = self.ids.as_flattened_mut().first_chunk_mut();
-        let mut ids: Option<&mut [u32; TILE_PIXELS]> = ids;
+        let mut ids: Option<&mut [u32; TILE_SAMPLES]> = ids;
         let mut blocks = 0;
         for (pixel, at, new) in list.iter() {
-            let at = at % TILE_PIXELS;
+            let at = at % TILE_SAMPLES;
             let old = depth[at];
             let passes = new < old;
             depth[at] = if passes { new } else { old };
-            blocks |= u16::from(passes) << (at >> 8);
+            blocks |= u16::from(passes) << (at / (256 * N));
             if let Some(ids) = &mut ids {
                 let id = numbering.id_of(lane_of(pixel));
                 ids[at] = select_unpredictable(passes, id, ids[at]);
-                self.unresolved[at / LANES][0] |= u16::from(passes) << (at % LANES);
+                unresolved[at / LANES] |= u16::from(passes) << (at % LANES);
                 numbering.note(pixel, passes);
             }
         }
@@ -148,6 +152,7 @@ impl<const N: usize> VisibilityWriter<'_, N> {
     ) -> u16 {
         let (depth, ids) = (self.depth.as_flattened_mut(), self.ids.as_flattened_mut());
         let stencil = self.stencil.as_flattened_mut();
+        let unresolved = self.unresolved.as_flattened_mut();
         let mut blocks = 0;
         for (pixel, at, new) in list.iter() {
             let lane = lane_of(pixel);
@@ -158,10 +163,10 @@ impl<const N: usize> VisibilityWriter<'_, N> {
             if let Some(count) = &mut self.passed {
                 **count += 1;
             }
-            blocks |= 1u16 << ((at >> 8) & 15);
+            blocks |= 1u16 << (at / (256 * N) % 16);
             if let Some(of_pixel) = ids.get_mut(at) {
                 *of_pixel = numbering.id_of(lane);
-                self.unresolved[at / LANES][0] |= 1 << (at % LANES);
+                unresolved[at / LANES] |= 1 << (at % LANES);
                 numbering.note(pixel, true);
             }
         }
