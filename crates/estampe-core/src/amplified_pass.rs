@@ -4,7 +4,7 @@
 use crate::amplification::amplify::Amplifier;
 use crate::amplification::piece::Piece;
 use crate::attachment::RenderTarget;
-use crate::commands::{Draw, LoadOp, PassControl, RenderPass, ViewportScissor};
+use crate::commands::{Discards, Draw, LoadOp, PassControl, RenderPass, ViewportScissor};
 use crate::draw::{Context, Memory};
 use crate::plan::pass_check::RenderPassError;
 use crate::statistics::Statistics;
@@ -145,6 +145,8 @@ impl Waiting<'_> {
                 ..self.pass.control
             },
             draws: &draws,
+            // The next part goes on with the same images.
+            discards: Discards::default(),
             ..self.pass.clone()
         };
         if !self.is_first {

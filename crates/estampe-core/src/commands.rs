@@ -115,12 +115,24 @@ pub struct RenderPass<'a> {
     pub load_depth: LoadOp<f32>,
     /// Of the stencil attachment.
     pub load_stencil: LoadOp<u8>,
+    /// The attachments whose texels are not needed after the pass. Default none.
+    pub discards: Discards,
     /// The counters of samples that pass all tests. Default none.
     pub occlusion_queries: Option<&'a OcclusionQueries>,
     /// Cancelling the pass, and watching its progress. Default neither.
     pub control: PassControl<'a>,
     /// The draws, in order.
     pub draws: &'a [Draw<'a>],
+}
+
+/// Attachments whose texels are undefined after a pass. Those that are cleared first, in a pass of
+/// one batch of draws, live in each worker's memory for one tile, and their images are not touched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Discards {
+    /// One bit for each colour attachment, the lowest for the first.
+    pub colors: u8,
+    /// Depth and stencil.
+    pub depth_stencil: bool,
 }
 
 /// Cancelling a pass, and watching its progress, between batches of draws: about every two million
@@ -164,6 +176,7 @@ impl Default for RenderPass<'_> {
             load_colors: Vec::new(),
             load_depth: LoadOp::Clear(1.0),
             load_stencil: LoadOp::Clear(0),
+            discards: Discards::default(),
             occlusion_queries: None,
             control: PassControl::default(),
             draws: &[],

@@ -2,7 +2,7 @@
 
 use crate::attachment::RenderTarget;
 use crate::bounds::chunk::{Chunk, ChunkIndex};
-use crate::commands::{Draw, OcclusionQueries, RenderPass};
+use crate::commands::{Discards, Draw, OcclusionQueries, RenderPass};
 use crate::geometry::chunk::{ChunkScratch, Neighbours, add_part};
 use crate::geometry::shaded_vertices::{ShadedVertices, VertexJob};
 use crate::geometry::shading::{ShadingScratch, shade};
@@ -92,6 +92,8 @@ struct TileAttachments<'a> {
     clear: &'a Clear,
     /// True if nothing is drawn into them afterwards.
     is_last: bool,
+    /// Those that nothing was drawn into before, and that nobody needs afterwards.
+    discards: Discards,
 }
 
 /// A chunk, and the primitives that it takes.
@@ -241,10 +243,18 @@ impl Context {
             }
             statistics.geometry += start.elapsed();
             let start = Instant::now();
+            let is_last = cursor.is_at_end();
+            // What a batch before has drawn is in the images: nothing is cleared then.
+            let discards = if is_last {
+                clear.cleared(pass.discards, target)
+            } else {
+                Discards::default()
+            };
             let attachments = TileAttachments {
                 target: &mut *target,
                 clear: &clear,
-                is_last: cursor.is_at_end(),
+                is_last,
+                discards,
             };
             statistics += self.draw_tiles(
                 executor,
@@ -330,6 +340,7 @@ impl Context {
         self.executor
             .for_each(&mut jobs, &memory.chunk_scratch, |job, scratch| {
                 job.chunk.clear();
+                job.chunk.triangles.expect(batch.packets(job.parts));
                 let mut joins_last = false;
                 for (at, part) in job.parts.iter().enumerate() {
                     let sub_draw = &batch.sub_draws[part.sub_draw as usize];
@@ -365,6 +376,7 @@ impl Context {
             target,
             clear,
             is_last,
+            discards,
         } = attachments;
         let mut resolved = [None; MAX_TARGETS];
         for resolve in target.resolves.iter_mut().filter(|_| is_last) {
@@ -400,6 +412,7 @@ impl Context {
             clear: *clear,
             samples: facts.samples,
             occlusion_queries,
+            discards,
             resolved,
         };
         let mut jobs = recycled(std::mem::take(&mut memory.lists.tile_jobs));

@@ -66,7 +66,9 @@ pub use attachment::{
     ColorResolve, ColorTexels, DepthStencilTexels, ImageSize, RenderTarget, ResolveMode,
     TargetShape, row_order_words,
 };
-pub use commands::{Draw, LoadOp, OcclusionQueries, PassControl, RenderPass, ViewportScissor};
+pub use commands::{
+    Discards, Draw, LoadOp, OcclusionQueries, PassControl, RenderPass, ViewportScissor,
+};
 pub use draw::Context;
 pub use pipeline::{
     PipelineError, RenderPipeline, RenderPipelineDescriptor, TessellationState,

@@ -35,7 +35,7 @@ pub struct Statistics {
     /// depend on the SIMD level.
     #[doc(hidden)]
     pub fragments_across_triangles: [u64; 2],
-    /// Covered pixels of small triangles that were tested as lists. They depend on the SIMD level.
+    /// Covered samples of small triangles that were tested as lists. They depend on the SIMD level.
     #[doc(hidden)]
     pub small_triangle_pixels: u64,
     /// Large triangles whose edges were set up sixteen at a time, once for each tile. They depend
@@ -57,6 +57,9 @@ pub struct Statistics {
     /// Colour attachments of tiles that were resolved when the tile was drawn.
     #[doc(hidden)]
     pub tiles_resolved: u64,
+    /// Tiles of which some attachment was in the memory of a worker alone.
+    #[doc(hidden)]
+    pub tiles_in_workers: u64,
     /// Time of the geometry side.
     pub geometry: Duration,
     /// Time of the tile side.
@@ -88,6 +91,7 @@ impl std::ops::AddAssign for Statistics {
         self.paths += other.paths;
         self.groups_of_geometry += other.groups_of_geometry;
         self.tiles_resolved += other.tiles_resolved;
+        self.tiles_in_workers += other.tiles_in_workers;
         self.geometry += other.geometry;
         self.raster += other.raster;
     }

@@ -16,8 +16,8 @@ use crate::options::{RenderOptions, Transparency};
 use crate::shading::surface::DEPTH_ORDER;
 use crate::surface_pipelines::FrameStyle;
 use estampe::{
-    ColorAttachment, DepthStencilAttachment, Device, Draw, PassControl, RenderPass, Statistics,
-    Texture,
+    AspectOperations, ColorAttachment, DepthStencilAttachment, Device, Draw, LoadOp, PassControl,
+    RenderPass, Statistics, StoreOp, Texture,
 };
 use estampe_transparency::{PeelDraws, Target, blend_weighted, peel};
 
@@ -49,7 +49,8 @@ impl FramePasses<'_> {
         let method = self.options.transparency;
         if method == Transparency::Sorted || !self.has_transparent_surfaces() {
             let mut statistics = self.before;
-            statistics += self.with_one_pass(|pass| Ok(device.render(pass)?))?;
+            let unused = StoreOp::Discard;
+            statistics += self.with_one_pass(unused, |pass| Ok(device.render(pass)?))?;
             return Ok(DrawnPasses {
                 statistics,
                 layers: None,
@@ -108,18 +109,30 @@ impl FramePasses<'_> {
         !self.plan.transparent().is_empty()
     }
 
-    /// The pass that draws the whole frame, if transparent surfaces are sorted.
+    /// The pass that draws the whole frame, if transparent surfaces are sorted. `unused` is what
+    /// becomes of depths, and of samples that are resolved.
     pub(crate) fn with_one_pass<T>(
         &self,
+        unused: StoreOp,
         use_pass: impl FnOnce(&RenderPass<'_>) -> Result<T, RenderError>,
     ) -> Result<T, RenderError> {
         let mut draws = self.opaque_and_ground();
         draws.extend(self.plan.transparent());
         draws.extend(self.plan.edges());
         let progress = |begun, all| (self.on_stage)(FrameStage::Drawing { begun, all });
+        let mut color = self.attachments.color(self.options);
+        if color.resolve_target.is_some() {
+            color.store = unused;
+        }
         use_pass(&RenderPass {
-            color_attachments: &[Some(self.attachments.color(self.options))],
-            depth_stencil_attachment: Some(self.attachments.cleared_depth()),
+            color_attachments: &[Some(color)],
+            depth_stencil_attachment: Some(DepthStencilAttachment {
+                depth: AspectOperations::Write {
+                    load: LoadOp::Clear(1.0),
+                    store: unused,
+                },
+                ..self.attachments.cleared_depth()
+            }),
             draws: &draws,
             control: watched(&progress),
             ..RenderPass::default()

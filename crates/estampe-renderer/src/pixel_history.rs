@@ -7,7 +7,7 @@ use crate::frame_passes::FramePasses;
 use crate::light::FrameOutput;
 use crate::options::{RenderOptions, Transparency};
 use crate::scene_view::SceneView;
-use estampe::{Device, PassStages, PixelHistory};
+use estampe::{Device, PassStages, PixelHistory, StoreOp};
 use estampe_scene::Scene;
 use glam::{DVec3, Vec3};
 
@@ -50,7 +50,8 @@ pub fn inspect(
     let to = (device, FrameOutput::Display);
     with_passes(scene, options, to, &|_| {}, |passes, view| {
         check_one_pass(options, passes)?;
-        let history = passes.with_one_pass(|pass| Ok(device.inspect(pass, pixel)?))?;
+        let history =
+            passes.with_one_pass(StoreOp::Store, |pass| Ok(device.inspect(pass, pixel)?))?;
         let texel = history.texels.first().and_then(Option::as_deref);
         let mut final_rgba8 = texel
             .and_then(|bytes| bytes.try_into().ok())
@@ -100,7 +101,8 @@ pub fn inspect_stages(
     let to = (device, FrameOutput::Display);
     with_passes(scene, options, to, &|_| {}, |passes, view| {
         check_one_pass(options, passes)?;
-        let stages = passes.with_one_pass(|pass| Ok(device.inspect_stages(pass)?))?;
+        let stages =
+            passes.with_one_pass(StoreOp::Store, |pass| Ok(device.inspect_stages(pass)?))?;
         let vertices = stages.vertices.iter();
         let spaces = vertices.map(|vertex| {
             let [x, y, z, _] = vertex.attribute;

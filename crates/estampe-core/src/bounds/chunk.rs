@@ -52,6 +52,8 @@ struct ChunkPart {
 pub(crate) struct TrianglePackets {
     memory: Vec<TrianglePacket>,
     len: usize,
+    /// The number of packets if no triangle is culled.
+    most: usize,
 }
 
 impl TrianglePackets {
@@ -59,14 +61,28 @@ impl TrianglePackets {
     #[inline(always)]
     pub(crate) fn push_stale(&mut self) -> &mut TrianglePacket {
         if self.len == self.memory.len() {
-            self.memory.push(TrianglePacket::EMPTY);
+            self.add_memory();
         }
         self.len += 1;
         &mut self.memory[self.len - 1]
     }
 
+    /// Announces at most so many packets: memory is then taken at once, with the first of them.
+    /// Lists that double are copied to new memory each time, as packets are aligned to lines of the
+    /// cache, and the kernel clears the old as well as the new: a third of a mesh's memory.
+    pub(crate) fn expect(&mut self, most: usize) {
+        self.most = most;
+    }
+
+    #[cold]
+    fn add_memory(&mut self) {
+        let missing = self.most.saturating_sub(self.memory.len());
+        self.memory.reserve_exact(missing);
+        self.memory.push(TrianglePacket::EMPTY);
+    }
+
     fn clear(&mut self) {
-        self.len = 0;
+        (self.len, self.most) = (0, 0);
     }
 }
 

@@ -1,5 +1,6 @@
 //! Draw batches: sub-draws that are processed together.
 
+use super::chunk_plan::ChunkPart;
 use super::draw_state::DrawState;
 use super::sub_draw::SubDraw;
 use super::tile_plan::{TargetFacts, TileState};
@@ -8,7 +9,7 @@ use crate::commands::Draw;
 use crate::geometry::plan::GeometryPlan;
 use crate::geometry::shaded_vertices::VertexSpan;
 use crate::tile_path::{PathFacts, TilePath};
-use estampe_simd::Level;
+use estampe_simd::{LANES, Level};
 use std::ops::Range;
 
 /// Sub-draws in submission order, and the states that they share.
@@ -104,6 +105,19 @@ impl<'a> DrawBatch<'a> {
             cuts_samples: self.plan(a).cut_samples.is_some(),
         };
         a.rasterizes_like(b) && TilePath::choose(a.draw.pipeline, &facts).joins_draws()
+    }
+
+    /// The packets of triangles of a chunk, if none is culled.
+    pub(crate) fn packets(&self, parts: &[ChunkPart]) -> usize {
+        let packets = |part: &ChunkPart| {
+            let [from, to] = part.primitives;
+            let plan = self.plan(&self.sub_draws[part.sub_draw as usize]);
+            match plan.fills_triangles() {
+                true => ((to - from) as usize).div_ceil(LANES),
+                false => 0,
+            }
+        };
+        parts.iter().map(packets).sum()
     }
 
     /// Resolves the state that tiles read; sub-draws in a row share it.

@@ -2,7 +2,7 @@
 
 use super::{MAX_TARGETS, TileJob};
 use crate::attachment::RenderTarget;
-use crate::commands::{LoadOp, RenderPass};
+use crate::commands::{Discards, LoadOp, RenderPass};
 use crate::pipeline::color_target::MAX_WORDS;
 use estampe_format::AttachmentCodec;
 use estampe_simd::{LANES, Lanes, Level, SimdBase, dispatch, f32x16, u32x16};
@@ -42,6 +42,18 @@ impl Clear {
     /// Returns true if there is nothing to clear.
     pub(crate) fn is_done(&self) -> bool {
         self.colors.iter().all(Option::is_none) && self.depth.is_none() && self.stencil.is_none()
+    }
+
+    /// Those of the attachments that are cleared: what they held before is not seen.
+    pub(crate) fn cleared(&self, attachments: Discards, target: &RenderTarget) -> Discards {
+        let cleared = self.colors.iter().rev();
+        let cleared = cleared.fold(0, |bits, color| bits << 1 | u8::from(color.is_some()));
+        let keeps_depth = target.has_depth() && self.depth.is_none();
+        let keeps_stencil = target.has_stencil() && self.stencil.is_none();
+        Discards {
+            colors: attachments.colors & cleared,
+            depth_stencil: attachments.depth_stencil && !keeps_depth && !keeps_stencil,
+        }
     }
 
     /// Clears a tile.

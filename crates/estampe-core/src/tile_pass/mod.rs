@@ -8,6 +8,7 @@
 mod clear;
 mod in_order;
 mod visibility;
+mod worker_tile;
 
 pub(crate) use clear::Clear;
 
@@ -15,7 +16,7 @@ use crate::attachment::resolve::ResolveJob;
 use crate::bounds::bins::BinEntry;
 use crate::bounds::chunk::{Chunk, ChunkIndex};
 use crate::bounds::pixel_rect::PixelRect;
-use crate::commands::OcclusionQueries;
+use crate::commands::{Discards, OcclusionQueries};
 use crate::fragment::interpolate::VaryingSource;
 use crate::fragment::queue::{FragmentQueue, ShadedBatch};
 use crate::layout::TileGrid;
@@ -27,6 +28,7 @@ use crate::statistics::Statistics;
 use crate::tile_path::TilePath;
 use estampe_simd::{LANES, Level};
 use estampe_types::TextureFormat;
+use worker_tile::WorkerTile;
 
 /// The most colour targets of a pass.
 pub(crate) const MAX_TARGETS: usize = 8;
@@ -48,6 +50,8 @@ pub(crate) struct TilePass<'a> {
     pub(crate) clear: Clear,
     pub(crate) samples: usize,
     pub(crate) occlusion_queries: Option<&'a OcclusionQueries>,
+    /// The attachments of which workers keep one tile each.
+    pub(crate) discards: Discards,
     /// By colour attachment: the format, if it is resolved when the tile is drawn.
     pub(crate) resolved: [Option<TextureFormat>; MAX_TARGETS],
 }
@@ -79,11 +83,31 @@ pub(crate) struct TileScratch<const N: usize> {
     hiz: HierarchicalZ,
     in_order: in_order::InOrderScratch<N>,
     visibility: visibility::VisibilityScratch<N>,
+    tile: WorkerTile,
     pub(crate) statistics: Statistics,
 }
 
 /// Draws a tile.
 pub(crate) fn draw<const N: usize>(
+    pass: &TilePass<'_>,
+    job: &mut TileJob<'_>,
+    scratch: &mut TileScratch<N>,
+) {
+    if pass.discards == Discards::default() {
+        return draw_into(pass, job, scratch);
+    }
+    let mut tile = std::mem::take(&mut scratch.tile);
+    if let Some(mut own) = tile.job(pass, job) {
+        draw_into(pass, &mut own, scratch);
+        scratch.statistics.tiles_in_workers += 1;
+    } else {
+        draw_into(pass, job, scratch);
+    }
+    scratch.tile = tile;
+}
+
+/// Draws a tile into the attachments of its job.
+fn draw_into<const N: usize>(
     pass: &TilePass<'_>,
     job: &mut TileJob<'_>,
     scratch: &mut TileScratch<N>,

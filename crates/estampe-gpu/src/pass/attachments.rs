@@ -1,9 +1,11 @@
 //! The attachments of a pass, and their checks.
 
-use super::{AspectOperations, ColorAttachment, DepthStencilAttachment, PassErrorKind, RenderPass};
+use super::{
+    AspectOperations, ColorAttachment, DepthStencilAttachment, PassErrorKind, RenderPass, StoreOp,
+};
 use crate::Limits;
 use crate::texture::{ImageKey, Texture, TextureUsages, TextureView};
-use estampe_core::{ImageSize, LoadOp, TargetShape};
+use estampe_core::{Discards, ImageSize, LoadOp, TargetShape};
 use estampe_types::TextureFormat;
 
 /// The role of an image, as messages name it.
@@ -203,6 +205,26 @@ impl<'a> Attachments<'a> {
         )
     }
 
+    /// The attachments that the pass discards at its end.
+    pub(super) fn discards(&self) -> Discards {
+        let colors = self.colors.iter().rev().fold(0, |bits, color| {
+            bits << 1 | u8::from(color.attachment.store == StoreOp::Discard)
+        });
+        let depth_stencil = self
+            .depth_stencil
+            .as_ref()
+            .is_some_and(|(image, attachment)| {
+                let format = image.view.format();
+                let keeps_depth = format.has_depth() && !is_discarded(&attachment.depth);
+                let keeps_stencil = format.has_stencil() && !is_discarded(&attachment.stencil);
+                !keeps_depth && !keeps_stencil && attachment.resolve.is_none()
+            });
+        Discards {
+            colors,
+            depth_stencil,
+        }
+    }
+
     /// The samples and formats, as pipelines must have them.
     pub(crate) fn with_shape<T>(&self, use_shape: impl FnOnce(&TargetShape<'_>) -> T) -> T {
         let formats = self.colors.iter().map(|color| color.image.view.format());
@@ -214,6 +236,16 @@ impl<'a> Attachments<'a> {
             depth_stencil: depth_stencil.map(|(image, _)| image.view.format()),
         })
     }
+}
+
+pub(super) fn is_discarded<T>(operations: &AspectOperations<T>) -> bool {
+    matches!(
+        operations,
+        AspectOperations::Write {
+            store: StoreOp::Discard,
+            ..
+        }
+    )
 }
 
 pub(super) fn load_of<T>(operations: AspectOperations<T>) -> LoadOp<T> {

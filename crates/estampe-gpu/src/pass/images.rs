@@ -1,7 +1,7 @@
 //! The images of a pass: taken out of their textures before it, resolved and put back after it.
 
-use super::attachments::{Attachments, Use, load_of};
-use super::{AspectOperations, DepthStencilAttachment, PassErrorKind, StoreOp};
+use super::attachments::{Attachments, Use, is_discarded, load_of};
+use super::{DepthStencilAttachment, PassErrorKind, StoreOp};
 use crate::Context;
 use crate::texture::{Image, Newest};
 use estampe_core::{DepthStencilTexels, LoadOp, RenderTarget};
@@ -194,16 +194,6 @@ impl Attachments<'_> {
             }
         }
     }
-}
-
-fn is_discarded<T>(operations: &AspectOperations<T>) -> bool {
-    matches!(
-        operations,
-        AspectOperations::Write {
-            store: StoreOp::Discard,
-            ..
-        }
-    )
 }
 
 fn take(context: &Context, image: &Use<'_>, keeps: bool) -> Result<(Image, Newest), PassErrorKind> {

@@ -11,7 +11,7 @@ use crate::bind_group::BindingResource;
 use crate::buffer::StoredBuffers;
 use crate::texture::{StoredTextures, Texture, check_texture_conflicts};
 use crate::{Context, Device, Limits, LoadOp, Statistics};
-use estampe_core::{PassControl, RenderTarget};
+use estampe_core::{Discards, PassControl, RenderTarget};
 use estampe_types::shader::StoppedBatches;
 use std::sync::Arc;
 
@@ -104,6 +104,7 @@ pub(crate) fn core_pass<'a>(
         occlusion_queries: pass.occlusion_queries,
         control: pass.control,
         draws,
+        ..estampe_core::RenderPass::default()
     }
 }
 
@@ -120,7 +121,10 @@ fn run(device: &Device, pass: &RenderPass<'_>) -> Result<Statistics, PassErrorKi
     let resources = groups.resources(context, (&mut stores, &buffers))?;
     let data = DrawData::new(pass.draws, &groups, &resources);
     let draws = data.draws(pass.draws);
-    let core_pass = core_pass(pass, attachments[0].loads(), &draws);
+    let core_pass = estampe_core::RenderPass {
+        discards: attachments[0].discards(),
+        ..core_pass(pass, attachments[0].loads(), &draws)
+    };
     // Before anything is taken, so that a pass that is refused changes nothing.
     attachments[0].with_shape(|shape| core_pass.check(shape))?;
     let taken = take_all(context, &attachments)?;
@@ -265,6 +269,8 @@ fn draw(
                 ..core_pass.control
             },
             draws: &core_pass.draws[cut[0]..cut[1]],
+            // The next part goes on with the same images.
+            discards: Discards::default(),
             ..if number == 0 {
                 core_pass.clone()
             } else {

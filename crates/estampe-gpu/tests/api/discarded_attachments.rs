@@ -1,10 +1,11 @@
 //! Attachments whose texels are not stored: they are zeros wherever they are read.
 
 use crate::support::sampling::{FLAT, Turned, draw_over, sampled_group, sampling_pipeline};
-use crate::support::{clear, device, devices, f32s, read_layer, texture};
+use crate::support::{Fill, Images, clear, device, devices, f32s, read_layer, texture};
+use estampe::state::{MultisampleState, ScissorRect};
 use estampe::{
-    AspectOperations, ColorAttachment, DepthStencilAttachment, LoadOp, RenderPass, StoreOp,
-    TextureFormat,
+    AspectOperations, ColorAttachment, DepthStencilAttachment, Draw, LoadOp, RangeQueries,
+    RenderPass, RenderPipelineDescriptor, StoreOp, TextureFormat,
 };
 
 #[test]
@@ -92,4 +93,111 @@ fn depth_and_stencil_are_discarded_one_by_one() {
     assert_eq!(render([Discard, Store]), (0.0, 77));
     assert_eq!(render([Store, Discard]), (0.5, 0));
     assert_eq!(render([Discard, Discard]), (0.0, 0));
+}
+
+/// A near rectangle, and behind it one colour everywhere: what is kept is the same bytes whether
+/// the depths, and the samples that are resolved, are kept or not, and whether they were cleared or
+/// loaded. Only what is cleared and discarded lies in the memory of workers.
+#[test]
+fn what_is_kept_does_not_depend_on_what_is_discarded() {
+    let (size, format) = ([200, 130], TextureFormat::Rgba8Unorm);
+    for (name, device) in devices() {
+        for samples in [1, 4, 8] {
+            let images = Images::with(&device, size, format, samples);
+            let image = texture(&device, size, format);
+            let pipeline = |depth, color| {
+                let descriptor = RenderPipelineDescriptor {
+                    multisample: MultisampleState::new(samples),
+                    ..RenderPipelineDescriptor::new(Fill { color, depth })
+                };
+                device.create_render_pipeline(&descriptor).unwrap()
+            };
+            let [near, far] = [
+                pipeline(0.25, [1.0, 0.5, 0.0, 1.0]),
+                pipeline(0.5, [0.0, 0.25, 1.0, 1.0]),
+            ];
+            let rectangle = ScissorRect {
+                x: 30,
+                y: 20,
+                width: 90,
+                height: 100,
+            };
+            let near = Draw {
+                scissor: Some(rectangle),
+                ..Draw::new(&near, 0..3)
+            };
+            let draws = [near, Draw::new(&far, 0..3)];
+            let render =
+                |loads: (LoadOp<[f64; 4]>, LoadOp<f32>), store, queries: Option<&RangeQueries>| {
+                    let color = if samples == 1 {
+                        ColorAttachment::clear(&image.view(), [0.0; 4])
+                    } else {
+                        ColorAttachment {
+                            resolve_target: Some(image.view()),
+                            store,
+                            ..ColorAttachment::clear(&images.color.view(), [0.0; 4])
+                        }
+                    };
+                    let depth = DepthStencilAttachment {
+                        depth: AspectOperations::Write {
+                            load: loads.1,
+                            store,
+                        },
+                        ..images.cleared_depth()
+                    };
+                    let pass = RenderPass {
+                        color_attachments: &[Some(ColorAttachment {
+                            load: loads.0,
+                            ..color
+                        })],
+                        depth_stencil_attachment: Some(depth),
+                        range_queries: queries,
+                        draws: &draws,
+                        ..RenderPass::default()
+                    };
+                    let statistics = device.render(&pass).unwrap();
+                    (device.read_texture(&image).unwrap(), statistics)
+                };
+            let cleared = (LoadOp::Clear([0.0, 1.0, 0.0, 1.0]), LoadOp::Clear(0.4));
+            for clears_color in [true, false] {
+                for clears_depth in [true, false] {
+                    let loads = (
+                        if clears_color {
+                            cleared.0
+                        } else {
+                            LoadOp::Load
+                        },
+                        if clears_depth {
+                            cleared.1
+                        } else {
+                            LoadOp::Load
+                        },
+                    );
+                    let mut seen = Vec::new();
+                    for store in [StoreOp::Store, StoreOp::Discard] {
+                        render((cleared.0, LoadOp::Clear(1.0)), StoreOp::Store, None);
+                        let (bytes, statistics) = render(loads, store, None);
+                        let is_local = clears_depth || clears_color && samples > 1;
+                        assert_eq!(
+                            statistics.tiles_in_workers > 0,
+                            is_local && store == StoreOp::Discard,
+                            "{name}, {samples} samples, {loads:?}, {store:?}"
+                        );
+                        seen.push(bytes);
+                        // The second part goes on where the first one ended.
+                        render((cleared.0, LoadOp::Clear(1.0)), StoreOp::Store, None);
+                        let parts = RangeQueries::new([0..1, 1..2]);
+                        let (bytes, statistics) = render(loads, store, Some(&parts));
+                        assert_eq!(statistics.tiles_in_workers, 0, "{name}");
+                        seen.push(bytes);
+                    }
+                    let what = format!("{name}, {samples} samples, {loads:?}");
+                    assert!(seen.iter().all(|bytes| *bytes == seen[0]), "{what}");
+                    let colors = seen[0].as_chunks::<4>().0;
+                    let near = colors.iter().filter(|color| **color == [255, 128, 0, 255]);
+                    assert_eq!(near.count(), 90 * 100, "{what}");
+                }
+            }
+        }
+    }
 }

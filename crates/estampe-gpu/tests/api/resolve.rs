@@ -153,6 +153,8 @@ fn a_resolve_target_holds_the_means_of_the_samples() {
                         })
                         .unwrap();
                     assert!(statistics.tiles_resolved > 0, "resolved after the pass");
+                    let is_discarded = store == StoreOp::Discard;
+                    assert_eq!(statistics.tiles_in_workers > 0, is_discarded);
                     device.read_texture(&image).unwrap()
                 };
                 let resolved = pass(StoreOp::Store);
