@@ -195,7 +195,9 @@ fn what_is_kept_does_not_depend_on_what_is_discarded() {
                     assert!(seen.iter().all(|bytes| *bytes == seen[0]), "{what}");
                     let colors = seen[0].as_chunks::<4>().0;
                     let near = colors.iter().filter(|color| **color == [255, 128, 0, 255]);
-                    assert_eq!(near.count(), 90 * 100, "{what}");
+                    // Loaded depths are those of the same rectangle, which is as near then.
+                    let is_shown = clears_depth || !clears_color;
+                    assert_eq!(near.count(), if is_shown { 90 * 100 } else { 0 }, "{what}");
                 }
             }
         }
