@@ -184,6 +184,7 @@ impl<const N: usize> SmallTriangles<N> {
 
     /// The places of sixteen pixels' first samples in the tile.
     #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "four samples at most")]
     pub(crate) fn places<S: Lanes>(&self, s: S, pixels: Pixels<S>) -> u32x16<S> {
         let first = s.permute(u32x16::load_array_ref(s, &self.first), pixels.lane());
         let step: u32x16<S> = (pixels.column(s) | (pixels.row(s) << 16)).bitcast();
@@ -198,6 +199,7 @@ impl<const N: usize> SmallTriangles<N> {
 
     /// Places in the tile and depths of one sample of all listed pixels.
     #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "four samples at most")]
     pub(crate) fn locate<S: Lanes>(
         &self,
         s: S,
