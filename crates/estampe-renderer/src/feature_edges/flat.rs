@@ -59,7 +59,7 @@ pub(crate) fn is_one_face(
         return false;
     }
     let alike = |sum: &mut f64, face: &Face| {
-        if face.area_ndc * outside >= 0.0 && face.is_along(vote.normal) {
+        if face.area_ndc * outside >= 0.0 && is_along(face.normal, vote.normal) {
             *sum += face.area_ndc.abs();
         }
     };
@@ -153,10 +153,6 @@ impl Face {
             volume: a.unit.dot(b.unit.cross(c.unit)),
         };
         (face.area_ndc.is_finite() && face.volume.is_finite()).then_some(face)
-    }
-
-    fn is_along(&self, normal: DVec3) -> bool {
-        is_along(self.normal, normal)
     }
 }
 

@@ -71,7 +71,7 @@ fn fragments_of_small_triangles_fill_packets() {
     );
 }
 
-/// Rows: R1, R4, O3.
+/// Rows: R1, R6, O3.
 #[test]
 fn small_triangles_have_ids_where_their_shader_takes_derivatives() {
     for samples in [1, 4] {
@@ -88,7 +88,7 @@ fn small_triangles_have_ids_where_their_shader_takes_derivatives() {
     }
 }
 
-/// Rows: R1, R4.
+/// Rows: R1, R6.
 #[test]
 fn edges_of_a_packets_triangles_are_set_up_together() {
     for samples in [1, 4] {

@@ -14,8 +14,8 @@ use std::ops::{
 ///
 /// The lanes lie in the [`Recorder`], and this is their number there. So a shader's dry run is a
 /// chain of calls with numbers in registers: with the lanes in here, it copied them from memory to
-/// memory, and was a third of what the compiler had to do for a shader. Nothing but the calls is
-/// inlined into shaders.
+/// memory, and the renderer took a quarter longer to build. Nothing but the calls is inlined into
+/// shaders.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Recorded<'a, T = f32> {
     /// The number of the value in the record.
