@@ -100,7 +100,7 @@ impl Vote {
     }
 }
 
-/// What is counted of faces.
+/// Sums over faces.
 #[derive(Debug, Clone, Copy, Default)]
 struct Tally {
     volume: f64,
@@ -203,7 +203,7 @@ impl<'a> Faces<'a> {
         self.corners.get(vertex / PIECE)?.get(vertex % PIECE)
     }
 
-    /// What becomes of a `T` that sees each face of a piece of the mesh, for all pieces in order.
+    /// Shows each face of a piece of the mesh to a `T`; gives those of all pieces, in order.
     fn of_pieces<T: Default + Send>(
         &self,
         workers: Workers,
