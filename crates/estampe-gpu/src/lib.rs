@@ -125,8 +125,8 @@ pub use estampe_types::{
     IndexFormat, Int, Limits, Mat2, Mat3, Mat4, NoPerspective, Operand, PerSample, Program, Quad,
     Real, SampleType, SamplerDescriptor, Shader, ShaderError, ShaderProgram, ShadowMap,
     StorageBuffer, TexelEncoding, TextureAspect, TextureDimension, TextureFormat, Varyings, Vec2,
-    Vec3, Vec4, VertexEncoding, VertexFormat, VertexIn, ViewDimension, attributes, maths, operand,
-    shader, state, varyings, vec2, vec3, vec4,
+    Vec3, Vec4, VertexEncoding, VertexFormat, VertexIn, ViewDimension, WithGradient, attributes,
+    maths, operand, shader, state, varyings, vec2, vec3, vec4,
 };
 pub use immediates::ImmediatesError;
 pub use inspect::{

@@ -57,7 +57,7 @@ pub use real::Real;
 pub use shader::{
     Attributes, Centroid, Flat, FragmentBatch, FragmentIn, FragmentOut, Interface, Interpolation,
     NoPerspective, PerSample, Program, Sampling, Shader, ShaderError, ShaderProgram, Varyings,
-    VertexBatch, VertexIn,
+    VertexBatch, VertexIn, WithGradient,
 };
 pub use storage_buffer::StorageBuffer;
 pub use texture::{

@@ -105,7 +105,7 @@ impl<T: Shader> ShaderProgram<T> {
                 zero: <f32x16<S> as SimdBase<S>>::splat(simd, 0.0),
             };
             let left = [&batch.attributes[packet * attributes..][..attributes]; 2];
-            let loaded = T::Attributes::load(&mut PacketSource { simd, left });
+            let loaded = T::Attributes::load(&mut PacketSource::new(simd, left));
             let out = self.shader.vertex(input, loaded);
             assert_vertex::<T, _, _>(interface, &out);
             store_vec4(out.position, [packet * 4; 2], batch.positions);
@@ -146,7 +146,7 @@ impl<T: Shader> ShaderProgram<T> {
         batch: FragmentBatch<'_>,
     ) {
         let interface = &self.interface;
-        let varyings = interface.varyings.len();
+        let (varyings, scalars) = (interface.varyings.len(), interface.fragment_scalars());
         let targets = interface.color_targets;
         let outputs = interface.colors();
         let count = batch.coverage.len();
@@ -158,7 +158,7 @@ impl<T: Shader> ShaderProgram<T> {
             let black = Vec4::new(zero, zero, zero, zero);
             let position = if interface.reads_position {
                 let left = packets.map(|packet| &batch.positions[packet * 4..][..4]);
-                <Vec4<R> as Varyings<R>>::load(&mut PacketSource { simd, left })
+                <Vec4<R> as Varyings<R>>::load(&mut PacketSource::new(simd, left))
             } else {
                 black
             };
@@ -181,9 +181,10 @@ impl<T: Shader> ShaderProgram<T> {
                 bindings,
                 zero,
             };
-            let left = packets.map(|packet| &batch.varyings[packet * varyings..][..varyings]);
+            let of_packets = packets.map(|packet| &batch.varyings[packet * scalars..][..scalars]);
             derivatives::were_taken();
-            let loaded = T::Varyings::load(&mut PacketSource { simd, left });
+            let mut source = PacketSource::of_fragments(simd, of_packets, varyings);
+            let loaded = T::Varyings::load(&mut source);
             let out = self.shader.fragment(input, loaded);
             assert_derivatives::<T>(interface);
             assert_fragment::<T, _>(interface, &out);

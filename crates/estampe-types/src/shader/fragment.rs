@@ -161,7 +161,9 @@ impl<R: Real> FragmentOut<R> {
 /// k`.
 #[derive(Debug, Default)]
 pub struct FragmentBatch<'a> {
-    /// The varyings' scalars, interpolated.
+    /// The varyings' scalars, interpolated; then, of the scalars that the interface lists in
+    /// `gradients`, the derivatives along x, and those along y. Together they are
+    /// [`Interface::fragment_scalars`](crate::Interface::fragment_scalars).
     pub varyings: &'a [Packet<f32>],
     /// Window x, y, z and 1/w; empty unless `reads_position` is set in the interface.
     pub positions: &'a [Packet<f32>],

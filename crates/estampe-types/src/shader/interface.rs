@@ -54,6 +54,9 @@ pub struct Interface {
     /// Sampling position of each scalar of the varyings; scalars beyond the end of the list are
     /// interpolated at the centre.
     pub sampling: Vec<Sampling>,
+    /// The scalars of the varyings, in ascending order, whose derivatives in the window fragments
+    /// read.
+    pub gradients: Vec<usize>,
     /// Number of colour targets that fragments write.
     pub color_targets: usize,
     /// Type of the numbers that fragments write to each colour target: a target's format must have
@@ -100,6 +103,13 @@ impl Interface {
     #[must_use]
     pub fn attribute_scalars(&self) -> usize {
         self.attributes.iter().sum()
+    }
+
+    /// Number of scalars of a fragment: its varyings, and the derivatives of some of them along x,
+    /// then along y.
+    #[must_use]
+    pub fn fragment_scalars(&self) -> usize {
+        self.varyings.len() + 2 * self.gradients.len()
     }
 
     /// Number of clip and cull distances of a vertex.

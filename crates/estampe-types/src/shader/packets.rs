@@ -114,12 +114,47 @@ fn next<S: Lanes>(simd: S, left: &mut &[Packet<f32>]) -> f32x16<S> {
 pub(super) struct PacketSource<'a, S> {
     pub(super) simd: S,
     pub(super) left: [&'a [Packet<f32>]; 2],
+    /// Derivatives along x and along y, of each packet.
+    pub(super) derivatives: [[&'a [Packet<f32>]; 2]; 2],
+}
+
+impl<'a, S> PacketSource<'a, S> {
+    /// Scalars without derivatives.
+    #[inline(always)]
+    pub(super) fn new(simd: S, left: [&'a [Packet<f32>]; 2]) -> Self {
+        Self {
+            simd,
+            left,
+            derivatives: [[&[]; 2]; 2],
+        }
+    }
+
+    /// The scalars of fragments, of which each packet has `varyings`, then derivatives.
+    #[inline(always)]
+    pub(super) fn of_fragments(simd: S, packets: [&'a [Packet<f32>]; 2], varyings: usize) -> Self {
+        let split = packets.map(|packet| packet.split_at(varyings));
+        let each = (packets[0].len() - varyings) / 2;
+        let derivatives = split.map(|(_, derivatives)| derivatives.split_at(each));
+        Self {
+            simd,
+            left: split.map(|(varyings, _)| varyings),
+            derivatives: [
+                derivatives.map(|(along_x, _)| along_x),
+                derivatives.map(|(_, along_y)| along_y),
+            ],
+        }
+    }
 }
 
 impl<S: Lanes, R: Packets<S>> Source<R> for PacketSource<'_, S> {
     #[inline(always)]
     fn take(&mut self) -> R {
         R::take(self.simd, &mut self.left)
+    }
+
+    #[inline(always)]
+    fn take_derivative(&mut self, axis: usize, _like: R) -> R {
+        R::take(self.simd, &mut self.derivatives[axis])
     }
 }
 

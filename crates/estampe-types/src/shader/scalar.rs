@@ -35,7 +35,11 @@ pub(super) fn vertices<T: Shader>(
                 bindings,
                 zero: Quad([0.0; QUAD]),
             };
-            let loaded = T::Attributes::load(&mut QuadSource { left: from, lane });
+            let loaded = T::Attributes::load(&mut QuadSource {
+                left: from,
+                derivatives: [&[]; 2],
+                lane,
+            });
             let out = shader.vertex(input, loaded);
             assert_vertex::<T, _, _>(interface, &out);
             store_vec4(out.position, positions, lane);
@@ -65,13 +69,15 @@ pub(super) fn fragments<T: Shader>(
     bindings: &Bindings,
     batch: FragmentBatch<'_>,
 ) {
-    let varyings = interface.varyings.len();
+    let (varyings, scalars) = (interface.varyings.len(), interface.fragment_scalars());
     let targets = interface.color_targets;
     let outputs = interface.colors();
     let zero = Quad([0.0; QUAD]);
     let black = Vec4::new(zero, zero, zero, zero);
     for packet in 0..batch.coverage.len() {
-        let from = &batch.varyings[packet * varyings..][..varyings];
+        let from = &batch.varyings[packet * scalars..][..scalars];
+        let (from, derivatives) = from.split_at(varyings);
+        let along = derivatives.split_at(interface.gradients.len());
         let colors = &mut batch.colors[packet * outputs * 4..][..outputs * 4];
         for lane in (0..16).step_by(QUAD) {
             let position = if interface.reads_position {
@@ -98,7 +104,11 @@ pub(super) fn fragments<T: Shader>(
                 bindings,
                 zero,
             };
-            let loaded = T::Varyings::load(&mut QuadSource { left: from, lane });
+            let loaded = T::Varyings::load(&mut QuadSource {
+                left: from,
+                derivatives: [along.0, along.1],
+                lane,
+            });
             derivatives::were_taken();
             let out = shader.fragment(input, loaded);
             assert_derivatives::<T>(interface);
@@ -159,18 +169,29 @@ fn store_vec4(value: Vec4<Quad>, to: &mut [Packet<f32>], lane: usize) {
 /// Scalars of one quad, read in order.
 struct QuadSource<'a> {
     left: &'a [Packet<f32>],
+    /// Derivatives along x and along y.
+    derivatives: [&'a [Packet<f32>]; 2],
     lane: usize,
 }
 
 impl Source<Quad> for QuadSource<'_> {
     fn take(&mut self) -> Quad {
-        // The slice has as many packets as the type has scalars.
-        let Some((first, rest)) = self.left.split_first() else {
-            return Quad([0.0; QUAD]);
-        };
-        self.left = rest;
-        load(first, self.lane)
+        next(&mut self.left, self.lane)
     }
+
+    fn take_derivative(&mut self, axis: usize, _like: Quad) -> Quad {
+        next(&mut self.derivatives[axis], self.lane)
+    }
+}
+
+/// The next scalar of a quad.
+fn next(left: &mut &[Packet<f32>], lane: usize) -> Quad {
+    // The slice has as many packets as the type has scalars.
+    let Some((first, rest)) = left.split_first() else {
+        return Quad([0.0; QUAD]);
+    };
+    *left = rest;
+    load(first, lane)
 }
 
 /// Scalars of one quad, written in order.

@@ -5,8 +5,9 @@
 ///
 /// The struct has one type parameter, which must be called `R`: the number that the shader computes
 /// with. A field is a number `R`, a [`Vec2`](crate::Vec2), [`Vec3`](crate::Vec3) or
-/// [`Vec4`](crate::Vec4), or another type of varyings. There may be as many fields as the device's
-/// limits allow scalars. Attributes of a field choose its interpolation:
+/// [`Vec4`](crate::Vec4), or another type of varyings, such as a
+/// [`WithGradient`](crate::WithGradient). There may be as many fields as the device's limits allow
+/// scalars. Attributes of a field choose its interpolation:
 ///
 /// | attribute | GLSL | meaning |
 /// |---|---|---|
@@ -195,6 +196,9 @@ macro_rules! __fields {
                     $($crate::__fields! { @sampling $how out first })*
                     let _ = first;
                 )*
+            }
+            fn gradients(out: &mut ::std::vec::Vec<bool>) {
+                $(<$type as $crate::Varyings<R>>::gradients(out);)*
             }
             #[inline(always)]
             fn load(from: &mut impl $crate::shader::Source<R>) -> Self {

@@ -8,6 +8,15 @@ use crate::{Interpolation, Real, Vec2, Vec3, Vec4};
 pub trait Source<R> {
     /// The next scalar.
     fn take(&mut self) -> R;
+    /// The derivative along x (0) or y (1) of the next of the scalars that have one; `like` is a
+    /// number to make others from. 0 where there are none, as in vertex shaders.
+    #[inline(always)]
+    fn take_derivative(&mut self, _axis: usize, like: R) -> R
+    where
+        R: Real,
+    {
+        like.splat(0.0)
+    }
 }
 
 /// A destination of scalars, in order.
@@ -45,6 +54,13 @@ pub trait Varyings<R: Real>: Sized {
         let mut modes = Vec::new();
         Self::modes(&mut modes);
         out.resize(out.len() + modes.len(), Sampling::Center);
+    }
+    /// Appends whether each scalar has derivatives, as of [`WithGradient`](crate::WithGradient); by
+    /// default none has.
+    fn gradients(out: &mut Vec<bool>) {
+        let mut modes = Vec::new();
+        Self::modes(&mut modes);
+        out.resize(out.len() + modes.len(), false);
     }
     /// Reads the value from its scalars.
     fn load(from: &mut impl Source<R>) -> Self;
@@ -143,6 +159,9 @@ macro_rules! mode {
             fn sampling(out: &mut Vec<Sampling>) {
                 T::sampling(out);
             }
+            fn gradients(out: &mut Vec<bool>) {
+                T::gradients(out);
+            }
             #[inline(always)]
             fn load(from: &mut impl Source<R>) -> Self {
                 Self(T::load(from))
@@ -167,6 +186,9 @@ macro_rules! place {
                 let first = out.len();
                 T::sampling(out);
                 out[first..].fill(Sampling::$sampling);
+            }
+            fn gradients(out: &mut Vec<bool>) {
+                T::gradients(out);
             }
             #[inline(always)]
             fn load(from: &mut impl Source<R>) -> Self {
@@ -205,6 +227,10 @@ macro_rules! tuple {
             fn sampling(out: &mut Vec<Sampling>) {
                 let _ = &out;
                 $($name::sampling(out);)*
+            }
+            fn gradients(out: &mut Vec<bool>) {
+                let _ = &out;
+                $($name::gradients(out);)*
             }
             #[inline(always)]
             #[allow(clippy::unused_unit, reason = "the empty tuple is one of the cases")]

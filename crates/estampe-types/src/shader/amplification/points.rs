@@ -57,6 +57,10 @@ impl<R: Real, V: Varyings<R>> Varyings<R> for ShadedPoint<R, V> {
         <Vec4<R> as Varyings<R>>::sampling(out);
         V::sampling(out);
     }
+    fn gradients(out: &mut Vec<bool>) {
+        <Vec4<R> as Varyings<R>>::gradients(out);
+        V::gradients(out);
+    }
     #[inline(always)]
     fn load(from: &mut impl Source<R>) -> Self {
         Self {

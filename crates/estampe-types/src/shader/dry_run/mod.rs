@@ -74,6 +74,14 @@ pub(super) fn declared<T: Shader>() -> Result<Interface, ShaderError> {
     T::Attributes::<f32>::components(&mut interface.attributes);
     T::Varyings::<f32>::modes(&mut interface.varyings);
     T::Varyings::<f32>::sampling(&mut interface.sampling);
+    let mut have_gradients = Vec::new();
+    T::Varyings::<f32>::gradients(&mut have_gradients);
+    let with_gradient = |(scalar, has): (usize, bool)| has.then_some(scalar);
+    interface.gradients = have_gradients
+        .into_iter()
+        .enumerate()
+        .filter_map(with_gradient)
+        .collect();
     interface.per_sample |= interface.sampling.contains(&Sampling::Sample);
     Ok(interface)
 }
